@@ -1,0 +1,156 @@
+//! What a run prints: a table for people, JSON for scripts. SI units, or named otherwise.
+
+use std::fmt::Write;
+
+use frangible::ImpactReport;
+use serde::Serialize;
+
+/// Everything a run has to tell.
+#[derive(Clone, Debug, Serialize)]
+pub(crate) struct Report {
+    pub(crate) scene: String,
+    pub(crate) material: String,
+    pub(crate) seed: u64,
+    pub(crate) broke: bool,
+    pub(crate) fracture_nodes: usize,
+    pub(crate) fracture_tets: usize,
+    pub(crate) analysis_nodes: usize,
+    pub(crate) analysis_elements: usize,
+    pub(crate) modes: usize,
+    pub(crate) first_frequencies_hz: Vec<f64>,
+    pub(crate) largest_residual: f64,
+    pub(crate) impact: Option<Impact>,
+    pub(crate) fragments: usize,
+    pub(crate) mass_kg: f64,
+    pub(crate) fragment_mass_sum_kg: f64,
+    pub(crate) volume_m3: f64,
+    pub(crate) fragment_volume_sum_m3: f64,
+    pub(crate) largest_fragments_kg: Vec<f64>,
+    pub(crate) at_rest: bool,
+    pub(crate) simulated_s: f64,
+    pub(crate) stages_ms: Vec<(String, f64)>,
+    pub(crate) files: Vec<String>,
+    pub(crate) notes: Vec<String>,
+}
+
+/// Numbers of the impact that broke the body, or of the hardest that did not.
+#[derive(Clone, Debug, Serialize)]
+pub(crate) struct Impact {
+    pub(crate) approach_speed_m_s: f64,
+    pub(crate) impulse_n_s: f64,
+    pub(crate) contact_duration_s: f64,
+    pub(crate) unadjusted_duration_s: f64,
+    pub(crate) most_excited_hz: f64,
+    pub(crate) time_step_s: f64,
+    pub(crate) time_steps: usize,
+    pub(crate) peak_stress_pa: f64,
+    pub(crate) strength_pa: f64,
+    pub(crate) weak_points: usize,
+    pub(crate) cracks: usize,
+    pub(crate) crack_area_m2: f64,
+    pub(crate) approach_energy_j: f64,
+    pub(crate) fracture_energy_j: f64,
+    pub(crate) first_crack_s: Option<f64>,
+    pub(crate) volume_error: f64,
+}
+
+impl Impact {
+    pub(crate) fn new(report: &ImpactReport, contacts: &[frangible::Contact]) -> Self {
+        let speed = contacts.iter().map(|c| c.approach_speed).fold(0.0_f32, f32::max);
+        Self {
+            approach_speed_m_s: f64::from(speed),
+            impulse_n_s: contacts.iter().map(|c| f64::from(c.impulse)).sum(),
+            contact_duration_s: report.contact_duration,
+            unadjusted_duration_s: report.unadjusted_duration,
+            most_excited_hz: report.most_excited_frequency,
+            time_step_s: report.time_step,
+            time_steps: report.time_steps,
+            peak_stress_pa: report.peak_stress,
+            strength_pa: report.strength,
+            weak_points: report.weak_points,
+            cracks: report.cracks,
+            crack_area_m2: report.crack_area,
+            approach_energy_j: report.approach_energy,
+            fracture_energy_j: report.fracture_energy,
+            first_crack_s: report.first_crack_time,
+            volume_error: report.volume_error,
+        }
+    }
+}
+
+impl Report {
+    /// As a short table.
+    pub(crate) fn table(&self) -> String {
+        let mut t = String::new();
+        let mut row = |name: &str, value: String| {
+            // Writing to a string cannot fail.
+            let _ = writeln!(t, "  {name:<15} {value}");
+        };
+        row("scene", format!("{}, {}, seed {}", self.scene, self.material, self.seed));
+        row(
+            "mesh",
+            format!(
+                "{} tetrahedra for cracks, {} quadratic ones for the modes ({} nodes)",
+                self.fracture_tets, self.analysis_elements, self.analysis_nodes
+            ),
+        );
+        let frequencies: Vec<String> = self.first_frequencies_hz.iter().map(|f| format!("{f:.0}")).collect();
+        row("modes", format!("{}, from {} … Hz (residual {:.0e})", self.modes, frequencies.join(", "), self.largest_residual));
+        if let Some(i) = &self.impact {
+            row("impact", format!("{:.2} m/s, {:.3} N·s, {:.3} J", i.approach_speed_m_s, i.impulse_n_s, i.approach_energy_j));
+            row(
+                "contact",
+                format!(
+                    "{:.3} ms ({:.3} ms before it was made admissible), {} steps of {:.2} µs",
+                    1e3 * i.contact_duration_s,
+                    1e3 * i.unadjusted_duration_s,
+                    i.time_steps,
+                    1e6 * i.time_step_s
+                ),
+            );
+            row(
+                "stress",
+                format!("peak {:.1} MPa against a strength of {:.1} MPa", i.peak_stress_pa / 1e6, i.strength_pa / 1e6),
+            );
+            row(
+                "cracks",
+                format!(
+                    "{}, {:.1} cm², {:.3} J, at {} weak points to start from",
+                    i.cracks,
+                    1e4 * i.crack_area_m2,
+                    i.fracture_energy_j,
+                    i.weak_points
+                ),
+            );
+        } else {
+            row("impact", "none harder than the threshold".into());
+        }
+        if self.broke {
+            let masses: Vec<String> = self.largest_fragments_kg.iter().map(|m| format!("{:.1}", 1e3 * m)).collect();
+            row("fragments", format!("{} (largest {} … g)", self.fragments, masses.join(", ")));
+            let check = |sum: f64, whole: f64| (sum / whole - 1.0).abs();
+            row(
+                "check",
+                format!(
+                    "mass {:.4} kg, off by {:.0e}; volume {:.2} cm³, off by {:.0e}",
+                    self.fragment_mass_sum_kg,
+                    check(self.fragment_mass_sum_kg, self.mass_kg),
+                    1e6 * self.fragment_volume_sum_m3,
+                    check(self.fragment_volume_sum_m3, self.volume_m3)
+                ),
+            );
+        } else {
+            row("fragments", "none: it held".into());
+        }
+        row("end", format!("{} after {:.2} s", if self.at_rest { "at rest" } else { "still moving" }, self.simulated_s));
+        let stages: Vec<String> = self.stages_ms.iter().map(|(name, ms)| format!("{name} {ms:.0}")).collect();
+        row("milliseconds", stages.join(", "));
+        for file in &self.files {
+            row("wrote", file.clone());
+        }
+        for note in &self.notes {
+            row("note", note.clone());
+        }
+        t
+    }
+}

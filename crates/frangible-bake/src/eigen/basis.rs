@@ -1,0 +1,108 @@
+//! Columns of numbers and what Lanczos does with them.
+
+use faer::linalg::matmul::matmul;
+use faer::{Accum, MatMut, MatRef, Par};
+
+/// A dense matrix stored column after column.
+#[derive(Clone, Debug)]
+pub(crate) struct Block {
+    /// The numbers.
+    pub(crate) data: Vec<f64>,
+    /// Length of a column.
+    pub(crate) rows: usize,
+}
+
+impl Block {
+    pub(crate) fn zeros(rows: usize, columns: usize) -> Self {
+        Self { data: vec![0.0; rows * columns], rows }
+    }
+
+    pub(crate) fn columns(&self) -> usize {
+        self.data.len() / self.rows
+    }
+
+    pub(crate) fn column(&self, j: usize) -> &[f64] {
+        &self.data[j * self.rows..(j + 1) * self.rows]
+    }
+
+    pub(crate) fn column_mut(&mut self, j: usize) -> &mut [f64] {
+        &mut self.data[j * self.rows..(j + 1) * self.rows]
+    }
+
+    pub(crate) fn view(&self) -> MatRef<'_, f64> {
+        MatRef::from_column_major_slice(&self.data, self.rows, self.columns())
+    }
+
+    /// Columns `from..to`.
+    pub(crate) fn part(&self, from: usize, to: usize) -> MatRef<'_, f64> {
+        MatRef::from_column_major_slice(&self.data[from * self.rows..to * self.rows], self.rows, to - from)
+    }
+
+    pub(crate) fn view_mut(&mut self) -> MatMut<'_, f64> {
+        let columns = self.columns();
+        MatMut::from_column_major_slice_mut(&mut self.data, self.rows, columns)
+    }
+}
+
+/// aᵀ b.
+pub(crate) fn inner(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> Block {
+    let mut out = Block::zeros(a.ncols(), b.ncols());
+    matmul(out.view_mut(), Accum::Replace, a.transpose(), b, 1.0, Par::Seq);
+    out
+}
+
+/// w −= v c.
+pub(crate) fn subtract(w: &mut Block, v: MatRef<'_, f64>, c: MatRef<'_, f64>) {
+    matmul(w.view_mut(), Accum::Add, v, c, -1.0, Par::Seq);
+}
+
+/// w −= v vᵀ w; gives vᵀ w.
+pub(crate) fn project_out(w: &mut Block, v: MatRef<'_, f64>) -> Block {
+    let c = inner(v, w.view());
+    subtract(w, v, c.view());
+    c
+}
+
+pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
+    // Four running sums: fast, and in a fixed order.
+    let mut sums = [0.0; 4];
+    let (a4, b4) = (a.chunks_exact(4), b.chunks_exact(4));
+    let rest: f64 = a4.remainder().iter().zip(b4.remainder()).map(|(x, y)| x * y).sum();
+    for (x, y) in a4.zip(b4) {
+        for k in 0..4 {
+            sums[k] += x[k] * y[k];
+        }
+    }
+    (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
+}
+
+/// Makes the columns of `w` orthonormal (Gram–Schmidt, twice); gives the triangle R with w_before = w R,
+/// stored by columns. `None` when a column depends on the others.
+pub(crate) fn orthonormalise(w: &mut Block) -> Option<Block> {
+    let (rows, b) = (w.rows, w.columns());
+    let mut r = Block::zeros(b, b);
+    for j in 0..b {
+        let (done, rest) = w.data.split_at_mut(j * rows);
+        let column = &mut rest[..rows];
+        let before = dot(column, column).sqrt();
+        for _ in 0..2 {
+            for i in 0..j {
+                let other = &done[i * rows..(i + 1) * rows];
+                let c = dot(other, column);
+                r.data[j * b + i] += c;
+                for (x, y) in column.iter_mut().zip(other) {
+                    *x -= c * y;
+                }
+            }
+        }
+        let after = dot(column, column).sqrt();
+        if !(after > 1e-13 * before && after > 0.0) {
+            return None;
+        }
+        r.data[j * b + j] = after;
+        for x in column.iter_mut() {
+            *x /= after;
+        }
+    }
+    Some(r)
+}

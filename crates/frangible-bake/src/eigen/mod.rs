@@ -1,0 +1,95 @@
+//! The lowest vibration modes of a free body.
+//!
+//! K φ = λ M φ becomes A x = λ x with A = M^-½ K M^-½ and φ = M^-½ x (M is diagonal). A + sI is factorized
+//! once; block Lanczos on its inverse, the six rigid motions deflated analytically, finds the
+//! lowest modes: λ = 1/θ − s. Everything runs in a fixed order, so the bits do not depend on the
+//! number of threads. Small systems are solved densely.
+
+mod basis;
+mod dense;
+mod factor;
+mod lanczos;
+mod residual;
+mod rigid;
+
+pub use residual::residual;
+pub use rigid::rigid_motions;
+
+use crate::error::BakeError;
+use crate::fem::System;
+use basis::Block;
+use factor::Shifted;
+
+/// Unknowns up to which the dense solver is used.
+const DENSE: usize = 800;
+
+/// Mass-normalised modes Φᵀ M Φ = I, by rising frequency.
+#[derive(Clone, Debug)]
+pub struct Modes {
+    /// Eigenvalues λ = ω², 1/s².
+    pub eigenvalues: Vec<f64>,
+    /// Mode shapes, 1/√kg, one after another: entry `mode * unknowns + 3 * node + axis`.
+    pub shapes: Vec<f64>,
+    /// Number of unknowns, three per node.
+    pub unknowns: usize,
+    /// Largest relative residual ‖Kφ − λMφ‖ / ‖Kφ‖ of all modes.
+    pub max_residual: f64,
+}
+
+impl Modes {
+    /// Shape of mode `i`, one number per unknown.
+    #[must_use]
+    pub fn shape(&self, i: usize) -> &[f64] {
+        &self.shapes[i * self.unknowns..(i + 1) * self.unknowns]
+    }
+
+    /// Frequency of mode `i`, Hz.
+    #[must_use]
+    pub fn frequency(&self, i: usize) -> f64 {
+        self.eigenvalues[i].sqrt() / std::f64::consts::TAU
+    }
+}
+
+/// Finds the `wanted` lowest elastic modes; `progress` hears the share found, 0..=1.
+///
+/// # Errors
+/// More modes wanted than there are, a stiffness that cannot be factorized, or a mode whose residual
+/// stays above max(1e-8 ‖Kφ‖, 10 ε ‖|K||φ|‖).
+pub fn lowest_modes(system: &System, wanted: usize, progress: &mut dyn FnMut(f64)) -> Result<Modes, BakeError> {
+    let n = 3 * system.mass.len();
+    let available = n.saturating_sub(6);
+    if wanted == 0 || wanted > available {
+        return Err(BakeError::Modes { wanted, available });
+    }
+    let inverse_root: Vec<f64> = (0..n).map(|i| 1.0 / system.mass[i / 3].sqrt()).collect();
+    let rigid = rigid::deflation_basis(system);
+    let scaled = factor::scale(system, &inverse_root);
+    let (eigenvalues, vectors) = if n <= DENSE || wanted > n / 5 {
+        dense::solve(&scaled, &rigid, wanted)?
+    } else {
+        let shifted = Shifted::near_zero(&scaled, &rigid)?;
+        progress(0.1);
+        lanczos::solve(&shifted, &rigid, wanted, &mut |share| progress(0.1 + 0.9 * share))?
+    };
+    let mut modes = finish(eigenvalues, vectors, &inverse_root);
+    modes.max_residual = residual::check(system, &modes)?;
+    Ok(modes)
+}
+
+/// Back to displacements, each shape's largest component positive.
+fn finish(eigenvalues: Vec<f64>, vectors: Block, inverse_root: &[f64]) -> Modes {
+    let unknowns = inverse_root.len();
+    let mut shapes = vectors.data;
+    for shape in shapes.chunks_exact_mut(unknowns) {
+        for (x, scale) in shape.iter_mut().zip(inverse_root) {
+            *x *= scale;
+        }
+        let largest = shape.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+        // Symmetric bodies have several largest components; the first of them decides, rounding aside.
+        let first = shape.iter().find(|x| x.abs() > largest * (1.0 - 1e-6));
+        if first.is_some_and(|x| *x < 0.0) {
+            shape.iter_mut().for_each(|x| *x = -*x);
+        }
+    }
+    Modes { eigenvalues, shapes, unknowns, max_residual: 0.0 }
+}

@@ -1,0 +1,37 @@
+//! Does a mode solve the eigenvalue problem? Checked for every mode that is given out.
+
+use crate::eigen::Modes;
+use crate::error::BakeError;
+use crate::fem::System;
+
+/// What every mode must reach, where f64 rounding allows it.
+const LIMIT: f64 = 1e-8;
+
+/// Relative residual ‖Kφ − λMφ‖ / ‖Kφ‖ of one mode, and the limit it must meet: 1e-8, or ten times
+/// the rounding of Kφ itself where that is more (on a thin plate it is 5e-8).
+#[must_use]
+pub fn residual(system: &System, eigenvalue: f64, shape: &[f64]) -> (f64, f64) {
+    let k = system.multiply(shape);
+    let norm = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let rest: Vec<f64> = (0..k.len()).map(|i| k[i] - eigenvalue * system.mass[i / 3] * shape[i]).collect();
+    let relative = norm(&rest) / norm(&k);
+    let limit = if relative <= LIMIT {
+        LIMIT
+    } else {
+        (10.0 * f64::EPSILON * norm(&system.multiply_magnitudes(shape)) / norm(&k)).max(LIMIT)
+    };
+    (relative, limit)
+}
+
+/// Largest relative residual, or the first mode above its limit.
+pub(crate) fn check(system: &System, modes: &Modes) -> Result<f64, BakeError> {
+    let mut largest = 0.0_f64;
+    for (mode, &eigenvalue) in modes.eigenvalues.iter().enumerate() {
+        let (residual, limit) = residual(system, eigenvalue, modes.shape(mode));
+        if !(residual <= limit) {
+            return Err(BakeError::Residual { mode, residual, limit });
+        }
+        largest = largest.max(residual);
+    }
+    Ok(largest)
+}

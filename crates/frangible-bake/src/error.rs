@@ -1,0 +1,98 @@
+//! Errors of baking: each names what is wrong and how to mend it.
+
+use frangible::InputError;
+use thiserror::Error;
+
+/// Why a bake gave no asset.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[non_exhaustive]
+pub enum BakeError {
+    /// A number that must be finite and above zero is not.
+    #[error("{what} is {value}; it must be a finite number above zero")]
+    NotPositive {
+        /// The quantity, with its unit.
+        what: &'static str,
+        /// What was given.
+        value: f64,
+    },
+    /// A material or an asset the run time refuses.
+    #[error(transparent)]
+    Input(#[from] InputError),
+    /// A profile that does not describe a body.
+    #[error("profile station {station}: {problem}")]
+    Profile {
+        /// Index of the station at fault.
+        station: usize,
+        /// What is wrong and how to mend it.
+        problem: &'static str,
+    },
+    /// A mesh that would not fit in a sensible amount of memory.
+    #[error("an element edge of {edge} m asks for about {tets} tetrahedra, more than {limit}; use larger elements")]
+    TooFine {
+        /// Edge length asked for, m.
+        edge: f64,
+        /// Estimated number of tetrahedra.
+        tets: usize,
+        /// The most that is allowed.
+        limit: usize,
+    },
+    /// A tetrahedron without volume, or turned inside out.
+    #[error("tetrahedron {tet} has a volume of {volume} m³; make the walls thicker or the elements smaller")]
+    Inverted {
+        /// Index of the tetrahedron.
+        tet: usize,
+        /// Its signed volume, m³.
+        volume: f64,
+    },
+    /// More modes wanted than the analysis mesh has.
+    #[error("{wanted} modes wanted, but the analysis mesh has {available}; ask for 1 to {available}, or refine it")]
+    Modes {
+        /// Number of modes asked for.
+        wanted: usize,
+        /// Number of elastic modes there are.
+        available: usize,
+    },
+    /// The shifted stiffness matrix could not be factorized.
+    #[error("the stiffness matrix could not be factorized ({reason}); check the mesh for slivers and loose parts")]
+    Factorization {
+        /// What the solver said.
+        reason: String,
+    },
+    /// The eigenvalue iteration stopped short.
+    #[error("only {converged} of {wanted} modes converged within a basis of {basis} vectors; ask for fewer modes")]
+    NotConverged {
+        /// Modes found.
+        converged: usize,
+        /// Modes wanted.
+        wanted: usize,
+        /// Size of the Krylov basis.
+        basis: usize,
+    },
+    /// A mode that does not solve the eigenvalue problem well enough.
+    #[error("mode {mode} has a relative residual of {residual:.1e} (limit {limit:.1e}); check the mesh for slivers")]
+    Residual {
+        /// Index of the mode.
+        mode: usize,
+        /// ‖Kφ − λMφ‖ / ‖Kφ‖.
+        residual: f64,
+        /// The most that is allowed.
+        limit: f64,
+    },
+    /// A point of the fracture mesh too far from the analysis mesh.
+    #[error(
+        "the point ({x:.5}, {y:.5}, {z:.5}) m lies farther from the analysis mesh than a quarter of its elements; \
+         refine the analysis mesh"
+    )]
+    OutsideAnalysisMesh {
+        /// Coordinate, m.
+        x: f64,
+        /// Coordinate, m.
+        y: f64,
+        /// Coordinate, m.
+        z: f64,
+    },
+}
+
+pub(crate) fn positive(what: &'static str, value: f64) -> Result<(), BakeError> {
+    if value.is_finite() && value > 0.0 { Ok(()) } else { Err(BakeError::NotPositive { what, value }) }
+}

@@ -1,0 +1,167 @@
+//! Built-in shapes: boxes and bodies of revolution, each meshed coarse and regular for the modes or
+//! fine and irregular for the cracks. No surface mesher is needed: all are triangulated sheets
+//! extruded through their thickness.
+
+mod block;
+mod profile;
+mod ready;
+mod revolution;
+
+pub use profile::Station;
+
+use crate::error::{BakeError, positive};
+use crate::mesh::BodyMesh;
+use profile::Profile;
+
+/// Most tetrahedra a mesh may have.
+const LIMIT: usize = 2_000_000;
+/// Tetrahedra of a default analysis mesh: 10–18 thousand unknowns.
+const ANALYSIS_TETS: f64 = 3000.0;
+/// Tetrahedra of a default fracture mesh: elements about as long as a wall is thick.
+const FRACTURE_TETS: f64 = 42_000.0;
+
+/// How finely to mesh.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MeshSize {
+    /// Edge length of the elements, m. Halving it makes four to eight times as many.
+    pub edge: f64,
+    /// Elements through the thickness; 0 takes as many as `edge` asks for, at least one.
+    pub layers: usize,
+}
+
+/// A body's geometry, metres.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Shape {
+    /// A box from the origin to `size`, m; put the thinnest side last.
+    Box {
+        /// Sides along x, y, z, m.
+        size: [f64; 3],
+    },
+    /// A profile turned about the z-axis, from the axis at the bottom to the rim.
+    Revolution {
+        /// Stations; the first has r = 0 for both points.
+        profile: Vec<Station>,
+    },
+}
+
+impl Shape {
+    /// A block of any proportions, m.
+    #[must_use]
+    pub const fn block(size: [f64; 3]) -> Self {
+        Self::Box { size }
+    }
+
+    /// A pane or plate: width, depth, thickness, m.
+    #[must_use]
+    pub const fn plate(width: f64, depth: f64, thickness: f64) -> Self {
+        Self::Box { size: [width, depth, thickness] }
+    }
+
+    /// A square rod along x, m.
+    #[must_use]
+    pub const fn rod(length: f64, side: f64) -> Self {
+        Self::Box { size: [length, side, side] }
+    }
+
+    /// Drinking glass: Ø 70–76 mm, 105 mm high, wall 2 mm, base 5.5 mm.
+    #[must_use]
+    pub fn drinking_glass() -> Self {
+        Self::Revolution { profile: ready::drinking_glass() }
+    }
+
+    /// Round bowl: Ø 154 mm, 59 mm high, wall 4 mm.
+    #[must_use]
+    pub fn bowl() -> Self {
+        Self::Revolution { profile: ready::bowl() }
+    }
+
+    /// Vase: 210 mm high, Ø 100 mm at the belly, wall 4 mm.
+    #[must_use]
+    pub fn vase() -> Self {
+        Self::Revolution { profile: ready::vase() }
+    }
+
+    /// Dinner plate: Ø 240 mm, 5 mm thick, rim 22 mm high.
+    #[must_use]
+    pub fn dinner_plate() -> Self {
+        Self::Revolution { profile: ready::dinner_plate() }
+    }
+
+    /// Volume of the exact shape, m³.
+    ///
+    /// # Errors
+    /// The number or station at fault.
+    pub fn volume(&self) -> Result<f64, BakeError> {
+        match self {
+            Self::Box { size } => block::validate(*size).map(|()| size.iter().product()),
+            Self::Revolution { profile } => Ok(Profile::new(profile)?.area_and_volume().1),
+        }
+    }
+
+    /// Element size of the default analysis mesh (quadratic, about 3 000 elements).
+    ///
+    /// # Errors
+    /// The number or station at fault.
+    pub fn analysis_size(&self) -> Result<MeshSize, BakeError> {
+        self.size_for(ANALYSIS_TETS)
+    }
+
+    /// Element size of the default fracture mesh (linear, about 42 000 elements).
+    ///
+    /// # Errors
+    /// The number or station at fault.
+    pub fn fracture_size(&self) -> Result<MeshSize, BakeError> {
+        self.size_for(FRACTURE_TETS)
+    }
+
+    /// Largest element size that gives at least `tets` tetrahedra, within a few per cent.
+    fn size_for(&self, tets: f64) -> Result<MeshSize, BakeError> {
+        let mut edge = self.volume()?.cbrt();
+        while self.estimate(MeshSize { edge, layers: 0 })? < tets {
+            edge *= 0.98;
+        }
+        Ok(MeshSize { edge, layers: 0 })
+    }
+
+    fn estimate(&self, size: MeshSize) -> Result<f64, BakeError> {
+        Ok(match self {
+            Self::Box { size: sides } => block::estimate(*sides, size),
+            Self::Revolution { profile } => revolution::estimate(&Profile::new(profile)?, size),
+        })
+    }
+
+    /// Regular mesh for the modal analysis.
+    ///
+    /// # Errors
+    /// A size or profile that cannot be meshed.
+    pub fn analysis_mesh(&self, size: MeshSize) -> Result<BodyMesh, BakeError> {
+        self.check(size)?;
+        match self {
+            Self::Box { size: sides } => block::regular(*sides, size),
+            Self::Revolution { profile } => revolution::mesh(&Profile::new(profile)?, size, None),
+        }
+    }
+
+    /// Irregular mesh for cracks, the same for the same seed.
+    ///
+    /// # Errors
+    /// A size or profile that cannot be meshed.
+    pub fn fracture_mesh(&self, size: MeshSize, seed: u64) -> Result<BodyMesh, BakeError> {
+        self.check(size)?;
+        match self {
+            Self::Box { size: sides } => block::irregular(*sides, size, seed),
+            Self::Revolution { profile } => revolution::mesh(&Profile::new(profile)?, size, Some(seed)),
+        }
+    }
+
+    fn check(&self, size: MeshSize) -> Result<(), BakeError> {
+        self.volume()?;
+        positive("the element edge, in m,", size.edge)?;
+        let tets = self.estimate(size)?;
+        if tets > LIMIT as f64 {
+            return Err(BakeError::TooFine { edge: size.edge, tets: tets as usize, limit: LIMIT });
+        }
+        Ok(())
+    }
+}

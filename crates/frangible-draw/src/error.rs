@@ -1,0 +1,42 @@
+//! Why there is no picture.
+
+use frangible_export::RecordingError;
+use thiserror::Error;
+
+/// Why a picture could not be drawn.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum DrawError {
+    /// No graphics driver answered.
+    #[error(
+        "no graphics adapter found; install a Vulkan driver, for example `apt-get install mesa-vulkan-drivers`, which needs neither a graphics card nor a display"
+    )]
+    NoAdapter,
+    /// The recording or the view is not sound.
+    #[error("the recording cannot be drawn: {0}")]
+    Recording(#[from] RecordingError),
+    /// A frame beyond the end was asked for.
+    #[error("frame {frame} cannot be drawn: the recording has {count}, counted from 0")]
+    NoSuchFrame {
+        /// The frame asked for.
+        frame: usize,
+        /// How many frames the recording has.
+        count: usize,
+    },
+    /// The picture has no pixels, or more than the adapter can draw.
+    #[error("a picture of {width} × {height} pixels cannot be drawn; choose 16 to {limit} each way")]
+    BadSize {
+        /// Width asked for, pixels.
+        width: u32,
+        /// Height asked for, pixels.
+        height: u32,
+        /// The most pixels each way.
+        limit: u32,
+    },
+    /// A sheet without a cell.
+    #[error("the sheet has no cell; give it at least one frame and one column")]
+    EmptySheet,
+    /// The picture could not be compressed.
+    #[error("the picture could not be encoded as PNG: {0}")]
+    Encode(#[from] png::EncodingError),
+}

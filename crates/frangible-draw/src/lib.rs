@@ -1,0 +1,27 @@
+//! Pictures of a [`Recording`](frangible_export::Recording), without a window.
+//!
+//! [`contact_sheet`] shows the four moments of a break on one picture,
+//! [`sheet_of_frames`] puts frames of any recordings side by side, and
+//! [`render_frame`] draws a single one; all light the scene like a product
+//! photograph. [`encode_png`] makes a small file of the result.
+//!
+//! Drawing takes a graphics driver but no display: a software driver such as
+//! Mesa's lavapipe will do. [`has_adapter`] tells whether there is one; without
+//! it everything here returns [`DrawError::NoAdapter`]. On one machine the same
+//! recording gives the same picture.
+
+mod adapter;
+mod camera;
+mod encode;
+mod error;
+mod scale;
+mod sheet;
+mod stage;
+mod studio;
+
+pub use adapter::has_adapter;
+pub use encode::encode_png;
+pub use error::DrawError;
+pub use image::RgbImage;
+pub use sheet::{SheetOptions, contact_sheet, sheet_of_frames};
+pub use studio::{Studio, render_frame};

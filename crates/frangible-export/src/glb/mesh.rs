@@ -1,0 +1,53 @@
+//! Triangle meshes.
+
+use std::collections::BTreeMap;
+
+use glam::Vec3;
+use gltf_json as json;
+use json::buffer::Target::ArrayBuffer;
+use json::mesh::{Mode, Primitive, Semantic};
+use json::validation::Checked::Valid;
+
+use super::binary::{push_indices, push_rows};
+use crate::RecordedMesh;
+
+/// Adds a mesh: one primitive per part, all on the same vertices. `None` if it
+/// has no triangle, as glTF knows no empty mesh.
+pub(super) fn push_mesh(
+    root: &mut json::Root,
+    binary: &mut Vec<u8>,
+    mesh: &RecordedMesh,
+) -> Option<json::Index<json::Mesh>> {
+    if mesh.parts.iter().all(|part| part.indices.is_empty()) {
+        return None;
+    }
+    let positions: Vec<_> = mesh.positions.iter().map(|position| position.to_array()).collect();
+    // A normal that is not of unit length makes the whole file invalid.
+    let normals: Vec<_> =
+        mesh.normals.iter().map(|normal| normal.try_normalize().unwrap_or(Vec3::Y).to_array()).collect();
+    let positions = push_rows(root, binary, &positions, Some(ArrayBuffer), true);
+    let normals = push_rows(root, binary, &normals, Some(ArrayBuffer), false);
+    let mut primitives = Vec::with_capacity(mesh.parts.len());
+    for part in mesh.parts.iter().filter(|part| !part.indices.is_empty()) {
+        let indices = push_indices(root, binary, &part.indices, mesh.positions.len());
+        primitives.push(Primitive {
+            attributes: BTreeMap::from([
+                (Valid(Semantic::Positions), positions),
+                (Valid(Semantic::Normals), normals),
+            ]),
+            extensions: None,
+            extras: None,
+            indices: Some(indices),
+            material: Some(json::Index::new(part.surface as u32)),
+            mode: Valid(Mode::Triangles),
+            targets: None,
+        });
+    }
+    Some(root.push(json::Mesh {
+        extensions: None,
+        extras: None,
+        name: Some(mesh.name.clone()),
+        primitives,
+        weights: None,
+    }))
+}

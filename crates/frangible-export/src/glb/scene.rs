@@ -1,0 +1,118 @@
+//! Nodes: the recorded things, the floor, the camera.
+
+use std::collections::BTreeMap;
+
+use glam::{Mat3, Quat, Vec3};
+use gltf_json as json;
+use json::scene::UnitQuaternion;
+use json::validation::Checked::Valid;
+
+use super::mesh::push_mesh;
+use crate::{ExportError, Floor, MeshPart, RecordedMesh, RecordedNode, Recording, View};
+
+/// Adds meshes and nodes; recorded nodes come first and keep their order, so
+/// that the animation finds them by index.
+pub(super) fn push_scene(
+    root: &mut json::Root,
+    binary: &mut Vec<u8>,
+    recording: &Recording,
+) -> Result<(), ExportError> {
+    let meshes: Vec<_> =
+        recording.meshes.iter().map(|mesh| push_mesh(root, binary, mesh)).collect();
+    let mut nodes = Vec::with_capacity(recording.nodes.len() + 2);
+    for node in &recording.nodes {
+        nodes.push(root.push(recorded_node(node, meshes[node.mesh])?));
+    }
+    let (center, radius) = recording.bounding_sphere();
+    if let Some(floor) = &recording.floor {
+        let mesh = push_mesh(root, binary, &floor_mesh(floor, recording.surfaces.len(), radius));
+        nodes.push(root.push(json::Node {
+            mesh,
+            name: Some("floor".into()),
+            translation: Some([center.x, floor.height, center.z]),
+            ..Default::default()
+        }));
+    }
+    nodes.push(push_camera(root, &recording.camera, center, radius));
+    let scene = root.push(json::Scene {
+        extensions: None,
+        extras: None,
+        name: Some(recording.name.clone()),
+        nodes,
+    });
+    root.scene = Some(scene);
+    Ok(())
+}
+
+fn recorded_node(
+    node: &RecordedNode,
+    mesh: Option<json::Index<json::Mesh>>,
+) -> Result<json::Node, ExportError> {
+    // Viewers that play no animation show a node where it first appears, and
+    // only if it is there in the first frame.
+    let first = node.visible.start.min(node.poses.len() - 1);
+    let pose = node.poses[first];
+    let hidden = node.visible.is_empty() || node.visible.start > 0;
+    let extras: BTreeMap<&str, f64> =
+        node.keep_extras.iter().map(|(key, value)| (key.as_str(), *value)).collect();
+    let extras = (!extras.is_empty()).then(|| serde_json::value::to_raw_value(&extras));
+    Ok(json::Node {
+        mesh,
+        name: Some(node.name.clone()),
+        translation: Some(pose.translation.to_array()),
+        rotation: Some(UnitQuaternion(pose.rotation.normalize().to_array())),
+        scale: hidden.then_some([0.0; 3]),
+        extras: extras.transpose()?,
+        ..Default::default()
+    })
+}
+
+/// A square that reaches beyond everything that moves.
+fn floor_mesh(floor: &Floor, surface: usize, radius: f32) -> RecordedMesh {
+    debug_assert!(floor.height.is_finite());
+    let half = 2.0 * radius.max(1e-3);
+    let corner = |x: f32, z: f32| Vec3::new(x * half, 0.0, z * half);
+    RecordedMesh {
+        name: "floor".into(),
+        positions: vec![corner(-1.0, -1.0), corner(-1.0, 1.0), corner(1.0, 1.0), corner(1.0, -1.0)],
+        normals: vec![Vec3::Y; 4],
+        parts: vec![MeshPart { surface, indices: vec![0, 1, 2, 0, 2, 3] }],
+    }
+}
+
+fn push_camera(
+    root: &mut json::Root,
+    view: &View,
+    center: Vec3,
+    radius: f32,
+) -> json::Index<json::Node> {
+    let distance = view.eye.distance(center);
+    let far = 10.0 * (distance + radius);
+    let camera = root.push(json::Camera {
+        name: Some("view".into()),
+        orthographic: None,
+        perspective: Some(json::camera::Perspective {
+            aspect_ratio: None,
+            yfov: view.vertical_fov,
+            zfar: Some(far),
+            // The widest range that 24 bits of depth resolve to a thousandth.
+            znear: far * 1e-4,
+            extensions: None,
+            extras: None,
+        }),
+        type_: Valid(json::camera::Type::Perspective),
+        extensions: None,
+        extras: None,
+    });
+    // A glTF camera looks along its −z axis.
+    let backward = (view.eye - view.target).normalize();
+    let right = view.up.cross(backward).normalize();
+    let turn = Quat::from_mat3(&Mat3::from_cols(right, backward.cross(right), backward));
+    root.push(json::Node {
+        camera: Some(camera),
+        name: Some("view".into()),
+        translation: Some(view.eye.to_array()),
+        rotation: Some(UnitQuaternion(turn.normalize().to_array())),
+        ..Default::default()
+    })
+}

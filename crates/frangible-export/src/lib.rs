@@ -1,0 +1,29 @@
+//! Writes what broke.
+//!
+//! A [`Recording`] is plain data: meshes, one rigid node per shard with a pose
+//! per frame, materials, a camera and the frames worth looking at. It knows
+//! neither the solver nor the renderer; both meet in it.
+//!
+//! * [`write_glb`] turns a recording into one binary glTF 2.0 file that
+//!   browsers, Blender and game engines play. The same recording gives the
+//!   same bytes.
+//! * [`write_atomically`] puts bytes on disk so that no reader ever finds half
+//!   a file under the final name.
+//!
+//! The world is right-handed, y up, in metres, kilograms and seconds, as in
+//! glTF.
+
+mod atomic;
+mod bounds;
+mod error;
+mod glb;
+mod recording;
+mod validate;
+
+pub use atomic::write_atomically;
+pub use error::{ExportError, RecordingError};
+pub use glb::write_glb;
+pub use glam;
+pub use recording::{
+    Floor, MeshPart, Moments, Pose, RecordedMesh, RecordedNode, Recording, SurfaceMaterial, View,
+};

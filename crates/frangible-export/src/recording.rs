@@ -1,0 +1,179 @@
+//! What happened, as plain data.
+
+use std::ops::Range;
+
+use glam::{Quat, Vec3};
+
+/// A break, frame by frame: everything a picture or an animation needs.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Recording {
+    /// What the file and its scene are called.
+    pub name: String,
+    /// Frames per second of the poses, 1/s. Above zero.
+    pub frame_rate: f32,
+    /// How many frames there are. At least one.
+    pub frame_count: usize,
+    /// The materials that mesh parts refer to by index.
+    pub surfaces: Vec<SurfaceMaterial>,
+    /// The shapes that nodes refer to by index.
+    pub meshes: Vec<RecordedMesh>,
+    /// The rigid things in the scene.
+    pub nodes: Vec<RecordedNode>,
+    /// A level floor, if the scene has one.
+    pub floor: Option<Floor>,
+    /// From where to look.
+    pub camera: View,
+    /// The frames worth a picture.
+    pub moments: Moments,
+}
+
+/// How a surface looks (metallic–roughness, as in glTF).
+#[derive(Clone, Debug, PartialEq)]
+pub struct SurfaceMaterial {
+    /// What viewers list it as.
+    pub name: String,
+    /// Linear red, green, blue, and opacity (1: opaque), each 0–1.
+    pub base_color: [f32; 4],
+    /// 0: dielectric (ceramic, glass), 1: metal.
+    pub metallic: f32,
+    /// 0: mirror, 1: chalk.
+    pub roughness: f32,
+    /// The fraction of light that passes through, 0–1; 0 for anything opaque.
+    pub transmission: f32,
+    /// Index of refraction, at least 1; 1.5 for glass and most dielectrics.
+    pub ior: f32,
+    /// Whether back faces are drawn too.
+    pub double_sided: bool,
+}
+
+impl Default for SurfaceMaterial {
+    fn default() -> Self {
+        Self {
+            name: String::from("surface"),
+            base_color: [0.8, 0.8, 0.8, 1.0],
+            metallic: 0.0,
+            roughness: 0.5,
+            transmission: 0.0,
+            ior: 1.5,
+            double_sided: false,
+        }
+    }
+}
+
+/// A triangle mesh, already split at hard edges: one normal per vertex.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct RecordedMesh {
+    /// What viewers list it as.
+    pub name: String,
+    /// Vertices in the frame of the node, m.
+    pub positions: Vec<Vec3>,
+    /// Unit normals, one per position.
+    pub normals: Vec<Vec3>,
+    /// The triangles, grouped by material.
+    pub parts: Vec<MeshPart>,
+}
+
+/// The triangles of a mesh that share a material.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct MeshPart {
+    /// Index into [`Recording::surfaces`].
+    pub surface: usize,
+    /// Three vertex indices per triangle, counter-clockwise from outside.
+    pub indices: Vec<u32>,
+}
+
+/// A rigid thing: a mesh, where it is in each frame, and when it exists.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct RecordedNode {
+    /// What viewers list it as.
+    pub name: String,
+    /// Index into [`Recording::meshes`].
+    pub mesh: usize,
+    /// One pose per frame, or exactly one for a node that never moves.
+    pub poses: Vec<Pose>,
+    /// The frames in which it can be seen; a shard appears when its parent breaks.
+    pub visible: Range<usize>,
+    /// Numbers kept beside the node in the file, such as `mass_kg`, `volume_m3`.
+    pub keep_extras: Vec<(String, f64)>,
+}
+
+/// A rigid placement: rotate, then translate.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Pose {
+    /// Where the mesh's origin lies, m.
+    pub translation: Vec3,
+    /// Its orientation; need not be exactly unit length.
+    pub rotation: Quat,
+}
+
+/// A level floor that catches shadows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Floor {
+    /// Its y coordinate, m.
+    pub height: f32,
+    /// Linear red, green and blue, each 0–1.
+    pub base_color: [f32; 3],
+}
+
+impl Default for Floor {
+    fn default() -> Self {
+        Self { height: 0.0, base_color: [0.55, 0.55, 0.55] }
+    }
+}
+
+/// A camera.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct View {
+    /// Where it stands, m.
+    pub eye: Vec3,
+    /// What it looks at, m.
+    pub target: Vec3,
+    /// Which way is up in the picture.
+    pub up: Vec3,
+    /// Vertical field of view, rad; between 0 and π.
+    pub vertical_fov: f32,
+}
+
+impl Default for View {
+    fn default() -> Self {
+        Self {
+            eye: Vec3::new(1.2, 0.9, 1.6),
+            target: Vec3::ZERO,
+            up: Vec3::Y,
+            vertical_fov: 0.6,
+        }
+    }
+}
+
+/// Frame indices of the four moments of a break.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Moments {
+    /// Whole, before contact.
+    pub before: usize,
+    /// The first frame with a crack.
+    pub first_crack: usize,
+    /// Shards on their way.
+    pub just_after: usize,
+    /// Everything has come to rest.
+    pub at_rest: usize,
+}
+
+impl Recording {
+    /// The pose of a node in a frame; the last known one beyond the end.
+    #[must_use]
+    pub fn pose(&self, node: usize, frame: usize) -> Pose {
+        let poses = self.nodes.get(node).map_or(&[][..], |node| &node.poses);
+        poses.get(frame).or(poses.last()).copied().unwrap_or_default()
+    }
+
+    /// The four moments with the words that label them.
+    #[must_use]
+    pub fn labelled_moments(&self) -> [(usize, &'static str); 4] {
+        [
+            (self.moments.before, "before"),
+            (self.moments.first_crack, "first crack"),
+            (self.moments.just_after, "just after"),
+            (self.moments.at_rest, "at rest"),
+        ]
+    }
+}

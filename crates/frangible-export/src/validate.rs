@@ -1,0 +1,192 @@
+//! Checks a recording, so that writers may index without fear.
+
+use glam::Vec3;
+
+use crate::recording::{Floor, RecordedMesh, RecordedNode, Recording, SurfaceMaterial, View};
+use crate::RecordingError;
+
+type Checked = Result<(), RecordingError>;
+
+impl Recording {
+    /// Checks every index, count and number.
+    ///
+    /// # Errors
+    ///
+    /// The first thing found wrong, by name and value.
+    pub fn validate(&self) -> Checked {
+        if self.frame_count == 0 {
+            return Err(RecordingError::NoFrame);
+        }
+        let rate = f64::from(self.frame_rate);
+        finite(rate, || "the frame rate".into())?;
+        in_range(rate, rate > 0.0, "above zero, in 1/s", || "the frame rate".into())?;
+        for surface in &self.surfaces {
+            check_surface(surface)?;
+        }
+        for mesh in &self.meshes {
+            check_mesh(mesh, self.surfaces.len())?;
+        }
+        for node in &self.nodes {
+            check_node(node, self.meshes.len(), self.frame_count)?;
+        }
+        if let Some(floor) = &self.floor {
+            check_floor(floor)?;
+        }
+        self.camera.validate()?;
+        let moments = self.labelled_moments();
+        moments.iter().try_for_each(|(frame, label)| {
+            index(*frame, self.frame_count, || format!("the frame of the moment \"{label}\""))
+        })
+    }
+}
+
+impl View {
+    /// Checks that the camera looks somewhere.
+    ///
+    /// # Errors
+    ///
+    /// What is wrong with it.
+    pub fn validate(&self) -> Checked {
+        finite_vector(self.eye, || "the camera's eye".into())?;
+        finite_vector(self.target, || "the camera's target".into())?;
+        finite_vector(self.up, || "the camera's up direction".into())?;
+        let fov = f64::from(self.vertical_fov);
+        let name = || "the camera's vertical field of view".into();
+        finite(fov, name)?;
+        in_range(fov, fov > 0.0 && fov < std::f64::consts::PI, "between 0 and π, in rad", name)?;
+        let forward = (self.target - self.eye).normalize_or_zero();
+        let sideways = forward.cross(self.up.normalize_or_zero());
+        // Below this sine the picture's roll is decided by rounding.
+        if sideways.length() < 1e-4 {
+            return Err(RecordingError::BadView);
+        }
+        Ok(())
+    }
+}
+
+fn check_surface(surface: &SurfaceMaterial) -> Checked {
+    let name = &surface.name;
+    let [r, g, b, opacity] = surface.base_color;
+    let fractions = [
+        (r, "red"),
+        (g, "green"),
+        (b, "blue"),
+        (opacity, "opacity"),
+        (surface.metallic, "metallic"),
+        (surface.roughness, "roughness"),
+        (surface.transmission, "transmission"),
+    ];
+    for (value, what) in fractions {
+        fraction(value, || format!("{what} of the surface \"{name}\""))?;
+    }
+    let ior = f64::from(surface.ior);
+    let what = || format!("the index of refraction of the surface \"{name}\"");
+    finite(ior, what)?;
+    in_range(ior, ior >= 1.0, "at least 1 (glass: 1.5)", what)
+}
+
+fn check_mesh(mesh: &RecordedMesh, surfaces: usize) -> Checked {
+    let name = &mesh.name;
+    if mesh.normals.len() != mesh.positions.len() {
+        return Err(RecordingError::BadCount {
+            what: format!("the normals of the mesh \"{name}\""),
+            count: mesh.normals.len(),
+            expected: format!("{}, one per position, are", mesh.positions.len()),
+        });
+    }
+    for (i, (&position, &normal)) in mesh.positions.iter().zip(&mesh.normals).enumerate() {
+        finite_vector(position, || format!("position {i} of the mesh \"{name}\""))?;
+        finite_vector(normal, || format!("normal {i} of the mesh \"{name}\""))?;
+    }
+    for (p, part) in mesh.parts.iter().enumerate() {
+        index(part.surface, surfaces, || format!("the surface of part {p} of the mesh \"{name}\""))?;
+        if part.indices.len() % 3 != 0 {
+            return Err(RecordingError::BadCount {
+                what: format!("the index list of part {p} of the mesh \"{name}\""),
+                count: part.indices.len(),
+                expected: "a multiple of three is".into(),
+            });
+        }
+        for (i, &vertex) in part.indices.iter().enumerate() {
+            let what = || format!("index {i} of part {p} of the mesh \"{name}\"");
+            index(vertex as usize, mesh.positions.len(), what)?;
+        }
+    }
+    Ok(())
+}
+
+fn check_node(node: &RecordedNode, meshes: usize, frames: usize) -> Checked {
+    let name = &node.name;
+    index(node.mesh, meshes, || format!("the mesh of the node \"{name}\""))?;
+    if node.poses.len() != 1 && node.poses.len() != frames {
+        return Err(RecordingError::BadCount {
+            what: format!("the pose list of the node \"{name}\""),
+            count: node.poses.len(),
+            expected: format!("{frames}, one per frame, or exactly one are"),
+        });
+    }
+    for (frame, pose) in node.poses.iter().enumerate() {
+        let what = || format!("the pose of the node \"{name}\" in frame {frame}");
+        finite_vector(pose.translation, what)?;
+        for part in pose.rotation.to_array() {
+            finite(f64::from(part), what)?;
+        }
+        let length = f64::from(pose.rotation.length());
+        // Far from unit length means that it is no rotation at all.
+        in_range(length, (0.5..2.0).contains(&length), "close to 1", || {
+            format!("the length of the rotation in {}", what())
+        })?;
+    }
+    let (start, end) = (node.visible.start, node.visible.end);
+    if end > frames {
+        return Err(RecordingError::BadIndex {
+            what: format!("the end of the visible frames of the node \"{name}\""),
+            index: end,
+            count: frames,
+        });
+    }
+    in_range(start as f64, start <= end, "at most the last visible frame", || {
+        format!("the first visible frame of the node \"{name}\"")
+    })?;
+    for (key, value) in &node.keep_extras {
+        finite(*value, || format!("\"{key}\" of the node \"{name}\""))?;
+    }
+    Ok(())
+}
+
+fn check_floor(floor: &Floor) -> Checked {
+    finite(f64::from(floor.height), || "the height of the floor".into())?;
+    let colours = floor.base_color.into_iter();
+    colours.into_iter().try_for_each(|part| fraction(part, || "a colour of the floor".into()))
+}
+
+fn fraction(value: f32, what: impl Fn() -> String) -> Checked {
+    let value = f64::from(value);
+    finite(value, &what)?;
+    in_range(value, (0.0..=1.0).contains(&value), "from 0 to 1", what)
+}
+
+fn finite_vector(vector: Vec3, what: impl Fn() -> String) -> Checked {
+    vector.to_array().iter().try_for_each(|&part| finite(f64::from(part), &what))
+}
+
+fn finite(value: f64, what: impl Fn() -> String) -> Checked {
+    if value.is_finite() {
+        return Ok(());
+    }
+    Err(RecordingError::NotFinite { what: what(), value })
+}
+
+fn in_range(value: f64, holds: bool, range: &'static str, what: impl Fn() -> String) -> Checked {
+    if holds {
+        return Ok(());
+    }
+    Err(RecordingError::OutOfRange { what: what(), value, range })
+}
+
+fn index(index: usize, count: usize, what: impl Fn() -> String) -> Checked {
+    if index < count {
+        return Ok(());
+    }
+    Err(RecordingError::BadIndex { what: what(), index, count })
+}

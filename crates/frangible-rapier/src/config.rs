@@ -1,0 +1,87 @@
+//! Switches and numbers of the world.
+
+use frangible::FractureConfig;
+use rapier3d::math::Vector;
+
+use crate::error::{WorldError, finite, not_negative, positive};
+
+/// How the world steps, what counts as an impact, and what becomes of fragments.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct WorldConfig {
+    /// Acceleration of gravity, m/s². Default (0, −9.81, 0).
+    pub gravity: Vector,
+    /// Time step, s. Default 1/240: at 1/60 a piece that falls for half a second moves 8 cm per step.
+    pub dt: f32,
+    /// Size of typical bodies, m: Rapier's tolerances (slop, prediction, push-out speed, sleep speed) scale with it.
+    /// Default 0.1. Rapier's own 1 m leaves gaps of 5 mm, more than a pane is thick.
+    pub length_unit: f32,
+    /// Solver iterations per step, 1 or more. Default 4.
+    pub solver_iterations: usize,
+    /// Bodies never move faster than this, m/s. Default 400.
+    pub max_speed: f32,
+    /// Approach speed from which a contact is an impact, m/s. Default 0.5; raising it asks the fracture less often.
+    pub impact_speed: f32,
+    /// Contact points of one pair nearer than this are one contact, m. Default 5e-4.
+    pub merge_distance: f32,
+    /// A fragment gets one convex hull when hull volume / piece volume is at most this. Default 1.15.
+    pub hull_volume_ratio: f32,
+    /// Speed at which fragments of one parent part when they overlap, m/s; zero leaves overlaps alone. Default 0.01.
+    pub overlap_relaxation: f32,
+    /// A joint of a broken body moves to the nearest fragment within this distance of its anchor, m; else it is
+    /// released. Default 5e-3.
+    pub joint_reach: f32,
+    /// Fragments lighter than this are debris: a box for a collider, removed when too many. kg, default 1e-4, a
+    /// chip of glass 3 mm wide.
+    pub debris_mass: f32,
+    /// Debris kept at most; the oldest goes first. Default 200.
+    pub max_debris: usize,
+    /// Bodies at most; a body whose fragments would not fit stays whole. Default 4000.
+    pub max_bodies: usize,
+    /// Also record the impacts that broke nothing, see [`crate::BreakableWorld::held`]. Default off.
+    pub record_held: bool,
+    /// Switches and numbers of the fracture.
+    pub fracture: FractureConfig,
+}
+
+impl Default for WorldConfig {
+    fn default() -> Self {
+        Self {
+            gravity: Vector::new(0.0, -9.81, 0.0),
+            dt: 1.0 / 240.0,
+            length_unit: 0.1,
+            solver_iterations: 4,
+            max_speed: 400.0,
+            impact_speed: 0.5,
+            merge_distance: 5e-4,
+            hull_volume_ratio: 1.15,
+            overlap_relaxation: 0.01,
+            joint_reach: 5e-3,
+            debris_mass: 1e-4,
+            max_debris: 200,
+            max_bodies: 4000,
+            record_held: false,
+            fracture: FractureConfig::default(),
+        }
+    }
+}
+
+impl WorldConfig {
+    /// Checks every number.
+    ///
+    /// # Errors
+    /// The first field that is not finite or out of its range.
+    pub fn validate(&self) -> Result<(), WorldError> {
+        finite("gravity", self.gravity)?;
+        positive("time step (s)", self.dt)?;
+        positive("length unit (m)", self.length_unit)?;
+        positive("number of solver iterations", self.solver_iterations as f32)?;
+        positive("largest speed (m/s)", self.max_speed)?;
+        positive("impact speed (m/s)", self.impact_speed)?;
+        not_negative("merge distance (m)", self.merge_distance)?;
+        positive("hull volume ratio", self.hull_volume_ratio)?;
+        not_negative("overlap relaxation (m/s)", self.overlap_relaxation)?;
+        not_negative("joint reach (m)", self.joint_reach)?;
+        not_negative("debris mass (kg)", self.debris_mass)
+    }
+}

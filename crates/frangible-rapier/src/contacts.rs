@@ -1,0 +1,227 @@
+//! Rapier's contacts → what the fracture wants to know of an impact.
+//!
+//! Theory §2: point and direction in the body frame, the impulse on this body, the approach speed from the
+//! velocities **before** the step (Rapier keeps only those after it), and the striker's modulus, effective
+//! mass, curvature and restitution.
+
+use std::collections::BTreeMap;
+
+use frangible::{Body, Contact, Striker};
+use rapier3d::dynamics::{RigidBody, RigidBodyHandle, RigidBodySet};
+use rapier3d::geometry::ColliderHandle;
+use rapier3d::math::Vector;
+use rapier3d::pipeline::PhysicsWorld;
+
+use crate::config::WorldConfig;
+use crate::surface::{EDGE_RADIUS, SurfaceProperties};
+use crate::world::{Key, collider_key, key};
+
+/// The contacts of one body that are impacts, and what caused them.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Impact {
+    pub(crate) contacts: Vec<Contact>,
+    pub(crate) strikers: Vec<RigidBodyHandle>,
+}
+
+/// What is known of surfaces.
+pub(crate) struct Surfaces<'a> {
+    pub(crate) bodies: &'a BTreeMap<Key, SurfaceProperties>,
+    pub(crate) colliders: &'a BTreeMap<Key, SurfaceProperties>,
+    pub(crate) breakables: &'a BTreeMap<Key, Body>,
+}
+
+/// A contact point in the body frame.
+struct Point {
+    position: Vector,
+    /// Direction of the impulse on the body.
+    normal: Vector,
+    impulse: f32,
+    restitution: f32,
+    other_collider: ColliderHandle,
+    other: Option<RigidBodyHandle>,
+}
+
+/// Impacts on `handle` in the step just taken; `before` holds the bodies as they were before it.
+pub(crate) fn impact_on(
+    handle: RigidBodyHandle,
+    physics: &PhysicsWorld,
+    before: &RigidBodySet,
+    surfaces: &Surfaces<'_>,
+    config: &WorldConfig,
+) -> Impact {
+    let Some(body) = before.get(handle) else { return Impact::default() };
+    let mut impact = Impact::default();
+    for group in merged_by_partner(points_on(handle, body, physics), config.merge_distance) {
+        let other = group[0].other;
+        let partner = other.and_then(|other| before.get(other));
+        let first = impact.contacts.len();
+        for point in &group {
+            let approach_speed = approach(body, partner, point.position, point.normal);
+            if approach_speed > config.impact_speed && point.impulse > 0.0 {
+                impact.contacts.push(Contact {
+                    point: point.position,
+                    normal: point.normal,
+                    impulse: point.impulse,
+                    approach_speed,
+                    striker: striker(body, partner, point, physics, surfaces),
+                });
+            }
+        }
+        let added = &mut impact.contacts[first..];
+        limit_impulse(added, body, partner);
+        if let (false, Some(other)) = (added.is_empty(), other)
+            && !impact.strikers.contains(&other)
+        {
+            impact.strikers.push(other);
+        }
+    }
+    impact
+}
+
+fn points_on(handle: RigidBodyHandle, body: &RigidBody, physics: &PhysicsWorld) -> Vec<Point> {
+    let mut points = Vec::new();
+    let to_body = body.rotation().inverse();
+    for &collider_handle in body.colliders() {
+        let Some(collider) = physics.colliders.get(collider_handle) else { continue };
+        let in_body = collider.position_wrt_parent().copied().unwrap_or_default();
+        for pair in physics.narrow_phase.contact_pairs_with(collider_handle) {
+            let first = pair.collider1 == collider_handle;
+            let other_collider = if first { pair.collider2 } else { pair.collider1 };
+            let other = physics.colliders.get(other_collider).and_then(|c| c.parent());
+            if other == Some(handle) {
+                continue;
+            }
+            for manifold in pair.solver_manifolds() {
+                // The manifold's normal points from the first collider to the second: the second is pushed along it.
+                let normal = if first { -manifold.data.normal } else { manifold.data.normal };
+                let Some(normal) = (to_body * normal).try_normalize() else { continue };
+                let part = if first { manifold.subshape_pos1() } else { manifold.subshape_pos2() };
+                for point in manifold.points.iter().filter(|p| p.data.impulse > 0.0) {
+                    let local = if first { point.local_p1 } else { point.local_p2 };
+                    let local = part.map_or(local, |pose| *pose * local);
+                    points.push(Point {
+                        position: in_body * local,
+                        normal,
+                        impulse: point.data.impulse,
+                        restitution: manifold.data.restitution,
+                        other_collider,
+                        other,
+                    });
+                }
+            }
+        }
+    }
+    points
+}
+
+/// Points of one partner in a group; within it, points that are one place are one contact at the
+/// impulse-weighted mean: neighbouring cells of a compound both report a ball on their common face, and two
+/// half-size contacts would be taken for two softer blows.
+fn merged_by_partner(points: Vec<Point>, distance: f32) -> Vec<Vec<Point>> {
+    let mut groups: Vec<Vec<Point>> = Vec::new();
+    for point in points {
+        let same_partner = |p: &Point| match point.other {
+            Some(other) => p.other == Some(other),
+            None => p.other_collider == point.other_collider,
+        };
+        let Some(group) = groups.iter_mut().find(|group| same_partner(&group[0])) else {
+            groups.push(vec![point]);
+            continue;
+        };
+        let same_place = |p: &&mut Point| p.position.distance(point.position) <= distance && p.normal.dot(point.normal) > 0.9;
+        if let Some(kept) = group.iter_mut().find(same_place) {
+            let total = kept.impulse + point.impulse;
+            let share = point.impulse / total;
+            kept.position = kept.position.lerp(point.position, share);
+            kept.normal = kept.normal.lerp(point.normal, share).normalize_or(point.normal);
+            kept.impulse = total;
+        } else {
+            group.push(point);
+        }
+    }
+    groups
+}
+
+/// Speed at which the partner comes nearer along the direction of the impulse, before the step.
+fn approach(body: &RigidBody, partner: Option<&RigidBody>, point: Vector, normal: Vector) -> f32 {
+    let world = *body.position() * point;
+    let other = partner.map_or(Vector::ZERO, |p| p.velocity_at_point(world));
+    (other - body.velocity_at_point(world)).dot(*body.rotation() * normal)
+}
+
+/// nᵀ K n, 1/kg: what one unit of impulse along n changes the speed of the body at the point by.
+fn inverse_effective_mass(body: &RigidBody, world_point: Vector, world_normal: Vector) -> f32 {
+    if !body.is_dynamic() {
+        return 0.0;
+    }
+    let mass = body.mass_properties();
+    let arm = (world_point - mass.world_com).cross(world_normal);
+    let linear = world_normal.dot(mass.effective_inv_mass * world_normal);
+    linear + arm.dot(mass.effective_world_inv_inertia * arm)
+}
+
+fn striker(
+    body: &RigidBody,
+    partner: Option<&RigidBody>,
+    point: &Point,
+    physics: &PhysicsWorld,
+    surfaces: &Surfaces<'_>,
+) -> Striker {
+    let world = *body.position() * point.position;
+    let normal = *body.rotation() * point.normal;
+    let surface = surfaces
+        .colliders
+        .get(&collider_key(point.other_collider))
+        .or_else(|| point.other.and_then(|other| surfaces.bodies.get(&key(other))));
+    // A body nobody described is a rigid one; a ball's radius can still be read off its shape.
+    let ball = physics.colliders.get(point.other_collider).and_then(|c| c.shape().as_ball()).map(|b| b.radius);
+    let breakable = point.other.and_then(|other| surfaces.breakables.get(&key(other)));
+    let curvature_radius = match (breakable, partner) {
+        (Some(breakable), Some(partner)) => {
+            curvature_at(breakable, partner.position().inverse_transform_point(world))
+        }
+        _ => surface.map(|s| s.curvature_radius).or(ball).unwrap_or(f32::INFINITY),
+    };
+    Striker {
+        contact_modulus: surface.map_or(f32::INFINITY, |s| s.contact_modulus),
+        inverse_effective_mass: partner.map_or(0.0, |p| inverse_effective_mass(p, world, normal)),
+        curvature_radius,
+        restitution: point.restitution.clamp(0.0, 1.0),
+    }
+}
+
+/// Radius of curvature of a breakable's outer surface nearest to a point of its body frame, m.
+fn curvature_at(body: &Body, point: Vector) -> f32 {
+    let surface = &body.asset.surface;
+    let positions = &body.asset.fracture.positions;
+    let nearest = surface.triangles.iter().zip(&surface.curvature_radius).min_by(|(a, _), (b, _)| {
+        let gap = |t: &[u32; 3]| {
+            let centre = t.iter().filter_map(|&v| positions.get(v as usize)).sum::<Vector>() / 3.0;
+            centre.distance_squared(point)
+        };
+        gap(a).total_cmp(&gap(b))
+    });
+    nearest.map_or(EDGE_RADIUS, |(_, &radius)| radius).max(EDGE_RADIUS)
+}
+
+/// Scales the impulses of one pair so that their sum is no more than the two bodies' meeting can give,
+/// (1+e) v_n / (nᵀ K n of both): Rapier adds what pushes an overlap apart and what gravity presses, which is no blow.
+fn limit_impulse(contacts: &mut [Contact], body: &RigidBody, partner: Option<&RigidBody>) {
+    let total: f32 = contacts.iter().map(|c| c.impulse).sum();
+    if !(total > 0.0) {
+        return;
+    }
+    let mean = |f: &dyn Fn(&Contact) -> Vector| contacts.iter().map(|c| f(c) * (c.impulse / total)).sum::<Vector>();
+    let point = mean(&|c| c.point);
+    let Some(normal) = mean(&|c| c.normal).try_normalize() else { return };
+    let restitution = contacts.iter().map(|c| c.striker.restitution).fold(0.0, f32::max);
+    let (world, direction) = (*body.position() * point, *body.rotation() * normal);
+    let k = inverse_effective_mass(body, world, direction)
+        + partner.map_or(0.0, |p| inverse_effective_mass(p, world, direction));
+    let limit = (1.0 + restitution) * approach(body, partner, point, normal).max(0.0) / k;
+    if limit.is_finite() && limit > 0.0 && limit < total {
+        for contact in contacts {
+            contact.impulse *= limit / total;
+        }
+    }
+}

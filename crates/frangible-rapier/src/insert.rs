@@ -1,0 +1,187 @@
+//! Ways into the world.
+
+use frangible::Body;
+use rapier3d::dynamics::{RigidBodyBuilder, RigidBodyHandle};
+use rapier3d::geometry::{ColliderBuilder, ColliderHandle, HalfSpace, SharedShape};
+use rapier3d::math::{Pose, Vector};
+use std::sync::Arc;
+
+use crate::collider::whole_shape;
+use crate::error::{WorldError, finite, positive};
+use crate::mass::{ball_mass, rapier_mass};
+use crate::surface::{EDGE_RADIUS, SurfaceProperties};
+use crate::world::{BreakableWorld, collider_key, key};
+
+/// A solid ball.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ball {
+    /// Mass, kg.
+    pub mass: f32,
+    /// Radius, m.
+    pub radius: f32,
+}
+
+impl BreakableWorld {
+    /// A breakable body, its centre of mass at `pose`; `linvel` in m/s, `angvel` in rad/s.
+    ///
+    /// Its collider is the compound of the asset's convex cells; mass and inertia are the asset's. To hold it
+    /// still (a pane in its frame), make it fixed in [`BreakableWorld::physics`], or tie it with impulse joints;
+    /// fragments are always dynamic.
+    ///
+    /// # Errors
+    /// A pose or velocity that is not finite, an asset whose mass is no positive number, a full world.
+    pub fn insert_breakable(
+        &mut self,
+        body: Body,
+        pose: Pose,
+        linvel: Vector,
+        angvel: Vector,
+    ) -> Result<RigidBodyHandle, WorldError> {
+        self.check_room()?;
+        check_pose(pose)?;
+        finite("velocity", linvel)?;
+        finite("angular velocity", angvel)?;
+        let mass = rapier_mass(&body.asset.mass)?;
+        let shape = match self.shapes.iter().find(|(asset, _)| Arc::ptr_eq(asset, &body.asset)) {
+            Some((_, shape)) => shape.clone(),
+            None => {
+                let shape = whole_shape(&body.asset);
+                self.shapes.push((Arc::clone(&body.asset), shape.clone()));
+                shape
+            }
+        };
+        let surface = SurfaceProperties::of(&body.asset.material, EDGE_RADIUS);
+        surface.validate()?;
+        let builder = RigidBodyBuilder::dynamic().pose(pose).linvel(linvel).angvel(angvel);
+        let handle = self.insert(builder.additional_mass_properties(mass), shape, surface);
+        self.breakables.insert(key(handle), body);
+        Ok(handle)
+    }
+
+    /// A solid ball, swept so that it never passes through anything however fast; `linvel` in m/s.
+    /// The surface's radius of curvature becomes the ball's.
+    ///
+    /// # Errors
+    /// Mass or radius not above zero, a pose or velocity that is not finite, a full world.
+    pub fn insert_ball(
+        &mut self,
+        ball: Ball,
+        surface: SurfaceProperties,
+        pose: Pose,
+        linvel: Vector,
+    ) -> Result<RigidBodyHandle, WorldError> {
+        self.check_room()?;
+        check_pose(pose)?;
+        finite("velocity", linvel)?;
+        positive("mass of the ball (kg)", ball.mass)?;
+        positive("radius of the ball (m)", ball.radius)?;
+        let surface = SurfaceProperties { curvature_radius: ball.radius, ..surface };
+        surface.validate()?;
+        let builder = RigidBodyBuilder::dynamic().pose(pose).linvel(linvel).ccd_enabled(true).allow_fast_rotation(true);
+        let builder = builder.additional_mass_properties(ball_mass(ball.mass, ball.radius));
+        Ok(self.insert(builder, SharedShape::ball(ball.radius), surface))
+    }
+
+    /// A box that never moves; half extents in m.
+    ///
+    /// # Errors
+    /// A half extent not above zero, a pose that is not finite, a full world.
+    pub fn insert_fixed_box(
+        &mut self,
+        half_extents: Vector,
+        pose: Pose,
+        surface: SurfaceProperties,
+    ) -> Result<RigidBodyHandle, WorldError> {
+        self.check_room()?;
+        check_pose(pose)?;
+        surface.validate()?;
+        for extent in half_extents.to_array() {
+            positive("half extent of the box (m)", extent)?;
+        }
+        let shape = SharedShape::cuboid(half_extents.x, half_extents.y, half_extents.z);
+        Ok(self.insert(RigidBodyBuilder::fixed().pose(pose), shape, surface))
+    }
+
+    /// A floor without end: everything behind the plane through `point` (m) with outward `normal`.
+    ///
+    /// # Errors
+    /// A point or normal that is not finite, a normal of no length, a full world.
+    pub fn insert_fixed_half_space(
+        &mut self,
+        point: Vector,
+        normal: Vector,
+        surface: SurfaceProperties,
+    ) -> Result<RigidBodyHandle, WorldError> {
+        self.check_room()?;
+        finite("point of the half-space", point)?;
+        finite("normal of the half-space", normal)?;
+        surface.validate()?;
+        let normal = normal.try_normalize().ok_or(WorldError::NoNormal(normal))?;
+        let shape = SharedShape::new(HalfSpace::new(normal));
+        Ok(self.insert(RigidBodyBuilder::fixed().translation(point), shape, surface))
+    }
+
+    /// Gives all colliders of any body of [`BreakableWorld::physics`] this surface.
+    ///
+    /// # Errors
+    /// A number that cannot be used, or no such body.
+    pub fn set_surface(&mut self, body: RigidBodyHandle, surface: SurfaceProperties) -> Result<(), WorldError> {
+        surface.validate()?;
+        let (index, generation) = body.into_raw_parts();
+        let rigid = self.physics.bodies.get(body).ok_or(WorldError::NoBody { index, generation })?;
+        for &collider in rigid.colliders() {
+            if let Some(collider) = self.physics.colliders.get_mut(collider) {
+                collider.set_friction(surface.friction);
+                collider.set_restitution(surface.restitution);
+            }
+        }
+        self.surfaces.insert(key(body), surface);
+        Ok(())
+    }
+
+    /// Gives one collider of [`BreakableWorld::physics`] this surface, whatever its body's is.
+    ///
+    /// # Errors
+    /// A number that cannot be used.
+    pub fn set_collider_surface(
+        &mut self,
+        collider: ColliderHandle,
+        surface: SurfaceProperties,
+    ) -> Result<(), WorldError> {
+        surface.validate()?;
+        if let Some(collider) = self.physics.colliders.get_mut(collider) {
+            collider.set_friction(surface.friction);
+            collider.set_restitution(surface.restitution);
+        }
+        self.collider_surfaces.insert(collider_key(collider), surface);
+        Ok(())
+    }
+
+    fn check_room(&self) -> Result<(), WorldError> {
+        let limit = self.config.max_bodies;
+        if self.physics.bodies.len() < limit { Ok(()) } else { Err(WorldError::Full(limit)) }
+    }
+
+    fn insert(&mut self, body: RigidBodyBuilder, shape: SharedShape, surface: SurfaceProperties) -> RigidBodyHandle {
+        let handle = self.physics.bodies.insert(body);
+        let collider = ColliderBuilder::new(shape)
+            .density(0.0)
+            .friction(surface.friction)
+            .restitution(surface.restitution);
+        self.physics.insert_collider(collider, Some(handle));
+        if let Some(body) = self.physics.bodies.get_mut(handle) {
+            // Rapier would do it at the next step; energy and momentum are asked for before.
+            body.recompute_mass_properties_from_colliders(&self.physics.colliders);
+        }
+        self.surfaces.insert(key(handle), surface);
+        handle
+    }
+}
+
+fn check_pose(pose: Pose) -> Result<(), WorldError> {
+    if !pose.is_finite() {
+        return Err(WorldError::NotFinite { what: "pose" });
+    }
+    let length = pose.rotation.length();
+    if (length - 1.0).abs() > 1e-3 { Err(WorldError::Rotation(length)) } else { Ok(()) }
+}

@@ -1,0 +1,59 @@
+//! A Rapier world whose bodies break **inside** the step.
+//!
+//! [`BreakableWorld::step`] is the front door: it steps Rapier, hands every impact on a breakable body to
+//! [`frangible::impact`], and when a body breaks it undoes the step, puts the fragments in the body's place
+//! with the velocities from **before** the impact, and steps again. So a ball goes on through the pane it
+//! broke instead of bouncing off a pane that is no longer there.
+//!
+//! ```
+//! use frangible_rapier::{Ball, BreakableWorld, SurfaceProperties, WorldConfig};
+//! use rapier3d::math::{Pose, Vector};
+//!
+//! let mut world = BreakableWorld::new(WorldConfig::default())?;
+//! world.insert_fixed_box(Vector::new(1.0, 0.05, 1.0), Pose::IDENTITY, SurfaceProperties::STONE)?;
+//! let ball = Ball { mass: 0.1, radius: 0.02 };
+//! let start = Pose::translation(0.0, 0.5, 0.0);
+//! world.insert_ball(ball, SurfaceProperties::STEEL, start, Vector::ZERO)?;
+//! let breaks = world.step()?;
+//! assert!(breaks.is_empty());
+//! # Ok::<(), frangible_rapier::WorldError>(())
+//! ```
+//!
+//! # What it keeps
+//! - Mass, centre and inertia of a fragment are the exact ones of the piece, never those of its collider.
+//! - Replacing a body by its fragments changes neither momentum nor angular momentum, and adds no kinetic energy.
+//! - The cracks' energy is taken from the motion of fragments and striker relative to each other.
+//! - Two runs give the same bits.
+//!
+//! # What it does not do yet
+//! Fragments are plain bodies: they do not break again. Multibody joints of a broken body are released,
+//! impulse joints move to the fragment that holds them. Contacts below the impact threshold (resting
+//! contacts) break nothing.
+
+mod approach;
+mod collider;
+mod config;
+mod contacts;
+mod debris;
+mod error;
+mod event;
+mod guard;
+mod insert;
+mod joints;
+mod mass;
+mod motion;
+mod replace;
+mod siblings;
+mod snapshot;
+mod step;
+mod surface;
+mod toll;
+mod world;
+
+pub use config::WorldConfig;
+pub use error::WorldError;
+pub use event::{BreakEvent, HeldEvent};
+pub use insert::Ball;
+pub use rapier3d;
+pub use surface::SurfaceProperties;
+pub use world::{BreakFn, BreakableWorld};

@@ -1,0 +1,119 @@
+//! A broken body gives way to its fragments.
+
+use frangible::{Fracture, Fragment};
+use rapier3d::dynamics::{MassProperties, RigidBody, RigidBodyBuilder, RigidBodyHandle};
+use rapier3d::geometry::{Aabb, Collider, ColliderBuilder, SharedShape};
+use rapier3d::math::{Pose, Vector};
+use rapier3d::parry::bounding_volume::BoundingVolume;
+use rapier3d::pipeline::ActiveHooks;
+
+use crate::collider::{debris_shape, fragment_shape};
+use crate::config::WorldConfig;
+use crate::error::WorldError;
+use crate::joints::hand_over_joints;
+use crate::mass::rapier_mass;
+use crate::world::BreakableWorld;
+
+/// Shapes and masses of a fracture's fragments: built once, though a step may be undone more than once.
+pub(crate) struct Parts {
+    parts: Vec<(SharedShape, MassProperties, Vector)>,
+}
+
+impl Parts {
+    /// # Errors
+    /// A fragment whose mass or moment of inertia is no positive number.
+    pub(crate) fn new(fracture: &Fracture, config: &WorldConfig) -> Result<Self, WorldError> {
+        let part = |fragment: &Fragment| -> Result<_, WorldError> {
+            let mass = rapier_mass(&fragment.mass)?;
+            let shape = if is_debris(fragment, config) {
+                debris_shape(fragment)
+            } else {
+                fragment_shape(fragment, config.hull_volume_ratio)
+            };
+            Ok((shape, mass, fragment.mass.centre.as_vec3()))
+        };
+        Ok(Self { parts: fracture.fragments.iter().map(part).collect::<Result<_, _>>()? })
+    }
+}
+
+pub(crate) fn is_debris(fragment: &Fragment, config: &WorldConfig) -> bool {
+    fragment.mass.mass < f64::from(config.debris_mass)
+}
+
+impl BreakableWorld {
+    /// Puts fragments in the place of `parent`, each moving as the piece of the rigid body it was:
+    /// v + ω × r, same ω. Neither momentum nor angular momentum nor kinetic energy changes.
+    pub(crate) fn replace(&mut self, parent: RigidBodyHandle, parts: &Parts) -> Vec<RigidBodyHandle> {
+        let Some(body) = self.physics.bodies.get(parent).cloned() else { return Vec::new() };
+        let skin = body.colliders().first().and_then(|&c| self.physics.colliders.get(c)).cloned();
+        let bounds = self.bounds(&body);
+        let mut fragments = Vec::with_capacity(parts.parts.len());
+        for (shape, mass, centre) in &parts.parts {
+            let builder = fragment_body(&body, *centre).additional_mass_properties(*mass);
+            let handle = self.physics.bodies.insert(builder);
+            let collider = fragment_collider(shape.clone(), skin.as_ref());
+            self.physics.insert_collider(collider, Some(handle));
+            if let Some(fragment) = self.physics.bodies.get_mut(handle) {
+                fragment.recompute_mass_properties_from_colliders(&self.physics.colliders);
+            }
+            fragments.push((handle, *centre));
+        }
+        hand_over_joints(&mut self.physics, parent, &fragments, self.config.joint_reach);
+        self.physics.remove_body(parent);
+        self.wake_around(bounds);
+        let handles: Vec<RigidBodyHandle> = fragments.into_iter().map(|(handle, _)| handle).collect();
+        self.siblings.born(&handles);
+        handles
+    }
+
+    fn bounds(&self, body: &RigidBody) -> Option<Aabb> {
+        let colliders = body.colliders().iter().filter_map(|&c| self.physics.colliders.get(c));
+        colliders.map(Collider::compute_aabb).reduce(|a, b| a.merged(&b))
+    }
+
+    /// Wakes what may have leaned on, or hung from, the body that is gone.
+    fn wake_around(&mut self, bounds: Option<Aabb>) {
+        let Some(bounds) = bounds else { return };
+        let bounds = bounds.loosened(4.0 * self.physics.integration_parameters.prediction_distance());
+        let near = self.physics.colliders.iter().filter(|(_, c)| c.compute_aabb().intersects(&bounds));
+        let handles: Vec<RigidBodyHandle> = near.filter_map(|(_, c)| c.parent()).collect();
+        for handle in handles {
+            self.physics.wake_up(handle, true);
+        }
+    }
+}
+
+fn fragment_body(parent: &RigidBody, centre: Vector) -> RigidBodyBuilder {
+    let pose = *parent.position();
+    let position = pose * centre;
+    let mut builder = RigidBodyBuilder::dynamic()
+        .pose(Pose::from_parts(position, pose.rotation))
+        .linvel(parent.velocity_at_point(position))
+        .angvel(parent.angvel())
+        .gravity_scale(parent.gravity_scale())
+        .linear_damping(parent.linear_damping())
+        .angular_damping(parent.angular_damping())
+        .dominance_group(parent.dominance_group())
+        .user_data(parent.user_data);
+    if !parent.is_dynamic() {
+        builder = builder.linvel(Vector::ZERO).angvel(Vector::ZERO);
+    }
+    builder
+}
+
+fn fragment_collider(shape: SharedShape, parent: Option<&Collider>) -> ColliderBuilder {
+    let builder = ColliderBuilder::new(shape).density(0.0).active_hooks(ActiveHooks::MODIFY_SOLVER_CONTACTS);
+    let Some(parent) = parent else { return builder };
+    builder
+        .friction(parent.friction())
+        .friction_combine_rule(parent.friction_combine_rule())
+        .restitution(parent.restitution())
+        .restitution_combine_rule(parent.restitution_combine_rule())
+        .collision_groups(parent.collision_groups())
+        .solver_groups(parent.solver_groups())
+        .active_events(parent.active_events())
+        .active_collision_types(parent.active_collision_types())
+        .contact_skin(parent.contact_skin())
+        .contact_force_event_threshold(parent.contact_force_event_threshold())
+        .user_data(parent.user_data)
+}

@@ -1,0 +1,76 @@
+//! Fragments of one parent overlap a little at birth; this keeps them from flying apart for it.
+//!
+//! The hulls of jagged pieces cut into each other by the depth of the jags, and shapes that touch exactly give
+//! contact directions that are rounding noise. Rapier would push such pairs apart at up to its corrective speed.
+//! Between siblings no more than [`crate::WorldConfig::overlap_relaxation`] × time step of an overlap is shown to
+//! the solver: the pair cannot come nearer, so nothing sinks; it creeps apart at about that speed, so nothing
+//! explodes; it may part at any speed, so nothing sticks; and it ends at the true surfaces, so nothing hovers.
+//! Only overlap is softened, a blow between siblings is as hard as any.
+
+use std::collections::BTreeMap;
+
+use rapier3d::dynamics::RigidBodyHandle;
+use rapier3d::pipeline::{ContactModificationContext, PhysicsHooks};
+
+use crate::world::{Key, key};
+
+/// Steps after birth in which siblings do not bounce off each other.
+const NEWBORN_STEPS: u64 = 2;
+
+#[derive(Clone, Copy, Debug)]
+struct Birth {
+    parent: u64,
+    step: u64,
+}
+
+/// Who is whose sibling.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Siblings {
+    /// Number of the current step.
+    pub(crate) step: u64,
+    /// How much of an overlap siblings part by in a step, m.
+    pub(crate) relaxation: f32,
+    parents: u64,
+    births: BTreeMap<Key, Birth>,
+}
+
+impl Siblings {
+    /// These bodies are the fragments of one parent, born in the current step.
+    pub(crate) fn born(&mut self, fragments: &[RigidBodyHandle]) {
+        self.parents += 1;
+        let birth = Birth { parent: self.parents, step: self.step };
+        self.births.extend(fragments.iter().map(|&fragment| (key(fragment), birth)));
+    }
+
+    /// Forgets bodies that are gone.
+    pub(crate) fn purge(&mut self, alive: impl Fn(RigidBodyHandle) -> bool) {
+        self.births.retain(|&(index, generation), _| alive(RigidBodyHandle::from_raw_parts(index, generation)));
+    }
+
+    /// All fragments, in the order of their handles.
+    pub(crate) fn fragments(&self) -> impl Iterator<Item = RigidBodyHandle> {
+        self.births.keys().map(|&(index, generation)| RigidBodyHandle::from_raw_parts(index, generation))
+    }
+
+    /// Birth of two bodies of one parent.
+    fn common_birth(&self, a: RigidBodyHandle, b: RigidBodyHandle) -> Option<Birth> {
+        let (a, b) = (self.births.get(&key(a))?, self.births.get(&key(b))?);
+        (a.parent == b.parent).then_some(*a)
+    }
+}
+
+impl PhysicsHooks for Siblings {
+    fn modify_solver_contacts(&self, context: &mut ContactModificationContext<'_>) {
+        let (Some(a), Some(b)) = (context.rigid_body1, context.rigid_body2) else { return };
+        let Some(birth) = self.common_birth(a, b) else { return };
+        let Some(rigid) = context.rigid_mut() else { return };
+        if self.step < birth.step + NEWBORN_STEPS {
+            // The blow reaches a piece through its siblings, many contacts at once; Newton's restitution applied to
+            // each of them can gain energy.
+            *rigid.restitution = 0.0;
+        }
+        for contact in rigid.solver_contacts.iter_mut() {
+            contact.dist = contact.dist.max(-self.relaxation);
+        }
+    }
+}

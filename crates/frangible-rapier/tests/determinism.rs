@@ -1,0 +1,42 @@
+//! Two runs give the same bits.
+
+mod common;
+
+use common::{at, body, box_asset, slicer, world};
+use frangible::glam::Vec3;
+use frangible_rapier::rapier3d::math::{Pose, Vector};
+use frangible_rapier::{Ball, SurfaceProperties};
+
+const HALF: Vec3 = Vec3::new(0.1, 0.004, 0.1);
+
+fn run() -> (Vec<[u32; 13]>, usize) {
+    let mut world = world(true);
+    world.insert_fixed_box(Vector::new(1.0, 0.01, 1.0), at(0.0, -0.01, 0.0), SurfaceProperties::STONE).unwrap();
+    let asset = box_asset(HALF, [3, 1, 3]);
+    for i in 0..4 {
+        let pose = Pose::new(Vector::new(0.01 * i as f32, 0.1 + 0.08 * i as f32, 0.0), Vector::new(0.2, 0.1, 0.3));
+        world.insert_breakable(body(&asset), pose, Vector::ZERO, Vector::ZERO).unwrap();
+    }
+    let ball = Ball { mass: 0.2, radius: 0.02 };
+    world.insert_ball(ball, SurfaceProperties::STEEL, at(0.0, 0.6, 0.0), Vector::new(0.0, -12.0, 0.0)).unwrap();
+    world.set_break_function(slicer(HALF, [4, 1, 4], 0.001, 0.02));
+    let mut breaks = 0;
+    for _ in 0..300 {
+        breaks += world.step().unwrap().len();
+    }
+    let bits = world.physics.bodies.iter().map(|(_, b)| {
+        let (p, v, w) = (b.position(), b.linvel(), b.angvel());
+        let [px, py, pz] = p.translation.to_array();
+        let [qx, qy, qz, qw] = p.rotation.to_array();
+        let all = [px, py, pz, qx, qy, qz, qw, v.x, v.y, v.z, w.x, w.y, w.z];
+        all.map(f32::to_bits)
+    });
+    (bits.collect(), breaks)
+}
+
+#[test]
+fn two_runs_give_the_same_bits() {
+    let (first, breaks) = run();
+    assert_eq!(breaks, 4, "all panes break");
+    assert_eq!((first, breaks), run());
+}

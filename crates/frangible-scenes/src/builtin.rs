@@ -1,0 +1,132 @@
+//! The built-in scenes.
+
+use std::f32::consts::FRAC_PI_2;
+
+use frangible::glam::{Quat, Vec3};
+use frangible::{FractureConfig, Material, nearest_name};
+use frangible_bake::Shape;
+
+use crate::error::SceneError;
+use crate::scene::{Action, BallThrow, Scene};
+
+/// Names of the built-in scenes; the first is the default.
+pub const SCENE_NAMES: [&str; 7] = ["glass", "pane", "plate", "bowl", "vase", "brick", "chocolate"];
+
+/// A built-in scene by name.
+///
+/// # Errors
+/// An unknown name, with the one that was probably meant.
+pub fn scene(name: &str) -> Result<Scene, SceneError> {
+    // Shapes of revolution are baked with their axis along z; y is up here.
+    let upright = Quat::from_rotation_x(-FRAC_PI_2);
+    let tilted = |degrees: f32| Quat::from_rotation_z(degrees.to_radians()) * upright;
+    let drop = |height: f64| Action::Drop { height };
+    match name {
+        "glass" => build(
+            "glass",
+            "a drinking glass dropped on a stone floor",
+            Shape::drinking_glass(),
+            "glass",
+            120,
+            tilted(35.0),
+            drop(1.0),
+        ),
+        "pane" => build(
+            "pane",
+            "a window pane hit in its middle by a steel ball",
+            Shape::Box { size: [0.4, 0.4, 0.004] },
+            "glass",
+            150,
+            Quat::IDENTITY,
+            Action::Ball(BallThrow {
+                mass: 0.13,
+                radius: 0.0158,
+                speed: 12.0,
+                material: "steel".into(),
+                at: Vec3::ZERO,
+                toward: Vec3::NEG_Z,
+            }),
+        ),
+        "plate" => build(
+            "plate",
+            "a porcelain dinner plate dropped on its edge",
+            Shape::dinner_plate(),
+            "porcelain",
+            120,
+            tilted(75.0),
+            drop(1.0),
+        ),
+        "bowl" => build(
+            "bowl",
+            "a porcelain bowl dropped on its rim",
+            Shape::bowl(),
+            "porcelain",
+            120,
+            tilted(130.0),
+            drop(1.0),
+        ),
+        "vase" => build(
+            "vase",
+            "a porcelain vase knocked over by a wooden ball",
+            Shape::vase(),
+            "porcelain",
+            120,
+            upright,
+            Action::Ball(BallThrow {
+                mass: 0.5,
+                radius: 0.056,
+                speed: 6.0,
+                material: "wood".into(),
+                at: Vec3::ZERO,
+                toward: Vec3::NEG_X,
+            }),
+        ),
+        "brick" => build(
+            "brick",
+            "a brick dropped on its corner",
+            Shape::Box { size: [0.21, 0.1, 0.05] },
+            "brick",
+            80,
+            Quat::from_rotation_z(0.6) * Quat::from_rotation_x(0.5),
+            drop(2.0),
+        ),
+        "chocolate" => build(
+            "chocolate",
+            "a bar of chocolate dropped on a stone floor",
+            Shape::Box { size: [0.16, 0.08, 0.009] },
+            "chocolate",
+            80,
+            Quat::from_rotation_z(0.3) * Quat::from_rotation_x(-1.2),
+            drop(1.5),
+        ),
+        _ => {
+            let hint = nearest_name(name, SCENE_NAMES).map_or(String::new(), |n| format!(", did you mean `{n}`?"));
+            Err(SceneError::UnknownScene { name: name.into(), hint, known: SCENE_NAMES.join(", ") })
+        }
+    }
+}
+
+fn build(
+    name: &str,
+    summary: &str,
+    shape: Shape,
+    material: &str,
+    modes: usize,
+    rotation: Quat,
+    action: Action,
+) -> Result<Scene, SceneError> {
+    Ok(Scene {
+        name: name.into(),
+        summary: summary.into(),
+        shape,
+        material: Material::preset(material)?,
+        modes,
+        rotation,
+        action,
+        floor: "stone".into(),
+        seed: 1,
+        fracture: FractureConfig::default(),
+        duration: 5.0,
+        look_from: Vec3::new(0.55, 0.5, 1.0),
+    })
+}

@@ -1,0 +1,163 @@
+//! What a bake produces and the run time needs: one immutable value per kind of object.
+
+use glam::Vec3;
+
+use crate::error::InputError;
+use crate::material::Material;
+use crate::mesh::{MassProperties, TetMesh};
+use crate::modal::ModalBasis;
+
+/// Everything the run time needs of one kind of object. Share it (`Arc`) among all bodies of that kind.
+///
+/// All positions are in the **body frame**: metres, origin at the centre of mass.
+#[derive(Clone, Debug)]
+pub struct Asset {
+    /// Name shown in reports.
+    pub name: String,
+    /// What the modes were computed for.
+    pub material: Material,
+    /// Fine linear tetrahedra that carry cracks and fragments.
+    pub fracture: TetMesh,
+    /// Outer faces of the fracture mesh with their smooth normals.
+    pub surface: OuterSurface,
+    /// Coarse quadratic tetrahedra that carry the modes.
+    pub analysis: AnalysisMesh,
+    /// Where the fracture mesh lies in the analysis mesh.
+    pub embedding: Embedding,
+    /// Frequencies, shapes and stress bounds of the vibration modes.
+    pub modes: ModalBasis,
+    /// Mass, centre (the origin) and inertia of the whole body, kg, m, kg·m².
+    pub mass: MassProperties,
+    /// Convex cells that cover the body: the collider of the whole, shared out among fragments.
+    pub cells: Vec<ConvexCell>,
+    /// Convex cell of each fracture tetrahedron: one index into [`Asset::cells`] per tetrahedron.
+    pub cell_of_tet: Vec<u32>,
+}
+
+/// Outer boundary of the fracture mesh, oriented outwards.
+#[derive(Clone, Debug, Default)]
+pub struct OuterSurface {
+    /// Node indices of each triangle, counter-clockwise seen from outside.
+    pub triangles: Vec<[u32; 3]>,
+    /// Tetrahedron behind each triangle.
+    pub tets: Vec<u32>,
+    /// Unit normals at the three corners: smooth, but for sharp edges.
+    pub normals: Vec<[Vec3; 3]>,
+    /// Radius of curvature where a contact touches this triangle, m; infinite where flat.
+    pub curvature_radius: Vec<f32>,
+}
+
+/// Quadratic tetrahedra with straight edges: four corners, then mid-edge nodes in the order
+/// 01, 12, 02, 03, 13, 23.
+#[derive(Clone, Debug, Default)]
+pub struct AnalysisMesh {
+    /// Node positions, m.
+    pub nodes: Vec<Vec3>,
+    /// Ten node indices per element.
+    pub elements: Vec<[u32; 10]>,
+    /// Gradients of the four barycentric coordinates of each element, 1/m.
+    pub barycentric_gradients: Vec<[Vec3; 4]>,
+}
+
+/// A point of the body as seen by the analysis mesh.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EmbeddedPoint {
+    /// Analysis element that holds the point (the nearest one, for a point just outside).
+    pub element: u32,
+    /// Barycentric coordinates in it of the point, or of the closest point of the element.
+    pub barycentric: [f32; 4],
+    /// From that closest point to the point, m; zero for a point inside.
+    pub offset: Vec3,
+}
+
+/// Where the fracture mesh lies in the analysis mesh.
+#[derive(Clone, Debug, Default)]
+pub struct Embedding {
+    /// One per fracture tetrahedron: its centroid.
+    pub tets: Vec<EmbeddedPoint>,
+    /// One per fracture node.
+    pub nodes: Vec<EmbeddedPoint>,
+}
+
+/// A convex part of the body for collision.
+#[derive(Clone, Debug, Default)]
+pub struct ConvexCell {
+    /// Points whose convex hull is the part, m, body frame.
+    pub points: Vec<Vec3>,
+}
+
+impl Asset {
+    /// Checks that all arrays fit together and hold finite numbers.
+    ///
+    /// # Errors
+    /// [`InputError::Asset`] with the first array at fault.
+    pub fn validate(&self) -> Result<(), InputError> {
+        self.material.validate()?;
+        let fail = |problem: String| {
+            Err(InputError::Asset {
+                asset: self.name.clone(),
+                problem,
+            })
+        };
+        let (nodes, tets) = (self.fracture.positions.len(), self.fracture.tets.len());
+        if tets == 0 {
+            return fail("it has no tetrahedra".into());
+        }
+        if let Some(e) = self
+            .fracture
+            .tets
+            .iter()
+            .position(|t| t.iter().any(|&v| v as usize >= nodes))
+        {
+            return fail(format!(
+                "tetrahedron {e} names a node beyond the {nodes} there are"
+            ));
+        }
+        if let Some(v) = self.fracture.positions.iter().position(|p| !p.is_finite()) {
+            return fail(format!("the position of node {v} is not finite"));
+        }
+        if self.fracture.neighbours.len() != tets
+            || self.cell_of_tet.len() != tets
+            || self.embedding.tets.len() != tets
+        {
+            return fail(format!(
+                "{tets} tetrahedra, but {} neighbour rows, {} cell numbers, {} embedded centroids",
+                self.fracture.neighbours.len(),
+                self.cell_of_tet.len(),
+                self.embedding.tets.len()
+            ));
+        }
+        if self.embedding.nodes.len() != nodes {
+            return fail(format!(
+                "{nodes} nodes, but {} embedded nodes",
+                self.embedding.nodes.len()
+            ));
+        }
+        let elements = self.analysis.elements.len();
+        let mut points = self.embedding.tets.iter().chain(&self.embedding.nodes);
+        if points.any(|p| p.element as usize >= elements) {
+            return fail(format!(
+                "an embedded point names an analysis element beyond the {elements} there are"
+            ));
+        }
+        let rows = 3 * self.analysis.nodes.len();
+        let modes = self.modes.count();
+        if self.modes.shapes.len() != rows * modes {
+            return fail(format!(
+                "mode shapes hold {} numbers, not {rows} × {modes}",
+                self.modes.shapes.len()
+            ));
+        }
+        if self
+            .cell_of_tet
+            .iter()
+            .any(|&c| c as usize >= self.cells.len())
+        {
+            return fail(format!(
+                "a cell number lies beyond the {} cells",
+                self.cells.len()
+            ));
+        }
+        Ok(())
+    }
+}

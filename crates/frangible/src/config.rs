@@ -1,0 +1,94 @@
+//! Switches and numbers of the fracture model.
+
+/// How an impact is turned into cracks. `Default` is our model; [`FractureConfig::as_in_the_paper`] is the paper's.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct FractureConfig {
+    /// Contact duration model. Default: [`DurationModel::Hertz`].
+    pub duration: DurationModel,
+    /// Lengthen the contact until the body's vibration holds no more energy than the impact brought. Default: on.
+    pub admissible_duration: bool,
+    /// Samples per period of the highest mode that matters; 2 is Nyquist's limit, 0.5 is `[G12 Eq. 3]` as printed. Default 16.
+    pub samples_per_period: f64,
+    /// When cracks run. Default: [`CrackTiming::TimeResolved`].
+    pub timing: CrackTiming,
+    /// Where cracks run. Default: [`CrackPath::Steered`].
+    pub path: CrackPath,
+    /// Pieces smaller than this share of the body's volume stay with the neighbour they share most area with. Default 2e-5.
+    pub crumb_share: f64,
+}
+
+/// Contact duration models, theory in `contact/duration.rs`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum DurationModel {
+    /// Hertz' law for the two bodies, local curvatures and effective masses `[G12 Eq. 1]`.
+    Hertz,
+    /// The most excited mode in Hertz' law, with consistent dimensions `[G12 Eq. 2, corrected]`.
+    ModalHertz,
+    /// `[G12 Eq. 2]` as printed; `c` in m^(1/5) s^(2/5).
+    AsPrinted {
+        /// The constant c.
+        c: f64,
+    },
+}
+
+/// When cracks run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum CrackTiming {
+    /// A crack runs its whole length the moment it starts, and no crack feels another `[G12 §5]`; ends with the contact.
+    Instant,
+    /// Cracks run at a finite speed and unload the material around them.
+    TimeResolved {
+        /// Crack speed over the Rayleigh wave speed. Default 0.5.
+        speed: f64,
+        /// Reach κ of the release wave over the crack's extent; 0 turns release off. Default 1.
+        release_reach: f64,
+    },
+}
+
+/// Where cracks run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum CrackPath {
+    /// A plane with noise, fixed when the crack starts `[G12 Eq. 6-10]`.
+    Planar,
+    /// A plane that turns towards the largest tension as it goes.
+    Steered {
+        /// Length over which the crack turns fully towards the tension, m. Default 0.0067.
+        turning_length: f64,
+    },
+}
+
+impl Default for FractureConfig {
+    fn default() -> Self {
+        Self {
+            duration: DurationModel::Hertz,
+            admissible_duration: true,
+            samples_per_period: 16.0,
+            timing: CrackTiming::TimeResolved {
+                speed: 0.5,
+                release_reach: 1.0,
+            },
+            path: CrackPath::Steered {
+                turning_length: 0.0067,
+            },
+            crumb_share: 2e-5,
+        }
+    }
+}
+
+impl FractureConfig {
+    /// The paper's model: modal duration, instant planar cracks, no energy correction.
+    #[must_use]
+    pub fn as_in_the_paper() -> Self {
+        Self {
+            duration: DurationModel::ModalHertz,
+            admissible_duration: false,
+            timing: CrackTiming::Instant,
+            path: CrackPath::Planar,
+            ..Self::default()
+        }
+    }
+}

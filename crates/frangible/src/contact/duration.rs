@@ -1,0 +1,101 @@
+//! How long a contact lasts `[G12 §4.1]`.
+//!
+//! Hertz: two elastic spheres touch for `t_d = 2.868 (m*²/(E*² r* v))^(1/5)` `[G12 Eq. 1]`.
+//! `[G12 Eq. 2]` puts the most excited mode in its place, but as printed its dimensions do not agree;
+//! since m/(E r) is 1/ω² up to a constant, the modal form of Eq. 1 is `t_d = 2.868 (r/(λ² v))^(1/5)`.
+//!
+//! When is which right? A small hard striker on a large body: Hertz (the blow is over before the body's slow modes
+//! answer). A whole body that lands on a soft spot and lasts through its own swing: the modal form.
+
+use super::{Load, Touch};
+use crate::asset::Asset;
+use crate::config::DurationModel;
+
+/// Hertz' constant for the duration of the contact of two spheres.
+pub(super) const HERTZ: f64 = 2.868;
+
+/// Sharpest radius of a contact, m: edges and corners of real things are rounded or crumble to about this.
+pub(super) const SHARPEST_RADIUS: f64 = 3e-3;
+
+/// Slowest approach a duration is computed for, m/s; the fifth root makes its choice unimportant.
+const SLOWEST_APPROACH: f64 = 1e-3;
+
+/// `2.868 (m*²/(E*² r* v))^(1/5)`, s, from effective mass (kg), modulus (Pa), radius (m), approach speed (m/s) `[G12 Eq. 1]`.
+#[must_use]
+pub fn hertz_duration(mass: f64, modulus: f64, radius: f64, speed: f64) -> f64 {
+    HERTZ * (mass * mass / (modulus * modulus * radius * speed)).powf(0.2)
+}
+
+/// `2.868 (r/(λ² v))^(1/5)`, s: `[G12 Eq. 2]` with consistent dimensions.
+#[must_use]
+pub fn modal_hertz_duration(eigenvalue: f64, radius: f64, speed: f64) -> f64 {
+    HERTZ * (radius / (eigenvalue * eigenvalue * speed)).powf(0.2)
+}
+
+/// The mode that an impulse displaces most, `argmax |ξ_i|/√λ_i`, among those with a damping ratio below 0.9
+/// (just below critical damping Im ω → 0 would win every time) `[G12 §4.1]`.
+#[must_use]
+pub fn most_excited_mode(asset: &Asset, modal_shape: &[f64]) -> Option<usize> {
+    let amplitude = |i: usize| modal_shape[i].abs() / asset.modes.eigenvalues[i].sqrt();
+    (0..asset.modes.count())
+        .filter(|&i| {
+            asset.modes.damping(i, &asset.material) < 0.9 * 2.0 * asset.modes.eigenvalues[i].sqrt()
+        })
+        .max_by(|&i, &j| amplitude(i).total_cmp(&amplitude(j)).then(j.cmp(&i)))
+}
+
+/// Duration of the impact, s: the shortest of its contacts.
+#[must_use]
+pub fn contact_duration(asset: &Asset, load: &Load, model: DurationModel) -> f64 {
+    load.touches
+        .iter()
+        .map(|touch| touch_duration(asset, touch, model))
+        .fold(f64::INFINITY, f64::min)
+}
+
+fn touch_duration(asset: &Asset, touch: &Touch, model: DurationModel) -> f64 {
+    let hertz = touch_hertz(asset, touch);
+    let speed = f64::from(touch.contact.approach_speed).max(SLOWEST_APPROACH);
+    let Some(mode) = most_excited_mode(asset, &touch.modal_shape) else {
+        return hertz;
+    };
+    let eigenvalue = asset.modes.eigenvalues[mode];
+    match model {
+        DurationModel::Hertz => hertz,
+        DurationModel::ModalHertz => {
+            let ball = (asset.mass.volume * 0.75 / std::f64::consts::PI).cbrt();
+            let radius = touch.curvature_radius.clamp(SHARPEST_RADIUS, ball);
+            // The longer of the two bodies' durations: a rigid striker answers 0, an elastic one with Hertz.
+            let striker = if touch.contact.striker.contact_modulus.is_finite() {
+                hertz
+            } else {
+                0.0
+            };
+            modal_hertz_duration(eigenvalue, radius, speed).max(striker)
+        }
+        DurationModel::AsPrinted { c } => {
+            let damping = asset.modes.damping(mode, &asset.material);
+            let frequency = (eigenvalue - 0.25 * damping * damping).sqrt();
+            c * ((std::f64::consts::TAU / frequency).powi(2) / speed).powf(0.2)
+        }
+    }
+}
+
+fn touch_hertz(asset: &Asset, touch: &Touch) -> f64 {
+    let striker = &touch.contact.striker;
+    let mass = 1.0 / (touch.inverse_effective_mass + f64::from(striker.inverse_effective_mass));
+    let modulus =
+        1.0 / (1.0 / asset.material.contact_modulus() + 1.0 / f64::from(striker.contact_modulus));
+    let own = touch.curvature_radius.max(SHARPEST_RADIUS);
+    let other = f64::from(striker.curvature_radius).max(1e-4);
+    let curvature = 1.0 / own + 1.0 / other;
+    // Flat on flat has no Hertz contact; the ball of the body's volume stands in.
+    let ball = (asset.mass.volume * 0.75 / std::f64::consts::PI).cbrt();
+    let radius = if curvature > 0.0 {
+        (1.0 / curvature).min(ball)
+    } else {
+        ball
+    };
+    let speed = f64::from(touch.contact.approach_speed).max(SLOWEST_APPROACH);
+    hertz_duration(mass, modulus, radius, speed)
+}

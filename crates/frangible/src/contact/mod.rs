@@ -1,0 +1,13 @@
+//! From contacts to a force pulse `[G12 §4.1-4.3]`.
+
+mod admissible;
+mod duration;
+mod kinds;
+mod load;
+mod pulse;
+
+pub use admissible::{admissible_duration, approach_energy};
+pub use duration::{contact_duration, hertz_duration, modal_hertz_duration, most_excited_mode};
+pub use kinds::{Contact, Striker};
+pub use load::{Load, Touch, modal_load};
+pub use pulse::{Pulse, pulse};

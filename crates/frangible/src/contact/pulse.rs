@@ -1,0 +1,99 @@
+//! The force pulse and its time steps `[G12 Eq. 3-5]`.
+//!
+//! `f(t) = a sin(u t)` for 0 ≤ t ≤ t_d, u = π/t_d, ∫ f dt = φ, so a = φ u / 2.
+//! `[G12 Eq. 3]` prints Δt = 4π/Im ω_high, two whole periods; the sampling theorem it quotes gives half a period.
+//! Here Δt = period of ω_high / `samples_per_period`, with ω_high the highest mode whose share of the stress matters.
+
+use std::f64::consts::{PI, TAU};
+
+use super::Load;
+use crate::asset::Asset;
+use crate::config::{CrackTiming, FractureConfig};
+
+/// A half-sine of unit impulse and the steps at which the body is looked at.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pulse {
+    /// Duration t_d, s.
+    pub duration: f64,
+    /// Amplitude of the pulse of unit impulse, π/(2 t_d), 1/s. Times φ it is the peak force.
+    pub amplitude: f64,
+    /// Time step Δt, s: a whole number of them makes the contact.
+    pub time_step: f64,
+    /// Steps within the contact.
+    pub contact_steps: usize,
+    /// Steps until the end of the computation.
+    pub total_steps: usize,
+}
+
+impl Pulse {
+    /// u = π/t_d, rad/s.
+    #[must_use]
+    pub fn frequency(&self) -> f64 {
+        PI / self.duration
+    }
+}
+
+/// Fewest steps within a contact.
+const MIN_CONTACT_STEPS: f64 = 16.0;
+
+/// Most steps of one impact; a longer motion is cut there (the cut shows in the report's number of steps).
+const MAX_STEPS: usize = 20_000;
+
+/// Modes above ω_high together hold at most this share of the bounded stress.
+const NEGLECTED_SHARE: f64 = 0.02;
+
+/// Mode i is significantly excited when |ξ_i|/√λ_i reaches this share of the largest.
+const SIGNIFICANT: f64 = 0.05;
+
+/// Periods of the lowest significantly excited mode that are looked at.
+const PERIODS: f64 = 1.5;
+
+/// Shapes the pulse and chooses its steps.
+#[must_use]
+pub fn pulse(asset: &Asset, load: &Load, duration: f64, config: &FractureConfig) -> Pulse {
+    let basis = &asset.modes;
+    let u = PI / duration;
+    // |q_i(t)| ≤ |ξ_i| min(1/√λ_i, 1.77 a/λ_i) for all t: 1.77 is the half-sine's largest response factor.
+    let amplitude = |i: usize| {
+        let lambda = basis.eigenvalues[i];
+        load.modal_impulse[i].abs() * (1.0 / lambda.sqrt()).min(1.77 * 0.5 * u / lambda)
+    };
+    let stress: Vec<f64> = (0..basis.count())
+        .map(|i| amplitude(i) * f64::from(basis.peak_stress[i]))
+        .collect();
+    let total: f64 = stress.iter().sum();
+    let mut neglected = 0.0;
+    let mut high = 0;
+    for i in (0..basis.count()).rev() {
+        neglected += stress[i];
+        if neglected > NEGLECTED_SHARE * total {
+            high = i;
+            break;
+        }
+    }
+    let period = TAU / basis.eigenvalues[high].sqrt();
+    let contact_steps = (duration * config.samples_per_period / period)
+        .ceil()
+        .max(MIN_CONTACT_STEPS);
+    let time_step = duration / contact_steps;
+    let largest = (0..basis.count()).map(amplitude).fold(0.0, f64::max);
+    let low = (0..basis.count())
+        .find(|&i| amplitude(i) >= SIGNIFICANT * largest)
+        .unwrap_or(0);
+    let end = match config.timing {
+        CrackTiming::Instant => duration,
+        CrackTiming::TimeResolved { .. } => {
+            duration.max(PERIODS * TAU / basis.eigenvalues[low].sqrt())
+        }
+    };
+    let contact_steps = contact_steps as usize;
+    let total_steps =
+        ((end / time_step).ceil() as usize).clamp(contact_steps, MAX_STEPS.max(contact_steps));
+    Pulse {
+        duration,
+        amplitude: u / 2.0,
+        time_step,
+        contact_steps,
+        total_steps,
+    }
+}

@@ -1,0 +1,117 @@
+//! Cracks start `[G12 §4.4]`: at a weak tetrahedron whose largest principal tension passes R_c (Rankine), at its
+//! centre, across the direction of that tension.
+//!
+//! Order within a time step: falling stress, then element number.
+
+use std::collections::HashMap;
+
+use glam::Vec3;
+
+use super::field::StressField;
+use super::release::released;
+use super::surface::{CrackFrame, crossing_area};
+use super::system::{Crack, CrackSystem, ElementCut, UNCUT};
+use super::{advance, propagation::gradient};
+use crate::config::CrackTiming;
+use crate::rng::{Purpose, stream, uniform};
+use crate::stress::{Symmetric3, largest_eigenvalue, principal_axes};
+
+/// Below this relative gap of the two largest tensions the direction between them is rounding noise.
+const ISOTROPIC: f64 = 1e-3;
+
+/// Starts every crack of this step; returns the largest principal tension met at a weak point, Pa.
+pub(crate) fn start_cracks(
+    system: &mut CrackSystem,
+    field: &StressField,
+    weak_tets: &[u32],
+    now: f64,
+) -> f32 {
+    let strength = system.asset.material.strength as f32;
+    let mut candidates = Vec::new();
+    let mut peak = 0.0_f32;
+    for &e in weak_tets {
+        if system.fractured_by[e as usize] != UNCUT {
+            continue;
+        }
+        let tension = largest_eigenvalue(&field.at(e as usize).stress);
+        peak = peak.max(tension);
+        if tension > strength {
+            candidates.push((tension, e));
+        }
+    }
+    candidates.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+    for (_, e) in candidates {
+        if system.fractured_by[e as usize] == UNCUT {
+            try_start(system, field, e, now);
+        }
+    }
+    peak
+}
+
+fn try_start(system: &mut CrackSystem, field: &StressField, e: u32, now: f64) {
+    let asset = system.asset;
+    let material = &asset.material;
+    let centre = asset.fracture.centroid(e as usize);
+    let state = field.at(e as usize);
+    let stress = released(system, state.stress, centre, now);
+    if f64::from(largest_eigenvalue(&stress)) <= material.strength {
+        return;
+    }
+    // e₀ must pay for its own area: A γ η > A G_c.
+    if material.energy_depth * f64::from(state.energy_density) <= material.fracture_energy {
+        return;
+    }
+    let normal = opening_direction(&stress, system.seed, e);
+    let frame = CrackFrame::new(
+        centre,
+        normal,
+        material.roughness_amplitude,
+        material.roughness_wavelength,
+        system.seed,
+        e,
+    );
+    let x = asset.fracture.corners(e as usize);
+    let values = x.map(|p| frame.planar(p));
+    let area = crossing_area(&x, &values);
+    if area <= 0.0 {
+        return;
+    }
+    let id = system.cracks.len() as u32;
+    system.cracks.push(Crack {
+        frame,
+        values: HashMap::new(),
+        elements: Vec::new(),
+        spent: 0.0,
+        available: 0.0,
+        area: 0.0,
+        extent: 0.0,
+        junctions: Vec::new(),
+    });
+    let direction = gradient(&x, &values).unwrap_or(normal);
+    system.fracture(
+        id,
+        ElementCut {
+            tet: e,
+            values,
+            direction,
+            time: now,
+        },
+        area,
+        state.energy_density,
+    );
+    if system.config.timing == CrackTiming::Instant {
+        advance(system, field, now, f64::INFINITY);
+        // An instant crack that ran out of energy is over.
+        system.stalled.clear();
+    }
+}
+
+/// Direction of the largest tension; where the two largest are equal, a seeded direction in their plane.
+fn opening_direction(stress: &Symmetric3, seed: u64, e: u32) -> Vec3 {
+    let (sigma, axes) = principal_axes(stress);
+    if sigma[0] - sigma[1] >= ISOTROPIC * sigma[0] {
+        return axes[0].as_vec3();
+    }
+    let angle = uniform(&mut stream(seed, Purpose::CrackDirection, e)) * std::f64::consts::PI;
+    (axes[0] * angle.cos() + axes[1] * angle.sin()).as_vec3()
+}

@@ -1,0 +1,14 @@
+//! Cracks: where they start, how they run, when they stop `[G12 §4.4, §5]`.
+
+mod field;
+mod initiation;
+mod propagation;
+mod release;
+mod surface;
+mod system;
+
+pub(crate) use field::StressField;
+pub(crate) use initiation::start_cracks;
+pub(crate) use propagation::advance;
+pub(crate) use surface::crossing_polygon;
+pub(crate) use system::{Crack, CrackSystem, ElementCut, UNCUT};

@@ -1,0 +1,185 @@
+//! Cracks run `[G12 §5.2, Algorithm 2]`.
+//!
+//! A crack passes from a fractured tetrahedron to its face neighbour n when the shared face's nodes have both signs
+//! of s, n is not fractured, and `E_f + A_n G_c < E_s + A_n γ η_n` (the test of the text; the printed Algorithm 2
+//! leaves the candidate out).
+//!
+//! Beyond the paper, each a switch:
+//! - *finite speed*: fronts arrive along the crack's own path at a share of the Rayleigh speed; a front that lacks
+//!   energy waits and is tried again with the stress of the next step, so cracks follow the wave outwards;
+//! - *steering*: s is kept at the nodes. The fourth node of n gets the mean over the three shared ones of
+//!   `s_i + (x_v − x_i)·d − A (N(x_v) − N(x_i))`, d the crack's direction turned towards the largest tension at n.
+//!   The turn is gated by tension: on the compressed side of a bent wall the largest principal direction points
+//!   across it, and an ungated crack would peel the wall along its middle.
+
+use glam::Vec3;
+
+use super::field::StressField;
+use super::surface::crossing_area;
+use super::system::{CrackSystem, ElementCut, Front, Junction, UNCUT};
+use crate::config::CrackPath;
+use crate::stress::{StressState, principal_axes};
+
+/// Share of R_c below which tension does not steer.
+const STEERING_GATE: f64 = 0.3;
+
+/// A known value this far (in mean edges) from its prediction means that the crack has met itself …
+const SELF_MEETING: f32 = 0.5;
+
+/// … and this far if the sign differs too; less is the surface's own curvature.
+const SELF_MEETING_SIGN: f32 = 0.15;
+
+/// Runs all fronts that arrive by `now`; `since` is the previous step's time, from which stalled fronts go on, s.
+pub(crate) fn advance(system: &mut CrackSystem, field: &StressField, since: f64, now: f64) {
+    for front in std::mem::take(&mut system.stalled) {
+        system.fronts.push(Front {
+            arrival: front.arrival.max(since),
+            ..front
+        });
+    }
+    while let Some(front) = system.fronts.peek().copied() {
+        if front.arrival > now {
+            break;
+        }
+        system.fronts.pop();
+        enter(system, field, front);
+    }
+}
+
+fn enter(system: &mut CrackSystem, field: &StressField, front: Front) {
+    let n = front.tet as usize;
+    if system.fractured_by[n] == front.crack {
+        return;
+    }
+    let mesh = &system.asset.fracture;
+    let crack = &system.cracks[front.crack as usize];
+    let from = crack.elements[front.from as usize];
+    let from_nodes = mesh.tets[from.tet as usize];
+    let nodes = mesh.tets[n];
+    // Values of the shared face are those of the tetrahedron the front comes from.
+    let mut values = [0.0_f32; 4];
+    let (mut below, mut above, mut fourth) = (false, false, 0);
+    for (k, node) in nodes.iter().enumerate() {
+        if let Some(i) = from_nodes.iter().position(|v| v == node) {
+            values[k] = from.values[i];
+            below |= values[k] < 0.0;
+            above |= values[k] >= 0.0;
+        } else {
+            fourth = k;
+        }
+    }
+    if !(below && above) {
+        return;
+    }
+    if system.fractured_by[n] != UNCUT {
+        system.cracks[front.crack as usize]
+            .junctions
+            .push(Junction {
+                from: front.from,
+                own: false,
+            });
+        return;
+    }
+    let state = field.at(n);
+    let x = mesh.corners(n);
+    let direction = match system.config.path {
+        CrackPath::Planar => {
+            values[fourth] = crack.frame.planar(x[fourth]);
+            crack.frame.normal
+        }
+        CrackPath::Steered { turning_length } => {
+            let length = mesh.centroid(n).distance(mesh.centroid(from.tet as usize));
+            let toward = steered(
+                from.direction,
+                &state,
+                system.asset.material.strength,
+                f64::from(length),
+                turning_length,
+            );
+            let predicted = extrapolated(crack, &x, &values, fourth, toward);
+            match crack.values.get(&nodes[fourth]) {
+                None => values[fourth] = predicted,
+                Some(&known) => {
+                    let difference = (known - predicted).abs();
+                    let opposite = (known < 0.0) != (predicted < 0.0);
+                    if difference > SELF_MEETING * system.edge
+                        || (opposite && difference > SELF_MEETING_SIGN * system.edge)
+                    {
+                        let junction = Junction {
+                            from: front.from,
+                            own: true,
+                        };
+                        system.cracks[front.crack as usize].junctions.push(junction);
+                        return;
+                    }
+                    values[fourth] = known;
+                }
+            }
+            gradient(&x, &values).unwrap_or(toward)
+        }
+    };
+    let area = crossing_area(&x, &values);
+    let material = &system.asset.material;
+    let cost = f64::from(area) * material.fracture_energy;
+    let gain = f64::from(area) * material.energy_depth * f64::from(state.energy_density);
+    if crack.spent + cost < crack.available + gain {
+        let cut = ElementCut {
+            tet: front.tet,
+            values,
+            direction,
+            time: front.arrival,
+        };
+        system.fracture(front.crack, cut, area, state.energy_density);
+    } else {
+        system.stalled.push(front);
+    }
+}
+
+/// The crack's direction, turned towards the largest tension over a length of path.
+fn steered(
+    direction: Vec3,
+    state: &StressState,
+    strength: f64,
+    length: f64,
+    turning_length: f64,
+) -> Vec3 {
+    let (sigma, axes) = principal_axes(&state.stress);
+    if sigma[0] <= 0.0 {
+        return direction;
+    }
+    let uniaxial = ((sigma[0] - sigma[1].max(0.0)) / sigma[0]).clamp(0.0, 1.0);
+    let gate = (sigma[0] / strength - STEERING_GATE).clamp(0.0, 1.0);
+    let weight = (-(-length / turning_length).exp_m1() * uniaxial * gate) as f32;
+    let tension = axes[0].as_vec3();
+    let tension = if tension.dot(direction) < 0.0 {
+        -tension
+    } else {
+        tension
+    };
+    (direction * (1.0 - weight) + tension * weight).normalize_or(direction)
+}
+
+/// s at the fourth node: mean of the extrapolations from the three known ones.
+fn extrapolated(
+    crack: &super::Crack,
+    x: &[Vec3; 4],
+    values: &[f32; 4],
+    fourth: usize,
+    direction: Vec3,
+) -> f32 {
+    let rough = crack.frame.roughness(x[fourth]);
+    let sum: f32 = (0..4)
+        .filter(|&i| i != fourth)
+        .map(|i| {
+            values[i] + (x[fourth] - x[i]).dot(direction) - (rough - crack.frame.roughness(x[i]))
+        })
+        .sum();
+    sum / 3.0
+}
+
+/// Unit ∇s of the linear s in a tetrahedron; `None` where s does not vary.
+pub(crate) fn gradient(x: &[Vec3; 4], s: &[f32; 4]) -> Option<Vec3> {
+    let edges = glam::Mat3::from_cols(x[1] - x[0], x[2] - x[0], x[3] - x[0]);
+    let differences = Vec3::new(s[1] - s[0], s[2] - s[0], s[3] - s[0]);
+    (edges.transpose().inverse() * differences).try_normalize()
+}

@@ -1,0 +1,154 @@
+//! The partition of a body among arbitrary labels.
+
+use std::collections::HashMap;
+
+use glam::Vec3;
+use rand_chacha::rand_core::Rng;
+
+use super::build::build;
+use super::cuts::Cuts;
+use super::label::Labels;
+use crate::asset::{AnalysisMesh, Asset, ConvexCell, Embedding, OuterSurface};
+use crate::crack::CrackSystem;
+use crate::mesh::{EDGES, MassProperties, TetMesh};
+use crate::modal::ModalBasis;
+use crate::rng::{Purpose, stream, uniform};
+use crate::{FractureConfig, Material};
+
+/// A block of n³ jittered cubes, six tetrahedra each, without modes.
+fn block(n: usize) -> Asset {
+    let mut rng = stream(7, Purpose::WeakPoints, 0);
+    let index = |i: usize, j: usize, k: usize| ((i * (n + 1) + j) * (n + 1) + k) as u32;
+    let mut positions = Vec::new();
+    for i in 0..=n {
+        for j in 0..=n {
+            for k in 0..=n {
+                let mut jitter = |at: usize| {
+                    let inside = at > 0 && at < n;
+                    at as f32
+                        + if inside {
+                            0.4 * (uniform(&mut rng) as f32 - 0.5)
+                        } else {
+                            0.0
+                        }
+                };
+                positions.push(Vec3::new(jitter(i), jitter(j), jitter(k)) * 0.01);
+            }
+        }
+    }
+    let mut tets = Vec::new();
+    for i in 0..n {
+        for j in 0..n {
+            for k in 0..n {
+                for path in [
+                    [0, 1, 2],
+                    [0, 2, 1],
+                    [1, 0, 2],
+                    [1, 2, 0],
+                    [2, 0, 1],
+                    [2, 1, 0],
+                ] {
+                    let mut c = [i, j, k];
+                    let mut tet = vec![index(c[0], c[1], c[2])];
+                    for axis in path {
+                        c[axis] += 1;
+                        tet.push(index(c[0], c[1], c[2]));
+                    }
+                    let mut tet: [u32; 4] = [tet[0], tet[1], tet[2], tet[3]];
+                    let x = tet.map(|v| positions[v as usize]);
+                    if (x[1] - x[0]).cross(x[2] - x[0]).dot(x[3] - x[0]) < 0.0 {
+                        tet.swap(2, 3);
+                    }
+                    tets.push(tet);
+                }
+            }
+        }
+    }
+    let fracture = TetMesh::new(positions, tets);
+    let boundary = fracture.boundary();
+    let surface = OuterSurface {
+        normals: vec![[Vec3::Y; 3]; boundary.len()],
+        curvature_radius: vec![f32::INFINITY; boundary.len()],
+        tets: boundary.iter().map(|b| b.1).collect(),
+        triangles: boundary.into_iter().map(|b| b.0).collect(),
+    };
+    let mass = MassProperties::of_tetrahedra(
+        1.0,
+        (0..fracture.tets.len()).map(|e| fracture.corners(e).map(Vec3::as_dvec3)),
+    );
+    Asset {
+        name: "block".into(),
+        material: Material::preset("glass").unwrap(),
+        cell_of_tet: vec![0; fracture.tets.len()],
+        fracture,
+        surface,
+        analysis: AnalysisMesh::default(),
+        embedding: Embedding::default(),
+        modes: ModalBasis::default(),
+        mass,
+        cells: vec![ConvexCell::default()],
+    }
+}
+
+#[test]
+fn fragments_of_arbitrary_labels_tile_the_body_and_are_closed() {
+    let asset = block(6);
+    let nodes = asset.fracture.positions.len();
+    let config = FractureConfig::default();
+    let system = CrackSystem::new(&asset, &config, 1);
+    for (round, count) in [2_u32, 3, 4, 9].into_iter().enumerate() {
+        let mut rng = stream(round as u64, Purpose::CrackDirection, count);
+        // Any labels at all, so that every case of two, three and four labels occurs many times.
+        let of_node: Vec<u32> = (0..nodes).map(|_| rng.next_u32() % count).collect();
+        let mut cuts = Cuts::none(nodes);
+        for tet in &asset.fracture.tets {
+            for [i, j] in EDGES {
+                if of_node[tet[i] as usize] != of_node[tet[j] as usize] {
+                    let at = 0.1 + 0.8 * uniform(&mut rng) as f32;
+                    cuts.cut(tet[i], tet[j], -at, 1.0 - at, 0);
+                }
+            }
+        }
+        let labels = Labels {
+            of_node,
+            count: count as usize,
+            cuts,
+        };
+        let fragments = build(&system, &labels);
+        assert_eq!(fragments.len(), count as usize);
+        let volume: f64 = fragments.iter().map(|f| f.mass.volume).sum();
+        let whole = asset.fracture.total_volume();
+        assert!(
+            (volume / whole - 1.0).abs() < 1e-9,
+            "{count} labels: {volume} of {whole}"
+        );
+        let emitted: f64 = fragments.iter().map(|f| f.mesh.volume()).sum();
+        assert!(
+            (emitted / whole - 1.0).abs() < 1e-6,
+            "{count} labels, f32: {emitted} of {whole}"
+        );
+        for fragment in &fragments {
+            assert!(fragment.mass.volume > 0.0);
+            assert!(
+                balanced(&fragment.mesh.triangles),
+                "{count} labels: an open surface"
+            );
+            assert!(fragment.mesh.normals.len() == fragment.mesh.triangles.len());
+        }
+        let first: glam::DVec3 = fragments.iter().map(|f| f.mass.centre * f.mass.mass).sum();
+        let density = asset.material.density;
+        assert!((first / (whole * density) - asset.mass.centre).length() < 1e-12);
+    }
+}
+
+/// Every directed edge occurs as often as its opposite. (Random labels make pieces that touch themselves along
+/// an edge; pieces from cracks are tested for more in the invariants of whole breaks.)
+fn balanced(triangles: &[[u32; 3]]) -> bool {
+    let mut count: HashMap<(u32, u32), i32> = HashMap::new();
+    for &[a, b, c] in triangles {
+        for (p, q) in [(a, b), (b, c), (c, a)] {
+            *count.entry((p.min(q), p.max(q))).or_default() += if p < q { 1 } else { -1 };
+        }
+    }
+    count.values().all(|&n| n == 0)
+}

@@ -1,0 +1,97 @@
+//! What a body is made of: elasticity, damping, strength, toughness.
+
+use crate::error::{InputError, positive};
+
+/// Material of a breakable body. SI units.
+///
+/// Presets with their sources are in [`Material::presets`]; every number may be changed.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Material {
+    /// Name shown in reports.
+    pub name: String,
+    /// Young's modulus E, Pa.
+    pub youngs_modulus: f64,
+    /// Poisson's ratio ν, in (−1, 0.5).
+    pub poisson_ratio: f64,
+    /// Density ρ, kg/m³.
+    pub density: f64,
+    /// Rayleigh damping α, s: multiplies the **stiffness**, kills high frequencies `[G12 Table 1]`.
+    pub stiffness_damping: f64,
+    /// Rayleigh damping β, 1/s: multiplies the **mass** `[G12 Table 1]`.
+    pub mass_damping: f64,
+    /// Tensile strength R_c, Pa: the principal tension that starts a crack at a weak point `[G12 §4.4]`.
+    pub strength: f64,
+    /// Fracture energy G_c, J/m²: cost of crack area `[G12 Eq. 11]`.
+    pub fracture_energy: f64,
+    /// Depth γ of the material whose strain energy feeds a crack's surface, m `[G12 Eq. 12]`.
+    pub energy_depth: f64,
+    /// Weak points per m³; raising it lets more cracks start.
+    pub weak_point_density: f64,
+    /// Amplitude of the roughness of crack surfaces, m.
+    pub roughness_amplitude: f64,
+    /// Wavelength of the roughness of crack surfaces, m.
+    pub roughness_wavelength: f64,
+    /// Coefficient of restitution of the material against a hard surface, 0..=1.
+    pub restitution: f64,
+    /// Coulomb friction coefficient.
+    pub friction: f64,
+}
+
+impl Material {
+    /// Checks every number, naming the one at fault.
+    ///
+    /// # Errors
+    /// The first field that is not finite or out of its range.
+    pub fn validate(&self) -> Result<(), InputError> {
+        positive("Young's modulus", self.youngs_modulus, "Pa")?;
+        positive("density", self.density, "kg/m³")?;
+        positive("tensile strength", self.strength, "Pa")?;
+        positive("fracture energy", self.fracture_energy, "J/m²")?;
+        positive("energy depth", self.energy_depth, "m")?;
+        positive("roughness wavelength", self.roughness_wavelength, "m")?;
+        positive("weak point density", self.weak_point_density, "1/m³")?;
+        for (what, value) in [
+            ("stiffness damping", self.stiffness_damping),
+            ("mass damping", self.mass_damping),
+            ("roughness amplitude", self.roughness_amplitude),
+            ("friction", self.friction),
+        ] {
+            if !(value.is_finite() && value >= 0.0) {
+                return Err(InputError::Negative { what, value });
+            }
+        }
+        if !(self.poisson_ratio > -1.0 && self.poisson_ratio < 0.5) {
+            return Err(InputError::PoissonRatio(self.poisson_ratio));
+        }
+        if !(0.0..=1.0).contains(&self.restitution) {
+            return Err(InputError::Restitution(self.restitution));
+        }
+        Ok(())
+    }
+
+    /// Lamé's first parameter λ, Pa.
+    #[must_use]
+    pub fn lame_lambda(&self) -> f64 {
+        let nu = self.poisson_ratio;
+        self.youngs_modulus * nu / ((1.0 + nu) * (1.0 - 2.0 * nu))
+    }
+
+    /// Shear modulus μ (Lamé's second parameter), Pa.
+    #[must_use]
+    pub fn shear_modulus(&self) -> f64 {
+        self.youngs_modulus / (2.0 * (1.0 + self.poisson_ratio))
+    }
+
+    /// Rayleigh wave speed c_R ≈ 0.92 √(μ/ρ), m/s.
+    #[must_use]
+    pub fn rayleigh_speed(&self) -> f64 {
+        0.92 * (self.shear_modulus() / self.density).sqrt()
+    }
+
+    /// Plane-strain modulus E/(1−ν²), Pa: what a Hertz contact feels.
+    #[must_use]
+    pub fn contact_modulus(&self) -> f64 {
+        self.youngs_modulus / (1.0 - self.poisson_ratio * self.poisson_ratio)
+    }
+}

@@ -1,0 +1,50 @@
+//! Triangle surfaces of the pieces.
+
+use glam::Vec3;
+
+/// A closed, outward-oriented triangle surface of one piece, and the open cracks inside it.
+///
+/// Vertices are shared wherever the surface is connected, so that it is closed edge by edge;
+/// normals belong to triangle corners, since they jump at sharp edges.
+#[derive(Clone, Debug, Default)]
+pub struct TriMesh {
+    /// Vertex positions, m.
+    pub positions: Vec<Vec3>,
+    /// Vertices of each triangle, counter-clockwise seen from outside. The first
+    /// [`TriMesh::outer_triangles`] lie on the body's original surface, the rest on cracks.
+    pub triangles: Vec<[u32; 3]>,
+    /// Unit normals at the corners of each triangle.
+    pub normals: Vec<[Vec3; 3]>,
+    /// How many of the triangles, from the first, lie on the body's original surface.
+    pub outer_triangles: usize,
+    /// Cracks that entered the piece without parting it: loose two-sided triangles, m.
+    pub cracks: Vec<[Vec3; 3]>,
+}
+
+impl TriMesh {
+    /// True when every directed edge is matched by exactly one opposite edge.
+    #[must_use]
+    pub fn is_closed(&self) -> bool {
+        let mut edges: Vec<(u32, u32)> = self
+            .triangles
+            .iter()
+            .flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)])
+            .collect();
+        edges.sort_unstable();
+        let unique = edges.windows(2).all(|w| w[0] != w[1]);
+        unique
+            && edges
+                .iter()
+                .all(|&(a, b)| edges.binary_search(&(b, a)).is_ok())
+    }
+
+    /// Volume enclosed by the surface as stored, m³.
+    #[must_use]
+    pub fn volume(&self) -> f64 {
+        let p = |i: u32| self.positions[i as usize].as_dvec3();
+        self.triangles
+            .iter()
+            .map(|&[a, b, c]| p(a).dot(p(b).cross(p(c))) / 6.0)
+            .sum()
+    }
+}

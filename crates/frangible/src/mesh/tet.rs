@@ -1,0 +1,105 @@
+//! Linear tetrahedra with face adjacency.
+
+use std::collections::HashMap;
+
+use glam::{DVec3, Vec3};
+
+/// Marks a face on the outside in [`TetMesh::neighbours`].
+pub const NO_NEIGHBOUR: u32 = u32::MAX;
+
+/// A tetrahedral mesh, every tetrahedron of positive volume.
+#[derive(Clone, Debug, Default)]
+pub struct TetMesh {
+    /// Node positions, m.
+    pub positions: Vec<Vec3>,
+    /// Node indices of each tetrahedron, right-handed: det(x1−x0, x2−x0, x3−x0) > 0.
+    pub tets: Vec<[u32; 4]>,
+    /// Neighbour across the face opposite each of the four nodes, or [`NO_NEIGHBOUR`].
+    pub neighbours: Vec<[u32; 4]>,
+}
+
+/// Local nodes of the face opposite node `k`, counter-clockwise seen from outside.
+pub(crate) const FACES: [[usize; 3]; 4] = [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]];
+
+/// Local end nodes of the six edges.
+pub(crate) const EDGES: [[usize; 2]; 6] = [[0, 1], [1, 2], [0, 2], [0, 3], [1, 3], [2, 3]];
+
+impl TetMesh {
+    /// Builds the face adjacency. Tetrahedra must be right-handed and share whole faces.
+    #[must_use]
+    pub fn new(positions: Vec<Vec3>, tets: Vec<[u32; 4]>) -> Self {
+        let mut open: HashMap<[u32; 3], (u32, usize)> = HashMap::with_capacity(2 * tets.len());
+        let mut neighbours = vec![[NO_NEIGHBOUR; 4]; tets.len()];
+        for (e, tet) in tets.iter().enumerate() {
+            for (k, face) in FACES.iter().enumerate() {
+                let mut key = face.map(|i| tet[i]);
+                key.sort_unstable();
+                // Look-ups only: the order of the map never shows.
+                if let Some((other, other_face)) = open.remove(&key) {
+                    neighbours[e][k] = other;
+                    neighbours[other as usize][other_face] = e as u32;
+                } else {
+                    open.insert(key, (e as u32, k));
+                }
+            }
+        }
+        Self {
+            positions,
+            tets,
+            neighbours,
+        }
+    }
+
+    /// Corner positions of tetrahedron `e`, m.
+    #[must_use]
+    pub fn corners(&self, e: usize) -> [Vec3; 4] {
+        self.tets[e].map(|v| self.positions[v as usize])
+    }
+
+    /// Centroid of tetrahedron `e`, m.
+    #[must_use]
+    pub fn centroid(&self, e: usize) -> Vec3 {
+        self.corners(e).iter().sum::<Vec3>() * 0.25
+    }
+
+    /// Volume of tetrahedron `e`, m³.
+    #[must_use]
+    pub fn volume(&self, e: usize) -> f64 {
+        let [a, b, c, d]: [DVec3; 4] = self.corners(e).map(Vec3::as_dvec3);
+        (b - a).cross(c - a).dot(d - a) / 6.0
+    }
+
+    /// Sum of all volumes, m³.
+    #[must_use]
+    pub fn total_volume(&self) -> f64 {
+        (0..self.tets.len()).map(|e| self.volume(e)).sum()
+    }
+
+    /// Faces without a neighbour: node indices (counter-clockwise from outside) and the tetrahedron behind.
+    #[must_use]
+    pub fn boundary(&self) -> Vec<([u32; 3], u32)> {
+        let mut faces = Vec::new();
+        for (e, (tet, neighbours)) in self.tets.iter().zip(&self.neighbours).enumerate() {
+            for k in 0..4 {
+                if neighbours[k] == NO_NEIGHBOUR {
+                    faces.push((FACES[k].map(|i| tet[i]), e as u32));
+                }
+            }
+        }
+        faces
+    }
+
+    /// Mean edge length, m.
+    #[must_use]
+    pub fn mean_edge(&self) -> f32 {
+        let mut sum = 0.0_f64;
+        for e in 0..self.tets.len() {
+            let x = self.corners(e);
+            sum += EDGES
+                .iter()
+                .map(|&[i, j]| f64::from(x[i].distance(x[j])))
+                .sum::<f64>();
+        }
+        (sum / (6 * self.tets.len().max(1)) as f64) as f32
+    }
+}

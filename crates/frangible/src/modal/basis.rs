@@ -1,0 +1,43 @@
+//! The vibration modes of a body: frequencies, shapes, stress bounds.
+
+use crate::material::Material;
+
+/// Mass-normalised vibration modes (Φᵀ M Φ = I) of a free body, without its six rigid motions.
+///
+/// Struct of arrays, one entry per mode in each; modes sorted by rising frequency.
+#[derive(Clone, Debug, Default)]
+pub struct ModalBasis {
+    /// Eigenvalues λ_i = ω_i², 1/s².
+    pub eigenvalues: Vec<f64>,
+    /// Mode shapes φ, 1/√kg: row-major, row `3 * analysis node + axis`, one column per mode.
+    pub shapes: Vec<f32>,
+    /// Largest spectral norm of each mode's linear stress over the fracture tetrahedra, Pa per unit amplitude (m·√kg).
+    pub peak_stress: Vec<f32>,
+}
+
+impl ModalBasis {
+    /// Number of modes m.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        self.eigenvalues.len()
+    }
+
+    /// Natural frequency of mode `i` without damping, Hz.
+    #[must_use]
+    pub fn frequency(&self, i: usize) -> f64 {
+        self.eigenvalues[i].sqrt() / std::f64::consts::TAU
+    }
+
+    /// Row of the shapes at degree of freedom `3 * node + axis`: one number per mode.
+    #[must_use]
+    pub fn row(&self, dof: usize) -> &[f32] {
+        let m = self.count();
+        &self.shapes[dof * m..(dof + 1) * m]
+    }
+
+    /// Rayleigh damping d_i = α λ_i + β of mode `i`, 1/s.
+    #[must_use]
+    pub fn damping(&self, i: usize, material: &Material) -> f64 {
+        material.stiffness_damping * self.eigenvalues[i] + material.mass_damping
+    }
+}

@@ -1,0 +1,99 @@
+//! What an impact did.
+
+use glam::Vec3;
+
+use crate::mesh::{MassProperties, TriMesh};
+
+/// What an impact did to a body.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub enum Outcome {
+    /// The body stays one piece.
+    Held(Box<ImpactReport>),
+    /// The body is now these fragments.
+    Broke(Box<Fracture>),
+}
+
+impl Outcome {
+    /// The report of the impact, whatever came of it.
+    #[must_use]
+    pub fn report(&self) -> &ImpactReport {
+        match self {
+            Self::Held(report) => report,
+            Self::Broke(fracture) => &fracture.report,
+        }
+    }
+}
+
+/// A break: the pieces and how they came about.
+#[derive(Clone, Debug)]
+pub struct Fracture {
+    /// The pieces, largest first; together they tile the body.
+    pub fragments: Vec<Fragment>,
+    /// How the break came about.
+    pub report: ImpactReport,
+}
+
+/// One piece of a broken body.
+#[derive(Clone, Debug)]
+pub struct Fragment {
+    /// Closed surface, m, in the **fragment frame**: origin at the piece's centre of mass, axes of the parent's body frame.
+    pub mesh: TriMesh,
+    /// Mass properties; `centre` is in the **parent's body frame**.
+    pub mass: MassProperties,
+    /// The piece's share of the parent's convex cells: cell number and the corner points of the share, m, fragment frame.
+    pub cell_shares: Vec<(u32, Vec<Vec3>)>,
+}
+
+/// Numbers of one impact, SI units.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[non_exhaustive]
+pub struct ImpactReport {
+    /// Contact duration t_d used, s.
+    pub contact_duration: f64,
+    /// Contact duration before it was made admissible, s.
+    pub unadjusted_duration: f64,
+    /// Frequency of the most excited mode, Hz.
+    pub most_excited_frequency: f64,
+    /// Time step Δt, s.
+    pub time_step: f64,
+    /// Number of time steps evaluated.
+    pub time_steps: usize,
+    /// Largest principal tension met at a weak point, Pa.
+    pub peak_stress: f64,
+    /// Tensile strength R_c it is compared with, Pa.
+    pub strength: f64,
+    /// Kinetic energy of approach that the contacts absorbed, J.
+    pub approach_energy: f64,
+    /// Largest modal (kinetic + elastic) energy while the contact lasted, J.
+    pub peak_elastic_energy: f64,
+    /// Fracture energy Σ A G_c, J.
+    pub fracture_energy: f64,
+    /// Total area of cracks (one side), m².
+    pub crack_area: f64,
+    /// Number of cracks.
+    pub cracks: usize,
+    /// Number of weak points of the body.
+    pub weak_points: usize,
+    /// Time of the first crack after the contact began, s.
+    pub first_crack_time: Option<f64>,
+    /// Place where the first crack began, m, body frame.
+    pub first_crack_point: Option<Vec3>,
+    /// Volume of all fragments over the volume of the body, minus one.
+    pub volume_error: f64,
+    /// Wall-clock time of each stage.
+    pub timings: StageTimings,
+}
+
+/// Wall-clock times of the stages of one impact, s. Not deterministic; all else is.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct StageTimings {
+    /// Duration, admissibility, modal response.
+    pub response: f64,
+    /// Displacements and stresses at weak points.
+    pub stress: f64,
+    /// Crack initiation and growth.
+    pub cracks: f64,
+    /// Labels, partition, surfaces, masses.
+    pub fragments: f64,
+}

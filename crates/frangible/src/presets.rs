@@ -1,0 +1,571 @@
+//! Materials by name: real ones with published numbers, and the paper's own parameter sets.
+//!
+//! # Which numbers are measured, which are chosen
+//!
+//! *Published*: Young's modulus, Poisson's ratio, density, tensile strength and toughness; each preset's
+//! [`Preset::source`] says where they come from, and says so where a number is an estimate. Handbooks give a fracture
+//! toughness K_Ic more often than a fracture energy; for plane strain `G_c = K_Ic² (1 − ν²) / E`. Both are in the source text.
+//!
+//! *Derived*: the stiffness damping α from the loss factor η of structural acoustics. A mode's loss factor is
+//! `α ω + β/ω`; we ask for η at 10 kHz, the middle of what small brittle bodies ring at: `α = η / (2π · 10 kHz)`.
+//! Loss factors: Cremer, Heckl, Petersson, *Structure-Borne Sound*, 3rd ed. 2005 (steel 2e-4, glass 6e-4 … 2e-3,
+//! dense concrete 4e-3 … 8e-3, oak 8e-3 … 1e-2, brick 1e-2 … 2e-2, acrylic 2e-2 … 4e-2), rounded; what that table lacks is
+//! given the value of its nearest relative there. The mass damping β = 5 1/s (paper: 3 … 10) only matters below 100 Hz.
+//!
+//! *Model parameters, not measurable on a sample*:
+//! - **energy depth** γ. An edge crack of length a under tension σ releases about `2π a · σ²/(2E)` per area, so γ stands for 2πa.
+//!   `γ₁ = 2 E G_c / R_c²` is the depth at which a tension of just R_c pays for its crack. Eight times that lets a crack run on
+//!   until the tension falls to 1/√8 = 0.35 R_c: 5 mm for glass. Quasi-brittle materials (concrete, brick, stone) get metres by
+//!   that rule; γ is capped at 0.25 m, about the largest crack in the bodies meant here, so they need more than R_c to
+//!   break, as they do under impact.
+//! - **weak points** per m³: one per grain or flaw that matters, spaced about 1.7 mm in glass, 5 mm in brick, 10 mm in concrete.
+//! - **roughness**: grain-like amplitude and wavelength; glass breaks smooth and conchoidal, concrete follows its aggregate.
+//! - **restitution** and **friction**: for whole bodies meeting a hard floor at metres per second, dry. A polished glass
+//!   sphere keeps 0.97 of its speed, a drinking glass does not: the vibration takes it.
+//!
+//! The strikers and floors (`steel`, `rubber`, `wood`, `stone`) are isotropic and elastic here and meant to hit, not to break.
+
+use std::f64::consts::TAU;
+
+use thiserror::Error;
+
+use crate::material::Material;
+use crate::names::nearest_name;
+
+/// Frequency at which the published loss factor is met, Hz.
+const LOSS_FREQUENCY: f64 = 10_000.0;
+/// Mass damping β of every real material, 1/s: the middle of the paper's 3 … 10.
+const MASS_DAMPING: f64 = 5.0;
+/// How many times γ₁ the energy depth is: a crack stops where the tension is 1/√8 of the strength.
+const ENERGY_DEPTH_FACTOR: f64 = 8.0;
+/// Largest energy depth, m.
+const ENERGY_DEPTH_LIMIT: f64 = 0.25;
+/// A name longer than this is cut in the message, characters.
+const LONGEST_NAME: usize = 48;
+
+/// A named material and where its numbers come from.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Preset {
+    /// Name, lower case.
+    pub name: &'static str,
+    /// What it stands for.
+    pub summary: &'static str,
+    /// Where the numbers come from, and which of them are estimates.
+    pub source: &'static str,
+    /// Fracture toughness K_Ic, Pa·√m; 0 where the source gives only the fracture energy.
+    pub fracture_toughness: f64,
+    numbers: Numbers,
+}
+
+/// What [`Preset::material`] is built from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Numbers {
+    youngs_modulus: f64,
+    poisson_ratio: f64,
+    density: f64,
+    strength: f64,
+    fracture_energy: f64,
+    stiffness_damping: f64,
+    mass_damping: f64,
+    energy_depth: f64,
+    weak_point_density: f64,
+    roughness: [f64; 2],
+    restitution: f64,
+    friction: f64,
+}
+
+impl Preset {
+    /// The material, every field of which may then be changed.
+    #[must_use]
+    pub fn material(&self) -> Material {
+        let n = &self.numbers;
+        Material {
+            name: self.name.to_owned(),
+            youngs_modulus: n.youngs_modulus,
+            poisson_ratio: n.poisson_ratio,
+            density: n.density,
+            stiffness_damping: n.stiffness_damping,
+            mass_damping: n.mass_damping,
+            strength: n.strength,
+            fracture_energy: n.fracture_energy,
+            energy_depth: n.energy_depth,
+            weak_point_density: n.weak_point_density,
+            roughness_amplitude: n.roughness[0],
+            roughness_wavelength: n.roughness[1],
+            restitution: n.restitution,
+            friction: n.friction,
+        }
+    }
+}
+
+/// A name that is no preset's.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[error("unknown material `{name}`{}; materials: {}", hint(.nearest), names().join(", "))]
+#[non_exhaustive]
+pub struct UnknownMaterial {
+    /// What was asked for, cut if very long.
+    pub name: String,
+    /// The preset whose name is closest, if one is close.
+    pub nearest: Option<&'static str>,
+}
+
+fn hint(nearest: &Option<&'static str>) -> String {
+    nearest.map_or_else(String::new, |near| format!("; did you mean `{near}`?"))
+}
+
+fn names() -> Vec<&'static str> {
+    PRESETS.iter().map(|preset| preset.name).collect()
+}
+
+impl Material {
+    /// All presets: breakables first, then strikers and floors, then the paper's sets.
+    #[must_use]
+    pub fn presets() -> &'static [Preset] {
+        &PRESETS
+    }
+
+    /// The preset of that name; case does not matter, and `_` or a space may stand for `-`.
+    ///
+    /// # Errors
+    /// [`UnknownMaterial`], with the nearest name and all names in its message.
+    pub fn preset(name: &str) -> Result<Material, UnknownMaterial> {
+        let wanted: String = name.trim().to_lowercase().replace(['_', ' '], "-");
+        match PRESETS.iter().find(|preset| preset.name == wanted) {
+            Some(preset) => Ok(preset.material()),
+            None => Err(UnknownMaterial {
+                name: name.chars().take(LONGEST_NAME).collect(),
+                nearest: nearest_name(&wanted, PRESETS.iter().map(|preset| preset.name)),
+            }),
+        }
+    }
+}
+
+/// A real material's published numbers, before the derived ones are filled in.
+struct Published {
+    name: &'static str,
+    summary: &'static str,
+    source: &'static str,
+    /// E, Pa.
+    youngs_modulus: f64,
+    poisson_ratio: f64,
+    density: f64,
+    /// Tensile strength, Pa.
+    strength: f64,
+    toughness: Toughness,
+    loss_factor: f64,
+    weak_point_density: f64,
+    /// Amplitude and wavelength, m.
+    roughness: [f64; 2],
+    restitution: f64,
+    friction: f64,
+}
+
+enum Toughness {
+    /// K_Ic, Pa·√m.
+    Intensity(f64),
+    /// G_c, J/m².
+    Energy(f64),
+}
+
+const fn real(p: Published) -> Preset {
+    let (fracture_toughness, fracture_energy) = match p.toughness {
+        Toughness::Intensity(k) => (
+            k,
+            k * k * (1.0 - p.poisson_ratio * p.poisson_ratio) / p.youngs_modulus,
+        ),
+        Toughness::Energy(g) => (0.0, g),
+    };
+    let depth =
+        ENERGY_DEPTH_FACTOR * 2.0 * p.youngs_modulus * fracture_energy / (p.strength * p.strength);
+    Preset {
+        name: p.name,
+        summary: p.summary,
+        source: p.source,
+        fracture_toughness,
+        numbers: Numbers {
+            youngs_modulus: p.youngs_modulus,
+            poisson_ratio: p.poisson_ratio,
+            density: p.density,
+            strength: p.strength,
+            fracture_energy,
+            stiffness_damping: p.loss_factor / (TAU * LOSS_FREQUENCY),
+            mass_damping: MASS_DAMPING,
+            energy_depth: if depth < ENERGY_DEPTH_LIMIT {
+                depth
+            } else {
+                ENERGY_DEPTH_LIMIT
+            },
+            weak_point_density: p.weak_point_density,
+            roughness: p.roughness,
+            restitution: p.restitution,
+            friction: p.friction,
+        },
+    }
+}
+
+/// One line of the paper's Table 1, on top of a real material.
+struct Table1 {
+    name: &'static str,
+    summary: &'static str,
+    source: &'static str,
+    youngs_modulus: f64,
+    stiffness_damping: f64,
+    mass_damping: f64,
+    strength: f64,
+    fracture_energy: f64,
+}
+
+const fn paper(row: Table1, rest: &Preset) -> Preset {
+    Preset {
+        name: row.name,
+        summary: row.summary,
+        source: row.source,
+        fracture_toughness: 0.0,
+        numbers: Numbers {
+            youngs_modulus: row.youngs_modulus,
+            stiffness_damping: row.stiffness_damping,
+            mass_damping: row.mass_damping,
+            strength: row.strength,
+            fracture_energy: row.fracture_energy,
+            ..rest.numbers
+        },
+    }
+}
+
+const GLASS: Preset = real(Published {
+    name: "glass",
+    summary: "soda-lime glass, annealed: windows, bottles, tumblers",
+    source: "E 71 GPa, ν 0.23, tensile strength 41 MPa, K_Ic 0.75 MPa√m: makeitfrom.com, Annealed Soda-Lime Glass \
+             (K_Ic 0.75 also in Wikipedia, Soda-lime glass); ρ 2500 kg/m³: EN 572-1. G_c = K²(1−ν²)/E = 7.5 J/m². \
+             The first page also gives 100 MPa in bending: the strength of glass is that of its surface.",
+    youngs_modulus: 71e9,
+    poisson_ratio: 0.23,
+    density: 2500.0,
+    strength: 41e6,
+    toughness: Toughness::Intensity(0.75e6),
+    loss_factor: 6e-4,
+    weak_point_density: 2e8,
+    roughness: [0.1e-3, 6e-3],
+    restitution: 0.5,
+    friction: 0.4,
+});
+
+const PORCELAIN: Preset = real(Published {
+    name: "porcelain",
+    summary: "feldspathic porcelain: cups, plates, piggy banks",
+    source: "E 70 GPa, K_Ic 1.19 MPa√m (indentation, nepheline-syenite porcelain; feldspathic ones 65–70 GPa and 0.99–1.26): Quinn et al., \
+             as tabled in Dental Materials 24 (2008) 1477, Table 1; tensile strength 40 MPa (diametral, gingival; opaque 29 MPa, bending 88 MPa): \
+             The shear strength of dental porcelain, J. Dent. Res. 59 (1980) 1409; ρ 2400 kg/m³: material-properties.org, Porcelain; \
+             ν 0.22: usual for whiteware, an estimate. G_c = K²(1−ν²)/E = 19.3 J/m². The loss factor is taken a little below glass.",
+    youngs_modulus: 70e9,
+    poisson_ratio: 0.22,
+    density: 2400.0,
+    strength: 40e6,
+    toughness: Toughness::Intensity(1.19e6),
+    loss_factor: 5e-4,
+    weak_point_density: 2e8,
+    roughness: [0.3e-3, 5e-3],
+    restitution: 0.5,
+    friction: 0.45,
+});
+
+const BRICK: Preset = real(Published {
+    name: "brick",
+    summary: "fired clay brick, solid",
+    source: "E 12 GPa = 400 × compressive strength (30 MPa): Vermeltfoort, Properties of some clay bricks under varying loading conditions \
+             (Masonry International); tensile strength 2.5 MPa and G_c 73 J/m² = 0.029 mm × strength, the ductility index recommended by \
+             Lourenço, Almeida, Barros, Experimental investigation of bricks under uniaxial tensile testing, Masonry International 18 (2005) \
+             (van der Pluijm 1999: 1.5–3.5 MPa, 60–130 J/m²; both not re-checked against these texts); ρ 1900 kg/m³ and ν 0.15: usual, estimates. \
+             The corresponding K_Ic = √(G_c E/(1−ν²)) is 0.95 MPa√m.",
+    youngs_modulus: 12e9,
+    poisson_ratio: 0.15,
+    density: 1900.0,
+    strength: 2.5e6,
+    toughness: Toughness::Energy(73.0),
+    loss_factor: 1e-2,
+    weak_point_density: 8e6,
+    roughness: [1e-3, 8e-3],
+    restitution: 0.3,
+    friction: 0.6,
+});
+
+const CONCRETE: Preset = real(Published {
+    name: "concrete",
+    summary: "normal concrete, C30/37, without reinforcement",
+    source: "fib Model Code 2010, f_ck 30 MPa, f_cm 38 MPa: E = 21.5 GPa (f_cm/10)^⅓ = 33.6 GPa, mean tensile strength 0.3 f_ck^⅔ = 2.9 MPa, \
+             G_F = 73 f_cm^0.18 = 140 J/m², ν 0.2, ρ 2400 kg/m³. The corresponding K_Ic = √(G_F E/(1−ν²)) is 2.2 MPa√m \
+             (small laboratory specimens give 0.2–1.4).",
+    youngs_modulus: 33.6e9,
+    poisson_ratio: 0.2,
+    density: 2400.0,
+    strength: 2.9e6,
+    toughness: Toughness::Energy(140.0),
+    loss_factor: 6e-3,
+    weak_point_density: 1e6,
+    roughness: [2e-3, 8e-3],
+    restitution: 0.3,
+    friction: 0.6,
+});
+
+const MARBLE: Preset = real(Published {
+    name: "marble",
+    summary: "white marble: statues, table tops",
+    source: "E 54 GPa, ν 0.2, tensile strength 9 MPa, ρ 2700 kg/m³: makeitfrom.com, Marble (Carrara in bending: 14.9 MPa, Spagnoli et al., \
+             Frattura ed Integrità Strutturale 33 (2015) 80, Table 1); K_Ic 0.9 MPa√m: middle of about 0.6–1.3 for Carrara in Atkinson & Meredith, \
+             Experimental fracture mechanics data for rocks and minerals, 1987 (not re-checked). G_c = K²(1−ν²)/E = 14.4 J/m². \
+             Loss factor from Q ≈ 300, an estimate.",
+    youngs_modulus: 54e9,
+    poisson_ratio: 0.2,
+    density: 2700.0,
+    strength: 9e6,
+    toughness: Toughness::Intensity(0.9e6),
+    loss_factor: 3e-3,
+    weak_point_density: 4e7,
+    roughness: [0.6e-3, 5e-3],
+    restitution: 0.4,
+    friction: 0.5,
+});
+
+const ICE: Preset = real(Published {
+    name: "ice",
+    summary: "polycrystalline fresh-water ice at about −10 °C",
+    source: "tensile strength 1.5 MPa (0.7–3.1) and K_Ic 0.1 MPa√m (0.05–0.15): Petrovic, Mechanical properties of ice and snow, \
+             J. Mater. Sci. 38 (2003) 1; E 9.3 GPa, ν 0.33 (isotropic polycrystal at high rate), ρ 917 kg/m³: Schulson & Duval, Creep and Fracture of Ice, 2009 \
+             (not re-checked). G_c = K²(1−ν²)/E = 0.96 J/m². Loss factor an estimate.",
+    youngs_modulus: 9.3e9,
+    poisson_ratio: 0.33,
+    density: 917.0,
+    strength: 1.5e6,
+    toughness: Toughness::Intensity(0.1e6),
+    loss_factor: 1e-2,
+    weak_point_density: 4e7,
+    roughness: [0.3e-3, 6e-3],
+    restitution: 0.3,
+    friction: 0.05,
+});
+
+const SUGAR: Preset = real(Published {
+    name: "sugar",
+    summary: "hard sugar glass: boiled sweets, stunt bottles",
+    source: "no measurements of the glass were found; estimates from sucrose crystals (E 33–38 GPa: Ramos & Bahr, J. Mater. Res. 22 (2007), nanoindentation; \
+             K_Ic 0.08 MPa√m: Duncan-Hewitt & Weatherly, J. Mater. Sci. Lett. 8 (1989) 1350, not re-checked): E 8 GPa, between glassy polymers and the crystal; \
+             ν 0.3; ρ 1500 kg/m³; K_Ic as the crystal's; tensile strength 4 MPa from K_Ic and a flaw of 0.1 mm. G_c = K²(1−ν²)/E = 0.73 J/m². Loss factor an estimate.",
+    youngs_modulus: 8e9,
+    poisson_ratio: 0.3,
+    density: 1500.0,
+    strength: 4e6,
+    toughness: Toughness::Intensity(0.08e6),
+    loss_factor: 5e-3,
+    weak_point_density: 2e8,
+    roughness: [0.1e-3, 6e-3],
+    restitution: 0.3,
+    friction: 0.5,
+});
+
+const CHOCOLATE: Preset = real(Published {
+    name: "chocolate",
+    summary: "dark chocolate at room temperature",
+    source: "estimates of the right order: E 1 GPa, tensile strength 1.5 MPa (Brazilian test; it grows with the loading rate: Nedomová et al., J. Texture Stud. 2025, \
+             10.1111/jtxs.70021), K_Ic 0.2 MPa√m (fracture energies fall with temperature: Samaras et al., Soft Matter 2024, 10.1039/d4sm00264d), \
+             ν 0.3, ρ 1300 kg/m³; both papers were read in abstract only and published moduli differ by a factor of ten between methods. \
+             G_c = K²(1−ν²)/E = 36.4 J/m². Loss factor as for a soft plastic.",
+    youngs_modulus: 1e9,
+    poisson_ratio: 0.3,
+    density: 1300.0,
+    strength: 1.5e6,
+    toughness: Toughness::Intensity(0.2e6),
+    loss_factor: 5e-2,
+    weak_point_density: 1e8,
+    roughness: [0.4e-3, 3e-3],
+    restitution: 0.2,
+    friction: 0.5,
+});
+
+const PMMA: Preset = real(Published {
+    name: "pmma",
+    summary: "acrylic glass (PMMA), cast sheet",
+    source: "E 3.2 GPa, ν 0.374, tensile strength 59.8 MPa, K_Ic 1.207 MPa√m (ASTM E399): Seleš et al., Procedia Structural Integrity 42 (2022) 1721, Table 1; \
+             ρ 1190 kg/m³: designerdata.nl, PMMA (cast). G_c = K²(1−ν²)/E = 391 J/m².",
+    youngs_modulus: 3.204e9,
+    poisson_ratio: 0.374,
+    density: 1190.0,
+    strength: 59.8e6,
+    toughness: Toughness::Intensity(1.207e6),
+    loss_factor: 3e-2,
+    weak_point_density: 2e8,
+    roughness: [0.1e-3, 6e-3],
+    restitution: 0.5,
+    friction: 0.4,
+});
+
+const STEEL: Preset = real(Published {
+    name: "steel",
+    summary: "structural steel: balls, anvils; a striker",
+    source: "E 210 GPa, ν 0.3, ultimate strength 360 MPa (S235): EN 1993-1-1; ρ 7850 kg/m³: EN 1991-1-1; K_Ic 140 MPa√m (mild steel): \
+             Ashby & Jones, Engineering Materials 1 (not re-checked). G_c = K²(1−ν²)/E = 84933 J/m².",
+    youngs_modulus: 210e9,
+    poisson_ratio: 0.3,
+    density: 7850.0,
+    strength: 360e6,
+    toughness: Toughness::Intensity(140e6),
+    loss_factor: 2e-4,
+    weak_point_density: 1e7,
+    roughness: [0.2e-3, 3e-3],
+    restitution: 0.6,
+    friction: 0.4,
+});
+
+const RUBBER: Preset = real(Published {
+    name: "rubber",
+    summary: "vulcanised natural rubber: balls, mallets; a striker",
+    source: "ρ 950 kg/m³, tensile strength 28 MPa: matweb.com, Natural Rubber, Vulcanized; E 2.5 MPa (1.5–2.5) and G_c 10000 J/m² (tearing energy, order of magnitude): \
+             Ashby & Jones, Engineering Materials 1 (not re-checked). ν 0.49 keeps linear finite elements clear of the incompressible limit. \
+             The corresponding K_Ic = √(G_c E/(1−ν²)) is 0.18 MPa√m.",
+    youngs_modulus: 2.5e6,
+    poisson_ratio: 0.49,
+    density: 950.0,
+    strength: 28e6,
+    toughness: Toughness::Energy(10_000.0),
+    loss_factor: 1e-1,
+    weak_point_density: 1e7,
+    roughness: [0.2e-3, 3e-3],
+    restitution: 0.75,
+    friction: 0.9,
+});
+
+const WOOD: Preset = real(Published {
+    name: "wood",
+    summary: "white oak, loaded across the grain: floors, table tops; a striker",
+    source: "Forest Products Laboratory, Wood Handbook, 2010 (FPL-GTR-190), white oak at 12 % moisture: E 2.2 GPa = 0.163 × 13.5 GPa (radial), ν 0.37 (LR), \
+             ρ 760 kg/m³, tension across the grain 5.5 MPa, K_Ic 0.45 MPa√m (mode I along the grain, 0.22–0.55; not re-checked). \
+             G_c = K²(1−ν²)/E = 79.4 J/m². Wood is orthotropic; this stands for its contact only.",
+    youngs_modulus: 2.2e9,
+    poisson_ratio: 0.37,
+    density: 760.0,
+    strength: 5.5e6,
+    toughness: Toughness::Intensity(0.45e6),
+    loss_factor: 1e-2,
+    weak_point_density: 1e7,
+    roughness: [0.5e-3, 4e-3],
+    restitution: 0.4,
+    friction: 0.5,
+});
+
+const STONE: Preset = real(Published {
+    name: "stone",
+    summary: "granite: floors, kerbs; a floor",
+    source: "E 55 GPa, modulus of rupture 10–70 MPa, E 30–60 GPa for granites: Conservation of Historic Stone Buildings and Monuments, National Academy Press 1982, p. 64; \
+             tensile strength 10 MPa: its lower end, as Westerly granite in direct tension; ν 0.25: makeitfrom.com, Granite; ρ 2650 kg/m³; \
+             K_Ic 1.7 MPa√m: Westerly granite in Atkinson & Meredith, 1987 (not re-checked; see Schmidt & Lutz, ASTM STP 678 (1979) 166). \
+             G_c = K²(1−ν²)/E = 49.3 J/m². Loss factor from Q ≈ 200, an estimate.",
+    youngs_modulus: 55e9,
+    poisson_ratio: 0.25,
+    density: 2650.0,
+    strength: 10e6,
+    toughness: Toughness::Intensity(1.7e6),
+    loss_factor: 5e-3,
+    weak_point_density: 4e7,
+    roughness: [0.8e-3, 5e-3],
+    restitution: 0.4,
+    friction: 0.6,
+});
+
+const SLAB: Table1 = Table1 {
+    name: "paper-slab",
+    summary: "the paper's slab, moderate mesh",
+    source: "[G12 Table 1], slab moderate: E, α, β, R_c, G_c. The paper gives no ρ, ν, γ, weak points, roughness, restitution or friction: those are `glass`. \
+             R_c 1 GPa is over twenty times the strength of real glass.",
+    youngs_modulus: 100e9,
+    stiffness_damping: 1e-10,
+    mass_damping: 5.0,
+    strength: 1e9,
+    fracture_energy: 100.0,
+};
+
+static PRESETS: [Preset; 20] = [
+    GLASS,
+    PORCELAIN,
+    BRICK,
+    CONCRETE,
+    MARBLE,
+    ICE,
+    SUGAR,
+    CHOCOLATE,
+    PMMA,
+    STEEL,
+    RUBBER,
+    WOOD,
+    STONE,
+    paper(
+        Table1 {
+            name: "paper-glass",
+            summary: "the paper's drinking glass",
+            source: "[G12 Table 1], glass: E, α, β, R_c, G_c. The paper gives no ρ, ν, γ, weak points, roughness, restitution or friction: those are `glass`. \
+                     R_c 4 GPa is a hundred times the strength of real glass.",
+            youngs_modulus: 200e9,
+            stiffness_damping: 1e-9,
+            mass_damping: 5.0,
+            strength: 4e9,
+            fracture_energy: 150.0,
+        },
+        &GLASS,
+    ),
+    paper(
+        Table1 {
+            name: "paper-piggy",
+            summary: "the paper's piggy bank",
+            source: "[G12 Table 1], piggy bank: E, α, β, R_c, G_c. The paper gives no ρ, ν, γ, weak points, roughness, restitution or friction: those are `porcelain`.",
+            youngs_modulus: 200e9,
+            stiffness_damping: 1e-8,
+            mass_damping: 3.0,
+            strength: 5e8,
+            fracture_energy: 500.0,
+        },
+        &PORCELAIN,
+    ),
+    paper(
+        Table1 {
+            name: "paper-slab-low",
+            summary: "the paper's slab, coarse mesh",
+            source: "[G12 Table 1], slab low: E, α, β, R_c, G_c; the numbers of `paper-slab`, only the paper's mesh differs. The rest is `glass`.",
+            ..SLAB
+        },
+        &GLASS,
+    ),
+    paper(SLAB, &GLASS),
+    paper(
+        Table1 {
+            name: "paper-slab-high",
+            summary: "the paper's slab, fine mesh, as in its Fig. 7",
+            source: "[G12 Table 1], slab high: E, α, β, R_c; G_c 90 J/m² is the middle one of the three of Fig. 7 (150, 90, 60). The rest is `glass`.",
+            fracture_energy: 90.0,
+            ..SLAB
+        },
+        &GLASS,
+    ),
+    paper(
+        Table1 {
+            name: "paper-slab-very-high",
+            summary: "the paper's slab, finest mesh",
+            source: "[G12 Table 1], slab very high: E, α, β (10 1/s here), R_c, G_c. The rest is `glass`.",
+            mass_damping: 10.0,
+            ..SLAB
+        },
+        &GLASS,
+    ),
+    paper(
+        Table1 {
+            name: "paper-rabbit",
+            summary: "the paper's bunny",
+            source: "[G12 Table 1], bunny: E, α, β, R_c, G_c. The paper gives no ρ, ν, γ, weak points, roughness, restitution or friction: those are `porcelain`. \
+                     E 1 GPa with R_c 0.5 GPa means a strain of one half at fracture: a figure, not a material.",
+            youngs_modulus: 1e9,
+            stiffness_damping: 2e-9,
+            mass_damping: 5.0,
+            strength: 5e8,
+            fracture_energy: 100.0,
+        },
+        &PORCELAIN,
+    ),
+];

@@ -1,0 +1,10 @@
+//! Displacements, strains and stresses `[G12 §4.4]`.
+
+mod displacement;
+mod principal;
+mod strain;
+
+pub use displacement::{DisplacementBatch, ShapeWeights};
+pub(crate) use principal::perpendicular_axes;
+pub use principal::{largest_eigenvalue, principal_axes};
+pub use strain::{Elasticity, StressState, Symmetric3};

@@ -1,0 +1,93 @@
+//! Principal values and axes of a symmetric 3 × 3 tensor.
+
+use glam::{DMat3, DVec3, Vec3};
+
+use super::Symmetric3;
+
+/// Largest eigenvalue in closed form (the trigonometric solution of the cubic), to about 1e-6 of the tensor's norm.
+#[must_use]
+pub fn largest_eigenvalue(s: &Symmetric3) -> f32 {
+    let ([xx, yy, zz], [xy, yz, zx]) = (s.diagonal, s.off);
+    let mean = (xx + yy + zz) / 3.0;
+    let (a, b, c) = (xx - mean, yy - mean, zz - mean);
+    let p2 = (a * a + b * b + c * c) / 6.0 + (xy * xy + yz * yz + zx * zx) / 3.0;
+    let p = p2.sqrt();
+    if p <= f32::MIN_POSITIVE {
+        return mean;
+    }
+    let determinant = a * (b * c - yz * yz) - xy * (xy * c - yz * zx) + zx * (xy * yz - b * zx);
+    let half = (determinant / (2.0 * p * p2)).clamp(-1.0, 1.0);
+    mean + 2.0 * p * (half.acos() / 3.0).cos()
+}
+
+/// Principal values, falling, and their unit axes, by Jacobi rotations in f64.
+#[must_use]
+pub fn principal_axes(s: &Symmetric3) -> ([f64; 3], [DVec3; 3]) {
+    let mut a = s.to_mat3().as_dmat3().to_cols_array_2d();
+    let mut v = DMat3::IDENTITY.to_cols_array_2d();
+    // A sweep roughly squares the off-diagonal part; six reach rounding from any start.
+    for _ in 0..6 {
+        for (p, q) in [(0, 1), (0, 2), (1, 2)] {
+            if a[p][q] == 0.0 {
+                continue;
+            }
+            let theta = (a[q][q] - a[p][p]) / (2.0 * a[p][q]);
+            let t = if theta.is_finite() {
+                theta.signum() / (theta.abs() + (theta * theta + 1.0).sqrt())
+            } else {
+                0.0
+            };
+            let c = 1.0 / (t * t + 1.0).sqrt();
+            let sine = t * c;
+            for k in 0..3 {
+                let (x, y) = (a[k][p], a[k][q]);
+                a[k][p] = c * x - sine * y;
+                a[k][q] = sine * x + c * y;
+            }
+            for k in 0..3 {
+                let (x, y) = (a[p][k], a[q][k]);
+                a[p][k] = c * x - sine * y;
+                a[q][k] = sine * x + c * y;
+            }
+            for row in &mut v {
+                let (x, y) = (row[p], row[q]);
+                row[p] = c * x - sine * y;
+                row[q] = sine * x + c * y;
+            }
+        }
+    }
+    let mut order = [0, 1, 2];
+    order.sort_by(|&i, &j| a[j][j].total_cmp(&a[i][i]).then(i.cmp(&j)));
+    (
+        order.map(|i| a[i][i]),
+        order.map(|i| oriented(DVec3::new(v[0][i], v[1][i], v[2][i]).normalize())),
+    )
+}
+
+/// The sign with the largest component positive: an axis has none of its own.
+fn oriented(v: DVec3) -> DVec3 {
+    let a = v.abs();
+    let largest = if a.x >= a.y && a.x >= a.z {
+        v.x
+    } else if a.y >= a.z {
+        v.y
+    } else {
+        v.z
+    };
+    if largest < 0.0 { -v } else { v }
+}
+
+/// Two unit vectors perpendicular to unit `n` and to each other, by a fixed rule.
+#[must_use]
+pub(crate) fn perpendicular_axes(n: Vec3) -> (Vec3, Vec3) {
+    let a = n.abs();
+    let helper = if a.x <= a.y && a.x <= a.z {
+        Vec3::X
+    } else if a.y <= a.z {
+        Vec3::Y
+    } else {
+        Vec3::Z
+    };
+    let first = n.cross(helper).normalize();
+    (first, first.cross(n))
+}

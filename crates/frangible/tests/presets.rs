@@ -1,0 +1,159 @@
+//! The named materials: complete, consistent, and helpful when the name is wrong.
+
+use std::collections::BTreeSet;
+
+use frangible::Material;
+
+#[test]
+fn every_preset_is_a_valid_material() {
+    for preset in Material::presets() {
+        let material = preset.material();
+        assert_eq!(material.validate(), Ok(()), "{}", preset.name);
+        assert_eq!(material.name, preset.name);
+        assert_eq!(Material::preset(preset.name), Ok(material));
+    }
+}
+
+#[test]
+fn names_are_unique_and_lower_case() {
+    let names: BTreeSet<_> = Material::presets().iter().map(|p| p.name).collect();
+    assert_eq!(names.len(), Material::presets().len());
+    assert!(
+        names
+            .iter()
+            .all(|n| n.chars().all(|c| c.is_ascii_lowercase() || c == '-'))
+    );
+}
+
+#[test]
+fn every_preset_names_its_source() {
+    for preset in Material::presets() {
+        assert!(
+            preset.source.len() > 60,
+            "{}: {}",
+            preset.name,
+            preset.source
+        );
+        assert!(!preset.summary.is_empty());
+        assert!(
+            !preset.source.contains("  "),
+            "{}: a run of spaces in the source",
+            preset.name
+        );
+    }
+}
+
+/// The text says G_c in J/m²; a typo there or in K_Ic, E or ν must not pass.
+#[test]
+fn fracture_energy_follows_from_toughness_and_stands_in_the_source() {
+    for preset in Material::presets()
+        .iter()
+        .filter(|p| p.fracture_toughness > 0.0)
+    {
+        let m = preset.material();
+        let energy =
+            preset.fracture_toughness.powi(2) * (1.0 - m.poisson_ratio.powi(2)) / m.youngs_modulus;
+        assert!(
+            (m.fracture_energy / energy - 1.0).abs() < 1e-12,
+            "{}",
+            preset.name
+        );
+        let stated: f64 = preset
+            .source
+            .split("G_c = K²(1−ν²)/E = ")
+            .nth(1)
+            .and_then(|rest| rest.split(' ').next())
+            .and_then(|number| number.parse().ok())
+            .unwrap_or_else(|| panic!("{}: no G_c in its source", preset.name));
+        assert!(
+            (stated / energy - 1.0).abs() < 0.01,
+            "{}: says {stated}, is {energy}",
+            preset.name
+        );
+    }
+}
+
+#[test]
+fn every_preset_with_a_fracture_energy_only_states_its_toughness() {
+    for preset in Material::presets()
+        .iter()
+        .filter(|p| p.fracture_toughness == 0.0 && !p.name.starts_with("paper"))
+    {
+        let m = preset.material();
+        let toughness = (m.fracture_energy * m.contact_modulus()).sqrt() / 1e6;
+        let stated: f64 = preset
+            .source
+            .split("/(1−ν²)) is ")
+            .nth(1)
+            .and_then(|rest| rest.split(' ').next())
+            .and_then(|number| number.parse().ok())
+            .unwrap_or_else(|| panic!("{}: no K_Ic in its source", preset.name));
+        assert!(
+            (stated / toughness - 1.0).abs() < 0.02,
+            "{}: says {stated}, is {toughness}",
+            preset.name
+        );
+    }
+}
+
+#[test]
+fn glass_has_an_energy_depth_of_five_millimetres() {
+    let glass = Material::preset("glass").unwrap();
+    assert!(
+        (glass.energy_depth - 5e-3).abs() < 0.3e-3,
+        "{}",
+        glass.energy_depth
+    );
+    assert!((glass.fracture_energy - 7.5).abs() < 0.1);
+}
+
+#[test]
+fn paper_sets_carry_the_numbers_of_table_1() {
+    let glass = Material::preset("paper-glass").unwrap();
+    assert_eq!(
+        (glass.youngs_modulus, glass.fracture_energy, glass.strength),
+        (200e9, 150.0, 4e9)
+    );
+    assert_eq!((glass.stiffness_damping, glass.mass_damping), (1e-9, 5.0));
+    let slab = Material::preset("paper-slab-very-high").unwrap();
+    assert_eq!(
+        (slab.youngs_modulus, slab.strength, slab.mass_damping),
+        (100e9, 1e9, 10.0)
+    );
+    assert_eq!(glass.density, Material::preset("glass").unwrap().density);
+}
+
+#[test]
+fn spelling_of_case_and_separators_does_not_matter() {
+    assert_eq!(
+        Material::preset(" Paper_Slab High ").unwrap().name,
+        "paper-slab-high"
+    );
+    assert_eq!(Material::preset("GLASS").unwrap().name, "glass");
+}
+
+#[test]
+fn a_wrong_name_is_answered_with_the_nearest_and_all_names() {
+    let error = Material::preset("porcelan").unwrap_err();
+    assert_eq!(error.nearest, Some("porcelain"));
+    let message = error.to_string();
+    assert!(
+        message.starts_with(
+            "unknown material `porcelan`; did you mean `porcelain`?; materials: glass, "
+        ),
+        "{message}"
+    );
+    for preset in Material::presets() {
+        assert!(message.contains(preset.name), "{message}");
+    }
+    assert_eq!(Material::preset("pma").unwrap_err().nearest, Some("pmma"));
+}
+
+#[test]
+fn a_name_like_no_other_gets_no_suggestion() {
+    for name in ["", "unobtainium", "\u{1F9CA}", &"x".repeat(100_000)] {
+        let error = Material::preset(name).unwrap_err();
+        assert_eq!(error.nearest, None, "{name:.20}");
+        assert!(error.to_string().len() < 1000);
+    }
+}

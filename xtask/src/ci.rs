@@ -1,0 +1,225 @@
+//! What the continuous integration checks, in order; `.ci/run` calls this.
+
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use crate::check_output::check_output;
+use crate::command::{Result, cargo, output, root, run, run_keeping, run_within, shown, succeeds};
+use crate::test::packages;
+
+/// Building cargo-deny takes three minutes of one core; a machine that needs longer than this is stuck.
+const INSTALL_LIMIT: Duration = Duration::from_secs(20 * 60);
+/// The cargo-deny that `deny.toml` is written for.
+const DENY_VERSION: &str = "0.20.2";
+const LICENCES: [&str; 2] = ["LICENSE-MIT", "LICENSE-APACHE"];
+
+/// A step returns the lines worth repeating at the end.
+type Step = (&'static str, fn() -> Result<Vec<String>>);
+
+const STEPS: [Step; 7] = [
+    ("format", || quiet(&["fmt", "--all", "--check"])),
+    ("clippy", || {
+        quiet(&[
+            "clippy",
+            "--release",
+            "--workspace",
+            "--all-targets",
+            "--",
+            "-D",
+            "warnings",
+        ])
+    }),
+    ("test", tests),
+    ("docs", docs),
+    ("licences", deny),
+    ("packages", package_lists),
+    ("main job", main_job),
+];
+
+/// Runs all steps, stops at the first that fails, and ends with the times and the tests' summary.
+pub(crate) fn ci() -> Result {
+    let mut times = Vec::new();
+    let mut kept = Vec::new();
+    let mut outcome = Ok(());
+    for (name, step) in STEPS {
+        println!("\n=== {name}");
+        let start = Instant::now();
+        let result = step();
+        times.push((name, start.elapsed(), result.is_ok()));
+        match result {
+            Ok(lines) => kept.extend(lines),
+            Err(message) => {
+                outcome = Err(format!("step `{name}`: {message}"));
+                break;
+            }
+        }
+    }
+    println!();
+    for (name, time, passed) in &times {
+        println!(
+            "{name:<10} {:>6.1} min  {}",
+            time.as_secs_f64() / 60.0,
+            if *passed { "ok" } else { "FAILED" }
+        );
+    }
+    for line in kept {
+        println!("{line}");
+    }
+    outcome
+}
+
+fn quiet(arguments: &[&str]) -> Result<Vec<String>> {
+    announced(&mut cargo(arguments)).map(|()| Vec::new())
+}
+
+fn announced(command: &mut std::process::Command) -> Result {
+    println!("$ {}", shown(command));
+    run(command)
+}
+
+/// The command of the README, word for word.
+fn tests() -> Result<Vec<String>> {
+    let mut command = cargo(&["xtask", "test"]);
+    println!("$ {}", shown(&command));
+    run_keeping(&mut command, |line| {
+        line.contains("Summary") && line.contains("run:")
+            || line.contains("test result:") && !line.contains(" 0 passed")
+    })
+}
+
+fn docs() -> Result<Vec<String>> {
+    announced(
+        cargo(&["doc", "--release", "--no-deps", "--workspace"]).env("RUSTDOCFLAGS", "-D warnings"),
+    )
+    .map(|()| Vec::new())
+}
+
+fn deny() -> Result<Vec<String>> {
+    if !succeeds("cargo", &["deny", "--version"]) {
+        println!("installing cargo-deny {DENY_VERSION}");
+        run_within(
+            &mut cargo(&[
+                "install",
+                "cargo-deny",
+                "--locked",
+                "--version",
+                DENY_VERSION,
+            ]),
+            INSTALL_LIMIT,
+        )
+        .map_err(|error| format!("{error}; or install cargo-deny {DENY_VERSION} by hand"))?;
+    }
+    quiet(&["deny", "check", "licenses", "bans", "sources"])
+}
+
+/// Each published package carries its licences and nothing that does not belong there.
+fn package_lists() -> Result<Vec<String>> {
+    for (name, _) in packages()?.iter().filter(|(_, published)| *published) {
+        let list = output(&mut cargo(&[
+            "package",
+            "--list",
+            "--allow-dirty",
+            "-p",
+            name,
+        ]))?;
+        let list = String::from_utf8_lossy(&list);
+        let files: Vec<&str> = list.lines().collect();
+        if let Some(missing) = LICENCES.iter().find(|licence| !files.contains(licence)) {
+            return Err(format!(
+                "package `{name}` lacks {missing}; copy it from the workspace's root into the package"
+            ));
+        }
+        if let Some(stray) = files.iter().find(|file| !belongs(file)) {
+            return Err(format!(
+                "package `{name}` would publish `{stray}`; delete it, exclude it in Cargo.toml, or allow it in xtask/src/ci.rs"
+            ));
+        }
+        println!("{name}: {} files", files.len());
+    }
+    same_licences()
+}
+
+fn belongs(file: &str) -> bool {
+    const FILES: [&str; 9] = [
+        ".cargo_vcs_info.json",
+        "Cargo.lock",
+        "Cargo.toml",
+        "Cargo.toml.orig",
+        "LICENSE-APACHE",
+        "LICENSE-MIT",
+        "README.md",
+        "CHANGELOG.md",
+        "build.rs",
+    ];
+    const FOLDERS: [&str; 4] = ["src/", "tests/", "benches/", "examples/"];
+    const KINDS: [&str; 6] = [".rs", ".md", ".wgsl", ".json", ".msh", ".obj"];
+    FILES.contains(&file)
+        || FOLDERS.iter().any(|folder| file.starts_with(folder))
+            && KINDS.iter().any(|kind| file.ends_with(kind))
+}
+
+/// The packages' licence files are copies, as links do not survive a checkout on Windows: they must not drift.
+fn same_licences() -> Result<Vec<String>> {
+    for licence in LICENCES {
+        let original = read(&root().join(licence))?;
+        for folder in ["crates", "apps"] {
+            let entries = root()
+                .join(folder)
+                .read_dir()
+                .map_err(|error| format!("`{folder}` cannot be listed: {error}"))?;
+            for package in entries
+                .filter_map(|entry| Some(entry.ok()?.path()))
+                .filter(|path| path.join("Cargo.toml").is_file())
+            {
+                let copy = package.join(licence);
+                if read(&copy)? != original {
+                    return Err(format!(
+                        "`{}` differs from the workspace's {licence}; copy that over it",
+                        copy.display()
+                    ));
+                }
+            }
+        }
+    }
+    Ok(Vec::new())
+}
+
+fn read(path: &Path) -> Result<Vec<u8>> {
+    std::fs::read(path).map_err(|error| format!("`{}` cannot be read: {error}", path.display()))
+}
+
+/// One run of the program as the README shows it, and a look at what it wrote.
+fn main_job() -> Result<Vec<String>> {
+    let folder = std::env::temp_dir().join(format!("frangible-ci-{}", std::process::id()));
+    std::fs::create_dir_all(&folder)
+        .map_err(|error| format!("`{}` cannot be made: {error}", folder.display()))?;
+    let result = run_into(&folder);
+    // A folder that stays behind in the temporary directory is no reason to fail.
+    let _ = std::fs::remove_dir_all(&folder);
+    result
+}
+
+fn run_into(folder: &Path) -> Result<Vec<String>> {
+    // Built first, so that the compiler's messages can be told from the program's.
+    let built = run_keeping(
+        &mut cargo(&["build", "--release", "--color", "never"]),
+        |line| line.trim_start().starts_with("Compiling ") && !line.ends_with(')'),
+    )?;
+    let mut command = cargo(&["run", "--release", "--quiet", "--", "--out"]);
+    command.arg(folder).arg("--json");
+    println!("$ {}", shown(&command));
+    let report = output(&mut command)?;
+    if !report.trim_ascii().is_empty() {
+        let path = folder.join("report.json");
+        std::fs::write(&path, &report)
+            .map_err(|error| format!("`{}` cannot be written: {error}", path.display()))?;
+    }
+    check_output(folder)?;
+    Ok(match built.len() {
+        0 => Vec::new(),
+        count => vec![format!(
+            "note: `cargo run --release` compiled {count} dependencies again after the tests, first `{}`: the features of the two builds differ",
+            built[0].trim()
+        )],
+    })
+}

@@ -1,0 +1,167 @@
+//! Running other programs.
+
+use std::ffi::OsString;
+use std::io::{BufRead, BufReader, IsTerminal};
+use std::path::PathBuf;
+use std::process::{Child, Command, Stdio};
+use std::thread::sleep;
+use std::time::{Duration, Instant};
+
+/// A chore's outcome: the error is one message that says what to do.
+pub(crate) type Result<T = ()> = std::result::Result<T, String>;
+
+/// The cargo that runs this xtask, so that a toolchain override holds for its children, at the workspace's root.
+pub(crate) fn cargo(arguments: &[&str]) -> Command {
+    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| OsString::from("cargo"));
+    let mut command = Command::new(cargo);
+    command.args(arguments).current_dir(root());
+    command
+}
+
+/// The workspace's root.
+pub(crate) fn root() -> PathBuf {
+    let xtask = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
+    xtask.parent().map_or(xtask.clone(), PathBuf::from)
+}
+
+/// The command as one would type it.
+pub(crate) fn shown(command: &Command) -> String {
+    let program = PathBuf::from(command.get_program());
+    let name = program
+        .file_name()
+        .unwrap_or(command.get_program())
+        .to_string_lossy()
+        .into_owned();
+    let words = command
+        .get_args()
+        .map(|word| word.to_string_lossy().into_owned());
+    std::iter::once(name)
+        .chain(words)
+        .collect::<Vec<_>>()
+        .join(" ")
+}
+
+/// Runs with the terminal's streams.
+pub(crate) fn run(command: &mut Command) -> Result {
+    let status = command
+        .status()
+        .map_err(|error| start_failed(command, &error))?;
+    if status.success() {
+        Ok(())
+    } else {
+        Err(failed(command))
+    }
+}
+
+/// Runs silently; true if it started and succeeded.
+pub(crate) fn succeeds(program: &str, arguments: &[&str]) -> bool {
+    Command::new(program)
+        .args(arguments)
+        .stdin(Stdio::null())
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .status()
+        .is_ok_and(|status| status.success())
+}
+
+/// Runs and returns what it wrote to the standard output.
+pub(crate) fn output(command: &mut Command) -> Result<Vec<u8>> {
+    let result = command
+        .stderr(Stdio::inherit())
+        .output()
+        .map_err(|error| start_failed(command, &error))?;
+    if result.status.success() {
+        Ok(result.stdout)
+    } else {
+        Err(failed(command))
+    }
+}
+
+/// Runs, shows both streams as they come, and returns the lines `keep` wants (of each stream, in order).
+pub(crate) fn run_keeping(command: &mut Command, keep: fn(&str) -> bool) -> Result<Vec<String>> {
+    if std::io::stderr().is_terminal() {
+        command.env("CARGO_TERM_COLOR", "always");
+    }
+    let mut child = command
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .map_err(|error| start_failed(command, &error))?;
+    let errors = child
+        .stderr
+        .take()
+        .map(|stream| std::thread::spawn(move || echo(stream, keep, |line| eprintln!("{line}"))));
+    let mut kept = child.stdout.take().map_or_else(Vec::new, |stream| {
+        echo(stream, keep, |line| println!("{line}"))
+    });
+    if let Some(Ok(lines)) = errors.map(std::thread::JoinHandle::join) {
+        kept.splice(0..0, lines);
+    }
+    let status = child
+        .wait()
+        .map_err(|error| start_failed(command, &error))?;
+    if status.success() {
+        Ok(kept)
+    } else {
+        Err([&[failed(command)], kept.as_slice()].concat().join("\n"))
+    }
+}
+
+fn echo(stream: impl std::io::Read, keep: fn(&str) -> bool, show: fn(&str)) -> Vec<String> {
+    let mut kept = Vec::new();
+    for line in BufReader::new(stream)
+        .split(b'\n')
+        .map_while(std::result::Result::ok)
+    {
+        let line = String::from_utf8_lossy(&line).into_owned();
+        show(&line);
+        if keep(&line) {
+            kept.push(line);
+        }
+    }
+    kept
+}
+
+/// Runs for at most `limit`, then ends it.
+pub(crate) fn run_within(command: &mut Command, limit: Duration) -> Result {
+    let mut child = command
+        .spawn()
+        .map_err(|error| start_failed(command, &error))?;
+    let start = Instant::now();
+    loop {
+        match child.try_wait() {
+            Ok(Some(status)) if status.success() => return Ok(()),
+            Ok(Some(_)) => return Err(failed(command)),
+            Ok(None) if start.elapsed() < limit => sleep(Duration::from_millis(200)),
+            Ok(None) => {
+                end(&mut child);
+                return Err(format!(
+                    "`{}` took longer than {} min and was stopped",
+                    shown(command),
+                    limit.as_secs() / 60
+                ));
+            }
+            Err(error) => {
+                end(&mut child);
+                return Err(start_failed(command, &error));
+            }
+        }
+    }
+}
+
+fn end(child: &mut Child) {
+    // Failing to end a child that has just ended by itself is no failure.
+    let _ = child.kill();
+    let _ = child.wait();
+}
+
+fn failed(command: &Command) -> String {
+    format!("`{}` failed; its messages are above", shown(command))
+}
+
+fn start_failed(command: &Command, error: &std::io::Error) -> String {
+    format!(
+        "`{}` could not be run: {error}; is it installed and on the PATH?",
+        shown(command)
+    )
+}

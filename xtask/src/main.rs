@@ -1,0 +1,53 @@
+//! The project's chores. `cargo xtask help` lists them.
+
+mod check_output;
+mod ci;
+mod command;
+mod glb;
+mod setup;
+mod test;
+
+use std::process::ExitCode;
+
+use command::Result;
+
+const HELP: &str = "\
+cargo xtask setup             install the system packages that are missing, where that is allowed
+cargo xtask test              setup, then all tests of the workspace in the release profile
+cargo xtask ci                everything the continuous integration checks, with the minutes per step
+cargo xtask check-output DIR  check what `cargo run --release -- --out DIR --json > DIR/report.json` wrote";
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    match run(&words) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            eprintln!("xtask: {message}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run(words: &[&str]) -> Result {
+    match words {
+        ["setup"] => {
+            setup::setup();
+            Ok(())
+        }
+        ["test"] => {
+            setup::setup();
+            test::test()
+        }
+        ["ci"] => ci::ci(),
+        ["check-output", directory] => check_output::check_output(directory.as_ref()),
+        [] | ["help" | "--help" | "-h"] => {
+            println!("{HELP}");
+            Ok(())
+        }
+        _ => Err(format!(
+            "`{}` is not a chore; the chores are:\n{HELP}",
+            words.join(" ")
+        )),
+    }
+}

@@ -1,0 +1,96 @@
+//! System packages: the pictures need a Vulkan driver, nothing else is needed beyond a C linker.
+
+use std::path::Path;
+use std::process::Command;
+
+use crate::command::{run, succeeds};
+
+/// Software Vulkan: draws the pictures on machines without a graphics card.
+const DRIVER: &str = "mesa-vulkan-drivers";
+/// Where Linux drivers announce themselves.
+const DRIVER_FOLDERS: [&str; 3] = [
+    "/usr/share/vulkan/icd.d",
+    "/etc/vulkan/icd.d",
+    "/usr/local/share/vulkan/icd.d",
+];
+
+/// Installs what is missing where that is possible; otherwise says what is missing and how to get it. Never fails:
+/// most tests need no picture, and those that do say so themselves.
+pub(crate) fn setup() {
+    if !succeeds("cargo", &["nextest", "--version"]) {
+        println!(
+            "note: cargo-nextest is missing, `cargo test` stands in; `cargo install cargo-nextest --locked` gets it"
+        );
+    }
+    if !cfg!(target_os = "linux") || has_vulkan_driver() {
+        return;
+    }
+    let advice = format!(
+        "no Vulkan driver was found, pictures cannot be drawn: install `{DRIVER}` (Debian, Ubuntu: `sudo apt-get install {DRIVER}`)"
+    );
+    if !succeeds("apt-get", &["--version"]) {
+        println!("note: {advice}, or your distribution's counterpart");
+        return;
+    }
+    let Some(prefix) = privileges() else {
+        println!("note: {advice}");
+        return;
+    };
+    println!("installing {DRIVER}");
+    let installed = apt(
+        prefix,
+        &["install", "--yes", "--no-install-recommends", DRIVER],
+    ) || apt(prefix, &["update"])
+        && apt(
+            prefix,
+            &["install", "--yes", "--no-install-recommends", DRIVER],
+        );
+    if !installed {
+        println!("note: the installation failed; {advice}");
+    }
+}
+
+fn has_vulkan_driver() -> bool {
+    if std::env::var_os("VK_ICD_FILENAMES").is_some()
+        || std::env::var_os("VK_DRIVER_FILES").is_some()
+    {
+        return true;
+    }
+    DRIVER_FOLDERS.iter().any(|folder| {
+        Path::new(folder).read_dir().is_ok_and(|mut files| {
+            files.any(|file| {
+                file.is_ok_and(|file| file.path().extension().is_some_and(|e| e == "json"))
+            })
+        })
+    })
+}
+
+/// What to put before a command that needs root: nothing for root itself, a sudo that asks no password, or None.
+fn privileges() -> Option<&'static [&'static str]> {
+    let root = Command::new("id")
+        .arg("-u")
+        .output()
+        .is_ok_and(|id| id.stdout.trim_ascii() == b"0");
+    if root {
+        Some(&[])
+    } else if succeeds("sudo", &["-n", "true"]) {
+        Some(&["sudo", "-n"])
+    } else {
+        None
+    }
+}
+
+fn apt(prefix: &[&str], arguments: &[&str]) -> bool {
+    let words: Vec<&str> = [
+        prefix,
+        &[
+            "env",
+            "DEBIAN_FRONTEND=noninteractive",
+            "apt-get",
+            "--quiet",
+        ],
+        arguments,
+    ]
+    .concat();
+    run(Command::new(words[0]).args(&words[1..])).is_ok()
+}
