@@ -13,25 +13,48 @@ fn stages(c: &mut Criterion) {
     let glass = Shape::drinking_glass();
     let material = Material::preset("glass").expect("a built-in material");
     let size = glass.fracture_size().expect("a sound shape");
-    let coarse = glass.analysis_mesh(glass.analysis_size().expect("a sound shape")).expect("a sound mesh");
+    let coarse = glass
+        .analysis_mesh(glass.analysis_size().expect("a sound shape"))
+        .expect("a sound mesh");
     let fine = glass.fracture_mesh(size, 1).expect("a sound mesh");
     let mesh = QuadraticMesh::new(&coarse);
     let elasticity = Elasticity::from(&material);
-    let system = assemble(&mesh.positions, Elements::Quadratic(&mesh.elements), &elasticity);
+    let system = assemble(
+        &mesh.positions,
+        Elements::Quadratic(&mesh.elements),
+        &elasticity,
+    );
     let locator = Locator::new(&mesh);
 
     let mut group = c.benchmark_group("bake glass");
     group.sample_size(10);
-    group.bench_function("fracture mesh", |b| b.iter(|| glass.fracture_mesh(black_box(size), 1)));
-    group.bench_function("assemble", |b| {
-        b.iter(|| assemble(&mesh.positions, Elements::Quadratic(&mesh.elements), &elasticity));
+    group.bench_function("fracture mesh", |b| {
+        b.iter(|| glass.fracture_mesh(black_box(size), 1));
     });
-    group.bench_function("120 modes", |b| b.iter(|| lowest_modes(&system, black_box(120), &mut |_| {})));
+    group.bench_function("assemble", |b| {
+        b.iter(|| {
+            assemble(
+                &mesh.positions,
+                Elements::Quadratic(&mesh.elements),
+                &elasticity,
+            )
+        });
+    });
+    group.bench_function("120 modes", |b| {
+        b.iter(|| lowest_modes(&system, black_box(120), &mut |_| {}));
+    });
     group.bench_function("embed nodes", |b| {
-        b.iter(|| fine.positions.iter().filter(|&&p| locator.embed(p).is_ok()).count());
+        b.iter(|| {
+            fine.positions
+                .iter()
+                .filter(|&&p| locator.embed(p).is_ok())
+                .count()
+        });
     });
     let spec = BakeSpec::new("glass", glass.clone(), material.clone());
-    group.bench_function("everything", |b| b.iter(|| bake(black_box(&spec), &mut |_| {})));
+    group.bench_function("everything", |b| {
+        b.iter(|| bake(black_box(&spec), &mut |_| {}));
+    });
     group.finish();
 }
 

@@ -15,7 +15,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     ];
     for (name, shape) in shapes {
         let volume = shape.volume()?;
-        match bake(&BakeSpec::new(name, shape, Material::preset("glass")?), &mut |_| {}) {
+        match bake(
+            &BakeSpec::new(name, shape, Material::preset("glass")?),
+            &mut |_| {},
+        ) {
             Ok((_, report)) => println!("{name}: exact volume {volume:.4e} m³\n{report:#?}"),
             Err(error) => println!("{name}: {error}"),
         }

@@ -42,7 +42,15 @@ impl BakeSpec {
     /// Default sizes, modes and seed.
     #[must_use]
     pub fn new(name: impl Into<String>, shape: Shape, material: Material) -> Self {
-        Self { name: name.into(), shape, material, analysis: None, fracture: None, modes: 120, seed: 1 }
+        Self {
+            name: name.into(),
+            shape,
+            material,
+            analysis: None,
+            fracture: None,
+            modes: 120,
+            seed: 1,
+        }
     }
 }
 
@@ -52,23 +60,40 @@ impl BakeSpec {
 ///
 /// # Errors
 /// The first number, station, mode or point at fault; each message says how to mend it.
-pub fn bake(spec: &BakeSpec, progress: &mut dyn FnMut(Progress)) -> Result<(Asset, BakeReport), BakeError> {
+pub fn bake(
+    spec: &BakeSpec,
+    progress: &mut dyn FnMut(Progress),
+) -> Result<(Asset, BakeReport), BakeError> {
     spec.material.validate()?;
     if spec.modes == 0 {
-        return Err(BakeError::Modes { wanted: 0, available: usize::MAX });
+        return Err(BakeError::Modes {
+            wanted: 0,
+            available: usize::MAX,
+        });
     }
-    let mut clock = Clock { started: Instant::now(), seconds: Vec::new(), progress };
+    let mut clock = Clock {
+        started: Instant::now(),
+        seconds: Vec::new(),
+        progress,
+    };
 
     clock.enter(Stage::Mesh);
-    let analysis_size = spec.analysis.map_or_else(|| spec.shape.analysis_size(), Ok)?;
-    let fracture_size = spec.fracture.map_or_else(|| spec.shape.fracture_size(), Ok)?;
+    let analysis_size = spec
+        .analysis
+        .map_or_else(|| spec.shape.analysis_size(), Ok)?;
+    let fracture_size = spec
+        .fracture
+        .map_or_else(|| spec.shape.fracture_size(), Ok)?;
     let mut coarse = spec.shape.analysis_mesh(analysis_size)?;
     let mut fine = spec.shape.fracture_mesh(fracture_size, spec.seed)?;
     let corners = (0..fine.tets.len()).map(|e| fine.corners(e));
     let centre = MassProperties::of_tetrahedra(spec.material.density, corners).centre;
     coarse.translate(-centre);
     fine.translate(-centre);
-    let fracture = TetMesh::new(fine.positions.iter().map(|p| p.as_vec3()).collect(), fine.tets.clone());
+    let fracture = TetMesh::new(
+        fine.positions.iter().map(|p| p.as_vec3()).collect(),
+        fine.tets.clone(),
+    );
     let corners = (0..fine.tets.len()).map(|e| fine.corners(e));
     let mut mass = MassProperties::of_tetrahedra(spec.material.density, corners);
     // Zero but for rounding: the frame is defined by it.
@@ -77,17 +102,32 @@ pub fn bake(spec: &BakeSpec, progress: &mut dyn FnMut(Progress)) -> Result<(Asse
 
     clock.enter(Stage::Assemble);
     let elasticity = Elasticity::from(&spec.material);
-    let system = assemble(&quadratic.positions, Elements::Quadratic(&quadratic.elements), &elasticity);
+    let system = assemble(
+        &quadratic.positions,
+        Elements::Quadratic(&quadratic.elements),
+        &elasticity,
+    );
 
     clock.enter(Stage::Modes);
-    let modes = lowest_modes(&system, spec.modes, &mut |share| (clock.progress)(Progress { stage: Stage::Modes, fraction: share }))?;
+    let modes = lowest_modes(&system, spec.modes, &mut |share| {
+        (clock.progress)(Progress {
+            stage: Stage::Modes,
+            fraction: share,
+        });
+    })?;
 
     clock.enter(Stage::Embed);
     let locator = Locator::new(&quadratic);
     let centroids = (0..fine.tets.len()).map(|e| fine.corners(e).iter().sum::<DVec3>() / 4.0);
     let embedding = Embedding {
-        tets: centroids.map(|p| locator.embed(p)).collect::<Result<_, _>>()?,
-        nodes: fine.positions.iter().map(|&p| locator.embed(p)).collect::<Result<_, _>>()?,
+        tets: centroids
+            .map(|p| locator.embed(p))
+            .collect::<Result<_, _>>()?,
+        nodes: fine
+            .positions
+            .iter()
+            .map(|&p| locator.embed(p))
+            .collect::<Result<_, _>>()?,
     };
 
     clock.enter(Stage::Surface);
@@ -104,10 +144,15 @@ pub fn bake(spec: &BakeSpec, progress: &mut dyn FnMut(Progress)) -> Result<(Asse
     basis.peak_stress = peak_stress(&analysis, &embedding.tets, &basis, &elasticity);
 
     let report = BakeReport {
-        analysis: MeshReport { nodes: quadratic.positions.len(), ..MeshReport::of(&coarse) },
+        analysis: MeshReport {
+            nodes: quadratic.positions.len(),
+            ..MeshReport::of(&coarse)
+        },
         fracture: MeshReport::of(&fine),
         unknowns: modes.unknowns,
-        frequencies: (0..spec.modes.min(10)).map(|i| modes.frequency(i)).collect(),
+        frequencies: (0..spec.modes.min(10))
+            .map(|i| modes.frequency(i))
+            .collect(),
         max_residual: modes.max_residual,
         cells: fine.cells,
         mass: mass.mass,
@@ -141,7 +186,9 @@ fn analysis_of(mesh: &QuadraticMesh) -> AnalysisMesh {
 /// One row per unknown, one column per mode, in f32.
 fn row_major(shapes: &[f64], unknowns: usize) -> Vec<f32> {
     let modes = shapes.len() / unknowns;
-    (0..unknowns).flat_map(|row| (0..modes).map(move |mode| shapes[mode * unknowns + row] as f32)).collect()
+    (0..unknowns)
+        .flat_map(|row| (0..modes).map(move |mode| shapes[mode * unknowns + row] as f32))
+        .collect()
 }
 
 /// Times the stages and reports them.
@@ -155,7 +202,10 @@ impl Clock<'_> {
     fn enter(&mut self, stage: Stage) {
         self.stop();
         self.seconds.push((stage, 0.0));
-        (self.progress)(Progress { stage, fraction: 0.0 });
+        (self.progress)(Progress {
+            stage,
+            fraction: 0.0,
+        });
     }
 
     fn stop(&mut self) {
@@ -167,7 +217,10 @@ impl Clock<'_> {
 
     fn finish(mut self) -> Vec<(Stage, f64)> {
         self.stop();
-        (self.progress)(Progress { stage: Stage::Stress, fraction: 1.0 });
+        (self.progress)(Progress {
+            stage: Stage::Stress,
+            fraction: 1.0,
+        });
         self.seconds
     }
 }

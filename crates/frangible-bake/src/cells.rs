@@ -9,24 +9,38 @@ const DIRECTIONS: usize = 64;
 
 /// Points of each cell: its nodes that lie farthest in some of 64 evenly spread directions.
 pub(crate) fn convex_cells(mesh: &TetMesh, cell_of_tet: &[u32], cells: usize) -> Vec<ConvexCell> {
-    let mut members: Vec<(u32, u32)> =
-        mesh.tets.iter().zip(cell_of_tet).flat_map(|(tet, &cell)| tet.map(|v| (cell, v))).collect();
+    let mut members: Vec<(u32, u32)> = mesh
+        .tets
+        .iter()
+        .zip(cell_of_tet)
+        .flat_map(|(tet, &cell)| tet.map(|v| (cell, v)))
+        .collect();
     members.sort_unstable();
     members.dedup();
     let directions = spread_directions();
     (0..cells as u32)
         .map(|cell| {
-            let range = members.partition_point(|m| m.0 < cell)..members.partition_point(|m| m.0 <= cell);
+            let range =
+                members.partition_point(|m| m.0 < cell)..members.partition_point(|m| m.0 <= cell);
             let nodes = &members[range];
             let position = |m: &(u32, u32)| mesh.positions[m.1 as usize];
             let mut extreme: Vec<u32> = directions
                 .iter()
-                .filter_map(|&d| nodes.iter().max_by(|a, b| position(a).dot(d).total_cmp(&position(b).dot(d))))
+                .filter_map(|&d| {
+                    nodes
+                        .iter()
+                        .max_by(|a, b| position(a).dot(d).total_cmp(&position(b).dot(d)))
+                })
                 .map(|m| m.1)
                 .collect();
             extreme.sort_unstable();
             extreme.dedup();
-            ConvexCell { points: extreme.into_iter().map(|v| mesh.positions[v as usize]).collect() }
+            ConvexCell {
+                points: extreme
+                    .into_iter()
+                    .map(|v| mesh.positions[v as usize])
+                    .collect(),
+            }
         })
         .collect()
 }

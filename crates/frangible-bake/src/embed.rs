@@ -36,14 +36,22 @@ impl Locator {
         let corners: Vec<[DVec3; 4]> = (0..mesh.elements.len()).map(|e| mesh.corners(e)).collect();
         let reach: Vec<f64> = corners.iter().map(|x| REACH * mean_edge(x)).collect();
         let bounds = |e: usize| {
-            let (low, high) = corners[e].iter().fold((corners[e][0], corners[e][0]), |(l, h), &x| (l.min(x), h.max(x)));
+            let (low, high) = corners[e]
+                .iter()
+                .fold((corners[e][0], corners[e][0]), |(l, h), &x| {
+                    (l.min(x), h.max(x))
+                });
             (low - reach[e], high + reach[e])
         };
         let everything = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-        let (low, high) = (0..corners.len()).map(bounds).fold(everything, |a, b| (a.0.min(b.0), a.1.max(b.1)));
+        let (low, high) = (0..corners.len())
+            .map(bounds)
+            .fold(everything, |a, b| (a.0.min(b.0), a.1.max(b.1)));
         let cell = reach.iter().sum::<f64>() / (REACH * corners.len().max(1) as f64);
         let size = (high - low).max(DVec3::ZERO);
-        let counts = size.to_array().map(|s| ((s / cell).ceil() as usize).clamp(1, 256));
+        let counts = size
+            .to_array()
+            .map(|s| ((s / cell).ceil() as usize).clamp(1, 256));
         let mut grid = Self {
             gradients: corners.iter().map(|&x| barycentric_gradients(x)).collect(),
             origin: low,
@@ -67,14 +75,18 @@ impl Locator {
         }
         entries.sort_unstable();
         let cells = counts.iter().product::<usize>() as u32;
-        grid.starts = (0..=cells).map(|c| entries.partition_point(|x| x.0 < c)).collect();
+        grid.starts = (0..=cells)
+            .map(|c| entries.partition_point(|x| x.0 < c))
+            .collect();
         grid.items = entries.into_iter().map(|x| x.1).collect();
         (grid.corners, grid.reach) = (corners, reach);
         grid
     }
 
     fn coordinates(&self, p: DVec3) -> [usize; 3] {
-        std::array::from_fn(|k| (((p[k] - self.origin[k]) / self.cell).max(0.0) as usize).min(self.counts[k] - 1))
+        std::array::from_fn(|k| {
+            (((p[k] - self.origin[k]) / self.cell).max(0.0) as usize).min(self.counts[k] - 1)
+        })
     }
 
     fn index(&self, [i, j, k]: [usize; 3]) -> usize {
@@ -92,7 +104,11 @@ impl Locator {
     /// # Errors
     /// [`BakeError::OutsideAnalysisMesh`] when no element is near enough.
     pub fn locate(&self, p: DVec3) -> Result<(usize, [f64; 4], DVec3), BakeError> {
-        let outside = || BakeError::OutsideAnalysisMesh { x: p.x, y: p.y, z: p.z };
+        let outside = || BakeError::OutsideAnalysisMesh {
+            x: p.x,
+            y: p.y,
+            z: p.z,
+        };
         if !p.is_finite() {
             return Err(outside());
         }
@@ -114,7 +130,8 @@ impl Locator {
                 best = Some((distance, e, l, p - closest));
             }
         }
-        best.map(|(_, e, l, offset)| (e, l, offset)).ok_or_else(outside)
+        best.map(|(_, e, l, offset)| (e, l, offset))
+            .ok_or_else(outside)
     }
 
     /// The same, as the asset stores it.

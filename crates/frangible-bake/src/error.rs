@@ -27,7 +27,9 @@ pub enum BakeError {
         problem: &'static str,
     },
     /// A mesh that would not fit in a sensible amount of memory.
-    #[error("an element edge of {edge} m asks for about {tets} tetrahedra, more than {limit}; use larger elements")]
+    #[error(
+        "an element edge of {edge} m asks for about {tets} tetrahedra, more than {limit}; use larger elements"
+    )]
     TooFine {
         /// Edge length asked for, m.
         edge: f64,
@@ -37,7 +39,9 @@ pub enum BakeError {
         limit: usize,
     },
     /// A tetrahedron without volume, or turned inside out.
-    #[error("tetrahedron {tet} has a volume of {volume} m³; make the walls thicker or the elements smaller")]
+    #[error(
+        "tetrahedron {tet} has a volume of {volume} m³; make the walls thicker or the elements smaller"
+    )]
     Inverted {
         /// Index of the tetrahedron.
         tet: usize,
@@ -45,7 +49,9 @@ pub enum BakeError {
         volume: f64,
     },
     /// More modes wanted than the analysis mesh has.
-    #[error("{wanted} modes wanted, but the analysis mesh has {available}; ask for 1 to {available}, or refine it")]
+    #[error(
+        "{wanted} modes wanted, but the analysis mesh has {available}; ask for 1 to {available}, or refine it"
+    )]
     Modes {
         /// Number of modes asked for.
         wanted: usize,
@@ -53,13 +59,17 @@ pub enum BakeError {
         available: usize,
     },
     /// The shifted stiffness matrix could not be factorized.
-    #[error("the stiffness matrix could not be factorized ({reason}); check the mesh for slivers and loose parts")]
+    #[error(
+        "the stiffness matrix could not be factorized ({reason}); check the mesh for slivers and loose parts"
+    )]
     Factorization {
         /// What the solver said.
         reason: String,
     },
     /// The eigenvalue iteration stopped short.
-    #[error("only {converged} of {wanted} modes converged within a basis of {basis} vectors; ask for fewer modes")]
+    #[error(
+        "only {converged} of {wanted} modes converged within a basis of {basis} vectors; ask for fewer modes"
+    )]
     NotConverged {
         /// Modes found.
         converged: usize,
@@ -69,7 +79,9 @@ pub enum BakeError {
         basis: usize,
     },
     /// A mode that does not solve the eigenvalue problem well enough.
-    #[error("mode {mode} has a relative residual of {residual:.1e} (limit {limit:.1e}); check the mesh for slivers")]
+    #[error(
+        "mode {mode} has a relative residual of {residual:.1e} (limit {limit:.1e}); check the mesh for slivers"
+    )]
     Residual {
         /// Index of the mode.
         mode: usize,
@@ -94,5 +106,9 @@ pub enum BakeError {
 }
 
 pub(crate) fn positive(what: &'static str, value: f64) -> Result<(), BakeError> {
-    if value.is_finite() && value > 0.0 { Ok(()) } else { Err(BakeError::NotPositive { what, value }) }
+    if value.is_finite() && value > 0.0 {
+        Ok(())
+    } else {
+        Err(BakeError::NotPositive { what, value })
+    }
 }

@@ -23,7 +23,8 @@ pub(crate) fn extrude(
     let columns = sheet.coords.len();
     let mut mesh = BodyMesh::default();
     for v in 0..columns {
-        mesh.positions.extend((0..=layers).map(|layer| position(v, layer)));
+        mesh.positions
+            .extend((0..=layers).map(|layer| position(v, layer)));
     }
     let node = |v: u32, layer: usize| v * (layers as u32 + 1) + layer as u32;
     let rank = |v: u32| (seed.map_or(0, |s| random::bits(s, u64::from(v))), v);
@@ -34,7 +35,12 @@ pub(crate) fn extrude(
         for layer in 0..layers {
             let low = [a, b, c].map(|v| node(v, layer));
             let top = [a, b, c].map(|v| node(v, layer + 1));
-            let centroid = low.iter().chain(&top).map(|&v| mesh.positions[v as usize]).sum::<DVec3>() / 6.0;
+            let centroid = low
+                .iter()
+                .chain(&top)
+                .map(|&v| mesh.positions[v as usize])
+                .sum::<DVec3>()
+                / 6.0;
             mesh.tets.extend([
                 [low[0], low[1], low[2], top[2]],
                 [low[0], low[1], top[1], top[2]],

@@ -27,13 +27,17 @@ impl BodyMesh {
     /// Volume of the body, m³.
     #[must_use]
     pub fn volume(&self) -> f64 {
-        (0..self.tets.len()).map(|e| tet_volume(self.corners(e))).sum()
+        (0..self.tets.len())
+            .map(|e| tet_volume(self.corners(e)))
+            .sum()
     }
 
     /// Smallest angle between two faces of one tetrahedron, degrees (70.5 in a regular one).
     #[must_use]
     pub fn min_dihedral(&self) -> f64 {
-        let smallest = (0..self.tets.len()).map(|e| min_dihedral(self.corners(e))).fold(f64::INFINITY, f64::min);
+        let smallest = (0..self.tets.len())
+            .map(|e| min_dihedral(self.corners(e)))
+            .fold(f64::INFINITY, f64::min);
         smallest.to_degrees()
     }
 
@@ -52,7 +56,7 @@ impl BodyMesh {
             }
             let x = self.corners(e);
             let (volume, edge) = (tet_volume(x), x[0].distance(x[1]));
-            if !(volume > 1e-6 * edge * edge * edge) {
+            if volume.is_nan() || volume <= 1e-6 * edge * edge * edge {
                 return Err(BakeError::Inverted { tet: e, volume });
             }
         }
@@ -79,7 +83,11 @@ pub(crate) fn tet_volume([a, b, c, d]: [DVec3; 4]) -> f64 {
 pub(crate) fn barycentric_gradients([a, b, c, d]: [DVec3; 4]) -> [DVec3; 4] {
     let (u, v, w) = (b - a, c - a, d - a);
     let inverse = 1.0 / u.cross(v).dot(w);
-    let (g1, g2, g3) = (v.cross(w) * inverse, w.cross(u) * inverse, u.cross(v) * inverse);
+    let (g1, g2, g3) = (
+        v.cross(w) * inverse,
+        w.cross(u) * inverse,
+        u.cross(v) * inverse,
+    );
     [-(g1 + g2 + g3), g1, g2, g3]
 }
 

@@ -21,7 +21,8 @@ pub(crate) fn peak_stress(
     for point in points {
         let e = point.element as usize;
         let l = point.barycentric.map(f64::from);
-        let g: [DVec3; 10] = shape_gradients(l, &mesh.barycentric_gradients[e].map(|g| g.as_dvec3()));
+        let g: [DVec3; 10] =
+            shape_gradients(l, &mesh.barycentric_gradients[e].map(|g| g.as_dvec3()));
         strain.fill([0.0; 6]);
         for a in 0..10 {
             let dof = 3 * mesh.elements[e][a] as usize;
@@ -42,9 +43,19 @@ pub(crate) fn peak_stress(
         for i in 0..m {
             let [xx, yy, zz, yz, zx, xy] = strain[i];
             let pressure = lambda * (xx + yy + zz);
-            let s = [2.0 * mu * xx + pressure, 2.0 * mu * yy + pressure, 2.0 * mu * zz + pressure, mu * yz, mu * zx, mu * xy];
+            let s = [
+                2.0 * mu * xx + pressure,
+                2.0 * mu * yy + pressure,
+                2.0 * mu * zz + pressure,
+                mu * yz,
+                mu * zx,
+                mu * xy,
+            ];
             // The Frobenius norm is never below the spectral norm: nearly all points end here.
-            let squared = s[0] * s[0] + s[1] * s[1] + s[2] * s[2] + 2.0 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]);
+            let squared = s[0] * s[0]
+                + s[1] * s[1]
+                + s[2] * s[2]
+                + 2.0 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]);
             if squared > peak[i] * peak[i] {
                 peak[i] = peak[i].max(spectral_norm(s));
             }

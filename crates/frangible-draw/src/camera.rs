@@ -5,6 +5,7 @@ use frangible_export::glam::{Mat4, Vec3};
 use kiss3d::camera::Camera3d;
 use kiss3d::event::WindowEvent;
 use kiss3d::glamx::Pose3;
+use kiss3d::glamx::glam::camera::rh::proj::directx;
 use kiss3d::window::Canvas;
 
 /// A [`View`], in the units of the stage.
@@ -31,8 +32,6 @@ impl StillCamera {
         }
     }
 }
-
-use kiss3d::glamx::glam::camera::rh::proj::directx;
 
 impl Camera3d for StillCamera {
     fn handle_event(&mut self, _: &Canvas, _: &WindowEvent) {}

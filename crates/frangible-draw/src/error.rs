@@ -24,7 +24,9 @@ pub enum DrawError {
         count: usize,
     },
     /// The picture has no pixels, or more than the adapter can draw.
-    #[error("a picture of {width} × {height} pixels cannot be drawn; choose 16 to {limit} each way")]
+    #[error(
+        "a picture of {width} × {height} pixels cannot be drawn; choose 16 to {limit} each way"
+    )]
     BadSize {
         /// Width asked for, pixels.
         width: u32,
@@ -36,6 +38,11 @@ pub enum DrawError {
     /// A sheet without a cell.
     #[error("the sheet has no cell; give it at least one frame and one column")]
     EmptySheet,
+    /// The renderer's thread panicked.
+    #[error(
+        "the renderer failed; its message is on the error output, often a driver out of memory: try a smaller picture"
+    )]
+    Renderer,
     /// The picture could not be compressed.
     #[error("the picture could not be encoded as PNG: {0}")]
     Encode(#[from] png::EncodingError),

@@ -11,9 +11,11 @@
 //! recording gives the same picture.
 
 mod adapter;
+mod backdrop;
 mod camera;
 mod encode;
 mod error;
+mod renderer;
 mod scale;
 mod sheet;
 mod stage;

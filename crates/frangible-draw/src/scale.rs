@@ -14,7 +14,12 @@ pub(crate) fn halve(drawn: &RgbImage) -> RgbImage {
             return Rgb(four[0]);
         }
         Rgb(std::array::from_fn(|channel| {
-            code(0.25 * four.iter().map(|pixel| linear[usize::from(pixel[channel])]).sum::<f32>())
+            code(
+                0.25 * four
+                    .iter()
+                    .map(|pixel| linear[usize::from(pixel[channel])])
+                    .sum::<f32>(),
+            )
         }))
     })
 }

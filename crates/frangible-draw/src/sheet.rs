@@ -18,7 +18,11 @@ pub struct SheetOptions {
 
 impl Default for SheetOptions {
     fn default() -> Self {
-        Self { cell_width: 640, cell_height: 480, columns: 2 }
+        Self {
+            cell_width: 640,
+            cell_height: 480,
+            columns: 2,
+        }
     }
 }
 
@@ -48,13 +52,17 @@ pub fn sheet_of_frames(
     cells: &[(&Recording, usize, &str)],
     options: &SheetOptions,
 ) -> Result<RgbImage, DrawError> {
-    let SheetOptions { cell_width, cell_height, columns } = *options;
+    let SheetOptions {
+        cell_width,
+        cell_height,
+        columns,
+    } = *options;
     let count = u32::try_from(cells.len()).unwrap_or(u32::MAX);
     let columns = columns.min(count);
     if columns == 0 {
         return Err(DrawError::EmptySheet);
     }
-    let mut studio = Studio::new(cell_width, cell_height)?;
+    let studio = Studio::new(cell_width, cell_height)?;
     let rows = count.div_ceil(columns);
     let side = |cells: u32, length: u32| cells * (length + GAP) - GAP;
     let size = (side(columns, cell_width), side(rows, cell_height));

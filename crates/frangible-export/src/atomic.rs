@@ -18,7 +18,10 @@ use crate::ExportError;
 ///
 /// [`ExportError::Write`] with the path and what the system said.
 pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), ExportError> {
-    let fail = |source| ExportError::Write { path: path.to_path_buf(), source };
+    let fail = |source| ExportError::Write {
+        path: path.to_path_buf(),
+        source,
+    };
     let Some(name) = path.file_name() else {
         return Err(fail(std::io::Error::other("the path names no file")));
     };

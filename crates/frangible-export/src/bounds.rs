@@ -12,13 +12,22 @@ impl Recording {
         let reach: Vec<f32> = self
             .meshes
             .iter()
-            .map(|mesh| mesh.positions.iter().map(|p| p.length()).fold(0.0, f32::max))
+            .map(|mesh| {
+                mesh.positions
+                    .iter()
+                    .map(|p| p.length())
+                    .fold(0.0, f32::max)
+            })
             .collect();
         let mut low = Vec3::INFINITY;
         let mut high = Vec3::NEG_INFINITY;
         for node in &self.nodes {
             let radius = Vec3::splat(reach.get(node.mesh).copied().unwrap_or(0.0));
-            let seen = if node.poses.len() == 1 { 0..1 } else { node.visible.clone() };
+            let seen = if node.poses.len() == 1 {
+                0..1
+            } else {
+                node.visible.clone()
+            };
             for pose in node.poses.get(seen).unwrap_or_default() {
                 low = low.min(pose.translation - radius);
                 high = high.max(pose.translation + radius);

@@ -22,8 +22,8 @@ mod validate;
 
 pub use atomic::write_atomically;
 pub use error::{ExportError, RecordingError};
-pub use glb::write_glb;
 pub use glam;
+pub use glb::write_glb;
 pub use recording::{
     Floor, MeshPart, Moments, Pose, RecordedMesh, RecordedNode, Recording, SurfaceMaterial, View,
 };

@@ -117,7 +117,10 @@ pub struct Floor {
 
 impl Default for Floor {
     fn default() -> Self {
-        Self { height: 0.0, base_color: [0.55, 0.55, 0.55] }
+        Self {
+            height: 0.0,
+            base_color: [0.38, 0.38, 0.38],
+        }
     }
 }
 
@@ -163,7 +166,11 @@ impl Recording {
     #[must_use]
     pub fn pose(&self, node: usize, frame: usize) -> Pose {
         let poses = self.nodes.get(node).map_or(&[][..], |node| &node.poses);
-        poses.get(frame).or(poses.last()).copied().unwrap_or_default()
+        poses
+            .get(frame)
+            .or(poses.last())
+            .copied()
+            .unwrap_or_default()
     }
 
     /// The four moments with the words that label them.

@@ -2,8 +2,8 @@
 
 use glam::Vec3;
 
-use crate::recording::{Floor, RecordedMesh, RecordedNode, Recording, SurfaceMaterial, View};
 use crate::RecordingError;
+use crate::recording::{Floor, RecordedMesh, RecordedNode, Recording, SurfaceMaterial, View};
 
 type Checked = Result<(), RecordingError>;
 
@@ -19,7 +19,9 @@ impl Recording {
         }
         let rate = f64::from(self.frame_rate);
         finite(rate, || "the frame rate".into())?;
-        in_range(rate, rate > 0.0, "above zero, in 1/s", || "the frame rate".into())?;
+        in_range(rate, rate > 0.0, "above zero, in 1/s", || {
+            "the frame rate".into()
+        })?;
         for surface in &self.surfaces {
             check_surface(surface)?;
         }
@@ -35,7 +37,9 @@ impl Recording {
         self.camera.validate()?;
         let moments = self.labelled_moments();
         moments.iter().try_for_each(|(frame, label)| {
-            index(*frame, self.frame_count, || format!("the frame of the moment \"{label}\""))
+            index(*frame, self.frame_count, || {
+                format!("the frame of the moment \"{label}\"")
+            })
         })
     }
 }
@@ -53,7 +57,12 @@ impl View {
         let fov = f64::from(self.vertical_fov);
         let name = || "the camera's vertical field of view".into();
         finite(fov, name)?;
-        in_range(fov, fov > 0.0 && fov < std::f64::consts::PI, "between 0 and π, in rad", name)?;
+        in_range(
+            fov,
+            fov > 0.0 && fov < std::f64::consts::PI,
+            "between 0 and π, in rad",
+            name,
+        )?;
         let forward = (self.target - self.eye).normalize_or_zero();
         let sideways = forward.cross(self.up.normalize_or_zero());
         // Below this sine the picture's roll is decided by rounding.
@@ -99,7 +108,9 @@ fn check_mesh(mesh: &RecordedMesh, surfaces: usize) -> Checked {
         finite_vector(normal, || format!("normal {i} of the mesh \"{name}\""))?;
     }
     for (p, part) in mesh.parts.iter().enumerate() {
-        index(part.surface, surfaces, || format!("the surface of part {p} of the mesh \"{name}\""))?;
+        index(part.surface, surfaces, || {
+            format!("the surface of part {p} of the mesh \"{name}\"")
+        })?;
         if part.indices.len() % 3 != 0 {
             return Err(RecordingError::BadCount {
                 what: format!("the index list of part {p} of the mesh \"{name}\""),
@@ -117,7 +128,9 @@ fn check_mesh(mesh: &RecordedMesh, surfaces: usize) -> Checked {
 
 fn check_node(node: &RecordedNode, meshes: usize, frames: usize) -> Checked {
     let name = &node.name;
-    index(node.mesh, meshes, || format!("the mesh of the node \"{name}\""))?;
+    index(node.mesh, meshes, || {
+        format!("the mesh of the node \"{name}\"")
+    })?;
     if node.poses.len() != 1 && node.poses.len() != frames {
         return Err(RecordingError::BadCount {
             what: format!("the pose list of the node \"{name}\""),
@@ -145,9 +158,12 @@ fn check_node(node: &RecordedNode, meshes: usize, frames: usize) -> Checked {
             count: frames,
         });
     }
-    in_range(start as f64, start <= end, "at most the last visible frame", || {
-        format!("the first visible frame of the node \"{name}\"")
-    })?;
+    in_range(
+        start as f64,
+        start <= end,
+        "at most the last visible frame",
+        || format!("the first visible frame of the node \"{name}\""),
+    )?;
     for (key, value) in &node.keep_extras {
         finite(*value, || format!("\"{key}\" of the node \"{name}\""))?;
     }
@@ -157,7 +173,9 @@ fn check_node(node: &RecordedNode, meshes: usize, frames: usize) -> Checked {
 fn check_floor(floor: &Floor) -> Checked {
     finite(f64::from(floor.height), || "the height of the floor".into())?;
     let colours = floor.base_color.into_iter();
-    colours.into_iter().try_for_each(|part| fraction(part, || "a colour of the floor".into()))
+    colours
+        .into_iter()
+        .try_for_each(|part| fraction(part, || "a colour of the floor".into()))
 }
 
 fn fraction(value: f32, what: impl Fn() -> String) -> Checked {
@@ -167,26 +185,40 @@ fn fraction(value: f32, what: impl Fn() -> String) -> Checked {
 }
 
 fn finite_vector(vector: Vec3, what: impl Fn() -> String) -> Checked {
-    vector.to_array().iter().try_for_each(|&part| finite(f64::from(part), &what))
+    vector
+        .to_array()
+        .iter()
+        .try_for_each(|&part| finite(f64::from(part), &what))
 }
 
 fn finite(value: f64, what: impl Fn() -> String) -> Checked {
     if value.is_finite() {
         return Ok(());
     }
-    Err(RecordingError::NotFinite { what: what(), value })
+    Err(RecordingError::NotFinite {
+        what: what(),
+        value,
+    })
 }
 
 fn in_range(value: f64, holds: bool, range: &'static str, what: impl Fn() -> String) -> Checked {
     if holds {
         return Ok(());
     }
-    Err(RecordingError::OutOfRange { what: what(), value, range })
+    Err(RecordingError::OutOfRange {
+        what: what(),
+        value,
+        range,
+    })
 }
 
 fn index(index: usize, count: usize, what: impl Fn() -> String) -> Checked {
     if index < count {
         return Ok(());
     }
-    Err(RecordingError::BadIndex { what: what(), index, count })
+    Err(RecordingError::BadIndex {
+        what: what(),
+        index,
+        count,
+    })
 }

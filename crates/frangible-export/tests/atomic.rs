@@ -39,10 +39,15 @@ fn a_failure_names_the_path_and_leaves_no_part() {
     fs::create_dir(&path).unwrap();
     fs::write(path.join("inside"), b"").unwrap();
     let message = write_atomically(&path, b"bytes").unwrap_err().to_string();
-    assert!(message.contains("taken") && message.contains("writable"), "{message}");
+    assert!(
+        message.contains("taken") && message.contains("writable"),
+        "{message}"
+    );
     assert_eq!(names(&folder), ["taken"]);
 
     let missing = folder.join("no such folder").join("break.glb");
-    let message = write_atomically(&missing, b"bytes").unwrap_err().to_string();
+    let message = write_atomically(&missing, b"bytes")
+        .unwrap_err()
+        .to_string();
     assert!(message.contains("no such folder"), "{message}");
 }

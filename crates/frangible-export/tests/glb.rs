@@ -20,8 +20,14 @@ fn recording() -> Recording {
         positions: corners.to_vec(),
         normals: vec![Vec3::ONE; 4],
         parts: vec![
-            MeshPart { surface: 0, indices: vec![0, 2, 1, 0, 3, 2] },
-            MeshPart { surface: 1, indices: vec![0, 1, 3, 1, 2, 3] },
+            MeshPart {
+                surface: 0,
+                indices: vec![0, 2, 1, 0, 3, 2],
+            },
+            MeshPart {
+                surface: 1,
+                indices: vec![0, 1, 3, 1, 2, 3],
+            },
         ],
     };
     let pose = |frame: usize, drift: f32| {
@@ -29,7 +35,8 @@ fn recording() -> Recording {
         Pose {
             translation: Vec3::new(drift * time, 5.0 - 0.5 * time, 0.0),
             // Alternating signs: the writer must undo them.
-            rotation: Quat::from_rotation_x(0.3 * time) * if frame % 2 == 0 { 1.0 } else { -1.0 },
+            rotation: Quat::from_rotation_x(0.3 * time)
+                * if frame.is_multiple_of(2) { 1.0 } else { -1.0 },
         }
     };
     let node = |name: &str, mesh: usize, drift: f32, visible| RecordedNode {
@@ -44,8 +51,16 @@ fn recording() -> Recording {
         frame_rate: 60.0,
         frame_count: FRAMES,
         surfaces: vec![
-            SurfaceMaterial { name: "glaze".into(), ior: 1.6, ..SurfaceMaterial::default() },
-            SurfaceMaterial { name: "inside".into(), transmission: 0.5, ..Default::default() },
+            SurfaceMaterial {
+                name: "glaze".into(),
+                ior: 1.6,
+                ..SurfaceMaterial::default()
+            },
+            SurfaceMaterial {
+                name: "inside".into(),
+                transmission: 0.5,
+                ..Default::default()
+            },
         ],
         meshes: vec![shape("plate"), shape("left"), shape("right")],
         nodes: vec![
@@ -61,7 +76,12 @@ fn recording() -> Recording {
         ],
         floor: Some(Floor::default()),
         camera: View::default(),
-        moments: Moments { before: 0, first_crack: BREAK, just_after: 5, at_rest: 9 },
+        moments: Moments {
+            before: 0,
+            first_crack: BREAK,
+            just_after: 5,
+            at_rest: 9,
+        },
     }
 }
 
@@ -73,14 +93,20 @@ fn read(bytes: &[u8]) -> (gltf::Document, Vec<u8>) {
 #[test]
 fn every_recorded_thing_is_found_again() {
     let (document, blob) = read(&write_glb(&recording()).unwrap());
-    let names: Vec<_> = document.nodes().map(|node| node.name().unwrap().to_owned()).collect();
+    let names: Vec<_> = document
+        .nodes()
+        .map(|node| node.name().unwrap().to_owned())
+        .collect();
     assert_eq!(names, ["plate", "left", "right", "table", "floor", "view"]);
     assert_eq!(document.meshes().count(), 4, "three shapes and the floor");
     assert_eq!(document.materials().count(), 3);
     assert_eq!(document.animations().count(), 1);
     let used: Vec<_> = document.extensions_used().collect();
     assert_eq!(used, ["KHR_materials_ior", "KHR_materials_transmission"]);
-    for primitive in document.meshes().flat_map(|mesh| mesh.primitives().collect::<Vec<_>>()) {
+    for primitive in document
+        .meshes()
+        .flat_map(|mesh| mesh.primitives().collect::<Vec<_>>())
+    {
         let reader = primitive.reader(|_| Some(&blob));
         assert_eq!(reader.read_positions().unwrap().count(), 4);
         let unit = |n: [f32; 3]| (Vec3::from(n).length() - 1.0).abs() < 1e-6;
@@ -111,7 +137,12 @@ fn masses_travel_as_extras() {
     let materials = &json["materials"];
     let transmission = &materials[1]["extensions"]["KHR_materials_transmission"];
     assert_eq!(transmission["transmissionFactor"], 0.5);
-    assert!(json["asset"]["generator"].as_str().unwrap().starts_with("Frangible "));
+    assert!(
+        json["asset"]["generator"]
+            .as_str()
+            .unwrap()
+            .starts_with("Frangible ")
+    );
 }
 
 #[test]
@@ -127,8 +158,13 @@ fn shards_appear_when_the_plate_vanishes() {
         let reader = channel.reader(|_| Some(&blob));
         let times: Vec<f32> = reader.read_inputs().unwrap().collect();
         assert_eq!(times, [0.0, BREAK as f32 / 60.0]);
-        let Some(ReadOutputs::Scales(scales)) = reader.read_outputs() else { panic!("no scales") };
-        switched.push((channel.target().node().index(), scales.map(|s| s[0]).collect::<Vec<_>>()));
+        let Some(ReadOutputs::Scales(scales)) = reader.read_outputs() else {
+            panic!("no scales")
+        };
+        switched.push((
+            channel.target().node().index(),
+            scales.map(|s| s[0]).collect::<Vec<_>>(),
+        ));
     }
     let hides = (0, vec![1.0, 0.0]);
     assert_eq!(switched, [hides, (1, vec![0.0, 1.0]), (2, vec![0.0, 1.0])]);
@@ -140,7 +176,10 @@ fn resting_frames_are_dropped_and_rotations_never_flip() {
     let animation = document.animations().next().unwrap();
     // The plate and the shards translate, rotate and switch; the table rests.
     assert_eq!(animation.channels().count(), 9);
-    for channel in animation.channels().filter(|c| c.target().node().index() == 1) {
+    for channel in animation
+        .channels()
+        .filter(|c| c.target().node().index() == 1)
+    {
         let reader = channel.reader(|_| Some(&blob));
         let count = reader.read_inputs().unwrap().count();
         match reader.read_outputs().unwrap() {
@@ -159,12 +198,19 @@ fn resting_frames_are_dropped_and_rotations_never_flip() {
 
 #[test]
 fn the_same_recording_gives_the_same_bytes() {
-    assert_eq!(write_glb(&recording()).unwrap(), write_glb(&recording()).unwrap());
+    assert_eq!(
+        write_glb(&recording()).unwrap(),
+        write_glb(&recording()).unwrap()
+    );
 }
 
 #[test]
 fn an_empty_recording_is_still_a_file() {
-    let empty = Recording { frame_rate: 60.0, frame_count: 1, ..Recording::default() };
+    let empty = Recording {
+        frame_rate: 60.0,
+        frame_count: 1,
+        ..Recording::default()
+    };
     let file = gltf::Gltf::from_slice(&write_glb(&empty).unwrap()).unwrap();
     assert_eq!(file.animations().count(), 0);
 }
@@ -177,14 +223,32 @@ fn an_unsound_recording_is_an_error_that_names_the_place() {
     let cases: [Spoiled; 10] = [
         (|r| r.frame_count = 0, &["no frame"]),
         (|r| r.frame_rate = 0.0, &["frame rate", "above zero"]),
-        (|r| r.meshes[1].positions[2].y = f32::NAN, &["position 2", "left", "NaN"]),
-        (|r| r.meshes[1].normals.truncate(3), &["normals", "left", "3"]),
-        (|r| r.meshes[2].parts[1].indices[4] = 4, &["index 4", "part 1", "right", "only 4"]),
+        (
+            |r| r.meshes[1].positions[2].y = f32::NAN,
+            &["position 2", "left", "NaN"],
+        ),
+        (
+            |r| r.meshes[1].normals.truncate(3),
+            &["normals", "left", "3"],
+        ),
+        (
+            |r| r.meshes[2].parts[1].indices[4] = 4,
+            &["index 4", "part 1", "right", "only 4"],
+        ),
         (|r| r.nodes[0].mesh = 9, &["mesh of the node", "plate", "9"]),
-        (|r| r.nodes[0].poses.truncate(3), &["pose list", "plate", "3", "10"]),
-        (|r| r.nodes[1].poses[6].rotation = Quat::from_array([0.0; 4]), &["frame 6", "left"]),
+        (
+            |r| r.nodes[0].poses.truncate(3),
+            &["pose list", "plate", "3", "10"],
+        ),
+        (
+            |r| r.nodes[1].poses[6].rotation = Quat::from_array([0.0; 4]),
+            &["frame 6", "left"],
+        ),
         (|r| r.moments.at_rest = 10, &["at rest", "10"]),
-        (|r| r.camera.up = r.camera.target - r.camera.eye, &["camera", "up"]),
+        (
+            |r| r.camera.up = r.camera.target - r.camera.eye,
+            &["camera", "up"],
+        ),
     ];
     for (spoil, words) in cases {
         let mut bad = recording();
@@ -198,5 +262,8 @@ fn an_unsound_recording_is_an_error_that_names_the_place() {
     }
     let mut bad = recording();
     bad.nodes[0].visible = 2..FRAMES + 1;
-    assert!(matches!(bad.validate(), Err(RecordingError::BadIndex { index: 11, .. })));
+    assert!(matches!(
+        bad.validate(),
+        Err(RecordingError::BadIndex { index: 11, .. })
+    ));
 }

@@ -18,7 +18,7 @@ pub(crate) fn candidates(
     let fast = |body: &RigidBody| {
         let points = body.linvel().length() + body.angvel().length() * body.mass_properties().max_extent();
         // NaN counts as fast: whatever meets it is looked at.
-        !(points < 0.5 * speed)
+        points.is_nan() || points >= 0.5 * speed
     };
     let moving = |body: &RigidBody| body.is_dynamic_or_kinematic() && body.is_enabled() && !body.is_sleeping();
     let movers: Vec<(RigidBodyHandle, Option<Aabb>)> = physics

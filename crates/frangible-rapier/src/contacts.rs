@@ -208,7 +208,7 @@ fn curvature_at(body: &Body, point: Vector) -> f32 {
 /// (1+e) v_n / (nᵀ K n of both): Rapier adds what pushes an overlap apart and what gravity presses, which is no blow.
 fn limit_impulse(contacts: &mut [Contact], body: &RigidBody, partner: Option<&RigidBody>) {
     let total: f32 = contacts.iter().map(|c| c.impulse).sum();
-    if !(total > 0.0) {
+    if total.is_nan() || total <= 0.0 {
         return;
     }
     let mean = |f: &dyn Fn(&Contact) -> Vector| contacts.iter().map(|c| f(c) * (c.impulse / total)).sum::<Vector>();

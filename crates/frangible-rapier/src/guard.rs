@@ -41,7 +41,7 @@ pub(crate) fn put_back(physics: &mut PhysicsWorld, before: &Centres) {
             let Some(body) = physics.bodies.get(handle) else { continue };
             let way = body.center_of_mass() - old;
             let length = way.length();
-            if !(length > SHORT) {
+            if length.is_nan() || length <= SHORT {
                 continue;
             }
             let ray = Ray::new(old, way / length);

@@ -1,7 +1,7 @@
 //! A Rapier world whose bodies break **inside** the step.
 //!
 //! [`BreakableWorld::step`] is the front door: it steps Rapier, hands every impact on a breakable body to
-//! [`frangible::impact`], and when a body breaks it undoes the step, puts the fragments in the body's place
+//! [`frangible::impact()`], and when a body breaks it undoes the step, puts the fragments in the body's place
 //! with the velocities from **before** the impact, and steps again. So a ball goes on through the pane it
 //! broke instead of bouncing off a pane that is no longer there.
 //!
@@ -23,12 +23,21 @@
 //! - Mass, centre and inertia of a fragment are the exact ones of the piece, never those of its collider.
 //! - Replacing a body by its fragments changes neither momentum nor angular momentum, and adds no kinetic energy.
 //! - The cracks' energy is taken from the motion of fragments and striker relative to each other.
+//! - No fragment's centre of mass passes through a fixed body, and no ball through anything.
 //! - Two runs give the same bits.
+//!
+//! # What it costs
+//! A step copies the world only when a breakable body may be hit at [`WorldConfig::impact_speed`] or more
+//! (0.8 ms for 300 bodies); a body that breaks into 100 pieces costs about 8 ms, once. Resting worlds pay one
+//! pass over the velocities.
 //!
 //! # What it does not do yet
 //! Fragments are plain bodies: they do not break again. Multibody joints of a broken body are released,
 //! impulse joints move to the fragment that holds them. Contacts below the impact threshold (resting
-//! contacts) break nothing.
+//! contacts) break nothing. Breakable bodies and fragments are swept against fixed bodies and balls only, not
+//! against each other. Rapier limits spin to an eighth of a turn per step, and applies a contact's impulse at the
+//! arms of the step's start: chips that would spin faster lose angular momentum, and a blow during which bodies
+//! move centimetres per step changes the total by some percent. Shorter steps cure both.
 
 mod approach;
 mod collider;

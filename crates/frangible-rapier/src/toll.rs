@@ -25,7 +25,7 @@ pub(crate) fn take_energy(
     strikers: &[RigidBodyHandle],
     energy: f64,
 ) -> f64 {
-    if !(energy > 0.0) {
+    if energy.is_nan() || energy <= 0.0 {
         return 0.0;
     }
     let mut group: Vec<RigidBodyHandle> = fragments.iter().chain(strikers).copied().collect();

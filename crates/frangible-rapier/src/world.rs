@@ -23,7 +23,7 @@ const STATIC_STIFFNESS: f32 = 10.0;
 /// 2 after 160 to 400, 10 never.
 const STIFFNESS: f32 = 2.0;
 
-/// Decides what an impact does to a body; [`frangible::impact`] unless replaced by
+/// Decides what an impact does to a body; [`frangible::impact()`] unless replaced by
 /// [`BreakableWorld::set_break_function`].
 pub type BreakFn = dyn Fn(&Body, &[Contact], &FractureConfig) -> Result<Outcome, InputError> + Send + Sync;
 
@@ -96,7 +96,7 @@ impl BreakableWorld {
         })
     }
 
-    /// Replaces [`frangible::impact`] by another judge: another model, or a fake in tests.
+    /// Replaces [`frangible::impact()`] by another judge: another model, or a fake in tests.
     pub fn set_break_function(
         &mut self,
         function: impl Fn(&Body, &[Contact], &FractureConfig) -> Result<Outcome, InputError> + Send + Sync + 'static,

@@ -14,7 +14,10 @@ pub(crate) struct Block {
 
 impl Block {
     pub(crate) fn zeros(rows: usize, columns: usize) -> Self {
-        Self { data: vec![0.0; rows * columns], rows }
+        Self {
+            data: vec![0.0; rows * columns],
+            rows,
+        }
     }
 
     pub(crate) fn columns(&self) -> usize {
@@ -35,7 +38,11 @@ impl Block {
 
     /// Columns `from..to`.
     pub(crate) fn part(&self, from: usize, to: usize) -> MatRef<'_, f64> {
-        MatRef::from_column_major_slice(&self.data[from * self.rows..to * self.rows], self.rows, to - from)
+        MatRef::from_column_major_slice(
+            &self.data[from * self.rows..to * self.rows],
+            self.rows,
+            to - from,
+        )
     }
 
     pub(crate) fn view_mut(&mut self) -> MatMut<'_, f64> {
@@ -47,7 +54,14 @@ impl Block {
 /// aᵀ b.
 pub(crate) fn inner(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> Block {
     let mut out = Block::zeros(a.ncols(), b.ncols());
-    matmul(out.view_mut(), Accum::Replace, a.transpose(), b, 1.0, Par::Seq);
+    matmul(
+        out.view_mut(),
+        Accum::Replace,
+        a.transpose(),
+        b,
+        1.0,
+        Par::Seq,
+    );
     out
 }
 
@@ -67,7 +81,12 @@ pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
     // Four running sums: fast, and in a fixed order.
     let mut sums = [0.0; 4];
     let (a4, b4) = (a.chunks_exact(4), b.chunks_exact(4));
-    let rest: f64 = a4.remainder().iter().zip(b4.remainder()).map(|(x, y)| x * y).sum();
+    let rest: f64 = a4
+        .remainder()
+        .iter()
+        .zip(b4.remainder())
+        .map(|(x, y)| x * y)
+        .sum();
     for (x, y) in a4.zip(b4) {
         for k in 0..4 {
             sums[k] += x[k] * y[k];

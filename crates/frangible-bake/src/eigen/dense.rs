@@ -14,12 +14,24 @@ use crate::error::BakeError;
 /// Divides by the largest entry first: faer 0.24 loses digits on matrices of tiny norm.
 pub(crate) fn symmetric_eigen(matrix: &Block) -> Result<(Vec<f64>, Block), BakeError> {
     let n = matrix.rows;
-    let scale = matrix.data.iter().fold(0.0_f64, |m, x| m.max(x.abs())).max(f64::MIN_POSITIVE);
-    let scaled = Block { data: matrix.data.iter().map(|x| x / scale).collect(), rows: n };
+    let scale = matrix
+        .data
+        .iter()
+        .fold(0.0_f64, |m, x| m.max(x.abs()))
+        .max(f64::MIN_POSITIVE);
+    let scaled = Block {
+        data: matrix.data.iter().map(|x| x / scale).collect(),
+        rows: n,
+    };
     let mut values = vec![0.0; n];
     let mut vectors = Block::zeros(n, n);
     let params = Spec::default();
-    let mut memory = MemBuffer::new(self_adjoint_evd_scratch::<f64>(n, ComputeEigenvectors::Yes, Par::Seq, params));
+    let mut memory = MemBuffer::new(self_adjoint_evd_scratch::<f64>(
+        n,
+        ComputeEigenvectors::Yes,
+        Par::Seq,
+        params,
+    ));
     self_adjoint_evd(
         scaled.view(),
         DiagMut::from_slice_mut(&mut values),
@@ -28,7 +40,9 @@ pub(crate) fn symmetric_eigen(matrix: &Block) -> Result<(Vec<f64>, Block), BakeE
         MemStack::new(&mut memory),
         params,
     )
-    .map_err(|e| BakeError::Factorization { reason: format!("dense eigenvalues: {e:?}") })?;
+    .map_err(|e| BakeError::Factorization {
+        reason: format!("dense eigenvalues: {e:?}"),
+    })?;
     values.iter_mut().for_each(|v| *v *= scale);
     Ok((values, vectors))
 }
@@ -44,7 +58,10 @@ pub(crate) fn solve(
     let mut trace = 0.0;
     for j in 0..n {
         let a = scaled.as_ref();
-        for (&i, &value) in a.symbolic().row_idx()[a.symbolic().col_range(j)].iter().zip(a.val_of_col(j)) {
+        for (&i, &value) in a.symbolic().row_idx()[a.symbolic().col_range(j)]
+            .iter()
+            .zip(a.val_of_col(j))
+        {
             matrix.data[j * n + i] += value;
             trace += if i == j { value } else { 0.0 };
         }

@@ -4,7 +4,8 @@ use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::SparseColMat;
 use faer::sparse::linalg::SupernodalThreshold;
 use faer::sparse::linalg::cholesky::{
-    CholeskySymbolicParams, LltRef, SymbolicCholesky, SymmetricOrdering, factorize_symbolic_cholesky,
+    CholeskySymbolicParams, LltRef, SymbolicCholesky, SymmetricOrdering,
+    factorize_symbolic_cholesky,
 };
 use faer::{Conj, MatMut, Par, Side, Spec};
 
@@ -36,7 +37,10 @@ pub(crate) struct Shifted {
 impl Shifted {
     /// Factorizes with a shift a little below the lowest elastic eigenvalue: well above rounding, and
     /// near enough to the wanted end of the spectrum.
-    pub(crate) fn near_zero(scaled: &SparseColMat<usize, f64>, rigid: &Block) -> Result<Self, BakeError> {
+    pub(crate) fn near_zero(
+        scaled: &SparseColMat<usize, f64>,
+        rigid: &Block,
+    ) -> Result<Self, BakeError> {
         let n = rigid.rows;
         let symbolic = factorize_symbolic_cholesky(
             scaled.symbolic(),
@@ -47,14 +51,23 @@ impl Shifted {
                 ..Default::default()
             },
         )
-        .map_err(|e| BakeError::Factorization { reason: format!("{e:?}") })?;
+        .map_err(|e| BakeError::Factorization {
+            reason: format!("{e:?}"),
+        })?;
         let largest = (0..n).map(|j| scaled.val_of_col(j)[0]).fold(0.0, f64::max);
         let values = vec![0.0; symbolic.len_val()];
-        let mut factor = Self { symbolic, values, shift: 1e-10 * largest };
+        let mut factor = Self {
+            symbolic,
+            values,
+            shift: 1e-10 * largest,
+        };
         factor.refactorize(scaled)?;
         // A few inverse iterations tell the order of the lowest elastic eigenvalue.
         let mut x = Block::zeros(n, 1);
-        x.data.iter_mut().enumerate().for_each(|(i, v)| *v = random::symmetric(7, i as u64));
+        x.data
+            .iter_mut()
+            .enumerate()
+            .for_each(|(i, v)| *v = random::symmetric(7, i as u64));
         let mut lowest = largest;
         for _ in 0..4 {
             project_out(&mut x, rigid.view());
@@ -80,7 +93,10 @@ impl Shifted {
             values[first] += self.shift;
         }
         let params = Spec::default();
-        let mut memory = MemBuffer::new(self.symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, params));
+        let mut memory = MemBuffer::new(
+            self.symbolic
+                .factorize_numeric_llt_scratch::<f64>(Par::Seq, params),
+        );
         self.symbolic
             .factorize_numeric_llt(
                 &mut self.values,
@@ -91,7 +107,9 @@ impl Shifted {
                 MemStack::new(&mut memory),
                 params,
             )
-            .map_err(|e| BakeError::Factorization { reason: format!("{e:?}") })?;
+            .map_err(|e| BakeError::Factorization {
+                reason: format!("{e:?}"),
+            })?;
         Ok(())
     }
 
@@ -103,7 +121,10 @@ impl Shifted {
         let rows = x.rows;
         let solve_group = |group: &mut [f64]| {
             let columns = group.len() / rows;
-            let mut memory = MemBuffer::new(self.symbolic.solve_in_place_scratch::<f64>(columns, Par::Seq));
+            let mut memory = MemBuffer::new(
+                self.symbolic
+                    .solve_in_place_scratch::<f64>(columns, Par::Seq),
+            );
             LltRef::new(&self.symbolic, &self.values).solve_in_place_with_conj(
                 Conj::No,
                 MatMut::from_column_major_slice_mut(group, rows, columns),

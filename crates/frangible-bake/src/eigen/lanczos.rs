@@ -28,9 +28,16 @@ pub(crate) fn solve(
     let skip = rigid.columns();
     let mut basis = rigid.clone();
     let mut next = Block::zeros(n, BLOCK);
-    next.data.iter_mut().enumerate().for_each(|(i, x)| *x = random::symmetric(1, i as u64));
+    next.data
+        .iter_mut()
+        .enumerate()
+        .for_each(|(i, x)| *x = random::symmetric(1, i as u64));
     project_out(&mut next, rigid.view());
-    let breakdown = |basis: usize| BakeError::NotConverged { converged: 0, wanted, basis };
+    let breakdown = |basis: usize| BakeError::NotConverged {
+        converged: 0,
+        wanted,
+        basis,
+    };
     orthonormalise(&mut next).ok_or_else(|| breakdown(0))?;
     // Diagonal blocks of the projected matrix, and the triangles below them.
     let (mut diagonal, mut below): (Vec<Block>, Vec<Block>) = (Vec::new(), Vec::new());
@@ -44,14 +51,24 @@ pub(crate) fn solve(
         project_out(&mut w, rigid.view());
         // Three-term recurrence first, so that the full pass afterwards only removes rounding.
         if let Some(triangle) = below.last() {
-            let transposed = Block { data: transpose(triangle), rows: BLOCK };
-            subtract(&mut w, basis.part(size - 2 * BLOCK, size - BLOCK), transposed.view());
+            let transposed = Block {
+                data: transpose(triangle),
+                rows: BLOCK,
+            };
+            subtract(
+                &mut w,
+                basis.part(size - 2 * BLOCK, size - BLOCK),
+                transposed.view(),
+            );
         }
         diagonal.push(project_out(&mut w, basis.part(size - BLOCK, size)));
         let first = orthonormalise(&mut w).ok_or_else(|| breakdown(size))?;
         project_out(&mut w, basis.view());
         let second = orthonormalise(&mut w).ok_or_else(|| breakdown(size))?;
-        let second = Block { data: transpose(&second), rows: BLOCK };
+        let second = Block {
+            data: transpose(&second),
+            rows: BLOCK,
+        };
         below.push(inner(second.view(), first.view()));
         next = w;
 
@@ -60,20 +77,36 @@ pub(crate) fn solve(
             let (values, vectors) = symmetric_eigen(&projected(&diagonal, &below))?;
             // The wanted end of the inverse's spectrum is the top.
             let residuals: Vec<f64> = (0..wanted.min(k))
-                .map(|i| last_block(&below[below.len() - 1], vectors.column(k - 1 - i)).0 / values[k - 1 - i])
+                .map(|i| {
+                    last_block(&below[below.len() - 1], vectors.column(k - 1 - i)).0
+                        / values[k - 1 - i]
+                })
                 .collect();
             converged = residuals.iter().take_while(|r| **r <= TOLERANCE).count();
             log::debug!("Lanczos: {k} vectors, {converged} of {wanted} modes");
             progress(converged as f64 / wanted as f64);
             if converged == wanted {
-                return Ok(ritz(shifted.shift, wanted, &basis, skip, &next, &values, &vectors, &below[below.len() - 1]));
+                return Ok(ritz(
+                    shifted.shift,
+                    wanted,
+                    &basis,
+                    skip,
+                    &next,
+                    &values,
+                    &vectors,
+                    &below[below.len() - 1],
+                ));
             }
             check_at = k + (4 * BLOCK).max((wanted - converged) / 3);
         } else {
             progress(0.5 * k as f64 / check_at as f64);
         }
         if k >= limit {
-            return Err(BakeError::NotConverged { converged, wanted, basis: k });
+            return Err(BakeError::NotConverged {
+                converged,
+                wanted,
+                basis: k,
+            });
         }
     }
 }
@@ -130,8 +163,15 @@ fn ritz(
     for i in 0..wanted {
         let (theta, y) = (values[k - 1 - i], vectors.column(k - 1 - i));
         // `subtract` below takes the negative.
-        chosen.column_mut(i).iter_mut().zip(y).for_each(|(to, from)| *to = -from);
-        tail.column_mut(i).iter_mut().zip(last_block(below, y).1).for_each(|(to, from)| *to = -from / theta);
+        chosen
+            .column_mut(i)
+            .iter_mut()
+            .zip(y)
+            .for_each(|(to, from)| *to = -from);
+        tail.column_mut(i)
+            .iter_mut()
+            .zip(last_block(below, y).1)
+            .for_each(|(to, from)| *to = -from / theta);
         eigenvalues.push(1.0 / theta - shift);
     }
     let mut out = Block::zeros(basis.rows, wanted);

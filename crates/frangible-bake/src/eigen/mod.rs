@@ -55,7 +55,11 @@ impl Modes {
 /// # Errors
 /// More modes wanted than there are, a stiffness that cannot be factorized, or a mode whose residual
 /// stays above max(1e-8 ‖Kφ‖, 10 ε ‖|K||φ|‖).
-pub fn lowest_modes(system: &System, wanted: usize, progress: &mut dyn FnMut(f64)) -> Result<Modes, BakeError> {
+pub fn lowest_modes(
+    system: &System,
+    wanted: usize,
+    progress: &mut dyn FnMut(f64),
+) -> Result<Modes, BakeError> {
     let n = 3 * system.mass.len();
     let available = n.saturating_sub(6);
     if wanted == 0 || wanted > available {
@@ -69,7 +73,9 @@ pub fn lowest_modes(system: &System, wanted: usize, progress: &mut dyn FnMut(f64
     } else {
         let shifted = Shifted::near_zero(&scaled, &rigid)?;
         progress(0.1);
-        lanczos::solve(&shifted, &rigid, wanted, &mut |share| progress(0.1 + 0.9 * share))?
+        lanczos::solve(&shifted, &rigid, wanted, &mut |share| {
+            progress(0.1 + 0.9 * share);
+        })?
     };
     let mut modes = finish(eigenvalues, vectors, &inverse_root);
     modes.max_residual = residual::check(system, &modes)?;
@@ -91,5 +97,10 @@ fn finish(eigenvalues: Vec<f64>, vectors: Block, inverse_root: &[f64]) -> Modes 
             shape.iter_mut().for_each(|x| *x = -*x);
         }
     }
-    Modes { eigenvalues, shapes, unknowns, max_residual: 0.0 }
+    Modes {
+        eigenvalues,
+        shapes,
+        unknowns,
+        max_residual: 0.0,
+    }
 }

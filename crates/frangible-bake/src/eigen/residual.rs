@@ -13,7 +13,9 @@ const LIMIT: f64 = 1e-8;
 pub fn residual(system: &System, eigenvalue: f64, shape: &[f64]) -> (f64, f64) {
     let k = system.multiply(shape);
     let norm = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
-    let rest: Vec<f64> = (0..k.len()).map(|i| k[i] - eigenvalue * system.mass[i / 3] * shape[i]).collect();
+    let rest: Vec<f64> = (0..k.len())
+        .map(|i| k[i] - eigenvalue * system.mass[i / 3] * shape[i])
+        .collect();
     let relative = norm(&rest) / norm(&k);
     let limit = if relative <= LIMIT {
         LIMIT
@@ -28,8 +30,12 @@ pub(crate) fn check(system: &System, modes: &Modes) -> Result<f64, BakeError> {
     let mut largest = 0.0_f64;
     for (mode, &eigenvalue) in modes.eigenvalues.iter().enumerate() {
         let (residual, limit) = residual(system, eigenvalue, modes.shape(mode));
-        if !(residual <= limit) {
-            return Err(BakeError::Residual { mode, residual, limit });
+        if residual.is_nan() || residual > limit {
+            return Err(BakeError::Residual {
+                mode,
+                residual,
+                limit,
+            });
         }
         largest = largest.max(residual);
     }

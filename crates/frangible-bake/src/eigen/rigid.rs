@@ -10,11 +10,26 @@ use crate::fem::System;
 #[must_use]
 pub fn rigid_motions(system: &System) -> Vec<Vec<f64>> {
     let mass: f64 = system.mass.iter().sum();
-    let centre = system.positions.iter().zip(&system.mass).map(|(x, m)| *x * *m).sum::<DVec3>() / mass;
-    let motion = |f: &dyn Fn(DVec3) -> DVec3| system.positions.iter().flat_map(|&x| f(x).to_array()).collect();
+    let centre = system
+        .positions
+        .iter()
+        .zip(&system.mass)
+        .map(|(x, m)| *x * *m)
+        .sum::<DVec3>()
+        / mass;
+    let motion = |f: &dyn Fn(DVec3) -> DVec3| {
+        system
+            .positions
+            .iter()
+            .flat_map(|&x| f(x).to_array())
+            .collect()
+    };
     let axes = [DVec3::X, DVec3::Y, DVec3::Z];
     let mut motions: Vec<Vec<f64>> = axes.iter().map(|&a| motion(&|_| a)).collect();
-    motions.extend(axes.iter().map(|&a| -> Vec<f64> { motion(&|x| a.cross(x - centre)) }));
+    motions.extend(
+        axes.iter()
+            .map(|&a| -> Vec<f64> { motion(&|x| a.cross(x - centre)) }),
+    );
     motions
 }
 

@@ -31,12 +31,16 @@ pub struct System {
 pub fn assemble(positions: &[DVec3], elements: Elements<'_>, material: &Elasticity) -> System {
     match elements {
         Elements::Linear(tets) => {
-            assemble_with(positions, tets, [0.25; 4], material.density, |x| stiffness_t4(x, material))
+            assemble_with(positions, tets, [0.25; 4], material.density, |x| {
+                stiffness_t4(x, material)
+            })
         }
         Elements::Quadratic(tets) => {
             let (c, m) = (1.0 / 36.0, 4.0 / 27.0);
             let shares = [c, c, c, c, m, m, m, m, m, m];
-            assemble_with(positions, tets, shares, material.density, |x| stiffness_t10(x, material))
+            assemble_with(positions, tets, shares, material.density, |x| {
+                stiffness_t10(x, material)
+            })
         }
     }
 }
@@ -52,7 +56,11 @@ fn assemble_with<const N: usize>(
     let mut pairs: Vec<(u32, u32)> = Vec::with_capacity(elements.len() * N * (N + 1) / 2);
     for element in elements {
         for (a, &row) in element.iter().enumerate() {
-            pairs.extend(element[..=a].iter().map(|&column| (row.min(column), row.max(column))));
+            pairs.extend(
+                element[..=a]
+                    .iter()
+                    .map(|&column| (row.min(column), row.max(column))),
+            );
         }
     }
     pairs.sort_unstable();
@@ -90,7 +98,11 @@ fn assemble_with<const N: usize>(
                 for i in 0..3 {
                     for j in 0..3 {
                         // k holds (a, b); the stored block is (row, column), perhaps transposed.
-                        let value = if element[a] == row { k[a][b][i][j] } else { k[a][b][j][i] };
+                        let value = if element[a] == row {
+                            k[a][b][i][j]
+                        } else {
+                            k[a][b][j][i]
+                        };
                         if block == 0 {
                             if i >= j {
                                 values[col_ptr[3 * c + j] + i - j] += value;
@@ -105,7 +117,11 @@ fn assemble_with<const N: usize>(
         }
     }
     let symbolic = SymbolicSparseColMat::new_checked(3 * nodes, 3 * nodes, col_ptr, None, row_idx);
-    System { positions: positions.to_vec(), stiffness: SparseColMat::new(symbolic, values), mass }
+    System {
+        positions: positions.to_vec(),
+        stiffness: SparseColMat::new(symbolic, values),
+        mass,
+    }
 }
 
 impl System {

@@ -19,7 +19,11 @@ pub struct Elasticity {
 
 impl From<&Material> for Elasticity {
     fn from(m: &Material) -> Self {
-        Self { youngs_modulus: m.youngs_modulus, poisson_ratio: m.poisson_ratio, density: m.density }
+        Self {
+            youngs_modulus: m.youngs_modulus,
+            poisson_ratio: m.poisson_ratio,
+            density: m.density,
+        }
     }
 }
 
@@ -28,7 +32,10 @@ impl Elasticity {
     #[must_use]
     pub fn lame(&self) -> (f64, f64) {
         let (e, nu) = (self.youngs_modulus, self.poisson_ratio);
-        (e * nu / ((1.0 + nu) * (1.0 - 2.0 * nu)), e / (2.0 * (1.0 + nu)))
+        (
+            e * nu / ((1.0 + nu) * (1.0 - 2.0 * nu)),
+            e / (2.0 * (1.0 + nu)),
+        )
     }
 }
 
@@ -37,14 +44,20 @@ const NEAR: f64 = 0.585_410_196_624_968_5;
 const FAR: f64 = 0.138_196_601_125_010_5;
 
 /// Adds `weight` · (λ g_a g_bᵀ + μ g_b g_aᵀ + μ (g_a·g_b) I) to the 3 × 3 block of every node pair.
-fn add_point<const N: usize>(k: &mut [[[[f64; 3]; 3]; N]; N], g: &[DVec3; N], weight: f64, (lambda, mu): (f64, f64)) {
+fn add_point<const N: usize>(
+    k: &mut [[[[f64; 3]; 3]; N]; N],
+    g: &[DVec3; N],
+    weight: f64,
+    (lambda, mu): (f64, f64),
+) {
     for a in 0..N {
         for b in 0..=a {
             let dot = mu * g[a].dot(g[b]);
             for i in 0..3 {
                 for j in 0..3 {
                     let diagonal = if i == j { dot } else { 0.0 };
-                    k[a][b][i][j] += weight * (lambda * g[a][i] * g[b][j] + mu * g[b][i] * g[a][j] + diagonal);
+                    k[a][b][i][j] +=
+                        weight * (lambda * g[a][i] * g[b][j] + mu * g[b][i] * g[a][j] + diagonal);
                 }
             }
         }
@@ -60,7 +73,12 @@ pub fn stiffness_t10(corners: [DVec3; 4], material: &Elasticity) -> [[[[f64; 3];
     for point in 0..4 {
         let mut l = [FAR; 4];
         l[point] = NEAR;
-        add_point(&mut k, &shape_gradients(l, &gradients), weight, material.lame());
+        add_point(
+            &mut k,
+            &shape_gradients(l, &gradients),
+            weight,
+            material.lame(),
+        );
     }
     k
 }
@@ -69,6 +87,11 @@ pub fn stiffness_t10(corners: [DVec3; 4], material: &Elasticity) -> [[[[f64; 3];
 #[must_use]
 pub fn stiffness_t4(corners: [DVec3; 4], material: &Elasticity) -> [[[[f64; 3]; 3]; 4]; 4] {
     let mut k = [[[[0.0; 3]; 3]; 4]; 4];
-    add_point(&mut k, &barycentric_gradients(corners), tet_volume(corners), material.lame());
+    add_point(
+        &mut k,
+        &barycentric_gradients(corners),
+        tet_volume(corners),
+        material.lame(),
+    );
     k
 }

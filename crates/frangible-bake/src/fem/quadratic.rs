@@ -21,13 +21,20 @@ impl QuadraticMesh {
     #[must_use]
     pub fn new(mesh: &BodyMesh) -> Self {
         let edge = |tet: &[u32; 4], [i, j]: [usize; 2]| (tet[i].min(tet[j]), tet[i].max(tet[j]));
-        let mut edges: Vec<(u32, u32)> =
-            mesh.tets.iter().flat_map(|tet| MID_EDGES.map(|ends| edge(tet, ends))).collect();
+        let mut edges: Vec<(u32, u32)> = mesh
+            .tets
+            .iter()
+            .flat_map(|tet| MID_EDGES.map(|ends| edge(tet, ends)))
+            .collect();
         edges.sort_unstable();
         edges.dedup();
         let corners = mesh.positions.len() as u32;
         let mut positions = mesh.positions.clone();
-        positions.extend(edges.iter().map(|&(i, j)| 0.5 * (mesh.positions[i as usize] + mesh.positions[j as usize])));
+        positions.extend(
+            edges
+                .iter()
+                .map(|&(i, j)| 0.5 * (mesh.positions[i as usize] + mesh.positions[j as usize])),
+        );
         let elements = mesh.tets.iter().map(|tet| {
             let mut nodes = [0; 10];
             nodes[..4].copy_from_slice(tet);
@@ -37,7 +44,10 @@ impl QuadraticMesh {
             }
             nodes
         });
-        Self { elements: elements.collect(), positions }
+        Self {
+            elements: elements.collect(),
+            positions,
+        }
     }
 
     /// Corner positions of element `e`, m.

@@ -16,16 +16,23 @@ fn divisions(length: f64, edge: f64) -> usize {
 
 /// Estimated tetrahedra of a box meshed with `size`.
 pub(crate) fn estimate(size: [f64; 3], mesh: MeshSize) -> f64 {
-    6.0 * (size[0] / mesh.edge).max(1.0) * (size[1] / mesh.edge).max(1.0) * layers(size, mesh) as f64
+    6.0 * (size[0] / mesh.edge).max(1.0)
+        * (size[1] / mesh.edge).max(1.0)
+        * layers(size, mesh) as f64
 }
 
 fn layers(size: [f64; 3], mesh: MeshSize) -> usize {
-    if mesh.layers > 0 { mesh.layers } else { divisions(size[2], mesh.edge) }
+    if mesh.layers > 0 {
+        mesh.layers
+    } else {
+        divisions(size[2], mesh.edge)
+    }
 }
 
 /// All three sides must be finite and above zero.
 pub(crate) fn validate(size: [f64; 3]) -> Result<(), BakeError> {
-    size.iter().try_for_each(|&s| positive("a side of the box, in m,", s))
+    size.iter()
+        .try_for_each(|&s| positive("a side of the box, in m,", s))
 }
 
 /// Regular mesh for the analysis: `size[0] × size[1]` grid of squares, two triangles each.
@@ -34,14 +41,25 @@ pub(crate) fn regular(size: [f64; 3], mesh: MeshSize) -> Result<BodyMesh, BakeEr
     let mut sheet = Sheet::default();
     for j in 0..=ny {
         for i in 0..=nx {
-            sheet.push([i as f64 * size[0] / nx as f64, j as f64 * size[1] / ny as f64], [false; 2], FREE);
+            sheet.push(
+                [
+                    i as f64 * size[0] / nx as f64,
+                    j as f64 * size[1] / ny as f64,
+                ],
+                [false; 2],
+                FREE,
+            );
         }
     }
     let v = |i: usize, j: usize| (j * (nx + 1) + i) as u32;
     for j in 0..ny {
         for i in 0..nx {
-            sheet.triangles.push([v(i, j), v(i + 1, j), v(i + 1, j + 1)]);
-            sheet.triangles.push([v(i, j), v(i + 1, j + 1), v(i, j + 1)]);
+            sheet
+                .triangles
+                .push([v(i, j), v(i + 1, j), v(i + 1, j + 1)]);
+            sheet
+                .triangles
+                .push([v(i, j), v(i + 1, j + 1), v(i, j + 1)]);
         }
     }
     let layers = layers(size, mesh);
@@ -65,7 +83,11 @@ pub(crate) fn irregular(size: [f64; 3], mesh: MeshSize, seed: u64) -> Result<Bod
         let count = if j % 2 == 0 { nx + 1 } else { nx + 2 };
         let row: Vec<(u32, f64)> = (0..count)
             .map(|i| {
-                let x = if j % 2 == 0 { i as f64 * step } else { ((i as f64 - 0.5) * step).clamp(0.0, size[0]) };
+                let x = if j % 2 == 0 {
+                    i as f64 * step
+                } else {
+                    ((i as f64 - 0.5) * step).clamp(0.0, size[0])
+                };
                 let end = i == 0 || i + 1 == count;
                 (sheet.push([x, y], [!end, j > 0 && j < ny], FREE), x)
             })
@@ -76,16 +98,21 @@ pub(crate) fn irregular(size: [f64; 3], mesh: MeshSize, seed: u64) -> Result<Bod
         previous = row;
     }
     let lift = |c: [f64; 2]| DVec3::new(c[0], c[1], 0.0);
-    sheet.jitter(0.3 * mesh.edge, seed, &lift);
-    sheet.flip(&lift);
+    sheet.disorder(mesh.edge, seed, &lift);
     sheet.relax(2, &lift);
     sheet.flip(&lift);
     let layers = layers(size, mesh);
     let height = size[2] / layers as f64;
     let position = |v: usize, layer: usize| {
-        let mut p = DVec3::new(sheet.coords[v][0], sheet.coords[v][1], layer as f64 * height);
+        let mut p = DVec3::new(
+            sheet.coords[v][0],
+            sheet.coords[v][1],
+            layer as f64 * height,
+        );
         if layer > 0 && layer < layers {
-            let random = |axis: u64| random::symmetric(seed ^ 0x5eed, 3 * (v * (layers + 1) + layer) as u64 + axis);
+            let random = |axis: u64| {
+                random::symmetric(seed ^ 0x5eed, 3 * (v * (layers + 1) + layer) as u64 + axis)
+            };
             p.z += 0.2 * height * random(2);
             for axis in 0..2 {
                 if sheet.slides[v][axis] {

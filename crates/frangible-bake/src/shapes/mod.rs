@@ -55,37 +55,49 @@ impl Shape {
     /// A pane or plate: width, depth, thickness, m.
     #[must_use]
     pub const fn plate(width: f64, depth: f64, thickness: f64) -> Self {
-        Self::Box { size: [width, depth, thickness] }
+        Self::Box {
+            size: [width, depth, thickness],
+        }
     }
 
     /// A square rod along x, m.
     #[must_use]
     pub const fn rod(length: f64, side: f64) -> Self {
-        Self::Box { size: [length, side, side] }
+        Self::Box {
+            size: [length, side, side],
+        }
     }
 
-    /// Drinking glass: Ø 70–76 mm, 105 mm high, wall 2 mm, base 5.5 mm.
+    /// Drinking glass: Ø 70–76 mm, 105 mm high, wall 2 mm, base 6 mm.
     #[must_use]
     pub fn drinking_glass() -> Self {
-        Self::Revolution { profile: ready::drinking_glass() }
+        Self::Revolution {
+            profile: ready::drinking_glass(),
+        }
     }
 
     /// Round bowl: Ø 154 mm, 59 mm high, wall 4 mm.
     #[must_use]
     pub fn bowl() -> Self {
-        Self::Revolution { profile: ready::bowl() }
+        Self::Revolution {
+            profile: ready::bowl(),
+        }
     }
 
     /// Vase: 210 mm high, Ø 100 mm at the belly, wall 4 mm.
     #[must_use]
     pub fn vase() -> Self {
-        Self::Revolution { profile: ready::vase() }
+        Self::Revolution {
+            profile: ready::vase(),
+        }
     }
 
     /// Dinner plate: Ø 240 mm, 5 mm thick, rim 22 mm high.
     #[must_use]
     pub fn dinner_plate() -> Self {
-        Self::Revolution { profile: ready::dinner_plate() }
+        Self::Revolution {
+            profile: ready::dinner_plate(),
+        }
     }
 
     /// Volume of the exact shape, m³.
@@ -151,7 +163,9 @@ impl Shape {
         self.check(size)?;
         match self {
             Self::Box { size: sides } => block::irregular(*sides, size, seed),
-            Self::Revolution { profile } => revolution::mesh(&Profile::new(profile)?, size, Some(seed)),
+            Self::Revolution { profile } => {
+                revolution::mesh(&Profile::new(profile)?, size, Some(seed))
+            }
         }
     }
 
@@ -160,7 +174,11 @@ impl Shape {
         positive("the element edge, in m,", size.edge)?;
         let tets = self.estimate(size)?;
         if tets > LIMIT as f64 {
-            return Err(BakeError::TooFine { edge: size.edge, tets: tets as usize, limit: LIMIT });
+            return Err(BakeError::TooFine {
+                edge: size.edge,
+                tets: tets as usize,
+                limit: LIMIT,
+            });
         }
         Ok(())
     }

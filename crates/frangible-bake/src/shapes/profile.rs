@@ -17,13 +17,21 @@ impl Station {
     /// A smooth station.
     #[must_use]
     pub const fn smooth(outer: [f64; 2], inner: [f64; 2]) -> Self {
-        Self { outer, inner, corner: false }
+        Self {
+            outer,
+            inner,
+            corner: false,
+        }
     }
 
     /// A sharp station.
     #[must_use]
     pub const fn sharp(outer: [f64; 2], inner: [f64; 2]) -> Self {
-        Self { outer, inner, corner: true }
+        Self {
+            outer,
+            inner,
+            corner: true,
+        }
     }
 }
 
@@ -42,15 +50,20 @@ pub(crate) struct Profile {
 }
 
 impl Profile {
-    /// Checks the stations and samples the curves: a Catmull–Rom spline through smooth stations.
+    /// Checks the stations and samples the curves: a monotone cubic through smooth stations.
     pub(crate) fn new(stations: &[Station]) -> Result<Self, BakeError> {
         validate(stations)?;
-        let p: Vec<[f64; 4]> =
-            stations.iter().map(|s| [s.outer[0], s.outer[1], s.inner[0], s.inner[1]]).collect();
+        let p: Vec<[f64; 4]> = stations
+            .iter()
+            .map(|s| [s.outer[0], s.outer[1], s.inner[0], s.inner[1]])
+            .collect();
         let n = p.len();
         // Knots by the length of the mid-line's chords keep the spline from overshooting.
-        let chord: Vec<f64> = (0..n - 1).map(|i| distance(middle(p[i]), middle(p[i + 1]))).collect();
-        let slope = |i: usize| -> [f64; 4] { std::array::from_fn(|k| (p[i + 1][k] - p[i][k]) / chord[i]) };
+        let chord: Vec<f64> = (0..n - 1)
+            .map(|i| distance(middle(p[i]), middle(p[i + 1])))
+            .collect();
+        let slope =
+            |i: usize| -> [f64; 4] { std::array::from_fn(|k| (p[i + 1][k] - p[i][k]) / chord[i]) };
         let tangent = |i: usize, span: usize| -> [f64; 4] {
             if i == 0 {
                 // The surface meets the axis at a right angle: heights are level there.
@@ -60,7 +73,16 @@ impl Profile {
                 slope(span)
             } else {
                 let (before, after, total) = (slope(i - 1), slope(i), chord[i - 1] + chord[i]);
-                std::array::from_fn(|k| (before[k] * chord[i] + after[k] * chord[i - 1]) / total)
+                std::array::from_fn(|k| {
+                    // Fritsch and Carlson's limit: the curve never overshoots, a flat foot stays flat.
+                    let mean = (before[k] * chord[i] + after[k] * chord[i - 1]) / total;
+                    let most = 3.0 * before[k].abs().min(after[k].abs());
+                    if before[k] * after[k] > 0.0 {
+                        mean.clamp(-most, most)
+                    } else {
+                        0.0
+                    }
+                })
             }
         };
         let (mut points, mut breaks) = (vec![p[0]], vec![0]);
@@ -80,7 +102,11 @@ impl Profile {
                 breaks.push(points.len() - 1);
             }
         }
-        if let Some(at) = points.iter().skip(1).position(|q| q[0] <= 0.0 || q[2] <= 0.0) {
+        if let Some(at) = points
+            .iter()
+            .skip(1)
+            .position(|q| q[0] <= 0.0 || q[2] <= 0.0)
+        {
             return Err(BakeError::Profile {
                 station: at / SAMPLES,
                 problem: "the curve after it crosses the axis; add a station or mark a corner",
@@ -91,7 +117,11 @@ impl Profile {
             arc.push(arc[arc.len() - 1] + distance(middle(w[0]), middle(w[1])));
         }
         let corners = breaks.iter().map(|&b| arc[b]).collect();
-        Ok(Self { arc, points, corners })
+        Ok(Self {
+            arc,
+            points,
+            corners,
+        })
     }
 
     /// Length of the mid-line, m.
@@ -101,7 +131,11 @@ impl Profile {
 
     /// Outer and inner point at arc length `s`, extended straight beyond the ends.
     pub(crate) fn at(&self, s: f64) -> [f64; 4] {
-        let i = self.arc.partition_point(|&a| a <= s).clamp(1, self.arc.len() - 1) - 1;
+        let i = self
+            .arc
+            .partition_point(|&a| a <= s)
+            .clamp(1, self.arc.len() - 1)
+            - 1;
         let t = (s - self.arc[i]) / (self.arc[i + 1] - self.arc[i]);
         std::array::from_fn(|k| self.points[i][k] + t * (self.points[i + 1][k] - self.points[i][k]))
     }
@@ -148,19 +182,31 @@ fn validate(stations: &[Station]) -> Result<(), BakeError> {
         }
         let on_axis = s.outer[0] == 0.0 && s.inner[0] == 0.0;
         if i == 0 && !on_axis {
-            return fail(i, "the first station must lie on the axis: r = 0 for both points");
+            return fail(
+                i,
+                "the first station must lie on the axis: r = 0 for both points",
+            );
         }
         if i > 0 && (s.outer[0] <= 0.0 || s.inner[0] <= 0.0) {
-            return fail(i, "only the first station may lie on the axis; give both points r > 0");
+            return fail(
+                i,
+                "only the first station may lie on the axis; give both points r > 0",
+            );
         }
         if distance(s.outer, s.inner) <= 0.0 {
-            return fail(i, "outer and inner point coincide; give the wall a thickness");
+            return fail(
+                i,
+                "outer and inner point coincide; give the wall a thickness",
+            );
         }
     }
     for (i, w) in stations.windows(2).enumerate() {
         let m = |s: &Station| middle([s.outer[0], s.outer[1], s.inner[0], s.inner[1]]);
         if distance(m(&w[0]), m(&w[1])) <= 0.0 {
-            return fail(i + 1, "it lies where the one before lies; remove one of them");
+            return fail(
+                i + 1,
+                "it lies where the one before lies; remove one of them",
+            );
         }
     }
     Ok(())

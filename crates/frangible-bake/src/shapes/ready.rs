@@ -2,19 +2,20 @@
 
 use crate::shapes::profile::Station;
 
-/// Tumbler, Ø 70 mm at the foot and 76 mm at the rim, 105 mm high, wall 2 mm, base 5.5 mm.
+/// Tumbler, Ø 70 mm at the foot and 76 mm at the rim, 105 mm high, wall 2 mm, base 6 mm.
 pub(crate) fn drinking_glass() -> Vec<Station> {
     let wall = |z: f64, thickness: f64| {
         let outer = 0.035 + 0.003 * (z - 0.008) / 0.097;
         Station::smooth([outer, z], [outer - thickness, z])
     };
     vec![
-        Station::smooth([0.0, 0.0], [0.0, 0.0055]),
-        Station::smooth([0.020, 0.0], [0.020, 0.0055]),
-        Station::smooth([0.0295, 0.0], [0.0285, 0.0056]),
-        Station::smooth([0.0330, 0.0011], [0.0314, 0.0068]),
-        Station::smooth([0.0347, 0.0042], [0.0325, 0.0095]),
-        Station::smooth([0.0351, 0.0105], [0.0329, 0.0150]),
+        Station::smooth([0.0, 0.0], [0.0, 0.006]),
+        Station::smooth([0.018, 0.0], [0.018, 0.006]),
+        // Round the heel the outer curve is longer: the pairs fan out, so that no element is skewed.
+        Station::smooth([0.0275, 0.0], [0.0268, 0.006]),
+        Station::smooth([0.0332, 0.0011], [0.0304, 0.0067]),
+        Station::smooth([0.0349, 0.0046], [0.0322, 0.0083]),
+        wall(0.0125, 0.0022),
         wall(0.030, 0.0021),
         wall(0.060, 0.0020),
         wall(0.105, 0.0017),
@@ -39,13 +40,16 @@ pub(crate) fn vase() -> Vec<Station> {
     let wall = |r: f64, z: f64, slope: f64| {
         // `slope` is dr/dz of the mid-line; the wall is 4 mm thick across it.
         let scale = 0.002 / slope.hypot(1.0);
-        Station::smooth([r + scale, z - scale * slope], [r - scale, z + scale * slope])
+        Station::smooth(
+            [r + scale, z - scale * slope],
+            [r - scale, z + scale * slope],
+        )
     };
     vec![
         Station::smooth([0.0, 0.0], [0.0, 0.006]),
         Station::smooth([0.018, 0.0], [0.018, 0.006]),
-        Station::smooth([0.0265, 0.0002], [0.0250, 0.0062]),
-        Station::smooth([0.0320, 0.0036], [0.0285, 0.0085]),
+        Station::smooth([0.0262, 0.0002], [0.0256, 0.0062]),
+        Station::smooth([0.0318, 0.0040], [0.0287, 0.0082]),
         wall(0.0348, 0.020, 0.22),
         wall(0.0430, 0.055, 0.20),
         wall(0.0480, 0.090, 0.02),

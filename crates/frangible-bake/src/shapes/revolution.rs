@@ -24,20 +24,28 @@ pub(crate) fn estimate(profile: &Profile, size: MeshSize) -> f64 {
 
 fn layers(profile: &Profile, size: MeshSize) -> usize {
     let (area, volume) = profile.area_and_volume();
-    if size.layers > 0 { size.layers } else { ((volume / area / size.edge).round() as usize).max(1) }
+    if size.layers > 0 {
+        size.layers
+    } else {
+        ((volume / area / size.edge).round() as usize).max(1)
+    }
 }
 
 /// Meshes the body; with a seed the mesh is made irregular.
-pub(crate) fn mesh(profile: &Profile, size: MeshSize, seed: Option<u64>) -> Result<BodyMesh, BakeError> {
+pub(crate) fn mesh(
+    profile: &Profile,
+    size: MeshSize,
+    seed: Option<u64>,
+) -> Result<BodyMesh, BakeError> {
     let mut sheet = rings(profile, size.edge, seed);
     let lift = |c: [f64; 2]| {
         let [r, z] = profile.middle(c[1]);
         DVec3::new(r * c[0].cos(), r * c[0].sin(), z)
     };
-    if let Some(seed) = seed {
-        sheet.jitter(0.3 * size.edge, seed, &lift);
-    }
     sheet.flip(&lift);
+    if let Some(seed) = seed {
+        sheet.disorder(size.edge, seed, &lift);
+    }
     sheet.relax(2, &lift);
     sheet.flip(&lift);
     let layers = layers(profile, size);
@@ -51,11 +59,19 @@ pub(crate) fn mesh(profile: &Profile, size: MeshSize, seed: Option<u64>) -> Resu
     };
     let bands = bands(profile);
     let cell = |triangle: usize, centroid: DVec3| {
-        let s = sheet.triangles[triangle].iter().map(|&v| sheet.coords[v as usize][1]).sum::<f64>() / 3.0;
+        let s = sheet.triangles[triangle]
+            .iter()
+            .map(|&v| sheet.coords[v as usize][1])
+            .sum::<f64>()
+            / 3.0;
         let band = bands.partition_point(|&end| end < s) as u32;
         let turn = (centroid.y.atan2(centroid.x) / TAU).rem_euclid(1.0);
         // The bottom is one disc, all else is cut into sectors.
-        let sector = if band == 0 { 0 } else { ((turn * f64::from(CELL_SECTORS)) as u32).min(CELL_SECTORS - 1) };
+        let sector = if band == 0 {
+            0
+        } else {
+            ((turn * f64::from(CELL_SECTORS)) as u32).min(CELL_SECTORS - 1)
+        };
         band * CELL_SECTORS + sector
     };
     extrude(&sheet, layers, seed, &position, &cell)
@@ -91,7 +107,9 @@ fn rings(profile: &Profile, edge: f64, seed: Option<u64>) -> Sheet {
             .collect();
         if previous.is_empty() {
             for i in 0..count {
-                sheet.triangles.push([centre, ring[i].0, ring[(i + 1) % count].0]);
+                sheet
+                    .triangles
+                    .push([centre, ring[i].0, ring[(i + 1) % count].0]);
             }
         } else {
             zip_rings(&mut sheet, &previous, &ring);
@@ -105,7 +123,9 @@ fn rings(profile: &Profile, edge: f64, seed: Option<u64>) -> Sheet {
 fn zip_rings(sheet: &mut Sheet, lower: &[(u32, f64)], upper: &[(u32, f64)]) {
     let start = lower[0].1;
     let gap = |angle: f64| (angle - start + PI).rem_euclid(TAU) - PI;
-    let first = (0..upper.len()).min_by(|&i, &j| gap(upper[i].1).abs().total_cmp(&gap(upper[j].1).abs())).unwrap_or(0);
+    let first = (0..upper.len())
+        .min_by(|&i, &j| gap(upper[i].1).abs().total_cmp(&gap(upper[j].1).abs()))
+        .unwrap_or(0);
     let origin = gap(upper[first].1);
     let mut open_upper: Vec<(u32, f64)> = (0..upper.len())
         .map(|i| {
@@ -128,7 +148,8 @@ fn ring_positions(profile: &Profile, edge: f64) -> Vec<(f64, bool)> {
         // Number of rings up to each step: the integral of one over the local spacing.
         let mut count = vec![0.0];
         for i in 0..steps {
-            let spacing = (0.866 * edge).min(0.9 * bend_radius(profile, 0.5 * (at(i) + at(i + 1)), span));
+            let spacing =
+                (0.866 * edge).min(0.9 * bend_radius(profile, 0.5 * (at(i) + at(i + 1)), span));
             count.push(count[i] + (at(i + 1) - at(i)) / spacing);
         }
         let total = (count[steps].round() as usize).max(1);
@@ -146,7 +167,11 @@ fn ring_positions(profile: &Profile, edge: f64) -> Vec<(f64, bool)> {
 /// Radius of curvature of the mid-line at `s`, m, from three points a short way apart within the span.
 fn bend_radius(profile: &Profile, s: f64, span: &[f64]) -> f64 {
     let reach = 0.01 * profile.length();
-    let (a, b, c) = (profile.middle((s - reach).max(span[0])), profile.middle(s), profile.middle((s + reach).min(span[1])));
+    let (a, b, c) = (
+        profile.middle((s - reach).max(span[0])),
+        profile.middle(s),
+        profile.middle((s + reach).min(span[1])),
+    );
     let double_area = ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])).abs();
     // Circumscribed circle: R = abc / (4 area).
     distance(a, b) * distance(b, c) * distance(c, a) / (2.0 * double_area).max(1e-30)
@@ -164,7 +189,9 @@ fn bands(profile: &Profile) -> Vec<f64> {
         let (p, q) = (profile.middle(samples[start]), profile.middle(samples[i]));
         let bulge = if start == 0 {
             // The bottom cell turns about the axis: what counts is how far it is from level.
-            (start..=i).map(|k| (profile.middle(samples[k])[1] - p[1]).abs()).fold(0.0, f64::max)
+            (start..=i)
+                .map(|k| (profile.middle(samples[k])[1] - p[1]).abs())
+                .fold(0.0, f64::max)
         } else {
             let chord = distance(p, q).max(1e-12);
             let off = |k: usize| {

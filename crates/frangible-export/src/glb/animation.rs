@@ -35,7 +35,12 @@ pub(super) fn push_animation(root: &mut json::Root, binary: &mut Vec<u8>, record
         push_motion(&mut tracks, index, node);
         push_visibility(&mut tracks, index, node, recording.frame_count);
     }
-    let Tracks { root, channels, samplers, .. } = tracks;
+    let Tracks {
+        root,
+        channels,
+        samplers,
+        ..
+    } = tracks;
     if !channels.is_empty() {
         root.push(json::Animation {
             extensions: None,
@@ -54,7 +59,10 @@ fn push_motion(tracks: &mut Tracks<'_>, index: usize, node: &RecordedNode) {
     }
     let first = node.visible.start;
     let poses = &node.poses[node.visible.clone()];
-    let translations: Vec<_> = poses.iter().map(|pose| pose.translation.to_array()).collect();
+    let translations: Vec<_> = poses
+        .iter()
+        .map(|pose| pose.translation.to_array())
+        .collect();
     let mut previous: Option<Quat> = None;
     let rotations: Vec<_> = poses
         .iter()
@@ -104,8 +112,9 @@ impl Tracks<'_> {
             return;
         }
         let moves = |i: usize| i + 1 == values.len() || values[i] != values[i + 1];
-        let kept: Vec<usize> =
-            (0..values.len()).filter(|&i| i == 0 || moves(i - 1) || moves(i)).collect();
+        let kept: Vec<usize> = (0..values.len())
+            .filter(|&i| i == 0 || moves(i - 1) || moves(i))
+            .collect();
         let rows: Vec<_> = kept.iter().map(|&i| values[i]).collect();
         let frames = kept.iter().map(|i| first_frame + i).collect();
         self.push(node, property, Interpolation::Linear, frames, &rows);
@@ -147,7 +156,10 @@ impl Tracks<'_> {
             return known;
         }
         let rate = f64::from(self.frame_rate);
-        let seconds: Vec<_> = frames.iter().map(|&frame| [(frame as f64 / rate) as f32]).collect();
+        let seconds: Vec<_> = frames
+            .iter()
+            .map(|&frame| [(frame as f64 / rate) as f32])
+            .collect();
         let times = push_rows(self.root, self.binary, &seconds, None, true);
         self.times.insert(frames, times);
         times

@@ -30,7 +30,16 @@ pub(super) fn push_rows<const WIDTH: usize>(
         bounded.then(|| value.to_vec().into())
     };
     let bounds = (column(f32::min), column(f32::max));
-    push(root, binary, offset, rows.len(), ComponentType::F32, kind, target, bounds)
+    push(
+        root,
+        binary,
+        offset,
+        rows.len(),
+        ComponentType::F32,
+        kind,
+        target,
+        bounds,
+    )
 }
 
 /// Appends triangle indices, in 16 bits where the vertices allow it.
@@ -43,14 +52,27 @@ pub(super) fn push_indices(
     let offset = binary.len();
     // 65535 itself is reserved: it restarts a strip.
     let component = if vertex_count <= usize::from(u16::MAX) {
-        binary.extend(indices.iter().flat_map(|&index| (index as u16).to_le_bytes()));
+        binary.extend(
+            indices
+                .iter()
+                .flat_map(|&index| (index as u16).to_le_bytes()),
+        );
         ComponentType::U16
     } else {
         binary.extend(indices.iter().flat_map(|&index| index.to_le_bytes()));
         ComponentType::U32
     };
     let target = Some(json::buffer::Target::ElementArrayBuffer);
-    push(root, binary, offset, indices.len(), component, Type::Scalar, target, (None, None))
+    push(
+        root,
+        binary,
+        offset,
+        indices.len(),
+        component,
+        Type::Scalar,
+        target,
+        (None, None),
+    )
 }
 
 fn push(

@@ -28,7 +28,8 @@ pub(super) fn push_materials(root: &mut json::Root, recording: &Recording) {
         root.extensions_used.push("KHR_materials_ior".into());
     }
     if any(has_transmission) {
-        root.extensions_used.push("KHR_materials_transmission".into());
+        root.extensions_used
+            .push("KHR_materials_transmission".into());
     }
 }
 

@@ -21,10 +21,17 @@ pub(super) fn push_mesh(
     if mesh.parts.iter().all(|part| part.indices.is_empty()) {
         return None;
     }
-    let positions: Vec<_> = mesh.positions.iter().map(|position| position.to_array()).collect();
+    let positions: Vec<_> = mesh
+        .positions
+        .iter()
+        .map(|position| position.to_array())
+        .collect();
     // A normal that is not of unit length makes the whole file invalid.
-    let normals: Vec<_> =
-        mesh.normals.iter().map(|normal| normal.try_normalize().unwrap_or(Vec3::Y).to_array()).collect();
+    let normals: Vec<_> = mesh
+        .normals
+        .iter()
+        .map(|normal| normal.try_normalize().unwrap_or(Vec3::Y).to_array())
+        .collect();
     let positions = push_rows(root, binary, &positions, Some(ArrayBuffer), true);
     let normals = push_rows(root, binary, &normals, Some(ArrayBuffer), false);
     let mut primitives = Vec::with_capacity(mesh.parts.len());

@@ -63,7 +63,11 @@ pub fn write_glb(recording: &Recording) -> Result<Vec<u8>, ExportError> {
 fn container(mut description: Vec<u8>, mut binary: Vec<u8>) -> Result<Vec<u8>, ExportError> {
     description.resize(description.len().next_multiple_of(4), b' ');
     binary.resize(binary.len().next_multiple_of(4), 0);
-    let binary_chunk = if binary.is_empty() { 0 } else { 8 + binary.len() };
+    let binary_chunk = if binary.is_empty() {
+        0
+    } else {
+        8 + binary.len()
+    };
     let bytes = 12 + 8 + description.len() + binary_chunk;
     let length = u32::try_from(bytes).map_err(|_| ExportError::TooLarge { bytes })?;
     let mut file = Vec::with_capacity(bytes);

@@ -17,15 +17,22 @@ pub(super) fn push_scene(
     binary: &mut Vec<u8>,
     recording: &Recording,
 ) -> Result<(), ExportError> {
-    let meshes: Vec<_> =
-        recording.meshes.iter().map(|mesh| push_mesh(root, binary, mesh)).collect();
+    let meshes: Vec<_> = recording
+        .meshes
+        .iter()
+        .map(|mesh| push_mesh(root, binary, mesh))
+        .collect();
     let mut nodes = Vec::with_capacity(recording.nodes.len() + 2);
     for node in &recording.nodes {
         nodes.push(root.push(recorded_node(node, meshes[node.mesh])?));
     }
     let (center, radius) = recording.bounding_sphere();
     if let Some(floor) = &recording.floor {
-        let mesh = push_mesh(root, binary, &floor_mesh(floor, recording.surfaces.len(), radius));
+        let mesh = push_mesh(
+            root,
+            binary,
+            &floor_mesh(floor, recording.surfaces.len(), radius),
+        );
         nodes.push(root.push(json::Node {
             mesh,
             name: Some("floor".into()),
@@ -53,8 +60,11 @@ fn recorded_node(
     let first = node.visible.start.min(node.poses.len() - 1);
     let pose = node.poses[first];
     let hidden = node.visible.is_empty() || node.visible.start > 0;
-    let extras: BTreeMap<&str, f64> =
-        node.keep_extras.iter().map(|(key, value)| (key.as_str(), *value)).collect();
+    let extras: BTreeMap<&str, f64> = node
+        .keep_extras
+        .iter()
+        .map(|(key, value)| (key.as_str(), *value))
+        .collect();
     let extras = (!extras.is_empty()).then(|| serde_json::value::to_raw_value(&extras));
     Ok(json::Node {
         mesh,
@@ -74,9 +84,17 @@ fn floor_mesh(floor: &Floor, surface: usize, radius: f32) -> RecordedMesh {
     let corner = |x: f32, z: f32| Vec3::new(x * half, 0.0, z * half);
     RecordedMesh {
         name: "floor".into(),
-        positions: vec![corner(-1.0, -1.0), corner(-1.0, 1.0), corner(1.0, 1.0), corner(1.0, -1.0)],
+        positions: vec![
+            corner(-1.0, -1.0),
+            corner(-1.0, 1.0),
+            corner(1.0, 1.0),
+            corner(1.0, -1.0),
+        ],
         normals: vec![Vec3::Y; 4],
-        parts: vec![MeshPart { surface, indices: vec![0, 1, 2, 0, 2, 3] }],
+        parts: vec![MeshPart {
+            surface,
+            indices: vec![0, 1, 2, 0, 2, 3],
+        }],
     }
 }
 

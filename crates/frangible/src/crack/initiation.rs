@@ -53,8 +53,11 @@ fn try_start(system: &mut CrackSystem, field: &StressField, e: u32, now: f64) {
     let material = &asset.material;
     let centre = asset.fracture.centroid(e as usize);
     let state = field.at(e as usize);
-    let stress = released(system, state.stress, centre, now);
-    if f64::from(largest_eigenvalue(&stress)) <= material.strength {
+    let strength = material.strength as f32;
+    let mut releases = std::mem::take(&mut system.releases);
+    let stress = released(system, &mut releases, state.stress, e, now, strength);
+    system.releases = releases;
+    if largest_eigenvalue(&stress) <= strength {
         return;
     }
     // e₀ must pay for its own area: A γ η > A G_c.

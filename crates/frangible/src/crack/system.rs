@@ -5,6 +5,7 @@ use std::collections::{BinaryHeap, HashMap};
 
 use glam::Vec3;
 
+use super::release::Releases;
 use super::surface::CrackFrame;
 use crate::asset::Asset;
 use crate::config::FractureConfig;
@@ -94,6 +95,8 @@ pub(crate) struct CrackSystem<'a> {
     pub(crate) fronts: BinaryHeap<Front>,
     /// Fronts that lacked energy; tried again at the next step.
     pub(crate) stalled: Vec<Front>,
+    /// What has released the weak points so far.
+    pub(crate) releases: Releases,
     /// Mean edge of the fracture mesh, m.
     pub(crate) edge: f32,
 }
@@ -108,6 +111,7 @@ impl<'a> CrackSystem<'a> {
             fractured_by: vec![UNCUT; asset.fracture.tets.len()],
             fronts: BinaryHeap::new(),
             stalled: Vec::new(),
+            releases: Releases::default(),
             edge: asset.fracture.mean_edge(),
         }
     }

@@ -1,0 +1,46 @@
+//! What surrounds the stage: backdrop, haze, reflections, shadow quality.
+
+use image::{DynamicImage, Rgb32FImage};
+use kiss3d::color::Color;
+use kiss3d::light::Fog;
+use kiss3d::window::OffscreenSurface;
+
+use crate::stage::SHADOW_LAYERS;
+
+/// The backdrop, linear; the floor fades into it.
+const BACKDROP: [f32; 3] = [0.47, 0.49, 0.52];
+
+/// Sets up a fresh surface, once.
+pub(crate) fn furnish(surface: &mut OffscreenSurface) {
+    let [red, green, blue] = BACKDROP;
+    let backdrop = Color::new(red, green, blue, 1.0);
+    surface.set_background_color(backdrop);
+    surface.set_shadow_resolution(2048);
+    surface.set_shadow_atlas_layers(SHADOW_LAYERS);
+    surface.set_shadow_softness(2.5);
+    let window = surface.window_mut();
+    window.set_skybox_image(&surroundings());
+    window.set_fog(Fog::linear(backdrop, 4.5, 13.0));
+    // Glass behind glass, one layer deep; a third step changes little.
+    window.transmission_settings_mut().steps = 2;
+}
+
+/// What shines and mirrors around the stage, as an equirectangular picture: the
+/// backdrop at the horizon, a pale ceiling with a soft box, a dim ground.
+fn surroundings() -> DynamicImage {
+    const WIDTH: u32 = 128;
+    const HEIGHT: u32 = 64;
+    DynamicImage::ImageRgb32F(Rgb32FImage::from_fn(WIDTH, HEIGHT, |x, y| {
+        let up = 1.0 - 2.0 * (y as f32 + 0.5) / HEIGHT as f32;
+        let around = (x as f32 + 0.5) / WIDTH as f32;
+        let soft_box = (0.35..0.8).contains(&up) && (around * 4.0).fract() < 0.4;
+        let light = if soft_box {
+            2.6
+        } else if up > 0.0 {
+            1.0 + 0.35 * up
+        } else {
+            1.0 + 0.6 * up
+        };
+        image::Rgb(BACKDROP.map(|part| part * light))
+    }))
+}

@@ -1,0 +1,131 @@
+//! Pictures, where there is an adapter to draw them.
+
+use frangible_draw::{
+    DrawError, RgbImage, SheetOptions, contact_sheet, encode_png, has_adapter, render_frame,
+    sheet_of_frames,
+};
+use frangible_export::glam::Vec3;
+use frangible_export::{
+    Floor, MeshPart, Pose, RecordedMesh, RecordedNode, Recording, SurfaceMaterial, View,
+};
+
+/// A red triangle that stands on the floor in frame 0 and is gone in frame 1.
+fn recording() -> Recording {
+    Recording {
+        frame_rate: 60.0,
+        frame_count: 2,
+        surfaces: vec![SurfaceMaterial {
+            base_color: [0.8, 0.02, 0.02, 1.0],
+            double_sided: true,
+            ..SurfaceMaterial::default()
+        }],
+        meshes: vec![RecordedMesh {
+            positions: vec![Vec3::NEG_X, Vec3::X, Vec3::Y],
+            normals: vec![Vec3::Z; 3],
+            parts: vec![MeshPart {
+                surface: 0,
+                indices: vec![0, 1, 2],
+            }],
+            ..RecordedMesh::default()
+        }],
+        nodes: vec![RecordedNode {
+            poses: vec![Pose::default()],
+            visible: 0..1,
+            ..Default::default()
+        }],
+        floor: Some(Floor::default()),
+        camera: View {
+            eye: Vec3::new(0.0, 1.0, 4.0),
+            ..View::default()
+        },
+        ..Recording::default()
+    }
+}
+
+/// Says why a test does nothing, rather than nothing at all.
+fn skipped() -> bool {
+    let skipped = !has_adapter();
+    if skipped {
+        println!("skipped: {}", DrawError::NoAdapter);
+    }
+    skipped
+}
+
+fn red_pixels(picture: &RgbImage) -> usize {
+    picture
+        .pixels()
+        .filter(|pixel| pixel[0] > 100 && pixel[1] < 80)
+        .count()
+}
+
+#[test]
+fn what_is_visible_is_drawn_and_drawn_alike_each_time() {
+    if skipped() {
+        return;
+    }
+    let recording = recording();
+    let draw = |frame| render_frame(&recording, frame, &recording.camera, 96, 64).unwrap();
+    let (there, gone) = (draw(0), draw(1));
+    assert_eq!(there.dimensions(), (96, 64));
+    assert!(
+        red_pixels(&there) > 200,
+        "{} red pixels",
+        red_pixels(&there)
+    );
+    assert_eq!(red_pixels(&gone), 0);
+    assert_eq!(there, draw(0));
+}
+
+#[test]
+fn a_sheet_has_a_cell_per_moment() {
+    if skipped() {
+        return;
+    }
+    let options = SheetOptions {
+        cell_width: 64,
+        cell_height: 48,
+        columns: 2,
+    };
+    let sheet = contact_sheet(&recording(), &options).unwrap();
+    assert_eq!(sheet.dimensions(), (2 * 64 + 4, 2 * 48 + 4));
+}
+
+#[test]
+fn bad_requests_are_errors() {
+    let recording = recording();
+    let empty = sheet_of_frames(&[], &SheetOptions::default());
+    assert!(matches!(empty, Err(DrawError::EmptySheet)));
+    if skipped() {
+        return;
+    }
+    let draw = |frame, view: &View, width| render_frame(&recording, frame, view, width, 48);
+    let view = recording.camera;
+    assert!(matches!(
+        draw(2, &view, 64),
+        Err(DrawError::NoSuchFrame { frame: 2, count: 2 })
+    ));
+    assert!(matches!(draw(0, &view, 0), Err(DrawError::BadSize { .. })));
+    assert!(matches!(
+        draw(0, &view, 1_000_000),
+        Err(DrawError::BadSize { .. })
+    ));
+    let blind = View {
+        target: view.eye,
+        ..view
+    };
+    assert!(matches!(draw(0, &blind, 64), Err(DrawError::Recording(_))));
+}
+
+#[test]
+fn a_picture_survives_encoding_and_a_noisy_one_stays_small() {
+    let plain = RgbImage::from_fn(64, 64, |x, y| image::Rgb([x as u8, y as u8, 7]));
+    let decoded = image::load_from_memory(&encode_png(&plain).unwrap())
+        .unwrap()
+        .into_rgb8();
+    assert_eq!(decoded, plain);
+
+    // Faint noise, as of grain or dither: too large when kept exactly.
+    let grain = |x: u32, y: u32| (x * 7919 + y * 104_729).wrapping_mul(2_654_435_761) >> 31;
+    let noisy = RgbImage::from_fn(1284, 964, |x, y| image::Rgb([120 + grain(x, y) as u8; 3]));
+    assert!(encode_png(&noisy).unwrap().len() < 200_000);
+}
