@@ -15,9 +15,9 @@ pub(crate) fn furnish(surface: &mut OffscreenSurface) {
     let [red, green, blue] = BACKDROP;
     let backdrop = Color::new(red, green, blue, 1.0);
     surface.set_background_color(backdrop);
-    surface.set_shadow_resolution(2048);
+    surface.set_shadow_resolution(1024);
     surface.set_shadow_atlas_layers(SHADOW_LAYERS);
-    surface.set_shadow_softness(2.5);
+    surface.set_shadow_softness(1.6);
     let window = surface.window_mut();
     window.set_skybox_image(&surroundings());
     window.set_fog(Fog::linear(backdrop, 4.5, 13.0));

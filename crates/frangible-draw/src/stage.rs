@@ -90,7 +90,12 @@ fn add_part(
         .iter()
         .map(|&position| position * units.scale)
         .collect();
-    let gpu_mesh = GpuMesh3d::new(vertices, faces, Some(mesh.normals.clone()), None, false);
+    let normals = mesh
+        .normals
+        .iter()
+        .map(|normal| normal.normalize_or(Vec3::Y))
+        .collect();
+    let gpu_mesh = GpuMesh3d::new(vertices, faces, Some(normals), None, false);
     let mut node = scene.add_mesh(Rc::new(RefCell::new(gpu_mesh)), Vec3::ONE);
     node.set_pose(Pose3::from_parts(
         units.point(pose.translation),

@@ -7,6 +7,9 @@ fn main() {
         match &mut s.action { Action::Drop { height } => *height = h, Action::Ball(b) => b.speed = h }
     }
     let seeds: u64 = args.get(3).and_then(|h| h.parse().ok()).unwrap_or(1);
+    if let Some(a) = args.get(4).and_then(|h| h.parse::<f32>().ok()) {
+        s.rotation = frangible::glam::Quat::from_rotation_z(a.to_radians()) * frangible::glam::Quat::from_rotation_x(-1.5707964);
+    }
     let t = Instant::now();
     let (asset, r) = bake(&s, &mut |_| {}).unwrap();
     println!("bake {:?} {:?}", t.elapsed(), r);

@@ -19,5 +19,5 @@ mod scene;
 
 pub use builtin::{SCENE_NAMES, scene};
 pub use error::SceneError;
-pub use run::{BreakRecord, Run, bake, play};
+pub use run::{BreakRecord, HeldRecord, Run, bake, play};
 pub use scene::{Action, BallThrow, Scene};

@@ -14,7 +14,7 @@ pub struct FractureConfig {
     pub timing: CrackTiming,
     /// Where cracks run. Default: [`CrackPath::Steered`].
     pub path: CrackPath,
-    /// Pieces smaller than this share of the body's volume stay with the neighbour they share most area with. Default 2e-5.
+    /// Pieces smaller than this share of the body's volume stay with the neighbour they share most area with. Default 2e-4.
     pub crumb_share: f64,
 }
 
@@ -74,7 +74,7 @@ impl Default for FractureConfig {
             path: CrackPath::Steered {
                 turning_length: 0.0067,
             },
-            crumb_share: 2e-5,
+            crumb_share: 2e-4,
         }
     }
 }
