@@ -36,7 +36,7 @@ pub(crate) struct BreakArgs {
     pub(crate) material: Option<String>,
 
     /// Drop the body so that its lowest point starts HEIGHT metres above the floor
-    #[arg(long, value_name = "HEIGHT", conflicts_with_all = ["ball", "at", "toward"], allow_negative_numbers = true)]
+    #[arg(long, value_name = "HEIGHT", conflicts_with_all = ["ball", "at", "toward"], allow_hyphen_values = true)]
     pub(crate) drop: Option<f64>,
 
     /// Throw a ball instead: mass in kg, radius in m, speed in m/s, and its material [default: steel]
@@ -52,7 +52,7 @@ pub(crate) struct BreakArgs {
     pub(crate) toward: Option<String>,
 
     /// Seed of the weak points and of the cracks' roughness [default: the scene's own]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub(crate) seed: Option<u64>,
 
     /// Number of vibration modes [default: the scene's own]

@@ -44,15 +44,15 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     recording.camera.eye = Vec3::new(0.1, 0.35, 0.6);
     let moments = &mut recording.moments;
     (moments.first_crack, moments.just_after, moments.at_rest) = (17, 30, 59);
-    for (name, [r, g, b], roughness, transmission) in [
-        ("porcelain", [0.86, 0.85, 0.82], 0.2, 0.0),
-        ("clay", [0.75, 0.45, 0.25], 0.9, 0.0),
-        ("glass", [0.80, 0.93, 0.88], 0.05, 0.9),
-        ("glass edge", [0.30, 0.62, 0.50], 0.12, 0.75),
+    for (name, [r, g, b], roughness, opacity) in [
+        ("porcelain", [0.86, 0.85, 0.82], 0.2, 1.0),
+        ("clay", [0.75, 0.45, 0.25], 0.9, 1.0),
+        ("glass", [0.62, 0.80, 0.78], 0.06, 0.38),
+        ("glass edge", [0.16, 0.42, 0.38], 0.25, 0.9),
     ] {
         let mut surface = SurfaceMaterial::default();
-        (surface.name, surface.base_color) = (name.into(), [r, g, b, 1.0]);
-        (surface.roughness, surface.transmission) = (roughness, transmission);
+        (surface.name, surface.base_color) = (name.into(), [r, g, b, opacity]);
+        (surface.roughness, surface.double_sided) = (roughness, opacity < 1.0);
         recording.surfaces.push(surface);
     }
     for i in 0..2 * WEDGES {

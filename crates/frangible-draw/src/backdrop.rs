@@ -5,10 +5,8 @@ use kiss3d::color::Color;
 use kiss3d::light::Fog;
 use kiss3d::window::OffscreenSurface;
 
-use crate::stage::SHADOW_LAYERS;
-
 /// The backdrop, linear; the floor fades into it.
-const BACKDROP: [f32; 3] = [0.47, 0.49, 0.52];
+const BACKDROP: [f32; 3] = [0.58; 3];
 
 /// Sets up a fresh surface, once.
 pub(crate) fn furnish(surface: &mut OffscreenSurface) {
@@ -16,8 +14,9 @@ pub(crate) fn furnish(surface: &mut OffscreenSurface) {
     let backdrop = Color::new(red, green, blue, 1.0);
     surface.set_background_color(backdrop);
     surface.set_shadow_resolution(1024);
-    surface.set_shadow_atlas_layers(SHADOW_LAYERS);
+    surface.set_shadow_atlas_layers(1);
     surface.set_shadow_softness(1.6);
+    surface.set_bloom_enabled(false);
     let window = surface.window_mut();
     window.set_skybox_image(&surroundings());
     window.set_fog(Fog::linear(backdrop, 4.5, 13.0));
@@ -41,6 +40,6 @@ fn surroundings() -> DynamicImage {
         } else {
             1.0 + 0.6 * up
         };
-        image::Rgb(BACKDROP.map(|part| part * light))
+        image::Rgb(BACKDROP.map(|part| 0.8 * part * light))
     }))
 }

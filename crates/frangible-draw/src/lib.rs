@@ -15,6 +15,8 @@ mod backdrop;
 mod camera;
 mod encode;
 mod error;
+mod floor;
+mod floor_shadow;
 mod renderer;
 mod scale;
 mod sheet;

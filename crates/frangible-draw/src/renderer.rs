@@ -22,7 +22,7 @@ use crate::DrawError;
 use crate::backdrop::furnish;
 use crate::camera::StillCamera;
 use crate::scale::halve;
-use crate::stage::{StageUnits, stage};
+use crate::stage::{StageUnits, has_glass, stage};
 
 /// Pixels drawn per pixel of the picture, each way, where there is glass.
 ///
@@ -91,6 +91,9 @@ fn photograph(surface: &mut OffscreenSurface, shot: &Shot) -> RgbImage {
     if (surface.width(), surface.height()) != (width, height) {
         surface.resize(width, height);
     }
+    // The floor has its shadow without. On things, a map gives glass the shadow
+    // of clay, and costs most of the time.
+    surface.set_shadows_enabled(!has_glass(&shot.scene));
     let view = StageUnits::of(&shot.view).view(&shot.view);
     let mut camera = StillCamera::new(&view, width as f32 / height as f32);
     let line = LABEL_HEIGHT * factor as f32;

@@ -15,12 +15,12 @@ use kiss3d::light::Light;
 use kiss3d::resource::GpuMesh3d;
 use kiss3d::scene::SceneNode3d;
 
-/// Where the key light's bulbs sit on a disc of radius 1: together they cast
-/// the soft shadow of a lamp that has a size.
-const BULBS: [(f32, f32); 3] = [(0.0, 0.7), (-0.6, -0.4), (0.6, -0.4)];
+use crate::floor::add_floor;
+use crate::floor_shadow::{Caster, FloorShadow};
 
-/// How many shadow maps the stage needs, one per bulb.
-pub(crate) const SHADOW_LAYERS: u32 = BULBS.len() as u32;
+/// Light layers: what breaks, and what it lies on.
+const THINGS: u32 = 1;
+pub(crate) const FLOOR: u32 = 2;
 
 /// The change from world to stage units.
 #[derive(Clone, Copy)]
@@ -56,10 +56,12 @@ impl StageUnits {
 pub(crate) fn stage(recording: &Recording, view: &View) -> SceneNode3d {
     let units = StageUnits::of(view);
     let mut scene = SceneNode3d::empty();
-    add_lights(&mut scene, &units.view(view));
+    let view = &units.view(view);
+    add_lights(&mut scene, view);
     if let Some(floor) = &recording.floor {
         let height = (floor.height - units.origin.y) * units.scale;
-        add_floor(&mut scene, height, floor.base_color);
+        let shadow = FloorShadow::cast(&casters(recording, units), height, key_light(view));
+        add_floor(&mut scene, height, floor.base_color, &shadow);
     }
     for (index, node) in recording.nodes.iter().enumerate() {
         let pose = recording.pose(index, 0);
@@ -101,6 +103,7 @@ fn add_part(
         units.point(pose.translation),
         pose.rotation.normalize(),
     ));
+    node.set_light_layers(THINGS);
     node.enable_backface_culling(!surface.double_sided);
     let [red, green, blue, opacity] = surface.base_color;
     node.set_metallic(surface.metallic);
@@ -120,67 +123,83 @@ fn add_part(
 /// How far light travels through glass before it has the glass's colour, stage units.
 const GLASS_DEPTH: f32 = 0.12;
 
-fn add_floor(scene: &mut SceneNode3d, height: f32, [red, green, blue]: [f32; 3]) {
-    let corner = |x: f32, z: f32| Vec3::new(x * 60.0, height, z * 60.0);
-    let corners = vec![
-        corner(-1., -1.),
-        corner(-1., 1.),
-        corner(1., 1.),
-        corner(1., -1.),
-    ];
-    let faces = vec![[0, 1, 2], [0, 2, 3]];
-    let mesh = GpuMesh3d::new(corners, faces, Some(vec![Vec3::Y; 4]), None, false);
-    let mut node = scene.add_mesh(Rc::new(RefCell::new(mesh)), Vec3::ONE);
-    node.set_color(Color::new(red, green, blue, 1.0));
-    node.set_roughness(0.85);
-    node.set_metallic(0.0);
-    node.set_casts_shadows(false);
-    add_ballast(scene, height);
-}
-
-/// A speck far below the floor. A shadow map ends right behind the last thing
-/// that casts a shadow, and where that end cuts the floor it draws faint lines.
-fn add_ballast(scene: &mut SceneNode3d, floor_height: f32) {
-    let low = Vec3::new(0.0, floor_height - 40.0, 0.0);
-    let corners = vec![low, low + 0.01 * Vec3::X, low + 0.01 * Vec3::Z];
-    let mesh = GpuMesh3d::new(
-        corners,
-        vec![[0, 1, 2]],
-        Some(vec![Vec3::Y; 3]),
-        None,
-        false,
-    );
-    scene.add_mesh(Rc::new(RefCell::new(mesh)), Vec3::ONE);
-}
-
 /// A large key light from the upper left of the camera, a weak fill from the
-/// right and a rim from behind that parts edges from the background.
+/// right and a rim from behind that parts edges from the background. The floor
+/// has a lamp of its own, even all over: its shadows come with its texture.
 fn add_lights(scene: &mut SceneNode3d, view: &View) {
+    let [backward, right] = directions(view);
+    let key = key_light(view);
+    // A spot takes one shadow map, a directional light four.
+    scene
+        .add_light(
+            Light::spot(0.55, 0.85, 60.0)
+                .with_color(Color::new(1.0, 0.97, 0.93, 1.0))
+                .with_intensity(1.45)
+                .with_layers(THINGS),
+        )
+        // A light shines along −z, and the z axis is what gets aimed.
+        .reorient(key, 2.0 * key, key.cross(Vec3::Y).normalize());
+    let fill = 4.0 * right + 2.0 * Vec3::Y + 2.5 * backward;
+    let rim = 2.0 * right + 2.0 * Vec3::Y - 5.0 * backward;
+    for (toward, [red, green, blue], intensity, layer) in [
+        (fill, [0.86, 0.92, 1.0], 0.8, THINGS),
+        (rim, [1.0; 3], 0.9, THINGS),
+        (Vec3::Y, [1.0; 3], 2.4, FLOOR),
+    ] {
+        scene.add_light(
+            Light::directional(-toward)
+                .with_color(Color::new(red, green, blue, 1.0))
+                .with_intensity(intensity)
+                .with_layers(layer)
+                .with_casts_shadows(false),
+        );
+    }
+}
+
+/// Away from the camera's subject and to its right, level.
+fn directions(view: &View) -> [Vec3; 2] {
     let backward = Vec3::new(view.eye.x, 0.0, view.eye.z)
         .try_normalize()
         .unwrap_or(Vec3::Z);
-    let right = Vec3::Y.cross(backward);
-    let key = -3.2 * right + 5.5 * Vec3::Y + 2.6 * backward;
-    let across = key.cross(Vec3::Y).normalize();
-    let along = across.cross(key).normalize();
-    for (u, v) in BULBS {
-        let bulb = key + 0.55 * (u * across + v * along);
-        scene
-            .add_light(
-                Light::spot(0.55, 0.85, 60.0)
-                    .with_color(Color::new(1.0, 0.97, 0.92, 1.0))
-                    .with_intensity(2.7 / BULBS.len() as f32),
-            )
-            // A light shines along −z, and the z axis is what gets aimed.
-            .reorient(bulb, 2.0 * bulb, across);
+    [backward, Vec3::Y.cross(backward)]
+}
+
+/// Towards the key light, stage units.
+fn key_light(view: &View) -> Vec3 {
+    let [backward, right] = directions(view);
+    -3.4 * right + 4.6 * Vec3::Y + 2.4 * backward
+}
+
+/// Whether any face lets light through.
+pub(crate) fn has_glass(recording: &Recording) -> bool {
+    let surfaces = &recording.surfaces;
+    let mut parts = recording.meshes.iter().flat_map(|mesh| &mesh.parts);
+    parts.any(|part| clarity(&surfaces[part.surface]) > 0.0)
+}
+
+/// How clear a surface is, for its shadow.
+fn clarity(surface: &SurfaceMaterial) -> f32 {
+    surface.transmission.max(1.0 - surface.base_color[3])
+}
+
+/// Every face that can shade the floor.
+fn casters(recording: &Recording, units: StageUnits) -> Vec<Caster> {
+    let mut casters = Vec::new();
+    for (index, node) in recording.nodes.iter().enumerate() {
+        let pose = recording.pose(index, 0);
+        let mesh = &recording.meshes[node.mesh];
+        let place = |&at: &Vec3| units.point(pose.rotation.normalize() * at + pose.translation);
+        let points: Vec<Vec3> = mesh.positions.iter().map(place).collect();
+        for part in &mesh.parts {
+            let surface = &recording.surfaces[part.surface];
+            let clarity = clarity(surface);
+            let one_sided = clarity <= 0.0 && !surface.double_sided;
+            casters.extend(part.indices.chunks_exact(3).map(|face| Caster {
+                corners: [face[0], face[1], face[2]].map(|corner| points[corner as usize]),
+                clarity,
+                one_sided,
+            }));
+        }
     }
-    let fill = Light::directional(-(4.0 * right + 2.5 * Vec3::Y + 2.0 * backward))
-        .with_color(Color::new(0.86, 0.92, 1.0, 1.0))
-        .with_intensity(0.7)
-        .with_casts_shadows(false);
-    scene.add_light(fill);
-    let rim = Light::directional(-(2.0 * right + 2.0 * Vec3::Y - 5.0 * backward))
-        .with_intensity(0.8)
-        .with_casts_shadows(false);
-    scene.add_light(rim);
+    casters
 }

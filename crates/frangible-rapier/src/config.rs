@@ -28,6 +28,12 @@ pub struct WorldConfig {
     pub hull_volume_ratio: f32,
     /// Speed at which fragments of one parent part when they overlap, m/s; zero leaves overlaps alone. Default 0.01.
     pub overlap_relaxation: f32,
+    /// How far ahead of a contact's normal the pressure of a rolling body acts, m: the torque of rolling resistance is
+    /// this × normal force. Default 5e-4: rough stone, dust. Zero: things roll for ever.
+    pub rolling_arm: f32,
+    /// A body of which no point moves farther than this for 0.4 s while it touches something is at rest, m.
+    /// Default 5e-4. Zero leaves sleep to Rapier alone.
+    pub rest_drift: f32,
     /// A joint of a broken body moves to the nearest fragment within this distance of its anchor, m; else it is
     /// released. Default 5e-3.
     pub joint_reach: f32,
@@ -56,6 +62,8 @@ impl Default for WorldConfig {
             merge_distance: 5e-4,
             hull_volume_ratio: 1.15,
             overlap_relaxation: 0.01,
+            rolling_arm: 5e-4,
+            rest_drift: 5e-4,
             joint_reach: 5e-3,
             debris_mass: 1e-4,
             max_debris: 200,
@@ -81,6 +89,8 @@ impl WorldConfig {
         not_negative("merge distance (m)", self.merge_distance)?;
         positive("hull volume ratio", self.hull_volume_ratio)?;
         not_negative("overlap relaxation (m/s)", self.overlap_relaxation)?;
+        not_negative("rolling arm (m)", self.rolling_arm)?;
+        not_negative("rest drift (m)", self.rest_drift)?;
         not_negative("joint reach (m)", self.joint_reach)?;
         not_negative("debris mass (kg)", self.debris_mass)
     }

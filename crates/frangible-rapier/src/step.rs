@@ -19,6 +19,7 @@ use crate::event::{BreakEvent, HeldEvent};
 use crate::guard::{Centres, centres, put_back};
 use crate::motion::kinetic_energy;
 use crate::replace::{Parts, is_debris};
+use crate::rolling::resist_rolling;
 use crate::snapshot::Snapshot;
 use crate::surface::{EDGE_RADIUS, SurfaceProperties};
 use crate::toll::take_energy;
@@ -68,6 +69,10 @@ impl BreakableWorld {
         } else {
             self.step_with_breaks(near)
         };
+        resist_rolling(&mut self.physics, self.config.rolling_arm);
+        if self.config.rest_drift > 0.0 {
+            self.places.rest(&mut self.physics, self.config.rest_drift);
+        }
         self.limit_debris(self.config.max_debris);
         if self.config.record_held {
             self.held.extend(asked.held.into_values().map(|(_, event)| event));

@@ -11,6 +11,8 @@ use std::sync::Arc;
 use crate::config::WorldConfig;
 use crate::error::WorldError;
 use crate::event::{BreakEvent, HeldEvent};
+use crate::floor::FloorDispatcher;
+use crate::rest::Places;
 use crate::siblings::Siblings;
 use crate::surface::SurfaceProperties;
 
@@ -50,6 +52,7 @@ pub struct BreakableWorld {
     pub(crate) collider_surfaces: BTreeMap<Key, SurfaceProperties>,
     pub(crate) shapes: Vec<(Arc<Asset>, SharedShape)>,
     pub(crate) siblings: Siblings,
+    pub(crate) places: Places,
     pub(crate) debris: VecDeque<RigidBodyHandle>,
     pub(crate) events: Vec<BreakEvent>,
     pub(crate) held: Vec<HeldEvent>,
@@ -67,6 +70,7 @@ impl BreakableWorld {
     pub fn new(config: WorldConfig) -> Result<Self, WorldError> {
         config.validate()?;
         let mut physics = PhysicsWorld { gravity: config.gravity, ..PhysicsWorld::default() };
+        physics.narrow_phase.set_query_dispatcher(FloorDispatcher);
         let parameters = &mut physics.integration_parameters;
         parameters.dt = config.dt;
         parameters.min_ccd_dt = config.dt / 100.0;
@@ -85,6 +89,7 @@ impl BreakableWorld {
             surfaces: BTreeMap::new(),
             collider_surfaces: BTreeMap::new(),
             shapes: Vec::new(),
+            places: Places::default(),
             debris: VecDeque::new(),
             events: Vec::new(),
             held: Vec::new(),

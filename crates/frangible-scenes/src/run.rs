@@ -201,16 +201,21 @@ fn throw_ball(
     let direction = throw.toward.normalize();
     let reach = asset.fracture.positions.iter().map(|p| p.length()).fold(0.0, f32::max);
     let radius = throw.radius as f32;
-    let distance = (0.1 * throw.speed as f32).clamp(0.2, 1.5);
-    // Outside the body's sphere, so that it cannot start inside the body.
-    let start = centre + throw.at - direction * (reach + radius + distance);
+    let speed = throw.speed as f32;
+    let distance = (0.1 * speed).clamp(0.2, 1.5);
+    // Outside the body's sphere, so that it cannot start inside the body; and back in time along the parabola that
+    // arrives with the speed and direction asked for.
+    let flight = (reach + radius + distance) / speed;
+    let gravity = Vec3::from(world.physics.gravity.to_array());
+    let start = centre + throw.at - direction * (speed * flight) + 0.5 * gravity * flight * flight;
+    let velocity = direction * speed - gravity * flight;
     if start.y < radius {
         return Err(SceneError::BallBelowFloor { depth_mm: 1e3 * (radius - start.y) });
     }
     let surface = SurfaceProperties::of(&Material::preset(&throw.material)?, radius);
     let ball = Ball { mass: throw.mass as f32, radius };
     let pose = Pose::from_translation(vector(start));
-    Ok(world.insert_ball(ball, surface, pose, vector(direction * throw.speed as f32))?)
+    Ok(world.insert_ball(ball, surface, pose, vector(velocity))?)
 }
 
 fn vector(v: Vec3) -> Vector {

@@ -58,6 +58,7 @@ pub fn impact(
     let mut system = CrackSystem::new(asset, config, body.seed);
     let mut displacement = DisplacementBatch::new(asset);
     let elasticity = Elasticity::new(&asset.material);
+    let mut peak = 0.0;
     for step in 0..motion.steps() {
         let now = (step + 1) as f64 * pulse.time_step;
         let start = Instant::now();
@@ -71,14 +72,14 @@ pub fn impact(
             step,
         };
         advance(&mut system, &field, now - pulse.time_step, now);
-        let peak = start_cracks(&mut system, &field, &body.weak_tets, now);
-        report.peak_stress = report.peak_stress.max(f64::from(peak));
+        peak = start_cracks(&mut system, &field, &body.weak_tets, now, peak);
         if report.first_crack_time.is_none() && !system.cracks.is_empty() {
             report.first_crack_time = Some(now);
             report.first_crack_point = Some(system.cracks[0].frame.origin);
         }
         report.timings.cracks += start.elapsed().as_secs_f64();
     }
+    report.peak_stress = f64::from(peak);
     report.cracks = system.cracks.len();
     report.crack_area = system.cracks.iter().map(|c| c.area).sum();
     report.fracture_energy = system.cracks.iter().map(|c| c.spent).sum();

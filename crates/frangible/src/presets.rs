@@ -18,7 +18,7 @@
 //!   until the tension falls to 1/√8 = 0.35 R_c: 5 mm for glass. Quasi-brittle materials (concrete, brick, stone) get metres by
 //!   that rule; γ is capped at 0.25 m, about the largest crack in the bodies meant here, so they need more than R_c to
 //!   break, as they do under impact.
-//! - **weak points** per m³: one per grain or flaw that matters, spaced about 1.7 mm in glass, 5 mm in brick, 10 mm in concrete.
+//! - **weak points** per m³: one per grain or flaw that matters, spaced about 3 mm in glass, 5 mm in brick, 10 mm in concrete.
 //! - **roughness**: grain-like amplitude and wavelength; glass breaks smooth and conchoidal, concrete follows its aggregate.
 //! - **restitution** and **friction**: for whole bodies meeting a hard floor at metres per second, dry. A polished glass
 //!   sphere keeps 0.97 of its speed, a drinking glass does not: the vibration takes it.
@@ -245,7 +245,7 @@ const GLASS: Preset = real(Published {
     strength: 41e6,
     toughness: Toughness::Intensity(0.75e6),
     loss_factor: 6e-4,
-    weak_point_density: 2e8,
+    weak_point_density: 4e7,
     roughness: [0.1e-3, 6e-3],
     restitution: 0.5,
     friction: 0.4,
@@ -264,7 +264,7 @@ const PORCELAIN: Preset = real(Published {
     strength: 40e6,
     toughness: Toughness::Intensity(1.19e6),
     loss_factor: 5e-4,
-    weak_point_density: 2e8,
+    weak_point_density: 4e7,
     roughness: [0.3e-3, 5e-3],
     restitution: 0.5,
     friction: 0.45,
@@ -357,7 +357,7 @@ const SUGAR: Preset = real(Published {
     strength: 4e6,
     toughness: Toughness::Intensity(0.08e6),
     loss_factor: 5e-3,
-    weak_point_density: 2e8,
+    weak_point_density: 4e7,
     roughness: [0.1e-3, 6e-3],
     restitution: 0.3,
     friction: 0.5,
@@ -393,7 +393,7 @@ const PMMA: Preset = real(Published {
     strength: 59.8e6,
     toughness: Toughness::Intensity(1.207e6),
     loss_factor: 3e-2,
-    weak_point_density: 2e8,
+    weak_point_density: 4e7,
     roughness: [0.1e-3, 6e-3],
     restitution: 0.5,
     friction: 0.4,

@@ -14,26 +14,32 @@ use super::system::{Crack, CrackSystem, ElementCut, UNCUT};
 use super::{advance, propagation::gradient};
 use crate::config::CrackTiming;
 use crate::rng::{Purpose, stream, uniform};
-use crate::stress::{Symmetric3, largest_eigenvalue, principal_axes};
+use crate::stress::{Symmetric3, largest_eigenvalue, largest_eigenvalue_bound, principal_axes};
 
 /// Below this relative gap of the two largest tensions the direction between them is rounding noise.
 const ISOTROPIC: f64 = 1e-3;
 
-/// Starts every crack of this step; returns the largest principal tension met at a weak point, Pa.
+/// Starts every crack of this step; returns the largest principal tension met at a weak point so far, Pa.
 pub(crate) fn start_cracks(
     system: &mut CrackSystem,
     field: &StressField,
     weak_tets: &[u32],
     now: f64,
+    peak_so_far: f32,
 ) -> f32 {
     let strength = system.asset.material.strength as f32;
     let mut candidates = Vec::new();
-    let mut peak = 0.0_f32;
+    let mut peak = peak_so_far;
     for &e in weak_tets {
         if system.fractured_by[e as usize] != UNCUT {
             continue;
         }
-        let tension = largest_eigenvalue(&field.at(e as usize).stress);
+        let stress = field.at(e as usize).stress;
+        // Neither a crack nor a new peak: most points at most times, and the bound needs no trigonometry.
+        if largest_eigenvalue_bound(&stress) <= peak.min(strength) {
+            continue;
+        }
+        let tension = largest_eigenvalue(&stress);
         peak = peak.max(tension);
         if tension > strength {
             candidates.push((tension, e));
@@ -55,7 +61,7 @@ fn try_start(system: &mut CrackSystem, field: &StressField, e: u32, now: f64) {
     let state = field.at(e as usize);
     let strength = material.strength as f32;
     let mut releases = std::mem::take(&mut system.releases);
-    let stress = released(system, &mut releases, state.stress, e, now, strength);
+    let stress = released(system, &mut releases, state.stress, e, now);
     system.releases = releases;
     if largest_eigenvalue(&stress) <= strength {
         return;
@@ -88,6 +94,7 @@ fn try_start(system: &mut CrackSystem, field: &StressField, e: u32, now: f64) {
         available: 0.0,
         area: 0.0,
         extent: 0.0,
+        sites: Vec::new(),
         junctions: Vec::new(),
     });
     let direction = gradient(&x, &values).unwrap_or(normal);

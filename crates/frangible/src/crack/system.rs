@@ -28,6 +28,8 @@ pub(crate) struct Crack {
     pub(crate) area: f64,
     /// Largest distance of a fractured tetrahedron from the start, m.
     pub(crate) extent: f32,
+    /// Its tetrahedra thinned to one per place: what releases the stress around it.
+    pub(crate) sites: Vec<Site>,
     /// Where it ran into another crack (or into itself).
     pub(crate) junctions: Vec<Junction>,
 }
@@ -41,6 +43,14 @@ pub(crate) struct ElementCut {
     /// Unit ∇s: the crack's normal there.
     pub(crate) direction: Vec3,
     /// When it joined, s after the contact began.
+    pub(crate) time: f64,
+}
+
+/// A place on a crack.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Site {
+    pub(crate) position: Vec3,
+    pub(crate) direction: Vec3,
     pub(crate) time: f64,
 }
 
@@ -97,6 +107,10 @@ pub(crate) struct CrackSystem<'a> {
     pub(crate) stalled: Vec<Front>,
     /// What has released the weak points so far.
     pub(crate) releases: Releases,
+    /// Number of sites of all cracks.
+    pub(crate) site_count: usize,
+    /// Centroid of each fracture tetrahedron, m.
+    pub(crate) centroids: Vec<Vec3>,
     /// Mean edge of the fracture mesh, m.
     pub(crate) edge: f32,
 }
@@ -112,6 +126,10 @@ impl<'a> CrackSystem<'a> {
             fronts: BinaryHeap::new(),
             stalled: Vec::new(),
             releases: Releases::default(),
+            site_count: 0,
+            centroids: (0..asset.fracture.tets.len())
+                .map(|e| asset.fracture.centroid(e))
+                .collect(),
             edge: asset.fracture.mean_edge(),
         }
     }
@@ -125,10 +143,24 @@ impl<'a> CrackSystem<'a> {
         c.spent += f64::from(area) * material.fracture_energy;
         c.available += f64::from(area) * material.energy_depth * f64::from(energy_density);
         c.area += f64::from(area);
-        let centre = self.asset.fracture.centroid(tet);
+        let centre = self.centroids[tet];
         c.extent = c.extent.max(centre.distance(c.frame.origin));
         for (&node, &s) in self.asset.fracture.tets[tet].iter().zip(&cut.values) {
             c.values.entry(node).or_insert(s);
+        }
+        // Latest first: a new place is next to the latest ones.
+        let apart = self.edge * self.edge;
+        if c.sites
+            .iter()
+            .rev()
+            .all(|s| s.position.distance_squared(centre) > apart)
+        {
+            c.sites.push(Site {
+                position: centre,
+                direction: cut.direction,
+                time: cut.time,
+            });
+            self.site_count += 1;
         }
         let from = c.elements.len() as u32;
         c.elements.push(cut);
@@ -138,7 +170,7 @@ impl<'a> CrackSystem<'a> {
             {
                 continue;
             }
-            let distance = centre.distance(self.asset.fracture.centroid(neighbour as usize));
+            let distance = centre.distance(self.centroids[neighbour as usize]);
             let arrival = cut.time + f64::from(distance) * self.slowness();
             self.fronts.push(Front {
                 arrival,

@@ -6,5 +6,5 @@ mod strain;
 
 pub use displacement::{DisplacementBatch, ShapeWeights};
 pub(crate) use principal::perpendicular_axes;
-pub use principal::{largest_eigenvalue, principal_axes};
+pub use principal::{largest_eigenvalue, largest_eigenvalue_bound, principal_axes};
 pub use strain::{Elasticity, StressState, Symmetric3};

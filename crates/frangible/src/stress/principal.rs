@@ -20,6 +20,15 @@ pub fn largest_eigenvalue(s: &Symmetric3) -> f32 {
     mean + 2.0 * p * (half.acos() / 3.0).cos()
 }
 
+/// An upper bound of the largest eigenvalue without trigonometry: mean + 2 p, reached where the two smaller are equal.
+#[must_use]
+pub fn largest_eigenvalue_bound(s: &Symmetric3) -> f32 {
+    let ([xx, yy, zz], [xy, yz, zx]) = (s.diagonal, s.off);
+    let mean = (xx + yy + zz) / 3.0;
+    let (a, b, c) = (xx - mean, yy - mean, zz - mean);
+    mean + 2.0 * ((a * a + b * b + c * c) / 6.0 + (xy * xy + yz * yz + zx * zx) / 3.0).sqrt()
+}
+
 /// Principal values, falling, and their unit axes, by Jacobi rotations in f64.
 #[must_use]
 pub fn principal_axes(s: &Symmetric3) -> ([f64; 3], [DVec3; 3]) {

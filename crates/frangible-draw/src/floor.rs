@@ -1,0 +1,67 @@
+//! The floor, with its shadows painted on.
+
+use std::cell::RefCell;
+use std::rc::Rc;
+
+use frangible_export::glam::{Vec2, Vec3};
+use kiss3d::color::Color;
+use kiss3d::resource::{GpuMesh3d, Texture};
+use kiss3d::scene::SceneNode3d;
+use wgpu::{AddressMode, FilterMode, TextureFormat};
+
+use crate::floor_shadow::{FloorShadow, SIDE};
+use crate::stage::FLOOR;
+
+/// How far the floor goes on past what the haze hides, stage units.
+const FAR: f32 = 60.0;
+
+/// Adds the floor at this height, stage units.
+pub(crate) fn add_floor(
+    scene: &mut SceneNode3d,
+    height: f32,
+    [red, green, blue]: [f32; 3],
+    shadow: &FloorShadow,
+) {
+    // What stands on the floor must not flicker with it.
+    let height = height - 0.003;
+    // Nine fields, the shadow's square in the middle; around it the texture's
+    // border, plain floor, goes on.
+    let offsets = [-FAR, -shadow.half_side, shadow.half_side, FAR];
+    let places = [0.0, 0.0, 1.0, 1.0];
+    let (mut corners, mut texels, mut faces) = (Vec::new(), Vec::new(), Vec::new());
+    for (row, column) in (0..4).flat_map(|row| (0..4).map(move |column| (row, column))) {
+        let (x, z) = (offsets[column], offsets[row]);
+        corners.push(Vec3::new(shadow.center.x + x, height, shadow.center.y + z));
+        texels.push(Vec2::new(places[column], places[row]));
+        if row < 3 && column < 3 {
+            let [here, below] = [4 * row + column, 4 * row + column + 4].map(|at| at as u32);
+            faces.push([here, below, below + 1]);
+            faces.push([here, below + 1, here + 1]);
+        }
+    }
+    let normals = vec![Vec3::Y; corners.len()];
+    let mesh = GpuMesh3d::new(corners, faces, Some(normals), Some(texels), false);
+    let mut node = scene.add_mesh(Rc::new(RefCell::new(mesh)), Vec3::ONE);
+    node.set_texture(Texture::new(
+        SIDE as u32,
+        SIDE as u32,
+        &pixels(&shadow.brightness),
+        TextureFormat::Rgba8UnormSrgb,
+        AddressMode::ClampToEdge,
+        FilterMode::Linear,
+        true,
+        1,
+    ));
+    node.set_color(Color::new(red, green, blue, 1.0));
+    node.set_roughness(1.0);
+    node.set_reflectance(0.0);
+    node.set_metallic(0.0);
+    node.set_light_layers(FLOOR);
+    node.set_casts_shadows(false);
+}
+
+fn pixels(brightness: &[f32]) -> Vec<u8> {
+    let code = |light: f32| (light.clamp(0.0, 1.0).powf(1.0 / 2.2) * 255.0 + 0.5) as u8;
+    let pixel = |&light: &f32| [code(light), code(light), code(light), 255];
+    brightness.iter().flat_map(pixel).collect()
+}
