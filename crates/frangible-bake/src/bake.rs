@@ -94,7 +94,8 @@ pub fn bake(
         fine.positions.iter().map(|p| p.as_vec3()).collect(),
         fine.tets.clone(),
     );
-    let corners = (0..fine.tets.len()).map(|e| fine.corners(e));
+    // Of the mesh as stored, so that the masses of its pieces sum to it exactly.
+    let corners = (0..fine.tets.len()).map(|e| fracture.corners(e).map(|p| p.as_dvec3()));
     let mut mass = MassProperties::of_tetrahedra(spec.material.density, corners);
     // Zero but for rounding: the frame is defined by it.
     mass.centre = DVec3::ZERO;

@@ -6,7 +6,7 @@ use kiss3d::light::Fog;
 use kiss3d::window::OffscreenSurface;
 
 /// The backdrop, linear; the floor fades into it.
-const BACKDROP: [f32; 3] = [0.58; 3];
+const BACKDROP: [f32; 3] = [0.49; 3];
 
 /// Sets up a fresh surface, once.
 pub(crate) fn furnish(surface: &mut OffscreenSurface) {
@@ -40,6 +40,6 @@ fn surroundings() -> DynamicImage {
         } else {
             1.0 + 0.6 * up
         };
-        image::Rgb(BACKDROP.map(|part| 0.8 * part * light))
+        image::Rgb(BACKDROP.map(|part| 0.95 * part * light))
     }))
 }

@@ -8,9 +8,8 @@ use std::cell::RefCell;
 use std::rc::Rc;
 
 use frangible_export::glam::Vec3;
-use frangible_export::{MeshPart, Pose, RecordedMesh, Recording, SurfaceMaterial, View};
+use frangible_export::{Recording, SurfaceMaterial, View};
 use kiss3d::color::Color;
-use kiss3d::glamx::Pose3;
 use kiss3d::light::Light;
 use kiss3d::resource::GpuMesh3d;
 use kiss3d::scene::SceneNode3d;
@@ -63,46 +62,66 @@ pub(crate) fn stage(recording: &Recording, view: &View) -> SceneNode3d {
         let shadow = FloorShadow::cast(&casters(recording, units), height, key_light(view));
         add_floor(&mut scene, height, floor.base_color, &shadow);
     }
-    for (index, node) in recording.nodes.iter().enumerate() {
-        let pose = recording.pose(index, 0);
-        let mesh = &recording.meshes[node.mesh];
-        for part in mesh.parts.iter().filter(|part| !part.indices.is_empty()) {
-            let surface = &recording.surfaces[part.surface];
-            add_part(&mut scene, mesh, part, surface, pose, units);
-        }
+    for bunch in bunches(recording, units) {
+        add_bunch(&mut scene, bunch, &recording.surfaces);
     }
     scene
 }
 
-fn add_part(
-    scene: &mut SceneNode3d,
-    mesh: &RecordedMesh,
-    part: &MeshPart,
-    surface: &SurfaceMaterial,
-    pose: Pose,
-    units: StageUnits,
-) {
-    let faces = part
-        .indices
-        .chunks_exact(3)
-        .map(|face| [face[0], face[1], face[2]])
-        .collect();
-    let vertices = mesh
-        .positions
-        .iter()
-        .map(|&position| position * units.scale)
-        .collect();
-    let normals = mesh
-        .normals
-        .iter()
-        .map(|normal| normal.normalize_or(Vec3::Y))
-        .collect();
-    let gpu_mesh = GpuMesh3d::new(vertices, faces, Some(normals), None, false);
-    let mut node = scene.add_mesh(Rc::new(RefCell::new(gpu_mesh)), Vec3::ONE);
-    node.set_pose(Pose3::from_parts(
-        units.point(pose.translation),
-        pose.rotation.normalize(),
-    ));
+/// Faces of one surface, stage units: drawn at once, however many pieces they
+/// belong to. A draw of its own for each piece takes most of the time.
+#[derive(Default)]
+struct Bunch {
+    surface: usize,
+    vertices: Vec<Vec3>,
+    normals: Vec<Vec3>,
+    faces: Vec<[u32; 3]>,
+}
+
+fn bunches(recording: &Recording, units: StageUnits) -> Vec<Bunch> {
+    let mut bunches: Vec<Bunch> = Vec::new();
+    for (index, node) in recording.nodes.iter().enumerate() {
+        let pose = recording.pose(index, 0);
+        let rotation = pose.rotation.normalize();
+        let mesh = &recording.meshes[node.mesh];
+        for part in mesh.parts.iter().filter(|part| !part.indices.is_empty()) {
+            let surface = part.surface;
+            // Glass that refracts shows through other glass, not through itself.
+            let refracts = recording.surfaces[surface].transmission > 0.0;
+            let same = |bunch: &Bunch| !refracts && bunch.surface == surface;
+            let at = bunches.iter().position(same).unwrap_or_else(|| {
+                bunches.push(Bunch {
+                    surface,
+                    ..Bunch::default()
+                });
+                bunches.len() - 1
+            });
+            let bunch = &mut bunches[at];
+            for face in part.indices.chunks_exact(3) {
+                let first = bunch.vertices.len() as u32;
+                bunch.faces.push([first, first + 1, first + 2]);
+                for &corner in face {
+                    let point = rotation * mesh.positions[corner as usize] + pose.translation;
+                    let normal = mesh.normals[corner as usize].normalize_or(Vec3::Y);
+                    bunch.vertices.push(units.point(point));
+                    bunch.normals.push(rotation * normal);
+                }
+            }
+        }
+    }
+    bunches
+}
+
+fn add_bunch(scene: &mut SceneNode3d, bunch: Bunch, surfaces: &[SurfaceMaterial]) {
+    let surface = &surfaces[bunch.surface];
+    let mesh = GpuMesh3d::new(
+        bunch.vertices,
+        bunch.faces,
+        Some(bunch.normals),
+        None,
+        false,
+    );
+    let mut node = scene.add_mesh(Rc::new(RefCell::new(mesh)), Vec3::ONE);
     node.set_light_layers(THINGS);
     node.enable_backface_culling(!surface.double_sided);
     let [red, green, blue, opacity] = surface.base_color;

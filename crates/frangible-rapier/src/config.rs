@@ -32,7 +32,7 @@ pub struct WorldConfig {
     /// this × normal force. Default 5e-4: rough stone, dust. Zero: things roll for ever.
     pub rolling_arm: f32,
     /// A body of which no point moves farther than this for 0.4 s while it touches something is at rest, m.
-    /// Default 5e-4. Zero leaves sleep to Rapier alone.
+    /// Default 1e-3. Zero leaves sleep to Rapier alone.
     pub rest_drift: f32,
     /// A joint of a broken body moves to the nearest fragment within this distance of its anchor, m; else it is
     /// released. Default 5e-3.
@@ -63,7 +63,7 @@ impl Default for WorldConfig {
             hull_volume_ratio: 1.15,
             overlap_relaxation: 0.01,
             rolling_arm: 5e-4,
-            rest_drift: 5e-4,
+            rest_drift: 1e-3,
             joint_reach: 5e-3,
             debris_mass: 1e-4,
             max_debris: 200,

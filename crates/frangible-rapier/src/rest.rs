@@ -3,7 +3,7 @@
 //! Rapier lets a body sleep when it moved less than a threshold in **every** step of half a second. A jagged piece
 //! stands on corners that take turns, so single steps exceed any threshold while the piece goes nowhere, and one such
 //! piece keeps the whole heap awake. Here a body that touches something and of which no point went farther than
-//! [`crate::WorldConfig::rest_drift`] within [`REST_TIME`] is put to sleep.
+//! [`crate::WorldConfig::rest_drift`] within [`REST_TIME`] may sleep.
 
 use std::collections::BTreeMap;
 
@@ -16,10 +16,15 @@ use crate::world::{Key, key};
 /// How long a body has to stay in its place, s.
 const REST_TIME: f32 = 0.4;
 
+/// Sleep threshold of a body that stays in its place, length units per second: more than corners taking turns.
+const LENIENT: f32 = 10.0;
+
 #[derive(Clone, Copy, Debug)]
 struct Place {
     pose: Pose,
     since: f32,
+    /// The body's own sleep threshold while it has the lenient one.
+    threshold: Option<f32>,
 }
 
 /// Where bodies have been of late.
@@ -29,30 +34,35 @@ pub(crate) struct Places {
 }
 
 impl Places {
-    /// Puts to sleep what stayed in its place; `drift` in m.
+    /// Lets sleep what stayed in its place; `drift` in m. Rapier puts a heap to sleep when all of it may: a body that
+    /// slept among moving ones would not be held up by the floor.
     pub(crate) fn rest(&mut self, physics: &mut PhysicsWorld, drift: f32) {
         let bodies = &physics.bodies;
-        let awake = |b: &RigidBody| b.is_dynamic() && b.is_enabled() && !b.is_sleeping();
-        self.places.retain(|&(i, g), _| bodies.get(RigidBodyHandle::from_raw_parts(i, g)).is_some_and(awake));
+        self.places.retain(|&(i, g), _| bodies.contains(RigidBodyHandle::from_raw_parts(i, g)));
         let dt = physics.integration_parameters.dt;
-        let mut resting = Vec::new();
+        let mut thresholds = Vec::new();
+        let awake = |b: &RigidBody| b.is_dynamic() && b.is_enabled() && !b.is_sleeping();
         for (handle, body) in bodies.iter().filter(|(_, b)| awake(b)) {
-            let here = Place { pose: *body.position(), since: 0.0 };
+            let here = Place { pose: *body.position(), since: 0.0, threshold: None };
             let place = self.places.entry(key(handle)).or_insert(here);
+            let own = body.activation().normalized_linear_threshold;
             // A body that may not sleep says so by a negative threshold.
-            if way(&place.pose, body, physics) > drift || body.activation().normalized_linear_threshold < 0.0 {
+            if own < 0.0 || way(&place.pose, body, physics) > drift || !touches(body, physics) {
+                thresholds.extend(place.threshold.map(|threshold| (handle, threshold, false)));
                 *place = here;
                 continue;
             }
             place.since += dt;
-            if place.since >= REST_TIME && touches(body, physics) {
-                resting.push(handle);
+            if place.since >= REST_TIME && place.threshold.is_none() {
+                place.threshold = Some(own);
+                thresholds.push((handle, LENIENT, true));
             }
         }
-        for handle in resting {
-            if let Some(body) = physics.bodies.get_mut(handle) {
-                body.sleep();
-            }
+        for (handle, threshold, rests) in thresholds {
+            let Some(body) = physics.bodies.get_mut(handle) else { continue };
+            let activation = body.activation_mut();
+            activation.normalized_linear_threshold = threshold;
+            activation.time_since_can_sleep = if rests { activation.time_until_sleep } else { 0.0 };
         }
     }
 }

@@ -69,7 +69,10 @@ impl BreakableWorld {
         } else {
             self.step_with_breaks(near)
         };
-        resist_rolling(&mut self.physics, self.config.rolling_arm);
+        // A break's impulses are a blow, not a weight that rolls; its energy is settled already.
+        if self.events.is_empty() {
+            resist_rolling(&mut self.physics, self.config.rolling_arm);
+        }
         if self.config.rest_drift > 0.0 {
             self.places.rest(&mut self.physics, self.config.rest_drift);
         }

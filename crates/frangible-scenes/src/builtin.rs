@@ -28,7 +28,7 @@ pub fn scene(name: &str) -> Result<Scene, SceneError> {
             Shape::drinking_glass(),
             "glass",
             120,
-            tilted(35.0),
+            tilted(148.0),
             drop(1.0),
         ),
         "pane" => build(
@@ -39,9 +39,9 @@ pub fn scene(name: &str) -> Result<Scene, SceneError> {
             150,
             Quat::IDENTITY,
             Action::Ball(BallThrow {
-                mass: 0.13,
-                radius: 0.0158,
-                speed: 12.0,
+                mass: 0.033,
+                radius: 0.01,
+                speed: 16.0,
                 material: "steel".into(),
                 at: Vec3::ZERO,
                 toward: Vec3::NEG_Z,
@@ -54,7 +54,7 @@ pub fn scene(name: &str) -> Result<Scene, SceneError> {
             "porcelain",
             120,
             tilted(75.0),
-            drop(1.0),
+            drop(1.2),
         ),
         "bowl" => build(
             "bowl",

@@ -87,9 +87,9 @@ impl Recorder {
             node.poses.resize(recording.frame_count, pose);
         }
         let first_crack = self.break_frame.unwrap_or(last).min(last);
-        // Two frames before contact the body is near the floor, in view; five after it the pieces are on their way.
+        // A frame before contact the body is near the floor; five after it the pieces are on their way.
         recording.moments = Moments {
-            before: first_crack.saturating_sub(2),
+            before: first_crack.saturating_sub(1),
             first_crack,
             just_after: (first_crack + 5).min(last),
             at_rest: last,
@@ -99,28 +99,53 @@ impl Recorder {
     }
 }
 
-/// Looks at where most of the pieces come to rest, from far enough to see them and the whole body.
+/// Looks so that the body just before the break and most of the pieces at rest fill the picture.
 fn camera(recording: &Recording, look_from: Vec3, body_radius: f32) -> View {
     let moments = recording.moments;
     let mut seen: Vec<Vec3> = Vec::new();
+    let mut resting: Vec<Vec3> = Vec::new();
     for (i, node) in recording.nodes.iter().enumerate() {
-        for frame in [moments.first_crack, moments.at_rest] {
-            if node.visible.contains(&frame) && node.name != "ball" {
-                seen.push(recording.pose(i, frame).translation);
-            }
+        let ball = node.name == "ball";
+        if node.visible.contains(&moments.before) && !ball {
+            let centre = recording.pose(i, moments.before).translation;
+            let reach = |axis: Vec3| axis * body_radius;
+            seen.extend([Vec3::X, Vec3::Y, Vec3::Z].into_iter().flat_map(|a| [centre + reach(a), centre - reach(a)]));
+        }
+        if node.visible.contains(&moments.at_rest) && !ball {
+            resting.push(recording.pose(i, moments.at_rest).translation);
         }
     }
-    let vertical_fov = 0.6_f32;
-    let mut by_axis = |axis: usize| {
-        seen.sort_by(|a, b| a[axis].total_cmp(&b[axis]));
-        // Strays beyond the middle four fifths do not move the camera.
-        let at = |share: f32| seen.get((share * seen.len() as f32) as usize).map_or(0.0, |p| p[axis]);
-        (at(0.1), at(0.899))
+    // Strays beyond the nearest four fifths do not move the camera.
+    let middle = median(&resting);
+    resting.sort_by(|a, b| a.distance(middle).total_cmp(&b.distance(middle)));
+    resting.truncate((0.8 * resting.len() as f32).ceil() as usize);
+    seen.extend(resting);
+    let low = seen.iter().copied().fold(Vec3::INFINITY, Vec3::min).max(Vec3::new(f32::MIN, 0.0, f32::MIN));
+    let high = seen.iter().copied().fold(Vec3::NEG_INFINITY, Vec3::max);
+    let target = 0.5 * (low + high);
+    let vertical_fov = 0.55_f32;
+    let back = look_from.normalize();
+    let right = Vec3::Y.cross(back).normalize_or(Vec3::X);
+    let up = back.cross(right);
+    let tangent = (0.5 * vertical_fov).tan();
+    // Far enough for every point to lie within the picture (4:3), with a margin.
+    let distance = seen
+        .iter()
+        .map(|&p| {
+            let d = p - target;
+            let across = (d.dot(right).abs() / (4.0 / 3.0)).max(d.dot(up).abs());
+            1.06 * across / tangent + d.dot(back)
+        })
+        .fold(body_radius, f32::max);
+    View { eye: target + back * distance, target, up: Vec3::Y, vertical_fov }
+}
+
+/// The median of each coordinate.
+fn median(points: &[Vec3]) -> Vec3 {
+    let axis = |i: usize| {
+        let mut values: Vec<f32> = points.iter().map(|p| p[i]).collect();
+        values.sort_by(f32::total_cmp);
+        values.get(values.len() / 2).copied().unwrap_or(0.0)
     };
-    let (x, z) = (by_axis(0), by_axis(2));
-    let half = 0.5 * (x.1 - x.0).hypot(z.1 - z.0);
-    let target = Vec3::new(0.5 * (x.0 + x.1), 0.55 * body_radius, 0.5 * (z.0 + z.1));
-    let radius = (0.75 * half + 0.45 * body_radius).max(1.2 * body_radius);
-    let eye = target + look_from.normalize() * (radius / (0.5 * vertical_fov).tan());
-    View { eye, target, up: Vec3::Y, vertical_fov }
+    Vec3::new(axis(0), axis(1), axis(2))
 }

@@ -9,8 +9,8 @@
 //!   energy waits and is tried again with the stress of the next step, so cracks follow the wave outwards;
 //! - *steering*: s is kept at the nodes. The fourth node of n gets the mean over the three shared ones of
 //!   `s_i + (x_v − x_i)·d − A (N(x_v) − N(x_i))`, d the crack's direction turned towards the largest tension at n.
-//!   The turn is gated by tension: on the compressed side of a bent wall the largest principal direction points
-//!   across it, and an ungated crack would peel the wall along its middle.
+//!   The turn is gated by tension, absolute and against the largest compression: on the compressed side of a bent wall
+//!   the largest principal direction points across it, and an ungated crack would peel the wall along its middle.
 
 use glam::Vec3;
 
@@ -149,7 +149,10 @@ fn steered(
     }
     let uniaxial = ((sigma[0] - sigma[1].max(0.0)) / sigma[0]).clamp(0.0, 1.0);
     let gate = (sigma[0] / strength - STEERING_GATE).clamp(0.0, 1.0);
-    let weight = (-(-length / turning_length).exp_m1() * uniaxial * gate) as f32;
+    // Beside a larger compression the direction of the tension is that of a small difference: on the compressed
+    // side of a bent plate it points across the plate.
+    let tensile = (1.0 + sigma[2].min(0.0) / sigma[0]).max(0.0);
+    let weight = (-(-length / turning_length).exp_m1() * uniaxial * gate * tensile) as f32;
     let tension = axes[0].as_vec3();
     let tension = if tension.dot(direction) < 0.0 {
         -tension

@@ -104,7 +104,7 @@ fn update(point: &mut Point, system: &CrackSystem, e: u32, now: f64, release_rea
             });
         }
         let seen = &mut point.seen[i];
-        let reach = release_reach * crack.extent.max(system.edge);
+        let reach = release_reach * (2.0 * crack.extent).max(system.edge);
         let grown = seen.scanned != crack.sites.len() || seen.reach != reach;
         // Out of reach of the whole crack: nothing to look at until it grows.
         if grown && centre.distance(crack.frame.origin) > crack.extent + reach {
