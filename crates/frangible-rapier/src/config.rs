@@ -61,7 +61,7 @@ impl Default for WorldConfig {
             impact_speed: 0.5,
             merge_distance: 5e-4,
             hull_volume_ratio: 1.15,
-            overlap_relaxation: 0.01,
+            overlap_relaxation: 0.002,
             rolling_arm: 5e-4,
             rest_drift: 1e-3,
             joint_reach: 5e-3,

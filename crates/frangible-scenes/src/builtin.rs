@@ -36,12 +36,12 @@ pub fn scene(name: &str) -> Result<Scene, SceneError> {
             "a window pane hit in its middle by a steel ball",
             Shape::Box { size: [0.4, 0.4, 0.004] },
             "glass",
-            150,
+            60,
             Quat::IDENTITY,
             Action::Ball(BallThrow {
-                mass: 0.033,
-                radius: 0.01,
-                speed: 16.0,
+                mass: 0.13,
+                radius: 0.0158,
+                speed: 12.0,
                 material: "steel".into(),
                 at: Vec3::ZERO,
                 toward: Vec3::NEG_Z,
@@ -88,7 +88,7 @@ pub fn scene(name: &str) -> Result<Scene, SceneError> {
             "brick",
             80,
             Quat::from_rotation_z(0.6) * Quat::from_rotation_x(0.5),
-            drop(2.0),
+            drop(3.0),
         ),
         "chocolate" => build(
             "chocolate",
@@ -97,7 +97,7 @@ pub fn scene(name: &str) -> Result<Scene, SceneError> {
             "chocolate",
             80,
             Quat::from_rotation_z(0.3) * Quat::from_rotation_x(-1.2),
-            drop(1.5),
+            drop(1.0),
         ),
         _ => {
             let hint = nearest_name(name, SCENE_NAMES).map_or(String::new(), |n| format!(", did you mean `{n}`?"));

@@ -103,7 +103,7 @@ impl Recorder {
 fn camera(recording: &Recording, look_from: Vec3, body_radius: f32) -> View {
     let moments = recording.moments;
     let mut seen: Vec<Vec3> = Vec::new();
-    let mut resting: Vec<Vec3> = Vec::new();
+    let mut resting: Vec<(Vec3, f32)> = Vec::new();
     for (i, node) in recording.nodes.iter().enumerate() {
         let ball = node.name == "ball";
         if node.visible.contains(&moments.before) && !ball {
@@ -112,14 +112,19 @@ fn camera(recording: &Recording, look_from: Vec3, body_radius: f32) -> View {
             seen.extend([Vec3::X, Vec3::Y, Vec3::Z].into_iter().flat_map(|a| [centre + reach(a), centre - reach(a)]));
         }
         if node.visible.contains(&moments.at_rest) && !ball {
-            resting.push(recording.pose(i, moments.at_rest).translation);
+            let mesh = &recording.meshes[node.mesh];
+            let radius = mesh.positions.iter().map(|p| p.length()).fold(0.0, f32::max);
+            resting.push((recording.pose(i, moments.at_rest).translation, radius));
         }
     }
     // Strays beyond the nearest four fifths do not move the camera.
     let middle = median(&resting);
-    resting.sort_by(|a, b| a.distance(middle).total_cmp(&b.distance(middle)));
+    resting.sort_by(|a, b| a.0.distance(middle).total_cmp(&b.0.distance(middle)));
     resting.truncate((0.8 * resting.len() as f32).ceil() as usize);
-    seen.extend(resting);
+    for (centre, radius) in resting {
+        let across = [Vec3::X, Vec3::NEG_X, Vec3::Z, Vec3::NEG_Z];
+        seen.extend(across.map(|axis| centre + 0.8 * radius * axis));
+    }
     let low = seen.iter().copied().fold(Vec3::INFINITY, Vec3::min).max(Vec3::new(f32::MIN, 0.0, f32::MIN));
     let high = seen.iter().copied().fold(Vec3::NEG_INFINITY, Vec3::max);
     let target = 0.5 * (low + high);
@@ -141,9 +146,9 @@ fn camera(recording: &Recording, look_from: Vec3, body_radius: f32) -> View {
 }
 
 /// The median of each coordinate.
-fn median(points: &[Vec3]) -> Vec3 {
+fn median(points: &[(Vec3, f32)]) -> Vec3 {
     let axis = |i: usize| {
-        let mut values: Vec<f32> = points.iter().map(|p| p[i]).collect();
+        let mut values: Vec<f32> = points.iter().map(|p| p.0[i]).collect();
         values.sort_by(f32::total_cmp);
         values.get(values.len() / 2).copied().unwrap_or(0.0)
     };

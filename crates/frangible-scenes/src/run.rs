@@ -7,7 +7,8 @@ use frangible::glam::{Quat, Vec3};
 use frangible::{Asset, Body, Contact, ImpactReport, Material};
 use frangible_bake::{BakeReport, BakeSpec, Progress};
 use frangible_export::{Floor, Recording};
-use frangible_rapier::rapier3d::math::{Pose, Vector};
+use frangible_rapier::rapier3d::dynamics::RigidBodyHandle;
+use frangible_rapier::rapier3d::math::{Pose, Rotation, Vector};
 use frangible_rapier::{Ball, BreakableWorld, SurfaceProperties, WorldConfig};
 
 use crate::appearance::{ball_surface, body_surfaces};
@@ -41,7 +42,7 @@ pub struct Run {
     pub breaks: Vec<BreakRecord>,
     /// The hardest impact that did not break it, if any.
     pub held: Option<HeldRecord>,
-    /// Whether everything lay still at the end.
+    /// Whether everything but a thrown ball lay still at the end.
     pub at_rest: bool,
     /// Simulated time, s.
     pub simulated: f64,
@@ -123,10 +124,12 @@ pub fn play(scene: &Scene, asset: &Arc<Asset>, progress: &mut dyn FnMut(f64)) ->
     let mut recorder = Recorder::new(&scene.name, looks);
     let extras = vec![("mass_kg".into(), asset.mass.mass), ("volume_m3".into(), asset.mass.volume)];
     recorder.track(scene.name.clone(), whole(asset, surfaces), handle, extras);
+    let mut ball_handle = None;
     if let Some(throw) = thrown {
-        let ball_handle = throw_ball(&mut world, throw, centre, asset)?;
+        let handle = throw_ball(&mut world, throw, centre, asset)?;
         let extras = vec![("mass_kg".into(), throw.mass)];
-        recorder.track("ball".into(), ball(throw.radius as f32, 2), ball_handle, extras);
+        recorder.track("ball".into(), ball(throw.radius as f32, 2), handle, extras);
+        ball_handle = Some(handle);
     }
 
     let mut run = Run {
@@ -171,12 +174,12 @@ pub fn play(scene: &Scene, asset: &Arc<Asset>, progress: &mut dyn FnMut(f64)) ->
         }
         recorder.frame(&world);
         progress(frame as f64 / frames as f64);
-        rest_frames = if world.at_rest() { rest_frames + 1 } else { 0 };
+        rest_frames = if at_rest(&world, ball_handle) { rest_frames + 1 } else { 0 };
         if rest_frames as f32 > REST * FRAME_RATE {
             break;
         }
     }
-    run.at_rest = world.at_rest();
+    run.at_rest = at_rest(&world, ball_handle);
     let radius = asset.fracture.positions.iter().map(|p| p.length()).fold(0.0, f32::max);
     run.recording = recorder.finish(scene.look_from, radius);
     run.recording.floor = Some(Floor { height: 0.0, ..Floor::default() });
@@ -186,23 +189,28 @@ pub fn play(scene: &Scene, asset: &Arc<Asset>, progress: &mut dyn FnMut(f64)) ->
     Ok(run)
 }
 
+/// Whether all but the ball sleep: a ball on a level floor rolls for tens of seconds.
+fn at_rest(world: &BreakableWorld, ball: Option<RigidBodyHandle>) -> bool {
+    world.physics.bodies.iter().all(|(handle, body)| Some(handle) == ball || !body.is_dynamic() || body.is_sleeping())
+}
+
 /// Height of the body's lowest point below its centre of mass (negative), m.
 fn lowest_point(asset: &Asset, rotation: Quat) -> f32 {
     asset.fracture.positions.iter().map(|&p| (rotation * p).y).fold(f32::INFINITY, f32::min)
 }
 
-/// Starts the ball a tenth of a second of flight away, less when it is fast.
+/// Starts the ball a twentieth of a second of flight outside the body.
 fn throw_ball(
     world: &mut BreakableWorld,
     throw: &BallThrow,
     centre: Vec3,
     asset: &Asset,
-) -> Result<frangible_rapier::rapier3d::dynamics::RigidBodyHandle, SceneError> {
+) -> Result<RigidBodyHandle, SceneError> {
     let direction = throw.toward.normalize();
     let reach = asset.fracture.positions.iter().map(|p| p.length()).fold(0.0, f32::max);
     let radius = throw.radius as f32;
     let speed = throw.speed as f32;
-    let distance = (0.1 * speed).clamp(0.2, 1.5);
+    let distance = (0.05 * speed).clamp(0.1, 1.0);
     // Outside the body's sphere, so that it cannot start inside the body; and back in time along the parabola that
     // arrives with the speed and direction asked for.
     let flight = (reach + radius + distance) / speed;
@@ -222,6 +230,6 @@ fn vector(v: Vec3) -> Vector {
     Vector::new(v.x, v.y, v.z)
 }
 
-fn rotation(q: Quat) -> frangible_rapier::rapier3d::math::Rotation {
-    frangible_rapier::rapier3d::math::Rotation::from_xyzw(q.x, q.y, q.z, q.w)
+fn rotation(q: Quat) -> Rotation {
+    Rotation::from_xyzw(q.x, q.y, q.z, q.w)
 }

@@ -376,7 +376,7 @@ const CHOCOLATE: Preset = real(Published {
     strength: 1.5e6,
     toughness: Toughness::Intensity(0.2e6),
     loss_factor: 5e-2,
-    weak_point_density: 1e8,
+    weak_point_density: 2e7,
     roughness: [0.4e-3, 3e-3],
     restitution: 0.2,
     friction: 0.5,
