@@ -40,15 +40,29 @@ pub(crate) struct BreakArgs {
     pub(crate) drop: Option<f64>,
 
     /// Throw a ball instead: mass in kg, radius in m, speed in m/s, and its material [default: steel]
-    #[arg(long, value_name = "MASS,RADIUS,SPEED[,MATERIAL]", allow_hyphen_values = true)]
+    #[arg(
+        long,
+        value_name = "MASS,RADIUS,SPEED[,MATERIAL]",
+        allow_hyphen_values = true
+    )]
     pub(crate) ball: Option<String>,
 
     /// Point the ball is aimed at: x,y,z in m from the body's centre of mass, y up [default: 0,0,0]
-    #[arg(long, value_name = "x,y,z", requires = "ball", allow_hyphen_values = true)]
+    #[arg(
+        long,
+        value_name = "x,y,z",
+        requires = "ball",
+        allow_hyphen_values = true
+    )]
     pub(crate) at: Option<String>,
 
     /// Direction of the ball's flight: x,y,z, any length [default: 0,0,-1]
-    #[arg(long, value_name = "x,y,z", requires = "ball", allow_hyphen_values = true)]
+    #[arg(
+        long,
+        value_name = "x,y,z",
+        requires = "ball",
+        allow_hyphen_values = true
+    )]
     pub(crate) toward: Option<String>,
 
     /// Seed of the weak points and of the cracks' roughness [default: the scene's own]

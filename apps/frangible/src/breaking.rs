@@ -24,14 +24,18 @@ pub(crate) fn run(args: &BreakArgs) -> Result<(), Box<dyn Error>> {
     let seeds = match args.contact_sheet {
         None => 1,
         Some(n @ 1..=MOST_SEEDS) => n as u64,
-        Some(n) => return Err(format!("--contact-sheet is {n}; it must be 1 to {MOST_SEEDS}").into()),
+        Some(n) => {
+            return Err(format!("--contact-sheet is {n}; it must be 1 to {MOST_SEEDS}").into());
+        }
     };
     make_folder(&args.out)?;
     let mut stages = Vec::new();
 
     let bar = Bar::new(args.json);
     let clock = Instant::now();
-    let (asset, baked) = bake(&scene, &mut |p| bar.show(&format!("{}: {}", scene.name, p.stage), p.fraction))?;
+    let (asset, baked) = bake(&scene, &mut |p| {
+        bar.show(&format!("{}: {}", scene.name, p.stage), p.fraction)
+    })?;
     stages.push(("bake".to_string(), 1e3 * clock.elapsed().as_secs_f64()));
 
     let first_seed = scene.seed;
@@ -39,7 +43,10 @@ pub(crate) fn run(args: &BreakArgs) -> Result<(), Box<dyn Error>> {
     for i in 0..seeds {
         scene.seed = first_seed.wrapping_add(i);
         let message = format!("{}: breaking, seed {}", scene.name, scene.seed);
-        runs.push((scene.seed, play(&scene, &asset, &mut |done| bar.show(&message, done))?));
+        runs.push((
+            scene.seed,
+            play(&scene, &asset, &mut |done| bar.show(&message, done))?,
+        ));
     }
     scene.seed = first_seed;
     let run = &runs[0].1;
@@ -71,7 +78,17 @@ pub(crate) fn run(args: &BreakArgs) -> Result<(), Box<dyn Error>> {
     }
     drop(bar);
 
-    let report = summary(&scene, &asset, &baked, run, Output { stages, files, notes });
+    let report = summary(
+        &scene,
+        &asset,
+        &baked,
+        run,
+        Output {
+            stages,
+            files,
+            notes,
+        },
+    );
     if args.json {
         println!("{}", serde_json::to_string_pretty(&report)?);
     } else {
@@ -83,7 +100,10 @@ pub(crate) fn run(args: &BreakArgs) -> Result<(), Box<dyn Error>> {
 /// Makes the output folder and proves that it can be written, before minutes are spent.
 fn make_folder(folder: &Path) -> Result<(), String> {
     let wrong = |e: std::io::Error| {
-        format!("cannot write to the folder `{}`: {e}; choose another with --out DIR", folder.display())
+        format!(
+            "cannot write to the folder `{}`: {e}; choose another with --out DIR",
+            folder.display()
+        )
     };
     fs::create_dir_all(folder).map_err(wrong)?;
     let probe = folder.join(format!(".frangible-{}", std::process::id()));
@@ -92,22 +112,44 @@ fn make_folder(folder: &Path) -> Result<(), String> {
 }
 
 #[cfg(feature = "draw")]
-fn pictures(scene: &str, runs: &[(u64, Run)], sheet: bool) -> Result<Vec<(String, Vec<u8>)>, Box<dyn Error>> {
+fn pictures(
+    scene: &str,
+    runs: &[(u64, Run)],
+    sheet: bool,
+) -> Result<Vec<(String, Vec<u8>)>, Box<dyn Error>> {
     use frangible_draw::{SheetOptions, contact_sheet, encode_png, sheet_of_frames};
 
     let recording: &Recording = &runs[0].1.recording;
-    let mut pictures =
-        vec![(format!("{scene}.png"), encode_png(&contact_sheet(recording, &SheetOptions::default())?)?)];
+    let mut pictures = vec![(
+        format!("{scene}.png"),
+        encode_png(&contact_sheet(recording, &SheetOptions::default())?)?,
+    )];
     if sheet {
-        let labels: Vec<String> = runs.iter().map(|(seed, run)| format!("seed {seed}: {}", pieces(run))).collect();
+        let labels: Vec<String> = runs
+            .iter()
+            .map(|(seed, run)| format!("seed {seed}: {}", pieces(run)))
+            .collect();
         let cells: Vec<(&Recording, usize, &str)> = runs
             .iter()
             .zip(&labels)
-            .map(|((_, run), label)| (&run.recording, run.recording.moments.at_rest, label.as_str()))
+            .map(|((_, run), label)| {
+                (
+                    &run.recording,
+                    run.recording.moments.at_rest,
+                    label.as_str(),
+                )
+            })
             .collect();
         let columns = (cells.len() as f64).sqrt().ceil() as u32;
-        let options = SheetOptions { cell_width: 480, cell_height: 360, columns };
-        pictures.push((format!("{scene}-seeds.png"), encode_png(&sheet_of_frames(&cells, &options)?)?));
+        let options = SheetOptions {
+            cell_width: 480,
+            cell_height: 360,
+            columns,
+        };
+        pictures.push((
+            format!("{scene}-seeds.png"),
+            encode_png(&sheet_of_frames(&cells, &options)?)?,
+        ));
     }
     Ok(pictures)
 }
@@ -119,16 +161,21 @@ fn pictures(_: &str, _: &[(u64, Run)], _: bool) -> Result<Vec<(String, Vec<u8>)>
 
 #[cfg(feature = "draw")]
 fn pieces(run: &Run) -> String {
-    run.breaks.first().map_or("held".into(), |b| format!("{} pieces", b.masses.len()))
+    run.breaks
+        .first()
+        .map_or("held".into(), |b| format!("{} pieces", b.masses.len()))
 }
 
 fn stages_of(run: &Run) -> Vec<(String, f64)> {
     let mut stages = Vec::new();
     if let Some(b) = run.breaks.first() {
         let t = b.report.timings;
-        for (name, seconds) in
-            [("response", t.response), ("stress", t.stress), ("cracks", t.cracks), ("fragments", t.fragments)]
-        {
+        for (name, seconds) in [
+            ("response", t.response),
+            ("stress", t.stress),
+            ("cracks", t.cracks),
+            ("fragments", t.fragments),
+        ] {
             stages.push((name.to_string(), 1e3 * seconds));
         }
     }
@@ -142,11 +189,21 @@ struct Output {
     notes: Vec<String>,
 }
 
-fn summary(scene: &Scene, asset: &Arc<Asset>, baked: &BakeReport, run: &Run, output: Output) -> Report {
+fn summary(
+    scene: &Scene,
+    asset: &Arc<Asset>,
+    baked: &BakeReport,
+    run: &Run,
+    output: Output,
+) -> Report {
     let broken = run.breaks.first();
     let impact = broken
         .map(|b| Impact::new(&b.report, &b.contacts))
-        .or_else(|| run.held.as_ref().map(|h| Impact::new(&h.report, &h.contacts)));
+        .or_else(|| {
+            run.held
+                .as_ref()
+                .map(|h| Impact::new(&h.report, &h.contacts))
+        });
     Report {
         scene: scene.name.clone(),
         material: scene.material.name.clone(),
@@ -165,7 +222,8 @@ fn summary(scene: &Scene, asset: &Arc<Asset>, baked: &BakeReport, run: &Run, out
         fragment_mass_sum_kg: broken.map_or(asset.mass.mass, |b| b.masses.iter().sum()),
         volume_m3: asset.mass.volume,
         fragment_volume_sum_m3: broken.map_or(asset.mass.volume, |b| b.volume),
-        largest_fragments_kg: broken.map_or(Vec::new(), |b| b.masses.iter().copied().take(5).collect()),
+        largest_fragments_kg: broken
+            .map_or(Vec::new(), |b| b.masses.iter().copied().take(5).collect()),
         at_rest: run.at_rest,
         simulated_s: run.simulated,
         stages_ms: output.stages,

@@ -11,9 +11,15 @@ pub(crate) fn print() -> Result<(), Box<dyn Error>> {
         let scene = scene(name)?;
         let action = match &scene.action {
             Action::Drop { height } => format!("drop {height} m"),
-            Action::Ball(b) => format!("ball {} kg, radius {} m, {} m/s, {}", b.mass, b.radius, b.speed, b.material),
+            Action::Ball(b) => format!(
+                "ball {} kg, radius {} m, {} m/s, {}",
+                b.mass, b.radius, b.speed, b.material
+            ),
         };
-        println!("  {name:<10} {} ({}; {action})", scene.summary, scene.material.name);
+        println!(
+            "  {name:<10} {} ({}; {action})",
+            scene.summary, scene.material.name
+        );
     }
     println!("\nMaterials (--material M, or the last part of --ball):");
     for preset in Material::presets() {

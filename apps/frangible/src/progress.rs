@@ -16,7 +16,8 @@ impl Bar {
             return Self(ProgressBar::hidden());
         }
         let bar = ProgressBar::new(STEPS);
-        if let Ok(style) = ProgressStyle::with_template("{bar:30} {percent:>3} % {msg} ({elapsed})") {
+        if let Ok(style) = ProgressStyle::with_template("{bar:30} {percent:>3} % {msg} ({elapsed})")
+        {
             bar.set_style(style);
         }
         bar.enable_steady_tick(Duration::from_millis(200));
@@ -27,7 +28,8 @@ impl Bar {
         if self.0.message() != message {
             self.0.set_message(message.to_string());
         }
-        self.0.set_position((fraction.clamp(0.0, 1.0) * STEPS as f64) as u64);
+        self.0
+            .set_position((fraction.clamp(0.0, 1.0) * STEPS as f64) as u64);
     }
 }
 

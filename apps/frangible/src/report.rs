@@ -56,7 +56,10 @@ pub(crate) struct Impact {
 
 impl Impact {
     pub(crate) fn new(report: &ImpactReport, contacts: &[frangible::Contact]) -> Self {
-        let speed = contacts.iter().map(|c| c.approach_speed).fold(0.0_f32, f32::max);
+        let speed = contacts
+            .iter()
+            .map(|c| c.approach_speed)
+            .fold(0.0_f32, f32::max);
         Self {
             approach_speed_m_s: f64::from(speed),
             impulse_n_s: contacts.iter().map(|c| f64::from(c.impulse)).sum(),
@@ -86,7 +89,10 @@ impl Report {
             // Writing to a string cannot fail.
             let _ = writeln!(t, "  {name:<15} {value}");
         };
-        row("scene", format!("{}, {}, seed {}", self.scene, self.material, self.seed));
+        row(
+            "scene",
+            format!("{}, {}, seed {}", self.scene, self.material, self.seed),
+        );
         row(
             "mesh",
             format!(
@@ -94,10 +100,28 @@ impl Report {
                 self.fracture_tets, self.analysis_elements, self.analysis_nodes
             ),
         );
-        let frequencies: Vec<String> = self.first_frequencies_hz.iter().map(|f| format!("{f:.0}")).collect();
-        row("modes", format!("{}, from {} … Hz (residual {:.0e})", self.modes, frequencies.join(", "), self.largest_residual));
+        let frequencies: Vec<String> = self
+            .first_frequencies_hz
+            .iter()
+            .map(|f| format!("{f:.0}"))
+            .collect();
+        row(
+            "modes",
+            format!(
+                "{}, from {} … Hz (residual {:.0e})",
+                self.modes,
+                frequencies.join(", "),
+                self.largest_residual
+            ),
+        );
         if let Some(i) = &self.impact {
-            row("impact", format!("{:.2} m/s, {:.3} N·s, {:.3} J", i.approach_speed_m_s, i.impulse_n_s, i.approach_energy_j));
+            row(
+                "impact",
+                format!(
+                    "{:.2} m/s, {:.3} N·s, {:.3} J",
+                    i.approach_speed_m_s, i.impulse_n_s, i.approach_energy_j
+                ),
+            );
             row(
                 "contact",
                 format!(
@@ -110,7 +134,11 @@ impl Report {
             );
             row(
                 "stress",
-                format!("peak {:.1} MPa against a strength of {:.1} MPa", i.peak_stress_pa / 1e6, i.strength_pa / 1e6),
+                format!(
+                    "peak {:.1} MPa against a strength of {:.1} MPa",
+                    i.peak_stress_pa / 1e6,
+                    i.strength_pa / 1e6
+                ),
             );
             row(
                 "cracks",
@@ -126,8 +154,15 @@ impl Report {
             row("impact", "none harder than the threshold".into());
         }
         if self.broke {
-            let masses: Vec<String> = self.largest_fragments_kg.iter().map(|m| format!("{:.1}", 1e3 * m)).collect();
-            row("fragments", format!("{} (largest {} … g)", self.fragments, masses.join(", ")));
+            let masses: Vec<String> = self
+                .largest_fragments_kg
+                .iter()
+                .map(|m| format!("{:.1}", 1e3 * m))
+                .collect();
+            row(
+                "fragments",
+                format!("{} (largest {} … g)", self.fragments, masses.join(", ")),
+            );
             let check = |sum: f64, whole: f64| (sum / whole - 1.0).abs();
             row(
                 "check",
@@ -142,8 +177,23 @@ impl Report {
         } else {
             row("fragments", "none: it held".into());
         }
-        row("end", format!("{} after {:.2} s", if self.at_rest { "at rest" } else { "still moving" }, self.simulated_s));
-        let stages: Vec<String> = self.stages_ms.iter().map(|(name, ms)| format!("{name} {ms:.0}")).collect();
+        row(
+            "end",
+            format!(
+                "{} after {:.2} s",
+                if self.at_rest {
+                    "at rest"
+                } else {
+                    "still moving"
+                },
+                self.simulated_s
+            ),
+        );
+        let stages: Vec<String> = self
+            .stages_ms
+            .iter()
+            .map(|(name, ms)| format!("{name} {ms:.0}"))
+            .collect();
         row("milliseconds", stages.join(", "));
         for file in &self.files {
             row("wrote", file.clone());

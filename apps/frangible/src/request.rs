@@ -2,8 +2,8 @@
 
 use std::error::Error;
 
-use frangible::glam::Vec3;
 use frangible::Material;
+use frangible::glam::Vec3;
 use frangible_scenes::{Action, BallThrow, Scene, scene};
 
 use crate::args::BreakArgs;
@@ -31,7 +31,9 @@ pub(crate) fn scene_of(args: &BreakArgs) -> Result<Scene, Box<dyn Error>> {
         wanted.modes = usize::try_from(modes)
             .ok()
             .filter(|&m| m > 0)
-            .ok_or_else(|| format!("--modes is {modes}; it must be 1 or more (100 is plenty for most bodies)"))?;
+            .ok_or_else(|| {
+                format!("--modes is {modes}; it must be 1 or more (100 is plenty for most bodies)")
+            })?;
     }
     if let Some(seed) = args.seed {
         wanted.seed = seed;
@@ -43,10 +45,13 @@ pub(crate) fn scene_of(args: &BreakArgs) -> Result<Scene, Box<dyn Error>> {
 fn parse_ball(text: &str) -> Result<BallThrow, String> {
     let parts: Vec<&str> = text.split(',').map(str::trim).collect();
     let ([mass, radius, speed] | [mass, radius, speed, _]) = parts[..] else {
-        return Err(format!("--ball is `{text}`; it must be MASS,RADIUS,SPEED[,MATERIAL], for example 0.1,0.015,10,steel"));
+        return Err(format!(
+            "--ball is `{text}`; it must be MASS,RADIUS,SPEED[,MATERIAL], for example 0.1,0.015,10,steel"
+        ));
     };
     let number = |what: &str, unit: &str, s: &str| {
-        s.parse::<f64>().map_err(|_| format!("--ball: the {what} is `{s}`; it must be a number, in {unit}"))
+        s.parse::<f64>()
+            .map_err(|_| format!("--ball: the {what} is `{s}`; it must be a number, in {unit}"))
     };
     Ok(BallThrow {
         mass: number("mass", "kg", mass)?,
@@ -59,9 +64,15 @@ fn parse_ball(text: &str) -> Result<BallThrow, String> {
 }
 
 fn parse_vector(what: &str, text: &str) -> Result<Vec3, String> {
-    let wrong = || format!("{what} is `{text}`; it must be three numbers x,y,z, for example 0,0.02,0");
-    let parts: Vec<f32> =
-        text.split(',').map(|s| s.trim().parse()).collect::<Result<_, _>>().map_err(|_| wrong())?;
-    let [x, y, z] = parts[..] else { return Err(wrong()) };
+    let wrong =
+        || format!("{what} is `{text}`; it must be three numbers x,y,z, for example 0,0.02,0");
+    let parts: Vec<f32> = text
+        .split(',')
+        .map(|s| s.trim().parse())
+        .collect::<Result<_, _>>()
+        .map_err(|_| wrong())?;
+    let [x, y, z] = parts[..] else {
+        return Err(wrong());
+    };
     Ok(Vec3::new(x, y, z))
 }

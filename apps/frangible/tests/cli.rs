@@ -9,7 +9,8 @@ struct Folder(PathBuf);
 
 impl Folder {
     fn new(test: &str) -> Self {
-        let path = std::env::temp_dir().join(format!("frangible-cli-{}-{test}", std::process::id()));
+        let path =
+            std::env::temp_dir().join(format!("frangible-cli-{}-{test}", std::process::id()));
         // Left over from a killed run that had the same number.
         let _ = fs::remove_dir_all(&path);
         fs::create_dir_all(&path).expect("a folder for the test");
@@ -18,7 +19,15 @@ impl Folder {
 
     fn files(&self) -> Vec<String> {
         let entries = fs::read_dir(&self.0).expect("the test's folder");
-        entries.map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned()).collect()
+        entries
+            .map(|entry| {
+                entry
+                    .expect("an entry")
+                    .file_name()
+                    .to_string_lossy()
+                    .into_owned()
+            })
+            .collect()
     }
 }
 
@@ -48,11 +57,21 @@ fn refused(test: &str, args: &[&str], parts: &[&str]) -> String {
     let output = frangible(args, Some(&folder.0));
     let message = text(&output.stderr);
     assert!(!output.status.success(), "{args:?} was accepted");
-    assert!(output.status.code().is_some_and(|code| code != 101), "{args:?} panicked: {message}");
+    assert!(
+        output.status.code().is_some_and(|code| code != 101),
+        "{args:?} panicked: {message}"
+    );
     assert!(message.starts_with("error: "), "{args:?}: {message}");
-    assert!(output.stdout.is_empty(), "{args:?} printed {}", text(&output.stdout));
+    assert!(
+        output.stdout.is_empty(),
+        "{args:?} printed {}",
+        text(&output.stdout)
+    );
     for part in parts {
-        assert!(message.contains(part), "{args:?}: no `{part}` in: {message}");
+        assert!(
+            message.contains(part),
+            "{args:?}: no `{part}` in: {message}"
+        );
     }
     assert_eq!(folder.files(), [""; 0], "{args:?} left files");
     message
@@ -67,17 +86,33 @@ fn refused_in_a_sentence(test: &str, args: &[&str], parts: &[&str]) {
 #[test]
 fn unknown_names_are_met_with_the_nearest() {
     let check = |args: &[&str], parts: &[&str]| refused_in_a_sentence("names", args, parts);
-    check(&["--scene", "glas"], &["scene `glas`", "did you mean `glass`"]);
-    check(&["break", "--scene", "glas"], &["scene `glas`", "did you mean `glass`"]);
+    check(
+        &["--scene", "glas"],
+        &["scene `glas`", "did you mean `glass`"],
+    );
+    check(
+        &["break", "--scene", "glas"],
+        &["scene `glas`", "did you mean `glass`"],
+    );
     check(&["--scene", ""], &["scene ``", "glass"]);
-    check(&["--material", "porcelan"], &["`porcelan`", "did you mean `porcelain`"]);
-    check(&["--ball", "0.1,0.02,10,stel"], &["`stel`", "did you mean `steel`"]);
+    check(
+        &["--material", "porcelan"],
+        &["`porcelan`", "did you mean `porcelain`"],
+    );
+    check(
+        &["--ball", "0.1,0.02,10,stel"],
+        &["`stel`", "did you mean `steel`"],
+    );
 }
 
 #[test]
 fn impossible_drops_are_refused() {
     for height in ["nan", "-1", "0", "inf", "-inf", "1e9"] {
-        refused_in_a_sentence("drop", &["--drop", height], &["the drop height is", "above 0 and at most 100 m"]);
+        refused_in_a_sentence(
+            "drop",
+            &["--drop", height],
+            &["the drop height is", "above 0 and at most 100 m"],
+        );
     }
     refused("drop", &["--drop", "high"], &["high", "--drop"]);
 }
@@ -85,15 +120,25 @@ fn impossible_drops_are_refused() {
 #[test]
 fn impossible_numbers_of_modes_are_refused() {
     for modes in ["0", "-3"] {
-        refused_in_a_sentence("modes", &["--modes", modes], &["--modes", modes, "1 or more"]);
+        refused_in_a_sentence(
+            "modes",
+            &["--modes", modes],
+            &["--modes", modes, "1 or more"],
+        );
     }
-    refused_in_a_sentence("modes", &["--modes", "100000"], &["number of modes", "100000", "1 to 1000"]);
+    refused_in_a_sentence(
+        "modes",
+        &["--modes", "100000"],
+        &["number of modes", "100000", "1 to 1000"],
+    );
     refused("modes", &["--modes", "1.5"], &["1.5", "--modes"]);
 }
 
 #[test]
 fn impossible_balls_are_refused() {
-    let check = |ball: &str, parts: &[&str]| refused_in_a_sentence("ball", &["--scene", "pane", "--ball", ball], parts);
+    let check = |ball: &str, parts: &[&str]| {
+        refused_in_a_sentence("ball", &["--scene", "pane", "--ball", ball], parts)
+    };
     for bad in ["nan", "-1", "0", "inf"] {
         check(&format!("{bad},0.01,10"), &["the ball's mass is", "kg"]);
         check(&format!("0.1,{bad},10"), &["the ball's radius is", " m"]);
@@ -109,7 +154,11 @@ fn impossible_balls_are_refused() {
 #[test]
 fn impossible_aims_are_refused() {
     let check = |option: &str, value: &str, parts: &[&str]| {
-        refused_in_a_sentence("aim", &["--scene", "pane", "--ball", "0.1,0.01,10", option, value], parts);
+        refused_in_a_sentence(
+            "aim",
+            &["--scene", "pane", "--ball", "0.1,0.01,10", option, value],
+            parts,
+        );
     };
     check("--at", "nan,0,0", &["--at", "finite"]);
     check("--at", "0,inf,0", &["--at", "finite"]);
@@ -122,13 +171,21 @@ fn impossible_aims_are_refused() {
 #[test]
 fn impossible_sheets_are_refused() {
     for count in ["0", "-2", "1000000"] {
-        refused_in_a_sentence("sheet", &["--contact-sheet", count], &["--contact-sheet", count, "1 to "]);
+        refused_in_a_sentence(
+            "sheet",
+            &["--contact-sheet", count],
+            &["--contact-sheet", count, "1 to "],
+        );
     }
 }
 
 #[test]
 fn options_that_clash_or_do_not_exist_are_refused() {
-    refused("clash", &["--ball", "0.1,0.01,10", "--drop", "1"], &["--ball", "--drop"]);
+    refused(
+        "clash",
+        &["--ball", "0.1,0.01,10", "--drop", "1"],
+        &["--ball", "--drop"],
+    );
     refused("clash", &["--at", "0,0,0"], &["--ball"]);
     refused("clash", &["--seed", "-1"], &["-1", "--seed"]);
     refused("clash", &["--no-such-option"], &["--no-such-option"]);
@@ -143,8 +200,14 @@ fn a_folder_that_cannot_be_written_is_refused_before_the_work() {
         let output = frangible(&["--no-pictures"], Some(&out));
         let message = text(&output.stderr);
         assert_eq!(output.status.code(), Some(1), "{message}");
-        assert!(message.starts_with("error: ") && message.trim_end().lines().count() == 1, "{message}");
-        assert!(message.contains(&*out.to_string_lossy()) && message.contains("--out"), "{message}");
+        assert!(
+            message.starts_with("error: ") && message.trim_end().lines().count() == 1,
+            "{message}"
+        );
+        assert!(
+            message.contains(&*out.to_string_lossy()) && message.contains("--out"),
+            "{message}"
+        );
     }
     assert_eq!(fs::read(&file).expect("the file"), b"mine");
     assert_eq!(folder.files(), ["file"]);
@@ -157,8 +220,18 @@ fn help_names_every_option_and_its_unit() {
         let help = text(&output.stdout);
         assert!(output.status.success());
         for option in [
-            "--scene", "--material", "--drop", "--ball", "--at", "--toward", "--seed", "--modes", "--out",
-            "--contact-sheet", "--json", "--no-pictures",
+            "--scene",
+            "--material",
+            "--drop",
+            "--ball",
+            "--at",
+            "--toward",
+            "--seed",
+            "--modes",
+            "--out",
+            "--contact-sheet",
+            "--json",
+            "--no-pictures",
         ] {
             assert!(help.contains(option), "no {option} in: {help}");
         }
@@ -173,7 +246,10 @@ fn scenes_lists_scenes_and_materials() {
     let output = frangible(&["scenes"], None);
     let list = text(&output.stdout);
     assert!(output.status.success());
-    let named = |name: &str| list.lines().any(|line| line.split_whitespace().next() == Some(name));
+    let named = |name: &str| {
+        list.lines()
+            .any(|line| line.split_whitespace().next() == Some(name))
+    };
     for scene in frangible_scenes::SCENE_NAMES {
         assert!(named(scene), "no {scene} in: {list}");
     }
@@ -185,15 +261,22 @@ fn scenes_lists_scenes_and_materials() {
 #[test]
 fn a_gentle_drop_is_reported_as_json() {
     let folder = Folder::new("gentle");
-    let output =
-        frangible(&["--drop", "0.05", "--no-pictures", "--json", "--modes", "20"], Some(&folder.0));
+    let output = frangible(
+        &["--drop", "0.05", "--no-pictures", "--json", "--modes", "20"],
+        Some(&folder.0),
+    );
     assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
-    let report: serde_json::Value = serde_json::from_slice(&output.stdout).expect("one JSON document");
+    let report: serde_json::Value =
+        serde_json::from_slice(&output.stdout).expect("one JSON document");
     assert_eq!(report["broke"], false, "{report:#}");
     assert_eq!(report["fragments"], 1);
     assert_eq!(report["modes"], 20);
     assert_eq!(folder.files(), ["glass.glb"]);
-    assert!(fs::read(folder.0.join("glass.glb")).expect("the GLB").starts_with(b"glTF"));
+    assert!(
+        fs::read(folder.0.join("glass.glb"))
+            .expect("the GLB")
+            .starts_with(b"glTF")
+    );
 }
 
 #[test]
@@ -201,7 +284,18 @@ fn the_same_arguments_give_the_same_bytes() {
     let folder = Folder::new("twice");
     let run = |name: &str| {
         let out = folder.0.join(name);
-        let args = ["--scene", "glass", "--drop", "2.5", "--no-pictures", "--modes", "40", "--seed", "3", "--json"];
+        let args = [
+            "--scene",
+            "glass",
+            "--drop",
+            "2.5",
+            "--no-pictures",
+            "--modes",
+            "40",
+            "--seed",
+            "3",
+            "--json",
+        ];
         let output = frangible(&args, Some(&out));
         assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
         let report: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
@@ -210,5 +304,10 @@ fn the_same_arguments_give_the_same_bytes() {
     };
     let (first, second) = (run("first"), run("second"));
     assert!(first.starts_with(b"glTF"));
-    assert!(first == second, "{} and {} bytes, or other ones", first.len(), second.len());
+    assert!(
+        first == second,
+        "{} and {} bytes, or other ones",
+        first.len(),
+        second.len()
+    );
 }

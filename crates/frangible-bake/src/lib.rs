@@ -7,6 +7,20 @@
 //!
 //! Two meshes are made of every shape. The coarse one has quadratic elements and carries the modes;
 //! the fine one has linear elements, irregular on purpose, and carries the cracks.
+//!
+//! ```
+//! use frangible::{Body, Contact, FractureConfig, Material, Outcome, Striker, glam::Vec3, impact};
+//! use frangible_bake::{BakeSpec, Shape, bake};
+//!
+//! let spec = BakeSpec { modes: 40, ..BakeSpec::new("glass", Shape::drinking_glass(), Material::preset("glass")?) };
+//! let (asset, _) = bake(&spec, &mut |_| {})?; // once per kind of object: tetrahedra and vibration modes
+//! let body = Body::new(asset.into(), 1)?; // seed of its weak points
+//! let stone = Striker { contact_modulus: 5e10, inverse_effective_mass: 0.0, curvature_radius: f32::INFINITY, restitution: 0.4 };
+//! let hit = Contact { point: Vec3::new(-0.038, 0.0, 0.068), normal: Vec3::X, impulse: 0.8, approach_speed: 5.0, striker: stone };
+//! let Outcome::Broke(fracture) = impact(&body, &[hit], &FractureConfig::default())? else { panic!("it held") };
+//! assert!(fracture.fragments.len() > 1);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod bake;
 mod cells;

@@ -16,15 +16,21 @@ const PANE: Vec3 = Vec3::new(0.2, 0.2, 0.002);
 /// A pane among `boxes` others on a floor, and a ball one step before it.
 fn scene(boxes: usize, breaks: bool, near: bool) -> BreakableWorld {
     let mut world = common::world(true);
-    world.insert_fixed_half_space(Vector::ZERO, Vector::Y, SurfaceProperties::STONE).unwrap();
+    world
+        .insert_fixed_half_space(Vector::ZERO, Vector::Y, SurfaceProperties::STONE)
+        .unwrap();
     let pane = common::box_asset(PANE, [4, 4, 1]);
     let still = Vector::ZERO;
-    world.insert_breakable(common::body(&pane), common::at(0.0, 1.0, 0.0), still, still).unwrap();
+    world
+        .insert_breakable(common::body(&pane), common::at(0.0, 1.0, 0.0), still, still)
+        .unwrap();
     let half = Vec3::splat(0.03);
     let cube = common::box_asset(half, [2, 2, 2]);
     for i in 0..boxes {
         let pose = common::at(0.08 * (i % 20) as f32, 0.0301, 1.0 + 0.08 * (i / 20) as f32);
-        world.insert_breakable(common::body(&cube), pose, still, still).unwrap();
+        world
+            .insert_breakable(common::body(&cube), pose, still, still)
+            .unwrap();
     }
     if breaks {
         world.set_break_function(common::slicer(PANE, [10, 10, 1], 0.001, 0.2));
@@ -36,9 +42,19 @@ fn scene(boxes: usize, breaks: bool, near: bool) -> BreakableWorld {
     }
     let height = 1.0 - 0.5 * 9.81 * world.time() as f32 * world.time() as f32;
     let z = if near { -0.05 } else { -0.5 };
-    let ball = Ball { mass: 0.1, radius: 0.01 };
+    let ball = Ball {
+        mass: 0.1,
+        radius: 0.01,
+    };
     let fast = Vector::new(0.0, 0.0, 15.0);
-    world.insert_ball(ball, SurfaceProperties::STEEL, common::at(0.01, height, z), fast).unwrap();
+    world
+        .insert_ball(
+            ball,
+            SurfaceProperties::STEEL,
+            common::at(0.01, height, z),
+            fast,
+        )
+        .unwrap();
     if near {
         // The sweep brings the ball to the pane; the next step is the one that breaks it.
         world.step().unwrap();
@@ -49,7 +65,10 @@ fn scene(boxes: usize, breaks: bool, near: bool) -> BreakableWorld {
 
 fn steps(c: &mut Criterion) {
     let mut group = c.benchmark_group("step");
-    group.sample_size(20).measurement_time(Duration::from_secs(3)).warm_up_time(Duration::from_millis(500));
+    group
+        .sample_size(20)
+        .measurement_time(Duration::from_secs(3))
+        .warm_up_time(Duration::from_millis(500));
     for (name, boxes, breaks, near) in [
         ("plain, 300 boxes", 300, false, false),
         ("held impact, 300 boxes", 300, false, true),
@@ -58,20 +77,39 @@ fn steps(c: &mut Criterion) {
     ] {
         let mut check = scene(boxes, breaks, near);
         check.step().unwrap();
-        assert_eq!((check.breaks().len(), check.held().len()), (usize::from(breaks), usize::from(near && !breaks)), "{name}");
+        assert_eq!(
+            (check.breaks().len(), check.held().len()),
+            (usize::from(breaks), usize::from(near && !breaks)),
+            "{name}"
+        );
         group.bench_function(name, |b| {
-            b.iter_batched_ref(|| scene(boxes, breaks, near), |world| world.step().map(<[_]>::len), BatchSize::LargeInput);
+            b.iter_batched_ref(
+                || scene(boxes, breaks, near),
+                |world| world.step().map(<[_]>::len),
+                BatchSize::LargeInput,
+            );
         });
     }
     let mut broken = scene(0, true, true);
     broken.step().unwrap();
-    group.bench_function("after the break, 100 fragments flying", |b| b.iter(|| broken.step().map(<[_]>::len)));
+    group.bench_function("after the break, 100 fragments flying", |b| {
+        b.iter(|| broken.step().map(<[_]>::len))
+    });
     let world = scene(300, false, false);
     group.bench_function("copy of bodies, colliders and contacts, 300 boxes", |b| {
         b.iter(|| {
             let p = &world.physics;
-            let sets = (p.bodies.clone(), p.colliders.clone(), p.narrow_phase.clone());
-            black_box((sets, p.islands.clone(), p.broad_phase.clone(), p.impulse_joints.clone()))
+            let sets = (
+                p.bodies.clone(),
+                p.colliders.clone(),
+                p.narrow_phase.clone(),
+            );
+            black_box((
+                sets,
+                p.islands.clone(),
+                p.broad_phase.clone(),
+                p.impulse_joints.clone(),
+            ))
         });
     });
     group.finish();

@@ -16,11 +16,14 @@ pub(crate) fn candidates(
     speed: f32,
 ) -> Vec<RigidBodyHandle> {
     let fast = |body: &RigidBody| {
-        let points = body.linvel().length() + body.angvel().length() * body.mass_properties().max_extent();
+        let points =
+            body.linvel().length() + body.angvel().length() * body.mass_properties().max_extent();
         // NaN counts as fast: whatever meets it is looked at.
         points.is_nan() || points >= 0.5 * speed
     };
-    let moving = |body: &RigidBody| body.is_dynamic_or_kinematic() && body.is_enabled() && !body.is_sleeping();
+    let moving = |body: &RigidBody| {
+        body.is_dynamic_or_kinematic() && body.is_enabled() && !body.is_sleeping()
+    };
     let movers: Vec<(RigidBodyHandle, Option<Aabb>)> = physics
         .bodies
         .iter()
@@ -32,10 +35,16 @@ pub(crate) fn candidates(
     }
     breakables
         .filter(|&handle| {
-            let Some(body) = physics.bodies.get(handle) else { return false };
-            let Some(bounds) = swept_bounds(physics, body) else { return false };
+            let Some(body) = physics.bodies.get(handle) else {
+                return false;
+            };
+            let Some(bounds) = swept_bounds(physics, body) else {
+                return false;
+            };
             let meets = |other: &Option<Aabb>| other.is_some_and(|other| other.intersects(&bounds));
-            movers.iter().any(|(other, aabb)| *other != handle && meets(aabb))
+            movers
+                .iter()
+                .any(|(other, aabb)| *other != handle && meets(aabb))
                 || fast(body)
                     && physics.colliders.iter().any(|(_, collider)| {
                         collider.parent() != Some(handle) && meets(&Some(collider.compute_aabb()))
@@ -51,9 +60,13 @@ fn swept_bounds(physics: &PhysicsWorld, body: &RigidBody) -> Option<Aabb> {
     let next = body.predict_position_using_velocity_and_forces(parameters.dt);
     let mut bounds: Option<Aabb> = None;
     for &handle in body.colliders() {
-        let Some(collider) = physics.colliders.get(handle) else { continue };
+        let Some(collider) = physics.colliders.get(handle) else {
+            continue;
+        };
         let local = collider.position_wrt_parent().copied().unwrap_or_default();
-        let swept = collider.shape().compute_swept_aabb(&(*body.position() * local), &(next * local));
+        let swept = collider
+            .shape()
+            .compute_swept_aabb(&(*body.position() * local), &(next * local));
         let swept = swept.loosened(margin);
         bounds = Some(bounds.map_or(swept, |all| all.merged(&swept)));
     }

@@ -17,7 +17,8 @@ const MIN_HALF_EXTENT: f32 = 2e-4;
 /// Compound of the asset's cells, in the body frame.
 pub(crate) fn whole_shape(asset: &Asset) -> SharedShape {
     let hulls = asset.cells.iter().filter_map(|cell| hull(&cell.points));
-    compound(hulls.map(|(shape, _)| shape)).unwrap_or_else(|| fitted_box(&asset.fracture.positions, asset.mass.volume))
+    compound(hulls.map(|(shape, _)| shape))
+        .unwrap_or_else(|| fitted_box(&asset.fracture.positions, asset.mass.volume))
 }
 
 /// One hull where the piece is nearly convex, else the hulls of its shares of the cells, else a box.
@@ -29,7 +30,10 @@ pub(crate) fn fragment_shape(fragment: &Fragment, hull_volume_ratio: f32) -> Sha
     {
         return shape.clone();
     }
-    let shares = fragment.cell_shares.iter().filter_map(|(_, points)| hull(points));
+    let shares = fragment
+        .cell_shares
+        .iter()
+        .filter_map(|(_, points)| hull(points));
     compound(shares.map(|(shape, _)| shape))
         .or(whole.map(|(shape, _)| shape))
         .unwrap_or_else(|| debris_shape(fragment))
@@ -47,7 +51,9 @@ fn hull(points: &[Vector]) -> Option<(SharedShape, f64)> {
         return None;
     }
     let shape = SharedShape::convex_hull(&points)?;
-    let TypedShape::ConvexPolyhedron(polyhedron) = shape.as_typed_shape() else { return None };
+    let TypedShape::ConvexPolyhedron(polyhedron) = shape.as_typed_shape() else {
+        return None;
+    };
     let corner = polyhedron.points();
     let index = polyhedron.vertices_adj_to_face();
     let mut volume = 0.0;
@@ -72,8 +78,11 @@ fn thinned(points: &[Vector]) -> Vec<Vector> {
     if !(grid.is_finite() && grid > 0.0) {
         return Vec::new();
     }
-    let mut cells: Vec<([i32; 3], usize)> =
-        points.iter().enumerate().map(|(i, &p)| (((p - low) / grid).round().as_ivec3().to_array(), i)).collect();
+    let mut cells: Vec<([i32; 3], usize)> = points
+        .iter()
+        .enumerate()
+        .map(|(i, &p)| (((p - low) / grid).round().as_ivec3().to_array(), i))
+        .collect();
     cells.sort_unstable();
     cells.dedup_by_key(|(cell, _)| *cell);
     let mut kept: Vec<usize> = cells.into_iter().map(|(_, i)| i).collect();
@@ -82,7 +91,10 @@ fn thinned(points: &[Vector]) -> Vec<Vector> {
         for k in 0..MAX_HULL_POINTS {
             let direction = spread_direction(k, MAX_HULL_POINTS);
             let farthest = candidates.iter().copied().max_by(|&a, &b| {
-                points[a].dot(direction).total_cmp(&points[b].dot(direction)).then(b.cmp(&a))
+                points[a]
+                    .dot(direction)
+                    .total_cmp(&points[b].dot(direction))
+                    .then(b.cmp(&a))
             });
             kept.extend(farthest);
         }
@@ -114,13 +126,21 @@ fn fitted_box(points: &[Vector], volume: f64) -> SharedShape {
     let half = (0.5 * (high - low)).max(Vector::splat(MIN_HALF_EXTENT));
     let box_volume = 8.0 * f64::from(half.x) * f64::from(half.y) * f64::from(half.z);
     let scale = (volume / box_volume).cbrt().min(1.0) as f32;
-    let half = if half.is_finite() && scale > 0.0 { half * scale } else { Vector::splat(MIN_HALF_EXTENT) };
+    let half = if half.is_finite() && scale > 0.0 {
+        half * scale
+    } else {
+        Vector::splat(MIN_HALF_EXTENT)
+    };
     let half = half.max(Vector::splat(MIN_HALF_EXTENT));
     SharedShape::cuboid(half.x, half.y, half.z)
 }
 
 fn bounds(points: &[Vector]) -> (Vector, Vector) {
-    points.iter().fold((Vector::splat(f32::INFINITY), Vector::splat(f32::NEG_INFINITY)), |(low, high), &p| {
-        (low.min(p), high.max(p))
-    })
+    points.iter().fold(
+        (
+            Vector::splat(f32::INFINITY),
+            Vector::splat(f32::NEG_INFINITY),
+        ),
+        |(low, high), &p| (low.min(p), high.max(p)),
+    )
 }

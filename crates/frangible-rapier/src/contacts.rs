@@ -49,7 +49,9 @@ pub(crate) fn impact_on(
     surfaces: &Surfaces<'_>,
     config: &WorldConfig,
 ) -> Impact {
-    let Some(body) = before.get(handle) else { return Impact::default() };
+    let Some(body) = before.get(handle) else {
+        return Impact::default();
+    };
     let mut impact = Impact::default();
     for group in merged_by_partner(points_on(handle, body, physics), config.merge_distance) {
         let other = group[0].other;
@@ -82,22 +84,45 @@ fn points_on(handle: RigidBodyHandle, body: &RigidBody, physics: &PhysicsWorld) 
     let mut points = Vec::new();
     let to_body = body.rotation().inverse();
     for &collider_handle in body.colliders() {
-        let Some(collider) = physics.colliders.get(collider_handle) else { continue };
+        let Some(collider) = physics.colliders.get(collider_handle) else {
+            continue;
+        };
         let in_body = collider.position_wrt_parent().copied().unwrap_or_default();
         for pair in physics.narrow_phase.contact_pairs_with(collider_handle) {
             let first = pair.collider1 == collider_handle;
-            let other_collider = if first { pair.collider2 } else { pair.collider1 };
-            let other = physics.colliders.get(other_collider).and_then(|c| c.parent());
+            let other_collider = if first {
+                pair.collider2
+            } else {
+                pair.collider1
+            };
+            let other = physics
+                .colliders
+                .get(other_collider)
+                .and_then(|c| c.parent());
             if other == Some(handle) {
                 continue;
             }
             for manifold in pair.solver_manifolds() {
                 // The manifold's normal points from the first collider to the second: the second is pushed along it.
-                let normal = if first { -manifold.data.normal } else { manifold.data.normal };
-                let Some(normal) = (to_body * normal).try_normalize() else { continue };
-                let part = if first { manifold.subshape_pos1() } else { manifold.subshape_pos2() };
+                let normal = if first {
+                    -manifold.data.normal
+                } else {
+                    manifold.data.normal
+                };
+                let Some(normal) = (to_body * normal).try_normalize() else {
+                    continue;
+                };
+                let part = if first {
+                    manifold.subshape_pos1()
+                } else {
+                    manifold.subshape_pos2()
+                };
                 for point in manifold.points.iter().filter(|p| p.data.impulse > 0.0) {
-                    let local = if first { point.local_p1 } else { point.local_p2 };
+                    let local = if first {
+                        point.local_p1
+                    } else {
+                        point.local_p2
+                    };
                     let local = part.map_or(local, |pose| *pose * local);
                     points.push(Point {
                         position: in_body * local,
@@ -128,12 +153,17 @@ fn merged_by_partner(points: Vec<Point>, distance: f32) -> Vec<Vec<Point>> {
             groups.push(vec![point]);
             continue;
         };
-        let same_place = |p: &&mut Point| p.position.distance(point.position) <= distance && p.normal.dot(point.normal) > 0.9;
+        let same_place = |p: &&mut Point| {
+            p.position.distance(point.position) <= distance && p.normal.dot(point.normal) > 0.9
+        };
         if let Some(kept) = group.iter_mut().find(same_place) {
             let total = kept.impulse + point.impulse;
             let share = point.impulse / total;
             kept.position = kept.position.lerp(point.position, share);
-            kept.normal = kept.normal.lerp(point.normal, share).normalize_or(point.normal);
+            kept.normal = kept
+                .normal
+                .lerp(point.normal, share)
+                .normalize_or(point.normal);
             kept.impulse = total;
         } else {
             group.push(point);
@@ -172,15 +202,28 @@ fn striker(
     let surface = surfaces
         .colliders
         .get(&collider_key(point.other_collider))
-        .or_else(|| point.other.and_then(|other| surfaces.bodies.get(&key(other))));
+        .or_else(|| {
+            point
+                .other
+                .and_then(|other| surfaces.bodies.get(&key(other)))
+        });
     // A body nobody described is a rigid one; a ball's radius can still be read off its shape.
-    let ball = physics.colliders.get(point.other_collider).and_then(|c| c.shape().as_ball()).map(|b| b.radius);
-    let breakable = point.other.and_then(|other| surfaces.breakables.get(&key(other)));
+    let ball = physics
+        .colliders
+        .get(point.other_collider)
+        .and_then(|c| c.shape().as_ball())
+        .map(|b| b.radius);
+    let breakable = point
+        .other
+        .and_then(|other| surfaces.breakables.get(&key(other)));
     let curvature_radius = match (breakable, partner) {
         (Some(breakable), Some(partner)) => {
             curvature_at(breakable, partner.position().inverse_transform_point(world))
         }
-        _ => surface.map(|s| s.curvature_radius).or(ball).unwrap_or(f32::INFINITY),
+        _ => surface
+            .map(|s| s.curvature_radius)
+            .or(ball)
+            .unwrap_or(f32::INFINITY),
     };
     Striker {
         contact_modulus: surface.map_or(f32::INFINITY, |s| s.contact_modulus),
@@ -194,14 +237,24 @@ fn striker(
 fn curvature_at(body: &Body, point: Vector) -> f32 {
     let surface = &body.asset.surface;
     let positions = &body.asset.fracture.positions;
-    let nearest = surface.triangles.iter().zip(&surface.curvature_radius).min_by(|(a, _), (b, _)| {
-        let gap = |t: &[u32; 3]| {
-            let centre = t.iter().filter_map(|&v| positions.get(v as usize)).sum::<Vector>() / 3.0;
-            centre.distance_squared(point)
-        };
-        gap(a).total_cmp(&gap(b))
-    });
-    nearest.map_or(EDGE_RADIUS, |(_, &radius)| radius).max(EDGE_RADIUS)
+    let nearest = surface
+        .triangles
+        .iter()
+        .zip(&surface.curvature_radius)
+        .min_by(|(a, _), (b, _)| {
+            let gap = |t: &[u32; 3]| {
+                let centre = t
+                    .iter()
+                    .filter_map(|&v| positions.get(v as usize))
+                    .sum::<Vector>()
+                    / 3.0;
+                centre.distance_squared(point)
+            };
+            gap(a).total_cmp(&gap(b))
+        });
+    nearest
+        .map_or(EDGE_RADIUS, |(_, &radius)| radius)
+        .max(EDGE_RADIUS)
 }
 
 /// Scales the impulses of one pair so that their sum is no more than the two bodies' meeting can give,
@@ -211,10 +264,20 @@ fn limit_impulse(contacts: &mut [Contact], body: &RigidBody, partner: Option<&Ri
     if total.is_nan() || total <= 0.0 {
         return;
     }
-    let mean = |f: &dyn Fn(&Contact) -> Vector| contacts.iter().map(|c| f(c) * (c.impulse / total)).sum::<Vector>();
+    let mean = |f: &dyn Fn(&Contact) -> Vector| {
+        contacts
+            .iter()
+            .map(|c| f(c) * (c.impulse / total))
+            .sum::<Vector>()
+    };
     let point = mean(&|c| c.point);
-    let Some(normal) = mean(&|c| c.normal).try_normalize() else { return };
-    let restitution = contacts.iter().map(|c| c.striker.restitution).fold(0.0, f32::max);
+    let Some(normal) = mean(&|c| c.normal).try_normalize() else {
+        return;
+    };
+    let restitution = contacts
+        .iter()
+        .map(|c| c.striker.restitution)
+        .fold(0.0, f32::max);
     let (world, direction) = (*body.position() * point, *body.rotation() * normal);
     let k = inverse_effective_mass(body, world, direction)
         + partner.map_or(0.0, |p| inverse_effective_mass(p, world, direction));

@@ -8,7 +8,9 @@ impl BreakableWorld {
     /// Removes the oldest debris until at most `limit` pieces are left.
     pub(crate) fn limit_debris(&mut self, limit: usize) {
         while self.debris.len() > limit {
-            let Some(oldest) = self.debris.pop_front() else { return };
+            let Some(oldest) = self.debris.pop_front() else {
+                return;
+            };
             self.physics.remove_body(oldest);
             self.surfaces.remove(&key(oldest));
         }
@@ -18,7 +20,9 @@ impl BreakableWorld {
     pub(crate) fn forget_removed(&mut self) {
         let bodies = &self.physics.bodies;
         let alive = |handle: RigidBodyHandle| bodies.contains(handle);
-        let key_alive = |&(index, generation): &(u32, u32)| alive(RigidBodyHandle::from_raw_parts(index, generation));
+        let key_alive = |&(index, generation): &(u32, u32)| {
+            alive(RigidBodyHandle::from_raw_parts(index, generation))
+        };
         self.breakables.retain(|key, _| key_alive(key));
         self.surfaces.retain(|key, _| key_alive(key));
         self.debris.retain(|&handle| alive(handle));

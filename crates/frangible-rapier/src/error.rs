@@ -40,7 +40,9 @@ pub enum WorldError {
     #[error("the half-space's normal is {0}; give a vector of non-zero length")]
     NoNormal(Vector),
     /// A handle of a body that is not in the world.
-    #[error("no body {index} (generation {generation}) in the world; it was removed, or replaced by its fragments")]
+    #[error(
+        "no body {index} (generation {generation}) in the world; it was removed, or replaced by its fragments"
+    )]
     NoBody {
         /// Index part of the handle.
         index: u32,
@@ -56,13 +58,25 @@ pub enum WorldError {
 }
 
 pub(crate) fn positive(what: &'static str, value: f32) -> Result<(), WorldError> {
-    if value.is_finite() && value > 0.0 { Ok(()) } else { Err(WorldError::NotPositive { what, value }) }
+    if value.is_finite() && value > 0.0 {
+        Ok(())
+    } else {
+        Err(WorldError::NotPositive { what, value })
+    }
 }
 
 pub(crate) fn not_negative(what: &'static str, value: f32) -> Result<(), WorldError> {
-    if value.is_finite() && value >= 0.0 { Ok(()) } else { Err(WorldError::Negative { what, value }) }
+    if value.is_finite() && value >= 0.0 {
+        Ok(())
+    } else {
+        Err(WorldError::Negative { what, value })
+    }
 }
 
 pub(crate) fn finite(what: &'static str, v: Vector) -> Result<(), WorldError> {
-    if v.is_finite() { Ok(()) } else { Err(WorldError::NotFinite { what }) }
+    if v.is_finite() {
+        Ok(())
+    } else {
+        Err(WorldError::NotFinite { what })
+    }
 }

@@ -9,8 +9,9 @@ use rapier3d::geometry::{ContactData, ContactManifoldData};
 use rapier3d::math::{Pose, Real, Vector};
 use rapier3d::parry::query::details::NormalConstraints;
 use rapier3d::parry::query::{
-    ClosestPoints, Contact, ContactManifold, ContactManifoldsWorkspace, DefaultQueryDispatcher, NonlinearRigidMotion,
-    PersistentQueryDispatcher, QueryDispatcher, ShapeCastHit, ShapeCastOptions, TrackedContact, Unsupported,
+    ClosestPoints, Contact, ContactManifold, ContactManifoldsWorkspace, DefaultQueryDispatcher,
+    NonlinearRigidMotion, PersistentQueryDispatcher, QueryDispatcher, ShapeCastHit,
+    ShapeCastOptions, TrackedContact, Unsupported,
 };
 use rapier3d::parry::shape::{HalfSpace, PackedFeatureId, Shape, TypedShape};
 
@@ -44,15 +45,27 @@ struct Corner {
 fn corners(shape: &dyn Shape, mut visit: impl FnMut(u32, Vector)) -> Result<(), Unsupported> {
     match shape.as_typed_shape() {
         TypedShape::ConvexPolyhedron(hull) => {
-            hull.points().iter().zip(0..).for_each(|(&p, i)| visit(i, p));
+            hull.points()
+                .iter()
+                .zip(0..)
+                .for_each(|(&p, i)| visit(i, p));
         }
         TypedShape::Compound(compound) => {
-            if compound.shapes().iter().any(|(_, part)| part.as_convex_polyhedron().is_none()) {
+            if compound
+                .shapes()
+                .iter()
+                .any(|(_, part)| part.as_convex_polyhedron().is_none())
+            {
                 return Err(Unsupported);
             }
             for (k, (pose, part)) in (0_u32..).zip(compound.shapes()) {
-                let Some(hull) = part.as_convex_polyhedron() else { return Err(Unsupported) };
-                hull.points().iter().zip(0..).for_each(|(&p, i)| visit(k << CORNER_BITS | i, *pose * p));
+                let Some(hull) = part.as_convex_polyhedron() else {
+                    return Err(Unsupported);
+                };
+                hull.points()
+                    .iter()
+                    .zip(0..)
+                    .for_each(|(&p, i)| visit(k << CORNER_BITS | i, *pose * p));
             }
         }
         _ => return Err(Unsupported),
@@ -63,7 +76,9 @@ fn corners(shape: &dyn Shape, mut visit: impl FnMut(u32, Vector)) -> Result<(), 
 /// The up to four corners to stand on.
 fn base(near: &[Corner], up: Vector) -> Vec<Corner> {
     let best = |score: &dyn Fn(&Corner) -> f32| {
-        near.iter().copied().max_by(|a, b| score(a).total_cmp(&score(b)).then(b.id.0.cmp(&a.id.0)))
+        near.iter()
+            .copied()
+            .max_by(|a, b| score(a).total_cmp(&score(b)).then(b.id.0.cmp(&a.id.0)))
     };
     let mut base: Vec<Corner> = Vec::with_capacity(4);
     let mut add = |corner: Option<Corner>| {
@@ -71,14 +86,19 @@ fn base(near: &[Corner], up: Vector) -> Vec<Corner> {
             base.push(corner);
         }
     };
-    let Some(first) = best(&|c| -c.height) else { return base };
+    let Some(first) = best(&|c| -c.height) else {
+        return base;
+    };
     let flat = |v: Vector| v - up * v.dot(up);
     let second = best(&|c| flat(c.point - first.point).length() + c.worth).unwrap_or(first);
-    let across = up.cross(flat(second.point - first.point)).normalize_or_zero();
+    let across = up
+        .cross(flat(second.point - first.point))
+        .normalize_or_zero();
     add(Some(first));
     add(Some(second));
     for side in [across, -across] {
-        add(best(&|c| (c.point - first.point).dot(side) + c.worth).filter(|c| (c.point - first.point).dot(side) > 0.0));
+        add(best(&|c| (c.point - first.point).dot(side) + c.worth)
+            .filter(|c| (c.point - first.point).dot(side) > 0.0));
     }
     base
 }
@@ -93,13 +113,24 @@ fn touch(
     flipped: bool,
 ) -> Result<(), Unsupported> {
     manifolds.truncate(1);
-    let old = manifolds.first_mut().map(|m| std::mem::take(&mut m.points)).unwrap_or_default();
-    let known = |id| old.iter().any(|c| if flipped { c.fid1 == id } else { c.fid2 == id });
+    let old = manifolds
+        .first_mut()
+        .map(|m| std::mem::take(&mut m.points))
+        .unwrap_or_default();
+    let known = |id| {
+        old.iter()
+            .any(|c| if flipped { c.fid1 == id } else { c.fid2 == id })
+    };
     let mut near = Vec::new();
     corners(shape, |number, point| {
         let height = (*to_plane * point).dot(plane.normal);
         if height <= prediction {
-            near.push(Corner { id: PackedFeatureId::vertex(number), point, height, worth: 0.0 });
+            near.push(Corner {
+                id: PackedFeatureId::vertex(number),
+                point,
+                height,
+                worth: 0.0,
+            });
         }
     })?;
     let lowest = near.iter().map(|c| c.height).fold(f32::INFINITY, f32::min);
@@ -112,9 +143,20 @@ fn touch(
     for corner in base(&near, up) {
         let on_plane = *to_plane * corner.point - plane.normal * corner.height;
         let face = PackedFeatureId::face(0);
-        manifold.points.push(TrackedContact::flipped(on_plane, corner.point, face, corner.id, corner.height, flipped));
+        manifold.points.push(TrackedContact::flipped(
+            on_plane,
+            corner.point,
+            face,
+            corner.id,
+            corner.height,
+            flipped,
+        ));
     }
-    (manifold.local_n1, manifold.local_n2) = if flipped { (-up, plane.normal) } else { (plane.normal, -up) };
+    (manifold.local_n1, manifold.local_n2) = if flipped {
+        (-up, plane.normal)
+    } else {
+        (plane.normal, -up)
+    };
     manifold.match_contacts(&old);
     manifolds.push(manifold);
     Ok(())
@@ -140,7 +182,8 @@ impl PersistentQueryDispatcher<ContactManifoldData, ContactData> for FloorDispat
             _ => Err(Unsupported),
         };
         done.or_else(|Unsupported| {
-            DefaultQueryDispatcher.contact_manifolds(pos12, g1, g2, prediction, manifolds, workspace)
+            DefaultQueryDispatcher
+                .contact_manifolds(pos12, g1, g2, prediction, manifolds, workspace)
         })
     }
 
@@ -167,19 +210,41 @@ impl PersistentQueryDispatcher<ContactManifoldData, ContactData> for FloorDispat
 }
 
 impl QueryDispatcher for FloorDispatcher {
-    fn intersection_test(&self, pos12: &Pose, g1: &dyn Shape, g2: &dyn Shape) -> Result<rapier3d::parry::query::ShapeIntersection, Unsupported> {
+    fn intersection_test(
+        &self,
+        pos12: &Pose,
+        g1: &dyn Shape,
+        g2: &dyn Shape,
+    ) -> Result<rapier3d::parry::query::ShapeIntersection, Unsupported> {
         DefaultQueryDispatcher.intersection_test(pos12, g1, g2)
     }
 
-    fn distance(&self, pos12: &Pose, g1: &dyn Shape, g2: &dyn Shape) -> Result<rapier3d::parry::query::ShapeDistance, Unsupported> {
+    fn distance(
+        &self,
+        pos12: &Pose,
+        g1: &dyn Shape,
+        g2: &dyn Shape,
+    ) -> Result<rapier3d::parry::query::ShapeDistance, Unsupported> {
         DefaultQueryDispatcher.distance(pos12, g1, g2)
     }
 
-    fn contact(&self, pos12: &Pose, g1: &dyn Shape, g2: &dyn Shape, prediction: Real) -> Result<Option<Contact>, Unsupported> {
+    fn contact(
+        &self,
+        pos12: &Pose,
+        g1: &dyn Shape,
+        g2: &dyn Shape,
+        prediction: Real,
+    ) -> Result<Option<Contact>, Unsupported> {
         DefaultQueryDispatcher.contact(pos12, g1, g2, prediction)
     }
 
-    fn closest_points(&self, pos12: &Pose, g1: &dyn Shape, g2: &dyn Shape, max_dist: Real) -> Result<ClosestPoints, Unsupported> {
+    fn closest_points(
+        &self,
+        pos12: &Pose,
+        g1: &dyn Shape,
+        g2: &dyn Shape,
+        max_dist: Real,
+    ) -> Result<ClosestPoints, Unsupported> {
         DefaultQueryDispatcher.closest_points(pos12, g1, g2, max_dist)
     }
 
@@ -204,6 +269,14 @@ impl QueryDispatcher for FloorDispatcher {
         end_time: Real,
         stop_at_penetration: bool,
     ) -> Result<Option<ShapeCastHit>, Unsupported> {
-        DefaultQueryDispatcher.cast_shapes_nonlinear(motion1, g1, motion2, g2, start_time, end_time, stop_at_penetration)
+        DefaultQueryDispatcher.cast_shapes_nonlinear(
+            motion1,
+            g1,
+            motion2,
+            g2,
+            start_time,
+            end_time,
+            stop_at_penetration,
+        )
     }
 }

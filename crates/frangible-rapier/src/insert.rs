@@ -42,7 +42,11 @@ impl BreakableWorld {
         finite("velocity", linvel)?;
         finite("angular velocity", angvel)?;
         let mass = rapier_mass(&body.asset.mass)?;
-        let shape = match self.shapes.iter().find(|(asset, _)| Arc::ptr_eq(asset, &body.asset)) {
+        let shape = match self
+            .shapes
+            .iter()
+            .find(|(asset, _)| Arc::ptr_eq(asset, &body.asset))
+        {
             Some((_, shape)) => shape.clone(),
             None => {
                 let shape = whole_shape(&body.asset);
@@ -52,7 +56,10 @@ impl BreakableWorld {
         };
         let surface = SurfaceProperties::of(&body.asset.material, EDGE_RADIUS);
         surface.validate()?;
-        let builder = RigidBodyBuilder::dynamic().pose(pose).linvel(linvel).angvel(angvel);
+        let builder = RigidBodyBuilder::dynamic()
+            .pose(pose)
+            .linvel(linvel)
+            .angvel(angvel);
         let handle = self.insert(builder.additional_mass_properties(mass), shape, surface);
         self.breakables.insert(key(handle), body);
         Ok(handle)
@@ -75,9 +82,16 @@ impl BreakableWorld {
         finite("velocity", linvel)?;
         positive("mass of the ball (kg)", ball.mass)?;
         positive("radius of the ball (m)", ball.radius)?;
-        let surface = SurfaceProperties { curvature_radius: ball.radius, ..surface };
+        let surface = SurfaceProperties {
+            curvature_radius: ball.radius,
+            ..surface
+        };
         surface.validate()?;
-        let builder = RigidBodyBuilder::dynamic().pose(pose).linvel(linvel).ccd_enabled(true).allow_fast_rotation(true);
+        let builder = RigidBodyBuilder::dynamic()
+            .pose(pose)
+            .linvel(linvel)
+            .ccd_enabled(true)
+            .allow_fast_rotation(true);
         let builder = builder.additional_mass_properties(ball_mass(ball.mass, ball.radius));
         Ok(self.insert(builder, SharedShape::ball(ball.radius), surface))
     }
@@ -125,10 +139,18 @@ impl BreakableWorld {
     ///
     /// # Errors
     /// A number that cannot be used, or no such body.
-    pub fn set_surface(&mut self, body: RigidBodyHandle, surface: SurfaceProperties) -> Result<(), WorldError> {
+    pub fn set_surface(
+        &mut self,
+        body: RigidBodyHandle,
+        surface: SurfaceProperties,
+    ) -> Result<(), WorldError> {
         surface.validate()?;
         let (index, generation) = body.into_raw_parts();
-        let rigid = self.physics.bodies.get(body).ok_or(WorldError::NoBody { index, generation })?;
+        let rigid = self
+            .physics
+            .bodies
+            .get(body)
+            .ok_or(WorldError::NoBody { index, generation })?;
         for &collider in rigid.colliders() {
             if let Some(collider) = self.physics.colliders.get_mut(collider) {
                 collider.set_friction(surface.friction);
@@ -153,16 +175,26 @@ impl BreakableWorld {
             collider.set_friction(surface.friction);
             collider.set_restitution(surface.restitution);
         }
-        self.collider_surfaces.insert(collider_key(collider), surface);
+        self.collider_surfaces
+            .insert(collider_key(collider), surface);
         Ok(())
     }
 
     fn check_room(&self) -> Result<(), WorldError> {
         let limit = self.config.max_bodies;
-        if self.physics.bodies.len() < limit { Ok(()) } else { Err(WorldError::Full(limit)) }
+        if self.physics.bodies.len() < limit {
+            Ok(())
+        } else {
+            Err(WorldError::Full(limit))
+        }
     }
 
-    fn insert(&mut self, body: RigidBodyBuilder, shape: SharedShape, surface: SurfaceProperties) -> RigidBodyHandle {
+    fn insert(
+        &mut self,
+        body: RigidBodyBuilder,
+        shape: SharedShape,
+        surface: SurfaceProperties,
+    ) -> RigidBodyHandle {
         let handle = self.physics.bodies.insert(body);
         let collider = ColliderBuilder::new(shape)
             .density(0.0)
@@ -183,5 +215,9 @@ fn check_pose(pose: Pose) -> Result<(), WorldError> {
         return Err(WorldError::NotFinite { what: "pose" });
     }
     let length = pose.rotation.length();
-    if (length - 1.0).abs() > 1e-3 { Err(WorldError::Rotation(length)) } else { Ok(()) }
+    if (length - 1.0).abs() > 1e-3 {
+        Err(WorldError::Rotation(length))
+    } else {
+        Ok(())
+    }
 }

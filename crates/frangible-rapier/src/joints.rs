@@ -17,7 +17,11 @@ pub(crate) fn hand_over_joints(
         .impulse_joints
         .attached_joints(parent)
         .map(|(one, two, handle, joint)| {
-            let frame = if one == parent { joint.data.local_frame1 } else { joint.data.local_frame2 };
+            let frame = if one == parent {
+                joint.data.local_frame1
+            } else {
+                joint.data.local_frame2
+            };
             (one, two, handle, frame)
         })
         .collect();
@@ -29,8 +33,15 @@ pub(crate) fn hand_over_joints(
         };
         // The fragment's axes are the parent's; only the origin moved to its centre of mass.
         let frame = Pose::from_parts(frame.translation - centre, frame.rotation);
-        let (new_one, new_two) = if one == parent { (fragment, two) } else { (one, fragment) };
-        if let Some(joint) = physics.impulse_joints.set_bodies(handle, new_one, new_two, true) {
+        let (new_one, new_two) = if one == parent {
+            (fragment, two)
+        } else {
+            (one, fragment)
+        };
+        if let Some(joint) = physics
+            .impulse_joints
+            .set_bodies(handle, new_one, new_two, true)
+        {
             if one == parent {
                 joint.data.local_frame1 = frame;
             } else {
@@ -50,7 +61,9 @@ fn holder(
     let distance = |&(handle, centre): &(RigidBodyHandle, Vector)| {
         let colliders = physics.bodies.get(handle)?.colliders();
         let shapes = colliders.iter().filter_map(|&c| physics.colliders.get(c));
-        shapes.map(|c| c.shape().distance_to_local_point(anchor - centre, true)).reduce(f32::min)
+        shapes
+            .map(|c| c.shape().distance_to_local_point(anchor - centre, true))
+            .reduce(f32::min)
     };
     let mut best = None;
     for fragment in fragments {

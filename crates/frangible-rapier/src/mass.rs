@@ -20,12 +20,21 @@ pub(crate) fn rapier_mass(exact: &Exact) -> Result<MassProperties, WorldError> {
         axes.z_axis.as_vec3(),
     ));
     let moments = principal.as_vec3();
-    Ok(MassProperties::with_principal_inertia_frame(Vector::ZERO, exact.mass as f32, moments, rotation.normalize()))
+    Ok(MassProperties::with_principal_inertia_frame(
+        Vector::ZERO,
+        exact.mass as f32,
+        moments,
+        rotation.normalize(),
+    ))
 }
 
 /// Of a solid ball: mass in kg, radius in m.
 pub(crate) fn ball_mass(mass: f32, radius: f32) -> MassProperties {
-    MassProperties::new(Vector::ZERO, mass, Vector::splat(0.4 * mass * radius * radius))
+    MassProperties::new(
+        Vector::ZERO,
+        mass,
+        Vector::splat(0.4 * mass * radius * radius),
+    )
 }
 
 /// Principal moments and right-handed axes of a symmetric matrix, by Jacobi rotations in f64:
@@ -62,7 +71,10 @@ fn principal_axes(inertia: DMat3) -> (DVec3, DMat3) {
             }
         }
     }
-    (DVec3::new(a[0][0], a[1][1], a[2][2]), DMat3::from_cols_array_2d(&v))
+    (
+        DVec3::new(a[0][0], a[1][1], a[2][2]),
+        DMat3::from_cols_array_2d(&v),
+    )
 }
 
 #[cfg(test)]
@@ -72,13 +84,20 @@ mod tests {
     #[test]
     fn principal_axes_rebuild_the_inertia() {
         let r = DMat3::from_axis_angle(DVec3::new(0.3, -0.5, 0.8).normalize(), 1.1);
-        for d in [DVec3::new(1.0, 2.0, 3.0), DVec3::new(1.0, 1.0 + 1e-7, 5.0), DVec3::splat(2.0)] {
+        for d in [
+            DVec3::new(1.0, 2.0, 3.0),
+            DVec3::new(1.0, 1.0 + 1e-7, 5.0),
+            DVec3::splat(2.0),
+        ] {
             let inertia = r * DMat3::from_diagonal(d * 1e-13) * r.transpose();
             let (moments, axes) = principal_axes(inertia);
             let back = axes * DMat3::from_diagonal(moments) * axes.transpose();
             assert!((axes.determinant() - 1.0).abs() < 1e-12);
             for k in 0..3 {
-                assert!((back.col(k) - inertia.col(k)).length() < 1e-24, "{back} against {inertia}");
+                assert!(
+                    (back.col(k) - inertia.col(k)).length() < 1e-24,
+                    "{back} against {inertia}"
+                );
             }
         }
     }

@@ -8,7 +8,9 @@ use crate::world::BreakableWorld;
 /// Inertia tensor about the centre of mass in world axes, kg·m².
 pub(crate) fn world_inertia(body: &RigidBody) -> DMat3 {
     let local = body.mass_properties().local_mprops;
-    let frame = (*body.rotation() * local.principal_inertia_local_frame).as_dquat().normalize();
+    let frame = (*body.rotation() * local.principal_inertia_local_frame)
+        .as_dquat()
+        .normalize();
     let axes = DMat3::from_quat(frame);
     axes * DMat3::from_diagonal(local.principal_inertia().as_dvec3()) * axes.transpose()
 }
@@ -29,7 +31,11 @@ pub(crate) fn centre(body: &RigidBody) -> DVec3 {
 
 impl BreakableWorld {
     fn dynamic(&self) -> impl Iterator<Item = &RigidBody> {
-        self.physics.bodies.iter().map(|(_, body)| body).filter(|body| body.is_dynamic() && body.is_enabled())
+        self.physics
+            .bodies
+            .iter()
+            .map(|(_, body)| body)
+            .filter(|body| body.is_dynamic() && body.is_enabled())
     }
 
     /// Kinetic energy of all dynamic bodies, J.
@@ -41,7 +47,9 @@ impl BreakableWorld {
     /// Momentum of all dynamic bodies, N·s.
     #[must_use]
     pub fn momentum(&self) -> DVec3 {
-        self.dynamic().map(|body| body.linvel().as_dvec3() * f64::from(body.mass())).sum()
+        self.dynamic()
+            .map(|body| body.linvel().as_dvec3() * f64::from(body.mass()))
+            .sum()
     }
 
     /// Angular momentum of all dynamic bodies about the world's origin, N·m·s.

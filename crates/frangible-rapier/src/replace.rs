@@ -32,7 +32,13 @@ impl Parts {
             };
             Ok((shape, mass, fragment.mass.centre.as_vec3()))
         };
-        Ok(Self { parts: fracture.fragments.iter().map(part).collect::<Result<_, _>>()? })
+        Ok(Self {
+            parts: fracture
+                .fragments
+                .iter()
+                .map(part)
+                .collect::<Result<_, _>>()?,
+        })
     }
 }
 
@@ -43,9 +49,19 @@ pub(crate) fn is_debris(fragment: &Fragment, config: &WorldConfig) -> bool {
 impl BreakableWorld {
     /// Puts fragments in the place of `parent`, each moving as the piece of the rigid body it was:
     /// v + ω × r, same ω. Neither momentum nor angular momentum nor kinetic energy changes.
-    pub(crate) fn replace(&mut self, parent: RigidBodyHandle, parts: &Parts) -> Vec<RigidBodyHandle> {
-        let Some(body) = self.physics.bodies.get(parent).cloned() else { return Vec::new() };
-        let skin = body.colliders().first().and_then(|&c| self.physics.colliders.get(c)).cloned();
+    pub(crate) fn replace(
+        &mut self,
+        parent: RigidBodyHandle,
+        parts: &Parts,
+    ) -> Vec<RigidBodyHandle> {
+        let Some(body) = self.physics.bodies.get(parent).cloned() else {
+            return Vec::new();
+        };
+        let skin = body
+            .colliders()
+            .first()
+            .and_then(|&c| self.physics.colliders.get(c))
+            .cloned();
         let bounds = self.bounds(&body);
         let mut fragments = Vec::with_capacity(parts.parts.len());
         for (shape, mass, centre) in &parts.parts {
@@ -58,24 +74,40 @@ impl BreakableWorld {
             }
             fragments.push((handle, *centre));
         }
-        hand_over_joints(&mut self.physics, parent, &fragments, self.config.joint_reach);
+        hand_over_joints(
+            &mut self.physics,
+            parent,
+            &fragments,
+            self.config.joint_reach,
+        );
         self.physics.remove_body(parent);
         self.wake_around(bounds);
-        let handles: Vec<RigidBodyHandle> = fragments.into_iter().map(|(handle, _)| handle).collect();
+        let handles: Vec<RigidBodyHandle> =
+            fragments.into_iter().map(|(handle, _)| handle).collect();
         self.siblings.born(&handles);
         handles
     }
 
     fn bounds(&self, body: &RigidBody) -> Option<Aabb> {
-        let colliders = body.colliders().iter().filter_map(|&c| self.physics.colliders.get(c));
-        colliders.map(Collider::compute_aabb).reduce(|a, b| a.merged(&b))
+        let colliders = body
+            .colliders()
+            .iter()
+            .filter_map(|&c| self.physics.colliders.get(c));
+        colliders
+            .map(Collider::compute_aabb)
+            .reduce(|a, b| a.merged(&b))
     }
 
     /// Wakes what may have leaned on, or hung from, the body that is gone.
     fn wake_around(&mut self, bounds: Option<Aabb>) {
         let Some(bounds) = bounds else { return };
-        let bounds = bounds.loosened(4.0 * self.physics.integration_parameters.prediction_distance());
-        let near = self.physics.colliders.iter().filter(|(_, c)| c.compute_aabb().intersects(&bounds));
+        let bounds =
+            bounds.loosened(4.0 * self.physics.integration_parameters.prediction_distance());
+        let near = self
+            .physics
+            .colliders
+            .iter()
+            .filter(|(_, c)| c.compute_aabb().intersects(&bounds));
         let handles: Vec<RigidBodyHandle> = near.filter_map(|(_, c)| c.parent()).collect();
         for handle in handles {
             self.physics.wake_up(handle, true);
@@ -102,7 +134,9 @@ fn fragment_body(parent: &RigidBody, centre: Vector) -> RigidBodyBuilder {
 }
 
 fn fragment_collider(shape: SharedShape, parent: Option<&Collider>) -> ColliderBuilder {
-    let builder = ColliderBuilder::new(shape).density(0.0).active_hooks(ActiveHooks::MODIFY_SOLVER_CONTACTS);
+    let builder = ColliderBuilder::new(shape)
+        .density(0.0)
+        .active_hooks(ActiveHooks::MODIFY_SOLVER_CONTACTS);
     let Some(parent) = parent else { return builder };
     builder
         .friction(parent.friction())

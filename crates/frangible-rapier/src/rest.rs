@@ -38,12 +38,17 @@ impl Places {
     /// slept among moving ones would not be held up by the floor.
     pub(crate) fn rest(&mut self, physics: &mut PhysicsWorld, drift: f32) {
         let bodies = &physics.bodies;
-        self.places.retain(|&(i, g), _| bodies.contains(RigidBodyHandle::from_raw_parts(i, g)));
+        self.places
+            .retain(|&(i, g), _| bodies.contains(RigidBodyHandle::from_raw_parts(i, g)));
         let dt = physics.integration_parameters.dt;
         let mut thresholds = Vec::new();
         let awake = |b: &RigidBody| b.is_dynamic() && b.is_enabled() && !b.is_sleeping();
         for (handle, body) in bodies.iter().filter(|(_, b)| awake(b)) {
-            let here = Place { pose: *body.position(), since: 0.0, threshold: None };
+            let here = Place {
+                pose: *body.position(),
+                since: 0.0,
+                threshold: None,
+            };
             let place = self.places.entry(key(handle)).or_insert(here);
             let own = body.activation().normalized_linear_threshold;
             // A body that may not sleep says so by a negative threshold.
@@ -59,10 +64,16 @@ impl Places {
             }
         }
         for (handle, threshold, rests) in thresholds {
-            let Some(body) = physics.bodies.get_mut(handle) else { continue };
+            let Some(body) = physics.bodies.get_mut(handle) else {
+                continue;
+            };
             let activation = body.activation_mut();
             activation.normalized_linear_threshold = threshold;
-            activation.time_since_can_sleep = if rests { activation.time_until_sleep } else { 0.0 };
+            activation.time_since_can_sleep = if rests {
+                activation.time_until_sleep
+            } else {
+                0.0
+            };
         }
     }
 }
@@ -70,7 +81,10 @@ impl Places {
 /// The longest way a point of the body may have gone since it had this pose, m.
 fn way(from: &Pose, body: &RigidBody, physics: &PhysicsWorld) -> f32 {
     let now = body.position();
-    let colliders = body.colliders().iter().filter_map(|&c| physics.colliders.get(c));
+    let colliders = body
+        .colliders()
+        .iter()
+        .filter_map(|&c| physics.colliders.get(c));
     let reach = colliders.map(|c| {
         let sphere = c.shape().compute_local_bounding_sphere();
         sphere.center.length() + sphere.radius
@@ -81,5 +95,10 @@ fn way(from: &Pose, body: &RigidBody, physics: &PhysicsWorld) -> f32 {
 }
 
 fn touches(body: &RigidBody, physics: &PhysicsWorld) -> bool {
-    body.colliders().iter().any(|&c| physics.narrow_phase.contact_pairs_with(c).any(|p| p.has_any_active_contact()))
+    body.colliders().iter().any(|&c| {
+        physics
+            .narrow_phase
+            .contact_pairs_with(c)
+            .any(|p| p.has_any_active_contact())
+    })
 }

@@ -20,7 +20,11 @@ pub(crate) fn resist_rolling(physics: &mut PhysicsWorld, arm: f32) {
         let points = pair.solver_manifolds().iter().flat_map(|m| &m.points);
         let impulse: f32 = points.map(|p| p.data.impulse.max(0.0)).sum();
         if impulse > 0.0 {
-            pressed.push((parent(pair.collider1), parent(pair.collider2), arm * impulse));
+            pressed.push((
+                parent(pair.collider1),
+                parent(pair.collider2),
+                arm * impulse,
+            ));
         }
     }
     for (a, b, most) in pressed {
@@ -29,7 +33,12 @@ pub(crate) fn resist_rolling(physics: &mut PhysicsWorld, arm: f32) {
 }
 
 /// Takes up to the angular impulse `most`, N·m·s, from the rotation of a relative to b.
-fn resist(physics: &mut PhysicsWorld, a: Option<RigidBodyHandle>, b: Option<RigidBodyHandle>, most: f32) {
+fn resist(
+    physics: &mut PhysicsWorld,
+    a: Option<RigidBodyHandle>,
+    b: Option<RigidBodyHandle>,
+    most: f32,
+) {
     let body = |handle: Option<RigidBodyHandle>| handle.and_then(|h| physics.bodies.get(h));
     let (first, second) = (body(a), body(b));
     let awake = |body: &RigidBody| body.is_dynamic() && !body.is_sleeping();
@@ -38,10 +47,14 @@ fn resist(physics: &mut PhysicsWorld, a: Option<RigidBodyHandle>, b: Option<Rigi
     }
     let spin = |body: Option<&RigidBody>| body.map_or(Vector::ZERO, RigidBody::angvel);
     let yields = |body: Option<&RigidBody>, torque: Vector| {
-        body.filter(|b| awake(b)).map_or(Vector::ZERO, |b| b.mass_properties().effective_world_inv_inertia * torque)
+        body.filter(|b| awake(b)).map_or(Vector::ZERO, |b| {
+            b.mass_properties().effective_world_inv_inertia * torque
+        })
     };
     let relative = spin(first) - spin(second);
-    let Some(axis) = relative.try_normalize() else { return };
+    let Some(axis) = relative.try_normalize() else {
+        return;
+    };
     let (turn_a, turn_b) = (yields(first, axis), yields(second, axis));
     let ease = axis.dot(turn_a + turn_b);
     if ease.is_nan() || ease <= 0.0 {
@@ -49,7 +62,12 @@ fn resist(physics: &mut PhysicsWorld, a: Option<RigidBodyHandle>, b: Option<Rigi
     }
     let taken = most.min(relative.length() / ease);
     for (handle, turn) in [(a, -turn_a * taken), (b, turn_b * taken)] {
-        let Some(body) = handle.and_then(|h| physics.bodies.get_mut(h)).filter(|b| awake(b)) else { continue };
+        let Some(body) = handle
+            .and_then(|h| physics.bodies.get_mut(h))
+            .filter(|b| awake(b))
+        else {
+            continue;
+        };
         body.set_angvel(body.angvel() + turn, false);
     }
 }

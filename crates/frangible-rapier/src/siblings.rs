@@ -38,18 +38,26 @@ impl Siblings {
     /// These bodies are the fragments of one parent, born in the current step.
     pub(crate) fn born(&mut self, fragments: &[RigidBodyHandle]) {
         self.parents += 1;
-        let birth = Birth { parent: self.parents, step: self.step };
-        self.births.extend(fragments.iter().map(|&fragment| (key(fragment), birth)));
+        let birth = Birth {
+            parent: self.parents,
+            step: self.step,
+        };
+        self.births
+            .extend(fragments.iter().map(|&fragment| (key(fragment), birth)));
     }
 
     /// Forgets bodies that are gone.
     pub(crate) fn purge(&mut self, alive: impl Fn(RigidBodyHandle) -> bool) {
-        self.births.retain(|&(index, generation), _| alive(RigidBodyHandle::from_raw_parts(index, generation)));
+        self.births.retain(|&(index, generation), _| {
+            alive(RigidBodyHandle::from_raw_parts(index, generation))
+        });
     }
 
     /// All fragments, in the order of their handles.
     pub(crate) fn fragments(&self) -> impl Iterator<Item = RigidBodyHandle> {
-        self.births.keys().map(|&(index, generation)| RigidBodyHandle::from_raw_parts(index, generation))
+        self.births
+            .keys()
+            .map(|&(index, generation)| RigidBodyHandle::from_raw_parts(index, generation))
     }
 
     /// Birth of two bodies of one parent.
@@ -61,9 +69,15 @@ impl Siblings {
 
 impl PhysicsHooks for Siblings {
     fn modify_solver_contacts(&self, context: &mut ContactModificationContext<'_>) {
-        let (Some(a), Some(b)) = (context.rigid_body1, context.rigid_body2) else { return };
-        let Some(birth) = self.common_birth(a, b) else { return };
-        let Some(rigid) = context.rigid_mut() else { return };
+        let (Some(a), Some(b)) = (context.rigid_body1, context.rigid_body2) else {
+            return;
+        };
+        let Some(birth) = self.common_birth(a, b) else {
+            return;
+        };
+        let Some(rigid) = context.rigid_mut() else {
+            return;
+        };
         if self.step < birth.step + NEWBORN_STEPS {
             // The blow reaches a piece through its siblings, many contacts at once; Newton's restitution applied to
             // each of them can gain energy.

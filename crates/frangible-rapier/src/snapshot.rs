@@ -1,6 +1,8 @@
 //! A copy of the world's state, to undo a step.
 
-use rapier3d::dynamics::{ImpulseJointSet, IslandManager, MultibodyJointSet, RigidBodySet, SoftBodySet};
+use rapier3d::dynamics::{
+    ImpulseJointSet, IslandManager, MultibodyJointSet, RigidBodySet, SoftBodySet,
+};
 use rapier3d::geometry::{BroadPhaseBvh, ColliderSet, NarrowPhase};
 use rapier3d::pipeline::PhysicsWorld;
 

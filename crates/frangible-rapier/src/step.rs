@@ -59,7 +59,8 @@ impl BreakableWorld {
         self.held.clear();
         self.forget_removed();
         self.siblings.step = self.steps;
-        self.siblings.relaxation = self.config.overlap_relaxation * self.physics.integration_parameters.dt;
+        self.siblings.relaxation =
+            self.config.overlap_relaxation * self.physics.integration_parameters.dt;
         let near = candidates(&self.physics, self.breakables(), self.config.impact_speed);
         let asked = if near.is_empty() {
             let centres = self.guarded_centres();
@@ -78,7 +79,8 @@ impl BreakableWorld {
         }
         self.limit_debris(self.config.max_debris);
         if self.config.record_held {
-            self.held.extend(asked.held.into_values().map(|(_, event)| event));
+            self.held
+                .extend(asked.held.into_values().map(|(_, event)| event));
         }
         self.steps += 1;
         asked.error.map_or(Ok(&self.events), Err)
@@ -89,7 +91,10 @@ impl BreakableWorld {
     }
 
     fn guarded_centres(&self) -> Centres {
-        centres(&self.physics, self.siblings.fragments().chain(self.breakables()))
+        centres(
+            &self.physics,
+            self.siblings.fragments().chain(self.breakables()),
+        )
     }
 
     /// A step with fragments just born: a blow runs through a chain of them, one link per solver iteration. With
@@ -138,9 +143,14 @@ impl BreakableWorld {
                 colliders: &self.collider_surfaces,
                 breakables: &self.breakables,
             };
-            let Some(body) = self.breakables.get(&key(handle)) else { continue };
+            let Some(body) = self.breakables.get(&key(handle)) else {
+                continue;
+            };
             let impact = impact_on(handle, &self.physics, before, &surfaces, &self.config);
-            let unchanged = asked.held.get(&key(handle)).is_some_and(|(known, _)| *known == impact);
+            let unchanged = asked
+                .held
+                .get(&key(handle))
+                .is_some_and(|(known, _)| *known == impact);
             if impact.contacts.is_empty() || unchanged {
                 continue;
             }
@@ -156,17 +166,35 @@ impl BreakableWorld {
                     continue;
                 }
             };
-            let fragments: usize = asked.broken.iter().map(|b| b.fracture.fragments.len()).sum();
-            let room = self.config.max_bodies.saturating_sub(self.physics.bodies.len()) + self.debris.len();
+            let fragments: usize = asked
+                .broken
+                .iter()
+                .map(|b| b.fracture.fragments.len())
+                .sum();
+            let room = self
+                .config
+                .max_bodies
+                .saturating_sub(self.physics.bodies.len())
+                + self.debris.len();
             if fracture.fragments.len() + fragments > room {
                 self.refused_breaks += 1;
-                log::warn!("{} fragments of `{}` exceed `max_bodies`; it stays whole", fracture.fragments.len(), body.asset.name);
+                log::warn!(
+                    "{} fragments of `{}` exceed `max_bodies`; it stays whole",
+                    fracture.fragments.len(),
+                    body.asset.name
+                );
                 continue;
             }
             match Parts::new(&fracture, &self.config) {
                 Ok(parts) => {
                     let fracture = Arc::new(fracture);
-                    asked.broken.push(Broken { parent: handle, fracture, parts, impact, fragments: Vec::new() });
+                    asked.broken.push(Broken {
+                        parent: handle,
+                        fracture,
+                        parts,
+                        impact,
+                        fragments: Vec::new(),
+                    });
                     asked.held.remove(&key(handle));
                     news = true;
                 }
@@ -178,7 +206,13 @@ impl BreakableWorld {
         news
     }
 
-    fn remember_held(&self, body: RigidBodyHandle, impact: Impact, outcome: &Outcome, asked: &mut Asked) {
+    fn remember_held(
+        &self,
+        body: RigidBodyHandle,
+        impact: Impact,
+        outcome: &Outcome,
+        asked: &mut Asked,
+    ) {
         let event = HeldEvent {
             step: self.steps,
             body,
@@ -190,8 +224,16 @@ impl BreakableWorld {
 
     /// Takes the cracks' energy from the motion and records the break.
     fn settle(&mut self, broken: Broken, before: &RigidBodySet) {
-        let Broken { parent, fracture, impact, fragments, .. } = broken;
-        let Some(body) = self.breakables.remove(&key(parent)) else { return };
+        let Broken {
+            parent,
+            fracture,
+            impact,
+            fragments,
+            ..
+        } = broken;
+        let Some(body) = self.breakables.remove(&key(parent)) else {
+            return;
+        };
         self.surfaces.remove(&key(parent));
         let surface = SurfaceProperties::of(&body.asset.material, EDGE_RADIUS);
         for (&handle, fragment) in fragments.iter().zip(&fracture.fragments) {
@@ -205,7 +247,9 @@ impl BreakableWorld {
         let gain = self.energy_gain(parent, &fragments, &strikers, before);
         let toll = fracture.report.fracture_energy.max(gain);
         let energy_paid = take_energy(&mut self.physics.bodies, &fragments, &strikers, toll);
-        let (pose, linvel, angvel) = before.get(parent).map_or_else(Default::default, |b| (*b.position(), b.linvel(), b.angvel()));
+        let (pose, linvel, angvel) = before.get(parent).map_or_else(Default::default, |b| {
+            (*b.position(), b.linvel(), b.angvel())
+        });
         self.events.push(BreakEvent {
             step: self.steps,
             parent,
@@ -230,18 +274,33 @@ impl BreakableWorld {
         strikers: &[RigidBodyHandle],
         before: &RigidBodySet,
     ) -> f64 {
-        let energy = |bodies: &RigidBodySet, handle: RigidBodyHandle| bodies.get(handle).map_or(0.0, kinetic_energy);
-        let start: f64 = std::iter::once(&parent).chain(strikers).map(|&h| energy(before, h)).sum();
-        let end: f64 = fragments.iter().chain(strikers).map(|&h| energy(&self.physics.bodies, h)).sum();
+        let energy = |bodies: &RigidBodySet, handle: RigidBodyHandle| {
+            bodies.get(handle).map_or(0.0, kinetic_energy)
+        };
+        let start: f64 = std::iter::once(&parent)
+            .chain(strikers)
+            .map(|&h| energy(before, h))
+            .sum();
+        let end: f64 = fragments
+            .iter()
+            .chain(strikers)
+            .map(|&h| energy(&self.physics.bodies, h))
+            .sum();
         let dt = self.physics.integration_parameters.dt;
         let gravity = self.physics.gravity;
         let fall = |bodies: &RigidBodySet, handle: RigidBodyHandle| {
-            bodies.get(handle).filter(|b| b.is_dynamic()).map_or(0.0, |b| {
-                let pull = gravity * b.gravity_scale();
-                f64::from(b.mass() * (pull * dt).dot(b.linvel() + 0.5 * dt * pull))
-            })
+            bodies
+                .get(handle)
+                .filter(|b| b.is_dynamic())
+                .map_or(0.0, |b| {
+                    let pull = gravity * b.gravity_scale();
+                    f64::from(b.mass() * (pull * dt).dot(b.linvel() + 0.5 * dt * pull))
+                })
         };
-        let work: f64 = std::iter::once(&parent).chain(strikers).map(|&h| fall(before, h)).sum();
+        let work: f64 = std::iter::once(&parent)
+            .chain(strikers)
+            .map(|&h| fall(before, h))
+            .sum();
         end - start - work.max(0.0)
     }
 }

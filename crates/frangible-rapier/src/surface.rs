@@ -22,14 +22,26 @@ pub(crate) const EDGE_RADIUS: f32 = 3e-3;
 
 impl SurfaceProperties {
     /// Hardened steel (E 210 GPa, ν 0.3). [`crate::BreakableWorld::insert_ball`] sets the radius.
-    pub const STEEL: Self =
-        Self { contact_modulus: 2.31e11, restitution: 0.6, friction: 0.3, curvature_radius: f32::INFINITY };
+    pub const STEEL: Self = Self {
+        contact_modulus: 2.31e11,
+        restitution: 0.6,
+        friction: 0.3,
+        curvature_radius: f32::INFINITY,
+    };
     /// Stone or concrete floor (E 50 GPa, ν 0.2).
-    pub const STONE: Self =
-        Self { contact_modulus: 5.2e10, restitution: 0.3, friction: 0.6, curvature_radius: f32::INFINITY };
+    pub const STONE: Self = Self {
+        contact_modulus: 5.2e10,
+        restitution: 0.3,
+        friction: 0.6,
+        curvature_radius: f32::INFINITY,
+    };
     /// Wooden floor across the grain (E 1 GPa).
-    pub const WOOD: Self =
-        Self { contact_modulus: 1.1e9, restitution: 0.3, friction: 0.5, curvature_radius: f32::INFINITY };
+    pub const WOOD: Self = Self {
+        contact_modulus: 1.1e9,
+        restitution: 0.3,
+        friction: 0.5,
+        curvature_radius: f32::INFINITY,
+    };
 
     /// Of a material, with the given radius of curvature, m.
     #[must_use]
@@ -47,9 +59,10 @@ impl SurfaceProperties {
     /// # Errors
     /// The first field out of its range; infinite modulus and radius are allowed, NaN is not.
     pub fn validate(&self) -> Result<(), WorldError> {
-        for (what, value) in
-            [("contact modulus (Pa)", self.contact_modulus), ("curvature radius (m)", self.curvature_radius)]
-        {
+        for (what, value) in [
+            ("contact modulus (Pa)", self.contact_modulus),
+            ("curvature radius (m)", self.curvature_radius),
+        ] {
             if value.is_nan() || value <= 0.0 {
                 return Err(WorldError::NotPositive { what, value });
             }

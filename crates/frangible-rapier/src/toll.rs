@@ -30,48 +30,88 @@ pub(crate) fn take_energy(
     }
     let mut group: Vec<RigidBodyHandle> = fragments.iter().chain(strikers).copied().collect();
     group.retain(|&handle| bodies.get(handle).is_some_and(RigidBody::is_dynamic));
-    let immovable = strikers.iter().filter_map(|&s| bodies.get(s)).find(|s| !s.is_dynamic());
-    let Some(common) = immovable.map(motion_of).or_else(|| common_motion(bodies, &group)) else { return 0.0 };
+    let immovable = strikers
+        .iter()
+        .filter_map(|&s| bodies.get(s))
+        .find(|s| !s.is_dynamic());
+    let Some(common) = immovable
+        .map(motion_of)
+        .or_else(|| common_motion(bodies, &group))
+    else {
+        return 0.0;
+    };
 
-    let available: f64 = group.iter().map(|&h| deviation_energy(&bodies[h], &common)).sum();
+    let available: f64 = group
+        .iter()
+        .map(|&h| deviation_energy(&bodies[h], &common))
+        .sum();
     if !(available.is_finite() && available > 0.0) {
         return 0.0;
     }
     let scale = (1.0 - energy / available).max(0.0).sqrt();
     for handle in group {
-        let Some(body) = bodies.get_mut(handle) else { continue };
+        let Some(body) = bodies.get_mut(handle) else {
+            continue;
+        };
         let at = common.linear + common.angular.cross(centre(body) - common.about);
         let linvel = at + (body.linvel().as_dvec3() - at) * scale;
         let angvel = common.angular + (body.angvel().as_dvec3() - common.angular) * scale;
-        body.set_vels(RigidBodyVelocity { linvel: linvel.as_vec3(), angvel: angvel.as_vec3() }, true);
+        body.set_vels(
+            RigidBodyVelocity {
+                linvel: linvel.as_vec3(),
+                angvel: angvel.as_vec3(),
+            },
+            true,
+        );
     }
     energy.min(available)
 }
 
 fn motion_of(body: &RigidBody) -> Motion {
-    Motion { about: centre(body), linear: body.linvel().as_dvec3(), angular: body.angvel().as_dvec3() }
+    Motion {
+        about: centre(body),
+        linear: body.linvel().as_dvec3(),
+        angular: body.angvel().as_dvec3(),
+    }
 }
 
 /// The rigid motion with the group's momentum and angular momentum.
 fn common_motion(bodies: &RigidBodySet, group: &[RigidBodyHandle]) -> Option<Motion> {
     let members = || group.iter().map(|&h| &bodies[h]);
     let mass: f64 = members().map(|b| f64::from(b.mass())).sum();
-    let about = members().map(|b| centre(b) * f64::from(b.mass())).sum::<DVec3>() / mass;
-    let linear = members().map(|b| b.linvel().as_dvec3() * f64::from(b.mass())).sum::<DVec3>() / mass;
+    let about = members()
+        .map(|b| centre(b) * f64::from(b.mass()))
+        .sum::<DVec3>()
+        / mass;
+    let linear = members()
+        .map(|b| b.linvel().as_dvec3() * f64::from(b.mass()))
+        .sum::<DVec3>()
+        / mass;
     let (mut inertia, mut spin) = (DMat3::ZERO, DVec3::ZERO);
     for body in members() {
-        let (m, r, own) = (f64::from(body.mass()), centre(body) - about, world_inertia(body));
+        let (m, r, own) = (
+            f64::from(body.mass()),
+            centre(body) - about,
+            world_inertia(body),
+        );
         // Steiner: m (r² 1 − r rᵀ).
         let outer = DMat3::from_cols(r * r.x, r * r.y, r * r.z);
         inertia += own + (DMat3::from_diagonal(DVec3::splat(r.length_squared())) - outer) * m;
         spin += own * body.angvel().as_dvec3() + r.cross(body.linvel().as_dvec3() - linear) * m;
     }
     let angular = inertia.inverse() * spin;
-    (linear.is_finite() && angular.is_finite()).then_some(Motion { about, linear, angular })
+    (linear.is_finite() && angular.is_finite()).then_some(Motion {
+        about,
+        linear,
+        angular,
+    })
 }
 
 fn deviation_energy(body: &RigidBody, common: &Motion) -> f64 {
     let at = common.linear + common.angular.cross(centre(body) - common.about);
-    let (u, w) = (body.linvel().as_dvec3() - at, body.angvel().as_dvec3() - common.angular);
+    let (u, w) = (
+        body.linvel().as_dvec3() - at,
+        body.angvel().as_dvec3() - common.angular,
+    );
     0.5 * f64::from(body.mass()) * u.length_squared() + 0.5 * w.dot(world_inertia(body) * w)
 }

@@ -27,7 +27,8 @@ const STIFFNESS: f32 = 2.0;
 
 /// Decides what an impact does to a body; [`frangible::impact()`] unless replaced by
 /// [`BreakableWorld::set_break_function`].
-pub type BreakFn = dyn Fn(&Body, &[Contact], &FractureConfig) -> Result<Outcome, InputError> + Send + Sync;
+pub type BreakFn =
+    dyn Fn(&Body, &[Contact], &FractureConfig) -> Result<Outcome, InputError> + Send + Sync;
 
 /// Sort key of a body or collider handle: maps are ordered, so that no result hangs on a hash.
 pub(crate) type Key = (u32, u32);
@@ -69,7 +70,10 @@ impl BreakableWorld {
     /// A number of the configuration that cannot be used.
     pub fn new(config: WorldConfig) -> Result<Self, WorldError> {
         config.validate()?;
-        let mut physics = PhysicsWorld { gravity: config.gravity, ..PhysicsWorld::default() };
+        let mut physics = PhysicsWorld {
+            gravity: config.gravity,
+            ..PhysicsWorld::default()
+        };
         physics.narrow_phase.set_query_dispatcher(FloorDispatcher);
         let parameters = &mut physics.integration_parameters;
         parameters.dt = config.dt;
@@ -104,7 +108,10 @@ impl BreakableWorld {
     /// Replaces [`frangible::impact()`] by another judge: another model, or a fake in tests.
     pub fn set_break_function(
         &mut self,
-        function: impl Fn(&Body, &[Contact], &FractureConfig) -> Result<Outcome, InputError> + Send + Sync + 'static,
+        function: impl Fn(&Body, &[Contact], &FractureConfig) -> Result<Outcome, InputError>
+        + Send
+        + Sync
+        + 'static,
     ) {
         self.break_function = Box::new(function);
     }
@@ -152,7 +159,9 @@ impl BreakableWorld {
 
     /// Handles of all breakable bodies.
     pub fn breakables(&self) -> impl Iterator<Item = RigidBodyHandle> {
-        self.breakables.keys().map(|&(index, generation)| RigidBodyHandle::from_raw_parts(index, generation))
+        self.breakables
+            .keys()
+            .map(|&(index, generation)| RigidBodyHandle::from_raw_parts(index, generation))
     }
 
     /// Debris in the world, oldest first.

@@ -11,14 +11,35 @@ const HALF: Vec3 = Vec3::new(0.1, 0.004, 0.1);
 
 fn run() -> (Vec<[u32; 13]>, usize) {
     let mut world = world(true);
-    world.insert_fixed_box(Vector::new(1.0, 0.01, 1.0), at(0.0, -0.01, 0.0), SurfaceProperties::STONE).unwrap();
+    world
+        .insert_fixed_box(
+            Vector::new(1.0, 0.01, 1.0),
+            at(0.0, -0.01, 0.0),
+            SurfaceProperties::STONE,
+        )
+        .unwrap();
     let asset = box_asset(HALF, [3, 1, 3]);
     for i in 0..4 {
-        let pose = Pose::new(Vector::new(0.01 * i as f32, 0.1 + 0.08 * i as f32, 0.0), Vector::new(0.2, 0.1, 0.3));
-        world.insert_breakable(body(&asset), pose, Vector::ZERO, Vector::ZERO).unwrap();
+        let pose = Pose::new(
+            Vector::new(0.01 * i as f32, 0.1 + 0.08 * i as f32, 0.0),
+            Vector::new(0.2, 0.1, 0.3),
+        );
+        world
+            .insert_breakable(body(&asset), pose, Vector::ZERO, Vector::ZERO)
+            .unwrap();
     }
-    let ball = Ball { mass: 0.2, radius: 0.02 };
-    world.insert_ball(ball, SurfaceProperties::STEEL, at(0.0, 0.6, 0.0), Vector::new(0.0, -12.0, 0.0)).unwrap();
+    let ball = Ball {
+        mass: 0.2,
+        radius: 0.02,
+    };
+    world
+        .insert_ball(
+            ball,
+            SurfaceProperties::STEEL,
+            at(0.0, 0.6, 0.0),
+            Vector::new(0.0, -12.0, 0.0),
+        )
+        .unwrap();
     world.set_break_function(slicer(HALF, [4, 1, 4], 0.001, 0.02));
     let mut breaks = 0;
     for _ in 0..300 {

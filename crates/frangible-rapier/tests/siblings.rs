@@ -12,14 +12,36 @@ const HALF: Vec3 = Vec3::new(0.06, 0.06, 0.06);
 /// A box at rest in overlapping pieces, broken by a feather.
 fn broken_box(gravity: bool, height: f32, overlap: f32) -> (BreakableWorld, BreakEvent) {
     let mut world = world(gravity);
-    world.insert_fixed_box(Vector::new(1.0, 0.0025, 1.0), at(0.0, -0.0025, 0.0), SurfaceProperties::STONE).unwrap();
+    world
+        .insert_fixed_box(
+            Vector::new(1.0, 0.0025, 1.0),
+            at(0.0, -0.0025, 0.0),
+            SurfaceProperties::STONE,
+        )
+        .unwrap();
     let asset = box_asset(HALF, [2, 2, 2]);
-    world.insert_breakable(body(&asset), at(0.0, height, 0.0), Vector::ZERO, Vector::ZERO).unwrap();
+    world
+        .insert_breakable(
+            body(&asset),
+            at(0.0, height, 0.0),
+            Vector::ZERO,
+            Vector::ZERO,
+        )
+        .unwrap();
     world.set_break_function(slicer(HALF, [3, 3, 3], overlap, 0.0));
-    let feather = Ball { mass: 1e-7, radius: 0.002 };
+    let feather = Ball {
+        mass: 1e-7,
+        radius: 0.002,
+    };
     let start = at(0.0, height + 0.0622, 0.0);
-    let feather =
-        world.insert_ball(feather, SurfaceProperties::STEEL, start, Vector::new(0.0, -1.0, 0.0)).unwrap();
+    let feather = world
+        .insert_ball(
+            feather,
+            SurfaceProperties::STEEL,
+            start,
+            Vector::new(0.0, -1.0, 0.0),
+        )
+        .unwrap();
     let event = step_to_break(&mut world, 5).expect("the feather touches the box");
     world.physics.remove_body(feather);
     (world, event)
@@ -29,7 +51,11 @@ fn broken_box(gravity: bool, height: f32, overlap: f32) -> (BreakableWorld, Brea
 fn overlapping_pieces_at_rest_stay_at_rest() {
     for overlap in [0.0, 0.0005, 0.002] {
         let (mut world, event) = broken_box(false, 0.2, overlap);
-        let homes: Vec<Vector> = event.fragments.iter().map(|&f| world.physics.bodies[f].translation()).collect();
+        let homes: Vec<Vector> = event
+            .fragments
+            .iter()
+            .map(|&f| world.physics.bodies[f].translation())
+            .collect();
         let (mut fastest, mut farthest) = (0.0_f32, 0.0_f32);
         for _ in 0..480 {
             world.step().unwrap();
@@ -40,7 +66,10 @@ fn overlapping_pieces_at_rest_stay_at_rest() {
             }
         }
         println!("overlap {overlap} m: fastest {fastest:.4} m/s, farthest {farthest:.5} m");
-        assert!(fastest < 0.05, "a piece reached {fastest} m/s with {overlap} m of overlap");
+        assert!(
+            fastest < 0.05,
+            "a piece reached {fastest} m/s with {overlap} m of overlap"
+        );
     }
 }
 
@@ -53,7 +82,11 @@ fn pieces_settle_and_sleep_on_a_thin_floor() {
             world.step().unwrap();
             steps += 1;
         }
-        let lowest = event.fragments.iter().map(|&f| world.physics.bodies[f].translation().y).fold(1.0, f32::min);
+        let lowest = event
+            .fragments
+            .iter()
+            .map(|&f| world.physics.bodies[f].translation().y)
+            .fold(1.0, f32::min);
         println!("overlap {overlap} m: at rest after {steps} steps, lowest centre {lowest:.4} m");
         assert!(world.at_rest(), "still moving after {steps} steps");
         assert!(lowest > 0.005, "a piece sank to {lowest} m");

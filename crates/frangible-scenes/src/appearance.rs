@@ -16,10 +16,12 @@ pub(crate) fn body_surfaces(material: &str) -> [SurfaceMaterial; 2] {
     };
     // Clear bodies are drawn with some opacity and darker crack faces, so that shards can be told apart.
     let clear = |outer: [f32; 4], inner: [f32; 4], ior: f32| {
-        [("outside", outer, 0.06), ("crack face", inner, 0.25)].map(|(part, color, roughness)| SurfaceMaterial {
-            ior,
-            double_sided: true,
-            ..plain(part, color, roughness)
+        [("outside", outer, 0.06), ("crack face", inner, 0.25)].map(|(part, color, roughness)| {
+            SurfaceMaterial {
+                ior,
+                double_sided: true,
+                ..plain(part, color, roughness)
+            }
         })
     };
     match material.trim_start_matches("paper-") {
@@ -47,5 +49,11 @@ pub(crate) fn ball_surface(material: &str) -> SurfaceMaterial {
         "wood" => ([0.42, 0.25, 0.12, 1.0], 0.0, 0.7),
         _ => ([0.4, 0.4, 0.4, 1.0], 0.0, 0.6),
     };
-    SurfaceMaterial { name: format!("{material} ball"), base_color, metallic, roughness, ..SurfaceMaterial::default() }
+    SurfaceMaterial {
+        name: format!("{material} ball"),
+        base_color,
+        metallic,
+        roughness,
+        ..SurfaceMaterial::default()
+    }
 }

@@ -10,7 +10,15 @@ use crate::error::SceneError;
 use crate::scene::{Action, BallThrow, Scene};
 
 /// Names of the built-in scenes; the first is the default.
-pub const SCENE_NAMES: [&str; 7] = ["glass", "pane", "plate", "bowl", "vase", "brick", "chocolate"];
+pub const SCENE_NAMES: [&str; 7] = [
+    "glass",
+    "pane",
+    "plate",
+    "bowl",
+    "vase",
+    "brick",
+    "chocolate",
+];
 
 /// A built-in scene by name.
 ///
@@ -29,12 +37,14 @@ pub fn scene(name: &str) -> Result<Scene, SceneError> {
             "glass",
             120,
             tilted(148.0),
-            drop(1.0),
+            drop(1.2),
         ),
         "pane" => build(
             "pane",
             "a window pane hit in its middle by a steel ball",
-            Shape::Box { size: [0.4, 0.4, 0.004] },
+            Shape::Box {
+                size: [0.4, 0.4, 0.004],
+            },
             "glass",
             60,
             Quat::IDENTITY,
@@ -54,7 +64,7 @@ pub fn scene(name: &str) -> Result<Scene, SceneError> {
             "porcelain",
             120,
             tilted(75.0),
-            drop(1.2),
+            drop(1.5),
         ),
         "bowl" => build(
             "bowl",
@@ -84,7 +94,9 @@ pub fn scene(name: &str) -> Result<Scene, SceneError> {
         "brick" => build(
             "brick",
             "a brick dropped on its corner",
-            Shape::Box { size: [0.21, 0.1, 0.05] },
+            Shape::Box {
+                size: [0.21, 0.1, 0.05],
+            },
             "brick",
             80,
             Quat::from_rotation_z(0.6) * Quat::from_rotation_x(0.5),
@@ -93,15 +105,22 @@ pub fn scene(name: &str) -> Result<Scene, SceneError> {
         "chocolate" => build(
             "chocolate",
             "a bar of chocolate dropped on a stone floor",
-            Shape::Box { size: [0.16, 0.08, 0.009] },
+            Shape::Box {
+                size: [0.16, 0.08, 0.009],
+            },
             "chocolate",
             80,
             Quat::from_rotation_z(0.3) * Quat::from_rotation_x(-1.2),
             drop(1.0),
         ),
         _ => {
-            let hint = nearest_name(name, SCENE_NAMES).map_or(String::new(), |n| format!(", did you mean `{n}`?"));
-            Err(SceneError::UnknownScene { name: name.into(), hint, known: SCENE_NAMES.join(", ") })
+            let hint = nearest_name(name, SCENE_NAMES)
+                .map_or(String::new(), |n| format!(", did you mean `{n}`?"));
+            Err(SceneError::UnknownScene {
+                name: name.into(),
+                hint,
+                known: SCENE_NAMES.join(", "),
+            })
         }
     }
 }
@@ -115,6 +134,12 @@ fn build(
     rotation: Quat,
     action: Action,
 ) -> Result<Scene, SceneError> {
+    // Seeds chosen from a sheet of nine for the pictures; any other is as true.
+    let seed = match name {
+        "glass" => 3,
+        "plate" => 4,
+        _ => 1,
+    };
     Ok(Scene {
         name: name.into(),
         summary: summary.into(),
@@ -124,9 +149,9 @@ fn build(
         rotation,
         action,
         floor: "stone".into(),
-        seed: 1,
+        seed,
         fracture: FractureConfig::default(),
-        duration: 5.0,
+        duration: 8.0,
         look_from: Vec3::new(0.55, 0.5, 1.0),
     })
 }

@@ -27,7 +27,9 @@ pub enum SceneError {
         must: &'static str,
     },
     /// A ball that would start inside the floor or the body.
-    #[error("the ball would start {depth_mm:.1} mm below the floor; aim higher with --at, or turn --toward downwards")]
+    #[error(
+        "the ball would start {depth_mm:.1} mm below the floor; aim higher with --at, or turn --toward downwards"
+    )]
     BallBelowFloor {
         /// Depth, mm.
         depth_mm: f32,

@@ -24,11 +24,14 @@ struct Builder {
 impl Builder {
     fn corner(&mut self, vertex: u32, position: Vec3, normal: Vec3) -> u32 {
         let mesh = &mut self.mesh;
-        *self.known.entry((vertex, normal.to_array().map(f32::to_bits))).or_insert_with(|| {
-            mesh.positions.push(position);
-            mesh.normals.push(normal);
-            (mesh.positions.len() - 1) as u32
-        })
+        *self
+            .known
+            .entry((vertex, normal.to_array().map(f32::to_bits)))
+            .or_insert_with(|| {
+                mesh.positions.push(position);
+                mesh.normals.push(normal);
+                (mesh.positions.len() - 1) as u32
+            })
     }
 }
 
@@ -42,7 +45,10 @@ pub(crate) fn whole(asset: &Asset, surfaces: BodySurfaces) -> RecordedMesh {
         }
     }
     builder.mesh.name = asset.name.clone();
-    builder.mesh.parts.push(MeshPart { surface: surfaces.outer, indices });
+    builder.mesh.parts.push(MeshPart {
+        surface: surfaces.outer,
+        indices,
+    });
     builder.mesh
 }
 
@@ -51,7 +57,11 @@ pub(crate) fn piece(name: String, mesh: &TriMesh, surfaces: BodySurfaces) -> Rec
     let mut builder = Builder::default();
     let (mut outer, mut inner) = (Vec::new(), Vec::new());
     for (i, (triangle, normals)) in mesh.triangles.iter().zip(&mesh.normals).enumerate() {
-        let part = if i < mesh.outer_triangles { &mut outer } else { &mut inner };
+        let part = if i < mesh.outer_triangles {
+            &mut outer
+        } else {
+            &mut inner
+        };
         for (&v, &n) in triangle.iter().zip(normals) {
             part.push(builder.corner(v, mesh.positions[v as usize], n));
         }
@@ -80,12 +90,21 @@ pub(crate) fn piece(name: String, mesh: &TriMesh, surfaces: BodySurfaces) -> Rec
 pub(crate) fn ball(radius: f32, surface: usize) -> RecordedMesh {
     const RINGS: u32 = 24;
     const SECTORS: u32 = 48;
-    let mut mesh = RecordedMesh { name: "ball".into(), ..RecordedMesh::default() };
+    let mut mesh = RecordedMesh {
+        name: "ball".into(),
+        ..RecordedMesh::default()
+    };
     for i in 0..=RINGS {
         for j in 0..=SECTORS {
-            let (polar, turn) =
-                (std::f32::consts::PI * i as f32 / RINGS as f32, std::f32::consts::TAU * j as f32 / SECTORS as f32);
-            let n = Vec3::new(polar.sin() * turn.cos(), polar.cos(), -polar.sin() * turn.sin());
+            let (polar, turn) = (
+                std::f32::consts::PI * i as f32 / RINGS as f32,
+                std::f32::consts::TAU * j as f32 / SECTORS as f32,
+            );
+            let n = Vec3::new(
+                polar.sin() * turn.cos(),
+                polar.cos(),
+                -polar.sin() * turn.sin(),
+            );
             mesh.positions.push(n * radius);
             mesh.normals.push(n);
         }

@@ -1,7 +1,9 @@
 //! Turns a running world into a [`Recording`].
 
 use frangible::glam::{Quat, Vec3};
-use frangible_export::{Moments, Pose, RecordedMesh, RecordedNode, Recording, SurfaceMaterial, View};
+use frangible_export::{
+    Moments, Pose, RecordedMesh, RecordedNode, Recording, SurfaceMaterial, View,
+};
 use frangible_rapier::BreakEvent;
 use frangible_rapier::BreakableWorld;
 use frangible_rapier::rapier3d::dynamics::RigidBodyHandle;
@@ -26,13 +28,27 @@ pub(crate) struct Recorder {
 
 impl Recorder {
     pub(crate) fn new(name: &str, surfaces: Vec<SurfaceMaterial>) -> Self {
-        let recording =
-            Recording { name: name.into(), frame_rate: FRAME_RATE, surfaces, ..Recording::default() };
-        Self { recording, tracked: Vec::new(), break_frame: None }
+        let recording = Recording {
+            name: name.into(),
+            frame_rate: FRAME_RATE,
+            surfaces,
+            ..Recording::default()
+        };
+        Self {
+            recording,
+            tracked: Vec::new(),
+            break_frame: None,
+        }
     }
 
     /// A thing to follow from the next frame on.
-    pub(crate) fn track(&mut self, name: String, mesh: RecordedMesh, body: RigidBodyHandle, extras: Vec<(String, f64)>) {
+    pub(crate) fn track(
+        &mut self,
+        name: String,
+        mesh: RecordedMesh,
+        body: RigidBodyHandle,
+        extras: Vec<(String, f64)>,
+    ) {
         let recording = &mut self.recording;
         recording.meshes.push(mesh);
         let frame = recording.frame_count;
@@ -44,17 +60,28 @@ impl Recorder {
             keep_extras: extras,
         };
         recording.nodes.push(node);
-        self.tracked.push(Tracked { node: recording.nodes.len() - 1, body });
+        self.tracked.push(Tracked {
+            node: recording.nodes.len() - 1,
+            body,
+        });
     }
 
     /// Puts the pieces in the place of their parent.
     pub(crate) fn broke(&mut self, event: &BreakEvent, surfaces: BodySurfaces) {
         self.break_frame.get_or_insert(self.recording.frame_count);
-        for (i, (fragment, &body)) in event.fracture.fragments.iter().zip(&event.fragments).enumerate() {
+        for (i, (fragment, &body)) in event
+            .fracture
+            .fragments
+            .iter()
+            .zip(&event.fragments)
+            .enumerate()
+        {
             let name = format!("{} piece {}", event.asset.name, i + 1);
             let mesh = piece(name.clone(), &fragment.mesh, surfaces);
-            let extras =
-                vec![("mass_kg".into(), fragment.mass.mass), ("volume_m3".into(), fragment.mass.volume)];
+            let extras = vec![
+                ("mass_kg".into(), fragment.mass.mass),
+                ("volume_m3".into(), fragment.mass.volume),
+            ];
             self.track(name, mesh, body, extras);
         }
     }
@@ -64,7 +91,9 @@ impl Recorder {
         let recording = &mut self.recording;
         for tracked in &self.tracked {
             let node = &mut recording.nodes[tracked.node];
-            let Some(body) = world.physics.bodies.get(tracked.body) else { continue };
+            let Some(body) = world.physics.bodies.get(tracked.body) else {
+                continue;
+            };
             let pose = body.position();
             let pose = Pose {
                 translation: Vec3::from(pose.translation.to_array()),
@@ -99,33 +128,73 @@ impl Recorder {
     }
 }
 
+/// A piece at rest.
+struct Resting {
+    centre: Vec3,
+    radius: f32,
+    mass: f64,
+}
+
 /// Looks so that the body just before the break and most of the pieces at rest fill the picture.
 fn camera(recording: &Recording, look_from: Vec3, body_radius: f32) -> View {
     let moments = recording.moments;
     let mut seen: Vec<Vec3> = Vec::new();
-    let mut resting: Vec<(Vec3, f32)> = Vec::new();
+    let mut resting: Vec<Resting> = Vec::new();
     for (i, node) in recording.nodes.iter().enumerate() {
         let ball = node.name == "ball";
         if node.visible.contains(&moments.before) && !ball {
             let centre = recording.pose(i, moments.before).translation;
             let reach = |axis: Vec3| axis * body_radius;
-            seen.extend([Vec3::X, Vec3::Y, Vec3::Z].into_iter().flat_map(|a| [centre + reach(a), centre - reach(a)]));
+            seen.extend(
+                [Vec3::X, Vec3::Y, Vec3::Z]
+                    .into_iter()
+                    .flat_map(|a| [centre + reach(a), centre - reach(a)]),
+            );
         }
         if node.visible.contains(&moments.at_rest) && !ball {
             let mesh = &recording.meshes[node.mesh];
-            let radius = mesh.positions.iter().map(|p| p.length()).fold(0.0, f32::max);
-            resting.push((recording.pose(i, moments.at_rest).translation, radius));
+            let radius = mesh
+                .positions
+                .iter()
+                .map(|p| p.length())
+                .fold(0.0, f32::max);
+            let mass = node
+                .keep_extras
+                .iter()
+                .find(|e| e.0 == "mass_kg")
+                .map_or(0.0, |e| e.1);
+            resting.push(Resting {
+                centre: recording.pose(i, moments.at_rest).translation,
+                radius,
+                mass,
+            });
         }
     }
-    // Strays beyond the nearest four fifths do not move the camera.
-    let middle = median(&resting);
-    resting.sort_by(|a, b| a.0.distance(middle).total_cmp(&b.0.distance(middle)));
-    resting.truncate((0.8 * resting.len() as f32).ceil() as usize);
-    for (centre, radius) in resting {
+    // The nearest pieces that make up most of the mass; strays do not move the camera.
+    let whole: f64 = resting.iter().map(|p| p.mass).sum();
+    let middle = resting
+        .iter()
+        .map(|p| p.centre * (p.mass / whole) as f32)
+        .sum::<Vec3>();
+    resting.sort_by(|a, b| {
+        a.centre
+            .distance(middle)
+            .total_cmp(&b.centre.distance(middle))
+    });
+    let mut mass = 0.0;
+    for piece in resting {
+        if mass > 0.9 * whole {
+            break;
+        }
+        mass += piece.mass;
         let across = [Vec3::X, Vec3::NEG_X, Vec3::Z, Vec3::NEG_Z];
-        seen.extend(across.map(|axis| centre + 0.8 * radius * axis));
+        seen.extend(across.map(|axis| piece.centre + 0.9 * piece.radius * axis));
     }
-    let low = seen.iter().copied().fold(Vec3::INFINITY, Vec3::min).max(Vec3::new(f32::MIN, 0.0, f32::MIN));
+    let low = seen
+        .iter()
+        .copied()
+        .fold(Vec3::INFINITY, Vec3::min)
+        .max(Vec3::new(f32::MIN, 0.0, f32::MIN));
     let high = seen.iter().copied().fold(Vec3::NEG_INFINITY, Vec3::max);
     let target = 0.5 * (low + high);
     let vertical_fov = 0.55_f32;
@@ -142,15 +211,10 @@ fn camera(recording: &Recording, look_from: Vec3, body_radius: f32) -> View {
             1.06 * across / tangent + d.dot(back)
         })
         .fold(body_radius, f32::max);
-    View { eye: target + back * distance, target, up: Vec3::Y, vertical_fov }
-}
-
-/// The median of each coordinate.
-fn median(points: &[(Vec3, f32)]) -> Vec3 {
-    let axis = |i: usize| {
-        let mut values: Vec<f32> = points.iter().map(|p| p.0[i]).collect();
-        values.sort_by(f32::total_cmp);
-        values.get(values.len() / 2).copied().unwrap_or(0.0)
-    };
-    Vec3::new(axis(0), axis(1), axis(2))
+    View {
+        eye: target + back * distance,
+        target,
+        up: Vec3::Y,
+        vertical_fov,
+    }
 }

@@ -97,7 +97,11 @@ pub fn bake(
 ///
 /// # Errors
 /// A quantity of the scene that cannot be used.
-pub fn play(scene: &Scene, asset: &Arc<Asset>, progress: &mut dyn FnMut(f64)) -> Result<Run, SceneError> {
+pub fn play(
+    scene: &Scene,
+    asset: &Arc<Asset>,
+    progress: &mut dyn FnMut(f64),
+) -> Result<Run, SceneError> {
     scene.validate()?;
     let clock = Instant::now();
     let mut config = WorldConfig::default();
@@ -122,7 +126,10 @@ pub fn play(scene: &Scene, asset: &Arc<Asset>, progress: &mut dyn FnMut(f64)) ->
         looks.push(ball_surface(&throw.material));
     }
     let mut recorder = Recorder::new(&scene.name, looks);
-    let extras = vec![("mass_kg".into(), asset.mass.mass), ("volume_m3".into(), asset.mass.volume)];
+    let extras = vec![
+        ("mass_kg".into(), asset.mass.mass),
+        ("volume_m3".into(), asset.mass.volume),
+    ];
     recorder.track(scene.name.clone(), whole(asset, surfaces), handle, extras);
     let mut ball_handle = None;
     if let Some(throw) = thrown {
@@ -145,15 +152,26 @@ pub fn play(scene: &Scene, asset: &Arc<Asset>, progress: &mut dyn FnMut(f64)) ->
     recorder.frame(&world);
     let mut fine_until = frames;
     for frame in 1..=frames {
-        let steps = if frame <= fine_until { FINE_STEPS_PER_FRAME } else { STEPS_PER_FRAME };
+        let steps = if frame <= fine_until {
+            FINE_STEPS_PER_FRAME
+        } else {
+            STEPS_PER_FRAME
+        };
         let dt = 1.0 / (FRAME_RATE * steps as f32);
         world.physics.integration_parameters.dt = dt;
         for _ in 0..steps {
             run.simulated += f64::from(dt);
             world.step()?;
             for held in world.held() {
-                if run.held.as_ref().is_none_or(|h| held.report.peak_stress > h.report.peak_stress) {
-                    run.held = Some(HeldRecord { contacts: held.contacts.clone(), report: held.report.clone() });
+                if run
+                    .held
+                    .as_ref()
+                    .is_none_or(|h| held.report.peak_stress > h.report.peak_stress)
+                {
+                    run.held = Some(HeldRecord {
+                        contacts: held.contacts.clone(),
+                        report: held.report.clone(),
+                    });
                 }
             }
             for event in world.breaks() {
@@ -163,7 +181,12 @@ pub fn play(scene: &Scene, asset: &Arc<Asset>, progress: &mut dyn FnMut(f64)) ->
                     time: run.simulated,
                     contacts: event.contacts.clone(),
                     report: event.fracture.report.clone(),
-                    masses: event.fracture.fragments.iter().map(|f| f.mass.mass).collect(),
+                    masses: event
+                        .fracture
+                        .fragments
+                        .iter()
+                        .map(|f| f.mass.mass)
+                        .collect(),
                     volume: event.fracture.fragments.iter().map(|f| f.mass.volume).sum(),
                     energy_paid: event.energy_paid,
                 });
@@ -174,16 +197,30 @@ pub fn play(scene: &Scene, asset: &Arc<Asset>, progress: &mut dyn FnMut(f64)) ->
         }
         recorder.frame(&world);
         progress(frame as f64 / frames as f64);
-        rest_frames = if at_rest(&world, ball_handle) { rest_frames + 1 } else { 0 };
+        rest_frames = if at_rest(&world, ball_handle) {
+            rest_frames + 1
+        } else {
+            0
+        };
         if rest_frames as f32 > REST * FRAME_RATE {
             break;
         }
     }
     run.at_rest = at_rest(&world, ball_handle);
-    let radius = asset.fracture.positions.iter().map(|p| p.length()).fold(0.0, f32::max);
+    let radius = asset
+        .fracture
+        .positions
+        .iter()
+        .map(|p| p.length())
+        .fold(0.0, f32::max);
     run.recording = recorder.finish(scene.look_from, radius);
-    run.recording.floor = Some(Floor { height: 0.0, ..Floor::default() });
-    let fracture = |r: &ImpactReport| r.timings.response + r.timings.stress + r.timings.cracks + r.timings.fragments;
+    run.recording.floor = Some(Floor {
+        height: 0.0,
+        ..Floor::default()
+    });
+    let fracture = |r: &ImpactReport| {
+        r.timings.response + r.timings.stress + r.timings.cracks + r.timings.fragments
+    };
     let fractured: f64 = run.breaks.iter().map(|b| fracture(&b.report)).sum();
     run.rigid_seconds = clock.elapsed().as_secs_f64() - fractured;
     Ok(run)
@@ -191,12 +228,21 @@ pub fn play(scene: &Scene, asset: &Arc<Asset>, progress: &mut dyn FnMut(f64)) ->
 
 /// Whether all but the ball sleep: a ball on a level floor rolls for tens of seconds.
 fn at_rest(world: &BreakableWorld, ball: Option<RigidBodyHandle>) -> bool {
-    world.physics.bodies.iter().all(|(handle, body)| Some(handle) == ball || !body.is_dynamic() || body.is_sleeping())
+    world
+        .physics
+        .bodies
+        .iter()
+        .all(|(handle, body)| Some(handle) == ball || !body.is_dynamic() || body.is_sleeping())
 }
 
 /// Height of the body's lowest point below its centre of mass (negative), m.
 fn lowest_point(asset: &Asset, rotation: Quat) -> f32 {
-    asset.fracture.positions.iter().map(|&p| (rotation * p).y).fold(f32::INFINITY, f32::min)
+    asset
+        .fracture
+        .positions
+        .iter()
+        .map(|&p| (rotation * p).y)
+        .fold(f32::INFINITY, f32::min)
 }
 
 /// Starts the ball a twentieth of a second of flight outside the body.
@@ -207,7 +253,12 @@ fn throw_ball(
     asset: &Asset,
 ) -> Result<RigidBodyHandle, SceneError> {
     let direction = throw.toward.normalize();
-    let reach = asset.fracture.positions.iter().map(|p| p.length()).fold(0.0, f32::max);
+    let reach = asset
+        .fracture
+        .positions
+        .iter()
+        .map(|p| p.length())
+        .fold(0.0, f32::max);
     let radius = throw.radius as f32;
     let speed = throw.speed as f32;
     let distance = (0.05 * speed).clamp(0.1, 1.0);
@@ -218,10 +269,15 @@ fn throw_ball(
     let start = centre + throw.at - direction * (speed * flight) + 0.5 * gravity * flight * flight;
     let velocity = direction * speed - gravity * flight;
     if start.y < radius {
-        return Err(SceneError::BallBelowFloor { depth_mm: 1e3 * (radius - start.y) });
+        return Err(SceneError::BallBelowFloor {
+            depth_mm: 1e3 * (radius - start.y),
+        });
     }
     let surface = SurfaceProperties::of(&Material::preset(&throw.material)?, radius);
-    let ball = Ball { mass: throw.mass as f32, radius };
+    let ball = Ball {
+        mass: throw.mass as f32,
+        radius,
+    };
     let pose = Pose::from_translation(vector(start));
     Ok(world.insert_ball(ball, surface, pose, vector(velocity))?)
 }

@@ -81,27 +81,75 @@ impl Scene {
             if value.is_finite() && value > low && value <= high {
                 Ok(())
             } else {
-                Err(SceneError::Quantity { what, value: value.to_string(), must })
+                Err(SceneError::Quantity {
+                    what,
+                    value: value.to_string(),
+                    must,
+                })
             }
         };
-        check("the duration", self.duration, 0.0, 60.0, "above 0 and at most 60 s")?;
-        check("the number of modes", self.modes as f64, 0.0, 1000.0, "1 to 1000")?;
+        check(
+            "the duration",
+            self.duration,
+            0.0,
+            60.0,
+            "above 0 and at most 60 s",
+        )?;
+        check(
+            "the number of modes",
+            self.modes as f64,
+            0.0,
+            1000.0,
+            "1 to 1000",
+        )?;
         if !(self.rotation.is_finite() && (self.rotation.length() - 1.0).abs() < 1e-3) {
             let value = self.rotation.to_string();
-            return Err(SceneError::Quantity { what: "the body's rotation", value, must: "a unit quaternion" });
+            return Err(SceneError::Quantity {
+                what: "the body's rotation",
+                value,
+                must: "a unit quaternion",
+            });
         }
         direction("the direction of the camera", self.look_from)?;
         Material::preset(&self.floor)?;
         match &self.action {
-            Action::Drop { height } => check("the drop height", *height, 0.0, MAX_HEIGHT, "above 0 and at most 100 m"),
+            Action::Drop { height } => check(
+                "the drop height",
+                *height,
+                0.0,
+                MAX_HEIGHT,
+                "above 0 and at most 100 m",
+            ),
             Action::Ball(ball) => {
-                check("the ball's mass", ball.mass, 0.0, 1e4, "above 0 and at most 10000 kg")?;
-                check("the ball's radius", ball.radius, 0.0, 10.0, "above 0 and at most 10 m")?;
-                check("the ball's speed", ball.speed, 0.0, MAX_SPEED, "above 0 and at most 300 m/s")?;
+                check(
+                    "the ball's mass",
+                    ball.mass,
+                    0.0,
+                    1e4,
+                    "above 0 and at most 10000 kg",
+                )?;
+                check(
+                    "the ball's radius",
+                    ball.radius,
+                    0.0,
+                    10.0,
+                    "above 0 and at most 10 m",
+                )?;
+                check(
+                    "the ball's speed",
+                    ball.speed,
+                    0.0,
+                    MAX_SPEED,
+                    "above 0 and at most 300 m/s",
+                )?;
                 Material::preset(&ball.material)?;
                 if !ball.at.is_finite() {
                     let value = ball.at.to_string();
-                    return Err(SceneError::Quantity { what: "--at", value, must: "three finite numbers, m" });
+                    return Err(SceneError::Quantity {
+                        what: "--at",
+                        value,
+                        must: "three finite numbers, m",
+                    });
                 }
                 direction("--toward", ball.toward)
             }
@@ -113,6 +161,10 @@ fn direction(what: &'static str, v: Vec3) -> Result<(), SceneError> {
     if v.is_finite() && v.length() > 0.0 {
         Ok(())
     } else {
-        Err(SceneError::Quantity { what, value: v.to_string(), must: "three finite numbers, not all zero" })
+        Err(SceneError::Quantity {
+            what,
+            value: v.to_string(),
+            must: "three finite numbers, not all zero",
+        })
     }
 }

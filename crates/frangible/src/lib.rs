@@ -1,4 +1,16 @@
-//! Real-time, physically based brittle fracture.
+//! Real-time, physically based brittle fracture: contacts in, closed fragments with exact masses out.
+//!
+//! A tour, in the order of the data:
+//! - [`Asset`]: what a bake (crate `frangible-bake`) makes of a shape and a [`Material`]: a fine mesh of linear
+//!   tetrahedra for cracks, a coarse one of quadratic tetrahedra for the vibration modes, and how they fit together;
+//! - [`Body`]: an asset with its own seed and weak points;
+//! - [`Contact`]: where, how hard and by what a body is hit, as a rigid-body engine knows it;
+//! - [`impact()`]: the pipeline, after Glondu, Marchal, Dumont, *Real-Time Simulation of Brittle Fracture Using Modal
+//!   Analysis*, IEEE TVCG 2012, cited as `[G12]`;
+//! - [`Outcome`]: held, or broken into [`Fragment`]s, with an [`ImpactReport`].
+//!
+//! [`FractureConfig`] holds the switches; its default goes beyond the paper, [`FractureConfig::as_in_the_paper`] does not.
+//! Everything is in SI units and in the body frame (origin at the centre of mass). The same input gives the same bits.
 
 pub mod asset;
 pub mod body;

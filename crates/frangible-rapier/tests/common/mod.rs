@@ -7,8 +7,8 @@ use frangible::asset::{AnalysisMesh, ConvexCell, EmbeddedPoint, Embedding, Outer
 use frangible::glam::{DMat3, DVec3, Vec3};
 use frangible::modal::ModalBasis;
 use frangible::{
-    Asset, Body, Contact, Fracture, FractureConfig, Fragment, ImpactReport, InputError, MassProperties, Material,
-    Outcome, TetMesh, TriMesh,
+    Asset, Body, Contact, Fracture, FractureConfig, Fragment, ImpactReport, InputError,
+    MassProperties, Material, Outcome, TetMesh, TriMesh,
 };
 use frangible_rapier::rapier3d::math::{Pose, Vector};
 use frangible_rapier::{BreakableWorld, WorldConfig};
@@ -23,7 +23,11 @@ pub fn box_asset(half: Vec3, cells: [usize; 3]) -> Arc<Asset> {
     for k in 0..count[2] {
         for j in 0..count[1] {
             for i in 0..count[0] {
-                let s = Vec3::new(i as f32 / cells[0] as f32, j as f32 / cells[1] as f32, k as f32 / cells[2] as f32);
+                let s = Vec3::new(
+                    i as f32 / cells[0] as f32,
+                    j as f32 / cells[1] as f32,
+                    k as f32 / cells[2] as f32,
+                );
                 positions.push((2.0 * s - Vec3::ONE) * half);
             }
         }
@@ -32,13 +36,16 @@ pub fn box_asset(half: Vec3, cells: [usize; 3]) -> Arc<Asset> {
     for k in 0..cells[2] {
         for j in 0..cells[1] {
             for i in 0..cells[0] {
-                let c: [u32; 8] = std::array::from_fn(|b| node(i + (b & 1), j + (b >> 1 & 1), k + (b >> 2)));
+                let c: [u32; 8] =
+                    std::array::from_fn(|b| node(i + (b & 1), j + (b >> 1 & 1), k + (b >> 2)));
                 // Kuhn's six tetrahedra around the diagonal 0–7.
                 for [a, b] in [[1, 3], [3, 2], [2, 6], [6, 4], [4, 5], [5, 1]] {
                     tets.push([c[0], c[a], c[b], c[7]]);
                     cell_of_tet.push(convex.len() as u32);
                 }
-                convex.push(ConvexCell { points: c.iter().map(|&v| positions[v as usize]).collect() });
+                convex.push(ConvexCell {
+                    points: c.iter().map(|&v| positions[v as usize]).collect(),
+                });
             }
         }
     }
@@ -55,9 +62,15 @@ pub fn box_asset(half: Vec3, cells: [usize; 3]) -> Arc<Asset> {
         normals: boundary.iter().map(|(t, _)| [normal(t); 3]).collect(),
         curvature_radius: vec![f32::INFINITY; boundary.len()],
     };
-    let point = EmbeddedPoint { element: 0, barycentric: [0.25; 4], offset: Vec3::ZERO };
-    let embedding =
-        Embedding { tets: vec![point; fracture.tets.len()], nodes: vec![point; fracture.positions.len()] };
+    let point = EmbeddedPoint {
+        element: 0,
+        barycentric: [0.25; 4],
+        offset: Vec3::ZERO,
+    };
+    let embedding = Embedding {
+        tets: vec![point; fracture.tets.len()],
+        nodes: vec![point; fracture.positions.len()],
+    };
     let analysis = AnalysisMesh {
         nodes: vec![Vec3::ZERO; 10],
         elements: vec![std::array::from_fn(|i| i as u32)],
@@ -85,9 +98,18 @@ fn block_mass(centre: Vec3, half: Vec3) -> MassProperties {
     let h = half.as_dvec3();
     let volume = 8.0 * h.x * h.y * h.z;
     let mass = DENSITY * volume;
-    let squares = DVec3::new(h.y * h.y + h.z * h.z, h.x * h.x + h.z * h.z, h.x * h.x + h.y * h.y);
+    let squares = DVec3::new(
+        h.y * h.y + h.z * h.z,
+        h.x * h.x + h.z * h.z,
+        h.x * h.x + h.y * h.y,
+    );
     let inertia = DMat3::from_diagonal(squares * (mass / 3.0));
-    MassProperties { mass, volume, centre: centre.as_dvec3(), inertia }
+    MassProperties {
+        mass,
+        volume,
+        centre: centre.as_dvec3(),
+        inertia,
+    }
 }
 
 fn corners(centre: Vec3, half: Vec3) -> Vec<Vec3> {
@@ -102,9 +124,18 @@ fn corners(centre: Vec3, half: Vec3) -> Vec<Vec3> {
 /// A closed block; `overlap` m wider than the piece it stands for, as the hull of a jagged piece is.
 fn block(centre: Vec3, half: Vec3, overlap: f32) -> Fragment {
     let positions = corners(Vec3::ZERO, half + Vec3::splat(overlap));
-    let quads: [[u32; 4]; 6] =
-        [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
-    let triangles: Vec<[u32; 3]> = quads.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
+    let quads: [[u32; 4]; 6] = [
+        [0, 4, 6, 2],
+        [1, 3, 7, 5],
+        [0, 1, 5, 4],
+        [2, 6, 7, 3],
+        [0, 2, 3, 1],
+        [4, 5, 7, 6],
+    ];
+    let triangles: Vec<[u32; 3]> = quads
+        .iter()
+        .flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]])
+        .collect();
     let normals = triangles
         .iter()
         .map(|t| {
@@ -112,10 +143,20 @@ fn block(centre: Vec3, half: Vec3, overlap: f32) -> Fragment {
             [(b - a).cross(c - a).normalize(); 3]
         })
         .collect();
-    let mesh = TriMesh { outer_triangles: triangles.len(), normals, triangles, cracks: Vec::new(), positions };
+    let mesh = TriMesh {
+        outer_triangles: triangles.len(),
+        normals,
+        triangles,
+        cracks: Vec::new(),
+        positions,
+    };
     assert!(mesh.is_closed() && mesh.volume() > 0.0);
     let cell_shares = vec![(0, mesh.positions.clone())];
-    Fragment { mesh, mass: block_mass(centre, half), cell_shares }
+    Fragment {
+        mesh,
+        mass: block_mass(centre, half),
+        cell_shares,
+    }
 }
 
 /// The box in `slices` blocks along each axis, of uneven width.
@@ -143,11 +184,19 @@ pub fn sliced(half: Vec3, slices: [usize; 3], overlap: f32, fracture_energy: f64
     Fracture { fragments, report }
 }
 
-pub type Judge = Box<dyn Fn(&Body, &[Contact], &FractureConfig) -> Result<Outcome, InputError> + Send + Sync>;
+pub type Judge =
+    Box<dyn Fn(&Body, &[Contact], &FractureConfig) -> Result<Outcome, InputError> + Send + Sync>;
 
 /// Every impact breaks the box.
 pub fn slicer(half: Vec3, slices: [usize; 3], overlap: f32, fracture_energy: f64) -> Judge {
-    Box::new(move |_, _, _| Ok(Outcome::Broke(Box::new(sliced(half, slices, overlap, fracture_energy)))))
+    Box::new(move |_, _, _| {
+        Ok(Outcome::Broke(Box::new(sliced(
+            half,
+            slices,
+            overlap,
+            fracture_energy,
+        ))))
+    })
 }
 
 /// No impact breaks anything.
@@ -169,7 +218,10 @@ pub fn at(x: f32, y: f32, z: f32) -> Pose {
 }
 
 /// Steps until something breaks; `None` after `limit` steps without.
-pub fn step_to_break(world: &mut BreakableWorld, limit: usize) -> Option<frangible_rapier::BreakEvent> {
+pub fn step_to_break(
+    world: &mut BreakableWorld,
+    limit: usize,
+) -> Option<frangible_rapier::BreakEvent> {
     (0..limit).find_map(|_| world.step().unwrap().first().cloned())
 }
 

@@ -1,0 +1,506 @@
+//! Whole breaks: what must hold of every one of them.
+
+mod common;
+
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use common::{
+    block, blow, corner_hit, glass, mean, pane, pane_hit, pieces, rim_hit, rim_point, steel_ball,
+    strike,
+};
+use frangible::glam::{DMat3, DVec3, Vec3};
+use frangible::{Asset, Body, Contact, Fracture, FractureConfig, Outcome, TriMesh, impact};
+
+type Case = (&'static str, &'static Arc<Asset>, Contact);
+
+fn cases() -> Vec<Case> {
+    vec![
+        ("glass, rim", glass(), rim_hit(20.0, 6.0)),
+        ("glass, rim, hard", glass(), rim_hit(200.0, 15.0)),
+        ("pane, middle", pane(), pane_hit(0.0, 0.0, 12.0)),
+        ("pane, off the middle", pane(), pane_hit(0.08, -0.05, 20.0)),
+        ("block, corner", block(), corner_hit(8.0)),
+    ]
+}
+
+fn models() -> [(&'static str, FractureConfig); 2] {
+    [
+        ("ours", FractureConfig::default()),
+        ("paper", FractureConfig::as_in_the_paper()),
+    ]
+}
+
+/// Every break of the cases above, for three seeds and both models.
+fn breaks(mut look: impl FnMut(&str, &Arc<Asset>, &Fracture)) {
+    let (mut broke, mut all) = (0, 0);
+    for (name, asset, contact) in cases() {
+        for (model, config) in models() {
+            for seed in 1..=3 {
+                all += 1;
+                if let Outcome::Broke(fracture) = strike(asset, seed, &[contact], &config) {
+                    broke += 1;
+                    look(&format!("{name}, {model}, seed {seed}"), asset, &fracture);
+                }
+            }
+        }
+    }
+    assert!(
+        2 * broke > all,
+        "only {broke} of {all} blows break anything: the test looks at too little"
+    );
+}
+
+/// Directed edges that do not occur as often as their opposites.
+fn unmatched_edges(mesh: &TriMesh) -> usize {
+    let mut balance: HashMap<(u32, u32), i32> = HashMap::new();
+    for &[a, b, c] in &mesh.triangles {
+        for (i, j) in [(a, b), (b, c), (c, a)] {
+            *balance.entry((i.min(j), i.max(j))).or_default() += if i < j { 1 } else { -1 };
+        }
+    }
+    balance.values().filter(|&&n| n != 0).count()
+}
+
+#[test]
+fn fragments_tile_the_body() {
+    let (mut count, mut pinched, mut worst, mut worst_f32) = (0, 0, 0.0_f64, 0.0_f64);
+    breaks(|name, asset, fracture| {
+        let body = asset.mass.volume;
+        let sum: f64 = fracture.fragments.iter().map(|f| f.mass.volume).sum();
+        let emitted: f64 = fracture.fragments.iter().map(|f| f.mesh.volume()).sum();
+        let mass: f64 = fracture.fragments.iter().map(|f| f.mass.mass).sum();
+        worst = worst.max((sum / body - 1.0).abs());
+        worst_f32 = worst_f32.max((emitted / body - 1.0).abs());
+        assert!(
+            (sum / body - 1.0).abs() < 1e-9,
+            "{name}: volumes sum to {sum}, not {body}"
+        );
+        assert!(
+            (emitted / body - 1.0).abs() < 1e-6,
+            "{name}: meshes enclose {emitted}, not {body}"
+        );
+        assert!(
+            (mass / asset.mass.mass - 1.0).abs() < 1e-9,
+            "{name}: {mass} kg, not {}",
+            asset.mass.mass
+        );
+        assert!(fracture.report.volume_error.abs() < 1e-9);
+        assert!(fracture.fragments.len() > 1, "{name}");
+        for (i, f) in fracture.fragments.iter().enumerate() {
+            assert!(
+                f.mass.volume > 0.0 && f.mesh.volume() > 0.0,
+                "{name}: piece {i} is turned inside out"
+            );
+            assert_eq!(unmatched_edges(&f.mesh), 0, "{name}: piece {i} is open");
+            assert!(
+                f.mesh
+                    .triangles
+                    .iter()
+                    .flatten()
+                    .all(|&v| (v as usize) < f.mesh.positions.len())
+            );
+            assert_eq!(f.mesh.normals.len(), f.mesh.triangles.len());
+            count += 1;
+            pinched += usize::from(!f.mesh.is_closed());
+        }
+        let falls = fracture
+            .fragments
+            .windows(2)
+            .all(|w| w[0].mass.volume >= w[1].mass.volume);
+        assert!(falls, "{name}: the largest piece comes first");
+    });
+    println!(
+        "{count} pieces, {pinched} touch themselves along an edge; volume {worst:.1e}, emitted {worst_f32:.1e}"
+    );
+    // A piece that touches itself along an edge is closed, but not edge by edge.
+    assert!(
+        50 * pinched <= count,
+        "{pinched} of {count} pieces touch themselves along an edge"
+    );
+}
+
+#[test]
+fn fragments_keep_the_bodys_centre_and_inertia() {
+    let (mut worst_centre, mut worst_inertia) = (0.0_f64, 0.0_f64);
+    breaks(|name, asset, fracture| {
+        let size = asset.mass.volume.cbrt();
+        let mut centre = DVec3::ZERO;
+        let mut inertia = DMat3::ZERO;
+        for f in &fracture.fragments {
+            let (m, c) = (f.mass.mass, f.mass.centre);
+            centre += m * c;
+            let outer = DMat3::from_cols(c * c.x, c * c.y, c * c.z);
+            inertia += f.mass.inertia
+                + m * (DMat3::from_diagonal(DVec3::splat(c.length_squared())) - outer);
+        }
+        centre /= asset.mass.mass;
+        let norm = |m: DMat3| m.to_cols_array().iter().map(|x| x * x).sum::<f64>().sqrt();
+        let error = norm(inertia - asset.mass.inertia) / norm(asset.mass.inertia);
+        worst_centre = worst_centre.max(centre.length() / size);
+        worst_inertia = worst_inertia.max(error);
+        assert!(
+            centre.length() < 1e-6 * size,
+            "{name}: the centre moved by {} m",
+            centre.length()
+        );
+        assert!(error < 1e-6, "{name}: inertia off by {error:e}");
+    });
+    println!("centre {worst_centre:.1e} of the size, inertia {worst_inertia:.1e}");
+}
+
+#[test]
+fn colliders_lie_within_their_pieces() {
+    breaks(|name, asset, fracture| {
+        for (i, f) in fracture.fragments.iter().enumerate() {
+            let low = f
+                .mesh
+                .positions
+                .iter()
+                .copied()
+                .fold(Vec3::INFINITY, Vec3::min)
+                - 1e-6;
+            let high = f
+                .mesh
+                .positions
+                .iter()
+                .copied()
+                .fold(Vec3::NEG_INFINITY, Vec3::max)
+                + 1e-6;
+            assert!(
+                !f.cell_shares.is_empty(),
+                "{name}: piece {i} has no collider"
+            );
+            for (cell, points) in &f.cell_shares {
+                assert!((*cell as usize) < asset.cells.len());
+                for p in points {
+                    let inside = p.cmpge(low).all() && p.cmple(high).all();
+                    assert!(
+                        inside,
+                        "{name}: piece {i}, cell {cell}: {p} outside {low}..{high}"
+                    );
+                }
+            }
+        }
+    });
+}
+
+/// Every bit that may not depend on time or threads.
+fn bits(outcome: &Outcome) -> Vec<u64> {
+    let r = outcome.report();
+    let numbers = [
+        r.contact_duration,
+        r.peak_stress,
+        r.crack_area,
+        r.fracture_energy,
+        r.peak_elastic_energy,
+    ];
+    let mut bits: Vec<u64> = numbers.iter().map(|x| x.to_bits()).collect();
+    bits.push(r.cracks as u64);
+    if let Outcome::Broke(fracture) = outcome {
+        for f in &fracture.fragments {
+            let shares = f.cell_shares.iter().flat_map(|(_, points)| points);
+            let vectors = f
+                .mesh
+                .positions
+                .iter()
+                .chain(f.mesh.normals.iter().flatten())
+                .chain(shares);
+            bits.extend(
+                vectors
+                    .flat_map(|p| p.to_array())
+                    .map(|x| u64::from(x.to_bits())),
+            );
+            bits.extend(f.mesh.triangles.iter().flatten().map(|&v| u64::from(v)));
+            bits.extend(
+                f.mesh
+                    .cracks
+                    .iter()
+                    .flatten()
+                    .flat_map(|p| p.to_array())
+                    .map(|x| u64::from(x.to_bits())),
+            );
+            bits.extend(f.mass.inertia.to_cols_array().map(f64::to_bits));
+            bits.extend(f.mass.centre.to_array().map(f64::to_bits));
+            bits.push(f.mass.mass.to_bits());
+        }
+    }
+    bits
+}
+
+#[test]
+fn the_same_blow_gives_the_same_bits_on_any_thread() {
+    for (name, asset, contact) in cases() {
+        for (model, config) in models() {
+            let first = bits(&strike(asset, 7, &[contact], &config));
+            assert!(
+                first == bits(&strike(asset, 7, &[contact], &config)),
+                "{name}, {model}: a second call differs"
+            );
+            let threads: Vec<_> = (0..2)
+                .map(|_| {
+                    let config = config.clone();
+                    std::thread::spawn(move || bits(&strike(asset, 7, &[contact], &config)))
+                })
+                .collect();
+            for thread in threads {
+                assert!(
+                    first == thread.join().unwrap(),
+                    "{name}, {model}: another thread differs"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn another_seed_gives_another_break() {
+    let area = |seed| {
+        strike(
+            glass(),
+            seed,
+            &[rim_hit(20.0, 10.0)],
+            &FractureConfig::default(),
+        )
+        .report()
+        .crack_area
+    };
+    assert_ne!(area(1).to_bits(), area(2).to_bits());
+}
+
+#[test]
+fn a_soft_hit_holds_and_a_harder_one_cracks_more() {
+    for (model, config) in models() {
+        for seed in 1..=5 {
+            for (asset, contact) in [
+                (glass(), rim_hit(20.0, 0.2)),
+                (pane(), pane_hit(0.0, 0.0, 0.3)),
+                (block(), corner_hit(0.1)),
+            ] {
+                let outcome = strike(asset, seed, &[contact], &config);
+                assert!(
+                    matches!(outcome, Outcome::Held(_)),
+                    "{}, {model}, seed {seed}",
+                    asset.name
+                );
+                assert_eq!(
+                    outcome.report().cracks,
+                    0,
+                    "{}, {model}, seed {seed}",
+                    asset.name
+                );
+            }
+        }
+        let series = |f: &dyn Fn(u64, f64) -> f64, speeds: &[f64]| -> Vec<f64> {
+            speeds.iter().map(|&v| mean(5, |seed| f(seed, v))).collect()
+        };
+        let of = |asset: &'static Arc<Asset>, hit: fn(f64) -> Contact| {
+            let config = config.clone();
+            move |seed: u64, v: f64| {
+                1e4 * strike(asset, seed, &[hit(v)], &config).report().crack_area
+            }
+        };
+        let rim = series(&of(glass(), |v| rim_hit(20.0, v)), &[2.0, 5.0, 10.0, 20.0]);
+        let middle = series(
+            &of(pane(), |v| pane_hit(0.0, 0.0, v)),
+            &[2.0, 6.0, 15.0, 30.0],
+        );
+        let corner = series(&of(block(), corner_hit), &[1.0, 4.0, 8.0, 16.0]);
+        println!(
+            "{model}: crack area, cm²: glass {rim:.1?}, pane {middle:.1?}, block {corner:.1?}"
+        );
+        for areas in [rim, middle, corner] {
+            assert!(
+                areas.windows(2).all(|w| w[1] >= w[0]) && areas[3] > areas[0],
+                "{model}: {areas:?} cm²"
+            );
+        }
+    }
+}
+
+/// Mean place of the crack faces, weighted by area, body frame, m, and the least distance of any to `point`.
+fn crack_place(fracture: &Fracture, point: Vec3) -> (Vec3, f32) {
+    let (mut sum, mut area, mut nearest) = (Vec3::ZERO, 0.0, f32::INFINITY);
+    for f in &fracture.fragments {
+        let centre = f.mass.centre.as_vec3();
+        for triangle in &f.mesh.triangles[f.mesh.outer_triangles..] {
+            let [a, b, c] = triangle.map(|v| f.mesh.positions[v as usize] + centre);
+            let w = 0.5 * (b - a).cross(c - a).length();
+            let middle = (a + b + c) / 3.0;
+            sum += w * middle;
+            area += w;
+            nearest = nearest.min(middle.distance(point));
+        }
+    }
+    (sum / area, nearest)
+}
+
+#[test]
+fn cracks_follow_the_point_of_impact() {
+    let config = FractureConfig::default();
+    for seed in 1..=4 {
+        let place = |x: f32, y: f32| {
+            let contact = pane_hit(x, y, 15.0);
+            let outcome = strike(pane(), seed, &[contact], &config);
+            let Outcome::Broke(fracture) = outcome else {
+                panic!("the pane holds at ({x}, {y}), seed {seed}")
+            };
+            let first = fracture.report.first_crack_point.unwrap();
+            let (middle, nearest) = crack_place(&fracture, contact.point);
+            println!(
+                "seed {seed}, hit ({x}, {y}): first {first:.3}, mean {middle:.3}, nearest {:.1} mm",
+                1e3 * nearest
+            );
+            (first, middle, nearest)
+        };
+        let (left, right) = (place(-0.08, 0.0), place(0.08, 0.0));
+        assert_ne!(
+            left.0, right.0,
+            "seed {seed}: the first crack stays where it was"
+        );
+        assert!(
+            left.1.distance(right.1) > 0.002,
+            "seed {seed}: the cracks stay at {} and {}",
+            left.1,
+            right.1
+        );
+        assert!(
+            right.1.x > left.1.x,
+            "seed {seed}: the cracks go away from the impact"
+        );
+        assert!(
+            left.2 < 0.03 && right.2 < 0.03,
+            "seed {seed}: nothing cracks within 30 mm of the impact"
+        );
+    }
+}
+
+#[test]
+fn equivalent_points_of_the_rim_break_alike() {
+    for (model, config) in models() {
+        let area = |degrees: f32| {
+            1e4 * mean(6, |seed| {
+                strike(glass(), seed, &[rim_hit(degrees, 10.0)], &config)
+                    .report()
+                    .crack_area
+            })
+        };
+        let areas = [0.0, 90.0, 180.0, 270.0].map(area);
+        println!("{model}: crack area at four rim points {areas:.1?} cm²");
+        let low = areas.iter().copied().fold(f64::MAX, f64::min);
+        let high = areas.iter().copied().fold(0.0, f64::max);
+        assert!(low > 0.0 && high < 2.0 * low, "{model}: {areas:?} cm²");
+    }
+}
+
+#[test]
+fn bad_contacts_are_refused_and_nothing_comes_of_nothing() {
+    let body = Body::new(Arc::clone(glass()), 1).unwrap();
+    let config = FractureConfig::default();
+    let good = rim_hit(0.0, 10.0);
+    let mut bad = [good; 5];
+    bad[0].point.x = f32::NAN;
+    bad[1].normal = Vec3::ZERO;
+    bad[2].impulse = -1.0;
+    bad[3].striker.restitution = 2.0;
+    bad[4].approach_speed = f32::NAN;
+    for (i, contact) in bad.into_iter().enumerate() {
+        assert!(
+            impact(&body, &[good, contact], &config).is_err(),
+            "bad contact {i}"
+        );
+    }
+    let nothing = Contact {
+        impulse: 0.0,
+        ..good
+    };
+    for contacts in [&[][..], &[nothing], &[nothing, nothing]] {
+        let outcome = impact(&body, contacts, &config).unwrap();
+        assert!(matches!(outcome, Outcome::Held(_)));
+        assert_eq!(outcome.report().cracks, 0);
+    }
+    // A contact without impulse beside a real one changes nothing.
+    let both = impact(&body, &[good, nothing], &config).unwrap();
+    assert!(bits(&both) == bits(&impact(&body, &[good], &config).unwrap()));
+    // The length of the normal does not matter.
+    let long = Contact {
+        normal: 4.0 * good.normal,
+        ..good
+    };
+    assert_eq!(
+        pieces(&impact(&body, &[long], &config).unwrap()),
+        pieces(&both)
+    );
+}
+
+#[test]
+fn vibration_holds_no_more_energy_than_the_blow_brought() {
+    let config = FractureConfig::default();
+    let mut free = FractureConfig::default();
+    free.admissible_duration = false;
+    let (mut lengthened, mut fullest) = (0, 0.0_f64);
+    let sharp = blow(
+        glass(),
+        rim_point(glass(), 45.0),
+        Vec3::new(-1.0, -1.0, 0.0),
+        20.0,
+        steel_ball(0.004),
+    );
+    for (name, asset, contact) in cases()
+        .into_iter()
+        .chain([("glass, small ball", glass(), sharp)])
+    {
+        for seed in 1..=2 {
+            let outcome = strike(asset, seed, &[contact], &config);
+            let r = outcome.report();
+            let e = f64::from(contact.striker.restitution);
+            let brought =
+                0.5 * f64::from(contact.impulse) * f64::from(contact.approach_speed) / (1.0 + e);
+            assert!(
+                (r.approach_energy / brought - 1.0).abs() < 1e-6,
+                "{name}: {} J of {brought} J",
+                r.approach_energy
+            );
+            let share = r.peak_elastic_energy / r.approach_energy;
+            println!(
+                "{name}: vibration {share:.2} of {brought:.2} J, cracks {:.3} J",
+                r.fracture_energy
+            );
+            assert!(
+                share <= 1.02,
+                "{name}: the vibration holds {share} of the energy"
+            );
+            assert!(r.contact_duration >= r.unadjusted_duration);
+            lengthened += usize::from(r.contact_duration > r.unadjusted_duration);
+            fullest = fullest.max(share);
+            let outcome = strike(asset, seed, &[contact], &free);
+            assert_eq!(
+                outcome.report().contact_duration,
+                outcome.report().unadjusted_duration
+            );
+        }
+    }
+    println!("{lengthened} contacts lengthened, fullest {fullest:.2}");
+}
+
+#[test]
+fn cracks_cost_their_area_times_the_toughness() {
+    breaks(|name, asset, fracture| {
+        let r = &fracture.report;
+        assert!(r.cracks > 0 && r.crack_area > 0.0, "{name}");
+        let cost = asset.material.fracture_energy * r.crack_area;
+        assert!(
+            (r.fracture_energy / cost - 1.0).abs() < 1e-6,
+            "{name}: {} J, not {cost} J",
+            r.fracture_energy
+        );
+        assert!(
+            r.first_crack_time.is_some() && r.first_crack_point.is_some(),
+            "{name}"
+        );
+        assert!(
+            r.peak_stress > r.strength,
+            "{name}: it broke below its strength"
+        );
+    });
+}
