@@ -93,7 +93,7 @@ fn steps(c: &mut Criterion) {
     let mut broken = scene(0, true, true);
     broken.step().unwrap();
     group.bench_function("after the break, 100 fragments flying", |b| {
-        b.iter(|| broken.step().map(<[_]>::len))
+        b.iter(|| broken.step().map(<[_]>::len));
     });
     let world = scene(300, false, false);
     group.bench_function("copy of bodies, colliders and contacts, 300 boxes", |b| {

@@ -139,7 +139,7 @@ fn touch(
         corner.worth = loyalty - HEIGHT_COST * (corner.height - lowest);
     }
     let up = to_plane.rotation.inverse() * plane.normal;
-    let mut manifold = manifolds.pop().unwrap_or_else(Manifold::new);
+    let mut manifold = manifolds.pop().unwrap_or_default();
     for corner in base(&near, up) {
         let on_plane = *to_plane * corner.point - plane.normal * corner.height;
         let face = PackedFeatureId::face(0);

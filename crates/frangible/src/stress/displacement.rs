@@ -45,7 +45,7 @@ impl ShapeWeights {
     }
 }
 
-/// Displacements of the coarse nodes at up to [`BATCH`] consecutive steps.
+/// Displacements of the coarse nodes at a few consecutive steps.
 #[derive(Clone, Debug)]
 pub struct DisplacementBatch {
     first: usize,

@@ -1,0 +1,93 @@
+//! What must grow and what must fall, in the mean over seeds.
+
+mod common;
+
+use std::sync::Arc;
+
+use common::{blow, glass, mean, pane, pane_hit, pieces, rim_hit, rim_point, strike};
+use frangible::glam::Vec3;
+use frangible::{Asset, Contact, FractureConfig, Material, Striker};
+
+/// Mean crack area, cm², and mean number of pieces.
+fn damage(asset: &Arc<Asset>, contact: Contact, config: &FractureConfig, seeds: u64) -> (f64, f64) {
+    let outcomes: Vec<_> = (1..=seeds).map(|seed| strike(asset, seed, &[contact], config)).collect();
+    let of = |f: &dyn Fn(usize) -> f64| mean(seeds, |seed| f(seed as usize - 1));
+    (of(&|i| 1e4 * outcomes[i].report().crack_area), of(&|i| pieces(&outcomes[i]) as f64))
+}
+
+fn changed(asset: &Arc<Asset>, change: impl FnOnce(&mut Material)) -> Arc<Asset> {
+    let mut asset = Asset::clone(asset);
+    change(&mut asset.material);
+    Arc::new(asset)
+}
+
+fn tougher(asset: &Arc<Asset>, contact: Contact, config: &FractureConfig, seeds: u64) -> [(f64, f64); 3] {
+    [1.0, 3.0, 10.0]
+        .map(|k| damage(&changed(asset, |m| m.fracture_energy *= k), contact, config, seeds))
+}
+
+#[test]
+fn a_tougher_glass_cracks_less() {
+    let d = tougher(glass(), rim_hit(20.0, 10.0), &FractureConfig::default(), 20);
+    println!("glass, ours, G_c × 1, 3, 10: (cm², pieces) {d:.1?}");
+    assert!(d[0].0 > d[1].0 && d[1].0 > d[2].0, "{d:?}");
+}
+
+#[test]
+fn a_tougher_glass_cracks_less_in_the_papers_model_too() {
+    let d = tougher(glass(), rim_hit(20.0, 10.0), &FractureConfig::as_in_the_paper(), 20);
+    println!("glass, paper, G_c × 1, 3, 10: (cm², pieces) {d:.1?}");
+    assert!(d[0].0 > d[1].0 && d[1].0 > d[2].0, "{d:?}");
+}
+
+#[test]
+fn a_tougher_pane_cracks_less() {
+    let d = tougher(pane(), pane_hit(0.0, 0.0, 12.0), &FractureConfig::default(), 20);
+    println!("pane, ours, G_c × 1, 3, 10: (cm², pieces) {d:.1?}");
+    assert!(d[0].0 > d[1].0 && d[1].0 > d[2].0, "{d:?}");
+}
+
+/// Balls of one mass, radius, speed and impulse; moduli from rubber to steel, Pa.
+fn softer(model: &str, config: &FractureConfig) -> Vec<(f64, f64)> {
+    let point = rim_point(glass(), 20.0);
+    let inwards = -Vec3::new(point.x, point.y, 0.0).normalize();
+    let d: Vec<_> = [5e6, 1e8, 1e9, 2e11]
+        .map(|contact_modulus| {
+            let striker =
+                Striker { contact_modulus, inverse_effective_mass: 1.0 / 0.06, curvature_radius: 0.015, restitution: 0.5 };
+            damage(glass(), blow(glass(), point, inwards, 10.0, striker), config, 20)
+        })
+        .into();
+    println!("glass, {model}, ball of 5 MPa, 100 MPa, 1 GPa, 200 GPa: (cm², pieces) {d:.1?}");
+    d
+}
+
+#[test]
+fn a_stiffer_ball_breaks_more() {
+    let d = softer("ours", &FractureConfig::default());
+    assert!(d.windows(2).all(|w| w[1].0 >= w[0].0) && d[3].0 > 1.5 * d[0].0, "{d:?}");
+}
+
+#[test]
+fn a_stiffer_ball_breaks_more_in_the_papers_model_too() {
+    let d = softer("paper", &FractureConfig::as_in_the_paper());
+    assert!(d.windows(2).all(|w| w[1].0 >= w[0].0) && d[3].0 > d[0].0, "{d:?}");
+}
+
+fn damped(asset: &Arc<Asset>, contact: Contact, config: &FractureConfig) -> [(f64, f64); 3] {
+    [0.0, 1e-7, 1e-6].map(|alpha| damage(&changed(asset, |m| m.stiffness_damping = alpha), contact, config, 20))
+}
+
+#[test]
+fn damping_of_high_frequencies_spares_the_glass() {
+    let d = damped(glass(), rim_hit(20.0, 10.0), &FractureConfig::default());
+    println!("glass, ours, α 0, 1e-7, 1e-6 s: (cm², pieces) {d:.1?}");
+    assert!(d[2].0 < d[0].0 || d[2].1 < d[0].1, "{d:?}");
+}
+
+#[test]
+fn damping_of_high_frequencies_spares_the_glass_in_the_papers_model_too() {
+    let d = damped(glass(), rim_hit(20.0, 10.0), &FractureConfig::as_in_the_paper());
+    println!("glass, paper, α 0, 1e-7, 1e-6 s: (cm², pieces) {d:.1?}");
+    assert!(d[2].0 < d[0].0 || d[2].1 < d[0].1, "{d:?}");
+}
