@@ -20,7 +20,7 @@ pub(crate) struct Cli {
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
     /// Bake a scene, break it, write the animation (GLB) and a contact sheet (PNG)
-    Break(BreakArgs),
+    Break(Box<BreakArgs>),
     /// List the built-in scenes, materials and what each shows
     Scenes,
 }

@@ -16,6 +16,9 @@ use crate::progress::Bar;
 use crate::report::{Impact, Report};
 use crate::request::scene_of;
 
+/// File name and PNG bytes.
+type Picture = (String, Vec<u8>);
+
 /// Most seeds in one sheet.
 const MOST_SEEDS: i64 = 36;
 
@@ -29,12 +32,18 @@ pub(crate) fn run(args: &BreakArgs) -> Result<(), Box<dyn Error>> {
         }
     };
     make_folder(&args.out)?;
+    for ending in ["glb", "png"] {
+        let path = args.out.join(format!("{}.{ending}", scene.name));
+        if path.is_dir() {
+            return Err(format!("`{}` is a folder, and a file of that name is to be written; move it, or choose another --out DIR", path.display()).into());
+        }
+    }
     let mut stages = Vec::new();
 
     let bar = Bar::new(args.json);
     let clock = Instant::now();
     let (asset, baked) = bake(&scene, &mut |p| {
-        bar.show(&format!("{}: {}", scene.name, p.stage), p.fraction)
+        bar.show(&format!("{}: {}", scene.name, p.stage), p.fraction);
     })?;
     stages.push(("bake".to_string(), 1e3 * clock.elapsed().as_secs_f64()));
 
@@ -112,11 +121,7 @@ fn make_folder(folder: &Path) -> Result<(), String> {
 }
 
 #[cfg(feature = "draw")]
-fn pictures(
-    scene: &str,
-    runs: &[(u64, Run)],
-    sheet: bool,
-) -> Result<Vec<(String, Vec<u8>)>, Box<dyn Error>> {
+fn pictures(scene: &str, runs: &[(u64, Run)], sheet: bool) -> Result<Vec<Picture>, Box<dyn Error>> {
     use frangible_draw::{SheetOptions, contact_sheet, encode_png, sheet_of_frames};
 
     let recording: &Recording = &runs[0].1.recording;
@@ -155,7 +160,7 @@ fn pictures(
 }
 
 #[cfg(not(feature = "draw"))]
-fn pictures(_: &str, _: &[(u64, Run)], _: bool) -> Result<Vec<(String, Vec<u8>)>, Box<dyn Error>> {
+fn pictures(_: &str, _: &[(u64, Run)], _: bool) -> Result<Vec<Picture>, Box<dyn Error>> {
     Err("this build has none; build with the feature `draw`".into())
 }
 

@@ -10,9 +10,14 @@ use frangible::{Asset, Contact, FractureConfig, Material, Striker};
 
 /// Mean crack area, cm², and mean number of pieces.
 fn damage(asset: &Arc<Asset>, contact: Contact, config: &FractureConfig, seeds: u64) -> (f64, f64) {
-    let outcomes: Vec<_> = (1..=seeds).map(|seed| strike(asset, seed, &[contact], config)).collect();
+    let outcomes: Vec<_> = (1..=seeds)
+        .map(|seed| strike(asset, seed, &[contact], config))
+        .collect();
     let of = |f: &dyn Fn(usize) -> f64| mean(seeds, |seed| f(seed as usize - 1));
-    (of(&|i| 1e4 * outcomes[i].report().crack_area), of(&|i| pieces(&outcomes[i]) as f64))
+    (
+        of(&|i| 1e4 * outcomes[i].report().crack_area),
+        of(&|i| pieces(&outcomes[i]) as f64),
+    )
 }
 
 fn changed(asset: &Arc<Asset>, change: impl FnOnce(&mut Material)) -> Arc<Asset> {
@@ -21,9 +26,20 @@ fn changed(asset: &Arc<Asset>, change: impl FnOnce(&mut Material)) -> Arc<Asset>
     Arc::new(asset)
 }
 
-fn tougher(asset: &Arc<Asset>, contact: Contact, config: &FractureConfig, seeds: u64) -> [(f64, f64); 3] {
-    [1.0, 3.0, 10.0]
-        .map(|k| damage(&changed(asset, |m| m.fracture_energy *= k), contact, config, seeds))
+fn tougher(
+    asset: &Arc<Asset>,
+    contact: Contact,
+    config: &FractureConfig,
+    seeds: u64,
+) -> [(f64, f64); 3] {
+    [1.0, 3.0, 10.0].map(|k| {
+        damage(
+            &changed(asset, |m| m.fracture_energy *= k),
+            contact,
+            config,
+            seeds,
+        )
+    })
 }
 
 #[test]
@@ -35,14 +51,24 @@ fn a_tougher_glass_cracks_less() {
 
 #[test]
 fn a_tougher_glass_cracks_less_in_the_papers_model_too() {
-    let d = tougher(glass(), rim_hit(20.0, 10.0), &FractureConfig::as_in_the_paper(), 20);
+    let d = tougher(
+        glass(),
+        rim_hit(20.0, 10.0),
+        &FractureConfig::as_in_the_paper(),
+        20,
+    );
     println!("glass, paper, G_c × 1, 3, 10: (cm², pieces) {d:.1?}");
     assert!(d[0].0 > d[1].0 && d[1].0 > d[2].0, "{d:?}");
 }
 
 #[test]
 fn a_tougher_pane_cracks_less() {
-    let d = tougher(pane(), pane_hit(0.0, 0.0, 12.0), &FractureConfig::default(), 20);
+    let d = tougher(
+        pane(),
+        pane_hit(0.0, 0.0, 12.0),
+        &FractureConfig::default(),
+        20,
+    );
     println!("pane, ours, G_c × 1, 3, 10: (cm², pieces) {d:.1?}");
     assert!(d[0].0 > d[1].0 && d[1].0 > d[2].0, "{d:?}");
 }
@@ -53,9 +79,18 @@ fn softer(model: &str, config: &FractureConfig) -> Vec<(f64, f64)> {
     let inwards = -Vec3::new(point.x, point.y, 0.0).normalize();
     let d: Vec<_> = [5e6, 1e8, 1e9, 2e11]
         .map(|contact_modulus| {
-            let striker =
-                Striker { contact_modulus, inverse_effective_mass: 1.0 / 0.06, curvature_radius: 0.015, restitution: 0.5 };
-            damage(glass(), blow(glass(), point, inwards, 10.0, striker), config, 20)
+            let striker = Striker {
+                contact_modulus,
+                inverse_effective_mass: 1.0 / 0.06,
+                curvature_radius: 0.015,
+                restitution: 0.5,
+            };
+            damage(
+                glass(),
+                blow(glass(), point, inwards, 10.0, striker),
+                config,
+                20,
+            )
         })
         .into();
     println!("glass, {model}, ball of 5 MPa, 100 MPa, 1 GPa, 200 GPa: (cm², pieces) {d:.1?}");
@@ -65,17 +100,30 @@ fn softer(model: &str, config: &FractureConfig) -> Vec<(f64, f64)> {
 #[test]
 fn a_stiffer_ball_breaks_more() {
     let d = softer("ours", &FractureConfig::default());
-    assert!(d.windows(2).all(|w| w[1].0 >= w[0].0) && d[3].0 > 1.5 * d[0].0, "{d:?}");
+    assert!(
+        d.windows(2).all(|w| w[1].0 >= w[0].0) && d[3].0 > 1.5 * d[0].0,
+        "{d:?}"
+    );
 }
 
 #[test]
 fn a_stiffer_ball_breaks_more_in_the_papers_model_too() {
     let d = softer("paper", &FractureConfig::as_in_the_paper());
-    assert!(d.windows(2).all(|w| w[1].0 >= w[0].0) && d[3].0 > d[0].0, "{d:?}");
+    assert!(
+        d.windows(2).all(|w| w[1].0 >= w[0].0) && d[3].0 > d[0].0,
+        "{d:?}"
+    );
 }
 
 fn damped(asset: &Arc<Asset>, contact: Contact, config: &FractureConfig) -> [(f64, f64); 3] {
-    [0.0, 1e-7, 1e-6].map(|alpha| damage(&changed(asset, |m| m.stiffness_damping = alpha), contact, config, 20))
+    [0.0, 1e-7, 1e-6].map(|alpha| {
+        damage(
+            &changed(asset, |m| m.stiffness_damping = alpha),
+            contact,
+            config,
+            20,
+        )
+    })
 }
 
 #[test]
@@ -87,7 +135,11 @@ fn damping_of_high_frequencies_spares_the_glass() {
 
 #[test]
 fn damping_of_high_frequencies_spares_the_glass_in_the_papers_model_too() {
-    let d = damped(glass(), rim_hit(20.0, 10.0), &FractureConfig::as_in_the_paper());
+    let d = damped(
+        glass(),
+        rim_hit(20.0, 10.0),
+        &FractureConfig::as_in_the_paper(),
+    );
     println!("glass, paper, α 0, 1e-7, 1e-6 s: (cm², pieces) {d:.1?}");
     assert!(d[2].0 < d[0].0 || d[2].1 < d[0].1, "{d:?}");
 }

@@ -61,7 +61,13 @@ pub(crate) fn stone_floor() -> Striker {
 }
 
 /// A blow at `point` in direction `normal`, with the impulse of a central rigid-body collision at `speed`.
-pub(crate) fn blow(asset: &Asset, point: Vec3, normal: Vec3, speed: f64, striker: Striker) -> Contact {
+pub(crate) fn blow(
+    asset: &Asset,
+    point: Vec3,
+    normal: Vec3,
+    speed: f64,
+    striker: Striker,
+) -> Contact {
     let normal = normal.normalize();
     let own = asset
         .mass

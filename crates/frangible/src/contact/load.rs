@@ -4,6 +4,7 @@ use glam::Vec3;
 
 use super::Contact;
 use crate::asset::Asset;
+use crate::mesh::closest_on_triangle;
 use crate::stress::ShapeWeights;
 
 /// A contact on the body's surface, with what its modes see of it.
@@ -79,7 +80,8 @@ fn closest_on_surface(asset: &Asset, point: Vec3) -> (usize, [f32; 3], Vec3) {
     let mut best = (f32::INFINITY, 0, [1.0, 0.0, 0.0], point);
     for (i, triangle) in asset.surface.triangles.iter().enumerate() {
         let x = triangle.map(|v| asset.fracture.positions[v as usize]);
-        let weights = closest_on_triangle(point, x);
+        let weights =
+            closest_on_triangle(x.map(Vec3::as_dvec3), point.as_dvec3()).map(|w| w as f32);
         let q = x[0] * weights[0] + x[1] * weights[1] + x[2] * weights[2];
         let distance = q.distance_squared(point);
         if distance < best.0 {
@@ -87,40 +89,4 @@ fn closest_on_surface(asset: &Asset, point: Vec3) -> (usize, [f32; 3], Vec3) {
         }
     }
     (best.1, best.2, best.3)
-}
-
-/// Barycentric coordinates of the closest point of a triangle [Ericson 2005, §5.1.5].
-fn closest_on_triangle(p: Vec3, [a, b, c]: [Vec3; 3]) -> [f32; 3] {
-    let (ab, ac, ap) = (b - a, c - a, p - a);
-    let (d1, d2) = (ab.dot(ap), ac.dot(ap));
-    if d1 <= 0.0 && d2 <= 0.0 {
-        return [1.0, 0.0, 0.0];
-    }
-    let bp = p - b;
-    let (d3, d4) = (ab.dot(bp), ac.dot(bp));
-    if d3 >= 0.0 && d4 <= d3 {
-        return [0.0, 1.0, 0.0];
-    }
-    let vc = d1 * d4 - d3 * d2;
-    if vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0 {
-        let v = d1 / (d1 - d3);
-        return [1.0 - v, v, 0.0];
-    }
-    let cp = p - c;
-    let (d5, d6) = (ab.dot(cp), ac.dot(cp));
-    if d6 >= 0.0 && d5 <= d6 {
-        return [0.0, 0.0, 1.0];
-    }
-    let vb = d5 * d2 - d1 * d6;
-    if vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0 {
-        let w = d2 / (d2 - d6);
-        return [1.0 - w, 0.0, w];
-    }
-    let va = d3 * d6 - d5 * d4;
-    if va <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0 {
-        let w = (d4 - d3) / ((d4 - d3) + (d5 - d6));
-        return [0.0, 1.0 - w, w];
-    }
-    let sum = va + vb + vc;
-    [va / sum, vb / sum, vc / sum]
 }

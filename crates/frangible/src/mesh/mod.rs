@@ -1,9 +1,11 @@
 //! Meshes: tetrahedra of the body, triangles of the pieces, and exact mass properties.
 
+mod closest;
 mod mass;
 mod surface;
 mod tet;
 
+pub use closest::closest_on_triangle;
 pub use mass::MassProperties;
 pub use surface::TriMesh;
 pub(crate) use tet::{EDGES, FACES};
