@@ -137,7 +137,7 @@ fn impossible_numbers_of_modes_are_refused() {
 #[test]
 fn impossible_balls_are_refused() {
     let check = |ball: &str, parts: &[&str]| {
-        refused_in_a_sentence("ball", &["--scene", "pane", "--ball", ball], parts)
+        refused_in_a_sentence("ball", &["--scene", "pane", "--ball", ball], parts);
     };
     for bad in ["nan", "-1", "0", "inf"] {
         check(&format!("{bad},0.01,10"), &["the ball's mass is", "kg"]);
@@ -254,7 +254,7 @@ fn scenes_lists_scenes_and_materials() {
         assert!(named(scene), "no {scene} in: {list}");
     }
     for material in frangible::Material::presets() {
-        assert!(named(&material.name), "no {} in: {list}", material.name);
+        assert!(named(material.name), "no {} in: {list}", material.name);
     }
 }
 

@@ -29,7 +29,7 @@ pub(crate) fn glass() -> &'static Arc<Asset> {
 /// Window pane 0.3 × 0.3 m, 4 mm thick, its normal z.
 pub(crate) fn pane() -> &'static Arc<Asset> {
     static ASSET: OnceLock<Arc<Asset>> = OnceLock::new();
-    ASSET.get_or_init(|| bake_small("pane", Shape::plate(0.3, 0.3, 0.004), "glass", 40, 1.9))
+    ASSET.get_or_init(|| bake_small("pane", Shape::plate(0.3, 0.3, 0.004), "glass", 40, 2.4))
 }
 
 /// Brick.
