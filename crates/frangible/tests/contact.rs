@@ -127,19 +127,19 @@ fn a_contact_that_cannot_be_used_is_refused_by_the_name_of_its_field() {
         ("approach speed", |c| c.approach_speed = f32::NAN),
         ("approach speed", |c| c.approach_speed = -1.0),
         ("inverse effective mass", |c| {
-            c.striker.inverse_effective_mass = f32::NAN
+            c.striker.inverse_effective_mass = f32::NAN;
         }),
         ("inverse effective mass", |c| {
-            c.striker.inverse_effective_mass = -1.0
+            c.striker.inverse_effective_mass = -1.0;
         }),
         ("inverse effective mass", |c| {
-            c.striker.inverse_effective_mass = f32::INFINITY
+            c.striker.inverse_effective_mass = f32::INFINITY;
         }),
         ("contact modulus", |c| c.striker.contact_modulus = f32::NAN),
         ("contact modulus", |c| c.striker.contact_modulus = 0.0),
         ("radius of curvature", |c| c.striker.curvature_radius = -0.1),
         ("radius of curvature", |c| {
-            c.striker.curvature_radius = f32::NAN
+            c.striker.curvature_radius = f32::NAN;
         }),
         ("restitution", |c| c.striker.restitution = f32::NAN),
         ("restitution", |c| c.striker.restitution = 1.1),
