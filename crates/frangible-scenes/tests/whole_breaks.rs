@@ -124,7 +124,6 @@ fn fragments_tile_the_body() {
 }
 
 #[test]
-#[ignore = "4583 of 9707 neighbouring pairs out of order, the worst by a factor of 83"]
 fn the_largest_piece_comes_first() {
     let (mut pairs, mut wrong, mut worst) = (0, 0, 0.0_f64);
     breaks(|_, _, fracture| {

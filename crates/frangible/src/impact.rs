@@ -81,8 +81,8 @@ pub fn impact(
     }
     report.peak_stress = f64::from(peak);
     report.cracks = system.cracks.len();
-    report.crack_area = system.cracks.iter().map(|c| c.area).sum();
-    report.fracture_energy = system.cracks.iter().map(|c| c.spent).sum();
+    report.crack_area = system.cracks.iter().fold(0.0, |sum, c| sum + c.area);
+    report.fracture_energy = system.cracks.iter().fold(0.0, |sum, c| sum + c.spent);
 
     // Cracks → fragments [G12 §6].
     let start = Instant::now();

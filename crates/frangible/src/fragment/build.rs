@@ -76,7 +76,7 @@ struct Draft {
     shares: Vec<(u32, u32)>,
 }
 
-/// Builds all fragments, in the order of their labels.
+/// Builds all fragments, largest first.
 pub(crate) fn build(system: &CrackSystem, labels: &Labels) -> Vec<Fragment> {
     let asset = system.asset;
     let mesh = &asset.fracture;
@@ -127,10 +127,13 @@ pub(crate) fn build(system: &CrackSystem, labels: &Labels) -> Vec<Fragment> {
     partial_cracks(system, labels, &mut drafts);
     let density = asset.material.density;
     let mut local = vec![u32::MAX; table.positions.len()];
-    drafts
+    let mut fragments: Vec<Fragment> = drafts
         .into_iter()
         .map(|draft| finish(draft, &table.positions, &mut local, density))
-        .collect()
+        .collect();
+    // Stable: equal volumes stay in the order of their labels.
+    fragments.sort_by(|a, b| b.mass.volume.total_cmp(&a.mass.volume));
+    fragments
 }
 
 /// Cracks inside a piece: fractured tetrahedra whose four nodes stayed together.
