@@ -1,145 +1,10 @@
-//! Materials by name: real ones with published numbers, and the paper's own parameter sets.
-//!
-//! # Which numbers are measured, which are chosen
-//!
-//! *Published*: Young's modulus, Poisson's ratio, density, tensile strength and toughness; each preset's
-//! [`Preset::source`] says where they come from, and says so where a number is an estimate. Handbooks give a fracture
-//! toughness K_Ic more often than a fracture energy; for plane strain `G_c = K_Ic² (1 − ν²) / E`. Both are in the source text.
-//!
-//! *Derived*: the stiffness damping α from the loss factor η of structural acoustics. A mode's loss factor is
-//! `α ω + β/ω`; we ask for η at 10 kHz, the middle of what small brittle bodies ring at: `α = η / (2π · 10 kHz)`.
-//! Loss factors: Cremer, Heckl, Petersson, *Structure-Borne Sound*, 3rd ed. 2005 (steel 2e-4, glass 6e-4 … 2e-3,
-//! dense concrete 4e-3 … 8e-3, oak 8e-3 … 1e-2, brick 1e-2 … 2e-2, acrylic 2e-2 … 4e-2), rounded; what that table lacks is
-//! given the value of its nearest relative there. The mass damping β = 5 1/s (paper: 3 … 10) only matters below 100 Hz.
-//!
-//! *Model parameters, not measurable on a sample*:
-//! - **energy depth** γ. An edge crack of length a under tension σ releases about `2π a · σ²/(2E)` per area, so γ stands for 2πa.
-//!   `γ₁ = 2 E G_c / R_c²` is the depth at which a tension of just R_c pays for its crack. Eight times that lets a crack run on
-//!   until the tension falls to 1/√8 = 0.35 R_c: 5 mm for glass. Quasi-brittle materials (concrete, brick, stone) get metres by
-//!   that rule; γ is capped at 0.25 m, about the largest crack in the bodies meant here, so they need more than R_c to
-//!   break, as they do under impact.
-//! - **weak points** per m³: one per grain or flaw that matters, spaced about 3 mm in glass, 5 mm in brick, 10 mm in concrete.
-//! - **roughness**: grain-like amplitude and wavelength; glass breaks smooth and conchoidal, concrete follows its aggregate.
-//! - **restitution** and **friction**: for whole bodies meeting a hard floor at metres per second, dry. A polished glass
-//!   sphere keeps 0.97 of its speed, a drinking glass does not: the vibration takes it.
-//!
-//! The strikers and floors (`steel`, `rubber`, `wood`, `stone`) are isotropic and elastic here and meant to hit, not to break.
+//! The numbers of all presets and where they come from.
 
 use std::f64::consts::TAU;
 
-use thiserror::Error;
-
-use crate::material::Material;
-use crate::names::nearest_name;
-
-/// Frequency at which the published loss factor is met, Hz.
-const LOSS_FREQUENCY: f64 = 10_000.0;
-/// Mass damping β of every real material, 1/s: the middle of the paper's 3 … 10.
-const MASS_DAMPING: f64 = 5.0;
-/// How many times γ₁ the energy depth is: a crack stops where the tension is 1/√8 of the strength.
-const ENERGY_DEPTH_FACTOR: f64 = 8.0;
-/// Largest energy depth, m.
-const ENERGY_DEPTH_LIMIT: f64 = 0.25;
-/// A name longer than this is cut in the message, characters.
-const LONGEST_NAME: usize = 48;
-
-/// A named material and where its numbers come from.
-#[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
-pub struct Preset {
-    /// Name, lower case.
-    pub name: &'static str,
-    /// What it stands for.
-    pub summary: &'static str,
-    /// Where the numbers come from, and which of them are estimates.
-    pub source: &'static str,
-    /// Fracture toughness K_Ic, Pa·√m; 0 where the source gives only the fracture energy.
-    pub fracture_toughness: f64,
-    numbers: Numbers,
-}
-
-/// What [`Preset::material`] is built from.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Numbers {
-    youngs_modulus: f64,
-    poisson_ratio: f64,
-    density: f64,
-    strength: f64,
-    fracture_energy: f64,
-    stiffness_damping: f64,
-    mass_damping: f64,
-    energy_depth: f64,
-    weak_point_density: f64,
-    roughness: [f64; 2],
-    restitution: f64,
-    friction: f64,
-}
-
-impl Preset {
-    /// The material, every field of which may then be changed.
-    #[must_use]
-    pub fn material(&self) -> Material {
-        let n = &self.numbers;
-        Material {
-            name: self.name.to_owned(),
-            youngs_modulus: n.youngs_modulus,
-            poisson_ratio: n.poisson_ratio,
-            density: n.density,
-            stiffness_damping: n.stiffness_damping,
-            mass_damping: n.mass_damping,
-            strength: n.strength,
-            fracture_energy: n.fracture_energy,
-            energy_depth: n.energy_depth,
-            weak_point_density: n.weak_point_density,
-            roughness_amplitude: n.roughness[0],
-            roughness_wavelength: n.roughness[1],
-            restitution: n.restitution,
-            friction: n.friction,
-        }
-    }
-}
-
-/// A name that is no preset's.
-#[derive(Clone, Debug, Error, PartialEq)]
-#[error("unknown material `{name}`{}; materials: {}", hint(.nearest), names().join(", "))]
-#[non_exhaustive]
-pub struct UnknownMaterial {
-    /// What was asked for, cut if very long.
-    pub name: String,
-    /// The preset whose name is closest, if one is close.
-    pub nearest: Option<&'static str>,
-}
-
-fn hint(nearest: &Option<&'static str>) -> String {
-    nearest.map_or_else(String::new, |near| format!("; did you mean `{near}`?"))
-}
-
-fn names() -> Vec<&'static str> {
-    PRESETS.iter().map(|preset| preset.name).collect()
-}
-
-impl Material {
-    /// All presets: breakables first, then strikers and floors, then the paper's sets.
-    #[must_use]
-    pub fn presets() -> &'static [Preset] {
-        &PRESETS
-    }
-
-    /// The preset of that name; case does not matter, and `_` or a space may stand for `-`.
-    ///
-    /// # Errors
-    /// [`UnknownMaterial`], with the nearest name and all names in its message.
-    pub fn preset(name: &str) -> Result<Material, UnknownMaterial> {
-        let wanted: String = name.trim().to_lowercase().replace(['_', ' '], "-");
-        match PRESETS.iter().find(|preset| preset.name == wanted) {
-            Some(preset) => Ok(preset.material()),
-            None => Err(UnknownMaterial {
-                name: name.chars().take(LONGEST_NAME).collect(),
-                nearest: nearest_name(&wanted, PRESETS.iter().map(|preset| preset.name)),
-            }),
-        }
-    }
-}
+use super::{
+    ENERGY_DEPTH_FACTOR, ENERGY_DEPTH_LIMIT, LOSS_FREQUENCY, MASS_DAMPING, Numbers, Preset,
+};
 
 /// A real material's published numbers, before the derived ones are filled in.
 struct Published {
@@ -483,7 +348,7 @@ const SLAB: Table1 = Table1 {
     fracture_energy: 100.0,
 };
 
-static PRESETS: [Preset; 20] = [
+pub(super) static PRESETS: [Preset; 20] = [
     GLASS,
     PORCELAIN,
     BRICK,
