@@ -65,7 +65,7 @@ pub struct ImpactReport {
     pub strength: f64,
     /// Kinetic energy of approach that the contacts absorbed, J.
     pub approach_energy: f64,
-    /// Largest modal (kinetic + elastic) energy while the contact lasted, J.
+    /// Largest modal (kinetic + elastic) energy at a time step, J.
     pub peak_elastic_energy: f64,
     /// Fracture energy Σ A G_c, J.
     pub fracture_energy: f64,

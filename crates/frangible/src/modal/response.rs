@@ -148,7 +148,7 @@ pub fn respond(basis: &ModalBasis, material: &Material, load: &[f64], pulse: &Pu
     }
 }
 
-/// Largest modal energy Σ ½ (q̇² + λ q²) over the contact for a pulse of amplitude 1 N·s and this duration, J/(N·s)².
+/// Largest modal energy Σ ½ (q̇² + λ q²) over a contact of this duration, s, with modal impulses `load`, N·s/√kg; J.
 #[must_use]
 pub fn peak_contact_energy(
     basis: &ModalBasis,
