@@ -1,0 +1,72 @@
+//! Errors of meshing: each names what is wrong and how to mend it.
+
+use thiserror::Error;
+
+/// Why a solid got no tetrahedra.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[non_exhaustive]
+pub enum TetError {
+    /// A number that must be finite and above zero is not.
+    #[error("{what} is {value}; it must be a finite number above zero")]
+    NotPositive {
+        /// The quantity, with its unit.
+        what: &'static str,
+        /// What was given.
+        value: f64,
+    },
+    /// More lattice points than fit in memory.
+    #[error(
+        "a cell of {cell:.2e} m asks for {points:.1e} lattice points over the body's box, more than {limit:.0e}; \
+         ask for fewer tetrahedra"
+    )]
+    TooFine {
+        /// Side of a lattice cube, m.
+        cell: f64,
+        /// Points it asks for.
+        points: f64,
+        /// The most that are allowed.
+        limit: f64,
+    },
+    /// No lattice point lies inside.
+    #[error(
+        "no part of the body is as thick as the lattice cell of {cell:.2e} m; ask for more tetrahedra"
+    )]
+    Nothing {
+        /// Side of a lattice cube, m.
+        cell: f64,
+    },
+    /// Walls too thin for the number of tetrahedra allowed.
+    #[error(
+        "walls of {wall:.2e} m need about {needed} tetrahedra, more than the {limit} allowed; \
+         ask for {needed} or make the walls thicker"
+    )]
+    TooThin {
+        /// Thickness of the thin walls, m.
+        wall: f64,
+        /// Tetrahedra they need.
+        needed: usize,
+        /// The most that are allowed.
+        limit: usize,
+    },
+    /// A body in several pieces, none of them the main one.
+    #[error(
+        "the body falls into {pieces} separate pieces, the largest with {share:.0} % of the volume; \
+         join them, or give each its own file"
+    )]
+    Pieces {
+        /// Number of pieces.
+        pieces: usize,
+        /// Share of the largest in the volume, per cent.
+        share: f64,
+    },
+    /// A tetrahedron flatter than promised.
+    #[error(
+        "the worst dihedral angle is {angle:.1}°, below {limit}°; ask for a few more or fewer tetrahedra"
+    )]
+    Sliver {
+        /// Smallest dihedral angle, degrees.
+        angle: f64,
+        /// What is promised, degrees.
+        limit: f64,
+    },
+}

@@ -1,0 +1,298 @@
+//! The mesher's front door: a solid in, sound tetrahedra out.
+
+use std::fmt;
+
+use crate::error::TetError;
+use crate::quality::dihedral_range;
+use crate::solid::Solid;
+use crate::stuffing::{Lattice, counted_volume, cut, warp};
+use crate::tets::features::{Features, snap};
+use crate::tets::improve::improve;
+use crate::tets::jitter::jitter;
+use crate::tets::manifold::make_manifold;
+use crate::tets::pieces::keep_largest;
+use crate::tets::{Draft, TetBody};
+
+/// Smallest dihedral angle that is promised, degrees.
+pub const SMALLEST_ANGLE: f64 = 10.0;
+
+/// Lattice cells that fit into a wall when it is meshed soundly; measured, see the tests.
+pub const CELLS_PER_WALL: f64 = 1.5;
+
+/// Tetrahedra with a smaller angle than this, degrees, are worked on.
+const WORTH_IMPROVING: f64 = 18.0;
+
+/// Times that features are snapped and angles improved in turn: better angles let more features in.
+const SNAP_ROUNDS: usize = 3;
+
+/// How many tetrahedra, or how large.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Resolution {
+    /// About this many tetrahedra, within 15 %.
+    Tets(usize),
+    /// Lattice cubes of this side, m, about a dozen tetrahedra each.
+    Cell(f64),
+}
+
+/// Options of [`tetrahedralize`].
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct TetOptions {
+    /// Default 40 000 tetrahedra.
+    pub resolution: Resolution,
+    /// Most tetrahedra allowed, default 400 000.
+    pub most: usize,
+    /// Thickness of the thinnest walls, m, if known: the lattice is refined until they hold [`CELLS_PER_WALL`] cells.
+    pub wall: Option<f64>,
+    /// Move surface vertices onto sharp edges and corners, default true.
+    pub snap: bool,
+    /// Seed of the irregularity that takes the lattice out of the mesh; `None` (default): leave the lattice.
+    pub irregular: Option<u64>,
+    /// Compare the volume with the one counted on a grid four times as fine, default true.
+    pub check_volume: bool,
+}
+
+impl Default for TetOptions {
+    fn default() -> Self {
+        Self {
+            resolution: Resolution::Tets(40_000),
+            most: 400_000,
+            wall: None,
+            snap: true,
+            irregular: None,
+            check_volume: true,
+        }
+    }
+}
+
+/// Figures of a mesh.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct TetReport {
+    /// Number of nodes.
+    pub nodes: usize,
+    /// Number of tetrahedra.
+    pub tets: usize,
+    /// Side of a lattice cube, m.
+    pub cell: f64,
+    /// Smallest dihedral angle, degrees.
+    pub smallest_angle: f64,
+    /// Largest dihedral angle, degrees.
+    pub largest_angle: f64,
+    /// Volume of the tetrahedra, m³.
+    pub volume: f64,
+    /// Volume of the solid, counted on a grid four times as fine as the lattice, m³.
+    pub counted_volume: Option<f64>,
+    /// Separate pieces found; only the largest was kept.
+    pub pieces: usize,
+    /// Share of the volume that was kept.
+    pub kept: f64,
+    /// Sharp features met and not reproduced.
+    pub features: Features,
+    /// Tetrahedra removed where parts touched along a mere edge.
+    pub pinches: usize,
+}
+
+impl fmt::Display for TetReport {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "{} tetrahedra, {} nodes, angles {:.1}° to {:.1}°, volume {:.4e} m³",
+            self.tets, self.nodes, self.smallest_angle, self.largest_angle, self.volume
+        )?;
+        if let Some(counted) = self.counted_volume {
+            write!(
+                f,
+                " ({:+.2} % of the solid's)",
+                100.0 * (self.volume / counted - 1.0)
+            )?;
+        }
+        if self.features.sharp > 0 {
+            write!(
+                f,
+                ", {} of {} sharp places not snapped",
+                self.features.not_snapped, self.features.sharp
+            )?;
+        }
+        if self.pieces > 1 {
+            write!(
+                f,
+                "; {} loose pieces dropped ({:.2} % of the volume)",
+                self.pieces - 1,
+                100.0 * (1.0 - self.kept)
+            )?;
+        }
+        Ok(())
+    }
+}
+
+/// Fills a solid with tetrahedra: one face-connected piece, closed manifold surface, no dihedral angle below 10°.
+///
+/// Isosurface stuffing [Labelle & Shewchuk 2007]: a body-centred cubic lattice, its vertices near the surface moved onto
+/// it, its tetrahedra cut along it. Then sharp features are snapped and bad angles improved.
+///
+/// # Errors
+/// A number that cannot be used, walls too thin for the tetrahedra allowed, or a body in several pieces.
+pub fn tetrahedralize(
+    solid: &dyn Solid,
+    options: &TetOptions,
+) -> Result<(TetBody, TetReport), TetError> {
+    let [low, high] = solid.bounds();
+    let longest = (high - low).max_element();
+    if !(longest.is_finite() && longest > 0.0) {
+        return Err(TetError::NotPositive {
+            what: "the longest side of the body, in m,",
+            value: longest,
+        });
+    }
+    let mut cell = first_cell(solid, options, longest)?;
+    if let Some(wall) = options.wall {
+        cell = cell.min(wall / CELLS_PER_WALL);
+    }
+    // The estimate from the volume is a few per cent off, more for thin walls: one correction lands within 15 %.
+    let mut draft = stuff(solid, cell)?;
+    if let Resolution::Tets(wanted) = options.resolution {
+        let limit = options.wall.map_or(f64::INFINITY, |w| w / CELLS_PER_WALL);
+        for _ in 0..3 {
+            let ratio = draft.body.tets.len() as f64 / wanted as f64;
+            let next = (cell * ratio.cbrt()).min(limit);
+            if (ratio - 1.0).abs() < 0.1 || (next / cell - 1.0).abs() < 0.01 {
+                break;
+            }
+            cell = next;
+            draft = stuff(solid, cell)?;
+        }
+    }
+    if draft.body.tets.len() > options.most {
+        return Err(TetError::TooThin {
+            wall: options.wall.unwrap_or(cell * CELLS_PER_WALL),
+            needed: draft.body.tets.len(),
+            limit: options.most,
+        });
+    }
+    finish(solid, options, draft, cell)
+}
+
+/// Lattice cell for the wanted number of tetrahedra, from a rough volume.
+fn first_cell(solid: &dyn Solid, options: &TetOptions, longest: f64) -> Result<f64, TetError> {
+    match options.resolution {
+        Resolution::Cell(cell) if cell.is_finite() && cell > 0.0 => Ok(cell),
+        Resolution::Cell(cell) => Err(TetError::NotPositive {
+            what: "the lattice cell, in m,",
+            value: cell,
+        }),
+        Resolution::Tets(0) => Err(TetError::NotPositive {
+            what: "the number of tetrahedra",
+            value: 0.0,
+        }),
+        Resolution::Tets(wanted) => {
+            let mut volume = 0.0;
+            for divisions in [48.0, 96.0, 192.0] {
+                volume = counted_volume(solid, longest / divisions);
+                // A few hundred points inside tell the volume within some per cent.
+                if volume > 400.0 * (longest / divisions).powi(3) {
+                    break;
+                }
+            }
+            if volume <= 0.0 {
+                return Err(TetError::Nothing {
+                    cell: longest / 192.0,
+                });
+            }
+            Ok((12.6 * volume / wanted as f64).cbrt())
+        }
+    }
+}
+
+/// Lattice tetrahedra cut to the solid.
+fn stuff(solid: &dyn Solid, cell: f64) -> Result<Draft, TetError> {
+    let lattice = Lattice::new(solid, cell)?;
+    let warped = warp(solid, &lattice);
+    let cut = cut(&lattice, &warped);
+    if cut.tets.is_empty() {
+        return Err(TetError::Nothing { cell });
+    }
+    let mut draft = Draft {
+        body: TetBody {
+            positions: cut.positions,
+            tets: cut.tets,
+        },
+        on_surface: cut.on_surface,
+    };
+    draft.compact();
+    Ok(draft)
+}
+
+fn finish(
+    solid: &dyn Solid,
+    options: &TetOptions,
+    mut draft: Draft,
+    cell: f64,
+) -> Result<(TetBody, TetReport), TetError> {
+    let dropped = keep_largest(&mut draft);
+    if dropped.kept < 0.5 {
+        return Err(TetError::Pieces {
+            pieces: dropped.pieces,
+            share: 100.0 * dropped.kept,
+        });
+    }
+    let mut pinches = make_manifold(&mut draft);
+    if pinches > 0 {
+        // Removing a pinch may part what hung on it.
+        keep_largest(&mut draft);
+        pinches += make_manifold(&mut draft);
+    }
+    let mut fixed = vec![false; draft.body.positions.len()];
+    let mut features = Features::default();
+    improve(&mut draft, &fixed, solid, cell, WORTH_IMPROVING);
+    for round in 0..if options.snap { SNAP_ROUNDS } else { 0 } {
+        let found = snap(&mut draft, &mut fixed, solid, cell, SMALLEST_ANGLE + 2.0);
+        features = if round == 0 {
+            found
+        } else {
+            Features {
+                not_snapped: found.not_snapped,
+                ..features
+            }
+        };
+        if found.sharp == 0 {
+            break;
+        }
+        improve(&mut draft, &fixed, solid, cell, WORTH_IMPROVING);
+    }
+    if let Some(seed) = options.irregular {
+        jitter(&mut draft, &fixed, solid, cell, seed);
+    }
+    let body = draft.body;
+    let (smallest_angle, largest_angle) = angles(&body);
+    if smallest_angle < SMALLEST_ANGLE {
+        return Err(TetError::Sliver {
+            angle: smallest_angle,
+            limit: SMALLEST_ANGLE,
+        });
+    }
+    let report = TetReport {
+        nodes: body.positions.len(),
+        tets: body.tets.len(),
+        cell,
+        smallest_angle,
+        largest_angle,
+        volume: body.volume(),
+        counted_volume: options
+            .check_volume
+            .then(|| counted_volume(solid, 0.25 * cell)),
+        pieces: dropped.pieces,
+        kept: dropped.kept,
+        features,
+        pinches,
+    };
+    Ok((body, report))
+}
+
+fn angles(body: &TetBody) -> (f64, f64) {
+    (0..body.tets.len())
+        .map(|e| dihedral_range(body.corners(e)))
+        .fold((180.0, 0.0), |(low, high): (f64, f64), (a, b)| {
+            (low.min(a), high.max(b))
+        })
+}

@@ -1,0 +1,50 @@
+//! Takes the lattice out of the mesh: cracks start and end at elements, so a lattice would show in them.
+
+use glam::DVec3;
+
+use crate::solid::Solid;
+use crate::tets::Draft;
+use crate::tets::adjacency::Around;
+use crate::tets::local::badness_around;
+
+/// Largest move, as a share of the cell.
+const AMOUNT: f64 = 0.22;
+/// A move must not leave an angle below this, degrees, nor make one worse that is below it already.
+const ANGLE: f64 = 16.0;
+
+/// Moves every vertex that is not `fixed` by up to a fifth of a cell, those of the surface along it.
+pub(crate) fn jitter(draft: &mut Draft, fixed: &[bool], solid: &dyn Solid, cell: f64, seed: u64) {
+    let around = Around::new(draft.body.positions.len(), &draft.body.tets);
+    let limit = ANGLE.to_radians().cos();
+    for v in (0..draft.body.positions.len() as u32).filter(|&v| !fixed[v as usize]) {
+        let here = draft.body.positions[v as usize];
+        let random = DVec3::from_array(std::array::from_fn(|k| {
+            symmetric(seed, 3 * u64::from(v) + k as u64)
+        }));
+        let now = badness_around(&draft.body, &around, v, here, f64::INFINITY);
+        for scale in [1.0, 0.5] {
+            let mut place = here + scale * AMOUNT * cell * random;
+            if draft.on_surface[v as usize] {
+                let near = solid.closest(place).position;
+                if near.distance(place) > 0.5 * cell {
+                    continue;
+                }
+                place = near;
+            }
+            let then = badness_around(&draft.body, &around, v, place, f64::INFINITY);
+            if then < limit.max(now) {
+                draft.body.positions[v as usize] = place;
+                break;
+            }
+        }
+    }
+}
+
+/// A number in −1..1 that depends on seed and index only (the finaliser of SplitMix64).
+fn symmetric(seed: u64, index: u64) -> f64 {
+    let mut z = seed.wrapping_mul(0xD1B5_4A32_D192_ED03)
+        ^ index.wrapping_add(1).wrapping_mul(0x9E37_79B9_7F4A_7C15);
+    z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+    ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+}

@@ -1,0 +1,148 @@
+//! Makes the surface a closed manifold: every edge between two triangles, every vertex in one fan.
+//!
+//! Where two parts of the body touch along a mere edge, the smaller fan of tetrahedra at that edge goes; where they
+//! touch at a mere vertex, each part gets its own.
+
+use crate::quality::volume;
+use crate::tets::Draft;
+use crate::tets::adjacency::{Around, FACES, OUTSIDE, neighbours};
+
+/// Rounds after which the rest is given up; two have always been enough.
+const ROUNDS: usize = 40;
+
+/// Gives the number of tetrahedra removed.
+pub(crate) fn make_manifold(draft: &mut Draft) -> usize {
+    let mut removed = 0;
+    for _ in 0..ROUNDS {
+        let doomed = pinched_fans(draft);
+        if doomed.is_empty() {
+            break;
+        }
+        removed += doomed.len();
+        draft.retain(|e| doomed.binary_search(&(e as u32)).is_err());
+    }
+    split_vertices(draft);
+    removed
+}
+
+/// Whether every boundary edge lies between exactly two boundary triangles and every vertex in one fan.
+pub(crate) fn is_manifold(draft: &Draft) -> bool {
+    let mut copy = draft.clone();
+    pinched_fans(draft).is_empty() && {
+        split_vertices(&mut copy);
+        copy.body.positions.len() == draft.body.positions.len()
+    }
+}
+
+/// Tetrahedra of the smaller fans at edges with more than two boundary triangles, rising.
+fn pinched_fans(draft: &Draft) -> Vec<u32> {
+    let tets = &draft.body.tets;
+    let near = neighbours(tets);
+    let mut edges: Vec<(u32, u32)> = Vec::new();
+    for (e, n) in near.iter().enumerate() {
+        for k in (0..4).filter(|&k| n[k] == OUTSIDE) {
+            let f = FACES[k].map(|i| tets[e][i]);
+            edges.extend(
+                [(f[0], f[1]), (f[1], f[2]), (f[2], f[0])].map(|(a, b)| (a.min(b), a.max(b))),
+            );
+        }
+    }
+    edges.sort_unstable();
+    let pinched: Vec<(u32, u32)> = edges
+        .chunk_by(|a, b| a == b)
+        .filter(|c| c.len() > 2)
+        .map(|c| c[0])
+        .collect();
+    if pinched.is_empty() {
+        return Vec::new();
+    }
+    let around = Around::new(draft.body.positions.len(), tets);
+    let mut doomed = Vec::new();
+    for (a, b) in pinched {
+        let ring: Vec<u32> = around
+            .of(a)
+            .iter()
+            .copied()
+            .filter(|&e| tets[e as usize].contains(&b))
+            .collect();
+        let fans = fans(&ring, &near, |e, k| {
+            // The face opposite node k holds the edge when k is neither of its ends.
+            tets[e as usize][k] != a && tets[e as usize][k] != b
+        });
+        let size = |fan: &Vec<u32>| -> f64 {
+            fan.iter()
+                .map(|&e| volume(draft.body.corners(e as usize)))
+                .sum()
+        };
+        let largest = (0..fans.len())
+            .max_by(|&i, &j| size(&fans[i]).total_cmp(&size(&fans[j])).then(j.cmp(&i)));
+        for (i, fan) in fans.into_iter().enumerate() {
+            if Some(i) != largest {
+                doomed.extend(fan);
+            }
+        }
+    }
+    doomed.sort_unstable();
+    doomed.dedup();
+    doomed
+}
+
+/// Groups of `ring` connected through faces for which `shared(tetrahedron, face)` holds.
+fn fans(ring: &[u32], near: &[[u32; 4]], shared: impl Fn(u32, usize) -> bool) -> Vec<Vec<u32>> {
+    let mut seen = vec![false; ring.len()];
+    let mut groups = Vec::new();
+    for start in 0..ring.len() {
+        if seen[start] {
+            continue;
+        }
+        seen[start] = true;
+        let mut group = vec![ring[start]];
+        let mut next = 0;
+        while next < group.len() {
+            let e = group[next];
+            next += 1;
+            for k in (0..4).filter(|&k| shared(e, k)) {
+                let n = near[e as usize][k];
+                if let Ok(place) = ring.binary_search(&n)
+                    && !seen[place]
+                {
+                    seen[place] = true;
+                    group.push(n);
+                }
+            }
+        }
+        groups.push(group);
+    }
+    groups
+}
+
+/// Gives each face-connected fan of tetrahedra around a vertex its own copy of the vertex.
+fn split_vertices(draft: &mut Draft) {
+    let near = neighbours(&draft.body.tets);
+    let vertices = draft.body.positions.len();
+    let around = Around::new(vertices, &draft.body.tets);
+    let mut outer = vec![false; vertices];
+    for (e, n) in near.iter().enumerate() {
+        for k in (0..4).filter(|&k| n[k] == OUTSIDE) {
+            FACES[k]
+                .iter()
+                .for_each(|&i| outer[draft.body.tets[e][i] as usize] = true);
+        }
+    }
+    for v in (0..vertices as u32).filter(|&v| outer[v as usize]) {
+        let tets = &draft.body.tets;
+        let groups = fans(around.of(v), &near, |e, k| tets[e as usize][k] != v);
+        for group in groups.iter().skip(1) {
+            let copy = draft.body.positions.len() as u32;
+            draft.body.positions.push(draft.body.positions[v as usize]);
+            draft.on_surface.push(true);
+            for &e in group {
+                for x in &mut draft.body.tets[e as usize] {
+                    if *x == v {
+                        *x = copy;
+                    }
+                }
+            }
+        }
+    }
+}
