@@ -1,6 +1,7 @@
 //! Errors of baking: each names what is wrong and how to mend it.
 
 use frangible::InputError;
+use frangible_mesh::TetError;
 use thiserror::Error;
 
 /// Why a bake gave no asset.
@@ -18,6 +19,9 @@ pub enum BakeError {
     /// A material or an asset the run time refuses.
     #[error(transparent)]
     Input(#[from] InputError),
+    /// A solid that could not be filled with tetrahedra.
+    #[error(transparent)]
+    Tetrahedra(#[from] TetError),
     /// A profile that does not describe a body.
     #[error("profile station {station}: {problem}")]
     Profile {

@@ -24,6 +24,7 @@
 
 mod bake;
 mod cells;
+mod clusters;
 pub mod eigen;
 pub mod embed;
 mod error;
@@ -39,6 +40,7 @@ pub mod surface;
 
 pub use bake::{BakeSpec, bake};
 pub use error::BakeError;
+pub use frangible_mesh;
 pub use mesh::BodyMesh;
 pub use report::{BakeReport, MeshReport, Progress, Stage};
-pub use shapes::{MeshSize, Shape, Station};
+pub use shapes::{MeshSize, Shape, SolidShape, Station};

@@ -59,6 +59,9 @@ pub enum TetError {
         /// Share of the largest in the volume, per cent.
         share: f64,
     },
+    /// Parts that touch along mere edges in ever new places.
+    #[error("parts of the body touch along mere edges; ask for a few more or fewer tetrahedra")]
+    Pinched,
     /// A tetrahedron flatter than promised.
     #[error(
         "the worst dihedral angle is {angle:.1}°, below {limit}°; ask for a few more or fewer tetrahedra"

@@ -25,6 +25,9 @@ const WORTH_IMPROVING: f64 = 18.0;
 /// Times that features are snapped and angles improved in turn: better angles let more features in.
 const SNAP_ROUNDS: usize = 3;
 
+/// A body whose largest piece holds less than this share of its volume has no main piece.
+const MAIN_PIECE: f64 = 0.75;
+
 /// How many tetrahedra, or how large.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Resolution {
@@ -117,8 +120,9 @@ impl fmt::Display for TetReport {
         if self.pieces > 1 {
             write!(
                 f,
-                "; {} loose pieces dropped ({:.2} % of the volume)",
+                "; {} loose piece{} dropped ({:.2} % of the volume)",
                 self.pieces - 1,
+                if self.pieces == 2 { "" } else { "s" },
                 100.0 * (1.0 - self.kept)
             )?;
         }
@@ -230,17 +234,17 @@ fn finish(
     cell: f64,
 ) -> Result<(TetBody, TetReport), TetError> {
     let dropped = keep_largest(&mut draft);
-    if dropped.kept < 0.5 {
+    if dropped.kept < MAIN_PIECE {
         return Err(TetError::Pieces {
             pieces: dropped.pieces,
             share: 100.0 * dropped.kept,
         });
     }
-    let mut pinches = make_manifold(&mut draft);
+    let mut pinches = make_manifold(&mut draft)?;
     if pinches > 0 {
         // Removing a pinch may part what hung on it.
         keep_largest(&mut draft);
-        pinches += make_manifold(&mut draft);
+        pinches += make_manifold(&mut draft)?;
     }
     let mut fixed = vec![false; draft.body.positions.len()];
     let mut features = Features::default();

@@ -106,7 +106,8 @@ struct Run {
 
 /// Volume of a solid, m³, on a grid of this spacing: every point stands for a cube, of which it counts the share that
 /// its distance to the surface says lies inside.
-pub(crate) fn counted_volume(solid: &dyn Solid, spacing: f64) -> f64 {
+#[must_use]
+pub fn counted_volume(solid: &dyn Solid, spacing: f64) -> f64 {
     let [low, high] = solid.bounds();
     let counts = ((high - low) / spacing)
         .to_array()

@@ -5,7 +5,7 @@ mod lattice;
 mod stencil;
 mod warp;
 
-pub(crate) use grid::counted_volume;
+pub use grid::counted_volume;
 pub(crate) use lattice::Lattice;
 pub(crate) use stencil::cut;
 pub(crate) use warp::warp;

@@ -10,12 +10,15 @@ use rayon::prelude::*;
 use crate::solid::{Solid, SurfacePoint};
 use crate::tets::Draft;
 use crate::tets::adjacency::{Around, boundary};
-use crate::tets::local::{badness, sharpest_around};
+use crate::tets::improve::relocate;
+use crate::tets::local::sharpest_around;
 
 /// Surfaces that differ in direction by more than this, degrees, meet in a sharp edge.
 const CREASE: f64 = 35.0;
 /// A vertex moves at most this share of a cell.
 const REACH: f64 = 0.75;
+/// The same for a corner, which fewer vertices are near.
+const CORNER_REACH: f64 = 1.0;
 /// A tangent plane counts from surface points at most this share of a cell away.
 const NEAR: f64 = 0.5;
 /// Directions in which the planes agree this little, relative to the most decided one, are left alone.
@@ -83,7 +86,7 @@ pub(crate) fn snap(
             if snapped[c.vertex as usize] || taken[c.vertex as usize] {
                 continue;
             }
-            if make_room(draft, &around, snapped, &c, limit) {
+            if make_room(draft, solid, &around, snapped, &c, cell, limit) {
                 snapped[c.vertex as usize] = true;
                 moved = true;
                 shape.around.of(c.vertex).iter().for_each(|&f| {
@@ -227,7 +230,7 @@ impl Shape {
         let on_feature = |(choice, planes): (usize, &Vec<SurfacePoint>)| {
             let (place, rank) = meet(planes, here);
             let distance = place.distance(here);
-            if rank < 2 || distance > REACH * self.cell {
+            if rank < 2 || distance > if rank == 3 { CORNER_REACH } else { REACH } * self.cell {
                 return None;
             }
             // Rounded edges and false guesses: the place has to lie on the surface.
@@ -246,20 +249,23 @@ impl Shape {
     /// Tangent planes next to vertex `v`, one per direction: or the larger of two sides would outvote the other.
     fn planes_around(&self, draft: &Draft, v: u32) -> Vec<SurfacePoint> {
         let here = draft.body.positions[v as usize];
-        let mut planes: Vec<SurfacePoint> = self
+        // Two rings of faces: next to a corner the first ring often sees two of the three sides only.
+        let mut faces: Vec<u32> = self
             .around
             .of(v)
             .iter()
-            .map(|&f| self.planes[f as usize])
+            .flat_map(|&f| self.faces[f as usize])
+            .flat_map(|u| self.around.of(u).iter().copied())
             .collect();
+        faces.sort_unstable();
+        faces.dedup();
+        let mut planes: Vec<SurfacePoint> =
+            faces.iter().map(|&f| self.planes[f as usize]).collect();
         for &f in self.around.of(v) {
-            for &u in &self.faces[f as usize] {
-                let p = SurfacePoint {
-                    position: draft.body.positions[u as usize],
-                    normal: self.at_vertex[u as usize],
-                };
-                planes.push(p);
-            }
+            planes.extend(self.faces[f as usize].iter().map(|&u| SurfacePoint {
+                position: draft.body.positions[u as usize],
+                normal: self.at_vertex[u as usize],
+            }));
         }
         let crease = CREASE.to_radians().cos();
         let mut distinct: Vec<SurfacePoint> = Vec::new();
@@ -330,20 +336,22 @@ fn symmetric_eigen(mut a: DMat3) -> ([f64; 3], [DVec3; 3]) {
 /// Undone when an angle stays below the limit (a cosine).
 fn make_room(
     draft: &mut Draft,
+    solid: &dyn Solid,
     around: &Around,
     snapped: &[bool],
     c: &Candidate,
+    cell: f64,
     limit: f64,
 ) -> bool {
     let v = c.vertex;
     let before = draft.body.positions[v as usize];
-    if sharpest_around(&draft.body, around, v, c.place) < limit {
-        draft.body.positions[v as usize] = c.place;
+    let fits = |draft: &Draft, u: u32| {
+        sharpest_around(&draft.body, around, u, draft.body.positions[u as usize]) < limit
+    };
+    draft.body.positions[v as usize] = c.place;
+    if fits(draft, v) {
         return true;
     }
-    draft.body.positions[v as usize] = c.place;
-    // The neighbours inside the body are moved away a little, along the way the vertex went and from it.
-    let mut touched: Vec<(u32, DVec3)> = Vec::new();
     let mut near: Vec<u32> = around
         .of(v)
         .iter()
@@ -351,50 +359,22 @@ fn make_room(
         .collect();
     near.sort_unstable();
     near.dedup();
-    for u in near
-        .into_iter()
-        .filter(|&u| u != v && !snapped[u as usize] && !draft.on_surface[u as usize])
-    {
-        let here = draft.body.positions[u as usize];
-        let badness_at = |draft: &Draft, place: DVec3| {
-            around
-                .of(u)
-                .iter()
-                .map(|&e| {
-                    badness(draft.body.tets[e as usize].map(|w| {
-                        if w == u {
-                            place
-                        } else {
-                            draft.body.positions[w as usize]
-                        }
-                    }))
-                })
-                .fold(-1.0, f64::max)
-        };
-        let mut best = (badness_at(draft, here), here);
-        for step in [0.3, 0.15] {
-            for d in [c.place - before, here - c.place, before - c.place] {
-                let place = here + step * d;
-                let b = badness_at(draft, place);
-                if b < best.0 {
-                    best = (b, place);
-                }
-            }
-        }
-        if best.1 != here {
-            touched.push((u, here));
-            draft.body.positions[u as usize] = best.1;
+    near.retain(|&u| u != v && !snapped[u as usize]);
+    let places: Vec<DVec3> = near
+        .iter()
+        .map(|&u| draft.body.positions[u as usize])
+        .collect();
+    for step in [0.2, 0.1, 0.05] {
+        for &u in &near {
+            relocate(draft, solid, around, u, step * cell);
         }
     }
-    let fits =
-        touched.iter().map(|t| t.0).chain([v]).all(|u| {
-            sharpest_around(&draft.body, around, u, draft.body.positions[u as usize]) < limit
-        });
-    if !fits {
+    let all_fit = near.iter().chain([&v]).all(|&u| fits(draft, u));
+    if !all_fit {
         draft.body.positions[v as usize] = before;
-        touched
-            .into_iter()
-            .for_each(|(u, here)| draft.body.positions[u as usize] = here);
+        near.iter()
+            .zip(places)
+            .for_each(|(&u, place)| draft.body.positions[u as usize] = place);
     }
-    fits
+    all_fit
 }

@@ -3,6 +3,7 @@
 //! Where two parts of the body touch along a mere edge, the smaller fan of tetrahedra at that edge goes; where they
 //! touch at a mere vertex, each part gets its own.
 
+use crate::error::TetError;
 use crate::quality::volume;
 use crate::tets::Draft;
 use crate::tets::adjacency::{Around, FACES, OUTSIDE, neighbours};
@@ -11,27 +12,21 @@ use crate::tets::adjacency::{Around, FACES, OUTSIDE, neighbours};
 const ROUNDS: usize = 40;
 
 /// Gives the number of tetrahedra removed.
-pub(crate) fn make_manifold(draft: &mut Draft) -> usize {
+///
+/// # Errors
+/// [`TetError::Pinched`] when pinches remain after many rounds.
+pub(crate) fn make_manifold(draft: &mut Draft) -> Result<usize, TetError> {
     let mut removed = 0;
     for _ in 0..ROUNDS {
         let doomed = pinched_fans(draft);
         if doomed.is_empty() {
-            break;
+            split_vertices(draft);
+            return Ok(removed);
         }
         removed += doomed.len();
         draft.retain(|e| doomed.binary_search(&(e as u32)).is_err());
     }
-    split_vertices(draft);
-    removed
-}
-
-/// Whether every boundary edge lies between exactly two boundary triangles and every vertex in one fan.
-pub(crate) fn is_manifold(draft: &Draft) -> bool {
-    let mut copy = draft.clone();
-    pinched_fans(draft).is_empty() && {
-        split_vertices(&mut copy);
-        copy.body.positions.len() == draft.body.positions.len()
-    }
+    Err(TetError::Pinched)
 }
 
 /// Tetrahedra of the smaller fans at edges with more than two boundary triangles, rising.

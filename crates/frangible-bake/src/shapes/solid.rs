@@ -1,0 +1,112 @@
+//! Bodies given by their inside: mesh files and signed distances.
+
+use std::fmt;
+use std::sync::Arc;
+
+use frangible::TetMesh;
+use frangible_mesh::{Resolution, Solid, TetOptions, TetReport, counted_volume, tetrahedralize};
+
+use crate::clusters::cluster;
+use crate::error::{BakeError, positive};
+use crate::mesh::BodyMesh;
+use crate::shapes::MeshSize;
+
+/// Collision cells of a body of any shape.
+const CELLS: usize = 64;
+
+/// Tetrahedra per lattice cube of body: twelve inside, a few more at the surface.
+const TETS_PER_CUBE: f64 = 12.6;
+
+/// A solid and how it is to be filled with tetrahedra.
+#[derive(Clone)]
+pub struct SolidShape {
+    /// Where the inside is, m.
+    pub solid: Arc<dyn Solid>,
+    /// Thickness of the thinnest walls, m, if there are any to speak of: the fracture mesh resolves them.
+    pub wall: Option<f64>,
+    /// Wanted tetrahedra of the fracture mesh; thin walls may ask for more.
+    pub tets: usize,
+    /// Most tetrahedra of the fracture mesh; walls that need more are an error.
+    pub most: usize,
+}
+
+impl SolidShape {
+    /// A solid without thin walls, about 42 000 tetrahedra, 250 000 at most.
+    #[must_use]
+    pub fn new(solid: Arc<dyn Solid>) -> Self {
+        Self {
+            solid,
+            wall: None,
+            tets: super::FRACTURE_TETS as usize,
+            most: 250_000,
+        }
+    }
+}
+
+/// The same solid, not merely an equal one: solids cannot be compared.
+impl PartialEq for SolidShape {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.solid, &other.solid)
+            && (self.wall, self.tets, self.most) == (other.wall, other.tets, other.most)
+    }
+}
+
+impl fmt::Debug for SolidShape {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("SolidShape")
+            .field("bounds", &self.solid.bounds())
+            .field("wall", &self.wall)
+            .field("tets", &self.tets)
+            .field("most", &self.most)
+            .finish()
+    }
+}
+
+/// Volume as counted on a grid of a 128th of the longest side, m³.
+pub(crate) fn volume(shape: &SolidShape) -> Result<f64, BakeError> {
+    let [low, high] = shape.solid.bounds();
+    let longest = (high - low).max_element();
+    positive("the longest side of the solid, in m,", longest)?;
+    let volume = counted_volume(shape.solid.as_ref(), longest / 128.0);
+    positive("the volume of the solid, in m³,", volume)?;
+    Ok(volume)
+}
+
+/// Tetrahedra that a lattice of cubes of side `size.edge` gives.
+pub(crate) fn estimate(volume: f64, size: MeshSize) -> f64 {
+    TETS_PER_CUBE * volume / size.edge.powi(3)
+}
+
+/// Lattice for about `tets` tetrahedra.
+pub(crate) fn size_for(volume: f64, tets: f64) -> MeshSize {
+    MeshSize {
+        edge: (TETS_PER_CUBE * volume / tets).cbrt(),
+        layers: 0,
+    }
+}
+
+/// Tetrahedra, irregular for a seed; `cell` overrides the wanted number by the side of the lattice's cubes, m.
+pub(crate) fn mesh(
+    shape: &SolidShape,
+    cell: Option<f64>,
+    seed: Option<u64>,
+) -> Result<(BodyMesh, TetReport), BakeError> {
+    let mut options = TetOptions::default();
+    options.resolution = cell.map_or(Resolution::Tets(shape.tets), Resolution::Cell);
+    options.most = shape.most;
+    options.wall = shape.wall;
+    options.irregular = seed;
+    let (body, report) = tetrahedralize(shape.solid.as_ref(), &options)?;
+    let mesh = TetMesh::new(
+        body.positions.iter().map(|p| p.as_vec3()).collect(),
+        body.tets.clone(),
+    );
+    let (cell_of_tet, cells) = cluster(&mesh, CELLS);
+    let mesh = BodyMesh {
+        positions: body.positions,
+        tets: body.tets,
+        cell_of_tet,
+        cells,
+    };
+    Ok((mesh.finish()?, report))
+}
