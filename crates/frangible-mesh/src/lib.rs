@@ -6,8 +6,10 @@
 mod input;
 mod solid;
 mod surface;
+mod winding;
 
 pub use glam;
 pub use input::{InputMaterial, InputMesh};
 pub use solid::{Solid, SurfacePoint};
 pub use surface::Surface;
+pub use winding::{MeshSolid, Nearest, SolidError, Thickness, wall_thickness};
