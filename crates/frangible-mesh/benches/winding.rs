@@ -20,7 +20,7 @@ fn bunny() -> Surface {
             "no stanford-bunny.obj in {}: a sphere instead",
             folder.display()
         );
-        return hard::sphere(DVec3::ZERO, 1.0, 190);
+        return hard::shapes::sphere(DVec3::ZERO, 1.0, 190);
     };
     let mut surface = Surface::default();
     for line in text.lines() {

@@ -1,6 +1,5 @@
 //! How thick a body is, as its mesher must know to resolve the walls.
 
-use glam::DVec3;
 use rayon::prelude::*;
 
 use super::mesh_solid::MeshSolid;

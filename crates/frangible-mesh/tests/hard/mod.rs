@@ -1,33 +1,56 @@
-//! Surfaces that are hard to fill.
+//! Surfaces that are hard to fill, and some that nothing can fill.
+
+pub(crate) mod broken;
+pub(crate) mod crossing;
+pub(crate) mod refused;
+pub(crate) mod shapes;
+pub(crate) mod sound;
 
 use frangible_mesh::Surface;
-use frangible_mesh::glam::DVec3;
 
-/// A sphere of 2 n² − 2 n triangles or so: n rings.
-pub(crate) fn sphere(centre: DVec3, radius: f64, n: usize) -> Surface {
-    let mut surface = Surface::default();
-    let m = 2 * n;
-    for i in 0..=n {
-        for j in 0..m {
-            let (a, b) = (
-                std::f64::consts::PI * i as f64 / n as f64,
-                std::f64::consts::TAU * j as f64 / m as f64,
-            );
-            surface
-                .positions
-                .push(centre + radius * DVec3::new(a.sin() * b.cos(), a.sin() * b.sin(), a.cos()));
-        }
+/// What a mesher should make of a surface.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Expect {
+    /// A body.
+    Solid {
+        /// Volume from a closed form, to a per cent, m³.
+        volume: f64,
+        /// Whether the triangles close without holes, overlaps, or faces the wrong way round.
+        watertight: bool,
+    },
+    /// An error.
+    Refused,
+}
+
+/// A surface and what to expect.
+#[derive(Clone, Debug)]
+pub(crate) struct HardCase {
+    pub(crate) name: &'static str,
+    pub(crate) surface: Surface,
+    pub(crate) expect: Expect,
+}
+
+/// A case with one closed surface.
+fn closed(name: &'static str, surface: Surface, volume: f64) -> HardCase {
+    let watertight = true;
+    HardCase {
+        name,
+        surface,
+        expect: Expect::Solid { volume, watertight },
     }
-    for i in 0..n {
-        for j in 0..m {
-            let at = |i: usize, j: usize| (i * m + j % m) as u32;
-            surface
-                .triangles
-                .push([at(i, j), at(i + 1, j), at(i + 1, j + 1)]);
-            surface
-                .triangles
-                .push([at(i, j), at(i + 1, j + 1), at(i, j + 1)]);
-        }
+}
+
+/// A case with holes, overlaps or wrong faces.
+fn leaky(name: &'static str, surface: Surface, volume: f64) -> HardCase {
+    let watertight = false;
+    HardCase {
+        name,
+        surface,
+        expect: Expect::Solid { volume, watertight },
     }
-    surface
+}
+
+/// Every case.
+pub(crate) fn all() -> Vec<HardCase> {
+    [sound::all(), crossing::all(), broken::all(), refused::all()].concat()
 }
