@@ -11,6 +11,7 @@ mod stuffing;
 mod surface;
 mod tetrahedralize;
 mod tets;
+mod winding;
 
 pub use error::TetError;
 pub use glam;
@@ -23,3 +24,4 @@ pub use tetrahedralize::{
 };
 pub use tets::TetBody;
 pub use tets::features::Features;
+pub use winding::{MeshSolid, Nearest, SolidError, Thickness, wall_thickness};

@@ -24,34 +24,10 @@ pub trait Solid: Send + Sync {
         self.signed_distance(p) < 0.0
     }
 
-    /// Where the segment from a point inside to one outside leaves the body.
+    /// Where the segment from a point inside to one outside leaves the body, to 1e-9 of its length.
     fn crossing(&self, inside: DVec3, outside: DVec3) -> DVec3 {
-        // The bracket always holds a change of sign; a secant step inside it, kept off the ends, halves it at least
-        // every other time.
-        let (mut a, mut b) = (0.0_f64, 1.0_f64);
-        let at = |t: f64| inside + t * (outside - inside);
-        let (mut fa, mut fb) = (self.signed_distance(inside), self.signed_distance(outside));
-        for step in 0..40 {
-            if b - a < 1e-9 {
-                break;
-            }
-            let secant = if step % 3 == 2 || fb <= fa {
-                0.5
-            } else {
-                (-fa / (fb - fa)).clamp(0.02, 0.98)
-            };
-            let t = a + secant * (b - a);
-            let f = self.signed_distance(at(t));
-            if f < 0.0 {
-                (a, fa) = (t, f);
-            } else {
-                (b, fb) = (t, f);
-            }
-            if f.abs() < 1e-9 * (outside - inside).length() {
-                break;
-            }
-        }
-        at(if -fa < fb { a } else { b })
+        let at = |t: f64| inside.lerp(outside, t);
+        at(sign_change(|t| self.signed_distance(at(t)), 1e-9))
     }
 
     /// Closest point of the surface, with its normal. Exact for mesh surfaces; for distances, by Newton steps along
@@ -80,4 +56,55 @@ pub trait Solid: Send + Sync {
             normal: gradient(x).normalize_or(DVec3::Y),
         }
     }
+
+    /// How far a ray from a point inside runs until it leaves the body, m; `None` if it starts outside. `direction` is
+    /// a unit vector. Found by sphere tracing: steps as long as the distance allows.
+    fn exit(&self, from: DVec3, direction: DVec3) -> Option<f64> {
+        let [low, high] = self.bounds();
+        let size = (high - low).length();
+        let least = 1e-5 * size;
+        let mut t = 0.0;
+        let mut distance = self.signed_distance(from);
+        if distance >= 0.0 {
+            return None;
+        }
+        while t <= size {
+            let next = t + least.max(-distance);
+            distance = self.signed_distance(from + next * direction);
+            if distance >= 0.0 {
+                let out = self.crossing(from + t * direction, from + next * direction);
+                return Some((out - from).dot(direction));
+            }
+            t = next;
+        }
+        None
+    }
+}
+
+/// A place in 0..1 where `f`, negative at 0 and not at 1, changes its sign, to `tolerance`; a jump will do. By
+/// interpolation, truncation and projection: as quick as a secant where `f` is smooth, and never more than one step
+/// slower than bisection [Oliveira & Takahashi 2020, Algorithm 1].
+pub(crate) fn sign_change(f: impl Fn(f64) -> f64, tolerance: f64) -> f64 {
+    let (mut a, mut b) = (0.0_f64, 1.0_f64);
+    let (mut at_a, mut at_b) = (f(a).min(-f64::MIN_POSITIVE), f(b).max(0.0));
+    let bisections = (0.5 / tolerance).log2().ceil().max(0.0) as i32 + 1;
+    for step in 0..=bisections {
+        if b - a <= 2.0 * tolerance {
+            break;
+        }
+        let middle = 0.5 * (a + b);
+        let secant = (at_b * a - at_a * b) / (at_b - at_a);
+        let truncation = (0.2 * (b - a).powi(2)).min((middle - secant).abs());
+        let truncated = secant + truncation.copysign(middle - secant);
+        let room = (tolerance * 2.0_f64.powi(bisections - step) - 0.5 * (b - a)).max(0.0);
+        let offset = truncated - middle;
+        let t = middle + offset.abs().min(room).copysign(offset);
+        let value = f(t);
+        if value < 0.0 {
+            (a, at_a) = (t, value);
+        } else {
+            (b, at_b) = (t, value);
+        }
+    }
+    0.5 * (a + b)
 }
