@@ -4,10 +4,18 @@
 //! solid), becomes a [`Solid`] by its generalised winding number, and is filled with tetrahedra.
 
 mod input;
+#[cfg(feature = "mesh-io")]
+mod read;
+mod repair;
+mod similarity;
 mod solid;
 mod surface;
 
 pub use glam;
 pub use input::{InputMaterial, InputMesh};
+#[cfg(feature = "mesh-io")]
+pub use read::{MOST_BYTES, MOST_TRIANGLES, MeshFormat, ReadError, parse_mesh, read_mesh};
+pub use repair::{RepairError, RepairReport, repair};
+pub use similarity::Similarity;
 pub use solid::{Solid, SurfacePoint};
 pub use surface::Surface;
