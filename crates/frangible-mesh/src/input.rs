@@ -12,7 +12,7 @@ pub struct InputMesh {
     pub positions: Vec<DVec3>,
     /// One unit normal per vertex, or none at all.
     pub normals: Vec<Vec3>,
-    /// One texture coordinate per vertex (v up, as in glTF: origin at the top left), or none at all.
+    /// One texture coordinate per vertex (as in glTF: origin at the top left of the picture, v down), or none at all.
     pub uvs: Vec<Vec2>,
     /// Vertex indices of each triangle.
     pub triangles: Vec<[u32; 3]>,

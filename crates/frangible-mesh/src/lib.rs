@@ -6,6 +6,10 @@
 mod error;
 mod input;
 pub mod quality;
+#[cfg(feature = "mesh-io")]
+mod read;
+mod repair;
+mod similarity;
 mod solid;
 mod stuffing;
 mod surface;
@@ -16,6 +20,10 @@ mod winding;
 pub use error::TetError;
 pub use glam;
 pub use input::{InputMaterial, InputMesh};
+#[cfg(feature = "mesh-io")]
+pub use read::{MOST_BYTES, MOST_TRIANGLES, MeshFormat, ReadError, parse_mesh, read_mesh};
+pub use repair::{RepairError, RepairReport, repair};
+pub use similarity::Similarity;
 pub use solid::{Solid, SurfacePoint};
 pub use stuffing::counted_volume;
 pub use surface::Surface;

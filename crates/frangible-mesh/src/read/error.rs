@@ -1,0 +1,102 @@
+//! Why a mesh file cannot be used.
+
+use std::io;
+use std::path::PathBuf;
+
+use thiserror::Error;
+
+/// Why a mesh file cannot be used. Faces, vertices and lines are counted from 1.
+#[derive(Debug, Error)]
+pub enum ReadError {
+    /// Nothing has this name.
+    #[error("there is no file {}{}", path.display(), did_you_mean(nearest.as_deref()))]
+    Missing {
+        /// What was asked for.
+        path: PathBuf,
+        /// The most similar name in the same folder.
+        nearest: Option<String>,
+    },
+    /// The path names a folder or a device.
+    #[error("{} is not a file; name a mesh file inside it", .0.display())]
+    NotAFile(PathBuf),
+    /// The operating system refuses.
+    #[error("cannot read {}: {source}", path.display())]
+    Unreadable {
+        /// What was asked for.
+        path: PathBuf,
+        /// Its reason.
+        source: io::Error,
+    },
+    /// No bytes.
+    #[error("the file is empty")]
+    Empty,
+    /// Neither the name nor the content tells the format.
+    #[error("cannot tell the format of {name}: known are .obj, .stl, .ply, .gltf and .glb")]
+    UnknownFormat {
+        /// File name, or what stands in for it.
+        name: String,
+    },
+    /// The content ends too soon.
+    #[error("the file is cut off: it ends inside {inside}")]
+    Truncated {
+        /// What was being read.
+        inside: String,
+    },
+    /// The content breaks the rules of its format.
+    #[error("{place}: {problem}")]
+    Malformed {
+        /// Line, face or part of the file.
+        place: String,
+        /// What is wrong there.
+        problem: String,
+    },
+    /// The format allows it, this reader does not know it.
+    #[error("the file needs {0}, which is not supported; export it without")]
+    Unsupported(String),
+    /// A face refers to a vertex that does not exist.
+    #[error("face {face} refers to vertex {index}, but there are only {vertices} (index as in the file)")]
+    IndexOutOfRange {
+        /// Which face, from 1.
+        face: usize,
+        /// The index as the file writes it.
+        index: i64,
+        /// How many vertices the file has.
+        vertices: usize,
+    },
+    /// A coordinate is NaN or infinite.
+    #[error("vertex {vertex} has a coordinate that is not a finite number")]
+    NotFinite {
+        /// Which vertex, from 1.
+        vertex: usize,
+    },
+    /// Nothing to make a solid of.
+    #[error("the file has no triangles; a solid needs a surface, not points, lines or curves")]
+    NoTriangles,
+    /// More than is sensible to read.
+    #[error("the file has {found} {what}, the limit is {limit}; simplify the mesh before reading it")]
+    TooLarge {
+        /// Triangles, vertices or bytes.
+        what: &'static str,
+        /// How many.
+        found: u64,
+        /// How many are allowed.
+        limit: u64,
+    },
+}
+
+impl ReadError {
+    pub(crate) fn malformed(place: impl Into<String>, problem: impl Into<String>) -> Self {
+        Self::Malformed {
+            place: place.into(),
+            problem: problem.into(),
+        }
+    }
+
+    pub(crate) fn truncated(inside: impl Into<String>) -> Self {
+        Self::Truncated { inside: inside.into() }
+    }
+}
+
+fn did_you_mean(nearest: Option<&str>) -> String {
+    nearest.map_or_else(String::new, |name| format!("; did you mean {name}?"))
+}

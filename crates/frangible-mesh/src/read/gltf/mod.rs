@@ -1,0 +1,79 @@
+//! glTF 2.0, as JSON with buffers or as GLB. Skins and morph targets are left in their rest pose.
+
+mod accessor;
+mod buffers;
+mod primitive;
+mod scene;
+
+use std::path::Path;
+
+use gltf_json::Root;
+use gltf_json::material::Material;
+
+use self::buffers::Buffers;
+use self::primitive::Meshes;
+use super::ReadError;
+use crate::{InputMaterial, InputMesh};
+
+/// Extensions that hide the geometry from a reader that does not know them. Others change only how it looks.
+const UNREADABLE: [&str; 4] = [
+    "KHR_draco_mesh_compression",
+    "EXT_meshopt_compression",
+    "KHR_meshopt_compression",
+    "EXT_mesh_gpu_instancing",
+];
+
+pub(crate) fn parse(bytes: &[u8], folder: Option<&Path>) -> Result<InputMesh, ReadError> {
+    let (json, blob) = if bytes.starts_with(b"glTF") {
+        split_glb(bytes)?
+    } else {
+        (bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes), None)
+    };
+    let root: Root = gltf_json::deserialize::from_slice(json)
+        .map_err(|error| ReadError::malformed("the JSON of the glTF", error.to_string()))?;
+    if let Some(extension) = root.extensions_required.iter().find(|e| UNREADABLE.contains(&e.as_str())) {
+        return Err(ReadError::Unsupported(format!("the glTF extension {extension}")));
+    }
+    let buffers = Buffers::read(&root, blob, folder)?;
+    let mut meshes = Meshes::new(&root, &buffers);
+    for (node, transform) in scene::instances(&root)? {
+        meshes.add(node, transform)?;
+    }
+    let mut mesh = meshes.mesh;
+    mesh.materials = root.materials.iter().map(material).collect();
+    Ok(mesh)
+}
+
+/// The JSON and binary chunks of a GLB.
+fn split_glb(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), ReadError> {
+    let word = |at: usize| bytes.get(at..at.checked_add(4)?)?.try_into().ok().map(u32::from_le_bytes);
+    let version = word(4).ok_or_else(|| ReadError::truncated("the GLB header"))?;
+    if version != 2 {
+        return Err(ReadError::Unsupported(format!("glTF version {version}")));
+    }
+    let chunk = |at: usize, kind: &[u8]| {
+        let length = word(at)? as usize;
+        (bytes.get(at + 4..at + 8)? == kind).then_some(length)
+    };
+    let Some(length) = chunk(12, b"JSON") else {
+        return Err(ReadError::malformed("the GLB", "its first chunk is not JSON"));
+    };
+    let json = bytes.get(20..20 + length).ok_or_else(|| ReadError::truncated("the JSON chunk"))?;
+    let start = 20 + length;
+    let blob = match chunk(start, b"BIN\0") {
+        Some(length) => Some(bytes.get(start + 8..start + 8 + length).ok_or_else(|| ReadError::truncated("the binary chunk"))?),
+        None => None,
+    };
+    Ok((json, blob))
+}
+
+fn material(material: &Material) -> InputMaterial {
+    let pbr = &material.pbr_metallic_roughness;
+    let share = |v: f32| if v.is_finite() { v.clamp(0.0, 1.0) } else { 1.0 };
+    InputMaterial {
+        name: material.name.clone().unwrap_or_default(),
+        base_color: pbr.base_color_factor.0.map(share),
+        metallic: share(pbr.metallic_factor.0),
+        roughness: share(pbr.roughness_factor.0),
+    }
+}

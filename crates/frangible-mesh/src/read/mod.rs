@@ -1,0 +1,116 @@
+//! Mesh files to [`InputMesh`].
+//!
+//! OBJ, STL and PLY are read here: the crates for them either lose the place of an error and the double precision,
+//! take a binary STL whose header says “solid” for text, or build a map of strings per vertex. glTF's JSON is
+//! `gltf-json`'s; its buffers are decoded here with every range checked.
+
+mod error;
+mod finish;
+mod format;
+mod gltf;
+mod nearest;
+mod obj;
+mod ply;
+mod polygon;
+mod stl;
+mod text;
+
+use std::io;
+use std::path::Path;
+
+pub use error::ReadError;
+pub use format::MeshFormat;
+
+use crate::InputMesh;
+
+/// Most triangles of one file.
+pub const MOST_TRIANGLES: u64 = 20_000_000;
+
+/// Most vertices of one file: three for each triangle.
+pub(crate) const MOST_VERTICES: u64 = 3 * MOST_TRIANGLES;
+
+/// Most bytes of one file, and of each file that it refers to.
+pub const MOST_BYTES: u64 = 2_000_000_000;
+
+/// Reads a mesh file, with the material library or buffers beside it.
+///
+/// The ending of the name tells the format, unless the first bytes clearly tell another; then those count and a
+/// warning is logged.
+///
+/// # Errors
+/// See [`ReadError`]; only those about the file itself name its path.
+pub fn read_mesh(path: &Path) -> Result<InputMesh, ReadError> {
+    let bytes = read_file(path)?;
+    let by_name = MeshFormat::from_extension(path);
+    let by_content = MeshFormat::sniff(&bytes);
+    let format = match (by_name, by_content) {
+        (Some(named), Some(found)) if named != found => {
+            log::warn!("{} holds {found:?} data; it is read as that", path.display());
+            found
+        }
+        (Some(format), _) | (None, Some(format)) => format,
+        (None, None) => {
+            let name = path.display().to_string();
+            return Err(ReadError::UnknownFormat { name });
+        }
+    };
+    parse_mesh(format, &bytes, path.parent())
+}
+
+/// Reads a mesh from memory. `folder` is where files that it refers to are looked for; without it a material library
+/// is passed over and an external buffer is an error.
+///
+/// # Errors
+/// See [`ReadError`].
+pub fn parse_mesh(format: MeshFormat, bytes: &[u8], folder: Option<&Path>) -> Result<InputMesh, ReadError> {
+    check_bytes(bytes.len() as u64)?;
+    if bytes.is_empty() {
+        return Err(ReadError::Empty);
+    }
+    let mesh = match format {
+        MeshFormat::Obj => obj::parse(bytes, folder),
+        MeshFormat::Stl => stl::parse(bytes),
+        MeshFormat::Ply => ply::parse(bytes),
+        MeshFormat::Gltf => gltf::parse(bytes, folder),
+    }?;
+    finish::finish(mesh)
+}
+
+/// Reads a whole file of at most [`MOST_BYTES`].
+pub(crate) fn read_file(path: &Path) -> Result<Vec<u8>, ReadError> {
+    let unreadable = |source: io::Error| match source.kind() {
+        io::ErrorKind::NotFound => ReadError::Missing {
+            path: path.to_path_buf(),
+            nearest: nearest::nearest_file(path),
+        },
+        _ => ReadError::Unreadable {
+            path: path.to_path_buf(),
+            source,
+        },
+    };
+    let about = std::fs::metadata(path).map_err(unreadable)?;
+    if !about.is_file() {
+        return Err(ReadError::NotAFile(path.to_path_buf()));
+    }
+    check_bytes(about.len())?;
+    std::fs::read(path).map_err(unreadable)
+}
+
+fn check_bytes(found: u64) -> Result<(), ReadError> {
+    check_limit("bytes", found, MOST_BYTES)
+}
+
+pub(crate) fn check_triangles(found: u64) -> Result<(), ReadError> {
+    check_limit("triangles", found, MOST_TRIANGLES)
+}
+
+pub(crate) fn check_vertices(found: u64) -> Result<(), ReadError> {
+    check_limit("vertices", found, MOST_VERTICES)
+}
+
+fn check_limit(what: &'static str, found: u64, limit: u64) -> Result<(), ReadError> {
+    if found > limit {
+        return Err(ReadError::TooLarge { what, found, limit });
+    }
+    Ok(())
+}

@@ -1,0 +1,150 @@
+//! Wavefront OBJ: polygons with textures and normals. Curves, lines and points are passed over.
+
+mod corners;
+mod mtl;
+
+use std::path::Path;
+
+use glam::{DVec3, Vec2, Vec3};
+
+use self::corners::{Corner, Splitter};
+use self::mtl::Materials;
+use super::finish::NO_MATERIAL;
+use super::polygon::triangulate;
+use super::text::{Lines, next_number, shown, words};
+use super::{ReadError, check_triangles, check_vertices};
+use crate::InputMesh;
+
+/// The file as it stands: faces keep their triples of indices until all vertices are known.
+#[derive(Default)]
+struct Obj {
+    positions: Vec<DVec3>,
+    uvs: Vec<Vec2>,
+    normals: Vec<Vec3>,
+    corners: Vec<Corner>,
+    /// Where the corners of each face end, and its material.
+    faces: Vec<(u32, u32)>,
+    triangles: u64,
+}
+
+pub(crate) fn parse(bytes: &[u8], folder: Option<&Path>) -> Result<InputMesh, ReadError> {
+    let mut obj = Obj::default();
+    let mut materials = Materials::default();
+    let mut material = NO_MATERIAL;
+    for (line, text) in Lines::new(bytes) {
+        let mut words = words(&text);
+        match words.next() {
+            Some(b"v") => obj.positions.push(vector(&mut words, line)?),
+            Some(b"vn") => obj.normals.push(vector(&mut words, line)?.as_vec3()),
+            Some(b"vt") => {
+                let u = next_number(&mut words, line)?;
+                let v = words.next().and_then(super::text::number).unwrap_or(0.0);
+                // The file's origin is the lower left corner of the picture.
+                obj.uvs.push(Vec2::new(u as f32, 1.0 - v as f32));
+            }
+            Some(b"f" | b"fo") => obj.face(&mut words, line, material)?,
+            Some(b"usemtl") => material = materials.use_named(rest_of(&text, b"usemtl")),
+            Some(b"mtllib") => materials.read_library(rest_of(&text, b"mtllib"), folder),
+            _ => {}
+        }
+        check_vertices(obj.positions.len().max(obj.uvs.len()).max(obj.normals.len()) as u64)?;
+    }
+    let mut mesh = obj.assemble()?;
+    mesh.materials = materials.list;
+    Ok(mesh)
+}
+
+fn vector<'a>(words: &mut impl Iterator<Item = &'a [u8]>, line: usize) -> Result<DVec3, ReadError> {
+    let mut next = || next_number(words, line);
+    Ok(DVec3::new(next()?, next()?, next()?))
+}
+
+/// Names may hold spaces.
+fn rest_of<'a>(text: &'a [u8], keyword: &[u8]) -> &'a [u8] {
+    text.strip_prefix(keyword).unwrap_or_default().trim_ascii()
+}
+
+impl Obj {
+    fn face<'a>(&mut self, words: &mut impl Iterator<Item = &'a [u8]>, line: usize, material: u32) -> Result<(), ReadError> {
+        let first = self.corners.len();
+        for word in words {
+            if word.starts_with(b"#") {
+                break;
+            }
+            let corner = self.corner(word, line)?;
+            self.corners.push(corner);
+        }
+        let count = self.corners.len() - first;
+        if count < 3 {
+            let problem = format!("a face needs three corners, this one has {count}");
+            return Err(ReadError::malformed(format!("line {line}"), problem));
+        }
+        self.triangles += count as u64 - 2;
+        check_triangles(self.triangles)?;
+        self.faces.push((self.corners.len() as u32, material));
+        Ok(())
+    }
+
+    /// `v`, `v/vt`, `v//vn` or `v/vt/vn`.
+    fn corner(&self, word: &[u8], line: usize) -> Result<Corner, ReadError> {
+        let not_a_corner = || {
+            let problem = format!("“{}” is not a corner of a face", shown(word));
+            ReadError::malformed(format!("line {line}"), problem)
+        };
+        let mut parts = word.split(|&b| b == b'/');
+        let mut index = |there: usize| match parts.next() {
+            None | Some(b"") => Ok(None),
+            Some(digits) => {
+                let index = std::str::from_utf8(digits).ok().and_then(|d| d.parse::<i64>().ok());
+                let index = index.ok_or_else(not_a_corner)?;
+                self.resolve(index, there).map(Some)
+            }
+        };
+        let corner = Corner {
+            position: index(self.positions.len())?.ok_or_else(not_a_corner)?,
+            uv: index(self.uvs.len())?.unwrap_or(Corner::NONE),
+            normal: index(self.normals.len())?.unwrap_or(Corner::NONE),
+        };
+        Ok(corner)
+    }
+
+    /// From the file's index, which counts from 1, or backwards from the latest.
+    fn resolve(&self, index: i64, there: usize) -> Result<u32, ReadError> {
+        let from_zero = if index > 0 {
+            Some(index - 1)
+        } else {
+            (there as i64).checked_add(index).filter(|&i| i >= 0 && index != 0)
+        };
+        from_zero
+            .and_then(|i| u32::try_from(i).ok())
+            .filter(|&i| i != Corner::NONE)
+            .ok_or(ReadError::IndexOutOfRange {
+                face: self.faces.len() + 1,
+                index,
+                vertices: there,
+            })
+    }
+
+    fn assemble(self) -> Result<InputMesh, ReadError> {
+        let mut splitter = Splitter::new(&self.positions, &self.uvs, &self.normals, &self.corners);
+        let mut mesh = InputMesh::default();
+        let mut vertices = Vec::new();
+        let mut points = Vec::new();
+        let mut local = Vec::new();
+        let mut first = 0;
+        for (face, &(end, material)) in self.faces.iter().enumerate() {
+            vertices.clear();
+            points.clear();
+            for &corner in self.corners.get(first..end as usize).unwrap_or_default() {
+                vertices.push(splitter.vertex(corner, face)?);
+                points.push(self.positions[corner.position as usize]);
+            }
+            first = end as usize;
+            triangulate(&points, &mut local);
+            mesh.triangles.extend(local.iter().map(|t| t.map(|k| vertices[k as usize])));
+            mesh.material_of_triangle.resize(mesh.triangles.len(), material);
+        }
+        splitter.finish(&mut mesh);
+        Ok(mesh)
+    }
+}

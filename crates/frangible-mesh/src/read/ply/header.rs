@@ -1,0 +1,119 @@
+//! What a PLY file says that it holds.
+
+use crate::read::ReadError;
+use crate::read::text::{shown, words};
+
+#[derive(Clone, Copy)]
+pub(super) enum Encoding {
+    Text,
+    LittleEndian,
+    BigEndian,
+}
+
+#[derive(Clone, Copy)]
+pub(super) enum Kind {
+    I8,
+    U8,
+    I16,
+    U16,
+    I32,
+    U32,
+    F32,
+    F64,
+}
+
+pub(super) struct Property {
+    pub(super) name: Vec<u8>,
+    pub(super) value: Kind,
+    /// For lists: how their length is written.
+    pub(super) count: Option<Kind>,
+}
+
+pub(super) struct Element {
+    pub(super) name: Vec<u8>,
+    pub(super) count: u64,
+    pub(super) properties: Vec<Property>,
+}
+
+pub(super) struct Header {
+    pub(super) encoding: Encoding,
+    pub(super) elements: Vec<Element>,
+}
+
+impl Header {
+    /// The header, and the bytes behind it.
+    pub(super) fn parse(bytes: &[u8]) -> Result<(Self, &[u8]), ReadError> {
+        let mut rest = bytes;
+        let mut encoding = None;
+        let mut elements: Vec<Element> = Vec::new();
+        for line in 1.. {
+            let Some(end) = rest.iter().position(|&b| b == b'\n') else {
+                return Err(ReadError::truncated("the header"));
+            };
+            let (text, after) = (&rest[..end], &rest[end + 1..]);
+            rest = after;
+            let words: Vec<&[u8]> = words(text).collect();
+            let bad = || ReadError::malformed(format!("line {line}"), format!("“{}” is no PLY header line", shown(text)));
+            if line == 1 {
+                if words != [b"ply"] {
+                    return Err(ReadError::malformed("line 1", "a PLY file begins with the line “ply”"));
+                }
+                continue;
+            }
+            match words.as_slice() {
+                [b"end_header"] => break,
+                [] | [b"comment" | b"obj_info", ..] => {}
+                [b"format", name, ..] => encoding = Some(encoding_named(name).ok_or_else(bad)?),
+                [b"element", name, count] => elements.push(Element {
+                    name: name.to_vec(),
+                    count: whole_number(count).ok_or_else(bad)?,
+                    properties: Vec::new(),
+                }),
+                [b"property", b"list", count, value, name] => {
+                    let count = Some(kind_named(count).ok_or_else(bad)?);
+                    let value = kind_named(value).ok_or_else(bad)?;
+                    let name = name.to_vec();
+                    let element = elements.last_mut().ok_or_else(bad)?;
+                    element.properties.push(Property { name, value, count });
+                }
+                [b"property", value, name] => {
+                    let value = kind_named(value).ok_or_else(bad)?;
+                    let name = name.to_vec();
+                    let count = None;
+                    let element = elements.last_mut().ok_or_else(bad)?;
+                    element.properties.push(Property { name, value, count });
+                }
+                _ => return Err(bad()),
+            }
+        }
+        let encoding = encoding.ok_or_else(|| ReadError::malformed("the header", "it has no line “format …”"))?;
+        Ok((Self { encoding, elements }, rest))
+    }
+}
+
+fn whole_number(word: &[u8]) -> Option<u64> {
+    std::str::from_utf8(word).ok()?.parse().ok()
+}
+
+fn encoding_named(name: &[u8]) -> Option<Encoding> {
+    match name {
+        b"ascii" => Some(Encoding::Text),
+        b"binary_little_endian" => Some(Encoding::LittleEndian),
+        b"binary_big_endian" => Some(Encoding::BigEndian),
+        _ => None,
+    }
+}
+
+fn kind_named(name: &[u8]) -> Option<Kind> {
+    Some(match name {
+        b"char" | b"int8" => Kind::I8,
+        b"uchar" | b"uint8" => Kind::U8,
+        b"short" | b"int16" => Kind::I16,
+        b"ushort" | b"uint16" => Kind::U16,
+        b"int" | b"int32" => Kind::I32,
+        b"uint" | b"uint32" => Kind::U32,
+        b"float" | b"float32" => Kind::F32,
+        b"double" | b"float64" => Kind::F64,
+        _ => return None,
+    })
+}

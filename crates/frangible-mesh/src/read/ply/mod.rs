@@ -1,0 +1,159 @@
+//! Stanford PLY: text, little and big endian.
+
+mod header;
+mod values;
+
+use glam::{DVec3, Vec2, Vec3};
+
+use self::header::{Element, Header, Property};
+use self::values::Values;
+use super::polygon::triangulate;
+use super::{ReadError, check_triangles, check_vertices};
+use crate::InputMesh;
+
+pub(crate) fn parse(bytes: &[u8]) -> Result<InputMesh, ReadError> {
+    let (header, body) = Header::parse(bytes)?;
+    let mut values = Values::new(header.encoding, body);
+    let mut mesh = InputMesh::default();
+    let mut faces = Faces::default();
+    for element in &header.elements {
+        match element.name.as_slice() {
+            b"vertex" => read_vertices(element, &mut values, &mut mesh)?,
+            b"face" => faces.read(element, &mut values)?,
+            _ => skip(element, &mut values)?,
+        }
+    }
+    faces.triangulate(&mut mesh)?;
+    Ok(mesh)
+}
+
+/// Where a vertex property goes.
+#[derive(Clone, Copy)]
+enum Slot {
+    Position(usize),
+    Normal(usize),
+    Uv(usize),
+    Nowhere,
+}
+
+fn slot(property: &Property) -> Slot {
+    match property.name.as_slice() {
+        b"x" => Slot::Position(0),
+        b"y" => Slot::Position(1),
+        b"z" => Slot::Position(2),
+        b"nx" => Slot::Normal(0),
+        b"ny" => Slot::Normal(1),
+        b"nz" => Slot::Normal(2),
+        b"s" | b"u" | b"texture_u" => Slot::Uv(0),
+        b"t" | b"v" | b"texture_v" => Slot::Uv(1),
+        _ => Slot::Nowhere,
+    }
+}
+
+fn read_vertices(element: &Element, values: &mut Values, mesh: &mut InputMesh) -> Result<(), ReadError> {
+    check_vertices(element.count.saturating_add(mesh.positions.len() as u64))?;
+    let slots: Vec<Slot> = element.properties.iter().map(slot).collect();
+    for k in 0..3 {
+        if !slots.iter().any(|slot| matches!(slot, Slot::Position(at) if *at == k)) {
+            let problem = format!("vertices have no {}", ["x", "y", "z"][k]);
+            return Err(ReadError::malformed("the header", problem));
+        }
+    }
+    let has_normals = slots.iter().any(|slot| matches!(slot, Slot::Normal(_)));
+    let has_uvs = slots.iter().any(|slot| matches!(slot, Slot::Uv(_)));
+    for row in 0..element.count {
+        let place = || format!("vertex {}", row + 1);
+        let (mut position, mut normal, mut uv) = ([0.0; 3], [0.0_f32; 3], [0.0_f32; 2]);
+        for (property, slot) in element.properties.iter().zip(&slots) {
+            if property.count.is_some() {
+                values.skip(property, place)?;
+                continue;
+            }
+            let value = values.next(property.value, place)?;
+            match *slot {
+                Slot::Position(k) => position[k] = value,
+                Slot::Normal(k) => normal[k] = value as f32,
+                Slot::Uv(k) => uv[k] = value as f32,
+                Slot::Nowhere => {}
+            }
+        }
+        mesh.positions.push(DVec3::from(position));
+        if has_normals {
+            mesh.normals.push(Vec3::from(normal));
+        }
+        if has_uvs {
+            // The file's origin is the lower left corner of the picture.
+            mesh.uvs.push(Vec2::new(uv[0], 1.0 - uv[1]));
+        }
+    }
+    Ok(())
+}
+
+/// Faces as the file has them: vertices may come after them.
+#[derive(Default)]
+struct Faces {
+    corners: Vec<i64>,
+    ends: Vec<u32>,
+    triangles: u64,
+}
+
+impl Faces {
+    fn read(&mut self, element: &Element, values: &mut Values) -> Result<(), ReadError> {
+        check_triangles(element.count)?;
+        let is_face = |p: &Property| p.count.is_some() && [&b"vertex_indices"[..], b"vertex_index"].contains(&&p.name[..]);
+        if !element.properties.iter().any(is_face) {
+            return Err(ReadError::malformed("the header", "faces have no list named vertex_indices"));
+        }
+        for row in 0..element.count {
+            let place = || format!("face {}", row + 1);
+            for property in &element.properties {
+                let Some(count) = property.count.filter(|_| is_face(property)) else {
+                    values.skip(property, place)?;
+                    continue;
+                };
+                let count = values.list_length(count, place)?;
+                self.triangles += count.saturating_sub(2);
+                check_triangles(self.triangles)?;
+                for _ in 0..count {
+                    self.corners.push(values.next(property.value, place)? as i64);
+                }
+                self.ends.push(self.corners.len() as u32);
+            }
+        }
+        Ok(())
+    }
+
+    fn triangulate(&self, mesh: &mut InputMesh) -> Result<(), ReadError> {
+        let vertices = mesh.positions.len();
+        let mut points = Vec::new();
+        let mut local = Vec::new();
+        let mut first = 0;
+        for (face, &end) in self.ends.iter().enumerate() {
+            let corners = self.corners.get(first..end as usize).unwrap_or_default();
+            first = end as usize;
+            points.clear();
+            for &index in corners {
+                let position = usize::try_from(index).ok().and_then(|v| mesh.positions.get(v));
+                let face = face + 1;
+                points.push(*position.ok_or(ReadError::IndexOutOfRange { face, index, vertices })?);
+            }
+            triangulate(&points, &mut local);
+            let triangles = local.iter().map(|t| t.map(|k| corners[k as usize] as u32));
+            mesh.triangles.extend(triangles);
+        }
+        Ok(())
+    }
+}
+
+fn skip(element: &Element, values: &mut Values) -> Result<(), ReadError> {
+    if element.properties.is_empty() {
+        return Ok(());
+    }
+    let name = String::from_utf8_lossy(&element.name);
+    for row in 0..element.count {
+        for property in &element.properties {
+            values.skip(property, || format!("{name} {}", row + 1))?;
+        }
+    }
+    Ok(())
+}

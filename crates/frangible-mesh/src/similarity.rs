@@ -1,0 +1,72 @@
+//! Bodies moved and resized as a whole.
+
+use glam::DVec3;
+
+use crate::{InputMesh, Surface};
+
+/// `p ↦ scale · p + shift`: what keeps a drawn mesh and its solid surface aligned when both get it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Similarity {
+    /// Factor of all lengths, above 0.
+    pub scale: f64,
+    /// Added after scaling, m.
+    pub shift: DVec3,
+}
+
+impl Similarity {
+    /// Leaves everything where it is.
+    pub const IDENTITY: Self = Self {
+        scale: 1.0,
+        shift: DVec3::ZERO,
+    };
+
+    /// Gives the box `[low, high]` the longest side `longest`, m, its centre staying where it is. A box without extent
+    /// is left as it is.
+    #[must_use]
+    pub fn resizing([low, high]: [DVec3; 2], longest: f64) -> Self {
+        let scale = longest / (high - low).max_element();
+        if !(scale.is_finite() && scale > 0.0) {
+            return Self::IDENTITY;
+        }
+        let centre = 0.5 * low + 0.5 * high;
+        let shift = (1.0 - scale) * centre;
+        Self { scale, shift }
+    }
+
+    /// Where `p` goes.
+    #[must_use]
+    pub fn apply(&self, p: DVec3) -> DVec3 {
+        self.scale * p + self.shift
+    }
+}
+
+impl Surface {
+    /// Moves and scales all vertices.
+    pub fn transform(&mut self, by: &Similarity) {
+        for p in &mut self.positions {
+            *p = by.apply(*p);
+        }
+    }
+
+    /// Gives the bounding box the longest side `longest`, m, about its centre; returns what to apply to the
+    /// [`InputMesh`].
+    pub fn resize(&mut self, longest: f64) -> Similarity {
+        let similarity = Similarity::resizing(self.bounds(), longest);
+        self.transform(&similarity);
+        similarity
+    }
+
+    /// Moves all vertices by `shift`, m.
+    pub fn translate(&mut self, shift: DVec3) {
+        self.transform(&Similarity { scale: 1.0, shift });
+    }
+}
+
+impl InputMesh {
+    /// Moves and scales all vertices.
+    pub fn transform(&mut self, by: &Similarity) {
+        for p in &mut self.positions {
+            *p = by.apply(*p);
+        }
+    }
+}
