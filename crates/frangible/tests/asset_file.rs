@@ -356,7 +356,7 @@ fn sections_of_unknown_number_are_skipped() {
 fn arrays_that_do_not_fit_are_refused() {
     let nan = f32::NAN;
     type Change = fn(&mut Asset);
-    let cases: [(Change, &str); 32] = [
+    let cases: [(Change, &str); 34] = [
         (|a| a.material.density = f64::NAN, "density"),
         (|a| a.mass.mass = 0.0, "its mass is 0"),
         (|a| a.mass.volume = f64::INFINITY, "its volume is inf"),
@@ -391,11 +391,19 @@ fn arrays_that_do_not_fit_are_refused() {
         ),
         (
             |a| a.surface.triangles[1] = [0, 1, 99],
-            "surface triangle 1 is no face",
+            "surface triangle 1 is no outer face",
         ),
         (
             |a| a.surface.tets[1] = 6,
             "surface triangle 1 names tetrahedron 6",
+        ),
+        (
+            |a| drop(a.surface.triangles.pop()),
+            "surface triangle per outer face",
+        ),
+        (
+            |a| a.surface.triangles[1] = [0, 0, 0],
+            "surface triangle 1 is no outer face",
         ),
         (
             |a| a.surface.normals.clear(),

@@ -37,6 +37,9 @@ impl Asset {
     fn check_surface(&self) -> Check {
         let (mesh, surface) = (&self.fracture, &self.surface);
         let count = surface.triangles.len();
+        let faces = mesh.neighbours.iter().flatten();
+        let outer = faces.filter(|&&n| n == NO_NEIGHBOUR).count();
+        one_each("outer face", outer, "surface triangle", count)?;
         one_each("surface triangle", count, "tetrahedron", surface.tets.len())?;
         one_each(
             "surface triangle",
@@ -53,9 +56,12 @@ impl Asset {
                     mesh.tets.len()
                 ));
             };
-            if !triangle.iter().all(|v| behind.contains(v)) {
+            let open = mesh.neighbours.get(tet as usize);
+            let mut faces = FACES.iter().zip(open.into_iter().flatten());
+            let is = |face: &[usize; 3]| face.iter().all(|&i| triangle.contains(&behind[i]));
+            if !faces.any(|(face, &neighbour)| neighbour == NO_NEIGHBOUR && is(face)) {
                 return Err(format!(
-                    "surface triangle {t} is no face of tetrahedron {tet}, which it names"
+                    "surface triangle {t} is no outer face of tetrahedron {tet}, which it names"
                 ));
             }
         }
