@@ -8,7 +8,7 @@ fn a_baked_asset_comes_back_bit_for_bit() {
     let material = Material::preset("glass").unwrap();
     let mut spec = BakeSpec::new("glass", Shape::drinking_glass(), material);
     let size = |edge| Some(MeshSize { edge, layers: 1 });
-    (spec.analysis, spec.fracture) = (size(0.016), size(0.008));
+    (spec.analysis, spec.fracture) = (size(0.011), size(0.004));
     spec.modes = 12;
     let (asset, _) = bake(&spec, &mut |_| {}).unwrap();
 
