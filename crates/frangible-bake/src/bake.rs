@@ -170,6 +170,7 @@ pub fn bake(
         mass,
         cells,
         cell_of_tet: fine.cell_of_tet,
+        render: None,
     };
     asset.validate()?;
     Ok((asset, report))

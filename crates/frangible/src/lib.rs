@@ -29,7 +29,7 @@ mod presets;
 mod rng;
 pub mod stress;
 
-pub use asset::Asset;
+pub use asset::{Asset, AssetFileError};
 pub use body::Body;
 pub use config::{CrackPath, CrackTiming, DurationModel, FractureConfig};
 pub use contact::{Contact, Striker};

@@ -87,6 +87,7 @@ pub fn box_asset(half: Vec3, cells: [usize; 3]) -> Arc<Asset> {
         modes: ModalBasis::default(),
         cells: convex,
         cell_of_tet,
+        render: None,
     })
 }
 

@@ -87,6 +87,7 @@ fn block(n: usize) -> Asset {
         modes: ModalBasis::default(),
         mass,
         cells: vec![ConvexCell::default()],
+        render: None,
     }
 }
 

@@ -1,11 +1,19 @@
 //! What a bake produces and the run time needs: one immutable value per kind of object.
 
+mod file;
+mod render;
+mod validate;
+
 use glam::Vec3;
 
-use crate::error::InputError;
 use crate::material::Material;
 use crate::mesh::{MassProperties, TetMesh};
 use crate::modal::ModalBasis;
+
+#[doc(hidden)]
+pub use file::seal;
+pub use file::{AssetFileError, FORMAT_VERSION};
+pub use render::{RenderMaterial, RenderSurface};
 
 /// Everything the run time needs of one kind of object. Share it (`Arc`) among all bodies of that kind.
 ///
@@ -32,6 +40,9 @@ pub struct Asset {
     pub cells: Vec<ConvexCell>,
     /// Convex cell of each fracture tetrahedron: one index into [`Asset::cells`] per tetrahedron.
     pub cell_of_tet: Vec<u32>,
+    /// The surface as its author drew it, kept for drawing and for clipping; physics never reads it.
+    /// `None` where the fracture mesh's own surface is all there is.
+    pub render: Option<RenderSurface>,
 }
 
 /// Outer boundary of the fracture mesh, oriented outwards.
@@ -84,80 +95,4 @@ pub struct Embedding {
 pub struct ConvexCell {
     /// Points whose convex hull is the part, m, body frame.
     pub points: Vec<Vec3>,
-}
-
-impl Asset {
-    /// Checks that all arrays fit together and hold finite numbers.
-    ///
-    /// # Errors
-    /// [`InputError::Asset`] with the first array at fault.
-    pub fn validate(&self) -> Result<(), InputError> {
-        self.material.validate()?;
-        let fail = |problem: String| {
-            Err(InputError::Asset {
-                asset: self.name.clone(),
-                problem,
-            })
-        };
-        let (nodes, tets) = (self.fracture.positions.len(), self.fracture.tets.len());
-        if tets == 0 {
-            return fail("it has no tetrahedra".into());
-        }
-        if let Some(e) = self
-            .fracture
-            .tets
-            .iter()
-            .position(|t| t.iter().any(|&v| v as usize >= nodes))
-        {
-            return fail(format!(
-                "tetrahedron {e} names a node beyond the {nodes} there are"
-            ));
-        }
-        if let Some(v) = self.fracture.positions.iter().position(|p| !p.is_finite()) {
-            return fail(format!("the position of node {v} is not finite"));
-        }
-        if self.fracture.neighbours.len() != tets
-            || self.cell_of_tet.len() != tets
-            || self.embedding.tets.len() != tets
-        {
-            return fail(format!(
-                "{tets} tetrahedra, but {} neighbour rows, {} cell numbers, {} embedded centroids",
-                self.fracture.neighbours.len(),
-                self.cell_of_tet.len(),
-                self.embedding.tets.len()
-            ));
-        }
-        if self.embedding.nodes.len() != nodes {
-            return fail(format!(
-                "{nodes} nodes, but {} embedded nodes",
-                self.embedding.nodes.len()
-            ));
-        }
-        let elements = self.analysis.elements.len();
-        let mut points = self.embedding.tets.iter().chain(&self.embedding.nodes);
-        if points.any(|p| p.element as usize >= elements) {
-            return fail(format!(
-                "an embedded point names an analysis element beyond the {elements} there are"
-            ));
-        }
-        let rows = 3 * self.analysis.nodes.len();
-        let modes = self.modes.count();
-        if self.modes.shapes.len() != rows * modes {
-            return fail(format!(
-                "mode shapes hold {} numbers, not {rows} × {modes}",
-                self.modes.shapes.len()
-            ));
-        }
-        if self
-            .cell_of_tet
-            .iter()
-            .any(|&c| c as usize >= self.cells.len())
-        {
-            return fail(format!(
-                "a cell number lies beyond the {} cells",
-                self.cells.len()
-            ));
-        }
-        Ok(())
-    }
 }

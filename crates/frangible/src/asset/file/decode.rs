@@ -1,0 +1,195 @@
+//! Bytes to asset.
+
+use glam::{DMat3, DVec3, Vec3};
+
+use super::AssetFileError;
+use super::reader::Reader;
+use super::sections::{self as s, Section};
+use crate::asset::{
+    AnalysisMesh, Asset, ConvexCell, EmbeddedPoint, Embedding, OuterSurface, RenderMaterial,
+    RenderSurface,
+};
+use crate::material::Material;
+use crate::mesh::{MassProperties, TetMesh};
+use crate::modal::ModalBasis;
+
+impl Asset {
+    /// Reads what [`Asset::to_bytes`] wrote. Sections of unknown number are skipped.
+    ///
+    /// Nothing is trusted: what this gives has passed [`Asset::validate`].
+    ///
+    /// # Errors
+    /// [`AssetFileError`]: bytes of another kind or version, missing or changed ones, sections that do not fit
+    /// in the file, arrays that do not fit together.
+    pub fn from_bytes(bytes: &[u8]) -> Result<Self, AssetFileError> {
+        let r = Reader::new(bytes)?;
+        let of_tets = [s::TET_ELEMENTS, s::TET_BARYCENTRIC, s::TET_OFFSETS];
+        let of_nodes = [s::NODE_ELEMENTS, s::NODE_BARYCENTRIC, s::NODE_OFFSETS];
+        let asset = Self {
+            name: r.text(s::NAME)?.to_owned(),
+            material: material(r.text(s::MATERIAL_NAME)?, r.one(s::MATERIAL)?),
+            fracture: TetMesh {
+                positions: r.rows(s::POSITIONS)?,
+                tets: r.rows(s::TETS)?,
+                neighbours: r.rows(s::NEIGHBOURS)?,
+            },
+            surface: OuterSurface {
+                triangles: r.rows(s::SURFACE_TRIANGLES)?,
+                tets: r.rows(s::SURFACE_TETS)?,
+                normals: r.rows(s::SURFACE_NORMALS)?,
+                curvature_radius: r.rows(s::SURFACE_CURVATURE)?,
+            },
+            analysis: AnalysisMesh {
+                nodes: r.rows(s::ANALYSIS_NODES)?,
+                elements: r.rows(s::ANALYSIS_ELEMENTS)?,
+                barycentric_gradients: r.rows(s::ANALYSIS_GRADIENTS)?,
+            },
+            embedding: Embedding {
+                tets: embedded(&r, of_tets)?,
+                nodes: embedded(&r, of_nodes)?,
+            },
+            modes: ModalBasis {
+                eigenvalues: r.rows(s::EIGENVALUES)?,
+                shapes: r.rows(s::MODE_SHAPES)?,
+                peak_stress: r.rows(s::PEAK_STRESS)?,
+            },
+            mass: mass(r.one(s::MASS)?),
+            cells: cells(&r)?,
+            cell_of_tet: r.rows(s::CELL_OF_TET)?,
+            render: render(&r)?,
+        };
+        asset.validate()?;
+        Ok(asset)
+    }
+}
+
+fn material(name: &str, numbers: [f64; 13]) -> Material {
+    let [
+        youngs_modulus,
+        poisson_ratio,
+        density,
+        stiffness_damping,
+        mass_damping,
+        strength,
+        fracture_energy,
+        energy_depth,
+        weak_point_density,
+        roughness_amplitude,
+        roughness_wavelength,
+        restitution,
+        friction,
+    ] = numbers;
+    Material {
+        name: name.to_owned(),
+        youngs_modulus,
+        poisson_ratio,
+        density,
+        stiffness_damping,
+        mass_damping,
+        strength,
+        fracture_energy,
+        energy_depth,
+        weak_point_density,
+        roughness_amplitude,
+        roughness_wavelength,
+        restitution,
+        friction,
+    }
+}
+
+fn mass([mass, volume, x, y, z, inertia @ ..]: [f64; 14]) -> MassProperties {
+    MassProperties {
+        mass,
+        volume,
+        centre: DVec3::new(x, y, z),
+        inertia: DMat3::from_cols_array(&inertia),
+    }
+}
+
+fn embedded(r: &Reader<'_>, sections: [Section; 3]) -> Result<Vec<EmbeddedPoint>, AssetFileError> {
+    let [of_elements, of_barycentric, of_offsets] = sections;
+    let elements = r.each::<u32>(of_elements)?;
+    let barycentric = r.each::<[f32; 4]>(of_barycentric)?;
+    let offsets = r.each::<Vec3>(of_offsets)?;
+    for (section, rows) in [
+        (of_barycentric, barycentric.len()),
+        (of_offsets, offsets.len()),
+    ] {
+        if rows != elements.len() {
+            let problem = format!("has {rows} rows, not {}", elements.len());
+            return Err(AssetFileError::section(section.name, problem));
+        }
+    }
+    let points = elements.zip(barycentric).zip(offsets);
+    Ok(points
+        .map(|((element, barycentric), offset)| EmbeddedPoint {
+            element,
+            barycentric,
+            offset,
+        })
+        .collect())
+}
+
+fn cells(r: &Reader<'_>) -> Result<Vec<ConvexCell>, AssetFileError> {
+    let mut points = r.each::<Vec3>(s::CELL_POINTS)?;
+    let sizes = r.rows::<u32>(s::CELL_SIZES)?;
+    // Empty cells would let four bytes of file ask for many times that of memory.
+    let sound = !sizes.contains(&0) && sum(&sizes) == points.len() as u64;
+    if !sound {
+        let problem = format!(
+            "does not share the {} cell points among cells of one and more",
+            points.len()
+        );
+        return Err(AssetFileError::section(s::CELL_SIZES.name, problem));
+    }
+    let cell = |&size: &u32| ConvexCell {
+        points: points.by_ref().take(size as usize).collect(),
+    };
+    Ok(sizes.iter().map(cell).collect())
+}
+
+/// The drawn surface, where the file has one: all of its sections or none.
+fn render(r: &Reader<'_>) -> Result<Option<RenderSurface>, AssetFileError> {
+    if !s::RENDER.iter().any(|&section| r.has(section)) {
+        return Ok(None);
+    }
+    Ok(Some(RenderSurface {
+        positions: r.rows(s::RENDER_POSITIONS)?,
+        normals: r.rows(s::RENDER_NORMALS)?,
+        uvs: r.rows(s::RENDER_UVS)?,
+        triangles: r.rows(s::RENDER_TRIANGLES)?,
+        material_of_triangle: r.rows(s::RENDER_MATERIAL_OF_TRIANGLE)?,
+        materials: render_materials(r)?,
+    }))
+}
+
+fn render_materials(r: &Reader<'_>) -> Result<Vec<RenderMaterial>, AssetFileError> {
+    let numbers = r.each::<[f32; 6]>(s::RENDER_MATERIALS)?;
+    let lengths = r.rows::<u32>(s::RENDER_NAME_LENGTHS)?;
+    let mut names = r.text(s::RENDER_NAMES)?;
+    let fail = || {
+        let problem = "does not share the names among the materials";
+        AssetFileError::section(s::RENDER_NAME_LENGTHS.name, problem)
+    };
+    if lengths.len() != numbers.len() || sum(&lengths) != names.len() as u64 {
+        return Err(fail());
+    }
+    let materials = numbers
+        .zip(&lengths)
+        .map(|([r, g, b, a, metallic, roughness], &length)| {
+            // No cut within a character.
+            let (name, rest) = names.split_at_checked(length as usize).ok_or_else(fail)?;
+            names = rest;
+            Ok(RenderMaterial {
+                name: name.to_owned(),
+                base_color: [r, g, b, a],
+                metallic,
+                roughness,
+            })
+        });
+    materials.collect()
+}
+
+fn sum(sizes: &[u32]) -> u64 {
+    sizes.iter().map(|&n| u64::from(n)).sum()
+}

@@ -1,0 +1,104 @@
+//! Asset to bytes.
+
+use super::sections::{self as s, Section};
+use super::writer::Writer;
+use crate::asset::{Asset, EmbeddedPoint, RenderSurface};
+use crate::material::Material;
+use crate::mesh::MassProperties;
+
+impl Asset {
+    /// The asset as a file, as `docs/asset-format.md` describes it; [`Asset::from_bytes`] gives it back bit for bit.
+    #[must_use]
+    pub fn to_bytes(&self) -> Vec<u8> {
+        let mut w = Writer::default();
+        w.text(s::NAME, &self.name);
+        w.text(s::MATERIAL_NAME, &self.material.name);
+        w.rows(s::MATERIAL, &[material_numbers(&self.material)]);
+        w.rows(s::MASS, &[mass_numbers(&self.mass)]);
+        w.rows(s::POSITIONS, &self.fracture.positions);
+        w.rows(s::TETS, &self.fracture.tets);
+        w.rows(s::NEIGHBOURS, &self.fracture.neighbours);
+        w.rows(s::SURFACE_TRIANGLES, &self.surface.triangles);
+        w.rows(s::SURFACE_TETS, &self.surface.tets);
+        w.rows(s::SURFACE_NORMALS, &self.surface.normals);
+        w.rows(s::SURFACE_CURVATURE, &self.surface.curvature_radius);
+        w.rows(s::ANALYSIS_NODES, &self.analysis.nodes);
+        w.rows(s::ANALYSIS_ELEMENTS, &self.analysis.elements);
+        w.rows(s::ANALYSIS_GRADIENTS, &self.analysis.barycentric_gradients);
+        let of_tets = [s::TET_ELEMENTS, s::TET_BARYCENTRIC, s::TET_OFFSETS];
+        embedded(&mut w, of_tets, &self.embedding.tets);
+        let of_nodes = [s::NODE_ELEMENTS, s::NODE_BARYCENTRIC, s::NODE_OFFSETS];
+        embedded(&mut w, of_nodes, &self.embedding.nodes);
+        w.rows(s::EIGENVALUES, &self.modes.eigenvalues);
+        w.rows(s::MODE_SHAPES, &self.modes.shapes);
+        w.rows(s::PEAK_STRESS, &self.modes.peak_stress);
+        w.each(
+            s::CELL_SIZES,
+            self.cells.iter().map(|c| c.points.len() as u32),
+        );
+        let points: Vec<_> = self.cells.iter().flat_map(|c| &c.points).copied().collect();
+        w.rows(s::CELL_POINTS, &points);
+        w.rows(s::CELL_OF_TET, &self.cell_of_tet);
+        if let Some(surface) = &self.render {
+            render(&mut w, surface);
+        }
+        w.finish()
+    }
+}
+
+fn material_numbers(m: &Material) -> [f64; 13] {
+    [
+        m.youngs_modulus,
+        m.poisson_ratio,
+        m.density,
+        m.stiffness_damping,
+        m.mass_damping,
+        m.strength,
+        m.fracture_energy,
+        m.energy_depth,
+        m.weak_point_density,
+        m.roughness_amplitude,
+        m.roughness_wavelength,
+        m.restitution,
+        m.friction,
+    ]
+}
+
+fn mass_numbers(m: &MassProperties) -> [f64; 14] {
+    let [x, y, z] = m.centre.to_array();
+    let [a, b, c, d, e, f, g, h, i] = m.inertia.to_cols_array();
+    [m.mass, m.volume, x, y, z, a, b, c, d, e, f, g, h, i]
+}
+
+fn embedded(
+    w: &mut Writer,
+    [elements, barycentric, offsets]: [Section; 3],
+    points: &[EmbeddedPoint],
+) {
+    w.each(elements, points.iter().map(|p| p.element));
+    w.each(barycentric, points.iter().map(|p| p.barycentric));
+    w.each(offsets, points.iter().map(|p| p.offset));
+}
+
+fn render(w: &mut Writer, surface: &RenderSurface) {
+    w.rows(s::RENDER_POSITIONS, &surface.positions);
+    w.rows(s::RENDER_NORMALS, &surface.normals);
+    w.rows(s::RENDER_UVS, &surface.uvs);
+    w.rows(s::RENDER_TRIANGLES, &surface.triangles);
+    w.rows(
+        s::RENDER_MATERIAL_OF_TRIANGLE,
+        &surface.material_of_triangle,
+    );
+    let materials = surface.materials.iter();
+    let numbers = materials.clone().map(|m| {
+        let [r, g, b, a] = m.base_color;
+        [r, g, b, a, m.metallic, m.roughness]
+    });
+    w.each(s::RENDER_MATERIALS, numbers);
+    w.each(
+        s::RENDER_NAME_LENGTHS,
+        materials.clone().map(|m| m.name.len() as u32),
+    );
+    let names: String = materials.map(|m| m.name.as_str()).collect();
+    w.text(s::RENDER_NAMES, &names);
+}

@@ -1,0 +1,90 @@
+//! Why a file is no asset.
+
+use std::path::PathBuf;
+
+use thiserror::Error;
+
+use crate::error::InputError;
+
+/// Why a file, or bytes, cannot be read as an asset, or an asset not be written.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[non_exhaustive]
+pub enum AssetFileError {
+    /// The first bytes are not those of an asset.
+    #[error(
+        "it is no baked asset, but looks like {looks_like}; bake the mesh first and load what that writes"
+    )]
+    NotAnAsset {
+        /// What the bytes look like.
+        looks_like: &'static str,
+    },
+    /// Written by another version of the format.
+    #[error(
+        "it has version {found} of the format, and only {supported} can be read; bake it again"
+    )]
+    Version {
+        /// Version of the file.
+        found: u32,
+        /// Version this build reads.
+        supported: u32,
+    },
+    /// The end is missing.
+    #[error("it ends after {found} of {expected} bytes; copy it again, or bake it again")]
+    Truncated {
+        /// Length the header tells, bytes.
+        expected: u64,
+        /// Length there is, bytes.
+        found: u64,
+    },
+    /// Something follows the end.
+    #[error(
+        "it has {found} bytes where its header tells of {expected}; copy it again, or bake it again"
+    )]
+    TooLong {
+        /// Length the header tells, bytes.
+        expected: u64,
+        /// Length there is, bytes.
+        found: u64,
+    },
+    /// Some byte has changed since it was written.
+    #[error(
+        "it is damaged: its checksum does not match its content; copy it again, or bake it again"
+    )]
+    Checksum,
+    /// A section cannot be used.
+    #[error("its section `{name}` {problem}; bake it again")]
+    Section {
+        /// Name of the section in `docs/asset-format.md`, or its number where it has none.
+        name: String,
+        /// What is wrong, as the rest of a sentence.
+        problem: String,
+    },
+    /// The arrays do not fit together, or hold unusable numbers.
+    #[error(transparent)]
+    Input(#[from] InputError),
+    /// The operating system refused.
+    #[error("`{}`: {problem}", path.display())]
+    Io {
+        /// The file.
+        path: PathBuf,
+        /// What the operating system said.
+        problem: String,
+    },
+    /// The file was read, and its content is at fault.
+    #[error("`{}`: {problem}", path.display())]
+    InFile {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with its content.
+        problem: Box<AssetFileError>,
+    },
+}
+
+impl AssetFileError {
+    pub(super) fn section(name: impl Into<String>, problem: impl Into<String>) -> Self {
+        Self::Section {
+            name: name.into(),
+            problem: problem.into(),
+        }
+    }
+}

@@ -1,0 +1,34 @@
+//! Assets as files: `.frangible`, described in `docs/asset-format.md`.
+
+mod decode;
+mod disk;
+mod encode;
+mod error;
+mod foreign;
+mod reader;
+mod row;
+mod sections;
+mod writer;
+
+pub use error::AssetFileError;
+pub use writer::seal;
+
+/// Version of the file format that this build writes, and the only one it reads.
+pub const FORMAT_VERSION: u32 = 1;
+
+/// First bytes of every file.
+const MAGIC: [u8; 8] = *b"FRANGIBL";
+/// Where the checksum stands, and where what it covers begins.
+const CHECKSUM_AT: usize = 8;
+const COVERED_FROM: usize = 16;
+/// Length of magic, checksum, version, number of sections and file length, bytes.
+const HEADER: usize = 32;
+/// Length of one entry of the section table, bytes.
+const ENTRY: usize = 24;
+/// Every section starts at a multiple of this, bytes.
+const ALIGNMENT: usize = 8;
+
+/// XXH64 with seed zero: 40 MB take a few milliseconds, and every language has it.
+fn checksum(covered: &[u8]) -> u64 {
+    twox_hash::XxHash64::oneshot(0, covered)
+}

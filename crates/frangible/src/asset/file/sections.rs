@@ -1,0 +1,79 @@
+//! Numbers and names of the sections. A number, once given, keeps its meaning for ever.
+
+/// A section: its number in the file, and its name in `docs/asset-format.md` and in errors.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Section {
+    pub(super) id: u32,
+    pub(super) name: &'static str,
+}
+
+macro_rules! sections {
+    ($($constant:ident = $id:literal, $name:literal;)*) => {
+        $(pub(super) const $constant: Section = Section { id: $id, name: $name };)*
+
+        /// Every section there is.
+        #[cfg(test)]
+        pub(super) const ALL: &[Section] = &[$($constant),*];
+    };
+}
+
+sections! {
+    NAME = 1, "name";
+    MATERIAL_NAME = 2, "material name";
+    MATERIAL = 3, "material";
+    MASS = 4, "mass";
+    POSITIONS = 16, "fracture positions";
+    TETS = 17, "fracture tetrahedra";
+    NEIGHBOURS = 18, "fracture neighbours";
+    SURFACE_TRIANGLES = 32, "surface triangles";
+    SURFACE_TETS = 33, "surface tetrahedra";
+    SURFACE_NORMALS = 34, "surface normals";
+    SURFACE_CURVATURE = 35, "surface curvature radii";
+    ANALYSIS_NODES = 48, "analysis nodes";
+    ANALYSIS_ELEMENTS = 49, "analysis elements";
+    ANALYSIS_GRADIENTS = 50, "analysis barycentric gradients";
+    TET_ELEMENTS = 64, "elements of tetrahedra";
+    TET_BARYCENTRIC = 65, "barycentric coordinates of tetrahedra";
+    TET_OFFSETS = 66, "offsets of tetrahedra";
+    NODE_ELEMENTS = 67, "elements of nodes";
+    NODE_BARYCENTRIC = 68, "barycentric coordinates of nodes";
+    NODE_OFFSETS = 69, "offsets of nodes";
+    EIGENVALUES = 80, "eigenvalues";
+    MODE_SHAPES = 81, "mode shapes";
+    PEAK_STRESS = 82, "peak stress";
+    CELL_SIZES = 96, "points per cell";
+    CELL_POINTS = 97, "cell points";
+    CELL_OF_TET = 98, "cells of tetrahedra";
+    RENDER_POSITIONS = 112, "render positions";
+    RENDER_NORMALS = 113, "render normals";
+    RENDER_UVS = 114, "render texture coordinates";
+    RENDER_TRIANGLES = 115, "render triangles";
+    RENDER_MATERIAL_OF_TRIANGLE = 116, "render material of triangles";
+    RENDER_MATERIALS = 117, "render materials";
+    RENDER_NAME_LENGTHS = 118, "render material name lengths";
+    RENDER_NAMES = 119, "render material names";
+}
+
+/// The sections of the drawn surface, which a file has all of or none.
+pub(super) const RENDER: [Section; 8] = [
+    RENDER_POSITIONS,
+    RENDER_NORMALS,
+    RENDER_UVS,
+    RENDER_TRIANGLES,
+    RENDER_MATERIAL_OF_TRIANGLE,
+    RENDER_MATERIALS,
+    RENDER_NAME_LENGTHS,
+    RENDER_NAMES,
+];
+
+#[cfg(test)]
+mod tests {
+    use super::ALL;
+
+    #[test]
+    fn numbers_and_names_of_sections_are_unique() {
+        for (i, a) in ALL.iter().enumerate() {
+            assert!(ALL[..i].iter().all(|b| b.id != a.id && b.name != a.name));
+        }
+    }
+}

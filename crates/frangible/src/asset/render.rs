@@ -1,0 +1,35 @@
+//! The surface an author drew, carried along for those who draw.
+
+use glam::Vec3;
+
+/// The surface as its author drew it, kept for drawing and for clipping; physics never reads it.
+///
+/// It need not be closed, nor touch the fracture mesh: only its indices and numbers are checked.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct RenderSurface {
+    /// Vertex positions, m, body frame.
+    pub positions: Vec<Vec3>,
+    /// Normals: none, or one per vertex.
+    pub normals: Vec<Vec3>,
+    /// Texture coordinates: none, or one pair per vertex.
+    pub uvs: Vec<[f32; 2]>,
+    /// Vertices of each triangle, counter-clockwise seen from outside.
+    pub triangles: Vec<[u32; 3]>,
+    /// Index into [`RenderSurface::materials`]: none, or one per triangle.
+    pub material_of_triangle: Vec<u32>,
+    /// What the triangles look like.
+    pub materials: Vec<RenderMaterial>,
+}
+
+/// Look of some triangles of a [`RenderSurface`], in the metallic-roughness model of glTF 2.0.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RenderMaterial {
+    /// Name its author gave it; may be empty.
+    pub name: String,
+    /// Linear red, green, blue and opacity, each 0..=1.
+    pub base_color: [f32; 4],
+    /// 0 (dielectric) to 1 (metal).
+    pub metallic: f32,
+    /// 0 (mirror) to 1 (matt).
+    pub roughness: f32,
+}
