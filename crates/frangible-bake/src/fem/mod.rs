@@ -5,8 +5,12 @@
 
 mod assembly;
 mod element;
+mod mass;
+mod pattern;
 mod quadratic;
 
 pub use assembly::{Elements, System, assemble};
 pub use element::{Elasticity, stiffness_t4, stiffness_t10};
+pub use mass::Mass;
+pub(crate) use mass::multiply_symmetric;
 pub use quadratic::{MID_EDGES, QuadraticMesh, shape_gradients, shape_values};
