@@ -41,9 +41,7 @@ pub(crate) fn solve(
         wanted,
         basis,
     };
-    let (mut next, _) = metric
-        .orthonormalise(start)
-        .ok_or_else(|| breakdown(0))?;
+    let (mut next, _) = metric.orthonormalise(start).ok_or_else(|| breakdown(0))?;
     // Diagonal blocks of the projected matrix, and the triangles below them.
     let (mut diagonal, mut below): (Vec<Block>, Vec<Block>) = (Vec::new(), Vec::new());
     let mut check_at = (wanted + wanted / 2 + 24).min(limit);
