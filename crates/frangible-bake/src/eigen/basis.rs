@@ -70,13 +70,6 @@ pub(crate) fn subtract(w: &mut Block, v: MatRef<'_, f64>, c: MatRef<'_, f64>) {
     matmul(w.view_mut(), Accum::Add, v, c, -1.0, Par::Seq);
 }
 
-/// w −= v vᵀ w; gives vᵀ w.
-pub(crate) fn project_out(w: &mut Block, v: MatRef<'_, f64>) -> Block {
-    let c = inner(v, w.view());
-    subtract(w, v, c.view());
-    c
-}
-
 pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
     // Four running sums: fast, and in a fixed order.
     let mut sums = [0.0; 4];

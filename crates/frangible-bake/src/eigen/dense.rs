@@ -2,11 +2,19 @@
 
 use faer::diag::DiagMut;
 use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::cholesky::llt::factor::{
+    LltRegularization, cholesky_in_place, cholesky_in_place_scratch,
+};
 use faer::linalg::evd::{ComputeEigenvectors, self_adjoint_evd, self_adjoint_evd_scratch};
+use faer::linalg::matmul::matmul;
+use faer::linalg::triangular_solve::{
+    solve_lower_triangular_in_place, solve_upper_triangular_in_place,
+};
 use faer::sparse::SparseColMat;
-use faer::{Par, Spec};
+use faer::{Accum, Par, Spec};
 
 use crate::eigen::basis::Block;
+use crate::eigen::metric::{Basis, Metric};
 use crate::error::BakeError;
 
 /// All eigenvalues, rising, and eigenvectors of a symmetric matrix (lower triangle used).
@@ -54,18 +62,8 @@ pub(crate) fn solve(
     wanted: usize,
 ) -> Result<(Vec<f64>, Block), BakeError> {
     let n = rigid.rows;
-    let mut matrix = Block::zeros(n, n);
-    let mut trace = 0.0;
-    for j in 0..n {
-        let a = scaled.as_ref();
-        for (&i, &value) in a.symbolic().row_idx()[a.symbolic().col_range(j)]
-            .iter()
-            .zip(a.val_of_col(j))
-        {
-            matrix.data[j * n + i] += value;
-            trace += if i == j { value } else { 0.0 };
-        }
-    }
+    let mut matrix = full_lower(scaled);
+    let trace: f64 = (0..n).map(|j| matrix.data[j * n + j]).sum();
     // Above every elastic eigenvalue, since the trace is their sum; low enough not to drown the lowest.
     for r in 0..rigid.columns() {
         let x = rigid.column(r);
@@ -78,4 +76,80 @@ pub(crate) fn solve(
     let (values, mut vectors) = symmetric_eigen(&matrix)?;
     vectors.data.truncate(n * wanted);
     Ok((values[..wanted].to_vec(), vectors))
+}
+
+/// The `wanted` lowest elastic modes of A x = λ B x, from the lower triangle of A + sB = L Lᵀ: eigenvalues of
+/// L⁻¹ B L⁻ᵀ are 1/(λ + s). B may be nearly singular.
+pub(crate) fn solve_shifted(
+    matrix: &SparseColMat<usize, f64>,
+    shift: f64,
+    metric: &Metric,
+    rigid: &Basis,
+    wanted: usize,
+) -> Result<(Vec<f64>, Block), BakeError> {
+    let n = matrix.ncols();
+    let mut factor = full_lower(matrix);
+    let params = Spec::default();
+    let mut memory = MemBuffer::new(cholesky_in_place_scratch::<f64>(n, Par::Seq, params));
+    cholesky_in_place(
+        factor.view_mut(),
+        LltRegularization::default(),
+        Par::Seq,
+        MemStack::new(&mut memory),
+        params,
+    )
+    .map_err(|e| BakeError::Factorization {
+        reason: format!("{e:?}"),
+    })?;
+    let mut unit = Block::zeros(n, n);
+    for j in 0..n {
+        unit.data[j * n + j] = 1.0;
+    }
+    let mut inverse = metric.image(&unit).into_owned();
+    // B − (B r)(B r)ᵀ: rigid motions r go to zero.
+    let images = rigid.image_view();
+    matmul(
+        inverse.view_mut(),
+        Accum::Add,
+        images,
+        images.transpose(),
+        -1.0,
+        Par::Seq,
+    );
+    solve_lower_triangular_in_place(factor.view(), inverse.view_mut(), Par::Seq);
+    let mut inverse = Block {
+        data: (0..n * n)
+            .map(|i| inverse.data[(i % n) * n + i / n])
+            .collect(),
+        rows: n,
+    };
+    solve_lower_triangular_in_place(factor.view(), inverse.view_mut(), Par::Seq);
+    let (values, vectors) = symmetric_eigen(&inverse)?;
+    let mut out = Block::zeros(n, wanted);
+    let mut eigenvalues = Vec::with_capacity(wanted);
+    for i in 0..wanted {
+        let theta = values[n - 1 - i].max(f64::MIN_POSITIVE);
+        eigenvalues.push(1.0 / theta - shift);
+        for (to, from) in out.column_mut(i).iter_mut().zip(vectors.column(n - 1 - i)) {
+            *to = from / theta.sqrt();
+        }
+    }
+    solve_upper_triangular_in_place(factor.view().transpose(), out.view_mut(), Par::Seq);
+    Ok((eigenvalues, out))
+}
+
+/// A sparse lower triangle as a dense one.
+fn full_lower(sparse: &SparseColMat<usize, f64>) -> Block {
+    let n = sparse.ncols();
+    let mut matrix = Block::zeros(n, n);
+    for j in 0..n {
+        let a = sparse.as_ref();
+        for (&i, &value) in a.symbolic().row_idx()[a.symbolic().col_range(j)]
+            .iter()
+            .zip(a.val_of_col(j))
+        {
+            matrix.data[j * n + i] += value;
+        }
+    }
+    matrix
 }

@@ -1,4 +1,4 @@
-//! A = M^-½ K M^-½, and the sparse Cholesky factor of A + sI.
+//! A = D K D with D = diag(M)^-½, and the sparse Cholesky factor of A + sB.
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::SparseColMat;
@@ -9,12 +9,13 @@ use faer::sparse::linalg::cholesky::{
 };
 use faer::{Conj, MatMut, Par, Side, Spec};
 
-use crate::eigen::basis::{Block, dot, project_out};
+use crate::eigen::basis::{Block, dot};
+use crate::eigen::metric::{Basis, Metric};
 use crate::error::BakeError;
 use crate::fem::System;
 use crate::random;
 
-/// Lower triangle of M^-½ K M^-½, 1/s².
+/// Lower triangle of D K D, 1/s².
 pub(crate) fn scale(system: &System, inverse_root: &[f64]) -> SparseColMat<usize, f64> {
     let mut scaled = system.stiffness.clone();
     let (pattern, values) = scaled.parts_mut();
@@ -26,7 +27,57 @@ pub(crate) fn scale(system: &System, inverse_root: &[f64]) -> SparseColMat<usize
     scaled
 }
 
-/// Cholesky factor of A + sI.
+/// Lower triangle of A + sB.
+pub(crate) fn add_shift(
+    scaled: &SparseColMat<usize, f64>,
+    metric: &Metric,
+    shift: f64,
+) -> SparseColMat<usize, f64> {
+    let mut shifted = scaled.clone();
+    let (pattern, values) = shifted.parts_mut();
+    match metric {
+        Metric::Plain => {
+            for &first in &pattern.col_ptr()[..pattern.ncols()] {
+                // Lower triangle with sorted rows: the diagonal comes first.
+                values[first] += shift;
+            }
+        }
+        Metric::Mass(matrix) => {
+            let (blocks, masses) = matrix.parts();
+            for j in 0..pattern.ncols() {
+                let mut block = blocks.col_range(j / 3);
+                for entry in pattern.col_range(j) {
+                    // Each 3 × 3 block holds its mass once per column, on its diagonal.
+                    let row = pattern.row_idx()[entry];
+                    if row % 3 == j % 3
+                        && let Some(at) = block.next()
+                    {
+                        debug_assert_eq!(blocks.row_idx()[at], row / 3);
+                        values[entry] += shift * masses[at];
+                    }
+                }
+            }
+        }
+    }
+    shifted
+}
+
+/// The order of the highest eigenvalues, 1/s²: the diagonal of A, since that of B is one. Where elements are
+/// cut, the largest entry belongs to some sliver and says nothing, so there the median is taken.
+fn highest(scaled: &SparseColMat<usize, f64>, metric: &Metric) -> f64 {
+    let mut diagonal: Vec<f64> = (0..scaled.ncols())
+        .map(|j| scaled.val_of_col(j)[0])
+        .collect();
+    match metric {
+        Metric::Plain => diagonal.into_iter().fold(0.0, f64::max),
+        Metric::Mass(_) => {
+            diagonal.sort_unstable_by(f64::total_cmp);
+            diagonal[diagonal.len() / 2]
+        }
+    }
+}
+
+/// Cholesky factor of A + sB.
 pub(crate) struct Shifted {
     symbolic: SymbolicCholesky<usize>,
     values: Vec<f64>,
@@ -39,9 +90,10 @@ impl Shifted {
     /// near enough to the wanted end of the spectrum.
     pub(crate) fn near_zero(
         scaled: &SparseColMat<usize, f64>,
-        rigid: &Block,
+        metric: &Metric,
+        rigid: &Basis,
     ) -> Result<Self, BakeError> {
-        let n = rigid.rows;
+        let n = rigid.vectors.rows;
         let symbolic = factorize_symbolic_cholesky(
             scaled.symbolic(),
             Side::Lower,
@@ -54,14 +106,14 @@ impl Shifted {
         .map_err(|e| BakeError::Factorization {
             reason: format!("{e:?}"),
         })?;
-        let largest = (0..n).map(|j| scaled.val_of_col(j)[0]).fold(0.0, f64::max);
+        let largest = highest(scaled, metric);
         let values = vec![0.0; symbolic.len_val()];
         let mut factor = Self {
             symbolic,
             values,
             shift: 1e-10 * largest,
         };
-        factor.refactorize(scaled)?;
+        factor.refactorize(scaled, metric)?;
         // A few inverse iterations tell the order of the lowest elastic eigenvalue.
         let mut x = Block::zeros(n, 1);
         x.data
@@ -70,28 +122,28 @@ impl Shifted {
             .for_each(|(i, v)| *v = random::symmetric(7, i as u64));
         let mut lowest = largest;
         for _ in 0..4 {
-            project_out(&mut x, rigid.view());
-            let length = dot(&x.data, &x.data).sqrt();
+            rigid.project_out_all(&mut x);
+            let length = dot(&x.data, &metric.image(&x).data).sqrt();
             x.data.iter_mut().for_each(|v| *v /= length);
+            x = metric.image(&x).into_owned();
             factor.solve(&mut x);
-            project_out(&mut x, rigid.view());
-            lowest = 1.0 / dot(&x.data, &x.data).sqrt() - factor.shift;
+            rigid.project_out_all(&mut x);
+            lowest = 1.0 / dot(&x.data, &metric.image(&x).data).sqrt() - factor.shift;
         }
         // Measured on plates, bars and vessels: any shift from 1e-4 to 0.5 of the lowest works alike.
         if !(factor.shift > 1e-4 * lowest && factor.shift < 0.5 * lowest) {
             factor.shift = 0.05 * lowest.max(factor.shift * 1e-3);
-            factor.refactorize(scaled)?;
+            factor.refactorize(scaled, metric)?;
         }
         Ok(factor)
     }
 
-    fn refactorize(&mut self, scaled: &SparseColMat<usize, f64>) -> Result<(), BakeError> {
-        let mut shifted = scaled.clone();
-        let (pattern, values) = shifted.parts_mut();
-        for &first in &pattern.col_ptr()[..pattern.ncols()] {
-            // Lower triangle with sorted rows: the diagonal comes first.
-            values[first] += self.shift;
-        }
+    fn refactorize(
+        &mut self,
+        scaled: &SparseColMat<usize, f64>,
+        metric: &Metric,
+    ) -> Result<(), BakeError> {
+        let shifted = add_shift(scaled, metric, self.shift);
         let params = Spec::default();
         let mut memory = MemBuffer::new(
             self.symbolic
@@ -113,7 +165,7 @@ impl Shifted {
         Ok(())
     }
 
-    /// Replaces the columns of `x` by (A + sI)⁻¹ x. Columns are shared out in fixed groups, so the
+    /// Replaces the columns of `x` by (A + sB)⁻¹ x. Columns are shared out in fixed groups, so the
     /// result does not depend on the number of threads.
     pub(crate) fn solve(&self, x: &mut Block) {
         /// Right-hand sides per group: enough to use the factor well each time it is read.

@@ -1,11 +1,12 @@
-//! Block Lanczos on (A + sI)⁻¹ with full reorthogonalisation.
+//! Block Lanczos on (A + sB)⁻¹ B with full reorthogonalisation, in the inner product xᵀ B y.
 //!
 //! Many right-hand sides at once are decisive: a sparse solve with eight costs little more than with one,
 //! since reading the factor from memory is what takes the time.
 
-use crate::eigen::basis::{Block, inner, orthonormalise, project_out, subtract};
+use crate::eigen::basis::{Block, inner, subtract};
 use crate::eigen::dense::symmetric_eigen;
 use crate::eigen::factor::Shifted;
+use crate::eigen::metric::{Basis, Metric};
 use crate::error::BakeError;
 use crate::random;
 
@@ -15,40 +16,42 @@ const BLOCK: usize = 8;
 /// purification; 1e-10 leaves two digits to the check in the plain norm.
 const TOLERANCE: f64 = 1e-10;
 
-/// The `wanted` lowest eigenpairs of A: eigenvalues rising, orthonormal vectors.
+/// The `wanted` lowest eigenpairs of A x = λ B x: eigenvalues rising, B-orthonormal vectors.
 pub(crate) fn solve(
     shifted: &Shifted,
-    rigid: &Block,
+    metric: &Metric,
+    rigid: &Basis,
     wanted: usize,
     progress: &mut dyn FnMut(f64),
 ) -> Result<(Vec<f64>, Block), BakeError> {
-    let n = rigid.rows;
+    let n = rigid.vectors.rows;
     let limit = (n - 6).min(5 * wanted + 200) / BLOCK * BLOCK;
     // Basis: the rigid motions, then block after block.
     let skip = rigid.columns();
     let mut basis = rigid.clone();
-    let mut next = Block::zeros(n, BLOCK);
-    next.data
+    let mut start = Block::zeros(n, BLOCK);
+    start
+        .data
         .iter_mut()
         .enumerate()
         .for_each(|(i, x)| *x = random::symmetric(1, i as u64));
-    project_out(&mut next, rigid.view());
+    rigid.project_out_all(&mut start);
     let breakdown = |basis: usize| BakeError::NotConverged {
         converged: 0,
         wanted,
         basis,
     };
-    orthonormalise(&mut next).ok_or_else(|| breakdown(0))?;
+    let (mut next, _) = metric.orthonormalise(start).ok_or_else(|| breakdown(0))?;
     // Diagonal blocks of the projected matrix, and the triangles below them.
     let (mut diagonal, mut below): (Vec<Block>, Vec<Block>) = (Vec::new(), Vec::new());
     let mut check_at = (wanted + wanted / 2 + 24).min(limit);
     let mut converged = 0;
     loop {
-        basis.data.extend_from_slice(&next.data);
+        basis.append(&next);
         let size = basis.columns();
-        let mut w = next;
+        let mut w = next.into_images();
         shifted.solve(&mut w);
-        project_out(&mut w, rigid.view());
+        rigid.project_out_all(&mut w);
         // Three-term recurrence first, so that the full pass afterwards only removes rounding.
         if let Some(triangle) = below.last() {
             let transposed = Block {
@@ -57,20 +60,21 @@ pub(crate) fn solve(
             };
             subtract(
                 &mut w,
-                basis.part(size - 2 * BLOCK, size - BLOCK),
+                basis.vectors.part(size - 2 * BLOCK, size - BLOCK),
                 transposed.view(),
             );
         }
-        diagonal.push(project_out(&mut w, basis.part(size - BLOCK, size)));
-        let first = orthonormalise(&mut w).ok_or_else(|| breakdown(size))?;
-        project_out(&mut w, basis.view());
-        let second = orthonormalise(&mut w).ok_or_else(|| breakdown(size))?;
+        diagonal.push(basis.project_out(&mut w, size - BLOCK, size));
+        let (once, first) = metric.orthonormalise(w).ok_or_else(|| breakdown(size))?;
+        let mut w = once.vectors;
+        basis.project_out_all(&mut w);
+        let (twice, second) = metric.orthonormalise(w).ok_or_else(|| breakdown(size))?;
         let second = Block {
             data: transpose(&second),
             rows: BLOCK,
         };
         below.push(inner(second.view(), first.view()));
-        next = w;
+        next = twice;
 
         let k = size - skip;
         if k >= check_at || k >= limit {
@@ -89,9 +93,9 @@ pub(crate) fn solve(
                 return Ok(ritz(
                     shifted.shift,
                     wanted,
-                    &basis,
+                    &basis.vectors,
                     skip,
-                    &next,
+                    &next.vectors,
                     &values,
                     &vectors,
                     &below[below.len() - 1],

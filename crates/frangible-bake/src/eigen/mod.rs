@@ -1,14 +1,15 @@
 //! The lowest vibration modes of a free body.
 //!
-//! K φ = λ M φ becomes A x = λ x with A = M^-½ K M^-½ and φ = M^-½ x (M is diagonal). A + sI is factorized
-//! once; block Lanczos on its inverse, the six rigid motions deflated analytically, finds the
-//! lowest modes: λ = 1/θ − s. Everything runs in a fixed order, so the bits do not depend on the
+//! K φ = λ M φ becomes A x = λ B x with A = D K D, B = D M D, φ = D x and D = diag(M)^-½; B = I where the
+//! mass is lumped. A + sB is factorized once; block Lanczos on (A + sB)⁻¹ B, the six rigid motions
+//! deflated analytically, finds the lowest modes: λ = 1/θ − s. Everything runs in a fixed order, so the bits do not depend on the
 //! number of threads. Small systems are solved densely.
 
 mod basis;
 mod dense;
 mod factor;
 mod lanczos;
+mod metric;
 mod residual;
 mod rigid;
 
@@ -19,6 +20,7 @@ use crate::error::BakeError;
 use crate::fem::System;
 use basis::Block;
 use factor::Shifted;
+use metric::Metric;
 
 /// Unknowns up to which the dense solver is used.
 const DENSE: usize = 800;
@@ -60,22 +62,30 @@ pub fn lowest_modes(
     wanted: usize,
     progress: &mut dyn FnMut(f64),
 ) -> Result<Modes, BakeError> {
-    let n = 3 * system.mass.len();
+    let n = system.unknowns();
     let available = n.saturating_sub(6);
     if wanted == 0 || wanted > available {
         return Err(BakeError::Modes { wanted, available });
     }
-    let inverse_root: Vec<f64> = (0..n).map(|i| 1.0 / system.mass[i / 3].sqrt()).collect();
-    let rigid = rigid::deflation_basis(system);
+    let diagonal = system.mass.diagonal();
+    let inverse_root: Vec<f64> = (0..n).map(|i| 1.0 / diagonal[i / 3].sqrt()).collect();
+    let metric = Metric::new(&system.mass, &inverse_root);
+    let rigid = rigid::deflation_basis(system, &metric)?;
     let scaled = factor::scale(system, &inverse_root);
-    let (eigenvalues, vectors) = if n <= DENSE || wanted > n / 5 {
-        dense::solve(&scaled, &rigid, wanted)?
+    let small = n <= DENSE || wanted > n / 5;
+    let (eigenvalues, vectors) = if small && matches!(metric, Metric::Plain) {
+        dense::solve(&scaled, &rigid.vectors, wanted)?
     } else {
-        let shifted = Shifted::near_zero(&scaled, &rigid)?;
+        let shifted = Shifted::near_zero(&scaled, &metric, &rigid)?;
         progress(0.1);
-        lanczos::solve(&shifted, &rigid, wanted, &mut |share| {
-            progress(0.1 + 0.9 * share);
-        })?
+        if small {
+            let matrix = factor::add_shift(&scaled, &metric, shifted.shift);
+            dense::solve_shifted(&matrix, shifted.shift, &metric, &rigid, wanted)?
+        } else {
+            lanczos::solve(&shifted, &metric, &rigid, wanted, &mut |share| {
+                progress(0.1 + 0.9 * share);
+            })?
+        }
     };
     let mut modes = finish(eigenvalues, vectors, &inverse_root);
     modes.max_residual = residual::check(system, &modes)?;

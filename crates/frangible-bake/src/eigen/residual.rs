@@ -2,7 +2,7 @@
 
 use crate::eigen::Modes;
 use crate::error::BakeError;
-use crate::fem::System;
+use crate::fem::{Mass, System};
 
 /// What every mode must reach, where f64 rounding allows it.
 const LIMIT: f64 = 1e-8;
@@ -13,9 +13,17 @@ const LIMIT: f64 = 1e-8;
 pub fn residual(system: &System, eigenvalue: f64, shape: &[f64]) -> (f64, f64) {
     let k = system.multiply(shape);
     let norm = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
-    let rest: Vec<f64> = (0..k.len())
-        .map(|i| k[i] - eigenvalue * system.mass[i / 3] * shape[i])
-        .collect();
+    let rest: Vec<f64> = match &system.mass {
+        Mass::Lumped(mass) => (0..k.len())
+            .map(|i| k[i] - eigenvalue * mass[i / 3] * shape[i])
+            .collect(),
+        Mass::Consistent(_) => {
+            let inertia = system.mass.multiply(shape);
+            (0..k.len())
+                .map(|i| k[i] - eigenvalue * inertia[i])
+                .collect()
+        }
+    };
     let relative = norm(&rest) / norm(&k);
     let limit = if relative <= LIMIT {
         LIMIT

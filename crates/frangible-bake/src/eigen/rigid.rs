@@ -2,18 +2,21 @@
 
 use frangible::glam::DVec3;
 
-use crate::eigen::basis::{Block, orthonormalise};
+use crate::eigen::basis::Block;
+use crate::eigen::metric::{Basis, Metric};
+use crate::error::BakeError;
 use crate::fem::System;
 
 /// Displacements of the six rigid motions, one after another, 3 × nodes numbers each: unit
 /// translations, then rotations by one radian about axes through the centre of mass.
 #[must_use]
 pub fn rigid_motions(system: &System) -> Vec<Vec<f64>> {
-    let mass: f64 = system.mass.iter().sum();
+    let shares = system.mass.row_sums();
+    let mass: f64 = shares.iter().sum();
     let centre = system
         .positions
         .iter()
-        .zip(&system.mass)
+        .zip(&shares)
         .map(|(x, m)| *x * *m)
         .sum::<DVec3>()
         / mass;
@@ -33,16 +36,20 @@ pub fn rigid_motions(system: &System) -> Vec<Vec<f64>> {
     motions
 }
 
-/// Orthonormal basis of M^½ × rigid motions. A mesh of positive volumes is not a line, so all six count.
-pub(crate) fn deflation_basis(system: &System) -> Block {
-    let n = 3 * system.mass.len();
-    let mut basis = Block::zeros(n, 6);
+/// B-orthonormal basis of D⁻¹ × rigid motions, D = diag(M)^-½.
+pub(crate) fn deflation_basis(system: &System, metric: &Metric) -> Result<Basis, BakeError> {
+    let diagonal = system.mass.diagonal();
+    let mut motions = Block::zeros(system.unknowns(), 6);
     for (j, motion) in rigid_motions(system).iter().enumerate() {
-        for (i, (to, from)) in basis.column_mut(j).iter_mut().zip(motion).enumerate() {
-            *to = from * system.mass[i / 3].sqrt();
+        for (i, (to, from)) in motions.column_mut(j).iter_mut().zip(motion).enumerate() {
+            *to = from * diagonal[i / 3].sqrt();
         }
     }
-    let independent = orthonormalise(&mut basis).is_some();
-    debug_assert!(independent, "six independent rigid motions");
-    basis
+    match metric.orthonormalise(motions) {
+        Some((basis, _)) => Ok(basis),
+        None => Err(BakeError::Factorization {
+            reason: "the body is as thin as a line, so that its rotations are not independent"
+                .into(),
+        }),
+    }
 }

@@ -1,9 +1,11 @@
 //! Assembly of stiffness and lumped mass.
 
-use faer::sparse::{SparseColMat, SymbolicSparseColMat};
+use faer::sparse::SparseColMat;
 use frangible::glam::DVec3;
 
 use crate::fem::element::{Elasticity, stiffness_t4, stiffness_t10};
+use crate::fem::mass::Mass;
+use crate::fem::pattern::Pattern;
 use crate::mesh::tet_volume;
 
 /// Elements to assemble, by their node numbers.
@@ -22,8 +24,8 @@ pub struct System {
     pub positions: Vec<DVec3>,
     /// Lower triangle of K, N/m.
     pub stiffness: SparseColMat<usize, f64>,
-    /// Lumped mass of each node, kg.
-    pub mass: Vec<f64>,
+    /// M, kg.
+    pub mass: Mass,
 }
 
 /// Assembles K and the lumped M. Mass of T10: HRZ, 1/36 of the element to a corner, 4/27 to a mid-edge.
@@ -52,79 +54,31 @@ fn assemble_with<const N: usize>(
     density: f64,
     stiffness: impl Fn([DVec3; 4]) -> [[[[f64; 3]; 3]; N]; N],
 ) -> System {
-    let nodes = positions.len();
-    let mut pairs: Vec<(u32, u32)> = Vec::with_capacity(elements.len() * N * (N + 1) / 2);
-    for element in elements {
-        for (a, &row) in element.iter().enumerate() {
-            pairs.extend(
-                element[..=a]
-                    .iter()
-                    .map(|&column| (row.min(column), row.max(column))),
-            );
-        }
-    }
-    pairs.sort_unstable();
-    pairs.dedup();
-    // Blocks of node column c lie at starts[c]..starts[c + 1], the diagonal one first.
-    let mut starts = vec![0; nodes + 1];
-    for &(column, _) in &pairs {
-        starts[column as usize + 1] += 1;
-    }
-    for c in 0..nodes {
-        starts[c + 1] += starts[c];
-    }
-    let (mut col_ptr, mut row_idx) = (vec![0], Vec::with_capacity(9 * pairs.len()));
-    for c in 0..nodes {
-        for axis in 0..3 {
-            for &(_, row) in &pairs[starts[c]..starts[c + 1]] {
-                let first = if row as usize == c { axis } else { 0 };
-                row_idx.extend((first..3).map(|i| 3 * row as usize + i));
-            }
-            col_ptr.push(row_idx.len());
-        }
-    }
-    let mut values = vec![0.0; row_idx.len()];
-    let mut mass = vec![0.0; nodes];
+    let pattern = Pattern::new(positions.len(), elements);
+    let mut values = vec![0.0; pattern.entries()];
+    let mut mass = vec![0.0; positions.len()];
     for element in elements {
         let x = std::array::from_fn(|k| positions[element[k] as usize]);
-        let k = stiffness(x);
         let element_mass = density * tet_volume(x);
         for a in 0..N {
             mass[element[a] as usize] += shares[a] * element_mass;
-            for b in 0..=a {
-                let (row, column) = (element[a].max(element[b]), element[a].min(element[b]));
-                let c = column as usize;
-                let block = pairs[starts[c]..starts[c + 1]].partition_point(|p| p.1 < row);
-                for i in 0..3 {
-                    for j in 0..3 {
-                        // k holds (a, b); the stored block is (row, column), perhaps transposed.
-                        let value = if element[a] == row {
-                            k[a][b][i][j]
-                        } else {
-                            k[a][b][j][i]
-                        };
-                        if block == 0 {
-                            if i >= j {
-                                values[col_ptr[3 * c + j] + i - j] += value;
-                            }
-                        } else {
-                            // The diagonal block takes 3 − j entries of column j, every other three.
-                            values[col_ptr[3 * c + j] + 3 * block - j + i] += value;
-                        }
-                    }
-                }
-            }
         }
+        pattern.add(&mut values, element, &stiffness(x));
     }
-    let symbolic = SymbolicSparseColMat::new_checked(3 * nodes, 3 * nodes, col_ptr, None, row_idx);
     System {
         positions: positions.to_vec(),
-        stiffness: SparseColMat::new(symbolic, values),
-        mass,
+        stiffness: pattern.matrix(values),
+        mass: Mass::Lumped(mass),
     }
 }
 
 impl System {
+    /// Number of unknowns, three per node.
+    #[must_use]
+    pub fn unknowns(&self) -> usize {
+        3 * self.positions.len()
+    }
+
     /// K x for one vector of 3 × nodes numbers, N.
     #[must_use]
     pub fn multiply(&self, x: &[f64]) -> Vec<f64> {

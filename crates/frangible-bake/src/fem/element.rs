@@ -44,7 +44,7 @@ const NEAR: f64 = 0.585_410_196_624_968_5;
 const FAR: f64 = 0.138_196_601_125_010_5;
 
 /// Adds `weight` · (λ g_a g_bᵀ + μ g_b g_aᵀ + μ (g_a·g_b) I) to the 3 × 3 block of every node pair.
-fn add_point<const N: usize>(
+pub(crate) fn add_point<const N: usize>(
     k: &mut [[[[f64; 3]; 3]; N]; N],
     g: &[DVec3; N],
     weight: f64,

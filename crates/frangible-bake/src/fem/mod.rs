@@ -4,9 +4,15 @@
 //! they are 50–200 % too stiff. T4 stays for comparison with `[G12]`.
 
 mod assembly;
+mod cover;
 mod element;
+mod mass;
+mod pattern;
 mod quadratic;
 
 pub use assembly::{Elements, System, assemble};
+pub use cover::{Cover, assemble_cover};
 pub use element::{Elasticity, stiffness_t4, stiffness_t10};
+pub use mass::Mass;
+pub(crate) use mass::multiply_symmetric;
 pub use quadratic::{MID_EDGES, QuadraticMesh, shape_gradients, shape_values};

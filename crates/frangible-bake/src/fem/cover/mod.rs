@@ -1,0 +1,296 @@
+//! Quadratic elements of a regular lattice that merely cover a body, for shapes whose walls are too thin for
+//! a conforming mesh of few elements.
+//!
+//! Stiffness and mass are integrated exactly over the body alone, by cutting its tetrahedra along the planes of the
+//! lattice: a Ritz method, whose frequencies fall towards the true ones as the elements grow more.
+
+mod cut;
+mod lattice;
+mod moments;
+mod topology;
+
+use frangible::asset::{EmbeddedPoint, Embedding};
+use frangible::glam::{DVec3, Vec3};
+
+use crate::error::{BakeError, positive};
+use crate::fem::assembly::System;
+use crate::fem::element::Elasticity;
+use crate::fem::mass::Mass;
+use crate::fem::pattern::Pattern;
+use crate::fem::quadratic::QuadraticMesh;
+use crate::mesh::{BodyMesh, barycentric_gradients, tet_volume};
+use cut::{Parts, cut};
+use lattice::{CELL_VOLUME, Cell, Frame, Lattice, in_sides};
+use moments::Moments;
+use topology::{Topology, face_pairs};
+
+/// Stiffness and mass of the empty part of each element, as a share of the material's: bounds the condition number.
+const FICTITIOUS: f64 = 1e-8;
+/// Relative error in the number of elements that will do.
+const NEAR_ENOUGH: f64 = 0.02;
+/// Attempts at it: full ones, and counts before each.
+const ATTEMPTS: usize = 4;
+const COUNTS: usize = 12;
+
+/// A lattice of quadratic elements that covers a body.
+#[derive(Clone, Debug)]
+pub struct Cover {
+    /// The elements; where parts of a body are near but not joined, several lie in the same place.
+    pub mesh: QuadraticMesh,
+    /// Element that carries the centroid of each tetrahedron of the body.
+    pub element_of_tet: Vec<u32>,
+    /// Element that carries each node of the body.
+    pub element_of_node: Vec<u32>,
+    /// Side of the lattice's cubes, m; an element has a twelfth of their volume.
+    pub side: f64,
+    moments: Vec<Moments>,
+}
+
+impl Cover {
+    /// Covers a body by about `elements_wanted` elements; within a few per cent where the body allows it.
+    ///
+    /// # Errors
+    /// No tetrahedra, one without volume or with a node that is not there, or no elements wanted.
+    pub fn new(body: &BodyMesh, elements_wanted: usize) -> Result<Self, BakeError> {
+        positive("the number of elements wanted", elements_wanted as f64)?;
+        let mut volume = 0.0;
+        for (tet, nodes) in body.tets.iter().enumerate() {
+            let there = nodes.iter().all(|&v| (v as usize) < body.positions.len());
+            let of_tet = if there {
+                tet_volume(body.corners(tet))
+            } else {
+                f64::NAN
+            };
+            if !(of_tet.is_finite() && of_tet > 0.0) {
+                return Err(BakeError::Inverted {
+                    tet,
+                    volume: of_tet,
+                });
+            }
+            volume += of_tet;
+        }
+        positive("the volume of the body, in m³,", volume)?;
+        let faces = face_pairs(body);
+        let (lattice, topology) = choose_lattice(body, &faces, volume, elements_wanted);
+        let (elements, points) = topology.nodes(&faces);
+        let mesh = QuadraticMesh {
+            positions: points.into_iter().map(|q| lattice.position(q)).collect(),
+            elements,
+        };
+        Ok(Self {
+            element_of_tet: elements_of_tets(body, &topology, &lattice),
+            element_of_node: elements_of_nodes(body, &topology, &lattice),
+            side: lattice.side,
+            moments: integrate(body, &topology, &lattice),
+            mesh,
+        })
+    }
+
+    /// Where the tetrahedra and nodes of the body lie in the elements. Barycentric coordinates are slightly
+    /// negative where a sliver of the body is carried by the element next to it.
+    #[must_use]
+    pub fn embedding(&self, body: &BodyMesh) -> Embedding {
+        let embed = |element: u32, p: DVec3| {
+            let corners = self.mesh.corners(element as usize);
+            let from_first = p - corners[0];
+            let l = barycentric_gradients(corners).map(|g| g.dot(from_first));
+            EmbeddedPoint {
+                element,
+                barycentric: [1.0 - l[1] - l[2] - l[3], l[1], l[2], l[3]].map(|x| x as f32),
+                offset: Vec3::ZERO,
+            }
+        };
+        let centroids = (0..body.tets.len()).map(|t| body.corners(t).iter().sum::<DVec3>() / 4.0);
+        Embedding {
+            tets: centroids
+                .zip(&self.element_of_tet)
+                .map(|(p, &e)| embed(e, p))
+                .collect(),
+            nodes: body
+                .positions
+                .iter()
+                .zip(&self.element_of_node)
+                .map(|(&p, &e)| embed(e, p))
+                .collect(),
+        }
+    }
+}
+
+/// Assembles K and the consistent M of a covered body.
+#[must_use]
+pub fn assemble_cover(cover: &Cover, material: &Elasticity) -> System {
+    let mesh = &cover.mesh;
+    let pattern = Pattern::new(mesh.positions.len(), &mesh.elements);
+    let mut stiffness = vec![0.0; pattern.entries()];
+    let mut mass = vec![0.0; pattern.blocks()];
+    for (e, (element, moments)) in mesh.elements.iter().zip(&cover.moments).enumerate() {
+        let gradients = barycentric_gradients(mesh.corners(e));
+        pattern.add(
+            &mut stiffness,
+            element,
+            &moments.stiffness(&gradients, material),
+        );
+        pattern.add_scalars(&mut mass, element, &moments.mass, material.density);
+    }
+    System {
+        positions: mesh.positions.clone(),
+        stiffness: pattern.matrix(stiffness),
+        mass: Mass::Consistent(pattern.scalar_matrix(mass)),
+    }
+}
+
+/// Finds the side of the cubes that gives about the wanted number of elements.
+///
+/// The cells that hold a node or a centroid are counted in no time, and are nearly as many.
+fn choose_lattice(
+    body: &BodyMesh,
+    faces: &[[u32; 2]],
+    volume: f64,
+    wanted: usize,
+) -> (Lattice, Topology) {
+    let low = body
+        .positions
+        .iter()
+        .fold(DVec3::INFINITY, |low, &p| low.min(p));
+    let points: Vec<DVec3> = (0..body.tets.len())
+        .map(|t| body.corners(t).iter().sum::<DVec3>() / 4.0)
+        .chain(body.positions.iter().copied())
+        .collect();
+    let count = |side: f64| {
+        let lattice = Lattice::new(low, side);
+        let mut cells: Vec<Cell> = points
+            .iter()
+            .map(|&p| Cell::at(lattice.in_sides(p)))
+            .collect();
+        cells.sort_unstable();
+        cells.dedup();
+        cells.len() as f64
+    };
+    let excess = |topology: &Topology| topology.cells.len() as f64 / wanted as f64;
+    let attempt = |side: f64| {
+        let lattice = Lattice::new(low, side);
+        let topology = Topology::new(body, faces, &lattice);
+        (lattice, topology)
+    };
+    // Elements that fill a solid body; a thin one takes more of them.
+    let filled = (volume / (CELL_VOLUME * wanted as f64)).cbrt();
+    let mut side = side_for(&count, filled, wanted as f64);
+    let mut best = attempt(side);
+    let mut target = wanted as f64;
+    for _ in 1..ATTEMPTS {
+        let found = excess(&best.1);
+        if (found - 1.0).abs() <= NEAR_ENOUGH {
+            break;
+        }
+        target /= found;
+        side = side_for(&count, side, target);
+        let next = attempt(side);
+        if (excess(&next.1) - 1.0).abs() >= (found - 1.0).abs() {
+            break;
+        }
+        best = next;
+    }
+    best
+}
+
+/// Side at which `count` is near `target`, starting from `side`.
+fn side_for(count: &dyn Fn(f64) -> f64, side: f64, target: f64) -> f64 {
+    let excess = |side: f64| (count(side) / target).ln();
+    let (mut best, mut power) = ((side, excess(side)), 2.0);
+    let mut last = best;
+    for _ in 0..COUNTS {
+        if best.1.abs() <= NEAR_ENOUGH / 4.0 {
+            break;
+        }
+        // The count falls with a power of the side: about 3 for a solid, 2 for a sheet.
+        let side = last.0 * (last.1 / power).exp();
+        let next = (side, excess(side));
+        let measured = (last.1 - next.1) / (side / last.0).ln();
+        if measured.is_finite() {
+            power = measured.clamp(1.0, 4.0);
+        }
+        last = next;
+        if next.1.abs() < best.1.abs() {
+            best = next;
+        }
+    }
+    best.0
+}
+
+fn elements_of_tets(body: &BodyMesh, topology: &Topology, lattice: &Lattice) -> Vec<u32> {
+    let holder = |t: usize| {
+        let centroid = body.corners(t).iter().sum::<DVec3>() / 4.0;
+        let cell = Cell::at(lattice.in_sides(centroid));
+        let fragments = topology.of(t);
+        let holds = fragments.iter().find(|f| f.cell == cell);
+        // Within rounding of a plane the cell may have no part of the tetrahedron.
+        let largest = || {
+            fragments
+                .iter()
+                .max_by(|a, b| a.volume.total_cmp(&b.volume))
+        };
+        holds.or_else(largest).map_or(0, |f| f.element)
+    };
+    (0..body.tets.len()).map(holder).collect()
+}
+
+/// Of the elements of the tetrahedra around a node, the one that it lies deepest in.
+fn elements_of_nodes(body: &BodyMesh, topology: &Topology, lattice: &Lattice) -> Vec<u32> {
+    let frames: Vec<Frame> = topology.cells.iter().map(|c| c.frame()).collect();
+    let mut best = vec![(f64::NEG_INFINITY, 0); body.positions.len()];
+    for (t, tet) in body.tets.iter().enumerate() {
+        for fragment in topology.of(t) {
+            let frame = &frames[fragment.element as usize];
+            for &v in tet {
+                let l = frame.barycentric(lattice.in_sides(body.positions[v as usize]));
+                let depth = l.iter().copied().fold(f64::INFINITY, f64::min);
+                let (deepest, element) = &mut best[v as usize];
+                if depth > *deepest || (depth == *deepest && fragment.element < *element) {
+                    (*deepest, *element) = (depth, fragment.element);
+                }
+            }
+        }
+    }
+    best.into_iter().map(|b| b.1).collect()
+}
+
+/// Moments of the body in each element, m³.
+fn integrate(body: &BodyMesh, topology: &Topology, lattice: &Lattice) -> Vec<Moments> {
+    /// Shares of the work: fixed, and summed in order, so that the bits do not depend on the number of threads.
+    const SHARES: usize = 8;
+    let cube = lattice.side.powi(3);
+    let frames: Vec<Frame> = topology.cells.iter().map(|c| c.frame()).collect();
+    let tets = body.tets.len();
+    let share = &|number: usize| {
+        let mut moments = vec![Moments::ZERO; frames.len()];
+        let mut parts = Parts::default();
+        for t in number * tets / SHARES..(number + 1) * tets / SHARES {
+            let fragments = topology.of(t);
+            let x = body.corners(t).map(|p| lattice.in_sides(p));
+            cut(x, &mut parts, &mut |cell, part, volume| {
+                if let Some(fragment) = fragments.iter().find(|f| f.cell == cell) {
+                    let e = fragment.element as usize;
+                    moments[e].add(part.map(|p| frames[e].barycentric(p)), volume * cube);
+                }
+            });
+        }
+        moments
+    };
+    let mut moments = vec![Moments::ZERO; frames.len()];
+    for (moments, (frame, cell)) in moments.iter_mut().zip(frames.iter().zip(&topology.cells)) {
+        let corners = cell.corners().map(|c| frame.barycentric(in_sides(c)));
+        moments.add(corners, FICTITIOUS * CELL_VOLUME * cube);
+    }
+    std::thread::scope(|scope| {
+        let shares: Vec<_> = (0..SHARES)
+            .map(|number| scope.spawn(move || share(number)))
+            .collect();
+        for share in shares {
+            match share.join() {
+                Ok(share) => moments.iter_mut().zip(&share).for_each(|(a, b)| a.merge(b)),
+                Err(panic) => std::panic::resume_unwind(panic),
+            }
+        }
+    });
+    moments
+}

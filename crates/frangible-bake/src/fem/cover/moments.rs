@@ -1,0 +1,184 @@
+//! Integrals of the quadratic shape functions over the part of the body that an element covers.
+
+use frangible::glam::DVec3;
+
+use crate::fem::element::{Elasticity, add_point};
+use crate::fem::quadratic::{shape_gradients, shape_values};
+
+/// Integrals over a region, in the barycentric coordinates L of the element; their unit is a volume.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Moments {
+    /// ∫ L_i L_j; their sum is the volume.
+    second: [[f64; 4]; 4],
+    /// ∫ N_a N_b, b ≤ a.
+    pub(crate) mass: [[f64; 10]; 10],
+}
+
+/// Walkington's rule of fifth order: weight and the four coordinates up to permutation.
+/// N. J. Walkington, Quadrature on simplices of arbitrary dimension, 2000.
+const VERTEX_POINTS: [(f64, f64); 2] = [
+    (0.112_687_925_718_015_85, 0.310_885_919_263_300_6),
+    (0.073_493_043_116_361_95, 0.092_735_250_310_891_23),
+];
+const EDGE_POINTS: (f64, f64) = (0.042_546_020_777_081_466, 0.045_503_704_125_649_65);
+
+impl Moments {
+    pub(crate) const ZERO: Self = Self {
+        second: [[0.0; 4]; 4],
+        mass: [[0.0; 10]; 10],
+    };
+
+    /// Adds a tetrahedron by the barycentric coordinates of its corners and its volume. Exact.
+    pub(crate) fn add(&mut self, corners: [[f64; 4]; 4], volume: f64) {
+        let sum: [f64; 4] = std::array::from_fn(|i| (0..4).map(|c| corners[c][i]).sum());
+        for i in 0..4 {
+            for j in 0..4 {
+                // Of linear functions over a simplex: by their values at its corners.
+                let products: f64 = (0..4).map(|c| corners[c][i] * corners[c][j]).sum();
+                self.second[i][j] += volume / 20.0 * (products + sum[i] * sum[j]);
+            }
+        }
+        for (weight, coordinate) in VERTEX_POINTS {
+            for k in 0..4 {
+                let mut at = [coordinate; 4];
+                at[k] = 1.0 - 3.0 * coordinate;
+                self.add_point(&corners, at, weight * volume);
+            }
+        }
+        let (weight, coordinate) = EDGE_POINTS;
+        for i in 0..4 {
+            for j in 0..i {
+                let mut at = [0.5 - coordinate; 4];
+                (at[i], at[j]) = (coordinate, coordinate);
+                self.add_point(&corners, at, weight * volume);
+            }
+        }
+    }
+
+    /// Adds another region of the same element.
+    pub(crate) fn merge(&mut self, other: &Self) {
+        for i in 0..4 {
+            for j in 0..4 {
+                self.second[i][j] += other.second[i][j];
+            }
+        }
+        for a in 0..10 {
+            for b in 0..=a {
+                self.mass[a][b] += other.mass[a][b];
+            }
+        }
+    }
+
+    fn add_point(&mut self, corners: &[[f64; 4]; 4], at: [f64; 4], weight: f64) {
+        let l: [f64; 4] = std::array::from_fn(|i| (0..4).map(|c| at[c] * corners[c][i]).sum());
+        let n = shape_values(l);
+        for a in 0..10 {
+            let wn = weight * n[a];
+            for b in 0..=a {
+                self.mass[a][b] += wn * n[b];
+            }
+        }
+    }
+
+    /// Stiffness of the region: 3 × 3 blocks of the node pairs (a, b), b ≤ a.
+    ///
+    /// ∇N is linear, Σ_i L_i ∇N(corner i), so with ∫ L Lᵀ = R Rᵀ the columns of R are four points that
+    /// integrate it exactly.
+    pub(crate) fn stiffness(
+        &self,
+        gradients: &[DVec3; 4],
+        material: &Elasticity,
+    ) -> [[[[f64; 3]; 3]; 10]; 10] {
+        let at_corners: [[DVec3; 10]; 4] = std::array::from_fn(|i| {
+            let mut l = [0.0; 4];
+            l[i] = 1.0;
+            shape_gradients(l, gradients)
+        });
+        let mut k = [[[[0.0; 3]; 3]; 10]; 10];
+        for column in root(self.second) {
+            let g: [DVec3; 10] =
+                std::array::from_fn(|a| (0..4).map(|i| column[i] * at_corners[i][a]).sum());
+            add_point(&mut k, &g, 1.0, material.lame());
+        }
+        k
+    }
+}
+
+/// Columns of the Cholesky factor of a positive semidefinite matrix.
+fn root(mut q: [[f64; 4]; 4]) -> [[f64; 4]; 4] {
+    let mut columns = [[0.0; 4]; 4];
+    for k in 0..4 {
+        let pivot = q[k][k];
+        // A flat region leaves rounding on the last pivots.
+        if pivot > 0.0 {
+            for i in k..4 {
+                columns[k][i] = q[i][k] / pivot.sqrt();
+            }
+            for i in k..4 {
+                for j in k..4 {
+                    q[i][j] -= columns[k][i] * columns[k][j];
+                }
+            }
+        }
+    }
+    columns
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Moments;
+    use crate::fem::element::{Elasticity, stiffness_t10};
+    use crate::mesh::{barycentric_gradients, tet_volume};
+    use frangible::glam::DVec3;
+
+    const IDENTITY: [[f64; 4]; 4] = [
+        [1.0, 0.0, 0.0, 0.0],
+        [0.0, 1.0, 0.0, 0.0],
+        [0.0, 0.0, 1.0, 0.0],
+        [0.0, 0.0, 0.0, 1.0],
+    ];
+
+    #[test]
+    fn a_whole_element_has_the_textbook_matrices() {
+        let x = [
+            DVec3::ZERO,
+            DVec3::new(1.0, 0.1, 0.0),
+            DVec3::new(0.2, 1.1, 0.1),
+            DVec3::new(0.3, 0.2, 0.9),
+        ];
+        let mut whole = Moments::ZERO;
+        whole.add(IDENTITY, tet_volume(x));
+        // Consistent mass of T10, times 420 over the volume: 6 and 1 among corners, −4 and −6 between a corner
+        // and a mid-edge, 32, 16 and 8 among mid-edges.
+        let unit = tet_volume(x) / 420.0;
+        for (a, b, value) in [
+            (0, 0, 6.0),
+            (1, 0, 1.0),
+            (4, 0, -4.0),
+            (5, 0, -6.0),
+            (4, 4, 32.0),
+            (5, 4, 16.0),
+            (9, 4, 8.0),
+        ] {
+            assert!((whole.mass[a][b] / unit - value).abs() < 1e-12, "{a} {b}");
+        }
+        let material = Elasticity {
+            youngs_modulus: 3.0,
+            poisson_ratio: 0.3,
+            density: 1.0,
+        };
+        let (found, expected) = (
+            whole.stiffness(&barycentric_gradients(x), &material),
+            stiffness_t10(x, &material),
+        );
+        for a in 0..10 {
+            for b in 0..=a {
+                for i in 0..3 {
+                    for j in 0..3 {
+                        assert!((found[a][b][i][j] - expected[a][b][i][j]).abs() < 1e-13);
+                    }
+                }
+            }
+        }
+    }
+}
