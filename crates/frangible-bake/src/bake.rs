@@ -2,20 +2,21 @@
 
 use std::time::Instant;
 
-use frangible::asset::{AnalysisMesh, Embedding};
+use frangible::asset::RenderSurface;
 use frangible::glam::DVec3;
 use frangible::modal::ModalBasis;
 use frangible::{Asset, MassProperties, Material, TetMesh};
+use frangible_mesh::TetReport;
 
+use crate::analysis::Analysis;
 use crate::cells::convex_cells;
 use crate::eigen::lowest_modes;
-use crate::embed::Locator;
 use crate::error::BakeError;
-use crate::fem::{Elasticity, Elements, QuadraticMesh, assemble};
-use crate::mesh::barycentric_gradients;
+use crate::fem::Elasticity;
+use crate::mesh::BodyMesh;
 use crate::peak_stress::peak_stress;
 use crate::report::{BakeReport, MeshReport, Progress, Stage};
-use crate::shapes::{MeshSize, Shape};
+use crate::shapes::{self, MeshSize, Shape};
 use crate::surface::outer_surface;
 
 /// What to bake.
@@ -27,7 +28,8 @@ pub struct BakeSpec {
     pub shape: Shape,
     /// Material; only E, ν and ρ matter to the modes, the rest is passed on.
     pub material: Material,
-    /// Elements of the analysis mesh; `None`: about 3 000 of them.
+    /// Elements of the analysis mesh; `None`: about 3 000 of them. A solid is covered by as many elements as its volume
+    /// would hold of this size.
     pub analysis: Option<MeshSize>,
     /// Elements of the fracture mesh; `None`: about 42 000 of them.
     pub fracture: Option<MeshSize>,
@@ -36,6 +38,8 @@ pub struct BakeSpec {
     pub modes: usize,
     /// Seed of the irregularity of the fracture mesh, default 1.
     pub seed: u64,
+    /// The surface as its author drew it, m, in the frame of the shape; only carried along.
+    pub render: Option<RenderSurface>,
 }
 
 impl BakeSpec {
@@ -50,6 +54,7 @@ impl BakeSpec {
             fracture: None,
             modes: 120,
             seed: 1,
+            render: None,
         }
     }
 }
@@ -78,17 +83,13 @@ pub fn bake(
     };
 
     clock.enter(Stage::Mesh);
-    let analysis_size = spec
-        .analysis
-        .map_or_else(|| spec.shape.analysis_size(), Ok)?;
-    let fracture_size = spec
-        .fracture
-        .map_or_else(|| spec.shape.fracture_size(), Ok)?;
-    let mut coarse = spec.shape.analysis_mesh(analysis_size)?;
-    let mut fine = spec.shape.fracture_mesh(fracture_size, spec.seed)?;
+    let Meshes {
+        mut fine,
+        coarse,
+        tetrahedra,
+    } = meshes(spec)?;
     let corners = (0..fine.tets.len()).map(|e| fine.corners(e));
     let centre = MassProperties::of_tetrahedra(spec.material.density, corners).centre;
-    coarse.translate(-centre);
     fine.translate(-centre);
     let fracture = TetMesh::new(
         fine.positions.iter().map(|p| p.as_vec3()).collect(),
@@ -99,15 +100,17 @@ pub fn bake(
     let mut mass = MassProperties::of_tetrahedra(spec.material.density, corners);
     // Zero but for rounding: the frame is defined by it.
     mass.centre = DVec3::ZERO;
-    let quadratic = QuadraticMesh::new(&coarse);
+    let analysis = match coarse {
+        Coarse::Mesh(mut coarse) => {
+            coarse.translate(-centre);
+            Analysis::conforming(&coarse)
+        }
+        Coarse::Cover(elements) => Analysis::covering(&fine, elements)?,
+    };
 
     clock.enter(Stage::Assemble);
     let elasticity = Elasticity::from(&spec.material);
-    let system = assemble(
-        &quadratic.positions,
-        Elements::Quadratic(&quadratic.elements),
-        &elasticity,
-    );
+    let system = analysis.assemble(&elasticity);
 
     clock.enter(Stage::Modes);
     let modes = lowest_modes(&system, spec.modes, &mut |share| {
@@ -118,38 +121,25 @@ pub fn bake(
     })?;
 
     clock.enter(Stage::Embed);
-    let locator = Locator::new(&quadratic);
-    let centroids = (0..fine.tets.len()).map(|e| fine.corners(e).iter().sum::<DVec3>() / 4.0);
-    let embedding = Embedding {
-        tets: centroids
-            .map(|p| locator.embed(p))
-            .collect::<Result<_, _>>()?,
-        nodes: fine
-            .positions
-            .iter()
-            .map(|&p| locator.embed(p))
-            .collect::<Result<_, _>>()?,
-    };
+    let embedding = analysis.embed(&fine)?;
 
     clock.enter(Stage::Surface);
     let surface = outer_surface(&fracture);
     let cells = convex_cells(&fracture, &fine.cell_of_tet, fine.cells);
 
     clock.enter(Stage::Stress);
-    let analysis = analysis_of(&quadratic);
+    let stored = analysis.stored();
     let mut basis = ModalBasis {
         shapes: row_major(&modes.shapes, modes.unknowns),
         peak_stress: Vec::new(),
         eigenvalues: modes.eigenvalues.clone(),
     };
-    basis.peak_stress = peak_stress(&analysis, &embedding.tets, &basis, &elasticity);
+    basis.peak_stress = peak_stress(&stored, &embedding.tets, &basis, &elasticity);
 
     let report = BakeReport {
-        analysis: MeshReport {
-            nodes: quadratic.positions.len(),
-            ..MeshReport::of(&coarse)
-        },
+        analysis: analysis.report(&fine),
         fracture: MeshReport::of(&fine),
+        tetrahedra,
         unknowns: modes.unknowns,
         frequencies: (0..spec.modes.min(10))
             .map(|i| modes.frequency(i))
@@ -164,25 +154,61 @@ pub fn bake(
         material: spec.material.clone(),
         fracture,
         surface,
-        analysis,
+        analysis: stored,
         embedding,
         modes: basis,
         mass,
         cells,
         cell_of_tet: fine.cell_of_tet,
-        render: None,
+        render: spec.render.as_ref().map(|r| moved(r, -centre)),
     };
     asset.validate()?;
     Ok((asset, report))
 }
 
-fn analysis_of(mesh: &QuadraticMesh) -> AnalysisMesh {
-    let gradients = |e: usize| barycentric_gradients(mesh.corners(e)).map(|g| g.as_vec3());
-    AnalysisMesh {
-        nodes: mesh.positions.iter().map(|p| p.as_vec3()).collect(),
-        barycentric_gradients: (0..mesh.elements.len()).map(gradients).collect(),
-        elements: mesh.elements.clone(),
+/// The fine mesh in the frame of the shape, and what is to carry its modes.
+struct Meshes {
+    fine: BodyMesh,
+    coarse: Coarse,
+    tetrahedra: Option<TetReport>,
+}
+
+enum Coarse {
+    Mesh(BodyMesh),
+    /// A lattice of about this many elements.
+    Cover(usize),
+}
+
+fn meshes(spec: &BakeSpec) -> Result<Meshes, BakeError> {
+    if let Shape::Solid(shape) = &spec.shape {
+        let cell = spec.fracture.map(|size| size.edge);
+        let (fine, report) = shapes::solid::mesh(shape, cell, Some(spec.seed))?;
+        let elements = spec.analysis.map_or(shapes::ANALYSIS_TETS, |size| {
+            shapes::solid::estimate(fine.volume(), size)
+        });
+        return Ok(Meshes {
+            fine,
+            coarse: Coarse::Cover(elements as usize),
+            tetrahedra: Some(report),
+        });
     }
+    let shape = &spec.shape;
+    let analysis_size = spec.analysis.map_or_else(|| shape.analysis_size(), Ok)?;
+    let fracture_size = spec.fracture.map_or_else(|| shape.fracture_size(), Ok)?;
+    Ok(Meshes {
+        coarse: Coarse::Mesh(shape.analysis_mesh(analysis_size)?),
+        fine: shape.fracture_mesh(fracture_size, spec.seed)?,
+        tetrahedra: None,
+    })
+}
+
+/// The drawn surface in the body frame.
+fn moved(render: &RenderSurface, by: DVec3) -> RenderSurface {
+    let mut render = render.clone();
+    for p in &mut render.positions {
+        *p = (p.as_dvec3() + by).as_vec3();
+    }
+    render
 }
 
 /// One row per unknown, one column per mode, in f32.

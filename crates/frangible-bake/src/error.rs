@@ -1,7 +1,7 @@
 //! Errors of baking: each names what is wrong and how to mend it.
 
 use frangible::InputError;
-use frangible_mesh::TetError;
+use frangible_mesh::{RepairError, SolidError, TetError};
 use thiserror::Error;
 
 /// Why a bake gave no asset.
@@ -19,6 +19,12 @@ pub enum BakeError {
     /// A material or an asset the run time refuses.
     #[error(transparent)]
     Input(#[from] InputError),
+    /// A mesh that cannot be mended to a surface.
+    #[error(transparent)]
+    Repair(#[from] RepairError),
+    /// A surface that is no solid.
+    #[error(transparent)]
+    Solid(#[from] SolidError),
     /// A solid that could not be filled with tetrahedra.
     #[error(transparent)]
     Tetrahedra(#[from] TetError),

@@ -22,6 +22,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod analysis;
 mod bake;
 mod cells;
 mod clusters;
@@ -30,6 +31,7 @@ pub mod embed;
 mod error;
 mod extrude;
 pub mod fem;
+mod import;
 mod mesh;
 mod peak_stress;
 mod random;
@@ -41,6 +43,7 @@ pub mod surface;
 pub use bake::{BakeSpec, bake};
 pub use error::BakeError;
 pub use frangible_mesh;
+pub use import::{ImportOptions, Imported, import_mesh};
 pub use mesh::BodyMesh;
 pub use report::{BakeReport, MeshReport, Progress, Stage};
 pub use shapes::{MeshSize, Shape, SolidShape, Station};

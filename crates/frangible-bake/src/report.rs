@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use frangible_mesh::TetReport;
+
 use crate::mesh::BodyMesh;
 
 /// Stages of a bake, in order.
@@ -76,6 +78,8 @@ pub struct BakeReport {
     pub analysis: MeshReport,
     /// The mesh that carries cracks.
     pub fracture: MeshReport,
+    /// How a solid was filled with tetrahedra; `None` for shapes that are meshed by a rule.
+    pub tetrahedra: Option<TetReport>,
     /// Unknowns of the eigenvalue problem.
     pub unknowns: usize,
     /// The first ten natural frequencies, Hz.

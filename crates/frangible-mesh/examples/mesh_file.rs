@@ -4,11 +4,16 @@ use std::error::Error;
 use std::path::Path;
 use std::time::Instant;
 
-use frangible_mesh::{MeshSolid, Resolution, TetOptions, read_mesh, repair, tetrahedralize, wall_thickness};
+use frangible_mesh::{
+    MeshSolid, Resolution, TetOptions, read_mesh, repair, tetrahedralize, wall_thickness,
+};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mut arguments = std::env::args().skip(1);
-    let tets = arguments.next().ok_or("usage: mesh_file TETRAHEDRA FILE…")?.parse()?;
+    let tets = arguments
+        .next()
+        .ok_or("usage: mesh_file TETRAHEDRA FILE…")?
+        .parse()?;
     for file in arguments {
         match mesh(Path::new(&file), tets) {
             Ok(line) => println!("{line}"),
@@ -20,7 +25,11 @@ fn main() -> Result<(), Box<dyn Error>> {
 
 fn mesh(file: &Path, tets: usize) -> Result<String, Box<dyn Error>> {
     let mut clock = Instant::now();
-    let mut lap = || std::mem::replace(&mut clock, Instant::now()).elapsed().as_secs_f64();
+    let mut lap = || {
+        std::mem::replace(&mut clock, Instant::now())
+            .elapsed()
+            .as_secs_f64()
+    };
     let input = read_mesh(file)?;
     let read = lap();
     let (surface, mended) = repair(&input)?;

@@ -18,9 +18,9 @@ use profile::Profile;
 /// Most tetrahedra a mesh may have.
 const LIMIT: usize = 2_000_000;
 /// Tetrahedra of a default analysis mesh: 10–18 thousand unknowns.
-const ANALYSIS_TETS: f64 = 3000.0;
+pub(crate) const ANALYSIS_TETS: f64 = 3000.0;
 /// Tetrahedra of a default fracture mesh: elements about as long as a wall is thick.
-const FRACTURE_TETS: f64 = 42_000.0;
+pub(crate) const FRACTURE_TETS: f64 = 42_000.0;
 
 /// How finely to mesh.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,0 +1,104 @@
+//! The quadratic elements that carry the modes: a mesh of the shape, or a lattice that covers it.
+
+use frangible::asset::{AnalysisMesh, Embedding};
+use frangible::glam::DVec3;
+
+use crate::embed::Locator;
+use crate::error::BakeError;
+use crate::fem::{Cover, Elasticity, Elements, QuadraticMesh, System, assemble, assemble_cover};
+use crate::mesh::{BodyMesh, barycentric_gradients};
+use crate::report::MeshReport;
+
+/// What carries the modes.
+pub(crate) enum Analysis {
+    /// Elements that end where the body ends: shapes that are meshed by a rule.
+    Conforming(QuadraticMesh, MeshReport),
+    /// Elements of a lattice, integrated over the body alone: any solid, however thin its walls.
+    Covering(Cover),
+}
+
+impl Analysis {
+    /// Quadratic elements on a coarse mesh of the body.
+    pub(crate) fn conforming(coarse: &BodyMesh) -> Self {
+        let mesh = QuadraticMesh::new(coarse);
+        let report = MeshReport {
+            nodes: mesh.positions.len(),
+            ..MeshReport::of(coarse)
+        };
+        Self::Conforming(mesh, report)
+    }
+
+    /// About `elements` elements over the fine mesh of the body.
+    pub(crate) fn covering(fine: &BodyMesh, elements: usize) -> Result<Self, BakeError> {
+        Ok(Self::Covering(Cover::new(fine, elements)?))
+    }
+
+    fn mesh(&self) -> &QuadraticMesh {
+        match self {
+            Self::Conforming(mesh, _) => mesh,
+            Self::Covering(cover) => &cover.mesh,
+        }
+    }
+
+    /// Figures of the elements; the volume of a covering mesh is that of the body it is integrated over.
+    pub(crate) fn report(&self, fine: &BodyMesh) -> MeshReport {
+        match self {
+            Self::Conforming(_, report) => *report,
+            Self::Covering(cover) => MeshReport {
+                nodes: cover.mesh.positions.len(),
+                tets: cover.mesh.elements.len(),
+                volume: fine.volume(),
+                // Of every tetrahedron of a body-centred cubic lattice.
+                min_dihedral: 60.0,
+            },
+        }
+    }
+
+    /// Stiffness and mass.
+    pub(crate) fn assemble(&self, material: &Elasticity) -> System {
+        match self {
+            Self::Conforming(mesh, _) => assemble(
+                &mesh.positions,
+                Elements::Quadratic(&mesh.elements),
+                material,
+            ),
+            Self::Covering(cover) => assemble_cover(cover, material),
+        }
+    }
+
+    /// Where the fine mesh lies in the elements.
+    ///
+    /// # Errors
+    /// [`BakeError::OutsideAnalysisMesh`] for a conforming mesh that is too coarse.
+    pub(crate) fn embed(&self, fine: &BodyMesh) -> Result<Embedding, BakeError> {
+        match self {
+            Self::Conforming(mesh, _) => {
+                let locator = Locator::new(mesh);
+                let centroids =
+                    (0..fine.tets.len()).map(|e| fine.corners(e).iter().sum::<DVec3>() / 4.0);
+                Ok(Embedding {
+                    tets: centroids
+                        .map(|p| locator.embed(p))
+                        .collect::<Result<_, _>>()?,
+                    nodes: fine
+                        .positions
+                        .iter()
+                        .map(|&p| locator.embed(p))
+                        .collect::<Result<_, _>>()?,
+                })
+            }
+            Self::Covering(cover) => Ok(cover.embedding(fine)),
+        }
+    }
+
+    /// As the asset stores it.
+    pub(crate) fn stored(&self) -> AnalysisMesh {
+        let mesh = self.mesh();
+        let gradients = |e: usize| barycentric_gradients(mesh.corners(e)).map(|g| g.as_vec3());
+        AnalysisMesh {
+            nodes: mesh.positions.iter().map(|p| p.as_vec3()).collect(),
+            barycentric_gradients: (0..mesh.elements.len()).map(gradients).collect(),
+            elements: mesh.elements.clone(),
+        }
+    }
+}
