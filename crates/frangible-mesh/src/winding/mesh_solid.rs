@@ -49,8 +49,8 @@ pub enum SolidError {
         /// Where it is said to be.
         position: DVec3,
     },
-    /// Not between [`SIZES`].
-    #[error("the surface is {0:e} m across; scale it to between 1e-30 m and 1e30 m")]
+    /// Not between 1e-30 and 1e30 m.
+    #[error("the surface measures {0:e} m; scale it to between 1e-30 m and 1e30 m")]
     Size(f64),
     /// Every triangle is a line or a point.
     #[error(
@@ -249,6 +249,13 @@ fn checked(surface: &Surface) -> Result<Vec<(u32, [DVec3; 3])>, SolidError> {
                     position: *corner,
                 });
             }
+        }
+        let farthest = corners
+            .map(|c| c.abs().max_element())
+            .into_iter()
+            .fold(0.0, f64::max);
+        if farthest > SIZES[1] {
+            return Err(SolidError::Size(farthest));
         }
         let [a, b, c] = corners;
         let longest = (b - a).length().max((c - a).length()).max((c - b).length());
