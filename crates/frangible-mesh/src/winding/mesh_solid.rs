@@ -118,8 +118,8 @@ impl MeshSolid {
         Err(SolidError::NoInside { highest })
     }
 
-    /// How often the surface goes around `p`: 1 in a closed body, 0 outside, between them near holes [J13]. Exact but
-    /// for far groups of triangles, which are expanded to second order: off by less than 0.01 [B18].
+    /// How often the surface goes around `p`: 1 in a closed body, 0 outside, between them near holes [J13 §3]. Exact but
+    /// for far groups of triangles, which are expanded to second order: off by less than 0.01 [B18 §3].
     #[must_use]
     pub fn winding_number(&self, p: DVec3) -> f64 {
         let w = number::winding_number(&self.tree, &self.far, p);
