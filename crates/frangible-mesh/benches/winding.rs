@@ -92,7 +92,7 @@ fn queries(c: &mut Criterion) {
         });
     });
     c.bench_function("wall thickness, 1000 samples", |b| {
-        b.iter(|| wall_thickness(&solid, 1000, 1))
+        b.iter(|| wall_thickness(&solid, 1000, 1));
     });
 }
 

@@ -11,8 +11,9 @@ use super::moments::{self, Moments};
 use super::packet::{Lanes, Packet, WIDTH};
 use super::tree::{Child, Tree};
 
-/// A group is far when its centre is this many of its radii away [B18 §3.3].
-const ACCURACY: f64 = 2.0;
+/// A group is far when its centre is this many of its radii away [B18 §3.3]. At 2 the error reaches 0.011 on a hollow
+/// ball, at 2.5 it stays below 0.006 and takes 1.6 times as long, at 3 below 0.004 and 2.2 times.
+const ACCURACY: f64 = 2.5;
 
 /// Expansions of a node's four children.
 #[derive(Clone, Debug)]
@@ -122,14 +123,14 @@ pub(super) fn expand(tree: &Tree) -> Vec<Far> {
     let mut sums = vec![(Moments::default(), 0..0); tree.nodes.len()];
     for (index, node) in tree.nodes.iter().enumerate().rev() {
         let mut parts = Vec::with_capacity(WIDTH);
-        let mut packets = usize::MAX..0;
+        let (mut first, mut end) = (usize::MAX, 0);
         for slot in 0..WIDTH {
             let (part, range) = match node.child(slot) {
                 Child::Empty => continue,
                 Child::Leaf(p) => (moments::of_packet(&tree.packets[p]), p..p + 1),
                 Child::Node(n) => sums[n].clone(),
             };
-            packets = packets.start.min(range.start)..packets.end.max(range.end);
+            (first, end) = (first.min(range.start), end.max(range.end));
             let radius_squared = tree.packets[range]
                 .iter()
                 .map(|packet| farthest(packet, part.centre))
@@ -137,7 +138,7 @@ pub(super) fn expand(tree: &Tree) -> Vec<Far> {
             far[index].set(slot, &part, radius_squared);
             parts.push(part);
         }
-        sums[index] = (moments::join(&parts), packets);
+        sums[index] = (moments::join(&parts), first..end);
     }
     far
 }

@@ -49,8 +49,8 @@ pub enum SolidError {
         /// Where it is said to be.
         position: DVec3,
     },
-    /// Not between [`SIZES`].
-    #[error("the surface is {0:e} m across; scale it to between 1e-30 m and 1e30 m")]
+    /// Not between 1e-30 and 1e30 m.
+    #[error("the surface measures {0:e} m; scale it to between 1e-30 m and 1e30 m")]
     Size(f64),
     /// Every triangle is a line or a point.
     #[error(
@@ -118,8 +118,8 @@ impl MeshSolid {
         Err(SolidError::NoInside { highest })
     }
 
-    /// How often the surface goes around `p`: 1 in a closed body, 0 outside, between them near holes [J13]. Exact but
-    /// for far groups of triangles, which are expanded to second order: off by less than 0.01 [B18].
+    /// How often the surface goes around `p`: 1 in a closed body, 0 outside, between them near holes [J13 §3]. Exact but
+    /// for far groups of triangles, which are expanded to second order: off by less than 0.01 [B18 §3].
     #[must_use]
     pub fn winding_number(&self, p: DVec3) -> f64 {
         let w = number::winding_number(&self.tree, &self.far, p);
@@ -249,6 +249,13 @@ fn checked(surface: &Surface) -> Result<Vec<(u32, [DVec3; 3])>, SolidError> {
                     position: *corner,
                 });
             }
+        }
+        let farthest = corners
+            .map(|c| c.abs().max_element())
+            .into_iter()
+            .fold(0.0, f64::max);
+        if farthest > SIZES[1] {
+            return Err(SolidError::Size(farthest));
         }
         let [a, b, c] = corners;
         let longest = (b - a).length().max((c - a).length()).max((c - b).length());

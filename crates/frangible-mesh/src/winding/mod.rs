@@ -1,7 +1,7 @@
 //! A triangle surface as a solid: inside is where its generalised winding number exceeds one half.
 //!
-//! [J13] Jacobson, Kavan, Sorkine-Hornung 2013, "Robust inside-outside segmentation using generalized winding numbers".
-//! [B18] Barill, Dickson, Schmidt, Levin, Jacobson 2018, "Fast winding numbers for soups and clouds".
+//! J13: Jacobson, Kavan, Sorkine-Hornung 2013, "Robust inside-outside segmentation using generalized winding numbers".
+//! B18: Barill, Dickson, Schmidt, Levin, Jacobson 2018, "Fast winding numbers for soups and clouds".
 
 mod far;
 mod mesh_solid;

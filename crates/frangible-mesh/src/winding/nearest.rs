@@ -43,21 +43,19 @@ fn visit(tree: &Tree, index: usize, p: DVec3, best: &mut Best) {
     let Some(node) = tree.nodes.get(index) else {
         return;
     };
-    let distances = box_distances(node, p);
-    let mut order = [0, 1, 2, 3];
+    let mut keys = order_keys(box_distances(node, p));
     let mut arrange = |i: usize, j: usize| {
-        if distances[order[j]] < distances[order[i]] {
-            order.swap(i, j);
-        }
+        (keys[i], keys[j]) = (keys[i].min(keys[j]), keys[i].max(keys[j]));
     };
     arrange(0, 1);
     arrange(2, 3);
     arrange(0, 2);
     arrange(1, 3);
     arrange(1, 2);
-    for slot in order {
+    for key in keys {
+        let slot = (key & SLOT) as usize;
         // Not less than: boxes equally far may hold an equally close triangle of lower index.
-        if distances[slot] > best.squared {
+        if key & !SLOT > best.squared.to_bits() {
             break;
         }
         match node.child(slot) {
@@ -80,6 +78,16 @@ fn visit(tree: &Tree, index: usize, p: DVec3, best: &mut Best) {
             Child::Node(child) => visit(tree, child, p, best),
         }
     }
+}
+
+/// The bits of a key that say which child it is.
+const SLOT: u64 = 3;
+
+/// Distances as whole numbers that sort like them, rounded down to make room for the slot. Sorting these takes no
+/// branch.
+#[inline]
+fn order_keys(distances: Lanes) -> [u64; WIDTH] {
+    std::array::from_fn(|slot| distances[slot].to_bits() & !SLOT | slot as u64)
 }
 
 /// Squared distances to the boxes of a node's children, m²; a little less, so that rounding never hides a triangle.

@@ -52,7 +52,7 @@ pub(crate) fn crossing_tube() -> HardCase {
         for j in 0..around {
             let at = |i: usize, j: usize| ((i % along) * around + j % around) as u32;
             let [a, b, c, d] = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
-            surface.triangles.extend([[a, c, b], [a, d, c]]);
+            surface.triangles.extend([[a, b, c], [a, c, d]]);
         }
     }
     // Pappus, less what two crossing cylinders share.

@@ -153,8 +153,8 @@ pub(crate) fn lattice() -> HardCase {
 
 /// Sides ten thousand times longer than wide.
 pub(crate) fn sliver_cylinder() -> HardCase {
-    let n = 1500;
-    let profile = [[0.0, 0.0], [1.0, 0.0], [1.0, 40.0], [0.0, 40.0]];
+    let n = 240;
+    let profile = [[0.0, 0.0], [1.0, 0.0], [1.0, 260.0], [0.0, 260.0]];
     closed(
         "sliver cylinder",
         revolve(&profile, n),
