@@ -54,7 +54,9 @@ pub enum ReadError {
     #[error("the file needs {0}, which is not supported; export it without")]
     Unsupported(String),
     /// A face refers to a vertex that does not exist.
-    #[error("face {face} refers to vertex {index}, but there are only {vertices} (index as in the file)")]
+    #[error(
+        "face {face} refers to vertex {index}, but there are only {vertices} (index as in the file)"
+    )]
     IndexOutOfRange {
         /// Which face, from 1.
         face: usize,
@@ -73,7 +75,9 @@ pub enum ReadError {
     #[error("the file has no triangles; a solid needs a surface, not points, lines or curves")]
     NoTriangles,
     /// More than is sensible to read.
-    #[error("the file has {found} {what}, the limit is {limit}; simplify the mesh before reading it")]
+    #[error(
+        "the file has {found} {what}, the limit is {limit}; simplify the mesh before reading it"
+    )]
     TooLarge {
         /// Triangles, vertices or bytes.
         what: &'static str,
@@ -93,7 +97,9 @@ impl ReadError {
     }
 
     pub(crate) fn truncated(inside: impl Into<String>) -> Self {
-        Self::Truncated { inside: inside.into() }
+        Self::Truncated {
+            inside: inside.into(),
+        }
     }
 }
 

@@ -37,8 +37,14 @@ impl MeshFormat {
         if is_exactly_binary_stl(bytes) {
             return Some(Self::Stl);
         }
-        let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes).trim_ascii_start();
-        let first = text.split(|b| b.is_ascii_whitespace()).next().unwrap_or_default();
+        let text = bytes
+            .strip_prefix(b"\xef\xbb\xbf")
+            .unwrap_or(bytes)
+            .trim_ascii_start();
+        let first = text
+            .split(|b| b.is_ascii_whitespace())
+            .next()
+            .unwrap_or_default();
         match first {
             b"ply" => Some(Self::Ply),
             b"solid" => Some(Self::Stl),
@@ -58,7 +64,9 @@ pub(crate) fn is_exactly_binary_stl(bytes: &[u8]) -> bool {
 
 /// OBJ has no magic word: its first line that is no comment starts with one of its keywords.
 fn starts_like_obj(text: &[u8]) -> bool {
-    const KEYWORDS: [&[u8]; 10] = [b"v", b"vt", b"vn", b"f", b"o", b"g", b"s", b"mtllib", b"usemtl", b"vp"];
+    const KEYWORDS: [&[u8]; 10] = [
+        b"v", b"vt", b"vn", b"f", b"o", b"g", b"s", b"mtllib", b"usemtl", b"vp",
+    ];
     text.split(|&b| b == b'\n')
         .map(<[u8]>::trim_ascii)
         .find(|line| !line.is_empty() && !line.starts_with(b"#"))

@@ -45,7 +45,10 @@ pub fn read_mesh(path: &Path) -> Result<InputMesh, ReadError> {
     let by_content = MeshFormat::sniff(&bytes);
     let format = match (by_name, by_content) {
         (Some(named), Some(found)) if named != found => {
-            log::warn!("{} holds {found:?} data; it is read as that", path.display());
+            log::warn!(
+                "{} holds {found:?} data; it is read as that",
+                path.display()
+            );
             found
         }
         (Some(format), _) | (None, Some(format)) => format,
@@ -62,7 +65,11 @@ pub fn read_mesh(path: &Path) -> Result<InputMesh, ReadError> {
 ///
 /// # Errors
 /// See [`ReadError`].
-pub fn parse_mesh(format: MeshFormat, bytes: &[u8], folder: Option<&Path>) -> Result<InputMesh, ReadError> {
+pub fn parse_mesh(
+    format: MeshFormat,
+    bytes: &[u8],
+    folder: Option<&Path>,
+) -> Result<InputMesh, ReadError> {
     check_bytes(bytes.len() as u64)?;
     if bytes.is_empty() {
         return Err(ReadError::Empty);

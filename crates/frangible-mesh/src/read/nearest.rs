@@ -11,7 +11,9 @@ const MOST_NEIGHBOURS: usize = 10_000;
 /// The name in the same folder that takes fewest edits, if that is at most a third of its letters.
 pub(crate) fn nearest_file(path: &Path) -> Option<String> {
     let wanted = path.file_name()?.to_str()?;
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+    let folder = path
+        .parent()
+        .filter(|folder| !folder.as_os_str().is_empty());
     let mut names: Vec<String> = std::fs::read_dir(folder.unwrap_or(Path::new(".")))
         .ok()?
         .take(MOST_NEIGHBOURS)

@@ -22,9 +22,14 @@ pub(crate) fn parse(bytes: &[u8]) -> Result<InputMesh, ReadError> {
 }
 
 fn is_text(bytes: &[u8]) -> bool {
-    let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes).trim_ascii_start();
+    let text = bytes
+        .strip_prefix(b"\xef\xbb\xbf")
+        .unwrap_or(bytes)
+        .trim_ascii_start();
     let start = text.get(..1024).unwrap_or(text);
-    let solid = start.get(..5).is_some_and(|word| word.eq_ignore_ascii_case(b"solid"));
+    let solid = start
+        .get(..5)
+        .is_some_and(|word| word.eq_ignore_ascii_case(b"solid"));
     solid && !start.contains(&0)
 }
 
@@ -36,7 +41,10 @@ fn parse_binary(bytes: &[u8]) -> Result<InputMesh, ReadError> {
     let count = u32::from_le_bytes(count);
     let there = (bytes.len() - HEADER) / FACET;
     if (there as u64) < u64::from(count) {
-        return Err(ReadError::truncated(format!("facet {} of {count}", there + 1)));
+        return Err(ReadError::truncated(format!(
+            "facet {} of {count}",
+            there + 1
+        )));
     }
     check_triangles(u64::from(count))?;
     let facets = bytes[HEADER..].chunks_exact(FACET).take(count as usize);
@@ -46,7 +54,14 @@ fn parse_binary(bytes: &[u8]) -> Result<InputMesh, ReadError> {
     };
     for facet in facets {
         for corner in facet[12..48].chunks_exact(12) {
-            let at = |k: usize| f64::from(f32::from_le_bytes([corner[k], corner[k + 1], corner[k + 2], corner[k + 3]]));
+            let at = |k: usize| {
+                f64::from(f32::from_le_bytes([
+                    corner[k],
+                    corner[k + 1],
+                    corner[k + 2],
+                    corner[k + 3],
+                ]))
+            };
             mesh.positions.push(DVec3::new(at(0), at(4), at(8)));
         }
     }
@@ -61,14 +76,19 @@ fn parse_text(bytes: &[u8]) -> Result<InputMesh, ReadError> {
     let (mut in_facet, mut ended) = (false, false);
     for (line, text) in Lines::new(bytes) {
         let mut words = words(&text);
-        let Some(keyword) = words.next() else { continue };
+        let Some(keyword) = words.next() else {
+            continue;
+        };
         if keyword.eq_ignore_ascii_case(b"vertex") {
             let mut next = || next_number(&mut words, line);
             corners.push(DVec3::new(next()?, next()?, next()?));
             check_triangles(corners.len() as u64)?;
         } else if keyword.eq_ignore_ascii_case(b"facet") {
             if in_facet {
-                return Err(ReadError::malformed(format!("line {line}"), "a facet begins inside another"));
+                return Err(ReadError::malformed(
+                    format!("line {line}"),
+                    "a facet begins inside another",
+                ));
             }
             in_facet = true;
             corners.clear();

@@ -63,7 +63,8 @@ impl<'a> Iterator for Lines<'a> {
 
 /// Words between white space.
 pub(crate) fn words(line: &[u8]) -> impl Iterator<Item = &[u8]> {
-    line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty())
+    line.split(u8::is_ascii_whitespace)
+        .filter(|word| !word.is_empty())
 }
 
 /// A decimal number.
@@ -72,9 +73,15 @@ pub(crate) fn number(word: &[u8]) -> Option<f64> {
 }
 
 /// The next word as a number, or an error that names the line.
-pub(crate) fn next_number<'a>(words: &mut impl Iterator<Item = &'a [u8]>, line: usize) -> Result<f64, ReadError> {
+pub(crate) fn next_number<'a>(
+    words: &mut impl Iterator<Item = &'a [u8]>,
+    line: usize,
+) -> Result<f64, ReadError> {
     let Some(word) = words.next() else {
-        return Err(ReadError::malformed(format!("line {line}"), "a number is missing"));
+        return Err(ReadError::malformed(
+            format!("line {line}"),
+            "a number is missing",
+        ));
     };
     number(word).ok_or_else(|| {
         let problem = format!("“{}” is not a number", shown(word));

@@ -28,11 +28,17 @@ impl<'a> Rows<'a> {
         let size = kind.size() * width;
         let stride = view.byte_stride.map_or(size, |stride| stride.0);
         if stride < size {
-            return Err(ReadError::malformed(place, "its stride is less than its size"));
+            return Err(ReadError::malformed(
+                place,
+                "its stride is less than its size",
+            ));
         }
         let range = || {
             let start = usize::try_from(offset).ok()?;
-            let length = count.checked_sub(1)?.checked_mul(stride)?.checked_add(size)?;
+            let length = count
+                .checked_sub(1)?
+                .checked_mul(stride)?
+                .checked_add(size)?;
             bytes.get(start..start.checked_add(length)?)
         };
         let bytes = if count == 0 {
@@ -40,11 +46,18 @@ impl<'a> Rows<'a> {
         } else {
             range().ok_or_else(|| ReadError::truncated(place))?
         };
-        Ok(Self { bytes, stride, kind })
+        Ok(Self {
+            bytes,
+            stride,
+            kind,
+        })
     }
 
     fn number(&self, row: usize, k: usize) -> f64 {
-        let bytes = self.bytes.get(row * self.stride + k * self.kind.size()..).unwrap_or_default();
+        let bytes = self
+            .bytes
+            .get(row * self.stride + k * self.kind.size()..)
+            .unwrap_or_default();
         let two = || bytes.first_chunk::<2>().copied().unwrap_or_default();
         let four = || bytes.first_chunk::<4>().copied().unwrap_or_default();
         let one = || bytes.first().copied().unwrap_or_default();
@@ -64,11 +77,16 @@ impl<'a> Rows<'a> {
 }
 
 /// All rows of an accessor of `N` numbers each.
-pub(super) fn read<const N: usize>(root: &Root, buffers: &Buffers, index: Index<Accessor>) -> Result<Vec<[f64; N]>, ReadError> {
+pub(super) fn read<const N: usize>(
+    root: &Root,
+    buffers: &Buffers,
+    index: Index<Accessor>,
+) -> Result<Vec<[f64; N]>, ReadError> {
     let place = format!("accessor {}", index.value());
     let bad = |problem: &str| ReadError::malformed(place.clone(), problem);
     let accessor = root.get(index).ok_or_else(|| bad("there is none"))?;
-    let (Checked::Valid(kind), Checked::Valid(shape)) = (accessor.component_type, accessor.type_) else {
+    let (Checked::Valid(kind), Checked::Valid(shape)) = (accessor.component_type, accessor.type_)
+    else {
         return Err(bad("its type is unknown"));
     };
     let is_matrix = matches!(shape, Type::Mat2 | Type::Mat3 | Type::Mat4);
@@ -103,15 +121,31 @@ fn replace_sparse<const N: usize>(
     };
     let count = sparse.count.0.min(values.len() as u64) as usize;
     let Checked::Valid(index_kind) = sparse.indices.component_type else {
-        return Err(ReadError::malformed(place, "the type of its sparse indices is unknown"));
+        return Err(ReadError::malformed(
+            place,
+            "the type of its sparse indices is unknown",
+        ));
     };
     let start = sparse.indices.byte_offset.0;
-    let at = Rows::new((root, buffers), sparse.indices.buffer_view, (start, count), (index_kind.0, 1), place)?;
+    let at = Rows::new(
+        (root, buffers),
+        sparse.indices.buffer_view,
+        (start, count),
+        (index_kind.0, 1),
+        place,
+    )?;
     let start = sparse.values.byte_offset.0;
-    let new = Rows::new((root, buffers), sparse.values.buffer_view, (start, count), (kind, N), place)?;
+    let new = Rows::new(
+        (root, buffers),
+        sparse.values.buffer_view,
+        (start, count),
+        (kind, N),
+        place,
+    )?;
     for i in 0..count {
         let target = values.get_mut(at.number(i, 0) as usize);
-        *target.ok_or_else(|| ReadError::malformed(place, "a sparse index is out of range"))? = new.row(i);
+        *target.ok_or_else(|| ReadError::malformed(place, "a sparse index is out of range"))? =
+            new.row(i);
     }
     Ok(())
 }

@@ -16,16 +16,30 @@ pub(super) struct Buffers<'a> {
 }
 
 impl<'a> Buffers<'a> {
-    pub(super) fn read(root: &Root, blob: Option<&'a [u8]>, folder: Option<&Path>) -> Result<Self, ReadError> {
-        let contents = root.buffers.iter().enumerate().map(|(i, buffer)| content(i, buffer, blob, folder));
+    pub(super) fn read(
+        root: &Root,
+        blob: Option<&'a [u8]>,
+        folder: Option<&Path>,
+    ) -> Result<Self, ReadError> {
+        let contents = root
+            .buffers
+            .iter()
+            .enumerate()
+            .map(|(i, buffer)| content(i, buffer, blob, folder));
         let contents = contents.collect::<Result<Vec<_>, _>>()?;
         Ok(Self { contents })
     }
 
     /// The bytes of a buffer view.
-    pub(super) fn view<'s>(&'s self, root: &'s Root, index: Index<View>) -> Result<(&'s [u8], &'s View), ReadError> {
+    pub(super) fn view<'s>(
+        &'s self,
+        root: &'s Root,
+        index: Index<View>,
+    ) -> Result<(&'s [u8], &'s View), ReadError> {
         let place = || format!("buffer view {}", index.value());
-        let view = root.get(index).ok_or_else(|| ReadError::malformed(place(), "there is none"))?;
+        let view = root
+            .get(index)
+            .ok_or_else(|| ReadError::malformed(place(), "there is none"))?;
         let start = view.byte_offset.map_or(0, |offset| offset.0);
         let range = || {
             let end = start.checked_add(view.byte_length.0)?;
@@ -37,17 +51,31 @@ impl<'a> Buffers<'a> {
     }
 }
 
-fn content<'a>(i: usize, buffer: &Buffer, blob: Option<&'a [u8]>, folder: Option<&Path>) -> Result<Cow<'a, [u8]>, ReadError> {
+fn content<'a>(
+    i: usize,
+    buffer: &Buffer,
+    blob: Option<&'a [u8]>,
+    folder: Option<&Path>,
+) -> Result<Cow<'a, [u8]>, ReadError> {
     let bad = |problem: &str| ReadError::malformed(format!("buffer {i}"), problem);
     let Some(uri) = &buffer.uri else {
-        return blob.filter(|_| i == 0).map(Cow::Borrowed).ok_or_else(|| bad("it has neither a uri nor a binary chunk"));
+        return blob
+            .filter(|_| i == 0)
+            .map(Cow::Borrowed)
+            .ok_or_else(|| bad("it has neither a uri nor a binary chunk"));
     };
     if let Some(data) = uri.strip_prefix("data:") {
-        let (_, code) = data.split_once(";base64,").ok_or_else(|| bad("its data uri is not base64"))?;
-        let bytes = STANDARD.decode(code).map_err(|error| bad(&format!("its base64 is damaged: {error}")))?;
+        let (_, code) = data
+            .split_once(";base64,")
+            .ok_or_else(|| bad("its data uri is not base64"))?;
+        let bytes = STANDARD
+            .decode(code)
+            .map_err(|error| bad(&format!("its base64 is damaged: {error}")))?;
         return Ok(Cow::Owned(bytes));
     }
-    let folder = folder.ok_or_else(|| bad("it is a file of its own, which cannot be read from memory; use .glb"))?;
+    let folder = folder.ok_or_else(|| {
+        bad("it is a file of its own, which cannot be read from memory; use .glb")
+    })?;
     let path = PathBuf::from(percent_decoded(uri));
     let is_inside = |part: Component| matches!(part, Component::Normal(_) | Component::CurDir);
     if !path.components().all(is_inside) {
@@ -60,8 +88,13 @@ fn percent_decoded(uri: &str) -> String {
     let mut bytes = Vec::with_capacity(uri.len());
     let mut rest = uri.as_bytes();
     while let Some((&first, after)) = rest.split_first() {
-        let code = after.get(..2).and_then(|digits| std::str::from_utf8(digits).ok());
-        match code.and_then(|digits| u8::from_str_radix(digits, 16).ok()).filter(|_| first == b'%') {
+        let code = after
+            .get(..2)
+            .and_then(|digits| std::str::from_utf8(digits).ok());
+        match code
+            .and_then(|digits| u8::from_str_radix(digits, 16).ok())
+            .filter(|_| first == b'%')
+        {
             Some(byte) => {
                 bytes.push(byte);
                 rest = &after[2..];

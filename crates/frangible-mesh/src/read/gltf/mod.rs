@@ -31,8 +31,14 @@ pub(crate) fn parse(bytes: &[u8], folder: Option<&Path>) -> Result<InputMesh, Re
     };
     let root: Root = gltf_json::deserialize::from_slice(json)
         .map_err(|error| ReadError::malformed("the JSON of the glTF", error.to_string()))?;
-    if let Some(extension) = root.extensions_required.iter().find(|e| UNREADABLE.contains(&e.as_str())) {
-        return Err(ReadError::Unsupported(format!("the glTF extension {extension}")));
+    if let Some(extension) = root
+        .extensions_required
+        .iter()
+        .find(|e| UNREADABLE.contains(&e.as_str()))
+    {
+        return Err(ReadError::Unsupported(format!(
+            "the glTF extension {extension}"
+        )));
     }
     let buffers = Buffers::read(&root, blob, folder)?;
     let mut meshes = Meshes::new(&root, &buffers);
@@ -46,7 +52,13 @@ pub(crate) fn parse(bytes: &[u8], folder: Option<&Path>) -> Result<InputMesh, Re
 
 /// The JSON and binary chunks of a GLB.
 fn split_glb(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), ReadError> {
-    let word = |at: usize| bytes.get(at..at.checked_add(4)?)?.try_into().ok().map(u32::from_le_bytes);
+    let word = |at: usize| {
+        bytes
+            .get(at..at.checked_add(4)?)?
+            .try_into()
+            .ok()
+            .map(u32::from_le_bytes)
+    };
     let version = word(4).ok_or_else(|| ReadError::truncated("the GLB header"))?;
     if version != 2 {
         return Err(ReadError::Unsupported(format!("glTF version {version}")));
@@ -56,12 +68,21 @@ fn split_glb(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), ReadError> {
         (bytes.get(at + 4..at + 8)? == kind).then_some(length)
     };
     let Some(length) = chunk(12, b"JSON") else {
-        return Err(ReadError::malformed("the GLB", "its first chunk is not JSON"));
+        return Err(ReadError::malformed(
+            "the GLB",
+            "its first chunk is not JSON",
+        ));
     };
-    let json = bytes.get(20..20 + length).ok_or_else(|| ReadError::truncated("the JSON chunk"))?;
+    let json = bytes
+        .get(20..20 + length)
+        .ok_or_else(|| ReadError::truncated("the JSON chunk"))?;
     let start = 20 + length;
     let blob = match chunk(start, b"BIN\0") {
-        Some(length) => Some(bytes.get(start + 8..start + 8 + length).ok_or_else(|| ReadError::truncated("the binary chunk"))?),
+        Some(length) => Some(
+            bytes
+                .get(start + 8..start + 8 + length)
+                .ok_or_else(|| ReadError::truncated("the binary chunk"))?,
+        ),
         None => None,
     };
     Ok((json, blob))
@@ -69,7 +90,13 @@ fn split_glb(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), ReadError> {
 
 fn material(material: &Material) -> InputMaterial {
     let pbr = &material.pbr_metallic_roughness;
-    let share = |v: f32| if v.is_finite() { v.clamp(0.0, 1.0) } else { 1.0 };
+    let share = |v: f32| {
+        if v.is_finite() {
+            v.clamp(0.0, 1.0)
+        } else {
+            1.0
+        }
+    };
     InputMaterial {
         name: material.name.clone().unwrap_or_default(),
         base_color: pbr.base_color_factor.0.map(share),

@@ -26,23 +26,38 @@ pub(super) struct Meshes<'a> {
 impl<'a> Meshes<'a> {
     pub(super) fn new(root: &'a Root, buffers: &'a Buffers<'a>) -> Self {
         let mesh = InputMesh::default();
-        Self { root, buffers, mesh }
+        Self {
+            root,
+            buffers,
+            mesh,
+        }
     }
 
     /// Adds a mesh, transformed. Transforms that mirror turn the winding, so that outside stays outside.
     pub(super) fn add(&mut self, index: Index<Mesh>, transform: DMat4) -> Result<(), ReadError> {
         let place = || format!("mesh {}", index.value());
-        let mesh = self.root.get(index).ok_or_else(|| ReadError::malformed(place(), "there is none"))?;
+        let mesh = self
+            .root
+            .get(index)
+            .ok_or_else(|| ReadError::malformed(place(), "there is none"))?;
         // Primitives often share their vertices; those are taken once per instance.
         let mut added: BTreeMap<Streams, (u32, u32)> = BTreeMap::new();
         for primitive in &mesh.primitives {
-            let Checked::Valid(mode @ (Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan)) = primitive.mode else {
+            let Checked::Valid(mode @ (Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan)) =
+                primitive.mode
+            else {
                 continue;
             };
             let stream = |semantic| primitive.attributes.get(&Checked::Valid(semantic)).copied();
-            let Some(positions) = stream(Semantic::Positions) else { continue };
+            let Some(positions) = stream(Semantic::Positions) else {
+                continue;
+            };
             let (normals, uvs) = (stream(Semantic::Normals), stream(Semantic::TexCoords(0)));
-            let key = [Some(positions.value()), normals.map(|a| a.value()), uvs.map(|a| a.value())];
+            let key = [
+                Some(positions.value()),
+                normals.map(|a| a.value()),
+                uvs.map(|a| a.value()),
+            ];
             let vertices = match added.get(&key) {
                 Some(&vertices) => vertices,
                 None => {
@@ -68,21 +83,37 @@ impl<'a> Meshes<'a> {
         let first = self.mesh.positions.len();
         let count = positions.len();
         check_vertices((first + count) as u64)?;
-        self.mesh.positions.extend(positions.into_iter().map(|p| transform.transform_point3(DVec3::from(p))));
+        self.mesh.positions.extend(
+            positions
+                .into_iter()
+                .map(|p| transform.transform_point3(DVec3::from(p))),
+        );
         if let Some(normals) = normals {
             let normals = read::<3>(self.root, self.buffers, normals)?;
             // Cofactors instead of the inverse's transpose: the same up to a factor, and there for singular ones, too.
             let m = DMat3::from_mat4(transform);
             let sign = if m.determinant() < 0.0 { -1.0 } else { 1.0 };
-            let turn = DMat3::from_cols(m.y_axis.cross(m.z_axis), m.z_axis.cross(m.x_axis), m.x_axis.cross(m.y_axis));
+            let turn = DMat3::from_cols(
+                m.y_axis.cross(m.z_axis),
+                m.z_axis.cross(m.x_axis),
+                m.x_axis.cross(m.y_axis),
+            );
             let turned = normals.into_iter().take(count);
             self.mesh.normals.resize(first, Vec3::ZERO);
-            self.mesh.normals.extend(turned.map(|n| (sign * (turn * DVec3::from(n))).normalize_or_zero().as_vec3()));
+            self.mesh.normals.extend(turned.map(|n| {
+                (sign * (turn * DVec3::from(n)))
+                    .normalize_or_zero()
+                    .as_vec3()
+            }));
         }
         if let Some(uvs) = uvs {
             let uvs = read::<2>(self.root, self.buffers, uvs)?;
             self.mesh.uvs.resize(first, Vec2::ZERO);
-            self.mesh.uvs.extend(uvs.into_iter().take(count).map(|[u, v]| Vec2::new(u as f32, v as f32)));
+            self.mesh.uvs.extend(
+                uvs.into_iter()
+                    .take(count)
+                    .map(|[u, v]| Vec2::new(u as f32, v as f32)),
+            );
         }
         if !self.mesh.normals.is_empty() {
             self.mesh.normals.resize(first + count, Vec3::ZERO);
@@ -93,9 +124,18 @@ impl<'a> Meshes<'a> {
         Ok((first as u32, count as u32))
     }
 
-    fn add_triangles(&mut self, primitive: &Primitive, mode: Mode, (first, count): (u32, u32), mirrored: bool) -> Result<(), ReadError> {
+    fn add_triangles(
+        &mut self,
+        primitive: &Primitive,
+        mode: Mode,
+        (first, count): (u32, u32),
+        mirrored: bool,
+    ) -> Result<(), ReadError> {
         let corners: Vec<u32> = match primitive.indices {
-            Some(indices) => read::<1>(self.root, self.buffers, indices)?.iter().map(|&[i]| i as u32).collect(),
+            Some(indices) => read::<1>(self.root, self.buffers, indices)?
+                .iter()
+                .map(|&[i]| i as u32)
+                .collect(),
             None => (0..count).collect(),
         };
         let number = match mode {
@@ -125,9 +165,14 @@ impl<'a> Meshes<'a> {
         }
         let material = primitive.material.map_or(NO_MATERIAL, |m| m.value() as u32);
         if material != NO_MATERIAL && material as usize >= self.root.materials.len() {
-            return Err(ReadError::malformed(format!("material {material}"), "there is none"));
+            return Err(ReadError::malformed(
+                format!("material {material}"),
+                "there is none",
+            ));
         }
-        self.mesh.material_of_triangle.resize(self.mesh.triangles.len(), material);
+        self.mesh
+            .material_of_triangle
+            .resize(self.mesh.triangles.len(), material);
         Ok(())
     }
 }

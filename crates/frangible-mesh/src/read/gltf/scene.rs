@@ -29,7 +29,12 @@ pub(super) fn instances(root: &Root) -> Result<Vec<(Index<Mesh>, DMat4)>, ReadEr
         let transform = above * local(node);
         instances.extend(node.mesh.map(|mesh| (mesh, transform)));
         let children = node.children.as_deref().unwrap_or_default();
-        open.extend(children.iter().rev().map(|child| (child.value(), transform)));
+        open.extend(
+            children
+                .iter()
+                .rev()
+                .map(|child| (child.value(), transform)),
+        );
     }
     Ok(instances)
 }
@@ -43,7 +48,11 @@ fn roots(root: &Root) -> Vec<usize> {
         return scene.nodes.iter().map(|node| node.value()).collect();
     }
     let mut is_child = vec![false; root.nodes.len()];
-    for child in root.nodes.iter().flat_map(|node| node.children.iter().flatten()) {
+    for child in root
+        .nodes
+        .iter()
+        .flat_map(|node| node.children.iter().flatten())
+    {
         if let Some(flag) = is_child.get_mut(child.value()) {
             *flag = true;
         }
@@ -61,5 +70,9 @@ fn local(node: &Node) -> DMat4 {
         let q = glam::DVec4::from(q.0.map(f64::from));
         q.try_normalize().map_or(DQuat::IDENTITY, DQuat::from_vec4)
     });
-    DMat4::from_scale_rotation_translation(scale, rotation, node.translation.map_or(DVec3::ZERO, vector))
+    DMat4::from_scale_rotation_translation(
+        scale,
+        rotation,
+        node.translation.map_or(DVec3::ZERO, vector),
+    )
 }

@@ -34,7 +34,12 @@ pub(super) struct Splitter<'a> {
 }
 
 impl<'a> Splitter<'a> {
-    pub(super) fn new(positions: &'a [DVec3], uvs: &'a [Vec2], normals: &'a [Vec3], corners: &[Corner]) -> Self {
+    pub(super) fn new(
+        positions: &'a [DVec3],
+        uvs: &'a [Vec2],
+        normals: &'a [Vec3],
+        corners: &[Corner],
+    ) -> Self {
         let unused = |position| Corner {
             position,
             uv: Corner::NONE,
@@ -58,7 +63,11 @@ impl<'a> Splitter<'a> {
             if index != Corner::NONE && index as usize >= vertices {
                 let index = i64::from(index) + 1;
                 let face = face + 1;
-                return Err(ReadError::IndexOutOfRange { face, index, vertices });
+                return Err(ReadError::IndexOutOfRange {
+                    face,
+                    index,
+                    vertices,
+                });
             }
             Ok(())
         };
@@ -83,14 +92,27 @@ impl<'a> Splitter<'a> {
 
     pub(super) fn finish(self, mesh: &mut InputMesh) {
         let attribute = |index: u32| (index != Corner::NONE).then_some(index as usize);
-        mesh.positions = self.vertices.iter().map(|c| self.positions[c.position as usize]).collect();
+        mesh.positions = self
+            .vertices
+            .iter()
+            .map(|c| self.positions[c.position as usize])
+            .collect();
         if self.has_uvs {
             let uv = |c: &Corner| attribute(c.uv).and_then(|i| self.uvs.get(i).copied());
-            mesh.uvs = self.vertices.iter().map(|c| uv(c).unwrap_or_default()).collect();
+            mesh.uvs = self
+                .vertices
+                .iter()
+                .map(|c| uv(c).unwrap_or_default())
+                .collect();
         }
         if self.has_normals {
-            let normal = |c: &Corner| attribute(c.normal).and_then(|i| self.normals.get(i).copied());
-            mesh.normals = self.vertices.iter().map(|c| normal(c).unwrap_or(Vec3::ZERO)).collect();
+            let normal =
+                |c: &Corner| attribute(c.normal).and_then(|i| self.normals.get(i).copied());
+            mesh.normals = self
+                .vertices
+                .iter()
+                .map(|c| normal(c).unwrap_or(Vec3::ZERO))
+                .collect();
         }
     }
 }

@@ -47,7 +47,12 @@ pub(crate) fn parse(bytes: &[u8], folder: Option<&Path>) -> Result<InputMesh, Re
             Some(b"mtllib") => materials.read_library(rest_of(&text, b"mtllib"), folder),
             _ => {}
         }
-        check_vertices(obj.positions.len().max(obj.uvs.len()).max(obj.normals.len()) as u64)?;
+        check_vertices(
+            obj.positions
+                .len()
+                .max(obj.uvs.len())
+                .max(obj.normals.len()) as u64,
+        )?;
     }
     let mut mesh = obj.assemble()?;
     mesh.materials = materials.list;
@@ -65,7 +70,12 @@ fn rest_of<'a>(text: &'a [u8], keyword: &[u8]) -> &'a [u8] {
 }
 
 impl Obj {
-    fn face<'a>(&mut self, words: &mut impl Iterator<Item = &'a [u8]>, line: usize, material: u32) -> Result<(), ReadError> {
+    fn face<'a>(
+        &mut self,
+        words: &mut impl Iterator<Item = &'a [u8]>,
+        line: usize,
+        material: u32,
+    ) -> Result<(), ReadError> {
         let first = self.corners.len();
         for word in words {
             if word.starts_with(b"#") {
@@ -95,7 +105,9 @@ impl Obj {
         let mut index = |there: usize| match parts.next() {
             None | Some(b"") => Ok(None),
             Some(digits) => {
-                let index = std::str::from_utf8(digits).ok().and_then(|d| d.parse::<i64>().ok());
+                let index = std::str::from_utf8(digits)
+                    .ok()
+                    .and_then(|d| d.parse::<i64>().ok());
                 let index = index.ok_or_else(not_a_corner)?;
                 self.resolve(index, there).map(Some)
             }
@@ -113,7 +125,9 @@ impl Obj {
         let from_zero = if index > 0 {
             Some(index - 1)
         } else {
-            (there as i64).checked_add(index).filter(|&i| i >= 0 && index != 0)
+            (there as i64)
+                .checked_add(index)
+                .filter(|&i| i >= 0 && index != 0)
         };
         from_zero
             .and_then(|i| u32::try_from(i).ok())
@@ -141,8 +155,10 @@ impl Obj {
             }
             first = end as usize;
             triangulate(&points, &mut local);
-            mesh.triangles.extend(local.iter().map(|t| t.map(|k| vertices[k as usize])));
-            mesh.material_of_triangle.resize(mesh.triangles.len(), material);
+            mesh.triangles
+                .extend(local.iter().map(|t| t.map(|k| vertices[k as usize])));
+            mesh.material_of_triangle
+                .resize(mesh.triangles.len(), material);
         }
         splitter.finish(&mut mesh);
         Ok(mesh)

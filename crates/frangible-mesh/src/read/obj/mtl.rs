@@ -35,8 +35,14 @@ impl Materials {
             return;
         };
         let name = Path::new(name);
-        if name.components().any(|part| !matches!(part, Component::Normal(_) | Component::CurDir)) {
-            log::warn!("material library {} is outside the folder of the mesh: not read", name.display());
+        if name
+            .components()
+            .any(|part| !matches!(part, Component::Normal(_) | Component::CurDir))
+        {
+            log::warn!(
+                "material library {} is outside the folder of the mesh: not read",
+                name.display()
+            );
             return;
         }
         match read_file(&folder.join(name)) {
@@ -51,14 +57,23 @@ fn parse(bytes: &[u8]) -> BTreeMap<Vec<u8>, InputMaterial> {
     let mut current: Option<(Vec<u8>, InputMaterial)> = None;
     for (_, text) in Lines::new(bytes) {
         let mut words = words(&text);
-        let Some(keyword) = words.next() else { continue };
+        let Some(keyword) = words.next() else {
+            continue;
+        };
         if keyword == b"newmtl" {
             let name = text.get(6..).unwrap_or_default().trim_ascii().to_vec();
             known.extend(current.replace((name, InputMaterial::default())));
             continue;
         }
-        let Some((_, material)) = &mut current else { continue };
-        let mut value = || words.next().and_then(number).map(|v| v.clamp(0.0, 1000.0) as f32);
+        let Some((_, material)) = &mut current else {
+            continue;
+        };
+        let mut value = || {
+            words
+                .next()
+                .and_then(number)
+                .map(|v| v.clamp(0.0, 1000.0) as f32)
+        };
         let share = |v: Option<f32>| v.filter(|v| v.is_finite()).map(|v| v.min(1.0));
         match keyword {
             b"Kd" => {

@@ -53,10 +53,18 @@ impl Header {
             let (text, after) = (&rest[..end], &rest[end + 1..]);
             rest = after;
             let words: Vec<&[u8]> = words(text).collect();
-            let bad = || ReadError::malformed(format!("line {line}"), format!("“{}” is no PLY header line", shown(text)));
+            let bad = || {
+                ReadError::malformed(
+                    format!("line {line}"),
+                    format!("“{}” is no PLY header line", shown(text)),
+                )
+            };
             if line == 1 {
                 if words != [b"ply"] {
-                    return Err(ReadError::malformed("line 1", "a PLY file begins with the line “ply”"));
+                    return Err(ReadError::malformed(
+                        "line 1",
+                        "a PLY file begins with the line “ply”",
+                    ));
                 }
                 continue;
             }
@@ -86,7 +94,8 @@ impl Header {
                 _ => return Err(bad()),
             }
         }
-        let encoding = encoding.ok_or_else(|| ReadError::malformed("the header", "it has no line “format …”"))?;
+        let encoding = encoding
+            .ok_or_else(|| ReadError::malformed("the header", "it has no line “format …”"))?;
         Ok((Self { encoding, elements }, rest))
     }
 }

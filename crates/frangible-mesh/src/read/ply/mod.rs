@@ -50,11 +50,18 @@ fn slot(property: &Property) -> Slot {
     }
 }
 
-fn read_vertices(element: &Element, values: &mut Values, mesh: &mut InputMesh) -> Result<(), ReadError> {
+fn read_vertices(
+    element: &Element,
+    values: &mut Values,
+    mesh: &mut InputMesh,
+) -> Result<(), ReadError> {
     check_vertices(element.count.saturating_add(mesh.positions.len() as u64))?;
     let slots: Vec<Slot> = element.properties.iter().map(slot).collect();
     for k in 0..3 {
-        if !slots.iter().any(|slot| matches!(slot, Slot::Position(at) if *at == k)) {
+        if !slots
+            .iter()
+            .any(|slot| matches!(slot, Slot::Position(at) if *at == k))
+        {
             let problem = format!("vertices have no {}", ["x", "y", "z"][k]);
             return Err(ReadError::malformed("the header", problem));
         }
@@ -100,9 +107,14 @@ struct Faces {
 impl Faces {
     fn read(&mut self, element: &Element, values: &mut Values) -> Result<(), ReadError> {
         check_triangles(element.count)?;
-        let is_face = |p: &Property| p.count.is_some() && [&b"vertex_indices"[..], b"vertex_index"].contains(&&p.name[..]);
+        let is_face = |p: &Property| {
+            p.count.is_some() && [&b"vertex_indices"[..], b"vertex_index"].contains(&&p.name[..])
+        };
         if !element.properties.iter().any(is_face) {
-            return Err(ReadError::malformed("the header", "faces have no list named vertex_indices"));
+            return Err(ReadError::malformed(
+                "the header",
+                "faces have no list named vertex_indices",
+            ));
         }
         for row in 0..element.count {
             let place = || format!("face {}", row + 1);
@@ -115,7 +127,8 @@ impl Faces {
                 self.triangles += count.saturating_sub(2);
                 check_triangles(self.triangles)?;
                 for _ in 0..count {
-                    self.corners.push(values.next(property.value, place)? as i64);
+                    self.corners
+                        .push(values.next(property.value, place)? as i64);
                 }
                 self.ends.push(self.corners.len() as u32);
             }
@@ -133,9 +146,15 @@ impl Faces {
             first = end as usize;
             points.clear();
             for &index in corners {
-                let position = usize::try_from(index).ok().and_then(|v| mesh.positions.get(v));
+                let position = usize::try_from(index)
+                    .ok()
+                    .and_then(|v| mesh.positions.get(v));
                 let face = face + 1;
-                points.push(*position.ok_or(ReadError::IndexOutOfRange { face, index, vertices })?);
+                points.push(*position.ok_or(ReadError::IndexOutOfRange {
+                    face,
+                    index,
+                    vertices,
+                })?);
             }
             triangulate(&points, &mut local);
             let triangles = local.iter().map(|t| t.map(|k| corners[k as usize] as u32));

@@ -16,7 +16,11 @@ impl<'a> Values<'a> {
     }
 
     /// The next number; `place` says which row it belongs to.
-    pub(super) fn next(&mut self, kind: Kind, place: impl Fn() -> String) -> Result<f64, ReadError> {
+    pub(super) fn next(
+        &mut self,
+        kind: Kind,
+        place: impl Fn() -> String,
+    ) -> Result<f64, ReadError> {
         let value = match self.encoding {
             Encoding::Text => return self.next_word(place),
             Encoding::LittleEndian => self.next_binary(kind, false),
@@ -26,10 +30,17 @@ impl<'a> Values<'a> {
     }
 
     /// The length of a list.
-    pub(super) fn list_length(&mut self, kind: Kind, place: impl Fn() -> String) -> Result<u64, ReadError> {
+    pub(super) fn list_length(
+        &mut self,
+        kind: Kind,
+        place: impl Fn() -> String,
+    ) -> Result<u64, ReadError> {
         let length = self.next(kind, &place)?;
         if !(length >= 0.0 && length.fract() == 0.0) {
-            return Err(ReadError::malformed(place(), format!("{length} is not the length of a list")));
+            return Err(ReadError::malformed(
+                place(),
+                format!("{length} is not the length of a list"),
+            ));
         }
         // Each value takes a byte at least.
         if length > self.rest.len() as f64 {
@@ -38,7 +49,11 @@ impl<'a> Values<'a> {
         Ok(length as u64)
     }
 
-    pub(super) fn skip(&mut self, property: &Property, place: impl Fn() -> String) -> Result<(), ReadError> {
+    pub(super) fn skip(
+        &mut self,
+        property: &Property,
+        place: impl Fn() -> String,
+    ) -> Result<(), ReadError> {
         let count = match property.count {
             Some(count) => self.list_length(count, &place)?,
             None => 1,
@@ -51,13 +66,18 @@ impl<'a> Values<'a> {
 
     fn next_word(&mut self, place: impl Fn() -> String) -> Result<f64, ReadError> {
         let rest = self.rest.trim_ascii_start();
-        let end = rest.iter().position(u8::is_ascii_whitespace).unwrap_or(rest.len());
+        let end = rest
+            .iter()
+            .position(u8::is_ascii_whitespace)
+            .unwrap_or(rest.len());
         let (word, rest) = rest.split_at(end);
         self.rest = rest;
         if word.is_empty() {
             return Err(ReadError::truncated(place()));
         }
-        number(word).ok_or_else(|| ReadError::malformed(place(), format!("“{}” is not a number", shown(word))))
+        number(word).ok_or_else(|| {
+            ReadError::malformed(place(), format!("“{}” is not a number", shown(word)))
+        })
     }
 
     fn next_binary(&mut self, kind: Kind, is_big: bool) -> Option<f64> {

@@ -1,0 +1,97 @@
+//! What a repair found and did.
+
+use std::fmt;
+
+/// Counts of what was mended and of what remains.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct RepairReport {
+    /// Vertices before.
+    pub vertices_in: usize,
+    /// Vertices after.
+    pub vertices_out: usize,
+    /// Triangles before.
+    pub faces_in: usize,
+    /// Triangles after.
+    pub faces_out: usize,
+    /// Vertices merged into others at the same place; texture seams are the usual reason.
+    pub welded: usize,
+    /// Vertices that no triangle used.
+    pub loose: usize,
+    /// Triangles without area, dropped.
+    pub degenerate: usize,
+    /// Triangles that repeated another, dropped; of pairs back to back without anything between, both.
+    pub duplicate: usize,
+    /// Triangles whose winding was turned.
+    pub flipped: usize,
+    /// Holes: connected chains of edges with one triangle.
+    pub boundary_loops: usize,
+    /// Edges with one triangle.
+    pub boundary_edges: usize,
+    /// Edges with more than two triangles.
+    pub non_manifold_edges: usize,
+    /// Parts connected across edges of two triangles.
+    pub shells: usize,
+    /// Shells with a boundary, or that have one side only.
+    pub open_shells: usize,
+    /// Shells that have one side only, as a Möbius strip does.
+    pub one_sided: usize,
+    /// Closed shells that bound a hollow inside another, wound inwards.
+    pub cavities: usize,
+    /// Closed shells inside another and wound like it: solid within solid. Turned, they would be cavities.
+    pub nested_alike: usize,
+}
+
+impl RepairReport {
+    /// Whether every edge has two triangles and every shell two sides.
+    #[must_use]
+    pub fn is_watertight(&self) -> bool {
+        self.open_shells == 0 && self.non_manifold_edges == 0
+    }
+
+    /// Whether the surface is, up to loose vertices, the mesh as it came.
+    #[must_use]
+    pub fn is_unchanged(&self) -> bool {
+        self.welded + self.degenerate + self.duplicate + self.flipped == 0
+    }
+}
+
+/// One line about what was mended and what remains open; empty when there is nothing to tell.
+impl fmt::Display for RepairReport {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let counted = |count: usize, before: &str, one: &str, many: &str, after: &str| {
+            let noun = if count == 1 { one } else { many };
+            (count > 0).then(|| format!("{before}{count} {noun}{after}"))
+        };
+        let face = |count, before| counted(count, before, "triangle", "triangles", "");
+        let parts = [
+            counted(self.welded, "welded ", "vertex", "vertices", ""),
+            face(self.degenerate, "dropped empty: "),
+            face(self.duplicate, "dropped doubled: "),
+            face(self.flipped, "turned "),
+            counted(self.boundary_loops, "", "hole remains", "holes remain", ""),
+            counted(
+                self.non_manifold_edges,
+                "",
+                "edge has",
+                "edges have",
+                " more than two triangles",
+            ),
+            counted(
+                self.one_sided,
+                "",
+                "part has",
+                "parts have",
+                " only one side",
+            ),
+            counted(
+                self.nested_alike,
+                "",
+                "shell lies",
+                "shells lie",
+                " inside another, taken as solid",
+            ),
+        ];
+        let parts: Vec<String> = parts.into_iter().flatten().collect();
+        f.write_str(&parts.join(", "))
+    }
+}
