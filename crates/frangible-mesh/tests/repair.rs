@@ -178,6 +178,24 @@ fn hairline_cracks_close_and_thin_walls_do_not() {
 }
 
 #[test]
+fn a_finely_divided_rim_keeps_its_vertices() {
+    // A cup whose rim has edges of 6e-6 of its size.
+    let n = 1000_u32;
+    let ring = |k: u32| {
+        let turn = std::f64::consts::TAU * f64::from(k) / f64::from(n);
+        DVec3::new(1e-3 * turn.cos(), 0.0, -1e-3 * turn.sin())
+    };
+    let mut positions: Vec<DVec3> = (0..n).map(ring).collect();
+    positions.push(-DVec3::Y);
+    let cup = mesh(positions, (0..n).map(|k| [k, n, (k + 1) % n]).collect());
+    let (surface, report) = repaired(&cup);
+    assert_eq!(
+        (surface.positions.len() as u32, report.boundary_edges as u32),
+        (n + 1, n)
+    );
+}
+
+#[test]
 fn scrambled_windings_are_made_one() {
     let mut scrambled = ball(1.0, DVec3::ZERO);
     let expected = input_volume(&scrambled);
@@ -269,18 +287,18 @@ fn a_doubled_shell_counts_once_either_way() {
 
 #[test]
 fn a_membrane_between_two_cubes_goes() {
-    let cubes = [cube(DVec3::ZERO, 1.0), cube(DVec3::X, 1.0)];
-    let mut right = cubes[1].clone();
-    // The shared face cut along the same diagonal as its partner.
+    let (left, right) = (cube(DVec3::ZERO, 1.0), cube(DVec3::X, 1.0));
     let on_wall = |m: &InputMesh, t: &[u32; 3]| t.iter().all(|&v| m.positions[v as usize].x == 1.0);
-    right.triangles.retain(|t| !on_wall(&right_of(&cubes), t));
-    let wall: Vec<[u32; 3]> = cubes[0]
+    // Both cut the wall along the same diagonal: the right cube takes the left one's triangles, turned.
+    let wall: Vec<[u32; 3]> = left
         .triangles
         .iter()
         .copied()
-        .filter(|t| on_wall(&cubes[0], t))
+        .filter(|t| on_wall(&left, t))
         .collect();
-    let mut both = joined(&[cubes[0].clone(), right]);
+    let mut open = right.clone();
+    open.triangles.retain(|t| !on_wall(&right, t));
+    let mut both = joined(&[left, open]);
     both.triangles
         .extend(wall.iter().map(|&[a, b, c]| [a, c, b]));
     let (surface, report) = repaired(&both);
@@ -290,10 +308,6 @@ fn a_membrane_between_two_cubes_goes() {
     );
     assert!(report.is_watertight());
     assert!((volume(&surface) - 2.0).abs() < 1e-12);
-}
-
-fn right_of(cubes: &[InputMesh; 2]) -> InputMesh {
-    cubes[1].clone()
 }
 
 #[test]
