@@ -182,14 +182,17 @@ fn has_no_area(positions: &[DVec3], triangle: [u32; 3]) -> bool {
 }
 
 fn close_cracks(positions: &mut Vec<DVec3>, triangles: &mut Vec<[u32; 3]>, diagonal: f64) {
-    let mut is_open = vec![false; positions.len()];
+    let mut rim_edge = vec![f64::INFINITY; positions.len()];
     for (near, group) in Edges::new(positions.len(), triangles).groups() {
         if let [side] = group {
-            is_open[near as usize] = true;
-            is_open[side.far() as usize] = true;
+            let ends = [near as usize, side.far() as usize];
+            let length = positions[ends[0]].distance(positions[ends[1]]);
+            for end in ends {
+                rim_edge[end] = rim_edge[end].min(length);
+            }
         }
     }
-    if let Some(onto) = weld::across_cracks(positions, &is_open, diagonal) {
+    if let Some(onto) = weld::across_cracks(positions, &rim_edge, diagonal) {
         for v in triangles.iter_mut().flatten() {
             *v = onto[*v as usize];
         }

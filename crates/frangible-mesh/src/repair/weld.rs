@@ -9,6 +9,12 @@ use rayon::slice::ParallelSliceMut as _;
 /// put them up to 1e-6 apart.
 const CRACK: f64 = 1e-5;
 
+/// The same as a share of the rim's shortest edge there, so that finely divided rims do not shrink.
+const CRACK_PER_EDGE: f64 = 0.25;
+
+/// Vertices of one cell that others may move onto; more means a rim far finer than any crack that is closed.
+const MOST_LEADERS: usize = 32;
+
 /// For each vertex the lowest index of those at exactly the same place.
 pub(super) fn same_place(positions: &[DVec3], [low, high]: [DVec3; 2]) -> Vec<u32> {
     const CELLS: f64 = ((1 << 21) - 1) as f64;
@@ -44,11 +50,12 @@ pub(super) fn same_place(positions: &[DVec3], [low, high]: [DVec3; 2]) -> Vec<u3
     first
 }
 
-/// For each vertex the one to replace it. Only vertices of open edges move, onto an earlier one within [`CRACK`]: what
-/// is closed already is never pinched, however thin.
+/// For each vertex the one to replace it. `rim_edge` is the length of the shortest open edge at each vertex, infinite
+/// where there is none: only such vertices move, onto an earlier one across a crack. What is closed already is never
+/// pinched, however thin.
 pub(super) fn across_cracks(
     positions: &[DVec3],
-    is_open: &[bool],
+    rim_edge: &[f64],
     diagonal: f64,
 ) -> Option<Vec<u32>> {
     let reach = CRACK * diagonal;
@@ -58,7 +65,7 @@ pub(super) fn across_cracks(
     let mut onto: Vec<u32> = (0..positions.len() as u32).collect();
     let mut any = false;
     for v in 0..positions.len() {
-        if !is_open[v] {
+        if rim_edge[v] == f64::INFINITY {
             continue;
         }
         let p = positions[v];
@@ -75,14 +82,22 @@ pub(super) fn across_cracks(
             })
             .flatten()
             .map(|&leader| (p.distance(positions[leader as usize]), leader))
-            .filter(|&(distance, _)| distance <= reach)
+            .filter(|&(distance, leader)| {
+                let shortest = rim_edge[v].min(rim_edge[leader as usize]);
+                distance <= reach.min(CRACK_PER_EDGE * shortest)
+            })
             .min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         match nearest {
             Some((_, leader)) => {
                 onto[v] = leader;
                 any = true;
             }
-            None => leaders.entry([x, y, z]).or_default().push(v as u32),
+            None => {
+                let cell = leaders.entry([x, y, z]).or_default();
+                if cell.len() < MOST_LEADERS {
+                    cell.push(v as u32);
+                }
+            }
         }
     }
     any.then_some(onto)
