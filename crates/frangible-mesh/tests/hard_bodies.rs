@@ -1,0 +1,89 @@
+//! Every hard surface gets sound tetrahedra, or an error that says why it is no solid.
+
+#[allow(dead_code, reason = "other tests use the rest")]
+mod common;
+#[allow(dead_code, reason = "other tests use the rest")]
+mod hard;
+
+use common::check_sound;
+use frangible_mesh::glam::Vec3;
+use frangible_mesh::{
+    InputMesh, MeshSolid, Resolution, Surface, TetBody, TetOptions, TetReport, read_mesh, repair,
+    tetrahedralize, wall_thickness,
+};
+use hard::Expect;
+
+/// The whole way from a mesh to tetrahedra, as a bake goes it.
+fn fill(input: &InputMesh, tets: usize) -> Result<(TetBody, TetReport), String> {
+    let (surface, _) = repair(input).map_err(|e| e.to_string())?;
+    let solid = MeshSolid::new(&surface).map_err(|e| e.to_string())?;
+    let thickness = wall_thickness(&solid, 400, 1);
+    let mut options = TetOptions::default();
+    options.resolution = Resolution::Tets(tets);
+    options.most = 1_500_000;
+    options.irregular = Some(1);
+    // As an import does it: a body that is thin all over is a shell.
+    options.wall = (thickness.median < 4.0 * thickness.thinnest).then_some(thickness.thinnest);
+    tetrahedralize(&solid, &options).map_err(|e| e.to_string())
+}
+
+fn input(surface: &Surface) -> InputMesh {
+    InputMesh {
+        positions: surface.positions.clone(),
+        triangles: surface.triangles.clone(),
+        normals: Vec::<Vec3>::new(),
+        ..InputMesh::default()
+    }
+}
+
+#[test]
+fn every_hard_surface_is_filled_soundly_or_refused_with_a_reason() {
+    let mut wrong = Vec::new();
+    for case in hard::all() {
+        let result = fill(&input(&case.surface), 8000);
+        match (&case.expect, &result) {
+            (Expect::Refused, Err(reason)) => println!("{}: refused: {reason}", case.name),
+            (Expect::Solid { volume, .. }, Ok((body, report))) => {
+                check_sound(body);
+                let off = report.volume / volume - 1.0;
+                println!(
+                    "{}: {report}; {:+.2} % of the exact volume",
+                    case.name,
+                    100.0 * off
+                );
+                if off.abs() > 0.04 {
+                    wrong.push(format!("{}: volume off by {:.1} %", case.name, 100.0 * off));
+                }
+            }
+            (Expect::Solid { .. }, Err(reason)) => wrong.push(format!("{}: {reason}", case.name)),
+            (Expect::Refused, Ok((_, report))) => {
+                wrong.push(format!("{}: filled: {report}", case.name))
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
+#[test]
+fn real_meshes_are_filled_soundly() {
+    let folder = std::env::var("FRANGIBLE_MESHES")
+        .unwrap_or_else(|_| concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/meshes").into());
+    for name in ["stanford-bunny", "spot", "suzanne", "teapot"] {
+        let path = std::path::Path::new(&folder)
+            .join(name)
+            .with_extension("obj");
+        if !path.exists() {
+            println!("skipped: no {}", path.display());
+            continue;
+        }
+        let input = read_mesh(&path).unwrap();
+        let (body, report) = fill(&input, 20_000).unwrap();
+        check_sound(&body);
+        println!("{name}: {report}");
+        let counted = report.counted_volume.unwrap();
+        assert!(
+            (report.volume / counted - 1.0).abs() < 0.04,
+            "{name}: {report}"
+        );
+    }
+}
