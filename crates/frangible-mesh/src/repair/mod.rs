@@ -135,14 +135,17 @@ fn check(mesh: &InputMesh) -> Result<([DVec3; 2], usize), RepairError> {
     }
     let mut bounds = [DVec3::INFINITY, DVec3::NEG_INFINITY];
     let mut used = 0;
-    for (v, &p) in mesh.positions.iter().enumerate() {
+    for (v, &p) in mesh
+        .positions
+        .iter()
+        .enumerate()
+        .filter(|(v, _)| is_used[*v])
+    {
         if !(p.is_finite() && p.abs().max_element() < LARGEST) {
             return Err(RepairError::NotFinite { vertex: v + 1 });
         }
-        if is_used[v] {
-            bounds = [bounds[0].min(p), bounds[1].max(p)];
-            used += 1;
-        }
+        bounds = [bounds[0].min(p), bounds[1].max(p)];
+        used += 1;
     }
     Ok((bounds, used))
 }

@@ -95,7 +95,8 @@ pub(crate) fn check_sound(body: &TetBody) -> i64 {
         "an open edge"
     );
 
-    let p = |v: u32| body.positions[v as usize];
+    // From a corner of the body, or a body far away would lose the digits.
+    let p = |v: u32| body.positions[v as usize] - body.positions[0];
     let enclosed: f64 = outside
         .iter()
         .map(|&[a, b, c]| p(a).dot(p(b).cross(p(c))) / 6.0)
