@@ -13,6 +13,8 @@ const ATTEMPTS: usize = 4;
 const COUNTS: usize = 12;
 /// Points per wanted element from which a count of the cells that hold them will do.
 const ENOUGH: usize = 8;
+/// Most cubes along an edge of the body: bounds the parts that one tetrahedron is cut into.
+const CUBES_PER_EDGE: f64 = 16.0;
 
 /// Finds the side of the cubes that gives about the wanted number of elements.
 pub(crate) fn choose_lattice(
@@ -25,8 +27,9 @@ pub(crate) fn choose_lattice(
         .positions
         .iter()
         .fold(DVec3::INFINITY, |low, &p| low.min(p));
+    let finest = longest_edge(body) / CUBES_PER_EDGE;
     let attempt = |side: f64| {
-        let lattice = Lattice::new(low, side);
+        let lattice = Lattice::new(low, side.max(finest));
         let topology = Topology::new(body, faces, &lattice);
         (lattice, topology)
     };
@@ -36,7 +39,7 @@ pub(crate) fn choose_lattice(
         .chain(body.positions.iter().copied())
         .collect();
     let sampled = |side: f64| {
-        let lattice = Lattice::new(low, side);
+        let lattice = Lattice::new(low, side.max(finest));
         let cell = |&p: &DVec3| Cell::at(lattice.in_sides(p));
         let mut cells: Vec<Cell> = points.iter().map(cell).collect();
         cells.sort_unstable();
@@ -92,4 +95,15 @@ fn side_for(count: &dyn Fn(f64) -> f64, side: f64, target: f64) -> f64 {
         }
     }
     best.0
+}
+
+fn longest_edge(body: &BodyMesh) -> f64 {
+    let longest = |x: [DVec3; 4]| {
+        (0..4)
+            .flat_map(|i| (0..i).map(move |j| x[i].distance(x[j])))
+            .fold(0.0, f64::max)
+    };
+    (0..body.tets.len())
+        .map(|t| longest(body.corners(t)))
+        .fold(0.0, f64::max)
 }

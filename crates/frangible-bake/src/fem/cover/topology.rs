@@ -16,7 +16,7 @@ use crate::mesh::BodyMesh;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Fragment {
     pub(crate) cell: Cell,
-    /// Volume in cubes; after [`Topology::new`] it stays as found.
+    /// Volume in cubes.
     pub(crate) volume: f64,
     /// Element that carries it.
     pub(crate) element: u32,
