@@ -2,8 +2,8 @@
 //!
 //! K φ = λ M φ becomes A x = λ B x with A = D K D, B = D M D, φ = D x and D = diag(M)^-½; B = I where the
 //! mass is lumped. A + sB is factorized once; block Lanczos on (A + sB)⁻¹ B, the six rigid motions
-//! deflated analytically, finds the lowest modes: λ = 1/θ − s. Everything runs in a fixed order, so the bits do not depend on the
-//! number of threads. Small systems are solved densely.
+//! deflated analytically, finds the lowest modes: λ = 1/θ − s. Everything runs in a fixed order, so
+//! the bits do not depend on the number of threads. Small systems are solved densely.
 
 mod basis;
 mod dense;

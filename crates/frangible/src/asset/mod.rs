@@ -75,9 +75,10 @@ pub struct AnalysisMesh {
 pub struct EmbeddedPoint {
     /// Analysis element that holds the point (the nearest one, for a point just outside).
     pub element: u32,
-    /// Barycentric coordinates in it of the point, or of the closest point of the element.
+    /// Barycentric coordinates in it of the point, or of the closest point of the element. They sum to one, and
+    /// may be slightly negative: the element's polynomials hold a little beyond its faces.
     pub barycentric: [f32; 4],
-    /// From that closest point to the point, m; zero for a point inside.
+    /// From that closest point to the point, m; zero for a point that the coordinates give exactly.
     pub offset: Vec3,
 }
 

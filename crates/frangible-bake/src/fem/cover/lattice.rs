@@ -90,12 +90,6 @@ impl Cell {
         })
     }
 
-    /// Whether the two cells have a face in common.
-    pub(crate) fn touches(self, other: Self) -> bool {
-        let (a, b) = (self.corners(), other.corners());
-        a.iter().filter(|c| b.contains(c)).count() == 3
-    }
-
     /// Barycentric coordinates as functions of the place.
     pub(crate) fn frame(self) -> Frame {
         let corners = self.corners().map(in_sides);

@@ -8,17 +8,15 @@
 use frangible::glam::DVec3;
 
 use crate::fem::cover::cut::{Parts, cut};
-use crate::fem::cover::lattice::{CELL_VOLUME, Cell, Lattice, Quarters};
+use crate::fem::cover::lattice::{Cell, Lattice, Quarters};
+use crate::fem::cover::slivers::{Contacts, carriers};
 use crate::mesh::BodyMesh;
-
-/// Share of its cell below which a part joins the element next to it, evaluated outside its cell.
-const TINY: f64 = 1e-3;
 
 /// The part of one tetrahedron of the body in one cell.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Fragment {
     pub(crate) cell: Cell,
-    /// Volume in cubes; after [`Topology::new`] it stays as found.
+    /// Volume in cubes.
     pub(crate) volume: f64,
     /// Element that carries it.
     pub(crate) element: u32,
@@ -75,7 +73,7 @@ impl Topology {
             cells: Vec::new(),
         };
         topology.number_components(faces);
-        topology.merge_tiny();
+        topology.merge_slivers();
         topology
     }
 
@@ -114,61 +112,19 @@ impl Topology {
         self.cells = order.into_iter().map(|x| x.0).collect();
     }
 
-    /// Hands tiny components to the neighbour they share most of a face with.
-    fn merge_tiny(&mut self) {
-        let mut volume = vec![0.0; self.cells.len()];
+    /// Hands slivers to the elements next to them.
+    fn merge_slivers(&mut self) {
+        let mut volumes = vec![0.0; self.cells.len()];
         for f in &self.fragments {
-            volume[f.element as usize] += f.volume;
+            volumes[f.element as usize] += f.volume;
         }
-        let tiny: Vec<bool> = volume.iter().map(|v| *v < TINY * CELL_VOLUME).collect();
-        // (tiny component, neighbour, about the area between them).
-        let mut contacts: Vec<(u32, u32, f64)> = Vec::new();
-        for t in 0..self.starts.len() - 1 {
-            for (a, b) in pairs(self.of(t)) {
-                if (tiny[a.element as usize] || tiny[b.element as usize]) && a.cell.touches(b.cell)
-                {
-                    let area = a.volume.min(b.volume).cbrt().powi(2);
-                    contacts.push((a.element, b.element, area));
-                    contacts.push((b.element, a.element, area));
-                }
-            }
-        }
-        contacts.retain(|c| tiny[c.0 as usize]);
-        contacts.sort_by_key(|c| (c.0, c.1));
-        contacts.dedup_by(|later, kept| {
-            let same = (later.0, later.1) == (kept.0, kept.1);
-            kept.2 += if same { later.2 } else { 0.0 };
-            same
+        let met = (0..self.starts.len() - 1).flat_map(|t| {
+            pairs(self.of(t)).map(|(a, b)| {
+                let area = a.volume.min(b.volume).cbrt().powi(2);
+                (a.element, b.element, area)
+            })
         });
-        let mut host: Vec<Option<u32>> = (0..tiny.len() as u32)
-            .map(|c| (!tiny[c as usize]).then_some(c))
-            .collect();
-        loop {
-            // (component, host, area): all found before any is entered, so that the order does not matter.
-            let mut found: Vec<(u32, u32, f64)> = Vec::new();
-            for &(component, neighbour, area) in &contacts {
-                if let (None, Some(to)) = (host[component as usize], host[neighbour as usize]) {
-                    match found.last_mut() {
-                        Some(best) if best.0 == component => {
-                            if area > best.2 {
-                                (best.1, best.2) = (to, area);
-                            }
-                        }
-                        _ => found.push((component, to, area)),
-                    }
-                }
-            }
-            if found.is_empty() {
-                break;
-            }
-            for (component, to, _) in found {
-                host[component as usize] = Some(to);
-            }
-        }
-        // What has no large neighbour keeps its element.
-        let host: Vec<u32> = (0..tiny.len() as u32)
-            .map(|c| host[c as usize].unwrap_or(c))
-            .collect();
+        let host = carriers(&self.cells, &volumes, &Contacts::new(&self.cells, met));
         let kept: Vec<usize> = (0..host.len()).filter(|&c| host[c] as usize == c).collect();
         let mut number = vec![0; host.len()];
         for (new, &old) in kept.iter().enumerate() {
