@@ -28,7 +28,7 @@ pub struct BakeSpec {
     pub shape: Shape,
     /// Material; only E, ν and ρ matter to the modes, the rest is passed on.
     pub material: Material,
-    /// Elements of the analysis mesh; `None`: about 3 000 of them. A solid is covered by as many elements as its volume
+    /// Elements of the analysis mesh; `None`: about 3 000 of them (5 000 for thin walls). A solid is covered by as many elements as its volume
     /// would hold of this size.
     pub analysis: Option<MeshSize>,
     /// Elements of the fracture mesh; `None`: about 42 000 of them.
@@ -183,12 +183,10 @@ fn meshes(spec: &BakeSpec) -> Result<Meshes, BakeError> {
     if let Shape::Solid(shape) = &spec.shape {
         let cell = spec.fracture.map(|size| size.edge);
         let (fine, report) = shapes::solid::mesh(shape, cell, Some(spec.seed))?;
-        let elements = spec.analysis.map_or(shapes::ANALYSIS_TETS, |size| {
-            shapes::solid::estimate(fine.volume(), size)
-        });
+        let elements = shapes::solid::elements(shape, spec.analysis, fine.volume());
         return Ok(Meshes {
             fine,
-            coarse: Coarse::Cover(elements as usize),
+            coarse: Coarse::Cover(elements),
             tetrahedra: Some(report),
         });
     }

@@ -40,7 +40,7 @@ fn a_ball_converges_to_its_volume_at_second_order() {
 fn the_wanted_number_of_tetrahedra_is_met_within_fifteen_per_cent() {
     for (name, solid) in [
         ("ball", Box::new(ball(0.03, None)) as Box<dyn Solid>),
-        ("hollow ball", Box::new(ball(2.0, Some(0.5)))),
+        ("hollow ball", Box::new(ball(2.0, Some(1.0)))),
         ("slab", Box::new(Block::turned(DVec3::new(0.2, 0.2, 0.08)))),
     ] {
         for wanted in [3000, 20_000] {

@@ -18,7 +18,7 @@ use profile::Profile;
 /// Most tetrahedra a mesh may have.
 const LIMIT: usize = 2_000_000;
 /// Tetrahedra of a default analysis mesh: 10–18 thousand unknowns.
-pub(crate) const ANALYSIS_TETS: f64 = 3000.0;
+const ANALYSIS_TETS: f64 = 3000.0;
 /// Tetrahedra of a default fracture mesh: elements about as long as a wall is thick.
 pub(crate) const FRACTURE_TETS: f64 = 42_000.0;
 
