@@ -84,7 +84,11 @@ impl DistanceSolid {
         let along = normal.abs().cmpge(DVec3::ONE);
         let plane = normal * offset;
         let bounds = Extent {
-            low: DVec3::select(along & normal.cmplt(DVec3::ZERO), plane, DVec3::NEG_INFINITY),
+            low: DVec3::select(
+                along & normal.cmplt(DVec3::ZERO),
+                plane,
+                DVec3::NEG_INFINITY,
+            ),
             high: DVec3::select(along & normal.cmpgt(DVec3::ZERO), plane, DVec3::INFINITY),
         };
         Self {
@@ -97,8 +101,12 @@ impl DistanceSolid {
     /// What a closed polygon of (radius, height) points sweeps around z.
     pub fn revolved(profile: Vec<DVec2>) -> Self {
         let radius = profile.iter().fold(0.0, |most: f64, q| most.max(q.x));
-        let low = profile.iter().fold(f64::INFINITY, |least, q| least.min(q.y));
-        let high = profile.iter().fold(f64::NEG_INFINITY, |most, q| most.max(q.y));
+        let low = profile
+            .iter()
+            .fold(f64::INFINITY, |least, q| least.min(q.y));
+        let high = profile
+            .iter()
+            .fold(f64::NEG_INFINITY, |most, q| most.max(q.y));
         let bounds = Extent {
             low: DVec3::new(-radius, -radius, low),
             high: DVec3::new(radius, radius, high),
@@ -108,13 +116,23 @@ impl DistanceSolid {
 
     /// A closed polygon in x and y, extended by `half_height` to both sides along z.
     pub fn prism(outline: Vec<DVec2>, half_height: f64) -> Self {
-        let low = outline.iter().fold(DVec2::INFINITY, |least, &q| least.min(q));
-        let high = outline.iter().fold(DVec2::NEG_INFINITY, |most, &q| most.max(q));
+        let low = outline
+            .iter()
+            .fold(DVec2::INFINITY, |least, &q| least.min(q));
+        let high = outline
+            .iter()
+            .fold(DVec2::NEG_INFINITY, |most, &q| most.max(q));
         let bounds = Extent {
             low: low.extend(-half_height),
             high: high.extend(half_height),
         };
-        Self::within(Node::Prism { outline, half_height }, bounds)
+        Self::within(
+            Node::Prism {
+                outline,
+                half_height,
+            },
+            bounds,
+        )
     }
 
     /// A tube along points, straight between them, by centre and radius. Nothing for less than two points.
@@ -139,7 +157,11 @@ impl DistanceSolid {
         let swell = 0.25 * blend.max(0.0);
         let reach = self.reach.union(&other.reach).grown(swell);
         Self {
-            bounds: if swell > 0.0 { reach } else { self.bounds.union(&other.bounds) },
+            bounds: if swell > 0.0 {
+                reach
+            } else {
+                self.bounds.union(&other.bounds)
+            },
             reach,
             node: Node::Union {
                 parts: Box::new([self, other]),

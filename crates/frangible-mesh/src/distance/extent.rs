@@ -16,7 +16,10 @@ impl Extent {
     };
 
     pub(super) fn around(half: DVec3) -> Self {
-        Self { low: -half, high: half }
+        Self {
+            low: -half,
+            high: half,
+        }
     }
 
     /// Distance of `p` to the box, 0 inside.
@@ -57,8 +60,11 @@ impl Extent {
         if !(self.low.is_finite() && self.high.is_finite()) {
             return Self::EVERYWHERE;
         }
-        let reach = DMat3::from_cols(rotation.x_axis.abs(), rotation.y_axis.abs(), rotation.z_axis.abs())
-            * (0.5 * scale * (self.high - self.low));
+        let reach = DMat3::from_cols(
+            rotation.x_axis.abs(),
+            rotation.y_axis.abs(),
+            rotation.z_axis.abs(),
+        ) * (0.5 * scale * (self.high - self.low));
         let centre = origin + rotation * (0.5 * scale * (self.high + self.low));
         Self {
             low: centre - reach,

@@ -85,7 +85,10 @@ impl DistanceSolid {
     fn value(&self, p: DVec3) -> f64 {
         match &self.node {
             Node::Ellipsoid(radii) => primitives::ellipsoid(p, *radii),
-            Node::RoundCone { ends: [a, b], radii } => primitives::round_cone(p, *a, radii[0], *b, radii[1]),
+            Node::RoundCone {
+                ends: [a, b],
+                radii,
+            } => primitives::round_cone(p, *a, radii[0], *b, radii[1]),
             Node::Box { half, rounding } => primitives::rounded_box(p, *half, *rounding),
             &Node::Cylinder {
                 radius,
@@ -95,11 +98,18 @@ impl DistanceSolid {
             &Node::Torus { ring, tube } => primitives::torus(p, ring, tube),
             &Node::HalfSpace { normal, offset } => primitives::half_space(p, normal, offset),
             Node::Revolved(profile) => primitives::revolved(p, profile),
-            Node::Prism { outline, half_height } => primitives::prism(p, outline, *half_height),
+            Node::Prism {
+                outline,
+                half_height,
+            } => primitives::prism(p, outline, *half_height),
             Node::Union { parts, blend } => {
                 let [a, b] = parts.as_ref();
                 let (at_a, at_b) = (a.reach.beyond(p), b.reach.beyond(p));
-                let (near, far, at_far) = if at_a <= at_b { (a, b, at_b) } else { (b, a, at_a) };
+                let (near, far, at_far) = if at_a <= at_b {
+                    (a, b, at_b)
+                } else {
+                    (b, a, at_a)
+                };
                 let value = near.value(p);
                 if at_far >= value + blend {
                     value
@@ -107,7 +117,9 @@ impl DistanceSolid {
                     smooth_min(value, far.value(p), *blend)
                 }
             }
-            Node::Intersection { parts, blend } => smooth_max(parts[0].value(p), parts[1].value(p), *blend),
+            Node::Intersection { parts, blend } => {
+                smooth_max(parts[0].value(p), parts[1].value(p), *blend)
+            }
             Node::Difference { parts, blend } => {
                 let value = parts[0].value(p);
                 if -parts[1].reach.beyond(p) <= value - blend {

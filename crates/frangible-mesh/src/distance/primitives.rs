@@ -116,7 +116,11 @@ pub fn polygon(p: DVec2, points: &[DVec2], seam: impl Fn(DVec2, DVec2) -> bool) 
         }
         from = to;
     }
-    if inside { -nearest2.sqrt() } else { nearest2.sqrt() }
+    if inside {
+        -nearest2.sqrt()
+    } else {
+        nearest2.sqrt()
+    }
 }
 
 /// Distance to the body that a closed polygon of (radius, height) points sweeps around the z axis. `profile`, m.
@@ -127,6 +131,9 @@ pub fn revolved(p: DVec3, profile: &[DVec2]) -> f64 {
 
 /// Distance to a prism: a closed polygon in x and y, from -`half_height` to `half_height` along z. All m.
 pub fn prism(p: DVec3, outline: &[DVec2], half_height: f64) -> f64 {
-    let q = DVec2::new(polygon(p.truncate(), outline, |_, _| false), p.z.abs() - half_height);
+    let q = DVec2::new(
+        polygon(p.truncate(), outline, |_, _| false),
+        p.z.abs() - half_height,
+    );
     q.max(DVec2::ZERO).length() + q.max_element().min(0.0)
 }

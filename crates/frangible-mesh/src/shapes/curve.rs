@@ -4,14 +4,26 @@ use glam::{DVec2, DVec3, DVec4};
 
 /// A line through all `knots` (position and radius), `steps` pieces between two, by Catmull and Rom's cubic.
 pub(super) fn smooth_line(knots: &[(DVec3, f64)], steps: u32) -> Vec<(DVec3, f64)> {
-    let points: Vec<DVec4> = knots.iter().map(|(at, radius)| at.extend(*radius)).collect();
-    spline(&points, steps).into_iter().map(|q| (q.truncate(), q.w)).collect()
+    let points: Vec<DVec4> = knots
+        .iter()
+        .map(|(at, radius)| at.extend(*radius))
+        .collect();
+    spline(&points, steps)
+        .into_iter()
+        .map(|q| (q.truncate(), q.w))
+        .collect()
 }
 
-/// The same in the plane, for profiles.
+/// The same in the plane, for outlines.
 pub(super) fn smooth_profile(knots: &[(f64, f64)], steps: u32) -> Vec<DVec2> {
-    let points: Vec<DVec4> = knots.iter().map(|&(r, z)| DVec4::new(r, z, 0.0, 0.0)).collect();
-    spline(&points, steps).into_iter().map(|q| DVec2::new(q.x, q.y)).collect()
+    let points: Vec<DVec4> = knots
+        .iter()
+        .map(|&(r, z)| DVec4::new(r, z, 0.0, 0.0))
+        .collect();
+    spline(&points, steps)
+        .into_iter()
+        .map(|q| DVec2::new(q.x, q.y))
+        .collect()
 }
 
 fn spline(points: &[DVec4], steps: u32) -> Vec<DVec4> {

@@ -2,8 +2,8 @@
 //! face look along -y.
 
 mod brick;
-mod curve;
 mod cup;
+mod curve;
 mod hammer;
 mod pig;
 mod rabbit;

@@ -2,8 +2,8 @@
 
 use super::MILLIMETRE;
 use super::curve::smooth_line;
-use crate::distance::first_hit;
 use crate::DistanceSolid;
+use crate::distance::first_hit;
 use glam::{DQuat, DVec3};
 use std::f64::consts::TAU;
 
@@ -13,15 +13,16 @@ const WALL: f64 = 7.0;
 /// wall of 7 mm; a slot of 35 × 4 mm leads through its back into the cavity. Snout, ears, legs and tail are solid; the
 /// thinnest of them is the tail, 6 mm at its tip.
 pub fn piggy_bank() -> DistanceSolid {
-    let egg = DistanceSolid::ellipsoid(DVec3::new(0.0, 8.0, 60.0), DVec3::new(45.0, 54.0, 43.0));
-    let head = DistanceSolid::ellipsoid(DVec3::new(0.0, -34.0, 68.0), DVec3::new(35.0, 31.0, 34.0));
+    let egg = DistanceSolid::ellipsoid(DVec3::new(0.0, 8.0, 56.0), DVec3::new(46.0, 54.0, 44.0));
+    let head = DistanceSolid::ellipsoid(DVec3::new(0.0, -34.0, 65.0), DVec3::new(35.0, 31.0, 34.0));
     let hull = egg.smooth_union(head, 22.0);
     let cavity = hull.clone().grown(-WALL);
-    let slot = DistanceSolid::rounded_box(DVec3::new(2.0, 17.5, 30.0), 1.5).translated(DVec3::new(0.0, 10.0, 112.0));
+    let slot = DistanceSolid::rounded_box(DVec3::new(2.0, 17.5, 30.0), 1.5)
+        .translated(DVec3::new(0.0, 10.0, 110.0));
 
     let snout = DistanceSolid::cylinder(16.0, 14.0, 4.0)
         .rotated(DQuat::from_rotation_x(0.25 * TAU))
-        .translated(DVec3::new(0.0, -62.0, 64.0));
+        .translated(DVec3::new(0.0, -62.0, 61.0));
     let mut pig = hull
         .clone()
         .smooth_union(snout, 7.0)
@@ -31,11 +32,18 @@ pub fn piggy_bank() -> DistanceSolid {
     if let Some(tail) = tail() {
         pig = pig.smooth_union(tail, 5.0);
     }
-    let from = DVec3::new(22.0, -110.0, 84.0);
-    if let Some(at) = first_hit(&hull, from, DVec3::new(-0.05, 1.0, 0.0).normalize(), 200.0, 1e-3) {
+    let from = DVec3::new(21.0, -110.0, 81.0);
+    if let Some(at) = first_hit(
+        &hull,
+        from,
+        DVec3::new(-0.05, 1.0, 0.0).normalize(),
+        200.0,
+        1e-3,
+    ) {
         pig = pig.smooth_union(DistanceSolid::sphere(at, 4.6).mirrored_x(), 1.0);
     }
-    let nostril = DistanceSolid::ellipsoid(DVec3::new(5.6, -76.6, 65.0), DVec3::new(2.6, 3.4, 4.2)).mirrored_x();
+    let nostril = DistanceSolid::ellipsoid(DVec3::new(5.6, -76.6, 62.0), DVec3::new(2.6, 3.4, 4.2))
+        .mirrored_x();
     pig.smooth_subtract(nostril, 1.5)
         .smooth_subtract(cavity, 0.0)
         .smooth_subtract(slot, 2.0)
@@ -61,8 +69,12 @@ fn ears() -> DistanceSolid {
     let dish = DistanceSolid::ellipsoid(DVec3::new(0.0, -10.5, 9.0), DVec3::new(8.5, 8.0, 14.0));
     leaf.smooth_intersection(slab, 4.0)
         .smooth_subtract(dish, 3.0)
-        .rotated(DQuat::from_rotation_z(0.35) * DQuat::from_rotation_y(0.55) * DQuat::from_rotation_x(0.3))
-        .translated(DVec3::new(21.0, -29.0, 94.0))
+        .rotated(
+            DQuat::from_rotation_z(0.35)
+                * DQuat::from_rotation_y(0.55)
+                * DQuat::from_rotation_x(0.3),
+        )
+        .translated(DVec3::new(21.0, -29.0, 91.0))
         .mirrored_x()
 }
 
@@ -76,7 +88,7 @@ fn tail() -> Option<DistanceSolid> {
             let at = DVec3::new(
                 loop_radius * turn.sin(),
                 58.0 + 15.0 * t,
-                72.0 + loop_radius * (1.0 - turn.cos()),
+                67.0 + loop_radius * (1.0 - turn.cos()),
             );
             (at, 4.0 - t)
         })

@@ -4,6 +4,9 @@ use super::MILLIMETRE;
 use super::curve::smooth_line;
 use crate::DistanceSolid;
 use glam::{DQuat, DVec2, DVec3};
+use std::f64::consts::TAU;
+
+const FOLDS: u32 = 26;
 
 /// A dancer on one leg on a round plinth of 84 mm, 250 mm tall: the foot of the other leg at the knee, arms in a ring
 /// above her head, so that she has two holes. Thinnest are the tutu, 6 mm, and the ankle, neck and wrists, 10 to 11
@@ -34,26 +37,61 @@ fn plinth() -> DistanceSolid {
 
 fn figure() -> DistanceSolid {
     let hips = DistanceSolid::ellipsoid(DVec3::new(0.0, 1.0, 136.0), DVec3::new(15.0, 12.0, 14.0));
-    let waist = DistanceSolid::round_cone(DVec3::new(0.0, 0.0, 140.0), 10.5, DVec3::new(0.0, 0.0, 156.0), 9.5);
-    let chest = DistanceSolid::ellipsoid(DVec3::new(0.0, -0.5, 171.0), DVec3::new(15.5, 10.5, 16.0));
-    let neck = DistanceSolid::capsule(DVec3::new(0.0, 1.0, 180.0), DVec3::new(0.0, 0.0, 200.0), 5.3);
+    let waist = DistanceSolid::round_cone(
+        DVec3::new(0.0, 0.0, 140.0),
+        10.5,
+        DVec3::new(0.0, 0.0, 156.0),
+        9.5,
+    );
+    let chest =
+        DistanceSolid::ellipsoid(DVec3::new(0.0, -0.5, 171.0), DVec3::new(15.5, 10.5, 16.0));
+    let neck = DistanceSolid::capsule(
+        DVec3::new(0.0, 1.0, 180.0),
+        DVec3::new(0.0, 0.0, 200.0),
+        5.3,
+    );
     let head = DistanceSolid::ellipsoid(DVec3::new(0.0, -1.0, 209.5), DVec3::new(10.0, 11.5, 13.0));
     let bun = DistanceSolid::sphere(DVec3::new(0.0, 9.0, 219.0), 6.5);
-    let skirt = DistanceSolid::revolved(
-        [(0.0, 5.0), (20.0, 3.0), (48.0, -6.0), (49.0, -4.0), (22.0, 5.0), (0.0, 9.0)]
-            .iter()
-            .map(|&(r, z)| DVec2::new(r, z))
-            .collect(),
-    )
-    .grown(2.4)
-    .rotated(DQuat::from_rotation_x(-0.12))
-    .translated(DVec3::new(0.0, 0.0, 138.0));
     hips.smooth_union(waist, 12.0)
         .smooth_union(chest, 12.0)
         .smooth_union(neck, 7.0)
         .smooth_union(head, 4.0)
         .smooth_union(bun, 2.0)
-        .smooth_union(skirt, 5.0)
+        .smooth_union(tutu(), 5.0)
+}
+
+/// A dish with folds: ribs that reach past its rim.
+fn tutu() -> DistanceSolid {
+    let profile = [
+        (0.0, 5.0),
+        (20.0, 3.0),
+        (47.0, -4.0),
+        (48.0, -3.0),
+        (22.0, 5.0),
+        (0.0, 9.0),
+    ];
+    let mut tutu =
+        DistanceSolid::revolved(profile.iter().map(|&(r, z)| DVec2::new(r, z)).collect())
+            .grown(2.4);
+    let folds = (0..FOLDS)
+        .map(|fold| {
+            let outwards = DVec3::from((
+                DVec2::from_angle(TAU * f64::from(fold) / f64::from(FOLDS)),
+                0.0,
+            ));
+            DistanceSolid::round_cone(
+                22.0 * outwards + 3.6 * DVec3::Z,
+                2.6,
+                49.5 * outwards - 3.7 * DVec3::Z,
+                3.7,
+            )
+        })
+        .collect();
+    if let Some(folds) = DistanceSolid::union_of(folds) {
+        tutu = tutu.smooth_union(folds, 2.0);
+    }
+    tutu.rotated(DQuat::from_rotation_x(-0.12))
+        .translated(138.0 * DVec3::Z)
 }
 
 fn standing_leg() -> Option<DistanceSolid> {
@@ -66,7 +104,7 @@ fn standing_leg() -> Option<DistanceSolid> {
         (DVec3::new(-2.0, -1.0, 104.0), 8.8),
         (DVec3::new(-5.0, 0.0, 132.0), 10.5),
     ];
-    DistanceSolid::tube(&smooth_line(&line, 6))
+    DistanceSolid::tube(&smooth_line(&line, 20))
 }
 
 fn raised_leg() -> Option<DistanceSolid> {
@@ -78,7 +116,7 @@ fn raised_leg() -> Option<DistanceSolid> {
         (DVec3::new(14.0, -7.0, 82.0), 5.4),
         (DVec3::new(3.0, -4.0, 73.0), 5.0),
     ];
-    DistanceSolid::tube(&smooth_line(&line, 6))
+    DistanceSolid::tube(&smooth_line(&line, 20))
 }
 
 fn arms() -> Option<DistanceSolid> {
@@ -90,5 +128,5 @@ fn arms() -> Option<DistanceSolid> {
         (DVec3::new(27.0, -1.0, 194.0), 5.8),
         (DVec3::new(14.0, 0.0, 180.0), 6.2),
     ];
-    Some(DistanceSolid::tube(&smooth_line(&line, 6))?.mirrored_x())
+    Some(DistanceSolid::tube(&smooth_line(&line, 20))?.mirrored_x())
 }
