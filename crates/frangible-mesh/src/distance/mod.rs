@@ -23,7 +23,7 @@ pub struct DistanceSolid {
     node: Node,
     /// Holds the body.
     bounds: Extent,
-    /// No value is smaller than the distance to this box: more than to hold the body, and what may be clipped off
+    /// No value outside this box is smaller than the distance to it: more than to hold the body, and what may be clipped off
     /// `bounds` may not be clipped here.
     reach: Extent,
 }
@@ -111,7 +111,7 @@ impl DistanceSolid {
                     (b, a, at_a)
                 };
                 let value = near.value(p);
-                if at_far >= value + blend {
+                if at_far > 0.0 && at_far >= value + blend {
                     value
                 } else {
                     smooth_min(value, far.value(p), *blend)
@@ -122,7 +122,8 @@ impl DistanceSolid {
             }
             Node::Difference { parts, blend } => {
                 let value = parts[0].value(p);
-                if -parts[1].reach.beyond(p) <= value - blend {
+                let beyond = parts[1].reach.beyond(p);
+                if beyond > 0.0 && -beyond <= value - blend {
                     value
                 } else {
                     smooth_max(value, -parts[1].value(p), *blend)

@@ -14,8 +14,10 @@ pub fn coffee_cup() -> DistanceSolid {
     if let Some(handle) = handle() {
         cup = cup.smooth_union(handle, 8.0);
     }
-    cup.smooth_subtract(beaker(28.3, 13.0, 6.0), 3.0)
+    cup.smooth_subtract(beaker(28.15, 13.0, 6.0), 3.0)
+        .intersection(DistanceSolid::half_space(DVec3::NEG_Z, 0.0))
         .rotated(DQuat::from_rotation_z(-FRAC_PI_2))
+        .translated(16.0 * DVec3::Y)
         .scaled(MILLIMETRE)
 }
 

@@ -7,7 +7,7 @@ use glam::{DQuat, DVec2, DVec3};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// The head of a claw hammer, 122 mm long (y, from the face to the claws' tips), with an eye of 14 × 22 mm for the
-/// handle. It lies as held: face and eye upright, the claws curving down. The claws thin out to 4 mm.
+/// handle. It lies as held: face and eye upright, the claws curving down. The claws thin out to 5 mm.
 pub fn hammer_head() -> DistanceSolid {
     let face = DistanceSolid::cylinder(14.5, 8.0, 2.0)
         .rotated(DQuat::from_rotation_x(FRAC_PI_2))
@@ -25,6 +25,7 @@ pub fn hammer_head() -> DistanceSolid {
         .smooth_union(claws(), 4.0)
         .smooth_subtract(eye, 2.0)
         .translated(DVec3::new(0.0, -7.0, 30.0))
+        .intersection(DistanceSolid::half_space(DVec3::NEG_Z, 0.0))
         .scaled(MILLIMETRE)
 }
 

@@ -9,9 +9,9 @@ use std::f64::consts::TAU;
 
 const WALL: f64 = 7.0;
 
-/// A piggy bank 150 mm long (y, from snout to tail), 92 mm wide and 113 mm tall with its ears. It is hollow with a
-/// wall of 7 mm; a slot of 35 × 4 mm leads through its back into the cavity. Snout, ears, legs and tail are solid; the
-/// thinnest of them is the tail, 6 mm at its tip.
+/// A piggy bank 151 mm long (y, from snout to tail), 92 mm wide and 116 mm tall with its ears. It is hollow with a
+/// wall of 7 mm (6 mm at the rounded rims of the slot); a slot of 35 × 4 mm leads through its back into the cavity. Snout, ears, legs and tail are solid; the
+/// thinnest of them is the tail, 6.8 mm at its tip.
 pub fn piggy_bank() -> DistanceSolid {
     let egg = DistanceSolid::ellipsoid(DVec3::new(0.0, 8.0, 56.0), DVec3::new(46.0, 54.0, 44.0));
     let head = DistanceSolid::ellipsoid(DVec3::new(0.0, -34.0, 65.0), DVec3::new(35.0, 31.0, 34.0));
@@ -27,8 +27,7 @@ pub fn piggy_bank() -> DistanceSolid {
         .clone()
         .smooth_union(snout, 7.0)
         .smooth_union(legs(), 12.0)
-        .smooth_union(ears(), 5.0)
-        .smooth_intersection(DistanceSolid::half_space(DVec3::NEG_Z, 0.0), 3.0);
+        .smooth_union(ears(), 5.0);
     if let Some(tail) = tail() {
         pig = pig.smooth_union(tail, 5.0);
     }
@@ -47,6 +46,7 @@ pub fn piggy_bank() -> DistanceSolid {
     pig.smooth_subtract(nostril, 1.5)
         .smooth_subtract(cavity, 0.0)
         .smooth_subtract(slot, 2.0)
+        .smooth_intersection(DistanceSolid::half_space(DVec3::NEG_Z, 0.0), 3.0)
         .scaled(MILLIMETRE)
 }
 
@@ -87,10 +87,10 @@ fn tail() -> Option<DistanceSolid> {
             let loop_radius = 7.5 * (3.0 * t).min(1.0);
             let at = DVec3::new(
                 loop_radius * turn.sin(),
-                58.0 + 15.0 * t,
+                56.5 + 15.0 * t,
                 67.0 + loop_radius * (1.0 - turn.cos()),
             );
-            (at, 4.0 - t)
+            (at, 3.9 - 0.5 * t)
         })
         .collect();
     DistanceSolid::tube(&smooth_line(&knots, 3))

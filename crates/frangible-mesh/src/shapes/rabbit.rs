@@ -5,7 +5,8 @@ use crate::DistanceSolid;
 use crate::distance::first_hit;
 use glam::{DQuat, DVec3};
 
-/// A solid sitting rabbit, 150 mm tall with its ears, about 80 mm wide and 125 mm long. Thinnest are the ears, 9 mm.
+/// A solid sitting rabbit, 150 mm tall with its ears, 84 mm wide and 132 mm long (y). Thinnest are the
+/// ears, 10 mm.
 pub fn rabbit() -> DistanceSolid {
     let belly = DistanceSolid::ellipsoid(DVec3::ZERO, DVec3::new(35.0, 44.0, 37.0))
         .rotated(DQuat::from_rotation_x(-0.35))
@@ -27,7 +28,6 @@ pub fn rabbit() -> DistanceSolid {
             5.0,
         )
         .smooth_union(ears(), 6.0);
-    rabbit = rabbit.smooth_intersection(DistanceSolid::half_space(DVec3::NEG_Z, 0.0), 3.0);
     let nose = DistanceSolid::ellipsoid(DVec3::new(0.0, -56.5, 89.5), DVec3::new(4.0, 3.2, 3.0));
     rabbit = rabbit.smooth_union(nose, 1.5);
     if let Some(at) = first_hit(
@@ -42,7 +42,10 @@ pub fn rabbit() -> DistanceSolid {
             0.8,
         );
     }
-    rabbit.scaled(MILLIMETRE)
+    rabbit
+        .smooth_intersection(DistanceSolid::half_space(DVec3::NEG_Z, 0.0), 3.0)
+        .translated(-6.8 * DVec3::Y)
+        .scaled(MILLIMETRE)
 }
 
 fn haunches() -> DistanceSolid {

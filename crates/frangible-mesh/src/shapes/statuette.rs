@@ -16,7 +16,10 @@ pub fn statuette() -> DistanceSolid {
     for limb in [standing_leg(), raised_leg(), arms()].into_iter().flatten() {
         body = body.smooth_union(limb, 5.0);
     }
-    plinth().smooth_union(body, 4.0).scaled(MILLIMETRE)
+    plinth()
+        .smooth_union(body, 4.0)
+        .intersection(DistanceSolid::half_space(DVec3::NEG_Z, 0.0))
+        .scaled(MILLIMETRE)
 }
 
 fn plinth() -> DistanceSolid {

@@ -18,52 +18,56 @@ struct Form {
 const FORMS: [Form; 6] = [
     Form {
         name: "piggy_bank",
-        volume: 250.0,
+        volume: 314.6,
         holes: 0,
-        thinnest: 5.0,
-        size: [92.0, 150.0, 113.0],
+        thinnest: 6.0,
+        size: [92.0, 151.0, 116.0],
     },
     Form {
         name: "rabbit",
-        volume: 450.0,
+        volume: 457.4,
         holes: 0,
-        thinnest: 7.0,
-        size: [84.0, 127.0, 150.0],
+        thinnest: 9.5,
+        size: [84.0, 132.5, 150.5],
     },
     Form {
         name: "statuette",
-        volume: 190.0,
+        volume: 246.0,
         holes: 2,
-        thinnest: 4.8,
-        size: [105.0, 105.0, 250.0],
+        thinnest: 5.8,
+        size: [106.0, 105.0, 250.0],
     },
     Form {
         name: "coffee_cup",
-        volume: 120.0,
+        volume: 153.4,
         holes: 1,
         thinnest: 5.0,
-        size: [85.0, 117.0, 95.0],
+        size: [85.0, 116.5, 95.0],
     },
     Form {
         name: "brick_solid",
-        volume: 926.0,
+        volume: 925.3,
         holes: 3,
-        thinnest: 25.0,
+        thinnest: 27.9,
         size: [210.0, 100.0, 50.0],
     },
     Form {
         name: "hammer_head",
-        volume: 70.0,
+        volume: 55.0,
         holes: 1,
-        thinnest: 4.0,
-        size: [29.0, 122.0, 46.0],
+        thinnest: 4.9,
+        size: [28.0, 122.0, 46.0],
     },
 ];
 
 fn each_form(check: impl Fn(&Form, &DistanceSolid)) {
+    let only = std::env::var("ONLY").unwrap_or_default();
     assert_eq!(FORMS.len(), READY_SHAPES.len());
     for (form, name) in FORMS.iter().zip(READY_SHAPES) {
         assert_eq!(form.name, name);
+        if !name.contains(&only) {
+            continue;
+        }
         check(form, &ready_shape(name).expect("a listed shape"));
     }
     assert!(ready_shape("no such shape").is_none());
