@@ -3,12 +3,14 @@
 //! A mesh file becomes an [`InputMesh`] (what is drawn, kept as it is), is repaired to a [`Surface`] (what is
 //! solid), becomes a [`Solid`] by its generalised winding number, and is filled with tetrahedra.
 
+pub mod distance;
 mod error;
 mod input;
 pub mod quality;
 #[cfg(feature = "mesh-io")]
 mod read;
 mod repair;
+pub mod shapes;
 mod similarity;
 mod solid;
 mod stuffing;
@@ -17,12 +19,14 @@ mod tetrahedralize;
 mod tets;
 mod winding;
 
+pub use distance::DistanceSolid;
 pub use error::TetError;
 pub use glam;
 pub use input::{InputMaterial, InputMesh};
 #[cfg(feature = "mesh-io")]
 pub use read::{MOST_BYTES, MOST_TRIANGLES, MeshFormat, ReadError, parse_mesh, read_mesh};
 pub use repair::{RepairError, RepairReport, repair};
+pub use shapes::{READY_SHAPES, ready_shape};
 pub use similarity::Similarity;
 pub use solid::{Solid, SurfacePoint};
 pub use stuffing::counted_volume;
