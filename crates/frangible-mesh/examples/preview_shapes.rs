@@ -109,7 +109,7 @@ fn see(shape: &dyn Solid, colour: DVec3, view: [f64; 2], at: DVec2) -> DVec3 {
     let right = forward.cross(DVec3::Z).normalize();
     let down = forward.cross(right);
     let eye = 0.5 * (low + high) - 4.2 * size * forward;
-    let ray = (forward + 0.215 * (at.x * right + at.y * down)).normalize();
+    let ray = (forward + 0.235 * (at.x * right + at.y * down)).normalize();
     let hit = first_hit(shape, eye, ray, 6.0 * size, 2e-4 * size);
     let ground = (ray.z < 0.0).then(|| eye - eye.z / ray.z * ray);
     let sky = DVec3::new(0.80, 0.83, 0.86);

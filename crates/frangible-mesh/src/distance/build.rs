@@ -3,6 +3,7 @@
 use super::extent::Extent;
 use super::{DistanceSolid, Node};
 use glam::{DMat3, DQuat, DVec2, DVec3};
+use std::f64::consts::PI;
 
 /// Primitives. All lengths in m.
 impl DistanceSolid {
@@ -253,6 +254,31 @@ impl DistanceSolid {
             bounds: self.bounds.mirrored_x(),
             reach: self.reach.mirrored_x(),
             node: Node::Mirrored(Box::new(self)),
+        }
+    }
+
+    /// `count` turned copies around z of what lies around the positive x axis: of its half with y ≥ 0 and that half's
+    /// mirror image, as far as it keeps to its sector.
+    pub fn ring(self, count: u32) -> Self {
+        let turned = |extent: &Extent| {
+            let radius = extent
+                .low
+                .truncate()
+                .abs()
+                .max(extent.high.truncate().abs())
+                .length();
+            Extent {
+                low: DVec3::new(-radius, -radius, extent.low.z),
+                high: DVec3::new(radius, radius, extent.high.z),
+            }
+        };
+        Self {
+            bounds: turned(&self.bounds),
+            reach: turned(&self.reach),
+            node: Node::Ring {
+                part: Box::new(self),
+                sector: PI / f64::from(count.max(1)),
+            },
         }
     }
 

@@ -21,7 +21,7 @@ pub fn first_hit(
             return Some(p);
         }
         way += distance;
-        if !(way <= reach) {
+        if way > reach || way.is_nan() {
             return None;
         }
     }

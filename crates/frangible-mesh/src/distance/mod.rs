@@ -77,12 +77,19 @@ enum Node {
         scale: f64,
     },
     Mirrored(Box<DistanceSolid>),
+    Ring {
+        part: Box<DistanceSolid>,
+        /// Half the angle from one to the next, rad.
+        sector: f64,
+    },
     Grown(Box<DistanceSolid>, f64),
     Shell(Box<DistanceSolid>, f64),
 }
 
 impl DistanceSolid {
-    fn value(&self, p: DVec3) -> f64 {
+    /// The distance where it is below `cutoff`, anything from `cutoff` up where it is not: what the caller needs no
+    /// closer is not worked out.
+    fn value(&self, p: DVec3, cutoff: f64) -> f64 {
         match &self.node {
             Node::Ellipsoid(radii) => primitives::ellipsoid(p, *radii),
             Node::RoundCone {
@@ -102,31 +109,23 @@ impl DistanceSolid {
                 outline,
                 half_height,
             } => primitives::prism(p, outline, *half_height),
-            Node::Union { parts, blend } => {
-                let [a, b] = parts.as_ref();
-                let (at_a, at_b) = (a.reach.beyond(p), b.reach.beyond(p));
-                let (near, far, at_far) = if at_a <= at_b {
-                    (a, b, at_b)
-                } else {
-                    (b, a, at_a)
-                };
-                let value = near.value(p);
-                if at_far > 0.0 && at_far >= value + blend {
+            Node::Union { parts, blend } => union(parts, *blend, p, cutoff),
+            Node::Intersection { parts, blend } => {
+                let value = parts[0].value(p, cutoff);
+                if value >= cutoff {
                     value
                 } else {
-                    smooth_min(value, far.value(p), *blend)
+                    smooth_max(value, parts[1].value(p, cutoff), *blend)
                 }
             }
-            Node::Intersection { parts, blend } => {
-                smooth_max(parts[0].value(p), parts[1].value(p), *blend)
-            }
             Node::Difference { parts, blend } => {
-                let value = parts[0].value(p);
+                let value = parts[0].value(p, cutoff);
+                let needed = padded(blend - value);
                 let beyond = parts[1].reach.beyond(p);
-                if beyond > 0.0 && -beyond <= value - blend {
+                if value >= cutoff || (beyond > 0.0 && beyond >= needed) {
                     value
                 } else {
-                    smooth_max(value, -parts[1].value(p), *blend)
+                    smooth_max(value, -parts[1].value(p, needed), *blend)
                 }
             }
             Node::Moved {
@@ -134,15 +133,47 @@ impl DistanceSolid {
                 to_part,
                 origin,
                 scale,
-            } => scale * part.value(*to_part * (p - origin) / scale),
-            Node::Mirrored(part) => part.value(DVec3::new(p.x.abs(), p.y, p.z)),
-            Node::Grown(part, by) => part.value(p) - by,
+            } => scale * part.value(*to_part * (p - origin) / scale, padded(cutoff / scale)),
+            Node::Mirrored(part) => part.value(DVec3::new(p.x.abs(), p.y, p.z), cutoff),
+            Node::Ring { part, sector } => part.value(fold(p, *sector), cutoff),
+            Node::Grown(part, by) => part.value(p, padded(cutoff + by)) - by,
             Node::Shell(part, wall) => {
-                let value = part.value(p);
+                let value = part.value(p, cutoff);
                 value.max(-value - wall)
             }
         }
     }
+}
+
+fn union([a, b]: &[DistanceSolid; 2], blend: f64, p: DVec3, cutoff: f64) -> f64 {
+    let (at_a, at_b) = (a.reach.beyond(p), b.reach.beyond(p));
+    let (near, far, at_far) = if at_a <= at_b {
+        (a, b, at_b)
+    } else {
+        (b, a, at_a)
+    };
+    // Beyond this, a part changes no union that is below `cutoff`: the other is then less than blend/4 above that.
+    let cutoff = padded(cutoff + 1.25 * blend);
+    let value = near.value(p, cutoff);
+    let needed = padded(value + blend).min(cutoff);
+    if at_far > 0.0 && at_far >= needed {
+        value
+    } else {
+        smooth_min(value, far.value(p, needed), blend)
+    }
+}
+
+/// A little more, so that rounding on the way cuts nothing off.
+fn padded(cutoff: f64) -> f64 {
+    cutoff + 1e-12 * cutoff.abs()
+}
+
+/// The point of the sector, from the x axis to `half_angle`, that turns and mirror images bring to `p`.
+fn fold(p: DVec3, half_angle: f64) -> DVec3 {
+    let across = p.truncate();
+    let angle = across.to_angle();
+    let folded = (angle - 2.0 * half_angle * (0.5 * angle / half_angle).round()).abs();
+    DVec2::from_angle(folded).extend(0.0) * across.length() + p.z * DVec3::Z
 }
 
 impl Solid for DistanceSolid {
@@ -154,6 +185,6 @@ impl Solid for DistanceSolid {
     }
 
     fn signed_distance(&self, p: DVec3) -> f64 {
-        self.value(p)
+        self.value(p, f64::INFINITY)
     }
 }

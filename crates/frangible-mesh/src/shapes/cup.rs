@@ -6,8 +6,8 @@ use crate::DistanceSolid;
 use glam::{DQuat, DVec2, DVec3};
 use std::f64::consts::FRAC_PI_2;
 
-/// A mug 95 mm tall and 85 mm across, with a handle that reaches to y = -75 mm. Its wall is 5 mm, its bottom 7 mm, its
-/// handle 9 to 13 mm thick.
+/// A mug 95 mm tall and 85 mm across, 116 mm with its handle (y). Its wall is 5 mm, its bottom 7 mm, its handle 9 to
+/// 13 mm thick.
 pub fn coffee_cup() -> DistanceSolid {
     let rim = DistanceSolid::half_space(DVec3::Z, 95.0);
     let mut cup = beaker(29.2, 10.0, 10.0).smooth_intersection(rim, 2.0);
@@ -45,7 +45,7 @@ fn handle() -> Option<DistanceSolid> {
         (DVec3::new(54.0, 2.2, 27.5), 5.0),
         (DVec3::new(36.0, 2.2, 21.0), 6.6),
     ];
-    let half = DistanceSolid::tube(&smooth_line(&line, 24))?;
+    let half = DistanceSolid::tube(&smooth_line(&line, 20))?;
     let other = half.clone().translated(-4.4 * DVec3::Y);
     Some(half.smooth_union(other, 3.0))
 }

@@ -6,7 +6,7 @@ use crate::DistanceSolid;
 use glam::{DQuat, DVec2, DVec3};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-/// The head of a claw hammer, 122 mm long (y, from the face to the claws' tips), with an eye of 14 × 22 mm for the
+/// The head of a claw hammer, 124 mm long (y, from the face to the claws' tips), with an eye of 14 × 22 mm for the
 /// handle. It lies as held: face and eye upright, the claws curving down. The claws thin out to 5 mm.
 pub fn hammer_head() -> DistanceSolid {
     let face = DistanceSolid::cylinder(14.5, 8.0, 2.0)

@@ -10,8 +10,8 @@ use std::f64::consts::TAU;
 const WALL: f64 = 7.0;
 
 /// A piggy bank 151 mm long (y, from snout to tail), 92 mm wide and 116 mm tall with its ears. It is hollow with a
-/// wall of 7 mm (6 mm at the rounded rims of the slot); a slot of 35 × 4 mm leads through its back into the cavity. Snout, ears, legs and tail are solid; the
-/// thinnest of them is the tail, 6.8 mm at its tip.
+/// wall of 7 mm (6 mm at the rounded rims of the slot); a slot of 35 × 4 mm leads through its back into the
+/// cavity. Snout, ears, legs and tail are solid; the thinnest of them is the tail, 6.8 mm at its tip.
 pub fn piggy_bank() -> DistanceSolid {
     let egg = DistanceSolid::ellipsoid(DVec3::new(0.0, 8.0, 56.0), DVec3::new(46.0, 54.0, 44.0));
     let head = DistanceSolid::ellipsoid(DVec3::new(0.0, -34.0, 65.0), DVec3::new(35.0, 31.0, 34.0));

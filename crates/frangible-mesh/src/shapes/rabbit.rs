@@ -5,8 +5,8 @@ use crate::DistanceSolid;
 use crate::distance::first_hit;
 use glam::{DQuat, DVec3};
 
-/// A solid sitting rabbit, 150 mm tall with its ears, 84 mm wide and 132 mm long (y). Thinnest are the
-/// ears, 10 mm.
+/// A solid sitting rabbit, 150 mm tall with its ears, 84 mm wide and 132 mm long (y). Thinnest are the ears, 10
+/// mm.
 pub fn rabbit() -> DistanceSolid {
     let belly = DistanceSolid::ellipsoid(DVec3::ZERO, DVec3::new(35.0, 44.0, 37.0))
         .rotated(DQuat::from_rotation_x(-0.35))

@@ -4,16 +4,13 @@ use super::MILLIMETRE;
 use super::curve::smooth_line;
 use crate::DistanceSolid;
 use glam::{DQuat, DVec2, DVec3};
-use std::f64::consts::TAU;
-
-const FOLDS: u32 = 26;
 
 /// A dancer on one leg on a round plinth of 84 mm, 250 mm tall: the foot of the other leg at the knee, arms in a ring
 /// above her head, so that she has two holes. Thinnest are the tutu, 6 mm, and the ankle, neck and wrists, 10 to 11
 /// mm.
 pub fn statuette() -> DistanceSolid {
     let mut body = figure();
-    for limb in [standing_leg(), raised_leg(), arms()].into_iter().flatten() {
+    for limb in [arms(), legs()].into_iter().flatten() {
         body = body.smooth_union(limb, 5.0);
     }
     plinth()
@@ -55,12 +52,10 @@ fn figure() -> DistanceSolid {
     );
     let head = DistanceSolid::ellipsoid(DVec3::new(0.0, -1.0, 209.5), DVec3::new(10.0, 11.5, 13.0));
     let bun = DistanceSolid::sphere(DVec3::new(0.0, 9.0, 219.0), 6.5);
-    hips.smooth_union(waist, 12.0)
-        .smooth_union(chest, 12.0)
-        .smooth_union(neck, 7.0)
-        .smooth_union(head, 4.0)
-        .smooth_union(bun, 2.0)
-        .smooth_union(tutu(), 5.0)
+    let head = head.smooth_union(bun, 2.0);
+    let bust = waist.smooth_union(chest, 12.0);
+    let lower = hips.smooth_union(tutu(), 5.0);
+    lower.smooth_union(bust.smooth_union(neck.smooth_union(head, 4.0), 7.0), 8.0)
 }
 
 /// A dish with folds: ribs that reach past its rim.
@@ -73,28 +68,22 @@ fn tutu() -> DistanceSolid {
         (22.0, 5.0),
         (0.0, 9.0),
     ];
-    let mut tutu =
-        DistanceSolid::revolved(profile.iter().map(|&(r, z)| DVec2::new(r, z)).collect())
-            .grown(2.4);
-    let folds = (0..FOLDS)
-        .map(|fold| {
-            let outwards = DVec3::from((
-                DVec2::from_angle(TAU * f64::from(fold) / f64::from(FOLDS)),
-                0.0,
-            ));
-            DistanceSolid::round_cone(
-                22.0 * outwards + 3.6 * DVec3::Z,
-                2.6,
-                49.5 * outwards - 3.7 * DVec3::Z,
-                3.7,
-            )
-        })
-        .collect();
-    if let Some(folds) = DistanceSolid::union_of(folds) {
-        tutu = tutu.smooth_union(folds, 2.0);
-    }
-    tutu.rotated(DQuat::from_rotation_x(-0.12))
+    let folds = DistanceSolid::round_cone(
+        DVec3::new(22.0, 0.0, 3.6),
+        2.6,
+        DVec3::new(49.5, 0.0, -3.7),
+        3.7,
+    )
+    .ring(26);
+    DistanceSolid::revolved(profile.iter().map(|&(r, z)| DVec2::new(r, z)).collect())
+        .grown(2.4)
+        .smooth_union(folds, 2.0)
+        .rotated(DQuat::from_rotation_x(-0.12))
         .translated(138.0 * DVec3::Z)
+}
+
+fn legs() -> Option<DistanceSolid> {
+    Some(standing_leg()?.smooth_union(raised_leg()?, 5.0))
 }
 
 fn standing_leg() -> Option<DistanceSolid> {
@@ -107,7 +96,7 @@ fn standing_leg() -> Option<DistanceSolid> {
         (DVec3::new(-2.0, -1.0, 104.0), 8.8),
         (DVec3::new(-5.0, 0.0, 132.0), 10.5),
     ];
-    DistanceSolid::tube(&smooth_line(&line, 20))
+    DistanceSolid::tube(&smooth_line(&line, 12))
 }
 
 fn raised_leg() -> Option<DistanceSolid> {
@@ -119,7 +108,7 @@ fn raised_leg() -> Option<DistanceSolid> {
         (DVec3::new(14.0, -7.0, 82.0), 5.4),
         (DVec3::new(3.0, -4.0, 73.0), 5.0),
     ];
-    DistanceSolid::tube(&smooth_line(&line, 20))
+    DistanceSolid::tube(&smooth_line(&line, 12))
 }
 
 fn arms() -> Option<DistanceSolid> {
@@ -131,5 +120,5 @@ fn arms() -> Option<DistanceSolid> {
         (DVec3::new(27.0, -1.0, 194.0), 5.8),
         (DVec3::new(14.0, 0.0, 180.0), 6.2),
     ];
-    Some(DistanceSolid::tube(&smooth_line(&line, 20))?.mirrored_x())
+    Some(DistanceSolid::tube(&smooth_line(&line, 12))?.mirrored_x())
 }

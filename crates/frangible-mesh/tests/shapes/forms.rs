@@ -56,18 +56,14 @@ const FORMS: [Form; 6] = [
         volume: 55.0,
         holes: 1,
         thinnest: 4.9,
-        size: [28.0, 122.0, 46.0],
+        size: [29.0, 124.5, 46.0],
     },
 ];
 
 fn each_form(check: impl Fn(&Form, &DistanceSolid)) {
-    let only = std::env::var("ONLY").unwrap_or_default();
     assert_eq!(FORMS.len(), READY_SHAPES.len());
     for (form, name) in FORMS.iter().zip(READY_SHAPES) {
         assert_eq!(form.name, name);
-        if !name.contains(&only) {
-            continue;
-        }
         check(form, &ready_shape(name).expect("a listed shape"));
     }
     assert!(ready_shape("no such shape").is_none());

@@ -167,6 +167,26 @@ fn moving_a_body_moves_its_distances() {
 }
 
 #[test]
+fn a_ring_is_its_turned_copies() {
+    let (a, b) = (DVec3::new(1.0, 0.0, 0.0), DVec3::new(2.0, 0.0, 0.4));
+    let ring = DistanceSolid::round_cone(a, 0.2, b, 0.3).ring(7);
+    points(11, 3.0, |p| {
+        let copies = (0..7)
+            .map(|i| {
+                round_cone(
+                    DQuat::from_rotation_z(TAU * f64::from(i) / 7.0) * p,
+                    a,
+                    0.2,
+                    b,
+                    0.3,
+                )
+            })
+            .fold(f64::INFINITY, f64::min);
+        assert!((ring.signed_distance(p) - copies).abs() < 1e-12, "{p}");
+    });
+}
+
+#[test]
 fn a_hollow_ball_is_its_wall() {
     let hollow = DistanceSolid::sphere(DVec3::ZERO, 1.0).shell(0.2);
     let cut =
@@ -194,6 +214,9 @@ fn boxes_around_parts_change_no_bit() {
     let all = DistanceSolid::ellipsoid(DVec3::ZERO, body)
         .smooth_union(tube, 0.2)
         .smooth_subtract(DistanceSolid::sphere(DVec3::X, 0.7), 0.1);
+    let way = DVec3::new(0.5, -0.25, 0.125);
+    let nested = DistanceSolid::sphere(DVec3::NEG_Y, 0.3)
+        .smooth_union(all.clone().grown(0.05).translated(way), 0.3);
     points(10, 2.0, |p| {
         let tube = line
             .windows(2)
@@ -202,6 +225,13 @@ fn boxes_around_parts_change_no_bit() {
         let whole = smooth_min(ellipsoid(p, body), tube, 0.2);
         let cut = smooth_max(whole, 0.7 - (p - DVec3::X).length(), 0.1);
         assert_eq!(all.signed_distance(p), cut, "{p}");
+        let ball = (p + DVec3::Y).length() - 0.3;
+        let moved = all.signed_distance(p - way) - 0.05;
+        assert_eq!(
+            nested.signed_distance(p),
+            smooth_min(moved, ball, 0.3),
+            "{p}"
+        );
     });
 }
 
