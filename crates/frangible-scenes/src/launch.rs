@@ -32,7 +32,7 @@ pub(crate) fn launch(
     match projectile.kind {
         ProjectileKind::Ball => {
             let radius = projectile.radius as f32;
-            let (start, velocity) = flight(world, projectile, target, radius, floor)?;
+            let (start, velocity) = flight(world, projectile, target, [radius; 2], floor)?;
             let properties = SurfaceProperties::of(&material, radius);
             let pose = Pose::from_translation(vector(start));
             let mass = projectile.mass as f32;
@@ -45,10 +45,11 @@ pub(crate) fn launch(
             let hull = hull(&head)?;
             // The centre of mass becomes the origin.
             head.shift(-hull.mass_properties(1.0).local_com.z);
-            let (start, velocity) = flight(world, projectile, target, head.reach(), floor)?;
+            let q = Quat::from_rotation_arc(Vec3::Z, projectile.toward.normalize());
+            let depths = head.points().into_iter().map(|p| -(q * p).y);
+            let extents = [head.reach(), depths.fold(0.0, f32::max)];
+            let (start, velocity) = flight(world, projectile, target, extents, floor)?;
             let properties = SurfaceProperties::of(&material, crown as f32);
-            let direction = projectile.toward.normalize();
-            let q = Quat::from_rotation_arc(Vec3::Z, direction);
             let pose = Pose::from_parts(vector(start), Rotation::from_xyzw(q.x, q.y, q.z, q.w));
             let mass = projectile.mass as f32;
             let shape = self::hull(&head)?;
@@ -67,13 +68,13 @@ fn hull(head: &Head) -> Result<SharedShape, SceneError> {
     })
 }
 
-/// Start and velocity of something of this radius (m), outside the target's sphere, so that it cannot start inside the
+/// Start and velocity of something of these extents (m: in any direction, and downwards), outside the target's sphere, so that it cannot start inside the
 /// body; and back in time along the parabola that arrives with the speed and direction asked for.
 fn flight(
     world: &BreakableWorld,
     projectile: &Projectile,
     target: Target,
-    radius: f32,
+    [radius, below]: [f32; 2],
     floor: bool,
 ) -> Result<(Vec3, Vec3), SceneError> {
     let direction = projectile.toward.normalize();
@@ -84,10 +85,10 @@ fn flight(
     let start = target.centre + projectile.at - direction * (speed * flight)
         + 0.5 * gravity * flight * flight;
     let velocity = direction * speed - gravity * flight;
-    if floor && start.y < radius {
+    if floor && start.y < below {
         return Err(SceneError::BallBelowFloor {
             what: projectile.kind.name(),
-            depth_mm: 1e3 * (radius - start.y),
+            depth_mm: 1e3 * (below - start.y),
         });
     }
     Ok((start, velocity))
