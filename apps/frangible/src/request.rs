@@ -174,7 +174,10 @@ fn set_mesh(scene: &mut Scene, args: &MeshArgs) -> Result<(), String> {
                 *size = args.size;
             }
             if let Some(tets) = args.resolution {
-                *resolution = Some(usize::try_from(tets).unwrap_or(0));
+                let count = usize::try_from(tets).map_err(|_| {
+                    format!("--resolution is {tets}; it must be 500 to 2000000 tetrahedra")
+                })?;
+                *resolution = Some(count);
             }
             *up = axis.unwrap_or(*up);
             Ok(())

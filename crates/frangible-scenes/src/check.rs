@@ -334,9 +334,8 @@ fn check_output(output: &Output, scene: &str) -> Result<(), Fault> {
 
 /// A name that cannot leave the output folder, on any system.
 fn file_name(key: &'static str, what: &'static str, name: &str) -> Result<(), Fault> {
-    let odd = |c: char| c.is_control() || r#"/\:*?"<>|"#.contains(c);
     let blank = name.trim() != name || name.is_empty();
-    if blank || name.starts_with('.') || name.len() > LONGEST_NAME || name.contains(odd) {
+    if blank || name.starts_with('.') || name.len() > LONGEST_NAME || name.contains(is_odd) {
         let shown: String = name.chars().take(LONGEST_NAME).collect();
         let must = "a plain file name without folders, dots in front or special characters";
         return Err(quantity(
@@ -347,6 +346,28 @@ fn file_name(key: &'static str, what: &'static str, name: &str) -> Result<(), Fa
         ));
     }
     Ok(())
+}
+
+/// Characters that no file name may hold on some system.
+fn is_odd(c: char) -> bool {
+    c.is_control() || r#"/\:*?"<>|"#.contains(c)
+}
+
+/// The nearest name that a scene and its files may have.
+pub(crate) fn tame(name: &str) -> String {
+    let mut tame = String::new();
+    for c in name.chars() {
+        let in_front = tame.is_empty() && (c == '.' || c.is_whitespace());
+        if tame.len() + c.len_utf8() <= LONGEST_NAME && !in_front {
+            tame.push(if is_odd(c) { '_' } else { c });
+        }
+    }
+    let tame = tame.trim_end();
+    if tame.is_empty() {
+        "body".into()
+    } else {
+        tame.into()
+    }
 }
 
 fn quantity(

@@ -6,6 +6,7 @@ use std::path::Path;
 use frangible::Material;
 
 use crate::body::BodySpec;
+use crate::check::tame;
 use crate::error::SceneError;
 use crate::scene::Scene;
 use crate::source::{Axis, BodySource, FileKind, check_file};
@@ -70,7 +71,8 @@ pub fn read_scene(path: &Path) -> Result<Scene, SceneError> {
     parse_named(&text, folder, &path.display().to_string(), &stem(path))
 }
 
+/// Name of the file without its ending, as far as a scene may have it.
 fn stem(path: &Path) -> String {
-    path.file_stem()
-        .map_or_else(|| "body".into(), |s| s.to_string_lossy().into_owned())
+    let stem = path.file_stem().unwrap_or_default();
+    tame(&stem.to_string_lossy())
 }

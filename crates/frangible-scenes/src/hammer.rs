@@ -45,11 +45,6 @@ impl Head {
         }
     }
 
-    /// How far the apex lies ahead of the origin, m.
-    pub(crate) fn apex(&self) -> f32 {
-        self.profile.first().map_or(0.0, |p| p[1])
-    }
-
     /// Radius of the sphere about the origin that holds it, m.
     pub(crate) fn reach(&self) -> f32 {
         let lengths = self.profile.iter().map(|[r, z]| r.hypot(*z));

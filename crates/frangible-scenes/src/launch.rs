@@ -42,7 +42,7 @@ pub(crate) fn launch(
         }
         ProjectileKind::Hammer { crown } => {
             let mut head = Head::new(projectile.radius, crown, projectile.mass, material.density);
-            let hull = hull(&head)?;
+            let hull = hull(&head, projectile.radius)?;
             // The centre of mass becomes the origin.
             head.shift(-hull.mass_properties(1.0).local_com.z);
             let q = Quat::from_rotation_arc(Vec3::Z, projectile.toward.normalize());
@@ -52,18 +52,18 @@ pub(crate) fn launch(
             let properties = SurfaceProperties::of(&material, crown as f32);
             let pose = Pose::from_parts(vector(start), Rotation::from_xyzw(q.x, q.y, q.z, q.w));
             let mass = projectile.mass as f32;
-            let shape = self::hull(&head)?;
+            let shape = self::hull(&head, projectile.radius)?;
             let handle = world.insert_rigid(shape, mass, properties, pose, vector(velocity))?;
             Ok((handle, head.mesh(surface)))
         }
     }
 }
 
-fn hull(head: &Head) -> Result<SharedShape, SceneError> {
+fn hull(head: &Head, radius: f64) -> Result<SharedShape, SceneError> {
     let points: Vec<Vector> = head.points().into_iter().map(vector).collect();
     SharedShape::convex_hull(&points).ok_or_else(|| SceneError::Quantity {
         what: "the hammer's radius",
-        value: head.apex().to_string(),
+        value: radius.to_string(),
         must: "large enough for a shape of any volume",
     })
 }

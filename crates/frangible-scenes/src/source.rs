@@ -154,7 +154,8 @@ pub(crate) fn check_file(path: &Path, kind: FileKind) -> Result<(), SceneError> 
         }
         Err(error) => format!("the file cannot be read ({error})"),
         Ok(data) if data.is_dir() => "this is a folder; name a file in it".into(),
-        Ok(data) if data.is_file() && data.len() == 0 => "this file is empty".into(),
+        Ok(data) if !data.is_file() => "this is no ordinary file".into(),
+        Ok(data) if data.len() == 0 => "this file is empty".into(),
         Ok(_) if FileKind::of(path)? != kind => match kind {
             FileKind::Mesh => "this is no mesh (.obj, .stl, .ply, .gltf, .glb)".into(),
             FileKind::Asset => "this is no baked body (.frangible)".into(),

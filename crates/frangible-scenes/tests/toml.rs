@@ -410,7 +410,7 @@ fn files_that_are_no_scene_are_refused_with_their_path() {
         (write("empty.toml", b""), "this file is empty"),
         (write("empty.stl", b""), "this file is empty"),
         (write("binary.toml", b"\xff\xfe"), "not UTF-8"),
-        (write("large.toml", &[b' '; 1 << 21]), "too large"),
+        (write("large.toml", &vec![b' '; 1 << 21]), "too large"),
         (write("picture.jpg", b"x"), ".obj, .stl, .ply, .gltf, .glb"),
         (write("none", b"x"), ".frangible"),
     ];
@@ -424,6 +424,8 @@ fn files_that_are_no_scene_are_refused_with_their_path() {
     }
     let named = write("my vase.toml", LEAST.as_bytes());
     assert_eq!(read_scene(&named).unwrap().name, "my vase");
+    let odd = write(".a\"b*c .toml", LEAST.as_bytes());
+    assert_eq!(read_scene(&odd).unwrap().name, "a_b_c");
     let broken = write("broken.toml", b"\n\nshape = 3");
     let message = read_scene(&broken).unwrap_err().to_string();
     assert!(
@@ -431,4 +433,19 @@ fn files_that_are_no_scene_are_refused_with_their_path() {
         "{message}"
     );
     std::fs::remove_dir_all(&folder).unwrap();
+}
+
+#[test]
+fn the_example_of_the_documentation_is_a_scene() {
+    let documentation = include_str!("../../../docs/scene-files.md");
+    let example = documentation
+        .split("```toml\n")
+        .nth(1)
+        .and_then(|rest| rest.split("```").next())
+        .expect("an example");
+    let scene = parsed(example);
+    assert_eq!((scene.bodies.len(), scene.projectiles.len()), (2, 1));
+    assert_eq!(scene.bodies[1].material.strength, 6e5);
+    // It spells out the defaults of the fracture.
+    assert_eq!(scene.fracture, FractureConfig::default());
 }
