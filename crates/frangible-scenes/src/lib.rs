@@ -29,6 +29,7 @@ mod result;
 mod run;
 mod scene;
 mod source;
+mod stage;
 mod text;
 
 pub use bake::{BakedBody, bake, bake_opened, open_sources};

@@ -5,6 +5,7 @@ mod convert;
 mod either;
 mod message;
 mod schema;
+mod values;
 mod write;
 
 use std::path::Path;
