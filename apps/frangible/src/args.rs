@@ -19,17 +19,78 @@ pub(crate) struct Cli {
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
-    /// Bake a scene, break it, write the animation (GLB) and a contact sheet (PNG)
-    Break(Box<BreakArgs>),
-    /// List the built-in scenes, materials and what each shows
-    Scenes,
+    /// Break a scene, a mesh or a baked body; write the animation (GLB) and a contact sheet (PNG)
+    Break(Box<BreakCommand>),
+    /// Bake a mesh, or the body of a scene, into a file that breaks without waiting
+    Bake(BakeArgs),
+    /// List the built-in scenes and materials, or print one scene as a file to start from
+    Scenes {
+        /// Scene to print as TOML; saved, and given to `break`, it does the same
+        name: Option<String>,
+    },
+}
+
+#[derive(Args, Clone, Debug)]
+pub(crate) struct BreakCommand {
+    /// File to break: a mesh (.obj .stl .ply .gltf .glb; dropped, of porcelain), a baked body (.frangible) or a scene (.toml)
+    #[arg(value_name = "FILE", conflicts_with = "scene")]
+    pub(crate) file: Option<PathBuf>,
+
+    #[command(flatten)]
+    pub(crate) args: BreakArgs,
+}
+
+/// How a mesh file becomes a body.
+#[derive(Args, Clone, Debug, Default)]
+pub(crate) struct MeshArgs {
+    /// Longest side of a mesh's body in metres [default: the file's unit is the metre]
+    #[arg(long, value_name = "METRES", allow_hyphen_values = true)]
+    pub(crate) size: Option<f64>,
+
+    /// Tetrahedra that carry cracks, about [default: 42000]
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    pub(crate) resolution: Option<i64>,
+
+    /// Which axis of the file is up: x, y or z [default: z in STL and PLY, else y]
+    #[arg(long, value_name = "AXIS")]
+    pub(crate) up: Option<String>,
+}
+
+#[derive(Args, Clone, Debug)]
+pub(crate) struct BakeArgs {
+    /// Mesh (.obj .stl .ply .gltf .glb) or scene of one body (.toml)
+    #[arg(
+        value_name = "FILE",
+        conflicts_with = "scene",
+        required_unless_present = "scene"
+    )]
+    pub(crate) file: Option<PathBuf>,
+
+    /// Built-in scene whose body to bake instead
+    #[arg(long, value_name = "NAME")]
+    pub(crate) scene: Option<String>,
+
+    /// File to write, ending in .frangible
+    #[arg(short, long, value_name = "FILE.frangible")]
+    pub(crate) output: PathBuf,
+
+    /// Material of the body [default: the scene's own, or porcelain]
+    #[arg(long, value_name = "M")]
+    pub(crate) material: Option<String>,
+
+    /// Number of vibration modes [default: the scene's own, or 120]
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    pub(crate) modes: Option<i64>,
+
+    #[command(flatten)]
+    pub(crate) mesh: MeshArgs,
 }
 
 #[derive(Args, Clone, Debug)]
 pub(crate) struct BreakArgs {
-    /// Built-in scene; `frangible scenes` lists them
-    #[arg(long, default_value = "glass", value_name = "NAME")]
-    pub(crate) scene: String,
+    /// Built-in scene; `frangible scenes` lists them [default: glass]
+    #[arg(long, value_name = "NAME")]
+    pub(crate) scene: Option<String>,
 
     /// Material of the body that breaks [default: the scene's own]
     #[arg(long, value_name = "M")]
@@ -72,6 +133,9 @@ pub(crate) struct BreakArgs {
     /// Number of vibration modes [default: the scene's own]
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub(crate) modes: Option<i64>,
+
+    #[command(flatten)]
+    pub(crate) mesh: MeshArgs,
 
     /// Folder for the results, made when it is missing
     #[arg(long, default_value = "out", value_name = "DIR")]

@@ -1,81 +1,60 @@
 //! `frangible break`: bake, play, write, report.
 
 use std::error::Error;
-use std::fs;
 use std::path::Path;
-use std::sync::Arc;
 use std::time::Instant;
 
-use frangible::Asset;
-use frangible_bake::BakeReport;
-use frangible_export::{Recording, write_atomically, write_glb};
-use frangible_scenes::{Run, Scene, bake, play};
+use frangible_export::{write_atomically, write_glb};
+use frangible_scenes::{BakedBody, Opened, Run, Scene, bake_opened, open_sources, play};
 
 use crate::args::BreakArgs;
+use crate::pictures;
+use crate::place::make_folder;
 use crate::progress::Bar;
-use crate::report::{Impact, Report};
-use crate::request::scene_of;
+use crate::report::{BodyReport, Report};
+use crate::request::{Request, scene_of};
 
-/// File name and PNG bytes.
-type Picture = (String, Vec<u8>);
-
-/// Most seeds in one sheet.
-const MOST_SEEDS: i64 = 36;
-
-pub(crate) fn run(args: &BreakArgs) -> Result<(), Box<dyn Error>> {
-    let mut scene = scene_of(args)?;
-    let seeds = match args.contact_sheet {
-        None => 1,
-        Some(n @ 1..=MOST_SEEDS) => n as u64,
-        Some(n) => {
-            return Err(format!("--contact-sheet is {n}; it must be 1 to {MOST_SEEDS}").into());
-        }
-    };
-    make_folder(&args.out)?;
-    for ending in ["glb", "png"] {
-        let path = args.out.join(format!("{}.{ending}", scene.name));
-        if path.is_dir() {
-            return Err(format!("`{}` is a folder, and a file of that name is to be written; move it, or choose another --out DIR", path.display()).into());
-        }
-    }
+pub(crate) fn run(file: Option<&Path>, args: &BreakArgs) -> Result<(), Box<dyn Error>> {
+    let Request { scene, mut notes } = scene_of(file, args)?;
+    let sources = open_sources(&scene)?;
+    notes.extend(sources.iter().flat_map(Opened::notes).cloned());
+    let names = scene.output.file_names(&scene.name);
+    make_folder(
+        &args.out,
+        &names.iter().flatten().cloned().collect::<Vec<_>>(),
+    )?;
+    let [glb, picture, sheet, json] = names;
     let mut stages = Vec::new();
 
     let bar = Bar::new(args.json);
     let clock = Instant::now();
-    let (asset, baked) = bake(&scene, &mut |p| {
+    let baked = bake_opened(&scene, sources, &mut |p| {
         bar.show(&format!("{}: {}", scene.name, p.stage), p.fraction);
     })?;
     stages.push(("bake".to_string(), 1e3 * clock.elapsed().as_secs_f64()));
-
-    let first_seed = scene.seed;
-    let mut runs = Vec::new();
-    for i in 0..seeds {
-        scene.seed = first_seed.wrapping_add(i);
-        let message = format!("{}: breaking, seed {}", scene.name, scene.seed);
-        runs.push((
-            scene.seed,
-            play(&scene, &asset, &mut |done| bar.show(&message, done))?,
-        ));
-    }
-    scene.seed = first_seed;
-    let run = &runs[0].1;
+    notes.extend(mesh_notes(&scene, &baked));
+    let runs = play_seeds(&scene, &baked, sheet.is_some(), &bar)?;
+    let Some((_, run)) = runs.first() else {
+        return Err("no seed to break with".into());
+    };
     stages.extend(stages_of(run));
 
     let mut files = Vec::new();
-    let mut notes = Vec::new();
     let mut write = |name: String, bytes: &[u8]| -> Result<(), Box<dyn Error>> {
         let path = args.out.join(name);
         write_atomically(&path, bytes)?;
         files.push(path.display().to_string());
         Ok(())
     };
-    let clock = Instant::now();
-    write(format!("{}.glb", scene.name), &write_glb(&run.recording)?)?;
-    stages.push(("GLB".into(), 1e3 * clock.elapsed().as_secs_f64()));
-    if !args.no_pictures {
+    if let Some(name) = glb {
+        let clock = Instant::now();
+        write(name, &write_glb(&run.recording)?)?;
+        stages.push(("GLB".into(), 1e3 * clock.elapsed().as_secs_f64()));
+    }
+    if picture.is_some() || sheet.is_some() {
         bar.show(&format!("{}: drawing", scene.name), 1.0);
         let clock = Instant::now();
-        match pictures(&scene.name, &runs, args.contact_sheet.is_some()) {
+        match pictures::draw(&runs, picture.as_deref(), sheet.as_deref()) {
             Ok(pictures) => {
                 for (name, png) in pictures {
                     write(name, &png)?;
@@ -87,17 +66,27 @@ pub(crate) fn run(args: &BreakArgs) -> Result<(), Box<dyn Error>> {
     }
     drop(bar);
 
-    let report = summary(
-        &scene,
-        &asset,
-        &baked,
-        run,
-        Output {
-            stages,
-            files,
-            notes,
+    let mut bodies = bodies_of(&scene, &baked, run);
+    let mut report = Report {
+        scene: scene.name.clone(),
+        seed: scene.seed,
+        only: if bodies.len() == 1 {
+            bodies.pop()
+        } else {
+            None
         },
-    );
+        bodies,
+        at_rest: run.at_rest,
+        simulated_s: run.simulated,
+        stages_ms: stages,
+        files,
+        notes,
+    };
+    if let Some(name) = json {
+        let path = args.out.join(name);
+        report.files.push(path.display().to_string());
+        write_atomically(&path, serde_json::to_string_pretty(&report)?.as_bytes())?;
+    }
     if args.json {
         println!("{}", serde_json::to_string_pretty(&report)?);
     } else {
@@ -106,80 +95,61 @@ pub(crate) fn run(args: &BreakArgs) -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Makes the output folder and proves that it can be written, before minutes are spent.
-fn make_folder(folder: &Path) -> Result<(), String> {
-    let wrong = |e: std::io::Error| {
-        format!(
-            "cannot write to the folder `{}`: {e}; choose another with --out DIR",
-            folder.display()
-        )
-    };
-    fs::create_dir_all(folder).map_err(wrong)?;
-    let probe = folder.join(format!(".frangible-{}", std::process::id()));
-    fs::write(&probe, b"").map_err(wrong)?;
-    fs::remove_file(&probe).map_err(wrong)
-}
-
-#[cfg(feature = "draw")]
-fn pictures(scene: &str, runs: &[(u64, Run)], sheet: bool) -> Result<Vec<Picture>, Box<dyn Error>> {
-    use frangible_draw::{SheetOptions, contact_sheet, encode_png, sheet_of_frames};
-
-    let recording: &Recording = &runs[0].1.recording;
-    let mut pictures = vec![(
-        format!("{scene}.png"),
-        encode_png(&contact_sheet(recording, &SheetOptions::default())?)?,
-    )];
-    if sheet {
-        let labels: Vec<String> = runs
-            .iter()
-            .map(|(seed, run)| format!("seed {seed}: {}", pieces(run)))
-            .collect();
-        let cells: Vec<(&Recording, usize, &str)> = runs
-            .iter()
-            .zip(&labels)
-            .map(|((_, run), label)| {
-                (
-                    &run.recording,
-                    run.recording.moments.at_rest,
-                    label.as_str(),
-                )
-            })
-            .collect();
-        let columns = (cells.len() as f64).sqrt().ceil() as u32;
-        let options = SheetOptions {
-            cell_width: 480,
-            cell_height: 360,
-            columns,
+/// What the mesher could not keep of the bodies.
+fn mesh_notes(scene: &Scene, baked: &[BakedBody]) -> Vec<String> {
+    let mut notes = Vec::new();
+    for (body, baked) in scene.bodies.iter().zip(baked) {
+        let Some(mesh) = baked.report.as_ref().and_then(|r| r.tetrahedra.as_ref()) else {
+            continue;
         };
-        pictures.push((
-            format!("{scene}-seeds.png"),
-            encode_png(&sheet_of_frames(&cells, &options)?)?,
-        ));
+        if mesh.pieces > 1 {
+            notes.push(format!(
+                "{}: {} loose {} left out, {:.2} % of its volume",
+                body.name,
+                mesh.pieces - 1,
+                if mesh.pieces == 2 { "piece" } else { "pieces" },
+                100.0 * (1.0 - mesh.kept)
+            ));
+        }
+        if mesh.features.not_snapped * 10 > mesh.features.sharp {
+            notes.push(format!(
+                "{}: {} of {} sharp places are rounded off; a higher --resolution keeps more",
+                body.name, mesh.features.not_snapped, mesh.features.sharp
+            ));
+        }
     }
-    Ok(pictures)
+    notes
 }
 
-#[cfg(not(feature = "draw"))]
-fn pictures(_: &str, _: &[(u64, Run)], _: bool) -> Result<Vec<Picture>, Box<dyn Error>> {
-    Err("this build has none; build with the feature `draw`".into())
-}
-
-#[cfg(feature = "draw")]
-fn pieces(run: &Run) -> String {
-    run.breaks
-        .first()
-        .map_or("held".into(), |b| format!("{} pieces", b.masses.len()))
+/// Plays the scene, with a sheet once per seed, the scene's own first.
+fn play_seeds(
+    scene: &Scene,
+    baked: &[BakedBody],
+    sheet: bool,
+    bar: &Bar,
+) -> Result<Vec<(u64, Run)>, Box<dyn Error>> {
+    let count = if sheet { scene.output.seeds } else { 1 };
+    let mut scene = scene.clone();
+    let first = scene.seed;
+    let mut runs = Vec::with_capacity(count);
+    for i in 0..count {
+        scene.seed = first.wrapping_add(i as u64);
+        let message = format!("{}: breaking, seed {}", scene.name, scene.seed);
+        let run = play(&scene, baked, &mut |done| bar.show(&message, done))?;
+        runs.push((scene.seed, run));
+    }
+    Ok(runs)
 }
 
 fn stages_of(run: &Run) -> Vec<(String, f64)> {
     let mut stages = Vec::new();
-    if let Some(b) = run.breaks.first() {
-        let t = b.report.timings;
+    if !run.breaks.is_empty() {
+        let timings = || run.breaks.iter().map(|b| b.report.timings);
         for (name, seconds) in [
-            ("response", t.response),
-            ("stress", t.stress),
-            ("cracks", t.cracks),
-            ("fragments", t.fragments),
+            ("response", timings().map(|t| t.response).sum::<f64>()),
+            ("stress", timings().map(|t| t.stress).sum()),
+            ("cracks", timings().map(|t| t.cracks).sum()),
+            ("fragments", timings().map(|t| t.fragments).sum()),
         ] {
             stages.push((name.to_string(), 1e3 * seconds));
         }
@@ -188,51 +158,12 @@ fn stages_of(run: &Run) -> Vec<(String, f64)> {
     stages
 }
 
-struct Output {
-    stages: Vec<(String, f64)>,
-    files: Vec<String>,
-    notes: Vec<String>,
-}
-
-fn summary(
-    scene: &Scene,
-    asset: &Arc<Asset>,
-    baked: &BakeReport,
-    run: &Run,
-    output: Output,
-) -> Report {
-    let broken = run.breaks.first();
-    let impact = broken
-        .map(|b| Impact::new(&b.report, &b.contacts))
-        .or_else(|| {
-            run.held
-                .as_ref()
-                .map(|h| Impact::new(&h.report, &h.contacts))
-        });
-    Report {
-        scene: scene.name.clone(),
-        material: scene.material.name.clone(),
-        seed: scene.seed,
-        broke: broken.is_some(),
-        fracture_nodes: baked.fracture.nodes,
-        fracture_tets: baked.fracture.tets,
-        analysis_nodes: baked.analysis.nodes,
-        analysis_elements: baked.analysis.tets,
-        modes: asset.modes.count(),
-        first_frequencies_hz: baked.frequencies.iter().copied().take(4).collect(),
-        largest_residual: baked.max_residual,
-        impact,
-        fragments: broken.map_or(1, |b| b.masses.len()),
-        mass_kg: asset.mass.mass,
-        fragment_mass_sum_kg: broken.map_or(asset.mass.mass, |b| b.masses.iter().sum()),
-        volume_m3: asset.mass.volume,
-        fragment_volume_sum_m3: broken.map_or(asset.mass.volume, |b| b.volume),
-        largest_fragments_kg: broken
-            .map_or(Vec::new(), |b| b.masses.iter().copied().take(5).collect()),
-        at_rest: run.at_rest,
-        simulated_s: run.simulated,
-        stages_ms: output.stages,
-        files: output.files,
-        notes: output.notes,
-    }
+fn bodies_of(scene: &Scene, baked: &[BakedBody], run: &Run) -> Vec<BodyReport> {
+    scene
+        .bodies
+        .iter()
+        .zip(baked)
+        .enumerate()
+        .map(|(i, (body, baked))| BodyReport::new(&body.name, baked, run, i))
+        .collect()
 }

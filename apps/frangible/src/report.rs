@@ -3,14 +3,30 @@
 use std::fmt::Write;
 
 use frangible::ImpactReport;
+use frangible_scenes::{BakedBody, Run};
 use serde::Serialize;
 
-/// Everything a run has to tell.
+/// Everything a run has to tell. Of a scene with one body its figures stand beside the scene's, of several in a list.
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct Report {
     pub(crate) scene: String,
-    pub(crate) material: String,
     pub(crate) seed: u64,
+    #[serde(flatten)]
+    pub(crate) only: Option<BodyReport>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(crate) bodies: Vec<BodyReport>,
+    pub(crate) at_rest: bool,
+    pub(crate) simulated_s: f64,
+    pub(crate) stages_ms: Vec<(String, f64)>,
+    pub(crate) files: Vec<String>,
+    pub(crate) notes: Vec<String>,
+}
+
+/// What became of a body.
+#[derive(Clone, Debug, Serialize)]
+pub(crate) struct BodyReport {
+    pub(crate) body: String,
+    pub(crate) material: String,
     pub(crate) broke: bool,
     pub(crate) fracture_nodes: usize,
     pub(crate) fracture_tets: usize,
@@ -18,7 +34,8 @@ pub(crate) struct Report {
     pub(crate) analysis_elements: usize,
     pub(crate) modes: usize,
     pub(crate) first_frequencies_hz: Vec<f64>,
-    pub(crate) largest_residual: f64,
+    /// Known of bodies baked in this run.
+    pub(crate) largest_residual: Option<f64>,
     pub(crate) impact: Option<Impact>,
     pub(crate) fragments: usize,
     pub(crate) mass_kg: f64,
@@ -26,11 +43,6 @@ pub(crate) struct Report {
     pub(crate) volume_m3: f64,
     pub(crate) fragment_volume_sum_m3: f64,
     pub(crate) largest_fragments_kg: Vec<f64>,
-    pub(crate) at_rest: bool,
-    pub(crate) simulated_s: f64,
-    pub(crate) stages_ms: Vec<(String, f64)>,
-    pub(crate) files: Vec<String>,
-    pub(crate) notes: Vec<String>,
 }
 
 /// Numbers of the impact that broke the body, or of the hardest that did not.
@@ -81,18 +93,41 @@ impl Impact {
     }
 }
 
-impl Report {
-    /// As a short table.
-    pub(crate) fn table(&self) -> String {
-        let mut t = String::new();
-        let mut row = |name: &str, value: String| {
-            // Writing to a string cannot fail.
-            let _ = writeln!(t, "  {name:<15} {value}");
-        };
-        row(
-            "scene",
-            format!("{}, {}, seed {}", self.scene, self.material, self.seed),
-        );
+impl BodyReport {
+    /// Of the body of this number, from 0.
+    pub(crate) fn new(name: &str, baked: &BakedBody, run: &Run, number: usize) -> Self {
+        let asset = &*baked.asset;
+        let broken = run.break_of(number);
+        let held = run.held_by(number);
+        let impact = broken
+            .map(|b| Impact::new(&b.report, &b.contacts))
+            .or_else(|| held.map(|h| Impact::new(&h.report, &h.contacts)));
+        let modes = asset.modes.count();
+        Self {
+            body: name.into(),
+            material: asset.material.name.clone(),
+            broke: broken.is_some(),
+            fracture_nodes: asset.fracture.positions.len(),
+            fracture_tets: asset.fracture.tets.len(),
+            analysis_nodes: asset.analysis.nodes.len(),
+            analysis_elements: asset.analysis.elements.len(),
+            modes,
+            first_frequencies_hz: (0..modes.min(4))
+                .map(|i| asset.modes.frequency(i))
+                .collect(),
+            largest_residual: baked.report.as_ref().map(|r| r.max_residual),
+            impact,
+            fragments: broken.map_or(1, |b| b.masses.len()),
+            mass_kg: asset.mass.mass,
+            fragment_mass_sum_kg: broken.map_or(asset.mass.mass, |b| b.masses.iter().sum()),
+            volume_m3: asset.mass.volume,
+            fragment_volume_sum_m3: broken.map_or(asset.mass.volume, |b| b.volume),
+            largest_fragments_kg: broken
+                .map_or(Vec::new(), |b| b.masses.iter().copied().take(5).collect()),
+        }
+    }
+
+    fn rows(&self, row: &mut dyn FnMut(&str, String)) {
         row(
             "mesh",
             format!(
@@ -108,10 +143,11 @@ impl Report {
         row(
             "modes",
             format!(
-                "{}, from {} … Hz (residual {:.0e})",
+                "{}, from {} … Hz{}",
                 self.modes,
                 frequencies.join(", "),
                 self.largest_residual
+                    .map_or(String::new(), |r| format!(" (residual {r:.0e})"))
             ),
         );
         if let Some(i) = &self.impact {
@@ -176,6 +212,32 @@ impl Report {
             );
         } else {
             row("fragments", "none: it held".into());
+        }
+    }
+}
+
+impl Report {
+    /// As a short table.
+    pub(crate) fn table(&self) -> String {
+        let mut t = String::new();
+        let mut row = |name: &str, value: String| {
+            // Writing to a string cannot fail.
+            let _ = writeln!(t, "  {name:<15} {value}");
+        };
+        let material = self
+            .only
+            .as_ref()
+            .map_or(String::new(), |body| format!(", {}", body.material));
+        row(
+            "scene",
+            format!("{}{material}, seed {}", self.scene, self.seed),
+        );
+        if let Some(body) = &self.only {
+            body.rows(&mut row);
+        }
+        for body in &self.bodies {
+            row("body", format!("{}, {}", body.body, body.material));
+            body.rows(&mut row);
         }
         row(
             "end",

@@ -1,21 +1,44 @@
 //! From the command line to a scene.
 
 use std::error::Error;
+use std::path::Path;
 
 use frangible::Material;
-use frangible::glam::Vec3;
-use frangible_scenes::{Action, BallThrow, Scene, scene};
+use frangible::glam::{Quat, Vec3};
+use frangible_scenes::{
+    Axis, BodySource, FileKind, FileWish, Projectile, SCENE_NAMES, Scene, scene, scene_of_file,
+};
 
-use crate::args::BreakArgs;
+use crate::args::{BakeArgs, BreakArgs, MeshArgs};
 
-/// The scene that was asked for, every number checked.
-pub(crate) fn scene_of(args: &BreakArgs) -> Result<Scene, Box<dyn Error>> {
-    let mut wanted = scene(&args.scene)?;
-    if let Some(name) = &args.material {
-        wanted.material = Material::preset(name)?;
+/// A scene, and what was taken for it without being asked for.
+pub(crate) struct Request {
+    pub(crate) scene: Scene,
+    pub(crate) notes: Vec<String>,
+}
+
+/// The scene to break, every number checked.
+pub(crate) fn scene_of(file: Option<&Path>, args: &BreakArgs) -> Result<Request, Box<dyn Error>> {
+    let mut wanted = named(file, args.scene.as_deref())?;
+    let mut notes = Vec::new();
+    if let Some(file) = file
+        && FileKind::of(file)? != FileKind::Scene
+    {
+        if args.material.is_none() && FileKind::of(file)? == FileKind::Mesh {
+            let material = &wanted.bodies[0].material.name;
+            notes.push(format!(
+                "material {material}, as none was given (--material)"
+            ));
+        }
+        if args.drop.is_none() && args.ball.is_none() {
+            notes.push("dropped from 1.5 m, as nothing else was asked for (--drop, --ball)".into());
+        }
     }
+    set_material(&mut wanted, args.material.as_deref())?;
+    set_modes(&mut wanted, args.modes)?;
+    set_mesh(&mut wanted, &args.mesh)?;
     if let Some(height) = args.drop {
-        wanted.action = Action::Drop { height };
+        wanted.drop_all(height);
     }
     if let Some(ball) = &args.ball {
         let mut throw = parse_ball(ball)?;
@@ -25,24 +48,171 @@ pub(crate) fn scene_of(args: &BreakArgs) -> Result<Scene, Box<dyn Error>> {
         if let Some(toward) = &args.toward {
             throw.toward = parse_vector("--toward", toward)?;
         }
-        wanted.action = Action::Ball(throw);
-    }
-    if let Some(modes) = args.modes {
-        wanted.modes = usize::try_from(modes)
-            .ok()
-            .filter(|&m| m > 0)
-            .ok_or_else(|| {
-                format!("--modes is {modes}; it must be 1 or more (100 is plenty for most bodies)")
-            })?;
+        wanted.throw(throw);
     }
     if let Some(seed) = args.seed {
         wanted.seed = seed;
     }
+    if let Some(n) = args.contact_sheet {
+        wanted.output.seeds = usize::try_from(n)
+            .ok()
+            .filter(|n| (1..=36).contains(n))
+            .ok_or_else(|| format!("--contact-sheet is {n}; it must be 1 to 36"))?;
+        if !wanted.output.contact_sheet.is_wanted() {
+            wanted.output.contact_sheet = FileWish::Yes;
+        }
+    }
+    if args.no_pictures {
+        wanted.output.picture = FileWish::No;
+        wanted.output.contact_sheet = FileWish::No;
+    }
+    wanted.validate()?;
+    Ok(Request {
+        scene: wanted,
+        notes,
+    })
+}
+
+/// The scene whose only body is to be baked, every number checked.
+pub(crate) fn body_of(args: &BakeArgs) -> Result<Scene, Box<dyn Error>> {
+    let mut wanted = named(args.file.as_deref(), args.scene.as_deref())?;
+    match &wanted.bodies[..] {
+        [body] if matches!(body.source, BodySource::Asset(_)) => {
+            return Err("the body is baked already; bake the mesh it was made of".into());
+        }
+        [_] => {}
+        bodies => {
+            let count = bodies.len();
+            return Err(format!(
+                "the scene has {count} bodies, and one file holds one; bake a scene of one body"
+            )
+            .into());
+        }
+    }
+    set_material(&mut wanted, args.material.as_deref())?;
+    set_modes(&mut wanted, args.modes)?;
+    set_mesh(&mut wanted, &args.mesh)?;
     wanted.validate()?;
     Ok(wanted)
 }
 
-fn parse_ball(text: &str) -> Result<BallThrow, String> {
+fn named(file: Option<&Path>, name: Option<&str>) -> Result<Scene, Box<dyn Error>> {
+    Ok(match file {
+        Some(file) => scene_of_file(file)?,
+        None => scene(name.unwrap_or(SCENE_NAMES[0]))?,
+    })
+}
+
+fn set_material(scene: &mut Scene, name: Option<&str>) -> Result<(), Box<dyn Error>> {
+    let Some(name) = name else { return Ok(()) };
+    let material = Material::preset(name)?;
+    refuse_baked(scene, "--material")?;
+    for body in &mut scene.bodies {
+        body.material = material.clone();
+    }
+    Ok(())
+}
+
+fn set_modes(scene: &mut Scene, modes: Option<i64>) -> Result<(), Box<dyn Error>> {
+    let Some(modes) = modes else { return Ok(()) };
+    let count = usize::try_from(modes)
+        .ok()
+        .filter(|&m| m > 0)
+        .ok_or_else(|| {
+            format!("--modes is {modes}; it must be 1 or more (100 is plenty for most bodies)")
+        })?;
+    refuse_baked(scene, "--modes")?;
+    for body in &mut scene.bodies {
+        body.modes = count;
+    }
+    Ok(())
+}
+
+fn refuse_baked(scene: &Scene, option: &str) -> Result<(), String> {
+    let baked = scene
+        .bodies
+        .iter()
+        .find(|body| matches!(body.source, BodySource::Asset(_)));
+    match baked {
+        None => Ok(()),
+        Some(body) => Err(format!(
+            "{option} cannot change `{}`, which is baked; give it to `frangible bake` instead",
+            body.name
+        )),
+    }
+}
+
+fn set_mesh(scene: &mut Scene, args: &MeshArgs) -> Result<(), String> {
+    let axis = match args.up.as_deref() {
+        None => None,
+        Some(name) => Some(
+            Axis::from_name(name)
+                .ok_or_else(|| format!("--up is `{name}`; it must be x, y or z"))?,
+        ),
+    };
+    let given = [
+        ("--size", args.size.is_some()),
+        ("--resolution", args.resolution.is_some()),
+        ("--up", axis.is_some()),
+    ];
+    let Some((option, _)) = given.into_iter().find(|(_, given)| *given) else {
+        return Ok(());
+    };
+    let [body] = &mut scene.bodies[..] else {
+        return Err(format!(
+            "{option} is for a single body; the scene has several, set it there"
+        ));
+    };
+    match &mut body.source {
+        BodySource::Mesh {
+            size,
+            resolution,
+            up,
+            ..
+        } => {
+            if args.size.is_some() {
+                *size = args.size;
+            }
+            if let Some(tets) = args.resolution {
+                *resolution = Some(count(tets)?);
+            }
+            *up = axis.unwrap_or(*up);
+            Ok(())
+        }
+        BodySource::Ready { resolution, .. } if args.size.is_none() && axis.is_none() => {
+            if let Some(tets) = args.resolution {
+                *resolution = Some(count(tets)?);
+            }
+            Ok(())
+        }
+        BodySource::Asset(_) if args.size.is_none() && args.resolution.is_none() => {
+            if let Some(up) = axis {
+                body.rotation = upright(up);
+            }
+            Ok(())
+        }
+        _ => Err(format!(
+            "{option} is for mesh files (.obj, .stl, .ply, .gltf, .glb)"
+        )),
+    }
+}
+
+fn count(tets: i64) -> Result<usize, String> {
+    usize::try_from(tets)
+        .map_err(|_| format!("--resolution is {tets}; it must be 500 to 2000000 tetrahedra"))
+}
+
+/// Turns this axis of the body up.
+fn upright(axis: Axis) -> Quat {
+    let quarter = std::f32::consts::FRAC_PI_2;
+    match axis {
+        Axis::X => Quat::from_rotation_z(quarter),
+        Axis::Y => Quat::IDENTITY,
+        Axis::Z => Quat::from_rotation_x(-quarter),
+    }
+}
+
+fn parse_ball(text: &str) -> Result<Projectile, String> {
     let parts: Vec<&str> = text.split(',').map(str::trim).collect();
     let ([mass, radius, speed] | [mass, radius, speed, _]) = parts[..] else {
         return Err(format!(
@@ -53,14 +223,15 @@ fn parse_ball(text: &str) -> Result<BallThrow, String> {
         s.parse::<f64>()
             .map_err(|_| format!("--ball: the {what} is `{s}`; it must be a number, in {unit}"))
     };
-    Ok(BallThrow {
-        mass: number("mass", "kg", mass)?,
-        radius: number("radius", "m", radius)?,
-        speed: number("speed", "m/s", speed)?,
-        material: parts.get(3).copied().unwrap_or("steel").to_string(),
-        at: Vec3::ZERO,
-        toward: Vec3::NEG_Z,
-    })
+    let mut ball = Projectile::ball(
+        number("mass", "kg", mass)?,
+        number("radius", "m", radius)?,
+        number("speed", "m/s", speed)?,
+    );
+    if let Some(material) = parts.get(3) {
+        ball.material = (*material).to_string();
+    }
+    Ok(ball)
 }
 
 fn parse_vector(what: &str, text: &str) -> Result<Vec3, String> {

@@ -232,6 +232,9 @@ fn help_names_every_option_and_its_unit() {
             "--contact-sheet",
             "--json",
             "--no-pictures",
+            "--size",
+            "--resolution",
+            "--up",
         ] {
             assert!(help.contains(option), "no {option} in: {help}");
         }
@@ -310,4 +313,199 @@ fn the_same_arguments_give_the_same_bytes() {
         first.len(),
         second.len()
     );
+}
+
+/// A scene file in a folder of its own.
+fn scene_file(folder: &Folder, name: &str, text: &str) -> String {
+    let path = folder.0.join(name);
+    fs::write(&path, text).expect("a scene file");
+    path.to_string_lossy().into_owned()
+}
+
+#[test]
+fn a_printed_scene_does_the_same_as_the_built_in_one() {
+    let folder = Folder::new("printed");
+    let args = ["--no-pictures", "--modes", "20", "--drop", "0.4"];
+    let built_in = frangible(
+        &[&["break", "--scene", "brick"], &args[..]].concat(),
+        Some(&folder.0.join("built-in")),
+    );
+    assert!(built_in.status.success(), "{}", text(&built_in.stderr));
+    let printed = frangible(&["scenes", "brick"], None);
+    assert!(printed.status.success());
+    let file = scene_file(&folder, "mine.toml", &text(&printed.stdout));
+    let from_file = frangible(
+        &[&["break", &file], &args[..]].concat(),
+        Some(&folder.0.join("file")),
+    );
+    assert!(from_file.status.success(), "{}", text(&from_file.stderr));
+    let [first, second] = ["built-in", "file"]
+        .map(|run| fs::read(folder.0.join(run).join("brick.glb")).expect("the GLB"));
+    assert!(first == second, "the files differ");
+    let unknown = frangible(&["scenes", "brik"], None);
+    assert!(!unknown.status.success());
+    assert!(text(&unknown.stderr).contains("did you mean `brick`"));
+}
+
+#[test]
+fn files_that_cannot_be_broken_are_refused_in_a_sentence() {
+    let input = Folder::new("inputs");
+    let file = |name: &str, text: &str| scene_file(&input, name, text);
+    let absent = input.0.join("absent.obj").to_string_lossy().into_owned();
+    let folder = input.0.to_string_lossy().into_owned();
+    let body = "[[body]]\nshape = \"vase\"\n";
+    for (path, parts) in [
+        (absent.clone(), &["no such file", "absent.obj"][..]),
+        (folder, &["this is a folder"]),
+        (file("empty.stl", ""), &["empty.stl", "empty"]),
+        (file("picture.jpg", "x"), &[".obj", ".frangible", ".toml"]),
+        (file("text.toml", "once upon a time"), &["text.toml line 1"]),
+        (
+            file("key.toml", &format!("{body}\nmaterail = \"glass\"")),
+            &["key.toml line 4", "`materail`", "did you mean `material`"],
+        ),
+        (
+            file("value.toml", &format!("{body}drop = -2")),
+            &["value.toml line 3", "the drop height is -2"],
+        ),
+        (
+            file("far.toml", "[[body]]\nmesh = \"meshes/far.ply\""),
+            &["no such file", "meshes/far.ply"],
+        ),
+        (
+            file(
+                "held.toml",
+                &format!("{body}supports = [{{ below = 0.1 }}]"),
+            ),
+            &["held.toml line 3", "supports are not built yet"],
+        ),
+    ] {
+        refused_in_a_sentence("files", &["break", &path, "--no-pictures"], parts);
+    }
+    refused(
+        "files",
+        &["break", &absent, "--scene", "vase"],
+        &["--scene"],
+    );
+}
+
+#[test]
+fn options_for_meshes_are_refused_elsewhere() {
+    let check = |args: &[&str], parts: &[&str]| refused_in_a_sentence("mesh", args, parts);
+    check(&["--size", "0.1"], &["--size is for mesh files"]);
+    check(&["--resolution", "9000"], &["--resolution is for mesh"]);
+    check(&["--up", "z"], &["--up is for mesh files"]);
+    check(&["--up", "q"], &["--up is `q`", "x, y or z"]);
+    let input = Folder::new("mesh-input");
+    let mesh = scene_file(&input, "a.obj", "v 0 0 0\n");
+    check(&["break", &mesh, "--size", "-1"], &["size is -1", "3 m"]);
+    check(&["break", &mesh, "--size", "nan"], &["size is NaN"]);
+    check(&["break", &mesh, "--resolution", "7"], &["resolution is 7"]);
+    check(
+        &["break", &mesh, "--resolution", "-7"],
+        &["resolution is -7"],
+    );
+    let baked = scene_file(&input, "a.frangible", "x");
+    check(
+        &["break", &baked, "--material", "glass"],
+        &["is baked", "bake"],
+    );
+    check(&["break", &baked, "--modes", "9"], &["is baked", "bake"]);
+}
+
+#[test]
+fn bakes_that_cannot_be_are_refused_and_leave_nothing() {
+    let folder = Folder::new("bake");
+    let scene = scene_file(
+        &folder,
+        "two.toml",
+        "[[body]]\nshape = \"vase\"\n[[body]]\nshape = \"bowl\"\n",
+    );
+    let out = |name: &str| folder.0.join(name).to_string_lossy().into_owned();
+    let far = out("no-such-folder/a.frangible");
+    let good = out("a.frangible");
+    let wrong = out("a.obj");
+    for (args, part) in [
+        (vec!["--scene", "vas", "-o", &good], "did you mean `vase`"),
+        (
+            vec!["--scene", "vase", "-o", &wrong],
+            "must end in .frangible",
+        ),
+        (vec!["--scene", "vase", "-o", &far], "-o FILE"),
+        (vec![&scene, "-o", &good], "2 bodies"),
+        (
+            vec!["--scene", "vase", "-o", &good, "--modes", "0"],
+            "--modes",
+        ),
+        (
+            vec!["--scene", "vase", "-o", &good, "--size", "1"],
+            "mesh files",
+        ),
+        (vec![&good, "-o", &good], "no such file"),
+        (vec!["-o", &good], "FILE"),
+        (vec!["--scene", "vase"], "--output"),
+    ] {
+        let output = frangible(&[&["bake"], &args[..]].concat(), None);
+        let message = text(&output.stderr);
+        assert!(!output.status.success(), "{args:?}");
+        assert_ne!(output.status.code(), Some(101), "{message}");
+        assert!(message.contains(part), "{args:?}: {message}");
+        assert_eq!(folder.files(), ["two.toml"], "{args:?} left files");
+    }
+}
+
+#[test]
+fn several_bodies_are_reported_one_by_one() {
+    let folder = Folder::new("several");
+    let file = scene_file(
+        &folder,
+        "pair.toml",
+        r#"
+duration = 0.2
+[[body]]
+name = "low"
+shape = { box = [0.1, 0.1, 0.02] }
+material = "glass"
+modes = 10
+position = [0, 0]
+[[body]]
+name = "high"
+shape = { box = [0.1, 0.1, 0.02] }
+material = "glass"
+modes = 10
+position = [1, 0]
+drop = 0.02
+[output]
+glb = "animation.glb"
+picture = false
+json = "report.json"
+"#,
+    );
+    let out = folder.0.join("out");
+    let output = frangible(&["break", &file, "--json"], Some(&out));
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let report: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    let written = fs::read(out.join("report.json")).expect("the report");
+    let again: serde_json::Value = serde_json::from_slice(&written).expect("JSON");
+    assert_eq!(report, again);
+    assert_eq!(report["scene"], "pair");
+    let names: Vec<&str> = report["bodies"]
+        .as_array()
+        .expect("a list")
+        .iter()
+        .filter_map(|body| body["body"].as_str())
+        .collect();
+    assert_eq!(names, ["low", "high"]);
+    assert!(report.get("broke").is_none(), "whose would it be?");
+    let mut files: Vec<String> = fs::read_dir(&out)
+        .expect("the folder")
+        .map(|e| {
+            e.expect("an entry")
+                .file_name()
+                .to_string_lossy()
+                .into_owned()
+        })
+        .collect();
+    files.sort();
+    assert_eq!(files, ["animation.glb", "report.json"]);
 }

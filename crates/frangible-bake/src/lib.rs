@@ -46,4 +46,4 @@ pub use frangible_mesh;
 pub use import::{ImportOptions, Imported, import_mesh};
 pub use mesh::BodyMesh;
 pub use report::{BakeReport, MeshReport, Progress, Stage};
-pub use shapes::{MeshSize, Shape, SolidShape, Station};
+pub use shapes::{MeshSize, READY_SHAPES, Shape, SolidShape, Station};

@@ -180,7 +180,7 @@ impl BreakableWorld {
         Ok(())
     }
 
-    fn check_room(&self) -> Result<(), WorldError> {
+    pub(crate) fn check_room(&self) -> Result<(), WorldError> {
         let limit = self.config.max_bodies;
         if self.physics.bodies.len() < limit {
             Ok(())
@@ -189,7 +189,7 @@ impl BreakableWorld {
         }
     }
 
-    fn insert(
+    pub(crate) fn insert(
         &mut self,
         body: RigidBodyBuilder,
         shape: SharedShape,
@@ -210,7 +210,7 @@ impl BreakableWorld {
     }
 }
 
-fn check_pose(pose: Pose) -> Result<(), WorldError> {
+pub(crate) fn check_pose(pose: Pose) -> Result<(), WorldError> {
     if !pose.is_finite() {
         return Err(WorldError::NotFinite { what: "pose" });
     }

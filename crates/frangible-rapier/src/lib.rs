@@ -54,6 +54,7 @@ mod mass;
 mod motion;
 mod replace;
 mod rest;
+mod rigid;
 mod rolling;
 mod siblings;
 mod snapshot;

@@ -41,8 +41,8 @@ pub(crate) fn body_surfaces(material: &str) -> [SurfaceMaterial; 2] {
     }
 }
 
-/// Surface of a ball.
-pub(crate) fn ball_surface(material: &str) -> SurfaceMaterial {
+/// Surface of a projectile; `kind` is its form's name.
+pub(crate) fn projectile_surface(kind: &str, material: &str) -> SurfaceMaterial {
     let (base_color, metallic, roughness) = match material {
         "steel" => ([0.56, 0.57, 0.58, 1.0], 1.0, 0.25),
         "rubber" => ([0.03, 0.03, 0.035, 1.0], 0.0, 0.8),
@@ -50,7 +50,7 @@ pub(crate) fn ball_surface(material: &str) -> SurfaceMaterial {
         _ => ([0.4, 0.4, 0.4, 1.0], 0.0, 0.6),
     };
     SurfaceMaterial {
-        name: format!("{material} ball"),
+        name: format!("{material} {kind}"),
         base_color,
         metallic,
         roughness,

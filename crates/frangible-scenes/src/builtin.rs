@@ -3,11 +3,20 @@
 use std::f32::consts::FRAC_PI_2;
 
 use frangible::glam::{Quat, Vec3};
-use frangible::{FractureConfig, Material, nearest_name};
+use frangible::{Material, nearest_name};
 use frangible_bake::Shape;
 
+use crate::body::BodySpec;
 use crate::error::SceneError;
-use crate::scene::{Action, BallThrow, Scene};
+use crate::projectile::Projectile;
+use crate::scene::Scene;
+use crate::source::BodySource;
+
+/// What happens to the body.
+enum Action {
+    Drop(f64),
+    Throw(Projectile),
+}
 
 /// Names of the built-in scenes; the first is the default.
 pub const SCENE_NAMES: [&str; 7] = [
@@ -28,7 +37,7 @@ pub fn scene(name: &str) -> Result<Scene, SceneError> {
     // Shapes of revolution are baked with their axis along z; y is up here.
     let upright = Quat::from_rotation_x(-FRAC_PI_2);
     let tilted = |degrees: f32| Quat::from_rotation_z(degrees.to_radians()) * upright;
-    let drop = |height: f64| Action::Drop { height };
+    let drop = Action::Drop;
     match name {
         "glass" => build(
             "glass",
@@ -48,14 +57,7 @@ pub fn scene(name: &str) -> Result<Scene, SceneError> {
             "glass",
             60,
             Quat::IDENTITY,
-            Action::Ball(BallThrow {
-                mass: 0.13,
-                radius: 0.0158,
-                speed: 12.0,
-                material: "steel".into(),
-                at: Vec3::ZERO,
-                toward: Vec3::NEG_Z,
-            }),
+            Action::Throw(Projectile::ball(0.13, 0.0158, 12.0)),
         ),
         "plate" => build(
             "plate",
@@ -82,13 +84,10 @@ pub fn scene(name: &str) -> Result<Scene, SceneError> {
             "porcelain",
             120,
             upright,
-            Action::Ball(BallThrow {
-                mass: 0.5,
-                radius: 0.056,
-                speed: 6.0,
+            Action::Throw(Projectile {
                 material: "wood".into(),
-                at: Vec3::ZERO,
                 toward: Vec3::NEG_X,
+                ..Projectile::ball(0.5, 0.056, 6.0)
             }),
         ),
         "brick" => build(
@@ -140,18 +139,19 @@ fn build(
         "plate" => 4,
         _ => 1,
     };
-    Ok(Scene {
-        name: name.into(),
-        summary: summary.into(),
-        shape,
-        material: Material::preset(material)?,
+    let body = BodySpec {
         modes,
         rotation,
-        action,
-        floor: "stone".into(),
+        ..BodySpec::new(name, BodySource::Shape(shape), Material::preset(material)?)
+    };
+    let mut scene = Scene {
+        summary: summary.into(),
         seed,
-        fracture: FractureConfig::default(),
-        duration: 8.0,
-        look_from: Vec3::new(0.55, 0.5, 1.0),
-    })
+        ..Scene::one_body(body)
+    };
+    match action {
+        Action::Drop(height) => scene.drop_all(height),
+        Action::Throw(projectile) => scene.throw(projectile),
+    }
+    Ok(scene)
 }

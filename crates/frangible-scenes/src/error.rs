@@ -1,5 +1,7 @@
 //! Why a scene gave no result.
 
+use std::path::PathBuf;
+
 use thiserror::Error;
 
 /// Why a scene gave no result.
@@ -26,14 +28,86 @@ pub enum SceneError {
         /// What it must be, with its unit.
         must: &'static str,
     },
+    /// Two settings that cannot stand together, or one that lacks another.
+    #[error("{0}")]
+    Clash(String),
+    /// Something is wrong with one body of several.
+    #[error("{item}: {source}")]
+    Item {
+        /// Which one.
+        item: String,
+        /// What is wrong.
+        source: Box<SceneError>,
+    },
+    /// A scene file that cannot be understood.
+    #[error("{file} line {line}: {problem}")]
+    Toml {
+        /// The file, as it was named.
+        file: String,
+        /// Line, from 1.
+        line: usize,
+        /// What is wrong there.
+        problem: String,
+    },
+    /// A file that cannot be read.
+    #[error("{problem}: {}", path.display())]
+    File {
+        /// Where it was looked for.
+        path: PathBuf,
+        /// What is wrong.
+        problem: String,
+    },
+    /// A file of unknown kind.
+    #[error(
+        "`{}` has no ending that is known; give a mesh (.obj, .stl, .ply, .gltf, .glb), a baked body (.frangible) or a scene (.toml)",
+        .0.display()
+    )]
+    UnknownKind(PathBuf),
+    /// A mesh whose size cannot be meant.
+    #[error(
+        "the body is {longest} m long if the unit of `{}` is the metre; give its longest side in metres, for example --size {example} (in a scene file: size = {example})",
+        path.display()
+    )]
+    Size {
+        /// The mesh file.
+        path: PathBuf,
+        /// Its longest side in its own unit.
+        longest: f64,
+        /// A size that may be meant, m.
+        example: f64,
+    },
     /// A ball that would start inside the floor or the body.
     #[error(
-        "the ball would start {depth_mm:.1} mm below the floor; aim higher with --at, or turn --toward downwards"
+        "the {what} would start {depth_mm:.1} mm below the floor; aim higher with --at, or turn --toward downwards"
     )]
     BallBelowFloor {
+        /// Ball or hammer.
+        what: &'static str,
         /// Depth, mm.
         depth_mm: f32,
     },
+    /// A body that would start inside the floor.
+    #[error("`{body}` would start {depth_mm:.1} mm below the floor; raise its position")]
+    BodyBelowFloor {
+        /// Name of the body.
+        body: String,
+        /// Depth, mm.
+        depth_mm: f32,
+    },
+    /// As many baked bodies as the scene has are needed.
+    #[error("the scene has {wanted} bodies, but {given} baked ones were given; bake this scene")]
+    BakedBodies {
+        /// Bodies of the scene.
+        wanted: usize,
+        /// Baked bodies.
+        given: usize,
+    },
+    /// Something this version cannot do.
+    #[error("{0} are not built yet")]
+    NotBuilt(&'static str),
+    /// A file of a baked body that cannot be read or written.
+    #[error(transparent)]
+    Asset(#[from] frangible::AssetFileError),
     /// The body could not be baked.
     #[error("baking failed: {0}")]
     Bake(#[from] frangible_bake::BakeError),

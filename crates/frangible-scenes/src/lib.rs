@@ -1,23 +1,46 @@
-//! Frangible's scenes: procedural bodies, materials and set-ups, defined once for tests, benches, pictures and the
-//! command line.
+//! Frangible's scenes: bodies, materials and set-ups for tests, benches, pictures and the command line; built in, or
+//! from files.
 //!
 //! ```no_run
 //! let scene = frangible_scenes::scene("glass")?;
-//! let (asset, _) = frangible_scenes::bake(&scene, &mut |_| {})?;
-//! let run = frangible_scenes::play(&scene, &asset, &mut |_| {})?;
+//! let bodies = frangible_scenes::bake(&scene, &mut |_| {})?;
+//! let run = frangible_scenes::play(&scene, &bodies, &mut |_| {})?;
 //! println!("{} pieces", run.breaks.first().map_or(1, |b| b.masses.len()));
 //! # Ok::<(), frangible_scenes::SceneError>(())
 //! ```
+//!
+//! [`scene()`] gives a built-in scene, [`scene_of_file`] one from a scene file, a mesh or a baked body, and
+//! [`parse_scene`] one from TOML text; [`scene_to_toml`] goes back.
 
 mod appearance;
+mod bake;
+mod body;
 mod builtin;
+mod check;
 mod error;
+mod files;
+mod hammer;
+mod launch;
 mod meshes;
+mod output;
+mod projectile;
 mod recorder;
+mod result;
 mod run;
 mod scene;
+mod source;
+mod stage;
+mod text;
 
+pub use bake::{BakedBody, bake, bake_opened, open_sources};
+pub use body::{BodySpec, Place, Support};
 pub use builtin::{SCENE_NAMES, scene};
 pub use error::SceneError;
-pub use run::{BreakRecord, HeldRecord, Run, bake, play};
-pub use scene::{Action, BallThrow, Scene};
+pub use files::{read_scene, scene_of_file};
+pub use output::{FileWish, Output};
+pub use projectile::{Projectile, ProjectileKind};
+pub use result::{BreakRecord, HeldRecord, Run};
+pub use run::play;
+pub use scene::Scene;
+pub use source::{Axis, BodySource, FileKind, Opened, open_source, save_asset};
+pub use text::{parse_scene, scene_to_toml};

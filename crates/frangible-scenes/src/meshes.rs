@@ -36,7 +36,7 @@ impl Builder {
 }
 
 /// The whole body: only its outside.
-pub(crate) fn whole(asset: &Asset, surfaces: BodySurfaces) -> RecordedMesh {
+pub(crate) fn whole(name: &str, asset: &Asset, surfaces: BodySurfaces) -> RecordedMesh {
     let mut builder = Builder::default();
     let mut indices = Vec::new();
     for (triangle, normals) in asset.surface.triangles.iter().zip(&asset.surface.normals) {
@@ -44,7 +44,7 @@ pub(crate) fn whole(asset: &Asset, surfaces: BodySurfaces) -> RecordedMesh {
             indices.push(builder.corner(v, asset.fracture.positions[v as usize], n));
         }
     }
-    builder.mesh.name = asset.name.clone();
+    builder.mesh.name = name.into();
     builder.mesh.parts.push(MeshPart {
         surface: surfaces.outer,
         indices,

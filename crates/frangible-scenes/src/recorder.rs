@@ -2,7 +2,7 @@
 
 use frangible::glam::{Quat, Vec3};
 use frangible_export::{
-    Moments, Pose, RecordedMesh, RecordedNode, Recording, SurfaceMaterial, View,
+    Floor, Moments, Pose, RecordedMesh, RecordedNode, Recording, SurfaceMaterial, View,
 };
 use frangible_rapier::BreakEvent;
 use frangible_rapier::BreakableWorld;
@@ -19,26 +19,50 @@ struct Tracked {
     body: RigidBodyHandle,
 }
 
+/// What a node is to the camera.
+#[derive(Clone, Copy, PartialEq)]
+pub(crate) enum Role {
+    /// A breakable body within this radius of its centre of mass, m.
+    Body(f32),
+    /// A piece of one.
+    Piece,
+    /// What was thrown: it may leave the picture.
+    Projectile,
+}
+
 /// Collects poses frame by frame.
 pub(crate) struct Recorder {
     recording: Recording,
+    /// One per node.
+    roles: Vec<Role>,
     tracked: Vec<Tracked>,
     break_frame: Option<usize>,
 }
 
 impl Recorder {
-    pub(crate) fn new(name: &str, surfaces: Vec<SurfaceMaterial>) -> Self {
+    pub(crate) fn new(name: &str) -> Self {
         let recording = Recording {
             name: name.into(),
             frame_rate: FRAME_RATE,
-            surfaces,
             ..Recording::default()
         };
         Self {
             recording,
+            roles: Vec::new(),
             tracked: Vec::new(),
             break_frame: None,
         }
+    }
+
+    /// Numbers of these surfaces in the recording; equal ones are kept once.
+    pub(crate) fn surfaces<const N: usize>(&mut self, looks: [SurfaceMaterial; N]) -> [usize; N] {
+        let known = &mut self.recording.surfaces;
+        looks.map(|look| {
+            known.iter().position(|k| *k == look).unwrap_or_else(|| {
+                known.push(look);
+                known.len() - 1
+            })
+        })
     }
 
     /// A thing to follow from the next frame on.
@@ -48,7 +72,9 @@ impl Recorder {
         mesh: RecordedMesh,
         body: RigidBodyHandle,
         extras: Vec<(String, f64)>,
+        role: Role,
     ) {
+        self.roles.push(role);
         let recording = &mut self.recording;
         recording.meshes.push(mesh);
         let frame = recording.frame_count;
@@ -66,8 +92,8 @@ impl Recorder {
         });
     }
 
-    /// Puts the pieces in the place of their parent.
-    pub(crate) fn broke(&mut self, event: &BreakEvent, surfaces: BodySurfaces) {
+    /// Puts the pieces in the place of their parent, the body of this name.
+    pub(crate) fn broke(&mut self, name: &str, event: &BreakEvent, surfaces: BodySurfaces) {
         self.break_frame.get_or_insert(self.recording.frame_count);
         for (i, (fragment, &body)) in event
             .fracture
@@ -76,13 +102,13 @@ impl Recorder {
             .zip(&event.fragments)
             .enumerate()
         {
-            let name = format!("{} piece {}", event.asset.name, i + 1);
+            let name = format!("{name} piece {}", i + 1);
             let mesh = piece(name.clone(), &fragment.mesh, surfaces);
             let extras = vec![
                 ("mass_kg".into(), fragment.mass.mass),
                 ("volume_m3".into(), fragment.mass.volume),
             ];
-            self.track(name, mesh, body, extras);
+            self.track(name, mesh, body, extras, Role::Piece);
         }
     }
 
@@ -108,8 +134,9 @@ impl Recorder {
     }
 
     /// The finished recording, its camera set so that what matters fills the picture.
-    pub(crate) fn finish(mut self, look_from: Vec3, body_radius: f32) -> Recording {
+    pub(crate) fn finish(mut self, look_from: Vec3, floor: Option<Floor>) -> Recording {
         let recording = &mut self.recording;
+        recording.floor = floor;
         let last = recording.frame_count.saturating_sub(1);
         for node in &mut recording.nodes {
             let pose = node.poses.last().copied().unwrap_or_default();
@@ -123,7 +150,7 @@ impl Recorder {
             just_after: (first_crack + 5).min(last),
             at_rest: last,
         };
-        recording.camera = camera(recording, look_from, body_radius);
+        recording.camera = camera(recording, &self.roles, look_from);
         self.recording
     }
 }
@@ -136,22 +163,30 @@ struct Resting {
 }
 
 /// Looks so that the body just before the break and most of the pieces at rest fill the picture.
-fn camera(recording: &Recording, look_from: Vec3, body_radius: f32) -> View {
+fn camera(recording: &Recording, roles: &[Role], look_from: Vec3) -> View {
     let moments = recording.moments;
+    // Without a floor pieces fall for ever.
+    let end = match recording.floor {
+        Some(_) => moments.at_rest,
+        None => moments.just_after,
+    };
+    let mut largest = 0.0_f32;
     let mut seen: Vec<Vec3> = Vec::new();
     let mut resting: Vec<Resting> = Vec::new();
-    for (i, node) in recording.nodes.iter().enumerate() {
-        let ball = node.name == "ball";
-        if node.visible.contains(&moments.before) && !ball {
+    for (i, (node, &role)) in recording.nodes.iter().zip(roles).enumerate() {
+        if let Role::Body(radius) = role
+            && node.visible.contains(&moments.before)
+        {
+            largest = largest.max(radius);
             let centre = recording.pose(i, moments.before).translation;
-            let reach = |axis: Vec3| axis * body_radius;
+            let reach = |axis: Vec3| axis * radius;
             seen.extend(
                 [Vec3::X, Vec3::Y, Vec3::Z]
                     .into_iter()
                     .flat_map(|a| [centre + reach(a), centre - reach(a)]),
             );
         }
-        if node.visible.contains(&moments.at_rest) && !ball {
+        if node.visible.contains(&end) && role != Role::Projectile {
             let mesh = &recording.meshes[node.mesh];
             let radius = mesh
                 .positions
@@ -164,7 +199,7 @@ fn camera(recording: &Recording, look_from: Vec3, body_radius: f32) -> View {
                 .find(|e| e.0 == "mass_kg")
                 .map_or(0.0, |e| e.1);
             resting.push(Resting {
-                centre: recording.pose(i, moments.at_rest).translation,
+                centre: recording.pose(i, end).translation,
                 radius,
                 mass,
             });
@@ -190,11 +225,15 @@ fn camera(recording: &Recording, look_from: Vec3, body_radius: f32) -> View {
         let across = [Vec3::X, Vec3::NEG_X, Vec3::Z, Vec3::NEG_Z];
         seen.extend(across.map(|axis| piece.centre + 0.9 * piece.radius * axis));
     }
+    let ground = match recording.floor {
+        Some(_) => 0.0,
+        None => f32::MIN,
+    };
     let low = seen
         .iter()
         .copied()
         .fold(Vec3::INFINITY, Vec3::min)
-        .max(Vec3::new(f32::MIN, 0.0, f32::MIN));
+        .max(Vec3::new(f32::MIN, ground, f32::MIN));
     let high = seen.iter().copied().fold(Vec3::NEG_INFINITY, Vec3::max);
     let target = 0.5 * (low + high);
     let vertical_fov = 0.55_f32;
@@ -210,7 +249,7 @@ fn camera(recording: &Recording, look_from: Vec3, body_radius: f32) -> View {
             let across = (d.dot(right).abs() / (4.0 / 3.0)).max(d.dot(up).abs());
             1.06 * across / tangent + d.dot(back)
         })
-        .fold(body_radius, f32::max);
+        .fold(largest, f32::max);
     View {
         eye: target + back * distance,
         target,

@@ -3,23 +3,27 @@
 use std::sync::{Arc, OnceLock};
 
 use frangible::Asset;
+use frangible::glam::Vec3;
 use frangible_export::{Recording, write_glb};
-use frangible_scenes::{Action, Run, SCENE_NAMES, Scene, SceneError, bake, play, scene};
+use frangible_scenes::{
+    BakedBody, Place, Projectile, ProjectileKind, Run, SCENE_NAMES, Scene, SceneError, Support,
+    bake, play, scene,
+};
 
 /// A built-in scene with few modes.
-fn cheap(name: &str) -> (Scene, Arc<Asset>) {
+fn cheap(name: &str) -> (Scene, Vec<BakedBody>) {
     let mut scene = scene(name).unwrap();
-    scene.modes = 40;
-    let asset = bake(&scene, &mut |_| {}).unwrap().0;
-    (scene, asset)
+    scene.bodies[0].modes = 40;
+    let baked = bake(&scene, &mut |_| {}).unwrap();
+    (scene, baked)
 }
 
 fn glass() -> &'static (Arc<Asset>, [Run; 2]) {
     static RUNS: OnceLock<(Arc<Asset>, [Run; 2])> = OnceLock::new();
     RUNS.get_or_init(|| {
-        let (scene, asset) = cheap("glass");
-        let runs = [(); 2].map(|()| play(&scene, &asset, &mut |_| {}).unwrap());
-        (asset, runs)
+        let (scene, baked) = cheap("glass");
+        let runs = [(); 2].map(|()| play(&scene, &baked, &mut |_| {}).unwrap());
+        (Arc::clone(&baked[0].asset), runs)
     })
 }
 
@@ -47,20 +51,35 @@ fn an_unknown_scene_and_unusable_numbers_are_refused_by_name() {
     };
     let message = refused(|s| s.duration = f64::NAN).to_string();
     assert!(message.contains("duration"), "{message}");
-    let message = refused(|s| s.modes = 0).to_string();
+    let message = refused(|s| s.bodies[0].modes = 0).to_string();
     assert!(message.contains("modes"), "{message}");
-    let message = refused(|s| s.action = Action::Drop { height: -1.0 }).to_string();
+    let message = refused(|s| s.drop_all(-1.0)).to_string();
     assert!(message.contains("height"), "{message}");
     assert!(matches!(
-        refused(|s| s.floor = "cheese".into()),
+        refused(|s| s.floor = Some("cheese".into())),
         SceneError::Material(_)
     ));
+    let message = refused(|s| s.projectiles[0].speed = 1e4).to_string();
+    assert!(message.contains("speed"), "{message}");
+    let message = refused(|s| s.projectiles[0].target = 1).to_string();
+    assert!(message.contains("target"), "{message}");
+    let message = refused(|s| s.bodies.clear()).to_string();
+    assert!(message.contains("bodies"), "{message}");
+    let message = refused(|s| s.name = "../escaped".into()).to_string();
+    assert!(message.contains("file name"), "{message}");
+    let message = refused(|s| s.bodies[0].supports.push(Support::Below(0.0))).to_string();
+    assert_eq!(message, "supports are not built yet");
     let message = refused(|s| {
-        if let Action::Ball(ball) = &mut s.action {
-            ball.speed = 1e4;
-        }
+        let body = s.bodies[0].clone();
+        s.bodies.extend([body.clone(), body]);
+        s.bodies[1].velocity = Vec3::NAN;
     });
-    assert!(message.to_string().contains("speed"), "{message}");
+    assert!(
+        message
+            .to_string()
+            .starts_with("body 2: the body's velocity"),
+        "{message}"
+    );
 }
 
 #[test]
@@ -149,9 +168,9 @@ fn pieces_end_on_the_floor() {
 
 #[test]
 fn a_ball_flies_on_through_the_pane() {
-    let (mut scene, asset) = cheap("pane");
+    let (mut scene, baked) = cheap("pane");
     scene.duration = 0.6;
-    let run = play(&scene, &asset, &mut |_| {}).unwrap();
+    let run = play(&scene, &baked, &mut |_| {}).unwrap();
     assert_eq!(run.breaks.len(), 1, "the pane holds");
     run.recording.validate().unwrap();
     let ball = run
@@ -174,4 +193,126 @@ fn a_ball_flies_on_through_the_pane() {
         z[n - 1]
     );
     assert!(z[n - 1] < z[n - 2], "the ball comes back");
+}
+
+/// Two panes side by side, the second one the target, far enough apart for pieces not to meet.
+fn two_panes() -> &'static (Scene, Vec<BakedBody>) {
+    static PANES: OnceLock<(Scene, Vec<BakedBody>)> = OnceLock::new();
+    PANES.get_or_init(|| {
+        let mut scene = scene("pane").unwrap();
+        scene.duration = 0.3;
+        scene.bodies[0].modes = 30;
+        let mut other = scene.bodies[0].clone();
+        other.name = "other".into();
+        other.place = Place::Standing { over: [2.0, 0.0] };
+        scene.bodies.push(other);
+        scene.projectiles[0].target = 1;
+        let baked = bake(&scene, &mut |_| {}).unwrap();
+        (scene, baked)
+    })
+}
+
+#[test]
+fn equal_bodies_share_one_asset_and_only_the_one_that_is_hit_breaks() {
+    let (scene, baked) = two_panes();
+    assert!(Arc::ptr_eq(&baked[0].asset, &baked[1].asset));
+    let run = play(scene, baked, &mut |_| {}).unwrap();
+    run.recording.validate().unwrap();
+    assert_eq!(run.breaks.len(), 1);
+    assert!(run.break_of(0).is_none() && run.break_of(1).is_some());
+    let pieces = run
+        .recording
+        .nodes
+        .iter()
+        .filter(|n| n.name.starts_with("other piece "));
+    assert_eq!(pieces.count(), run.breaks[0].masses.len());
+}
+
+#[test]
+fn equal_bodies_hit_alike_break_differently() {
+    let (scene, baked) = two_panes();
+    let mut scene = scene.clone();
+    let mut second = scene.projectiles[0].clone();
+    second.target = 0;
+    scene.projectiles.push(second);
+    let run = play(&scene, baked, &mut |_| {}).unwrap();
+    assert_eq!(run.breaks.len(), 2);
+    assert_ne!(run.breaks[0].body, run.breaks[1].body);
+    assert_ne!(run.breaks[0].masses, run.breaks[1].masses);
+    let names: Vec<&str> = run
+        .recording
+        .nodes
+        .iter()
+        .map(|n| n.name.as_str())
+        .collect();
+    assert!(names.contains(&"ball 1") && names.contains(&"ball 2"));
+}
+
+#[test]
+fn as_many_baked_bodies_as_bodies_are_needed() {
+    let (scene, baked) = two_panes();
+    let error = play(scene, &baked[..1], &mut |_| {}).unwrap_err();
+    assert!(matches!(
+        error,
+        SceneError::BakedBodies {
+            wanted: 2,
+            given: 1
+        }
+    ));
+}
+
+#[test]
+fn a_hammer_strikes_with_the_curvature_of_its_crown() {
+    let (scene, baked) = two_panes();
+    let mut scene = scene.clone();
+    scene.projectiles = vec![Projectile {
+        kind: ProjectileKind::Hammer { crown: 0.07 },
+        target: 1,
+        ..Projectile::ball(0.5, 0.013, 6.0)
+    }];
+    let run = play(&scene, baked, &mut |_| {}).unwrap();
+    let broke = run.break_of(1).expect("the pane breaks");
+    for contact in &broke.contacts {
+        assert_eq!(contact.striker.curvature_radius, 0.07);
+    }
+    // The apex of the crown meets the middle of the pane, from its front.
+    let nearest = |c: &&frangible::Contact| c.point.truncate().length();
+    let middle = broke.contacts.iter().find(|c| nearest(c) < 0.005);
+    let contact = middle.expect("a contact within 5 mm of the middle");
+    assert!(contact.normal.z < -0.99, "{}", contact.normal);
+    assert!((contact.approach_speed - 6.0).abs() < 0.1);
+}
+
+#[test]
+fn a_body_without_a_floor_falls_freely() {
+    let (scene, baked) = two_panes();
+    let mut scene = scene.clone();
+    scene.projectiles.clear();
+    scene.floor = None;
+    scene.bodies[0].place = Place::Centre(Vec3::new(0.0, -3.0, 0.0));
+    scene.bodies[0].velocity = Vec3::new(0.0, 1.0, 0.0);
+    scene.bodies[0].spin = Vec3::new(0.0, 2.0, 0.0);
+    let run = play(&scene, baked, &mut |_| {}).unwrap();
+    assert!(run.recording.floor.is_none());
+    let last = run.recording.pose(0, run.recording.frame_count - 1);
+    let t = run.simulated as f32;
+    let expected = -3.0 + t - 0.5 * 9.81 * t * t;
+    let y = last.translation.y;
+    // Semi-implicit Euler steps of 1/3840 s lag by g t dt/2 = 0.4 mm.
+    assert!((y - expected).abs() < 1e-3, "{y} m, not {expected} m");
+    let turned = 2.0 * last.rotation.normalize().y.abs().asin();
+    // Damping of 0.8 1/s takes a tenth of the turn.
+    assert!((0.8 * 2.0 * t..2.0 * t).contains(&turned), "{turned} rad");
+}
+
+#[test]
+fn a_body_inside_the_floor_is_refused() {
+    let (scene, baked) = two_panes();
+    let mut scene = scene.clone();
+    scene.bodies[1].place = Place::Centre(Vec3::new(2.0, 0.15, 0.0));
+    let message = play(&scene, baked, &mut |_| {}).unwrap_err().to_string();
+    assert!(
+        message.contains("`other` would start 50.0 mm below"),
+        "{message}"
+    );
 }

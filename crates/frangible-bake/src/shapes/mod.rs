@@ -8,6 +8,7 @@ mod ready;
 mod revolution;
 pub(crate) mod solid;
 
+pub use frangible_mesh::READY_SHAPES;
 pub use profile::Station;
 pub use solid::SolidShape;
 
@@ -102,6 +103,12 @@ impl Shape {
         Self::Revolution {
             profile: ready::dinner_plate(),
         }
+    }
+
+    /// A ready solid by one of the names in [`READY_SHAPES`]: a rabbit, a piggy bank …, metres, z up.
+    #[must_use]
+    pub fn ready(name: &str) -> Option<Self> {
+        solid::ready(name).map(Self::Solid)
     }
 
     /// Volume of the exact shape, m³; of a solid, as counted on a grid, within about a per cent.

@@ -1,0 +1,87 @@
+//! `frangible bake`: a body into a file.
+
+use std::error::Error;
+use std::time::Instant;
+
+use frangible_scenes::{BakedBody, FileKind, Opened, bake_opened, open_sources, save_asset};
+
+use crate::args::BakeArgs;
+use crate::place::try_file;
+use crate::progress::Bar;
+use crate::request::body_of;
+
+pub(crate) fn run(args: &BakeArgs) -> Result<(), Box<dyn Error>> {
+    let scene = body_of(args)?;
+    if !matches!(FileKind::of(&args.output), Ok(FileKind::Asset)) {
+        let given = args.output.display();
+        return Err(format!(
+            "-o is `{given}`; the file of a baked body must end in .frangible, by which `frangible break` knows it"
+        )
+        .into());
+    }
+    let sources = open_sources(&scene)?;
+    let notes: Vec<String> = sources.iter().flat_map(Opened::notes).cloned().collect();
+    try_file(&args.output)?;
+
+    let bar = Bar::new(false);
+    let clock = Instant::now();
+    let baked = bake_opened(&scene, sources, &mut |p| {
+        bar.show(&format!("{}: {}", scene.name, p.stage), p.fraction);
+    })?;
+    drop(bar);
+    let seconds = clock.elapsed().as_secs_f64();
+    let Some(body) = baked.first() else {
+        return Err("the scene has no body; add a [[body]]".into());
+    };
+    save_asset(&body.asset, &args.output)?;
+    print_quality(body, seconds);
+    println!("  {:<15} {}", "wrote", args.output.display());
+    for note in notes {
+        println!("  {:<15} {note}", "note");
+    }
+    Ok(())
+}
+
+fn print_quality(body: &BakedBody, seconds: f64) {
+    let asset = &body.asset;
+    let row = |name: &str, value: String| println!("  {name:<15} {value}");
+    row("body", format!("{}, {}", asset.name, asset.material.name));
+    if let Some(report) = &body.report {
+        for (name, mesh) in [
+            ("fracture mesh", &report.fracture),
+            ("analysis mesh", &report.analysis),
+        ] {
+            row(
+                name,
+                format!(
+                    "{} tetrahedra, {} nodes, smallest dihedral angle {:.1}°, volume {:.3} cm³",
+                    mesh.tets,
+                    mesh.nodes,
+                    mesh.min_dihedral,
+                    1e6 * mesh.volume
+                ),
+            );
+        }
+        if let Some(mesh) = &report.tetrahedra {
+            row("solid", mesh.to_string());
+        }
+        let first = report.frequencies.first().copied().unwrap_or(0.0);
+        row(
+            "modes",
+            format!(
+                "{}, from {first:.0} Hz (residual {:.0e})",
+                asset.modes.count(),
+                report.max_residual
+            ),
+        );
+        row("collider", format!("{} convex cells", report.cells));
+        let stages: Vec<String> = report
+            .seconds
+            .iter()
+            .map(|(stage, s)| format!("{stage} {s:.2}"))
+            .collect();
+        row("stages", format!("{} s", stages.join(", ")));
+    }
+    row("mass", format!("{:.4} kg", asset.mass.mass));
+    row("seconds", format!("{seconds:.2}"));
+}

@@ -1,0 +1,42 @@
+//! Unbreakable bodies of any shape that fly like a ball.
+
+use rapier3d::dynamics::{RigidBodyBuilder, RigidBodyHandle};
+use rapier3d::geometry::SharedShape;
+use rapier3d::math::{Pose, Vector};
+
+use crate::error::{WorldError, finite, positive};
+use crate::insert::check_pose;
+use crate::surface::SurfaceProperties;
+use crate::world::BreakableWorld;
+
+impl BreakableWorld {
+    /// A solid of uniform density, its frame at `pose`, swept so that it does not pass through anything however fast;
+    /// `mass` in kg, `linvel` in m/s. The surface's radius of curvature is that of the place it strikes with.
+    ///
+    /// # Errors
+    /// A mass not above zero, a shape without volume, a pose or velocity that is not finite, a full world.
+    pub fn insert_rigid(
+        &mut self,
+        shape: SharedShape,
+        mass: f32,
+        surface: SurfaceProperties,
+        pose: Pose,
+        linvel: Vector,
+    ) -> Result<RigidBodyHandle, WorldError> {
+        self.check_room()?;
+        check_pose(pose)?;
+        finite("velocity", linvel)?;
+        positive("mass of the body (kg)", mass)?;
+        surface.validate()?;
+        let mut properties = shape.mass_properties(1.0);
+        positive("volume of the shape (m³)", properties.mass())?;
+        properties.set_mass(mass, true);
+        let builder = RigidBodyBuilder::dynamic()
+            .pose(pose)
+            .linvel(linvel)
+            .ccd_enabled(true)
+            .allow_fast_rotation(true)
+            .additional_mass_properties(properties);
+        Ok(self.insert(builder, shape, surface))
+    }
+}

@@ -1,0 +1,90 @@
+//! The bodies of a scene, baked.
+
+use std::sync::Arc;
+
+use frangible::Asset;
+use frangible_bake::{BakeReport, BakeSpec, Progress};
+
+use crate::body::BodySpec;
+use crate::error::SceneError;
+use crate::scene::Scene;
+use crate::source::{Opened, open_source};
+
+/// A body ready to break.
+#[derive(Clone, Debug)]
+pub struct BakedBody {
+    /// Shared by all bodies of one source, material and number of modes.
+    pub asset: Arc<Asset>,
+    /// Figures of the bake; none for a body that came baked.
+    pub report: Option<Arc<BakeReport>>,
+}
+
+/// Bakes the scene's bodies, equal ones once: one per body, in their order.
+///
+/// # Errors
+/// A quantity of the scene, a file or a shape that cannot be used.
+pub fn bake(
+    scene: &Scene,
+    progress: &mut dyn FnMut(Progress),
+) -> Result<Vec<BakedBody>, SceneError> {
+    let opened = open_sources(scene)?;
+    bake_opened(scene, opened, progress)
+}
+
+/// Checks the scene and reads the sources of its bodies: whatever can be wrong with them is found here, and nothing is
+/// computed yet.
+///
+/// # Errors
+/// A quantity of the scene or a file that cannot be used.
+pub fn open_sources(scene: &Scene) -> Result<Vec<Opened>, SceneError> {
+    scene.validate()?;
+    let mut opened: Vec<Opened> = Vec::with_capacity(scene.bodies.len());
+    for (i, body) in scene.bodies.iter().enumerate() {
+        let known = scene.bodies[..i]
+            .iter()
+            .position(|b| b.source == body.source);
+        opened.push(match known {
+            Some(same) => opened[same].clone(),
+            None => open_source(&body.source)?,
+        });
+    }
+    Ok(opened)
+}
+
+/// Bakes sources read by [`open_sources`].
+///
+/// # Errors
+/// What cannot be baked.
+pub fn bake_opened(
+    scene: &Scene,
+    opened: Vec<Opened>,
+    progress: &mut dyn FnMut(Progress),
+) -> Result<Vec<BakedBody>, SceneError> {
+    let mut baked: Vec<BakedBody> = Vec::with_capacity(scene.bodies.len());
+    for (i, (body, source)) in scene.bodies.iter().zip(opened).enumerate() {
+        let same = |other: &BodySpec| {
+            (&other.source, &other.material, other.modes)
+                == (&body.source, &body.material, body.modes)
+        };
+        baked.push(match (scene.bodies[..i].iter().position(same), source) {
+            (Some(known), _) => baked[known].clone(),
+            (None, Opened::Asset(asset)) => BakedBody {
+                asset,
+                report: None,
+            },
+            (None, Opened::Shape { shape, render, .. }) => {
+                let spec = BakeSpec {
+                    modes: body.modes,
+                    render: render.map(|r| *r),
+                    ..BakeSpec::new(&body.name, shape, body.material.clone())
+                };
+                let (asset, report) = frangible_bake::bake(&spec, progress)?;
+                BakedBody {
+                    asset: Arc::new(asset),
+                    report: Some(Arc::new(report)),
+                }
+            }
+        });
+    }
+    Ok(baked)
+}

@@ -1,0 +1,104 @@
+//! One breakable body of a scene.
+
+use frangible::Material;
+use frangible::glam::{Quat, Vec3};
+
+use crate::source::BodySource;
+
+/// A breakable body and how it starts.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BodySpec {
+    /// Name, also of its nodes in the animation.
+    pub name: String,
+    /// Where its geometry comes from.
+    pub source: BodySource,
+    /// What it is made of. A [`BodySource::Asset`] brings its own material, and this one is not looked at.
+    pub material: Material,
+    /// Number of vibration modes; a [`BodySource::Asset`] brings its own.
+    pub modes: usize,
+    /// Where it starts.
+    pub place: Place,
+    /// Orientation at the start.
+    pub rotation: Quat,
+    /// Velocity of its centre of mass at the start, m/s.
+    pub velocity: Vec3,
+    /// Angular velocity at the start, rad/s.
+    pub spin: Vec3,
+    /// Where it is held.
+    pub supports: Vec<Support>,
+}
+
+/// Where a body starts. The floor is y = 0, also where there is none.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Place {
+    /// On the floor.
+    Standing {
+        /// x and z of its centre of mass, m.
+        over: [f32; 2],
+    },
+    /// Its lowest point this high above the floor.
+    Above {
+        /// Height, m.
+        height: f64,
+        /// x and z of its centre of mass, m.
+        over: [f32; 2],
+    },
+    /// Its centre of mass here, m.
+    Centre(Vec3),
+}
+
+/// A part of a body that is held where it is, in the body's own axes, m.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Support {
+    /// Everything below this z.
+    Below(f64),
+    /// Everything inside a box: lowest and highest corner.
+    Box([[f64; 3]; 2]),
+    /// Everything inside a sphere.
+    Sphere {
+        /// Its centre.
+        centre: [f64; 3],
+        /// Its radius.
+        radius: f64,
+    },
+}
+
+impl BodySpec {
+    /// A body of this material at rest on the floor, 120 modes.
+    #[must_use]
+    pub fn new(name: impl Into<String>, source: BodySource, material: Material) -> Self {
+        Self {
+            name: name.into(),
+            source,
+            material,
+            modes: 120,
+            place: Place::Standing { over: [0.0; 2] },
+            rotation: Quat::IDENTITY,
+            velocity: Vec3::ZERO,
+            spin: Vec3::ZERO,
+            supports: Vec::new(),
+        }
+    }
+
+    /// Lets it fall from rest, its lowest point `height` metres above the floor, where it stood before seen from above.
+    pub fn drop_from(&mut self, height: f64) {
+        let over = self.place.over();
+        self.place = Place::Above { height, over };
+    }
+
+    /// Puts a body that was to fall on the floor; one with a given centre stays there.
+    pub fn stand(&mut self) {
+        if let Place::Above { over, .. } = self.place {
+            self.place = Place::Standing { over };
+        }
+    }
+}
+
+impl Place {
+    fn over(&self) -> [f32; 2] {
+        match *self {
+            Self::Standing { over } | Self::Above { over, .. } => over,
+            Self::Centre(p) => [p.x, p.z],
+        }
+    }
+}

@@ -1,0 +1,120 @@
+//! Every number of a scene, checked before anything long begins.
+
+mod body;
+mod fracture;
+mod names;
+mod projectile;
+mod quantity;
+
+use crate::error::SceneError;
+use crate::scene::Scene;
+use body::check_body;
+use fracture::check_fracture;
+use frangible::Material;
+use names::{check_output, file_name};
+use projectile::check_projectile;
+use quantity::{direction, quantity, range};
+
+pub(crate) use names::tame;
+
+/// Largest speed of a ball or a body, m/s: beyond, stress waves steepen into shocks that modes cannot carry.
+const MAX_SPEED: f64 = 300.0;
+
+/// Most bodies, and most projectiles, of a scene.
+const MOST_ITEMS: usize = 100;
+
+/// Longest name of a scene or a file, bytes.
+const LONGEST_NAME: usize = 120;
+
+/// What is wrong, and under which key of a scene file it stands.
+#[derive(Debug)]
+pub(crate) struct Fault {
+    /// List and number in it: `body` 0 is the first `[[body]]`.
+    pub(crate) item: Option<(&'static str, usize)>,
+    /// The key, below the item if there is one; dots part tables.
+    pub(crate) key: &'static str,
+    pub(crate) error: SceneError,
+}
+
+impl Fault {
+    pub(crate) fn new(key: &'static str, error: impl Into<SceneError>) -> Self {
+        Self {
+            item: None,
+            key,
+            error: error.into(),
+        }
+    }
+
+    pub(crate) fn of(self, list: &'static str, index: usize) -> Self {
+        Self {
+            item: Some((list, index)),
+            ..self
+        }
+    }
+}
+
+impl Scene {
+    /// Checks every number before anything long begins. Files are not looked at.
+    ///
+    /// # Errors
+    /// The first quantity at fault, and what it must be.
+    pub fn validate(&self) -> Result<(), SceneError> {
+        self.check().map_err(|fault| {
+            let several = match fault.item {
+                Some(("body", _)) => self.bodies.len() > 1,
+                _ => self.projectiles.len() > 1,
+            };
+            match fault.item {
+                Some((list, index)) if several => SceneError::Item {
+                    item: format!("{list} {}", index + 1),
+                    source: Box::new(fault.error),
+                },
+                _ => fault.error,
+            }
+        })
+    }
+
+    /// As [`Scene::validate`], with the place of the fault.
+    pub(crate) fn check(&self) -> Result<(), Fault> {
+        file_name("name", "the scene's name", &self.name)?;
+        for (key, what, count, least) in [
+            ("body", "the number of bodies", self.bodies.len(), 1),
+            (
+                "projectile",
+                "the number of projectiles",
+                self.projectiles.len(),
+                0,
+            ),
+        ] {
+            if !(least..=MOST_ITEMS).contains(&count) {
+                let must = if least == 0 {
+                    "at most 100"
+                } else {
+                    "1 to 100; add a [[body]]"
+                };
+                return Err(quantity(key, what, count, must));
+            }
+        }
+        range(
+            "duration",
+            "the duration",
+            self.duration,
+            0.0,
+            60.0,
+            "above 0 and at most 60 s",
+        )?;
+        direction("look_from", "the direction of the camera", self.look_from)?;
+        if let Some(floor) = &self.floor {
+            Material::preset(floor).map_err(|e| Fault::new("floor", e))?;
+        }
+        for (i, body) in self.bodies.iter().enumerate() {
+            check_body(body).map_err(|fault| fault.of("body", i))?;
+        }
+        for (i, projectile) in self.projectiles.iter().enumerate() {
+            check_projectile(projectile, self.bodies.len())
+                .map_err(|fault| fault.of("projectile", i))?;
+        }
+        check_fracture(&self.fracture)?;
+        check_output(&self.output, &self.name)
+    }
+}

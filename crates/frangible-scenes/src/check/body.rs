@@ -1,0 +1,112 @@
+//! Checks of one body.
+
+use frangible::glam::Vec3;
+use frangible_bake::READY_SHAPES;
+
+use super::quantity::{finite, quantity, range};
+use super::{Fault, LONGEST_NAME, MAX_SPEED};
+use crate::body::{BodySpec, Place};
+use crate::error::SceneError;
+use crate::source::BodySource;
+
+/// Highest drop, m.
+const MAX_HEIGHT: f64 = 100.0;
+
+pub(super) fn check_body(body: &BodySpec) -> Result<(), Fault> {
+    if body.name.is_empty() || body.name.len() > LONGEST_NAME {
+        let must = "1 to 120 bytes long";
+        return Err(quantity(
+            "name",
+            "the body's name",
+            format!("`{}`", body.name),
+            must,
+        ));
+    }
+    body.material
+        .validate()
+        .map_err(|e| Fault::new("material", e))?;
+    range(
+        "modes",
+        "the number of modes",
+        body.modes as f64,
+        0.0,
+        1000.0,
+        "1 to 1000",
+    )?;
+    if let BodySource::Mesh {
+        size, resolution, ..
+    } = &body.source
+    {
+        if let Some(size) = *size {
+            let must = "above 0 and at most 3 m";
+            range("size", "the body's size", size, 0.0, 3.0, must)?;
+        }
+        check_resolution(*resolution)?;
+    }
+    if let BodySource::Ready { name, resolution } = &body.source {
+        check_resolution(*resolution)?;
+        if !READY_SHAPES.contains(&name.as_str()) {
+            let must = "the name of a ready shape";
+            return Err(quantity("shape", "the shape", format!("`{name}`"), must));
+        }
+    }
+    if let BodySource::Shape(shape) = &body.source {
+        shape.volume().map_err(|e| Fault::new("shape", e))?;
+    }
+    match body.place {
+        Place::Standing { over } => finite("position", "the body's position", flat(over))?,
+        Place::Above { height, over } => {
+            let must = "above 0 and at most 100 m";
+            range("drop", "the drop height", height, 0.0, MAX_HEIGHT, must)?;
+            finite("position", "the body's position", flat(over))?;
+        }
+        Place::Centre(centre) => finite("position", "the body's position", centre)?,
+    }
+    if !(body.rotation.is_finite() && (body.rotation.length() - 1.0).abs() < 1e-3) {
+        return Err(quantity(
+            "rotation",
+            "the body's rotation",
+            body.rotation,
+            "a unit quaternion",
+        ));
+    }
+    let limited = |key, what, v: Vec3, limit: f64, must| {
+        finite(key, what, v)?;
+        if f64::from(v.length()) > limit {
+            return Err(quantity(key, what, v, must));
+        }
+        Ok(())
+    };
+    limited(
+        "velocity",
+        "the body's velocity",
+        body.velocity,
+        MAX_SPEED,
+        "at most 300 m/s",
+    )?;
+    limited(
+        "spin",
+        "the body's spin",
+        body.spin,
+        1e3,
+        "at most 1000 rad/s",
+    )?;
+    if !body.supports.is_empty() {
+        return Err(Fault::new("supports", SceneError::NotBuilt("supports")));
+    }
+    Ok(())
+}
+
+fn check_resolution(tets: Option<usize>) -> Result<(), Fault> {
+    match tets {
+        Some(tets) if !(500..=2_000_000).contains(&tets) => {
+            let must = "500 to 2000000 tetrahedra";
+            Err(quantity("resolution", "the resolution", tets, must))
+        }
+        _ => Ok(()),
+    }
+}
+
+fn flat([x, z]: [f32; 2]) -> Vec3 {
+    Vec3::new(x, 0.0, z)
+}

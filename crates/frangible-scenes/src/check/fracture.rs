@@ -1,0 +1,58 @@
+//! Checks of the fracture's switches and numbers.
+
+use frangible::{CrackPath, CrackTiming, DurationModel, FractureConfig};
+
+use super::Fault;
+use super::quantity::{quantity, range};
+
+pub(super) fn check_fracture(config: &FractureConfig) -> Result<(), Fault> {
+    range(
+        "fracture.samples_per_period",
+        "the number of samples per period",
+        config.samples_per_period,
+        0.0,
+        1000.0,
+        "above 0 and at most 1000",
+    )?;
+    if !(0.0..1.0).contains(&config.crumb_share) {
+        return Err(quantity(
+            "fracture.crumb_share",
+            "the crumbs' share",
+            config.crumb_share,
+            "0 or more and below 1",
+        ));
+    }
+    if let DurationModel::AsPrinted { c } = config.duration {
+        let must = "above 0 and at most 1000";
+        range("fracture.duration", "the constant c", c, 0.0, 1000.0, must)?;
+    }
+    if let CrackTiming::TimeResolved {
+        speed,
+        release_reach,
+    } = config.timing
+    {
+        let must = "above 0 and at most 1";
+        range("fracture.timing", "the crack speed", speed, 0.0, 1.0, must)?;
+        if !(0.0..=100.0).contains(&release_reach) {
+            let must = "0 to 100";
+            return Err(quantity(
+                "fracture.timing",
+                "the release reach",
+                release_reach,
+                must,
+            ));
+        }
+    }
+    if let CrackPath::Steered { turning_length } = config.path {
+        let must = "above 0 and at most 10 m";
+        range(
+            "fracture.path",
+            "the turning length",
+            turning_length,
+            0.0,
+            10.0,
+            must,
+        )?;
+    }
+    Ok(())
+}

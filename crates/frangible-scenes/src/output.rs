@@ -1,0 +1,71 @@
+//! Which files a scene asks for.
+
+/// Files a scene asks for; they lie in the folder that the caller names.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Output {
+    /// The animation, by default `NAME.glb`.
+    pub glb: FileWish,
+    /// The four moments of the break, by default `NAME.png`.
+    pub picture: FileWish,
+    /// The end for several seeds, `NAME-seeds.png`; by default not asked for.
+    pub contact_sheet: FileWish,
+    /// The report, `NAME.json`; by default not asked for.
+    pub json: FileWish,
+    /// Seeds on the contact sheet, default 9.
+    pub seeds: usize,
+}
+
+/// Whether a file is wanted, and under which name.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum FileWish {
+    /// Not wanted.
+    No,
+    /// Wanted under the usual name.
+    Yes,
+    /// Wanted under this name.
+    Named(String),
+}
+
+impl Default for Output {
+    fn default() -> Self {
+        Self {
+            glb: FileWish::Yes,
+            picture: FileWish::Yes,
+            contact_sheet: FileWish::No,
+            json: FileWish::No,
+            seeds: 9,
+        }
+    }
+}
+
+impl FileWish {
+    /// Name of the file, if it is wanted.
+    #[must_use]
+    pub fn file_name(&self, usual: impl FnOnce() -> String) -> Option<String> {
+        match self {
+            Self::No => None,
+            Self::Yes => Some(usual()),
+            Self::Named(name) => Some(name.clone()),
+        }
+    }
+
+    /// Whether the file is wanted at all.
+    #[must_use]
+    pub fn is_wanted(&self) -> bool {
+        *self != Self::No
+    }
+}
+
+impl Output {
+    /// Names of the files a scene of this name will write: animation, picture, contact sheet, report.
+    #[must_use]
+    pub fn file_names(&self, scene: &str) -> [Option<String>; 4] {
+        [
+            self.glb.file_name(|| format!("{scene}.glb")),
+            self.picture.file_name(|| format!("{scene}.png")),
+            self.contact_sheet
+                .file_name(|| format!("{scene}-seeds.png")),
+            self.json.file_name(|| format!("{scene}.json")),
+        ]
+    }
+}

@@ -1,0 +1,203 @@
+//! Where a body's geometry comes from: a built-in shape, a mesh file, a baked body.
+
+mod asset;
+mod fit;
+mod mesh;
+mod ready;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use frangible::Asset;
+use frangible::asset::RenderSurface;
+use frangible_bake::Shape;
+
+use crate::error::SceneError;
+
+pub use asset::save_asset;
+
+/// Where a body's geometry comes from.
+#[derive(Clone, Debug, PartialEq)]
+pub enum BodySource {
+    /// A built-in shape, in its own axes.
+    Shape(Shape),
+    /// A ready solid of [`frangible_bake::READY_SHAPES`], z up.
+    Ready {
+        /// Its name.
+        name: String,
+        /// Tetrahedra of the fracture mesh, about; without it the bake's default.
+        resolution: Option<usize>,
+    },
+    /// A mesh file.
+    Mesh {
+        /// The file: .obj, .stl, .ply, .gltf or .glb.
+        path: PathBuf,
+        /// Longest side, m; without it the file's unit is the metre.
+        size: Option<f64>,
+        /// Which axis of the file is up; it becomes y.
+        up: Axis,
+        /// Tetrahedra of the fracture mesh, about; without it the bake's default.
+        resolution: Option<usize>,
+    },
+    /// A baked body (.frangible).
+    Asset(PathBuf),
+}
+
+/// An axis of coordinates.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Axis {
+    /// The first.
+    X,
+    /// The second.
+    Y,
+    /// The third.
+    Z,
+}
+
+impl Axis {
+    /// What is up in files of this ending: z in STL and PLY (printing, scanning), else y (OBJ, glTF).
+    #[must_use]
+    pub fn up_in(path: &Path) -> Self {
+        match ending(path).as_deref() {
+            Some("stl" | "ply") => Self::Z,
+            _ => Self::Y,
+        }
+    }
+
+    /// The axis of this letter.
+    #[must_use]
+    pub fn from_name(name: &str) -> Option<Self> {
+        match name {
+            "x" => Some(Self::X),
+            "y" => Some(Self::Y),
+            "z" => Some(Self::Z),
+            _ => None,
+        }
+    }
+
+    /// Its letter.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::X => "x",
+            Self::Y => "y",
+            Self::Z => "z",
+        }
+    }
+}
+
+/// Kinds of files that can be broken.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FileKind {
+    /// A surface mesh.
+    Mesh,
+    /// A baked body.
+    Asset,
+    /// A scene.
+    Scene,
+}
+
+impl FileKind {
+    /// Kind of a file by its ending.
+    ///
+    /// # Errors
+    /// An ending that is not known, with those that are.
+    pub fn of(path: &Path) -> Result<Self, SceneError> {
+        match ending(path).as_deref() {
+            Some("obj" | "stl" | "ply" | "gltf" | "glb") => Ok(Self::Mesh),
+            Some("frangible") => Ok(Self::Asset),
+            Some("toml") => Ok(Self::Scene),
+            _ => Err(SceneError::UnknownKind(path.to_path_buf())),
+        }
+    }
+}
+
+fn ending(path: &Path) -> Option<String> {
+    Some(path.extension()?.to_str()?.to_ascii_lowercase())
+}
+
+/// A source that has been read: all that can be wrong with its file is known.
+#[derive(Clone, Debug)]
+pub enum Opened {
+    /// To be baked.
+    Shape {
+        /// Its geometry.
+        shape: Shape,
+        /// The surface as its author drew it, for a mesh.
+        render: Option<Box<RenderSurface>>,
+        /// What a user should know of it.
+        notes: Vec<String>,
+    },
+    /// Baked.
+    Asset(Arc<Asset>),
+}
+
+impl Opened {
+    /// What a user should know of it.
+    #[must_use]
+    pub fn notes(&self) -> &[String] {
+        match self {
+            Self::Shape { notes, .. } => notes,
+            Self::Asset(_) => &[],
+        }
+    }
+}
+
+/// Reads a body's source.
+///
+/// # Errors
+/// A file that is missing, empty, of another kind or damaged; a mesh whose size cannot be meant.
+pub fn open_source(source: &BodySource) -> Result<Opened, SceneError> {
+    match source {
+        BodySource::Shape(shape) => Ok(plain(shape.clone())),
+        BodySource::Ready { name, resolution } => Ok(plain(ready::shape(name, *resolution)?)),
+        BodySource::Mesh {
+            path,
+            size,
+            up,
+            resolution,
+        } => {
+            check_file(path, FileKind::Mesh)?;
+            let mut input = mesh::read(path)?;
+            fit::fit(&mut input, path, *size, *up)?;
+            mesh::shape(&input, path, *resolution)
+        }
+        BodySource::Asset(path) => {
+            check_file(path, FileKind::Asset)?;
+            Ok(Opened::Asset(Arc::new(asset::load(path)?)))
+        }
+    }
+}
+
+/// A shape that no one drew.
+const fn plain(shape: Shape) -> Opened {
+    Opened::Shape {
+        shape,
+        render: None,
+        notes: Vec::new(),
+    }
+}
+
+/// Finds out, in words, whether there is a file of this kind that holds anything.
+pub(crate) fn check_file(path: &Path, kind: FileKind) -> Result<(), SceneError> {
+    let problem = match fs::metadata(path) {
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
+            "there is no such file; check its path".to_string()
+        }
+        Err(error) => format!("the file cannot be read ({error})"),
+        Ok(data) if data.is_dir() => "this is a folder; name a file in it".into(),
+        Ok(data) if !data.is_file() => "this is no ordinary file".into(),
+        Ok(data) if data.len() == 0 => "this file is empty".into(),
+        Ok(_) if FileKind::of(path)? != kind => match kind {
+            FileKind::Mesh => "this is no mesh (.obj, .stl, .ply, .gltf, .glb)".into(),
+            FileKind::Asset => "this is no baked body (.frangible)".into(),
+            FileKind::Scene => "this is no scene (.toml)".into(),
+        },
+        Ok(_) => return Ok(()),
+    };
+    Err(SceneError::File {
+        path: path.to_path_buf(),
+        problem,
+    })
+}

@@ -1,0 +1,41 @@
+//! Mesh files: the calls into the reader and the mesher.
+
+use std::path::Path;
+
+use frangible_bake::{ImportOptions, import_mesh};
+use frangible_mesh::{InputMesh, read_mesh};
+
+use super::Opened;
+use crate::error::SceneError;
+
+/// Triangles of a mesh file, in its own unit and axes.
+pub(super) fn read(path: &Path) -> Result<InputMesh, SceneError> {
+    read_mesh(path).map_err(|error| SceneError::File {
+        path: path.to_path_buf(),
+        problem: error.to_string(),
+    })
+}
+
+/// A mesh in metres, y up, as a shape with a fracture mesh of about `tets` tetrahedra.
+pub(super) fn shape(
+    mesh: &InputMesh,
+    path: &Path,
+    tets: Option<usize>,
+) -> Result<Opened, SceneError> {
+    let mut options = ImportOptions::default();
+    options.tets = tets.unwrap_or(options.tets);
+    let imported = import_mesh(mesh, &options).map_err(|error| SceneError::File {
+        path: path.to_path_buf(),
+        problem: error.to_string(),
+    })?;
+    let mut notes = Vec::new();
+    let mended = imported.mended.to_string();
+    if !mended.is_empty() {
+        notes.push(format!("{}: {mended}", path.display()));
+    }
+    Ok(Opened::Shape {
+        shape: imported.shape,
+        render: Some(Box::new(imported.render)),
+        notes,
+    })
+}

@@ -1,0 +1,242 @@
+//! From the keys of a `[[body]]` to a body.
+
+use std::path::Path;
+
+use frangible::Material;
+use frangible::glam::{Quat, Vec3};
+use frangible_bake::{Shape, Station};
+
+use super::convert::{did_you_mean, preset, set, short, vector};
+use super::either::{AxisTable, MaterialChoice, RotationChoice};
+use super::schema::{BodyTable, MaterialTable, RotationTable, ShapeTable, SupportTable};
+use crate::body::{BodySpec, Place, Support};
+use crate::check::Fault;
+use crate::error::SceneError;
+use crate::source::{Axis, BodySource};
+
+/// What a body is made of unless the file says otherwise.
+const MATERIAL: &str = "porcelain";
+
+pub(super) fn body(table: BodyTable, usual: String, folder: &Path) -> Result<BodySpec, Fault> {
+    let baked = table.asset.is_some();
+    let meshed = table.mesh.is_some();
+    for (key, given, fits, problem) in [
+        (
+            "material",
+            table.material.is_some(),
+            !baked,
+            "`material` is part of a baked body; bake it again to change it",
+        ),
+        (
+            "modes",
+            table.modes.is_some(),
+            !baked,
+            "`modes` are part of a baked body; bake it again to change them",
+        ),
+        (
+            "size",
+            table.size.is_some(),
+            meshed,
+            "`size` is for a `mesh`",
+        ),
+        (
+            "resolution",
+            table.resolution.is_some(),
+            !baked,
+            "`resolution` is for a `mesh` or a ready solid",
+        ),
+        (
+            "up",
+            table.up.is_some(),
+            meshed,
+            "`up` is for a `mesh`; turn other bodies with `rotation`",
+        ),
+    ] {
+        if given && !fits {
+            return Err(clash(key, problem));
+        }
+    }
+    let source = match (table.shape, table.mesh, table.asset) {
+        (Some(shape), None, None) => self::shape(shape, table.resolution)?,
+        (None, Some(mesh), None) => {
+            let path = folder.join(mesh);
+            let up = match table.up {
+                None => Axis::up_in(&path),
+                Some(given) => axis_up(&given)?,
+            };
+            BodySource::Mesh {
+                path,
+                size: table.size,
+                up,
+                resolution: table.resolution,
+            }
+        }
+        (None, None, Some(asset)) => BodySource::Asset(folder.join(asset)),
+        (None, None, None) => {
+            let problem = "a body needs `shape`, `mesh` or `asset`, for example shape = \"vase\"";
+            return Err(clash("shape", problem));
+        }
+        _ => {
+            let problem = "a body has one of `shape`, `mesh` and `asset`; remove the others";
+            return Err(clash("shape", problem));
+        }
+    };
+    let material = match table.material {
+        None => preset("material", MATERIAL)?,
+        Some(MaterialChoice(given)) => self::material(given)?,
+    };
+    let mut body = BodySpec::new(table.name.unwrap_or(usual), source, material);
+    set(&mut body.modes, table.modes);
+    body.place = place(table.position.as_deref(), table.drop)?;
+    if let Some(RotationChoice(turns)) = table.rotation {
+        body.rotation = rotation(&turns)?;
+    }
+    set(&mut body.velocity, table.velocity.map(vector));
+    set(&mut body.spin, table.spin.map(vector));
+    body.supports = table.supports.into_iter().map(support).collect();
+    Ok(body)
+}
+
+fn shape(table: ShapeTable, resolution: Option<usize>) -> Result<BodySource, Fault> {
+    let ready = |name: &str| {
+        Ok(BodySource::Ready {
+            name: name.into(),
+            resolution,
+        })
+    };
+    let shape = match table {
+        ShapeTable::PiggyBank => return ready("piggy_bank"),
+        ShapeTable::Rabbit => return ready("rabbit"),
+        ShapeTable::Statuette => return ready("statuette"),
+        ShapeTable::CoffeeCup => return ready("coffee_cup"),
+        ShapeTable::BrickSolid => return ready("brick_solid"),
+        ShapeTable::HammerHead => return ready("hammer_head"),
+        ShapeTable::DrinkingGlass => Shape::drinking_glass(),
+        ShapeTable::Bowl => Shape::bowl(),
+        ShapeTable::Vase => Shape::vase(),
+        ShapeTable::DinnerPlate => Shape::dinner_plate(),
+        ShapeTable::Box(size) => Shape::Box { size },
+        ShapeTable::Revolution(stations) => Shape::Revolution {
+            profile: stations
+                .into_iter()
+                .map(|s| Station {
+                    outer: s.outer,
+                    inner: s.inner,
+                    corner: s.corner,
+                })
+                .collect(),
+        },
+    };
+    if resolution.is_some() {
+        let problem = "`resolution` is for a `mesh` or a ready solid (rabbit, piggy_bank …)";
+        return Err(clash("resolution", problem));
+    }
+    Ok(BodySource::Shape(shape))
+}
+
+fn support(table: SupportTable) -> Support {
+    match table {
+        SupportTable::Below(z) => Support::Below(z),
+        SupportTable::Box(corners) => Support::Box(corners),
+        SupportTable::Sphere { centre, radius } => Support::Sphere { centre, radius },
+    }
+}
+
+fn material(table: MaterialTable) -> Result<Material, Fault> {
+    let mut m = preset("material", table.preset.as_deref().unwrap_or(MATERIAL))?;
+    set(&mut m.name, table.name);
+    set(&mut m.youngs_modulus, table.youngs_modulus);
+    set(&mut m.poisson_ratio, table.poisson_ratio);
+    set(&mut m.density, table.density);
+    set(&mut m.stiffness_damping, table.stiffness_damping);
+    set(&mut m.mass_damping, table.mass_damping);
+    set(&mut m.strength, table.strength);
+    set(&mut m.fracture_energy, table.fracture_energy);
+    set(&mut m.energy_depth, table.energy_depth);
+    set(&mut m.weak_point_density, table.weak_point_density);
+    set(&mut m.roughness_amplitude, table.roughness_amplitude);
+    set(&mut m.roughness_wavelength, table.roughness_wavelength);
+    set(&mut m.restitution, table.restitution);
+    set(&mut m.friction, table.friction);
+    Ok(m)
+}
+
+fn place(position: Option<&[f64]>, drop: Option<f64>) -> Result<Place, Fault> {
+    Ok(match (position, drop) {
+        (None, None) => Place::Standing { over: [0.0; 2] },
+        (None, Some(height)) => Place::Above {
+            height,
+            over: [0.0; 2],
+        },
+        (Some(&[x, z]), None) => Place::Standing {
+            over: [x as f32, z as f32],
+        },
+        (Some(&[x, z]), Some(height)) => Place::Above {
+            height,
+            over: [x as f32, z as f32],
+        },
+        (Some(&[x, y, z]), None) => Place::Centre(vector([x, y, z])),
+        (Some([_, _, _]), Some(_)) => {
+            let problem = "`drop` sets the height; give `position` as [x, z], or remove `drop`";
+            return Err(clash("position", problem));
+        }
+        _ => {
+            let problem = "`position` must be [x, z] for a body on or above the floor, or [x, y, z] for its centre of mass, in m";
+            return Err(clash("position", problem));
+        }
+    })
+}
+
+/// Turns one after the other, each about the world's axes.
+fn rotation(turns: &[RotationTable]) -> Result<Quat, Fault> {
+    let mut whole: Option<Quat> = None;
+    for turn in turns {
+        let next = match (&turn.axis, turn.degrees, turn.quaternion) {
+            (Some(axis), Some(degrees), None) => {
+                let axis = axis_vector(axis)?;
+                Quat::from_axis_angle(axis, (degrees as f32).to_radians())
+            }
+            (None, None, Some(q)) => Quat::from_array(q.map(|x| x as f32)),
+            _ => {
+                let problem =
+                    "a rotation is { axis = \"z\", degrees = 30 } or { quaternion = [x, y, z, w] }";
+                return Err(clash("rotation", problem));
+            }
+        };
+        whole = Some(whole.map_or(next, |before| next * before));
+    }
+    Ok(whole.unwrap_or(Quat::IDENTITY))
+}
+
+fn axis_vector(table: &AxisTable) -> Result<Vec3, Fault> {
+    match table {
+        AxisTable::Name(name) => Ok(match axis_of("rotation", name)? {
+            Axis::X => Vec3::X,
+            Axis::Y => Vec3::Y,
+            Axis::Z => Vec3::Z,
+        }),
+        AxisTable::Vector(v) => vector(*v).try_normalize().ok_or_else(|| {
+            let problem = "the axis of a rotation must be three finite numbers, not all zero";
+            clash("rotation", problem)
+        }),
+    }
+}
+
+fn axis_up(table: &AxisTable) -> Result<Axis, Fault> {
+    match table {
+        AxisTable::Name(name) => axis_of("up", name),
+        AxisTable::Vector(_) => Err(clash("up", "`up` must be \"x\", \"y\" or \"z\"")),
+    }
+}
+
+fn axis_of(key: &'static str, name: &str) -> Result<Axis, Fault> {
+    Axis::from_name(name).ok_or_else(|| {
+        let hint = did_you_mean(name, ["x", "y", "z"]);
+        let problem = format!("`{}` is no axis{hint}; axes: x, y, z", short(name));
+        Fault::new(key, SceneError::Clash(problem))
+    })
+}
+
+fn clash(key: &'static str, problem: &str) -> Fault {
+    Fault::new(key, SceneError::Clash(problem.into()))
+}

@@ -1,0 +1,170 @@
+//! From keys to a scene.
+
+use std::path::Path;
+
+use frangible::glam::Vec3;
+use frangible::{CrackPath, CrackTiming, DurationModel, FractureConfig, Material, nearest_name};
+
+use super::body::body;
+use super::either::SwitchOrName;
+use super::schema::{
+    DurationTable, FractureTable, KindName, OutputTable, PathTable, ProjectileTable, SceneTable,
+    TimingTable,
+};
+use crate::body::BodySpec;
+use crate::check::Fault;
+use crate::error::SceneError;
+use crate::output::{FileWish, Output};
+use crate::projectile::{Projectile, ProjectileKind};
+use crate::scene::Scene;
+
+pub(super) fn scene(table: SceneTable, folder: &Path, name: &str) -> Result<Scene, Fault> {
+    let name = table.name.unwrap_or_else(|| name.into());
+    let count = table.body.len();
+    let mut bodies: Vec<BodySpec> = Vec::with_capacity(count);
+    for (i, entry) in table.body.into_iter().enumerate() {
+        let usual = if count == 1 {
+            name.clone()
+        } else {
+            format!("{name} {}", i + 1)
+        };
+        let body = body(entry, usual, folder).map_err(|fault| fault.of("body", i))?;
+        if bodies.iter().any(|b| b.name == body.name) {
+            let clash = format!("there are two bodies `{}`; rename one", body.name);
+            return Err(Fault::new("name", SceneError::Clash(clash)).of("body", i));
+        }
+        bodies.push(body);
+    }
+    let mut projectiles = Vec::with_capacity(table.projectile.len());
+    for (i, entry) in table.projectile.into_iter().enumerate() {
+        projectiles.push(projectile(entry, &bodies).map_err(|fault| fault.of("projectile", i))?);
+    }
+    let floor = match table.floor {
+        None | Some(SwitchOrName::Switch(true)) => Some("stone".to_string()),
+        Some(SwitchOrName::Switch(false)) => None,
+        Some(SwitchOrName::Name(material)) => {
+            Some(preset("floor", &material).map(|floor| floor.name)?)
+        }
+    };
+    Ok(Scene {
+        name,
+        summary: table.summary.unwrap_or_default(),
+        bodies,
+        projectiles,
+        floor,
+        seed: table.seed.unwrap_or(1),
+        fracture: table
+            .fracture
+            .map_or_else(FractureConfig::default, fracture),
+        duration: table.duration.unwrap_or(8.0),
+        look_from: table.look_from.map_or(Vec3::new(0.55, 0.5, 1.0), vector),
+        output: table.output.map_or_else(Output::default, output),
+    })
+}
+
+fn projectile(table: ProjectileTable, bodies: &[BodySpec]) -> Result<Projectile, Fault> {
+    let kind = match (table.kind, table.crown) {
+        (KindName::Ball, None) => ProjectileKind::Ball,
+        (KindName::Ball, Some(_)) => {
+            let clash = "a ball has no `crown`; set kind = \"hammer\", or remove it";
+            return Err(Fault::new("crown", SceneError::Clash(clash.into())));
+        }
+        (KindName::Hammer, None) => ProjectileKind::HAMMER,
+        (KindName::Hammer, Some(crown)) => ProjectileKind::Hammer { crown },
+    };
+    let target = match &table.target {
+        None => 0,
+        Some(name) => bodies.iter().position(|b| b.name == *name).ok_or_else(|| {
+            let hint = did_you_mean(name, bodies.iter().map(|b| b.name.as_str()));
+            let unknown = format!("there is no body `{}` to aim at{hint}", short(name));
+            Fault::new("target", SceneError::Clash(unknown))
+        })?,
+    };
+    let material = match table.material {
+        None => "steel".into(),
+        Some(name) => preset("material", &name)?.name,
+    };
+    Ok(Projectile {
+        kind,
+        mass: table.mass,
+        radius: table.radius,
+        speed: table.speed,
+        material,
+        target,
+        at: table.at.map_or(Vec3::ZERO, vector),
+        toward: table.toward.map_or(Vec3::NEG_Z, vector),
+    })
+}
+
+fn fracture(table: FractureTable) -> FractureConfig {
+    let mut config = FractureConfig::default();
+    match table.duration {
+        None => {}
+        Some(DurationTable::Hertz) => config.duration = DurationModel::Hertz,
+        Some(DurationTable::ModalHertz) => config.duration = DurationModel::ModalHertz,
+        Some(DurationTable::AsPrinted { c }) => config.duration = DurationModel::AsPrinted { c },
+    }
+    match table.timing {
+        None => {}
+        Some(TimingTable::Instant) => config.timing = CrackTiming::Instant,
+        Some(TimingTable::TimeResolved {
+            speed,
+            release_reach,
+        }) => {
+            config.timing = CrackTiming::TimeResolved {
+                speed,
+                release_reach,
+            };
+        }
+    }
+    match table.path {
+        None => {}
+        Some(PathTable::Planar) => config.path = CrackPath::Planar,
+        Some(PathTable::Steered { turning_length }) => {
+            config.path = CrackPath::Steered { turning_length };
+        }
+    }
+    set(&mut config.admissible_duration, table.admissible_duration);
+    set(&mut config.samples_per_period, table.samples_per_period);
+    set(&mut config.crumb_share, table.crumb_share);
+    config
+}
+
+fn output(table: OutputTable) -> Output {
+    let mut output = Output::default();
+    let wish = |given| match given {
+        SwitchOrName::Switch(true) => FileWish::Yes,
+        SwitchOrName::Switch(false) => FileWish::No,
+        SwitchOrName::Name(name) => FileWish::Named(name),
+    };
+    set(&mut output.glb, table.glb.map(wish));
+    set(&mut output.picture, table.picture.map(wish));
+    set(&mut output.contact_sheet, table.contact_sheet.map(wish));
+    set(&mut output.json, table.json.map(wish));
+    set(&mut output.seeds, table.seeds);
+    output
+}
+
+pub(super) fn preset(key: &'static str, name: &str) -> Result<Material, Fault> {
+    Material::preset(name).map_err(|error| Fault::new(key, error))
+}
+
+pub(super) fn set<T>(field: &mut T, given: Option<T>) {
+    if let Some(given) = given {
+        *field = given;
+    }
+}
+
+pub(super) fn vector(v: [f64; 3]) -> Vec3 {
+    Vec3::from_array(v.map(|x| x as f32))
+}
+
+/// “, did you mean …?”, or nothing.
+pub(super) fn did_you_mean<'a>(wanted: &str, known: impl IntoIterator<Item = &'a str>) -> String {
+    nearest_name(wanted, known).map_or(String::new(), |n| format!(", did you mean `{n}`?"))
+}
+
+/// A text of the file, cut for a message.
+pub(super) fn short(text: &str) -> String {
+    text.chars().take(60).collect()
+}

@@ -1,0 +1,185 @@
+//! What a scene file may hold, key by key.
+
+use serde::Deserialize;
+
+use super::either::{AxisTable, MaterialChoice, RotationChoice, SwitchOrName};
+
+/// A whole file.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct SceneTable {
+    pub(super) name: Option<String>,
+    pub(super) summary: Option<String>,
+    pub(super) seed: Option<u64>,
+    pub(super) duration: Option<f64>,
+    pub(super) floor: Option<SwitchOrName>,
+    pub(super) look_from: Option<[f64; 3]>,
+    #[serde(default)]
+    pub(super) body: Vec<BodyTable>,
+    #[serde(default)]
+    pub(super) projectile: Vec<ProjectileTable>,
+    pub(super) fracture: Option<FractureTable>,
+    pub(super) output: Option<OutputTable>,
+}
+
+/// A `[[body]]`.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct BodyTable {
+    pub(super) name: Option<String>,
+    pub(super) shape: Option<ShapeTable>,
+    pub(super) mesh: Option<String>,
+    pub(super) asset: Option<String>,
+    pub(super) size: Option<f64>,
+    pub(super) resolution: Option<usize>,
+    pub(super) up: Option<AxisTable>,
+    pub(super) material: Option<MaterialChoice>,
+    pub(super) modes: Option<usize>,
+    pub(super) position: Option<Vec<f64>>,
+    pub(super) drop: Option<f64>,
+    pub(super) rotation: Option<RotationChoice>,
+    pub(super) velocity: Option<[f64; 3]>,
+    pub(super) spin: Option<[f64; 3]>,
+    #[serde(default)]
+    pub(super) supports: Vec<SupportTable>,
+}
+
+/// A ready shape by name, or `{ box = … }`, `{ revolution = … }`.
+#[derive(Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum ShapeTable {
+    DrinkingGlass,
+    Bowl,
+    Vase,
+    DinnerPlate,
+    PiggyBank,
+    Rabbit,
+    Statuette,
+    CoffeeCup,
+    BrickSolid,
+    HammerHead,
+    Box([f64; 3]),
+    Revolution(Vec<StationTable>),
+}
+
+/// A station of a profile.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct StationTable {
+    pub(super) outer: [f64; 2],
+    pub(super) inner: [f64; 2],
+    #[serde(default)]
+    pub(super) corner: bool,
+}
+
+/// Where a body is held.
+#[derive(Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub(super) enum SupportTable {
+    Below(f64),
+    Box([[f64; 3]; 2]),
+    Sphere { centre: [f64; 3], radius: f64 },
+}
+
+/// A preset with some numbers changed; the keys are the fields of `frangible::Material`.
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct MaterialTable {
+    pub(super) preset: Option<String>,
+    pub(super) name: Option<String>,
+    pub(super) youngs_modulus: Option<f64>,
+    pub(super) poisson_ratio: Option<f64>,
+    pub(super) density: Option<f64>,
+    pub(super) stiffness_damping: Option<f64>,
+    pub(super) mass_damping: Option<f64>,
+    pub(super) strength: Option<f64>,
+    pub(super) fracture_energy: Option<f64>,
+    pub(super) energy_depth: Option<f64>,
+    pub(super) weak_point_density: Option<f64>,
+    pub(super) roughness_amplitude: Option<f64>,
+    pub(super) roughness_wavelength: Option<f64>,
+    pub(super) restitution: Option<f64>,
+    pub(super) friction: Option<f64>,
+}
+
+/// A rotation: about an axis by an angle, or a unit quaternion (x, y, z, w).
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RotationTable {
+    pub(super) axis: Option<AxisTable>,
+    pub(super) degrees: Option<f64>,
+    pub(super) quaternion: Option<[f64; 4]>,
+}
+
+/// A `[[projectile]]`.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ProjectileTable {
+    #[serde(default)]
+    pub(super) kind: KindName,
+    pub(super) mass: f64,
+    pub(super) radius: f64,
+    pub(super) speed: f64,
+    pub(super) material: Option<String>,
+    pub(super) crown: Option<f64>,
+    pub(super) target: Option<String>,
+    pub(super) at: Option<[f64; 3]>,
+    pub(super) toward: Option<[f64; 3]>,
+}
+
+/// Form of a projectile.
+#[derive(Clone, Copy, Default, Deserialize, PartialEq)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum KindName {
+    #[default]
+    Ball,
+    Hammer,
+}
+
+/// `[fracture]`: what differs from the default; the keys are the fields of `frangible::FractureConfig`.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct FractureTable {
+    pub(super) duration: Option<DurationTable>,
+    pub(super) admissible_duration: Option<bool>,
+    pub(super) samples_per_period: Option<f64>,
+    pub(super) timing: Option<TimingTable>,
+    pub(super) path: Option<PathTable>,
+    pub(super) crumb_share: Option<f64>,
+}
+
+/// Contact duration models.
+#[derive(Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub(super) enum DurationTable {
+    Hertz,
+    ModalHertz,
+    AsPrinted { c: f64 },
+}
+
+/// When cracks run.
+#[derive(Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub(super) enum TimingTable {
+    Instant,
+    TimeResolved { speed: f64, release_reach: f64 },
+}
+
+/// Where cracks run.
+#[derive(Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub(super) enum PathTable {
+    Planar,
+    Steered { turning_length: f64 },
+}
+
+/// `[output]`.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct OutputTable {
+    pub(super) glb: Option<SwitchOrName>,
+    pub(super) picture: Option<SwitchOrName>,
+    pub(super) contact_sheet: Option<SwitchOrName>,
+    pub(super) json: Option<SwitchOrName>,
+    pub(super) seeds: Option<usize>,
+}

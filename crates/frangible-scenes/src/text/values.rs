@@ -1,0 +1,142 @@
+//! Values as TOML text.
+
+use std::fmt::Write;
+
+use frangible::Material;
+use frangible::glam::Vec3;
+use frangible_bake::Shape;
+
+use crate::body::Support;
+
+pub(super) fn shape_text(shape: &Shape) -> String {
+    let ready = [
+        ("drinking_glass", Shape::drinking_glass()),
+        ("bowl", Shape::bowl()),
+        ("vase", Shape::vase()),
+        ("dinner_plate", Shape::dinner_plate()),
+    ];
+    if let Some((name, _)) = ready.iter().find(|(_, ready)| ready == shape) {
+        return quoted(name);
+    }
+    match shape {
+        Shape::Revolution { profile } => {
+            let stations: Vec<String> = profile
+                .iter()
+                .map(|s| {
+                    let corner = if s.corner { ", corner = true" } else { "" };
+                    let (outer, inner) = (numbers(&s.outer), numbers(&s.inner));
+                    format!("  {{ outer = {outer}, inner = {inner}{corner} }},\n")
+                })
+                .collect();
+            format!("{{ revolution = [ # (r, z), m\n{}] }}", stations.concat())
+        }
+        Shape::Box { size } => format!("{{ box = {} }}", numbers(size)),
+        // Shapes of meshes have no text of their own: a scene names their file.
+        _ => quoted("mesh"),
+    }
+}
+
+pub(super) fn support_text(support: &Support) -> String {
+    match support {
+        Support::Below(z) => format!("{{ below = {} }}", number(*z)),
+        Support::Box([low, high]) => {
+            format!("{{ box = [{}, {}] }}", numbers(low), numbers(high))
+        }
+        Support::Sphere { centre, radius } => format!(
+            "{{ sphere = {{ centre = {}, radius = {} }} }}",
+            numbers(centre),
+            number(*radius)
+        ),
+    }
+}
+
+/// The preset's name, or the preset with what differs from it.
+pub(super) fn material_text(material: &Material) -> String {
+    let (preset, named) = match Material::preset(&material.name) {
+        Ok(preset) => (preset, true),
+        Err(_) => match Material::preset("glass") {
+            Ok(glass) => (glass, false),
+            Err(_) => return quoted(&material.name),
+        },
+    };
+    if preset == *material {
+        return quoted(&material.name);
+    }
+    let mut parts = vec![format!("preset = {}", quoted(&preset.name))];
+    if !named || preset.name != material.name {
+        parts.push(format!("name = {}", quoted(&material.name)));
+    }
+    let fields = |m: &Material| {
+        [
+            ("youngs_modulus", m.youngs_modulus),
+            ("poisson_ratio", m.poisson_ratio),
+            ("density", m.density),
+            ("stiffness_damping", m.stiffness_damping),
+            ("mass_damping", m.mass_damping),
+            ("strength", m.strength),
+            ("fracture_energy", m.fracture_energy),
+            ("energy_depth", m.energy_depth),
+            ("weak_point_density", m.weak_point_density),
+            ("roughness_amplitude", m.roughness_amplitude),
+            ("roughness_wavelength", m.roughness_wavelength),
+            ("restitution", m.restitution),
+            ("friction", m.friction),
+        ]
+    };
+    for ((key, ours), (_, theirs)) in fields(material).into_iter().zip(fields(&preset)) {
+        if ours.to_bits() != theirs.to_bits() {
+            parts.push(format!("{key} = {}", number(ours)));
+        }
+    }
+    format!("{{ {} }}", parts.join(", "))
+}
+
+pub(super) fn vector(v: Vec3) -> String {
+    list(&v.to_array())
+}
+
+pub(super) fn list(values: &[f32]) -> String {
+    let texts: Vec<String> = values.iter().map(|&x| single(x)).collect();
+    format!("[{}]", texts.join(", "))
+}
+
+fn numbers(values: &[f64]) -> String {
+    let texts: Vec<String> = values.iter().map(|&x| number(x)).collect();
+    format!("[{}]", texts.join(", "))
+}
+
+/// The shortest text that reads back as the same bits.
+pub(super) fn number(value: f64) -> String {
+    if value.is_nan() {
+        "nan".into()
+    } else {
+        format!("{value:?}")
+    }
+}
+
+/// The shortest text whose f64 rounds to the same f32.
+fn single(value: f32) -> String {
+    let short = format!("{value:?}");
+    let same = |x: f64| (x as f32).to_bits() == value.to_bits();
+    if value.is_finite() && short.parse().is_ok_and(same) {
+        short
+    } else {
+        number(f64::from(value))
+    }
+}
+
+/// A TOML string in double quotes.
+pub(super) fn quoted(text: &str) -> String {
+    let mut quoted = String::from('"');
+    for c in text.chars() {
+        match c {
+            '"' | '\\' => quoted.extend(['\\', c]),
+            c if c.is_control() => {
+                let _ = write!(quoted, "\\u{:04X}", u32::from(c));
+            }
+            c => quoted.push(c),
+        }
+    }
+    quoted.push('"');
+    quoted
+}

@@ -1,0 +1,210 @@
+//! A scene as TOML text that gives the same scene, bit for bit.
+
+use std::fmt::{Display, Write};
+
+use frangible::glam::{Quat, Vec3};
+use frangible::{CrackPath, CrackTiming, DurationModel, FractureConfig};
+
+use super::values::{list, material_text, number, quoted, shape_text, support_text, vector};
+use crate::body::{BodySpec, Place};
+use crate::output::{FileWish, Output};
+use crate::projectile::{Projectile, ProjectileKind};
+use crate::scene::Scene;
+use crate::source::BodySource;
+
+/// The scene as TOML text; reading it gives the same scene, bit for bit.
+#[must_use]
+pub fn scene_to_toml(scene: &Scene) -> String {
+    let mut t = Text::default();
+    t.line("name", quoted(&scene.name));
+    t.line("summary", quoted(&scene.summary));
+    t.line("seed", scene.seed);
+    t.noted("duration", number(scene.duration), "s, at most");
+    match &scene.floor {
+        Some(material) => t.line("floor", quoted(material)),
+        None => t.line("floor", false),
+    }
+    t.noted(
+        "look_from",
+        vector(scene.look_from),
+        "direction towards the camera; y is up",
+    );
+    for body in &scene.bodies {
+        t.table("[[body]]");
+        write_body(&mut t, body);
+    }
+    for projectile in &scene.projectiles {
+        t.table("[[projectile]]");
+        write_projectile(&mut t, projectile, &scene.bodies);
+    }
+    write_fracture(&mut t, &scene.fracture);
+    write_output(&mut t, &scene.output);
+    t.0
+}
+
+/// Lines of TOML. Writing to a string cannot fail.
+#[derive(Default)]
+struct Text(String);
+
+impl Text {
+    fn line(&mut self, key: &str, value: impl Display) {
+        let _ = writeln!(self.0, "{key} = {value}");
+    }
+
+    fn noted(&mut self, key: &str, value: impl Display, note: &str) {
+        let _ = writeln!(self.0, "{key} = {value} # {note}");
+    }
+
+    fn table(&mut self, header: &str) {
+        let _ = writeln!(self.0, "\n{header}");
+    }
+}
+
+fn write_body(t: &mut Text, body: &BodySpec) {
+    t.line("name", quoted(&body.name));
+    let own_material = match &body.source {
+        BodySource::Shape(shape) => {
+            t.line("shape", shape_text(shape));
+            true
+        }
+        BodySource::Ready { name, resolution } => {
+            t.line("shape", quoted(name));
+            if let Some(tets) = resolution {
+                t.noted("resolution", tets, "tetrahedra of the fracture mesh");
+            }
+            true
+        }
+        BodySource::Mesh {
+            path,
+            size,
+            up,
+            resolution,
+        } => {
+            t.line("mesh", quoted(&path.to_string_lossy()));
+            if let Some(size) = size {
+                t.noted("size", number(*size), "m, the longest side");
+            }
+            t.line("up", quoted(up.name()));
+            if let Some(tets) = resolution {
+                t.noted("resolution", tets, "tetrahedra of the fracture mesh");
+            }
+            true
+        }
+        BodySource::Asset(path) => {
+            t.line("asset", quoted(&path.to_string_lossy()));
+            false
+        }
+    };
+    if own_material {
+        t.line("material", material_text(&body.material));
+        t.line("modes", body.modes);
+    }
+    let (position, height) = match body.place {
+        Place::Standing { over } => (Some(over.to_vec()), None),
+        Place::Above { height, over } => (Some(over.to_vec()), Some(height)),
+        Place::Centre(p) => (Some(p.to_array().to_vec()), None),
+    };
+    if let Some(position) = position.filter(|p| p.iter().any(|x| x.to_bits() != 0) || p.len() > 2) {
+        t.noted("position", list(&position), "m");
+    }
+    if let Some(height) = height {
+        t.noted(
+            "drop",
+            number(height),
+            "m from the floor to its lowest point",
+        );
+    }
+    if body.rotation != Quat::IDENTITY {
+        let q = list(&body.rotation.to_array());
+        t.line("rotation", format!("{{ quaternion = {q} }}"));
+    }
+    if body.velocity != Vec3::ZERO {
+        t.noted("velocity", vector(body.velocity), "m/s");
+    }
+    if body.spin != Vec3::ZERO {
+        t.noted("spin", vector(body.spin), "rad/s");
+    }
+    if !body.supports.is_empty() {
+        let all: Vec<String> = body.supports.iter().map(support_text).collect();
+        t.line("supports", format!("[{}]", all.join(", ")));
+    }
+}
+
+fn write_projectile(t: &mut Text, projectile: &Projectile, bodies: &[BodySpec]) {
+    t.line("kind", quoted(projectile.kind.name()));
+    t.noted("mass", number(projectile.mass), "kg");
+    t.noted("radius", number(projectile.radius), "m");
+    if let ProjectileKind::Hammer { crown } = projectile.kind {
+        t.noted("crown", number(crown), "m, radius of curvature of the face");
+    }
+    t.noted("speed", number(projectile.speed), "m/s");
+    t.line("material", quoted(&projectile.material));
+    if let (true, Some(target)) = (bodies.len() > 1, bodies.get(projectile.target)) {
+        t.line("target", quoted(&target.name));
+    }
+    t.noted("at", vector(projectile.at), "m from the centre of mass");
+    t.line("toward", vector(projectile.toward));
+}
+
+fn write_fracture(t: &mut Text, config: &FractureConfig) {
+    let default = FractureConfig::default();
+    if *config == default {
+        return;
+    }
+    t.table("[fracture]");
+    match config.duration {
+        DurationModel::ModalHertz => t.line("duration", quoted("modal_hertz")),
+        DurationModel::AsPrinted { c } => {
+            t.line(
+                "duration",
+                format!("{{ as_printed = {{ c = {} }} }}", number(c)),
+            );
+        }
+        _ => t.line("duration", quoted("hertz")),
+    }
+    t.line("admissible_duration", config.admissible_duration);
+    t.line("samples_per_period", number(config.samples_per_period));
+    match config.timing {
+        CrackTiming::TimeResolved {
+            speed,
+            release_reach,
+        } => {
+            let (speed, reach) = (number(speed), number(release_reach));
+            let value =
+                format!("{{ time_resolved = {{ speed = {speed}, release_reach = {reach} }} }}");
+            t.line("timing", value);
+        }
+        _ => t.line("timing", quoted("instant")),
+    }
+    match config.path {
+        CrackPath::Steered { turning_length } => {
+            let length = number(turning_length);
+            t.line(
+                "path",
+                format!("{{ steered = {{ turning_length = {length} }} }}"),
+            );
+        }
+        _ => t.line("path", quoted("planar")),
+    }
+    t.line("crumb_share", number(config.crumb_share));
+}
+
+fn write_output(t: &mut Text, output: &Output) {
+    if *output == Output::default() {
+        return;
+    }
+    t.table("[output]");
+    for (key, wish) in [
+        ("glb", &output.glb),
+        ("picture", &output.picture),
+        ("contact_sheet", &output.contact_sheet),
+        ("json", &output.json),
+    ] {
+        match wish {
+            FileWish::No => t.line(key, false),
+            FileWish::Yes => t.line(key, true),
+            FileWish::Named(name) => t.line(key, quoted(name)),
+        }
+    }
+    t.line("seeds", output.seeds);
+}

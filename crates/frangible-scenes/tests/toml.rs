@@ -1,0 +1,451 @@
+//! Scene files: what they say, what they refuse, and that writing one loses nothing.
+
+use std::path::Path;
+
+use frangible::glam::{Quat, Vec3};
+use frangible::{CrackPath, CrackTiming, FractureConfig, Material};
+use frangible_bake::{Shape, Station};
+use frangible_scenes::{
+    Axis, BodySource, BodySpec, FileWish, Place, Projectile, ProjectileKind, SCENE_NAMES, Scene,
+    parse_scene, read_scene, scene, scene_of_file, scene_to_toml,
+};
+
+fn parsed(text: &str) -> Scene {
+    parse_scene(text, Path::new("folder")).unwrap_or_else(|e| panic!("{e}\n{text}"))
+}
+
+fn refused(text: &str) -> String {
+    let message = parse_scene(text, Path::new("folder"))
+        .expect_err(text)
+        .to_string();
+    assert_eq!(message.lines().count(), 1, "{message}");
+    message
+}
+
+const LEAST: &str = "[[body]]\nshape = \"vase\"\n";
+
+#[test]
+fn every_built_in_scene_survives_writing_and_reading() {
+    for name in SCENE_NAMES {
+        let scene = scene(name).unwrap();
+        let text = scene_to_toml(&scene);
+        assert_eq!(parsed(&text), scene, "{text}");
+    }
+}
+
+/// Every field away from its default, with numbers that are hard to print.
+fn intricate() -> Scene {
+    let mut material = Material::preset("brick").unwrap();
+    material.strength = 0.1 + 0.2;
+    material.density = 1e-300;
+    let mut own = Material::preset("glass").unwrap();
+    own.name = "my \"own\"\\\n\u{1}".into();
+    let profile = vec![
+        Station::sharp([0.0, 0.0], [0.0, 1.0 / 300.0]),
+        Station::smooth([0.1, 0.0], [0.09, 1e-3]),
+    ];
+    let mesh = BodySource::Mesh {
+        path: Path::new("folder").join("a mesh.stl"),
+        size: Some(0.1 + 0.02),
+        up: Axis::X,
+        resolution: Some(12_345),
+    };
+    let mut first = BodySpec::new(
+        "first",
+        BodySource::Shape(Shape::Revolution { profile }),
+        own,
+    );
+    first.place = Place::Above {
+        height: 1.0 / 3.0,
+        over: [0.1, -1e-7],
+    };
+    first.rotation = Quat::from_axis_angle(Vec3::new(1.0, 2.0, 3.0).normalize(), 0.7);
+    let mut second = BodySpec::new("second", mesh, material);
+    second.place = Place::Centre(Vec3::new(1.0 / 3.0, 2.0, -7e-5));
+    second.velocity = Vec3::new(0.1, 0.2, 0.3);
+    second.spin = Vec3::new(-0.0, 1e-20, 3.0);
+    second.modes = 7;
+    let mut third = BodySpec::new(
+        "third",
+        BodySource::Asset(Path::new("folder").join("b.frangible")),
+        Material::preset("porcelain").unwrap(),
+    );
+    third.place = Place::Standing { over: [3.0, -2.0] };
+    let mut scene = Scene::one_body(first);
+    scene.name = "intricate".into();
+    scene.summary = "tabs\tand “quotes”".into();
+    scene.bodies.extend([second, third]);
+    scene.projectiles = vec![
+        Projectile::ball(0.1, 0.01, 3.3),
+        Projectile {
+            kind: ProjectileKind::Hammer { crown: 0.061 },
+            material: "rubber".into(),
+            target: 2,
+            at: Vec3::new(0.1, 0.7, 1.0 / 3.0),
+            toward: Vec3::new(0.3, -0.1, 0.7),
+            ..Projectile::ball(1.0 / 7.0, 0.02, 9.0)
+        },
+    ];
+    scene.floor = None;
+    scene.seed = u64::MAX;
+    scene.duration = 1.0 / 7.0;
+    scene.look_from = Vec3::new(0.1, 0.2, 0.3);
+    scene.fracture = FractureConfig::as_in_the_paper();
+    scene.fracture.crumb_share = 1.0 / 3.0;
+    scene.output.glb = FileWish::Named("a.glb".into());
+    scene.output.picture = FileWish::No;
+    scene.output.contact_sheet = FileWish::Yes;
+    scene.output.seeds = 4;
+    scene
+}
+
+#[test]
+fn an_intricate_scene_survives_writing_and_reading() {
+    let mut scene = intricate();
+    let absolute = |text: &str| parse_scene(text, Path::new(""));
+    let text = scene_to_toml(&scene);
+    assert_eq!(absolute(&text).unwrap(), scene, "{text}");
+    scene.fracture.timing = CrackTiming::TimeResolved {
+        speed: 0.1 + 0.2,
+        release_reach: 0.0,
+    };
+    scene.fracture.path = CrackPath::Steered {
+        turning_length: 1.0 / 3.0,
+    };
+    scene.floor = Some("wood".into());
+    let text = scene_to_toml(&scene);
+    assert_eq!(absolute(&text).unwrap(), scene, "{text}");
+}
+
+#[test]
+fn the_smallest_scene_is_a_porcelain_body_standing_on_stone() {
+    let scene = parsed(LEAST);
+    assert_eq!(scene.bodies.len(), 1);
+    let body = &scene.bodies[0];
+    assert_eq!(body.source, BodySource::Shape(Shape::vase()));
+    assert_eq!(body.material.name, "porcelain");
+    assert_eq!(body.place, Place::Standing { over: [0.0; 2] });
+    assert_eq!(scene.floor.as_deref(), Some("stone"));
+    assert!(scene.projectiles.is_empty());
+}
+
+#[test]
+fn turns_are_about_the_axes_of_the_world_one_after_the_other() {
+    let rotation = |value: &str| parsed(&format!("{LEAST}rotation = {value}")).bodies[0].rotation;
+    let both = rotation("[{ axis = \"x\", degrees = 90 }, { axis = [0, 0, 3], degrees = 90.0 }]");
+    // About x: y goes to z, which the turn about z leaves; z goes to −y, and that to x.
+    assert!((both * Vec3::Y - Vec3::Z).length() < 1e-6, "{both}");
+    assert!((both * Vec3::Z - Vec3::X).length() < 1e-6, "{both}");
+    let exact = rotation("{ quaternion = [0.6, 0, 0, 0.8] }");
+    assert_eq!(exact, Quat::from_xyzw(0.6, 0.0, 0.0, 0.8));
+}
+
+#[test]
+fn paths_are_relative_to_the_file_and_the_ending_tells_what_is_up() {
+    for (file, up) in [
+        ("a.stl", Axis::Z),
+        ("b.OBJ", Axis::Y),
+        ("c.ply", Axis::Z),
+        ("d.glb", Axis::Y),
+    ] {
+        let scene = parsed(&format!("[[body]]\nmesh = \"{file}\""));
+        let BodySource::Mesh {
+            path,
+            up: found,
+            size,
+            ..
+        } = &scene.bodies[0].source
+        else {
+            panic!("no mesh");
+        };
+        assert_eq!(
+            (path.as_path(), *found),
+            (Path::new("folder").join(file).as_path(), up)
+        );
+        assert_eq!(*size, None);
+    }
+}
+
+#[test]
+fn a_misspelt_key_is_named_with_its_line_and_the_nearest() {
+    for (text, expected) in [
+        (
+            "name = \"a\"\n\n[[body]]\nshape = \"vase\"\n\nmaterials = \"glass\"\n",
+            "scene line 6: unknown key `materials`, did you mean `material`?",
+        ),
+        (
+            "[[bodi]]\nshape = \"vase\"",
+            "scene line 1: unknown key `bodi`, did you mean `body`?",
+        ),
+        (
+            "[[body]]\nshape = \"vase\"\nmaterial = { preset = \"glass\", strengh = 3 }",
+            "scene line 3: unknown key `strengh`, did you mean `strength`?",
+        ),
+        (
+            "[[body]]\nshape = \"vasse\"",
+            "scene line 2: unknown name `vasse`, did you mean `vase`?",
+        ),
+        (
+            "[[body]]\nshape = \"vase\"\n[fracture]\npath = { steerd = { turning_length = 1 } }",
+            "scene line 4: unknown name `steerd`, did you mean `steered`?",
+        ),
+        (
+            "[[body]]\nshape = \"vase\"\nmaterial = \"porcelan\"",
+            "scene line 3: unknown material `porcelan`; did you mean `porcelain`?",
+        ),
+        (
+            "[[body]]\nshape = \"vase\"\n[[projectile]]\nmass = 1\nradius = 1\nspeed = 1\ntarget = \"sceen\"",
+            "scene line 7: there is no body `sceen` to aim at, did you mean `scene`?",
+        ),
+    ] {
+        let message = refused(text);
+        assert!(message.starts_with(expected), "{message}\nnot: {expected}");
+    }
+}
+
+#[test]
+fn wrong_types_and_unusable_values_are_told_with_their_line() {
+    let body = |line: &str| format!("seed = 3\n{LEAST}{line}");
+    let ball = |line: &str| {
+        format!("{LEAST}[[projectile]]\n{line}\n")
+            .replace("BALL", "mass = 0.1\nradius = 0.01\nspeed = 3")
+    };
+    for (text, line, part) in [
+        (
+            "floor = 3\n".to_string() + LEAST,
+            1,
+            "true, false or a name",
+        ),
+        ("floor = \"cheese\"\n".to_string() + LEAST, 1, "`cheese`"),
+        (
+            "duration = nan\n".to_string() + LEAST,
+            1,
+            "the duration is NaN",
+        ),
+        ("name = \"../x\"\n".to_string() + LEAST, 1, "file name"),
+        ("seed = -1\n".to_string() + LEAST, 1, "whole number"),
+        (
+            "look_from = [0, 0, 0]\n".to_string() + LEAST,
+            1,
+            "not all zero",
+        ),
+        (String::new(), 1, "[[body]]"),
+        (
+            "[[body]]\nname = \"a\"".into(),
+            1,
+            "`shape`, `mesh` or `asset`",
+        ),
+        (
+            body("mesh = \"a.obj\""),
+            3,
+            "one of `shape`, `mesh` and `asset`",
+        ),
+        (body("drop = \"high\""), 4, "expected a number"),
+        (
+            body("drop = -1"),
+            4,
+            "the drop height is -1; it must be above 0",
+        ),
+        (body("drop = 1\nposition = [0, 1, 0]"), 5, "remove `drop`"),
+        (body("position = [1]"), 4, "[x, z]"),
+        (body("position = [1e30, 0]"), 4, "at most 1000"),
+        (body("modes = 0"), 4, "the number of modes"),
+        (body("modes = -3"), 4, "whole number"),
+        (body("size = 0.1"), 4, "is for a `mesh`"),
+        (body("rotation = { degrees = 3 }"), 4, "a rotation is"),
+        (
+            body("rotation = { axis = \"w\", degrees = 3 }"),
+            4,
+            "`w` is no axis",
+        ),
+        (
+            body("rotation = { quaternion = [1, 1, 1, 1] }"),
+            4,
+            "unit quaternion",
+        ),
+        (
+            body("rotation = { axis = \"x\", degrees = inf }"),
+            4,
+            "unit quaternion",
+        ),
+        (
+            body("material = { preset = \"glass\", density = -1 }"),
+            4,
+            "density",
+        ),
+        (body("velocity = [0, 500, 0]"), 4, "at most 300 m/s"),
+        (
+            body("supports = [{ below = 0.01 }]"),
+            4,
+            "supports are not built yet",
+        ),
+        (
+            body("supports = [{ sphere = { centre = [0, 0, 0], radius = 1 } }]"),
+            4,
+            "not built yet",
+        ),
+        (
+            "[[body]]\nshape = { box = [1, 0, 1] }".into(),
+            2,
+            "side of the box",
+        ),
+        (
+            "[[body]]\nmesh = \"a.obj\"\nsize = -2".into(),
+            3,
+            "the body's size is -2",
+        ),
+        (
+            "[[body]]\nmesh = \"a.obj\"\nresolution = 3".into(),
+            3,
+            "500 to 2000000",
+        ),
+        (
+            "[[body]]\nmesh = \"a.obj\"\nup = \"q\"".into(),
+            3,
+            "`q` is no axis",
+        ),
+        (
+            "[[body]]\nasset = \"a.frangible\"\nmodes = 3".into(),
+            3,
+            "bake it again",
+        ),
+        (ball("mass = 1\nradius = 1"), 3, "`speed`"),
+        (ball("BALL\ncrown = 0.1"), 7, "a ball has no `crown`"),
+        (
+            ball("BALL\nkind = \"hammer\"\ncrown = 0.001"),
+            8,
+            "the hammer's crown is 0.001",
+        ),
+        (
+            ball("mass = 0\nradius = 1\nspeed = 1"),
+            4,
+            "the ball's mass is 0",
+        ),
+        (ball("BALL\nkind = \"arrow\""), 7, "unknown name `arrow`"),
+        (
+            body("[fracture]\nsamples_per_period = -1"),
+            5,
+            "samples per period",
+        ),
+        (
+            body("[fracture]\npath = { steered = { turning_length = 0 } }"),
+            5,
+            "turning length",
+        ),
+        (body("[output]\nglb = \"../a.glb\""), 5, "file name"),
+        (
+            body("[output]\nglb = \"a\"\npicture = \"a\""),
+            6,
+            "different",
+        ),
+        (body("[output]\nseeds = 99"), 5, "1 to 36"),
+        (
+            body("[[body]]\nshape = \"bowl\"\nname = \"scene 1\""),
+            6,
+            "two bodies `scene 1`",
+        ),
+        (body("this is no TOML"), 4, ""),
+        (body("modes = 3\nmodes = 4"), 5, "already there"),
+    ] {
+        let message = refused(&text);
+        assert!(
+            message.starts_with(&format!("scene line {line}: ")) && message.contains(part),
+            "{message}\nnot line {line} with `{part}`:\n{text}"
+        );
+    }
+}
+
+#[test]
+fn nothing_that_is_cut_short_or_scrambled_makes_it_panic() {
+    let text = scene_to_toml(&intricate());
+    for end in 0..text.len() {
+        if let Some(cut) = text.get(..end) {
+            let _ = parse_scene(cut, Path::new(""));
+        }
+    }
+    // Bytes replaced by ones that mean something, at places a linear congruence chooses.
+    let mut state = 1_u64;
+    let mut next = |n: usize| {
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1);
+        (state >> 33) as usize % n
+    };
+    for _ in 0..3000 {
+        let mut bytes = text.clone().into_bytes();
+        for _ in 0..1 + next(4) {
+            let at = next(bytes.len());
+            bytes[at] = b"[]{}=\"'.,-+e0159\n#tfni"[next(22)];
+        }
+        if let Ok(scrambled) = String::from_utf8(bytes)
+            && let Ok(scene) = parse_scene(&scrambled, Path::new(""))
+        {
+            // What is accepted is sound, and means the same when written.
+            scene.validate().unwrap();
+        }
+    }
+}
+
+#[test]
+fn deep_nesting_and_many_bodies_are_refused() {
+    let deep = format!("{LEAST}name = {}1", "[".repeat(100_000));
+    assert!(refused(&deep).starts_with("scene line 3: "));
+    let many = LEAST.repeat(101);
+    assert!(refused(&many).contains("number of bodies is 101"));
+}
+
+#[test]
+fn files_that_are_no_scene_are_refused_with_their_path() {
+    let folder = std::env::temp_dir().join(format!("frangible-toml-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let write = |name: &str, bytes: &[u8]| {
+        let path = folder.join(name);
+        std::fs::write(&path, bytes).unwrap();
+        path
+    };
+    let cases = [
+        (folder.join("absent.toml"), "there is no such file"),
+        (folder.join("absent.obj"), "there is no such file"),
+        (folder.clone(), "this is a folder"),
+        (write("empty.toml", b""), "this file is empty"),
+        (write("empty.stl", b""), "this file is empty"),
+        (write("binary.toml", b"\xff\xfe"), "not UTF-8"),
+        (write("large.toml", &vec![b' '; 1 << 21]), "too large"),
+        (write("picture.jpg", b"x"), ".obj, .stl, .ply, .gltf, .glb"),
+        (write("none", b"x"), ".frangible"),
+    ];
+    for (path, part) in cases {
+        let message = scene_of_file(&path).unwrap_err().to_string();
+        assert!(
+            message.contains(part) && message.contains(&*path.to_string_lossy()),
+            "{message}"
+        );
+        assert_eq!(message.lines().count(), 1, "{message}");
+    }
+    let named = write("my vase.toml", LEAST.as_bytes());
+    assert_eq!(read_scene(&named).unwrap().name, "my vase");
+    let odd = write(".a\"b*c .toml", LEAST.as_bytes());
+    assert_eq!(read_scene(&odd).unwrap().name, "a_b_c");
+    let broken = write("broken.toml", b"\n\nshape = 3");
+    let message = read_scene(&broken).unwrap_err().to_string();
+    assert!(
+        message.contains("broken.toml line 3: unknown key `shape`"),
+        "{message}"
+    );
+    std::fs::remove_dir_all(&folder).unwrap();
+}
+
+#[test]
+fn the_example_of_the_documentation_is_a_scene() {
+    let documentation = include_str!("../../../docs/scene-files.md");
+    let example = documentation
+        .split("```toml\n")
+        .nth(1)
+        .and_then(|rest| rest.split("```").next())
+        .expect("an example");
+    let scene = parsed(example);
+    assert_eq!((scene.bodies.len(), scene.projectiles.len()), (2, 1));
+    assert_eq!(scene.bodies[1].material.strength, 6e5);
+    // It spells out the defaults of the fracture.
+    assert_eq!(scene.fracture, FractureConfig::default());
+}
