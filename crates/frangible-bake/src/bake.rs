@@ -17,7 +17,7 @@ use crate::mesh::BodyMesh;
 use crate::peak_stress::peak_stress;
 use crate::report::{BakeReport, MeshReport, Progress, Stage};
 use crate::shapes::{self, MeshSize, Shape};
-use crate::surface::outer_surface;
+use crate::surface::{CREASE, SOLID_CREASE, outer_surface};
 
 /// What to bake.
 #[derive(Clone, Debug)]
@@ -124,7 +124,11 @@ pub fn bake(
     let embedding = analysis.embed(&fine)?;
 
     clock.enter(Stage::Surface);
-    let surface = outer_surface(&fracture);
+    let crease = match spec.shape {
+        Shape::Solid(_) => SOLID_CREASE,
+        _ => CREASE,
+    };
+    let surface = outer_surface(&fracture, crease);
     let cells = convex_cells(&fracture, &fine.cell_of_tet, fine.cells);
 
     clock.enter(Stage::Stress);

@@ -4,16 +4,18 @@ use frangible::TetMesh;
 use frangible::asset::OuterSurface;
 use frangible::glam::{DVec3, Vec3};
 
-/// Faces that meet at a larger angle keep their edge sharp.
-const CREASE: f64 = 35.0;
+/// Faces that meet at a larger angle, degrees, keep their edge sharp.
+pub const CREASE: f64 = 35.0;
+/// The same on the lattice mesh of a solid, whose triangles turn more from one to the next on curved surfaces.
+pub const SOLID_CREASE: f64 = 50.0;
 /// Smallest radius of curvature, m: edges and corners are rounded off this far in any real body.
 pub const SMALLEST_RADIUS: f64 = 0.003;
 /// Radii above this many body diagonals count as flat: they are the rounding of f32 positions.
 const FLAT: f64 = 50.0;
 
-/// Extracts the boundary, oriented outwards.
+/// Extracts the boundary, oriented outwards; edges of more than `crease` degrees stay sharp.
 #[must_use]
-pub fn outer_surface(mesh: &TetMesh) -> OuterSurface {
+pub fn outer_surface(mesh: &TetMesh, crease: f64) -> OuterSurface {
     let boundary = mesh.boundary();
     let triangles: Vec<[u32; 3]> = boundary.iter().map(|b| b.0).collect();
     let x: Vec<DVec3> = mesh.positions.iter().map(|p| p.as_dvec3()).collect();
@@ -25,7 +27,7 @@ pub fn outer_surface(mesh: &TetMesh) -> OuterSurface {
         })
         .collect();
     let corners = Corners::new(&triangles, x.len());
-    let smooth = CREASE.to_radians().cos();
+    let smooth = crease.to_radians().cos();
     let normals = (0..triangles.len()).map(|t| {
         triangles[t].map(|v| {
             let own = face[t];

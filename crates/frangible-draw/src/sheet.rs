@@ -30,7 +30,8 @@ impl Default for SheetOptions {
 const GAP: u32 = 4;
 
 /// The four moments of a break, labelled: before, first crack, just after, at
-/// rest; all seen from the recording's camera.
+/// rest; seen from the recording's camera, and at the end from the other one if
+/// there is one.
 ///
 /// # Errors
 ///
@@ -68,7 +69,11 @@ pub fn sheet_of_frames(
     let size = (side(columns, cell_width), side(rows, cell_height));
     let mut sheet = RgbImage::from_pixel(size.0, size.1, Rgb([255; 3]));
     for (index, (recording, frame, label)) in (0..).zip(cells) {
-        let cell = studio.frame(recording, *frame, &recording.camera, label)?;
+        let view = match &recording.rest_camera {
+            Some(rest) if *frame >= recording.moments.at_rest => rest,
+            _ => &recording.camera,
+        };
+        let cell = studio.frame(recording, *frame, view, label)?;
         let x = index % columns * (cell_width + GAP);
         let y = index / columns * (cell_height + GAP);
         imageops::replace(&mut sheet, &cell, x.into(), y.into());

@@ -23,6 +23,8 @@ pub struct Recording {
     pub floor: Option<Floor>,
     /// From where to look.
     pub camera: View,
+    /// From where to look at the end, when what lies there would be lost in the first view.
+    pub rest_camera: Option<View>,
     /// The frames worth a picture.
     pub moments: Moments,
 }

@@ -19,7 +19,7 @@ enum Action {
 }
 
 /// Names of the built-in scenes; the first is the default.
-pub const SCENE_NAMES: [&str; 7] = [
+pub const SCENE_NAMES: [&str; 10] = [
     "glass",
     "pane",
     "plate",
@@ -27,6 +27,9 @@ pub const SCENE_NAMES: [&str; 7] = [
     "vase",
     "brick",
     "chocolate",
+    "rabbit",
+    "piggy-bank",
+    "hammer",
 ];
 
 /// A built-in scene by name.
@@ -112,6 +115,43 @@ pub fn scene(name: &str) -> Result<Scene, SceneError> {
             Quat::from_rotation_z(0.3) * Quat::from_rotation_x(-1.2),
             drop(1.0),
         ),
+        "rabbit" => build_of(
+            "rabbit",
+            "a rabbit of solid chocolate dropped on a stone floor",
+            ready("rabbit", 90_000),
+            "chocolate",
+            100,
+            Quat::from_rotation_z(0.5) * Quat::from_rotation_y(0.4) * upright,
+            drop(1.0),
+        ),
+        "piggy-bank" => build_of(
+            "piggy-bank",
+            "a porcelain piggy bank hit from above by a hammer",
+            ready("piggy_bank", 120_000),
+            "porcelain",
+            100,
+            Quat::from_rotation_y(0.35) * upright,
+            Action::Throw(Projectile {
+                toward: Vec3::new(0.1, -1.0, 0.1),
+                at: Vec3::new(0.0, 0.03, 0.01),
+                ..Projectile::hammer(0.4, 0.02, 5.0)
+            }),
+        ),
+        "hammer" => build(
+            "hammer",
+            "a brick hit by a hammer",
+            Shape::Box {
+                size: [0.21, 0.1, 0.05],
+            },
+            "brick",
+            80,
+            Quat::from_rotation_y(0.3) * upright,
+            Action::Throw(Projectile {
+                toward: Vec3::NEG_Y,
+                at: Vec3::new(0.01, 0.0, 0.0),
+                ..Projectile::hammer(0.5, 0.018, 4.0)
+            }),
+        ),
         _ => {
             let hint = nearest_name(name, SCENE_NAMES)
                 .map_or(String::new(), |n| format!(", did you mean `{n}`?"));
@@ -124,10 +164,30 @@ pub fn scene(name: &str) -> Result<Scene, SceneError> {
     }
 }
 
+fn ready(name: &str, tets: usize) -> BodySource {
+    BodySource::Ready {
+        name: name.into(),
+        resolution: Some(tets),
+    }
+}
+
 fn build(
     name: &str,
     summary: &str,
     shape: Shape,
+    material: &str,
+    modes: usize,
+    rotation: Quat,
+    action: Action,
+) -> Result<Scene, SceneError> {
+    let source = BodySource::Shape(shape);
+    build_of(name, summary, source, material, modes, rotation, action)
+}
+
+fn build_of(
+    name: &str,
+    summary: &str,
+    source: BodySource,
     material: &str,
     modes: usize,
     rotation: Quat,
@@ -142,7 +202,7 @@ fn build(
     let body = BodySpec {
         modes,
         rotation,
-        ..BodySpec::new(name, BodySource::Shape(shape), Material::preset(material)?)
+        ..BodySpec::new(name, source, Material::preset(material)?)
     };
     let mut scene = Scene {
         summary: summary.into(),

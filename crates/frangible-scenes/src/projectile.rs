@@ -64,4 +64,14 @@ impl Projectile {
             toward: Vec3::NEG_Z,
         }
     }
+
+    /// A steel hammer head of this mass (kg), radius of its face (m) and speed (m/s) from above.
+    #[must_use]
+    pub fn hammer(mass: f64, radius: f64, speed: f64) -> Self {
+        Self {
+            kind: ProjectileKind::HAMMER,
+            toward: Vec3::NEG_Y,
+            ..Self::ball(mass, radius, speed)
+        }
+    }
 }

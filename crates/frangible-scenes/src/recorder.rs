@@ -150,7 +150,7 @@ impl Recorder {
             just_after: (first_crack + 5).min(last),
             at_rest: last,
         };
-        recording.camera = camera(recording, &self.roles, look_from);
+        (recording.camera, recording.rest_camera) = cameras(recording, &self.roles, look_from);
         self.recording
     }
 }
@@ -162,8 +162,12 @@ struct Resting {
     mass: f64,
 }
 
-/// Looks so that the body just before the break and most of the pieces at rest fill the picture.
-fn camera(recording: &Recording, roles: &[Role], look_from: Vec3) -> View {
+/// How much farther than for the body alone the camera goes to show the pieces at rest as well.
+const FARTHEST: f32 = 2.0;
+
+/// Looks so that the body just before the break and most of the pieces at rest fill the picture; from two places when
+/// the pieces came to lie so far off that the body would be small.
+fn cameras(recording: &Recording, roles: &[Role], look_from: Vec3) -> (View, Option<View>) {
     let moments = recording.moments;
     // Without a floor pieces fall for ever.
     let end = match recording.floor {
@@ -172,6 +176,7 @@ fn camera(recording: &Recording, roles: &[Role], look_from: Vec3) -> View {
     };
     let mut largest = 0.0_f32;
     let mut seen: Vec<Vec3> = Vec::new();
+    let mut at_rest: Vec<Vec3> = Vec::new();
     let mut resting: Vec<Resting> = Vec::new();
     for (i, (node, &role)) in recording.nodes.iter().zip(roles).enumerate() {
         if let Role::Body(radius) = role
@@ -223,12 +228,25 @@ fn camera(recording: &Recording, roles: &[Role], look_from: Vec3) -> View {
         }
         mass += piece.mass;
         let across = [Vec3::X, Vec3::NEG_X, Vec3::Z, Vec3::NEG_Z];
-        seen.extend(across.map(|axis| piece.centre + 0.9 * piece.radius * axis));
+        at_rest.extend(across.map(|axis| piece.centre + 0.9 * piece.radius * axis));
     }
     let ground = match recording.floor {
         Some(_) => 0.0,
         None => f32::MIN,
     };
+    let both: Vec<Vec3> = seen.iter().chain(&at_rest).copied().collect();
+    let whole = view(&both, ground, look_from, largest);
+    let body = view(&seen, ground, look_from, largest);
+    let distance = |v: &View| v.eye.distance(v.target);
+    if at_rest.is_empty() || distance(&whole) <= FARTHEST * distance(&body) {
+        (whole, None)
+    } else {
+        (body, Some(view(&at_rest, ground, look_from, largest)))
+    }
+}
+
+/// Looks so that these points fill the picture (4:3), from at least `nearest`, m.
+fn view(seen: &[Vec3], ground: f32, look_from: Vec3, nearest: f32) -> View {
     let low = seen
         .iter()
         .copied()
@@ -241,7 +259,7 @@ fn camera(recording: &Recording, roles: &[Role], look_from: Vec3) -> View {
     let right = Vec3::Y.cross(back).normalize_or(Vec3::X);
     let up = back.cross(right);
     let tangent = (0.5 * vertical_fov).tan();
-    // Far enough for every point to lie within the picture (4:3), with a margin.
+    // Far enough for every point to lie within the picture, with a margin.
     let distance = seen
         .iter()
         .map(|&p| {
@@ -249,7 +267,7 @@ fn camera(recording: &Recording, roles: &[Role], look_from: Vec3) -> View {
             let across = (d.dot(right).abs() / (4.0 / 3.0)).max(d.dot(up).abs());
             1.06 * across / tangent + d.dot(back)
         })
-        .fold(largest, f32::max);
+        .fold(nearest, f32::max);
     View {
         eye: target + back * distance,
         target,
