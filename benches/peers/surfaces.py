@@ -84,16 +84,31 @@ def lattice(side=LATTICE):
 
 
 def generated():
-    """Name to (vertices, polygons)."""
+    """Name to ((vertices, polygons), volume of the solid that is meant, m³, or None)."""
+    overlap = 0.6 * 0.7 * 0.8
+    boxes = join(box((0, 0, 0), (1, 1, 1)), box((0.4, 0.3, 0.2), (1.4, 1.3, 1.2)))
     return {
-        "cube": box((0, 0, 0), (1, 1, 1)),
-        "sphere": sphere(),
-        "hollow sphere": hollow_sphere(),
-        "overlapping boxes": join(box((0, 0, 0), (1, 1, 1)), box((0.4, 0.3, 0.2), (1.4, 1.3, 1.2))),
-        "open sphere": open_sphere(),
-        "sphere twice": join(sphere(), sphere()),
-        "lattice": lattice(),
+        "cube": closed(box((0, 0, 0), (1, 1, 1))),
+        "sphere": closed(sphere()),
+        "hollow sphere": closed(hollow_sphere()),
+        "overlapping boxes": (boxes, 2.0 - overlap),
+        "open sphere": (open_sphere(), None),
+        "sphere twice": (join(sphere(), sphere()), closed(sphere())[1]),
+        "lattice": closed(lattice()),
     }
+
+
+def closed(surface):
+    """The surface with its volume by the divergence theorem, m³."""
+    return surface, signed_volume(surface[0], np.array(fans(surface[1])))
+
+
+def signed_volume(vertices, triangles):
+    return float(np.linalg.det(vertices[triangles]).sum() / 6.0)
+
+
+def fans(polygons):
+    return [[face[0], b, c] for face in polygons for b, c in zip(face[1:], face[2:])]
 
 
 def write_obj(path, surface):
@@ -105,7 +120,7 @@ def write_obj(path, surface):
 
 def read_obj(path):
     """Vertices and triangles; polygons become fans, all else is left as it is."""
-    vertices, triangles = [], []
+    vertices, polygons = [], []
     with open(path, encoding="utf-8", errors="replace") as file:
         for line in file:
             words = line.split()
@@ -113,6 +128,5 @@ def read_obj(path):
                 vertices.append([float(w) for w in words[1:4]])
             elif words[:1] == ["f"]:
                 numbers = [int(w.split("/")[0]) for w in words[1:]]
-                corners = [n - 1 if n > 0 else n + len(vertices) for n in numbers]
-                triangles += [[corners[0], b, c] for b, c in zip(corners[1:], corners[2:])]
-    return np.array(vertices, float), np.array(triangles, np.int32)
+                polygons.append([n - 1 if n > 0 else n + len(vertices) for n in numbers])
+    return np.array(vertices, float), np.array(fans(polygons), np.int32)
