@@ -113,7 +113,7 @@ fn mesh_notes(scene: &Scene, baked: &[BakedBody]) -> Vec<String> {
         }
         if mesh.features.not_snapped * 10 > mesh.features.sharp {
             notes.push(format!(
-                "{}: {} of {} sharp places are rounded off; a higher --resolution keeps more",
+                "{}: {} of {} places that bend sharply are rounded off; a higher --resolution keeps more",
                 body.name, mesh.features.not_snapped, mesh.features.sharp
             ));
         }

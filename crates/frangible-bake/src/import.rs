@@ -13,9 +13,6 @@ use crate::shapes::{Shape, SolidShape};
 /// Places at which the walls are measured: the twentieth of them that is thinnest is then twenty or so.
 const SAMPLES: usize = 400;
 
-/// A body whose median wall is below this many times its thinnest is a shell: its walls are what holds it together.
-const SHELL: f64 = 4.0;
-
 /// How to take in a mesh.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
@@ -69,9 +66,8 @@ pub fn import_mesh(mesh: &InputMesh, options: &ImportOptions) -> Result<Imported
     };
     let solid = MeshSolid::new(&surface)?;
     let thickness = wall_thickness(&solid, SAMPLES, 1);
-    let is_shell = thickness.median < SHELL * thickness.thinnest;
     let shape = SolidShape {
-        wall: (is_shell && thickness.thinnest > 0.0).then_some(thickness.thinnest),
+        wall: thickness.of_shell(),
         tets: options.tets,
         most: options.most.unwrap_or((3 * options.tets).max(250_000)),
         ..SolidShape::new(Arc::new(solid))

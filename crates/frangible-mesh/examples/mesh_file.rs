@@ -50,7 +50,7 @@ fn mesh(file: &Path, tets: usize, out: Option<&Path>) -> Result<String, Box<dyn 
     let walls = lap();
     let mut options = TetOptions::default();
     options.resolution = Resolution::Tets(tets);
-    options.check_volume = std::env::var_os("CHECK").is_some();
+    options.wall = wall.of_shell();
     options.irregular = Some(1);
     let (body, report) = tetrahedralize(&solid, &options)?;
     let filled = lap();

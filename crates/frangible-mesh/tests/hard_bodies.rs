@@ -31,8 +31,7 @@ fn fill(input: &InputMesh, tets: usize) -> Result<(TetBody, TetReport), String> 
     options.resolution = Resolution::Tets(tets);
     options.most = MOST;
     options.irregular = Some(1);
-    // As an import does it: a body that is thin all over is a shell.
-    options.wall = (thickness.median < 4.0 * thickness.thinnest).then_some(thickness.thinnest);
+    options.wall = thickness.of_shell();
     tetrahedralize(&solid, &options).map_err(|e| e.to_string())
 }
 
@@ -73,7 +72,7 @@ fn every_hard_surface_is_filled_soundly_or_refused_with_a_reason() {
                 check_sound(body);
             }
             (Expect::Refused, Ok((_, report))) => {
-                wrong.push(format!("{}: filled: {report}", case.name))
+                wrong.push(format!("{}: filled: {report}", case.name));
             }
         }
     }

@@ -21,6 +21,9 @@ const TETS_PER_CUBE: f64 = 12.6;
 /// first twenty modes, at 6 000 up to 2.5 %.
 const SHELL_ELEMENTS: f64 = 5000.0;
 
+/// Walls below this share of the longest side are thin.
+const THIN: f64 = 0.1;
+
 /// A solid and how it is to be filled with tetrahedra.
 #[derive(Clone)]
 pub struct SolidShape {
@@ -65,10 +68,12 @@ pub(crate) fn ready(name: &str) -> Option<SolidShape> {
 
 /// Elements of the lattice that carries the modes.
 pub(crate) fn elements(shape: &SolidShape, size: Option<MeshSize>, volume: f64) -> usize {
+    let [low, high] = shape.solid.bounds();
+    let longest = (high - low).max_element();
     let elements = match (size, shape.wall) {
         (Some(size), _) => estimate(volume, size),
-        (None, Some(_)) => SHELL_ELEMENTS,
-        (None, None) => super::ANALYSIS_TETS,
+        (None, Some(wall)) if wall < THIN * longest => SHELL_ELEMENTS,
+        (None, _) => super::ANALYSIS_TETS,
     };
     elements as usize
 }

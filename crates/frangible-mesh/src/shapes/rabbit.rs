@@ -87,9 +87,9 @@ fn ears() -> DistanceSolid {
         .smooth_subtract(dish, 4.0)
         .rotated(
             DQuat::from_rotation_z(0.45)
-                * DQuat::from_rotation_y(0.28)
+                * DQuat::from_rotation_y(0.36)
                 * DQuat::from_rotation_x(-0.5),
         )
-        .translated(DVec3::new(9.5, -22.0, 106.0))
+        .translated(DVec3::new(12.0, -22.0, 105.0))
         .mirrored_x()
 }

@@ -28,6 +28,18 @@ pub struct Thickness {
     pub volume: f64,
 }
 
+/// A body whose median wall is below this many times its thinnest is a shell: its walls are what holds it together.
+const SHELL: f64 = 4.0;
+
+impl Thickness {
+    /// Thickness of the walls, m, of a body that is thin all over: hand it to
+    /// [`TetOptions::wall`](crate::TetOptions::wall). `None` for a lump, be it with thin ears.
+    #[must_use]
+    pub fn of_shell(&self) -> Option<f64> {
+        (self.thinnest > 0.0 && self.median < SHELL * self.thinnest).then_some(self.thinnest)
+    }
+}
+
 /// Measures the wall at `samples` random places of the surface, equally many per area. At each, the median over seven
 /// rays into the body within 30°, like the shape diameter [Shapira et al. 2008]: the thickness of a wall, and nearly
 /// the diameter of a ball. The same seed gives the same bits. All zero without samples, or if no triangle borders the
