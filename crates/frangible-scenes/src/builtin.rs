@@ -132,9 +132,8 @@ pub fn scene(name: &str) -> Result<Scene, SceneError> {
             100,
             Quat::from_rotation_y(0.95) * upright,
             Action::Throw(Projectile {
-                toward: Vec3::new(0.1, -1.0, 0.1),
-                at: Vec3::new(0.0, 0.03, 0.01),
-                ..Projectile::hammer(0.5, 0.02, 8.0)
+                at: Vec3::new(0.0, 0.03, 0.0),
+                ..Projectile::hammer(0.5, 0.02, 7.0)
             }),
         ),
         "hammer" => build(
@@ -197,6 +196,7 @@ fn build_of(
     let seed = match name {
         "glass" => 3,
         "plate" | "rabbit" => 4,
+        "piggy-bank" => 9,
         _ => 1,
     };
     let body = BodySpec {

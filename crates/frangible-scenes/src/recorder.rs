@@ -163,7 +163,7 @@ struct Resting {
 }
 
 /// How much farther than for the body alone the camera goes to show the pieces at rest as well.
-const FARTHEST: f32 = 2.0;
+const FARTHEST: f32 = 4.0;
 
 /// Looks so that the body just before the break and most of the pieces at rest fill the picture; from two places when
 /// the pieces came to lie so far off that the body would be small.
@@ -229,6 +229,11 @@ fn cameras(recording: &Recording, roles: &[Role], look_from: Vec3) -> (View, Opt
         mass += piece.mass;
         let across = [Vec3::X, Vec3::NEG_X, Vec3::Z, Vec3::NEG_Z];
         at_rest.extend(across.map(|axis| piece.centre + 0.9 * piece.radius * axis));
+        // Its foot, towards the camera: what lies in front of the middle is low in the picture.
+        let front = Vec3::new(look_from.x, 0.0, look_from.z).normalize_or_zero();
+        let mut foot = piece.centre + 0.7 * piece.radius * front;
+        foot.y = (piece.centre.y - piece.radius).max(0.0);
+        at_rest.push(foot);
     }
     let ground = match recording.floor {
         Some(_) => 0.0,
