@@ -21,6 +21,9 @@ const TETS_PER_CUBE: f64 = 12.6;
 /// first twenty modes, at 6 000 up to 2.5 %.
 const SHELL_ELEMENTS: f64 = 5000.0;
 
+/// A wall above this share of the cube root of the volume is no thin one: a ball is 1.2 of it thick, a cube 1.
+const THICK: f64 = 0.5;
+
 /// A solid and how it is to be filled with tetrahedra.
 #[derive(Clone)]
 pub struct SolidShape {
@@ -67,8 +70,8 @@ pub(crate) fn ready(name: &str) -> Option<SolidShape> {
 pub(crate) fn elements(shape: &SolidShape, size: Option<MeshSize>, volume: f64) -> usize {
     let elements = match (size, shape.wall) {
         (Some(size), _) => estimate(volume, size),
-        (None, Some(_)) => SHELL_ELEMENTS,
-        (None, None) => super::ANALYSIS_TETS,
+        (None, Some(wall)) if wall < THICK * volume.cbrt() => SHELL_ELEMENTS,
+        (None, _) => super::ANALYSIS_TETS,
     };
     elements as usize
 }
