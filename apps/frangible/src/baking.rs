@@ -19,11 +19,12 @@ pub(crate) fn run(args: &BakeArgs) -> Result<(), Box<dyn Error>> {
         )
         .into());
     }
+    let bar = Bar::new(false);
+    bar.show(&format!("{}: reading", scene.name), 0.0);
     let sources = open_sources(&scene)?;
     let notes: Vec<String> = sources.iter().flat_map(Opened::notes).cloned().collect();
     try_file(&args.output)?;
 
-    let bar = Bar::new(false);
     let clock = Instant::now();
     let baked = bake_opened(&scene, sources, &mut |p| {
         bar.show(&format!("{}: {}", scene.name, p.stage), p.fraction);

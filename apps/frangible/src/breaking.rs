@@ -16,6 +16,8 @@ use crate::request::{Request, scene_of};
 
 pub(crate) fn run(file: Option<&Path>, args: &BreakArgs) -> Result<(), Box<dyn Error>> {
     let Request { scene, mut notes } = scene_of(file, args)?;
+    let bar = Bar::new(args.json);
+    bar.show(&format!("{}: reading", scene.name), 0.0);
     let sources = open_sources(&scene)?;
     notes.extend(sources.iter().flat_map(Opened::notes).cloned());
     let names = scene.output.file_names(&scene.name);
@@ -26,7 +28,6 @@ pub(crate) fn run(file: Option<&Path>, args: &BreakArgs) -> Result<(), Box<dyn E
     let [glb, picture, sheet, json] = names;
     let mut stages = Vec::new();
 
-    let bar = Bar::new(args.json);
     let clock = Instant::now();
     let baked = bake_opened(&scene, sources, &mut |p| {
         bar.show(&format!("{}: {}", scene.name, p.stage), p.fraction);

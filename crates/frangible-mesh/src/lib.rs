@@ -24,7 +24,9 @@ pub use error::TetError;
 pub use glam;
 pub use input::{InputMaterial, InputMesh};
 #[cfg(feature = "mesh-io")]
-pub use read::{MOST_BYTES, MOST_TRIANGLES, MeshFormat, ReadError, parse_mesh, read_mesh};
+pub use read::{
+    MOST_BYTES, MOST_TRIANGLES, MeshFormat, ReadError, nearest_file, parse_mesh, read_mesh,
+};
 pub use repair::{RepairError, RepairReport, repair};
 pub use shapes::{READY_SHAPES, ready_shape};
 pub use similarity::Similarity;

@@ -3,9 +3,11 @@
 use std::sync::Arc;
 
 use frangible::Asset;
-use frangible_bake::{BakeReport, BakeSpec, Progress};
+use frangible_bake::{BakeError, BakeReport, BakeSpec, Progress};
+use frangible_mesh::TetError;
 
 use crate::body::BodySpec;
+use crate::check::MOST_TETS;
 use crate::error::SceneError;
 use crate::scene::Scene;
 use crate::source::{Opened, open_source};
@@ -78,7 +80,8 @@ pub fn bake_opened(
                     render: render.map(|r| *r),
                     ..BakeSpec::new(&body.name, shape, body.material.clone())
                 };
-                let (asset, report) = frangible_bake::bake(&spec, progress)?;
+                let (asset, report) =
+                    frangible_bake::bake(&spec, progress).map_err(|e| mendable(&body.name, e))?;
                 BakedBody {
                     asset: Arc::new(asset),
                     report: Some(Arc::new(report)),
@@ -87,4 +90,26 @@ pub fn bake_opened(
         });
     }
     Ok(baked)
+}
+
+/// Walls too thin, said with what the user of a scene can do about them.
+fn mendable(body: &str, error: BakeError) -> SceneError {
+    let BakeError::Tetrahedra(TetError::TooThin { wall, needed, .. }) = error else {
+        return error.into();
+    };
+    let (body, wall_mm) = (body.to_string(), 1e3 * wall);
+    if needed <= MOST_TETS {
+        return SceneError::ThinWalls {
+            body,
+            wall_mm,
+            needed,
+        };
+    }
+    SceneError::WaferWalls {
+        body,
+        wall_mm,
+        limit: MOST_TETS,
+        // Cells grow with the wall, and so does the volume: the number falls with its square.
+        enough_mm: 1.1 * wall_mm * (needed as f64 / MOST_TETS as f64).sqrt(),
+    }
 }

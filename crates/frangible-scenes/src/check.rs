@@ -23,6 +23,9 @@ const MAX_SPEED: f64 = 300.0;
 /// Most bodies, and most projectiles, of a scene.
 const MOST_ITEMS: usize = 100;
 
+/// Most tetrahedra of a fracture mesh.
+pub(crate) const MOST_TETS: usize = 2_000_000;
+
 /// Longest name of a scene or a file, bytes.
 const LONGEST_NAME: usize = 120;
 

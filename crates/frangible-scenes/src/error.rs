@@ -108,6 +108,32 @@ pub enum SceneError {
     /// A file of a baked body that cannot be read or written.
     #[error(transparent)]
     Asset(#[from] frangible::AssetFileError),
+    /// Walls that more tetrahedra would resolve.
+    #[error(
+        "`{body}` has walls of {wall_mm:.3} mm, which need about {needed} tetrahedra; ask for them with --resolution {needed} (in a scene file: resolution = {needed})"
+    )]
+    ThinWalls {
+        /// Name of the body.
+        body: String,
+        /// Their thickness, mm.
+        wall_mm: f64,
+        /// Tetrahedra they need.
+        needed: usize,
+    },
+    /// Walls that no allowed number of tetrahedra resolves.
+    #[error(
+        "`{body}` has walls of {wall_mm:.3} mm, too thin beside its size for the {limit} tetrahedra there may be; make them about {enough_mm:.2} mm thick"
+    )]
+    WaferWalls {
+        /// Name of the body.
+        body: String,
+        /// Their thickness, mm.
+        wall_mm: f64,
+        /// Most tetrahedra there may be.
+        limit: usize,
+        /// A thickness that would do, mm.
+        enough_mm: f64,
+    },
     /// The body could not be baked.
     #[error("baking failed: {0}")]
     Bake(#[from] frangible_bake::BakeError),

@@ -183,7 +183,10 @@ const fn plain(shape: Shape) -> Opened {
 pub(crate) fn check_file(path: &Path, kind: FileKind) -> Result<(), SceneError> {
     let problem = match fs::metadata(path) {
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
-            "there is no such file; check its path".to_string()
+            match frangible_mesh::nearest_file(path) {
+                Some(name) => format!("there is no such file (did you mean `{name}`?)"),
+                None => "there is no such file; check its path".to_string(),
+            }
         }
         Err(error) => format!("the file cannot be read ({error})"),
         Ok(data) if data.is_dir() => "this is a folder; name a file in it".into(),

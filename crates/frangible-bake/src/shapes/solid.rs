@@ -21,8 +21,8 @@ const TETS_PER_CUBE: f64 = 12.6;
 /// first twenty modes, at 6 000 up to 2.5 %.
 const SHELL_ELEMENTS: f64 = 5000.0;
 
-/// Walls below this share of the longest side are thin.
-const THIN: f64 = 0.1;
+/// A wall above this share of the cube root of the volume is no thin one: a ball is 1.2 of it thick, a cube 1.
+const THICK: f64 = 0.5;
 
 /// A solid and how it is to be filled with tetrahedra.
 #[derive(Clone)]
@@ -68,11 +68,9 @@ pub(crate) fn ready(name: &str) -> Option<SolidShape> {
 
 /// Elements of the lattice that carries the modes.
 pub(crate) fn elements(shape: &SolidShape, size: Option<MeshSize>, volume: f64) -> usize {
-    let [low, high] = shape.solid.bounds();
-    let longest = (high - low).max_element();
     let elements = match (size, shape.wall) {
         (Some(size), _) => estimate(volume, size),
-        (None, Some(wall)) if wall < THIN * longest => SHELL_ELEMENTS,
+        (None, Some(wall)) if wall < THICK * volume.cbrt() => SHELL_ELEMENTS,
         (None, _) => super::ANALYSIS_TETS,
     };
     elements as usize

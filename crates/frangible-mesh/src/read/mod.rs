@@ -20,6 +20,7 @@ use std::path::Path;
 
 pub use error::ReadError;
 pub use format::MeshFormat;
+pub use nearest::nearest_file;
 
 use crate::InputMesh;
 

@@ -9,7 +9,8 @@ const LONGEST_NAME: usize = 64;
 const MOST_NEIGHBOURS: usize = 10_000;
 
 /// The name in the same folder that takes fewest edits, if that is at most a third of its letters.
-pub(crate) fn nearest_file(path: &Path) -> Option<String> {
+#[must_use]
+pub fn nearest_file(path: &Path) -> Option<String> {
     let wanted = path.file_name()?.to_str()?;
     let folder = path
         .parent()

@@ -4,7 +4,7 @@ use frangible::glam::Vec3;
 use frangible_bake::READY_SHAPES;
 
 use super::quantity::{finite, quantity, range};
-use super::{Fault, LONGEST_NAME, MAX_SPEED};
+use super::{Fault, LONGEST_NAME, MAX_SPEED, MOST_TETS};
 use crate::body::{BodySpec, Place};
 use crate::error::SceneError;
 use crate::source::BodySource;
@@ -99,7 +99,7 @@ pub(super) fn check_body(body: &BodySpec) -> Result<(), Fault> {
 
 fn check_resolution(tets: Option<usize>) -> Result<(), Fault> {
     match tets {
-        Some(tets) if !(500..=2_000_000).contains(&tets) => {
+        Some(tets) if !(500..=MOST_TETS).contains(&tets) => {
             let must = "500 to 2000000 tetrahedra";
             Err(quantity("resolution", "the resolution", tets, must))
         }

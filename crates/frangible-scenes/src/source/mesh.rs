@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use frangible_bake::{ImportOptions, import_mesh};
-use frangible_mesh::{InputMesh, read_mesh};
+use frangible_mesh::{InputMesh, RepairReport, read_mesh};
 
 use super::Opened;
 use crate::error::SceneError;
@@ -29,7 +29,12 @@ pub(super) fn shape(
         problem: error.to_string(),
     })?;
     let mut notes = Vec::new();
-    let mended = imported.mended.to_string();
+    // Welding is no news: every STL has its corners doubled, and every mesh with a texture its seams.
+    let mended = RepairReport {
+        welded: 0,
+        ..imported.mended
+    };
+    let mended = mended.to_string();
     if !mended.is_empty() {
         notes.push(format!("{}: {mended}", path.display()));
     }
