@@ -101,7 +101,7 @@ pub fn bake(
     let corners = (0..fine.tets.len()).map(|e| fine.corners(e));
     let centre = MassProperties::of_tetrahedra(spec.material.density, corners).centre;
     fine.translate(-centre);
-    let holder = holder.from_origin(centre);
+    let holder = holder.with_origin(centre);
     let fracture = TetMesh::new(
         fine.positions.iter().map(|p| p.as_vec3()).collect(),
         fine.tets.clone(),

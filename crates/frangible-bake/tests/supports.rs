@@ -2,8 +2,8 @@
 
 use std::f64::consts::{PI, TAU};
 
-use frangible::Material;
-use frangible::glam::DVec3;
+use frangible::glam::{DVec3, Vec3};
+use frangible::{Asset, Body, Contact, FractureConfig, Material, Outcome, Striker, impact};
 use frangible_bake::eigen::{Constraints, Modes, lowest_supported_modes, remaining_motions};
 use frangible_bake::fem::{
     Cover, Elasticity, Elements, QuadraticMesh, System, assemble, assemble_supported_cover,
@@ -299,6 +299,55 @@ fn an_asset_knows_its_supported_nodes() {
     }
     let (free, _) = bake(&small_plate(Vec::new()), &mut |_| {}).unwrap();
     assert!(!free.is_supported());
+}
+
+#[test]
+fn a_shelf_that_breaks_leaves_a_piece_in_the_wall() {
+    let mut spec = small_plate(vec![Support::clamped(Region::below(0, 0.03))]);
+    spec.modes = 30;
+    spec.analysis = Some(MeshSize {
+        edge: 0.02,
+        layers: 1,
+    });
+    spec.fracture = Some(MeshSize {
+        edge: 0.008,
+        layers: 1,
+    });
+    let (asset, _) = bake(&spec, &mut |_| {}).unwrap();
+    let read = Asset::from_bytes(&asset.to_bytes()).unwrap();
+    assert_eq!(read.supported, asset.supported);
+    let body = Body::new(read.into(), 1).unwrap();
+    let striker = Striker {
+        contact_modulus: 2.3e11,
+        inverse_effective_mass: 0.5,
+        curvature_radius: 0.02,
+        restitution: 0.5,
+    };
+    let hit = |speed: f32| Contact {
+        point: Vec3::new(0.09, 0.0, 0.005),
+        normal: Vec3::NEG_Z,
+        // Of a ball of 2 kg against what does not give way.
+        impulse: 1.5 * 2.0 * speed,
+        approach_speed: speed,
+        striker,
+    };
+    let config = FractureConfig::default();
+    let soft = impact(&body, &[hit(0.05)], &config).unwrap();
+    assert!(matches!(soft, Outcome::Held(_)));
+    let Outcome::Broke(fracture) = impact(&body, &[hit(6.0)], &config).unwrap() else {
+        panic!("it held");
+    };
+    let supported: Vec<bool> = fracture.fragments.iter().map(|f| f.supported).collect();
+    assert!(
+        supported.contains(&true) && supported.contains(&false),
+        "{supported:?}"
+    );
+    // Every supported piece reaches into the wall.
+    for fragment in fracture.fragments.iter().filter(|f| f.supported) {
+        let centre = fragment.mass.centre.as_vec3();
+        let lowest = fragment.mesh.positions.iter().map(|p| p.x + centre.x);
+        assert!(lowest.fold(f32::INFINITY, f32::min) < 0.03 - 0.1 + 1e-3);
+    }
 }
 
 #[test]
