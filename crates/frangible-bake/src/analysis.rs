@@ -3,11 +3,19 @@
 use frangible::asset::{AnalysisMesh, Embedding};
 use frangible::glam::DVec3;
 
+use crate::eigen::Constraints;
 use crate::embed::Locator;
 use crate::error::BakeError;
-use crate::fem::{Cover, Elasticity, Elements, QuadraticMesh, System, assemble, assemble_cover};
+use crate::fem::{
+    Cover, Elasticity, Elements, QuadraticMesh, System, assemble, assemble_supported_cover,
+};
 use crate::mesh::{BodyMesh, barycentric_gradients};
 use crate::report::MeshReport;
+use crate::supports::Holder;
+
+/// Of a support that the elements cannot see.
+const TOO_SMALL: &str = "holds a part of the body smaller than the elements that carry the modes; enlarge its region or refine the \
+     analysis mesh";
 
 /// What carries the modes.
 pub(crate) enum Analysis {
@@ -54,15 +62,32 @@ impl Analysis {
         }
     }
 
-    /// Stiffness and mass.
-    pub(crate) fn assemble(&self, material: &Elasticity) -> System {
+    /// Stiffness and mass, and what is held. `held`: axes of each node of the fine mesh, or nothing.
+    ///
+    /// Nodes of a conforming mesh are on the body: those within a support's region are held. Those of a lattice are
+    /// not: there springs hold the nodes of the fine mesh.
+    ///
+    /// # Errors
+    /// A support that holds no node of the conforming mesh, or supports that hold all of them.
+    pub(crate) fn assemble(
+        &self,
+        material: &Elasticity,
+        fine: &BodyMesh,
+        held: &[[bool; 3]],
+        holder: &Holder<'_>,
+    ) -> Result<(System, Constraints), BakeError> {
         match self {
-            Self::Conforming(mesh, _) => assemble(
-                &mesh.positions,
-                Elements::Quadratic(&mesh.elements),
-                material,
-            ),
-            Self::Covering(cover) => assemble_cover(cover, material),
+            Self::Conforming(mesh, _) => {
+                let elements = Elements::Quadratic(&mesh.elements);
+                let system = assemble(&mesh.positions, elements, material);
+                let held = holder.axes(&mesh.positions, TOO_SMALL)?;
+                let constraints = Constraints::of_nodes(&mesh.positions, &held);
+                Ok((system, constraints))
+            }
+            Self::Covering(cover) => Ok((
+                assemble_supported_cover(cover, material, fine, held),
+                Constraints::of_places(&fine.positions, held),
+            )),
         }
     }
 

@@ -10,13 +10,14 @@ use frangible_mesh::TetReport;
 
 use crate::analysis::Analysis;
 use crate::cells::convex_cells;
-use crate::eigen::lowest_modes;
+use crate::eigen::lowest_supported_modes;
 use crate::error::BakeError;
 use crate::fem::Elasticity;
 use crate::mesh::BodyMesh;
 use crate::peak_stress::peak_stress;
 use crate::report::{BakeReport, MeshReport, Progress, Stage};
 use crate::shapes::{self, MeshSize, Shape};
+use crate::supports::{Holder, Support};
 use crate::surface::{CREASE, SOLID_CREASE, outer_surface};
 
 /// What to bake.
@@ -38,6 +39,9 @@ pub struct BakeSpec {
     pub modes: usize,
     /// Seed of the irregularity of the fracture mesh, default 1.
     pub seed: u64,
+    /// What holds the body, default nothing. The asset has the modes of the held body, and knows which of its nodes are
+    /// held.
+    pub supports: Vec<Support>,
     /// The surface as its author drew it, m, in the frame of the shape; only carried along.
     pub render: Option<RenderSurface>,
 }
@@ -54,6 +58,7 @@ impl BakeSpec {
             fracture: None,
             modes: 120,
             seed: 1,
+            supports: Vec::new(),
             render: None,
         }
     }
@@ -88,9 +93,15 @@ pub fn bake(
         coarse,
         tetrahedra,
     } = meshes(spec)?;
+    let holder = Holder::new(&spec.supports, &fine.positions)?;
+    let held = holder.axes(
+        &fine.positions,
+        "holds no part of the body; move or enlarge its region",
+    )?;
     let corners = (0..fine.tets.len()).map(|e| fine.corners(e));
     let centre = MassProperties::of_tetrahedra(spec.material.density, corners).centre;
     fine.translate(-centre);
+    let holder = holder.with_origin(centre);
     let fracture = TetMesh::new(
         fine.positions.iter().map(|p| p.as_vec3()).collect(),
         fine.tets.clone(),
@@ -110,10 +121,10 @@ pub fn bake(
 
     clock.enter(Stage::Assemble);
     let elasticity = Elasticity::from(&spec.material);
-    let system = analysis.assemble(&elasticity);
+    let (system, constraints) = analysis.assemble(&elasticity, &fine, &held, &holder)?;
 
     clock.enter(Stage::Modes);
-    let modes = lowest_modes(&system, spec.modes, &mut |share| {
+    let modes = lowest_supported_modes(&system, &constraints, spec.modes, &mut |share| {
         (clock.progress)(Progress {
             stage: Stage::Modes,
             fraction: share,
@@ -144,7 +155,8 @@ pub fn bake(
         analysis: analysis.report(&fine),
         fracture: MeshReport::of(&fine),
         tetrahedra,
-        unknowns: modes.unknowns,
+        unknowns: modes.unknowns - constraints.unknowns().len(),
+        rigid_motions: modes.rigid_motions,
         frequencies: (0..spec.modes.min(10))
             .map(|i| modes.frequency(i))
             .collect(),
@@ -164,6 +176,9 @@ pub fn bake(
         mass,
         cells,
         cell_of_tet: fine.cell_of_tet,
+        supported: (0..held.len() as u32)
+            .filter(|&v| held[v as usize] != [false; 3])
+            .collect(),
         render: spec.render.as_ref().map(|r| moved(r, -centre)),
     };
     asset.validate()?;

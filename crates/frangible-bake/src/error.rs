@@ -58,6 +58,19 @@ pub enum BakeError {
         /// Its signed volume, m³.
         volume: f64,
     },
+    /// A support that cannot be used.
+    #[error("support {support} {problem}")]
+    Support {
+        /// Index of the support at fault.
+        support: usize,
+        /// What is wrong and how to mend it.
+        problem: &'static str,
+    },
+    /// Supports that leave nothing to move.
+    #[error(
+        "the supports hold the whole body, so that nothing is left to vibrate; make their regions smaller"
+    )]
+    AllHeld,
     /// More modes wanted than the analysis mesh has.
     #[error(
         "{wanted} modes wanted, but the analysis mesh has {available}; ask for 1 to {available}, or refine it"

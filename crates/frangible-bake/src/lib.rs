@@ -38,6 +38,7 @@ mod random;
 mod report;
 pub mod shapes;
 mod sheet;
+mod supports;
 pub mod surface;
 
 pub use bake::{BakeSpec, bake};
@@ -47,3 +48,4 @@ pub use import::{ImportOptions, Imported, import_mesh};
 pub use mesh::BodyMesh;
 pub use report::{BakeReport, MeshReport, Progress, Stage};
 pub use shapes::{MeshSize, READY_SHAPES, Shape, SolidShape, Station};
+pub use supports::{Region, Support};

@@ -82,6 +82,8 @@ pub struct BakeReport {
     pub tetrahedra: Option<TetReport>,
     /// Unknowns of the eigenvalue problem.
     pub unknowns: usize,
+    /// Rigid motions that the supports leave: six of a free body, none of a clamped one.
+    pub rigid_motions: usize,
     /// The first ten natural frequencies, Hz.
     pub frequencies: Vec<f64>,
     /// Largest relative residual ‖Kφ − λMφ‖ / ‖Kφ‖ of all modes.

@@ -24,9 +24,10 @@ pub struct Ball {
 impl BreakableWorld {
     /// A breakable body, its centre of mass at `pose`; `linvel` in m/s, `angvel` in rad/s.
     ///
-    /// Its collider is the compound of the asset's convex cells; mass and inertia are the asset's. To hold it
-    /// still (a pane in its frame), make it fixed in [`BreakableWorld::physics`], or tie it with impulse joints;
-    /// fragments are always dynamic.
+    /// Its collider is the compound of the asset's convex cells; mass and inertia are the asset's. A body whose asset
+    /// [is supported](frangible::Asset::is_supported) is a fixed one: it does not move, whatever the velocities, until it
+    /// breaks; then the fragments that are still supported stay where they are. Any other can be held by making it
+    /// fixed in [`BreakableWorld::physics`], or by impulse joints, but all its fragments are dynamic.
     ///
     /// # Errors
     /// A pose or velocity that is not finite, an asset whose mass is no positive number, a full world.
@@ -56,10 +57,12 @@ impl BreakableWorld {
         };
         let surface = SurfaceProperties::of(&body.asset.material, EDGE_RADIUS);
         surface.validate()?;
-        let builder = RigidBodyBuilder::dynamic()
-            .pose(pose)
-            .linvel(linvel)
-            .angvel(angvel);
+        let builder = if body.asset.is_supported() {
+            RigidBodyBuilder::fixed().pose(pose)
+        } else {
+            let builder = RigidBodyBuilder::dynamic().pose(pose);
+            builder.linvel(linvel).angvel(angvel)
+        };
         let handle = self.insert(builder.additional_mass_properties(mass), shape, surface);
         self.breakables.insert(key(handle), body);
         Ok(handle)

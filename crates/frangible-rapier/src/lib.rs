@@ -31,6 +31,10 @@
 //! (0.8 ms for 300 bodies); a body that breaks into 100 pieces costs about 8 ms, once. Resting worlds pay one
 //! pass over the velocities.
 //!
+//! # What is held
+//! A body whose asset has supports (a pane in its frame, a shelf in its wall) is fixed until it breaks; then the
+//! fragments with a supported node stay, the others fall.
+//!
 //! # What it does not do yet
 //! Fragments are plain bodies: they do not break again. Multibody joints of a broken body are released,
 //! impulse joints move to the fragment that holds them. Contacts below the impact threshold (resting

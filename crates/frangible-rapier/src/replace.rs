@@ -1,7 +1,9 @@
 //! A broken body gives way to its fragments.
 
 use frangible::{Fracture, Fragment};
-use rapier3d::dynamics::{MassProperties, RigidBody, RigidBodyBuilder, RigidBodyHandle};
+use rapier3d::dynamics::{
+    MassProperties, RigidBody, RigidBodyBuilder, RigidBodyHandle, RigidBodyType,
+};
 use rapier3d::geometry::{Aabb, Collider, ColliderBuilder, SharedShape};
 use rapier3d::math::{Pose, Vector};
 use rapier3d::parry::bounding_volume::BoundingVolume;
@@ -16,21 +18,34 @@ use crate::world::BreakableWorld;
 
 /// Shapes and masses of a fracture's fragments: built once, though a step may be undone more than once.
 pub(crate) struct Parts {
-    parts: Vec<(SharedShape, MassProperties, Vector)>,
+    parts: Vec<Part>,
+}
+
+struct Part {
+    shape: SharedShape,
+    mass: MassProperties,
+    /// Of mass, in the parent's frame, m.
+    centre: Vector,
+    supported: bool,
 }
 
 impl Parts {
     /// # Errors
     /// A fragment whose mass or moment of inertia is no positive number.
     pub(crate) fn new(fracture: &Fracture, config: &WorldConfig) -> Result<Self, WorldError> {
-        let part = |fragment: &Fragment| -> Result<_, WorldError> {
+        let part = |fragment: &Fragment| -> Result<Part, WorldError> {
             let mass = rapier_mass(&fragment.mass)?;
             let shape = if is_debris(fragment, config) {
                 debris_shape(fragment)
             } else {
                 fragment_shape(fragment, config.hull_volume_ratio)
             };
-            Ok((shape, mass, fragment.mass.centre.as_vec3()))
+            Ok(Part {
+                shape,
+                mass,
+                centre: fragment.mass.centre.as_vec3(),
+                supported: fragment.supported,
+            })
         };
         Ok(Self {
             parts: fracture
@@ -48,7 +63,8 @@ pub(crate) fn is_debris(fragment: &Fragment, config: &WorldConfig) -> bool {
 
 impl BreakableWorld {
     /// Puts fragments in the place of `parent`, each moving as the piece of the rigid body it was:
-    /// v + ω × r, same ω. Neither momentum nor angular momentum nor kinetic energy changes.
+    /// v + ω × r, same ω. Neither momentum nor angular momentum nor kinetic energy changes. Of a fixed parent the
+    /// supported fragments are fixed, the others start from rest.
     pub(crate) fn replace(
         &mut self,
         parent: RigidBodyHandle,
@@ -64,15 +80,15 @@ impl BreakableWorld {
             .cloned();
         let bounds = self.bounds(&body);
         let mut fragments = Vec::with_capacity(parts.parts.len());
-        for (shape, mass, centre) in &parts.parts {
-            let builder = fragment_body(&body, *centre).additional_mass_properties(*mass);
+        for part in &parts.parts {
+            let builder = fragment_body(&body, part).additional_mass_properties(part.mass);
             let handle = self.physics.bodies.insert(builder);
-            let collider = fragment_collider(shape.clone(), skin.as_ref());
+            let collider = fragment_collider(part.shape.clone(), skin.as_ref());
             self.physics.insert_collider(collider, Some(handle));
             if let Some(fragment) = self.physics.bodies.get_mut(handle) {
                 fragment.recompute_mass_properties_from_colliders(&self.physics.colliders);
             }
-            fragments.push((handle, *centre));
+            fragments.push((handle, part.centre));
         }
         hand_over_joints(
             &mut self.physics,
@@ -115,10 +131,15 @@ impl BreakableWorld {
     }
 }
 
-fn fragment_body(parent: &RigidBody, centre: Vector) -> RigidBodyBuilder {
+fn fragment_body(parent: &RigidBody, part: &Part) -> RigidBodyBuilder {
     let pose = *parent.position();
-    let position = pose * centre;
-    let mut builder = RigidBodyBuilder::dynamic()
+    let position = pose * part.centre;
+    let kind = if part.supported && parent.is_fixed() {
+        RigidBodyType::Fixed
+    } else {
+        RigidBodyType::Dynamic
+    };
+    let mut builder = RigidBodyBuilder::new(kind)
         .pose(Pose::from_parts(position, pose.rotation))
         .linvel(parent.velocity_at_point(position))
         .angvel(parent.angvel())

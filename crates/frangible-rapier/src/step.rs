@@ -10,7 +10,8 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use frangible::{Fracture, Outcome};
-use rapier3d::dynamics::{RigidBodyHandle, RigidBodySet};
+use rapier3d::dynamics::{RigidBody, RigidBodyHandle, RigidBodySet};
+use rapier3d::math::Vector;
 
 use crate::approach::candidates;
 use crate::contacts::{Impact, Surfaces, impact_on};
@@ -288,19 +289,24 @@ impl BreakableWorld {
             .sum();
         let dt = self.physics.integration_parameters.dt;
         let gravity = self.physics.gravity;
-        let fall = |bodies: &RigidBodySet, handle: RigidBodyHandle| {
-            bodies
-                .get(handle)
-                .filter(|b| b.is_dynamic())
-                .map_or(0.0, |b| {
-                    let pull = gravity * b.gravity_scale();
-                    f64::from(b.mass() * (pull * dt).dot(b.linvel() + 0.5 * dt * pull))
-                })
+        let fall = |body: &RigidBody, start: Vector| {
+            let pull = gravity * body.gravity_scale();
+            f64::from(body.mass() * (pull * dt).dot(start + 0.5 * dt * pull))
         };
-        let work: f64 = std::iter::once(&parent)
-            .chain(strikers)
-            .map(|&h| fall(before, h))
-            .sum();
+        let dynamic = |bodies: &RigidBodySet, handle: RigidBodyHandle, start: Option<Vector>| {
+            let body = bodies.get(handle).filter(|b| b.is_dynamic());
+            body.map_or(0.0, |b| fall(b, start.unwrap_or(b.linvel())))
+        };
+        let movers = std::iter::once(&parent).chain(strikers);
+        let mut work: f64 = movers.map(|&h| dynamic(before, h, None)).sum();
+        // Fragments of what was held begin their fall with the step.
+        if before.get(parent).is_some_and(|b| !b.is_dynamic()) {
+            let bodies = &self.physics.bodies;
+            let falls = fragments
+                .iter()
+                .map(|&h| dynamic(bodies, h, Some(Vector::ZERO)));
+            work += falls.sum::<f64>();
+        }
         end - start - work.max(0.0)
     }
 }

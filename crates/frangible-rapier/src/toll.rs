@@ -3,8 +3,9 @@
 //! The group of fragments and strikers has a common rigid motion: the one with its momentum P and angular
 //! momentum L. Every body's deviation from it is scaled by √(1 − E/T), T the deviations' kinetic energy: the sum
 //! of deviations carries no P and no L, so both stay; the energy falls by E exactly, or by T if E is more
-//! (the pieces then move as one). With a striker that cannot move, P and L are the Earth's business:
-//! then the common motion is the striker's own, so that the toll comes from the fall that broke the body.
+//! (the pieces then move as one). With a striker or a fragment that cannot move, P and L are the Earth's business:
+//! then the common motion is its own, so that the toll comes from the fall that broke the body, or from the striker
+//! that broke what was held.
 
 use frangible::glam::{DMat3, DVec3};
 use rapier3d::dynamics::{RigidBody, RigidBodyHandle, RigidBodySet, RigidBodyVelocity};
@@ -30,8 +31,9 @@ pub(crate) fn take_energy(
     }
     let mut group: Vec<RigidBodyHandle> = fragments.iter().chain(strikers).copied().collect();
     group.retain(|&handle| bodies.get(handle).is_some_and(RigidBody::is_dynamic));
-    let immovable = strikers
+    let immovable = fragments
         .iter()
+        .chain(strikers)
         .filter_map(|&s| bodies.get(s))
         .find(|s| !s.is_dynamic());
     let Some(common) = immovable

@@ -6,7 +6,7 @@ use frangible::Asset;
 use frangible_bake::{BakeError, BakeReport, BakeSpec, Progress};
 use frangible_mesh::TetError;
 
-use crate::body::BodySpec;
+use crate::body::{BodySpec, Support};
 use crate::check::MOST_TETS;
 use crate::error::SceneError;
 use crate::scene::Scene;
@@ -65,8 +65,8 @@ pub fn bake_opened(
     let mut baked: Vec<BakedBody> = Vec::with_capacity(scene.bodies.len());
     for (i, (body, source)) in scene.bodies.iter().zip(opened).enumerate() {
         let same = |other: &BodySpec| {
-            (&other.source, &other.material, other.modes)
-                == (&body.source, &body.material, body.modes)
+            (&other.source, &other.material, other.modes, &other.supports)
+                == (&body.source, &body.material, body.modes, &body.supports)
         };
         baked.push(match (scene.bodies[..i].iter().position(same), source) {
             (Some(known), _) => baked[known].clone(),
@@ -78,6 +78,7 @@ pub fn bake_opened(
                 let spec = BakeSpec {
                     modes: body.modes,
                     render: render.map(|r| *r),
+                    supports: body.supports.iter().map(Support::clamped).collect(),
                     ..BakeSpec::new(&body.name, shape, body.material.clone())
                 };
                 let (asset, report) =

@@ -1,7 +1,8 @@
 //! One breakable body of a scene.
 
 use frangible::Material;
-use frangible::glam::{Quat, Vec3};
+use frangible::glam::{DVec3, Quat, Vec3};
+use frangible_bake::Region;
 
 use crate::source::BodySource;
 
@@ -24,7 +25,8 @@ pub struct BodySpec {
     pub velocity: Vec3,
     /// Angular velocity at the start, rad/s.
     pub spin: Vec3,
-    /// Where it is held.
+    /// Where it is held: what these hold stays where it is, also after the break. Part of the bake, so that a
+    /// [`BodySource::Asset`] brings its own.
     pub supports: Vec<Support>,
 }
 
@@ -61,6 +63,24 @@ pub enum Support {
         /// Its radius.
         radius: f64,
     },
+}
+
+impl Support {
+    /// As the bake takes it: held along all axes.
+    pub(crate) fn clamped(&self) -> frangible_bake::Support {
+        let region = match *self {
+            Self::Below(z) => Region::below(2, z),
+            Self::Box([low, high]) => Region::Box {
+                low: DVec3::from_array(low),
+                high: DVec3::from_array(high),
+            },
+            Self::Sphere { centre, radius } => Region::Sphere {
+                centre: DVec3::from_array(centre),
+                radius,
+            },
+        };
+        frangible_bake::Support::clamped(region)
+    }
 }
 
 impl BodySpec {

@@ -102,9 +102,6 @@ pub enum SceneError {
         /// Baked bodies.
         given: usize,
     },
-    /// Something this version cannot do.
-    #[error("{0} are not built yet")]
-    NotBuilt(&'static str),
     /// A file of a baked body that cannot be read or written.
     #[error(transparent)]
     Asset(#[from] frangible::AssetFileError),

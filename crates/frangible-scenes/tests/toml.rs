@@ -275,14 +275,9 @@ fn wrong_types_and_unusable_values_are_told_with_their_line() {
         ),
         (body("velocity = [0, 500, 0]"), 4, "at most 300 m/s"),
         (
-            body("supports = [{ below = 0.01 }]"),
-            4,
-            "supports are not built yet",
-        ),
-        (
-            body("supports = [{ sphere = { centre = [0, 0, 0], radius = 1 } }]"),
-            4,
-            "not built yet",
+            "[[body]]\nasset = \"a.frangible\"\nsupports = [{ below = 0.01 }]".into(),
+            3,
+            "part of a baked body",
         ),
         (
             "[[body]]\nshape = { box = [1, 0, 1] }".into(),

@@ -43,6 +43,8 @@ pub struct Fragment {
     pub mass: MassProperties,
     /// The piece's share of the parent's convex cells: cell number and the corner points of the share, m, fragment frame.
     pub cell_shares: Vec<(u32, Vec<Vec3>)>,
+    /// Whether it has one of the [supported nodes](crate::Asset::supported): something outside still holds it.
+    pub supported: bool,
 }
 
 /// Numbers of one impact, SI units.

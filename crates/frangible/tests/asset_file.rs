@@ -20,6 +20,7 @@ fn tiny() -> Asset {
         modes: 3,
     });
     Asset {
+        supported: vec![1, 4, 7],
         render: Some(drawn_surface()),
         ..asset
     }
@@ -92,15 +93,19 @@ impl Drop for Folder {
 #[test]
 fn an_asset_comes_back_bit_for_bit() {
     let whole = tiny();
+    let free = Asset {
+        supported: Vec::new(),
+        ..whole.clone()
+    };
     let plain = Asset {
         render: None,
-        ..whole.clone()
+        ..free.clone()
     };
     let bare = Asset {
         render: Some(RenderSurface::default()),
         ..whole.clone()
     };
-    for asset in [whole, plain, bare] {
+    for asset in [whole, free, plain, bare] {
         let bytes = asset.to_bytes();
         let back = Asset::from_bytes(&bytes).unwrap();
         assert!(same(&asset, &back));
@@ -264,9 +269,32 @@ fn another_version_is_refused_before_anything_else_is_believed() {
         Asset::from_bytes(&bytes).unwrap_err(),
         AssetFileError::Version {
             found: 7,
-            supported: 1
+            supported: 2
         }
     );
+}
+
+#[test]
+fn a_free_body_is_written_in_the_first_version_and_a_held_one_is_not() {
+    let held = tiny();
+    let free = Asset {
+        supported: Vec::new(),
+        ..tiny()
+    };
+    assert_eq!(u32_at(&held.to_bytes(), 16), 2);
+    assert_eq!(u32_at(&free.to_bytes(), 16), 1);
+    // The first version knew nothing of supports.
+    let mut older = held.to_bytes();
+    put(&mut older, 16, &1_u32.to_le_bytes());
+    assert!(same(&Asset::from_bytes(&older).unwrap(), &free));
+    // The second is for bodies that are held.
+    let mut loose = free.to_bytes();
+    put(&mut loose, 16, &2_u32.to_le_bytes());
+    assert!(section_problem(&loose).contains("supported nodes: is missing"));
+    let mut empty = held.to_bytes();
+    let at = entry_of(&empty, 99) + 16;
+    put(&mut empty, at, &0_u64.to_le_bytes());
+    assert!(section_problem(&empty).contains("supported nodes: is empty"));
 }
 
 #[test]
@@ -356,7 +384,13 @@ fn sections_of_unknown_number_are_skipped() {
 fn arrays_that_do_not_fit_are_refused() {
     let nan = f32::NAN;
     type Change = fn(&mut Asset);
-    let cases: [(Change, &str); 34] = [
+    let cases: [(Change, &str); 37] = [
+        (
+            |a| a.supported[1] = 8,
+            "supported node 1 lies beyond the 8 nodes",
+        ),
+        (|a| a.supported[1] = 1, "supported nodes do not rise"),
+        (|a| a.supported.reverse(), "supported nodes do not rise"),
         (|a| a.material.density = f64::NAN, "density"),
         (|a| a.mass.mass = 0.0, "its mass is 0"),
         (|a| a.mass.volume = f64::INFINITY, "its volume is inf"),

@@ -42,17 +42,16 @@ pub(crate) fn add_shift(
                 values[first] += shift;
             }
         }
-        Metric::Mass(matrix) => {
+        Metric::Mass { matrix, axes } => {
             let (blocks, masses) = matrix.parts();
             for j in 0..pattern.ncols() {
-                let mut block = blocks.col_range(j / 3);
+                let mut block = blocks.col_range(j / axes).peekable();
                 for entry in pattern.col_range(j) {
-                    // Each 3 × 3 block holds its mass once per column, on its diagonal.
+                    // Rows rise in both, and the stiffness has an entry wherever the mass has one.
                     let row = pattern.row_idx()[entry];
-                    if row % 3 == j % 3
-                        && let Some(at) = block.next()
+                    if row % axes == j % axes
+                        && let Some(at) = block.next_if(|&at| blocks.row_idx()[at] == row / axes)
                     {
-                        debug_assert_eq!(blocks.row_idx()[at], row / 3);
                         values[entry] += shift * masses[at];
                     }
                 }
@@ -70,7 +69,7 @@ fn highest(scaled: &SparseColMat<usize, f64>, metric: &Metric) -> f64 {
         .collect();
     match metric {
         Metric::Plain => diagonal.into_iter().fold(0.0, f64::max),
-        Metric::Mass(_) => {
+        Metric::Mass { .. } => {
             diagonal.sort_unstable_by(f64::total_cmp);
             diagonal[diagonal.len() / 2]
         }

@@ -12,8 +12,12 @@ use crate::fem::{Mass, multiply_symmetric};
 pub(crate) enum Metric {
     /// B = I, since the mass is lumped.
     Plain,
-    /// Lower triangle of B over pairs of nodes, unit diagonal.
-    Mass(SparseColMat<usize, f64>),
+    /// Lower triangle of B, unit diagonal, each entry for the diagonal ones of a block of `axes` unknowns: three where
+    /// none of a node's is missing.
+    Mass {
+        matrix: SparseColMat<usize, f64>,
+        axes: usize,
+    },
 }
 
 impl Metric {
@@ -29,17 +33,20 @@ impl Metric {
                 values[entry] *= inverse_root[3 * pattern.row_idx()[entry]] * inverse_root[3 * j];
             }
         }
-        Self::Mass(scaled)
+        Self::Mass {
+            matrix: scaled,
+            axes: 3,
+        }
     }
 
     /// B x, column by column.
     pub(crate) fn image<'a>(&self, x: &'a Block) -> Cow<'a, Block> {
         match self {
             Self::Plain => Cow::Borrowed(x),
-            Self::Mass(matrix) => {
+            Self::Mass { matrix, axes } => {
                 let mut image = Block::zeros(x.rows, x.columns());
                 for j in 0..x.columns() {
-                    multiply_symmetric(matrix, 3, x.column(j), image.column_mut(j));
+                    multiply_symmetric(matrix, *axes, x.column(j), image.column_mut(j));
                 }
                 Cow::Owned(image)
             }
@@ -58,7 +65,7 @@ impl Metric {
                 };
                 Some((basis, r))
             }
-            Self::Mass(_) => {
+            Self::Mass { .. } => {
                 let mut images = self.image(&w).into_owned();
                 let r = orthonormalise_pair(&mut w, &mut images)?;
                 let basis = Basis {
@@ -139,6 +146,12 @@ impl Basis {
 
     /// w −= v vᵀ B w with the columns `from..to`; gives vᵀ B w.
     pub(crate) fn project_out(&self, w: &mut Block, from: usize, to: usize) -> Block {
+        if from == to {
+            return Block {
+                data: Vec::new(),
+                rows: 1,
+            };
+        }
         let c = inner(self.images().part(from, to), w.view());
         subtract(w, self.vectors.part(from, to), c.view());
         c

@@ -1,26 +1,33 @@
-//! The lowest vibration modes of a free body.
+//! The lowest vibration modes of a body, free or held.
 //!
 //! K φ = λ M φ becomes A x = λ B x with A = D K D, B = D M D, φ = D x and D = diag(M)^-½; B = I where the
 //! mass is lumped. A + sB is factorized once; block Lanczos on (A + sB)⁻¹ B, the six rigid motions
 //! deflated analytically, finds the lowest modes: λ = 1/θ − s. Everything runs in a fixed order, so
 //! the bits do not depend on the number of threads. Small systems are solved densely.
+//!
+//! Of a held body the unknowns that are zero are taken out, and only the rigid motions that its supports leave are
+//! deflated: none of a clamped one.
 
 mod basis;
+mod constraints;
 mod dense;
 mod factor;
 mod lanczos;
 mod metric;
+mod reduce;
 mod residual;
 mod rigid;
 
+pub use constraints::Constraints;
 pub use residual::residual;
-pub use rigid::rigid_motions;
+pub use rigid::{remaining_motions, rigid_motions};
 
 use crate::error::BakeError;
 use crate::fem::System;
 use basis::Block;
 use factor::Shifted;
 use metric::Metric;
+use reduce::Reduction;
 
 /// Unknowns up to which the dense solver is used.
 const DENSE: usize = 800;
@@ -36,6 +43,8 @@ pub struct Modes {
     pub unknowns: usize,
     /// Largest relative residual ‖Kφ − λMφ‖ / ‖Kφ‖ of all modes.
     pub max_residual: f64,
+    /// Rigid motions that nothing holds: six of a free body, none of a clamped one.
+    pub rigid_motions: usize,
 }
 
 impl Modes {
@@ -62,16 +71,41 @@ pub fn lowest_modes(
     wanted: usize,
     progress: &mut dyn FnMut(f64),
 ) -> Result<Modes, BakeError> {
-    let n = system.unknowns();
-    let available = n.saturating_sub(6);
+    lowest_supported_modes(system, &Constraints::default(), wanted, progress)
+}
+
+/// The same of a body that is held. Shapes have an entry for every unknown, zero where it is held.
+///
+/// # Errors
+/// As [`lowest_modes`]; [`BakeError::AllHeld`] when nothing is left to move.
+pub fn lowest_supported_modes(
+    system: &System,
+    constraints: &Constraints,
+    wanted: usize,
+    progress: &mut dyn FnMut(f64),
+) -> Result<Modes, BakeError> {
+    let reduction = Reduction::new(system.unknowns(), constraints.unknowns());
+    let reduction = reduction.as_ref();
+    let n = reduction.map_or(system.unknowns(), Reduction::unknowns);
+    if n == 0 {
+        return Err(BakeError::AllHeld);
+    }
+    let remaining = remaining_motions(system, constraints);
+    let available = n.saturating_sub(remaining.len());
     if wanted == 0 || wanted > available {
         return Err(BakeError::Modes { wanted, available });
     }
     let diagonal = system.mass.diagonal();
-    let inverse_root: Vec<f64> = (0..n).map(|i| 1.0 / diagonal[i / 3].sqrt()).collect();
-    let metric = Metric::new(&system.mass, &inverse_root);
-    let rigid = rigid::deflation_basis(system, &metric)?;
-    let scaled = factor::scale(system, &inverse_root);
+    let inverse_root: Vec<f64> = (0..system.unknowns())
+        .map(|i| 1.0 / diagonal[i / 3].sqrt())
+        .collect();
+    let mut metric = Metric::new(&system.mass, &inverse_root);
+    let mut scaled = factor::scale(system, &inverse_root);
+    if let Some(reduction) = reduction {
+        metric = reduction.metric(&metric);
+        scaled = reduction.matrix(&scaled, 1);
+    }
+    let rigid = rigid::deflation_basis(system, &remaining, reduction, &metric)?;
     let small = n <= DENSE || wanted > n / 5;
     let (eigenvalues, vectors) = if small && matches!(metric, Metric::Plain) {
         dense::solve(&scaled, &rigid.vectors, wanted)?
@@ -87,8 +121,13 @@ pub fn lowest_modes(
             })?
         }
     };
+    let vectors = match reduction {
+        Some(reduction) => reduction.scatter(&vectors),
+        None => vectors,
+    };
     let mut modes = finish(eigenvalues, vectors, &inverse_root);
-    modes.max_residual = residual::check(system, &modes)?;
+    modes.rigid_motions = remaining.len();
+    modes.max_residual = residual::check(system, reduction, &modes)?;
     Ok(modes)
 }
 
@@ -112,5 +151,6 @@ fn finish(eigenvalues: Vec<f64>, vectors: Block, inverse_root: &[f64]) -> Modes 
         shapes,
         unknowns,
         max_residual: 0.0,
+        rigid_motions: 0,
     }
 }

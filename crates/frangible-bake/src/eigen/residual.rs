@@ -1,6 +1,7 @@
 //! Does a mode solve the eigenvalue problem? Checked for every mode that is given out.
 
 use crate::eigen::Modes;
+use crate::eigen::reduce::Reduction;
 use crate::error::BakeError;
 use crate::fem::{Mass, System};
 
@@ -11,8 +12,22 @@ const LIMIT: f64 = 1e-8;
 /// the rounding of Kφ itself where that is more (on a thin plate it is 5e-8).
 #[must_use]
 pub fn residual(system: &System, eigenvalue: f64, shape: &[f64]) -> (f64, f64) {
+    residual_of(system, None, eigenvalue, shape)
+}
+
+/// The same over the unknowns that are left: what holds the others bears their forces.
+fn residual_of(
+    system: &System,
+    reduction: Option<&Reduction>,
+    eigenvalue: f64,
+    shape: &[f64],
+) -> (f64, f64) {
+    let left = |i: usize| reduction.is_none_or(|r| r.is_free(i));
+    let norm = |v: &[f64]| {
+        let entries = v.iter().enumerate().filter(|(i, _)| left(*i));
+        entries.map(|(_, x)| x * x).sum::<f64>().sqrt()
+    };
     let k = system.multiply(shape);
-    let norm = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
     let rest: Vec<f64> = match &system.mass {
         Mass::Lumped(mass) => (0..k.len())
             .map(|i| k[i] - eigenvalue * mass[i / 3] * shape[i])
@@ -34,10 +49,14 @@ pub fn residual(system: &System, eigenvalue: f64, shape: &[f64]) -> (f64, f64) {
 }
 
 /// Largest relative residual, or the first mode above its limit.
-pub(crate) fn check(system: &System, modes: &Modes) -> Result<f64, BakeError> {
+pub(crate) fn check(
+    system: &System,
+    reduction: Option<&Reduction>,
+    modes: &Modes,
+) -> Result<f64, BakeError> {
     let mut largest = 0.0_f64;
     for (mode, &eigenvalue) in modes.eigenvalues.iter().enumerate() {
-        let (residual, limit) = residual(system, eigenvalue, modes.shape(mode));
+        let (residual, limit) = residual_of(system, reduction, eigenvalue, modes.shape(mode));
         if residual.is_nan() || residual > limit {
             return Err(BakeError::Residual {
                 mode,

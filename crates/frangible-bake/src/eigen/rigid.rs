@@ -1,9 +1,11 @@
-//! The six motions that deform nothing: three translations, three rotations.
+//! The six motions that deform nothing: three translations, three rotations; and which of them supports leave.
 
 use frangible::glam::DVec3;
 
 use crate::eigen::basis::Block;
+use crate::eigen::constraints::Constraints;
 use crate::eigen::metric::{Basis, Metric};
+use crate::eigen::reduce::Reduction;
 use crate::error::BakeError;
 use crate::fem::System;
 
@@ -11,15 +13,7 @@ use crate::fem::System;
 /// translations, then rotations by one radian about axes through the centre of mass.
 #[must_use]
 pub fn rigid_motions(system: &System) -> Vec<Vec<f64>> {
-    let shares = system.mass.row_sums();
-    let mass: f64 = shares.iter().sum();
-    let centre = system
-        .positions
-        .iter()
-        .zip(&shares)
-        .map(|(x, m)| *x * *m)
-        .sum::<DVec3>()
-        / mass;
+    let centre = centre_of_mass(system);
     let motion = |f: &dyn Fn(DVec3) -> DVec3| {
         system
             .positions
@@ -36,14 +30,48 @@ pub fn rigid_motions(system: &System) -> Vec<Vec<f64>> {
     motions
 }
 
-/// B-orthonormal basis of D⁻¹ × rigid motions, D = diag(M)^-½.
-pub(crate) fn deflation_basis(system: &System, metric: &Metric) -> Result<Basis, BakeError> {
+fn centre_of_mass(system: &System) -> DVec3 {
+    let shares = system.mass.row_sums();
+    let mass: f64 = shares.iter().sum();
+    let places = system.positions.iter().zip(&shares);
+    places.map(|(x, m)| *x * *m).sum::<DVec3>() / mass
+}
+
+/// Displacements of the rigid motions that the constraints leave, one after another, 3 × nodes numbers each:
+/// [`rigid_motions`] of a free body, none of one that is clamped.
+#[must_use]
+pub fn remaining_motions(system: &System, constraints: &Constraints) -> Vec<Vec<f64>> {
+    let all = rigid_motions(system);
+    let centre = centre_of_mass(system);
+    let reach = system.positions.iter().map(|x| x.distance(centre));
+    let reach = reach.fold(0.0, f64::max);
+    let Some(free) = constraints.free_motions(centre, reach) else {
+        return all;
+    };
+    let combined = |coefficients: [f64; 6]| -> Vec<f64> {
+        (0..system.unknowns())
+            .map(|i| (0..6).map(|k| coefficients[k] * all[k][i]).sum())
+            .collect()
+    };
+    free.into_iter().map(combined).collect()
+}
+
+/// B-orthonormal basis of D⁻¹ × rigid motions over the unknowns that are left, D = diag(M)^-½.
+pub(crate) fn deflation_basis(
+    system: &System,
+    remaining: &[Vec<f64>],
+    reduction: Option<&Reduction>,
+    metric: &Metric,
+) -> Result<Basis, BakeError> {
     let diagonal = system.mass.diagonal();
-    let mut motions = Block::zeros(system.unknowns(), 6);
-    for (j, motion) in rigid_motions(system).iter().enumerate() {
+    let mut motions = Block::zeros(system.unknowns(), remaining.len());
+    for (j, motion) in remaining.iter().enumerate() {
         for (i, (to, from)) in motions.column_mut(j).iter_mut().zip(motion).enumerate() {
             *to = from * diagonal[i / 3].sqrt();
         }
+    }
+    if let Some(reduction) = reduction {
+        motions = reduction.columns(&motions);
     }
     match metric.orthonormalise(motions) {
         Some((basis, _)) => Ok(basis),

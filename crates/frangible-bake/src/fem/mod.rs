@@ -12,7 +12,7 @@ mod pattern;
 mod quadratic;
 
 pub use assembly::{Elements, System, assemble};
-pub use cover::{Cover, assemble_cover};
+pub use cover::{Cover, assemble_cover, assemble_supported_cover};
 pub use element::{Elasticity, stiffness_t4, stiffness_t10};
 pub use mass::Mass;
 pub(crate) use mass::multiply_symmetric;

@@ -87,6 +87,7 @@ pub fn box_asset(half: Vec3, cells: [usize; 3]) -> Arc<Asset> {
         modes: ModalBasis::default(),
         cells: convex,
         cell_of_tet,
+        supported: Vec::new(),
         render: None,
     })
 }
@@ -157,6 +158,7 @@ fn block(centre: Vec3, half: Vec3, overlap: f32) -> Fragment {
         mesh,
         mass: block_mass(centre, half),
         cell_shares,
+        supported: false,
     }
 }
 

@@ -91,8 +91,9 @@ pub(super) fn check_body(body: &BodySpec) -> Result<(), Fault> {
         1e3,
         "at most 1000 rad/s",
     )?;
-    if !body.supports.is_empty() {
-        return Err(Fault::new("supports", SceneError::NotBuilt("supports")));
+    if !body.supports.is_empty() && matches!(body.source, BodySource::Asset(_)) {
+        let problem = "`supports` are part of a baked body; bake it again to change them";
+        return Err(Fault::new("supports", SceneError::Clash(problem.into())));
     }
     Ok(())
 }

@@ -40,9 +40,20 @@ pub struct Asset {
     pub cells: Vec<ConvexCell>,
     /// Convex cell of each fracture tetrahedron: one index into [`Asset::cells`] per tetrahedron.
     pub cell_of_tet: Vec<u32>,
+    /// Nodes of the fracture mesh that something outside holds, rising; empty for a free body. The modes are those of
+    /// the body held there, and a fragment with such a node stays where it is.
+    pub supported: Vec<u32>,
     /// The surface as its author drew it, kept for drawing and for clipping; physics never reads it.
     /// `None` where the fracture mesh's own surface is all there is.
     pub render: Option<RenderSurface>,
+}
+
+impl Asset {
+    /// Whether something outside holds the body: a pane in its frame, a shelf in its wall.
+    #[must_use]
+    pub fn is_supported(&self) -> bool {
+        !self.supported.is_empty()
+    }
 }
 
 /// Outer boundary of the fracture mesh, oriented outwards.

@@ -31,6 +31,7 @@ impl Asset {
         self.check_analysis()?;
         self.check_modes()?;
         self.check_cells()?;
+        self.check_supported()?;
         self.render.as_ref().map_or(Ok(()), render)
     }
 
@@ -151,6 +152,19 @@ impl Asset {
                 )
             },
         )
+    }
+
+    fn check_supported(&self) -> Check {
+        let (supported, nodes) = (&self.supported, self.fracture.positions.len());
+        all(
+            supported,
+            |&v| (v as usize) < nodes,
+            |i| format!("supported node {i} lies beyond the {nodes} nodes there are"),
+        )?;
+        let rising = supported.is_sorted_by(|a, b| a < b);
+        rising
+            .then_some(())
+            .ok_or_else(|| "the supported nodes do not rise from one to the next".into())
     }
 }
 

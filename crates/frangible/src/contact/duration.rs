@@ -83,7 +83,13 @@ fn touch_duration(asset: &Asset, touch: &Touch, model: DurationModel) -> f64 {
 
 fn touch_hertz(asset: &Asset, touch: &Touch) -> f64 {
     let striker = &touch.contact.striker;
-    let mass = 1.0 / (touch.inverse_effective_mass + f64::from(striker.inverse_effective_mass));
+    let inverse = touch.inverse_effective_mass + f64::from(striker.inverse_effective_mass);
+    // Neither gives way when a held body is hit by an immovable one; the body's own mass stands in.
+    let mass = if inverse > 0.0 {
+        1.0 / inverse
+    } else {
+        asset.mass.mass
+    };
     let modulus =
         1.0 / (1.0 / asset.material.contact_modulus() + 1.0 / f64::from(striker.contact_modulus));
     let own = touch.curvature_radius.max(SHARPEST_RADIUS);

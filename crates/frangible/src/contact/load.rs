@@ -16,7 +16,7 @@ pub struct Touch {
     pub modal_shape: Vec<f64>,
     /// Radius of curvature of the body there, m; infinite where flat.
     pub curvature_radius: f64,
-    /// nᵀ K n of the body there, 1/kg.
+    /// nᵀ K n of the body there, 1/kg; zero where it is held, since it does not give way as a whole.
     pub inverse_effective_mass: f64,
 }
 
@@ -64,9 +64,13 @@ pub fn modal_load(asset: &Asset, contacts: &[Contact]) -> Load {
             },
             modal_shape,
             curvature_radius: f64::from(asset.surface.curvature_radius[triangle]),
-            inverse_effective_mass: asset
-                .mass
-                .inverse_effective_mass(point.as_dvec3(), normal.as_dvec3()),
+            inverse_effective_mass: if asset.is_supported() {
+                0.0
+            } else {
+                asset
+                    .mass
+                    .inverse_effective_mass(point.as_dvec3(), normal.as_dvec3())
+            },
         });
     }
     Load {

@@ -74,6 +74,7 @@ struct Draft {
     inner: Vec<[u32; 3]>,
     cracks: Vec<[Vec3; 3]>,
     shares: Vec<(u32, u32)>,
+    supported: bool,
 }
 
 /// Builds all fragments, largest first.
@@ -123,6 +124,9 @@ pub(crate) fn build(system: &CrackSystem, labels: &Labels) -> Vec<Fragment> {
                 .outer_normals
                 .push(points.map(|p| interpolated_normal(p, triangle, normals, &labels.cuts)));
         });
+    }
+    for &v in &asset.supported {
+        drafts[label(v) as usize].supported = true;
     }
     partial_cracks(system, labels, &mut drafts);
     let density = asset.material.density;
@@ -232,6 +236,7 @@ fn finish(draft: Draft, positions: &[DVec3], local: &mut [u32], density: f64) ->
         },
         mass,
         cell_shares,
+        supported: draft.supported,
     }
 }
 

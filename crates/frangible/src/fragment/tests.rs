@@ -87,6 +87,7 @@ fn block(n: usize) -> Asset {
         modes: ModalBasis::default(),
         mass,
         cells: vec![ConvexCell::default()],
+        supported: Vec::new(),
         render: None,
     }
 }
@@ -139,6 +140,47 @@ fn fragments_of_arbitrary_labels_tile_the_body_and_are_closed() {
         let first: glam::DVec3 = fragments.iter().map(|f| f.mass.centre * f.mass.mass).sum();
         let density = asset.material.density;
         assert!((first / (whole * density) - asset.mass.centre).length() < 1e-12);
+    }
+}
+
+#[test]
+fn the_fragment_that_holds_a_supported_node_is_supported() {
+    let mut asset = block(3);
+    // Cut amid the edges between x ≤ 1/3 and the rest.
+    let left = |asset: &Asset, v: u32| asset.fracture.positions[v as usize].x < 0.5;
+    let nodes = asset.fracture.positions.len() as u32;
+    let mut cuts = Cuts::none(nodes as usize);
+    for tet in &asset.fracture.tets {
+        for [i, j] in EDGES {
+            if left(&asset, tet[i]) != left(&asset, tet[j]) {
+                let side = |v| if left(&asset, v) { -0.5 } else { 0.5 };
+                cuts.cut(tet[i], tet[j], side(tet[i]), side(tet[j]), 0);
+            }
+        }
+    }
+    let of_node: Vec<u32> = (0..nodes).map(|v| u32::from(left(&asset, v))).collect();
+    let labels = Labels {
+        of_node,
+        count: 2,
+        cuts,
+    };
+    for node in 0..nodes {
+        asset.supported = vec![node];
+        let config = FractureConfig::default();
+        let fragments = build(&CrackSystem::new(&asset, &config, 1), &labels);
+        let place = asset.fracture.positions[node as usize];
+        assert!(fragments.iter().any(|f| f.supported));
+        for fragment in fragments {
+            let holds = fragment.mesh.positions.iter().any(|p| {
+                let corner = p.as_dvec3() + fragment.mass.centre;
+                corner.distance(place.as_dvec3()) < 1e-6
+            });
+            let inner = place.x > 0.0 && place.x < 1.0;
+            assert!(
+                fragment.supported == holds || inner && !holds,
+                "node {node}"
+            );
+        }
     }
 }
 

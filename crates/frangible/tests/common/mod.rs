@@ -130,6 +130,7 @@ pub fn synthetic_asset(size: &Size) -> Asset {
         mass,
         cells,
         cell_of_tet,
+        supported: Vec::new(),
         render: None,
     }
 }

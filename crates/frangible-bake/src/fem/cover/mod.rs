@@ -9,6 +9,7 @@ mod lattice;
 mod moments;
 mod size;
 mod slivers;
+mod springs;
 mod topology;
 
 use frangible::asset::{EmbeddedPoint, Embedding};
@@ -25,6 +26,7 @@ use cut::{Parts, cut};
 use lattice::{CELL_VOLUME, Cell, Frame, Lattice, in_sides};
 use moments::Moments;
 use size::choose_lattice;
+use springs::add_springs;
 use topology::{Topology, face_pairs};
 
 /// Stiffness and mass added to the whole of each element, as a share of the material's: keeps the nodes outside the
@@ -86,19 +88,22 @@ impl Cover {
         })
     }
 
+    /// Barycentric coordinates of a point in an element.
+    fn barycentric(&self, element: u32, p: DVec3) -> [f64; 4] {
+        let corners = self.mesh.corners(element as usize);
+        let from_first = p - corners[0];
+        let l = barycentric_gradients(corners).map(|g| g.dot(from_first));
+        [1.0 - l[1] - l[2] - l[3], l[1], l[2], l[3]]
+    }
+
     /// Where the tetrahedra and nodes of the body lie in the elements. Barycentric coordinates are slightly
     /// negative where a sliver of the body is carried by the element next to it.
     #[must_use]
     pub fn embedding(&self, body: &BodyMesh) -> Embedding {
-        let embed = |element: u32, p: DVec3| {
-            let corners = self.mesh.corners(element as usize);
-            let from_first = p - corners[0];
-            let l = barycentric_gradients(corners).map(|g| g.dot(from_first));
-            EmbeddedPoint {
-                element,
-                barycentric: [1.0 - l[1] - l[2] - l[3], l[1], l[2], l[3]].map(|x| x as f32),
-                offset: Vec3::ZERO,
-            }
+        let embed = |element: u32, p: DVec3| EmbeddedPoint {
+            element,
+            barycentric: self.barycentric(element, p).map(|x| x as f32),
+            offset: Vec3::ZERO,
         };
         let centroids = (0..body.tets.len()).map(|t| body.corners(t).iter().sum::<DVec3>() / 4.0);
         Embedding {
@@ -119,6 +124,18 @@ impl Cover {
 /// Assembles K and the consistent M of a covered body.
 #[must_use]
 pub fn assemble_cover(cover: &Cover, material: &Elasticity) -> System {
+    assemble_supported_cover(cover, material, &BodyMesh::default(), &[])
+}
+
+/// The same for a body that is held at nodes of its own: `held` has the axes of each node of `body`, which is the one
+/// that is covered, or nothing. Springs hold it there: stiff, but no stiffer than the elements can follow.
+#[must_use]
+pub fn assemble_supported_cover(
+    cover: &Cover,
+    material: &Elasticity,
+    body: &BodyMesh,
+    held: &[[bool; 3]],
+) -> System {
     let mesh = &cover.mesh;
     let pattern = Pattern::new(mesh.positions.len(), &mesh.elements);
     let mut stiffness = vec![0.0; pattern.entries()];
@@ -132,6 +149,7 @@ pub fn assemble_cover(cover: &Cover, material: &Elasticity) -> System {
         );
         pattern.add_scalars(&mut mass, element, &moments.mass, material.density);
     }
+    add_springs(&mut stiffness, &pattern, cover, body, held, material);
     System {
         positions: mesh.positions.clone(),
         stiffness: pattern.matrix(stiffness),

@@ -2,9 +2,9 @@
 
 use glam::{DMat3, DVec3, Vec3};
 
-use super::AssetFileError;
 use super::reader::Reader;
 use super::sections::{self as s, Section};
+use super::{AssetFileError, SUPPORTED};
 use crate::asset::{
     AnalysisMesh, Asset, ConvexCell, EmbeddedPoint, Embedding, OuterSurface, RenderMaterial,
     RenderSurface,
@@ -56,6 +56,7 @@ impl Asset {
             mass: mass(r.one(s::MASS)?),
             cells: cells(&r)?,
             cell_of_tet: r.rows(s::CELL_OF_TET)?,
+            supported: supported(&r)?,
             render: render(&r)?,
         };
         asset.validate()?;
@@ -146,6 +147,19 @@ fn cells(r: &Reader<'_>) -> Result<Vec<ConvexCell>, AssetFileError> {
         points: points.by_ref().take(size as usize).collect(),
     };
     Ok(sizes.iter().map(cell).collect())
+}
+
+/// Versions before supports know the number of their section as little as any other that is unknown.
+fn supported(r: &Reader<'_>) -> Result<Vec<u32>, AssetFileError> {
+    if r.version < SUPPORTED {
+        return Ok(Vec::new());
+    }
+    let nodes = r.rows(s::SUPPORTED)?;
+    if nodes.is_empty() {
+        let problem = "is empty, as if the body were free";
+        return Err(AssetFileError::section(s::SUPPORTED.name, problem));
+    }
+    Ok(nodes)
 }
 
 /// The drawn surface, where the file has one: all of its sections or none.

@@ -2,6 +2,7 @@
 
 use super::sections::{self as s, Section};
 use super::writer::Writer;
+use super::{FREE, SUPPORTED};
 use crate::asset::{Asset, EmbeddedPoint, RenderSurface};
 use crate::material::Material;
 use crate::mesh::MassProperties;
@@ -39,10 +40,13 @@ impl Asset {
         let points: Vec<_> = self.cells.iter().flat_map(|c| &c.points).copied().collect();
         w.rows(s::CELL_POINTS, &points);
         w.rows(s::CELL_OF_TET, &self.cell_of_tet);
+        if self.is_supported() {
+            w.rows(s::SUPPORTED, &self.supported);
+        }
         if let Some(surface) = &self.render {
             render(&mut w, surface);
         }
-        w.finish()
+        w.finish(if self.is_supported() { SUPPORTED } else { FREE })
     }
 }
 

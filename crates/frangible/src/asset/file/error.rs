@@ -20,12 +20,12 @@ pub enum AssetFileError {
     },
     /// Written by another version of the format.
     #[error(
-        "it has version {found} of the format, and only {supported} can be read; bake it again"
+        "it has version {found} of the format, and this build reads up to {supported}; bake it again"
     )]
     Version {
         /// Version of the file.
         found: u32,
-        /// Version this build reads.
+        /// Newest version this build reads.
         supported: u32,
     },
     /// The end is missing.

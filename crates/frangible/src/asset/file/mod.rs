@@ -13,8 +13,15 @@ mod writer;
 pub use error::AssetFileError;
 pub use writer::seal;
 
-/// Version of the file format that this build writes, and the only one it reads.
-pub const FORMAT_VERSION: u32 = 1;
+/// Newest version of the file format; this build reads all versions up to it. An asset is written in the oldest version
+/// that can hold it.
+pub const FORMAT_VERSION: u32 = 2;
+
+/// First version: free bodies only.
+const FREE: u32 = 1;
+/// Version that also holds which nodes are supported. Whoever ignored them would let a pane fall out of its frame,
+/// hence the version.
+const SUPPORTED: u32 = 2;
 
 /// First bytes of every file.
 const MAGIC: [u8; 8] = *b"FRANGIBL";

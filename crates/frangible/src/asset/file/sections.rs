@@ -44,6 +44,7 @@ sections! {
     CELL_SIZES = 96, "points per cell";
     CELL_POINTS = 97, "cell points";
     CELL_OF_TET = 98, "cells of tetrahedra";
+    SUPPORTED = 99, "supported nodes";
     RENDER_POSITIONS = 112, "render positions";
     RENDER_NORMALS = 113, "render normals";
     RENDER_UVS = 114, "render texture coordinates";
