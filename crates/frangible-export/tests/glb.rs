@@ -76,6 +76,7 @@ fn recording() -> Recording {
         ],
         floor: Some(Floor::default()),
         camera: View::default(),
+        rest_camera: None,
         moments: Moments {
             before: 0,
             first_crack: BREAK,
