@@ -21,7 +21,7 @@ pub(crate) fn run(file: Option<&Path>, args: &BreakArgs) -> Result<(), Box<dyn E
     let sources = open_sources(&scene)?;
     notes.extend(sources.iter().flat_map(Opened::notes).cloned());
     let names = scene.output.file_names(&scene.name);
-    make_folder(
+    let was_there = make_folder(
         &args.out,
         &names.iter().flatten().cloned().collect::<Vec<_>>(),
     )?;
@@ -31,6 +31,12 @@ pub(crate) fn run(file: Option<&Path>, args: &BreakArgs) -> Result<(), Box<dyn E
     let clock = Instant::now();
     let baked = bake_opened(&scene, sources, &mut |p| {
         bar.show(&format!("{}: {}", scene.name, p.stage), p.fraction);
+    })
+    .inspect_err(|_| {
+        if !was_there {
+            // Only if it is empty, as it was made; whether that works changes nothing for the user.
+            let _ = std::fs::remove_dir(&args.out);
+        }
     })?;
     stages.push(("bake".to_string(), 1e3 * clock.elapsed().as_secs_f64()));
     notes.extend(mesh_notes(&scene, &baked));

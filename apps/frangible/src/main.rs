@@ -10,14 +10,36 @@ mod progress;
 mod report;
 mod request;
 
+use std::path::Path;
 use std::process::ExitCode;
 
 use clap::Parser;
+use clap::error::{ContextKind, ContextValue, ErrorKind};
+use frangible_scenes::FileKind;
 
 use args::{Cli, Command};
 
+/// A file given where a command should stand.
+fn file_without_command(error: &clap::Error) -> Option<&str> {
+    if error.kind() != ErrorKind::InvalidSubcommand {
+        return None;
+    }
+    match error.get(ContextKind::InvalidSubcommand)? {
+        ContextValue::String(word) if FileKind::of(Path::new(word)).is_ok() => Some(word),
+        _ => None,
+    }
+}
+
 fn main() -> ExitCode {
-    let cli = Cli::parse();
+    let cli = Cli::try_parse().unwrap_or_else(|error| {
+        if let Some(file) = file_without_command(&error) {
+            eprintln!(
+                "error: `{file}` is no command; to break that file: frangible break {file:?}"
+            );
+            std::process::exit(2);
+        }
+        error.exit()
+    });
     let result = match cli.command {
         None => breaking::run(None, &cli.break_args),
         Some(Command::Break(command)) => breaking::run(command.file.as_deref(), &command.args),

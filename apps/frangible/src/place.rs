@@ -3,8 +3,10 @@
 use std::fs;
 use std::path::Path;
 
-/// Makes the output folder, proves that it can be written, and that no folder has the name of a file to write.
-pub(crate) fn make_folder(folder: &Path, names: &[String]) -> Result<(), String> {
+/// Makes the output folder, proves that it can be written, and that no folder has the name of a file to write. Whether
+/// it was there before.
+pub(crate) fn make_folder(folder: &Path, names: &[String]) -> Result<bool, String> {
+    let was_there = folder.exists();
     let wrong = |e: std::io::Error| {
         format!(
             "cannot write to the folder `{}`: {e}; choose another with --out DIR",
@@ -22,7 +24,7 @@ pub(crate) fn make_folder(folder: &Path, names: &[String]) -> Result<(), String>
             ));
         }
     }
-    Ok(())
+    Ok(was_there)
 }
 
 /// Proves that a file of this name can be written where it is to lie.

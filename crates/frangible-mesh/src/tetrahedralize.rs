@@ -210,11 +210,13 @@ fn too_thin(
     cell: f64,
     longest: f64,
 ) -> Result<(), TetError> {
-    let volume = counted_volume(solid, longest / 96.0);
+    // Walls thinner than the grid are counted as thick as half of it.
+    let wall = cell * CELLS_PER_WALL;
+    let volume = counted_volume(solid, longest / (1.5 * longest / wall).clamp(96.0, 256.0));
     let needed = TETS_PER_WALL_CUBE * volume / cell.powi(3);
     if needed > 1.5 * options.most as f64 {
         return Err(TetError::TooThin {
-            wall: cell * CELLS_PER_WALL,
+            wall,
             needed: needed as usize,
             limit: options.most,
         });

@@ -110,7 +110,5 @@ fn mendable(body: &str, error: BakeError) -> SceneError {
         body,
         wall_mm,
         limit: MOST_TETS,
-        // Cells grow with the wall, and so does the volume: the number falls with its square.
-        enough_mm: 1.1 * wall_mm * (needed as f64 / MOST_TETS as f64).sqrt(),
     }
 }

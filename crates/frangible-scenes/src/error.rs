@@ -119,7 +119,7 @@ pub enum SceneError {
     },
     /// Walls that no allowed number of tetrahedra resolves.
     #[error(
-        "`{body}` has walls of {wall_mm:.3} mm, too thin beside its size for the {limit} tetrahedra there may be; make them about {enough_mm:.2} mm thick"
+        "`{body}` has walls of {wall_mm:.3} mm, too thin beside its size for the {limit} tetrahedra there may be; make them thicker or the body smaller across"
     )]
     WaferWalls {
         /// Name of the body.
@@ -128,8 +128,6 @@ pub enum SceneError {
         wall_mm: f64,
         /// Most tetrahedra there may be.
         limit: usize,
-        /// A thickness that would do, mm.
-        enough_mm: f64,
     },
     /// The body could not be baked.
     #[error("baking failed: {0}")]

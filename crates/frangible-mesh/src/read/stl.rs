@@ -12,10 +12,16 @@ use crate::InputMesh;
 const HEADER: usize = 84;
 const FACET: usize = 50;
 
+const NO_STL: &str = "this is text, but no STL: a text STL begins with the word “solid”";
+
 pub(crate) fn parse(bytes: &[u8]) -> Result<InputMesh, ReadError> {
     // Binary files, too, may begin with “solid”: the length decides, then what follows the word.
-    if !is_exactly_binary_stl(bytes) && is_text(bytes) {
+    if is_exactly_binary_stl(bytes) {
+        parse_binary(bytes)
+    } else if is_text(bytes) {
         parse_text(bytes)
+    } else if looks_written(bytes) {
+        Err(ReadError::malformed("line 1", NO_STL))
     } else {
         parse_binary(bytes)
     }
@@ -31,6 +37,14 @@ fn is_text(bytes: &[u8]) -> bool {
         .get(..5)
         .is_some_and(|word| word.eq_ignore_ascii_case(b"solid"));
     solid && !start.contains(&0)
+}
+
+/// Whether the start is made of letters: a binary file has zero bytes in its header or its count.
+fn looks_written(bytes: &[u8]) -> bool {
+    let start = bytes.get(..1024).unwrap_or(bytes);
+    start
+        .iter()
+        .all(|&b| b >= b' ' && b != 0x7f || b.is_ascii_whitespace())
 }
 
 fn parse_binary(bytes: &[u8]) -> Result<InputMesh, ReadError> {

@@ -29,6 +29,10 @@ pub(crate) fn parse(bytes: &[u8], folder: Option<&Path>) -> Result<InputMesh, Re
     } else {
         (bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes), None)
     };
+    if !json.trim_ascii_start().starts_with(b"{") {
+        let problem = "a GLB begins with the letters “glTF”, a glTF with “{”; this is neither";
+        return Err(ReadError::malformed("the first bytes", problem));
+    }
     let root: Root = gltf_json::deserialize::from_slice(json)
         .map_err(|error| ReadError::malformed("the JSON of the glTF", error.to_string()))?;
     if let Some(extension) = root
