@@ -5,10 +5,13 @@ use std::time::{Duration, Instant};
 
 use crate::check_output::check_output;
 use crate::command::{Result, cargo, output, root, run, run_keeping, run_within, shown, succeeds};
+use crate::fuzz::{USUAL_SECONDS, fuzz};
 use crate::test::packages;
 
 /// Building cargo-deny takes three minutes of one core; a machine that needs longer than this is stuck.
 const INSTALL_LIMIT: Duration = Duration::from_secs(20 * 60);
+/// Of all of the step; the first build with its instrumentation takes most of it.
+const FUZZ_LIMIT: Duration = Duration::from_secs(8 * 60);
 /// The cargo-deny that `deny.toml` is written for.
 const DENY_VERSION: &str = "0.20.2";
 const LICENCES: [&str; 2] = ["LICENSE-MIT", "LICENSE-APACHE"];
@@ -16,7 +19,7 @@ const LICENCES: [&str; 2] = ["LICENSE-MIT", "LICENSE-APACHE"];
 /// A step returns the lines worth repeating at the end.
 type Step = (&'static str, fn() -> Result<Vec<String>>);
 
-const STEPS: [Step; 7] = [
+const STEPS: [Step; 8] = [
     ("format", || quiet(&["fmt", "--all", "--check"])),
     ("clippy", || {
         quiet(&[
@@ -34,6 +37,7 @@ const STEPS: [Step; 7] = [
     ("licences", deny),
     ("packages", package_lists),
     ("main job", main_job),
+    ("fuzz", || fuzz(USUAL_SECONDS, Some(FUZZ_LIMIT))),
 ];
 
 /// Runs all steps, stops at the first that fails, and ends with the times and the tests' summary.

@@ -3,7 +3,7 @@
 use std::ffi::OsString;
 use std::io::{BufRead, BufReader, IsTerminal};
 use std::path::PathBuf;
-use std::process::{Child, Command, Stdio};
+use std::process::{Child, Command, ExitStatus, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
@@ -122,24 +122,35 @@ fn echo(stream: impl std::io::Read, keep: fn(&str) -> bool, show: fn(&str)) -> V
     kept
 }
 
-/// Runs for at most `limit`, then ends it.
+/// Runs for at most `limit`; running longer is an error.
 pub(crate) fn run_within(command: &mut Command, limit: Duration) -> Result {
+    match status_within(command, limit)? {
+        Some(status) if status.success() => Ok(()),
+        Some(_) => Err(failed(command)),
+        None => Err(format!(
+            "`{}` took longer than {} min and was stopped",
+            shown(command),
+            limit.as_secs() / 60
+        )),
+    }
+}
+
+/// Runs for at most `limit`, then ends it and all that it started: None.
+pub(crate) fn status_within(command: &mut Command, limit: Duration) -> Result<Option<ExitStatus>> {
+    // Its own group, as ending cargo alone would leave the compilers running.
+    #[cfg(unix)]
+    std::os::unix::process::CommandExt::process_group(command, 0);
     let mut child = command
         .spawn()
         .map_err(|error| start_failed(command, &error))?;
     let start = Instant::now();
     loop {
         match child.try_wait() {
-            Ok(Some(status)) if status.success() => return Ok(()),
-            Ok(Some(_)) => return Err(failed(command)),
+            Ok(Some(status)) => return Ok(Some(status)),
             Ok(None) if start.elapsed() < limit => sleep(Duration::from_millis(200)),
             Ok(None) => {
                 end(&mut child);
-                return Err(format!(
-                    "`{}` took longer than {} min and was stopped",
-                    shown(command),
-                    limit.as_secs() / 60
-                ));
+                return Ok(None);
             }
             Err(error) => {
                 end(&mut child);
@@ -150,6 +161,10 @@ pub(crate) fn run_within(command: &mut Command, limit: Duration) -> Result {
 }
 
 fn end(child: &mut Child) {
+    if cfg!(unix) {
+        let group = format!("kill -s KILL -- -{}", child.id());
+        succeeds("sh", &["-c", &group]);
+    }
     // Failing to end a child that has just ended by itself is no failure.
     let _ = child.kill();
     let _ = child.wait();

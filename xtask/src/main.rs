@@ -3,6 +3,7 @@
 mod check_output;
 mod ci;
 mod command;
+mod fuzz;
 mod glb;
 mod setup;
 mod test;
@@ -15,6 +16,7 @@ const HELP: &str = "\
 cargo xtask setup             install the system packages that are missing, where that is allowed
 cargo xtask test              setup, then all tests of the workspace in the release profile
 cargo xtask ci                everything the continuous integration checks, with the minutes per step
+cargo xtask fuzz [SECONDS]    feed each reader of files hostile bytes for so long, 30 s if not told
 cargo xtask check-output DIR  check what `cargo run --release -- --out DIR --json > DIR/report.json` wrote";
 
 fn main() -> ExitCode {
@@ -33,6 +35,7 @@ fn run(words: &[&str]) -> Result {
     match words {
         ["setup"] => {
             setup::setup();
+            setup::cpp_compiler();
             Ok(())
         }
         ["test"] => {
@@ -40,6 +43,13 @@ fn run(words: &[&str]) -> Result {
             test::test()
         }
         ["ci"] => ci::ci(),
+        ["fuzz"] => fuzz::fuzz(fuzz::USUAL_SECONDS, None).map(drop),
+        ["fuzz", seconds] => match seconds.parse() {
+            Ok(seconds @ 1..) => fuzz::fuzz(seconds, None).map(drop),
+            _ => Err(format!(
+                "`{seconds}` is no whole number of seconds from 1; for example `cargo xtask fuzz 60`"
+            )),
+        },
         ["check-output", directory] => check_output::check_output(directory.as_ref()),
         [] | ["help" | "--help" | "-h"] => {
             println!("{HELP}");

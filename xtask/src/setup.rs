@@ -1,4 +1,4 @@
-//! System packages: the pictures need a Vulkan driver, nothing else is needed beyond a C linker.
+//! System packages: the pictures need a Vulkan driver and fuzzing a C++ compiler, nothing else is needed beyond a C linker.
 
 use std::path::Path;
 use std::process::Command;
@@ -7,6 +7,8 @@ use crate::command::{run, succeeds};
 
 /// Software Vulkan: draws the pictures on machines without a graphics card.
 const DRIVER: &str = "mesa-vulkan-drivers";
+/// Compiles libFuzzer, which comes as C++.
+const COMPILER: &str = "g++";
 /// Where Linux drivers announce themselves.
 const DRIVER_FOLDERS: [&str; 3] = [
     "/usr/share/vulkan/icd.d",
@@ -28,6 +30,23 @@ pub(crate) fn setup() {
     let advice = format!(
         "no Vulkan driver was found, pictures cannot be drawn: install `{DRIVER}` (Debian, Ubuntu: `sudo apt-get install {DRIVER}`)"
     );
+    install(DRIVER, &advice);
+}
+
+/// True if there is a C++ compiler, which is installed where it is missing and that is possible.
+pub(crate) fn cpp_compiler() -> bool {
+    let there = || std::env::var_os("CXX").is_some() || succeeds("c++", &["--version"]);
+    if !there() && cfg!(target_os = "linux") {
+        install(
+            COMPILER,
+            &format!("fuzzing needs a C++ compiler: install `{COMPILER}`"),
+        );
+    }
+    there()
+}
+
+/// Installs a Debian package; where that cannot be, prints the advice.
+fn install(package: &str, advice: &str) {
     if !succeeds("apt-get", &["--version"]) {
         println!("note: {advice}, or your distribution's counterpart");
         return;
@@ -36,16 +55,9 @@ pub(crate) fn setup() {
         println!("note: {advice}");
         return;
     };
-    println!("installing {DRIVER}");
-    let installed = apt(
-        prefix,
-        &["install", "--yes", "--no-install-recommends", DRIVER],
-    ) || apt(prefix, &["update"])
-        && apt(
-            prefix,
-            &["install", "--yes", "--no-install-recommends", DRIVER],
-        );
-    if !installed {
+    println!("installing {package}");
+    let words = ["install", "--yes", "--no-install-recommends", package];
+    if !(apt(prefix, &words) || apt(prefix, &["update"]) && apt(prefix, &words)) {
         println!("note: the installation failed; {advice}");
     }
 }

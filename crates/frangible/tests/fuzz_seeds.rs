@@ -1,0 +1,47 @@
+//! The assets that fuzzing starts from follow the format. With `FRANGIBLE_WRITE_SEEDS=1` they are written anew.
+
+use std::fs;
+use std::path::Path;
+
+use frangible::Asset;
+
+mod common;
+use common::{Size, drawn_surface, synthetic_asset};
+
+fn seeds() -> [(&'static str, Asset); 3] {
+    let asset = |cubes, analysis_nodes, elements, modes| {
+        synthetic_asset(&Size {
+            cubes,
+            analysis_nodes,
+            elements,
+            modes,
+        })
+    };
+    let drawn = Asset {
+        render: Some(drawn_surface()),
+        ..asset(1, 10, 1, 2)
+    };
+    [
+        ("least", asset(1, 10, 1, 1)),
+        ("drawn", drawn),
+        ("cubes", asset(2, 12, 3, 2)),
+    ]
+}
+
+#[test]
+fn the_assets_that_fuzzing_starts_from_can_be_read() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fuzz/corpus/read_asset");
+    if !folder.is_dir() {
+        println!("skipped: {} is not here", folder.display());
+        return;
+    }
+    for (name, asset) in seeds() {
+        let path = folder.join(name);
+        if std::env::var_os("FRANGIBLE_WRITE_SEEDS").is_some() {
+            fs::write(&path, asset.to_bytes()).unwrap();
+        }
+        let read = Asset::from_bytes(&fs::read(&path).unwrap())
+            .unwrap_or_else(|e| panic!("{e}: set FRANGIBLE_WRITE_SEEDS=1 to write {name} anew"));
+        assert_eq!(format!("{read:?}"), format!("{asset:?}"), "{name}");
+    }
+}

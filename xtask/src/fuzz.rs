@@ -1,0 +1,224 @@
+//! Hostile bytes for the readers of files: the targets in `fuzz/`, each for a short while.
+
+use std::fs::{self, File};
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::time::{Duration, Instant};
+
+use crate::command::{Result, cargo, output, root, shown, status_within, succeeds};
+use crate::setup::cpp_compiler;
+
+/// How long each target runs unless told otherwise, s.
+pub(crate) const USUAL_SECONDS: u64 = 30;
+/// The cargo-fuzz whose options and folders are used here.
+const VERSION: &str = "0.13.2";
+/// What a target may take beyond its time before it counts as stuck: starting, reading the corpus, one slow input.
+const SLACK: Duration = Duration::from_secs(60);
+/// Longest input, bytes: several times the largest seed. More memory, MiB, or seconds for one input are findings.
+const BOUNDS: [&str; 3] = ["-max_len=32768", "-rss_limit_mb=2048", "-timeout=10"];
+
+/// Where things are. Nothing is written into the checkout.
+struct Folders {
+    /// The checkout's `fuzz`: targets, seeds, dictionaries.
+    fuzz: PathBuf,
+    /// Builds, grown corpora, findings and logs.
+    target: PathBuf,
+    /// Programs of the targets.
+    programs: PathBuf,
+}
+
+/// Builds all targets and runs each for `seconds`, less if all of it would take longer than `limit`. Returns the lines
+/// that sum it up; one of them says so if there was no time, or no C++ compiler.
+///
+/// An input that breaks a target is an error that names the file and how to try it again.
+pub(crate) fn fuzz(seconds: u64, limit: Option<Duration>) -> Result<Vec<String>> {
+    let start = Instant::now();
+    let left = || limit.map_or(Duration::MAX, |limit| limit.saturating_sub(start.elapsed()));
+    if !cfg!(unix) || !cpp_compiler() {
+        return skipped("there is no C++ compiler, or none that libFuzzer knows");
+    }
+    if !succeeds("cargo", &["fuzz", "--version"]) {
+        println!("installing cargo-fuzz {VERSION}");
+        let arguments = ["install", "cargo-fuzz", "--locked", "--version", VERSION];
+        match status_within(&mut cargo(&arguments), left())? {
+            Some(status) if status.success() => {}
+            Some(_) => {
+                return Err(format!(
+                    "cargo-fuzz {VERSION} did not install; the messages are above"
+                ));
+            }
+            None => {
+                return skipped("installing cargo-fuzz takes too long here; install it by hand");
+            }
+        }
+    }
+    let host = host()?;
+    let folders = folders(&host);
+    let names = names(&folders.fuzz)?;
+    if !build(&folders, &host, left())? {
+        return skipped(
+            "building the targets takes too long here; the next run goes on from there",
+        );
+    }
+    let at_once = std::thread::available_parallelism().map_or(1, usize::from);
+    let rounds = names.len().div_ceil(at_once).max(1) as u64;
+    let seconds = seconds.min(left().saturating_sub(SLACK).as_secs() / rounds);
+    if seconds == 0 {
+        return skipped("building the targets left no time to run them; the next run has it");
+    }
+    let mut lines = Vec::new();
+    for round in names.chunks(at_once) {
+        let results: Vec<Result<String>> = std::thread::scope(|scope| {
+            let folders = &folders;
+            let runs: Vec<_> = round
+                .iter()
+                .map(|name| scope.spawn(move || run_target(folders, name, seconds)))
+                .collect();
+            runs.into_iter()
+                .map(|run| {
+                    run.join()
+                        .unwrap_or_else(|_| Err("a thread panicked".into()))
+                })
+                .collect()
+        });
+        for result in results {
+            let line = result?;
+            println!("{line}");
+            lines.push(line);
+        }
+    }
+    Ok(lines)
+}
+
+fn skipped(reason: &str) -> Result<Vec<String>> {
+    let line = format!("fuzz: skipped: {reason}");
+    println!("{line}");
+    Ok(vec![line])
+}
+
+/// The machine as rustc names it.
+fn host() -> Result<String> {
+    let about = output(Command::new("rustc").arg("-vV").current_dir(root()))?;
+    String::from_utf8_lossy(&about)
+        .lines()
+        .find_map(|line| line.strip_prefix("host: ").map(String::from))
+        .ok_or_else(|| "`rustc -vV` does not name its host; update Rust".into())
+}
+
+fn folders(host: &str) -> Folders {
+    let target = std::env::var_os("CARGO_TARGET_DIR").unwrap_or_else(|| "target".into());
+    let target = root().join(target).join("fuzz");
+    Folders {
+        fuzz: root().join("fuzz"),
+        programs: target.join(host).join("release"),
+        target,
+    }
+}
+
+/// Names of the targets, sorted.
+fn names(fuzz: &Path) -> Result<Vec<String>> {
+    let list = output(cargo(&["fuzz", "list", "--fuzz-dir"]).arg(fuzz))?;
+    let mut names: Vec<String> = String::from_utf8_lossy(&list)
+        .lines()
+        .map(|line| line.trim().to_string())
+        .filter(|line| !line.is_empty())
+        .collect();
+    names.sort();
+    Ok(names)
+}
+
+/// False if there was not enough time.
+fn build(folders: &Folders, host: &str, limit: Duration) -> Result<bool> {
+    // Without a sanitizer: the stable compiler has none, and there is no unsafe code in the readers. Overflow checks
+    // and debug assertions are on. One code generation unit, cargo-fuzz's default, would leave cores idle.
+    let mut command = cargo(&["fuzz", "build", "--sanitizer", "none"]);
+    command
+        .args(["--codegen-units", "16", "--target", host, "--fuzz-dir"])
+        .arg(&folders.fuzz)
+        .arg("--target-dir")
+        .arg(&folders.target)
+        .env_remove("CARGO_TARGET_DIR");
+    println!("$ {}", shown(&command));
+    match status_within(&mut command, limit)? {
+        None => Ok(false),
+        Some(status) if status.success() => Ok(true),
+        Some(_) => Err("the targets in `fuzz` do not build; the messages are above".into()),
+    }
+}
+
+fn run_target(folders: &Folders, name: &str, seconds: u64) -> Result<String> {
+    let made = |kind: &str| {
+        let folder = folders.target.join(kind).join(name);
+        fs::create_dir_all(&folder)
+            .map_err(|error| format!("`{}` cannot be made: {error}", folder.display()))?;
+        Ok::<_, String>(folder)
+    };
+    let (grown, findings) = (made("corpus")?, made("artifacts")?);
+    let log = folders.target.join(format!("{name}.log"));
+    let file = File::create(&log)
+        .map_err(|error| format!("`{}` cannot be written: {error}", log.display()))?;
+    let program = folders.programs.join(name);
+    let mut command = Command::new(&program);
+    // What is new goes into the first corpus; the others are only read.
+    command
+        .arg(grown)
+        .arg(folders.fuzz.join("corpus").join(name));
+    let dictionary = folders.fuzz.join(format!("{name}.dict"));
+    if dictionary.is_file() {
+        command.arg(format!("-dict={}", dictionary.display()));
+    }
+    command
+        .args(BOUNDS)
+        .arg(format!("-max_total_time={seconds}"))
+        .arg("-print_final_stats=1")
+        .arg(format!("-artifact_prefix={}/", findings.display()))
+        .stderr(file);
+    let status = status_within(&mut command, Duration::from_secs(seconds) + SLACK)?;
+    let said =
+        fs::read(&log).map_err(|error| format!("`{}` cannot be read: {error}", log.display()))?;
+    let said = String::from_utf8_lossy(&said);
+    let after = |mark: &str| {
+        said.lines()
+            .find_map(|line| line.split_once(mark))
+            .map(|(_, rest)| rest.trim())
+    };
+    match status {
+        Some(status) if status.success() => {
+            let inputs = after("number_of_executed_units:").unwrap_or("an unknown number of");
+            Ok(format!(
+                "fuzz: {name}: {inputs} inputs in {seconds} s, nothing found"
+            ))
+        }
+        None => Err(format!(
+            "fuzz target `{name}` did not stop; its log is {}",
+            log.display()
+        )),
+        Some(_) => Err(finding(
+            name,
+            &program,
+            &log,
+            after("Test unit written to "),
+            &said,
+        )),
+    }
+}
+
+/// What was found, and how to see it again.
+fn finding(name: &str, program: &Path, log: &Path, input: Option<&str>, said: &str) -> String {
+    let panic = said
+        .lines()
+        .skip_while(|line| !line.contains("panicked at"))
+        .take(3);
+    let mut lines = vec![format!(
+        "fuzz target `{name}` failed; its log is {}",
+        log.display()
+    )];
+    lines.extend(panic.map(String::from));
+    if let Some(input) = input {
+        lines.push(format!("reproduce: {} {input}", program.display()));
+        lines.push(format!(
+            "keep:      cp {input} fuzz/corpus/{name}/ and a test beside the reader"
+        ));
+    }
+    lines.join("\n")
+}
