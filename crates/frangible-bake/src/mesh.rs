@@ -1,6 +1,8 @@
 //! Tetrahedra as the shapes give them, in f64.
 
 use frangible::glam::DVec3;
+use frangible_mesh::quality::dihedral_range;
+pub(crate) use frangible_mesh::quality::volume as tet_volume;
 
 use crate::error::BakeError;
 
@@ -35,10 +37,9 @@ impl BodyMesh {
     /// Smallest angle between two faces of one tetrahedron, degrees (70.5 in a regular one).
     #[must_use]
     pub fn min_dihedral(&self) -> f64 {
-        let smallest = (0..self.tets.len())
-            .map(|e| min_dihedral(self.corners(e)))
-            .fold(f64::INFINITY, f64::min);
-        smallest.to_degrees()
+        (0..self.tets.len())
+            .map(|e| dihedral_range(self.corners(e)).0)
+            .fold(f64::INFINITY, f64::min)
     }
 
     /// Moves all nodes by `shift`, m.
@@ -72,12 +73,6 @@ impl BodyMesh {
     }
 }
 
-/// Signed volume of a tetrahedron, m³.
-#[must_use]
-pub(crate) fn tet_volume([a, b, c, d]: [DVec3; 4]) -> f64 {
-    (b - a).cross(c - a).dot(d - a) / 6.0
-}
-
 /// Gradients of the four barycentric coordinates, 1/m: constant in the element.
 #[must_use]
 pub(crate) fn barycentric_gradients([a, b, c, d]: [DVec3; 4]) -> [DVec3; 4] {
@@ -89,16 +84,4 @@ pub(crate) fn barycentric_gradients([a, b, c, d]: [DVec3; 4]) -> [DVec3; 4] {
         u.cross(v) * inverse,
     );
     [-(g1 + g2 + g3), g1, g2, g3]
-}
-
-/// Smallest dihedral angle, rad: faces i and j meet at the supplement of the angle between ∇L_i and ∇L_j.
-fn min_dihedral(x: [DVec3; 4]) -> f64 {
-    let g = barycentric_gradients(x).map(DVec3::normalize);
-    let mut largest_cosine = -1.0_f64;
-    for i in 0..4 {
-        for j in 0..i {
-            largest_cosine = largest_cosine.max(-g[i].dot(g[j]));
-        }
-    }
-    largest_cosine.clamp(-1.0, 1.0).acos()
 }

@@ -87,15 +87,23 @@ impl Grid {
                 return;
             }
         }
-        let middle: [usize; 3] = std::array::from_fn(|k| low[k] + size[k].div_ceil(2));
-        for c in 0..8 {
-            let from = std::array::from_fn(|k| if c >> k & 1 == 0 { low[k] } else { middle[k] });
-            let to = std::array::from_fn(|k| if c >> k & 1 == 0 { middle[k] } else { high[k] });
-            if (0..3).all(|k| from[k] < to[k]) {
-                self.classify(solid, from, to, out);
-            }
+        for [from, to] in eighths(low, high) {
+            self.classify(solid, from, to, out);
         }
     }
+}
+
+/// The up to eight parts of a box of grid points, halved along each axis.
+fn eighths(low: [usize; 3], high: [usize; 3]) -> impl Iterator<Item = [[usize; 3]; 2]> {
+    let middle: [usize; 3] = std::array::from_fn(|k| low[k] + (high[k] - low[k]).div_ceil(2));
+    (0..8)
+        .map(move |c| {
+            let upper = |k: usize| c >> k & 1 == 1;
+            let from = std::array::from_fn(|k| if upper(k) { middle[k] } else { low[k] });
+            let to = std::array::from_fn(|k| if upper(k) { high[k] } else { middle[k] });
+            [from, to]
+        })
+        .filter(|[from, to]| (0..3).all(|k| from[k] < to[k]))
 }
 
 /// A box of grid points, `low` included, `high` not.
@@ -147,15 +155,8 @@ impl Grid {
         if size.iter().all(|&s| s == 1) || distance.abs() > reach {
             return number * (0.5 - distance / self.spacing).clamp(0.0, 1.0);
         }
-        let middle: [usize; 3] = std::array::from_fn(|k| low[k] + size[k].div_ceil(2));
-        let mut sum = 0.0;
-        for c in 0..8 {
-            let from = std::array::from_fn(|k| if c >> k & 1 == 0 { low[k] } else { middle[k] });
-            let to = std::array::from_fn(|k| if c >> k & 1 == 0 { middle[k] } else { high[k] });
-            if (0..3).all(|k| from[k] < to[k]) {
-                sum += self.share_inside(solid, from, to);
-            }
-        }
-        sum
+        eighths(low, high)
+            .map(|[from, to]| self.share_inside(solid, from, to))
+            .sum()
     }
 }
