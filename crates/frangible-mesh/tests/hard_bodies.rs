@@ -73,7 +73,7 @@ fn every_hard_surface_is_filled_soundly_or_refused_with_a_reason() {
                 check_sound(body);
             }
             (Expect::Refused, Ok((_, report))) => {
-                wrong.push(format!("{}: filled: {report}", case.name))
+                wrong.push(format!("{}: filled: {report}", case.name));
             }
         }
     }

@@ -98,7 +98,7 @@ fn grids(solid: &dyn Solid, cell: f64) -> Result<[Grid; 2], TetError> {
         .iter()
         .product::<f64>()
         * 2.0;
-    if !(points < MOST_POINTS) {
+    if points.is_nan() || points >= MOST_POINTS {
         return Err(TetError::TooFine {
             cell,
             points,

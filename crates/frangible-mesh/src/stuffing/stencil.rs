@@ -77,7 +77,7 @@ impl Cutter<'_> {
             }
             (&[a, b], &[z], &[d]) => {
                 let (ca, cb) = (self.cut_point(a, d), self.cut_point(b, d));
-                let (first, second) = if self.from_first(a, b, d) {
+                let (first, second) = if self.diagonal_from_first(a, b, d) {
                     ([a, b, cb, z], [a, cb, ca, z])
                 } else {
                     ([a, b, ca, z], [b, cb, ca, z])
@@ -88,16 +88,19 @@ impl Cutter<'_> {
             (&[a, b, c], [], &[d]) => {
                 let cuts = [a, b, c].map(|x| self.cut_point(x, d));
                 let before = [
-                    self.from_first(a, b, d),
-                    self.from_first(a, c, d),
-                    self.from_first(b, c, d),
+                    self.diagonal_from_first(a, b, d),
+                    self.diagonal_from_first(a, c, d),
+                    self.diagonal_from_first(b, c, d),
                 ];
                 self.prism([a, b, c], cuts, before);
             }
             (&[a, b], [], &[c, d]) => {
                 let [ac, ad, bc, bd] =
                     [(a, c), (a, d), (b, c), (b, d)].map(|(x, y)| self.cut_point(x, y));
-                let (c_after, d_after) = (self.from_first(a, b, c), self.from_first(a, b, d));
+                let (c_after, d_after) = (
+                    self.diagonal_from_first(a, b, c),
+                    self.diagonal_from_first(a, b, d),
+                );
                 let last = if c_after == d_after {
                     // Free: the shorter diagonal.
                     let p = |v: u32| self.positions[v as usize];
@@ -130,7 +133,7 @@ impl Cutter<'_> {
     }
 
     /// On the face of `a`, `b` (inside) and `out`: does the diagonal run from `a` to the cut beyond `b`?
-    fn from_first(&self, a: u32, b: u32, out: u32) -> bool {
+    fn diagonal_from_first(&self, a: u32, b: u32, out: u32) -> bool {
         let centre = |v: u32| self.lattice.is_centre[v as usize];
         match (centre(a) == centre(out), centre(b) == centre(out)) {
             // The cut on the long edge a–out gets the diagonal.
