@@ -748,7 +748,7 @@ fn meshes_that_cannot_be_broken_are_refused_in_a_sentence() {
         ),
     ];
     for (path, parts) in &cases {
-        refused_in_a_sentence("bad-meshes", &["break", path, "--no-pictures"], parts);
+        refused_in_a_sentence("bad-meshes-out", &["break", path, "--no-pictures"], parts);
         let baked = input.0.join("never.frangible");
         let args = ["bake", path, "-o", &*baked.to_string_lossy()];
         let output = frangible(&args, None);
@@ -763,7 +763,7 @@ fn meshes_that_cannot_be_broken_are_refused_in_a_sentence() {
         ("--up", "w", "x, y or z"),
         ("--material", "glas", "did you mean `glass`"),
     ] {
-        refused_in_a_sentence("bad-meshes", &["break", &good, option, value], &[part]);
+        refused_in_a_sentence("bad-meshes-out", &["break", &good, option, value], &[part]);
     }
 }
 

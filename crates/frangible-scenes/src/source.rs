@@ -193,6 +193,9 @@ pub(crate) fn check_file(path: &Path, kind: FileKind) -> Result<(), SceneError> 
         Ok(data) if !data.is_file() => "this is no ordinary file".into(),
         Ok(data) if data.len() == 0 => "this file is empty".into(),
         Ok(_) if FileKind::of(path)? != kind => match kind {
+            FileKind::Mesh if FileKind::of(path)? == FileKind::Asset => {
+                "this is a baked body, no mesh; in a scene file it stands under `asset`".into()
+            }
             FileKind::Mesh => "this is no mesh (.obj, .stl, .ply, .gltf, .glb)".into(),
             FileKind::Asset => "this is no baked body (.frangible)".into(),
             FileKind::Scene => "this is no scene (.toml)".into(),

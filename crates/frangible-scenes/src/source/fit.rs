@@ -14,6 +14,9 @@ const LARGEST: f64 = 3.0;
 /// Smallest longest side of a body, m.
 const SMALLEST: f64 = 0.005;
 
+/// Smaller bodies are proposed to no one, m: a few metres are no millimetres meant.
+const LIKELY: f64 = 0.02;
+
 /// Turns and scales a mesh: `up` becomes y, and the longest side `size` metres if that is given.
 pub(super) fn fit(
     mesh: &mut InputMesh,
@@ -42,7 +45,7 @@ pub(super) fn fit(
         None => {
             // Most files that are not in metres are in millimetres.
             let millimetres = longest / 1e3;
-            let likely = (SMALLEST..=LARGEST).contains(&millimetres);
+            let likely = (LIKELY..=LARGEST).contains(&millimetres);
             return Err(SceneError::Size {
                 path: path.to_path_buf(),
                 longest: rounded(longest),
@@ -134,6 +137,8 @@ mod tests {
             message.contains("120 m") && message.contains("--size 0.12"),
             "{message}"
         );
+        let message = refused(5.47);
+        assert!(message.contains("--size 0.1"), "{message}");
         let message = refused(0.001);
         assert!(
             message.contains("0.001 m") && message.contains("--size 0.1"),
