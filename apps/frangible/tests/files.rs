@@ -66,11 +66,8 @@ fn files_that_cannot_be_broken_are_refused_in_a_sentence() {
             &["no such file", "meshes/far.ply"],
         ),
         (
-            file(
-                "held.toml",
-                &format!("{body}supports = [{{ below = 0.1 }}]"),
-            ),
-            &["supports 1"],
+            file("held.toml", &format!("{body}supports = [{{ below = -1 }}]")),
+            &["support 0 holds no part of the body"],
         ),
     ] {
         refused_in_a_sentence("files", &["break", &path, "--no-pictures"], parts);

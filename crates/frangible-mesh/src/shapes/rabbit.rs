@@ -5,7 +5,7 @@ use crate::DistanceSolid;
 use crate::distance::first_hit;
 use glam::{DQuat, DVec3};
 
-/// A solid sitting rabbit, 150 mm tall with its ears, 84 mm wide and 132 mm long (y). Thinnest are the ears, 10
+/// A solid sitting rabbit, 148 mm tall with its ears, 84 mm wide and 132 mm long (y). Thinnest are the ears, 10
 /// mm.
 pub fn rabbit() -> DistanceSolid {
     let belly = DistanceSolid::ellipsoid(DVec3::ZERO, DVec3::new(35.0, 44.0, 37.0))

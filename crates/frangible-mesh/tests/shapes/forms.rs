@@ -28,7 +28,7 @@ const FORMS: [Form; 6] = [
         volume: 457.4,
         holes: 0,
         thinnest: 9.5,
-        size: [84.0, 132.5, 150.5],
+        size: [84.0, 132.5, 148.5],
     },
     Form {
         name: "statuette",
