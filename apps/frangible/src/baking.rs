@@ -9,6 +9,7 @@ use crate::args::BakeArgs;
 use crate::place::try_file;
 use crate::progress::Bar;
 use crate::request::body_of;
+use crate::say::say;
 
 pub(crate) fn run(args: &BakeArgs) -> Result<(), Box<dyn Error>> {
     let scene = body_of(args)?;
@@ -35,17 +36,23 @@ pub(crate) fn run(args: &BakeArgs) -> Result<(), Box<dyn Error>> {
         return Err("the scene has no body; add a [[body]]".into());
     };
     save_asset(&body.asset, &args.output)?;
-    print_quality(body, seconds);
-    println!("  {:<15} {}", "wrote", args.output.display());
+    let mut text = quality(body, seconds);
+    text += &row("wrote", &args.output.display().to_string());
     for note in notes {
-        println!("  {:<15} {note}", "note");
+        text += &row("note", &note);
     }
-    Ok(())
+    Ok(say(&text)?)
 }
 
-fn print_quality(body: &BakedBody, seconds: f64) {
+fn row(name: &str, value: &str) -> String {
+    format!("  {name:<15} {value}\n")
+}
+
+/// Figures of the baked body, a row each.
+fn quality(body: &BakedBody, seconds: f64) -> String {
     let asset = &body.asset;
-    let row = |name: &str, value: String| println!("  {name:<15} {value}");
+    let mut text = String::new();
+    let mut row = |name: &str, value: String| text += &row(name, &value);
     row("body", format!("{}, {}", asset.name, asset.material.name));
     if let Some(report) = &body.report {
         for (name, mesh) in [
@@ -85,4 +92,5 @@ fn print_quality(body: &BakedBody, seconds: f64) {
     }
     row("mass", format!("{:.4} kg", asset.mass.mass));
     row("seconds", format!("{seconds:.2}"));
+    text
 }

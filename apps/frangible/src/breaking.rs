@@ -13,6 +13,7 @@ use crate::place::make_folder;
 use crate::progress::Bar;
 use crate::report::{BodyReport, Report};
 use crate::request::{Request, scene_of};
+use crate::say::say;
 
 pub(crate) fn run(file: Option<&Path>, args: &BreakArgs) -> Result<(), Box<dyn Error>> {
     let Request { scene, mut notes } = scene_of(file, args)?;
@@ -95,9 +96,9 @@ pub(crate) fn run(file: Option<&Path>, args: &BreakArgs) -> Result<(), Box<dyn E
         write_atomically(&path, serde_json::to_string_pretty(&report)?.as_bytes())?;
     }
     if args.json {
-        println!("{}", serde_json::to_string_pretty(&report)?);
+        say(&(serde_json::to_string_pretty(&report)? + "\n"))?;
     } else {
-        print!("{}", report.table());
+        say(&report.table())?;
     }
     Ok(())
 }

@@ -9,6 +9,7 @@ mod place;
 mod progress;
 mod report;
 mod request;
+mod say;
 
 use std::path::Path;
 use std::process::ExitCode;

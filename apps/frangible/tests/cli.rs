@@ -1,6 +1,7 @@
 //! The command line: what bad input is told, and what good input leaves behind.
 
 use std::fs;
+use std::process::{Command, Stdio};
 
 mod common;
 
@@ -236,4 +237,18 @@ fn the_same_arguments_give_the_same_bytes() {
         first.len(),
         second.len()
     );
+}
+
+#[test]
+fn a_reader_that_has_seen_enough_is_no_error() {
+    let mut child = Command::new(env!("CARGO_BIN_EXE_frangible"))
+        .arg("scenes")
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the program");
+    drop(child.stdout.take());
+    let output = child.wait_with_output().expect("its end");
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success() && said.is_empty(), "{said}");
 }
