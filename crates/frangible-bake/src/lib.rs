@@ -6,7 +6,9 @@
 //! locates points in the analysis mesh, [`surface`] finds normals and curvature.
 //!
 //! Two meshes are made of every shape. The coarse one has quadratic elements and carries the modes;
-//! the fine one has linear elements, irregular on purpose, and carries the cracks.
+//! the fine one has linear elements, irregular on purpose, and carries the cracks. A solid of any shape (a mesh file by
+//! [`import_mesh`], a signed distance, [`Shape::ready`]) is filled by `frangible-mesh`; its coarse elements merely cover it
+//! ([`fem::Cover`]).
 //!
 //! ```
 //! use frangible::{Body, Contact, FractureConfig, Material, Outcome, Striker, glam::Vec3, impact};
