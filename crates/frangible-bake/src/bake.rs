@@ -5,6 +5,7 @@ use std::time::Instant;
 use frangible::asset::RenderSurface;
 use frangible::glam::DVec3;
 use frangible::modal::ModalBasis;
+use frangible::stress::StressBounds;
 use frangible::{Asset, MassProperties, Material, TetMesh};
 use frangible_mesh::TetReport;
 
@@ -14,7 +15,6 @@ use crate::eigen::lowest_supported_modes;
 use crate::error::BakeError;
 use crate::fem::Elasticity;
 use crate::mesh::BodyMesh;
-use crate::peak_stress::peak_stress;
 use crate::report::{BakeReport, MeshReport, Progress, Stage};
 use crate::shapes::{self, MeshSize, Shape};
 use crate::supports::{Holder, Support};
@@ -149,7 +149,8 @@ pub fn bake(
         peak_stress: Vec::new(),
         eigenvalues: modes.eigenvalues.clone(),
     };
-    basis.peak_stress = peak_stress(&stored, &embedding.tets, &basis, &elasticity);
+    let bounds = StressBounds::new(&fracture, &stored, &embedding.tets, &basis, &spec.material);
+    basis.peak_stress = bounds.root(spec.modes).0;
 
     let report = BakeReport {
         analysis: analysis.report(&fine),
@@ -173,6 +174,7 @@ pub fn bake(
         analysis: stored,
         embedding,
         modes: basis,
+        bounds,
         mass,
         cells,
         cell_of_tet: fine.cell_of_tet,

@@ -35,7 +35,6 @@ mod extrude;
 pub mod fem;
 mod import;
 mod mesh;
-mod peak_stress;
 mod random;
 mod report;
 pub mod shapes;

@@ -333,7 +333,7 @@ fn a_shelf_that_breaks_leaves_a_piece_in_the_wall() {
     };
     let config = FractureConfig::default();
     let soft = impact(&body, &[hit(0.05)], &config).unwrap();
-    assert!(matches!(soft, Outcome::Held(_)));
+    assert!(matches!(soft, Outcome::Held { .. }));
     let Outcome::Broke(fracture) = impact(&body, &[hit(6.0)], &config).unwrap() else {
         panic!("it held");
     };

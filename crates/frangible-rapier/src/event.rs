@@ -43,6 +43,8 @@ pub struct HeldEvent {
     pub body: RigidBodyHandle,
     /// The contacts, body frame.
     pub contacts: Vec<Contact>,
+    /// Strength over the bound of the stress: how many times as hard the blow could have been, at least.
+    pub margin: f64,
     /// What the fracture found.
     pub report: ImpactReport,
 }

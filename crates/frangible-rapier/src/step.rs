@@ -214,11 +214,13 @@ impl BreakableWorld {
         outcome: &Outcome,
         asked: &mut Asked,
     ) {
+        let report = outcome.report();
         let event = HeldEvent {
             step: self.steps,
             body,
             contacts: impact.contacts.clone(),
-            report: outcome.report().clone(),
+            margin: report.strength / report.stress_bound,
+            report: report.clone(),
         };
         asked.held.insert(key(body), (impact, event));
     }

@@ -121,7 +121,7 @@ pub fn play(
     Ok(run)
 }
 
-/// Keeps one record per body, the one with the greatest stress.
+/// Keeps one record per body, the one with the greatest stress or bound of it.
 fn keep_hardest(all: &mut Vec<HeldRecord>, body: usize, event: &HeldEvent) {
     let new = || HeldRecord {
         body,
@@ -129,7 +129,7 @@ fn keep_hardest(all: &mut Vec<HeldRecord>, body: usize, event: &HeldEvent) {
         report: event.report.clone(),
     };
     match all.iter_mut().find(|h| h.body == body) {
-        Some(known) if event.report.peak_stress > known.report.peak_stress => *known = new(),
+        Some(known) if event.report.stress_bound > known.report.stress_bound => *known = new(),
         Some(_) => {}
         None => all.push(new()),
     }

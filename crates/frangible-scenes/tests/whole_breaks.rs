@@ -288,7 +288,7 @@ fn a_soft_hit_holds_and_a_harder_one_cracks_more() {
             ] {
                 let outcome = strike(asset, seed, &[contact], &config);
                 assert!(
-                    matches!(outcome, Outcome::Held(_)),
+                    matches!(outcome, Outcome::Held { .. }),
                     "{}, {model}, seed {seed}",
                     asset.name
                 );
@@ -437,7 +437,7 @@ fn bad_contacts_are_refused_and_nothing_comes_of_nothing() {
     };
     for contacts in [&[][..], &[nothing], &[nothing, nothing]] {
         let outcome = impact(&body, contacts, &config).unwrap();
-        assert!(matches!(outcome, Outcome::Held(_)));
+        assert!(matches!(outcome, Outcome::Held { .. }));
         assert_eq!(outcome.report().cracks, 0);
     }
     // A contact without impulse beside a real one changes nothing.

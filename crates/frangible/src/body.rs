@@ -1,44 +1,178 @@
-//! One breakable body: an asset and its own weak points.
+//! Breakable bodies: what is shared by all bodies of a kind, and what is a body's own.
 
 use std::sync::Arc;
 
+use glam::Vec3;
+
 use crate::asset::Asset;
 use crate::error::InputError;
+use crate::mesh::TriangleTree;
 use crate::rng::{Purpose, stream, uniform};
+use crate::stress::{StressBounds, quadratic_modulus};
 
-/// A body that may break: shares its asset with its like, has its own seed and weak points.
+/// An asset that has been checked and made ready: one per kind of object, cheap to clone, shared by its bodies.
 #[derive(Clone, Debug)]
-pub struct Body {
-    /// What it is.
-    pub asset: Arc<Asset>,
-    /// Seed of its weak points and of the roughness of its cracks.
-    pub seed: u64,
-    /// Its weak fracture tetrahedra, ascending: cracks start only there `[G12 §4.4]`.
-    pub weak_tets: Vec<u32>,
+pub struct Breakable {
+    asset: Arc<Asset>,
+    prepared: Arc<Prepared>,
 }
 
-impl Body {
-    /// A body of this asset; `seed` decides its weak points.
-    ///
-    /// Weak points are a Poisson process of the material's density (1/m³): a tetrahedron of volume V is weak
-    /// with probability 1 − exp(−density V).
+/// What follows from an asset and every impact needs.
+#[derive(Debug)]
+pub(crate) struct Prepared {
+    /// Over the triangles of the outer surface.
+    pub(crate) surface: TriangleTree,
+    /// Stress bounds of the clusters …
+    pub(crate) bounds: StressBounds,
+    /// … and of the whole body: stress and gradient, one number per mode.
+    pub(crate) root: (Vec<f32>, Vec<f32>),
+    /// 1/√λ_i of every mode, s.
+    pub(crate) periods: Vec<f32>,
+    /// k of the bounds' quadratic term, Pa.
+    pub(crate) quadratic_modulus: f32,
+    /// Centroid of each fracture tetrahedron, m.
+    pub(crate) centroids: Vec<Vec3>,
+    /// Mean edge of the fracture mesh, m.
+    pub(crate) edge: f32,
+}
+
+impl Breakable {
+    /// Checks an asset and makes it ready.
     ///
     /// # Errors
     /// When the asset's arrays do not fit together, or a number of its material is unusable.
-    pub fn new(asset: Arc<Asset>, seed: u64) -> Result<Self, InputError> {
+    pub fn new(asset: impl Into<Arc<Asset>>) -> Result<Self, InputError> {
+        let asset = asset.into();
         asset.validate()?;
+        Ok(Self::of_sound(asset))
+    }
+
+    /// Of an asset that has been checked.
+    pub(crate) fn of_sound(asset: Arc<Asset>) -> Self {
+        let modes = &asset.modes;
+        let bounds = if asset.bounds.is_empty() {
+            StressBounds::of(&asset)
+        } else {
+            asset.bounds.clone()
+        };
+        let prepared = Prepared {
+            surface: TriangleTree::new(&asset.fracture.positions, &asset.surface.triangles),
+            root: bounds.root(modes.count()),
+            bounds,
+            periods: modes
+                .eigenvalues
+                .iter()
+                .map(|l| (1.0 / l.sqrt()) as f32)
+                .collect(),
+            quadratic_modulus: quadratic_modulus(&asset.material),
+            centroids: (0..asset.fracture.tets.len())
+                .map(|e| asset.fracture.centroid(e))
+                .collect(),
+            edge: asset.fracture.mean_edge(),
+        };
+        Self {
+            asset,
+            prepared: Arc::new(prepared),
+        }
+    }
+
+    /// The asset.
+    #[must_use]
+    pub fn asset(&self) -> &Arc<Asset> {
+        &self.asset
+    }
+
+    /// A body of this kind; `seed` decides its weak points.
+    ///
+    /// Weak points are a Poisson process of the material's density (1/m³): a tetrahedron of volume V is weak
+    /// with probability 1 − exp(−density V).
+    #[must_use]
+    pub fn body(&self, seed: u64) -> Body {
+        let asset = &self.asset;
         let mut rng = stream(seed, Purpose::WeakPoints, 0);
-        let weak_tets = (0..asset.fracture.tets.len())
+        let weak_tets: Vec<u32> = (0..asset.fracture.tets.len())
             .filter(|&e| {
                 let expected = asset.material.weak_point_density * asset.fracture.volume(e);
                 uniform(&mut rng) < -(-expected).exp_m1()
             })
             .map(|e| e as u32)
             .collect();
-        Ok(Self {
-            asset,
+        Body {
+            asset: Arc::clone(asset),
+            prepared: Arc::clone(&self.prepared),
+            clusters: WeakClusters::new(&weak_tets, &self.prepared.bounds.cluster_of_tet),
             seed,
             weak_tets,
-        })
+        }
+    }
+}
+
+/// A body that may break: shares its asset with its like, has its own seed and weak points.
+#[derive(Clone, Debug)]
+pub struct Body {
+    /// What it is.
+    pub asset: Arc<Asset>,
+    pub(crate) prepared: Arc<Prepared>,
+    pub(crate) clusters: WeakClusters,
+    /// Seed of its weak points and of the roughness of its cracks.
+    seed: u64,
+    weak_tets: Vec<u32>,
+}
+
+impl Body {
+    /// A body of this asset. For many bodies of one asset make the [`Breakable`] once: the checks are in it.
+    ///
+    /// # Errors
+    /// As [`Breakable::new`].
+    pub fn new(asset: Arc<Asset>, seed: u64) -> Result<Self, InputError> {
+        Ok(Breakable::new(asset)?.body(seed))
+    }
+
+    /// Seed of its weak points and of the roughness of its cracks.
+    #[must_use]
+    pub fn seed(&self) -> u64 {
+        self.seed
+    }
+
+    /// Its weak fracture tetrahedra, ascending: cracks start only there `[G12 §4.4]`.
+    #[must_use]
+    pub fn weak_tets(&self) -> &[u32] {
+        &self.weak_tets
+    }
+}
+
+/// Weak tetrahedra by cluster.
+#[derive(Clone, Debug)]
+pub(crate) struct WeakClusters {
+    /// Numbers of the clusters that hold any.
+    pub(crate) clusters: Vec<u32>,
+    /// Where each one's tetrahedra start in `tets`, and the end.
+    starts: Vec<u32>,
+    tets: Vec<u32>,
+}
+
+impl WeakClusters {
+    fn new(weak_tets: &[u32], cluster_of_tet: &[u32]) -> Self {
+        let mut tets = weak_tets.to_vec();
+        tets.sort_by_key(|&e| (cluster_of_tet[e as usize], e));
+        let (mut clusters, mut starts) = (Vec::new(), Vec::new());
+        for (i, &e) in tets.iter().enumerate() {
+            let cluster = cluster_of_tet[e as usize];
+            if clusters.last() != Some(&cluster) {
+                clusters.push(cluster);
+                starts.push(i as u32);
+            }
+        }
+        starts.push(tets.len() as u32);
+        Self {
+            clusters,
+            starts,
+            tets,
+        }
+    }
+
+    /// Weak tetrahedra of the cluster at place `i` of `clusters`.
+    pub(crate) fn tets(&self, i: usize) -> &[u32] {
+        &self.tets[self.starts[i] as usize..self.starts[i + 1] as usize]
     }
 }

@@ -8,6 +8,11 @@ pub struct FractureConfig {
     pub duration: DurationModel,
     /// Lengthen the contact until the body's vibration holds no more energy than the impact brought. Default: on.
     pub admissible_duration: bool,
+    /// All cracks of an impact together spend no more than its peak strain energy. Default: on.
+    pub energy_ledger: bool,
+    /// Pass over times and places whose stress bound stays below the strength; what breaks, and how, is the same bit for
+    /// bit without, only slower. Default: on.
+    pub culling: bool,
     /// Samples per period of the highest mode that matters; 2 is Nyquist's limit, 0.5 is `[G12 Eq. 3]` as printed. Default 16.
     pub samples_per_period: f64,
     /// When cracks run. Default: [`CrackTiming::TimeResolved`].
@@ -66,6 +71,8 @@ impl Default for FractureConfig {
         Self {
             duration: DurationModel::Hertz,
             admissible_duration: true,
+            energy_ledger: true,
+            culling: true,
             samples_per_period: 16.0,
             timing: CrackTiming::TimeResolved {
                 speed: 0.5,
@@ -86,6 +93,7 @@ impl FractureConfig {
         Self {
             duration: DurationModel::ModalHertz,
             admissible_duration: false,
+            energy_ledger: false,
             timing: CrackTiming::Instant,
             path: CrackPath::Planar,
             ..Self::default()

@@ -5,17 +5,18 @@ use std::time::Instant;
 use crate::body::Body;
 use crate::config::FractureConfig;
 use crate::contact::{self, Contact};
-use crate::crack::{CrackSystem, StressField, advance, start_cracks};
+use crate::crack::{CrackSystem, Culling, StressField, advance, start_cracks};
 use crate::error::InputError;
-use crate::fragment;
+use crate::fragment::{self, Labels};
 use crate::modal;
-use crate::outcome::{Fracture, ImpactReport, Outcome};
-use crate::stress::{DisplacementBatch, Elasticity};
+use crate::outcome::{Fracture, ImpactReport, LookedAt, Outcome};
+use crate::stress::{DisplacementBatch, Elasticity, MARGIN};
 
 /// Computes what an impact does to a body. Nothing is changed; the caller replaces a broken body by its fragments.
 ///
 /// `contacts` are all contacts of this impact on this body, in its body frame (origin at the centre of mass).
 /// The modes of the unbroken body serve during the whole break (the single-basis assumption of `[G12]`).
+/// A contact far below the strength, which is nearly every one, costs O(modes) and no allocation.
 ///
 /// # Errors
 /// A contact with a NaN, a negative impulse or no direction.
@@ -24,42 +25,108 @@ pub fn impact(
     contacts: &[Contact],
     config: &FractureConfig,
 ) -> Result<Outcome, InputError> {
+    let (system, labels, mut report) = match cracks(body, contacts, config)? {
+        Cracked::Parted(system, labels, report) => (system, labels, report),
+        Cracked::Held(margin, report) => return Ok(Outcome::Held { margin, report }),
+    };
+    // Cracks → fragments [G12 §6].
+    let start = Instant::now();
+    let fragments = fragment::build(&system, &labels);
+    let volume: f64 = fragments.iter().map(|f| f.mass.volume).sum();
+    report.volume_error = volume / body.asset.fracture.total_volume() - 1.0;
+    report.timings.fragments += start.elapsed().as_secs_f64();
+    Ok(Outcome::Broke(Box::new(Fracture { fragments, report })))
+}
+
+/// Whether an impact would break a body into pieces: [`impact`] without making them.
+///
+/// # Errors
+/// As [`impact`].
+pub fn would_break(
+    body: &Body,
+    contacts: &[Contact],
+    config: &FractureConfig,
+) -> Result<bool, InputError> {
+    Ok(matches!(
+        cracks(body, contacts, config)?,
+        Cracked::Parted(..)
+    ))
+}
+
+/// What the cracks of an impact did to a body.
+enum Cracked<'a> {
+    /// Margin and report.
+    Held(f64, ImpactReport),
+    /// Pieces, not made yet.
+    Parted(CrackSystem<'a>, Labels, ImpactReport),
+}
+
+fn cracks<'a>(
+    body: &'a Body,
+    contacts: &[Contact],
+    config: &'a FractureConfig,
+) -> Result<Cracked<'a>, InputError> {
     contacts.iter().try_for_each(Contact::validate)?;
     let asset = &*body.asset;
+    let strength = asset.material.strength;
     let mut report = ImpactReport {
-        strength: asset.material.strength,
-        weak_points: body.weak_tets.len(),
+        strength,
+        weak_points: body.weak_tets().len(),
+        approach_energy: contact::approach_energy(contacts),
         ..ImpactReport::default()
     };
     let clock = Instant::now();
 
+    // Most contacts end here (beyond the paper: stress/bound.rs).
+    if config.culling
+        && let Some(bound) = contact::first_bound(body, contacts)
+        && bound <= strength as f32 * (1.0 - MARGIN)
+    {
+        report.stress_bound = f64::from(bound);
+        report.timings.response = clock.elapsed().as_secs_f64();
+        return Ok(Cracked::Held(strength / f64::from(bound), report));
+    }
+
     // Contact → force pulse → modal response [G12 §4.1-4.3].
-    let load = contact::modal_load(asset, contacts);
+    let load = contact::modal_load(body, contacts);
     if load.touches.is_empty() {
-        return Ok(Outcome::Held(Box::new(report)));
+        return Ok(Cracked::Held(f64::INFINITY, report));
     }
     report.unadjusted_duration = contact::contact_duration(asset, &load, config.duration);
     report.contact_duration = if config.admissible_duration {
-        contact::admissible_duration(asset, &load, report.unadjusted_duration)
+        let budget = report.approach_energy;
+        contact::admissible_duration(asset, &load, budget, report.unadjusted_duration)
     } else {
         report.unadjusted_duration
     };
     let pulse = contact::pulse(asset, &load, report.contact_duration, config);
     let motion = modal::respond(&asset.modes, &asset.material, &load.modal_impulse, &pulse);
+    report.looked_at = LookedAt::Amplitudes;
     report.time_step = pulse.time_step;
     report.time_steps = motion.steps();
-    report.approach_energy = contact::approach_energy(&load);
     report.peak_elastic_energy = motion.peak_energy;
+    report.peak_strain_energy = motion.peak_strain_energy;
     report.most_excited_frequency = contact::most_excited_mode(asset, &load.modal_impulse)
         .map_or(0.0, |i| asset.modes.frequency(i));
     report.timings.response = clock.elapsed().as_secs_f64();
 
     // Stress wave → cracks [G12 §4.4, §5].
-    let mut system = CrackSystem::new(asset, config, body.seed);
+    let budget = if config.energy_ledger {
+        motion.peak_strain_energy
+    } else {
+        f64::INFINITY
+    };
+    let mut system = CrackSystem::new(body, config, budget);
     let mut displacement = DisplacementBatch::new(asset);
+    let mut culling = Culling::new(body, config.culling);
     let elasticity = Elasticity::new(&asset.material);
     let mut peak = 0.0;
     for step in 0..motion.steps() {
+        let survivors = culling.survivors(motion.at(step));
+        if survivors.is_empty() && system.is_quiet() {
+            continue;
+        }
+        report.looked_at = LookedAt::Stresses;
         let now = (step + 1) as f64 * pulse.time_step;
         let start = Instant::now();
         displacement.seek(asset, &motion, step);
@@ -72,7 +139,10 @@ pub fn impact(
             step,
         };
         advance(&mut system, &field, now - pulse.time_step, now);
-        peak = start_cracks(&mut system, &field, &body.weak_tets, now, peak);
+        let weak = survivors
+            .iter()
+            .flat_map(|&c| body.clusters.tets(c as usize));
+        peak = start_cracks(&mut system, &field, weak.copied(), now, peak);
         if report.first_crack_time.is_none() && !system.cracks.is_empty() {
             report.first_crack_time = Some(now);
             report.first_crack_point = Some(system.cracks[0].frame.origin);
@@ -80,20 +150,22 @@ pub fn impact(
         report.timings.cracks += start.elapsed().as_secs_f64();
     }
     report.peak_stress = f64::from(peak);
+    report.stress_bound = f64::from(peak.max(culling.passed_over));
     report.cracks = system.cracks.len();
     report.crack_area = system.cracks.iter().fold(0.0, |sum, c| sum + c.area);
-    report.fracture_energy = system.cracks.iter().fold(0.0, |sum, c| sum + c.spent);
+    report.fracture_energy = system.spent;
+    let margin = strength / report.stress_bound;
+    if system.cracks.is_empty() {
+        return Ok(Cracked::Held(margin, report));
+    }
 
-    // Cracks → fragments [G12 §6].
+    // Which nodes hang together [G12 §6.1].
     let start = Instant::now();
     let labels = fragment::label(&system, config.crumb_share);
-    if labels.count < 2 {
-        report.timings.fragments = start.elapsed().as_secs_f64();
-        return Ok(Outcome::Held(Box::new(report)));
-    }
-    let fragments = fragment::build(&system, &labels);
-    let volume: f64 = fragments.iter().map(|f| f.mass.volume).sum();
-    report.volume_error = volume / asset.fracture.total_volume() - 1.0;
     report.timings.fragments = start.elapsed().as_secs_f64();
-    Ok(Outcome::Broke(Box::new(Fracture { fragments, report })))
+    Ok(if labels.count < 2 {
+        Cracked::Held(margin, report)
+    } else {
+        Cracked::Parted(system, labels, report)
+    })
 }

@@ -3,7 +3,8 @@
 //! A tour, in the order of the data:
 //! - [`Asset`]: what a bake (crate `frangible-bake`) makes of a shape and a [`Material`]: a fine mesh of linear
 //!   tetrahedra for cracks, a coarse one of quadratic tetrahedra for the vibration modes, and how they fit together;
-//! - [`Body`]: an asset with its own seed and weak points;
+//! - [`Breakable`]: an asset made ready, shared by all bodies of a kind; [`Body`]: one of them, with its own seed and
+//!   weak points;
 //! - [`Contact`]: where, how hard and by what a body is hit, as a rigid-body engine knows it;
 //! - [`impact()`]: the pipeline, after Glondu, Marchal, Dumont, *Real-Time Simulation of Brittle Fracture Using Modal
 //!   Analysis*, IEEE TVCG 2012, cited as `[G12]`;
@@ -30,14 +31,14 @@ mod rng;
 pub mod stress;
 
 pub use asset::{Asset, AssetFileError};
-pub use body::Body;
+pub use body::{Body, Breakable};
 pub use config::{CrackPath, CrackTiming, DurationModel, FractureConfig};
 pub use contact::{Contact, Striker};
 pub use error::InputError;
 pub use glam;
-pub use impact::impact;
+pub use impact::{impact, would_break};
 pub use material::Material;
 pub use mesh::{MassProperties, TetMesh, TriMesh};
 pub use names::nearest_name;
-pub use outcome::{Fracture, Fragment, ImpactReport, Outcome, StageTimings};
+pub use outcome::{Fracture, Fragment, ImpactReport, LookedAt, Outcome, StageTimings};
 pub use presets::{Preset, UnknownMaterial};

@@ -9,7 +9,13 @@ use crate::mesh::{MassProperties, TriMesh};
 #[non_exhaustive]
 pub enum Outcome {
     /// The body stays one piece.
-    Held(Box<ImpactReport>),
+    Held {
+        /// Strength over the bound of the stress: above 1 nothing happened, and the larger it is, the farther from it. At or
+        /// below 1 the stress passed the strength at a weak point; cracks that part nothing may have run.
+        margin: f64,
+        /// Numbers of the impact.
+        report: ImpactReport,
+    },
     /// The body is now these fragments.
     Broke(Box<Fracture>),
 }
@@ -19,7 +25,7 @@ impl Outcome {
     #[must_use]
     pub fn report(&self) -> &ImpactReport {
         match self {
-            Self::Held(report) => report,
+            Self::Held { report, .. } => report,
             Self::Broke(fracture) => &fracture.report,
         }
     }
@@ -47,6 +53,18 @@ pub struct Fragment {
     pub supported: bool,
 }
 
+/// What of an impact had to be looked at, from the cheapest.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum LookedAt {
+    /// Its impulses alone: a bound free of time refused it.
+    #[default]
+    Impulses,
+    /// The amplitudes of the modes over time: a bound refused every time step.
+    Amplitudes,
+    /// Stresses at weak points.
+    Stresses,
+}
+
 /// Numbers of one impact, SI units.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
@@ -61,14 +79,21 @@ pub struct ImpactReport {
     pub time_step: f64,
     /// Number of time steps evaluated.
     pub time_steps: usize,
-    /// Largest principal tension met at a weak point, Pa.
+    /// Largest principal tension met at a weak point, Pa. Points whose bound stays below the strength are not looked
+    /// at: 0 when that is all of them; see `stress_bound`.
     pub peak_stress: f64,
+    /// No weak point had more tension than this, Pa.
+    pub stress_bound: f64,
+    /// What had to be looked at.
+    pub looked_at: LookedAt,
     /// Tensile strength R_c it is compared with, Pa.
     pub strength: f64,
     /// Kinetic energy of approach that the contacts absorbed, J.
     pub approach_energy: f64,
     /// Largest modal (kinetic + elastic) energy at a time step, J.
     pub peak_elastic_energy: f64,
+    /// Largest strain energy at a time step, J: what all cracks together may spend, with the ledger.
+    pub peak_strain_energy: f64,
     /// Fracture energy Σ A G_c, J.
     pub fracture_energy: f64,
     /// Total area of cracks (one side), m².

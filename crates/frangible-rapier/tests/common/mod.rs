@@ -85,6 +85,7 @@ pub fn box_asset(half: Vec3, cells: [usize; 3]) -> Arc<Asset> {
         analysis,
         embedding,
         modes: ModalBasis::default(),
+        bounds: Default::default(),
         cells: convex,
         cell_of_tet,
         supported: Vec::new(),
@@ -204,7 +205,12 @@ pub fn slicer(half: Vec3, slices: [usize; 3], overlap: f32, fracture_energy: f64
 
 /// No impact breaks anything.
 pub fn unbreakable() -> Judge {
-    Box::new(|_, _, _| Ok(Outcome::Held(Box::default())))
+    Box::new(|_, _, _| {
+        Ok(Outcome::Held {
+            margin: f64::INFINITY,
+            report: Default::default(),
+        })
+    })
 }
 
 pub fn world(gravity: bool) -> BreakableWorld {

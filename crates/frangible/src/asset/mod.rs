@@ -9,6 +9,7 @@ use glam::Vec3;
 use crate::material::Material;
 use crate::mesh::{MassProperties, TetMesh};
 use crate::modal::ModalBasis;
+use crate::stress::StressBounds;
 
 #[doc(hidden)]
 pub use file::seal;
@@ -34,6 +35,8 @@ pub struct Asset {
     pub embedding: Embedding,
     /// Frequencies, shapes and stress bounds of the vibration modes.
     pub modes: ModalBasis,
+    /// What lets harmless contacts be refused unseen; empty: computed when a body is made.
+    pub bounds: StressBounds,
     /// Mass, centre (the origin) and inertia of the whole body, kg, m, kg·m².
     pub mass: MassProperties,
     /// Convex cells that cover the body: the collider of the whole, shared out among fragments.

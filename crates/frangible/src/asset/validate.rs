@@ -30,6 +30,7 @@ impl Asset {
         self.check_surface()?;
         self.check_analysis()?;
         self.check_modes()?;
+        self.check_bounds()?;
         self.check_cells()?;
         self.check_supported()?;
         self.render.as_ref().map_or(Ok(()), render)
@@ -96,6 +97,36 @@ impl Asset {
         one_each("node", nodes, "embedded point", self.embedding.nodes.len())?;
         embedded("centroid", &self.embedding.tets, elements)?;
         embedded("node", &self.embedding.nodes, elements)
+    }
+
+    fn check_bounds(&self) -> Check {
+        let (bounds, modes) = (&self.bounds, self.modes.count());
+        if bounds.is_empty() && bounds.stress.is_empty() && bounds.gradient.is_empty() {
+            return Ok(());
+        }
+        let (tets, numbers) = (self.fracture.tets.len(), bounds.cluster_of_tet.len());
+        one_each("tetrahedron", tets, "cluster number", numbers)?;
+        let (stress, gradient) = (bounds.stress.len(), bounds.gradient.len());
+        one_each("stress bound", stress, "gradient bound", gradient)?;
+        if modes == 0 || stress % modes != 0 {
+            return Err(format!(
+                "{stress} stress bounds are no whole rows of {modes} modes"
+            ));
+        }
+        let clusters = stress / modes;
+        all(
+            &bounds.cluster_of_tet,
+            |&c| (c as usize) < clusters,
+            |e| format!("tetrahedron {e} is in a cluster that is not there, of {clusters}"),
+        )?;
+        for rows in [&bounds.stress, &bounds.gradient] {
+            all(
+                rows,
+                |&x| x.is_finite() && x >= 0.0,
+                |i| format!("stress bound {i} is not a finite number, zero or above"),
+            )?;
+        }
+        Ok(())
     }
 
     fn check_modes(&self) -> Check {

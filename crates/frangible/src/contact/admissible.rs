@@ -4,7 +4,7 @@
 //! The modal energy ½ Σ (q̇² + λ q²) bounds all later strain energy and costs O(modes) per step; the duration grows
 //! until its peak over the contact is at most the kinetic energy of approach Σ_k ½ φ_k v_k / (1 + e_k).
 
-use super::Load;
+use super::{Contact, Load};
 use crate::asset::Asset;
 use crate::modal::peak_contact_energy;
 
@@ -16,21 +16,19 @@ const TRIES: usize = 200;
 
 /// Kinetic energy of approach that the contacts absorb, J: Σ_k ½ φ_k v_k / (1 + e_k).
 #[must_use]
-pub fn approach_energy(load: &Load) -> f64 {
-    load.touches
+pub fn approach_energy(contacts: &[Contact]) -> f64 {
+    contacts
         .iter()
-        .map(|t| {
-            let c = &t.contact;
+        .map(|c| {
             0.5 * f64::from(c.impulse) * f64::from(c.approach_speed)
                 / (1.0 + f64::from(c.striker.restitution))
         })
         .sum()
 }
 
-/// The duration, s, lengthened until the body's vibration holds no more energy than the impact brought.
+/// The duration, s, lengthened until the body's vibration holds no more energy than `budget`, J, what the impact brought.
 #[must_use]
-pub fn admissible_duration(asset: &Asset, load: &Load, duration: f64) -> f64 {
-    let budget = approach_energy(load);
+pub fn admissible_duration(asset: &Asset, load: &Load, budget: f64, duration: f64) -> f64 {
     let mut t = duration;
     for _ in 0..TRIES {
         if peak_contact_energy(&asset.modes, &asset.material, &load.modal_impulse, t) <= budget {

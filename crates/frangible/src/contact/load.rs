@@ -1,11 +1,10 @@
 //! Where contacts touch and how hard they push each mode: ξ_i = φ_i(b) · n.
 
-use glam::Vec3;
-
 use super::Contact;
 use crate::asset::Asset;
-use crate::mesh::closest_on_triangle;
-use crate::stress::ShapeWeights;
+use crate::body::Body;
+use crate::mesh::SurfacePoint;
+use crate::stress::{ShapeWeights, tension_bound};
 
 /// A contact on the body's surface, with what its modes see of it.
 #[derive(Clone, Debug)]
@@ -31,45 +30,41 @@ pub struct Load {
 
 /// Finds each contact on the surface and sums up the modal impulses.
 #[must_use]
-pub fn modal_load(asset: &Asset, contacts: &[Contact]) -> Load {
+pub fn modal_load(body: &Body, contacts: &[Contact]) -> Load {
+    let asset = &*body.asset;
     let modes = asset.modes.count();
     let mut modal_impulse = vec![0.0; modes];
     let mut touches = Vec::with_capacity(contacts.len());
     for contact in contacts.iter().filter(|c| c.impulse > 0.0) {
         let normal = contact.normal.normalize();
-        let (triangle, corners, point) = closest_on_surface(asset, contact.point);
+        let at = body.prepared.surface.closest(contact.point);
         let mut modal_shape = vec![0.0; modes];
-        for (&node, corner) in asset.surface.triangles[triangle].iter().zip(corners) {
-            let weights = ShapeWeights::values(&asset.embedding.nodes[node as usize]);
-            let element =
-                asset.analysis.elements[asset.embedding.nodes[node as usize].element as usize];
-            for (&analysis_node, weight) in element.iter().zip(weights) {
-                for axis in 0..3 {
-                    let w = f64::from(corner * weight * normal[axis]);
-                    let row = asset.modes.row(3 * analysis_node as usize + axis);
-                    for (xi, &phi) in modal_shape.iter_mut().zip(row) {
-                        *xi += w * f64::from(phi);
-                    }
+        each_row(asset, &at, |node, weight| {
+            for axis in 0..3 {
+                let w = f64::from(weight * normal[axis]);
+                let row = asset.modes.row(3 * node + axis);
+                for (xi, &phi) in modal_shape.iter_mut().zip(row) {
+                    *xi += w * f64::from(phi);
                 }
             }
-        }
+        });
         for (sum, xi) in modal_impulse.iter_mut().zip(&modal_shape) {
             *sum += f64::from(contact.impulse) * xi;
         }
         touches.push(Touch {
             contact: Contact {
-                point,
+                point: at.position,
                 normal,
                 ..*contact
             },
             modal_shape,
-            curvature_radius: f64::from(asset.surface.curvature_radius[triangle]),
+            curvature_radius: f64::from(asset.surface.curvature_radius[at.triangle as usize]),
             inverse_effective_mass: if asset.is_supported() {
                 0.0
             } else {
                 asset
                     .mass
-                    .inverse_effective_mass(point.as_dvec3(), normal.as_dvec3())
+                    .inverse_effective_mass(at.position.as_dvec3(), normal.as_dvec3())
             },
         });
     }
@@ -79,18 +74,73 @@ pub fn modal_load(asset: &Asset, contacts: &[Contact]) -> Load {
     }
 }
 
-/// Nearest point of the outer surface: triangle, weights of its corners, position.
-fn closest_on_surface(asset: &Asset, point: Vec3) -> (usize, [f32; 3], Vec3) {
-    let mut best = (f32::INFINITY, 0, [1.0, 0.0, 0.0], point);
-    for (i, triangle) in asset.surface.triangles.iter().enumerate() {
-        let x = triangle.map(|v| asset.fracture.positions[v as usize]);
-        let weights =
-            closest_on_triangle(x.map(Vec3::as_dvec3), point.as_dvec3()).map(|w| w as f32);
-        let q = x[0] * weights[0] + x[1] * weights[1] + x[2] * weights[2];
-        let distance = q.distance_squared(point);
-        if distance < best.0 {
-            best = (distance, i, weights, q);
+/// The analysis nodes that carry a point of the surface, with their weights: ten for each corner of its triangle.
+fn each_row(asset: &Asset, at: &SurfacePoint, mut visit: impl FnMut(usize, f32)) {
+    let triangle = asset.surface.triangles[at.triangle as usize];
+    for (&node, corner) in triangle.iter().zip(at.weights) {
+        let point = &asset.embedding.nodes[node as usize];
+        let element = asset.analysis.elements[point.element as usize];
+        for (&analysis_node, weight) in element.iter().zip(ShapeWeights::values(point)) {
+            visit(analysis_node as usize, corner * weight);
         }
     }
-    (best.1, best.2, best.3)
+}
+
+/// Most contacts that the first bound looks at; more are rare, and go on to the full computation.
+const MOST_CONTACTS: usize = 16;
+
+/// Modes looked at together: their sums stay on the stack.
+const BLOCK: usize = 64;
+
+/// No stress of this impact exceeds this, Pa, at any place and time, whatever the duration of its contacts: an impulse
+/// J moves a mode at most |J_i|/√λ_i, damped or not. Costs a few rows of the mode shapes, allocates nothing.
+///
+/// `None` when there are too many contacts.
+pub(crate) fn first_bound(body: &Body, contacts: &[Contact]) -> Option<f32> {
+    let (asset, prepared) = (&*body.asset, &*body.prepared);
+    if contacts.len() > MOST_CONTACTS {
+        return None;
+    }
+    let nowhere = SurfacePoint {
+        triangle: 0,
+        weights: [0.0; 3],
+        position: glam::Vec3::ZERO,
+    };
+    let mut places = [nowhere; MOST_CONTACTS];
+    for (place, contact) in places.iter_mut().zip(contacts) {
+        if contact.impulse > 0.0 {
+            *place = prepared.surface.closest(contact.point);
+        }
+    }
+    let modes = asset.modes.count();
+    let (mut stress, mut gradient) = (0.0, 0.0);
+    for first in (0..modes).step_by(BLOCK) {
+        let block = first..(first + BLOCK).min(modes);
+        let mut amplitudes = [0.0_f32; BLOCK];
+        let amplitudes = &mut amplitudes[..block.len()];
+        for (place, contact) in places.iter().zip(contacts) {
+            if contact.impulse <= 0.0 {
+                continue;
+            }
+            let push = contact.normal.normalize() * contact.impulse;
+            each_row(asset, place, |node, weight| {
+                for axis in 0..3 {
+                    let w = weight * push[axis];
+                    let row = &asset.modes.row(3 * node + axis)[block.clone()];
+                    for (sum, &phi) in amplitudes.iter_mut().zip(row) {
+                        *sum += w * phi;
+                    }
+                }
+            });
+        }
+        for (q, t) in amplitudes.iter_mut().zip(&prepared.periods[block.clone()]) {
+            *q *= t;
+        }
+        // The quadratic term needs the sum over all blocks first.
+        let zero = [0.0; BLOCK];
+        let zero = &zero[..block.len()];
+        stress += tension_bound(amplitudes, &prepared.root.0[block.clone()], zero, 0.0);
+        gradient += tension_bound(amplitudes, &prepared.root.1[block], zero, 0.0);
+    }
+    Some(stress + 0.5 * prepared.quadratic_modulus * gradient * gradient)
 }

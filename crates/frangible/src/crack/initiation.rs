@@ -23,14 +23,14 @@ const ISOTROPIC: f64 = 1e-3;
 pub(crate) fn start_cracks(
     system: &mut CrackSystem,
     field: &StressField,
-    weak_tets: &[u32],
+    weak_tets: impl Iterator<Item = u32>,
     now: f64,
     peak_so_far: f32,
 ) -> f32 {
     let strength = system.asset.material.strength as f32;
     let mut candidates = Vec::new();
     let mut peak = peak_so_far;
-    for &e in weak_tets {
+    for e in weak_tets {
         if system.fractured_by[e as usize] != UNCUT {
             continue;
         }
@@ -57,7 +57,7 @@ pub(crate) fn start_cracks(
 fn try_start(system: &mut CrackSystem, field: &StressField, e: u32, now: f64) {
     let asset = system.asset;
     let material = &asset.material;
-    let centre = asset.fracture.centroid(e as usize);
+    let centre = system.centroids[e as usize];
     let state = field.at(e as usize);
     let strength = material.strength as f32;
     let mut releases = std::mem::take(&mut system.releases);
@@ -82,7 +82,7 @@ fn try_start(system: &mut CrackSystem, field: &StressField, e: u32, now: f64) {
     let x = asset.fracture.corners(e as usize);
     let values = x.map(|p| frame.planar(p));
     let area = crossing_area(&x, &values);
-    if area <= 0.0 {
+    if area <= 0.0 || !system.affords(area) {
         return;
     }
     let id = system.cracks.len() as u32;

@@ -1,5 +1,6 @@
 //! Cracks: where they start, how they run, when they stop `[G12 §4.4, §5]`.
 
+mod culling;
 mod field;
 mod initiation;
 mod propagation;
@@ -7,6 +8,7 @@ mod release;
 mod surface;
 mod system;
 
+pub(crate) use culling::Culling;
 pub(crate) use field::StressField;
 pub(crate) use initiation::start_cracks;
 pub(crate) use propagation::advance;

@@ -122,6 +122,9 @@ fn enter(system: &mut CrackSystem, field: &StressField, front: Front) {
     let material = &system.asset.material;
     let cost = f64::from(area) * material.fracture_energy;
     let gain = f64::from(area) * material.energy_depth * f64::from(state.energy_density);
+    if !system.affords(area) {
+        return;
+    }
     if crack.spent + cost < crack.available + gain {
         let cut = ElementCut {
             tet: front.tet,

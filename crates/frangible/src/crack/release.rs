@@ -87,7 +87,7 @@ pub(crate) fn released(
 }
 
 fn update(point: &mut Point, system: &CrackSystem, e: u32, now: f64, release_reach: f32) {
-    let centre = system.asset.fracture.centroid(e as usize);
+    let centre = system.centroids[e as usize];
     let wave = system.asset.material.rayleigh_speed();
     point.sites = system.site_count;
     point.next = f64::INFINITY;

@@ -8,6 +8,7 @@ use glam::Vec3;
 use super::release::Releases;
 use super::surface::CrackFrame;
 use crate::asset::Asset;
+use crate::body::Body;
 use crate::config::FractureConfig;
 
 /// No crack has fractured this tetrahedron.
@@ -110,28 +111,44 @@ pub(crate) struct CrackSystem<'a> {
     /// Number of sites of all cracks.
     pub(crate) site_count: usize,
     /// Centroid of each fracture tetrahedron, m.
-    pub(crate) centroids: Vec<Vec3>,
+    pub(crate) centroids: &'a [Vec3],
     /// Mean edge of the fracture mesh, m.
     pub(crate) edge: f32,
+    /// Energy that all cracks together may spend, J; infinite without a ledger.
+    pub(crate) budget: f64,
+    /// Energy that all cracks together have spent, J.
+    pub(crate) spent: f64,
 }
 
 impl<'a> CrackSystem<'a> {
-    pub(crate) fn new(asset: &'a Asset, config: &'a FractureConfig, seed: u64) -> Self {
+    /// No cracks yet; all that come may together spend `budget` J.
+    pub(crate) fn new(body: &'a Body, config: &'a FractureConfig, budget: f64) -> Self {
+        let asset = &*body.asset;
         Self {
             asset,
             config,
-            seed,
+            seed: body.seed(),
+            budget,
+            spent: 0.0,
             cracks: Vec::new(),
             fractured_by: vec![UNCUT; asset.fracture.tets.len()],
             fronts: BinaryHeap::new(),
             stalled: Vec::new(),
             releases: Releases::default(),
             site_count: 0,
-            centroids: (0..asset.fracture.tets.len())
-                .map(|e| asset.fracture.centroid(e))
-                .collect(),
-            edge: asset.fracture.mean_edge(),
+            centroids: &body.prepared.centroids,
+            edge: body.prepared.edge,
         }
+    }
+
+    /// Whether no front is on its way or waits for energy.
+    pub(crate) fn is_quiet(&self) -> bool {
+        self.fronts.is_empty() && self.stalled.is_empty()
+    }
+
+    /// Whether the ledger has the fracture energy of this area, m². What it refuses it refuses for good.
+    pub(crate) fn affords(&self, area: f32) -> bool {
+        self.spent + f64::from(area) * self.asset.material.fracture_energy <= self.budget
     }
 
     /// Adds a fractured tetrahedron to a crack and sends the crack's front to its neighbours.
@@ -141,6 +158,7 @@ impl<'a> CrackSystem<'a> {
         self.fractured_by[tet] = crack;
         let c = &mut self.cracks[crack as usize];
         c.spent += f64::from(area) * material.fracture_energy;
+        self.spent += f64::from(area) * material.fracture_energy;
         c.available += f64::from(area) * material.energy_depth * f64::from(energy_density);
         c.area += f64::from(area);
         let centre = self.centroids[tet];

@@ -10,4 +10,4 @@ mod partition;
 mod tests;
 
 pub(crate) use build::build;
-pub(crate) use label::label;
+pub(crate) use label::{Labels, label};

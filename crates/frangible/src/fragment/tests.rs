@@ -13,7 +13,7 @@ use crate::crack::CrackSystem;
 use crate::mesh::{EDGES, MassProperties, TetMesh};
 use crate::modal::ModalBasis;
 use crate::rng::{Purpose, stream, uniform};
-use crate::{FractureConfig, Material};
+use crate::{Breakable, FractureConfig, Material};
 
 /// A block of n³ jittered cubes, six tetrahedra each, without modes.
 fn block(n: usize) -> Asset {
@@ -87,6 +87,7 @@ fn block(n: usize) -> Asset {
         modes: ModalBasis::default(),
         mass,
         cells: vec![ConvexCell::default()],
+        bounds: Default::default(),
         supported: Vec::new(),
         render: None,
     }
@@ -97,7 +98,8 @@ fn fragments_of_arbitrary_labels_tile_the_body_and_are_closed() {
     let asset = block(6);
     let nodes = asset.fracture.positions.len();
     let config = FractureConfig::default();
-    let system = CrackSystem::new(&asset, &config, 1);
+    let body = Breakable::of_sound(asset.clone().into()).body(1);
+    let system = CrackSystem::new(&body, &config, 0.0);
     for (round, count) in [2_u32, 3, 4, 9].into_iter().enumerate() {
         let mut rng = stream(round as u64, Purpose::CrackDirection, count);
         // Any labels at all, so that every case of two, three and four labels occurs many times.
@@ -167,7 +169,8 @@ fn the_fragment_that_holds_a_supported_node_is_supported() {
     for node in 0..nodes {
         asset.supported = vec![node];
         let config = FractureConfig::default();
-        let fragments = build(&CrackSystem::new(&asset, &config, 1), &labels);
+        let body = Breakable::of_sound(asset.clone().into()).body(1);
+        let fragments = build(&CrackSystem::new(&body, &config, 0.0), &labels);
         let place = asset.fracture.positions[node as usize];
         assert!(fragments.iter().any(|f| f.supported));
         for fragment in fragments {

@@ -4,9 +4,11 @@ mod closest;
 mod mass;
 mod surface;
 mod tet;
+mod tree;
 
 pub use closest::closest_on_triangle;
 pub use mass::MassProperties;
 pub use surface::TriMesh;
 pub(crate) use tet::{EDGES, FACES};
 pub use tet::{NO_NEIGHBOUR, TetMesh};
+pub(crate) use tree::{SurfacePoint, TriangleTree};

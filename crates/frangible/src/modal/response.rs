@@ -61,6 +61,12 @@ impl Oscillator {
         self.state[1]
     }
 
+    /// Strain energy ½ λ q².
+    #[must_use]
+    pub fn strain_energy(&self) -> f64 {
+        0.5 * self.state[0] * self.state[0]
+    }
+
     /// Energy ½ (q̇² + λ q²).
     #[must_use]
     pub fn energy(&self) -> f64 {
@@ -110,6 +116,8 @@ pub struct Motion {
     pub modes: usize,
     /// Largest Σ ½ (q̇² + λ q²) at a step, J.
     pub peak_energy: f64,
+    /// Largest strain energy Σ ½ λ q² at a step, J.
+    pub peak_strain_energy: f64,
 }
 
 impl Motion {
@@ -117,6 +125,12 @@ impl Motion {
     #[must_use]
     pub fn steps(&self) -> usize {
         self.amplitudes.len().checked_div(self.modes).unwrap_or(0)
+    }
+
+    /// Amplitudes of all modes at a step, m·√kg.
+    #[must_use]
+    pub fn at(&self, step: usize) -> &[f32] {
+        &self.amplitudes[step * self.modes..(step + 1) * self.modes]
     }
 }
 
@@ -127,6 +141,7 @@ pub fn respond(basis: &ModalBasis, material: &Material, load: &[f64], pulse: &Pu
     let steps = pulse.total_steps;
     let mut amplitudes = vec![0.0_f32; steps * modes];
     let mut energy = vec![0.0_f64; steps];
+    let mut strain_energy = vec![0.0_f64; steps];
     for i in 0..modes {
         let force = load[i] * pulse.amplitude;
         let mut mode = Oscillator::new(
@@ -139,12 +154,14 @@ pub fn respond(basis: &ModalBasis, material: &Material, load: &[f64], pulse: &Pu
             mode.step(k < pulse.contact_steps);
             amplitudes[k * modes + i] = (mode.displacement() * force) as f32;
             energy[k] += mode.energy() * force * force;
+            strain_energy[k] += mode.strain_energy() * force * force;
         }
     }
     Motion {
         amplitudes,
         modes,
         peak_energy: energy.into_iter().fold(0.0, f64::max),
+        peak_strain_energy: strain_energy.into_iter().fold(0.0, f64::max),
     }
 }
 

@@ -1,9 +1,12 @@
 //! Displacements, strains and stresses `[G12 §4.4]`.
 
+mod bound;
 mod displacement;
 mod principal;
 mod strain;
 
+pub(crate) use bound::{MARGIN, quadratic_modulus, tension_bound};
+pub use bound::{StressBounds, spectral_norm};
 pub use displacement::{DisplacementBatch, ShapeWeights};
 pub(crate) use principal::perpendicular_axes;
 pub use principal::{largest_eigenvalue, largest_eigenvalue_bound, principal_axes};

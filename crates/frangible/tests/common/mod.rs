@@ -6,6 +6,7 @@ use frangible::asset::{
 };
 use frangible::glam::Vec3;
 use frangible::modal::ModalBasis;
+use frangible::stress::StressBounds;
 use frangible::{Asset, MassProperties, Material, TetMesh};
 
 /// How much of everything.
@@ -127,6 +128,7 @@ pub fn synthetic_asset(size: &Size) -> Asset {
         analysis,
         embedding,
         modes,
+        bounds: StressBounds::default(),
         mass,
         cells,
         cell_of_tet,

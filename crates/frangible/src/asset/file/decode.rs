@@ -53,6 +53,7 @@ impl Asset {
                 shapes: r.rows(s::MODE_SHAPES)?,
                 peak_stress: r.rows(s::PEAK_STRESS)?,
             },
+            bounds: crate::stress::StressBounds::default(),
             mass: mass(r.one(s::MASS)?),
             cells: cells(&r)?,
             cell_of_tet: r.rows(s::CELL_OF_TET)?,

@@ -1,0 +1,60 @@
+//! Which weak points need a look at a time step: those of clusters whose stress bound passes the strength.
+
+use crate::body::Body;
+use crate::stress::{MARGIN, tension_bound};
+
+/// Passes over clusters of weak points that cannot crack.
+pub(crate) struct Culling<'a> {
+    body: &'a Body,
+    on: bool,
+    /// Below this bound no point of a cluster reaches the strength, Pa.
+    limit: f32,
+    /// Largest bound of what was passed over so far, Pa.
+    pub(crate) passed_over: f32,
+    survivors: Vec<u32>,
+}
+
+impl<'a> Culling<'a> {
+    /// With `on` false every cluster needs a look at every step.
+    pub(crate) fn new(body: &'a Body, on: bool) -> Self {
+        Self {
+            body,
+            on,
+            limit: body.asset.material.strength as f32 * (1.0 - MARGIN),
+            passed_over: 0.0,
+            survivors: Vec::new(),
+        }
+    }
+
+    /// Clusters to look at, as places in the body's list, when the modes have these amplitudes, m·√kg.
+    pub(crate) fn survivors(&mut self, amplitudes: &[f32]) -> &[u32] {
+        let (prepared, clusters) = (&self.body.prepared, &self.body.clusters.clusters);
+        self.survivors.clear();
+        if !self.on {
+            self.survivors.extend(0..clusters.len() as u32);
+            return &self.survivors;
+        }
+        let bound = |stress: &[f32], gradient: &[f32]| {
+            tension_bound(amplitudes, stress, gradient, prepared.quadratic_modulus)
+        };
+        let root = bound(&prepared.root.0, &prepared.root.1);
+        if root <= self.limit {
+            self.passed_over = self.passed_over.max(root);
+            return &self.survivors;
+        }
+        let modes = amplitudes.len();
+        for (i, &cluster) in clusters.iter().enumerate() {
+            let row = cluster as usize * modes..(cluster as usize + 1) * modes;
+            let of_cluster = bound(
+                &prepared.bounds.stress[row.clone()],
+                &prepared.bounds.gradient[row],
+            );
+            if of_cluster <= self.limit {
+                self.passed_over = self.passed_over.max(of_cluster);
+            } else {
+                self.survivors.push(i as u32);
+            }
+        }
+        &self.survivors
+    }
+}

@@ -1,0 +1,289 @@
+//! Upper bounds of the stress from the modal amplitudes alone: what lets a contact be refused unseen (beyond the paper).
+//!
+//! With `s_i` the spectral norm of mode i's linear stress at a tetrahedron and `g_i` a norm of its displacement gradient,
+//! the largest principal tension of Green–Lagrange strain and Hooke's law is at any time at most
+//! `Σ|q_i| s_i + ½ k (Σ|q_i| g_i)²`, k = max(3λ, 0) + 2μ (λ, μ Lamé's parameters). Maxima of s and g over a cluster of
+//! tetrahedra bound all of them. The maxima contain what the rounding of the run time's f32 can add, so a cluster whose
+//! bound stays below the strength holds no crack, exactly: results with and without the bounds are the same bits.
+//! The Frobenius norm serves for g: it is never below the spectral norm, and its term is small.
+
+use glam::Vec3;
+
+use super::displacement::ShapeWeights;
+use crate::asset::{AnalysisMesh, Asset, EmbeddedPoint};
+use crate::material::Material;
+use crate::mesh::TetMesh;
+use crate::modal::ModalBasis;
+
+/// Most tetrahedra of a cluster.
+const CLUSTER: usize = 256;
+
+/// Rounding of u = Φ q and of its gradient in f32, relative to the sum of the absolute values of all terms: twenty
+/// times ε/2 = 6e-8, since the errors of a sum of n terms grow as √n, and n is about a hundred.
+const ROUNDING: f32 = 1.2e-6;
+
+/// Bounds are compared with the strength less this: the rounding of the bound itself.
+pub(crate) const MARGIN: f32 = 1e-4;
+
+/// Largest stress and gradient of each mode over clusters of neighbouring fracture tetrahedra.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct StressBounds {
+    /// Cluster of each fracture tetrahedron.
+    pub cluster_of_tet: Vec<u32>,
+    /// Largest linear stress, Pa per m·√kg: one row per cluster, one column per mode.
+    pub stress: Vec<f32>,
+    /// Largest displacement gradient, 1 per m·√kg: the same.
+    pub gradient: Vec<f32>,
+}
+
+impl StressBounds {
+    /// Computes them for the tetrahedra of `mesh`, embedded in the analysis mesh at `points`.
+    #[must_use]
+    pub fn new(
+        mesh: &TetMesh,
+        analysis: &AnalysisMesh,
+        points: &[EmbeddedPoint],
+        modes: &ModalBasis,
+        material: &Material,
+    ) -> Self {
+        let (cluster_of_tet, clusters) = clusters(mesh);
+        let m = modes.count();
+        let mut bounds = Self {
+            stress: vec![0.0; clusters * m],
+            gradient: vec![0.0; clusters * m],
+            cluster_of_tet,
+        };
+        let mut rows = Rows::new(m);
+        for (point, &cluster) in points.iter().zip(&bounds.cluster_of_tet) {
+            rows.gradients(point, analysis, modes);
+            let row = cluster as usize * m..(cluster as usize + 1) * m;
+            rows.raise(
+                &mut bounds.stress[row.clone()],
+                &mut bounds.gradient[row],
+                material.lame_lambda() as f32,
+                material.shear_modulus() as f32,
+            );
+        }
+        bounds
+    }
+
+    /// Of an asset, from its own arrays.
+    #[must_use]
+    pub fn of(asset: &Asset) -> Self {
+        Self::new(
+            &asset.fracture,
+            &asset.analysis,
+            &asset.embedding.tets,
+            &asset.modes,
+            &asset.material,
+        )
+    }
+
+    /// Whether there are none: they are then computed when a body is made.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.cluster_of_tet.is_empty()
+    }
+
+    /// Number of clusters of a basis with `modes` modes.
+    #[must_use]
+    pub fn clusters(&self, modes: usize) -> usize {
+        self.stress.len().checked_div(modes).unwrap_or(0)
+    }
+
+    /// Largest entries of all clusters: rows of stress and gradient for the whole body.
+    #[must_use]
+    pub fn root(&self, modes: usize) -> (Vec<f32>, Vec<f32>) {
+        let largest = |rows: &[f32]| {
+            let mut root = vec![0.0_f32; modes];
+            for row in rows.chunks_exact(modes.max(1)) {
+                for (a, &b) in root.iter_mut().zip(row) {
+                    *a = a.max(b);
+                }
+            }
+            root
+        };
+        (largest(&self.stress), largest(&self.gradient))
+    }
+}
+
+/// k of the quadratic term, Pa: max(3λ, 0) + 2μ.
+pub(crate) fn quadratic_modulus(material: &Material) -> f32 {
+    ((3.0 * material.lame_lambda()).max(0.0) + 2.0 * material.shear_modulus()) as f32
+}
+
+/// Σ|q_i| s_i + ½ k (Σ|q_i| g_i)², Pa, summed in a fixed order over eight lanes.
+pub(crate) fn tension_bound(amplitudes: &[f32], stress: &[f32], gradient: &[f32], k: f32) -> f32 {
+    const LANES: usize = 8;
+    let (mut s, mut g) = ([0.0_f32; LANES], [0.0_f32; LANES]);
+    let tail = amplitudes.len() / LANES * LANES;
+    for ((q, a), b) in amplitudes
+        .chunks_exact(LANES)
+        .zip(stress.chunks_exact(LANES))
+        .zip(gradient.chunks_exact(LANES))
+    {
+        for i in 0..LANES {
+            s[i] += q[i].abs() * a[i];
+            g[i] += q[i].abs() * b[i];
+        }
+    }
+    for i in tail..amplitudes.len() {
+        s[i - tail] += amplitudes[i].abs() * stress[i];
+        g[i - tail] += amplitudes[i].abs() * gradient[i];
+    }
+    let (s, g) = (s.iter().sum::<f32>(), g.iter().sum::<f32>());
+    s + 0.5 * k * g * g
+}
+
+/// Gradients of all modes at one tetrahedron, struct of arrays.
+struct Rows {
+    /// ∂u_row/∂x_column of every mode, nine arrays one after another: `9 * modes`.
+    gradient: Vec<f32>,
+    /// Σ |φ| |∇N| of every mode: what rounding is relative to.
+    terms: Vec<f32>,
+}
+
+impl Rows {
+    fn new(modes: usize) -> Self {
+        Self {
+            gradient: vec![0.0; 9 * modes],
+            terms: vec![0.0; modes],
+        }
+    }
+
+    fn gradients(&mut self, point: &EmbeddedPoint, analysis: &AnalysisMesh, modes: &ModalBasis) {
+        self.gradient.fill(0.0);
+        self.terms.fill(0.0);
+        let m = self.terms.len();
+        let element = point.element as usize;
+        let weights = ShapeWeights::gradients(point, &analysis.barycentric_gradients[element]);
+        for (&node, g) in analysis.elements[element].iter().zip(weights) {
+            let size = g.abs().element_sum();
+            for row in 0..3 {
+                let phi = modes.row(3 * node as usize + row);
+                for (t, &p) in self.terms.iter_mut().zip(phi) {
+                    *t += p.abs() * size;
+                }
+                let block = &mut self.gradient[3 * row * m..3 * (row + 1) * m];
+                let (x, rest) = block.split_at_mut(m);
+                let (y, z) = rest.split_at_mut(m);
+                accumulate(phi, g, x, y, z);
+            }
+        }
+    }
+
+    /// Raises one cluster's rows to this tetrahedron's values.
+    fn raise(&self, stress: &mut [f32], gradient: &mut [f32], lambda: f32, mu: f32) {
+        let m = stress.len();
+        let modulus = (3.0 * lambda).max(0.0) + 2.0 * mu;
+        let at = |k: usize, i: usize| self.gradient[k * m + i];
+        for i in 0..m {
+            let g: [f32; 9] = std::array::from_fn(|k| at(k, i));
+            let allowance = ROUNDING * self.terms[i];
+            let frobenius = g.iter().map(|x| x * x).sum::<f32>().sqrt() + allowance;
+            gradient[i] = gradient[i].max(frobenius);
+            let pressure = lambda * (g[0] + g[4] + g[8]);
+            let s = [
+                2.0 * mu * g[0] + pressure,
+                2.0 * mu * g[4] + pressure,
+                2.0 * mu * g[8] + pressure,
+                mu * (g[5] + g[7]),
+                mu * (g[6] + g[2]),
+                mu * (g[1] + g[3]),
+            ];
+            // The Frobenius norm is never below the spectral norm: nearly all tetrahedra end here.
+            let squared = s[0] * s[0]
+                + s[1] * s[1]
+                + s[2] * s[2]
+                + 2.0 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]);
+            let allowance = modulus * allowance;
+            if squared.sqrt() + allowance > stress[i] {
+                let norm = spectral_norm(s.map(f64::from)) as f32 * (1.0 + 1e-6);
+                stress[i] = stress[i].max(norm + allowance);
+            }
+        }
+    }
+}
+
+fn accumulate(phi: &[f32], g: Vec3, x: &mut [f32], y: &mut [f32], z: &mut [f32]) {
+    for (((&p, x), y), z) in phi.iter().zip(x).zip(y).zip(z) {
+        *x += p * g.x;
+        *y += p * g.y;
+        *z += p * g.z;
+    }
+}
+
+/// Largest absolute eigenvalue of a symmetric 3 × 3 matrix (xx, yy, zz, yz, zx, xy), by the trigonometric solution of
+/// its characteristic cubic.
+#[must_use]
+pub fn spectral_norm([xx, yy, zz, yz, zx, xy]: [f64; 6]) -> f64 {
+    let mean = (xx + yy + zz) / 3.0;
+    let (a, b, c) = (xx - mean, yy - mean, zz - mean);
+    let p = ((a * a + b * b + c * c + 2.0 * (yz * yz + zx * zx + xy * xy)) / 6.0).sqrt();
+    if p == 0.0 {
+        return mean.abs();
+    }
+    let determinant = a * (b * c - yz * yz) - xy * (xy * c - yz * zx) + zx * (xy * yz - b * zx);
+    let angle = (determinant / (2.0 * p * p * p)).clamp(-1.0, 1.0).acos() / 3.0;
+    let largest = mean + 2.0 * p * angle.cos();
+    let smallest = mean + 2.0 * p * (angle + std::f64::consts::TAU / 3.0).cos();
+    largest.abs().max(smallest.abs())
+}
+
+/// Halves the tetrahedra along the longest side of their box until none has more than [`CLUSTER`]: number of the
+/// cluster of each, and how many there are.
+fn clusters(mesh: &TetMesh) -> (Vec<u32>, usize) {
+    let centroids: Vec<Vec3> = (0..mesh.tets.len()).map(|e| mesh.centroid(e)).collect();
+    let mut order: Vec<u32> = (0..mesh.tets.len() as u32).collect();
+    let mut of_tet = vec![0; mesh.tets.len()];
+    let mut count = 0;
+    let mut parts = vec![0..order.len()];
+    while let Some(part) = parts.pop() {
+        let tets = &mut order[part.clone()];
+        if tets.len() <= CLUSTER {
+            if !tets.is_empty() {
+                tets.iter().for_each(|&e| of_tet[e as usize] = count);
+                count += 1;
+            }
+            continue;
+        }
+        let at = |e: u32| centroids[e as usize];
+        let low = tets.iter().fold(Vec3::INFINITY, |a, &e| a.min(at(e)));
+        let high = tets.iter().fold(Vec3::NEG_INFINITY, |a, &e| a.max(at(e)));
+        let axis = (high - low).max_position();
+        let middle = tets.len() / 2;
+        tets.select_nth_unstable_by(middle, |&a, &b| {
+            at(a)[axis].total_cmp(&at(b)[axis]).then(a.cmp(&b))
+        });
+        parts.push(part.start + middle..part.end);
+        parts.push(part.start..part.start + middle);
+    }
+    (of_tet, count as usize)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{spectral_norm, tension_bound};
+
+    #[test]
+    fn spectral_norm_of_known_matrices() {
+        assert!((spectral_norm([1.0, -3.0, 2.0, 0.0, 0.0, 0.0]) - 3.0).abs() < 1e-12);
+        // Pure shear τ has eigenvalues ±τ and 0; all ones has 3.
+        assert!((spectral_norm([0.0, 0.0, 0.0, 0.0, 0.0, 2.0]) - 2.0).abs() < 1e-12);
+        assert!((spectral_norm([1.0; 6]) - 3.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn the_bound_is_the_sum_for_any_number_of_modes() {
+        for modes in 0..20 {
+            let q: Vec<f32> = (0..modes)
+                .map(|i| if i % 2 == 0 { 1.0 } else { -2.0 })
+                .collect();
+            let s: Vec<f32> = (0..modes).map(|i| i as f32).collect();
+            let g: Vec<f32> = (0..modes).map(|i| 1.0 + i as f32).collect();
+            let plain = |row: &[f32]| q.iter().zip(row).map(|(q, r)| q.abs() * r).sum::<f32>();
+            let expected = plain(&s) + 0.5 * 3.0 * plain(&g).powi(2);
+            assert_eq!(tension_bound(&q, &s, &g, 3.0), expected);
+        }
+    }
+}
