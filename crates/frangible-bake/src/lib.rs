@@ -17,8 +17,8 @@
 //! let spec = BakeSpec { modes: 40, ..BakeSpec::new("glass", Shape::drinking_glass(), Material::preset("glass")?) };
 //! let (asset, _) = bake(&spec, &mut |_| {})?; // once per kind of object: tetrahedra and vibration modes
 //! let body = Body::new(asset.into(), 1)?; // seed of its weak points
-//! let stone = Striker { contact_modulus: 5e10, inverse_effective_mass: 0.0, curvature_radius: f32::INFINITY, restitution: 0.4 };
-//! let hit = Contact { point: Vec3::new(-0.038, 0.0, 0.068), normal: Vec3::X, impulse: 0.8, approach_speed: 5.0, striker: stone };
+//! let stone = Striker::fixed(&Material::preset("stone")?); // what it lands on
+//! let hit = Contact::new(Vec3::new(-0.038, 0.0, 0.068), Vec3::X, 0.8, 5.0, stone); // where, direction, N·s, m/s
 //! let Outcome::Broke(fracture) = impact(&body, &[hit], &FractureConfig::default())? else { panic!("it held") };
 //! assert!(fracture.fragments.len() > 1);
 //! # Ok::<(), Box<dyn std::error::Error>>(())

@@ -322,15 +322,12 @@ fn a_shelf_that_breaks_leaves_a_piece_in_the_wall() {
         inverse_effective_mass: 0.5,
         curvature_radius: 0.02,
         restitution: 0.5,
+        ..Striker::rigid()
     };
-    let hit = |speed: f32| Contact {
-        point: Vec3::new(0.09, 0.0, 0.005),
-        normal: Vec3::NEG_Z,
-        // Of a ball of 2 kg against what does not give way.
-        impulse: 1.5 * 2.0 * speed,
-        approach_speed: speed,
-        striker,
-    };
+    // Of a ball of 2 kg against what does not give way.
+    let impulse = |speed: f32| 1.5 * 2.0 * speed;
+    let point = Vec3::new(0.09, 0.0, 0.005);
+    let hit = |speed| Contact::new(point, Vec3::NEG_Z, impulse(speed), speed, striker);
     let config = FractureConfig::default();
     let soft = impact(&body, &[hit(0.05)], &config).unwrap();
     assert!(matches!(soft, Outcome::Held { .. }));

@@ -60,13 +60,13 @@ pub(crate) fn impact_on(
         for point in &group {
             let approach_speed = approach(body, partner, point.position, point.normal);
             if approach_speed > config.impact_speed && point.impulse > 0.0 {
-                impact.contacts.push(Contact {
-                    point: point.position,
-                    normal: point.normal,
-                    impulse: point.impulse,
+                impact.contacts.push(Contact::new(
+                    point.position,
+                    point.normal,
+                    point.impulse,
                     approach_speed,
-                    striker: striker(body, partner, point, physics, surfaces),
-                });
+                    striker(body, partner, point, physics, surfaces),
+                ));
             }
         }
         let added = &mut impact.contacts[first..];
@@ -230,13 +230,14 @@ fn striker(
         inverse_effective_mass: partner.map_or(0.0, |p| inverse_effective_mass(p, world, normal)),
         curvature_radius,
         restitution: point.restitution.clamp(0.0, 1.0),
+        modal_duration: 0.0,
     }
 }
 
 /// Radius of curvature of a breakable's outer surface nearest to a point of its body frame, m.
 fn curvature_at(body: &Body, point: Vector) -> f32 {
-    let surface = &body.asset.surface;
-    let positions = &body.asset.fracture.positions;
+    let surface = &body.asset().surface;
+    let positions = &body.asset().fracture.positions;
     let nearest = surface
         .triangles
         .iter()

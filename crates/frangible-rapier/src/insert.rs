@@ -42,22 +42,22 @@ impl BreakableWorld {
         check_pose(pose)?;
         finite("velocity", linvel)?;
         finite("angular velocity", angvel)?;
-        let mass = rapier_mass(&body.asset.mass)?;
+        let mass = rapier_mass(&body.asset().mass)?;
         let shape = match self
             .shapes
             .iter()
-            .find(|(asset, _)| Arc::ptr_eq(asset, &body.asset))
+            .find(|(asset, _)| Arc::ptr_eq(asset, body.asset()))
         {
             Some((_, shape)) => shape.clone(),
             None => {
-                let shape = whole_shape(&body.asset);
-                self.shapes.push((Arc::clone(&body.asset), shape.clone()));
+                let shape = whole_shape(body.asset());
+                self.shapes.push((Arc::clone(body.asset()), shape.clone()));
                 shape
             }
         };
-        let surface = SurfaceProperties::of(&body.asset.material, EDGE_RADIUS);
+        let surface = SurfaceProperties::of(&body.asset().material, EDGE_RADIUS);
         surface.validate()?;
-        let builder = if body.asset.is_supported() {
+        let builder = if body.asset().is_supported() {
             RigidBodyBuilder::fixed().pose(pose)
         } else {
             let builder = RigidBodyBuilder::dynamic().pose(pose);

@@ -182,7 +182,7 @@ impl BreakableWorld {
                 log::warn!(
                     "{} fragments of `{}` exceed `max_bodies`; it stays whole",
                     fracture.fragments.len(),
-                    body.asset.name
+                    body.asset().name
                 );
                 continue;
             }
@@ -238,7 +238,7 @@ impl BreakableWorld {
             return;
         };
         self.surfaces.remove(&key(parent));
-        let surface = SurfaceProperties::of(&body.asset.material, EDGE_RADIUS);
+        let surface = SurfaceProperties::of(&body.asset().material, EDGE_RADIUS);
         for (&handle, fragment) in fragments.iter().zip(&fracture.fragments) {
             self.surfaces.insert(key(handle), surface);
             if is_debris(fragment, &self.config) {
@@ -256,7 +256,7 @@ impl BreakableWorld {
         self.events.push(BreakEvent {
             step: self.steps,
             parent,
-            asset: body.asset,
+            asset: Arc::clone(body.asset()),
             fragments,
             fracture,
             contacts: impact.contacts,

@@ -2,8 +2,6 @@
 
 mod common;
 
-use std::sync::Arc;
-
 use common::{at, body, box_asset, sliced, slicer, world};
 use frangible::glam::{DMat3, Quat, Vec3};
 use frangible::{InputError, Outcome};
@@ -106,16 +104,7 @@ fn masses_sizes_and_surfaces_must_make_sense() {
 
     let mut asset = (*box_asset(HALF, [1, 1, 1])).clone();
     asset.mass.mass = f64::NAN;
-    let broken = frangible::Body {
-        asset: Arc::new(asset),
-        seed: 0,
-        weak_tets: Vec::new(),
-    };
-    assert!(
-        world
-            .insert_breakable(broken, Pose::IDENTITY, Vector::ZERO, Vector::ZERO)
-            .is_err()
-    );
+    assert!(frangible::Breakable::new(asset).is_err());
 }
 
 #[test]

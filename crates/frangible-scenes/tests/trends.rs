@@ -98,6 +98,7 @@ fn softer(model: &str, config: &FractureConfig) -> Vec<(f64, f64)> {
                 inverse_effective_mass: 1.0 / 0.06,
                 curvature_radius: 0.015,
                 restitution: 0.5,
+                ..Striker::rigid()
             };
             damage(
                 glass(),

@@ -8,7 +8,7 @@ use crate::asset::Asset;
 use crate::error::InputError;
 use crate::mesh::TriangleTree;
 use crate::rng::{Purpose, stream, uniform};
-use crate::stress::{StressBounds, quadratic_modulus};
+use crate::stress::{ShapeWeights, StressBounds, quadratic_modulus};
 
 /// An asset that has been checked and made ready: one per kind of object, cheap to clone, shared by its bodies.
 #[derive(Clone, Debug)]
@@ -28,6 +28,8 @@ pub(crate) struct Prepared {
     pub(crate) root: (Vec<f32>, Vec<f32>),
     /// 1/√λ_i of every mode, s.
     pub(crate) periods: Vec<f32>,
+    /// Σ φ_i dm of every mode, √kg: what a held body's weight pushes; empty for a free one, where it is zero.
+    pub(crate) weight: Vec<Vec3>,
     /// k of the bounds' quadratic term, Pa.
     pub(crate) quadratic_modulus: f32,
     /// Centroid of each fracture tetrahedron, m.
@@ -59,6 +61,7 @@ impl Breakable {
             surface: TriangleTree::new(&asset.fracture.positions, &asset.surface.triangles),
             root: bounds.root(modes.count()),
             bounds,
+            weight: weight(&asset),
             periods: modes
                 .eigenvalues
                 .iter()
@@ -107,11 +110,34 @@ impl Breakable {
     }
 }
 
+fn weight(asset: &Asset) -> Vec<Vec3> {
+    let modes = asset.modes.count();
+    if !asset.is_supported() {
+        return Vec::new();
+    }
+    let mut mass_of_node = vec![0.0_f32; asset.analysis.nodes.len()];
+    for (tet, point) in asset.embedding.tets.iter().enumerate() {
+        let mass = (asset.material.density * asset.fracture.volume(tet)) as f32;
+        let element = asset.analysis.elements[point.element as usize];
+        for (&node, share) in element.iter().zip(ShapeWeights::values(point)) {
+            mass_of_node[node as usize] += mass * share;
+        }
+    }
+    let mut sums = vec![Vec3::ZERO; modes];
+    for (node, &mass) in mass_of_node.iter().enumerate() {
+        for axis in 0..3 {
+            for (sum, &phi) in sums.iter_mut().zip(asset.modes.row(3 * node + axis)) {
+                sum[axis] += mass * phi;
+            }
+        }
+    }
+    sums
+}
+
 /// A body that may break: shares its asset with its like, has its own seed and weak points.
 #[derive(Clone, Debug)]
 pub struct Body {
-    /// What it is.
-    pub asset: Arc<Asset>,
+    pub(crate) asset: Arc<Asset>,
     pub(crate) prepared: Arc<Prepared>,
     pub(crate) clusters: WeakClusters,
     /// Seed of its weak points and of the roughness of its cracks.
@@ -126,6 +152,12 @@ impl Body {
     /// As [`Breakable::new`].
     pub fn new(asset: Arc<Asset>, seed: u64) -> Result<Self, InputError> {
         Ok(Breakable::new(asset)?.body(seed))
+    }
+
+    /// What it is.
+    #[must_use]
+    pub fn asset(&self) -> &Arc<Asset> {
+        &self.asset
     }
 
     /// Seed of its weak points and of the roughness of its cracks.

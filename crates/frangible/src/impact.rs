@@ -8,7 +8,7 @@ use crate::contact::{self, Contact};
 use crate::crack::{CrackSystem, Culling, StressField, advance, start_cracks};
 use crate::error::InputError;
 use crate::fragment::{self, Labels};
-use crate::modal;
+use crate::modal::{self, Motion};
 use crate::outcome::{Fracture, ImpactReport, LookedAt, Outcome};
 use crate::stress::{DisplacementBatch, Elasticity, MARGIN};
 
@@ -25,17 +25,7 @@ pub fn impact(
     contacts: &[Contact],
     config: &FractureConfig,
 ) -> Result<Outcome, InputError> {
-    let (system, labels, mut report) = match cracks(body, contacts, config)? {
-        Cracked::Parted(system, labels, report) => (system, labels, report),
-        Cracked::Held(margin, report) => return Ok(Outcome::Held { margin, report }),
-    };
-    // Cracks → fragments [G12 §6].
-    let start = Instant::now();
-    let fragments = fragment::build(&system, &labels);
-    let volume: f64 = fragments.iter().map(|f| f.mass.volume).sum();
-    report.volume_error = volume / body.asset.fracture.total_volume() - 1.0;
-    report.timings.fragments += start.elapsed().as_secs_f64();
-    Ok(Outcome::Broke(Box::new(Fracture { fragments, report })))
+    Ok(pieces(body, cracks(body, contacts, config)?))
 }
 
 /// Whether an impact would break a body into pieces: [`impact`] without making them.
@@ -54,7 +44,7 @@ pub fn would_break(
 }
 
 /// What the cracks of an impact did to a body.
-enum Cracked<'a> {
+pub(crate) enum Cracked<'a> {
     /// Margin and report.
     Held(f64, ImpactReport),
     /// Pieces, not made yet.
@@ -68,23 +58,18 @@ fn cracks<'a>(
 ) -> Result<Cracked<'a>, InputError> {
     contacts.iter().try_for_each(Contact::validate)?;
     let asset = &*body.asset;
-    let strength = asset.material.strength;
-    let mut report = ImpactReport {
-        strength,
-        weak_points: body.weak_tets().len(),
-        approach_energy: contact::approach_energy(contacts),
-        ..ImpactReport::default()
-    };
+    let mut report = report_on(body);
+    report.approach_energy = contact::approach_energy(contacts);
     let clock = Instant::now();
 
     // Most contacts end here (beyond the paper: stress/bound.rs).
     if config.culling
         && let Some(bound) = contact::first_bound(body, contacts)
-        && bound <= strength as f32 * (1.0 - MARGIN)
+        && bound <= report.strength as f32 * (1.0 - MARGIN)
     {
         report.stress_bound = f64::from(bound);
         report.timings.response = clock.elapsed().as_secs_f64();
-        return Ok(Cracked::Held(strength / f64::from(bound), report));
+        return Ok(Cracked::Held(report.strength / f64::from(bound), report));
     }
 
     // Contact → force pulse → modal response [G12 §4.1-4.3].
@@ -110,9 +95,39 @@ fn cracks<'a>(
         .map_or(0.0, |i| asset.modes.frequency(i));
     report.timings.response = clock.elapsed().as_secs_f64();
 
-    // Stress wave → cracks [G12 §4.4, §5].
+    let budget = motion.peak_strain_energy;
+    Ok(run_cracks(
+        body,
+        config,
+        &motion,
+        pulse.time_step,
+        budget,
+        report,
+    ))
+}
+
+/// A report with what is known of every load.
+pub(crate) fn report_on(body: &Body) -> ImpactReport {
+    ImpactReport {
+        strength: body.asset.material.strength,
+        weak_points: body.weak_tets().len(),
+        ..ImpactReport::default()
+    }
+}
+
+/// Stress wave → cracks `[G12 §4.4, §5]` → which nodes hang together `[G12 §6.1]`, for any motion of the modes.
+/// `budget`: energy that the cracks may spend, with the ledger, J.
+pub(crate) fn run_cracks<'a>(
+    body: &'a Body,
+    config: &'a FractureConfig,
+    motion: &Motion,
+    time_step: f64,
+    budget: f64,
+    mut report: ImpactReport,
+) -> Cracked<'a> {
+    let asset = &*body.asset;
     let budget = if config.energy_ledger {
-        motion.peak_strain_energy
+        budget
     } else {
         f64::INFINITY
     };
@@ -127,9 +142,9 @@ fn cracks<'a>(
             continue;
         }
         report.looked_at = LookedAt::Stresses;
-        let now = (step + 1) as f64 * pulse.time_step;
+        let now = (step + 1) as f64 * time_step;
         let start = Instant::now();
-        displacement.seek(asset, &motion, step);
+        displacement.seek(asset, motion, step);
         report.timings.stress += start.elapsed().as_secs_f64();
         let start = Instant::now();
         let field = StressField {
@@ -138,7 +153,7 @@ fn cracks<'a>(
             elasticity,
             step,
         };
-        advance(&mut system, &field, now - pulse.time_step, now);
+        advance(&mut system, &field, now - time_step, now);
         let weak = survivors
             .iter()
             .flat_map(|&c| body.clusters.tets(c as usize));
@@ -154,18 +169,30 @@ fn cracks<'a>(
     report.cracks = system.cracks.len();
     report.crack_area = system.cracks.iter().fold(0.0, |sum, c| sum + c.area);
     report.fracture_energy = system.spent;
-    let margin = strength / report.stress_bound;
+    let margin = report.strength / report.stress_bound;
     if system.cracks.is_empty() {
-        return Ok(Cracked::Held(margin, report));
+        return Cracked::Held(margin, report);
     }
-
-    // Which nodes hang together [G12 §6.1].
     let start = Instant::now();
     let labels = fragment::label(&system, config.crumb_share);
     report.timings.fragments = start.elapsed().as_secs_f64();
-    Ok(if labels.count < 2 {
+    if labels.count < 2 {
         Cracked::Held(margin, report)
     } else {
         Cracked::Parted(system, labels, report)
-    })
+    }
+}
+
+/// Cracks → fragments `[G12 §6]`.
+pub(crate) fn pieces(body: &Body, cracked: Cracked<'_>) -> Outcome {
+    let (system, labels, mut report) = match cracked {
+        Cracked::Parted(system, labels, report) => (system, labels, report),
+        Cracked::Held(margin, report) => return Outcome::Held { margin, report },
+    };
+    let start = Instant::now();
+    let fragments = fragment::build(&system, &labels);
+    let volume: f64 = fragments.iter().map(|f| f.mass.volume).sum();
+    report.volume_error = volume / body.asset.fracture.total_volume() - 1.0;
+    report.timings.fragments += start.elapsed().as_secs_f64();
+    Outcome::Broke(Box::new(Fracture { fragments, report }))
 }

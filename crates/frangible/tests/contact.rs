@@ -84,12 +84,14 @@ fn sound() -> Contact {
         point: Vec3::new(0.1, 0.0, 0.0),
         normal: Vec3::NEG_X,
         impulse: 0.2,
+        friction: Vec3::new(0.0, 0.1, 0.0),
         approach_speed: 4.0,
         striker: Striker {
             contact_modulus: 2e11,
             inverse_effective_mass: 10.0,
             curvature_radius: 0.01,
             restitution: 0.5,
+            modal_duration: 0.0,
         },
     }
 }
@@ -97,12 +99,7 @@ fn sound() -> Contact {
 #[test]
 fn a_sound_contact_is_accepted_even_from_a_rigid_flat_immovable_striker() {
     sound().validate().unwrap();
-    let striker = Striker {
-        contact_modulus: f32::INFINITY,
-        inverse_effective_mass: 0.0,
-        curvature_radius: f32::INFINITY,
-        restitution: 0.0,
-    };
+    let striker = Striker::rigid();
     Contact {
         striker,
         impulse: 0.0,

@@ -41,22 +41,18 @@ pub(crate) fn block() -> &'static Arc<Asset> {
 /// Steel ball of this mass, kg.
 pub(crate) fn steel_ball(mass: f64) -> Striker {
     let steel = Material::preset("steel").unwrap();
+    let radius = (mass / steel.density * 0.75 / std::f64::consts::PI).cbrt();
     Striker {
-        contact_modulus: steel.contact_modulus() as f32,
-        inverse_effective_mass: (1.0 / mass) as f32,
-        curvature_radius: (mass / steel.density * 0.75 / std::f64::consts::PI).cbrt() as f32,
         restitution: 0.5,
+        ..Striker::ball(&steel, mass, radius)
     }
 }
 
 /// Level stone floor.
 pub(crate) fn stone_floor() -> Striker {
-    let stone = Material::preset("stone").unwrap();
     Striker {
-        contact_modulus: stone.contact_modulus() as f32,
-        inverse_effective_mass: 0.0,
-        curvature_radius: f32::INFINITY,
         restitution: 0.5,
+        ..Striker::fixed(&Material::preset("stone").unwrap())
     }
 }
 
@@ -74,13 +70,7 @@ pub(crate) fn blow(
         .inverse_effective_mass(point.as_dvec3(), normal.as_dvec3());
     let mass = 1.0 / (own + f64::from(striker.inverse_effective_mass));
     let impulse = (1.0 + f64::from(striker.restitution)) * mass * speed;
-    Contact {
-        point,
-        normal,
-        impulse: impulse as f32,
-        approach_speed: speed as f32,
-        striker,
-    }
+    Contact::new(point, normal, impulse as f32, speed as f32, striker)
 }
 
 /// The outermost node near the rim at this azimuth, degrees.

@@ -7,8 +7,11 @@
 //! When is which right? A small hard striker on a large body: Hertz (the blow is over before the body's slow modes
 //! answer). A whole body that lands on a soft spot and lasts through its own swing: the modal form.
 
-use super::{Load, Touch};
+use glam::Vec3;
+
+use super::{Contact, Load, Touch, modal_load};
 use crate::asset::Asset;
+use crate::body::Body;
 use crate::config::DurationModel;
 
 /// Hertz' constant for the duration of the contact of two spheres.
@@ -44,6 +47,22 @@ pub fn most_excited_mode(asset: &Asset, modal_shape: &[f64]) -> Option<usize> {
         .max_by(|&i, &j| amplitude(i).total_cmp(&amplitude(j)).then(j.cmp(&i)))
 }
 
+/// Duration that a breakable body answers a contact with, s: what the other one's
+/// [`Striker::modal_duration`](super::Striker::modal_duration) is to be.
+#[must_use]
+pub fn answer_duration(body: &Body, contact: &Contact, model: DurationModel) -> f64 {
+    let alone = [Contact {
+        friction: Vec3::ZERO,
+        striker: super::Striker {
+            contact_modulus: f32::INFINITY,
+            modal_duration: 0.0,
+            ..contact.striker
+        },
+        ..*contact
+    }];
+    contact_duration(&body.asset, &modal_load(body, &alone), model)
+}
+
 /// Duration of the impact, s: the shortest of its contacts.
 #[must_use]
 pub fn contact_duration(asset: &Asset, load: &Load, model: DurationModel) -> f64 {
@@ -65,18 +84,23 @@ fn touch_duration(asset: &Asset, touch: &Touch, model: DurationModel) -> f64 {
         DurationModel::ModalHertz => {
             let ball = (asset.mass.volume * 0.75 / std::f64::consts::PI).cbrt();
             let radius = touch.curvature_radius.clamp(SHARPEST_RADIUS, ball);
-            // The longer of the two bodies' durations: a rigid striker answers 0, an elastic one with Hertz.
-            let striker = if touch.contact.striker.contact_modulus.is_finite() {
+            // The longer of the two bodies' durations: a rigid striker answers 0, an elastic one with Hertz, one that
+            // vibrates itself with its own.
+            let striker = &touch.contact.striker;
+            let answer = if striker.modal_duration > 0.0 {
+                f64::from(striker.modal_duration)
+            } else if striker.contact_modulus.is_finite() {
                 hertz
             } else {
                 0.0
             };
-            modal_hertz_duration(eigenvalue, radius, speed).max(striker)
+            modal_hertz_duration(eigenvalue, radius, speed).max(answer)
         }
         DurationModel::AsPrinted { c } => {
             let damping = asset.modes.damping(mode, &asset.material);
             let frequency = (eigenvalue - 0.25 * damping * damping).sqrt();
-            c * ((std::f64::consts::TAU / frequency).powi(2) / speed).powf(0.2)
+            let own = c * ((std::f64::consts::TAU / frequency).powi(2) / speed).powf(0.2);
+            own.max(f64::from(touch.contact.striker.modal_duration))
         }
     }
 }

@@ -3,6 +3,7 @@
 use glam::Vec3;
 
 use crate::error::{InputError, finite, positive};
+use crate::material::Material;
 
 /// One contact of an impact, in the body frame of the body that may break.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -13,6 +14,8 @@ pub struct Contact {
     pub normal: Vec3,
     /// Magnitude φ of the normal impulse, N·s.
     pub impulse: f32,
+    /// Friction's part of the impulse on this body, N·s: whatever is not along the normal.
+    pub friction: Vec3,
     /// Speed of approach along the normal before the rigid-body step, m/s.
     pub approach_speed: f32,
     /// What hit the body.
@@ -30,9 +33,74 @@ pub struct Striker {
     pub curvature_radius: f32,
     /// Coefficient of restitution of the pair, 0..=1.
     pub restitution: f32,
+    /// Duration that the other body answers with when it vibrates itself, s: of two bodies' durations the longer holds
+    /// `[G12 §4.1]`. Used by the modal models; 0 for a body that is not breakable. See [`answer_duration`](super::answer_duration).
+    pub modal_duration: f32,
+}
+
+impl Striker {
+    /// A flat thing that cannot move, of this material: a floor, a wall.
+    #[must_use]
+    pub fn fixed(material: &Material) -> Self {
+        Self {
+            contact_modulus: material.contact_modulus() as f32,
+            inverse_effective_mass: 0.0,
+            curvature_radius: f32::INFINITY,
+            restitution: material.restitution as f32,
+            modal_duration: 0.0,
+        }
+    }
+
+    /// A ball of this mass, kg, and radius, m, hitting centrally.
+    #[must_use]
+    pub fn ball(material: &Material, mass: f64, radius: f64) -> Self {
+        Self {
+            inverse_effective_mass: (1.0 / mass) as f32,
+            curvature_radius: radius as f32,
+            ..Self::fixed(material)
+        }
+    }
+
+    /// Rigid, flat and fixed.
+    #[must_use]
+    pub const fn rigid() -> Self {
+        Self {
+            contact_modulus: f32::INFINITY,
+            inverse_effective_mass: 0.0,
+            curvature_radius: f32::INFINITY,
+            restitution: 0.0,
+            modal_duration: 0.0,
+        }
+    }
 }
 
 impl Contact {
+    /// Without friction: where (m), the direction of the impulse on this body, its size (N·s), the speed of approach
+    /// (m/s), and what hit the body.
+    #[must_use]
+    pub const fn new(
+        point: Vec3,
+        normal: Vec3,
+        impulse: f32,
+        approach_speed: f32,
+        striker: Striker,
+    ) -> Self {
+        Self {
+            point,
+            normal,
+            impulse,
+            friction: Vec3::ZERO,
+            approach_speed,
+            striker,
+        }
+    }
+
+    /// The whole impulse on this body, N·s.
+    #[must_use]
+    pub fn push(&self) -> Vec3 {
+        self.normal.normalize_or_zero() * self.impulse + self.friction
+    }
+
     /// Checks that every number can be used.
     ///
     /// # Errors
@@ -40,6 +108,7 @@ impl Contact {
     pub fn validate(&self) -> Result<(), InputError> {
         finite("a contact's point", self.point)?;
         finite("a contact's normal", self.normal)?;
+        finite("a contact's friction impulse", self.friction)?;
         positive(
             "the length of a contact's normal",
             f64::from(self.normal.length()),
@@ -51,6 +120,10 @@ impl Contact {
             (
                 "a striker's inverse effective mass (1/kg)",
                 self.striker.inverse_effective_mass,
+            ),
+            (
+                "a striker's modal duration (s)",
+                self.striker.modal_duration,
             ),
         ] {
             if !(value.is_finite() && value >= 0.0) {

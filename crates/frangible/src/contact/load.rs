@@ -1,5 +1,7 @@
 //! Where contacts touch and how hard they push each mode: ξ_i = φ_i(b) · n.
 
+use glam::Vec3;
+
 use super::Contact;
 use crate::asset::Asset;
 use crate::body::Body;
@@ -24,7 +26,7 @@ pub struct Touch {
 pub struct Load {
     /// One per contact with an impulse.
     pub touches: Vec<Touch>,
-    /// Σ_k φ_k ξ_{i,k} of every mode, N·s/√kg: the modal impulses.
+    /// Σ_k φ_i(b_k) · J_k of every mode, J the whole impulse with friction, N·s/√kg: the modal impulses.
     pub modal_impulse: Vec<f64>,
 }
 
@@ -38,18 +40,16 @@ pub fn modal_load(body: &Body, contacts: &[Contact]) -> Load {
     for contact in contacts.iter().filter(|c| c.impulse > 0.0) {
         let normal = contact.normal.normalize();
         let at = body.prepared.surface.closest(contact.point);
-        let mut modal_shape = vec![0.0; modes];
-        each_row(asset, &at, |node, weight| {
-            for axis in 0..3 {
-                let w = f64::from(weight * normal[axis]);
-                let row = asset.modes.row(3 * node + axis);
-                for (xi, &phi) in modal_shape.iter_mut().zip(row) {
-                    *xi += w * f64::from(phi);
-                }
-            }
-        });
+        let modal_shape = projected(asset, &at, normal);
         for (sum, xi) in modal_impulse.iter_mut().zip(&modal_shape) {
             *sum += f64::from(contact.impulse) * xi;
+        }
+        if contact.friction != Vec3::ZERO {
+            let friction = projected(asset, &at, contact.friction);
+            modal_impulse
+                .iter_mut()
+                .zip(friction)
+                .for_each(|(sum, xi)| *sum += xi);
         }
         touches.push(Touch {
             contact: Contact {
@@ -74,8 +74,23 @@ pub fn modal_load(body: &Body, contacts: &[Contact]) -> Load {
     }
 }
 
+/// φ_i(b) · v of every mode.
+fn projected(asset: &Asset, at: &SurfacePoint, v: Vec3) -> Vec<f64> {
+    let mut sums = vec![0.0; asset.modes.count()];
+    each_row(asset, at, |node, weight| {
+        for axis in 0..3 {
+            let w = f64::from(weight * v[axis]);
+            let row = asset.modes.row(3 * node + axis);
+            for (xi, &phi) in sums.iter_mut().zip(row) {
+                *xi += w * f64::from(phi);
+            }
+        }
+    });
+    sums
+}
+
 /// The analysis nodes that carry a point of the surface, with their weights: ten for each corner of its triangle.
-fn each_row(asset: &Asset, at: &SurfacePoint, mut visit: impl FnMut(usize, f32)) {
+pub(crate) fn each_row(asset: &Asset, at: &SurfacePoint, mut visit: impl FnMut(usize, f32)) {
     let triangle = asset.surface.triangles[at.triangle as usize];
     for (&node, corner) in triangle.iter().zip(at.weights) {
         let point = &asset.embedding.nodes[node as usize];
@@ -86,7 +101,7 @@ fn each_row(asset: &Asset, at: &SurfacePoint, mut visit: impl FnMut(usize, f32))
     }
 }
 
-/// Most contacts that the first bound looks at; more are rare, and go on to the full computation.
+/// Most pushes that a quick bound looks at; more are rare, and go on to the full computation.
 const MOST_CONTACTS: usize = 16;
 
 /// Modes looked at together: their sums stay on the stack.
@@ -97,20 +112,32 @@ const BLOCK: usize = 64;
 ///
 /// `None` when there are too many contacts.
 pub(crate) fn first_bound(body: &Body, contacts: &[Contact]) -> Option<f32> {
+    let hit = contacts.iter().filter(|c| c.impulse > 0.0);
+    let pushes = hit.map(|c| (c.point, c.push()));
+    let periods = &body.prepared.periods;
+    quick_bound(body, pushes, |mode, push| push * periods[mode])
+}
+
+/// The stress bound of amplitudes that follow, mode by mode, from what pushes on the surface: places, m, with an impulse
+/// or a force. `amplitude` turns a mode's number and its Σ φ_i(b) · push into its amplitude, m·√kg.
+///
+/// `None` when there are too many pushes.
+pub(crate) fn quick_bound(
+    body: &Body,
+    pushes: impl Iterator<Item = (Vec3, Vec3)>,
+    amplitude: impl Fn(usize, f32) -> f32,
+) -> Option<f32> {
     let (asset, prepared) = (&*body.asset, &*body.prepared);
-    if contacts.len() > MOST_CONTACTS {
-        return None;
-    }
     let nowhere = SurfacePoint {
         triangle: 0,
         weights: [0.0; 3],
-        position: glam::Vec3::ZERO,
+        position: Vec3::ZERO,
     };
-    let mut places = [nowhere; MOST_CONTACTS];
-    for (place, contact) in places.iter_mut().zip(contacts) {
-        if contact.impulse > 0.0 {
-            *place = prepared.surface.closest(contact.point);
-        }
+    let mut places = [(nowhere, Vec3::ZERO); MOST_CONTACTS];
+    let mut count = 0;
+    for (point, push) in pushes {
+        *places.get_mut(count)? = (prepared.surface.closest(point), push);
+        count += 1;
     }
     let modes = asset.modes.count();
     let (mut stress, mut gradient) = (0.0, 0.0);
@@ -118,11 +145,7 @@ pub(crate) fn first_bound(body: &Body, contacts: &[Contact]) -> Option<f32> {
         let block = first..(first + BLOCK).min(modes);
         let mut amplitudes = [0.0_f32; BLOCK];
         let amplitudes = &mut amplitudes[..block.len()];
-        for (place, contact) in places.iter().zip(contacts) {
-            if contact.impulse <= 0.0 {
-                continue;
-            }
-            let push = contact.normal.normalize() * contact.impulse;
+        for (place, push) in &places[..count] {
             each_row(asset, place, |node, weight| {
                 for axis in 0..3 {
                     let w = weight * push[axis];
@@ -133,8 +156,8 @@ pub(crate) fn first_bound(body: &Body, contacts: &[Contact]) -> Option<f32> {
                 }
             });
         }
-        for (q, t) in amplitudes.iter_mut().zip(&prepared.periods[block.clone()]) {
-            *q *= t;
+        for (q, mode) in amplitudes.iter_mut().zip(block.clone()) {
+            *q = amplitude(mode, *q);
         }
         // The quadratic term needs the sum over all blocks first.
         let zero = [0.0; BLOCK];

@@ -7,8 +7,10 @@ mod load;
 mod pulse;
 
 pub use admissible::{admissible_duration, approach_energy};
-pub use duration::{contact_duration, hertz_duration, modal_hertz_duration, most_excited_mode};
+pub use duration::{
+    answer_duration, contact_duration, hertz_duration, modal_hertz_duration, most_excited_mode,
+};
 pub use kinds::{Contact, Striker};
-pub(crate) use load::first_bound;
 pub use load::{Load, Touch, modal_load};
+pub(crate) use load::{each_row, first_bound, quick_bound};
 pub use pulse::{Pulse, pulse};

@@ -1,0 +1,92 @@
+//! A pressure pulse over the surface: an explosion some way off.
+
+use glam::Vec3;
+
+use crate::asset::Asset;
+use crate::body::Body;
+use crate::config::FractureConfig;
+use crate::contact::{self, Load, each_row};
+use crate::error::{InputError, finite, positive};
+use crate::impact::{pieces, report_on, run_cracks};
+use crate::mesh::SurfacePoint;
+use crate::modal;
+use crate::outcome::{LookedAt, Outcome};
+
+/// A pressure pulse that spreads from a point. Its impulse per area falls as 1/distance, as that of an explosion does
+/// at moderate distance; it acts along the normal of what faces the point, weakened by the cosine of its slant.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Blast {
+    /// Where it comes from, m, body frame.
+    pub origin: Vec3,
+    /// Impulse per area at 1 m, Pa·s. One kilogram of TNT gives about 200 Pa·s.
+    pub impulse: f32,
+    /// Duration of the pulse, s; a half-sine. One kilogram of TNT at some metres: about 2 ms.
+    pub duration: f32,
+}
+
+/// Nearest that a part of the surface counts as, m: a pressure does not grow without end.
+const NEAREST: f32 = 0.01;
+
+/// What a blast does to a body. The whole surface that faces it is pushed at once.
+///
+/// # Errors
+/// A number that is not finite, or an impulse or duration that is not above zero.
+pub fn blast(body: &Body, blast: &Blast, config: &FractureConfig) -> Result<Outcome, InputError> {
+    finite("a blast's origin", blast.origin)?;
+    positive(
+        "a blast's impulse per area",
+        f64::from(blast.impulse),
+        "Pa·s",
+    )?;
+    positive("a blast's duration", f64::from(blast.duration), "s")?;
+    let asset = &*body.asset;
+    let load = Load {
+        touches: Vec::new(),
+        modal_impulse: modal_impulse(asset, blast),
+    };
+    let pulse = contact::pulse(asset, &load, f64::from(blast.duration), config);
+    let motion = modal::respond(&asset.modes, &asset.material, &load.modal_impulse, &pulse);
+    let mut report = report_on(body);
+    report.looked_at = LookedAt::Amplitudes;
+    report.contact_duration = pulse.duration;
+    report.unadjusted_duration = pulse.duration;
+    report.time_step = pulse.time_step;
+    report.time_steps = motion.steps();
+    report.peak_elastic_energy = motion.peak_energy;
+    report.peak_strain_energy = motion.peak_strain_energy;
+    let budget = motion.peak_strain_energy;
+    let cracked = run_cracks(body, config, &motion, pulse.time_step, budget, report);
+    Ok(pieces(body, cracked))
+}
+
+/// Σ over the lit triangles of φ_i · impulse: first on the nodes of the analysis mesh, then one product with the shapes.
+fn modal_impulse(asset: &Asset, blast: &Blast) -> Vec<f64> {
+    let mut nodal = vec![Vec3::ZERO; asset.analysis.nodes.len()];
+    for (t, triangle) in asset.surface.triangles.iter().enumerate() {
+        let [a, b, c] = triangle.map(|v| asset.fracture.positions[v as usize]);
+        let area = 0.5 * (b - a).cross(c - a);
+        let away = (a + b + c) / 3.0 - blast.origin;
+        let distance = away.length().max(NEAREST);
+        let facing = -area.dot(away) / distance;
+        if facing <= 0.0 {
+            continue;
+        }
+        let push = -area.normalize_or_zero() * (facing * blast.impulse / distance);
+        let place = SurfacePoint {
+            triangle: t as u32,
+            weights: [1.0 / 3.0; 3],
+            position: Vec3::ZERO,
+        };
+        each_row(asset, &place, |node, weight| nodal[node] += push * weight);
+    }
+    let mut sums = vec![0.0; asset.modes.count()];
+    for (node, push) in nodal.iter().enumerate().filter(|(_, p)| **p != Vec3::ZERO) {
+        for axis in 0..3 {
+            let w = f64::from(push[axis]);
+            for (sum, &phi) in sums.iter_mut().zip(asset.modes.row(3 * node + axis)) {
+                *sum += w * f64::from(phi);
+            }
+        }
+    }
+    sums
+}

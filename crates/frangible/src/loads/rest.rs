@@ -1,0 +1,110 @@
+//! Resting contacts: quasi-static stress from the same modes `[G12 §7.3.3]`.
+//!
+//! A force that changes slowly against the body's vibration moves mode i to q_i = φ_i(b) · f / λ_i. The weight of a free
+//! body needs no term: a force spread as the mass is lies in the span of its rigid motions, to which all modes are
+//! orthogonal. A held body hangs from its supports, and its weight bends it.
+
+use glam::Vec3;
+
+use crate::body::Body;
+use crate::config::{CrackTiming, FractureConfig};
+use crate::contact::{each_row, quick_bound};
+use crate::error::{InputError, finite};
+use crate::impact::{pieces, report_on, run_cracks};
+use crate::modal::Motion;
+use crate::outcome::{LookedAt, Outcome};
+use crate::stress::MARGIN;
+
+/// A force on the surface, body frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Force {
+    /// Where, m; the nearest point of the surface is taken.
+    pub point: Vec3,
+    /// On this body, N.
+    pub force: Vec3,
+}
+
+/// Crack paths are followed over so many diagonals of the body: cracks that turn are longer than straight ones.
+const DIAGONALS: f64 = 3.0;
+
+/// What steady forces do to a body: the contacts it rests on, and what rests on it. `gravity` (m/s², body frame) is the
+/// acceleration of a held body's weight; a free body's does not matter.
+///
+/// Nearly always nothing, and that costs microseconds and no allocation: ask at every step. What the load does as cracks
+/// open is not limited by the energy ledger: a weight goes on pushing.
+///
+/// # Errors
+/// A force, point or gravity that is not finite.
+pub fn rest(
+    body: &Body,
+    forces: &[Force],
+    gravity: Vec3,
+    config: &FractureConfig,
+) -> Result<Outcome, InputError> {
+    finite("gravity", gravity)?;
+    for force in forces {
+        finite("a force's point", force.point)?;
+        finite("a force", force.force)?;
+    }
+    let (asset, prepared) = (&*body.asset, &*body.prepared);
+    let weight = |mode: usize| prepared.weight.get(mode).map_or(0.0, |w| w.dot(gravity));
+    let compliance = |mode: usize| prepared.periods[mode] * prepared.periods[mode];
+    let mut report = report_on(body);
+    if config.culling {
+        let pushes = forces.iter().map(|f| (f.point, f.force));
+        let bound = quick_bound(body, pushes, |i, f| (f + weight(i)) * compliance(i));
+        if let Some(bound) = bound.filter(|b| *b <= report.strength as f32 * (1.0 - MARGIN)) {
+            report.stress_bound = f64::from(bound);
+            let margin = report.strength / f64::from(bound);
+            return Ok(Outcome::Held { margin, report });
+        }
+    }
+    report.looked_at = LookedAt::Amplitudes;
+    let mut amplitudes: Vec<f32> = (0..asset.modes.count()).map(weight).collect();
+    for force in forces {
+        let at = prepared.surface.closest(force.point);
+        each_row(asset, &at, |node, share| {
+            for axis in 0..3 {
+                let w = share * force.force[axis];
+                for (sum, &phi) in amplitudes.iter_mut().zip(asset.modes.row(3 * node + axis)) {
+                    *sum += w * phi;
+                }
+            }
+        });
+    }
+    for (i, q) in amplitudes.iter_mut().enumerate() {
+        *q *= compliance(i);
+    }
+    let energy = amplitudes.iter().zip(&asset.modes.eigenvalues);
+    report.peak_strain_energy = energy
+        .map(|(&q, l)| 0.5 * l * f64::from(q) * f64::from(q))
+        .sum();
+    let (time_step, steps) = steps(body, config);
+    report.time_step = time_step;
+    report.time_steps = steps;
+    let motion = Motion {
+        modes: amplitudes.len(),
+        amplitudes: amplitudes.repeat(steps),
+        peak_energy: report.peak_strain_energy,
+        peak_strain_energy: report.peak_strain_energy,
+    };
+    let cracked = run_cracks(body, config, &motion, time_step, f64::INFINITY, report);
+    Ok(pieces(body, cracked))
+}
+
+/// Time step, s, and number of steps in which a crack can cross the body: one mean edge per step.
+fn steps(body: &Body, config: &FractureConfig) -> (f64, usize) {
+    let CrackTiming::TimeResolved { speed, .. } = config.timing else {
+        return (1.0, 1);
+    };
+    let positions = &body.asset.fracture.positions;
+    let low = positions.iter().copied().fold(Vec3::INFINITY, Vec3::min);
+    let high = positions
+        .iter()
+        .copied()
+        .fold(Vec3::NEG_INFINITY, Vec3::max);
+    let edge = f64::from(body.prepared.edge);
+    let time_step = edge / (speed * body.asset.material.rayleigh_speed());
+    let steps = (DIAGONALS * f64::from(low.distance(high)) / edge).ceil();
+    (time_step, (steps as usize).clamp(1, 4096))
+}
