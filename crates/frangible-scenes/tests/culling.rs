@@ -2,9 +2,11 @@
 
 mod common;
 
-use common::{block, blow, glass, pane, steel_ball, stone_floor};
+use common::{block, blow, glass, pane, rim_hit, steel_ball, stone_floor};
 use frangible::glam::Vec3;
-use frangible::{Asset, Breakable, Contact, FractureConfig, Outcome, impact, would_break};
+use frangible::{
+    Asset, Breakable, Contact, Force, FractureConfig, LookedAt, Outcome, impact, rest, would_break,
+};
 use std::sync::Arc;
 
 /// Numbers in 0..1 (a linear congruential generator).
@@ -120,4 +122,34 @@ fn culling_changes_no_bit_of_what_breaks() {
     }
     println!("refused free of time, by time steps, looked at: {looked:?}");
     assert!(looked.iter().all(|&n| n > 3), "{looked:?}");
+}
+
+#[test]
+fn a_refused_contact_allocates_nothing() {
+    let body = Breakable::new(Arc::clone(glass())).unwrap().body(1);
+    let config = FractureConfig::default();
+    let soft = rim_hit(0.0, 0.001);
+    let contacts = [
+        soft,
+        Contact {
+            friction: Vec3::Y * 1e-5,
+            ..soft
+        },
+    ];
+    let force = Force {
+        point: soft.point,
+        force: Vec3::NEG_X,
+    };
+    let refused = |outcome: Outcome| {
+        matches!(outcome, Outcome::Held { margin, report }
+            if margin > 1.0 && report.looked_at == LookedAt::Impulses)
+    };
+    let mut all = true;
+    let counted = allocation_counter::measure(|| {
+        all &= refused(impact(&body, &contacts, &config).unwrap());
+        all &= !would_break(&body, &contacts, &config).unwrap();
+        all &= refused(rest(&body, &[force], Vec3::NEG_Z, &config).unwrap());
+    });
+    assert!(all);
+    assert_eq!(counted.count_total, 0, "{counted:?}");
 }

@@ -56,7 +56,10 @@ fn a_bar_bent_by_three_forces_has_the_stress_of_beam_theory() {
     // Centroids of weak tetrahedra lie below the surface, and 120 modes round the corner of the bending moment:
     // measured 0.88.
     println!("stress {:.3} of beam theory's", peak / expected);
-    assert!((0.8..1.0).contains(&(peak / expected)), "{peak} Pa, not {expected} Pa");
+    assert!(
+        (0.8..1.0).contains(&(peak / expected)),
+        "{peak} Pa, not {expected} Pa"
+    );
     assert!(matches!(outcome, Outcome::Held { .. }));
 }
 
@@ -74,7 +77,10 @@ fn a_shelf_holds_less_than_its_strength_and_breaks_under_more() {
     let config = FractureConfig::default();
     let middle = Vec3::new(0.0, 0.0, 0.005);
     let load = |newton: f32| {
-        let force = Force { point: middle, force: Vec3::NEG_Z * newton };
+        let force = Force {
+            point: middle,
+            force: Vec3::NEG_Z * newton,
+        };
         rest(&body, &[force], GRAVITY, &config).unwrap()
     };
     let mut last = f64::INFINITY;
@@ -125,7 +131,10 @@ fn nothing_breaks_from_merely_lying_there() {
             .min_by(|a, b| a.z.total_cmp(&b.z))
             .unwrap();
         let weight = Vec3::Z * (9.81 * asset.mass.mass) as f32;
-        let force = Force { point: lowest, force: weight };
+        let force = Force {
+            point: lowest,
+            force: weight,
+        };
         let outcome = rest(&body, &[force], GRAVITY, &config).unwrap();
         let Outcome::Held { margin, report } = outcome else {
             panic!("{name} broke under its own weight");
@@ -152,9 +161,17 @@ fn a_blast_breaks_a_pane_that_is_near_and_not_one_that_is_far() {
     let near = at(0.1);
     println!("at 0.1 m: {} pieces", pieces(&near));
     assert!(matches!(near, Outcome::Broke(_)));
-    let bad = Blast { origin: Vec3::NAN, impulse: 1.0, duration: 1e-3 };
+    let bad = Blast {
+        origin: Vec3::NAN,
+        impulse: 1.0,
+        duration: 1e-3,
+    };
     assert!(blast(&body, &bad, &config).is_err());
-    let bad = Blast { origin: Vec3::ONE, impulse: 0.0, duration: 1e-3 };
+    let bad = Blast {
+        origin: Vec3::ONE,
+        impulse: 0.0,
+        duration: 1e-3,
+    };
     assert!(blast(&body, &bad, &config).is_err());
 }
 
@@ -165,8 +182,15 @@ fn a_far_blast_gives_a_symmetric_body_a_symmetric_break() {
     let body = Body::new(Arc::clone(pane()), 1).unwrap();
     let config = unculled();
     let from = |side: f32| {
-        let pulse = Blast { origin: Vec3::Z * side * 1e4, impulse: 1e4, duration: 2e-3 };
-        blast(&body, &pulse, &config).unwrap().report().peak_elastic_energy
+        let pulse = Blast {
+            origin: Vec3::Z * side * 1e4,
+            impulse: 1e4,
+            duration: 2e-3,
+        };
+        blast(&body, &pulse, &config)
+            .unwrap()
+            .report()
+            .peak_elastic_energy
     };
     let (above, below) = (from(1.0), from(-1.0));
     assert!((above / below - 1.0).abs() < 1e-3, "{above} J, {below} J");
@@ -193,7 +217,10 @@ fn friction_pushes_as_a_normal_impulse_does() {
     let config = unculled();
     let point = common::rim_point(asset, 0.0);
     let plain = blow(asset, point, Vec3::NEG_Z, 1.0, stone_floor());
-    let rubbed = Contact { friction: Vec3::NEG_X * 0.5 * plain.impulse, ..plain };
+    let rubbed = Contact {
+        friction: Vec3::NEG_X * 0.5 * plain.impulse,
+        ..plain
+    };
     let (a, b) = (
         impact(&body, &[plain], &config).unwrap(),
         impact(&body, &[rubbed], &config).unwrap(),
@@ -207,8 +234,23 @@ fn friction_pushes_as_a_normal_impulse_does() {
     };
     let mut free = unculled();
     free.admissible_duration = false;
-    let energy = |c: Contact| impact(&body, &[c], &free).unwrap().report().peak_elastic_energy;
+    let energy = |c: Contact| {
+        impact(&body, &[c], &free)
+            .unwrap()
+            .report()
+            .peak_elastic_energy
+    };
     // Only the duration differs, by what the direction changes of the effective mass.
     assert!((energy(as_normal) / energy(rubbed) - 1.0).abs() < 0.3);
-    assert!(!would_break(&body, &[Contact { impulse: 0.0, ..plain }], &config).unwrap());
+    assert!(
+        !would_break(
+            &body,
+            &[Contact {
+                impulse: 0.0,
+                ..plain
+            }],
+            &config
+        )
+        .unwrap()
+    );
 }
