@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use frangible::{Asset, Contact, Fracture, ImpactReport};
+use frangible::{Asset, BodyState, Contact, Fracture, ImpactReport};
 use rapier3d::dynamics::RigidBodyHandle;
 use rapier3d::math::{Pose, Vector};
 
@@ -47,4 +47,6 @@ pub struct HeldEvent {
     pub margin: f64,
     /// What the fracture found.
     pub report: ImpactReport,
+    /// Its cracks from now on, where new ones ran; the body has them already.
+    pub state: Option<BodyState>,
 }

@@ -63,7 +63,7 @@ impl BreakableWorld {
         self.siblings.relaxation =
             self.config.overlap_relaxation * self.physics.integration_parameters.dt;
         let near = candidates(&self.physics, self.breakables(), self.config.impact_speed);
-        let asked = if near.is_empty() {
+        let mut asked = if near.is_empty() {
             let centres = self.guarded_centres();
             self.advance();
             put_back(&mut self.physics, &centres);
@@ -79,6 +79,13 @@ impl BreakableWorld {
             self.places.rest(&mut self.physics, self.config.rest_drift);
         }
         self.limit_debris(self.config.max_debris);
+        for (body, (_, event)) in &asked.held {
+            if let (Some(body), Some(state)) = (self.breakables.get_mut(body), &event.state)
+                && let Err(error) = body.set_state(state.clone())
+            {
+                asked.error.get_or_insert(error.into());
+            }
+        }
         if self.config.record_held {
             self.held
                 .extend(asked.held.into_values().map(|(_, event)| event));
@@ -159,7 +166,7 @@ impl BreakableWorld {
             let fracture = match outcome {
                 Ok(Outcome::Broke(fracture)) if fracture.fragments.len() > 1 => *fracture,
                 Ok(outcome) => {
-                    self.remember_held(handle, impact, &outcome, asked);
+                    self.remember_held(handle, impact, outcome, asked);
                     continue;
                 }
                 Err(error) => {
@@ -211,16 +218,24 @@ impl BreakableWorld {
         &self,
         body: RigidBodyHandle,
         impact: Impact,
-        outcome: &Outcome,
+        outcome: Outcome,
         asked: &mut Asked,
     ) {
-        let report = outcome.report();
+        let Outcome::Held {
+            margin,
+            report,
+            state,
+        } = outcome
+        else {
+            return;
+        };
         let event = HeldEvent {
             step: self.steps,
             body,
             contacts: impact.contacts.clone(),
-            margin: report.strength / report.stress_bound,
-            report: report.clone(),
+            margin,
+            report,
+            state: state.map(|s| *s),
         };
         asked.held.insert(key(body), (impact, event));
     }

@@ -141,7 +141,7 @@ fn a_refused_contact_allocates_nothing() {
         force: Vec3::NEG_X,
     };
     let refused = |outcome: Outcome| {
-        matches!(outcome, Outcome::Held { margin, report }
+        matches!(outcome, Outcome::Held { margin, report, .. }
             if margin > 1.0 && report.looked_at == LookedAt::Impulses)
     };
     let mut all = true;

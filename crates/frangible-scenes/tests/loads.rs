@@ -88,7 +88,7 @@ fn a_shelf_holds_less_than_its_strength_and_breaks_under_more() {
     for k in 0..12 {
         let newton = 4.0 * 2.0_f32.powi(k);
         match load(newton) {
-            Outcome::Held { margin, report } => {
+            Outcome::Held { margin, report, .. } => {
                 println!("{newton} N: margin {margin:.2}, {:?}", report.looked_at);
                 assert!(broke_at.is_none(), "held {newton} N after it broke");
                 assert!(margin < last, "{newton} N: margin {margin}, {last} before");
@@ -136,7 +136,7 @@ fn nothing_breaks_from_merely_lying_there() {
             force: weight,
         };
         let outcome = rest(&body, &[force], GRAVITY, &config).unwrap();
-        let Outcome::Held { margin, report } = outcome else {
+        let Outcome::Held { margin, report, .. } = outcome else {
             panic!("{name} broke under its own weight");
         };
         println!("{name}: margin {margin:.0}");

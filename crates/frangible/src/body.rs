@@ -8,6 +8,7 @@ use crate::asset::Asset;
 use crate::error::InputError;
 use crate::mesh::TriangleTree;
 use crate::rng::{Purpose, stream, uniform};
+use crate::state::BodyState;
 use crate::stress::{ShapeWeights, StressBounds, quadratic_modulus};
 
 /// An asset that has been checked and made ready: one per kind of object, cheap to clone, shared by its bodies.
@@ -106,6 +107,7 @@ impl Breakable {
             clusters: WeakClusters::new(&weak_tets, &self.prepared.bounds.cluster_of_tet),
             seed,
             weak_tets,
+            state: BodyState::default(),
         }
     }
 }
@@ -134,7 +136,7 @@ fn weight(asset: &Asset) -> Vec<Vec3> {
     sums
 }
 
-/// A body that may break: shares its asset with its like, has its own seed and weak points.
+/// A body that may break: shares its asset with its like, has its own seed, weak points and cracks.
 #[derive(Clone, Debug)]
 pub struct Body {
     pub(crate) asset: Arc<Asset>,
@@ -143,6 +145,7 @@ pub struct Body {
     /// Seed of its weak points and of the roughness of its cracks.
     seed: u64,
     weak_tets: Vec<u32>,
+    state: BodyState,
 }
 
 impl Body {
@@ -164,6 +167,23 @@ impl Body {
     #[must_use]
     pub fn seed(&self) -> u64 {
         self.seed
+    }
+
+    /// The cracks it has so far.
+    #[must_use]
+    pub fn state(&self) -> &BodyState {
+        &self.state
+    }
+
+    /// Gives it the cracks that an impact left ([`Outcome::Held`](crate::Outcome::Held)), or that were saved: the next impact
+    /// finds them.
+    ///
+    /// # Errors
+    /// A state that is not of a body of this asset.
+    pub fn set_state(&mut self, state: BodyState) -> Result<(), InputError> {
+        state.check(&self.asset)?;
+        self.state = state;
+        Ok(())
     }
 
     /// Its weak fracture tetrahedra, ascending: cracks start only there `[G12 §4.4]`.

@@ -44,6 +44,11 @@ pub enum InputError {
         /// Components.
         z: f32,
     },
+    /// The state of a body that cannot be its own.
+    #[error(
+        "the state of a body cannot be used: {0}; replay its impacts, or begin with an intact one"
+    )]
+    State(&'static str),
     /// Arrays of an asset that do not fit together.
     #[error("asset `{asset}`: {problem}; bake it again")]
     Asset {

@@ -5,11 +5,12 @@ use std::time::Instant;
 use crate::body::Body;
 use crate::config::FractureConfig;
 use crate::contact::{self, Contact};
-use crate::crack::{CrackSystem, Culling, StressField, advance, start_cracks};
+use crate::crack::{CrackSystem, Culling, StressField, advance, front_limit, start_cracks};
 use crate::error::InputError;
 use crate::fragment::{self, Labels};
 use crate::modal::{self, Motion};
 use crate::outcome::{Fracture, ImpactReport, LookedAt, Outcome};
+use crate::state::BodyState;
 use crate::stress::{DisplacementBatch, Elasticity, MARGIN};
 
 /// Computes what an impact does to a body. Nothing is changed; the caller replaces a broken body by its fragments.
@@ -45,8 +46,8 @@ pub fn would_break(
 
 /// What the cracks of an impact did to a body.
 pub(crate) enum Cracked<'a> {
-    /// Margin and report.
-    Held(f64, ImpactReport),
+    /// Margin, report, and the body's cracks if there are new ones.
+    Held(f64, ImpactReport, Option<Box<BodyState>>),
     /// Pieces, not made yet.
     Parted(CrackSystem<'a>, Labels, ImpactReport),
 }
@@ -65,17 +66,18 @@ fn cracks<'a>(
     // Most contacts end here (beyond the paper: stress/bound.rs).
     if config.culling
         && let Some(bound) = contact::first_bound(body, contacts)
-        && bound <= report.strength as f32 * (1.0 - MARGIN)
+        && bound <= harmless(body)
     {
         report.stress_bound = f64::from(bound);
         report.timings.response = clock.elapsed().as_secs_f64();
-        return Ok(Cracked::Held(report.strength / f64::from(bound), report));
+        let margin = report.strength / f64::from(bound);
+        return Ok(Cracked::Held(margin, report, None));
     }
 
     // Contact → force pulse → modal response [G12 §4.1-4.3].
     let load = contact::modal_load(body, contacts);
     if load.touches.is_empty() {
-        return Ok(Cracked::Held(f64::INFINITY, report));
+        return Ok(Cracked::Held(f64::INFINITY, report, None));
     }
     report.unadjusted_duration = contact::contact_duration(asset, &load, config.duration);
     report.contact_duration = if config.admissible_duration {
@@ -104,6 +106,17 @@ fn cracks<'a>(
         budget,
         report,
     ))
+}
+
+/// Below this stress bound nothing happens to a body, Pa: no crack starts, and none of its old ones moves.
+pub(crate) fn harmless(body: &Body) -> f32 {
+    let material = &body.asset.material;
+    let strength = material.strength as f32 * (1.0 - MARGIN);
+    if body.state().is_intact() {
+        strength
+    } else {
+        strength.min(front_limit(material))
+    }
 }
 
 /// A report with what is known of every load.
@@ -137,7 +150,9 @@ pub(crate) fn run_cracks<'a>(
     let elasticity = Elasticity::new(&asset.material);
     let mut peak = 0.0;
     for step in 0..motion.steps() {
-        let survivors = culling.survivors(motion.at(step));
+        let root = culling.root(motion.at(step));
+        system.wake(root);
+        let survivors = culling.survivors(motion.at(step), root);
         if survivors.is_empty() && system.is_quiet() {
             continue;
         }
@@ -158,26 +173,27 @@ pub(crate) fn run_cracks<'a>(
             .iter()
             .flat_map(|&c| body.clusters.tets(c as usize));
         peak = start_cracks(&mut system, &field, weak.copied(), now, peak);
-        if report.first_crack_time.is_none() && !system.cracks.is_empty() {
+        if report.first_crack_time.is_none() && system.cracks.len() > system.old_cracks {
             report.first_crack_time = Some(now);
-            report.first_crack_point = Some(system.cracks[0].frame.origin);
+            report.first_crack_point = Some(system.cracks[system.old_cracks].frame.origin);
         }
         report.timings.cracks += start.elapsed().as_secs_f64();
     }
     report.peak_stress = f64::from(peak);
     report.stress_bound = f64::from(peak.max(culling.passed_over));
-    report.cracks = system.cracks.len();
-    report.crack_area = system.cracks.iter().fold(0.0, |sum, c| sum + c.area);
+    report.cracks = system.cracks.len() - system.old_cracks;
+    report.crack_area = system.area;
     report.fracture_energy = system.spent;
     let margin = report.strength / report.stress_bound;
-    if system.cracks.is_empty() {
-        return Cracked::Held(margin, report);
+    if system.area == 0.0 {
+        return Cracked::Held(margin, report, None);
     }
     let start = Instant::now();
     let labels = fragment::label(&system, config.crumb_share);
     report.timings.fragments = start.elapsed().as_secs_f64();
     if labels.count < 2 {
-        Cracked::Held(margin, report)
+        let state = BodyState::of(&system.cracks);
+        Cracked::Held(margin, report, Some(Box::new(state)))
     } else {
         Cracked::Parted(system, labels, report)
     }
@@ -187,7 +203,13 @@ pub(crate) fn run_cracks<'a>(
 pub(crate) fn pieces(body: &Body, cracked: Cracked<'_>) -> Outcome {
     let (system, labels, mut report) = match cracked {
         Cracked::Parted(system, labels, report) => (system, labels, report),
-        Cracked::Held(margin, report) => return Outcome::Held { margin, report },
+        Cracked::Held(margin, report, state) => {
+            return Outcome::Held {
+                margin,
+                report,
+                state,
+            };
+        }
     };
     let start = Instant::now();
     let fragments = fragment::build(&system, &labels);

@@ -29,6 +29,7 @@ mod names;
 pub mod outcome;
 mod presets;
 mod rng;
+pub mod state;
 pub mod stress;
 
 pub use asset::{Asset, AssetFileError};
@@ -44,3 +45,4 @@ pub use mesh::{MassProperties, TetMesh, TriMesh};
 pub use names::nearest_name;
 pub use outcome::{Fracture, Fragment, ImpactReport, LookedAt, Outcome, StageTimings};
 pub use presets::{Preset, UnknownMaterial};
+pub use state::BodyState;

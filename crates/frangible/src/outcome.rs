@@ -3,6 +3,7 @@
 use glam::Vec3;
 
 use crate::mesh::{MassProperties, TriMesh};
+use crate::state::BodyState;
 
 /// What an impact did to a body.
 #[derive(Clone, Debug)]
@@ -15,6 +16,8 @@ pub enum Outcome {
         margin: f64,
         /// Numbers of the impact.
         report: ImpactReport,
+        /// Where cracks ran that part nothing: all cracks of the body so far, for [`Body::set_state`](crate::Body::set_state).
+        state: Option<Box<BodyState>>,
     },
     /// The body is now these fragments.
     Broke(Box<Fracture>),
@@ -96,9 +99,9 @@ pub struct ImpactReport {
     pub peak_strain_energy: f64,
     /// Fracture energy Σ A G_c, J.
     pub fracture_energy: f64,
-    /// Total area of cracks (one side), m².
+    /// Area of new cracks and of what old ones grew (one side), m².
     pub crack_area: f64,
-    /// Number of cracks.
+    /// Number of cracks that started.
     pub cracks: usize,
     /// Number of weak points of the body.
     pub weak_points: usize,

@@ -209,6 +209,7 @@ pub fn unbreakable() -> Judge {
         Ok(Outcome::Held {
             margin: f64::INFINITY,
             report: Default::default(),
+            state: None,
         })
     })
 }

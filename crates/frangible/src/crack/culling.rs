@@ -26,8 +26,15 @@ impl<'a> Culling<'a> {
         }
     }
 
-    /// Clusters to look at, as places in the body's list, when the modes have these amplitudes, m·√kg.
-    pub(crate) fn survivors(&mut self, amplitudes: &[f32]) -> &[u32] {
+    /// Bound of the whole body, Pa, when the modes have these amplitudes, m·√kg.
+    pub(crate) fn root(&self, amplitudes: &[f32]) -> f32 {
+        let prepared = &self.body.prepared;
+        let (stress, gradient) = &prepared.root;
+        tension_bound(amplitudes, stress, gradient, prepared.quadratic_modulus)
+    }
+
+    /// Clusters to look at then, as places in the body's list; `root`: the bound of the whole body.
+    pub(crate) fn survivors(&mut self, amplitudes: &[f32], root: f32) -> &[u32] {
         let (prepared, clusters) = (&self.body.prepared, &self.body.clusters.clusters);
         self.survivors.clear();
         if !self.on {
@@ -37,7 +44,6 @@ impl<'a> Culling<'a> {
         let bound = |stress: &[f32], gradient: &[f32]| {
             tension_bound(amplitudes, stress, gradient, prepared.quadratic_modulus)
         };
-        let root = bound(&prepared.root.0, &prepared.root.1);
         if root <= self.limit {
             self.passed_over = self.passed_over.max(root);
             return &self.survivors;

@@ -3,8 +3,6 @@
 //!
 //! Order within a time step: falling stress, then element number.
 
-use std::collections::HashMap;
-
 use glam::Vec3;
 
 use super::field::StressField;
@@ -86,17 +84,7 @@ fn try_start(system: &mut CrackSystem, field: &StressField, e: u32, now: f64) {
         return;
     }
     let id = system.cracks.len() as u32;
-    system.cracks.push(Crack {
-        frame,
-        values: HashMap::new(),
-        elements: Vec::new(),
-        spent: 0.0,
-        available: 0.0,
-        area: 0.0,
-        extent: 0.0,
-        sites: Vec::new(),
-        junctions: Vec::new(),
-    });
+    system.cracks.push(Crack::new(frame));
     let direction = gradient(&x, &values).unwrap_or(normal);
     system.fracture(
         id,

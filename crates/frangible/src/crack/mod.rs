@@ -13,4 +13,5 @@ pub(crate) use field::StressField;
 pub(crate) use initiation::start_cracks;
 pub(crate) use propagation::advance;
 pub(crate) use surface::crossing_polygon;
-pub(crate) use system::{Crack, CrackSystem, ElementCut, UNCUT};
+pub(crate) use system::front_limit;
+pub(crate) use system::{Crack, CrackSystem, ElementCut, Junction, UNCUT};

@@ -10,6 +10,9 @@ use super::surface::CrackFrame;
 use crate::asset::Asset;
 use crate::body::Body;
 use crate::config::FractureConfig;
+use crate::material::Material;
+use crate::state::OldCrack;
+use crate::stress::MARGIN;
 
 /// No crack has fractured this tetrahedron.
 pub(crate) const UNCUT: u32 = u32::MAX;
@@ -33,6 +36,31 @@ pub(crate) struct Crack {
     pub(crate) sites: Vec<Site>,
     /// Where it ran into another crack (or into itself).
     pub(crate) junctions: Vec<Junction>,
+}
+
+impl Crack {
+    /// Without tetrahedra yet.
+    pub(crate) fn new(frame: CrackFrame) -> Self {
+        Self {
+            frame,
+            values: HashMap::new(),
+            elements: Vec::new(),
+            spent: 0.0,
+            available: 0.0,
+            area: 0.0,
+            extent: 0.0,
+            sites: Vec::new(),
+            junctions: Vec::new(),
+        }
+    }
+}
+
+/// No front of an old crack moves at a stress whose every principal value is below this, Pa: of the strain energy
+/// density η ≤ (3 + 6|ν|) σ² / 2E it needs γ η > G_c.
+pub(crate) fn front_limit(material: &Material) -> f32 {
+    let share = 3.0 + 6.0 * material.poisson_ratio.abs();
+    let energy_density = material.fracture_energy / material.energy_depth;
+    (2.0 * material.youngs_modulus * energy_density / share).sqrt() as f32 * (1.0 - MARGIN)
 }
 
 /// A tetrahedron fractured by a crack.
@@ -106,6 +134,12 @@ pub(crate) struct CrackSystem<'a> {
     pub(crate) fronts: BinaryHeap<Front>,
     /// Fronts that lacked energy; tried again at the next step.
     pub(crate) stalled: Vec<Front>,
+    /// Fronts of the cracks from earlier impacts, asleep until the stress can move them.
+    pub(crate) dormant: Vec<Front>,
+    /// Number of cracks from earlier impacts; they come first.
+    pub(crate) old_cracks: usize,
+    /// Area of all cracks that this impact added, m².
+    pub(crate) area: f64,
     /// What has released the weak points so far.
     pub(crate) releases: Releases,
     /// Number of sites of all cracks.
@@ -124,7 +158,10 @@ impl<'a> CrackSystem<'a> {
     /// No cracks yet; all that come may together spend `budget` J.
     pub(crate) fn new(body: &'a Body, config: &'a FractureConfig, budget: f64) -> Self {
         let asset = &*body.asset;
-        Self {
+        let mut system = Self {
+            dormant: Vec::new(),
+            old_cracks: 0,
+            area: 0.0,
             asset,
             config,
             seed: body.seed(),
@@ -138,6 +175,65 @@ impl<'a> CrackSystem<'a> {
             site_count: 0,
             centroids: &body.prepared.centroids,
             edge: body.prepared.edge,
+        };
+        body.state()
+            .cracks
+            .iter()
+            .for_each(|old| system.restore(old));
+        system
+    }
+
+    /// A crack from an earlier impact: its energy is spent, its fronts sleep.
+    fn restore(&mut self, old: &OldCrack) {
+        let material = &self.asset.material;
+        let id = self.cracks.len() as u32;
+        self.old_cracks += 1;
+        let frame = CrackFrame::new(
+            self.centroids[old.start as usize],
+            old.normal,
+            material.roughness_amplitude,
+            material.roughness_wavelength,
+            self.seed,
+            old.start,
+        );
+        self.cracks.push(Crack::new(frame));
+        for cut in &old.cuts {
+            let cut = ElementCut {
+                tet: cut.tet,
+                values: cut.values,
+                direction: cut.direction,
+                time: f64::NEG_INFINITY,
+            };
+            self.join(id, cut, 0.0);
+        }
+        for (from, cut) in old.cuts.iter().enumerate() {
+            self.dormant
+                .extend(self.open_faces(cut.tet, id).map(|tet| Front {
+                    arrival: 0.0,
+                    tet,
+                    crack: id,
+                    from: from as u32,
+                }));
+        }
+        let junction = |&(from, own): &(u32, bool)| Junction { from, own };
+        self.cracks[id as usize].junctions = old.junctions.iter().map(junction).collect();
+    }
+
+    /// Neighbours of a tetrahedron that this crack has not cut.
+    fn open_faces(&self, tet: u32, crack: u32) -> impl Iterator<Item = u32> + use<'a> {
+        let neighbours = self.asset.fracture.neighbours[tet as usize];
+        let open = neighbours
+            .map(|n| n != crate::mesh::NO_NEIGHBOUR && self.fractured_by[n as usize] != crack);
+        neighbours
+            .into_iter()
+            .zip(open)
+            .filter_map(|(n, open)| open.then_some(n))
+    }
+
+    /// Wakes the old fronts when there can be stress enough to move them.
+    pub(crate) fn wake(&mut self, stress_bound: f32) {
+        if !self.dormant.is_empty() && stress_bound > front_limit(&self.asset.material) {
+            self.stalled.append(&mut self.dormant);
         }
     }
 
@@ -155,11 +251,31 @@ impl<'a> CrackSystem<'a> {
     pub(crate) fn fracture(&mut self, crack: u32, cut: ElementCut, area: f32, energy_density: f32) {
         let material = &self.asset.material;
         let tet = cut.tet as usize;
-        self.fractured_by[tet] = crack;
         let c = &mut self.cracks[crack as usize];
         c.spent += f64::from(area) * material.fracture_energy;
         self.spent += f64::from(area) * material.fracture_energy;
         c.available += f64::from(area) * material.energy_depth * f64::from(energy_density);
+        self.area += f64::from(area);
+        self.join(crack, cut, area);
+        let from = self.cracks[crack as usize].elements.len() as u32 - 1;
+        let centre = self.centroids[tet];
+        for neighbour in self.open_faces(cut.tet, crack) {
+            let distance = centre.distance(self.centroids[neighbour as usize]);
+            let arrival = cut.time + f64::from(distance) * self.slowness();
+            self.fronts.push(Front {
+                arrival,
+                tet: neighbour,
+                crack,
+                from,
+            });
+        }
+    }
+
+    /// Adds a fractured tetrahedron to a crack.
+    fn join(&mut self, crack: u32, cut: ElementCut, area: f32) {
+        let tet = cut.tet as usize;
+        self.fractured_by[tet] = crack;
+        let c = &mut self.cracks[crack as usize];
         c.area += f64::from(area);
         let centre = self.centroids[tet];
         c.extent = c.extent.max(centre.distance(c.frame.origin));
@@ -180,23 +296,7 @@ impl<'a> CrackSystem<'a> {
             });
             self.site_count += 1;
         }
-        let from = c.elements.len() as u32;
         c.elements.push(cut);
-        for &neighbour in &self.asset.fracture.neighbours[tet] {
-            if neighbour == crate::mesh::NO_NEIGHBOUR
-                || self.fractured_by[neighbour as usize] == crack
-            {
-                continue;
-            }
-            let distance = centre.distance(self.centroids[neighbour as usize]);
-            let arrival = cut.time + f64::from(distance) * self.slowness();
-            self.fronts.push(Front {
-                arrival,
-                tet: neighbour,
-                crack,
-                from,
-            });
-        }
     }
 
     /// Time a crack needs per metre, s/m; for instant cracks any constant orders the fronts by path length.

@@ -10,10 +10,9 @@ use crate::body::Body;
 use crate::config::{CrackTiming, FractureConfig};
 use crate::contact::{each_row, quick_bound};
 use crate::error::{InputError, finite};
-use crate::impact::{pieces, report_on, run_cracks};
+use crate::impact::{harmless, pieces, report_on, run_cracks};
 use crate::modal::Motion;
 use crate::outcome::{LookedAt, Outcome};
-use crate::stress::MARGIN;
 
 /// A force on the surface, body frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,10 +52,14 @@ pub fn rest(
     if config.culling {
         let pushes = forces.iter().map(|f| (f.point, f.force));
         let bound = quick_bound(body, pushes, |i, f| (f + weight(i)) * compliance(i));
-        if let Some(bound) = bound.filter(|b| *b <= report.strength as f32 * (1.0 - MARGIN)) {
+        if let Some(bound) = bound.filter(|b| *b <= harmless(body)) {
             report.stress_bound = f64::from(bound);
             let margin = report.strength / f64::from(bound);
-            return Ok(Outcome::Held { margin, report });
+            return Ok(Outcome::Held {
+                margin,
+                report,
+                state: None,
+            });
         }
     }
     report.looked_at = LookedAt::Amplitudes;

@@ -1,0 +1,217 @@
+//! What a body remembers: the cracks that have not parted it yet.
+//!
+//! Small, and all there is besides the asset and the seed: saved, sent over a network, or rebuilt bit for bit by replaying
+//! the impacts.
+
+use glam::Vec3;
+
+use crate::asset::Asset;
+use crate::crack::{Crack, ElementCut, Junction, crossing_polygon};
+use crate::error::InputError;
+
+/// Cracks of a body that is still one piece.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct BodyState {
+    pub(crate) cracks: Vec<OldCrack>,
+}
+
+/// A crack as it was left.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct OldCrack {
+    /// Where it started.
+    pub(crate) start: u32,
+    /// Its normal there.
+    pub(crate) normal: Vec3,
+    /// Tetrahedra it has cut, in their order.
+    pub(crate) cuts: Vec<OldCut>,
+    /// Where it met a crack: place in `cuts`, and whether the crack was itself.
+    pub(crate) junctions: Vec<(u32, bool)>,
+}
+
+/// A tetrahedron that a crack has cut.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct OldCut {
+    pub(crate) tet: u32,
+    /// s at its nodes, m.
+    pub(crate) values: [f32; 4],
+    /// Unit normal of the crack.
+    pub(crate) direction: Vec3,
+}
+
+impl OldCrack {
+    fn new(crack: &Crack) -> Self {
+        let cut = |e: &ElementCut| OldCut {
+            tet: e.tet,
+            values: e.values,
+            direction: e.direction,
+        };
+        let junction = |j: &Junction| (j.from, j.own);
+        Self {
+            start: crack.elements.first().map_or(0, |e| e.tet),
+            normal: crack.frame.normal,
+            cuts: crack.elements.iter().map(cut).collect(),
+            junctions: crack.junctions.iter().map(junction).collect(),
+        }
+    }
+}
+
+/// Starts a state in bytes; the digit is its version.
+const MAGIC: &[u8; 8] = b"FRCRACK1";
+
+impl BodyState {
+    pub(crate) fn of(cracks: &[Crack]) -> Self {
+        Self {
+            cracks: cracks.iter().map(OldCrack::new).collect(),
+        }
+    }
+
+    /// Whether the body is as it was made.
+    #[must_use]
+    pub fn is_intact(&self) -> bool {
+        self.cracks.is_empty()
+    }
+
+    /// Number of cracks.
+    #[must_use]
+    pub fn cracks(&self) -> usize {
+        self.cracks.len()
+    }
+
+    /// The faces of the cracks, for drawing: a polygon of three or four corners per tetrahedron cut, m, body frame.
+    pub fn faces<'a>(&'a self, asset: &'a Asset) -> impl Iterator<Item = ([Vec3; 4], usize)> + 'a {
+        let cuts = self.cracks.iter().flat_map(|c| &c.cuts);
+        cuts.map(|cut| crossing_polygon(&asset.fracture.corners(cut.tet as usize), &cut.values))
+    }
+
+    /// The state as bytes: little-endian, 36 bytes per tetrahedron cut and 24 per crack.
+    #[must_use]
+    pub fn to_bytes(&self) -> Vec<u8> {
+        let mut bytes = MAGIC.to_vec();
+        let mut number = |x: u32| bytes.extend(x.to_le_bytes());
+        number(self.cracks.len() as u32);
+        for crack in &self.cracks {
+            number(crack.start);
+            crack
+                .normal
+                .to_array()
+                .iter()
+                .for_each(|x| number(x.to_bits()));
+            number(crack.cuts.len() as u32);
+            number(crack.junctions.len() as u32);
+            for cut in &crack.cuts {
+                number(cut.tet);
+                let direction = cut.direction.to_array();
+                cut.values
+                    .iter()
+                    .chain(&direction)
+                    .for_each(|x| number(x.to_bits()));
+            }
+            for &(from, own) in &crack.junctions {
+                number(from << 1 | u32::from(own));
+            }
+        }
+        bytes
+    }
+
+    /// Reads what [`BodyState::to_bytes`] wrote. Whether it fits a body is asked by [`Body::set_state`](crate::Body::set_state).
+    ///
+    /// # Errors
+    /// Bytes of another kind, too few of them, or too many.
+    pub fn from_bytes(bytes: &[u8]) -> Result<Self, InputError> {
+        let rest = bytes.strip_prefix(MAGIC).ok_or(InputError::State(
+            "these bytes are no state of a body of this version",
+        ))?;
+        let mut numbers = Numbers(rest);
+        let count = numbers.next()?;
+        let mut cracks = Vec::new();
+        for _ in 0..count {
+            let start = numbers.next()?;
+            let normal = numbers.vector()?;
+            let (cuts, junctions) = (numbers.next()?, numbers.next()?);
+            // Grown as they are read: no number in the file makes memory that the file does not fill.
+            let mut crack = OldCrack {
+                start,
+                normal,
+                cuts: Vec::new(),
+                junctions: Vec::new(),
+            };
+            for _ in 0..cuts {
+                crack.cuts.push(OldCut {
+                    tet: numbers.next()?,
+                    values: [
+                        numbers.float()?,
+                        numbers.float()?,
+                        numbers.float()?,
+                        numbers.float()?,
+                    ],
+                    direction: numbers.vector()?,
+                });
+            }
+            for _ in 0..junctions {
+                let junction = numbers.next()?;
+                crack.junctions.push((junction >> 1, junction & 1 == 1));
+            }
+            cracks.push(crack);
+        }
+        if numbers.0.is_empty() {
+            Ok(Self { cracks })
+        } else {
+            Err(InputError::State("there are bytes after its end"))
+        }
+    }
+
+    /// Whether it can be the state of a body of this asset.
+    pub(crate) fn check(&self, asset: &Asset) -> Result<(), InputError> {
+        let tets = asset.fracture.tets.len();
+        let mut cut = vec![false; tets];
+        for crack in &self.cracks {
+            let first = crack.cuts.first();
+            if first.is_none_or(|c| c.tet != crack.start) || !crack.normal.is_normalized() {
+                return Err(InputError::State("a crack has no start, or no direction"));
+            }
+            for c in &crack.cuts {
+                let there = cut.get_mut(c.tet as usize);
+                if there.is_none_or(|cut| std::mem::replace(cut, true)) {
+                    return Err(InputError::State(
+                        "it cuts a tetrahedron twice, or one that the body does not have: it belongs to another body",
+                    ));
+                }
+                if !(c.values.iter().all(|x| x.is_finite()) && c.direction.is_finite()) {
+                    return Err(InputError::State("it has a number that is not finite"));
+                }
+            }
+            if crack
+                .junctions
+                .iter()
+                .any(|&(from, _)| from as usize >= crack.cuts.len())
+            {
+                return Err(InputError::State(
+                    "a junction names a cut that is not there",
+                ));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Little-endian numbers one after another.
+struct Numbers<'a>(&'a [u8]);
+
+impl Numbers<'_> {
+    fn next(&mut self) -> Result<u32, InputError> {
+        let (number, rest) = self
+            .0
+            .split_first_chunk::<4>()
+            .ok_or(InputError::State("its end is missing"))?;
+        self.0 = rest;
+        Ok(u32::from_le_bytes(*number))
+    }
+
+    fn float(&mut self) -> Result<f32, InputError> {
+        Ok(f32::from_bits(self.next()?))
+    }
+
+    fn vector(&mut self) -> Result<Vec3, InputError> {
+        Ok(Vec3::new(self.float()?, self.float()?, self.float()?))
+    }
+}
