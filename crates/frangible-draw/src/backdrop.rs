@@ -19,9 +19,15 @@ pub(crate) fn furnish(surface: &mut OffscreenSurface) {
     surface.set_bloom_enabled(false);
     let window = surface.window_mut();
     window.set_skybox_image(&surroundings());
-    window.set_fog(Fog::linear(backdrop, 4.5, 13.0));
     // Glass behind glass, one layer deep; a third step changes little.
     window.transmission_settings_mut().steps = 2;
+}
+
+/// What the floor fades into; without a floor it lies beyond everything.
+pub(crate) fn haze(floor: bool) -> Fog {
+    let [red, green, blue] = BACKDROP;
+    let [near, far] = if floor { [4.5, 13.0] } else { [1e3, 1e4] };
+    Fog::linear(Color::new(red, green, blue, 1.0), near, far)
 }
 
 /// What shines and mirrors around the stage, as an equirectangular picture: the
