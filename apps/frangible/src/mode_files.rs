@@ -5,7 +5,7 @@ use std::error::Error;
 use frangible::Asset;
 use frangible::glam::{Quat, Vec3};
 use frangible::modal::ModeField;
-use frangible::stress::largest_eigenvalue;
+use frangible::stress::{Symmetric3, largest_eigenvalue};
 use frangible_export::{ExportError, VtuCells, VtuField, VtuMesh, VtuValues, write_vtu};
 
 /// How far the largest displacement is drawn, as a share of the body's diagonal.
@@ -116,6 +116,14 @@ pub(crate) fn fracture_vtu(asset: &Asset) -> Result<Vec<u8>, ExportError> {
     vtu(asset, &asset.fracture.positions, cells, fields)
 }
 
+/// Largest principal stress, in MPa meanwhile: of a light body's unit amplitude the cube of Pa overflows.
+fn principal(stress: &Symmetric3) -> f32 {
+    1e6 * largest_eigenvalue(&Symmetric3 {
+        diagonal: stress.diagonal.map(|s| 1e-6 * s),
+        off: stress.off.map(|s| 1e-6 * s),
+    })
+}
+
 /// Shapes so scaled that their largest displacement is 1, stresses in Pa per metre of it.
 fn vtu(
     asset: &Asset,
@@ -130,7 +138,7 @@ fn vtu(
         vectors.push((format!("mode_{number:02}"), shape));
         let stresses = &field.stresses;
         let von_mises: Vec<f32> = stresses.iter().map(|s| scale * s.von_mises()).collect();
-        let principal = stresses.iter().map(|s| scale * largest_eigenvalue(s));
+        let principal = stresses.iter().map(|s| scale * principal(s));
         scalars.push((format!("von_mises_{number:02}"), von_mises));
         scalars.push((format!("principal_{number:02}"), principal.collect()));
     }

@@ -1,10 +1,13 @@
 //! `frangible modes`: how a body vibrates.
 
 use std::error::Error;
+use std::f32::consts::FRAC_PI_2;
 use std::path::{Path, PathBuf};
 
+use frangible::glam::{Quat, Vec3};
+use frangible_bake::Shape;
 use frangible_export::write_atomically;
-use frangible_scenes::{Opened, bake_opened, open_sources};
+use frangible_scenes::{BodySource, BodySpec, Opened, bake_opened, open_sources};
 
 use crate::args::ModesArgs;
 use crate::mode_files::{analysis_vtu, fracture_vtu, picture};
@@ -16,6 +19,19 @@ use crate::say::say;
 
 /// The most shapes that one sheet can show.
 const MOST_DRAWN: usize = 36;
+
+/// From the body towards the camera: high enough that plates are seen from above.
+const LOOK_FROM: Vec3 = Vec3::new(0.55, 0.7, 1.0);
+
+/// Stands a body up that its scene tilts or drops on its rim: shapes of revolution and ready solids have z up.
+fn upright(body: &BodySpec) -> Quat {
+    match &body.source {
+        BodySource::Shape(Shape::Box { .. }) | BodySource::Mesh { .. } | BodySource::Asset(_) => {
+            body.rotation
+        }
+        _ => Quat::from_rotation_x(-FRAC_PI_2),
+    }
+}
 
 pub(crate) fn run(args: &ModesArgs) -> Result<(), Box<dyn Error>> {
     let drawn = usize::try_from(args.modes)
@@ -67,7 +83,7 @@ pub(crate) fn run(args: &ModesArgs) -> Result<(), Box<dyn Error>> {
     };
     if let Some(path) = &png {
         bar.show(&format!("{}: drawing", scene.name), 1.0);
-        match picture(asset, drawn, spec.rotation, scene.look_from) {
+        match picture(asset, drawn, upright(spec), LOOK_FROM) {
             Ok(bytes) => write(path, &bytes)?,
             // As of other pictures: the figures are worth having without.
             Err(error) => notes.push(format!("no picture: {error}")),

@@ -19,7 +19,7 @@ use kiss3d::text::Font;
 use kiss3d::window::{NumSamples, OffscreenSurface};
 
 use crate::DrawError;
-use crate::backdrop::{furnish, haze};
+use crate::backdrop::{furnish, surround};
 use crate::camera::StillCamera;
 use crate::field::{Field, field_scene};
 use crate::scale::halve;
@@ -118,7 +118,7 @@ fn photograph(surface: &mut OffscreenSurface, shot: &Shot) -> RgbImage {
     let mut camera = StillCamera::new(&view, width as f32 / height as f32);
     let ink = Color::new(0.06, 0.07, 0.08, 1.0);
     let window = surface.window_mut();
-    window.set_fog(haze(matches!(shot.subject, Subject::Recording(_))));
+    surround(window, matches!(shot.subject, Subject::Recording(_)));
     for label in &shot.labels {
         let [at, line] =
             [Vec2::from(label.at), Vec2::splat(label.height)].map(|v| factor as f32 * v);

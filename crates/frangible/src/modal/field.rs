@@ -27,17 +27,23 @@ impl ModeField {
 }
 
 impl Asset {
-    /// Mode number `mode`, from 0, at the nodes of the fracture mesh: the body as it is broken and drawn.
+    /// Mode number `mode`, from 0, at the nodes of the fracture mesh: the body as it is broken and drawn. Stresses are
+    /// those of [`Asset::mode_on_analysis_mesh`], interpolated, so that they have no jumps.
     ///
     /// # Panics
     /// If the asset has no such mode.
     #[must_use]
     pub fn mode_on_fracture_mesh(&self, mode: usize) -> ModeField {
-        let motion = self.mode_displacements(mode);
+        let coarse = self.mode_on_analysis_mesh(mode);
         let mut field = ModeField::default();
         for point in &self.embedding.nodes {
-            let (displacement, stress) = self.mode_at(&motion, point);
-            field.displacements.push(displacement);
+            let (value, gradient) = self.value_and_gradient(&coarse.displacements, point);
+            field.displacements.push(value + gradient * point.offset);
+            let mut stress = Symmetric3::default();
+            let nodes = &self.analysis.elements[point.element as usize];
+            for (&node, weight) in nodes.iter().zip(ShapeWeights::values(point)) {
+                add(&mut stress, weight, &coarse.stresses[node as usize]);
+            }
             field.stresses.push(stress);
         }
         field
@@ -51,7 +57,8 @@ impl Asset {
     #[must_use]
     pub fn mode_on_analysis_mesh(&self, mode: usize) -> ModeField {
         let displacements = self.mode_displacements(mode);
-        let mut sums = vec![(Symmetric3::default(), 0.0_f32); displacements.len()];
+        let mut stresses = vec![Symmetric3::default(); displacements.len()];
+        let mut counts = vec![0.0_f32; displacements.len()];
         for (element, nodes) in (0..).zip(&self.analysis.elements) {
             for (&node, barycentric) in nodes.iter().zip(NODE_PLACES) {
                 let point = EmbeddedPoint {
@@ -59,25 +66,19 @@ impl Asset {
                     barycentric,
                     offset: Vec3::ZERO,
                 };
-                let stress = self.mode_at(&displacements, &point).1;
-                let (sum, count) = &mut sums[node as usize];
-                for i in 0..3 {
-                    sum.diagonal[i] += stress.diagonal[i];
-                    sum.off[i] += stress.off[i];
-                }
-                *count += 1.0;
+                let gradient = self.value_and_gradient(&displacements, &point).1;
+                let stress = linear_stress(gradient, &self.material);
+                add(&mut stresses[node as usize], 1.0, &stress);
+                counts[node as usize] += 1.0;
             }
         }
-        let stresses = sums.iter().map(|(sum, count)| {
-            let share = count.max(1.0).recip();
-            Symmetric3 {
-                diagonal: sum.diagonal.map(|s| share * s),
-                off: sum.off.map(|s| share * s),
-            }
-        });
+        for (stress, count) in stresses.iter_mut().zip(counts) {
+            let sum = std::mem::take(stress);
+            add(stress, count.max(1.0).recip(), &sum);
+        }
         ModeField {
-            stresses: stresses.collect(),
             displacements,
+            stresses,
         }
     }
 
@@ -89,7 +90,8 @@ impl Asset {
             .collect()
     }
 
-    fn mode_at(&self, displacements: &[Vec3], point: &EmbeddedPoint) -> (Vec3, Symmetric3) {
+    /// Of a field of vectors at the analysis nodes, at the closest point of an element; column j = ∂u/∂x_j.
+    fn value_and_gradient(&self, field: &[Vec3], point: &EmbeddedPoint) -> (Vec3, Mat3) {
         let element = point.element as usize;
         let barycentric_gradients = &self.analysis.barycentric_gradients[element];
         let gradients = ShapeWeights::gradients(point, barycentric_gradients);
@@ -99,14 +101,21 @@ impl Asset {
             .zip(ShapeWeights::values(point))
             .zip(gradients)
         {
-            let u = displacements[node as usize];
+            let u = field[node as usize];
             value += n * u;
             gradient.x_axis += u * g.x;
             gradient.y_axis += u * g.y;
             gradient.z_axis += u * g.z;
         }
-        let displacement = value + gradient * point.offset;
-        (displacement, linear_stress(gradient, &self.material))
+        (value, gradient)
+    }
+}
+
+/// `to` + `weight` × `stress`, into `to`.
+fn add(to: &mut Symmetric3, weight: f32, stress: &Symmetric3) {
+    for i in 0..3 {
+        to.diagonal[i] += weight * stress.diagonal[i];
+        to.off[i] += weight * stress.off[i];
     }
 }
 
