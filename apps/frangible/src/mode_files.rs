@@ -117,7 +117,7 @@ pub(crate) fn fracture_vtu(asset: &Asset) -> Result<Vec<u8>, ExportError> {
 }
 
 /// Largest principal stress, in MPa meanwhile: of a light body's unit amplitude the cube of Pa overflows.
-fn principal(stress: &Symmetric3) -> f32 {
+pub(crate) fn principal(stress: &Symmetric3) -> f32 {
     1e6 * largest_eigenvalue(&Symmetric3 {
         diagonal: stress.diagonal.map(|s| 1e-6 * s),
         off: stress.off.map(|s| 1e-6 * s),

@@ -2,6 +2,7 @@
 
 use std::fs;
 
+#[allow(dead_code, reason = "other tests need the rest of it")]
 mod common;
 
 use common::{Folder, frangible, text};

@@ -28,9 +28,9 @@ pub struct ModeCell {
 /// How a sheet of modes is laid out.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ModeSheetOptions {
-    /// Width of a cell, pixels. Default 380.
+    /// Width of a cell, pixels. Default 340.
     pub cell_width: u32,
-    /// Height of a cell, pixels. Default 310.
+    /// Height of a cell, pixels. Default 280.
     pub cell_height: u32,
     /// Cells side by side. Default 4.
     pub columns: u32,
@@ -45,8 +45,8 @@ pub struct ModeSheetOptions {
 impl Default for ModeSheetOptions {
     fn default() -> Self {
         Self {
-            cell_width: 380,
-            cell_height: 310,
+            cell_width: 340,
+            cell_height: 280,
             columns: 4,
             look_from: Vec3::new(0.55, 0.5, 1.0),
             up: Vec3::Y,
