@@ -165,6 +165,7 @@ fn what_cannot_be_looked_at_is_refused_in_a_sentence_and_leaves_nothing() {
     );
     let absent = path(&folder, "absent.frangible");
     let far = path(&folder, "none/a.png");
+    let photo = file(&folder, "photo.jpg", "x");
     let wrong = path(&folder, "a.jpg");
     let grid = path(&folder, "a.vtu");
     let before = folder.files().len();
@@ -173,7 +174,7 @@ fn what_cannot_be_looked_at_is_refused_in_a_sentence_and_leaves_nothing() {
         (vec![&two], "2 bodies"),
         (vec![&damaged], "damaged.frangible"),
         (vec![&nan], "NaN"),
-        (vec![&wrong], ".frangible"),
+        (vec![&photo], ".frangible"),
         (vec!["--scene", "vas"], "did you mean `vase`"),
         (vec!["--scene", "vase", "--modes", "0"], "--modes is 0"),
         (vec!["--scene", "vase", "--modes", "37"], "1 to 36"),
