@@ -155,7 +155,7 @@ fn largest_tension(stress: &Symmetric3) -> f32 {
 /// Three digits, also of the very small and the very large.
 fn digits(value: f64) -> String {
     match value.abs() {
-        a if a >= 1e5 || a < 1e-3 => format!("{value:.2e}"),
+        a if !(1e-3..1e5).contains(&a) => format!("{value:.2e}"),
         a if a >= 100.0 => format!("{value:.0}"),
         a if a >= 10.0 => format!("{value:.1}"),
         a if a >= 1.0 => format!("{value:.2}"),
