@@ -23,6 +23,8 @@ pub(crate) enum Command {
     Break(Box<BreakCommand>),
     /// Bake a mesh, or the body of a scene, into a file that breaks without waiting
     Bake(BakeArgs),
+    /// Show how a body vibrates: table of its modes, picture of their shapes coloured by stress (PNG), files for ParaView (VTU)
+    Modes(ModesArgs),
     /// List the built-in scenes and materials, or print one scene as a file to start from
     Scenes {
         /// Scene to print as TOML; saved, and given to `break`, it does the same
@@ -81,6 +83,57 @@ pub(crate) struct BakeArgs {
     /// Number of vibration modes [default: the scene's own, or 120]
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub(crate) modes: Option<i64>,
+
+    #[command(flatten)]
+    pub(crate) mesh: MeshArgs,
+}
+
+#[derive(Args, Clone, Debug)]
+pub(crate) struct ModesArgs {
+    /// Baked body (.frangible), mesh (.obj .stl .ply .gltf .glb) or scene of one body (.toml)
+    #[arg(
+        value_name = "FILE",
+        conflicts_with = "scene",
+        required_unless_present = "scene"
+    )]
+    pub(crate) file: Option<PathBuf>,
+
+    /// Built-in scene whose body to look at instead
+    #[arg(long, value_name = "NAME")]
+    pub(crate) scene: Option<String>,
+
+    /// Picture to write, ending in .png [default: out/NAME-modes.png]
+    #[arg(short, long, value_name = "FILE.png", conflicts_with = "no_pictures")]
+    pub(crate) output: Option<PathBuf>,
+
+    /// How many modes to draw and to list, 1 to 36
+    #[arg(
+        long,
+        value_name = "N",
+        default_value_t = 12,
+        allow_negative_numbers = true
+    )]
+    pub(crate) modes: i64,
+
+    /// Write the elements that carry the modes, with all shapes and stresses, ending in .vtu
+    #[arg(long, value_name = "FILE.vtu")]
+    pub(crate) vtu: Option<PathBuf>,
+
+    /// The same on the mesh that carries cracks, which is the body's own shape
+    #[arg(long, value_name = "FILE.vtu")]
+    pub(crate) fracture_vtu: Option<PathBuf>,
+
+    /// Material of the body [default: the scene's own, or porcelain]
+    #[arg(long, value_name = "M")]
+    pub(crate) material: Option<String>,
+
+    /// Print JSON instead of a table
+    #[arg(long)]
+    pub(crate) json: bool,
+
+    /// No picture
+    #[arg(long)]
+    pub(crate) no_pictures: bool,
 
     #[command(flatten)]
     pub(crate) mesh: MeshArgs,

@@ -4,6 +4,9 @@ mod args;
 mod baking;
 mod breaking;
 mod list;
+mod mode_files;
+mod mode_report;
+mod modes;
 mod pictures;
 mod place;
 mod progress;
@@ -45,6 +48,7 @@ fn main() -> ExitCode {
         None => breaking::run(None, &cli.break_args),
         Some(Command::Break(command)) => breaking::run(command.file.as_deref(), &command.args),
         Some(Command::Bake(args)) => baking::run(&args),
+        Some(Command::Modes(args)) => modes::run(&args),
         Some(Command::Scenes { name: None }) => list::print(),
         Some(Command::Scenes { name: Some(name) }) => list::print_scene(&name),
     };

@@ -9,7 +9,7 @@ use frangible_scenes::{
     Axis, BodySource, FileKind, FileWish, Projectile, SCENE_NAMES, Scene, scene, scene_of_file,
 };
 
-use crate::args::{BakeArgs, BreakArgs, MeshArgs};
+use crate::args::{BakeArgs, BreakArgs, MeshArgs, ModesArgs};
 
 /// A scene, and what was taken for it without being asked for.
 pub(crate) struct Request {
@@ -91,6 +91,22 @@ pub(crate) fn body_of(args: &BakeArgs) -> Result<Scene, Box<dyn Error>> {
     }
     set_material(&mut wanted, args.material.as_deref())?;
     set_modes(&mut wanted, args.modes)?;
+    set_mesh(&mut wanted, &args.mesh)?;
+    wanted.validate()?;
+    Ok(wanted)
+}
+
+/// The scene whose only body is to be looked at, every number checked.
+pub(crate) fn body_with_modes(args: &ModesArgs) -> Result<Scene, Box<dyn Error>> {
+    let mut wanted = named(args.file.as_deref(), args.scene.as_deref())?;
+    if wanted.bodies.len() != 1 {
+        let count = wanted.bodies.len();
+        return Err(format!(
+            "the scene has {count} bodies; look at the modes of one body at a time, in a scene of its own"
+        )
+        .into());
+    }
+    set_material(&mut wanted, args.material.as_deref())?;
     set_mesh(&mut wanted, &args.mesh)?;
     wanted.validate()?;
     Ok(wanted)

@@ -3,7 +3,7 @@
 use image::{DynamicImage, Rgb32FImage};
 use kiss3d::color::Color;
 use kiss3d::light::Fog;
-use kiss3d::window::OffscreenSurface;
+use kiss3d::window::{OffscreenSurface, Window};
 
 /// The backdrop, linear; the floor fades into it.
 const BACKDROP: [f32; 3] = [0.49; 3];
@@ -18,10 +18,21 @@ pub(crate) fn furnish(surface: &mut OffscreenSurface) {
     surface.set_shadow_softness(1.6);
     surface.set_bloom_enabled(false);
     let window = surface.window_mut();
-    window.set_skybox_image(&surroundings());
-    window.set_fog(Fog::linear(backdrop, 4.5, 13.0));
     // Glass behind glass, one layer deep; a third step changes little.
     window.transmission_settings_mut().steps = 2;
+}
+
+/// Surroundings and the haze that the floor fades into, or the plain backdrop alone.
+pub(crate) fn surround(window: &mut Window, wanted: bool) {
+    if wanted && !window.has_skybox() {
+        window.set_skybox_image(&surroundings());
+    } else if !wanted && window.has_skybox() {
+        window.clear_skybox();
+    }
+    let [red, green, blue] = BACKDROP;
+    // Beyond everything, where there is no floor.
+    let [near, far] = if wanted { [4.5, 13.0] } else { [1e3, 1e4] };
+    window.set_fog(Fog::linear(Color::new(red, green, blue, 1.0), near, far));
 }
 
 /// What shines and mirrors around the stage, as an equirectangular picture: the

@@ -38,6 +38,14 @@ pub enum DrawError {
     /// A sheet without a cell.
     #[error("the sheet has no cell; give it at least one frame and one column")]
     EmptySheet,
+    /// A coloured shape that does not fit together.
+    #[error("shape {number} of the sheet cannot be drawn: {problem}")]
+    BadField {
+        /// Which one, from 1.
+        number: usize,
+        /// What is wrong with it.
+        problem: &'static str,
+    },
     /// The renderer's thread panicked.
     #[error(
         "the renderer failed; its message is on the error output, often a driver out of memory: try a smaller picture"

@@ -3,7 +3,8 @@
 //! [`contact_sheet`] shows the four moments of a break on one picture,
 //! [`sheet_of_frames`] puts frames of any recordings side by side, and
 //! [`render_frame`] draws a single one; all light the scene like a product
-//! photograph. [`encode_png`] makes a small file of the result.
+//! photograph. [`mode_sheet`] shows shapes of vibration, coloured by a number.
+//! [`encode_png`] makes a small file of the result.
 //!
 //! Drawing takes a graphics driver but no display: a software driver such as
 //! Mesa's lavapipe will do. [`has_adapter`] tells whether there is one; without
@@ -13,10 +14,13 @@
 mod adapter;
 mod backdrop;
 mod camera;
+mod color_map;
 mod encode;
 mod error;
+mod field;
 mod floor;
 mod floor_shadow;
+mod mode_sheet;
 mod renderer;
 mod scale;
 mod sheet;
@@ -27,5 +31,6 @@ pub use adapter::has_adapter;
 pub use encode::encode_png;
 pub use error::DrawError;
 pub use image::RgbImage;
+pub use mode_sheet::{ModeCell, ModeSheetOptions, mode_sheet};
 pub use sheet::{SheetOptions, contact_sheet, sheet_of_frames};
 pub use studio::{Studio, render_frame};

@@ -19,8 +19,9 @@ use kiss3d::text::Font;
 use kiss3d::window::{NumSamples, OffscreenSurface};
 
 use crate::DrawError;
-use crate::backdrop::furnish;
+use crate::backdrop::{furnish, surround};
 use crate::camera::StillCamera;
+use crate::field::{Field, field_scene};
 use crate::scale::halve;
 use crate::stage::{StageUnits, has_glass, stage};
 
@@ -30,17 +31,29 @@ use crate::stage::{StageUnits, has_glass, stage};
 /// glass with a single sample, and its shards would look frayed.
 pub(crate) const SUPERSAMPLING: u32 = 2;
 
-/// Height of a label's line, pixels of the picture.
-const LABEL_HEIGHT: f32 = 24.0;
-
 /// A picture to draw, checked beforehand.
 pub(crate) struct Shot {
-    /// A recording of one frame.
-    pub(crate) scene: Recording,
+    pub(crate) subject: Subject,
     pub(crate) view: View,
-    pub(crate) label: String,
+    pub(crate) labels: Vec<Label>,
     pub(crate) width: u32,
     pub(crate) height: u32,
+}
+
+/// What is on it.
+pub(crate) enum Subject {
+    /// A recording of one frame.
+    Recording(Recording),
+    /// A surface coloured by numbers.
+    Field(Field),
+}
+
+/// A line of text, pixels of the picture.
+pub(crate) struct Label {
+    /// Its upper left corner, from that of the picture.
+    pub(crate) at: [f32; 2],
+    pub(crate) height: f32,
+    pub(crate) text: String,
 }
 
 type Job = (Shot, Sender<RgbImage>);
@@ -67,8 +80,11 @@ pub(crate) fn draw(shot: Shot) -> Result<RgbImage, DrawError> {
 
 /// How the edges of a shot are smoothed.
 fn sampling(shot: &Shot) -> (u32, NumSamples) {
-    let surfaces = &shot.scene.surfaces;
-    let mut parts = shot.scene.meshes.iter().flat_map(|mesh| &mesh.parts);
+    let Subject::Recording(scene) = &shot.subject else {
+        return (1, NumSamples::Four);
+    };
+    let surfaces = &scene.surfaces;
+    let mut parts = scene.meshes.iter().flat_map(|mesh| &mesh.parts);
     if parts.any(|part| surfaces[part.surface].transmission > 0.0) {
         (SUPERSAMPLING, NumSamples::One)
     } else {
@@ -92,21 +108,26 @@ fn photograph(surface: &mut OffscreenSurface, shot: &Shot) -> RgbImage {
         surface.resize(width, height);
     }
     // The floor has its shadow without. On things, a map gives glass the shadow
-    // of clay, and costs most of the time.
-    surface.set_shadows_enabled(!has_glass(&shot.scene));
+    // of clay, and costs most of the time. Colours that stand for numbers want none.
+    let shadows = match &shot.subject {
+        Subject::Recording(scene) => !has_glass(scene),
+        Subject::Field(_) => false,
+    };
+    surface.set_shadows_enabled(shadows);
     let view = StageUnits::of(&shot.view).view(&shot.view);
     let mut camera = StillCamera::new(&view, width as f32 / height as f32);
-    let line = LABEL_HEIGHT * factor as f32;
     let ink = Color::new(0.06, 0.07, 0.08, 1.0);
     let window = surface.window_mut();
-    window.draw_text(
-        &shot.label,
-        Vec2::splat(0.55 * line),
-        line,
-        &Font::default(),
-        ink,
-    );
-    let mut scene = stage(&shot.scene, &shot.view);
+    surround(window, matches!(shot.subject, Subject::Recording(_)));
+    for label in &shot.labels {
+        let [at, line] =
+            [Vec2::from(label.at), Vec2::splat(label.height)].map(|v| factor as f32 * v);
+        window.draw_text(&label.text, at, line.y, &Font::default(), ink);
+    }
+    let mut scene = match &shot.subject {
+        Subject::Recording(scene) => stage(scene, &shot.view),
+        Subject::Field(field) => field_scene(field, &shot.view),
+    };
     let drawn = pollster::block_on(surface.render_image_3d(&mut scene, &mut camera));
     if factor == 1 { drawn } else { halve(&drawn) }
 }

@@ -38,7 +38,7 @@ impl StageUnits {
         }
     }
 
-    fn point(self, world: Vec3) -> Vec3 {
+    pub(crate) fn point(self, world: Vec3) -> Vec3 {
         (world - self.origin) * self.scale
     }
 

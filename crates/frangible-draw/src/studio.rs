@@ -5,7 +5,10 @@ use image::RgbImage;
 
 use crate::DrawError;
 use crate::adapter::texture_limit;
-use crate::renderer::{SUPERSAMPLING, Shot, draw};
+use crate::renderer::{Label, SUPERSAMPLING, Shot, Subject, draw};
+
+/// Height of a label's line, pixels of the picture.
+const LABEL_HEIGHT: f32 = 24.0;
 
 /// Draws frames of one size.
 ///
@@ -59,9 +62,13 @@ impl Studio {
             });
         }
         draw(Shot {
-            scene: still(recording, frame),
+            subject: Subject::Recording(still(recording, frame)),
             view: *view,
-            label: label.into(),
+            labels: vec![Label {
+                at: [0.55 * LABEL_HEIGHT; 2],
+                height: LABEL_HEIGHT,
+                text: label.into(),
+            }],
             width: self.width,
             height: self.height,
         })

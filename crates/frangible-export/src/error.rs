@@ -74,6 +74,9 @@ pub enum ExportError {
     /// The JSON part could not be written.
     #[error("the glTF description could not be written: {0}; please report this as a bug")]
     Json(#[from] serde_json::Error),
+    /// A mesh with its fields does not fit together.
+    #[error("the mesh cannot be exported: {0}; check the mesh and its fields")]
+    Grid(String),
     /// The file system refused.
     #[error("cannot write {}: {source}; check that the folder exists, is writable and has room", path.display())]
     Write {

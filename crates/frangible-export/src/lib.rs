@@ -7,6 +7,7 @@
 //! * [`write_glb`] turns a recording into one binary glTF 2.0 file that
 //!   browsers, Blender and game engines play. The same recording gives the
 //!   same bytes.
+//! * [`write_vtu`] writes tetrahedra with fields at their nodes for ParaView.
 //! * [`write_atomically`] puts bytes on disk so that no reader ever finds half
 //!   a file under the final name.
 //!
@@ -19,6 +20,7 @@ mod error;
 mod glb;
 mod recording;
 mod validate;
+mod vtu;
 
 pub use atomic::write_atomically;
 pub use error::{ExportError, RecordingError};
@@ -27,3 +29,4 @@ pub use glb::write_glb;
 pub use recording::{
     Floor, MeshPart, Moments, Pose, RecordedMesh, RecordedNode, Recording, SurfaceMaterial, View,
 };
+pub use vtu::{VtuCells, VtuField, VtuMesh, VtuValues, write_vtu};

@@ -1,7 +1,9 @@
 //! Vibration modes and their exact response to a force pulse.
 
 mod basis;
+mod field;
 mod response;
 
 pub use basis::ModalBasis;
+pub use field::ModeField;
 pub use response::{Motion, Oscillator, peak_contact_energy, respond};

@@ -38,6 +38,14 @@ impl Symmetric3 {
         }
     }
 
+    /// Von Mises' equivalent of a stress, √(3 J₂): what a bar under this much tension would feel of change of shape.
+    #[must_use]
+    pub fn von_mises(self) -> f32 {
+        let ([xx, yy, zz], [xy, yz, zx]) = (self.diagonal, self.off);
+        let differences = (xx - yy).powi(2) + (yy - zz).powi(2) + (zz - xx).powi(2);
+        (0.5 * differences + 3.0 * (xy * xy + yz * yz + zx * zx)).sqrt()
+    }
+
     /// What is left of a stress beside a free surface of unit normal `n`: P σ P, P = I − n nᵀ.
     #[must_use]
     pub fn released(self, n: Vec3) -> Self {
