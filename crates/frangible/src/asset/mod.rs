@@ -1,7 +1,9 @@
 //! What a bake produces and the run time needs: one immutable value per kind of object.
 
 mod file;
+mod half;
 mod render;
+mod rescale;
 mod validate;
 
 use glam::Vec3;
@@ -12,8 +14,9 @@ use crate::modal::ModalBasis;
 
 #[doc(hidden)]
 pub use file::seal;
-pub use file::{AssetFileError, FORMAT_VERSION};
+pub use file::{AssetFileError, FORMAT_VERSION, SaveOptions};
 pub use render::{RenderMaterial, RenderSurface};
+pub use rescale::{RescaleError, SMALLEST_CURVATURE_RADIUS};
 
 /// Everything the run time needs of one kind of object. Share it (`Arc`) among all bodies of that kind.
 ///

@@ -4,7 +4,8 @@ use glam::{DMat3, DVec3, Vec3};
 
 use super::reader::Reader;
 use super::sections::{self as s, Section};
-use super::{AssetFileError, SUPPORTED};
+use super::{AssetFileError, COMPACT, SUPPORTED};
+use crate::asset::half::Half;
 use crate::asset::{
     AnalysisMesh, Asset, ConvexCell, EmbeddedPoint, Embedding, OuterSurface, RenderMaterial,
     RenderSurface,
@@ -50,7 +51,7 @@ impl Asset {
             },
             modes: ModalBasis {
                 eigenvalues: r.rows(s::EIGENVALUES)?,
-                shapes: r.rows(s::MODE_SHAPES)?,
+                shapes: shapes(&r)?,
                 peak_stress: r.rows(s::PEAK_STRESS)?,
             },
             mass: mass(r.one(s::MASS)?),
@@ -149,9 +150,36 @@ fn cells(r: &Reader<'_>) -> Result<Vec<ConvexCell>, AssetFileError> {
     Ok(sizes.iter().map(cell).collect())
 }
 
+/// Mode shapes: as they are, or in half precision times the scale of their column.
+fn shapes(r: &Reader<'_>) -> Result<Vec<f32>, AssetFileError> {
+    if r.version < COMPACT {
+        return r.rows(s::MODE_SHAPES);
+    }
+    let scales = r.rows::<f32>(s::HALF_SCALES)?;
+    if let Some(mode) = scales.iter().position(|s| !(s.is_finite() && *s > 0.0)) {
+        let problem = format!("are not above zero and finite: that of mode {mode}");
+        return Err(AssetFileError::section(s::HALF_SCALES.name, problem));
+    }
+    let halves = r.each::<Half>(s::HALF_SHAPES)?;
+    if halves.len() > 0 && (scales.is_empty() || !halves.len().is_multiple_of(scales.len())) {
+        let problem = format!(
+            "has {} numbers, no whole number of rows of {} modes",
+            halves.len(),
+            scales.len()
+        );
+        return Err(AssetFileError::section(s::HALF_SHAPES.name, problem));
+    }
+    let columns = scales.iter().cycle();
+    Ok(halves.zip(columns).map(|(h, s)| h.value() * s).collect())
+}
+
 /// Versions before supports know the number of their section as little as any other that is unknown.
 fn supported(r: &Reader<'_>) -> Result<Vec<u32>, AssetFileError> {
     if r.version < SUPPORTED {
+        return Ok(Vec::new());
+    }
+    // In the version for them they must be there; in later ones, which are for something else, a body may be free.
+    if r.version > SUPPORTED && !r.has(s::SUPPORTED) {
         return Ok(Vec::new());
     }
     let nodes = r.rows(s::SUPPORTED)?;

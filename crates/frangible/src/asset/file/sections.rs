@@ -41,6 +41,8 @@ sections! {
     EIGENVALUES = 80, "eigenvalues";
     MODE_SHAPES = 81, "mode shapes";
     PEAK_STRESS = 82, "peak stress";
+    HALF_SHAPES = 83, "mode shapes of half precision";
+    HALF_SCALES = 84, "scales of mode shapes";
     CELL_SIZES = 96, "points per cell";
     CELL_POINTS = 97, "cell points";
     CELL_OF_TET = 98, "cells of tetrahedra";
