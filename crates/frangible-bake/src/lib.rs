@@ -48,6 +48,7 @@ pub use error::BakeError;
 pub use frangible_mesh;
 pub use import::{ImportOptions, Imported, import_mesh};
 pub use mesh::BodyMesh;
+pub use peak_stress::restressed;
 pub use report::{BakeReport, MeshReport, Progress, Stage};
 pub use shapes::{MeshSize, READY_SHAPES, Shape, SolidShape, Station};
 pub use supports::{Region, Support};
