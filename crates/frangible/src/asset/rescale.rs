@@ -23,6 +23,9 @@ pub const SMALLEST_CURVATURE_RADIUS: f64 = 0.003;
 /// Poisson's ratios this close are the same: far above the rounding of a sum, far below what shows in a mode.
 const SAME_RATIO: f64 = 1e-9;
 
+/// Largest mode shape and stress there must be: numbers 1e-10 of it are still normal ones of f32.
+const SMALLEST: f32 = 1e-28;
+
 /// Why an asset cannot be rescaled.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
@@ -43,7 +46,15 @@ pub enum RescaleError {
         /// Its Poisson's ratio.
         wanted: f64,
     },
-    /// A number that cannot be used, or that takes others out of the range of f32.
+    /// Mode shapes or stresses would fade into the smallest numbers of f32, or beyond.
+    #[error(
+        "`{asset}`, changed like this, leaves the range of its numbers; change size or material by less"
+    )]
+    OutOfRange {
+        /// Name of the asset.
+        asset: String,
+    },
+    /// A number that cannot be used.
     #[error(transparent)]
     Input(#[from] InputError),
 }
@@ -79,8 +90,7 @@ impl Asset {
             stiffness / density.sqrt(),
         );
         asset.weigh();
-        asset.validate()?;
-        Ok(asset)
+        asset.checked()
     }
 
     /// The asset `factor` times as large, of the same material, as if the shape had been baked at that size.
@@ -119,8 +129,7 @@ impl Asset {
             (factor * factor * factor.sqrt()).recip(),
         );
         asset.weigh();
-        asset.validate()?;
-        Ok(asset)
+        asset.checked()
     }
 
     fn rescale_modes(&mut self, eigenvalues: f64, shapes: f64, stress: f64) {
@@ -134,6 +143,18 @@ impl Asset {
                 *x = (f64::from(*x) * factor) as f32;
             }
         }
+    }
+
+    fn checked(self) -> Result<Self, RescaleError> {
+        let stored = |numbers: &[f32]| {
+            let largest = numbers.iter().fold(0.0_f32, |m, x| m.max(x.abs()));
+            (SMALLEST..f32::INFINITY).contains(&largest)
+        };
+        if !(stored(&self.modes.shapes) && stored(&self.modes.peak_stress)) {
+            return Err(RescaleError::OutOfRange { asset: self.name });
+        }
+        self.validate()?;
+        Ok(self)
     }
 
     /// As the bake does: of the mesh as stored, so that the masses of its pieces sum to it.
