@@ -119,19 +119,16 @@ fn near(a: f64, b: f64, tolerance: f64, what: &str) {
     );
 }
 
-fn near_points(a: &[Vec3], b: &[Vec3], slack: f64, what: &str) {
+fn near_points(a: &[Vec3], b: &[Vec3], what: &str) {
     assert_eq!(a.len(), b.len(), "{what}");
     let size = b.iter().map(|p| p.length()).fold(0.0, f32::max);
     for (a, b) in a.iter().zip(b) {
-        assert!(
-            a.distance(*b) < 1e-6 * slack as f32 * size,
-            "{what}: {a}, not {b}"
-        );
+        assert!(a.distance(*b) < 1e-6 * size, "{what}: {a}, not {b}");
     }
 }
 
-/// Everything, but for the sign of a mode and what solver and f32 round; `slack` times as much.
-fn assert_same(rescaled: &Asset, fresh: &Asset, slack: f64, what: &str) {
+/// Everything, but for the sign of a mode and what solver and f32 round.
+fn assert_same(rescaled: &Asset, fresh: &Asset, what: &str) {
     rescaled.validate().unwrap();
     assert_eq!(rescaled.material, fresh.material, "{what}");
     assert_eq!(rescaled.fracture.tets, fresh.fracture.tets, "{what}");
@@ -140,39 +137,33 @@ fn assert_same(rescaled: &Asset, fresh: &Asset, slack: f64, what: &str) {
     near_points(
         &rescaled.fracture.positions,
         &fresh.fracture.positions,
-        slack,
         what,
     );
-    near_points(&rescaled.analysis.nodes, &fresh.analysis.nodes, slack, what);
+    near_points(&rescaled.analysis.nodes, &fresh.analysis.nodes, what);
     let [ours, theirs] = [rescaled, fresh].map(|a| {
         let gradients = a.analysis.barycentric_gradients.iter().flatten();
         gradients.copied().collect::<Vec<_>>()
     });
-    near_points(&ours, &theirs, slack, what);
+    near_points(&ours, &theirs, what);
     for (a, b) in rescaled.cells.iter().zip(&fresh.cells) {
-        near_points(&a.points, &b.points, slack, what);
+        near_points(&a.points, &b.points, what);
     }
-    near(rescaled.mass.mass, fresh.mass.mass, 1e-6 * slack, what);
-    near(rescaled.mass.volume, fresh.mass.volume, 1e-6 * slack, what);
+    near(rescaled.mass.mass, fresh.mass.mass, 1e-6, what);
+    near(rescaled.mass.volume, fresh.mass.volume, 1e-6, what);
     for k in 0..3 {
         let inertia = |a: &Asset| a.mass.inertia.col(k)[k];
-        near(inertia(rescaled), inertia(fresh), 1e-6 * slack, what);
+        near(inertia(rescaled), inertia(fresh), 1e-6, what);
     }
     let (a, b) = (&rescaled.modes, &fresh.modes);
     for i in 0..b.count() {
-        near(a.eigenvalues[i], b.eigenvalues[i], 1e-6 * slack, what);
+        near(a.eigenvalues[i], b.eigenvalues[i], 1e-6, what);
         let apart = |j: usize| (b.eigenvalues[j] / b.eigenvalues[i] - 1.0).abs() > 0.01;
         if (i > 0 && !apart(i - 1)) || (i + 1 < b.count() && !apart(i + 1)) {
             // Modes of nearly one frequency mix freely.
             continue;
         }
         let stress = |m: &frangible::modal::ModalBasis| f64::from(m.peak_stress[i]);
-        near(
-            stress(a),
-            stress(b),
-            1e-4 * slack,
-            &format!("{what}, mode {i}"),
-        );
+        near(stress(a), stress(b), 1e-4, &format!("{what}, mode {i}"));
         let column = |m: &frangible::modal::ModalBasis| -> Vec<f64> {
             let column = m.shapes.iter().skip(i).step_by(m.count());
             column.map(|&x| f64::from(x)).collect()
@@ -182,7 +173,7 @@ fn assert_same(rescaled: &Asset, fresh: &Asset, slack: f64, what: &str) {
         let (sign, largest) = (dot.signum(), b.iter().fold(0.0_f64, |m, x| m.max(x.abs())));
         for (a, b) in a.iter().zip(&b) {
             assert!(
-                (sign * a - b).abs() < 1e-5 * slack * largest,
+                (sign * a - b).abs() < 1e-5 * largest,
                 "{what}, mode {i}: {a}, not {b}"
             );
         }
@@ -194,7 +185,7 @@ fn another_material_is_what_its_bake_gives() {
     for kind in KINDS {
         let rescaled = baked(kind, 1.0, &start()).with_material(&other()).unwrap();
         let fresh = baked(kind, 1.0, &other());
-        assert_same(&rescaled, &fresh, 1.0, "material");
+        assert_same(&rescaled, &fresh, "material");
         // The mesh is the same, so its mass is bit for bit.
         assert_eq!(rescaled.mass, fresh.mass);
     }
@@ -211,12 +202,17 @@ fn another_size_is_what_its_bake_gives() {
             }
             let rescaled = baked(kind, 1.0, &start()).scaled(factor).unwrap();
             let fresh = baked(kind, factor, &start());
-            // The walls of a vessel are meshed to tolerances in metres: the two meshes differ.
-            let slack = if kind == Kind::Glass { 100.0 } else { 1.0 };
-            assert_same(&rescaled, &fresh, slack, "size");
             if kind == Kind::Glass {
+                // The walls of a vessel are meshed to tolerances in metres: the meshes differ, and only what they converge
+                // to is the same.
+                near(rescaled.mass.mass, fresh.mass.mass, 1e-3, "mass");
+                let (ours, theirs) = (rescaled.modes.eigenvalues, fresh.modes.eigenvalues);
+                for (a, b) in ours.iter().zip(&theirs) {
+                    near(*a, *b, 1e-2, "eigenvalue of a glass");
+                }
                 continue;
             }
+            assert_same(&rescaled, &fresh, "size");
             let radii = rescaled.surface.curvature_radius.iter();
             for (a, b) in radii.zip(&fresh.surface.curvature_radius) {
                 let clamped = *a == 0.003 && factor > 1.0;
