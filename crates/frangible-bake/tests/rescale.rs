@@ -197,8 +197,7 @@ fn another_material_is_what_its_bake_gives() {
 #[test]
 fn another_size_is_what_its_bake_gives() {
     for kind in KINDS {
-        // Lattices of some sizes are laid out otherwise, so that the two bakes have different meshes: only pairs of the same
-        // mesh can be compared number by number.
+        // A power of two rounds nothing; at other factors a lattice may be cut otherwise at its roundings.
         let factors: &[f64] = match kind {
             Kind::Shelf => &[2.0, 0.5, 1.7],
             Kind::Covered => &[2.0, 0.5],
