@@ -45,7 +45,7 @@ pub(crate) struct BreakCommand {
 /// How a mesh file becomes a body.
 #[derive(Args, Clone, Debug, Default)]
 pub(crate) struct MeshArgs {
-    /// Longest side of a mesh's body in metres [default: the file's unit is the metre]
+    /// Longest side of a mesh's or a baked body in metres [default: the file's unit is the metre]
     #[arg(long, value_name = "METRES", allow_hyphen_values = true)]
     pub(crate) size: Option<f64>,
 
@@ -83,6 +83,10 @@ pub(crate) struct BakeArgs {
     /// Number of vibration modes [default: the scene's own, or 120]
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub(crate) modes: Option<i64>,
+
+    /// Mode shapes in half precision: a smaller file; the report tells what it changes
+    #[arg(long)]
+    pub(crate) compact: bool,
 
     #[command(flatten)]
     pub(crate) mesh: MeshArgs,

@@ -6,7 +6,8 @@ use std::path::Path;
 use frangible::Material;
 use frangible::glam::{Quat, Vec3};
 use frangible_scenes::{
-    Axis, BodySource, FileKind, FileWish, Projectile, SCENE_NAMES, Scene, scene, scene_of_file,
+    Axis, BodySource, FileKind, FileWish, MaterialEdit, Projectile, SCENE_NAMES, Scene, scene,
+    scene_of_file,
 };
 
 use crate::args::{BakeArgs, BreakArgs, MeshArgs, ModesArgs};
@@ -122,8 +123,11 @@ fn named(file: Option<&Path>, name: Option<&str>) -> Result<Scene, Box<dyn Error
 fn set_material(scene: &mut Scene, name: Option<&str>) -> Result<(), Box<dyn Error>> {
     let Some(name) = name else { return Ok(()) };
     let material = Material::preset(name)?;
-    refuse_baked(scene, "--material")?;
     for body in &mut scene.bodies {
+        if matches!(body.source, BodySource::Asset(_)) {
+            // Rescaled, not baked again: the file is read later, and may refuse.
+            body.rescale.material = Some(MaterialEdit::preset(name));
+        }
         body.material = material.clone();
     }
     Ok(())
@@ -201,14 +205,22 @@ fn set_mesh(scene: &mut Scene, args: &MeshArgs) -> Result<(), String> {
             }
             Ok(())
         }
-        BodySource::Asset(_) if args.size.is_none() && args.resolution.is_none() => {
+        BodySource::Asset(_) if args.resolution.is_none() => {
+            if args.size.is_some() {
+                body.rescale.size = args.size;
+            }
             if let Some(up) = axis {
                 body.rotation = upright(up);
             }
             Ok(())
         }
         _ => Err(format!(
-            "{option} is for mesh files (.obj, .stl, .ply, .gltf, .glb)"
+            "{option} is for mesh files (.obj, .stl, .ply, .gltf, .glb){}",
+            if option == "--size" {
+                " and baked bodies"
+            } else {
+                ""
+            }
         )),
     }
 }

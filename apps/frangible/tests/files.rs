@@ -97,8 +97,12 @@ fn options_for_meshes_are_refused_elsewhere() {
     );
     let baked = scene_file(&input, "a.frangible", "x");
     check(
-        &["break", &baked, "--material", "glass"],
-        &["is baked", "bake"],
+        &["break", &baked, "--material", "glas"],
+        &["did you mean `glass`"],
+    );
+    check(
+        &["break", &baked, "--size", "-0.1"],
+        &["the body's size is -0.1"],
     );
     check(&["break", &baked, "--modes", "9"], &["is baked", "bake"]);
 }
@@ -274,9 +278,29 @@ fn a_mesh_breaks_and_so_does_its_bake_into_the_same_pieces() {
     ] {
         assert_eq!(direct[figure], loaded[figure], "{figure}");
     }
+    let light = loaded["mass_kg"].as_f64().expect("a mass");
     let [direct, loaded] = ["direct", "loaded"]
         .map(|run| fs::read(folder.0.join(run).join("a bödy.glb")).expect("the GLB"));
     assert!(direct == loaded, "the animations differ");
+
+    // Another size without a bake: twice as long is eight times as heavy. Another Poisson's ratio needs one.
+    let args = ["break", &baked, "--drop", "0.01", "--no-pictures"];
+    let large = report(
+        &[&args[..], &["--size", "0.24", "--material", "glass"]].concat(),
+        &folder.0.join("large"),
+    );
+    let times = large["mass_kg"].as_f64().expect("a mass") / light;
+    assert!((times / 8.0 - 1.0).abs() < 0.02, "{times} times");
+    refused_in_a_sentence(
+        "ratio",
+        &[&args[..], &["--material", "porcelain"]].concat(),
+        &[
+            "glass",
+            "0.23",
+            "0.22",
+            "frangible bake MESH --material porcelain",
+        ],
+    );
 
     // One byte of it turned round: refused, and nothing written.
     let mut bytes = fs::read(&baked).expect("the baked body");

@@ -4,12 +4,12 @@ use frangible::TetMesh;
 use frangible::asset::OuterSurface;
 use frangible::glam::{DVec3, Vec3};
 
+pub use frangible::asset::SMALLEST_CURVATURE_RADIUS as SMALLEST_RADIUS;
+
 /// Faces that meet at a larger angle, degrees, keep their edge sharp.
 pub const CREASE: f64 = 35.0;
 /// The same on the lattice mesh of a solid, whose triangles turn more from one to the next on curved surfaces.
 pub const SOLID_CREASE: f64 = 50.0;
-/// Smallest radius of curvature, m: edges and corners are rounded off this far in any real body.
-pub const SMALLEST_RADIUS: f64 = 0.003;
 /// Radii above this many body diagonals count as flat: they are the rounding of f32 positions.
 const FLAT: f64 = 50.0;
 

@@ -9,8 +9,9 @@ use frangible_mesh::TetError;
 use crate::body::{BodySpec, Support};
 use crate::check::MOST_TETS;
 use crate::error::SceneError;
+use crate::rescale::{Rescale, rescaled};
 use crate::scene::Scene;
-use crate::source::{Opened, open_source};
+use crate::source::{BodySource, Opened, open_source};
 
 /// A body ready to break.
 #[derive(Clone, Debug)]
@@ -44,13 +45,24 @@ pub fn open_sources(scene: &Scene) -> Result<Vec<Opened>, SceneError> {
     for (i, body) in scene.bodies.iter().enumerate() {
         let known = scene.bodies[..i]
             .iter()
-            .position(|b| b.source == body.source);
+            .position(|b| (&b.source, &b.rescale) == (&body.source, &body.rescale));
         opened.push(match known {
             Some(same) => opened[same].clone(),
-            None => open_source(&body.source)?,
+            None => open_body(body)?,
         });
     }
     Ok(opened)
+}
+
+/// Reads a body's source; a baked one is brought to the material and size asked for.
+fn open_body(body: &BodySpec) -> Result<Opened, SceneError> {
+    match (open_source(&body.source)?, &body.source) {
+        (Opened::Asset(asset), BodySource::Asset(path)) if body.rescale != Rescale::default() => {
+            let asset = rescaled(Arc::unwrap_or_clone(asset), &body.rescale, path)?;
+            Ok(Opened::Asset(Arc::new(asset)))
+        }
+        (opened, _) => Ok(opened),
+    }
 }
 
 /// Bakes sources read by [`open_sources`].
@@ -67,6 +79,7 @@ pub fn bake_opened(
         let same = |other: &BodySpec| {
             (&other.source, &other.material, other.modes, &other.supports)
                 == (&body.source, &body.material, body.modes, &body.supports)
+                && other.rescale == body.rescale
         };
         baked.push(match (scene.bodies[..i].iter().position(same), source) {
             (Some(known), _) => baked[known].clone(),

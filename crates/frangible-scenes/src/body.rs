@@ -4,6 +4,7 @@ use frangible::Material;
 use frangible::glam::{DVec3, Quat, Vec3};
 use frangible_bake::Region;
 
+use crate::rescale::Rescale;
 use crate::source::BodySource;
 
 /// A breakable body and how it starts.
@@ -13,7 +14,8 @@ pub struct BodySpec {
     pub name: String,
     /// Where its geometry comes from.
     pub source: BodySource,
-    /// What it is made of. A [`BodySource::Asset`] brings its own material, and this one is not looked at.
+    /// What it is made of. A [`BodySource::Asset`] brings its own material, and this one is not looked at: see
+    /// [`BodySpec::rescale`].
     pub material: Material,
     /// Number of vibration modes; a [`BodySource::Asset`] brings its own.
     pub modes: usize,
@@ -28,6 +30,8 @@ pub struct BodySpec {
     /// Where it is held: what these hold stays where it is, also after the break. Part of the bake, so that a
     /// [`BodySource::Asset`] brings its own.
     pub supports: Vec<Support>,
+    /// What is to differ from the bake of a [`BodySource::Asset`]; not looked at for other sources.
+    pub rescale: Rescale,
 }
 
 /// Where a body starts. The floor is y = 0, also where there is none.
@@ -97,6 +101,7 @@ impl BodySpec {
             velocity: Vec3::ZERO,
             spin: Vec3::ZERO,
             supports: Vec::new(),
+            rescale: Rescale::default(),
         }
     }
 

@@ -105,6 +105,16 @@ pub enum SceneError {
     /// A file of a baked body that cannot be read or written.
     #[error(transparent)]
     Asset(#[from] frangible::AssetFileError),
+    /// A baked body that cannot be of the material or size asked for.
+    #[error("{}: {source}{hint}", path.display())]
+    Rescale {
+        /// Its file.
+        path: PathBuf,
+        /// Why.
+        source: frangible::asset::RescaleError,
+        /// What to type, or nothing.
+        hint: String,
+    },
     /// Walls that more tetrahedra would resolve.
     #[error(
         "`{body}` has walls of {wall_mm:.3} mm, which need about {needed} tetrahedra; ask for them with --resolution {needed} (in a scene file: resolution = {needed})"

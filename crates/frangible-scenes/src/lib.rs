@@ -25,6 +25,7 @@ mod meshes;
 mod output;
 mod projectile;
 mod recorder;
+mod rescale;
 mod result;
 mod run;
 mod scene;
@@ -39,8 +40,11 @@ pub use error::SceneError;
 pub use files::{read_scene, scene_of_file};
 pub use output::{FileWish, Output};
 pub use projectile::{Projectile, ProjectileKind};
+pub use rescale::{MaterialEdit, Rescale};
 pub use result::{BreakRecord, HeldRecord, Run};
 pub use run::play;
 pub use scene::Scene;
-pub use source::{Axis, BodySource, FileKind, Opened, open_source, save_asset};
+pub use source::{
+    Axis, BodySource, FileKind, Opened, compacted, open_source, save_asset, save_compact_asset,
+};
 pub use text::{parse_scene, scene_to_toml};

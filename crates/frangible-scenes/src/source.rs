@@ -15,7 +15,7 @@ use frangible_bake::Shape;
 
 use crate::error::SceneError;
 
-pub use asset::save_asset;
+pub use asset::{compacted, save_asset, save_compact_asset};
 
 /// Where a body's geometry comes from.
 #[derive(Clone, Debug, PartialEq)]

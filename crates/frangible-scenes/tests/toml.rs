@@ -6,8 +6,8 @@ use frangible::glam::{Quat, Vec3};
 use frangible::{CrackPath, CrackTiming, FractureConfig, Material};
 use frangible_bake::{Shape, Station};
 use frangible_scenes::{
-    Axis, BodySource, BodySpec, FileWish, Place, Projectile, ProjectileKind, SCENE_NAMES, Scene,
-    parse_scene, read_scene, scene, scene_of_file, scene_to_toml,
+    Axis, BodySource, BodySpec, FileWish, MaterialEdit, Place, Projectile, ProjectileKind,
+    SCENE_NAMES, Scene, parse_scene, read_scene, scene, scene_of_file, scene_to_toml,
 };
 
 fn parsed(text: &str) -> Scene {
@@ -71,6 +71,11 @@ fn intricate() -> Scene {
         Material::preset("porcelain").unwrap(),
     );
     third.place = Place::Standing { over: [3.0, -2.0] };
+    third.rescale.size = Some(1.0 / 3.0);
+    let mut edit = MaterialEdit::preset("stone");
+    edit.name = Some("soft “stone”".into());
+    (edit.numbers[0], edit.numbers[5]) = (Some(1e9 / 3.0), Some(1e6));
+    third.rescale.material = Some(edit);
     let mut scene = Scene::one_body(first);
     scene.name = "intricate".into();
     scene.summary = "tabs\tand “quotes”".into();
@@ -298,6 +303,16 @@ fn wrong_types_and_unusable_values_are_told_with_their_line() {
             "[[body]]\nmesh = \"a.obj\"\nup = \"q\"".into(),
             3,
             "`q` is no axis",
+        ),
+        (
+            "[[body]]\nasset = \"a.frangible\"\nsize = -3".into(),
+            3,
+            "the body's size is -3",
+        ),
+        (
+            "[[body]]\nasset = \"a.frangible\"\nmaterial = \"glas\"".into(),
+            3,
+            "did you mean `glass`",
         ),
         (
             "[[body]]\nasset = \"a.frangible\"\nmodes = 3".into(),

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use frangible::asset::{FORMAT_VERSION, RenderSurface, seal};
+use frangible::asset::{FORMAT_VERSION, RenderSurface, SaveOptions, seal};
 use frangible::{Asset, AssetFileError, InputError};
 
 mod common;
@@ -125,7 +125,7 @@ fn the_layout_is_the_documented_one() {
     let asset = tiny();
     let bytes = asset.to_bytes();
     assert_eq!(&bytes[..8], b"FRANGIBL");
-    assert_eq!(u32_at(&bytes, 16), FORMAT_VERSION);
+    assert_eq!(u32_at(&bytes, 16), 2);
     assert_eq!(u64_at(&bytes, 24), bytes.len());
     let number = |id, row: usize, column: usize, columns: usize| {
         f32::from_bits(u32_at(
@@ -269,7 +269,7 @@ fn another_version_is_refused_before_anything_else_is_believed() {
         Asset::from_bytes(&bytes).unwrap_err(),
         AssetFileError::Version {
             found: 7,
-            supported: 2
+            supported: FORMAT_VERSION
         }
     );
 }
@@ -295,6 +295,75 @@ fn a_free_body_is_written_in_the_first_version_and_a_held_one_is_not() {
     let at = entry_of(&empty, 99) + 16;
     put(&mut empty, at, &0_u64.to_le_bytes());
     assert!(section_problem(&empty).contains("supported nodes: is empty"));
+}
+
+#[test]
+fn a_compact_asset_comes_back_rounded_to_half_precision_and_otherwise_bit_for_bit() {
+    let free = Asset {
+        supported: Vec::new(),
+        ..tiny()
+    };
+    let mut still = tiny();
+    still.modes.shapes.fill(0.0);
+    let mut wide = tiny();
+    for (i, x) in wide.modes.shapes.iter_mut().enumerate() {
+        *x *= [1e30, 1.0, 1e-30][i % 3];
+    }
+    for asset in [tiny(), free, still, wide] {
+        let bytes = asset.to_bytes_with(&SaveOptions::compact());
+        assert_eq!(u32_at(&bytes, 16), 3);
+        let back = Asset::from_bytes(&bytes).unwrap();
+        assert!(same(&back, &asset.clone().with_compact_shapes()));
+        // Rounding twice is rounding once.
+        assert_eq!(back.to_bytes_with(&SaveOptions::compact()), bytes);
+        assert!(same(&back, &back.clone().with_compact_shapes()));
+        // Half of a unit in the last of eleven bits, or of the smallest step: 2⁻³⁹ of the largest number, at most.
+        for mode in 0..3 {
+            let column = |a: &Asset| a.modes.shapes[mode..].iter().step_by(3).copied().collect();
+            let (exact, rounded): (Vec<f32>, Vec<f32>) = (column(&asset), column(&back));
+            let largest = exact.iter().fold(0.0_f32, |m, x| m.max(x.abs()));
+            for (x, y) in exact.iter().zip(&rounded) {
+                let allowed = (x.abs() / 2048.0).max(largest * 2_f32.powi(-38));
+                assert!((x - y).abs() <= allowed, "{x} became {y}");
+            }
+        }
+    }
+}
+
+#[test]
+fn hostile_half_precision_is_refused() {
+    let bytes = tiny().to_bytes_with(&SaveOptions::compact());
+    let with = |at: usize, value: &[u8]| {
+        let mut changed = bytes.clone();
+        put(&mut changed, at, value);
+        Asset::from_bytes(&changed).unwrap_err().to_string()
+    };
+    let expect = |problem: String, words: &str| assert!(problem.contains(words), "{problem}");
+    // Infinity and NaN.
+    for bits in [0x7c00_u16, 0xfc00, 0x7e01, 0xffff] {
+        let at = data_of(&bytes, 83) + 2 * 4;
+        expect(with(at, &bits.to_le_bytes()), "row 1 of the mode shapes");
+    }
+    for scale in [0.0, -1.0, f32::NAN, f32::INFINITY] {
+        let at = data_of(&bytes, 84) + 4;
+        expect(with(at, &scale.to_le_bytes()), "that of mode 1");
+    }
+    // Finite, but the product is not.
+    let at = data_of(&bytes, 84);
+    expect(with(at, &f32::MAX.to_le_bytes()), "of the mode shapes");
+    let entry = entry_of(&bytes, 83);
+    expect(with(entry + 4, &3_u16.to_le_bytes()), "1 f32 numbers");
+    expect(with(entry + 6, &3_u16.to_le_bytes()), "rows of 3 f16");
+    expect(with(entry + 16, &3_u64.to_le_bytes()), "no whole number");
+    expect(with(entry + 16, &4_u64.to_le_bytes()), "rows of 3 modes");
+    expect(with(entry + 16, &6_u64.to_le_bytes()), "mode shapes hold 3");
+    expect(with(entry + 16, &0_u64.to_le_bytes()), "mode shapes hold 0");
+    expect(with(entry, &9999_u32.to_le_bytes()), "is missing");
+    let scales = entry_of(&bytes, 84);
+    expect(with(scales + 16, &0_u64.to_le_bytes()), "of 0 modes");
+    expect(with(scales, &9999_u32.to_le_bytes()), "is missing");
+    // Under an older version there are no mode shapes at all.
+    expect(with(16, &2_u32.to_le_bytes()), "`mode shapes` is missing");
 }
 
 #[test]

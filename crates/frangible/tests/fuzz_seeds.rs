@@ -4,11 +4,12 @@ use std::fs;
 use std::path::Path;
 
 use frangible::Asset;
+use frangible::asset::SaveOptions;
 
 mod common;
 use common::{Size, drawn_surface, synthetic_asset};
 
-fn seeds() -> [(&'static str, Asset); 3] {
+fn seeds() -> [(&'static str, Asset, SaveOptions); 4] {
     let asset = |cubes, analysis_nodes, elements, modes| {
         synthetic_asset(&Size {
             cubes,
@@ -22,9 +23,14 @@ fn seeds() -> [(&'static str, Asset); 3] {
         ..asset(1, 10, 1, 2)
     };
     [
-        ("least", asset(1, 10, 1, 1)),
-        ("drawn", drawn),
-        ("cubes", asset(2, 12, 3, 2)),
+        ("least", asset(1, 10, 1, 1), SaveOptions::default()),
+        ("drawn", drawn, SaveOptions::default()),
+        ("cubes", asset(2, 12, 3, 2), SaveOptions::default()),
+        (
+            "compact",
+            asset(1, 10, 1, 2).with_compact_shapes(),
+            SaveOptions::compact(),
+        ),
     ]
 }
 
@@ -35,10 +41,10 @@ fn the_assets_that_fuzzing_starts_from_can_be_read() {
         println!("skipped: {} is not here", folder.display());
         return;
     }
-    for (name, asset) in seeds() {
+    for (name, asset, options) in seeds() {
         let path = folder.join(name);
         if std::env::var_os("FRANGIBLE_WRITE_SEEDS").is_some() {
-            fs::write(&path, asset.to_bytes()).unwrap();
+            fs::write(&path, asset.to_bytes_with(&options)).unwrap();
         }
         let read = Asset::from_bytes(&fs::read(&path).unwrap())
             .unwrap_or_else(|e| panic!("{e}: set FRANGIBLE_WRITE_SEEDS=1 to write {name} anew"));

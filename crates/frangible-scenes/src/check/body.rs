@@ -91,6 +91,18 @@ pub(super) fn check_body(body: &BodySpec) -> Result<(), Fault> {
         1e3,
         "at most 1000 rad/s",
     )?;
+    if let Some(size) = body.rescale.size {
+        let must = "above 0 and at most 3 m";
+        range("size", "the body's size", size, 0.0, 3.0, must)?;
+    }
+    if let Some(preset) = body
+        .rescale
+        .material
+        .as_ref()
+        .and_then(|m| m.preset.as_ref())
+    {
+        frangible::Material::preset(preset).map_err(|e| Fault::new("material", e))?;
+    }
     if !body.supports.is_empty() && matches!(body.source, BodySource::Asset(_)) {
         let problem = "`supports` are part of a baked body; bake it again to change them";
         return Err(Fault::new("supports", SceneError::Clash(problem.into())));

@@ -2,7 +2,6 @@
 
 use std::path::Path;
 
-use frangible::Material;
 use frangible::glam::{Quat, Vec3};
 use frangible_bake::{Shape, Station};
 
@@ -12,6 +11,7 @@ use super::schema::{BodyTable, MaterialTable, RotationTable, ShapeTable, Support
 use crate::body::{BodySpec, Place, Support};
 use crate::check::Fault;
 use crate::error::SceneError;
+use crate::rescale::{MaterialEdit, Rescale};
 use crate::source::{Axis, BodySource};
 
 /// What a body is made of unless the file says otherwise.
@@ -22,12 +22,6 @@ pub(super) fn body(table: BodyTable, usual: String, folder: &Path) -> Result<Bod
     let meshed = table.mesh.is_some();
     for (key, given, fits, problem) in [
         (
-            "material",
-            table.material.is_some(),
-            !baked,
-            "`material` is part of a baked body; bake it again to change it",
-        ),
-        (
             "modes",
             table.modes.is_some(),
             !baked,
@@ -36,8 +30,8 @@ pub(super) fn body(table: BodyTable, usual: String, folder: &Path) -> Result<Bod
         (
             "size",
             table.size.is_some(),
-            meshed,
-            "`size` is for a `mesh`",
+            meshed || baked,
+            "`size` is for a `mesh` or an `asset`",
         ),
         (
             "resolution",
@@ -81,11 +75,21 @@ pub(super) fn body(table: BodyTable, usual: String, folder: &Path) -> Result<Bod
             return Err(clash("shape", problem));
         }
     };
-    let material = match table.material {
-        None => preset("material", MATERIAL)?,
-        Some(MaterialChoice(given)) => self::material(given)?,
+    let edit = table.material.map(|MaterialChoice(given)| edit(given));
+    let usual_material = preset("material", MATERIAL)?;
+    let material = match &edit {
+        Some(edit) if !baked => edit
+            .apply(&usual_material)
+            .map_err(|e| Fault::new("material", e))?,
+        _ => usual_material,
     };
     let mut body = BodySpec::new(table.name.unwrap_or(usual), source, material);
+    if baked {
+        body.rescale = Rescale {
+            size: table.size,
+            material: edit,
+        };
+    }
     set(&mut body.modes, table.modes);
     body.place = place(table.position.as_deref(), table.drop)?;
     if let Some(RotationChoice(turns)) = table.rotation {
@@ -142,23 +146,26 @@ fn support(table: SupportTable) -> Support {
     }
 }
 
-fn material(table: MaterialTable) -> Result<Material, Fault> {
-    let mut m = preset("material", table.preset.as_deref().unwrap_or(MATERIAL))?;
-    set(&mut m.name, table.name);
-    set(&mut m.youngs_modulus, table.youngs_modulus);
-    set(&mut m.poisson_ratio, table.poisson_ratio);
-    set(&mut m.density, table.density);
-    set(&mut m.stiffness_damping, table.stiffness_damping);
-    set(&mut m.mass_damping, table.mass_damping);
-    set(&mut m.strength, table.strength);
-    set(&mut m.fracture_energy, table.fracture_energy);
-    set(&mut m.energy_depth, table.energy_depth);
-    set(&mut m.weak_point_density, table.weak_point_density);
-    set(&mut m.roughness_amplitude, table.roughness_amplitude);
-    set(&mut m.roughness_wavelength, table.roughness_wavelength);
-    set(&mut m.restitution, table.restitution);
-    set(&mut m.friction, table.friction);
-    Ok(m)
+fn edit(table: MaterialTable) -> MaterialEdit {
+    MaterialEdit {
+        preset: table.preset,
+        name: table.name,
+        numbers: [
+            table.youngs_modulus,
+            table.poisson_ratio,
+            table.density,
+            table.stiffness_damping,
+            table.mass_damping,
+            table.strength,
+            table.fracture_energy,
+            table.energy_depth,
+            table.weak_point_density,
+            table.roughness_amplitude,
+            table.roughness_wavelength,
+            table.restitution,
+            table.friction,
+        ],
+    }
 }
 
 fn place(position: Option<&[f64]>, drop: Option<f64>) -> Result<Place, Fault> {

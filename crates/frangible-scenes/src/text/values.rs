@@ -7,6 +7,7 @@ use frangible::glam::Vec3;
 use frangible_bake::Shape;
 
 use crate::body::Support;
+use crate::rescale::MaterialEdit;
 
 pub(super) fn shape_text(shape: &Shape) -> String {
     let ready = [
@@ -48,6 +49,16 @@ pub(super) fn support_text(support: &Support) -> String {
             number(*radius)
         ),
     }
+}
+
+/// What differs from a baked body's material.
+pub(super) fn edit_text(edit: &MaterialEdit) -> String {
+    let texts = [("preset", &edit.preset), ("name", &edit.name)].into_iter();
+    let texts = texts.filter_map(|(key, text)| Some(format!("{key} = {}", quoted(text.as_ref()?))));
+    let numbers = MaterialEdit::KEYS.iter().zip(edit.numbers);
+    let numbers = numbers.filter_map(|(key, value)| Some(format!("{key} = {}", number(value?))));
+    let parts: Vec<String> = texts.chain(numbers).collect();
+    format!("{{ {} }}", parts.join(", "))
 }
 
 /// The preset's name, or the preset with what differs from it.

@@ -5,7 +5,9 @@ use std::fmt::{Display, Write};
 use frangible::glam::{Quat, Vec3};
 use frangible::{CrackPath, CrackTiming, DurationModel, FractureConfig};
 
-use super::values::{list, material_text, number, quoted, shape_text, support_text, vector};
+use super::values::{
+    edit_text, list, material_text, number, quoted, shape_text, support_text, vector,
+};
 use crate::body::{BodySpec, Place};
 use crate::output::{FileWish, Output};
 use crate::projectile::{Projectile, ProjectileKind};
@@ -92,6 +94,12 @@ fn write_body(t: &mut Text, body: &BodySpec) {
         }
         BodySource::Asset(path) => {
             t.line("asset", quoted(&path.to_string_lossy()));
+            if let Some(size) = body.rescale.size {
+                t.noted("size", number(size), "m, the longest side");
+            }
+            if let Some(edit) = &body.rescale.material {
+                t.line("material", edit_text(edit));
+            }
             false
         }
     };

@@ -1,7 +1,9 @@
 //! What a bake produces and the run time needs: one immutable value per kind of object.
 
 mod file;
+mod half;
 mod render;
+mod rescale;
 mod validate;
 
 use glam::Vec3;
@@ -13,8 +15,9 @@ use crate::stress::StressBounds;
 
 #[doc(hidden)]
 pub use file::seal;
-pub use file::{AssetFileError, FORMAT_VERSION};
+pub use file::{AssetFileError, FORMAT_VERSION, SaveOptions};
 pub use render::{RenderMaterial, RenderSurface};
+pub use rescale::{RescaleError, SMALLEST_CURVATURE_RADIUS};
 
 /// Everything the run time needs of one kind of object. Share it (`Arc`) among all bodies of that kind.
 ///
@@ -56,6 +59,15 @@ impl Asset {
     #[must_use]
     pub fn is_supported(&self) -> bool {
         !self.supported.is_empty()
+    }
+
+    /// The asset with its stress bounds and the peak stress of its modes found anew, as the bake does: for one whose
+    /// mode shapes were changed.
+    #[must_use]
+    pub fn restressed(mut self) -> Self {
+        self.bounds = StressBounds::of(&self);
+        self.modes.peak_stress = self.bounds.root(self.modes.count()).0;
+        self
     }
 }
 

@@ -120,6 +120,11 @@ pub fn synthetic_asset(size: &Size) -> Asset {
         shapes: (0..shapes).map(|_| numbers.f32()).collect(),
         peak_stress: (0..size.modes).map(|_| 1.0 + numbers.f32()).collect(),
     };
+    let bounds = StressBounds {
+        cluster_of_tet: (0..fracture.tets.len() as u32).map(|e| e % 2).collect(),
+        stress: (0..2 * size.modes).map(|_| 1.0 + numbers.f32()).collect(),
+        gradient: (0..2 * size.modes).map(|_| 1.0 + numbers.f32()).collect(),
+    };
     Asset {
         name: "Vase – größer".into(),
         material,
@@ -128,7 +133,7 @@ pub fn synthetic_asset(size: &Size) -> Asset {
         analysis,
         embedding,
         modes,
-        bounds: StressBounds::default(),
+        bounds,
         mass,
         cells,
         cell_of_tet,

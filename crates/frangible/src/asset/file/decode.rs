@@ -4,7 +4,8 @@ use glam::{DMat3, DVec3, Vec3};
 
 use super::reader::Reader;
 use super::sections::{self as s, Section};
-use super::{AssetFileError, SUPPORTED};
+use super::{AssetFileError, COMPACT, SUPPORTED};
+use crate::asset::half::Half;
 use crate::asset::{
     AnalysisMesh, Asset, ConvexCell, EmbeddedPoint, Embedding, OuterSurface, RenderMaterial,
     RenderSurface,
@@ -12,6 +13,7 @@ use crate::asset::{
 use crate::material::Material;
 use crate::mesh::{MassProperties, TetMesh};
 use crate::modal::ModalBasis;
+use crate::stress::StressBounds;
 
 impl Asset {
     /// Reads what [`Asset::to_bytes`] wrote. Sections of unknown number are skipped.
@@ -50,10 +52,10 @@ impl Asset {
             },
             modes: ModalBasis {
                 eigenvalues: r.rows(s::EIGENVALUES)?,
-                shapes: r.rows(s::MODE_SHAPES)?,
+                shapes: shapes(&r)?,
                 peak_stress: r.rows(s::PEAK_STRESS)?,
             },
-            bounds: crate::stress::StressBounds::default(),
+            bounds: bounds(&r)?,
             mass: mass(r.one(s::MASS)?),
             cells: cells(&r)?,
             cell_of_tet: r.rows(s::CELL_OF_TET)?,
@@ -150,9 +152,49 @@ fn cells(r: &Reader<'_>) -> Result<Vec<ConvexCell>, AssetFileError> {
     Ok(sizes.iter().map(cell).collect())
 }
 
+/// The stress bounds, where the file has them.
+fn bounds(r: &Reader<'_>) -> Result<StressBounds, AssetFileError> {
+    let sections = [s::BOUND_CLUSTERS, s::STRESS_BOUNDS, s::GRADIENT_BOUNDS];
+    if !sections.iter().any(|&section| r.has(section)) {
+        return Ok(StressBounds::default());
+    }
+    Ok(StressBounds {
+        cluster_of_tet: r.rows(s::BOUND_CLUSTERS)?,
+        stress: r.rows(s::STRESS_BOUNDS)?,
+        gradient: r.rows(s::GRADIENT_BOUNDS)?,
+    })
+}
+
+/// Mode shapes: as they are, or in half precision times the scale of their column.
+fn shapes(r: &Reader<'_>) -> Result<Vec<f32>, AssetFileError> {
+    if r.version < COMPACT {
+        return r.rows(s::MODE_SHAPES);
+    }
+    let scales = r.rows::<f32>(s::HALF_SCALES)?;
+    if let Some(mode) = scales.iter().position(|s| !(s.is_finite() && *s > 0.0)) {
+        let problem = format!("are not above zero and finite: that of mode {mode}");
+        return Err(AssetFileError::section(s::HALF_SCALES.name, problem));
+    }
+    let halves = r.each::<Half>(s::HALF_SHAPES)?;
+    if halves.len() > 0 && (scales.is_empty() || !halves.len().is_multiple_of(scales.len())) {
+        let problem = format!(
+            "has {} numbers, no whole number of rows of {} modes",
+            halves.len(),
+            scales.len()
+        );
+        return Err(AssetFileError::section(s::HALF_SHAPES.name, problem));
+    }
+    let columns = scales.iter().cycle();
+    Ok(halves.zip(columns).map(|(h, s)| h.value() * s).collect())
+}
+
 /// Versions before supports know the number of their section as little as any other that is unknown.
 fn supported(r: &Reader<'_>) -> Result<Vec<u32>, AssetFileError> {
     if r.version < SUPPORTED {
+        return Ok(Vec::new());
+    }
+    // In the version for them they must be there; in later ones, which are for something else, a body may be free.
+    if r.version > SUPPORTED && !r.has(s::SUPPORTED) {
         return Ok(Vec::new());
     }
     let nodes = r.rows(s::SUPPORTED)?;

@@ -6,7 +6,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};
 
-use super::AssetFileError;
+use super::{AssetFileError, SaveOptions};
 use crate::asset::Asset;
 
 /// Tells apart the temporary files of this process; shows in no result.
@@ -31,10 +31,22 @@ impl Asset {
     /// [`AssetFileError::InFile`] where the asset fails [`Asset::validate`], since it could not be loaded
     /// again; [`AssetFileError::Io`] where it cannot be written; both name the path.
     pub fn save(&self, path: impl AsRef<Path>) -> Result<(), AssetFileError> {
+        self.save_with(path, &SaveOptions::default())
+    }
+
+    /// As [`Asset::save`], written as [`Asset::to_bytes_with`] does.
+    ///
+    /// # Errors
+    /// As [`Asset::save`].
+    pub fn save_with(
+        &self,
+        path: impl AsRef<Path>,
+        options: &SaveOptions,
+    ) -> Result<(), AssetFileError> {
         let path = path.as_ref();
         self.validate().map_err(|e| in_file(path, e.into()))?;
         let temporary = sibling(path).map_err(|e| io_error(path, &e))?;
-        let written = write_new(&temporary, &self.to_bytes());
+        let written = write_new(&temporary, &self.to_bytes_with(options));
         written.map_err(|(e, created)| {
             if created {
                 // The first error is the one to tell.

@@ -2,7 +2,8 @@
 
 use super::sections::{self as s, Section};
 use super::writer::Writer;
-use super::{FREE, SUPPORTED};
+use super::{COMPACT, FREE, SUPPORTED, SaveOptions};
+use crate::asset::half::{Half, half_scales};
 use crate::asset::{Asset, EmbeddedPoint, RenderSurface};
 use crate::material::Material;
 use crate::mesh::MassProperties;
@@ -11,6 +12,12 @@ impl Asset {
     /// The asset as a file, as `docs/asset-format.md` describes it; [`Asset::from_bytes`] gives it back bit for bit.
     #[must_use]
     pub fn to_bytes(&self) -> Vec<u8> {
+        self.to_bytes_with(&SaveOptions::default())
+    }
+
+    /// As [`Asset::to_bytes`]. Compact mode shapes come back as [`Asset::with_compact_shapes`] gives them.
+    #[must_use]
+    pub fn to_bytes_with(&self, options: &SaveOptions) -> Vec<u8> {
         let mut w = Writer::default();
         w.text(s::NAME, &self.name);
         w.text(s::MATERIAL_NAME, &self.material.name);
@@ -31,8 +38,25 @@ impl Asset {
         let of_nodes = [s::NODE_ELEMENTS, s::NODE_BARYCENTRIC, s::NODE_OFFSETS];
         embedded(&mut w, of_nodes, &self.embedding.nodes);
         w.rows(s::EIGENVALUES, &self.modes.eigenvalues);
-        w.rows(s::MODE_SHAPES, &self.modes.shapes);
+        if options.compact {
+            let scales = half_scales(&self.modes);
+            w.rows(s::HALF_SCALES, &scales);
+            let shapes = self.modes.shapes.chunks(scales.len().max(1));
+            let scaled: Vec<Half> = shapes
+                .flat_map(|row| row.iter().zip(&scales))
+                .map(|(x, scale)| Half::of(x / scale))
+                .collect();
+            w.rows(s::HALF_SHAPES, &scaled);
+        } else {
+            w.rows(s::MODE_SHAPES, &self.modes.shapes);
+        }
         w.rows(s::PEAK_STRESS, &self.modes.peak_stress);
+        // Rounded shapes have other bounds: they are found when a body is made.
+        if !(self.bounds.is_empty() || options.compact) {
+            w.rows(s::BOUND_CLUSTERS, &self.bounds.cluster_of_tet);
+            w.rows(s::STRESS_BOUNDS, &self.bounds.stress);
+            w.rows(s::GRADIENT_BOUNDS, &self.bounds.gradient);
+        }
         w.each(
             s::CELL_SIZES,
             self.cells.iter().map(|c| c.points.len() as u32),
@@ -46,7 +70,11 @@ impl Asset {
         if let Some(surface) = &self.render {
             render(&mut w, surface);
         }
-        w.finish(if self.is_supported() { SUPPORTED } else { FREE })
+        w.finish(match (options.compact, self.is_supported()) {
+            (true, _) => COMPACT,
+            (false, true) => SUPPORTED,
+            (false, false) => FREE,
+        })
     }
 }
 

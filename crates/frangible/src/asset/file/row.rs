@@ -2,6 +2,8 @@
 
 use glam::Vec3;
 
+use crate::asset::half::Half;
+
 /// What a section's numbers are.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(u16)]
@@ -14,6 +16,8 @@ pub(super) enum Kind {
     F32 = 3,
     /// IEEE 754 double precision.
     F64 = 4,
+    /// IEEE 754 half precision.
+    F16 = 5,
 }
 
 impl Kind {
@@ -23,11 +27,12 @@ impl Kind {
             Self::U32 => "u32",
             Self::F32 => "f32",
             Self::F64 => "f64",
+            Self::F16 => "f16",
         }
     }
 
     pub(super) fn of(code: u16) -> Option<Self> {
-        [Self::Text, Self::U32, Self::F32, Self::F64]
+        [Self::Text, Self::U32, Self::F32, Self::F64, Self::F16]
             .into_iter()
             .find(|&kind| kind as u16 == code)
     }
@@ -75,6 +80,25 @@ number!(u8, Kind::Text);
 number!(u32, Kind::U32);
 number!(f32, Kind::F32);
 number!(f64, Kind::F64);
+
+impl Row for Half {
+    const KIND: Kind = Kind::F16;
+    const COLUMNS: usize = 1;
+    const SIZE: usize = 2;
+
+    #[inline]
+    fn get(bytes: &[u8]) -> Self {
+        let bits = bytes.first_chunk();
+        Self(bits.map_or(0, |b| u16::from_le_bytes(*b)))
+    }
+
+    #[inline]
+    fn put(self, bytes: &mut [u8]) {
+        if let Some(b) = bytes.first_chunk_mut() {
+            *b = self.0.to_le_bytes();
+        }
+    }
+}
 
 impl<T: Row, const N: usize> Row for [T; N] {
     const KIND: Kind = T::KIND;

@@ -1,0 +1,171 @@
+//! Another material or another size without another bake.
+//!
+//! For a fixed shape and Poisson's ratio, K is proportional to E s and M to ρ s³, where s is the size. So
+//! λ goes as E / (ρ s²), the mass-normalised shapes as 1 / √(ρ s³), their gradients one power of s lower, and
+//! their stress as E / (√ρ s^2.5). Damping, strength, toughness, weak points, roughness and contact numbers are in no
+//! mode: they are only replaced.
+//!
+//! Factors are formed in f64 and each stored f32 is rounded once per call, 6e-8 of it; eigenvalues stay in f64. Rescale the
+//! asset as it was baked rather than the last result, where a slider asks for it a thousand times.
+
+use glam::{DVec3, Vec3};
+use thiserror::Error;
+
+use super::{Asset, EmbeddedPoint};
+use crate::error::{InputError, positive};
+use crate::material::Material;
+use crate::mesh::MassProperties;
+
+/// Smallest radius of curvature of a surface, m: edges and corners are rounded off this far in any real body, whatever
+/// its size.
+pub const SMALLEST_CURVATURE_RADIUS: f64 = 0.003;
+
+/// Poisson's ratios this close are the same: far above the rounding of a sum, far below what shows in a mode.
+const SAME_RATIO: f64 = 1e-9;
+
+/// Largest mode shape and stress there must be: numbers 1e-10 of it are still normal ones of f32.
+const SMALLEST: f32 = 1e-28;
+
+/// Why an asset cannot be rescaled.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[non_exhaustive]
+pub enum RescaleError {
+    /// The modes would be others, and no factor gives them.
+    #[error(
+        "`{asset}` is baked of {baked_material} with Poisson's ratio {baked}, and {wanted_material} has {wanted}: modes of another ratio need another bake; bake it again of {wanted_material}, or give a material of ratio {baked}"
+    )]
+    PoissonRatio {
+        /// Name of the asset.
+        asset: String,
+        /// Material it was baked of.
+        baked_material: String,
+        /// Poisson's ratio it was baked with.
+        baked: f64,
+        /// Material that was asked for.
+        wanted_material: String,
+        /// Its Poisson's ratio.
+        wanted: f64,
+    },
+    /// Mode shapes or stresses would fade into the smallest numbers of f32, or beyond.
+    #[error(
+        "`{asset}`, changed like this, leaves the range of its numbers; change size or material by less"
+    )]
+    OutOfRange {
+        /// Name of the asset.
+        asset: String,
+    },
+    /// A number that cannot be used.
+    #[error(transparent)]
+    Input(#[from] InputError),
+}
+
+impl Asset {
+    /// The asset of another material of the same Poisson's ratio, as if baked of it.
+    ///
+    /// # Errors
+    /// [`RescaleError::PoissonRatio`] for a material of another ratio; a number of the material out of its range.
+    pub fn with_material(&self, material: &Material) -> Result<Self, RescaleError> {
+        material.validate()?;
+        let old = &self.material;
+        if (material.poisson_ratio - old.poisson_ratio).abs() > SAME_RATIO {
+            return Err(RescaleError::PoissonRatio {
+                asset: self.name.clone(),
+                baked_material: old.name.clone(),
+                baked: old.poisson_ratio,
+                wanted_material: material.name.clone(),
+                wanted: material.poisson_ratio,
+            });
+        }
+        let stiffness = material.youngs_modulus / old.youngs_modulus;
+        let density = material.density / old.density;
+        let mut asset = self.clone();
+        // The ratio of the bake: many steps within rounding must not lead away from it.
+        asset.material = Material {
+            poisson_ratio: old.poisson_ratio,
+            ..material.clone()
+        };
+        asset.rescale_modes(
+            stiffness / density,
+            density.sqrt().recip(),
+            density.sqrt().recip(),
+            stiffness / density.sqrt(),
+        );
+        asset.weigh();
+        asset.checked()
+    }
+
+    /// The asset `factor` times as large, of the same material, as if the shape had been baked at that size.
+    ///
+    /// Curvature radii at [`SMALLEST_CURVATURE_RADIUS`] stay there: edges of a larger body are no blunter. A rounding that the
+    /// bake clamped to it is not found again by growing.
+    ///
+    /// # Errors
+    /// A factor that is not above zero, or so far from one that numbers leave the range of f32.
+    pub fn scaled(&self, factor: f64) -> Result<Self, RescaleError> {
+        positive("the factor of the size", factor, "times")?;
+        let mut asset = self.clone();
+        let scale = |v: &mut Vec3| *v = (v.as_dvec3() * factor).as_vec3();
+        asset.fracture.positions.iter_mut().for_each(scale);
+        asset.analysis.nodes.iter_mut().for_each(scale);
+        for gradient in asset.analysis.barycentric_gradients.iter_mut().flatten() {
+            *gradient = (gradient.as_dvec3() / factor).as_vec3();
+        }
+        let offset = |p: &mut EmbeddedPoint| scale(&mut p.offset);
+        asset.embedding.tets.iter_mut().for_each(offset);
+        asset.embedding.nodes.iter_mut().for_each(offset);
+        for cell in &mut asset.cells {
+            cell.points.iter_mut().for_each(scale);
+        }
+        if let Some(render) = &mut asset.render {
+            render.positions.iter_mut().for_each(scale);
+        }
+        for radius in &mut asset.surface.curvature_radius {
+            if *radius > SMALLEST_CURVATURE_RADIUS as f32 {
+                *radius = (f64::from(*radius) * factor).max(SMALLEST_CURVATURE_RADIUS) as f32;
+            }
+        }
+        asset.rescale_modes(
+            (factor * factor).recip(),
+            (factor * factor.sqrt()).recip(),
+            (factor * factor * factor.sqrt()).recip(),
+            (factor * factor * factor.sqrt()).recip(),
+        );
+        asset.weigh();
+        asset.checked()
+    }
+
+    fn rescale_modes(&mut self, eigenvalues: f64, shapes: f64, gradient: f64, stress: f64) {
+        let modes = &mut self.modes;
+        modes.eigenvalues.iter_mut().for_each(|l| *l *= eigenvalues);
+        for (numbers, factor) in [
+            (&mut modes.shapes, shapes),
+            (&mut modes.peak_stress, stress),
+            (&mut self.bounds.stress, stress),
+            (&mut self.bounds.gradient, gradient),
+        ] {
+            for x in numbers {
+                *x = (f64::from(*x) * factor) as f32;
+            }
+        }
+    }
+
+    fn checked(self) -> Result<Self, RescaleError> {
+        let stored = |numbers: &[f32]| {
+            let largest = numbers.iter().fold(0.0_f32, |m, x| m.max(x.abs()));
+            (SMALLEST..f32::INFINITY).contains(&largest)
+        };
+        if !(stored(&self.modes.shapes) && stored(&self.modes.peak_stress)) {
+            return Err(RescaleError::OutOfRange { asset: self.name });
+        }
+        self.validate()?;
+        Ok(self)
+    }
+
+    /// As the bake does: of the mesh as stored, so that the masses of its pieces sum to it.
+    fn weigh(&mut self) {
+        let mesh = &self.fracture;
+        let corners = (0..mesh.tets.len()).map(|e| mesh.corners(e).map(|p| p.as_dvec3()));
+        self.mass = MassProperties::of_tetrahedra(self.material.density, corners);
+        self.mass.centre = DVec3::ZERO;
+    }
+}
