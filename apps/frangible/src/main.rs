@@ -10,6 +10,7 @@ mod progress;
 mod report;
 mod request;
 mod say;
+mod verifying;
 
 use std::path::Path;
 use std::process::ExitCode;
@@ -45,6 +46,7 @@ fn main() -> ExitCode {
         None => breaking::run(None, &cli.break_args),
         Some(Command::Break(command)) => breaking::run(command.file.as_deref(), &command.args),
         Some(Command::Bake(args)) => baking::run(&args),
+        Some(Command::Verify(args)) => verifying::run(&args),
         Some(Command::Scenes { name: None }) => list::print(),
         Some(Command::Scenes { name: Some(name) }) => list::print_scene(&name),
     };
