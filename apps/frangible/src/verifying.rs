@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use frangible_export::write_atomically;
 use frangible_verify::report::{error, markdown, number, tolerance, value, verdict, with_unit};
-use frangible_verify::{CASES, Case, Findings};
+use frangible_verify::{CASES, Case, Check, Findings};
 use serde_json::json;
 
 use crate::args::VerifyArgs;
@@ -61,16 +61,25 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<(), Box<dyn Error>> {
     } else {
         say(&table(&found, &files))?;
     }
-    let checks = || found.iter().flat_map(|f| &f.1.checks);
-    match checks().filter(|c| !c.passes()).count() {
-        0 => Ok(()),
-        failed => Err(format!("{failed} of {} checks failed", checks().count()).into()),
+    Ok(conclude(found.iter().flat_map(|f| &f.1.checks))?)
+}
+
+/// An error when a check failed.
+fn conclude<'a>(checks: impl Iterator<Item = &'a Check>) -> Result<(), String> {
+    let (mut all, mut failed) = (0, 0);
+    for check in checks {
+        all += 1;
+        failed += usize::from(!check.passes());
     }
+    if failed > 0 {
+        return Err(format!("{failed} of {all} checks failed"));
+    }
+    Ok(())
 }
 
 fn table(found: &[Computed], files: &[String]) -> String {
     let rows = found.iter().flat_map(|f| &f.1.checks);
-    let widest = |cell: fn(&frangible_verify::Check) -> String| {
+    let widest = |cell: fn(&Check) -> String| {
         let widths = rows.clone().map(|c| cell(c).chars().count());
         widths.max().unwrap_or(0)
     };
@@ -129,9 +138,30 @@ fn as_json(found: &[Computed], files: &[String]) -> serde_json::Value {
             json!({ "name": case.name, "title": case.title, "seconds": seconds, "checks": checks })
         })
         .collect();
-    let pass = found
-        .iter()
-        .flat_map(|f| &f.1.checks)
-        .all(frangible_verify::Check::passes);
+    let pass = found.iter().flat_map(|f| &f.1.checks).all(Check::passes);
     json!({ "pass": pass, "cases": cases, "files": files })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Check, conclude};
+
+    #[test]
+    fn one_check_that_fails_is_an_error() {
+        let good = Check {
+            name: "ten".into(),
+            reference: 10.0,
+            value: 10.001,
+            tolerance: 1e-3,
+            unit: "Hz",
+            source: "",
+        };
+        let bad = Check {
+            value: 10.1,
+            ..good.clone()
+        };
+        assert_eq!(conclude([&good, &good].into_iter()), Ok(()));
+        let said = conclude([&good, &bad].into_iter()).unwrap_err();
+        assert_eq!(said, "1 of 2 checks failed");
+    }
 }

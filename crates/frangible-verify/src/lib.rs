@@ -15,7 +15,7 @@ mod ritz;
 
 pub use case::{CASES, Case, Findings, Plot, case};
 pub use check::Check;
-pub use ritz::box_frequencies;
+pub use ritz::{box_frequencies, first_box_frequency};
 
 use frangible_bake::BakeError;
 use thiserror::Error;

@@ -5,7 +5,9 @@ use std::sync::Arc;
 use frangible::Material;
 use frangible::glam::DVec3;
 use frangible_bake::eigen::{Constraints, Modes, lowest_supported_modes};
-use frangible_bake::fem::{Elasticity, Elements, QuadraticMesh, System, assemble};
+use frangible_bake::fem::{
+    Cover, Elasticity, Elements, QuadraticMesh, System, assemble, assemble_cover,
+};
 use frangible_bake::frangible_mesh::DistanceSolid;
 use frangible_bake::{BakeError, BakeSpec, MeshSize, Shape, SolidShape};
 
@@ -63,6 +65,17 @@ pub(crate) fn linear(
     ))
 }
 
+/// A shape meshed with this edge, carried by a lattice of about `elements` quadratic elements.
+pub(crate) fn covered(
+    shape: &Shape,
+    edge: f64,
+    elements: usize,
+    material: &Elasticity,
+) -> Result<System, BakeError> {
+    let body = shape.analysis_mesh(MeshSize { edge, layers: 0 })?;
+    Ok(assemble_cover(&Cover::new(&body, elements)?, material))
+}
+
 /// The lowest modes of a free body.
 pub(crate) fn free_modes(system: &System, wanted: usize) -> Result<Modes, BakeError> {
     modes(system, &Constraints::default(), wanted)
@@ -77,8 +90,8 @@ pub(crate) fn modes(
     lowest_supported_modes(system, held, wanted, &mut |_| {})
 }
 
-/// What to bake of a ball: about 12 000 tetrahedra, 10 modes.
-pub(crate) fn ball(radius: f64, elasticity: &Elasticity) -> BakeSpec {
+/// What to bake of a ball: about 12 000 tetrahedra, 10 modes, carried by elements of this edge or the default.
+pub(crate) fn ball(radius: f64, elasticity: &Elasticity, edge: Option<f64>) -> BakeSpec {
     // Damping, strength and so on do not matter to any case, but must be there.
     let mut material = Material::preset("glass").expect("glass is a preset");
     material.youngs_modulus = elasticity.youngs_modulus;
@@ -90,6 +103,7 @@ pub(crate) fn ball(radius: f64, elasticity: &Elasticity) -> BakeSpec {
     };
     let mut spec = BakeSpec::new("ball", Shape::Solid(shape), material);
     spec.modes = 10;
+    spec.analysis = edge.map(|edge| MeshSize { edge, layers: 0 });
     spec
 }
 

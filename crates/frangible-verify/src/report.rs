@@ -58,10 +58,10 @@ pub fn tolerance(check: &Check) -> String {
     }
 }
 
-/// A relative error of 0.01 % and above in per cent; others as they are.
+/// In per cent where the tolerance is relative and 0.01 % or more, else as it is.
 fn in_kind(check: &Check, error: f64) -> String {
     let decade = error.log10().floor();
-    if check.reference != 0.0 && error >= 0.99e-4 {
+    if check.reference != 0.0 && check.tolerance >= 0.99e-4 {
         let decimals = (-1.0 - decade).max(0.0) as usize;
         let text = format!("{:.decimals$}", 100.0 * error);
         let short = if text.contains('.') {

@@ -23,7 +23,7 @@ pub(crate) const CASE: Case = Case {
 const LAMB: &str = "H. Lamb, Proc. London Math. Soc. 13, 189 (1882)";
 
 fn compute(progress: &mut dyn FnMut(f64)) -> Result<Findings, BakeError> {
-    let (asset, report) = bake(&ball(RADIUS, &GLASS), &mut |p| progress(p.fraction))?;
+    let (asset, report) = bake(&ball(RADIUS, &GLASS, None), &mut |p| progress(p.fraction))?;
     let shear_speed = (GLASS.lame().1 / GLASS.density).sqrt();
     let of = |root: f64| root * shear_speed / (RADIUS * TAU);
     let (twist, football) = (

@@ -7,7 +7,7 @@ use crate::case::{Case, Findings, Plot};
 use crate::check::{Check, hertz};
 use crate::models::{free_modes, linear, quadratic};
 use crate::plot::{Axis, Chart, Marker, Series};
-use crate::ritz::box_frequencies;
+use crate::ritz::first_box_frequency;
 
 const SIZE: [f64; 3] = [0.4, 0.4, 0.01];
 
@@ -21,11 +21,12 @@ pub(crate) const CASE: Case = Case {
     name: "convergence",
     title: "Convergence: linear against quadratic elements",
     about: "The first frequency of a free plate, 400 × 400 × 10 mm (E 100 GPa, ν 0.23, ρ 2500 kg/m³). Linear tetrahedra (T4) lock \
-        in bending: with one layer through the thickness their error never falls below half the frequency, and two layers are little better. \
-        Quadratic ones (T10) are right with a few hundred. So the modes live on quadratic elements: on meshes of boxes and bodies \
-        of revolution, on a lattice that covers the body for any other solid. The reference is a Ritz series of Legendre \
-        polynomials in three dimensions (see *Free block*). The T4 rows compare with the same elements on the same mesh, \
-        assembled in Python and solved by SciPy: locking is a property of the element, not a mistake here.",
+        in bending: with 14 000 unknowns they are still 80 % too stiff with one layer through the thickness, 60 % with two. \
+        Quadratic ones (T10) are within 2 % with a thousand unknowns. So the modes live on quadratic elements: on meshes of boxes \
+        and bodies of revolution, on a lattice that covers the body for any other solid. The reference is a Ritz series of \
+        Legendre polynomials in three dimensions (see *Free block*), up to degree 26 along the sides and 3 across. The T4 rows \
+        compare with the same elements on the same mesh, assembled in Python and solved by SciPy: locking is a property of the \
+        element, not a mistake here.",
     compute,
 };
 
@@ -48,8 +49,8 @@ struct Point {
 
 fn compute(progress: &mut dyn FnMut(f64)) -> Result<Findings, BakeError> {
     let plate = Shape::block(SIZE);
-    let reference = box_frequencies(SIZE, &MATERIAL, [14, 14, 5], 1);
-    let reference = reference.first().copied().unwrap_or(f64::NAN);
+    // The corners bend the mode within a thickness of the edges: degree 14 is 7e-4 too high, 32 lower by 3e-6.
+    let reference = first_box_frequency(SIZE, &MATERIAL, [26, 26, 3]);
     let edge = |squares: usize| SIZE[0] / squares as f64;
     let body = plate.analysis_mesh(MeshSize {
         edge: edge(32),
@@ -69,14 +70,14 @@ fn compute(progress: &mut dyn FnMut(f64)) -> Result<Findings, BakeError> {
     let quadratic = study(
         "T10, one layer",
         Marker::Disc,
-        &[2, 4, 6, 8, 12, 16, 22],
+        &[5, 6, 8, 12, 16, 22],
         |n| quadratic(&plate, edge(n), 1, &MATERIAL),
     )?;
     progress(0.75);
     let cover = study(
         "T10, covering lattice",
         Marker::Triangle,
-        &[60, 120, 250, 500, 1000, 2000, 4000],
+        &[60, 120, 250, 500, 1000, 2500],
         |n| Ok(assemble_cover(&Cover::new(&body, n)?, &MATERIAL)),
     )?;
     progress(1.0);
@@ -101,11 +102,11 @@ fn compute(progress: &mut dyn FnMut(f64)) -> Result<Findings, BakeError> {
     checks.push(of(&one_layer, 16, 828.0, 0.005, SAME_ELEMENTS));
     checks.push(of(&one_layer, 32, 559.0, 0.005, SAME_ELEMENTS));
     checks.push(of(&two_layers, 32, 490.0, 0.005, SAME_ELEMENTS));
-    checks.push(of(&quadratic, 4, reference, 0.05, SERIES));
+    checks.push(of(&quadratic, 5, reference, 0.02, SERIES));
     checks.push(of(&quadratic, 8, reference, 0.01, SERIES));
-    checks.push(of(&quadratic, 16, reference, 0.003, SERIES));
-    checks.push(of(&cover, 1000, reference, 0.02, SERIES));
-    checks.push(of(&cover, 4000, reference, 0.01, SERIES));
+    checks.push(of(&quadratic, 16, reference, 0.005, SERIES));
+    checks.push(of(&cover, 1000, reference, 0.01, SERIES));
+    checks.push(of(&cover, 2500, reference, 0.005, SERIES));
     checks.push(falls(&quadratic, reference));
     checks.push(falls(&cover, reference));
     let plot = chart([one_layer, two_layers, quadratic, cover], reference);

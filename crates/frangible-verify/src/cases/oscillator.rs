@@ -21,7 +21,7 @@ const TOLERANCE: f64 = 1e-10;
 pub(crate) const CASE: Case = Case {
     name: "oscillator",
     title: "One mode under a half-sine",
-    about: "q̈ + d q̇ + λ q = sin(ut) for 0 ≤ t ≤ t_d = π/u = 1 ms, free after that, from rest: the largest displacement at 40 \
+    about: "q̈ + d q̇ + λ q = sin(ut) for 0 ≤ t ≤ t_d = π/u = 1 ms, free after that, from rest: the largest displacement (of a unit force per √kg, hence in s²) at 40 \
         moments until 2 t_d by the recurrence of the run time, which takes 20 steps in the contact, against an adaptive \
         Runge–Kutta pair (Dormand and Prince) at a relative tolerance of 10⁻¹⁰ per step. √λ = 4000 rad/s, or u at resonance, \
         where the textbook's quotient is 0/0. The farthest of all moments and cases is given in units of the largest \
@@ -87,7 +87,7 @@ fn compare(name: &str, lambda: f64, d: f64, u: f64) -> (Check, [f64; 2]) {
         off[1] = off[1].max((mode.velocity() - state[1]).abs());
     }
     let check = Check {
-        unit: "m√kg",
+        unit: "s²",
         ..number(name, at_largest, largest, 1e-8, INTEGRATOR)
     };
     (check, [off[0] / largest, off[1] / (w * largest)])
@@ -102,7 +102,7 @@ fn impulse() -> Check {
     }
     // Undamped: the amplitude follows from the energy. The impulse of the unit sine is 2/u.
     Check {
-        unit: "m√kg",
+        unit: "s²",
         ..number(
             "amplitude after an impulse",
             (2.0 * mode.energy()).sqrt() / FREQUENCY,
