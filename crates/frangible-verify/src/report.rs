@@ -121,10 +121,15 @@ pub fn markdown(found: &[(&Case, Findings)], folder: &str) -> String {
     for (case, findings) in found {
         let _ = write!(
             text,
-            "\n## {}\n\n{}\n\n| case | reference | value | error | tolerance | | source |\n|---|---:|---:|---:|---:|---|---|\n",
+            "\n## {}\n\n{}\n\n| case | reference | value | error | tolerance | | source |\n|---|---:|---:|---:|---:|---|---:|\n",
             case.title, case.about
         );
+        let mut sources: Vec<&str> = Vec::new();
         for check in &findings.checks {
+            if !sources.contains(&check.source) {
+                sources.push(check.source);
+            }
+            let source = sources.iter().position(|s| *s == check.source);
             let cells = [
                 check.name.replace('|', "\\|"),
                 with_unit(number(check.reference), check.unit),
@@ -132,9 +137,13 @@ pub fn markdown(found: &[(&Case, Findings)], folder: &str) -> String {
                 error(check),
                 tolerance(check),
                 verdict(check).into(),
-                check.source.into(),
+                source.map_or_else(String::new, |i| (i + 1).to_string()),
             ];
             let _ = writeln!(text, "| {} |", cells.join(" | "));
+        }
+        text.push_str("\nReferences:\n\n");
+        for (i, source) in sources.iter().enumerate() {
+            let _ = writeln!(text, "{}. {source}", i + 1);
         }
         for plot in &findings.plots {
             let _ = write!(

@@ -87,8 +87,9 @@ mod tests {
     #[test]
     fn roots_are_those_of_the_tables() {
         assert!((super::twisting_root() - 2.501_13).abs() < 1e-5);
-        // Eringen and Şuhubi, Elastodynamics II, table 8.13-2: 2.640 at ν = 1/4.
-        assert!((super::spheroidal_root(0.25) - 2.640).abs() < 1e-3);
+        // Lamb 1882: 0.840 π at ν = 1/4.
+        let lamb = 0.840 * std::f64::consts::PI;
+        assert!((super::spheroidal_root(0.25) / lamb - 1.0).abs() < 1e-3);
         assert!((super::spheroidal_root(0.23) - 2.637_11).abs() < 1e-5);
     }
 }
