@@ -64,7 +64,7 @@ fn compute(progress: &mut dyn FnMut(f64)) -> Result<Findings, BakeError> {
     // The duration asks nothing of the modes: few elements will do.
     let coarse = Some(0.5 * RADII[0]);
     let asset = bake(&ball(RADII[0], &STEEL, coarse), &mut |p| {
-        progress(0.9 * p.fraction)
+        progress(0.9 * p.fraction);
     })?
     .0;
     let hit = Contact {
