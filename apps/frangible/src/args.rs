@@ -30,6 +30,19 @@ pub(crate) enum Command {
         /// Scene to print as TOML; saved, and given to `break`, it does the same
         name: Option<String>,
     },
+    /// Check modes, responses and contacts against closed forms; fails when one is off
+    Verify(VerifyArgs),
+}
+
+#[derive(Args, Clone, Debug)]
+pub(crate) struct VerifyArgs {
+    /// Print JSON instead of a table
+    #[arg(long)]
+    pub(crate) json: bool,
+
+    /// Also write verification.md and its plots into this folder, made when it is missing
+    #[arg(long, value_name = "DIR")]
+    pub(crate) write: Option<PathBuf>,
 }
 
 #[derive(Args, Clone, Debug)]

@@ -13,6 +13,7 @@ mod progress;
 mod report;
 mod request;
 mod say;
+mod verifying;
 
 use std::path::Path;
 use std::process::ExitCode;
@@ -49,6 +50,7 @@ fn main() -> ExitCode {
         Some(Command::Break(command)) => breaking::run(command.file.as_deref(), &command.args),
         Some(Command::Bake(args)) => baking::run(&args),
         Some(Command::Modes(args)) => modes::run(&args),
+        Some(Command::Verify(args)) => verifying::run(&args),
         Some(Command::Scenes { name: None }) => list::print(),
         Some(Command::Scenes { name: Some(name) }) => list::print_scene(&name),
     };

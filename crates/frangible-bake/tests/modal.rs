@@ -1,4 +1,4 @@
-//! Modal analysis against closed forms and its own invariants.
+//! Modal analysis against its own invariants; `frangible-verify` has the closed forms.
 
 use frangible_bake::eigen::{Modes, lowest_modes, residual, rigid_motions};
 use frangible_bake::fem::{Elasticity, Elements, QuadraticMesh, System, assemble};
@@ -110,111 +110,6 @@ fn lanczos_agrees_with_the_dense_solver() {
     let (few, many) = (modes(&system, n / 5), modes(&system, n / 5 + 1));
     for (i, (a, b)) in few.eigenvalues.iter().zip(&many.eigenvalues).enumerate() {
         assert_near(*a, *b, 1e-7, &format!("eigenvalue {i}"));
-    }
-}
-
-#[test]
-fn free_bar_rings_at_its_axial_and_bending_frequencies() {
-    let system = quadratic(&Shape::rod(0.5, 0.03), 0.015, 2, &GLASS);
-    let modes = modes(&system, 12);
-    let frequencies: Vec<f64> = (0..12).map(|i| modes.frequency(i)).collect();
-    // Timoshenko's beam for the first pair; c/(2L) with c = √(E/ρ) for the axial mode.
-    assert_near(frequencies[0], 644.0, 0.01, "bending");
-    assert_near(frequencies[1], 644.0, 0.01, "bending in the other plane");
-    // The axial mode is the one whose displacement is all along x.
-    let along_x = |i: usize| {
-        let shape = modes.shape(i);
-        norm(&shape.iter().step_by(3).copied().collect::<Vec<_>>()) / norm(shape)
-    };
-    let axial = (0..12)
-        .find(|&i| along_x(i) > 0.99)
-        .expect("an axial mode among the first twelve");
-    assert_near(frequencies[axial], 5291.0, 0.01, "axial");
-}
-
-#[test]
-fn free_square_plate_has_leissas_coefficients() {
-    let (a, h) = (0.4, 0.004);
-    let material = Elasticity {
-        youngs_modulus: 70e9,
-        poisson_ratio: 0.3,
-        density: 2500.0,
-    };
-    let modes = modes(
-        &quadratic(&Shape::plate(a, a, h), a / 16.0, 1, &material),
-        5,
-    );
-    let bending = 70e9 * h * h * h / (12.0 * (1.0 - 0.09));
-    for (i, reference) in [13.47, 19.60, 24.27, 34.80, 34.80].into_iter().enumerate() {
-        let coefficient = modes.eigenvalues[i].sqrt() * a * a * (2500.0 * h / bending).sqrt();
-        assert_near(coefficient, reference, 0.015, &format!("coefficient {i}"));
-    }
-}
-
-#[test]
-fn linear_elements_lock_in_bending_and_quadratic_ones_do_not() {
-    let shape = Shape::plate(0.4, 0.4, 0.01);
-    let material = Elasticity {
-        youngs_modulus: 100e9,
-        poisson_ratio: 0.23,
-        density: 2500.0,
-    };
-    let mesh = shape
-        .analysis_mesh(MeshSize {
-            edge: 0.025,
-            layers: 1,
-        })
-        .unwrap();
-    let linear = modes(
-        &assemble(&mesh.positions, Elements::Linear(&mesh.tets), &material),
-        1,
-    );
-    assert!(
-        linear.frequency(0) > 2.0 * 260.6,
-        "T4: {} Hz",
-        linear.frequency(0)
-    );
-    let quadratic = modes(&quadratic(&shape, 0.025, 1, &material), 1);
-    assert_near(quadratic.frequency(0), 260.6, 0.005, "T10");
-}
-
-#[test]
-fn eigenvalues_scale_with_stiffness_and_size() {
-    let reference = modes(
-        &quadratic(&Shape::block([0.1, 0.08, 0.05]), 0.025, 2, &GLASS),
-        20,
-    );
-    let stiffer = Elasticity {
-        youngs_modulus: 3.0 * GLASS.youngs_modulus,
-        ..GLASS
-    };
-    let stiffer = modes(
-        &quadratic(&Shape::block([0.1, 0.08, 0.05]), 0.025, 2, &stiffer),
-        20,
-    );
-    let larger = modes(
-        &quadratic(&Shape::block([0.2, 0.16, 0.1]), 0.05, 2, &GLASS),
-        20,
-    );
-    for i in 0..20 {
-        assert_near(
-            stiffer.eigenvalues[i],
-            3.0 * reference.eigenvalues[i],
-            1e-8,
-            "E × 3",
-        );
-        assert_near(
-            larger.eigenvalues[i],
-            reference.eigenvalues[i] / 4.0,
-            1e-8,
-            "size × 2",
-        );
-        assert_near(
-            norm(larger.shape(i)),
-            norm(reference.shape(i)) / 2.0_f64.powf(1.5),
-            1e-6,
-            "shape",
-        );
     }
 }
 

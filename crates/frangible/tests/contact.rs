@@ -1,50 +1,10 @@
-//! Contact durations against closed forms, and what a contact must not hold.
+//! How contact durations go with what they depend on, and what a contact must not hold.
 
 use frangible::glam::Vec3;
-use frangible::{Contact, Material, Striker, contact};
+use frangible::{Contact, Striker, contact};
 
 fn relative(a: f64, b: f64) -> f64 {
     (a / b - 1.0).abs()
-}
-
-/// Two steel spheres: 1/m* = 1/m₁ + 1/m₂, 1/R* = 1/R₁ + 1/R₂, 1/E* = Σ (1−ν²)/E.
-#[test]
-fn two_steel_spheres_touch_as_long_as_hertz_says() {
-    let steel = Material::preset("steel").unwrap();
-    let (r1, r2, speed) = (0.010_f64, 0.025_f64, 3.0_f64);
-    let mass = |r: f64| steel.density * 4.0 / 3.0 * std::f64::consts::PI * r.powi(3);
-    let m = 1.0 / (1.0 / mass(r1) + 1.0 / mass(r2));
-    let r = 1.0 / (1.0 / r1 + 1.0 / r2);
-    let e = steel.youngs_modulus / (2.0 * (1.0 - steel.poisson_ratio.powi(2)));
-    let modulus = 1.0 / (2.0 / steel.contact_modulus());
-    assert!(relative(modulus, e) < 1e-14);
-    let given = contact::hertz_duration(m, modulus, r, speed);
-    let expected = 2.868 * (m * m / (e * e * r * speed)).powf(0.2);
-    assert!(
-        relative(given, expected) < 1e-12,
-        "{given} s, not {expected} s"
-    );
-
-    // The constant itself, from Hertz' law F = 4/3 E* √R* δ^(3/2) integrated in time.
-    let k = 4.0 / 3.0 * e * r.sqrt();
-    let deepest = (1.25 * m * speed * speed / k).powf(0.4);
-    let dt = given / 200_000.0;
-    let (mut depth, mut rate, mut time) = (0.0_f64, speed, 0.0_f64);
-    let force = |depth: f64| -k * depth.max(0.0).powf(1.5) / m;
-    let mut largest = 0.0_f64;
-    while depth >= 0.0 {
-        rate += 0.5 * dt * force(depth);
-        depth += dt * rate;
-        rate += 0.5 * dt * force(depth);
-        time += dt;
-        largest = largest.max(depth);
-    }
-    assert!(relative(largest, deepest) < 1e-4);
-    // 2.868 with E* as here (Johnson, Contact Mechanics, Eq. 11.24: 2.87).
-    assert!(
-        relative(time, given) < 1e-3,
-        "{time} s integrated, {given} s given"
-    );
 }
 
 #[test]

@@ -1,0 +1,12 @@
+//! The cases, one file each.
+
+pub(crate) mod ball;
+pub(crate) mod bar;
+pub(crate) mod basis;
+pub(crate) mod block;
+pub(crate) mod cantilever;
+pub(crate) mod contact;
+pub(crate) mod convergence;
+pub(crate) mod oscillator;
+pub(crate) mod plate;
+pub(crate) mod scaling;

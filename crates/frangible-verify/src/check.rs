@@ -1,0 +1,68 @@
+//! One comparison with a reference.
+
+/// A value that was computed, and what it should be.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Check {
+    /// What is compared, unique within its case.
+    pub name: String,
+    /// What it should be, in `unit`; 0 makes the error absolute.
+    pub reference: f64,
+    /// What came out, in `unit`.
+    pub value: f64,
+    /// Largest error that passes: relative to the reference, or absolute where that is 0.
+    pub tolerance: f64,
+    /// Unit of value and reference, "" for a pure number.
+    pub unit: &'static str,
+    /// Where the reference comes from.
+    pub source: &'static str,
+}
+
+impl Check {
+    /// Error of the value: relative to the reference, or absolute where that is 0.
+    #[must_use]
+    pub fn error(&self) -> f64 {
+        if self.reference == 0.0 {
+            self.value.abs()
+        } else {
+            (self.value / self.reference - 1.0).abs()
+        }
+    }
+
+    /// Whether the error is within the tolerance; NaN never is.
+    #[must_use]
+    pub fn passes(&self) -> bool {
+        self.error() <= self.tolerance
+    }
+}
+
+/// A check of a frequency, Hz.
+pub(crate) fn hertz(
+    name: impl Into<String>,
+    value: f64,
+    reference: f64,
+    tolerance: f64,
+    source: &'static str,
+) -> Check {
+    Check {
+        unit: "Hz",
+        ..number(name, value, reference, tolerance, source)
+    }
+}
+
+/// A check of a pure number.
+pub(crate) fn number(
+    name: impl Into<String>,
+    value: f64,
+    reference: f64,
+    tolerance: f64,
+    source: &'static str,
+) -> Check {
+    Check {
+        name: name.into(),
+        reference,
+        value,
+        tolerance,
+        unit: "",
+        source,
+    }
+}

@@ -1,0 +1,43 @@
+//! Is the physics right? Cases with a known answer, run by `frangible verify` and by the tests alike.
+//!
+//! A [`Case`] computes something with the code that bakes and breaks, and compares it with a reference found by other
+//! means: a closed form, a published number, an integrator or a Ritz series of our own that shares no code with it.
+//! [`CASES`] lists them all; [`report`] makes text of what they found, [`plot`] pictures.
+
+mod case;
+mod cases;
+mod check;
+mod models;
+mod ode;
+pub mod plot;
+pub mod report;
+mod ritz;
+
+pub use case::{CASES, Case, Findings, Plot, case};
+pub use check::Check;
+pub use ritz::{box_frequencies, first_box_frequency};
+
+use frangible_bake::BakeError;
+use thiserror::Error;
+
+/// Why a report could not be made.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum VerifyError {
+    /// The bake refused what a case gave it.
+    #[error("the case `{case}` could not be computed: {source}")]
+    Bake {
+        /// Name of the case.
+        case: &'static str,
+        /// What the bake said.
+        source: BakeError,
+    },
+    /// A chart could not be drawn or written as PNG.
+    #[error("the plot `{name}` could not be made: {reason}")]
+    Plot {
+        /// Name of the plot.
+        name: String,
+        /// What stood in the way.
+        reason: String,
+    },
+}
