@@ -1,10 +1,11 @@
 //! Contact of two spheres, and the pulse of force that stands for it.
 
 use std::f64::consts::PI;
+use std::sync::Arc;
 
 use frangible::contact::{contact_duration, hertz_duration, modal_load, pulse};
 use frangible::glam::Vec3;
-use frangible::{Contact, DurationModel, FractureConfig, Striker};
+use frangible::{Body, Contact, DurationModel, FractureConfig, Striker};
 use frangible_bake::fem::Elasticity;
 use frangible_bake::{BakeError, bake};
 
@@ -67,19 +68,18 @@ fn compute(progress: &mut dyn FnMut(f64)) -> Result<Findings, BakeError> {
         progress(0.9 * p.fraction);
     })?
     .0;
-    let hit = Contact {
-        point: Vec3::new(0.0, RADII[0] as f32, 0.0),
-        normal: Vec3::NEG_Y,
-        impulse: 0.2,
-        approach_speed: SPEED as f32,
-        striker: Striker {
-            contact_modulus: (e / (1.0 - nu * nu)) as f32,
-            inverse_effective_mass: (1.0 / masses[1]) as f32,
-            curvature_radius: RADII[1] as f32,
-            restitution: 0.5,
-        },
+    let striker = Striker {
+        contact_modulus: (e / (1.0 - nu * nu)) as f32,
+        inverse_effective_mass: (1.0 / masses[1]) as f32,
+        curvature_radius: RADII[1] as f32,
+        restitution: 0.5,
+        ..Striker::rigid()
     };
-    let load = modal_load(&asset, &[hit]);
+    let top = Vec3::new(0.0, RADII[0] as f32, 0.0);
+    let hit = Contact::new(top, Vec3::NEG_Y, 0.2, SPEED as f32, striker);
+    let asset = Arc::new(asset);
+    let body = Body::new(Arc::clone(&asset), 1).map_err(BakeError::from)?;
+    let load = modal_load(&body, &[hit]);
     let duration = contact_duration(&asset, &load, DurationModel::Hertz);
     checks.push(seconds(
         "duration, baked sphere",
