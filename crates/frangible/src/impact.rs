@@ -11,6 +11,7 @@ use crate::fragment;
 use crate::modal;
 use crate::outcome::{Fracture, ImpactReport, Outcome};
 use crate::stress::{DisplacementBatch, Elasticity};
+use crate::trace::CrackTrace;
 
 /// Computes what an impact does to a body. Nothing is changed; the caller replaces a broken body by its fragments.
 ///
@@ -23,6 +24,29 @@ pub fn impact(
     body: &Body,
     contacts: &[Contact],
     config: &FractureConfig,
+) -> Result<Outcome, InputError> {
+    traced(body, contacts, config, &mut None)
+}
+
+/// [`impact()`], and what its cracks did element by element: for tests and for the comparison with the paper.
+///
+/// # Errors
+/// As [`impact()`].
+pub fn impact_traced(
+    body: &Body,
+    contacts: &[Contact],
+    config: &FractureConfig,
+) -> Result<(Outcome, CrackTrace), InputError> {
+    let mut trace = Some(CrackTrace::default());
+    let outcome = traced(body, contacts, config, &mut trace)?;
+    Ok((outcome, trace.unwrap_or_default()))
+}
+
+fn traced(
+    body: &Body,
+    contacts: &[Contact],
+    config: &FractureConfig,
+    trace: &mut Option<CrackTrace>,
 ) -> Result<Outcome, InputError> {
     contacts.iter().try_for_each(Contact::validate)?;
     let asset = &*body.asset;
@@ -87,6 +111,9 @@ pub fn impact(
     // Cracks → fragments [G12 §6].
     let start = Instant::now();
     let labels = fragment::label(&system, config.crumb_share);
+    if let Some(trace) = trace {
+        *trace = CrackTrace::of(&system, &labels.of_node);
+    }
     if labels.count < 2 {
         report.timings.fragments = start.elapsed().as_secs_f64();
         return Ok(Outcome::Held(Box::new(report)));
