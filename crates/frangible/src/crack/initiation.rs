@@ -67,7 +67,9 @@ fn try_start(system: &mut CrackSystem, field: &StressField, e: u32, now: f64) {
         return;
     }
     // e₀ must pay for its own area: A γ η > A G_c.
-    if material.energy_depth * f64::from(state.energy_density) <= material.fracture_energy {
+    if system.config.first_element_pays
+        && material.energy_depth * f64::from(state.energy_density) <= material.fracture_energy
+    {
         return;
     }
     let normal = opening_direction(&stress, system.seed, e);
