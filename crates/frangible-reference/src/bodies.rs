@@ -205,7 +205,7 @@ pub fn linear_cases() -> Result<Vec<Case>, BakeError> {
         let mesh = shape.fracture_mesh(MeshSize { edge, layers }, 1)?;
         cases.push(Case {
             asset: Arc::new(linear_asset(name, mesh, material, 40)?),
-            speed: 20.0,
+            speed: 50.0,
         });
     }
     Ok(cases)
@@ -229,7 +229,7 @@ pub fn baked_cases() -> Result<Vec<Case>, BakeError> {
         };
         cases.push(Case {
             asset: Arc::new(bake(&spec, &mut |_| {})?.0),
-            speed: 20.0,
+            speed: 50.0,
         });
     }
     Ok(cases)
@@ -256,7 +256,7 @@ pub fn impact(case: &Case, number: u64) -> Result<(Body, Vec<Contact>), InputErr
         let on = (x[0] * l[0] + x[1] * l[1] + x[2] * l[2]) / (l[0] + l[1] + l[2]);
         let aside = DVec3::new(random() - 0.5, random() - 0.5, random() - 0.5);
         let normal = (-outward + aside).normalize();
-        let speed = case.speed * (0.02_f64).powf(random());
+        let speed = case.speed * (0.1_f64).powf(random());
         let (modulus, radius, inverse_mass) = if random() < 0.5 {
             (f64::INFINITY, f64::INFINITY, 0.0)
         } else {
