@@ -104,3 +104,54 @@ impl Div for Complex {
         )
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::forced;
+
+    /// Runge-Kutta of fourth order with steps too small to matter.
+    fn integrated(lambda: f64, d: f64, u: f64, t: f64) -> f64 {
+        const STEPS: usize = 20_000;
+        let h = t / STEPS as f64;
+        let rate = |[q, v]: [f64; 2], t: f64| [v, (u * t).sin() - d * v - lambda * q];
+        let ahead = |x: [f64; 2], k: [f64; 2], h: f64| [x[0] + h * k[0], x[1] + h * k[1]];
+        let mut x = [0.0, 0.0];
+        for step in 0..STEPS {
+            let now = step as f64 * h;
+            let a = rate(x, now);
+            let b = rate(ahead(x, a, 0.5 * h), now + 0.5 * h);
+            let c = rate(ahead(x, b, 0.5 * h), now + 0.5 * h);
+            let e = rate(ahead(x, c, h), now + h);
+            for i in 0..2 {
+                x[i] += h / 6.0 * (a[i] + 2.0 * b[i] + 2.0 * c[i] + e[i]);
+            }
+        }
+        x[0]
+    }
+
+    #[test]
+    fn the_response_is_that_of_the_differential_equation() {
+        let (u, end) = (3.0, std::f64::consts::PI / 3.0);
+        // Under-damped, undamped, at resonance with and without damping, critically damped, over-damped.
+        for (lambda, d) in [
+            (100.0, 1.0),
+            (100.0, 0.0),
+            (9.0, 0.5),
+            (9.0, 0.0),
+            (25.0, 10.0),
+            (25.0, 40.0),
+            (1e4, 3.0),
+        ] {
+            for share in [0.1, 0.5, 1.0] {
+                let (x, y) = (
+                    forced(lambda, d, u, share * end),
+                    integrated(lambda, d, u, share * end),
+                );
+                assert!(
+                    (x - y).abs() < 1e-6 * y.abs().max(1.0 / lambda),
+                    "{lambda} {d}: {x} {y}"
+                );
+            }
+        }
+    }
+}
