@@ -6,10 +6,42 @@ use frangible::Contact;
 use frangible::glam::DVec3;
 
 use crate::body::Solid;
+use crate::modes::forced;
 use crate::options::{Duration, Options, TimeStep};
 
 /// Hertz' constant of Eq. 1.
 const C: f64 = 2.868;
+
+/// Largest amplitude of a mode under a half-sine of unit impulse and amplitude `a`, 1/s: an impulse's, or 1.77 times the
+/// static one, whichever is less.
+fn excitation(modal_impulse: f64, lambda: f64, a: f64) -> f64 {
+    modal_impulse.abs() * (1.0 / lambda.sqrt()).min(1.77 * a / lambda)
+}
+
+/// The duration that brings in no more energy than `brought`, J, and how near another was.
+fn admissible(solid: &Solid, modal_impulse: &[f64], mut duration: f64, brought: f64) -> (f64, f64) {
+    let mut margin = 1.0_f64;
+    for _ in 0..200 {
+        let u = PI / duration;
+        let mut peak = 0.0_f64;
+        for instant in 1..=40 {
+            let t = duration * f64::from(instant) / 40.0;
+            let mut energy = 0.0;
+            for (i, &lambda) in solid.asset.modes.eigenvalues.iter().enumerate() {
+                let (q, v) = forced(lambda, damping(solid, i), u, t);
+                let force = modal_impulse[i] * u / 2.0;
+                energy += 0.5 * (v * v + lambda * q * q) * force * force;
+            }
+            peak = peak.max(energy);
+        }
+        margin = margin.min((peak / brought - 1.0).abs());
+        if peak <= brought {
+            break;
+        }
+        duration *= 1.05;
+    }
+    (duration, margin)
+}
 
 /// A contact and what the modes see of it.
 struct Touch {
@@ -21,6 +53,8 @@ struct Touch {
     /// Eq. 1 for the two bodies, s.
     hertz: f64,
     rigid_striker: bool,
+    /// Kinetic energy of the approach that it takes up, J.
+    energy: f64,
 }
 
 /// The force of an impact over time.
@@ -32,6 +66,8 @@ pub(crate) struct Force {
     /// Δt, s.
     pub(crate) time_step: f64,
     /// Steps until the contact's end.
+    pub(crate) contact_steps: usize,
+    /// Steps in all.
     pub(crate) steps: usize,
     /// Relative change that would alter the number of steps.
     pub(crate) margin: f64,
@@ -69,15 +105,49 @@ impl Force {
         if touches.is_empty() {
             return None;
         }
-        let (time_step, steps, margin) =
+        let mut margin = 1.0;
+        if options.admissible {
+            let brought = touches.iter().map(|t| t.energy).sum();
+            (duration, margin) = admissible(solid, &modal_impulse, duration, brought);
+        }
+        let (time_step, contact_steps, other) =
             time_step(solid, &modal_impulse, duration, options.time_step);
-        Some(Self {
+        let mut force = Self {
             modal_impulse,
             duration,
             time_step,
-            steps,
-            margin,
-        })
+            contact_steps,
+            steps: contact_steps,
+            margin: other.min(margin),
+        };
+        if options.after_contact {
+            force.go_on(solid);
+        }
+        Some(force)
+    }
+
+    /// Steps for 1.5 periods of the lowest significantly excited mode.
+    fn go_on(&mut self, solid: &Solid) {
+        let a = self.frequency() / 2.0;
+        let mut amplitudes = Vec::new();
+        for (i, &lambda) in solid.asset.modes.eigenvalues.iter().enumerate() {
+            amplitudes.push(excitation(self.modal_impulse[i], lambda, a));
+        }
+        let largest = amplitudes.iter().copied().fold(0.0, f64::max);
+        let mut low = 0;
+        for (i, amplitude) in amplitudes.iter().enumerate() {
+            self.margin = self.margin.min((amplitude / (0.05 * largest) - 1.0).abs());
+            if *amplitude >= 0.05 * largest {
+                low = i;
+                break;
+            }
+        }
+        let end = 1.5 * TAU / solid.asset.modes.eigenvalues[low].sqrt();
+        if end > self.duration {
+            let wanted = end / self.time_step;
+            self.margin = self.margin.min((wanted - wanted.round()).abs() / wanted);
+            self.steps = self.contact_steps.max(wanted.ceil() as usize).min(20_000);
+        }
     }
 }
 
@@ -123,6 +193,8 @@ fn touch(solid: &Solid, contact: &Contact) -> Touch {
         radius: radius.clamp(3e-3, ball),
         hertz,
         rigid_striker: striker.contact_modulus.is_infinite(),
+        energy: 0.5 * f64::from(contact.impulse) * f64::from(contact.approach_speed)
+            / (1.0 + f64::from(striker.restitution)),
     }
 }
 
@@ -143,6 +215,7 @@ fn contact_duration(solid: &Solid, touch: &Touch, model: Duration) -> f64 {
     let Some(max) = max else { return touch.hertz };
     let lambda = modes.eigenvalues[max];
     match model {
+        Duration::Hertz => touch.hertz,
         Duration::ModalHertz => {
             let own = C * (touch.radius / (lambda * lambda) / touch.speed).powf(0.2);
             // "we compute contact duration estimation for each of the bodies involved in the contact, and retain
@@ -212,7 +285,7 @@ fn sampled(
     let a = PI / duration / 2.0;
     let mut bounds = Vec::new();
     for (i, &lambda) in modes.eigenvalues.iter().enumerate() {
-        let q = modal_impulse[i].abs() * (1.0 / lambda.sqrt()).min(1.77 * a / lambda);
+        let q = excitation(modal_impulse[i], lambda, a);
         bounds.push(q * f64::from(modes.peak_stress[i]));
     }
     let total: f64 = bounds.iter().sum();

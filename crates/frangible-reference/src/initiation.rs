@@ -45,8 +45,8 @@ pub struct StartTest {
     pub tet: u32,
     /// σ₁ / R_c.
     pub stress: f64,
-    /// For a tetrahedron that its own surface misses, so that no crack starts: the change of stress that would alter it.
-    pub missed: Option<f64>,
+    /// Relative change, of the stress or of an energy, that would have decided otherwise.
+    pub margin: f64,
 }
 
 /// Algorithm 1, from line 2: the modes are the asset's.
@@ -58,6 +58,29 @@ pub fn fracture(
     contacts: &[Contact],
     field: Field,
     options: &Options,
+) -> Result<Break, ReferenceError> {
+    run(body, contacts, field, options, usize::MAX)
+}
+
+/// The same until a first crack has run: what follows it may be another model's.
+///
+/// # Errors
+/// As [`fracture`].
+pub fn first_crack(
+    body: &Body,
+    contacts: &[Contact],
+    field: Field,
+    options: &Options,
+) -> Result<Break, ReferenceError> {
+    run(body, contacts, field, options, 1)
+}
+
+fn run(
+    body: &Body,
+    contacts: &[Contact],
+    field: Field,
+    options: &Options,
+    most_cracks: usize,
 ) -> Result<Break, ReferenceError> {
     let solid = Solid::new(&body.asset, field)?;
     let mut result = Break::default();
@@ -72,16 +95,18 @@ pub fn fracture(
     let mut marked = vec![None; body.asset.fracture.tets.len()];
     for step in 0..force.steps {
         // lines 7, 8
-        let t = (step + 1) as f64 * force.time_step;
-        let q = amplitudes(&solid, &force, t); // line 9
+        let q = amplitudes(&solid, &force, step + 1); // line 9
         let u = solid.displacements(&q); // line 10
         let starts = match options.initiation {
             // line 11
             Initiation::WeakElements => weak_elements(&solid, body, &u, step, &marked, &mut result),
             Initiation::NearestWeak => nearest_weak(&solid, body, &u, &marked, &mut result),
         };
+        if result.cracks.len() >= most_cracks {
+            break;
+        }
         for e in starts {
-            if marked[e].is_none() {
+            if marked[e].is_none() && result.cracks.len() < most_cracks {
                 start(&solid, body, &u, e, step, options, &mut marked, &mut result); // line 12
             }
         }
@@ -115,7 +140,7 @@ fn weak_elements(
                 step,
                 tet: e,
                 stress,
-                missed: None,
+                margin: (stress - 1.0).abs(),
             });
         }
     }
@@ -168,19 +193,30 @@ fn start(
     marked: &mut [Option<u32>],
     result: &mut Break,
 ) {
-    let (sigma, _) = stress(solid.material, &solid.gradient(u, e));
-    let surface = Surface::new(solid.centres[e], &sigma, solid.material, body.seed, e);
+    let (sigma, energy) = stress(solid.material, &solid.gradient(u, e));
+    let material = solid.material;
+    let surface = Surface::new(solid.centres[e], &sigma, material, body.seed, e);
     let x = solid.corners(e);
     let values = x.map(|p| surface.s(p));
-    if area(x, values) <= 0.0 {
-        // A wave of the noise may carry the surface past the corners: the paper does not say what then.
+    // A wave of the noise may carry the surface past the corners: the paper does not say what then.
+    let missed = area(x, values) <= 0.0;
+    let mut margin = f64::INFINITY;
+    if missed {
         let margins = (0..4).map(|k| surface.margin_of(x[k], values[k]));
-        let missed = Some(margins.fold(f64::INFINITY, f64::min));
-        for test in &mut result.starts {
-            if test.step == step && test.tet == e as u32 {
-                test.missed = missed;
-            }
+        margin = margins.fold(margin, f64::min);
+    }
+    let mut pays = true;
+    if options.first_element_pays {
+        let balance = material.energy_depth * energy / material.fracture_energy;
+        pays = balance > 1.0;
+        margin = margin.min((balance - 1.0).abs());
+    }
+    for test in &mut result.starts {
+        if test.step == step && test.tet == e as u32 {
+            test.margin = test.margin.min(margin);
         }
+    }
+    if missed || !pays {
         return;
     }
     let id = result.cracks.len() as u32;

@@ -42,6 +42,6 @@ mod stress;
 mod surface;
 
 pub use body::{Field, ReferenceError};
-pub use initiation::{Break, StartTest, fracture};
+pub use initiation::{Break, StartTest, first_crack, fracture};
 pub use options::{Duration, EnergyTest, Initiation, Marks, Options, TimeStep};
 pub use propagation::{Crack, Element, Visit};

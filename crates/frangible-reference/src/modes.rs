@@ -8,36 +8,58 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 use crate::body::Solid;
 use crate::contact::{Force, damping};
 
-/// q of every mode at time `t` within the contact, m·√kg.
-pub(crate) fn amplitudes(solid: &Solid, force: &Force, t: f64) -> Vec<f64> {
+/// q of every mode after `step` steps, m·√kg.
+pub(crate) fn amplitudes(solid: &Solid, force: &Force, step: usize) -> Vec<f64> {
     let (u, a) = (force.frequency(), force.amplitude());
+    let within = step.min(force.contact_steps) as f64 * force.time_step;
+    let after = step.saturating_sub(force.contact_steps) as f64 * force.time_step;
     let mut q = Vec::new();
     for (i, &lambda) in solid.asset.modes.eigenvalues.iter().enumerate() {
-        let unit = forced(lambda, damping(solid, i), u, t);
-        q.push(force.modal_impulse[i] * a * unit);
+        let d = damping(solid, i);
+        let mut unit = forced(lambda, d, u, within);
+        if after > 0.0 {
+            unit.0 = free(lambda, d, unit, after);
+        }
+        q.push(force.modal_impulse[i] * a * unit.0);
     }
     q
 }
 
-/// Response of one mode to sin(u t), from rest.
-pub(crate) fn forced(lambda: f64, d: f64, mut u: f64, t: f64) -> f64 {
+/// q and q̇ of one mode under sin(u t), from rest.
+pub(crate) fn forced(lambda: f64, d: f64, mut u: f64, t: f64) -> (f64, f64) {
     // The formula is 0/0 at undamped resonance and at critical damping; a hair beside them it is right to 1e-7.
     if (lambda - u * u).abs() + d * u < 1e-7 * lambda {
         u *= 1.0 + 1e-7;
     }
-    let mut root = Complex::real(0.25 * d * d - lambda).sqrt();
-    if root.norm() < 1e-7 * d {
-        root = Complex::real(1e-7 * d);
-    }
-    let half = Complex::real(-0.5 * d);
-    let (w1, w2) = (half + root, half - root);
+    let (w1, w2) = roots(lambda, d);
     let x = Complex::real(1.0) / Complex(lambda - u * u, d * u);
     let at_rest = Complex::real(-u * x.0);
     let c1 = (at_rest + w2 * Complex::real(x.1)) / (w1 - w2);
     let c2 = -Complex::real(x.1) - c1;
     let steady = x * Complex(0.0, u * t).exp();
-    let free = c1 * (w1 * Complex::real(t)).exp() + c2 * (w2 * Complex::real(t)).exp();
-    steady.1 + free.0
+    let (e1, e2) = (
+        c1 * (w1 * Complex::real(t)).exp(),
+        c2 * (w2 * Complex::real(t)).exp(),
+    );
+    (steady.1 + (e1 + e2).0, u * steady.0 + (w1 * e1 + w2 * e2).0)
+}
+
+/// q of one mode a time `t` after it was left alone with this q and q̇.
+fn free(lambda: f64, d: f64, (q, v): (f64, f64), t: f64) -> f64 {
+    let (w1, w2) = roots(lambda, d);
+    let c1 = (Complex::real(v) - w2 * Complex::real(q)) / (w1 - w2);
+    let c2 = Complex::real(q) - c1;
+    (c1 * (w1 * Complex::real(t)).exp() + c2 * (w2 * Complex::real(t)).exp()).0
+}
+
+/// ω = (−d ± √(d² − 4 λ)) / 2.
+fn roots(lambda: f64, d: f64) -> (Complex, Complex) {
+    let mut root = Complex::real(0.25 * d * d - lambda).sqrt();
+    if root.norm() < 1e-7 * d {
+        root = Complex::real(1e-7 * d);
+    }
+    let half = Complex::real(-0.5 * d);
+    (half + root, half - root)
 }
 
 #[derive(Clone, Copy)]
@@ -107,13 +129,17 @@ impl Div for Complex {
 
 #[cfg(test)]
 mod tests {
-    use super::forced;
+    use std::f64::consts::PI;
 
-    /// Runge-Kutta of fourth order with steps too small to matter.
-    fn integrated(lambda: f64, d: f64, u: f64, t: f64) -> f64 {
+    use super::{forced, free};
+
+    /// q and q̇ by Runge-Kutta of fourth order with steps too small to matter; the force ends at π/u.
+    fn integrated(lambda: f64, d: f64, u: f64, t: f64) -> (f64, f64) {
+        // A multiple of the shares below, so that a step ends where the force does.
         const STEPS: usize = 20_000;
         let h = t / STEPS as f64;
-        let rate = |[q, v]: [f64; 2], t: f64| [v, (u * t).sin() - d * v - lambda * q];
+        let force = |t: f64| if u * t < PI { (u * t).sin() } else { 0.0 };
+        let rate = |[q, v]: [f64; 2], t: f64| [v, force(t) - d * v - lambda * q];
         let ahead = |x: [f64; 2], k: [f64; 2], h: f64| [x[0] + h * k[0], x[1] + h * k[1]];
         let mut x = [0.0, 0.0];
         for step in 0..STEPS {
@@ -126,12 +152,13 @@ mod tests {
                 x[i] += h / 6.0 * (a[i] + 2.0 * b[i] + 2.0 * c[i] + e[i]);
             }
         }
-        x[0]
+        (x[0], x[1])
     }
 
     #[test]
     fn the_response_is_that_of_the_differential_equation() {
-        let (u, end) = (3.0, std::f64::consts::PI / 3.0);
+        let u = 3.0;
+        let end = PI / u;
         // Under-damped, undamped, at resonance with and without damping, critically damped, over-damped.
         for (lambda, d) in [
             (100.0, 1.0),
@@ -142,15 +169,19 @@ mod tests {
             (25.0, 40.0),
             (1e4, 3.0),
         ] {
+            let near = |x: f64, y: f64| (x - y).abs() < 1e-6 * y.abs().max(1.0 / lambda);
             for share in [0.1, 0.5, 1.0] {
                 let (x, y) = (
                     forced(lambda, d, u, share * end),
                     integrated(lambda, d, u, share * end),
                 );
-                assert!(
-                    (x - y).abs() < 1e-6 * y.abs().max(1.0 / lambda),
-                    "{lambda} {d}: {x} {y}"
-                );
+                assert!(near(x.0, y.0), "{lambda} {d}: {x:?} {y:?}");
+                assert!((x.1 - y.1).abs() < 1e-6, "{lambda} {d}: {x:?} {y:?}");
+            }
+            for share in [2.0, 4.0] {
+                let y = integrated(lambda, d, u, share * end).0;
+                let x = free(lambda, d, forced(lambda, d, u, end), (share - 1.0) * end);
+                assert!(near(x, y), "{lambda} {d}, after: {x} {y}");
             }
         }
     }
