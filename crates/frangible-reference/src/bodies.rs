@@ -141,7 +141,7 @@ fn peak_stress(asset: &Asset) -> Vec<f32> {
     peak
 }
 
-/// A body and how strong its material is, so that about half of the generated impacts break it.
+/// A body and how hard it is hit: about half of the generated impacts break it.
 #[derive(Clone, Debug)]
 pub struct Case {
     /// The body.
