@@ -19,6 +19,11 @@ pub struct FractureConfig {
     pub timing: CrackTiming,
     /// Where cracks run. Default: [`CrackPath::Steered`].
     pub path: CrackPath,
+    /// The tetrahedron where a crack starts must pay for its own area. Default: on; `[G12 Algorithm 2]` does not ask.
+    pub first_element_pays: bool,
+    /// A crack also ends inside what it meets, so that no bridge of one tetrahedron holds pieces together. Default: on;
+    /// in the paper it stops at the face `[G12 §5.2.4]`.
+    pub ends_inside: bool,
     /// Pieces smaller than this share of the body's volume stay with the neighbour they share most area with. Default 2e-4.
     pub crumb_share: f64,
 }
@@ -42,7 +47,8 @@ pub enum DurationModel {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum CrackTiming {
-    /// A crack runs its whole length the moment it starts, and no crack feels another `[G12 §5]`; ends with the contact.
+    /// A crack runs its whole length the moment it starts, breadth-first, and no crack feels another `[G12 §5]`; ends with
+    /// the contact.
     Instant,
     /// Cracks run at a finite speed and unload the material around them.
     TimeResolved {
@@ -57,7 +63,8 @@ pub enum CrackTiming {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum CrackPath {
-    /// A plane with noise, fixed when the crack starts `[G12 Eq. 6-10]`.
+    /// A plane with noise, fixed when the crack starts `[G12 Eq. 6-10]`; it enters every neighbour that it crosses, even
+    /// where it misses the face between them `[G12 §5.2.2]`.
     Planar,
     /// A plane that turns towards the largest tension as it goes.
     Steered {
@@ -81,13 +88,16 @@ impl Default for FractureConfig {
             path: CrackPath::Steered {
                 turning_length: 0.0067,
             },
+            first_element_pays: true,
+            ends_inside: true,
             crumb_share: 2e-4,
         }
     }
 }
 
 impl FractureConfig {
-    /// The paper's model: modal duration, instant planar cracks, no energy correction.
+    /// The paper's model: modal duration, instant planar cracks that start freely and stop at the face of another, no
+    /// energy correction.
     #[must_use]
     pub fn as_in_the_paper() -> Self {
         Self {
@@ -96,6 +106,8 @@ impl FractureConfig {
             energy_ledger: false,
             timing: CrackTiming::Instant,
             path: CrackPath::Planar,
+            first_element_pays: false,
+            ends_inside: false,
             ..Self::default()
         }
     }

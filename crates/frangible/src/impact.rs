@@ -12,6 +12,7 @@ use crate::modal::{self, Motion};
 use crate::outcome::{Fracture, ImpactReport, LookedAt, Outcome};
 use crate::state::BodyState;
 use crate::stress::{DisplacementBatch, Elasticity, MARGIN};
+use crate::trace::CrackTrace;
 
 /// Computes what an impact does to a body. Nothing is changed; the caller replaces a broken body by its fragments.
 ///
@@ -26,7 +27,22 @@ pub fn impact(
     contacts: &[Contact],
     config: &FractureConfig,
 ) -> Result<Outcome, InputError> {
-    Ok(pieces(body, cracks(body, contacts, config)?))
+    let cracked = cracks(body, contacts, config, &mut None)?;
+    Ok(pieces(body, cracked))
+}
+
+/// [`impact()`], and what its cracks did element by element: for tests and for the comparison with the paper.
+///
+/// # Errors
+/// As [`impact()`].
+pub fn impact_traced(
+    body: &Body,
+    contacts: &[Contact],
+    config: &FractureConfig,
+) -> Result<(Outcome, CrackTrace), InputError> {
+    let mut trace = Some(CrackTrace::default());
+    let cracked = cracks(body, contacts, config, &mut trace)?;
+    Ok((pieces(body, cracked), trace.unwrap_or_default()))
 }
 
 /// Whether an impact would break a body into pieces: [`impact`] without making them.
@@ -38,10 +54,8 @@ pub fn would_break(
     contacts: &[Contact],
     config: &FractureConfig,
 ) -> Result<bool, InputError> {
-    Ok(matches!(
-        cracks(body, contacts, config)?,
-        Cracked::Parted(..)
-    ))
+    let cracked = cracks(body, contacts, config, &mut None)?;
+    Ok(matches!(cracked, Cracked::Parted(..)))
 }
 
 /// What the cracks of an impact did to a body.
@@ -56,6 +70,7 @@ fn cracks<'a>(
     body: &'a Body,
     contacts: &[Contact],
     config: &'a FractureConfig,
+    trace: &mut Option<CrackTrace>,
 ) -> Result<Cracked<'a>, InputError> {
     contacts.iter().try_for_each(Contact::validate)?;
     let asset = &*body.asset;
@@ -105,6 +120,7 @@ fn cracks<'a>(
         pulse.time_step,
         budget,
         report,
+        trace,
     ))
 }
 
@@ -137,6 +153,7 @@ pub(crate) fn run_cracks<'a>(
     time_step: f64,
     budget: f64,
     mut report: ImpactReport,
+    trace: &mut Option<CrackTrace>,
 ) -> Cracked<'a> {
     let asset = &*body.asset;
     let budget = if config.energy_ledger {
@@ -185,15 +202,19 @@ pub(crate) fn run_cracks<'a>(
     report.crack_area = system.area;
     report.fracture_energy = system.spent;
     let margin = report.strength / report.stress_bound;
-    if system.area == 0.0 {
+    if system.area == 0.0 && trace.is_none() {
         return Cracked::Held(margin, report, None);
     }
     let start = Instant::now();
     let labels = fragment::label(&system, config.crumb_share);
     report.timings.fragments = start.elapsed().as_secs_f64();
+    if let Some(trace) = trace {
+        *trace = CrackTrace::of(&system, &labels.of_node);
+    }
     if labels.count < 2 {
-        let state = BodyState::of(&system.cracks);
-        Cracked::Held(margin, report, Some(Box::new(state)))
+        let grown = system.area > 0.0;
+        let state = grown.then(|| Box::new(BodyState::of(&system.cracks)));
+        Cracked::Held(margin, report, state)
     } else {
         Cracked::Parted(system, labels, report)
     }

@@ -87,8 +87,12 @@ pub fn pulse(asset: &Asset, load: &Load, duration: f64, config: &FractureConfig)
         }
     };
     let contact_steps = contact_steps as usize;
-    let total_steps =
-        ((end / time_step).ceil() as usize).clamp(contact_steps, MAX_STEPS.max(contact_steps));
+    let total_steps = if end > duration {
+        ((end / time_step).ceil() as usize).clamp(contact_steps, MAX_STEPS.max(contact_steps))
+    } else {
+        // The quotient may round up to a step beyond the contact.
+        contact_steps
+    };
     Pulse {
         duration,
         amplitude: u / 2.0,

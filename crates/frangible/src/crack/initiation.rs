@@ -12,7 +12,9 @@ use super::system::{Crack, CrackSystem, ElementCut, UNCUT};
 use super::{advance, propagation::gradient};
 use crate::config::CrackTiming;
 use crate::rng::{Purpose, stream, uniform};
-use crate::stress::{Symmetric3, largest_eigenvalue, largest_eigenvalue_bound, principal_axes};
+use crate::stress::{
+    Symmetric3, largest_eigenvalue, largest_eigenvalue_bound, perpendicular_axes, principal_axes,
+};
 
 /// Below this relative gap of the two largest tensions the direction between them is rounding noise.
 const ISOTROPIC: f64 = 1e-3;
@@ -65,7 +67,9 @@ fn try_start(system: &mut CrackSystem, field: &StressField, e: u32, now: f64) {
         return;
     }
     // e₀ must pay for its own area: A γ η > A G_c.
-    if material.energy_depth * f64::from(state.energy_density) <= material.fracture_energy {
+    if system.config.first_element_pays
+        && material.energy_depth * f64::from(state.energy_density) <= material.fracture_energy
+    {
         return;
     }
     let normal = opening_direction(&stress, system.seed, e);
@@ -110,6 +114,32 @@ fn opening_direction(stress: &Symmetric3, seed: u64, e: u32) -> Vec3 {
     if sigma[0] - sigma[1] >= ISOTROPIC * sigma[0] {
         return axes[0].as_vec3();
     }
+    // Of the two axes only their plane is known: the angle counts from a fixed direction in it.
+    let (a, b) = perpendicular_axes(axes[2].as_vec3());
     let angle = uniform(&mut stream(seed, Purpose::CrackDirection, e)) * std::f64::consts::PI;
-    (axes[0] * angle.cos() + axes[1] * angle.sin()).as_vec3()
+    a * angle.cos() as f32 + b * angle.sin() as f32
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rounding_of_an_isotropic_stress_does_not_turn_the_crack() {
+        let directions: Vec<Vec3> = [0.0, 3e-7, -3e-7]
+            .into_iter()
+            .flat_map(|a| [[a, 0.0], [0.0, a], [a, a], [-a, a]])
+            .map(|[a, b]| {
+                let stress = Symmetric3 {
+                    diagonal: [4e7 * (1.0 + a), 4e7 * (1.0 - a), 1e6],
+                    off: [4e7 * b, 0.0, 0.0],
+                };
+                opening_direction(&stress, 5, 17)
+            })
+            .collect();
+        for d in &directions {
+            assert!(d.distance(directions[0]) < 1e-5, "{directions:?}");
+            assert!(d.z.abs() < 1e-5 && (d.length() - 1.0).abs() < 1e-5);
+        }
+    }
 }

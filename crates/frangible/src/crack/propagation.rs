@@ -1,7 +1,7 @@
 //! Cracks run `[G12 §5.2, Algorithm 2]`.
 //!
-//! A crack passes from a fractured tetrahedron to its face neighbour n when the shared face's nodes have both signs
-//! of s, n is not fractured, and `E_f + A_n G_c < E_s + A_n γ η_n` (the test of the text; the printed Algorithm 2
+//! A crack passes from a fractured tetrahedron to its face neighbour n when n's nodes have both signs of s (of a steered
+//! crack: the shared face's nodes), n is not fractured, and `E_f + A_n G_c < E_s + A_n γ η_n` (the test of the text; the printed Algorithm 2
 //! leaves the candidate out).
 //!
 //! Beyond the paper, each a switch:
@@ -17,7 +17,7 @@ use glam::Vec3;
 use super::field::StressField;
 use super::surface::crossing_area;
 use super::system::{CrackSystem, ElementCut, Front, Junction, UNCUT};
-use crate::config::CrackPath;
+use crate::config::{CrackPath, CrackTiming};
 use crate::stress::{StressState, principal_axes};
 
 /// Share of R_c below which tension does not steer.
@@ -68,6 +68,13 @@ fn enter(system: &mut CrackSystem, field: &StressField, front: Front) {
             fourth = k;
         }
     }
+    let x = mesh.corners(n);
+    if system.config.path == CrackPath::Planar {
+        // A fixed surface crosses whatever has nodes on both sides of it [G12 §5.2.2].
+        values[fourth] = crack.frame.planar(x[fourth]);
+        below |= values[fourth] < 0.0;
+        above |= values[fourth] >= 0.0;
+    }
     if !(below && above) {
         return;
     }
@@ -81,12 +88,8 @@ fn enter(system: &mut CrackSystem, field: &StressField, front: Front) {
         return;
     }
     let state = field.at(n);
-    let x = mesh.corners(n);
     let direction = match system.config.path {
-        CrackPath::Planar => {
-            values[fourth] = crack.frame.planar(x[fourth]);
-            crack.frame.normal
-        }
+        CrackPath::Planar => crack.frame.normal,
         CrackPath::Steered { turning_length } => {
             let length = mesh.centroid(n).distance(mesh.centroid(from.tet as usize));
             let toward = steered(
@@ -130,7 +133,10 @@ fn enter(system: &mut CrackSystem, field: &StressField, front: Front) {
             tet: front.tet,
             values,
             direction,
-            time: front.arrival,
+            time: match system.config.timing {
+                CrackTiming::TimeResolved { .. } => front.arrival,
+                CrackTiming::Instant => from.time,
+            },
         };
         system.fracture(front.crack, cut, area, state.energy_density);
     } else {

@@ -9,7 +9,7 @@ use super::release::Releases;
 use super::surface::CrackFrame;
 use crate::asset::Asset;
 use crate::body::Body;
-use crate::config::FractureConfig;
+use crate::config::{CrackTiming, FractureConfig};
 use crate::material::Material;
 use crate::state::OldCrack;
 use crate::stress::MARGIN;
@@ -95,6 +95,7 @@ pub(crate) struct Junction {
 /// The front of a crack at the face of a tetrahedron it may enter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Front {
+    /// When it gets there, s; of instant cracks only the order counts.
     pub(crate) arrival: f64,
     pub(crate) tet: u32,
     pub(crate) crack: u32,
@@ -261,7 +262,13 @@ impl<'a> CrackSystem<'a> {
         let centre = self.centroids[tet];
         for neighbour in self.open_faces(cut.tet, crack) {
             let distance = centre.distance(self.centroids[neighbour as usize]);
-            let arrival = cut.time + f64::from(distance) * self.slowness();
+            let arrival = match self.config.timing {
+                CrackTiming::TimeResolved { speed, .. } => {
+                    cut.time + f64::from(distance) * (1.0 / (speed * material.rayleigh_speed()))
+                }
+                // Breadth-first: neighbours of the earlier tetrahedron first [G12 §5.2.2].
+                CrackTiming::Instant => f64::from(from),
+            };
             self.fronts.push(Front {
                 arrival,
                 tet: neighbour,
@@ -297,15 +304,5 @@ impl<'a> CrackSystem<'a> {
             self.site_count += 1;
         }
         c.elements.push(cut);
-    }
-
-    /// Time a crack needs per metre, s/m; for instant cracks any constant orders the fronts by path length.
-    fn slowness(&self) -> f64 {
-        match self.config.timing {
-            crate::config::CrackTiming::TimeResolved { speed, .. } => {
-                1.0 / (speed * self.asset.material.rayleigh_speed())
-            }
-            crate::config::CrackTiming::Instant => 1.0,
-        }
     }
 }

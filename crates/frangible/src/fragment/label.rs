@@ -19,8 +19,10 @@ pub(crate) struct Labels {
 pub(crate) fn label(system: &CrackSystem, crumb_share: f64) -> Labels {
     let mesh = &system.asset.fracture;
     let mut cuts = Cuts::of_fractured_elements(system);
-    let tets_of_node = NodeTets::new(mesh.positions.len(), &mesh.tets);
-    end_cracks(system, &mut cuts, &tets_of_node);
+    if system.config.ends_inside {
+        let tets_of_node = NodeTets::new(mesh.positions.len(), &mesh.tets);
+        end_cracks(system, &mut cuts, &tets_of_node);
+    }
     let mut sets = DisjointSets::new(mesh.positions.len());
     for tet in &mesh.tets {
         for [i, j] in EDGES {

@@ -55,7 +55,15 @@ pub fn blast(body: &Body, blast: &Blast, config: &FractureConfig) -> Result<Outc
     report.peak_elastic_energy = motion.peak_energy;
     report.peak_strain_energy = motion.peak_strain_energy;
     let budget = motion.peak_strain_energy;
-    let cracked = run_cracks(body, config, &motion, pulse.time_step, budget, report);
+    let cracked = run_cracks(
+        body,
+        config,
+        &motion,
+        pulse.time_step,
+        budget,
+        report,
+        &mut None,
+    );
     Ok(pieces(body, cracked))
 }
 

@@ -91,7 +91,15 @@ pub fn rest(
         peak_energy: report.peak_strain_energy,
         peak_strain_energy: report.peak_strain_energy,
     };
-    let cracked = run_cracks(body, config, &motion, time_step, f64::INFINITY, report);
+    let cracked = run_cracks(
+        body,
+        config,
+        &motion,
+        time_step,
+        f64::INFINITY,
+        report,
+        &mut None,
+    );
     Ok(pieces(body, cracked))
 }
 

@@ -83,7 +83,9 @@ impl DisplacementBatch {
         for (node, out) in self.displacements.chunks_exact_mut(BATCH).enumerate() {
             let mut sums = [[0.0_f32; BATCH]; 3];
             for (axis, sum) in sums.iter_mut().enumerate() {
-                for (&phi, q) in asset.modes.row(3 * node + axis).iter().zip(&amplitudes) {
+                // High modes first: they move little, so that the sum is large, and rounds, only at the end.
+                let row = asset.modes.row(3 * node + axis).iter();
+                for (&phi, q) in row.zip(&amplitudes).rev() {
                     for k in 0..BATCH {
                         sum[k] += phi * q[k];
                     }
