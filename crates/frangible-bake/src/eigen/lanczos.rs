@@ -1,6 +1,6 @@
 //! Block Lanczos on (A + sB)⁻¹ B with full reorthogonalisation, in the inner product xᵀ B y.
 //!
-//! Many right-hand sides at once are decisive: a sparse solve with sixteen costs little more than with one,
+//! Many right-hand sides at once are decisive: a sparse solve with eight costs little more than with one,
 //! since reading the factor from memory is what takes the time.
 
 use crate::eigen::basis::Block;
@@ -36,7 +36,7 @@ pub(crate) fn solve(
     // Diagonal blocks of the projected matrix, and the triangles below them.
     let (mut diagonal, mut below): (Vec<Square>, Vec<Square>) = (Vec::new(), Vec::new());
     // The dense eigenproblem of a check costs about as much as the step of a block or two.
-    let mut check_at = 2 * wanted + 2 * WIDTH;
+    let mut check_at = 2 * wanted + 4 * WIDTH;
     let mut converged = 0;
     loop {
         let mut w = watch.time(Phase::Solves, || shifted.solve(next.images()));
@@ -79,7 +79,8 @@ pub(crate) fn solve(
                     )
                 }));
             }
-            check_at = size + ((wanted - converged) as f64 / FOUND_PER_VECTOR) as usize;
+            let missing = (wanted - converged) as f64 / FOUND_PER_VECTOR;
+            check_at = size + (missing as usize).max(2 * WIDTH);
         }
         below.push(triangle);
         if size >= limit {
@@ -95,7 +96,7 @@ pub(crate) fn solve(
 
 /// The size of the basis at which solids end; plates and vessels do a quarter sooner.
 fn usual_size(wanted: usize) -> f64 {
-    (4 * wanted + 3 * WIDTH) as f64
+    (4 * wanted + 6 * WIDTH) as f64
 }
 
 /// The block-tridiagonal projection of the inverse onto the basis.

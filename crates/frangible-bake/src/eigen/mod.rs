@@ -74,7 +74,7 @@ impl Modes {
 }
 
 /// Finds the `wanted` lowest elastic modes. `progress` hears the share of the work that is done, 0..=1 and never falling,
-/// at least once every sixteen solves; [`ControlFlow::Break`] ends the search.
+/// at least once every eight solves; [`ControlFlow::Break`] ends the search.
 ///
 /// # Errors
 /// [`BakeError::Cancelled`] when `progress` says so.

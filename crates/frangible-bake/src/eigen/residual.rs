@@ -83,7 +83,7 @@ pub(crate) fn check(
     Ok(largest)
 }
 
-/// Relative residuals of up to sixteen modes.
+/// Relative residuals of up to eight modes.
 fn residuals(
     system: &System,
     reduction: Option<&Reduction>,

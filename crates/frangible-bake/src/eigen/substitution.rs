@@ -1,4 +1,4 @@
-//! Forward and backward substitution with a supernodal Cholesky factor, sixteen right-hand sides at once.
+//! Forward and backward substitution with a supernodal Cholesky factor, eight right-hand sides at once.
 //!
 //! A supernode's rows are gathered, worked on as a dense block and scattered again; whole rows of right-hand sides
 //! move at a time.
