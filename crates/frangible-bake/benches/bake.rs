@@ -1,6 +1,7 @@
 //! Stages of baking the drinking glass: `cargo bench -p frangible-bake`.
 
 use std::hint::black_box;
+use std::ops::ControlFlow;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use frangible::Material;
@@ -41,7 +42,7 @@ fn stages(c: &mut Criterion) {
         });
     });
     group.bench_function("120 modes", |b| {
-        b.iter(|| lowest_modes(&system, black_box(120), &mut |_| {}));
+        b.iter(|| lowest_modes(&system, black_box(120), &mut |_| ControlFlow::Continue(())));
     });
     group.bench_function("embed nodes", |b| {
         b.iter(|| {

@@ -10,6 +10,7 @@ use frangible::{Asset, MassProperties, Material, TetMesh};
 use frangible_mesh::TetReport;
 
 use crate::analysis::Analysis;
+use crate::cancel::CancelToken;
 use crate::cells::convex_cells;
 use crate::eigen::lowest_supported_modes;
 use crate::error::BakeError;
@@ -44,6 +45,8 @@ pub struct BakeSpec {
     pub supports: Vec<Support>,
     /// The surface as its author drew it, m, in the frame of the shape; only carried along.
     pub render: Option<RenderSurface>,
+    /// Ends the bake early when told to from elsewhere, default never.
+    pub cancel: CancelToken,
 }
 
 impl BakeSpec {
@@ -60,6 +63,7 @@ impl BakeSpec {
             seed: 1,
             supports: Vec::new(),
             render: None,
+            cancel: CancelToken::default(),
         }
     }
 }
@@ -69,7 +73,8 @@ impl BakeSpec {
 /// The body frame has its origin at the centre of mass of the fracture mesh and the axes of the shape.
 ///
 /// # Errors
-/// The first number, station, mode or point at fault; each message says how to mend it.
+/// The first number, station, mode or point at fault; each message says how to mend it. [`BakeError::Cancelled`] when
+/// [`BakeSpec::cancel`] was used.
 pub fn bake(
     spec: &BakeSpec,
     progress: &mut dyn FnMut(Progress),
@@ -85,9 +90,10 @@ pub fn bake(
         started: Instant::now(),
         seconds: Vec::new(),
         progress,
+        cancel: &spec.cancel,
     };
 
-    clock.enter(Stage::Mesh);
+    clock.enter(Stage::Mesh)?;
     let Meshes {
         mut fine,
         coarse,
@@ -119,22 +125,23 @@ pub fn bake(
         Coarse::Cover(elements) => Analysis::covering(&fine, elements)?,
     };
 
-    clock.enter(Stage::Assemble);
+    clock.enter(Stage::Assemble)?;
     let elasticity = Elasticity::from(&spec.material);
     let (system, constraints) = analysis.assemble(&elasticity, &fine, &held, &holder)?;
 
-    clock.enter(Stage::Modes);
+    clock.enter(Stage::Modes)?;
     let modes = lowest_supported_modes(&system, &constraints, spec.modes, &mut |share| {
         (clock.progress)(Progress {
             stage: Stage::Modes,
             fraction: share,
         });
+        spec.cancel.flow()
     })?;
 
-    clock.enter(Stage::Embed);
+    clock.enter(Stage::Embed)?;
     let embedding = analysis.embed(&fine)?;
 
-    clock.enter(Stage::Surface);
+    clock.enter(Stage::Surface)?;
     let crease = match spec.shape {
         Shape::Solid(_) => SOLID_CREASE,
         _ => CREASE,
@@ -142,7 +149,7 @@ pub fn bake(
     let surface = outer_surface(&fracture, crease);
     let cells = convex_cells(&fracture, &fine.cell_of_tet, fine.cells);
 
-    clock.enter(Stage::Stress);
+    clock.enter(Stage::Stress)?;
     let stored = analysis.stored();
     let mut basis = ModalBasis {
         shapes: row_major(&modes.shapes, modes.unknowns),
@@ -165,6 +172,7 @@ pub fn bake(
         cells: fine.cells,
         mass: mass.mass,
         seconds: clock.finish(),
+        mode_seconds: modes.seconds,
     };
     let asset = Asset {
         name: spec.name.clone(),
@@ -243,16 +251,21 @@ struct Clock<'a> {
     started: Instant,
     seconds: Vec<(Stage, f64)>,
     progress: &'a mut dyn FnMut(Progress),
+    cancel: &'a CancelToken,
 }
 
 impl Clock<'_> {
-    fn enter(&mut self, stage: Stage) {
+    fn enter(&mut self, stage: Stage) -> Result<(), BakeError> {
         self.stop();
         self.seconds.push((stage, 0.0));
         (self.progress)(Progress {
             stage,
             fraction: 0.0,
         });
+        match self.cancel.is_cancelled() {
+            true => Err(BakeError::Cancelled),
+            false => Ok(()),
+        }
     }
 
     fn stop(&mut self) {

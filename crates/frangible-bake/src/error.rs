@@ -113,6 +113,9 @@ pub enum BakeError {
         /// The most that is allowed.
         limit: f64,
     },
+    /// The caller wanted no more of it.
+    #[error("the bake was cancelled")]
+    Cancelled,
     /// A point of the fracture mesh too far from the analysis mesh.
     #[error(
         "the point ({x:.5}, {y:.5}, {z:.5}) m lies farther from the analysis mesh than a quarter of its elements; \

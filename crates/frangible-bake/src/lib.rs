@@ -26,6 +26,7 @@
 
 mod analysis;
 mod bake;
+mod cancel;
 mod cells;
 mod clusters;
 pub mod eigen;
@@ -43,6 +44,7 @@ mod supports;
 pub mod surface;
 
 pub use bake::{BakeSpec, bake};
+pub use cancel::CancelToken;
 pub use error::BakeError;
 pub use frangible_mesh;
 pub use import::{ImportOptions, Imported, import_mesh};

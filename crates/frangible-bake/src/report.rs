@@ -4,6 +4,7 @@ use std::fmt;
 
 use frangible_mesh::TetReport;
 
+use crate::eigen::Phase;
 use crate::mesh::BodyMesh;
 
 /// Stages of a bake, in order.
@@ -94,4 +95,6 @@ pub struct BakeReport {
     pub mass: f64,
     /// Wall-clock time of each stage, s.
     pub seconds: Vec<(Stage, f64)>,
+    /// Wall-clock time of each phase of [`Stage::Modes`], s.
+    pub mode_seconds: Vec<(Phase, f64)>,
 }

@@ -1,5 +1,7 @@
 //! Elements that merely cover a body: against closed forms, conforming meshes and their own invariants.
 
+use std::ops::ControlFlow;
+
 use frangible::glam::{DQuat, DVec3};
 use frangible_bake::eigen::{Modes, lowest_modes, residual, rigid_motions};
 use frangible_bake::fem::{
@@ -31,7 +33,7 @@ fn covered(body: &BodyMesh, elements: usize, material: &Elasticity) -> System {
 }
 
 fn modes(system: &System, wanted: usize) -> Modes {
-    lowest_modes(system, wanted, &mut |_| {}).unwrap()
+    lowest_modes(system, wanted, &mut |_| ControlFlow::Continue(())).unwrap()
 }
 
 fn frequencies(modes: &Modes) -> Vec<f64> {

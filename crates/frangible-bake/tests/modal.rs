@@ -1,5 +1,7 @@
 //! Modal analysis against its own invariants; `frangible-verify` has the closed forms.
 
+use std::ops::ControlFlow;
+
 use frangible_bake::eigen::{Modes, lowest_modes, residual, rigid_motions};
 use frangible_bake::fem::{Elasticity, Elements, QuadraticMesh, System, assemble};
 use frangible_bake::{BakeError, MeshSize, Shape};
@@ -20,7 +22,7 @@ fn quadratic(shape: &Shape, edge: f64, layers: usize, material: &Elasticity) -> 
 }
 
 fn modes(system: &System, wanted: usize) -> Modes {
-    lowest_modes(system, wanted, &mut |_| {}).unwrap()
+    lowest_modes(system, wanted, &mut |_| ControlFlow::Continue(())).unwrap()
 }
 
 fn norm(x: &[f64]) -> f64 {
@@ -118,7 +120,8 @@ fn more_modes_than_the_mesh_has_is_an_error_that_says_how_many() {
     let system = quadratic(&Shape::block([1.0, 1.0, 1.0]), 1.0, 1, &GLASS);
     let available = system.unknowns() - 6;
     assert_eq!(modes(&system, available).eigenvalues.len(), available);
-    let error = lowest_modes(&system, available + 1, &mut |_| {}).unwrap_err();
+    let error =
+        lowest_modes(&system, available + 1, &mut |_| ControlFlow::Continue(())).unwrap_err();
     assert_eq!(
         error,
         BakeError::Modes {

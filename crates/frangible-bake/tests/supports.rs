@@ -1,6 +1,7 @@
 //! Bodies that are held: against closed forms, and what becomes of the nodes.
 
 use std::f64::consts::{PI, TAU};
+use std::ops::ControlFlow;
 
 use frangible::glam::{DVec3, Vec3};
 use frangible::{Asset, Body, Contact, FractureConfig, Material, Outcome, Striker, impact};
@@ -41,7 +42,10 @@ fn system(
 }
 
 fn modes(system: &System, constraints: &Constraints, wanted: usize) -> Modes {
-    lowest_supported_modes(system, constraints, wanted, &mut |_| {}).unwrap()
+    lowest_supported_modes(system, constraints, wanted, &mut |_| {
+        ControlFlow::Continue(())
+    })
+    .unwrap()
 }
 
 fn assert_orthonormal(system: &System, constraints: &Constraints, modes: &Modes) {

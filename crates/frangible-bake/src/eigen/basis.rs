@@ -1,7 +1,6 @@
 //! Columns of numbers and what Lanczos does with them.
 
-use faer::linalg::matmul::matmul;
-use faer::{Accum, MatMut, MatRef, Par};
+use faer::{MatMut, MatRef};
 
 /// A dense matrix stored column after column.
 #[derive(Clone, Debug)]
@@ -36,38 +35,10 @@ impl Block {
         MatRef::from_column_major_slice(&self.data, self.rows, self.columns())
     }
 
-    /// Columns `from..to`.
-    pub(crate) fn part(&self, from: usize, to: usize) -> MatRef<'_, f64> {
-        MatRef::from_column_major_slice(
-            &self.data[from * self.rows..to * self.rows],
-            self.rows,
-            to - from,
-        )
-    }
-
     pub(crate) fn view_mut(&mut self) -> MatMut<'_, f64> {
         let columns = self.columns();
         MatMut::from_column_major_slice_mut(&mut self.data, self.rows, columns)
     }
-}
-
-/// aᵀ b.
-pub(crate) fn inner(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> Block {
-    let mut out = Block::zeros(a.ncols(), b.ncols());
-    matmul(
-        out.view_mut(),
-        Accum::Replace,
-        a.transpose(),
-        b,
-        1.0,
-        Par::Seq,
-    );
-    out
-}
-
-/// w −= v c.
-pub(crate) fn subtract(w: &mut Block, v: MatRef<'_, f64>, c: MatRef<'_, f64>) {
-    matmul(w.view_mut(), Accum::Add, v, c, -1.0, Par::Seq);
 }
 
 pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {

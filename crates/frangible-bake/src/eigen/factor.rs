@@ -3,17 +3,21 @@
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::SparseColMat;
 use faer::sparse::linalg::SupernodalThreshold;
+use faer::sparse::linalg::cholesky::supernodal::SupernodalLltRef;
 use faer::sparse::linalg::cholesky::{
-    CholeskySymbolicParams, LltRef, SymbolicCholesky, SymmetricOrdering,
+    CholeskySymbolicParams, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
     factorize_symbolic_cholesky,
 };
-use faer::{Conj, MatMut, Par, Side, Spec};
+use faer::{Par, Side, Spec};
 
-use crate::eigen::basis::{Block, dot};
-use crate::eigen::metric::{Basis, Metric};
+use crate::eigen::krylov::Krylov;
+use crate::eigen::metric::Metric;
+use crate::eigen::ordering;
+use crate::eigen::panel::Row;
+use crate::eigen::substitution;
+use crate::eigen::watch::{Phase, Watch};
 use crate::error::BakeError;
 use crate::fem::System;
-use crate::random;
 
 /// Lower triangle of D K D, 1/s².
 pub(crate) fn scale(system: &System, inverse_root: &[f64]) -> SparseColMat<usize, f64> {
@@ -42,7 +46,7 @@ pub(crate) fn add_shift(
                 values[first] += shift;
             }
         }
-        Metric::Mass { matrix, axes } => {
+        Metric::Mass { matrix, axes, .. } => {
             let (blocks, masses) = matrix.parts();
             for j in 0..pattern.ncols() {
                 let mut block = blocks.col_range(j / axes).peekable();
@@ -86,25 +90,16 @@ pub(crate) struct Shifted {
 
 impl Shifted {
     /// Factorizes with a shift a little below the lowest elastic eigenvalue: well above rounding, and
-    /// near enough to the wanted end of the spectrum.
+    /// near enough to the wanted end of the spectrum. `node_of`: the node of each unknown, rising.
     pub(crate) fn near_zero(
         scaled: &SparseColMat<usize, f64>,
+        node_of: &[usize],
         metric: &Metric,
-        rigid: &Basis,
+        rigid: &Krylov<'_>,
+        watch: &mut Watch<'_>,
     ) -> Result<Self, BakeError> {
-        let n = rigid.vectors.rows;
-        let symbolic = factorize_symbolic_cholesky(
-            scaled.symbolic(),
-            Side::Lower,
-            SymmetricOrdering::Amd,
-            CholeskySymbolicParams {
-                supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
-                ..Default::default()
-            },
-        )
-        .map_err(|e| BakeError::Factorization {
-            reason: format!("{e:?}"),
-        })?;
+        let symbolic = watch.time(Phase::Ordering, || symbolic(scaled, node_of))?;
+        watch.tell(0.02)?;
         let largest = highest(scaled, metric);
         let values = vec![0.0; symbolic.len_val()];
         let mut factor = Self {
@@ -112,27 +107,13 @@ impl Shifted {
             values,
             shift: 1e-10 * largest,
         };
-        factor.refactorize(scaled, metric)?;
-        // A few inverse iterations tell the order of the lowest elastic eigenvalue.
-        let mut x = Block::zeros(n, 1);
-        x.data
-            .iter_mut()
-            .enumerate()
-            .for_each(|(i, v)| *v = random::symmetric(7, i as u64));
-        let mut lowest = largest;
-        for _ in 0..4 {
-            rigid.project_out_all(&mut x);
-            let length = dot(&x.data, &metric.image(&x).data).sqrt();
-            x.data.iter_mut().for_each(|v| *v /= length);
-            x = metric.image(&x).into_owned();
-            factor.solve(&mut x);
-            rigid.project_out_all(&mut x);
-            lowest = 1.0 / dot(&x.data, &metric.image(&x).data).sqrt() - factor.shift;
-        }
+        watch.time(Phase::Factorization, || factor.refactorize(scaled, metric))?;
+        watch.tell(0.05)?;
+        let lowest = rigid.lowest_guess(&factor, watch)?.unwrap_or(largest);
         // Measured on plates, bars and vessels: any shift from 1e-4 to 0.5 of the lowest works alike.
         if !(factor.shift > 1e-4 * lowest && factor.shift < 0.5 * lowest) {
             factor.shift = 0.05 * lowest.max(factor.shift * 1e-3);
-            factor.refactorize(scaled, metric)?;
+            watch.time(Phase::Factorization, || factor.refactorize(scaled, metric))?;
         }
         Ok(factor)
     }
@@ -158,40 +139,51 @@ impl Shifted {
                 MemStack::new(&mut memory),
                 params,
             )
-            .map_err(|e| BakeError::Factorization {
-                reason: format!("{e:?}"),
-            })?;
+            .map_err(failed)?;
         Ok(())
     }
 
-    /// Replaces the columns of `x` by (A + sB)⁻¹ x. Columns are shared out in fixed groups, so the
-    /// result does not depend on the number of threads.
-    pub(crate) fn solve(&self, x: &mut Block) {
-        /// Right-hand sides per group: enough to use the factor well each time it is read.
-        const GROUP: usize = 8;
-        let rows = x.rows;
-        let solve_group = |group: &mut [f64]| {
-            let columns = group.len() / rows;
-            let mut memory = MemBuffer::new(
-                self.symbolic
-                    .solve_in_place_scratch::<f64>(columns, Par::Seq),
-            );
-            LltRef::new(&self.symbolic, &self.values).solve_in_place_with_conj(
-                Conj::No,
-                MatMut::from_column_major_slice_mut(group, rows, columns),
-                Par::Seq,
-                MemStack::new(&mut memory),
-            );
+    /// Number of unknowns.
+    pub(crate) fn rows(&self) -> usize {
+        self.symbolic.nrows()
+    }
+
+    /// (A + sB)⁻¹ x.
+    pub(crate) fn solve(&self, x: &[Row]) -> Vec<Row> {
+        let SymbolicCholeskyRaw::Supernodal(symbolic) = self.symbolic.raw() else {
+            unreachable!("a supernodal factor was asked for");
         };
-        let groups: Vec<&mut [f64]> = x.data.chunks_mut(GROUP * rows).collect();
-        if groups.len() == 1 {
-            groups.into_iter().for_each(solve_group);
-        } else {
-            std::thread::scope(|scope| {
-                for group in groups {
-                    scope.spawn(|| solve_group(group));
-                }
-            });
-        }
+        let factor = SupernodalLltRef::new(symbolic, &self.values);
+        let Some(order) = self.symbolic.perm() else {
+            unreachable!("an order was given");
+        };
+        let (order, place) = order.arrays();
+        let mut permuted: Vec<Row> = order.iter().map(|&i| x[i]).collect();
+        substitution::solve(factor, &mut permuted);
+        place.iter().map(|&i| permuted[i]).collect()
+    }
+}
+
+/// Pattern of the factor.
+fn symbolic(
+    scaled: &SparseColMat<usize, f64>,
+    node_of: &[usize],
+) -> Result<SymbolicCholesky<usize>, BakeError> {
+    let order = ordering::by_nodes(scaled, node_of)?;
+    factorize_symbolic_cholesky(
+        scaled.symbolic(),
+        Side::Lower,
+        SymmetricOrdering::Custom(order.as_ref()),
+        CholeskySymbolicParams {
+            supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
+            ..Default::default()
+        },
+    )
+    .map_err(failed)
+}
+
+fn failed(error: impl std::fmt::Debug) -> BakeError {
+    BakeError::Factorization {
+        reason: format!("{error:?}"),
     }
 }

@@ -5,7 +5,8 @@ use std::borrow::Cow;
 use faer::MatRef;
 use faer::sparse::SparseColMat;
 
-use crate::eigen::basis::{Block, dot, inner, orthonormalise, subtract};
+use crate::eigen::basis::{Block, dot, orthonormalise};
+use crate::eigen::panel::{Row, WIDTH, add_multiple, vectorised};
 use crate::fem::{Mass, multiply_symmetric};
 
 /// B of the scaled problem A x = λ B x.
@@ -17,7 +18,47 @@ pub(crate) enum Metric {
     Mass {
         matrix: SparseColMat<usize, f64>,
         axes: usize,
+        rows: Rows,
     },
+}
+
+/// All of a symmetric matrix, row by row: products write each result once.
+pub(crate) struct Rows {
+    starts: Vec<usize>,
+    entries: Vec<(usize, f64)>,
+}
+
+impl Rows {
+    fn new(lower: &SparseColMat<usize, f64>) -> Self {
+        let (pattern, values) = lower.parts();
+        let n = pattern.ncols();
+        let mut starts = vec![0_usize; n + 1];
+        let each = |visit: &mut dyn FnMut(usize, usize, f64)| {
+            for j in 0..n {
+                for entry in pattern.col_range(j) {
+                    visit(pattern.row_idx()[entry], j, values[entry]);
+                }
+            }
+        };
+        each(&mut |i, j, _| {
+            starts[i + 1] += 1;
+            starts[j + 1] += usize::from(i != j);
+        });
+        for i in 0..n {
+            starts[i + 1] += starts[i];
+        }
+        let mut next = starts.clone();
+        let mut entries = vec![(0, 0.0); starts[n]];
+        each(&mut |i, j, value| {
+            entries[next[i]] = (j, value);
+            next[i] += 1;
+            if i != j {
+                entries[next[j]] = (i, value);
+                next[j] += 1;
+            }
+        });
+        Self { starts, entries }
+    }
 }
 
 impl Metric {
@@ -33,17 +74,44 @@ impl Metric {
                 values[entry] *= inverse_root[3 * pattern.row_idx()[entry]] * inverse_root[3 * j];
             }
         }
+        Self::of_matrix(scaled, 3)
+    }
+
+    /// B by its lower triangle, each entry for the diagonal ones of a block of `axes` unknowns.
+    pub(crate) fn of_matrix(matrix: SparseColMat<usize, f64>, axes: usize) -> Self {
         Self::Mass {
-            matrix: scaled,
-            axes: 3,
+            rows: Rows::new(&matrix),
+            matrix,
+            axes,
         }
+    }
+
+    /// B x of a panel; `None` where that is x itself.
+    pub(crate) fn panel_image(&self, x: &[Row]) -> Option<Vec<Row>> {
+        let Self::Mass { axes, rows, .. } = self else {
+            return None;
+        };
+        Some(vectorised(|| {
+            let mut image = Vec::with_capacity(x.len());
+            for range in rows.starts.windows(2) {
+                let entries = &rows.entries[range[0]..range[1]];
+                for axis in 0..*axes {
+                    let mut sum = [0.0; WIDTH];
+                    for &(j, value) in entries {
+                        add_multiple(&mut sum, value, &x[axes * j + axis]);
+                    }
+                    image.push(sum);
+                }
+            }
+            image
+        }))
     }
 
     /// B x, column by column.
     pub(crate) fn image<'a>(&self, x: &'a Block) -> Cow<'a, Block> {
         match self {
             Self::Plain => Cow::Borrowed(x),
-            Self::Mass { matrix, axes } => {
+            Self::Mass { matrix, axes, .. } => {
                 let mut image = Block::zeros(x.rows, x.columns());
                 for j in 0..x.columns() {
                     multiply_symmetric(matrix, *axes, x.column(j), image.column_mut(j));
@@ -131,35 +199,6 @@ impl Basis {
 
     fn images(&self) -> &Block {
         self.images.as_ref().unwrap_or(&self.vectors)
-    }
-
-    pub(crate) fn into_images(self) -> Block {
-        self.images.unwrap_or(self.vectors)
-    }
-
-    pub(crate) fn append(&mut self, other: &Self) {
-        self.vectors.data.extend_from_slice(&other.vectors.data);
-        if let (Some(images), Some(others)) = (&mut self.images, &other.images) {
-            images.data.extend_from_slice(&others.data);
-        }
-    }
-
-    /// w −= v vᵀ B w with the columns `from..to`; gives vᵀ B w.
-    pub(crate) fn project_out(&self, w: &mut Block, from: usize, to: usize) -> Block {
-        if from == to {
-            return Block {
-                data: Vec::new(),
-                rows: 1,
-            };
-        }
-        let c = inner(self.images().part(from, to), w.view());
-        subtract(w, self.vectors.part(from, to), c.view());
-        c
-    }
-
-    /// The same with all columns.
-    pub(crate) fn project_out_all(&self, w: &mut Block) {
-        self.project_out(w, 0, self.columns());
     }
 
     /// Images of all columns.

@@ -12,22 +12,32 @@ mod basis;
 mod constraints;
 mod dense;
 mod factor;
+mod krylov;
 mod lanczos;
 mod metric;
+mod ordering;
+mod panel;
 mod reduce;
 mod residual;
 mod rigid;
+mod substitution;
+mod watch;
 
 pub use constraints::Constraints;
 pub use residual::residual;
 pub use rigid::{remaining_motions, rigid_motions};
+pub use watch::Phase;
+
+use std::ops::ControlFlow;
 
 use crate::error::BakeError;
 use crate::fem::System;
 use basis::Block;
 use factor::Shifted;
+use krylov::Krylov;
 use metric::Metric;
 use reduce::Reduction;
+use watch::Watch;
 
 /// Unknowns up to which the dense solver is used.
 const DENSE: usize = 800;
@@ -45,6 +55,8 @@ pub struct Modes {
     pub max_residual: f64,
     /// Rigid motions that nothing holds: six of a free body, none of a clamped one.
     pub rigid_motions: usize,
+    /// Wall-clock time of each phase of the search, s.
+    pub seconds: Vec<(Phase, f64)>,
 }
 
 impl Modes {
@@ -61,15 +73,17 @@ impl Modes {
     }
 }
 
-/// Finds the `wanted` lowest elastic modes; `progress` hears the share found, 0..=1.
+/// Finds the `wanted` lowest elastic modes. `progress` hears the share of the work that is done, 0..=1 and never falling,
+/// at least once every eight solves; [`ControlFlow::Break`] ends the search.
 ///
 /// # Errors
+/// [`BakeError::Cancelled`] when `progress` says so.
 /// More modes wanted than there are, a stiffness that cannot be factorized, or a mode whose residual
 /// stays above max(1e-8 ‖Kφ‖, 10 ε ‖|K||φ|‖).
 pub fn lowest_modes(
     system: &System,
     wanted: usize,
-    progress: &mut dyn FnMut(f64),
+    progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Modes, BakeError> {
     lowest_supported_modes(system, &Constraints::default(), wanted, progress)
 }
@@ -82,7 +96,7 @@ pub fn lowest_supported_modes(
     system: &System,
     constraints: &Constraints,
     wanted: usize,
-    progress: &mut dyn FnMut(f64),
+    progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Modes, BakeError> {
     let reduction = Reduction::new(system.unknowns(), constraints.unknowns());
     let reduction = reduction.as_ref();
@@ -95,39 +109,52 @@ pub fn lowest_supported_modes(
     if wanted == 0 || wanted > available {
         return Err(BakeError::Modes { wanted, available });
     }
+    let mut watch = Watch::new(progress);
+    watch.tell(0.0)?;
     let diagonal = system.mass.diagonal();
     let inverse_root: Vec<f64> = (0..system.unknowns())
         .map(|i| 1.0 / diagonal[i / 3].sqrt())
         .collect();
-    let mut metric = Metric::new(&system.mass, &inverse_root);
-    let mut scaled = factor::scale(system, &inverse_root);
-    if let Some(reduction) = reduction {
-        metric = reduction.metric(&metric);
-        scaled = reduction.matrix(&scaled, 1);
-    }
+    let (scaled, metric) = watch.time(Phase::Ordering, || {
+        let metric = Metric::new(&system.mass, &inverse_root);
+        let scaled = factor::scale(system, &inverse_root);
+        match reduction {
+            Some(reduction) => (reduction.matrix(&scaled, 1), reduction.metric(&metric)),
+            None => (scaled, metric),
+        }
+    });
     let rigid = rigid::deflation_basis(system, &remaining, reduction, &metric)?;
     let small = n <= DENSE || wanted > n / 5;
     let (eigenvalues, vectors) = if small && matches!(metric, Metric::Plain) {
-        dense::solve(&scaled, &rigid.vectors, wanted)?
+        watch.time(Phase::Solves, || {
+            dense::solve(&scaled, &rigid.vectors, wanted)
+        })?
     } else {
-        let shifted = Shifted::near_zero(&scaled, &metric, &rigid)?;
-        progress(0.1);
+        let node_of = reduction.map_or_else(|| (0..n).map(|i| i / 3).collect(), Reduction::nodes);
+        let basis = Krylov::new(&metric, &rigid);
+        let shifted = Shifted::near_zero(&scaled, &node_of, &metric, &basis, &mut watch)?;
+        watch.tell(0.1)?;
         if small {
             let matrix = factor::add_shift(&scaled, &metric, shifted.shift);
-            dense::solve_shifted(&matrix, shifted.shift, &metric, &rigid, wanted)?
-        } else {
-            lanczos::solve(&shifted, &metric, &rigid, wanted, &mut |share| {
-                progress(0.1 + 0.9 * share);
+            watch.time(Phase::Solves, || {
+                dense::solve_shifted(&matrix, shifted.shift, &metric, &rigid, wanted)
             })?
+        } else {
+            lanczos::solve(&shifted, basis, wanted, &mut watch)?
         }
     };
+    watch.tell(0.95)?;
     let vectors = match reduction {
         Some(reduction) => reduction.scatter(&vectors),
         None => vectors,
     };
     let mut modes = finish(eigenvalues, vectors, &inverse_root);
     modes.rigid_motions = remaining.len();
-    modes.max_residual = residual::check(system, reduction, &modes)?;
+    modes.max_residual = watch.time(Phase::ResidualCheck, || {
+        residual::check(system, reduction, &modes)
+    })?;
+    watch.tell(1.0)?;
+    modes.seconds = watch.seconds();
     Ok(modes)
 }
 
@@ -152,5 +179,6 @@ fn finish(eigenvalues: Vec<f64>, vectors: Block, inverse_root: &[f64]) -> Modes 
         unknowns,
         max_residual: 0.0,
         rigid_motions: 0,
+        seconds: Vec::new(),
     }
 }

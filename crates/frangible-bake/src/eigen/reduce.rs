@@ -37,6 +37,11 @@ impl Reduction {
         self.free.len()
     }
 
+    /// The node of each unknown that is left.
+    pub(crate) fn nodes(&self) -> Vec<usize> {
+        self.free.iter().map(|unknown| unknown / 3).collect()
+    }
+
     pub(crate) fn is_free(&self, unknown: usize) -> bool {
         self.number[unknown].is_some()
     }
@@ -68,10 +73,7 @@ impl Reduction {
     pub(crate) fn metric(&self, metric: &Metric) -> Metric {
         match metric {
             Metric::Plain => Metric::Plain,
-            Metric::Mass { matrix, axes } => Metric::Mass {
-                matrix: self.matrix(matrix, *axes),
-                axes: 1,
-            },
+            Metric::Mass { matrix, axes, .. } => Metric::of_matrix(self.matrix(matrix, *axes), 1),
         }
     }
 
