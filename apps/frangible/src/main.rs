@@ -10,6 +10,7 @@ mod progress;
 mod report;
 mod request;
 mod say;
+mod support;
 
 use std::path::Path;
 use std::process::ExitCode;

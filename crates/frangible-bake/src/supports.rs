@@ -150,9 +150,9 @@ pub fn check_supports(supports: &[Support]) -> Result<(), BakeError> {
 /// # Errors
 /// The first name that no group has, with the one that was probably meant.
 pub fn check_groups(supports: &[Support], groups: &[Group]) -> Result<(), BakeError> {
-    supports.iter().try_for_each(|support| {
-        group_of(&support.region, groups).map(|_| ())
-    })
+    supports
+        .iter()
+        .try_for_each(|support| group_of(&support.region, groups).map(|_| ()))
 }
 
 fn group_of<'a>(region: &Region, groups: &'a [Group]) -> Result<Option<&'a Group>, BakeError> {
@@ -164,7 +164,8 @@ fn group_of<'a>(region: &Region, groups: &'a [Group]) -> Result<Option<&'a Group
     }
     let names = || groups.iter().map(|group| group.name.as_str());
     let known: Vec<String> = names().take(MOST_SHOWN).map(|n| format!("`{n}`")).collect();
-    let hint = nearest_name(name, names()).map_or(String::new(), |n| format!(", did you mean `{n}`?"));
+    let hint =
+        nearest_name(name, names()).map_or(String::new(), |n| format!(", did you mean `{n}`?"));
     Err(BakeError::UnknownGroup {
         name: name.clone(),
         known: match groups.len() {

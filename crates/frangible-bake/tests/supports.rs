@@ -373,7 +373,7 @@ fn supports_that_cannot_be_meant_are_errors_that_name_them() {
         (half(DVec3::ZERO, DVec3::ZERO), "normal of no length"),
     ];
     for (region, words) in cases {
-        let spec = small_plate(vec![good, good, Support::clamped(region)]);
+        let spec = small_plate(vec![good.clone(), good.clone(), Support::clamped(region)]);
         let error = bake(&spec, &mut |_| {}).unwrap_err();
         assert!(
             matches!(error, BakeError::Support { support: 2, .. }),
