@@ -199,7 +199,7 @@ pub fn scene(name: &str) -> Result<Scene, SceneError> {
                 Action::Throw(Projectile {
                     at: Vec3::new(0.08, 0.0, 0.0),
                     toward: Vec3::NEG_Y,
-                    ..Projectile::ball(0.5, 0.0248, 2.0)
+                    ..Projectile::ball(0.5, 0.0248, 3.0)
                 }),
             )?,
             0.2,
