@@ -62,7 +62,7 @@ pub(crate) struct MeshArgs {
     #[arg(long, value_name = "METRES", allow_hyphen_values = true)]
     pub(crate) size: Option<f64>,
 
-    /// Tetrahedra that carry cracks, about [default: 42000]
+    /// Tetrahedra that carry cracks, about [default: the scene's own, or 42000]
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub(crate) resolution: Option<i64>,
 
@@ -100,6 +100,12 @@ pub(crate) struct BakeArgs {
     /// Mode shapes in half precision: a smaller file; the report tells what it changes
     #[arg(long)]
     pub(crate) compact: bool,
+
+    /// Hold a part of the body, which stays where it is, also after the break: below:z:0.01, above:x:0.3 (m, in the
+    /// frame of its shape), box:x,y,z,x,y,z, sphere:x,y,z,r or group:NAME; @xy holds it along x and y only. Repeat it for
+    /// several, for example --support below:x:0.01 --support group:frame@z
+    #[arg(long = "support", value_name = "SPEC", allow_hyphen_values = true)]
+    pub(crate) supports: Vec<String>,
 
     #[command(flatten)]
     pub(crate) mesh: MeshArgs,
@@ -203,6 +209,12 @@ pub(crate) struct BreakArgs {
     /// Number of vibration modes [default: the scene's own]
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub(crate) modes: Option<i64>,
+
+    /// Hold a part of the body, which stays where it is, also after the break: below:z:0.01, above:x:0.3 (m, in the
+    /// frame of its shape), box:x,y,z,x,y,z, sphere:x,y,z,r or group:NAME; @xy holds it along x and y only. Repeat it for
+    /// several, for example --support below:x:0.01 --support group:frame@z
+    #[arg(long = "support", value_name = "SPEC", allow_hyphen_values = true)]
+    pub(crate) supports: Vec<String>,
 
     #[command(flatten)]
     pub(crate) mesh: MeshArgs,

@@ -13,6 +13,7 @@ mod progress;
 mod report;
 mod request;
 mod say;
+mod support;
 mod verifying;
 
 use std::path::Path;

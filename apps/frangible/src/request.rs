@@ -11,6 +11,7 @@ use frangible_scenes::{
 };
 
 use crate::args::{BakeArgs, BreakArgs, MeshArgs, ModesArgs};
+use crate::support::parse_support;
 
 /// A scene, and what was taken for it without being asked for.
 pub(crate) struct Request {
@@ -31,13 +32,14 @@ pub(crate) fn scene_of(file: Option<&Path>, args: &BreakArgs) -> Result<Request,
                 "material {material}, as none was given (--material)"
             ));
         }
-        if args.drop.is_none() && args.ball.is_none() {
+        if args.drop.is_none() && args.ball.is_none() && args.supports.is_empty() {
             notes.push("dropped from 1.5 m, as nothing else was asked for (--drop, --ball)".into());
         }
     }
     set_material(&mut wanted, args.material.as_deref())?;
     set_modes(&mut wanted, args.modes)?;
     set_mesh(&mut wanted, &args.mesh)?;
+    set_supports(&mut wanted, &args.supports)?;
     if let Some(height) = args.drop {
         wanted.drop_all(height);
     }
@@ -50,6 +52,14 @@ pub(crate) fn scene_of(file: Option<&Path>, args: &BreakArgs) -> Result<Request,
             throw.toward = parse_vector("--toward", toward)?;
         }
         wanted.throw(throw);
+    }
+    if let ([body], []) = (&wanted.bodies[..], &wanted.projectiles[..])
+        && !body.supports.is_empty()
+    {
+        return Err(
+            "a held body does not fall; throw something at it, for example --ball 0.1,0.015,10"
+                .into(),
+        );
     }
     if let Some(seed) = args.seed {
         wanted.seed = seed;
@@ -93,6 +103,7 @@ pub(crate) fn body_of(args: &BakeArgs) -> Result<Scene, Box<dyn Error>> {
     set_material(&mut wanted, args.material.as_deref())?;
     set_modes(&mut wanted, args.modes)?;
     set_mesh(&mut wanted, &args.mesh)?;
+    set_supports(&mut wanted, &args.supports)?;
     wanted.validate()?;
     Ok(wanted)
 }
@@ -162,6 +173,23 @@ fn refuse_baked(scene: &Scene, option: &str) -> Result<(), String> {
     }
 }
 
+/// Adds to what the scene holds.
+fn set_supports(scene: &mut Scene, specs: &[String]) -> Result<(), String> {
+    if specs.is_empty() {
+        return Ok(());
+    }
+    refuse_baked(scene, "--support")?;
+    let [body] = &mut scene.bodies[..] else {
+        return Err(
+            "--support is for a single body; the scene has several, set `supports` there".into(),
+        );
+    };
+    for spec in specs {
+        body.supports.push(parse_support(spec)?);
+    }
+    Ok(())
+}
+
 fn set_mesh(scene: &mut Scene, args: &MeshArgs) -> Result<(), String> {
     let axis = match args.up.as_deref() {
         None => None,
@@ -202,6 +230,12 @@ fn set_mesh(scene: &mut Scene, args: &MeshArgs) -> Result<(), String> {
         BodySource::Ready { resolution, .. } if args.size.is_none() && axis.is_none() => {
             if let Some(tets) = args.resolution {
                 *resolution = Some(count(tets)?);
+            }
+            Ok(())
+        }
+        BodySource::Shape(_) if args.size.is_none() && axis.is_none() => {
+            if let Some(tets) = args.resolution {
+                body.resolution = Some(count(tets)?);
             }
             Ok(())
         }

@@ -80,10 +80,30 @@ fn files_that_cannot_be_broken_are_refused_in_a_sentence() {
 }
 
 #[test]
+fn supports_that_cannot_be_meant_are_refused_with_an_example() {
+    for (spec, part) in [
+        ("below", "KIND:WHERE"),
+        ("below:w:0", "an axis and where"),
+        ("above:x:high", "an axis and where"),
+        ("box:0,0,0,1", "lowest and its highest"),
+        ("sphere:0,0,0", "centre and its radius"),
+        ("sphere:0,0,0,-1", "radius that is not above zero"),
+        ("group:", "a group has a name"),
+        ("circle:0", "no such kind"),
+        ("below:z:0@xx", "letters x, y and z"),
+        ("group:frame", "there is no group `frame`"),
+    ] {
+        refused_in_a_sentence("support", &["--scene", "pane", "--support", spec], &[part]);
+    }
+    let drop = ["--support", "below:z:0", "--drop", "1"];
+    refused_in_a_sentence("support", &drop, &["does not fall", "--ball"]);
+}
+
+#[test]
 fn options_for_meshes_are_refused_elsewhere() {
     let check = |args: &[&str], parts: &[&str]| refused_in_a_sentence("mesh", args, parts);
     check(&["--size", "0.1"], &["--size is for mesh files"]);
-    check(&["--resolution", "9000"], &["--resolution is for mesh"]);
+    check(&["--resolution", "9"], &["resolution is 9", "500 to"]);
     check(&["--up", "z"], &["--up is for mesh files"]);
     check(&["--up", "q"], &["--up is `q`", "x, y or z"]);
     let input = Folder::new("mesh-input");

@@ -80,7 +80,7 @@ impl Analysis {
             Self::Conforming(mesh, _) => {
                 let elements = Elements::Quadratic(&mesh.elements);
                 let system = assemble(&mesh.positions, elements, material);
-                let held = holder.axes(&mesh.positions, TOO_SMALL)?;
+                let held = holder.axes(&mesh.positions, &mesh.elements, TOO_SMALL)?;
                 let constraints = Constraints::of_nodes(&mesh.positions, &held);
                 Ok((system, constraints))
             }

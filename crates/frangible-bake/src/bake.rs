@@ -15,10 +15,11 @@ use crate::cells::convex_cells;
 use crate::eigen::lowest_supported_modes;
 use crate::error::BakeError;
 use crate::fem::Elasticity;
+use crate::groups::Group;
 use crate::mesh::BodyMesh;
 use crate::report::{BakeReport, MeshReport, Progress, Stage};
 use crate::shapes::{self, MeshSize, Shape};
-use crate::supports::{Holder, Support};
+use crate::supports::{Holder, Support, check_groups, check_supports};
 use crate::surface::{CREASE, SOLID_CREASE, outer_surface};
 
 /// What to bake.
@@ -43,6 +44,9 @@ pub struct BakeSpec {
     /// What holds the body, default nothing. The asset has the modes of the held body, and knows which of its nodes are
     /// held.
     pub supports: Vec<Support>,
+    /// Named parts of the shape, for supports by name; default none. [`import_mesh`](crate::import_mesh) finds those of a
+    /// file.
+    pub groups: Vec<Group>,
     /// The surface as its author drew it, m, in the frame of the shape; only carried along.
     pub render: Option<RenderSurface>,
     /// Ends the bake early when told to from elsewhere, default never.
@@ -62,6 +66,7 @@ impl BakeSpec {
             modes: 120,
             seed: 1,
             supports: Vec::new(),
+            groups: Vec::new(),
             render: None,
             cancel: CancelToken::default(),
         }
@@ -86,6 +91,8 @@ pub fn bake(
             available: usize::MAX,
         });
     }
+    check_supports(&spec.supports)?;
+    check_groups(&spec.supports, &spec.groups)?;
     let mut clock = Clock {
         started: Instant::now(),
         seconds: Vec::new(),
@@ -99,9 +106,10 @@ pub fn bake(
         coarse,
         tetrahedra,
     } = meshes(spec)?;
-    let holder = Holder::new(&spec.supports, &fine.positions)?;
+    let holder = Holder::new(&spec.supports, &spec.groups, &fine.positions)?;
     let held = holder.axes(
         &fine.positions,
+        &fine.tets,
         "holds no part of the body; move or enlarge its region",
     )?;
     let corners = (0..fine.tets.len()).map(|e| fine.corners(e));

@@ -66,6 +66,14 @@ pub enum BakeError {
         /// What is wrong and how to mend it.
         problem: &'static str,
     },
+    /// A support names a group that the body does not have.
+    #[error("there is no group `{name}`{known}")]
+    UnknownGroup {
+        /// What was asked for.
+        name: String,
+        /// What was probably meant, and the groups there are.
+        known: String,
+    },
     /// Supports that leave nothing to move.
     #[error(
         "the supports hold the whole body, so that nothing is left to vibrate; make their regions smaller"

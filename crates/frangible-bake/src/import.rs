@@ -8,6 +8,7 @@ use frangible_mesh::{
 };
 
 use crate::error::{BakeError, positive};
+use crate::groups::Group;
 use crate::shapes::{Shape, SolidShape};
 
 /// Places at which the walls are measured: the twentieth of them that is thinnest is then twenty or so.
@@ -42,6 +43,9 @@ pub struct Imported {
     pub shape: Shape,
     /// The mesh as drawn, in the frame of the shape: hand it to [`BakeSpec::render`](crate::BakeSpec::render).
     pub render: RenderSurface,
+    /// Its groups, objects and materials by name, in the frame of the shape: hand them to
+    /// [`BakeSpec::groups`](crate::BakeSpec::groups), for supports by name.
+    pub groups: Vec<Group>,
     /// What was mended.
     pub mended: RepairReport,
     /// How thick the body is, m.
@@ -75,6 +79,7 @@ pub fn import_mesh(mesh: &InputMesh, options: &ImportOptions) -> Result<Imported
     Ok(Imported {
         shape: Shape::Solid(shape),
         render: drawn(mesh, &similarity),
+        groups: Group::of_mesh(mesh, &similarity),
         mended,
         thickness,
         similarity,

@@ -1,15 +1,20 @@
 //! What holds a body: parts of it that do not move, in all directions or in some.
 
 use frangible::glam::DVec3;
+use frangible::nearest_name;
 
 use crate::error::BakeError;
+use crate::groups::{Group, Reach};
 
 /// A point nearer to a region than this, in diagonals of the body, lies in it: a face given as `z ≤ 0` holds the nodes
 /// on it whatever their rounding.
 const TOLERANCE: f64 = 1e-6;
 
+/// Most names of groups in a message.
+const MOST_SHOWN: usize = 20;
+
 /// A part of a body that something outside holds.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Support {
     /// Which part; what of it lies outside the body does not matter.
     pub region: Region,
@@ -29,8 +34,8 @@ impl Support {
     }
 }
 
-/// A part of space, m, in the frame of the shape.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// A part of space, m, in the frame of the shape, or a part of the body by its name.
+#[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Region {
     /// Everything behind the plane through `point` with the outward `normal` (of any length).
@@ -54,6 +59,9 @@ pub enum Region {
         /// Its radius, m.
         radius: f64,
     },
+    /// What lies on a [`Group`] of [`BakeSpec::groups`](crate::BakeSpec::groups): nodes of the outer surface nearer to it
+    /// than a fifth of their shortest edge.
+    Group(String),
 }
 
 impl Region {
@@ -77,12 +85,13 @@ impl Region {
         }
     }
 
-    /// How far a point lies outside, m; zero or less within.
+    /// How far a point lies outside, m; zero or less within. Of a group nothing is known here.
     fn gap(&self, p: DVec3) -> f64 {
         match *self {
             Self::HalfSpace { point, normal } => (p - point).dot(normal.normalize_or_zero()),
             Self::Box { low, high } => (low - p).max(p - high).max_element(),
             Self::Sphere { centre, radius } => p.distance(centre) - radius,
+            Self::Group(_) => f64::INFINITY,
         }
     }
 
@@ -116,13 +125,61 @@ impl Region {
                     None
                 }
             }
+            Self::Group(_) => None,
         }
     }
 }
 
+/// Checks the numbers of supports; names of groups are not looked at.
+///
+/// # Errors
+/// The first support without axes, or with numbers that cannot be used.
+pub fn check_supports(supports: &[Support]) -> Result<(), BakeError> {
+    for (support, Support { region, axes }) in supports.iter().enumerate() {
+        let axisless = "holds along no axis; set one of its axes";
+        let none = (*axes == [false; 3]).then_some(axisless);
+        if let Some(problem) = region.problem().or(none) {
+            return Err(BakeError::Support { support, problem });
+        }
+    }
+    Ok(())
+}
+
+/// Checks that every group that a support names is there.
+///
+/// # Errors
+/// The first name that no group has, with the one that was probably meant.
+pub fn check_groups(supports: &[Support], groups: &[Group]) -> Result<(), BakeError> {
+    supports
+        .iter()
+        .try_for_each(|support| group_of(&support.region, groups).map(|_| ()))
+}
+
+fn group_of<'a>(region: &Region, groups: &'a [Group]) -> Result<Option<&'a Group>, BakeError> {
+    let Region::Group(name) = region else {
+        return Ok(None);
+    };
+    if let Some(found) = groups.iter().find(|group| group.name == *name) {
+        return Ok(Some(found));
+    }
+    let names = || groups.iter().map(|group| group.name.as_str());
+    let known: Vec<String> = names().take(MOST_SHOWN).map(|n| format!("`{n}`")).collect();
+    let hint =
+        nearest_name(name, names()).map_or(String::new(), |n| format!(", did you mean `{n}`?"));
+    Err(BakeError::UnknownGroup {
+        name: name.clone(),
+        known: match groups.len() {
+            0 => "; this body has none (an OBJ names them by g, o and usemtl, a glTF by its nodes, meshes and materials)".into(),
+            n if n > MOST_SHOWN => format!("{hint}; groups: {} and {} more", known.join(", "), n - MOST_SHOWN),
+            _ => format!("{hint}; groups: {}", known.join(", ")),
+        },
+    })
+}
+
 /// The supports of one body.
 pub(crate) struct Holder<'a> {
-    supports: &'a [Support],
+    /// With the group of each that names one.
+    supports: Vec<(&'a Support, Option<&'a Group>)>,
     /// From the body's frame to that of the shape, m.
     origin: DVec3,
     tolerance: f64,
@@ -132,22 +189,23 @@ impl<'a> Holder<'a> {
     /// `positions`: nodes of the body, in the frame of the shape.
     ///
     /// # Errors
-    /// A support without axes, or with numbers that cannot be used.
-    pub(crate) fn new(supports: &'a [Support], positions: &[DVec3]) -> Result<Self, BakeError> {
-        for (support, Support { region, axes }) in supports.iter().enumerate() {
-            let axisless = "holds along no axis; set one of its axes";
-            let none = (*axes == [false; 3]).then_some(axisless);
-            if let Some(problem) = region.problem().or(none) {
-                return Err(BakeError::Support { support, problem });
-            }
-        }
+    /// A support without axes, with numbers that cannot be used, or of a group that is not there.
+    pub(crate) fn new(
+        supports: &'a [Support],
+        groups: &'a [Group],
+        positions: &[DVec3],
+    ) -> Result<Self, BakeError> {
+        check_supports(supports)?;
         let low = positions.iter().copied().fold(DVec3::INFINITY, DVec3::min);
         let high = positions
             .iter()
             .copied()
             .fold(DVec3::NEG_INFINITY, DVec3::max);
         Ok(Self {
-            supports,
+            supports: supports
+                .iter()
+                .map(|support| Ok((support, group_of(&support.region, groups)?)))
+                .collect::<Result<_, BakeError>>()?,
             origin: DVec3::ZERO,
             tolerance: TOLERANCE * low.distance(high),
         })
@@ -158,25 +216,41 @@ impl<'a> Holder<'a> {
         Self { origin, ..self }
     }
 
-    /// Along which axes each of the points is held; nothing when there are no supports at all.
+    /// Along which axes each of the points is held; nothing when there are no supports at all. `elements` are those of
+    /// the mesh whose nodes the points are.
     ///
     /// # Errors
     /// A support that holds none of the points (`problem` says what it means), or supports that hold all of them.
-    pub(crate) fn axes(
+    pub(crate) fn axes<const N: usize>(
         &self,
         points: &[DVec3],
+        elements: &[[u32; N]],
         problem: &'static str,
     ) -> Result<Vec<[bool; 3]>, BakeError> {
         if self.supports.is_empty() {
             return Ok(Vec::new());
         }
+        let by_name = self.supports.iter().any(|(_, group)| group.is_some());
+        let mut reach = by_name.then(|| Reach::new(points, elements, self.origin));
         let mut held = vec![[false; 3]; points.len()];
-        for (support, Support { region, axes }) in self.supports.iter().enumerate() {
+        for (support, (Support { region, axes }, group)) in self.supports.iter().enumerate() {
             let mut holds = false;
-            for (held, &p) in held.iter_mut().zip(points) {
-                if region.gap(p + self.origin) <= self.tolerance {
-                    holds = true;
-                    *held = [0, 1, 2].map(|k| held[k] || axes[k]);
+            let mut hold = |held: &mut [bool; 3]| {
+                holds = true;
+                *held = [0, 1, 2].map(|k| held[k] || axes[k]);
+            };
+            match (group, &mut reach) {
+                (Some(group), Some(reach)) => {
+                    for v in reach.nodes_on(group) {
+                        hold(&mut held[v as usize]);
+                    }
+                }
+                _ => {
+                    for (held, &p) in held.iter_mut().zip(points) {
+                        if region.gap(p + self.origin) <= self.tolerance {
+                            hold(held);
+                        }
+                    }
                 }
             }
             if !holds {

@@ -11,7 +11,7 @@ use frangible_bake::fem::{
 };
 use frangible_bake::frangible_mesh::InputMesh;
 use frangible_bake::{
-    BakeError, BakeSpec, ImportOptions, MeshSize, Region, Shape, Support, bake, import_mesh,
+    BakeError, BakeSpec, Group, ImportOptions, MeshSize, Region, Shape, Support, bake, import_mesh,
 };
 
 const GLASS: Elasticity = Elasticity {
@@ -374,7 +374,7 @@ fn supports_that_cannot_be_meant_are_errors_that_name_them() {
         (half(DVec3::ZERO, DVec3::ZERO), "normal of no length"),
     ];
     for (region, words) in cases {
-        let spec = small_plate(vec![good, good, Support::clamped(region)]);
+        let spec = small_plate(vec![good.clone(), good.clone(), Support::clamped(region)]);
         let error = bake(&spec, &mut |_| {}).unwrap_err();
         assert!(
             matches!(error, BakeError::Support { support: 2, .. }),
@@ -409,4 +409,86 @@ fn supports_that_cannot_be_meant_are_errors_that_name_them() {
     });
     let error = bake(&spec, &mut |_| {}).unwrap_err();
     assert!(error.to_string().contains("refine the"), "{error}");
+}
+
+#[test]
+fn a_plate_held_along_z_keeps_three_motions() {
+    let mut spec = small_plate(vec![Support {
+        region: Region::below(2, 0.0),
+        axes: [false, false, true],
+    }]);
+    let (_, report) = bake(&spec, &mut |_| {}).unwrap();
+    // Along x, along y, about z.
+    assert_eq!(report.rigid_motions, 3);
+    spec.supports[0].axes = [true; 3];
+    let (_, report) = bake(&spec, &mut |_| {}).unwrap();
+    assert_eq!(report.rigid_motions, 0);
+}
+
+/// The face x = 0 of the small plate, as two triangles.
+fn end_face() -> Group {
+    let corner = |y: f64, z: f64| DVec3::new(0.0, y, z);
+    let [a, b, c, d] = [
+        corner(0.0, 0.0),
+        corner(0.2, 0.0),
+        corner(0.2, 0.01),
+        corner(0.0, 0.01),
+    ];
+    Group {
+        name: "wall".into(),
+        triangles: vec![[a, b, c], [a, c, d]],
+        points: Vec::new(),
+    }
+}
+
+#[test]
+fn a_group_holds_what_the_same_region_holds() {
+    let by_region = small_plate(vec![Support::clamped(Region::below(0, 0.0))]);
+    let (region, at_region) = bake(&by_region, &mut |_| {}).unwrap();
+    let mut by_group = small_plate(vec![Support::clamped(Region::Group("wall".into()))]);
+    by_group.groups.push(end_face());
+    let (group, at_group) = bake(&by_group, &mut |_| {}).unwrap();
+    assert_eq!(region.supported, group.supported);
+    assert_eq!(at_region.frequencies, at_group.frequencies);
+    // Its nodes one by one are the same part.
+    let origin = region
+        .fracture
+        .positions
+        .iter()
+        .fold(DVec3::INFINITY, |low, p| low.min(p.as_dvec3()));
+    by_group.groups = vec![Group {
+        name: "wall".into(),
+        triangles: end_face().triangles.into_iter().take(2).collect(),
+        points: region
+            .supported
+            .iter()
+            .map(|&v| region.fracture.positions[v as usize].as_dvec3() - origin)
+            .collect(),
+    }];
+    let (points, _) = bake(&by_group, &mut |_| {}).unwrap();
+    assert_eq!(region.supported, points.supported);
+}
+
+#[test]
+fn an_unknown_group_is_refused_with_the_names_there_are() {
+    let mut spec = small_plate(vec![Support::clamped(Region::Group("wal".into()))]);
+    let message = |spec: &BakeSpec| bake(spec, &mut |_| {}).unwrap_err().to_string();
+    assert!(
+        message(&spec).contains("this body has none"),
+        "{}",
+        message(&spec)
+    );
+    spec.groups = vec![end_face()];
+    let text = message(&spec);
+    assert!(
+        text.contains("`wal`, did you mean `wall`?; groups: `wall`"),
+        "{text}"
+    );
+    spec.supports[0].region = Region::Group("wall".into());
+    spec.groups[0].triangles.clear();
+    assert!(
+        message(&spec).contains("holds no part of the body"),
+        "{}",
+        message(&spec)
+    );
 }

@@ -1,5 +1,8 @@
 //! A mesh as a file holds it.
 
+use std::collections::BTreeMap;
+use std::ops::Range;
+
 use glam::{DVec3, Vec2, Vec3};
 
 /// Triangles with whatever attributes the file gave them, untouched.
@@ -20,6 +23,47 @@ pub struct InputMesh {
     pub material_of_triangle: Vec<u32>,
     /// Materials for drawing.
     pub materials: Vec<InputMaterial>,
+    /// Parts that the file names besides: groups and objects of an OBJ, nodes and meshes of a glTF, solids of a text STL.
+    pub groups: Vec<InputGroup>,
+}
+
+/// A run of triangles that a file gives a name; a name may have several runs, and a triangle several names.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct InputGroup {
+    /// Name in the file.
+    pub name: String,
+    /// Indices of the triangles.
+    pub triangles: Range<u32>,
+}
+
+impl InputMesh {
+    /// Triangles by the names of groups and materials, in the order of the names; what has the same name is one part.
+    /// Names that no triangle has are left out.
+    #[must_use]
+    pub fn named_parts(&self) -> Vec<(String, Vec<u32>)> {
+        let mut parts: BTreeMap<&str, Vec<u32>> = BTreeMap::new();
+        let count = self.triangles.len() as u32;
+        for group in self.groups.iter().filter(|g| !g.name.is_empty()) {
+            let run = group.triangles.start..group.triangles.end.min(count);
+            parts.entry(&group.name).or_default().extend(run);
+        }
+        for (t, &material) in (0..count).zip(&self.material_of_triangle) {
+            if let Some(material) = self.materials.get(material as usize)
+                && !material.name.is_empty()
+            {
+                parts.entry(&material.name).or_default().push(t);
+            }
+        }
+        parts
+            .into_iter()
+            .filter(|(_, triangles)| !triangles.is_empty())
+            .map(|(name, mut triangles)| {
+                triangles.sort_unstable();
+                triangles.dedup();
+                (name.to_string(), triangles)
+            })
+            .collect()
+    }
 }
 
 /// A material for drawing, as far as any viewer understands it.

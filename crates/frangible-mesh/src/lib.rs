@@ -22,7 +22,7 @@ mod winding;
 pub use distance::DistanceSolid;
 pub use error::TetError;
 pub use glam;
-pub use input::{InputMaterial, InputMesh};
+pub use input::{InputGroup, InputMaterial, InputMesh};
 #[cfg(feature = "mesh-io")]
 pub use read::{
     MOST_BYTES, MOST_TRIANGLES, MeshFormat, ReadError, nearest_file, parse_mesh, read_mesh,

@@ -663,3 +663,22 @@ fn peak_memory() -> String {
     let line = status.lines().find(|line| line.starts_with("VmHWM"));
     line.unwrap_or("not known").to_owned()
 }
+
+#[test]
+fn groups_objects_and_materials_of_an_obj_are_named_parts() {
+    let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\no cup\ng rim frame\nf 1 2 4 3\nusemtl clay\ng\nf 2 3 4\no lid\ng frame\nf 3 1 4\n";
+    let mesh = read(MeshFormat::Obj, text);
+    let parts = mesh.named_parts();
+    let expected: [(&str, &[u32]); 5] = [
+        ("clay", &[3, 4]),
+        ("cup", &[1, 2, 3]),
+        ("frame", &[1, 2, 4]),
+        ("lid", &[4]),
+        ("rim", &[1, 2]),
+    ];
+    let expected: Vec<(String, Vec<u32>)> = expected
+        .into_iter()
+        .map(|(name, triangles)| (name.to_string(), triangles.to_vec()))
+        .collect();
+    assert_eq!(parts, expected);
+}

@@ -1,5 +1,6 @@
 //! Bodies and impacts for the comparison.
 
+use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use frangible::asset::{AnalysisMesh, ConvexCell, EmbeddedPoint, Embedding};
@@ -35,7 +36,7 @@ pub fn linear_asset(
     mass.centre = DVec3::ZERO;
     let elasticity = Elasticity::from(&material);
     let system = assemble(&mesh.positions, Elements::Linear(&mesh.tets), &elasticity);
-    let found = lowest_modes(&system, modes, &mut |_| {})?;
+    let found = lowest_modes(&system, modes, &mut |_| ControlFlow::Continue(()))?;
 
     let quadratic = QuadraticMesh::new(&mesh);
     let corner_count = mesh.positions.len();

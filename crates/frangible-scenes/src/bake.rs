@@ -3,10 +3,10 @@
 use std::sync::Arc;
 
 use frangible::Asset;
-use frangible_bake::{BakeError, BakeReport, BakeSpec, Progress};
+use frangible_bake::{BakeError, BakeReport, BakeSpec, Progress, check_groups};
 use frangible_mesh::TetError;
 
-use crate::body::{BodySpec, Support};
+use crate::body::BodySpec;
 use crate::check::MOST_TETS;
 use crate::error::SceneError;
 use crate::rescale::{Rescale, rescaled};
@@ -50,6 +50,9 @@ pub fn open_sources(scene: &Scene) -> Result<Vec<Opened>, SceneError> {
             Some(same) => opened[same].clone(),
             None => open_body(body)?,
         });
+        if let Some(Opened::Shape { groups, .. }) = opened.last() {
+            check_groups(&body.supports, groups)?;
+        }
     }
     Ok(opened)
 }
@@ -77,9 +80,9 @@ pub fn bake_opened(
     let mut baked: Vec<BakedBody> = Vec::with_capacity(scene.bodies.len());
     for (i, (body, source)) in scene.bodies.iter().zip(opened).enumerate() {
         let same = |other: &BodySpec| {
-            (&other.source, &other.material, other.modes, &other.supports)
-                == (&body.source, &body.material, body.modes, &body.supports)
-                && other.rescale == body.rescale
+            (&other.source, &other.material, other.modes, &other.rescale)
+                == (&body.source, &body.material, body.modes, &body.rescale)
+                && (other.resolution, &other.supports) == (body.resolution, &body.supports)
         };
         baked.push(match (scene.bodies[..i].iter().position(same), source) {
             (Some(known), _) => baked[known].clone(),
@@ -87,11 +90,22 @@ pub fn bake_opened(
                 asset,
                 report: None,
             },
-            (None, Opened::Shape { shape, render, .. }) => {
+            (
+                None,
+                Opened::Shape {
+                    shape,
+                    render,
+                    groups,
+                    ..
+                },
+            ) => {
+                let size = body.resolution.map(|tets| shape.size_for(tets as f64));
                 let spec = BakeSpec {
                     modes: body.modes,
                     render: render.map(|r| *r),
-                    supports: body.supports.iter().map(Support::clamped).collect(),
+                    fracture: size.transpose()?,
+                    supports: body.supports.clone(),
+                    groups,
                     ..BakeSpec::new(&body.name, shape, body.material.clone())
                 };
                 let (asset, report) =

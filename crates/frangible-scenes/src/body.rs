@@ -1,8 +1,8 @@
 //! One breakable body of a scene.
 
 use frangible::Material;
-use frangible::glam::{DVec3, Quat, Vec3};
-use frangible_bake::Region;
+use frangible::glam::{Quat, Vec3};
+use frangible_bake::Support;
 
 use crate::rescale::Rescale;
 use crate::source::BodySource;
@@ -27,7 +27,10 @@ pub struct BodySpec {
     pub velocity: Vec3,
     /// Angular velocity at the start, rad/s.
     pub spin: Vec3,
-    /// Where it is held: what these hold stays where it is, also after the break. Part of the bake, so that a
+    /// Tetrahedra of the fracture mesh of a [`BodySource::Shape`], about; without it the bake's default. Other sources
+    /// name their own.
+    pub resolution: Option<usize>,
+    /// Where it is held, m, in the frame of its shape: what these hold stays where it is, also after the break. Part of the bake, so that a
     /// [`BodySource::Asset`] brings its own.
     pub supports: Vec<Support>,
     /// What is to differ from the bake of a [`BodySource::Asset`]; not looked at for other sources.
@@ -53,40 +56,6 @@ pub enum Place {
     Centre(Vec3),
 }
 
-/// A part of a body that is held where it is, in the body's own axes, m.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Support {
-    /// Everything below this z.
-    Below(f64),
-    /// Everything inside a box: lowest and highest corner.
-    Box([[f64; 3]; 2]),
-    /// Everything inside a sphere.
-    Sphere {
-        /// Its centre.
-        centre: [f64; 3],
-        /// Its radius.
-        radius: f64,
-    },
-}
-
-impl Support {
-    /// As the bake takes it: held along all axes.
-    pub(crate) fn clamped(&self) -> frangible_bake::Support {
-        let region = match *self {
-            Self::Below(z) => Region::below(2, z),
-            Self::Box([low, high]) => Region::Box {
-                low: DVec3::from_array(low),
-                high: DVec3::from_array(high),
-            },
-            Self::Sphere { centre, radius } => Region::Sphere {
-                centre: DVec3::from_array(centre),
-                radius,
-            },
-        };
-        frangible_bake::Support::clamped(region)
-    }
-}
-
 impl BodySpec {
     /// A body of this material at rest on the floor, 120 modes.
     #[must_use]
@@ -96,6 +65,7 @@ impl BodySpec {
             source,
             material,
             modes: 120,
+            resolution: None,
             place: Place::Standing { over: [0.0; 2] },
             rotation: Quat::IDENTITY,
             velocity: Vec3::ZERO,

@@ -4,9 +4,9 @@ use std::f32::consts::FRAC_PI_2;
 
 use frangible::glam::{Quat, Vec3};
 use frangible::{Material, nearest_name};
-use frangible_bake::Shape;
+use frangible_bake::{Region, Shape, Support};
 
-use crate::body::BodySpec;
+use crate::body::{BodySpec, Place};
 use crate::error::SceneError;
 use crate::projectile::Projectile;
 use crate::scene::Scene;
@@ -19,7 +19,7 @@ enum Action {
 }
 
 /// Names of the built-in scenes; the first is the default.
-pub const SCENE_NAMES: [&str; 10] = [
+pub const SCENE_NAMES: [&str; 13] = [
     "glass",
     "pane",
     "plate",
@@ -30,6 +30,9 @@ pub const SCENE_NAMES: [&str; 10] = [
     "rabbit",
     "piggy-bank",
     "hammer",
+    "window",
+    "shelf",
+    "cantilever",
 ];
 
 /// A built-in scene by name.
@@ -151,6 +154,57 @@ pub fn scene(name: &str) -> Result<Scene, SceneError> {
                 ..Projectile::hammer(0.5, 0.018, 4.0)
             }),
         ),
+        "window" => Ok(held(
+            build(
+                name,
+                "a window pane held in its frame, hit by a steel ball",
+                Shape::plate(0.4, 0.4, 0.004),
+                "glass",
+                80,
+                Quat::IDENTITY,
+                Action::Throw(Projectile::ball(0.13, 0.0158, 20.0)),
+            )?,
+            0.3,
+            [
+                Region::below(0, 0.008),
+                Region::above(0, 0.392),
+                Region::below(1, 0.008),
+                Region::above(1, 0.392),
+            ],
+        )),
+        "shelf" => Ok(held(
+            build(
+                name,
+                "a glass shelf on two brackets, a heavy ball dropped on its middle",
+                Shape::plate(0.5, 0.14, 0.006),
+                "glass",
+                60,
+                upright,
+                Action::Throw(Projectile {
+                    toward: Vec3::NEG_Y,
+                    ..Projectile::ball(0.6, 0.0264, 4.0)
+                }),
+            )?,
+            0.3,
+            [Region::below(0, 0.03), Region::above(0, 0.47)],
+        )),
+        "cantilever" => Ok(held(
+            build(
+                name,
+                "a porcelain bar clamped at one end, hit near the other",
+                Shape::block([0.2, 0.05, 0.01]),
+                "porcelain",
+                40,
+                upright,
+                Action::Throw(Projectile {
+                    at: Vec3::new(0.08, 0.0, 0.0),
+                    toward: Vec3::NEG_Y,
+                    ..Projectile::ball(0.5, 0.0248, 3.0)
+                }),
+            )?,
+            0.2,
+            [Region::below(0, 0.03)],
+        )),
         _ => {
             let hint = nearest_name(name, SCENE_NAMES)
                 .map_or(String::new(), |n| format!(", did you mean `{n}`?"));
@@ -161,6 +215,19 @@ pub fn scene(name: &str) -> Result<Scene, SceneError> {
             })
         }
     }
+}
+
+/// The scene with its body clamped in these regions, its centre of mass so high above the floor, m.
+fn held<const N: usize>(mut scene: Scene, height: f32, regions: [Region; N]) -> Scene {
+    for body in &mut scene.bodies {
+        body.place = Place::Centre(Vec3::new(0.0, height, 0.0));
+        body.supports = regions.iter().cloned().map(Support::clamped).collect();
+        if scene.name == "cantilever" {
+            // A bar so small needs no more.
+            body.resolution = Some(20_000);
+        }
+    }
+    scene
 }
 
 fn ready(name: &str, tets: usize) -> BodySource {

@@ -34,10 +34,11 @@ mod stage;
 mod text;
 
 pub use bake::{BakedBody, bake, bake_opened, open_sources};
-pub use body::{BodySpec, Place, Support};
+pub use body::{BodySpec, Place};
 pub use builtin::{SCENE_NAMES, scene};
 pub use error::SceneError;
 pub use files::{read_scene, scene_of_file};
+pub use frangible_bake::{Region, Support};
 pub use output::{FileWish, Output};
 pub use projectile::{Projectile, ProjectileKind};
 pub use rescale::{MaterialEdit, Rescale};
@@ -45,6 +46,7 @@ pub use result::{BreakRecord, HeldRecord, Run};
 pub use run::play;
 pub use scene::Scene;
 pub use source::{
-    Axis, BodySource, FileKind, Opened, compacted, open_source, save_asset, save_compact_asset,
+    Axis, BodySource, FileKind, Opened, axes_of, compacted, open_source, save_asset,
+    save_compact_asset,
 };
 pub use text::{parse_scene, scene_to_toml};

@@ -11,7 +11,7 @@ use std::sync::Arc;
 
 use frangible::Asset;
 use frangible::asset::RenderSurface;
-use frangible_bake::Shape;
+use frangible_bake::{Group, Shape};
 
 use crate::error::SceneError;
 
@@ -87,6 +87,19 @@ impl Axis {
     }
 }
 
+/// The axes of these letters, each of x, y and z once, as flags; at least one.
+#[must_use]
+pub fn axes_of(letters: &str) -> Option<[bool; 3]> {
+    let mut axes = [false; 3];
+    for letter in letters.chars() {
+        let axis = "xyz".find(letter)?;
+        if std::mem::replace(&mut axes[axis], true) {
+            return None;
+        }
+    }
+    (axes != [false; 3]).then_some(axes)
+}
+
 /// Kinds of files that can be broken.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FileKind {
@@ -126,6 +139,8 @@ pub enum Opened {
         shape: Shape,
         /// The surface as its author drew it, for a mesh.
         render: Option<Box<RenderSurface>>,
+        /// Its named parts, which supports may name.
+        groups: Vec<Group>,
         /// What a user should know of it.
         notes: Vec<String>,
     },
@@ -175,6 +190,7 @@ const fn plain(shape: Shape) -> Opened {
     Opened::Shape {
         shape,
         render: None,
+        groups: Vec::new(),
         notes: Vec::new(),
     }
 }

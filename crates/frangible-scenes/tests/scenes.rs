@@ -6,8 +6,8 @@ use frangible::Asset;
 use frangible::glam::Vec3;
 use frangible_export::{Recording, write_glb};
 use frangible_scenes::{
-    BakedBody, BodySource, Place, Projectile, ProjectileKind, Run, SCENE_NAMES, Scene, SceneError,
-    Support, bake, play, scene,
+    BakedBody, BodySource, Place, Projectile, ProjectileKind, Region, Run, SCENE_NAMES, Scene,
+    SceneError, Support, bake, play, scene,
 };
 
 /// A built-in scene with few modes.
@@ -69,7 +69,9 @@ fn an_unknown_scene_and_unusable_numbers_are_refused_by_name() {
     assert!(message.contains("file name"), "{message}");
     let message = refused(|s| {
         s.bodies[0].source = BodySource::Asset("a.frangible".into());
-        s.bodies[0].supports.push(Support::Below(0.0));
+        s.bodies[0]
+            .supports
+            .push(Support::clamped(Region::below(2, 0.0)));
     })
     .to_string();
     assert!(message.contains("part of a baked body"), "{message}");

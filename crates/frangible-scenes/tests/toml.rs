@@ -6,8 +6,8 @@ use frangible::glam::{Quat, Vec3};
 use frangible::{CrackPath, CrackTiming, FractureConfig, Material};
 use frangible_bake::{Shape, Station};
 use frangible_scenes::{
-    Axis, BodySource, BodySpec, FileWish, MaterialEdit, Place, Projectile, ProjectileKind,
-    SCENE_NAMES, Scene, parse_scene, read_scene, scene, scene_of_file, scene_to_toml,
+    Axis, BodySource, BodySpec, FileWish, MaterialEdit, Place, Projectile, ProjectileKind, Region,
+    SCENE_NAMES, Scene, Support, parse_scene, read_scene, scene, scene_of_file, scene_to_toml,
 };
 
 fn parsed(text: &str) -> Scene {
@@ -458,4 +458,47 @@ fn the_example_of_the_documentation_is_a_scene() {
     assert_eq!(scene.bodies[1].material.strength, 6e5);
     // It spells out the defaults of the fracture.
     assert_eq!(scene.fracture, FractureConfig::default());
+}
+
+#[test]
+fn supports_of_every_kind_survive_writing_and_reading() {
+    let held = "[[body]]\nshape = { box = [0.2, 0.2, 0.01] }\nresolution = 9000\nsupports = [{ below = 0.01 }, { above = 0.02, axes = \"z\" }, \
+        { side = \"-x\", at = -0.5 }, { side = \"+y\", at = 0.3, axes = \"yx\" }, { side = \"z\", at = 1 }, \
+        { plane = { point = [1, 2, 3], normal = [0, 2, 0] } }, { box = [[0, 0, -inf], [1, 1, 1]] }, \
+        { sphere = { centre = [0, 0, 0.1], radius = 0.02 } }, { group = \"the \\\"frame\\\"\" }]";
+    let scene = parsed(held);
+    let supports = &scene.bodies[0].supports;
+    assert_eq!(supports.len(), 9);
+    assert_eq!(supports[0], Support::clamped(Region::below(2, 0.01)));
+    assert_eq!(supports[1].axes, [false, false, true]);
+    assert_eq!(supports[2].region, Region::below(0, -0.5));
+    assert_eq!(supports[3].region, Region::above(1, 0.3));
+    assert_eq!(supports[3].axes, [true, true, false]);
+    assert_eq!(supports[8].region, Region::Group("the \"frame\"".into()));
+    assert_eq!(scene.bodies[0].resolution, Some(9000));
+    let text = scene_to_toml(&scene);
+    assert_eq!(parsed(&text), scene, "{text}");
+}
+
+#[test]
+fn supports_that_cannot_be_meant_are_refused() {
+    for (support, words) in [
+        ("{ }", "one of `below`"),
+        ("{ below = 0, above = 1 }", "one of `below`"),
+        ("{ side = \"-x\" }", "go together"),
+        ("{ side = \"w\", at = 0 }", "`side` is one of"),
+        ("{ below = 0, axes = \"xx\" }", "letters x, y and z"),
+        ("{ below = 0, axes = \"\" }", "letters x, y and z"),
+        ("{ below = nan }", "not finite"),
+        ("{ box = [[1, 1, 1], [0, 0, 0]] }", "low corner above"),
+        ("{ sphere = { centre = [0, 0, 0], radius = 0 } }", "radius"),
+    ] {
+        let message = refused(&format!(
+            "[[body]]\nshape = \"vase\"\nsupports = [{support}]"
+        ));
+        assert!(
+            message.contains(words) && message.contains("line 3"),
+            "{message}"
+        );
+    }
 }

@@ -1,5 +1,6 @@
 //! Finite-element models of shapes, and their modes: what the cases have in common.
 
+use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use frangible::Material;
@@ -87,7 +88,7 @@ pub(crate) fn modes(
     held: &Constraints,
     wanted: usize,
 ) -> Result<Modes, BakeError> {
-    lowest_supported_modes(system, held, wanted, &mut |_| {})
+    lowest_supported_modes(system, held, wanted, &mut |_| ControlFlow::Continue(()))
 }
 
 /// What to bake of a ball: about 12 000 tetrahedra, 10 modes, carried by elements of this edge or the default.

@@ -139,8 +139,11 @@ impl Shape {
         self.size_for(FRACTURE_TETS)
     }
 
-    /// Largest element size that gives at least `tets` tetrahedra, within a few per cent.
-    fn size_for(&self, tets: f64) -> Result<MeshSize, BakeError> {
+    /// Largest element size that gives at least `tets` tetrahedra, within a few per cent; a solid asks for about as many.
+    ///
+    /// # Errors
+    /// The number or station at fault.
+    pub fn size_for(&self, tets: f64) -> Result<MeshSize, BakeError> {
         if let Self::Solid(shape) = self {
             return Ok(solid::size_for(solid::volume(shape)?, tets));
         }

@@ -12,6 +12,7 @@ mod nearest;
 mod obj;
 mod ply;
 mod polygon;
+mod runs;
 mod stl;
 mod text;
 

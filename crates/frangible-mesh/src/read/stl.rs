@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use super::format::is_exactly_binary_stl;
 use super::polygon::triangulate;
+use super::runs::Runs;
 use super::text::{Lines, next_number, words};
 use super::{ReadError, check_triangles};
 use crate::InputMesh;
@@ -87,6 +88,7 @@ fn parse_text(bytes: &[u8]) -> Result<InputMesh, ReadError> {
     let mut mesh = InputMesh::default();
     let mut corners: Vec<DVec3> = Vec::new();
     let mut triangles = Vec::new();
+    let (mut solid, mut groups) = (Runs::default(), Vec::new());
     let (mut in_facet, mut ended) = (false, false);
     for (line, text) in Lines::new(bytes) {
         let mut words = words(&text);
@@ -118,8 +120,13 @@ fn parse_text(bytes: &[u8]) -> Result<InputMesh, ReadError> {
             mesh.triangles.extend(shifted);
             check_triangles(mesh.triangles.len() as u64)?;
             in_facet = false;
+        } else if keyword.eq_ignore_ascii_case(b"solid") {
+            let name = text.trim_ascii().get(5..).unwrap_or_default().trim_ascii();
+            let name = String::from_utf8_lossy(name).into_owned();
+            solid.change([name], mesh.triangles.len() as u32, &mut groups);
         } else if keyword.eq_ignore_ascii_case(b"endsolid") {
             ended = true;
+            solid.change([], mesh.triangles.len() as u32, &mut groups);
         }
     }
     if in_facet {
@@ -129,5 +136,7 @@ fn parse_text(bytes: &[u8]) -> Result<InputMesh, ReadError> {
     if !ended {
         log::warn!("the STL has no “endsolid”: it may be cut off");
     }
+    solid.change([], mesh.triangles.len() as u32, &mut groups);
+    mesh.groups = groups;
     Ok(mesh)
 }

@@ -1,7 +1,7 @@
 //! Checks of one body.
 
 use frangible::glam::Vec3;
-use frangible_bake::READY_SHAPES;
+use frangible_bake::{READY_SHAPES, check_supports};
 
 use super::quantity::{finite, quantity, range};
 use super::{Fault, LONGEST_NAME, MAX_SPEED, MOST_TETS};
@@ -52,6 +52,11 @@ pub(super) fn check_body(body: &BodySpec) -> Result<(), Fault> {
     }
     if let BodySource::Shape(shape) = &body.source {
         shape.volume().map_err(|e| Fault::new("shape", e))?;
+        check_resolution(body.resolution)?;
+    } else if body.resolution.is_some() {
+        let problem =
+            "the body's resolution is for built-in shapes; a mesh or ready solid has its own";
+        return Err(Fault::new("resolution", SceneError::Clash(problem.into())));
     }
     match body.place {
         Place::Standing { over } => finite("position", "the body's position", flat(over))?,
@@ -107,7 +112,7 @@ pub(super) fn check_body(body: &BodySpec) -> Result<(), Fault> {
         let problem = "`supports` are part of a baked body; bake it again to change them";
         return Err(Fault::new("supports", SceneError::Clash(problem.into())));
     }
-    Ok(())
+    check_supports(&body.supports).map_err(|e| Fault::new("supports", e))
 }
 
 fn check_resolution(tets: Option<usize>) -> Result<(), Fault> {

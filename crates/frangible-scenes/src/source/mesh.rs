@@ -41,6 +41,7 @@ pub(super) fn shape(
     Ok(Opened::Shape {
         shape: imported.shape,
         render: Some(Box::new(imported.render)),
+        groups: imported.groups,
         notes,
     })
 }

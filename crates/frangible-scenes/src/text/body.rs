@@ -7,8 +7,9 @@ use frangible_bake::{Shape, Station};
 
 use super::convert::{did_you_mean, preset, set, short, vector};
 use super::either::{AxisTable, MaterialChoice, RotationChoice};
-use super::schema::{BodyTable, MaterialTable, RotationTable, ShapeTable, SupportTable};
-use crate::body::{BodySpec, Place, Support};
+use super::schema::{BodyTable, MaterialTable, RotationTable, ShapeTable};
+use super::support::support;
+use crate::body::{BodySpec, Place};
 use crate::check::Fault;
 use crate::error::SceneError;
 use crate::rescale::{MaterialEdit, Rescale};
@@ -37,7 +38,7 @@ pub(super) fn body(table: BodyTable, usual: String, folder: &Path) -> Result<Bod
             "resolution",
             table.resolution.is_some(),
             !baked,
-            "`resolution` is for a `mesh` or a ready solid",
+            "`resolution` is part of a baked body; bake it again to change it",
         ),
         (
             "up",
@@ -83,6 +84,8 @@ pub(super) fn body(table: BodyTable, usual: String, folder: &Path) -> Result<Bod
             .map_err(|e| Fault::new("material", e))?,
         _ => usual_material,
     };
+    // Of meshes and ready solids it is part of the source.
+    let own = matches!(source, BodySource::Shape(_));
     let mut body = BodySpec::new(table.name.unwrap_or(usual), source, material);
     if baked {
         body.rescale = Rescale {
@@ -91,13 +94,18 @@ pub(super) fn body(table: BodyTable, usual: String, folder: &Path) -> Result<Bod
         };
     }
     set(&mut body.modes, table.modes);
+    body.resolution = table.resolution.filter(|_| own);
     body.place = place(table.position.as_deref(), table.drop)?;
     if let Some(RotationChoice(turns)) = table.rotation {
         body.rotation = rotation(&turns)?;
     }
     set(&mut body.velocity, table.velocity.map(vector));
     set(&mut body.spin, table.spin.map(vector));
-    body.supports = table.supports.into_iter().map(support).collect();
+    body.supports = table
+        .supports
+        .into_iter()
+        .map(support)
+        .collect::<Result<_, _>>()?;
     Ok(body)
 }
 
@@ -131,19 +139,7 @@ fn shape(table: ShapeTable, resolution: Option<usize>) -> Result<BodySource, Fau
                 .collect(),
         },
     };
-    if resolution.is_some() {
-        let problem = "`resolution` is for a `mesh` or a ready solid (rabbit, piggy_bank …)";
-        return Err(clash("resolution", problem));
-    }
     Ok(BodySource::Shape(shape))
-}
-
-fn support(table: SupportTable) -> Support {
-    match table {
-        SupportTable::Below(z) => Support::Below(z),
-        SupportTable::Box(corners) => Support::Box(corners),
-        SupportTable::Sphere { centre, radius } => Support::Sphere { centre, radius },
-    }
 }
 
 fn edit(table: MaterialTable) -> MaterialEdit {
@@ -244,6 +240,6 @@ fn axis_of(key: &'static str, name: &str) -> Result<Axis, Fault> {
     })
 }
 
-fn clash(key: &'static str, problem: &str) -> Fault {
+pub(super) fn clash(key: &'static str, problem: &str) -> Fault {
     Fault::new(key, SceneError::Clash(problem.into()))
 }

@@ -5,6 +5,7 @@ mod convert;
 mod either;
 mod message;
 mod schema;
+mod support;
 mod values;
 mod write;
 

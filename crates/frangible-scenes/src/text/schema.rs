@@ -72,13 +72,36 @@ pub(super) struct StationTable {
     pub(super) corner: bool,
 }
 
-/// Where a body is held.
+/// Where a body is held: one region, and along which axes.
 #[derive(Deserialize)]
-#[serde(rename_all = "snake_case", deny_unknown_fields)]
-pub(super) enum SupportTable {
-    Below(f64),
-    Box([[f64; 3]; 2]),
-    Sphere { centre: [f64; 3], radius: f64 },
+#[serde(deny_unknown_fields)]
+pub(super) struct SupportTable {
+    pub(super) below: Option<f64>,
+    pub(super) above: Option<f64>,
+    pub(super) side: Option<String>,
+    pub(super) at: Option<f64>,
+    pub(super) plane: Option<PlaneTable>,
+    #[serde(rename = "box")]
+    pub(super) cuboid: Option<[[f64; 3]; 2]>,
+    pub(super) sphere: Option<SphereTable>,
+    pub(super) group: Option<String>,
+    pub(super) axes: Option<String>,
+}
+
+/// A plane; what lies behind it is held.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct PlaneTable {
+    pub(super) point: [f64; 3],
+    pub(super) normal: [f64; 3],
+}
+
+/// A ball.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct SphereTable {
+    pub(super) centre: [f64; 3],
+    pub(super) radius: f64,
 }
 
 /// A preset with some numbers changed; the keys are the fields of `frangible::Material`.

@@ -6,7 +6,6 @@ use frangible::Material;
 use frangible::glam::Vec3;
 use frangible_bake::Shape;
 
-use crate::body::Support;
 use crate::rescale::MaterialEdit;
 
 pub(super) fn shape_text(shape: &Shape) -> String {
@@ -34,20 +33,6 @@ pub(super) fn shape_text(shape: &Shape) -> String {
         Shape::Box { size } => format!("{{ box = {} }}", numbers(size)),
         // Shapes of meshes have no text of their own: a scene names their file.
         _ => quoted("mesh"),
-    }
-}
-
-pub(super) fn support_text(support: &Support) -> String {
-    match support {
-        Support::Below(z) => format!("{{ below = {} }}", number(*z)),
-        Support::Box([low, high]) => {
-            format!("{{ box = [{}, {}] }}", numbers(low), numbers(high))
-        }
-        Support::Sphere { centre, radius } => format!(
-            "{{ sphere = {{ centre = {}, radius = {} }} }}",
-            numbers(centre),
-            number(*radius)
-        ),
     }
 }
 
@@ -111,7 +96,7 @@ pub(super) fn list(values: &[f32]) -> String {
     format!("[{}]", texts.join(", "))
 }
 
-fn numbers(values: &[f64]) -> String {
+pub(super) fn numbers(values: &[f64]) -> String {
     let texts: Vec<String> = values.iter().map(|&x| number(x)).collect();
     format!("[{}]", texts.join(", "))
 }

@@ -5,9 +5,8 @@ use std::fmt::{Display, Write};
 use frangible::glam::{Quat, Vec3};
 use frangible::{CrackPath, CrackTiming, DurationModel, FractureConfig};
 
-use super::values::{
-    edit_text, list, material_text, number, quoted, shape_text, support_text, vector,
-};
+use super::support::support_text;
+use super::values::{edit_text, list, material_text, number, quoted, shape_text, vector};
 use crate::body::{BodySpec, Place};
 use crate::output::{FileWish, Output};
 use crate::projectile::{Projectile, ProjectileKind};
@@ -67,6 +66,9 @@ fn write_body(t: &mut Text, body: &BodySpec) {
     let own_material = match &body.source {
         BodySource::Shape(shape) => {
             t.line("shape", shape_text(shape));
+            if let Some(tets) = body.resolution {
+                t.noted("resolution", tets, "tetrahedra of the fracture mesh");
+            }
             true
         }
         BodySource::Ready { name, resolution } => {

@@ -12,8 +12,9 @@ use gltf_json::material::Material;
 
 use self::buffers::Buffers;
 use self::primitive::Meshes;
+use self::scene::Instance;
 use super::ReadError;
-use crate::{InputMaterial, InputMesh};
+use crate::{InputGroup, InputMaterial, InputMesh};
 
 /// Extensions that hide the geometry from a reader that does not know them. Others change only how it looks.
 const UNREADABLE: [&str; 4] = [
@@ -46,10 +47,24 @@ pub(crate) fn parse(bytes: &[u8], folder: Option<&Path>) -> Result<InputMesh, Re
     }
     let buffers = Buffers::read(&root, blob, folder)?;
     let mut meshes = Meshes::new(&root, &buffers);
-    for (node, transform) in scene::instances(&root)? {
-        meshes.add(node, transform)?;
+    let mut groups = Vec::new();
+    for Instance {
+        mesh,
+        transform,
+        node,
+    } in scene::instances(&root)?
+    {
+        let first = meshes.mesh.triangles.len() as u32;
+        meshes.add(mesh, transform)?;
+        let triangles = first..meshes.mesh.triangles.len() as u32;
+        let name = root.get(mesh).and_then(|m| m.name.as_deref());
+        groups.extend([node, name].into_iter().flatten().map(|name| InputGroup {
+            name: name.into(),
+            triangles: triangles.clone(),
+        }));
     }
     let mut mesh = meshes.mesh;
+    mesh.groups = groups;
     mesh.materials = root.materials.iter().map(material).collect();
     Ok(mesh)
 }

@@ -6,12 +6,27 @@ use gltf_json::{Index, Mesh, Root};
 
 use crate::read::ReadError;
 
+/// A mesh that is shown.
+pub(super) struct Instance<'a> {
+    pub(super) mesh: Index<Mesh>,
+    /// Into the world.
+    pub(super) transform: DMat4,
+    /// Name of the node that shows it.
+    pub(super) node: Option<&'a str>,
+}
+
 /// Every mesh of the default scene with its transform into the world. Without a scene, all nodes that are no child of
 /// another; without nodes, each mesh once.
-pub(super) fn instances(root: &Root) -> Result<Vec<(Index<Mesh>, DMat4)>, ReadError> {
+pub(super) fn instances(root: &Root) -> Result<Vec<Instance<'_>>, ReadError> {
     if root.nodes.is_empty() {
         let meshes = 0..root.meshes.len() as u32;
-        return Ok(meshes.map(|i| (Index::new(i), DMat4::IDENTITY)).collect());
+        return Ok(meshes
+            .map(|i| Instance {
+                mesh: Index::new(i),
+                transform: DMat4::IDENTITY,
+                node: None,
+            })
+            .collect());
     }
     let mut open: Vec<(usize, DMat4)> = Vec::new();
     for node in roots(root) {
@@ -27,7 +42,11 @@ pub(super) fn instances(root: &Root) -> Result<Vec<(Index<Mesh>, DMat4)>, ReadEr
             return Err(bad("it is reached twice; each node may have one parent"));
         }
         let transform = above * local(node);
-        instances.extend(node.mesh.map(|mesh| (mesh, transform)));
+        instances.extend(node.mesh.map(|mesh| Instance {
+            mesh,
+            transform,
+            node: node.name.as_deref(),
+        }));
         let children = node.children.as_deref().unwrap_or_default();
         open.extend(
             children

@@ -11,6 +11,7 @@ use self::corners::{Corner, Splitter};
 use self::mtl::Materials;
 use super::finish::NO_MATERIAL;
 use super::polygon::triangulate;
+use super::runs::Runs;
 use super::text::{Lines, next_number, shown, words};
 use super::{ReadError, check_triangles, check_vertices};
 use crate::InputMesh;
@@ -31,6 +32,8 @@ pub(crate) fn parse(bytes: &[u8], folder: Option<&Path>) -> Result<InputMesh, Re
     let mut obj = Obj::default();
     let mut materials = Materials::default();
     let mut material = NO_MATERIAL;
+    let mut groups = Vec::new();
+    let (mut object, mut group) = (Runs::default(), Runs::default());
     for (line, text) in Lines::new(bytes) {
         let mut words = words(&text);
         match words.next() {
@@ -44,6 +47,15 @@ pub(crate) fn parse(bytes: &[u8], folder: Option<&Path>) -> Result<InputMesh, Re
             }
             Some(b"f" | b"fo") => obj.face(&mut words, line, material)?,
             Some(b"usemtl") => material = materials.use_named(rest_of(&text, b"usemtl")),
+            Some(b"o") => {
+                let name = name_of(rest_of(&text, b"o"));
+                object.change([name], obj.triangles as u32, &mut groups);
+            }
+            Some(b"g") => {
+                // A face may be in several groups at once; `g` alone ends them.
+                let names: Vec<String> = words.map(name_of).collect();
+                group.change(names, obj.triangles as u32, &mut groups);
+            }
             Some(b"mtllib") => materials.read_library(rest_of(&text, b"mtllib"), folder),
             _ => {}
         }
@@ -54,8 +66,12 @@ pub(crate) fn parse(bytes: &[u8], folder: Option<&Path>) -> Result<InputMesh, Re
                 .max(obj.normals.len()) as u64,
         )?;
     }
+    for names in [&mut object, &mut group] {
+        names.change([], obj.triangles as u32, &mut groups);
+    }
     let mut mesh = obj.assemble()?;
     mesh.materials = materials.list;
+    mesh.groups = groups;
     Ok(mesh)
 }
 
@@ -67,6 +83,10 @@ fn vector<'a>(words: &mut impl Iterator<Item = &'a [u8]>, line: usize) -> Result
 /// Names may hold spaces.
 fn rest_of<'a>(text: &'a [u8], keyword: &[u8]) -> &'a [u8] {
     text.strip_prefix(keyword).unwrap_or_default().trim_ascii()
+}
+
+fn name_of(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
 }
 
 impl Obj {

@@ -1,0 +1,29 @@
+//! Names in force while a file is read: runs of triangles.
+
+use crate::InputGroup;
+
+/// Names that hold until others take their place.
+#[derive(Default)]
+pub(crate) struct Runs {
+    names: Vec<String>,
+    from: u32,
+}
+
+impl Runs {
+    /// From triangle `next` on, these names hold; what held so far is added to `groups` if it has any triangle.
+    pub(crate) fn change(
+        &mut self,
+        names: impl IntoIterator<Item = String>,
+        next: u32,
+        groups: &mut Vec<InputGroup>,
+    ) {
+        let held = std::mem::replace(&mut self.names, names.into_iter().collect());
+        if next > self.from {
+            groups.extend(held.into_iter().map(|name| InputGroup {
+                name,
+                triangles: self.from..next,
+            }));
+        }
+        self.from = next;
+    }
+}
