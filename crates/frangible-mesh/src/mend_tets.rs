@@ -127,7 +127,9 @@ impl fmt::Display for TetMend {
         say(self.dropped, "small loose pieces dropped");
         if self.curved > 0.0 {
             let most = 100.0 * self.curved;
-            parts.push(format!("curved edges straightened (by up to {most:.1} % of their length)"));
+            parts.push(format!(
+                "curved edges straightened (by up to {most:.1} % of their length)"
+            ));
         }
         f.write_str(&parts.join(", "))
     }
@@ -168,7 +170,11 @@ pub fn mend_tets(input: &TetInput) -> Result<MendedTets, TetInputError> {
         ..TetMend::default()
     };
     let same = doubles(&input.positions);
-    let mut tets: Vec<[u32; 4]> = input.tets.iter().map(|t| t.map(|v| same[v as usize])).collect();
+    let mut tets: Vec<[u32; 4]> = input
+        .tets
+        .iter()
+        .map(|t| t.map(|v| same[v as usize]))
+        .collect();
     let at = |v: u32| input.positions[v as usize];
     for (e, tet) in tets.iter_mut().enumerate() {
         let signed = volume(tet.map(at));
@@ -178,7 +184,10 @@ pub fn mend_tets(input: &TetInput) -> Result<MendedTets, TetInputError> {
         // Written so that a volume that is no number is refused.
         if !(signed.abs() > FLAT * longest.powi(3)) {
             let element = number(input, e);
-            return Err(TetInputError::Flat { element, volume: signed });
+            return Err(TetInputError::Flat {
+                element,
+                volume: signed,
+            });
         }
         if signed < 0.0 {
             tet.swap(2, 3);
@@ -257,12 +266,7 @@ fn curvature(input: &TetInput) -> Result<f64, TetInputError> {
             at(v).distance(middle(ends)) / length
         };
         let usual = six.iter().zip(MID_EDGES).map(|(&v, ends)| off(v, ends));
-        let mut worst = usual.fold(0.0, f64::max);
-        if !(worst <= MOST_CURVED) {
-            // TetGen and Medit have orders of their own: each edge takes the nearest.
-            let nearest = |ends| six.iter().map(|&v| off(v, ends)).fold(f64::INFINITY, f64::min);
-            worst = MID_EDGES.into_iter().map(nearest).fold(0.0, f64::max);
-        }
+        let worst = usual.fold(0.0, f64::max);
         if !(worst <= MOST_CURVED) {
             let element = number(input, e);
             let share = 100.0 * worst;
@@ -276,7 +280,11 @@ fn curvature(input: &TetInput) -> Result<f64, TetInputError> {
 /// The first node at the place of each node.
 fn doubles(positions: &[DVec3]) -> Vec<u32> {
     // Adding zero makes −0 and 0 alike.
-    let key = |v: u32| (positions[v as usize] + DVec3::ZERO).to_array().map(f64::to_bits);
+    let key = |v: u32| {
+        (positions[v as usize] + DVec3::ZERO)
+            .to_array()
+            .map(f64::to_bits)
+    };
     let mut order: Vec<u32> = (0..positions.len() as u32).collect();
     order.sort_unstable_by_key(|&v| (key(v), v));
     let mut same: Vec<u32> = (0..positions.len() as u32).collect();
@@ -361,7 +369,9 @@ fn groups(
                 _ if kept.get(member) == Some(&true) => &input.tets[member],
                 _ => &[],
             };
-            let known = corners.iter().filter(|&&v| (v as usize) < input.positions.len());
+            let known = corners
+                .iter()
+                .filter(|&&v| (v as usize) < input.positions.len());
             nodes.extend(known.map(|&v| node(v)).filter(|&v| v != u32::MAX));
         }
         nodes.sort_unstable();

@@ -98,7 +98,9 @@ pub enum ReadError {
     #[error("the file has no tetrahedra; save the volume mesh as well, not the surface alone")]
     NoTetrahedra,
     /// Solid elements of another shape.
-    #[error("the file has {kind}; only tetrahedra can be broken: have the mesher make tetrahedra, or split the {kind}")]
+    #[error(
+        "the file has {kind}; only tetrahedra can be broken: have the mesher make tetrahedra, or split the {kind}"
+    )]
     OtherCells {
         /// Hexahedra, prisms …
         kind: &'static str,

@@ -45,7 +45,8 @@ impl Builder {
             self.join(3, self.tets.len(), groups);
             self.tets.push(*corners);
             self.numbers.push(number);
-            self.mids.extend(nodes.get(4..10).and_then(<[u64]>::first_chunk));
+            self.mids
+                .extend(nodes.get(4..10).and_then(<[u64]>::first_chunk));
         }
         check_triangles(self.tets.len() as u64)
     }
@@ -79,7 +80,8 @@ impl Builder {
             return Err(ReadError::NoTetrahedra);
         }
         if !self.mids.is_empty() && self.mids.len() != self.tets.len() {
-            let problem = "tetrahedra of four and of ten nodes mixed; save all of them in one order";
+            let problem =
+                "tetrahedra of four and of ten nodes mixed; save all of them in one order";
             return Err(ReadError::malformed("the elements", problem));
         }
         if let Some(at) = self.positions.iter().position(|p| !p.is_finite()) {
@@ -101,13 +103,21 @@ impl Builder {
         for (e, six) in self.mids.iter().enumerate() {
             mids.push(all(six, |tag| resolve("element", self.numbers[e], tag))?);
         }
+        for (tet, six) in tets.iter().zip(&mut mids) {
+            *six = in_order(&self.positions, *tet, *six);
+        }
         let mut faces = Vec::with_capacity(self.faces.len());
         for (f, face) in self.faces.iter().enumerate() {
             faces.push(all(face, |tag| resolve("face", f as u64 + 1, tag))?);
         }
         let names = self.names;
         let groups = self.members.into_iter().map(|((dimension, tag), members)| {
-            let usual = || format!("{} {tag}", if dimension == 2 { "surface" } else { "volume" });
+            let usual = || {
+                format!(
+                    "{} {tag}",
+                    if dimension == 2 { "surface" } else { "volume" }
+                )
+            };
             let name = names.get(&(dimension, tag)).cloned();
             TetGroup {
                 name: name.filter(|n| !n.is_empty()).unwrap_or_else(usual),
@@ -123,6 +133,29 @@ impl Builder {
             faces,
             groups: groups.collect(),
         }))
+    }
+}
+
+/// TetGen and Medit have orders of their own for the middles: where the usual one is far off, each edge takes the
+/// nearest, if that gives each of them an edge.
+fn in_order(positions: &[DVec3], tet: [u32; 4], six: [u32; 6]) -> [u32; 6] {
+    const ENDS: [[usize; 2]; 6] = [[0, 1], [1, 2], [0, 2], [0, 3], [1, 3], [2, 3]];
+    let x = tet.map(|v| positions[v as usize]);
+    let off = |v: u32, [i, j]: [usize; 2]| positions[v as usize].distance(0.5 * (x[i] + x[j]));
+    let length = |[i, j]: [usize; 2]| x[i].distance(x[j]);
+    if (0..6).all(|k| off(six[k], ENDS[k]) <= 0.25 * length(ENDS[k])) {
+        return six;
+    }
+    let mut free = six.to_vec();
+    let nearest = ENDS.map(|ends| {
+        let near = |&a: &usize, &b: &usize| off(free[a], ends).total_cmp(&off(free[b], ends));
+        let at = (0..free.len()).min_by(near).unwrap_or(0);
+        free.swap_remove(at)
+    });
+    if (0..6).all(|k| off(nearest[k], ENDS[k]) <= 0.25 * length(ENDS[k])) {
+        nearest
+    } else {
+        six
     }
 }
 

@@ -142,9 +142,8 @@ impl<'a> Cursor<'a> {
     /// A number that cannot be below zero: a count or an index.
     pub(super) fn count(&mut self, width: usize, inside: &str) -> Result<u64, ReadError> {
         let value = self.integer(width, inside)?;
-        u64::try_from(value).map_err(|_| {
-            self.malformed(format!("{value} is below zero (inside {inside})"))
-        })
+        u64::try_from(value)
+            .map_err(|_| self.malformed(format!("{value} is below zero (inside {inside})")))
     }
 
     /// A number: a word of text, or `width` bytes.
@@ -155,7 +154,10 @@ impl<'a> Cursor<'a> {
         }
         let word = self.word().ok_or_else(|| ReadError::truncated(inside))?;
         crate::read::text::number(word).ok_or_else(|| {
-            self.malformed(format!("“{}” is not a number (inside {inside})", shown(word)))
+            self.malformed(format!(
+                "“{}” is not a number (inside {inside})",
+                shown(word)
+            ))
         })
     }
 }

@@ -194,10 +194,13 @@ impl<'a> Source<'a> {
         let bytes = self.take(settings.header)?;
         let value = integer_of(&bytes, settings.coding);
         // A four-byte number is unsigned here.
-        let value = if settings.header == 4 { value & 0xffff_ffff } else { value };
-        usize::try_from(value).map_err(|_| {
-            ReadError::malformed("an array of data", "its size is below zero")
-        })
+        let value = if settings.header == 4 {
+            value & 0xffff_ffff
+        } else {
+            value
+        };
+        usize::try_from(value)
+            .map_err(|_| ReadError::malformed("an array of data", "its size is below zero"))
     }
 
     /// The numbers behind the header.
@@ -215,7 +218,11 @@ impl<'a> Source<'a> {
         }
         let mut all = Vec::new();
         for (block, &size) in sizes.iter().enumerate() {
-            let limit = if block + 1 == blocks && last > 0 { last } else { full };
+            let limit = if block + 1 == blocks && last > 0 {
+                last
+            } else {
+                full
+            };
             crate::read::check_bytes((all.len() as u64).saturating_add(limit as u64))?;
             let packed = self.take(size)?;
             let plain = decompress_to_vec_zlib_with_limit(&packed, limit).map_err(|error| {

@@ -86,7 +86,15 @@ fn cells(
             nodes.push(cursor.count(4, inside)?);
         }
         let group = cursor.integer(4, inside)?;
-        add(i + 1, &nodes, if group == 0 { &[] } else { std::slice::from_ref(&group) })?;
+        add(
+            i + 1,
+            &nodes,
+            if group == 0 {
+                &[]
+            } else {
+                std::slice::from_ref(&group)
+            },
+        )?;
     }
     Ok(())
 }

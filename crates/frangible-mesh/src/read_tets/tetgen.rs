@@ -75,7 +75,10 @@ fn nodes(bytes: &[u8], builder: &mut Builder) -> Result<(), ReadError> {
     let mut values = Vec::new();
     row(&mut cursor, &mut values, "the first line")?;
     if values.get(1).is_some_and(|&dimension| dimension != 3.0) {
-        return Err(ReadError::malformed("the first line", "the dimension must be 3"));
+        return Err(ReadError::malformed(
+            "the first line",
+            "the dimension must be 3",
+        ));
     }
     for _ in 0..indices(&cursor, &values, 1)?[0] {
         row(&mut cursor, &mut values, "the nodes")?;
@@ -83,7 +86,9 @@ fn nodes(bytes: &[u8], builder: &mut Builder) -> Result<(), ReadError> {
         let &[x, y, z] = values
             .get(1..4)
             .and_then(<[f64]>::first_chunk)
-            .ok_or_else(|| ReadError::malformed(format!("node {tag}"), "a coordinate is missing"))?;
+            .ok_or_else(|| {
+                ReadError::malformed(format!("node {tag}"), "a coordinate is missing")
+            })?;
         builder.node(tag, DVec3::new(x, y, z))?;
     }
     Ok(())

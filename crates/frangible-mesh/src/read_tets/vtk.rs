@@ -13,7 +13,10 @@ pub(super) fn parse(bytes: &[u8]) -> Result<TetInput, ReadError> {
     let mut cursor = Cursor::new(bytes);
     let first = cursor.rest_of_line().unwrap_or_default();
     if !first.starts_with(b"# vtk DataFile") {
-        return Err(ReadError::malformed("line 1", "a VTK file begins with “# vtk DataFile”"));
+        return Err(ReadError::malformed(
+            "line 1",
+            "a VTK file begins with “# vtk DataFile”",
+        ));
     }
     cursor.rest_of_line();
     let coding = match cursor.word() {

@@ -26,7 +26,11 @@ pub(super) fn parse(bytes: &[u8]) -> Result<TetInput, ReadError> {
             }
             ("Piece", true) => pieces.extend(piece.take()),
             ("Points" | "Cells" | "CellData" | "PointData", closes) => {
-                section = if closes { String::new() } else { tag.name.clone() };
+                section = if closes {
+                    String::new()
+                } else {
+                    tag.name.clone()
+                };
             }
             ("DataArray", false) => {
                 if let Some(piece) = &mut piece {

@@ -5,8 +5,8 @@
 
 use crate::error::TetError;
 use crate::quality::volume;
-use crate::tets::{Draft, TetBody};
 use crate::tets::adjacency::{Around, FACES, OUTSIDE, neighbours};
+use crate::tets::{Draft, TetBody};
 
 /// Rounds after which the rest is given up; two have always been enough.
 const ROUNDS: usize = 40;

@@ -1,8 +1,8 @@
 //! Face-connected pieces.
 
 use crate::quality::volume;
-use crate::tets::adjacency::{OUTSIDE, neighbours};
 use crate::tets::Draft;
+use crate::tets::adjacency::{OUTSIDE, neighbours};
 
 /// What was left of a body in several pieces.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
