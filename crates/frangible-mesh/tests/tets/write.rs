@@ -3,16 +3,16 @@
 use std::fmt::Write;
 
 /// Cubes of six tetrahedra each, with the triangles of the side x = 0 in group 7 and the tetrahedra in group 3.
-pub struct Sample {
-    pub nodes: Vec<[f64; 3]>,
+pub(crate) struct Sample {
+    pub(crate) nodes: Vec<[f64; 3]>,
     /// Four or ten nodes from 0, middles 01, 12, 02, 03, 13, 23.
-    pub tets: Vec<Vec<u32>>,
-    pub faces: Vec<[u32; 3]>,
+    pub(crate) tets: Vec<Vec<u32>>,
+    pub(crate) faces: Vec<[u32; 3]>,
 }
 
-pub const ENDS: [[usize; 2]; 6] = [[0, 1], [1, 2], [0, 2], [0, 3], [1, 3], [2, 3]];
+pub(crate) const ENDS: [[usize; 2]; 6] = [[0, 1], [1, 2], [0, 2], [0, 3], [1, 3], [2, 3]];
 
-pub fn sample(counts: [usize; 3], quadratic: bool) -> Sample {
+pub(crate) fn sample(counts: [usize; 3], quadratic: bool) -> Sample {
     let [nx, ny, nz] = counts;
     let node = |i: usize, j: usize, k: usize| ((k * (ny + 1) + j) * (nx + 1) + i) as u32;
     let mut nodes = Vec::new();
@@ -98,7 +98,7 @@ fn words<T: ToString>(values: impl IntoIterator<Item = T>) -> String {
 
 /// Numbers as text or in bytes of either order.
 #[derive(Clone, Copy, PartialEq)]
-pub enum As {
+pub(crate) enum As {
     Text,
     Little,
     Big,
@@ -147,7 +147,7 @@ fn msh_start(version: &str, coding: As) -> Out {
 }
 
 /// Nodes are numbered from `first` in steps of `step`.
-pub fn msh2(s: &Sample, coding: As, first: u32, step: u32) -> Vec<u8> {
+pub(crate) fn msh2(s: &Sample, coding: As, first: u32, step: u32) -> Vec<u8> {
     let mut out = msh_start("2.2", coding);
     let number = |v: u32| (first + step * v) as i32;
     out.text(&format!("$Nodes\n{}\n", s.nodes.len()));
@@ -180,7 +180,7 @@ pub fn msh2(s: &Sample, coding: As, first: u32, step: u32) -> Vec<u8> {
     out.0
 }
 
-pub fn msh4(s: &Sample, coding: As) -> Vec<u8> {
+pub(crate) fn msh4(s: &Sample, coding: As) -> Vec<u8> {
     let mut out = msh_start("4.1", coding);
     out.text("$Entities\n");
     [0, 0, 1, 1].iter().for_each(|&x| out.size(x));
@@ -219,7 +219,7 @@ pub fn msh4(s: &Sample, coding: As) -> Vec<u8> {
 }
 
 /// Text of the .node, the .ele and the .face.
-pub fn tetgen(s: &Sample, first: u32) -> [String; 3] {
+pub(crate) fn tetgen(s: &Sample, first: u32) -> [String; 3] {
     let mut node = format!("# made by hand\n{} 3 0 0\n", s.nodes.len());
     for (v, p) in s.nodes.iter().enumerate() {
         writeln!(node, "  {}  {}  # a node", v as u32 + first, words(p)).unwrap();
@@ -251,7 +251,7 @@ pub fn tetgen(s: &Sample, first: u32) -> [String; 3] {
     [node, ele, face]
 }
 
-pub fn medit(s: &Sample) -> Vec<u8> {
+pub(crate) fn medit(s: &Sample) -> Vec<u8> {
     let mut out = String::from("MeshVersionFormatted 2\nDimension\n3\n# a comment\nVertices\n");
     writeln!(out, "{}", s.nodes.len()).unwrap();
     for p in &s.nodes {
@@ -290,7 +290,7 @@ fn vtk_cells(s: &Sample) -> (Vec<i32>, Vec<Vec<u32>>, Vec<i32>) {
     (kinds, cells, groups)
 }
 
-pub fn vtk(s: &Sample, binary: bool, fifth: bool) -> Vec<u8> {
+pub(crate) fn vtk(s: &Sample, binary: bool, fifth: bool) -> Vec<u8> {
     let (kinds, cells, groups) = vtk_cells(s);
     let mut out = Out(Vec::new(), if binary { As::Big } else { As::Text });
     let version = if fifth { "5.1" } else { "3.0" };
@@ -348,14 +348,19 @@ pub fn vtk(s: &Sample, binary: bool, fifth: bool) -> Vec<u8> {
 
 /// How the arrays of a VTU are kept.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Kept {
+pub(crate) enum Kept {
     Ascii,
     Inline,
     AppendedRaw,
     AppendedBase64,
 }
 
-pub fn vtu(s: &Sample, kept: Kept, wide: bool, pack: Option<fn(&[u8]) -> Vec<u8>>) -> Vec<u8> {
+pub(crate) fn vtu(
+    s: &Sample,
+    kept: Kept,
+    wide: bool,
+    pack: Option<fn(&[u8]) -> Vec<u8>>,
+) -> Vec<u8> {
     use base64::Engine;
     let encode = |bytes: &[u8]| base64::engine::general_purpose::STANDARD.encode(bytes);
     let (kinds, cells, groups) = vtk_cells(s);
