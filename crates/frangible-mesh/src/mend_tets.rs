@@ -181,8 +181,7 @@ pub fn mend_tets(input: &TetInput) -> Result<MendedTets, TetInputError> {
         let x = tet.map(at);
         let longest = MID_EDGES.iter().map(|&[i, j]| x[i].distance(x[j]));
         let longest = longest.fold(0.0, f64::max);
-        // Written so that a volume that is no number is refused.
-        if !(signed.abs() > FLAT * longest.powi(3)) {
+        if signed.is_nan() || signed.abs() <= FLAT * longest.powi(3) {
             let element = number(input, e);
             return Err(TetInputError::Flat {
                 element,
@@ -267,7 +266,7 @@ fn curvature(input: &TetInput) -> Result<f64, TetInputError> {
         };
         let usual = six.iter().zip(MID_EDGES).map(|(&v, ends)| off(v, ends));
         let worst = usual.fold(0.0, f64::max);
-        if !(worst <= MOST_CURVED) {
+        if worst.is_nan() || worst > MOST_CURVED {
             let element = number(input, e);
             let share = 100.0 * worst;
             return Err(TetInputError::Curved { element, share });
