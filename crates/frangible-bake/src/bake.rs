@@ -131,6 +131,7 @@ pub fn bake(
             Analysis::conforming(&coarse)
         }
         Coarse::Cover(elements) => Analysis::covering(&fine, elements)?,
+        Coarse::Linear => Analysis::linear(&fine),
     };
 
     clock.enter(Stage::Assemble)?;
@@ -151,7 +152,7 @@ pub fn bake(
 
     clock.enter(Stage::Surface)?;
     let crease = match spec.shape {
-        Shape::Solid(_) => SOLID_CREASE,
+        Shape::Solid(_) | Shape::Tets(_) => SOLID_CREASE,
         _ => CREASE,
     };
     let surface = outer_surface(&fracture, crease);
@@ -160,7 +161,10 @@ pub fn bake(
     clock.enter(Stage::Stress)?;
     let stored = analysis.stored();
     let mut basis = ModalBasis {
-        shapes: row_major(&modes.shapes, modes.unknowns),
+        shapes: analysis.shapes(
+            row_major(&modes.shapes, modes.unknowns),
+            modes.eigenvalues.len(),
+        ),
         peak_stress: Vec::new(),
         eigenvalues: modes.eigenvalues.clone(),
     };
@@ -214,6 +218,8 @@ enum Coarse {
     Mesh(BodyMesh),
     /// A lattice of about this many elements.
     Cover(usize),
+    /// The fine mesh itself, with linear elements.
+    Linear,
 }
 
 fn meshes(spec: &BakeSpec) -> Result<Meshes, BakeError> {
@@ -225,6 +231,19 @@ fn meshes(spec: &BakeSpec) -> Result<Meshes, BakeError> {
             fine,
             coarse: Coarse::Cover(elements),
             tetrahedra: Some(report),
+        });
+    }
+    if let Shape::Tets(shape) = &spec.shape {
+        let fine = shapes::tets::mesh(shape)?;
+        let coarse = match (shape.carries_modes(), shape.quadratic) {
+            (true, true) => Coarse::Mesh(fine.clone()),
+            (true, false) => Coarse::Linear,
+            (false, _) => Coarse::Cover(shapes::tets::cover_elements(shape, spec.analysis)),
+        };
+        return Ok(Meshes {
+            fine,
+            coarse,
+            tetrahedra: None,
         });
     }
     let shape = &spec.shape;

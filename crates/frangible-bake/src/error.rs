@@ -1,7 +1,7 @@
 //! Errors of baking: each names what is wrong and how to mend it.
 
 use frangible::InputError;
-use frangible_mesh::{RepairError, SolidError, TetError};
+use frangible_mesh::{RepairError, SolidError, TetError, TetInputError};
 use thiserror::Error;
 
 /// Why a bake gave no asset.
@@ -28,6 +28,9 @@ pub enum BakeError {
     /// A solid that could not be filled with tetrahedra.
     #[error(transparent)]
     Tetrahedra(#[from] TetError),
+    /// Tetrahedra from a file that are no body.
+    #[error(transparent)]
+    TetInput(#[from] TetInputError),
     /// A profile that does not describe a body.
     #[error("profile station {station}: {problem}")]
     Profile {

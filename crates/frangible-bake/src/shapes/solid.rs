@@ -12,14 +12,14 @@ use crate::mesh::BodyMesh;
 use crate::shapes::MeshSize;
 
 /// Collision cells of a body of any shape.
-const CELLS: usize = 64;
+pub(crate) const CELLS: usize = 64;
 
 /// Tetrahedra per lattice cube of body: twelve inside, a few more at the surface.
 const TETS_PER_CUBE: f64 = 12.6;
 
 /// Elements that carry the modes of a body with thin walls: at 3 000, a drinking glass is up to 6 % too stiff in its
 /// first twenty modes, at 6 000 up to 2.5 %.
-const SHELL_ELEMENTS: f64 = 5000.0;
+pub(crate) const SHELL_ELEMENTS: f64 = 5000.0;
 
 /// A wall above this share of the cube root of the volume is no thin one: a ball is 1.2 of it thick, a cube 1.
 const THICK: f64 = 0.5;
