@@ -1,5 +1,6 @@
 //! The front door: shape and material in, asset out.
 
+use std::ops::ControlFlow;
 use std::time::Instant;
 
 use frangible::asset::RenderSurface;
@@ -19,6 +20,9 @@ use crate::report::{BakeReport, MeshReport, Progress, Stage};
 use crate::shapes::{self, MeshSize, Shape};
 use crate::supports::{Holder, Support};
 use crate::surface::{CREASE, SOLID_CREASE, outer_surface};
+
+/// Share of the meshing before a solid is covered by elements.
+const MESHING: f64 = 0.75;
 
 /// What to bake.
 #[derive(Clone, Debug)]
@@ -92,7 +96,10 @@ pub fn bake(
         mut fine,
         coarse,
         tetrahedra,
-    } = meshes(spec)?;
+    } = meshes(spec, &mut |share| {
+        clock.tell(Stage::Mesh, MESHING * share);
+        ControlFlow::Continue(())
+    })?;
     let holder = Holder::new(&spec.supports, &fine.positions)?;
     let held = holder.axes(
         &fine.positions,
@@ -198,10 +205,13 @@ enum Coarse {
     Cover(usize),
 }
 
-fn meshes(spec: &BakeSpec) -> Result<Meshes, BakeError> {
+fn meshes(
+    spec: &BakeSpec,
+    watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
+) -> Result<Meshes, BakeError> {
     if let Shape::Solid(shape) = &spec.shape {
         let cell = spec.fracture.map(|size| size.edge);
-        let (fine, report) = shapes::solid::mesh(shape, cell, Some(spec.seed))?;
+        let (fine, report) = shapes::solid::mesh(shape, cell, Some(spec.seed), watch)?;
         let elements = shapes::solid::elements(shape, spec.analysis, fine.volume());
         return Ok(Meshes {
             fine,
@@ -251,6 +261,10 @@ impl Clock<'_> {
             stage,
             fraction: 0.0,
         });
+    }
+
+    fn tell(&mut self, stage: Stage, fraction: f64) {
+        (self.progress)(Progress { stage, fraction });
     }
 
     fn stop(&mut self) {

@@ -17,6 +17,7 @@ mod stuffing;
 mod surface;
 mod tetrahedralize;
 mod tets;
+mod watch;
 mod winding;
 
 pub use distance::DistanceSolid;
@@ -35,6 +36,7 @@ pub use stuffing::counted_volume;
 pub use surface::Surface;
 pub use tetrahedralize::{
     CELLS_PER_WALL, Resolution, SMALLEST_ANGLE, TetOptions, TetReport, tetrahedralize,
+    tetrahedralize_watched,
 };
 pub use tets::TetBody;
 pub use tets::features::Features;
