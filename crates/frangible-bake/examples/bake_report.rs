@@ -21,7 +21,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let slab = Shape::plate(1.0, 1.0, 0.05);
     let mut fine = BakeSpec::new("very high slab", slab, Material::preset("glass")?);
     fine.fracture = Some(MeshSize {
-        edge: 0.0125,
+        edge: 0.0126,
         layers: 4,
     });
     specs.push(fine);

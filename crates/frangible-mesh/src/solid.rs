@@ -77,7 +77,7 @@ pub trait Solid: Send + Sync {
 }
 
 /// Newton steps along the gradient to the surface: the place reached, the distance left and the unit normal there.
-/// Given up where the distance says that the surface is farther than `within`, m.
+/// None are gone where the distance says that the surface is farther than `within`, m.
 pub(crate) fn newton(
     p: DVec3,
     within: f64,
@@ -87,8 +87,9 @@ pub(crate) fn newton(
     let h = 1e-6 * (high - low).max_element();
     let mut x = p;
     let (mut d, mut g) = gradient(x);
-    for _ in 0..8 {
-        if d.abs() < h || d.abs() > within {
+    let steps = if d.abs() > within { 0 } else { 8 };
+    for _ in 0..steps {
+        if d.abs() < h {
             break;
         }
         x -= d / g.length_squared().max(0.25) * g;
