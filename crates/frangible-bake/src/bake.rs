@@ -1,5 +1,6 @@
 //! The front door: shape and material in, asset out.
 
+use std::ops::ControlFlow;
 use std::time::Instant;
 
 use frangible::asset::RenderSurface;
@@ -21,6 +22,9 @@ use crate::report::{BakeReport, MeshReport, Progress, Stage};
 use crate::shapes::{self, MeshSize, Shape};
 use crate::supports::{Holder, Support, check_groups, check_supports};
 use crate::surface::{CREASE, SOLID_CREASE, outer_surface};
+
+/// Share of the meshing before a solid is covered by elements.
+const MESHING: f64 = 0.75;
 
 /// What to bake.
 #[derive(Clone, Debug)]
@@ -105,7 +109,10 @@ pub fn bake(
         mut fine,
         coarse,
         tetrahedra,
-    } = meshes(spec)?;
+    } = meshes(spec, &mut |share| {
+        clock.tell(Stage::Mesh, MESHING * share);
+        spec.cancel.flow()
+    })?;
     let holder = Holder::new(&spec.supports, &spec.groups, &fine.positions)?;
     let held = holder.axes(
         &fine.positions,
@@ -222,10 +229,13 @@ enum Coarse {
     Linear,
 }
 
-fn meshes(spec: &BakeSpec) -> Result<Meshes, BakeError> {
+fn meshes(
+    spec: &BakeSpec,
+    watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
+) -> Result<Meshes, BakeError> {
     if let Shape::Solid(shape) = &spec.shape {
         let cell = spec.fracture.map(|size| size.edge);
-        let (fine, report) = shapes::solid::mesh(shape, cell, Some(spec.seed))?;
+        let (fine, report) = shapes::solid::mesh(shape, cell, Some(spec.seed), watch)?;
         let elements = shapes::solid::elements(shape, spec.analysis, fine.volume());
         return Ok(Meshes {
             fine,
@@ -293,6 +303,10 @@ impl Clock<'_> {
             true => Err(BakeError::Cancelled),
             false => Ok(()),
         }
+    }
+
+    fn tell(&mut self, stage: Stage, fraction: f64) {
+        (self.progress)(Progress { stage, fraction });
     }
 
     fn stop(&mut self) {

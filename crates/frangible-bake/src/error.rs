@@ -27,7 +27,7 @@ pub enum BakeError {
     Solid(#[from] SolidError),
     /// A solid that could not be filled with tetrahedra.
     #[error(transparent)]
-    Tetrahedra(#[from] TetError),
+    Tetrahedra(TetError),
     /// Tetrahedra from a file that are no body.
     #[error(transparent)]
     TetInput(#[from] TetInputError),
@@ -147,5 +147,14 @@ pub(crate) fn positive(what: &'static str, value: f64) -> Result<(), BakeError> 
         Ok(())
     } else {
         Err(BakeError::NotPositive { what, value })
+    }
+}
+
+impl From<TetError> for BakeError {
+    fn from(error: TetError) -> Self {
+        match error {
+            TetError::Cancelled => Self::Cancelled,
+            error => Self::Tetrahedra(error),
+        }
     }
 }

@@ -1,7 +1,8 @@
 //! Bakes of tetrahedra from files, against the same elements assembled by themselves.
 
 use frangible::Material;
-use frangible::glam::DVec3;
+use std::ops::ControlFlow;
+
 use frangible_bake::eigen::lowest_modes;
 use frangible_bake::fem::{Elasticity, Elements, assemble};
 use frangible_bake::frangible_mesh::TetInput;
@@ -47,7 +48,7 @@ fn own_linear_elements_give_the_frequencies_of_their_own_assembly() {
     let (input, mesh) = rod();
     let material = Elasticity::from(&Material::preset("glass").unwrap());
     let system = assemble(&mesh.positions, Elements::Linear(&mesh.tets), &material);
-    let direct = lowest_modes(&system, 8, &mut |_| {}).unwrap();
+    let direct = lowest_modes(&system, 8, &mut |_| ControlFlow::Continue(())).unwrap();
     let report = baked(&input, AnalysisChoice::Own, false);
     assert_eq!(report.unknowns, 3 * mesh.positions.len());
     for (i, &found) in report.frequencies.iter().enumerate() {

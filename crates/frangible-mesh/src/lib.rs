@@ -21,6 +21,7 @@ mod surface;
 mod tet_input;
 mod tetrahedralize;
 mod tets;
+mod watch;
 mod winding;
 
 pub use distance::DistanceSolid;
@@ -43,6 +44,7 @@ pub use surface::Surface;
 pub use tet_input::{TetGroup, TetInput};
 pub use tetrahedralize::{
     CELLS_PER_WALL, Resolution, SMALLEST_ANGLE, TetOptions, TetReport, tetrahedralize,
+    tetrahedralize_watched,
 };
 pub use tets::TetBody;
 pub use tets::features::Features;

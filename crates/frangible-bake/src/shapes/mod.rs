@@ -180,7 +180,9 @@ impl Shape {
         match self {
             Self::Box { size: sides } => block::regular(*sides, size),
             Self::Revolution { profile } => revolution::mesh(&Profile::new(profile)?, size, None),
-            Self::Solid(shape) => solid::mesh(shape, Some(size.edge), None).map(|m| m.0),
+            Self::Solid(shape) => {
+                solid::mesh(shape, Some(size.edge), None, &mut solid::unwatched).map(|m| m.0)
+            }
             Self::Tets(shape) => tets::mesh(shape),
         }
     }
@@ -196,7 +198,9 @@ impl Shape {
             Self::Revolution { profile } => {
                 revolution::mesh(&Profile::new(profile)?, size, Some(seed))
             }
-            Self::Solid(shape) => solid::mesh(shape, Some(size.edge), Some(seed)).map(|m| m.0),
+            Self::Solid(shape) => {
+                solid::mesh(shape, Some(size.edge), Some(seed), &mut solid::unwatched).map(|m| m.0)
+            }
             Self::Tets(shape) => tets::mesh(shape),
         }
     }
