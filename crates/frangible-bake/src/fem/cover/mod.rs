@@ -99,6 +99,12 @@ impl Cover {
         [1.0 - l[1] - l[2] - l[3], l[1], l[2], l[3]]
     }
 
+    /// The first element that holds a point, on its faces too. Looks at all of them.
+    pub(crate) fn element_at(&self, p: DVec3) -> Option<u32> {
+        (0..self.mesh.elements.len() as u32)
+            .find(|&e| self.barycentric(e, p).iter().all(|&l| l > -1e-9))
+    }
+
     /// Where the tetrahedra and nodes of the body lie in the elements. Barycentric coordinates are slightly
     /// negative where a sliver of the body is carried by the element next to it.
     #[must_use]
