@@ -51,6 +51,7 @@ mod debris;
 mod error;
 mod event;
 mod floor;
+mod friction;
 mod guard;
 mod insert;
 mod joints;

@@ -1,0 +1,77 @@
+//! Friction's part of contact impulses.
+//!
+//! With [`FrictionModel::Coulomb`] Rapier keeps the tangential impulse of each point over the whole step, along a basis
+//! that follows from the normal: it is read. Its default, `Simplified`, has one friction per up to four points and keeps
+//! only what the last substep gave, the same vector at each of them. For what rests, every substep is alike, so the whole
+//! is that × substeps, shared by normal impulse. A blow is over before the last substep, so its friction is found from
+//! Coulomb's law of impact: against the sliding before the step, μ × the normal impulse, or what ends the sliding.
+
+use frangible::Contact;
+use rapier3d::dynamics::{FrictionModel, IntegrationParameters, RigidBody};
+use rapier3d::geometry::{ContactManifold, TrackedContact};
+use rapier3d::math::Vector;
+use rapier3d::utils::OrthonormalBasis;
+
+use crate::contacts::{inverse_effective_mass, weighted_mean};
+
+/// Friction impulse of a whole step on the **first** collider's body at this point, world axes, N·s, as the solver
+/// left it. Exact with the Coulomb model; with the simplified one only where all substeps are alike.
+pub(crate) fn solver_friction(
+    manifold: &ContactManifold,
+    point: &TrackedContact<rapier3d::geometry::ContactData>,
+    parameters: &IntegrationParameters,
+) -> Vector {
+    let data = &point.data;
+    match parameters.friction_model {
+        FrictionModel::Coulomb => {
+            let direction = -manifold.data.normal;
+            let tangent = direction.orthonormal_vector();
+            tangent * data.tangent_impulse.x
+                + direction.cross(tangent) * data.tangent_impulse.y
+        }
+        FrictionModel::Simplified => {
+            let shared = data.warmstart_tangent_world;
+            let group = manifold
+                .points
+                .iter()
+                .map(|p| &p.data)
+                .filter(|d| d.impulse > 0.0 && d.warmstart_tangent_world == shared);
+            let total: f32 = group.map(|d| d.impulse).sum();
+            let substeps = parameters.num_solver_iterations as f32;
+            let whole = shared * (substeps * data.impulse / total);
+            // A landing has most of its normal impulse early: no more than Coulomb's law gives.
+            whole.clamp_length_max(manifold.data.friction * data.impulse)
+        }
+    }
+}
+
+/// Gives the contacts of one pair the friction of Coulomb's law of impact; `coefficient` is the pair's.
+///
+/// The slide is that of the impulses' centre before the step. One impulse ends it when it is |slide| / (tᵀ K t); a longer
+/// slide takes μ × the normal impulse. It is spread over the contacts as the normal impulses are.
+pub(crate) fn rub(
+    contacts: &mut [Contact],
+    body: &RigidBody,
+    partner: Option<&RigidBody>,
+    coefficient: f32,
+) {
+    let Some((point, normal, total)) = weighted_mean(contacts) else {
+        return;
+    };
+    let world = *body.position() * point;
+    let other = partner.map_or(Vector::ZERO, |p| p.velocity_at_point(world));
+    let relative = body.rotation().inverse() * (other - body.velocity_at_point(world));
+    let slide = relative - normal * relative.dot(normal);
+    let Some(direction) = slide.try_normalize() else {
+        return;
+    };
+    let across = *body.rotation() * direction;
+    let k = inverse_effective_mass(body, world, across)
+        + partner.map_or(0.0, |p| inverse_effective_mass(p, world, across));
+    let size = (coefficient * total).min(slide.length() / k);
+    if size.is_finite() && size > 0.0 {
+        for contact in contacts {
+            contact.friction = direction * (size * contact.impulse / total);
+        }
+    }
+}
