@@ -344,7 +344,11 @@ pub(crate) fn weighted_mean(contacts: &[Contact]) -> Option<(Vector, Vector, f32
             .map(|c| f(c) * (c.impulse / total))
             .sum::<Vector>()
     };
-    Some((mean(&|c| c.point), mean(&|c| c.normal).try_normalize()?, total))
+    Some((
+        mean(&|c| c.point),
+        mean(&|c| c.normal).try_normalize()?,
+        total,
+    ))
 }
 
 /// Scales the impulses of one pair so that their sum is no more than the two bodies' meeting can give,

@@ -26,8 +26,7 @@ pub(crate) fn solver_friction(
         FrictionModel::Coulomb => {
             let direction = -manifold.data.normal;
             let tangent = direction.orthonormal_vector();
-            tangent * data.tangent_impulse.x
-                + direction.cross(tangent) * data.tangent_impulse.y
+            tangent * data.tangent_impulse.x + direction.cross(tangent) * data.tangent_impulse.y
         }
         FrictionModel::Simplified => {
             let shared = data.warmstart_tangent_world;
