@@ -77,6 +77,9 @@ impl BreakableWorld {
                 asked.error.get_or_insert(error.into());
             }
         }
+        if asked.held.values().any(|(_, event)| event.state.is_some()) {
+            self.weigh_anew();
+        }
         if self.config.record_held {
             self.held
                 .extend(asked.held.into_values().map(|(_, event)| event));
