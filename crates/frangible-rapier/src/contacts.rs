@@ -14,7 +14,7 @@ use rapier3d::math::Vector;
 use rapier3d::pipeline::PhysicsWorld;
 
 use crate::config::WorldConfig;
-use crate::friction::{rub, solver_friction};
+use crate::friction::{rub, solver_friction, unexplained};
 use crate::surface::{EDGE_RADIUS, SurfaceProperties};
 use crate::world::{Key, collider_key, key};
 
@@ -59,7 +59,15 @@ pub(crate) fn impact_on(
     };
     let mut impact = Impact::default();
     let known = physics.integration_parameters.friction_model == FrictionModel::Coulomb;
-    for group in merged_by_partner(points_on(handle, body, physics), config.merge_distance) {
+    let groups = merged_by_partner(points_on(handle, body, physics), config.merge_distance);
+    let rubbed = match (&groups[..], physics.bodies.get(handle)) {
+        ([only], Some(after)) if !known => {
+            let dt = physics.integration_parameters.dt;
+            unexplained(body, after, physics.gravity, dt, only)
+        }
+        _ => None,
+    };
+    for group in groups {
         let other = group[0].other;
         let partner = other.and_then(|other| before.get(other));
         let first = impact.contacts.len();
@@ -80,9 +88,11 @@ pub(crate) fn impact_on(
             }
         }
         let added = &mut impact.contacts[first..];
-        limit_impulse(added, body, partner);
+        let share = limit_impulse(added, body, partner);
         if !known {
-            rub(added, body, partner, group[0].friction_coefficient);
+            let rubbed = rubbed.map(|impulse| impulse * share);
+            let coefficient = group[0].friction_coefficient;
+            rub(added, body, partner, coefficient, rubbed);
         }
         if let (Some(other), Some(partner)) = (other, partner) {
             let other = surfaces.breakables.get(&key(other));
@@ -352,10 +362,11 @@ pub(crate) fn weighted_mean(contacts: &[Contact]) -> Option<(Vector, Vector, f32
 }
 
 /// Scales the impulses of one pair so that their sum is no more than the two bodies' meeting can give,
-/// (1+e) v_n / (nᵀ K n of both): Rapier adds what pushes an overlap apart and what gravity presses, which is no blow.
-fn limit_impulse(contacts: &mut [Contact], body: &RigidBody, partner: Option<&RigidBody>) {
+/// (1+e) v_n / (nᵀ K n of both): Rapier adds what pushes an overlap apart and what gravity presses, which is no blow. Returns
+/// the share that is left.
+fn limit_impulse(contacts: &mut [Contact], body: &RigidBody, partner: Option<&RigidBody>) -> f32 {
     let Some((point, normal, total)) = weighted_mean(contacts) else {
-        return;
+        return 1.0;
     };
     let restitution = contacts
         .iter()
@@ -365,10 +376,12 @@ fn limit_impulse(contacts: &mut [Contact], body: &RigidBody, partner: Option<&Ri
     let k = inverse_effective_mass(body, world, direction)
         + partner.map_or(0.0, |p| inverse_effective_mass(p, world, direction));
     let limit = (1.0 + restitution) * approach(body, partner, point, normal).max(0.0) / k;
-    if limit.is_finite() && limit > 0.0 && limit < total {
-        for contact in contacts {
-            contact.impulse *= limit / total;
-            contact.friction *= limit / total;
-        }
+    if !(limit.is_finite() && limit > 0.0 && limit < total) {
+        return 1.0;
     }
+    for contact in contacts {
+        contact.impulse *= limit / total;
+        contact.friction *= limit / total;
+    }
+    limit / total
 }

@@ -102,6 +102,7 @@ fn broke_at(world: &mut BreakableWorld, half: f32) -> Option<f32> {
     let weight = world
         .insert_rigid(cube, mass, SurfaceProperties::STEEL, start, Vector::ZERO)
         .unwrap();
+    never_sleeps(world, weight);
     let mut scale = 1.0;
     while scale < 60.0 {
         world.physics.bodies[weight].set_gravity_scale(scale, true);
