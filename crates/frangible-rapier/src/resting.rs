@@ -2,10 +2,10 @@
 //!
 //! After a step each breakable body that is awake, or held, is put to [`frangible::rest()`] with the forces of its
 //! resting contacts: impulse / time step, friction included. Contacts that approach faster than the impact speed are not
-//! among them. A single step's impulses are noisy (a thing put down at 0.1 m/s presses for one step with six times its
-//! weight at 1/240 s), so a load counts as the smallest of the last [`STEADY`] steps: a body breaks only when each of
+//! among them. A single step's impulses are noisy (a thing put down at 0.1 m/s presses for one step of 1/240 s with three
+//! times its weight), so a load counts as the smallest of the last [`STEADY`] steps: a body breaks only when each of
 //! them would have broken it. The last of these steps begins with a copy of the world and is taken again with fragments,
-//! as after an impact.
+//! as after an impact. Where steps are shorter than [`INTERVAL`], only one in each interval is looked at.
 
 use std::collections::BTreeMap;
 
@@ -24,7 +24,10 @@ use crate::world::{BreakableWorld, Key, key};
 /// Steps in a row that must each break a body, or crack it.
 const STEADY: u32 = 4;
 
-/// Steps for which a body that held after a full computation is not asked again: that one costs milliseconds.
+/// Time from one look at the loads to the next, s, or one step: four looks span several swings of most bodies.
+const INTERVAL: f32 = 1.0 / 240.0;
+
+/// Looks for which a body that held after a full computation is not asked again: that one costs milliseconds.
 const PAUSE: u32 = 8;
 
 /// Forces at most: more are merged with their neighbours, since the quick bound looks at no more. Stress at a distance
@@ -60,6 +63,7 @@ pub(crate) struct Burden {
     margin: f64,
     /// Steps in a row that would have broken or cracked it.
     over: u32,
+    /// Looks until it is asked again.
     pause: u32,
 }
 
@@ -122,6 +126,12 @@ impl BreakableWorld {
         for burden in self.burdens.values_mut() {
             burden.load.gravity = Vec3::NAN;
         }
+    }
+
+    /// Whether loads are looked at after the coming step.
+    pub(crate) fn weighs_now(&self) -> bool {
+        let stride = (INTERVAL / self.physics.integration_parameters.dt).round();
+        self.config.resting_loads && self.steps.is_multiple_of((stride as u64).max(1))
     }
 
     /// Bodies that the coming step may break by what they carry.

@@ -85,7 +85,7 @@ impl BreakableWorld {
                 .extend(asked.held.into_values().map(|(_, event)| event));
         }
         // A break's impulses are no weight either.
-        let weighed = if self.config.resting_loads && self.events.is_empty() {
+        let weighed = if self.weighs_now() && self.events.is_empty() {
             self.weigh(before.as_ref())
         } else {
             Ok(())
@@ -98,7 +98,7 @@ impl BreakableWorld {
     /// Breakable bodies that may be hit in the coming step, or break under what they carry; in the order of handles.
     fn near(&self) -> Vec<RigidBodyHandle> {
         let mut near = candidates(&self.physics, self.breakables(), self.config.impact_speed);
-        if self.config.resting_loads {
+        if self.weighs_now() {
             let overloaded = self.overloaded().filter(|&h| self.breakable(h).is_some());
             let new: Vec<RigidBodyHandle> = overloaded.filter(|h| !near.contains(h)).collect();
             if !new.is_empty() {

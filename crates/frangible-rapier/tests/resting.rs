@@ -176,3 +176,36 @@ fn one_step_of_overload_breaks_nothing_and_four_do() {
     let event = run(4).expect("four steps in a row");
     assert_eq!((event.cause, event.fragments.len()), (BreakCause::Rest, 8));
 }
+
+#[test]
+fn what_sleeps_is_not_asked_again() {
+    use std::sync::Arc;
+    use std::sync::atomic::{AtomicU64, Ordering};
+    let mut world = heavy_world(true);
+    let asked = Arc::new(AtomicU64::new(0));
+    let count = Arc::clone(&asked);
+    world.set_rest_function(move |body, forces, gravity, config| {
+        count.fetch_add(1, Ordering::Relaxed);
+        rest(body, forces, gravity, config)
+    });
+    world
+        .insert_breakable(body(shelf()), Pose::IDENTITY, Vector::ZERO, Vector::ZERO)
+        .unwrap();
+    let brick = box_asset(Vec3::splat(0.02), [1, 1, 1]);
+    let start = at(0.0, 0.0, 0.0251);
+    world
+        .insert_breakable(body(&brick), start, Vector::ZERO, Vector::ZERO)
+        .unwrap();
+    let asleep = (0..600).find(|_| {
+        world.step().unwrap();
+        world.at_rest()
+    });
+    assert!(asleep.is_some(), "the brick never slept");
+    world.step().unwrap();
+    let before = asked.load(Ordering::Relaxed);
+    assert!(before > 20);
+    for _ in 0..50 {
+        world.step().unwrap();
+    }
+    assert_eq!(asked.load(Ordering::Relaxed), before);
+}
