@@ -59,14 +59,15 @@ pub struct BreakEvent {
     pub work: f64,
 }
 
-/// An impact that broke nothing; recorded on request.
+/// An impact, blast or scripted blow that broke nothing, or a resting load that cracked a body without parting it;
+/// recorded on request.
 #[derive(Clone, Debug)]
 pub struct HeldEvent {
     /// Number of the step, from 0.
     pub step: u64,
     /// The body that was hit.
     pub body: RigidBodyHandle,
-    /// The contacts, body frame.
+    /// The contacts, body frame; as [`BreakEvent::contacts`].
     pub contacts: Vec<Contact>,
     /// Strength over the bound of the stress: how many times as hard the blow could have been, at least.
     pub margin: f64,

@@ -172,7 +172,7 @@ impl BreakableWorld {
         &self.events
     }
 
-    /// Impacts of the last step that broke nothing; empty unless [`WorldConfig::record_held`].
+    /// Impacts and pushes of the last step that broke nothing; empty unless [`WorldConfig::record_held`].
     #[must_use]
     pub fn held(&self) -> &[HeldEvent] {
         &self.held
