@@ -94,7 +94,7 @@ pub(crate) fn rescaled(asset: Asset, rescale: &Rescale, path: &Path) -> Result<A
     let wrong = |source: RescaleError| SceneError::Rescale {
         path: path.to_path_buf(),
         hint: hint(&source),
-        source,
+        source: Box::new(source),
     };
     let mut asset = asset;
     if let Some(edit) = &rescale.material {

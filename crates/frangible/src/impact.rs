@@ -59,6 +59,7 @@ pub fn would_break(
 }
 
 /// What the cracks of an impact did to a body.
+#[expect(clippy::large_enum_variant, reason = "one at a time, never stored")]
 pub(crate) enum Cracked<'a> {
     /// Margin, report, and the body's cracks if there are new ones.
     Held(f64, ImpactReport, Option<Box<BodyState>>),

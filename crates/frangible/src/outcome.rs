@@ -8,6 +8,10 @@ use crate::state::BodyState;
 /// What an impact did to a body.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
+#[expect(
+    clippy::large_enum_variant,
+    reason = "a refused contact must not allocate"
+)]
 pub enum Outcome {
     /// The body stays one piece.
     Held {

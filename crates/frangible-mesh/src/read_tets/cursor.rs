@@ -70,7 +70,7 @@ impl<'a> Cursor<'a> {
         }
         let rest = &self.bytes[self.at..];
         let end = |&b: &u8| b.is_ascii_whitespace() || b == self.comment && self.comment != 0;
-        let length = rest.iter().position(|b| end(b)).unwrap_or(rest.len());
+        let length = rest.iter().position(end).unwrap_or(rest.len());
         self.at += length;
         Some(&rest[..length])
     }

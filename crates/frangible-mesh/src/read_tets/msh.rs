@@ -128,7 +128,7 @@ pub(super) fn kind(cursor: &Cursor<'_>, kind: i64) -> Result<(usize, Use), ReadE
         5 | 12 | 17 => return Err(other_cells("hexahedra")),
         6 | 13 | 18 => return Err(other_cells("prisms")),
         7 | 14 | 19 => return Err(other_cells("pyramids")),
-        20..=28 | 29..=31 => {
+        20..=31 => {
             let needs = "elements of third order or above";
             return Err(ReadError::Unsupported(needs.into()));
         }

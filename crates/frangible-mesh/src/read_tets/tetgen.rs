@@ -102,8 +102,8 @@ fn elements(bytes: &[u8], builder: &mut Builder) -> Result<bool, ReadError> {
     let count = indices(&cursor, &values, 1)?[0];
     let size = match values.get(1) {
         None => 4,
-        Some(&size) if size == 4.0 => 4,
-        Some(&size) if size == 10.0 => 10,
+        Some(4.0) => 4,
+        Some(10.0) => 10,
         Some(size) => {
             let problem = format!("tetrahedra of {size} nodes; they must have 4 or 10");
             return Err(ReadError::malformed("the first line", problem));

@@ -355,12 +355,9 @@ pub(crate) enum Kept {
     AppendedBase64,
 }
 
-pub(crate) fn vtu(
-    s: &Sample,
-    kept: Kept,
-    wide: bool,
-    pack: Option<fn(&[u8]) -> Vec<u8>>,
-) -> Vec<u8> {
+type Pack = fn(&[u8]) -> Vec<u8>;
+
+pub(crate) fn vtu(s: &Sample, kept: Kept, wide: bool, pack: Option<Pack>) -> Vec<u8> {
     use base64::Engine;
     let encode = |bytes: &[u8]| base64::engine::general_purpose::STANDARD.encode(bytes);
     let (kinds, cells, groups) = vtk_cells(s);

@@ -237,7 +237,8 @@ fn clusters(mesh: &TetMesh) -> (Vec<u32>, usize) {
     let mut order: Vec<u32> = (0..mesh.tets.len() as u32).collect();
     let mut of_tet = vec![0; mesh.tets.len()];
     let mut count = 0;
-    let mut parts = vec![0..order.len()];
+    let mut parts = Vec::new();
+    parts.push(0..order.len());
     while let Some(part) = parts.pop() {
         let tets = &mut order[part.clone()];
         if tets.len() <= CLUSTER {
