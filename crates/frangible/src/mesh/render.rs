@@ -1,0 +1,42 @@
+//! Drawn meshes of the pieces: the author's surface outside, crack faces inside.
+
+use glam::Vec3;
+
+/// What to draw of a piece of a body that has a [`RenderSurface`](crate::asset::RenderSurface): its part of that
+/// surface and its crack faces, m, fragment frame.
+///
+/// A mesh for the eye: it need not be closed, and is no input to physics. Triangles that cracks divide meet their
+/// neighbours on straight edges, not corner to corner.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct RenderMesh {
+    /// Vertex positions, m, fragment frame.
+    pub positions: Vec<Vec3>,
+    /// Unit normals, one per vertex.
+    pub normals: Vec<Vec3>,
+    /// Texture coordinates, one pair per vertex: the author's outside, where there are any; else, and on crack faces,
+    /// [`box_projection`] of the place in the parent's body frame, m.
+    pub uvs: Vec<[f32; 2]>,
+    /// Vertices of each triangle, counter-clockwise seen from outside. The first [`RenderMesh::outer_triangles`]
+    /// are the author's surface, the rest crack faces.
+    pub triangles: Vec<[u32; 3]>,
+    /// How many of the triangles, from the first, are the author's surface.
+    pub outer_triangles: usize,
+    /// Index into [`RenderSurface::materials`](crate::asset::RenderSurface::materials) of each outer triangle; empty
+    /// where the author gave none. Crack faces take a material of the user's own.
+    pub material_of_triangle: Vec<u32>,
+}
+
+/// Texture coordinates of a point by box projection, m: its two coordinates across the axis that the face's normal is
+/// closest to. Give all corners of a triangle the same normal.
+///
+/// Never mirrored: u, v and the outward axis are right-handed.
+#[must_use]
+pub fn box_projection(point: Vec3, normal: Vec3) -> [f32; 2] {
+    let axis = normal.abs().max_position();
+    let (u, v) = match axis {
+        0 => (-point.z, point.y),
+        1 => (point.x, -point.z),
+        _ => (point.x, point.y),
+    };
+    [if normal[axis] < 0.0 { -u } else { u }, v]
+}
