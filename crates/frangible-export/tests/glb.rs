@@ -19,6 +19,7 @@ fn recording() -> Recording {
         name: name.into(),
         positions: corners.to_vec(),
         normals: vec![Vec3::ONE; 4],
+        uvs: corners.iter().map(|p| [p.x, p.z]).collect(),
         parts: vec![
             MeshPart {
                 surface: 0,

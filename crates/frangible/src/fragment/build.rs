@@ -7,15 +7,12 @@ use glam::{DVec3, Vec3};
 use super::cuts::Cuts;
 use super::label::Labels;
 use super::partition::{Interface, Point, face_parts, interfaces};
-use super::render::{Part, Parts, Share, assemble};
+use super::render::{Part, Parts, Share};
 use crate::asset::Asset;
 use crate::body::Prepared;
 use crate::crack::{CrackSystem, crossing_polygon};
-use crate::mesh::{MassProperties, TriMesh};
+use crate::mesh::{MassProperties, TriMesh, smooth_normals};
 use crate::outcome::Fragment;
-
-/// Corners of interface triangles that turn by more than this from their vertex's mean are shaded flat (cosine).
-const SMOOTH_COSINE: f32 = 0.6;
 
 /// Points of the partition in f64, body frame, numbered in order of first use; mesh nodes come first.
 struct PointTable<'a> {
@@ -150,7 +147,7 @@ pub(crate) fn build(system: &CrackSystem, labels: &Labels, prepared: &Prepared) 
         .into_iter()
         .map(|draft| finish(draft, &table.positions, &mut local, density))
         .collect();
-    if let (Some(drawn), Some(surface)) = (drawn, &asset.render) {
+    if let (Some(drawn), Some(surface), Some(index)) = (drawn, &asset.render, &prepared.render) {
         let mut local = vec![u32::MAX; surface.positions.len()];
         for ((fragment, faces), share) in fragments.iter_mut().zip(&faces).zip(&drawn.shares) {
             let normals = &fragment.mesh.normals[fragment.mesh.outer_triangles..];
@@ -161,7 +158,7 @@ pub(crate) fn build(system: &CrackSystem, labels: &Labels, prepared: &Prepared) 
                 .map(|(face, n)| [0, 1, 2].map(|k| (place(face[k]), n[k])))
                 .collect();
             let centre = fragment.mass.centre;
-            fragment.render = Some(assemble(surface, share, &faces, centre, &mut local));
+            fragment.render = Some(index.assemble(surface, share, &faces, centre, &mut local));
         }
     }
     // Stable: equal volumes stay in the order of their labels.
@@ -302,32 +299,4 @@ fn finish(draft: Draft, positions: &[DVec3], local: &mut [u32], density: f64) ->
         cell_shares,
         supported: draft.supported,
     }
-}
-
-/// Corner normals of crack faces: area-weighted vertex means, flat at sharp turns.
-fn smooth_normals(vertices: &[Vec3], triangles: &[[u32; 3]]) -> Vec<[Vec3; 3]> {
-    let flat = |t: &[u32; 3]| {
-        let [a, b, c] = t.map(|v| vertices[v as usize]);
-        (b - a).cross(c - a)
-    };
-    let mut sums = vec![Vec3::ZERO; vertices.len()];
-    for t in triangles {
-        for &v in t {
-            sums[v as usize] += flat(t);
-        }
-    }
-    triangles
-        .iter()
-        .map(|t| {
-            let own = flat(t).normalize_or(Vec3::Y);
-            t.map(|v| {
-                let mean = sums[v as usize].normalize_or(own);
-                if mean.dot(own) > SMOOTH_COSINE {
-                    mean
-                } else {
-                    own
-                }
-            })
-        })
-        .collect()
 }

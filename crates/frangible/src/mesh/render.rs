@@ -29,14 +29,14 @@ pub struct RenderMesh {
 /// Texture coordinates of a point by box projection, m: its two coordinates across the axis that the face's normal is
 /// closest to. Give all corners of a triangle the same normal.
 ///
-/// Never mirrored: u, v and the outward axis are right-handed.
+/// u runs right and v down as seen from outside, as in glTF, so that no face is mirrored.
 #[must_use]
 pub fn box_projection(point: Vec3, normal: Vec3) -> [f32; 2] {
     let axis = normal.abs().max_position();
     let (u, v) = match axis {
-        0 => (-point.z, point.y),
-        1 => (point.x, -point.z),
-        _ => (point.x, point.y),
+        0 => (-point.z, -point.y),
+        1 => (point.x, point.z),
+        _ => (point.x, -point.y),
     };
     [if normal[axis] < 0.0 { -u } else { u }, v]
 }

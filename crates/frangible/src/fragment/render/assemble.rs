@@ -2,70 +2,75 @@
 
 use glam::{DVec3, Vec3};
 
-use super::Share;
+use super::{RenderIndex, Share};
 use crate::asset::RenderSurface;
 use crate::mesh::{RenderMesh, box_projection};
 
 /// Corners of crack faces: positions (m, body frame) and normals.
 pub(crate) type Vertices = Vec<[(DVec3, Vec3); 3]>;
 
-/// Mesh of a fragment in its frame, whose origin is `centre` in the body frame, m. `local` maps the surface's vertices
-/// to the mesh's and is `u32::MAX` throughout before and after.
-pub(crate) fn assemble(
-    surface: &RenderSurface,
-    share: &Share,
-    faces: &Vertices,
-    centre: DVec3,
-    local: &mut [u32],
-) -> RenderMesh {
-    let mut mesh = Builder {
-        mesh: RenderMesh::default(),
-        surface,
-        centre,
-    };
-    // Without normals or texture coordinates of the author's own, corners take those of their triangle.
-    let shared = !surface.normals.is_empty() && !surface.uvs.is_empty();
-    for &t in &share.whole {
-        let corners = [0, 1, 2].map(|k| {
-            let known = &mut local[surface.triangles[t as usize][k] as usize];
-            if !shared {
-                *known = u32::MAX;
-            }
-            if *known == u32::MAX {
-                let mut weights = [0.0; 3];
-                weights[k] = 1.0;
-                *known = mesh.corner(t, weights);
-            }
-            *known
-        });
-        mesh.triangle(t, corners);
-    }
-    for v in share
-        .whole
-        .iter()
-        .flat_map(|&t| surface.triangles[t as usize])
-    {
-        local[v as usize] = u32::MAX;
-    }
-    for (t, polygon) in &share.pieces {
-        let corners: Vec<u32> = polygon
-            .iter()
-            .map(|p| mesh.corner(*t, [1.0 - p.x - p.y, p.x, p.y]))
-            .collect();
-        for k in 2..corners.len() {
-            mesh.triangle(*t, [corners[0], corners[k - 1], corners[k]]);
+impl RenderIndex {
+    /// Mesh of a fragment in its frame, whose origin is `centre` in the body frame, m. `local` maps the surface's vertices
+    /// to the mesh's and is `u32::MAX` throughout before and after.
+    pub(crate) fn assemble(
+        &self,
+        surface: &RenderSurface,
+        share: &Share,
+        faces: &Vertices,
+        centre: DVec3,
+        local: &mut [u32],
+    ) -> RenderMesh {
+        let mut mesh = Builder {
+            mesh: RenderMesh::default(),
+            surface,
+            normals: &self.normals,
+            centre,
+        };
+        // Without normals or texture coordinates of the author's own, corners take those of their triangle.
+        let shared = !surface.normals.is_empty() && !surface.uvs.is_empty();
+        for &t in &share.whole {
+            let corners = [0, 1, 2].map(|k| {
+                let known = &mut local[surface.triangles[t as usize][k] as usize];
+                if !shared {
+                    *known = u32::MAX;
+                }
+                if *known == u32::MAX {
+                    let mut weights = [0.0; 3];
+                    weights[k] = 1.0;
+                    *known = mesh.corner(t, weights);
+                }
+                *known
+            });
+            mesh.triangle(t, corners);
         }
+        for v in share
+            .whole
+            .iter()
+            .flat_map(|&t| surface.triangles[t as usize])
+        {
+            local[v as usize] = u32::MAX;
+        }
+        for (t, polygon) in &share.pieces {
+            let corners: Vec<u32> = polygon
+                .iter()
+                .map(|p| mesh.corner(*t, [1.0 - p.x - p.y, p.x, p.y]))
+                .collect();
+            for k in 2..corners.len() {
+                mesh.triangle(*t, [corners[0], corners[k - 1], corners[k]]);
+            }
+        }
+        mesh.mesh.outer_triangles = mesh.mesh.triangles.len();
+        for face in faces {
+            mesh.crack_face(face);
+        }
+        mesh.mesh
     }
-    mesh.mesh.outer_triangles = mesh.mesh.triangles.len();
-    for face in faces {
-        mesh.crack_face(face);
-    }
-    mesh.mesh
 }
 
 struct Builder<'a> {
     mesh: RenderMesh,
     surface: &'a RenderSurface,
+    normals: &'a [[Vec3; 3]],
     centre: DVec3,
 }
 
@@ -78,12 +83,8 @@ impl Builder<'_> {
         let mean = |x: [DVec3; 3]| x[0] * weights[0] + x[1] * weights[1] + x[2] * weights[2];
         let [a, b, c] = corners;
         let flat = (b - a).cross(c - a).as_vec3().normalize_or(Vec3::Y);
-        let normal = if surface.normals.is_empty() {
-            flat
-        } else {
-            let smooth = mean(triangle.map(|v| surface.normals[v].as_dvec3()));
-            smooth.as_vec3().normalize_or(flat)
-        };
+        let smooth = mean(self.normals[t as usize].map(Vec3::as_dvec3));
+        let normal = smooth.as_vec3().normalize_or(flat);
         let position = mean(corners);
         let uv = if surface.uvs.is_empty() {
             box_projection(position.as_vec3(), flat)

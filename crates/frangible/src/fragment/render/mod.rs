@@ -14,7 +14,6 @@ use glam::{DVec3, Vec3};
 
 use crate::asset::RenderSurface;
 use crate::mesh::TriangleTree;
-pub(crate) use assemble::assemble;
 use overlay::Overlay;
 pub(crate) use parts::{Part, Parts};
 use polygon::Polygon;
@@ -26,6 +25,8 @@ pub(crate) struct RenderIndex {
     tree: TriangleTree,
     /// Boundary triangle of the fracture mesh closest to each render triangle's centroid.
     home: Vec<u32>,
+    /// Normals at the corners of each render triangle.
+    normals: Vec<[Vec3; 3]>,
 }
 
 /// What of the render surface belongs to a fragment.
@@ -49,6 +50,7 @@ impl RenderIndex {
         };
         Self {
             tree: TriangleTree::new(&surface.positions, &surface.triangles),
+            normals: surface.corner_normals(),
             home: surface.triangles.iter().map(home).collect(),
         }
     }
