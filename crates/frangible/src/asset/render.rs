@@ -32,7 +32,7 @@ impl RenderSurface {
     pub fn corner_normals(&self) -> Vec<[Vec3; 3]> {
         let corners = |t: &[u32; 3]| t.map(|v| v as usize);
         if !self.normals.is_empty() {
-            let own = |t| corners(t).map(|v| self.normals[v]);
+            let own = |t| corners(t).map(|v| self.normals[v].normalize_or(Vec3::Y));
             return self.triangles.iter().map(own).collect();
         }
         // Vertices that only texture coordinates part are one. Looked up only, never iterated.

@@ -26,21 +26,10 @@ impl RenderIndex {
             normals: &self.normals,
             centre,
         };
-        // Without normals or texture coordinates of the author's own, corners take those of their triangle.
-        let shared = !surface.normals.is_empty() && !surface.uvs.is_empty();
         for &t in &share.whole {
-            let corners = [0, 1, 2].map(|k| {
-                let known = &mut local[surface.triangles[t as usize][k] as usize];
-                if !shared {
-                    *known = u32::MAX;
-                }
-                if *known == u32::MAX {
-                    let mut weights = [0.0; 3];
-                    weights[k] = 1.0;
-                    *known = mesh.corner(t, weights);
-                }
-                *known
-            });
+            let vertices = surface.triangles[t as usize];
+            let corners =
+                [0, 1, 2].map(|k| mesh.own_corner(t, k, &mut local[vertices[k] as usize]));
             mesh.triangle(t, corners);
         }
         for v in share
@@ -75,28 +64,50 @@ struct Builder<'a> {
 }
 
 impl Builder<'_> {
-    /// A vertex at a place of a render triangle.
+    /// A corner of a render triangle: the one `known` of that vertex if normal and texture coordinates agree.
+    fn own_corner(&mut self, t: u32, k: usize, known: &mut u32) -> u32 {
+        let surface = self.surface;
+        let v = surface.triangles[t as usize][k] as usize;
+        let position = surface.positions[v];
+        let normal = self.normals[t as usize][k];
+        let uv = match surface.uvs.get(v) {
+            Some(&uv) => uv,
+            None => box_projection(position, self.flat_normal(t)),
+        };
+        let same = |&w: &usize| self.mesh.normals[w] == normal && self.mesh.uvs[w] == uv;
+        let drawn = Some(*known as usize).filter(|&w| w < self.mesh.positions.len());
+        if drawn.filter(same).is_none() {
+            *known = self.vertex(position.as_dvec3(), normal, uv);
+        }
+        *known
+    }
+
+    /// A vertex at a place within a render triangle.
     fn corner(&mut self, t: u32, weights: [f64; 3]) -> u32 {
         let surface = self.surface;
         let triangle = surface.triangles[t as usize].map(|v| v as usize);
-        let corners = triangle.map(|v| surface.positions[v].as_dvec3());
         let mean = |x: [DVec3; 3]| x[0] * weights[0] + x[1] * weights[1] + x[2] * weights[2];
-        let [a, b, c] = corners;
-        let flat = (b - a).cross(c - a).as_vec3().normalize_or(Vec3::Y);
+        let position = mean(triangle.map(|v| surface.positions[v].as_dvec3()));
+        let flat = self.flat_normal(t);
         let smooth = mean(self.normals[t as usize].map(Vec3::as_dvec3));
         let normal = smooth.as_vec3().normalize_or(flat);
-        let position = mean(corners);
         let uv = if surface.uvs.is_empty() {
             box_projection(position.as_vec3(), flat)
         } else {
             let uv = triangle.map(|v| surface.uvs[v]);
-            [0, 1].map(|k| {
-                (0..3)
-                    .map(|i| f64::from(uv[i][k]) * weights[i])
-                    .sum::<f64>() as f32
+            [0, 1].map(|c| {
+                let parts = (0..3).map(|i| f64::from(uv[i][c]) * weights[i]);
+                parts.sum::<f64>() as f32
             })
         };
         self.vertex(position, normal, uv)
+    }
+
+    fn flat_normal(&self, t: u32) -> Vec3 {
+        let triangle = self.surface.triangles[t as usize];
+        let [a, b, c] = triangle.map(|v| self.surface.positions[v as usize].as_dvec3());
+        let fallback = self.normals[t as usize][0].as_dvec3();
+        (b - a).cross(c - a).normalize_or(fallback).as_vec3()
     }
 
     fn triangle(&mut self, t: u32, corners: [u32; 3]) {
