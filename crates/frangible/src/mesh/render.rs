@@ -40,3 +40,28 @@ pub fn box_projection(point: Vec3, normal: Vec3) -> [f32; 2] {
     };
     [if normal[axis] < 0.0 { -u } else { u }, v]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn box_projection_keeps_lengths_and_never_mirrors() {
+        for axis in 0..3 {
+            for sign in [-1.0, 1.0] {
+                let mut normal = Vec3::splat(0.3);
+                normal[axis] = sign;
+                let outward = Vec3::AXES[axis] * sign;
+                let [along, across] = [Vec3::AXES[(axis + 1) % 3], Vec3::AXES[(axis + 2) % 3]];
+                let uv = |p: Vec3| box_projection(p, normal);
+                let (a, b) = (uv(along), uv(across));
+                let length = |x: [f32; 2]| x[0].hypot(x[1]);
+                assert_eq!((length(a), length(b)), (1.0, 1.0));
+                assert_eq!(length(uv(outward)), 0.0);
+                // v runs down: what turns left on the face turns right in (u, v).
+                let turn = along.cross(across).dot(outward);
+                assert_eq!(a[0] * b[1] - a[1] * b[0], -turn);
+            }
+        }
+    }
+}
