@@ -66,8 +66,8 @@ impl Overlay<'_> {
             let [p, q, r] = part.corners;
             let own = (q - p).cross(r - p);
             let towards = self.facing * own.dot(normal);
-            // Not `<`: parts without area drop out too.
-            if !(towards > FACING * own.length() * length) {
+            // Parts without area drop out too.
+            if towards <= FACING * own.length() * length {
                 continue;
             }
             let height = |x: DVec3| ((x - a).dot(normal) / length).abs();
