@@ -6,7 +6,7 @@ use glam::Vec3;
 /// surface and its crack faces, m, fragment frame.
 ///
 /// A mesh for the eye: it need not be closed, and is no input to physics. Triangles that cracks divide meet their
-/// neighbours on straight edges, not corner to corner.
+/// neighbours on straight edges, not corner to corner; holes that the author left stay holes.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RenderMesh {
     /// Vertex positions, m, fragment frame.
