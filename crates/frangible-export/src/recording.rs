@@ -71,6 +71,8 @@ pub struct RecordedMesh {
     pub positions: Vec<Vec3>,
     /// Unit normals, one per position.
     pub normals: Vec<Vec3>,
+    /// Texture coordinates, v downwards as in glTF: none, or one pair per position.
+    pub uvs: Vec<[f32; 2]>,
     /// The triangles, grouped by material.
     pub parts: Vec<MeshPart>,
 }

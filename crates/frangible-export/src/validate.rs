@@ -103,6 +103,23 @@ fn check_mesh(mesh: &RecordedMesh, surfaces: usize) -> Checked {
             expected: format!("{}, one per position, are", mesh.positions.len()),
         });
     }
+    if !mesh.uvs.is_empty() && mesh.uvs.len() != mesh.positions.len() {
+        return Err(RecordingError::BadCount {
+            what: format!("the texture coordinates of the mesh \"{name}\""),
+            count: mesh.uvs.len(),
+            expected: format!(
+                "none or {}, one pair per position, are",
+                mesh.positions.len()
+            ),
+        });
+    }
+    for (i, uv) in mesh.uvs.iter().enumerate() {
+        for &part in uv {
+            finite(f64::from(part), || {
+                format!("texture coordinate {i} of the mesh \"{name}\"")
+            })?;
+        }
+    }
     for (i, (&position, &normal)) in mesh.positions.iter().zip(&mesh.normals).enumerate() {
         finite_vector(position, || format!("position {i} of the mesh \"{name}\""))?;
         finite_vector(normal, || format!("normal {i} of the mesh \"{name}\""))?;

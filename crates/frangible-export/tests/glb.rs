@@ -19,6 +19,7 @@ fn recording() -> Recording {
         name: name.into(),
         positions: corners.to_vec(),
         normals: vec![Vec3::ONE; 4],
+        uvs: corners.iter().map(|p| [p.x, p.z]).collect(),
         parts: vec![
             MeshPart {
                 surface: 0,
@@ -114,6 +115,16 @@ fn every_recorded_thing_is_found_again() {
         assert!(reader.read_normals().unwrap().all(unit));
         assert_eq!(reader.read_indices().unwrap().into_u32().count(), 6);
     }
+    let meshes: Vec<_> = document.meshes().collect();
+    for (mesh, recorded) in meshes.iter().zip(recording().meshes) {
+        for primitive in mesh.primitives() {
+            let reader = primitive.reader(|_| Some(&blob));
+            let uvs: Vec<_> = reader.read_tex_coords(0).unwrap().into_f32().collect();
+            assert_eq!(uvs, recorded.uvs);
+        }
+    }
+    let floor = meshes[3].primitives().next().unwrap();
+    assert!(floor.reader(|_| Some(&blob)).read_tex_coords(0).is_none());
 }
 
 #[test]
@@ -221,7 +232,7 @@ type Spoiled = (fn(&mut Recording), &'static [&'static str]);
 
 #[test]
 fn an_unsound_recording_is_an_error_that_names_the_place() {
-    let cases: [Spoiled; 10] = [
+    let cases: [Spoiled; 12] = [
         (|r| r.frame_count = 0, &["no frame"]),
         (|r| r.frame_rate = 0.0, &["frame rate", "above zero"]),
         (
@@ -231,6 +242,14 @@ fn an_unsound_recording_is_an_error_that_names_the_place() {
         (
             |r| r.meshes[1].normals.truncate(3),
             &["normals", "left", "3"],
+        ),
+        (
+            |r| r.meshes[1].uvs.truncate(2),
+            &["texture coordinates", "left", "2"],
+        ),
+        (
+            |r| r.meshes[2].uvs[3][1] = f32::INFINITY,
+            &["texture coordinate 3", "right", "inf"],
         ),
         (
             |r| r.meshes[2].parts[1].indices[4] = 4,

@@ -1,5 +1,6 @@
 //! How materials look: outside and crack faces.
 
+use frangible::asset::RenderMaterial;
 use frangible_export::SurfaceMaterial;
 
 /// Surfaces of a material's outside and of its crack faces.
@@ -38,6 +39,18 @@ pub(crate) fn body_surfaces(material: &str) -> [SurfaceMaterial; 2] {
         "marble" => opaque([0.82, 0.81, 0.79], [0.90, 0.90, 0.88], 0.3),
         "chocolate" => opaque([0.13, 0.055, 0.025], [0.20, 0.095, 0.05], 0.4),
         _ => opaque([0.62, 0.60, 0.57], [0.50, 0.46, 0.42], 0.6),
+    }
+}
+
+/// Surface of a part of a mesh file, as its author drew it.
+pub(crate) fn authored_surface(look: &RenderMaterial) -> SurfaceMaterial {
+    SurfaceMaterial {
+        name: look.name.clone(),
+        base_color: look.base_color,
+        metallic: look.metallic,
+        roughness: look.roughness,
+        double_sided: look.base_color[3] < 1.0,
+        ..SurfaceMaterial::default()
     }
 }
 

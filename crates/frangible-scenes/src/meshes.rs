@@ -3,87 +3,153 @@
 use std::collections::HashMap;
 
 use frangible::glam::Vec3;
-use frangible::{Asset, TriMesh};
+use frangible::{Asset, Fragment, RenderMesh, box_projection};
 use frangible_export::{MeshPart, RecordedMesh};
 
 /// Indices of the surfaces (materials) of the outside and of the crack faces.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct BodySurfaces {
+    /// Of an outside without materials of its own.
     pub(crate) outer: usize,
     pub(crate) inner: usize,
+    /// Of the materials that came with a mesh file.
+    pub(crate) authored: Vec<usize>,
 }
 
-/// Joins corners that agree in vertex and normal.
+/// Joins corners that agree in vertex, normal and texture coordinates.
 #[derive(Default)]
 struct Builder {
     mesh: RecordedMesh,
+    /// Where the mesh's origin lies in the body frame, m: texture coordinates are the whole body's.
+    origin: Vec3,
     /// Looked up only, never iterated.
-    known: HashMap<(u32, [u32; 3]), u32>,
+    known: HashMap<(u32, [u32; 5]), u32>,
 }
 
 impl Builder {
-    fn corner(&mut self, vertex: u32, position: Vec3, normal: Vec3) -> u32 {
-        let mesh = &mut self.mesh;
-        *self
-            .known
-            .entry((vertex, normal.to_array().map(f32::to_bits)))
-            .or_insert_with(|| {
+    /// A triangle of these vertices, its texture coordinates by box projection where it has none.
+    fn triangle(
+        &mut self,
+        vertices: [u32; 3],
+        corners: [Vec3; 3],
+        normals: [Vec3; 3],
+        uvs: Option<[[f32; 2]; 3]>,
+    ) -> [u32; 3] {
+        let [a, b, c] = corners;
+        let flat = (b - a).cross(c - a).normalize_or(normals[0]);
+        [0, 1, 2].map(|k| {
+            let (position, normal) = (corners[k], normals[k]);
+            let uv = uvs.map_or_else(|| box_projection(position + self.origin, flat), |uv| uv[k]);
+            let [x, y, z] = normal.to_array();
+            let key = [x, y, z, uv[0], uv[1]].map(f32::to_bits);
+            let mesh = &mut self.mesh;
+            *self.known.entry((vertices[k], key)).or_insert_with(|| {
                 mesh.positions.push(position);
                 mesh.normals.push(normal);
+                mesh.uvs.push(uv);
                 (mesh.positions.len() - 1) as u32
             })
+        })
+    }
+
+    /// The mesh with its triangles sorted by surface.
+    fn finish(mut self, name: String, parts: Vec<(usize, Vec<u32>)>) -> RecordedMesh {
+        self.mesh.name = name;
+        for (surface, indices) in parts {
+            if !indices.is_empty() {
+                self.mesh.parts.push(MeshPart { surface, indices });
+            }
+        }
+        self.mesh
     }
 }
 
-/// The whole body: only its outside.
-pub(crate) fn whole(name: &str, asset: &Asset, surfaces: BodySurfaces) -> RecordedMesh {
+/// The whole body: only its outside, as its author drew it if it has one.
+pub(crate) fn whole(name: &str, asset: &Asset, surfaces: &BodySurfaces) -> RecordedMesh {
     let mut builder = Builder::default();
-    let mut indices = Vec::new();
-    for (triangle, normals) in asset.surface.triangles.iter().zip(&asset.surface.normals) {
-        for (&v, &n) in triangle.iter().zip(normals) {
-            indices.push(builder.corner(v, asset.fracture.positions[v as usize], n));
+    if let Some(render) = &asset.render {
+        let mut triangles = Vec::with_capacity(render.triangles.len());
+        for (triangle, normals) in render.triangles.iter().zip(render.corner_normals()) {
+            let corners = triangle.map(|v| render.positions[v as usize]);
+            let uvs = (!render.uvs.is_empty()).then(|| triangle.map(|v| render.uvs[v as usize]));
+            triangles.push(builder.triangle(*triangle, corners, normals, uvs));
         }
+        let parts = by_material(&triangles, &render.material_of_triangle, surfaces);
+        return builder.finish(name.into(), parts);
     }
-    builder.mesh.name = name.into();
-    builder.mesh.parts.push(MeshPart {
-        surface: surfaces.outer,
-        indices,
-    });
-    builder.mesh
+    let mut indices = Vec::new();
+    for (triangle, &normals) in asset.surface.triangles.iter().zip(&asset.surface.normals) {
+        let corners = triangle.map(|v| asset.fracture.positions[v as usize]);
+        indices.extend(builder.triangle(*triangle, corners, normals, None));
+    }
+    builder.finish(name.into(), vec![(surfaces.outer, indices)])
 }
 
 /// A piece: outside, crack faces, and cracks that entered it without parting it.
-pub(crate) fn piece(name: String, mesh: &TriMesh, surfaces: BodySurfaces) -> RecordedMesh {
-    let mut builder = Builder::default();
-    let (mut outer, mut inner) = (Vec::new(), Vec::new());
-    for (i, (triangle, normals)) in mesh.triangles.iter().zip(&mesh.normals).enumerate() {
-        let part = if i < mesh.outer_triangles {
-            &mut outer
-        } else {
-            &mut inner
-        };
-        for (&v, &n) in triangle.iter().zip(normals) {
-            part.push(builder.corner(v, mesh.positions[v as usize], n));
+pub(crate) fn piece(name: String, fragment: &Fragment, surfaces: &BodySurfaces) -> RecordedMesh {
+    let mesh = &fragment.mesh;
+    let mut builder = Builder {
+        origin: fragment.mass.centre.as_vec3(),
+        ..Builder::default()
+    };
+    let mut parts = Vec::new();
+    let mut inner = Vec::new();
+    if let Some(render) = &fragment.render {
+        let (outside, faces) = render.triangles.split_at(render.outer_triangles);
+        parts = by_material(outside, &render.material_of_triangle, surfaces);
+        inner.extend(faces.iter().flatten());
+        builder.mesh = vertices(render);
+    } else {
+        let mut outer = Vec::new();
+        for (i, (triangle, &normals)) in mesh.triangles.iter().zip(&mesh.normals).enumerate() {
+            let corners = triangle.map(|v| mesh.positions[v as usize]);
+            let corners = builder.triangle(*triangle, corners, normals, None);
+            if i < mesh.outer_triangles {
+                outer.extend(corners);
+            } else {
+                inner.extend(corners);
+            }
         }
+        parts.push((surfaces.outer, outer));
     }
     let mut loose = mesh.positions.len() as u32;
     for &[a, b, c] in &mesh.cracks {
         let normal = (b - a).cross(c - a).normalize_or(Vec3::Y);
         // Two-sided: each side its own triangle with its own normal.
         for (corners, n) in [([a, b, c], normal), ([a, c, b], -normal)] {
-            for p in corners {
-                inner.push(builder.corner(loose, p, n));
-                loose += 1;
-            }
+            inner.extend(builder.triangle([loose, loose + 1, loose + 2], corners, [n; 3], None));
+            loose += 3;
         }
     }
-    builder.mesh.name = name;
-    for (surface, indices) in [(surfaces.outer, outer), (surfaces.inner, inner)] {
-        if !indices.is_empty() {
-            builder.mesh.parts.push(MeshPart { surface, indices });
-        }
+    parts.push((surfaces.inner, inner));
+    builder.finish(name, parts)
+}
+
+fn vertices(render: &RenderMesh) -> RecordedMesh {
+    RecordedMesh {
+        positions: render.positions.clone(),
+        normals: render.normals.clone(),
+        uvs: render.uvs.clone(),
+        ..RecordedMesh::default()
     }
-    builder.mesh
+}
+
+/// Indices of the triangles of each material; without materials all are of the outer surface.
+fn by_material(
+    triangles: &[[u32; 3]],
+    material_of_triangle: &[u32],
+    surfaces: &BodySurfaces,
+) -> Vec<(usize, Vec<u32>)> {
+    let mut parts: Vec<(usize, Vec<u32>)> =
+        surfaces.authored.iter().map(|&s| (s, Vec::new())).collect();
+    if material_of_triangle.is_empty() || parts.is_empty() {
+        let all = triangles.iter().flatten().copied().collect();
+        return vec![(surfaces.outer, all)];
+    }
+    for (triangle, &material) in triangles.iter().zip(material_of_triangle) {
+        parts[material as usize].1.extend(triangle);
+    }
+    parts
 }
 
 /// A ball of this radius, m.

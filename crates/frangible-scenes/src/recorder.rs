@@ -56,12 +56,15 @@ impl Recorder {
 
     /// Numbers of these surfaces in the recording; equal ones are kept once.
     pub(crate) fn surfaces<const N: usize>(&mut self, looks: [SurfaceMaterial; N]) -> [usize; N] {
+        looks.map(|look| self.surface(look))
+    }
+
+    /// Number of a surface in the recording.
+    pub(crate) fn surface(&mut self, look: SurfaceMaterial) -> usize {
         let known = &mut self.recording.surfaces;
-        looks.map(|look| {
-            known.iter().position(|k| *k == look).unwrap_or_else(|| {
-                known.push(look);
-                known.len() - 1
-            })
+        known.iter().position(|k| *k == look).unwrap_or_else(|| {
+            known.push(look);
+            known.len() - 1
         })
     }
 
@@ -93,7 +96,7 @@ impl Recorder {
     }
 
     /// Puts the pieces in the place of their parent, the body of this name.
-    pub(crate) fn broke(&mut self, name: &str, event: &BreakEvent, surfaces: BodySurfaces) {
+    pub(crate) fn broke(&mut self, name: &str, event: &BreakEvent, surfaces: &BodySurfaces) {
         self.break_frame.get_or_insert(self.recording.frame_count);
         for (i, (fragment, &body)) in event
             .fracture
@@ -103,7 +106,7 @@ impl Recorder {
             .enumerate()
         {
             let name = format!("{name} piece {}", i + 1);
-            let mesh = piece(name.clone(), &fragment.mesh, surfaces);
+            let mesh = piece(name.clone(), fragment, surfaces);
             let extras = vec![
                 ("mass_kg".into(), fragment.mass.mass),
                 ("volume_m3".into(), fragment.mass.volume),

@@ -82,7 +82,7 @@ pub fn play(
                 let Some(body) = number(event.parent) else {
                     continue;
                 };
-                recorder.broke(&bodies[body].spec.name, event, bodies[body].surfaces);
+                recorder.broke(&bodies[body].spec.name, event, &bodies[body].surfaces);
                 let fragments = &event.fracture.fragments;
                 run.breaks.push(BreakRecord {
                     body,

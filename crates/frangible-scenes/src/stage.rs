@@ -8,7 +8,7 @@ use frangible_rapier::rapier3d::dynamics::RigidBodyHandle;
 use frangible_rapier::rapier3d::math::{Pose, Rotation, Vector};
 use frangible_rapier::{BreakableWorld, SurfaceProperties, WorldConfig};
 
-use crate::appearance::{body_surfaces, projectile_surface};
+use crate::appearance::{authored_surface, body_surfaces, projectile_surface};
 use crate::bake::BakedBody;
 use crate::body::{BodySpec, Place};
 use crate::error::SceneError;
@@ -128,7 +128,14 @@ fn put<'a>(
     let pose = Pose::from_parts(vector(centre), Rotation::from_xyzw(q.x, q.y, q.z, q.w));
     let handle = world.insert_breakable(body, pose, vector(spec.velocity), vector(spec.spin))?;
     let [outer, inner] = recorder.surfaces(body_surfaces(&asset.material.name));
-    let surfaces = BodySurfaces { outer, inner };
+    let authored = asset.render.iter().flat_map(|render| &render.materials);
+    let surfaces = BodySurfaces {
+        outer,
+        inner,
+        authored: authored
+            .map(|look| recorder.surface(authored_surface(look)))
+            .collect(),
+    };
     let extras = vec![
         ("mass_kg".into(), asset.mass.mass),
         ("volume_m3".into(), asset.mass.volume),
@@ -137,7 +144,7 @@ fn put<'a>(
         centre,
         reach: farthest_point(asset),
     };
-    let mesh = whole(&spec.name, asset, surfaces);
+    let mesh = whole(&spec.name, asset, &surfaces);
     let role = Role::Body(target.reach);
     recorder.track(spec.name.clone(), mesh, handle, extras, role);
     Ok(Placed {

@@ -6,6 +6,7 @@ use glam::Vec3;
 
 use crate::asset::Asset;
 use crate::error::InputError;
+use crate::fragment::RenderIndex;
 use crate::mesh::TriangleTree;
 use crate::rng::{Purpose, stream, uniform};
 use crate::state::BodyState;
@@ -23,6 +24,8 @@ pub struct Breakable {
 pub(crate) struct Prepared {
     /// Over the triangles of the outer surface.
     pub(crate) surface: TriangleTree,
+    /// Over those of the render surface.
+    pub(crate) render: Option<RenderIndex>,
     /// Stress bounds of the clusters …
     pub(crate) bounds: StressBounds,
     /// … and of the whole body: stress and gradient, one number per mode.
@@ -58,8 +61,13 @@ impl Breakable {
         } else {
             asset.bounds.clone()
         };
+        let surface = TriangleTree::new(&asset.fracture.positions, &asset.surface.triangles);
         let prepared = Prepared {
-            surface: TriangleTree::new(&asset.fracture.positions, &asset.surface.triangles),
+            render: asset
+                .render
+                .as_ref()
+                .map(|render| RenderIndex::new(render, &surface)),
+            surface,
             root: bounds.root(modes.count()),
             bounds,
             weight: weight(&asset),

@@ -234,7 +234,7 @@ pub(crate) fn pieces(body: &Body, cracked: Cracked<'_>) -> Outcome {
         }
     };
     let start = Instant::now();
-    let fragments = fragment::build(&system, &labels);
+    let fragments = fragment::build(&system, &labels, &body.prepared);
     let volume: f64 = fragments.iter().map(|f| f.mass.volume).sum();
     report.volume_error = volume / body.asset.fracture.total_volume() - 1.0;
     report.timings.fragments += start.elapsed().as_secs_f64();

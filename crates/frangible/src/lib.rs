@@ -42,7 +42,7 @@ pub use glam;
 pub use impact::{impact, impact_traced, would_break};
 pub use loads::{Blast, Force, blast, fracture_at, rest};
 pub use material::Material;
-pub use mesh::{MassProperties, TetMesh, TriMesh};
+pub use mesh::{MassProperties, RenderMesh, TetMesh, TriMesh, box_projection};
 pub use names::nearest_name;
 pub use outcome::{Fracture, Fragment, ImpactReport, LookedAt, Outcome, StageTimings};
 pub use presets::{Preset, UnknownMaterial};

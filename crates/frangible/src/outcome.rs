@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use crate::mesh::{MassProperties, TriMesh};
+use crate::mesh::{MassProperties, RenderMesh, TriMesh};
 use crate::state::BodyState;
 
 /// What an impact did to a body.
@@ -52,6 +52,8 @@ pub struct Fracture {
 pub struct Fragment {
     /// Closed surface, m, in the **fragment frame**: origin at the piece's centre of mass, axes of the parent's body frame.
     pub mesh: TriMesh,
+    /// What to draw instead of `mesh` where the asset has the [surface its author drew](crate::Asset::render).
+    pub render: Option<RenderMesh>,
     /// Mass properties; `centre` is in the **parent's body frame**.
     pub mass: MassProperties,
     /// The piece's share of the parent's convex cells: cell number and the corner points of the share, m, fragment frame.

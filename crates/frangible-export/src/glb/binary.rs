@@ -19,6 +19,7 @@ pub(super) fn push_rows<const WIDTH: usize>(
     binary.extend(rows.iter().flatten().flat_map(|value| value.to_le_bytes()));
     let kind = match WIDTH {
         1 => Type::Scalar,
+        2 => Type::Vec2,
         3 => Type::Vec3,
         _ => Type::Vec4,
     };

@@ -34,14 +34,18 @@ pub(super) fn push_mesh(
         .collect();
     let positions = push_rows(root, binary, &positions, Some(ArrayBuffer), true);
     let normals = push_rows(root, binary, &normals, Some(ArrayBuffer), false);
+    let uvs = (!mesh.uvs.is_empty())
+        .then(|| push_rows(root, binary, &mesh.uvs, Some(ArrayBuffer), false));
     let mut primitives = Vec::with_capacity(mesh.parts.len());
     for part in mesh.parts.iter().filter(|part| !part.indices.is_empty()) {
         let indices = push_indices(root, binary, &part.indices, mesh.positions.len());
+        let mut attributes = BTreeMap::from([
+            (Valid(Semantic::Positions), positions),
+            (Valid(Semantic::Normals), normals),
+        ]);
+        attributes.extend(uvs.map(|uvs| (Valid(Semantic::TexCoords(0)), uvs)));
         primitives.push(Primitive {
-            attributes: BTreeMap::from([
-                (Valid(Semantic::Positions), positions),
-                (Valid(Semantic::Normals), normals),
-            ]),
+            attributes,
             extensions: None,
             extras: None,
             indices: Some(indices),

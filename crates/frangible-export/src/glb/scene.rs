@@ -91,6 +91,7 @@ fn floor_mesh(floor: &Floor, surface: usize, radius: f32) -> RecordedMesh {
             corner(1.0, -1.0),
         ],
         normals: vec![Vec3::Y; 4],
+        uvs: Vec::new(),
         parts: vec![MeshPart {
             surface,
             indices: vec![0, 1, 2, 0, 2, 3],

@@ -1,6 +1,10 @@
 //! The surface an author drew, carried along for those who draw.
 
+use std::collections::HashMap;
+
 use glam::Vec3;
+
+use crate::mesh::smooth_normals;
 
 /// The surface as its author drew it, kept for drawing and for clipping; physics never reads it.
 ///
@@ -19,6 +23,32 @@ pub struct RenderSurface {
     pub material_of_triangle: Vec<u32>,
     /// What the triangles look like.
     pub materials: Vec<RenderMaterial>,
+}
+
+impl RenderSurface {
+    /// Unit normals at the corners of each triangle: the author's, or means over the triangles that share the corner's
+    /// place, flat where the surface turns sharply.
+    #[must_use]
+    pub fn corner_normals(&self) -> Vec<[Vec3; 3]> {
+        let corners = |t: &[u32; 3]| t.map(|v| v as usize);
+        if !self.normals.is_empty() {
+            let own = |t| corners(t).map(|v| self.normals[v].normalize_or(Vec3::Y));
+            return self.triangles.iter().map(own).collect();
+        }
+        // Vertices that only texture coordinates part are one. Looked up only, never iterated.
+        let mut first = HashMap::new();
+        let place = |p: &Vec3| p.to_array().map(|x| (x + 0.0).to_bits());
+        let welded: Vec<u32> = (0..)
+            .zip(&self.positions)
+            .map(|(v, p)| *first.entry(place(p)).or_insert(v))
+            .collect();
+        let triangles: Vec<[u32; 3]> = self
+            .triangles
+            .iter()
+            .map(|t| corners(t).map(|v| welded[v]))
+            .collect();
+        smooth_normals(&self.positions, &triangles)
+    }
 }
 
 /// Look of some triangles of a [`RenderSurface`], in the metallic-roughness model of glTF 2.0.

@@ -7,12 +7,12 @@ use glam::{DVec3, Vec3};
 use super::cuts::Cuts;
 use super::label::Labels;
 use super::partition::{Interface, Point, face_parts, interfaces};
+use super::render::{Part, Parts, Share};
+use crate::asset::Asset;
+use crate::body::Prepared;
 use crate::crack::{CrackSystem, crossing_polygon};
-use crate::mesh::{MassProperties, TriMesh};
+use crate::mesh::{MassProperties, TriMesh, smooth_normals};
 use crate::outcome::Fragment;
-
-/// Corners of interface triangles that turn by more than this from their vertex's mean are shaded flat (cosine).
-const SMOOTH_COSINE: f32 = 0.6;
 
 /// Points of the partition in f64, body frame, numbered in order of first use; mesh nodes come first.
 struct PointTable<'a> {
@@ -78,7 +78,7 @@ struct Draft {
 }
 
 /// Builds all fragments, largest first.
-pub(crate) fn build(system: &CrackSystem, labels: &Labels) -> Vec<Fragment> {
+pub(crate) fn build(system: &CrackSystem, labels: &Labels, prepared: &Prepared) -> Vec<Fragment> {
     let asset = system.asset;
     let mesh = &asset.fracture;
     let mut table = PointTable {
@@ -116,10 +116,17 @@ pub(crate) fn build(system: &CrackSystem, labels: &Labels) -> Vec<Fragment> {
             drafts[l as usize].shares.push((cell, v));
         }
     }
+    let mut parts = Parts::default();
     for (triangle, normals) in asset.surface.triangles.iter().zip(&asset.surface.normals) {
+        parts.begin();
         face_parts(triangle, &triangle.map(label), |l, points| {
             let draft = &mut drafts[l as usize];
-            draft.outer.push(points.map(|p| table.number(p)));
+            let numbers = points.map(|p| table.number(p));
+            draft.outer.push(numbers);
+            if prepared.render.is_some() {
+                let corners = numbers.map(|v| table.positions[v as usize]);
+                parts.push(Part { corners, label: l });
+            }
             draft
                 .outer_normals
                 .push(points.map(|p| interpolated_normal(p, triangle, normals, &labels.cuts)));
@@ -131,13 +138,66 @@ pub(crate) fn build(system: &CrackSystem, labels: &Labels) -> Vec<Fragment> {
     partial_cracks(system, labels, &mut drafts);
     let density = asset.material.density;
     let mut local = vec![u32::MAX; table.positions.len()];
+    let drawn = drawn(asset, prepared, &drafts, &table.positions, &parts);
+    let faces: Vec<_> = match drawn {
+        Some(_) => drafts.iter().map(|draft| draft.inner.clone()).collect(),
+        None => Vec::new(),
+    };
     let mut fragments: Vec<Fragment> = drafts
         .into_iter()
         .map(|draft| finish(draft, &table.positions, &mut local, density))
         .collect();
+    if let (Some(drawn), Some(surface), Some(index)) = (drawn, &asset.render, &prepared.render) {
+        let mut local = vec![u32::MAX; surface.positions.len()];
+        for ((fragment, faces), share) in fragments.iter_mut().zip(&faces).zip(&drawn.shares) {
+            let normals = &fragment.mesh.normals[fragment.mesh.outer_triangles..];
+            let place = |v: u32| drawn.positions[v as usize];
+            let faces = faces
+                .iter()
+                .zip(normals)
+                .map(|(face, n)| [0, 1, 2].map(|k| (place(face[k]), n[k])))
+                .collect();
+            let centre = fragment.mass.centre;
+            fragment.render = Some(index.assemble(surface, share, &faces, centre, &mut local));
+        }
+    }
     // Stable: equal volumes stay in the order of their labels.
     fragments.sort_by(|a, b| b.mass.volume.total_cmp(&a.mass.volume));
     fragments
+}
+
+/// The render surface divided, and the points of the partition drawn to it.
+struct Drawn {
+    shares: Vec<Share>,
+    positions: Vec<DVec3>,
+}
+
+fn drawn(
+    asset: &Asset,
+    prepared: &Prepared,
+    drafts: &[Draft],
+    positions: &[DVec3],
+    parts: &Parts,
+) -> Option<Drawn> {
+    let (index, surface) = (prepared.render.as_ref()?, asset.render.as_ref()?);
+    let reach = prepared.edge;
+    let nodes = asset.fracture.positions.len();
+    let mut moved = positions.to_vec();
+    // Rims of crack faces: what they share with the boundary.
+    let mut rim: Vec<u32> = drafts
+        .iter()
+        .flat_map(|draft| draft.outer.iter().flatten().copied())
+        .filter(|&v| v as usize >= nodes)
+        .collect();
+    rim.sort_unstable();
+    rim.dedup();
+    for v in rim {
+        moved[v as usize] = index.drawn_to(positions[v as usize], reach);
+    }
+    Some(Drawn {
+        shares: index.shares(surface, &prepared.surface, parts, drafts.len(), reach),
+        positions: moved,
+    })
 }
 
 /// Cracks inside a piece: fractured tetrahedra whose four nodes stayed together.
@@ -234,36 +294,9 @@ fn finish(draft: Draft, positions: &[DVec3], local: &mut [u32], density: f64) ->
             outer_triangles,
             cracks,
         },
+        render: None,
         mass,
         cell_shares,
         supported: draft.supported,
     }
-}
-
-/// Corner normals of crack faces: area-weighted vertex means, flat at sharp turns.
-fn smooth_normals(vertices: &[Vec3], triangles: &[[u32; 3]]) -> Vec<[Vec3; 3]> {
-    let flat = |t: &[u32; 3]| {
-        let [a, b, c] = t.map(|v| vertices[v as usize]);
-        (b - a).cross(c - a)
-    };
-    let mut sums = vec![Vec3::ZERO; vertices.len()];
-    for t in triangles {
-        for &v in t {
-            sums[v as usize] += flat(t);
-        }
-    }
-    triangles
-        .iter()
-        .map(|t| {
-            let own = flat(t).normalize_or(Vec3::Y);
-            t.map(|v| {
-                let mean = sums[v as usize].normalize_or(own);
-                if mean.dot(own) > SMOOTH_COSINE {
-                    mean
-                } else {
-                    own
-                }
-            })
-        })
-        .collect()
 }

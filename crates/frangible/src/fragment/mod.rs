@@ -5,9 +5,11 @@ mod cuts;
 mod junction;
 mod label;
 mod partition;
+mod render;
 
 #[cfg(test)]
 mod tests;
 
 pub(crate) use build::build;
 pub(crate) use label::{Labels, label};
+pub(crate) use render::RenderIndex;

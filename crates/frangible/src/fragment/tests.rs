@@ -16,7 +16,7 @@ use crate::rng::{Purpose, stream, uniform};
 use crate::{Breakable, FractureConfig, Material};
 
 /// A block of n³ jittered cubes, six tetrahedra each, without modes.
-fn block(n: usize) -> Asset {
+pub(super) fn block(n: usize) -> Asset {
     let mut rng = stream(7, Purpose::WeakPoints, 0);
     let index = |i: usize, j: usize, k: usize| ((i * (n + 1) + j) * (n + 1) + k) as u32;
     let mut positions = Vec::new();
@@ -118,7 +118,7 @@ fn fragments_of_arbitrary_labels_tile_the_body_and_are_closed() {
             count: count as usize,
             cuts,
         };
-        let fragments = build(&system, &labels);
+        let fragments = build(&system, &labels, &body.prepared);
         assert_eq!(fragments.len(), count as usize);
         let volume: f64 = fragments.iter().map(|f| f.mass.volume).sum();
         let whole = asset.fracture.total_volume();
@@ -170,7 +170,11 @@ fn the_fragment_that_holds_a_supported_node_is_supported() {
         asset.supported = vec![node];
         let config = FractureConfig::default();
         let body = Breakable::of_sound(asset.clone().into()).body(1);
-        let fragments = build(&CrackSystem::new(&body, &config, 0.0), &labels);
+        let fragments = build(
+            &CrackSystem::new(&body, &config, 0.0),
+            &labels,
+            &body.prepared,
+        );
         let place = asset.fracture.positions[node as usize];
         assert!(fragments.iter().any(|f| f.supported));
         for fragment in fragments {

@@ -2,12 +2,16 @@
 
 mod closest;
 mod mass;
+mod render;
+mod smooth;
 mod surface;
 mod tet;
 mod tree;
 
 pub use closest::closest_on_triangle;
 pub use mass::MassProperties;
+pub use render::{RenderMesh, box_projection};
+pub(crate) use smooth::smooth_normals;
 pub use surface::TriMesh;
 pub(crate) use tet::{EDGES, FACES};
 pub use tet::{NO_NEIGHBOUR, TetMesh};

@@ -81,6 +81,33 @@ impl TriangleTree {
         self.nodes[node].first = second;
     }
 
+    /// Calls for every triangle whose own box meets this one, in the tree's order.
+    pub(crate) fn in_box(&self, low: Vec3, high: Vec3, mut found: impl FnMut(u32)) {
+        let meets = |l: Vec3, h: Vec3| l.cmple(high).all() && h.cmpge(low).all();
+        let mut stack = [0_u32; 64];
+        let mut waiting = usize::from(!self.nodes.is_empty());
+        while waiting > 0 {
+            waiting -= 1;
+            let at = stack[waiting];
+            let node = &self.nodes[at as usize];
+            if !meets(node.low, node.high) {
+                continue;
+            }
+            if node.count == 0 {
+                stack[waiting] = node.first;
+                stack[waiting + 1] = at + 1;
+                waiting += 2;
+                continue;
+            }
+            let leaf = node.first as usize..(node.first + node.count) as usize;
+            for (x, &triangle) in self.corners[leaf.clone()].iter().zip(&self.order[leaf]) {
+                if meets(x[0].min(x[1]).min(x[2]), x[0].max(x[1]).max(x[2])) {
+                    found(triangle);
+                }
+            }
+        }
+    }
+
     /// The closest point of the surface; of equally close triangles the one with the lowest number.
     pub(crate) fn closest(&self, point: Vec3) -> SurfacePoint {
         let mut best = SurfacePoint {
@@ -177,6 +204,17 @@ mod tests {
                 let (distance, triangle) = brute_force(&corners, point);
                 assert_eq!(found.triangle as usize, triangle);
                 assert_eq!(found.position.distance_squared(point), distance);
+                let (low, high) = (point - 0.05, point + 0.05);
+                let mut met = Vec::new();
+                tree.in_box(low, high, |t| met.push(t));
+                met.sort_unstable();
+                let expected: Vec<u32> = (0..count as u32)
+                    .filter(|&t| {
+                        let [a, b, c] = corners[t as usize];
+                        a.min(b).min(c).cmple(high).all() && a.max(b).max(c).cmpge(low).all()
+                    })
+                    .collect();
+                assert_eq!(met, expected);
             }
         }
     }

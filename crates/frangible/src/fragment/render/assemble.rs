@@ -1,0 +1,135 @@
+//! A fragment's share of the render surface and its crack faces, as one mesh.
+
+use glam::{DVec3, Vec3};
+
+use super::{RenderIndex, Share};
+use crate::asset::RenderSurface;
+use crate::mesh::{RenderMesh, box_projection};
+
+/// Corners of crack faces: positions (m, body frame) and normals.
+pub(crate) type Vertices = Vec<[(DVec3, Vec3); 3]>;
+
+impl RenderIndex {
+    /// Mesh of a fragment in its frame, whose origin is `centre` in the body frame, m. `local` maps the surface's vertices
+    /// to the mesh's and is `u32::MAX` throughout before and after.
+    pub(crate) fn assemble(
+        &self,
+        surface: &RenderSurface,
+        share: &Share,
+        faces: &Vertices,
+        centre: DVec3,
+        local: &mut [u32],
+    ) -> RenderMesh {
+        let mut mesh = Builder {
+            mesh: RenderMesh::default(),
+            surface,
+            normals: &self.normals,
+            centre,
+        };
+        for &t in &share.whole {
+            let vertices = surface.triangles[t as usize];
+            let corners =
+                [0, 1, 2].map(|k| mesh.own_corner(t, k, &mut local[vertices[k] as usize]));
+            mesh.triangle(t, corners);
+        }
+        for v in share
+            .whole
+            .iter()
+            .flat_map(|&t| surface.triangles[t as usize])
+        {
+            local[v as usize] = u32::MAX;
+        }
+        for (t, polygon) in &share.pieces {
+            let corners: Vec<u32> = polygon
+                .iter()
+                .map(|p| mesh.corner(*t, [1.0 - p.x - p.y, p.x, p.y]))
+                .collect();
+            for k in 2..corners.len() {
+                mesh.triangle(*t, [corners[0], corners[k - 1], corners[k]]);
+            }
+        }
+        mesh.mesh.outer_triangles = mesh.mesh.triangles.len();
+        for face in faces {
+            mesh.crack_face(face);
+        }
+        mesh.mesh
+    }
+}
+
+struct Builder<'a> {
+    mesh: RenderMesh,
+    surface: &'a RenderSurface,
+    normals: &'a [[Vec3; 3]],
+    centre: DVec3,
+}
+
+impl Builder<'_> {
+    /// A corner of a render triangle: the one `known` of that vertex if normal and texture coordinates agree.
+    fn own_corner(&mut self, t: u32, k: usize, known: &mut u32) -> u32 {
+        let surface = self.surface;
+        let v = surface.triangles[t as usize][k] as usize;
+        let position = surface.positions[v];
+        let normal = self.normals[t as usize][k];
+        let uv = match surface.uvs.get(v) {
+            Some(&uv) => uv,
+            None => box_projection(position, self.flat_normal(t)),
+        };
+        let same = |&w: &usize| self.mesh.normals[w] == normal && self.mesh.uvs[w] == uv;
+        let drawn = Some(*known as usize).filter(|&w| w < self.mesh.positions.len());
+        if drawn.filter(same).is_none() {
+            *known = self.vertex(position.as_dvec3(), normal, uv);
+        }
+        *known
+    }
+
+    /// A vertex at a place within a render triangle.
+    fn corner(&mut self, t: u32, weights: [f64; 3]) -> u32 {
+        let surface = self.surface;
+        let triangle = surface.triangles[t as usize].map(|v| v as usize);
+        let mean = |x: [DVec3; 3]| x[0] * weights[0] + x[1] * weights[1] + x[2] * weights[2];
+        let position = mean(triangle.map(|v| surface.positions[v].as_dvec3()));
+        let flat = self.flat_normal(t);
+        let smooth = mean(self.normals[t as usize].map(Vec3::as_dvec3));
+        let normal = smooth.as_vec3().normalize_or(flat);
+        let uv = if surface.uvs.is_empty() {
+            box_projection(position.as_vec3(), flat)
+        } else {
+            let uv = triangle.map(|v| surface.uvs[v]);
+            [0, 1].map(|c| {
+                let parts = (0..3).map(|i| f64::from(uv[i][c]) * weights[i]);
+                parts.sum::<f64>() as f32
+            })
+        };
+        self.vertex(position, normal, uv)
+    }
+
+    fn flat_normal(&self, t: u32) -> Vec3 {
+        let triangle = self.surface.triangles[t as usize];
+        let [a, b, c] = triangle.map(|v| self.surface.positions[v as usize].as_dvec3());
+        let fallback = self.normals[t as usize][0].as_dvec3();
+        (b - a).cross(c - a).normalize_or(fallback).as_vec3()
+    }
+
+    fn triangle(&mut self, t: u32, corners: [u32; 3]) {
+        self.mesh.triangles.push(corners);
+        if let Some(&material) = self.surface.material_of_triangle.get(t as usize) {
+            self.mesh.material_of_triangle.push(material);
+        }
+    }
+
+    fn crack_face(&mut self, face: &[(DVec3, Vec3); 3]) {
+        let [a, b, c] = face.map(|corner| corner.0);
+        let flat = (b - a).cross(c - a).as_vec3().normalize_or(face[0].1);
+        let corners = face.map(|(position, normal)| {
+            self.vertex(position, normal, box_projection(position.as_vec3(), flat))
+        });
+        self.mesh.triangles.push(corners);
+    }
+
+    fn vertex(&mut self, position: DVec3, normal: Vec3, uv: [f32; 2]) -> u32 {
+        self.mesh.positions.push((position - self.centre).as_vec3());
+        self.mesh.normals.push(normal);
+        self.mesh.uvs.push(uv);
+        (self.mesh.positions.len() - 1) as u32
+    }
+}

@@ -1,0 +1,72 @@
+//! What each fragment has of the fracture mesh's boundary.
+
+use glam::DVec3;
+
+use crate::mesh::{TriangleTree, closest_on_triangle};
+
+/// A triangle of the boundary with one label.
+pub(crate) struct Part {
+    /// Corners, m, body frame.
+    pub(crate) corners: [DVec3; 3],
+    /// Fragment.
+    pub(crate) label: u32,
+}
+
+/// The parts of all boundary triangles, triangle by triangle.
+#[derive(Default)]
+pub(crate) struct Parts {
+    list: Vec<Part>,
+    /// Number of parts before those of each triangle, begun so far.
+    first: Vec<u32>,
+}
+
+impl Parts {
+    /// Begins the next boundary triangle.
+    pub(crate) fn begin(&mut self) {
+        self.first.push(self.list.len() as u32);
+    }
+
+    /// Adds a part to it.
+    pub(crate) fn push(&mut self, part: Part) {
+        self.list.push(part);
+    }
+
+    /// Parts of a boundary triangle.
+    pub(super) fn of(&self, triangle: u32) -> &[Part] {
+        let t = triangle as usize;
+        let end = self
+            .first
+            .get(t + 1)
+            .map_or(self.list.len(), |&e| e as usize);
+        &self.list[self.first[t] as usize..end]
+    }
+
+    /// Boundary triangles that cracks divide.
+    pub(super) fn divided(&self) -> impl Iterator<Item = u32> + '_ {
+        (0..self.first.len() as u32).filter(|&t| self.of(t).len() > 1)
+    }
+
+    /// Label of the part of this triangle that is closest to the point.
+    pub(super) fn label_near(&self, triangle: u32, point: DVec3) -> u32 {
+        let parts = self.of(triangle);
+        let gap = |part: &Part| {
+            let w = closest_on_triangle(part.corners, point);
+            let [a, b, c] = part.corners;
+            (a * w[0] + b * w[1] + c * w[2]).distance_squared(point)
+        };
+        match parts {
+            [only] => only.label,
+            _ => parts
+                .iter()
+                .map(|part| (gap(part), part.label))
+                .min_by(|x, y| x.0.total_cmp(&y.0))
+                .map_or(0, |best| best.1),
+        }
+    }
+
+    /// Label of the boundary where it is closest to the point.
+    pub(super) fn label_at(&self, boundary: &TriangleTree, point: DVec3) -> u32 {
+        let near = boundary.closest(point.as_vec3());
+        self.label_near(near.triangle, near.position.as_dvec3())
+    }
+}
