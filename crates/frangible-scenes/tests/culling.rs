@@ -182,7 +182,7 @@ fn culling_changes_no_bit_where_the_strength_varies() {
         {
             let kind = Breakable::new(Arc::clone(asset)).unwrap();
             let kind = kind.with_fields(fields).unwrap();
-            for blow in 0..6 {
+            for blow in 0..3 {
                 let body = kind.body(blow);
                 let contact = [numbers.blow(asset)];
                 for config in models() {
@@ -210,5 +210,5 @@ fn culling_changes_no_bit_where_the_strength_varies() {
         }
     }
     println!("{broke} broke; refused free of time, by time steps, looked at: {looked:?}");
-    assert!(broke > 10 && looked.iter().all(|&n| n > 3), "{looked:?}");
+    assert!(broke > 5 && looked.iter().all(|&n| n > 3), "{looked:?}");
 }

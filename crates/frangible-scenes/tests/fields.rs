@@ -4,12 +4,13 @@ mod common;
 
 use std::sync::Arc;
 
-use common::{block, blow, glass, mean, pane, pane_hit, pieces, rim_hit, steel_ball};
+use common::{block, blow, glass, mean, pane, pane_hit, pieces, rim_hit, steel_ball, stone_floor};
 use frangible::glam::Vec3;
 use frangible::{
     Asset, Body, Breakable, Contact, Factors, Fields, FractureConfig, InputError, Outcome, Patch,
     Zone, impact, impact_traced,
 };
+use frangible_scenes::{bake, scene};
 
 fn kind(asset: &Arc<Asset>, fields: Fields) -> Breakable {
     Breakable::new(Arc::clone(asset))
@@ -199,7 +200,7 @@ fn share_along_the_score(body: &Body, hit: Contact) -> f64 {
 #[test]
 fn a_scored_pane_breaks_along_the_score() {
     let (plain, scored) = (scored(1.0), scored(0.3));
-    for speed in [4.0, 8.0] {
+    for speed in [6.0, 8.0] {
         let share = |kind: &Breakable| {
             mean(8, |seed| {
                 share_along_the_score(&kind.body(seed), pane_hit(0.0, 0.0, speed))
@@ -208,6 +209,44 @@ fn a_scored_pane_breaks_along_the_score() {
         let (without, with) = (share(&plain), share(&scored));
         println!("{speed} m/s: {with:.3} of the cuts along the score, {without:.3} without it");
         assert!(with > 2.0 * without, "{with} {without}");
+    }
+}
+
+#[test]
+fn the_chocolate_breaks_between_its_squares() {
+    let mut scene = scene("chocolate").unwrap();
+    scene.bodies[0].modes = 40;
+    let asset = bake(&scene, &mut |_| {}).unwrap()[0].asset.clone();
+    let grooves = &scene.bodies[0].weakness;
+    let scored = kind(&asset, Fields::from_patches(&asset, grooves).unwrap());
+    let plain = kind(&asset, Fields::default());
+    let corner = Vec3::new(0.079, 0.039, 0.0);
+    let hits = [
+        blow(&asset, corner, -corner, 4.4, stone_floor()),
+        blow(
+            &asset,
+            Vec3::new(0.003, 0.004, 0.0045),
+            Vec3::NEG_Z,
+            3.0,
+            steel_ball(0.05),
+        ),
+    ];
+    for hit in hits {
+        let share = |kind: &Breakable| {
+            mean(6, |seed| {
+                let config = FractureConfig::default();
+                let (_, trace) = impact_traced(&kind.body(seed), &[hit], &config).unwrap();
+                let cuts = trace.cracks.iter().flatten();
+                let cuts: Vec<Vec3> = cuts
+                    .map(|e| asset.fracture.centroid(e.tet as usize))
+                    .collect();
+                let in_groove = |p: &&Vec3| grooves.iter().any(|g| g.zone.contains(**p));
+                cuts.iter().filter(in_groove).count() as f64 / cuts.len().max(1) as f64
+            })
+        };
+        let (with, without) = (share(&scored), share(&plain));
+        println!("{with:.3} of the cuts in the grooves, {without:.3} of those of a bar without");
+        assert!(with > 1.5 * without && without > 0.0, "{with} {without}");
     }
 }
 
