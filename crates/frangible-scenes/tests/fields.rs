@@ -220,34 +220,45 @@ fn the_chocolate_breaks_between_its_squares() {
     let grooves = &scene.bodies[0].weakness;
     let scored = kind(&asset, Fields::from_patches(&asset, grooves).unwrap());
     let plain = kind(&asset, Fields::default());
+    let config = FractureConfig::default();
+    // Weak enough a blow at a corner breaks the scored bar alone.
     let corner = Vec3::new(0.079, 0.039, 0.0);
-    let hits = [
-        blow(&asset, corner, -corner, 4.4, stone_floor()),
-        blow(
-            &asset,
-            Vec3::new(0.003, 0.004, 0.0045),
-            Vec3::NEG_Z,
-            3.0,
-            steel_ball(0.05),
-        ),
-    ];
-    for hit in hits {
-        let share = |kind: &Breakable| {
-            mean(6, |seed| {
-                let config = FractureConfig::default();
-                let (_, trace) = impact_traced(&kind.body(seed), &[hit], &config).unwrap();
-                let cuts = trace.cracks.iter().flatten();
-                let cuts: Vec<Vec3> = cuts
-                    .map(|e| asset.fracture.centroid(e.tet as usize))
-                    .collect();
-                let in_groove = |p: &&Vec3| grooves.iter().any(|g| g.zone.contains(**p));
-                cuts.iter().filter(in_groove).count() as f64 / cuts.len().max(1) as f64
-            })
-        };
-        let (with, without) = (share(&scored), share(&plain));
-        println!("{with:.3} of the cuts in the grooves, {without:.3} of those of a bar without");
-        assert!(with > 1.5 * without && without > 0.0, "{with} {without}");
+    let drop = blow(&asset, corner, -corner, 1.7, stone_floor());
+    for (kind, breaks) in [(&scored, true), (&plain, false)] {
+        let broke = mean(4, |seed| {
+            let outcome = impact(&kind.body(seed), &[drop], &config).unwrap();
+            f64::from(u8::from(pieces(&outcome) > 1))
+        });
+        println!("{broke} of the dropped bars broke, scored: {breaks}");
+        assert!(if breaks { broke >= 0.5 } else { broke == 0.0 });
     }
+    // A harder one in the middle breaks both: shares of the cracks that start, and of the cuts that lie, in grooves.
+    let middle = Vec3::new(0.003, 0.004, 0.0045);
+    let hit = blow(&asset, middle, Vec3::NEG_Z, 2.0, steel_ball(0.05));
+    let shares = |kind: &Breakable| {
+        let (mut starts, mut cuts) = ([0; 2], [0; 2]);
+        for seed in 1..=6 {
+            let (_, trace) = impact_traced(&kind.body(seed), &[hit], &config).unwrap();
+            for crack in &trace.cracks {
+                for (i, cut) in crack.iter().enumerate() {
+                    let p = asset.fracture.centroid(cut.tet as usize);
+                    let inside = usize::from(grooves.iter().any(|g| g.zone.contains(p)));
+                    cuts[inside] += 1;
+                    starts[inside] += usize::from(i == 0);
+                }
+            }
+        }
+        [starts, cuts].map(|[outside, inside]| f64::from(inside as u32) / (outside + inside) as f64)
+    };
+    let ([starts, cuts], [plain_starts, plain_cuts]) = (shares(&scored), shares(&plain));
+    println!(
+        "starts {starts:.3} against {plain_starts:.3}, cuts {cuts:.3} against {plain_cuts:.3}"
+    );
+    assert!(
+        starts > 0.95 && plain_starts < 0.5,
+        "{starts} {plain_starts}"
+    );
+    assert!(cuts > 1.25 * plain_cuts, "{cuts} {plain_cuts}");
 }
 
 #[test]
