@@ -124,7 +124,7 @@ pub fn scene(name: &str) -> Result<Scene, SceneError> {
             "chocolate",
             80,
             Quat::from_rotation_z(0.3) * Quat::from_rotation_x(-1.2),
-            drop(0.4),
+            drop(1.0),
         ),
         "rabbit" => build_of(
             "rabbit",
