@@ -47,7 +47,7 @@ pub(crate) struct VerifyArgs {
 
 #[derive(Args, Clone, Debug)]
 pub(crate) struct BreakCommand {
-    /// File to break: a mesh (.obj .stl .ply .gltf .glb; dropped, of porcelain), a baked body (.frangible) or a scene (.toml)
+    /// File to break: a mesh (.obj .stl .ply .gltf .glb, or tetrahedra .msh .node .ele .vtk .vtu .mesh; dropped, of porcelain), a baked body (.frangible) or a scene (.toml)
     #[arg(value_name = "FILE", conflicts_with = "scene")]
     pub(crate) file: Option<PathBuf>,
 
@@ -73,7 +73,7 @@ pub(crate) struct MeshArgs {
 
 #[derive(Args, Clone, Debug)]
 pub(crate) struct BakeArgs {
-    /// Mesh (.obj .stl .ply .gltf .glb) or scene of one body (.toml)
+    /// Mesh (.obj .stl .ply .gltf .glb, or tetrahedra .msh .node .ele .vtk .vtu .mesh) or scene of one body (.toml)
     #[arg(
         value_name = "FILE",
         conflicts_with = "scene",

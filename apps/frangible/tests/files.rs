@@ -66,7 +66,12 @@ fn files_that_cannot_be_broken_are_refused_in_a_sentence() {
             &["no such file", "meshes/far.ply"],
         ),
         (
-            file("held.toml", &format!("{body}supports = [{{ below = -1 }}]")),
+            file(
+                "held.toml",
+                &format!(
+                    "{body}supports = [{{ below = -1 }}]\n[[projectile]]\nmass = 0.1\nradius = 0.015\nspeed = 5\n"
+                ),
+            ),
             &["support 0 holds no part of the body"],
         ),
     ] {

@@ -188,7 +188,6 @@ fn what_cannot_be_looked_at_is_refused_in_a_sentence_and_leaves_nothing() {
         ),
         (vec!["--scene", "vase", "--size", "1"], "--size is for mesh"),
         (vec!["--scene", "vase", "--material", "gless"], "glass"),
-        (vec![&damaged, "--material", "glass"], "is baked"),
     ] {
         let output = frangible(&[&["modes"], &args[..]].concat(), None);
         let message = text(&output.stderr);

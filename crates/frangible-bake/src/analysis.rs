@@ -7,7 +7,8 @@ use crate::eigen::Constraints;
 use crate::embed::Locator;
 use crate::error::BakeError;
 use crate::fem::{
-    Cover, Elasticity, Elements, QuadraticMesh, System, assemble, assemble_supported_cover,
+    Cover, Elasticity, Elements, MID_EDGES, QuadraticMesh, System, assemble,
+    assemble_supported_cover,
 };
 use crate::mesh::{BodyMesh, barycentric_gradients};
 use crate::report::MeshReport;
@@ -23,6 +24,8 @@ pub(crate) enum Analysis {
     Conforming(QuadraticMesh, MeshReport),
     /// Elements of a lattice, integrated over the body alone: any solid, however thin its walls.
     Covering(Cover),
+    /// The linear elements of the body's own mesh; kept as quadratic ones that move linearly.
+    Linear(QuadraticMesh, MeshReport),
 }
 
 impl Analysis {
@@ -36,6 +39,11 @@ impl Analysis {
         Self::Conforming(mesh, report)
     }
 
+    /// Linear elements on the fine mesh itself.
+    pub(crate) fn linear(fine: &BodyMesh) -> Self {
+        Self::Linear(QuadraticMesh::new(fine), MeshReport::of(fine))
+    }
+
     /// About `elements` elements over the fine mesh of the body.
     pub(crate) fn covering(fine: &BodyMesh, elements: usize) -> Result<Self, BakeError> {
         Ok(Self::Covering(Cover::new(fine, elements)?))
@@ -43,7 +51,7 @@ impl Analysis {
 
     fn mesh(&self) -> &QuadraticMesh {
         match self {
-            Self::Conforming(mesh, _) => mesh,
+            Self::Conforming(mesh, _) | Self::Linear(mesh, _) => mesh,
             Self::Covering(cover) => &cover.mesh,
         }
     }
@@ -51,7 +59,7 @@ impl Analysis {
     /// Figures of the elements; the volume of a covering mesh is that of the body it is integrated over.
     pub(crate) fn report(&self, fine: &BodyMesh) -> MeshReport {
         match self {
-            Self::Conforming(_, report) => *report,
+            Self::Conforming(_, report) | Self::Linear(_, report) => *report,
             Self::Covering(cover) => MeshReport {
                 nodes: cover.mesh.positions.len(),
                 tets: cover.mesh.elements.len(),
@@ -84,6 +92,12 @@ impl Analysis {
                 let constraints = Constraints::of_nodes(&mesh.positions, &held);
                 Ok((system, constraints))
             }
+            Self::Linear(..) => {
+                let elements = Elements::Linear(&fine.tets);
+                let system = assemble(&fine.positions, elements, material);
+                let constraints = Constraints::of_nodes(&fine.positions, held);
+                Ok((system, constraints))
+            }
             Self::Covering(cover) => Ok((
                 assemble_supported_cover(cover, material, fine, held),
                 Constraints::of_places(&fine.positions, held),
@@ -97,7 +111,7 @@ impl Analysis {
     /// [`BakeError::OutsideAnalysisMesh`] for a conforming mesh that is too coarse.
     pub(crate) fn embed(&self, fine: &BodyMesh) -> Result<Embedding, BakeError> {
         match self {
-            Self::Conforming(mesh, _) => {
+            Self::Conforming(mesh, _) | Self::Linear(mesh, _) => {
                 let locator = Locator::new(mesh);
                 let centroids =
                     (0..fine.tets.len()).map(|e| fine.corners(e).iter().sum::<DVec3>() / 4.0);
@@ -114,6 +128,25 @@ impl Analysis {
             }
             Self::Covering(cover) => Ok(cover.embedding(fine)),
         }
+    }
+
+    /// Mode shapes of the unknowns, row by row → of the stored nodes. A linear element's middles move as the mean of
+    /// their ends: then the quadratic element's displacements are the linear ones.
+    pub(crate) fn shapes(&self, mut rows: Vec<f32>, modes: usize) -> Vec<f32> {
+        let Self::Linear(mesh, _) = self else {
+            return rows;
+        };
+        rows.resize(3 * mesh.positions.len() * modes, 0.0);
+        for element in &mesh.elements {
+            for (k, [i, j]) in MID_EDGES.into_iter().enumerate() {
+                let [middle, i, j] =
+                    [element[4 + k], element[i], element[j]].map(|node| 3 * modes * node as usize);
+                for row in 0..3 * modes {
+                    rows[middle + row] = 0.5 * (rows[i + row] + rows[j + row]);
+                }
+            }
+        }
+        rows
     }
 
     /// As the asset stores it.

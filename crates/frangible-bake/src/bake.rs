@@ -1,5 +1,6 @@
 //! The front door: shape and material in, asset out.
 
+use std::ops::ControlFlow;
 use std::time::Instant;
 
 use frangible::asset::RenderSurface;
@@ -21,6 +22,9 @@ use crate::report::{BakeReport, MeshReport, Progress, Stage};
 use crate::shapes::{self, MeshSize, Shape};
 use crate::supports::{Holder, Support, check_groups, check_supports};
 use crate::surface::{CREASE, SOLID_CREASE, outer_surface};
+
+/// Share of the meshing before a solid is covered by elements.
+const MESHING: f64 = 0.75;
 
 /// What to bake.
 #[derive(Clone, Debug)]
@@ -105,7 +109,10 @@ pub fn bake(
         mut fine,
         coarse,
         tetrahedra,
-    } = meshes(spec)?;
+    } = meshes(spec, &mut |share| {
+        clock.tell(Stage::Mesh, MESHING * share);
+        spec.cancel.flow()
+    })?;
     let holder = Holder::new(&spec.supports, &spec.groups, &fine.positions)?;
     let held = holder.axes(
         &fine.positions,
@@ -131,6 +138,7 @@ pub fn bake(
             Analysis::conforming(&coarse)
         }
         Coarse::Cover(elements) => Analysis::covering(&fine, elements)?,
+        Coarse::Linear => Analysis::linear(&fine),
     };
 
     clock.enter(Stage::Assemble)?;
@@ -151,7 +159,7 @@ pub fn bake(
 
     clock.enter(Stage::Surface)?;
     let crease = match spec.shape {
-        Shape::Solid(_) => SOLID_CREASE,
+        Shape::Solid(_) | Shape::Tets(_) => SOLID_CREASE,
         _ => CREASE,
     };
     let surface = outer_surface(&fracture, crease);
@@ -160,7 +168,10 @@ pub fn bake(
     clock.enter(Stage::Stress)?;
     let stored = analysis.stored();
     let mut basis = ModalBasis {
-        shapes: row_major(&modes.shapes, modes.unknowns),
+        shapes: analysis.shapes(
+            row_major(&modes.shapes, modes.unknowns),
+            modes.eigenvalues.len(),
+        ),
         peak_stress: Vec::new(),
         eigenvalues: modes.eigenvalues.clone(),
     };
@@ -214,17 +225,35 @@ enum Coarse {
     Mesh(BodyMesh),
     /// A lattice of about this many elements.
     Cover(usize),
+    /// The fine mesh itself, with linear elements.
+    Linear,
 }
 
-fn meshes(spec: &BakeSpec) -> Result<Meshes, BakeError> {
+fn meshes(
+    spec: &BakeSpec,
+    watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
+) -> Result<Meshes, BakeError> {
     if let Shape::Solid(shape) = &spec.shape {
         let cell = spec.fracture.map(|size| size.edge);
-        let (fine, report) = shapes::solid::mesh(shape, cell, Some(spec.seed))?;
+        let (fine, report) = shapes::solid::mesh(shape, cell, Some(spec.seed), watch)?;
         let elements = shapes::solid::elements(shape, spec.analysis, fine.volume());
         return Ok(Meshes {
             fine,
             coarse: Coarse::Cover(elements),
             tetrahedra: Some(report),
+        });
+    }
+    if let Shape::Tets(shape) = &spec.shape {
+        let fine = shapes::tets::mesh(shape)?;
+        let coarse = match (shape.carries_modes(), shape.quadratic) {
+            (true, true) => Coarse::Mesh(fine.clone()),
+            (true, false) => Coarse::Linear,
+            (false, _) => Coarse::Cover(shapes::tets::cover_elements(shape, spec.analysis)),
+        };
+        return Ok(Meshes {
+            fine,
+            coarse,
+            tetrahedra: None,
         });
     }
     let shape = &spec.shape;
@@ -274,6 +303,10 @@ impl Clock<'_> {
             true => Err(BakeError::Cancelled),
             false => Ok(()),
         }
+    }
+
+    fn tell(&mut self, stage: Stage, fraction: f64) {
+        (self.progress)(Progress { stage, fraction });
     }
 
     fn stop(&mut self) {

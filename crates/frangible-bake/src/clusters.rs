@@ -52,9 +52,7 @@ pub(crate) fn cluster(mesh: &TetMesh, wanted: usize) -> (Vec<u32>, usize) {
         }
         seeds = best.into_iter().map(|b| b.1).collect();
         front = Front::new(mesh, &centroids);
-        for (cell, &seed) in seeds.iter().enumerate() {
-            front.grow(seed, cell as u32);
-        }
+        front.grow_all(&seeds);
     }
     (front.owner, seeds.len())
 }
@@ -100,7 +98,21 @@ impl<'a> Front<'a> {
     fn grow(&mut self, seed: usize, cell: u32) {
         self.distance[seed] = 0.0;
         self.owner[seed] = cell;
-        let mut heap = BinaryHeap::from([Visit(0.0, seed as u32)]);
+        self.spread(BinaryHeap::from([Visit(0.0, seed as u32)]));
+    }
+
+    /// Adds all seeds at once: each tetrahedron is reached from its own seed only.
+    fn grow_all(&mut self, seeds: &[usize]) {
+        let mut heap = BinaryHeap::new();
+        for (cell, &seed) in seeds.iter().enumerate() {
+            self.distance[seed] = 0.0;
+            self.owner[seed] = cell as u32;
+            heap.push(Visit(0.0, seed as u32));
+        }
+        self.spread(heap);
+    }
+
+    fn spread(&mut self, mut heap: BinaryHeap<Visit>) {
         while let Some(Visit(distance, e)) = heap.pop() {
             let e = e as usize;
             if distance > self.distance[e] {
@@ -113,7 +125,7 @@ impl<'a> Front<'a> {
                 let through = distance + self.centroids[e].distance(self.centroids[n as usize]);
                 if through < self.distance[n as usize] {
                     self.distance[n as usize] = through;
-                    self.owner[n as usize] = cell;
+                    self.owner[n as usize] = self.owner[e];
                     heap.push(Visit(through, n));
                 }
             }

@@ -1,7 +1,7 @@
 //! Errors of baking: each names what is wrong and how to mend it.
 
 use frangible::InputError;
-use frangible_mesh::{RepairError, SolidError, TetError};
+use frangible_mesh::{RepairError, SolidError, TetError, TetInputError};
 use thiserror::Error;
 
 /// Why a bake gave no asset.
@@ -27,7 +27,10 @@ pub enum BakeError {
     Solid(#[from] SolidError),
     /// A solid that could not be filled with tetrahedra.
     #[error(transparent)]
-    Tetrahedra(#[from] TetError),
+    Tetrahedra(TetError),
+    /// Tetrahedra from a file that are no body.
+    #[error(transparent)]
+    TetInput(#[from] TetInputError),
     /// A profile that does not describe a body.
     #[error("profile station {station}: {problem}")]
     Profile {
@@ -144,5 +147,14 @@ pub(crate) fn positive(what: &'static str, value: f64) -> Result<(), BakeError> 
         Ok(())
     } else {
         Err(BakeError::NotPositive { what, value })
+    }
+}
+
+impl From<TetError> for BakeError {
+    fn from(error: TetError) -> Self {
+        match error {
+            TetError::Cancelled => Self::Cancelled,
+            error => Self::Tetrahedra(error),
+        }
     }
 }

@@ -72,4 +72,7 @@ pub enum TetError {
         /// What is promised, degrees.
         limit: f64,
     },
+    /// Whoever watched the work asked it to stop.
+    #[error("meshing was cancelled")]
+    Cancelled,
 }

@@ -6,35 +6,45 @@
 pub mod distance;
 mod error;
 mod input;
+mod mend_tets;
 pub mod quality;
 #[cfg(feature = "mesh-io")]
 mod read;
+#[cfg(feature = "mesh-io")]
+mod read_tets;
 mod repair;
 pub mod shapes;
 mod similarity;
 mod solid;
 mod stuffing;
 mod surface;
+mod tet_input;
 mod tetrahedralize;
 mod tets;
+mod watch;
 mod winding;
 
 pub use distance::DistanceSolid;
 pub use error::TetError;
 pub use glam;
 pub use input::{InputGroup, InputMaterial, InputMesh};
+pub use mend_tets::{MendedTets, NodeGroup, TetInputError, TetMend, mend_tets};
 #[cfg(feature = "mesh-io")]
 pub use read::{
     MOST_BYTES, MOST_TRIANGLES, MeshFormat, ReadError, nearest_file, parse_mesh, read_mesh,
 };
+#[cfg(feature = "mesh-io")]
+pub use read_tets::{TetFormat, parse_tetgen, parse_tets, read_tets};
 pub use repair::{RepairError, RepairReport, repair};
 pub use shapes::{READY_SHAPES, ready_shape};
 pub use similarity::Similarity;
 pub use solid::{Solid, SurfacePoint};
 pub use stuffing::counted_volume;
 pub use surface::Surface;
+pub use tet_input::{TetGroup, TetInput};
 pub use tetrahedralize::{
     CELLS_PER_WALL, Resolution, SMALLEST_ANGLE, TetOptions, TetReport, tetrahedralize,
+    tetrahedralize_watched,
 };
 pub use tets::TetBody;
 pub use tets::features::Features;

@@ -33,28 +33,23 @@ pub trait Solid: Send + Sync {
     /// Closest point of the surface, with its normal. Exact for mesh surfaces; for distances, by Newton steps along
     /// the gradient.
     fn closest(&self, p: DVec3) -> SurfacePoint {
+        let (position, _, normal) = newton(p, f64::INFINITY, self.bounds(), |x| self.gradient(x));
+        SurfacePoint { position, normal }
+    }
+
+    /// Signed distance and its gradient; by central differences unless the body knows better.
+    fn gradient(&self, p: DVec3) -> (f64, DVec3) {
         let [low, high] = self.bounds();
         let h = 1e-6 * (high - low).max_element();
-        let gradient = |x: DVec3| {
-            DVec3::new(
-                self.signed_distance(x + h * DVec3::X) - self.signed_distance(x - h * DVec3::X),
-                self.signed_distance(x + h * DVec3::Y) - self.signed_distance(x - h * DVec3::Y),
-                self.signed_distance(x + h * DVec3::Z) - self.signed_distance(x - h * DVec3::Z),
-            ) / (2.0 * h)
-        };
-        let mut x = p;
-        for _ in 0..8 {
-            let d = self.signed_distance(x);
-            if d.abs() < h {
-                break;
-            }
-            let g = gradient(x);
-            x -= d / g.length_squared().max(0.25) * g;
-        }
-        SurfacePoint {
-            position: x,
-            normal: gradient(x).normalize_or(DVec3::Y),
-        }
+        let along = |e: DVec3| self.signed_distance(p + h * e) - self.signed_distance(p - h * e);
+        let gradient = DVec3::new(along(DVec3::X), along(DVec3::Y), along(DVec3::Z)) / (2.0 * h);
+        (self.signed_distance(p), gradient)
+    }
+
+    /// Position of [`Solid::closest`] if it is no farther than `within`, m: a bound that makes it quick.
+    fn foot(&self, p: DVec3, within: f64) -> Option<DVec3> {
+        let position = self.closest(p).position;
+        (position.distance(p) <= within).then_some(position)
     }
 
     /// How far a ray from a point inside runs until it leaves the body, m; `None` if it starts outside. `direction` is
@@ -79,6 +74,28 @@ pub trait Solid: Send + Sync {
         }
         None
     }
+}
+
+/// Newton steps along the gradient to the surface: the place reached, the distance left and the unit normal there.
+/// None are gone where the distance says that the surface is farther than `within`, m.
+pub(crate) fn newton(
+    p: DVec3,
+    within: f64,
+    [low, high]: [DVec3; 2],
+    gradient: impl Fn(DVec3) -> (f64, DVec3),
+) -> (DVec3, f64, DVec3) {
+    let h = 1e-6 * (high - low).max_element();
+    let mut x = p;
+    let (mut d, mut g) = gradient(x);
+    let steps = if d.abs() > within { 0 } else { 8 };
+    for _ in 0..steps {
+        if d.abs() < h {
+            break;
+        }
+        x -= d / g.length_squared().max(0.25) * g;
+        (d, g) = gradient(x);
+    }
+    (x, d, g.normalize_or(DVec3::Y))
 }
 
 /// A place in 0..1 where `f`, negative at 0 and not at 1, changes its sign, to `tolerance`; a jump will do. By

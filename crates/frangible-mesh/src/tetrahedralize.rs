@@ -1,6 +1,7 @@
 //! The mesher's front door: a solid in, sound tetrahedra out.
 
 use std::fmt;
+use std::ops::ControlFlow;
 
 use crate::error::TetError;
 use crate::quality::dihedral_range;
@@ -12,6 +13,7 @@ use crate::tets::jitter::jitter;
 use crate::tets::manifold::make_manifold;
 use crate::tets::pieces::keep_largest;
 use crate::tets::{Draft, TetBody};
+use crate::watch::Watch;
 
 /// Smallest dihedral angle that is promised, degrees.
 pub const SMALLEST_ANGLE: f64 = 10.0;
@@ -147,6 +149,21 @@ pub fn tetrahedralize(
     solid: &dyn Solid,
     options: &TetOptions,
 ) -> Result<(TetBody, TetReport), TetError> {
+    tetrahedralize_watched(solid, options, &mut |_| ControlFlow::Continue(()))
+}
+
+/// [`tetrahedralize`] that tells the share of the work done, rising from 0 to 1, and stops on
+/// [`ControlFlow::Break`].
+///
+/// # Errors
+/// [`TetError::Cancelled`] when stopped, and those of [`tetrahedralize`].
+pub fn tetrahedralize_watched(
+    solid: &dyn Solid,
+    options: &TetOptions,
+    watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
+) -> Result<(TetBody, TetReport), TetError> {
+    let watch = &mut Watch::new(watch);
+    watch.reach(0.0)?;
     let [low, high] = solid.bounds();
     let longest = (high - low).max_element();
     if !(longest.is_finite() && longest > 0.0) {
@@ -163,12 +180,16 @@ pub fn tetrahedralize(
         cell = wall_cell;
         too_thin(solid, options, cell, longest)?;
     }
+    watch.reach(0.05)?;
     let mut draft = stuff(solid, cell)?;
+    watch.reach(0.15)?;
     let Resolution::Tets(wanted) = options.resolution else {
-        return finish(solid, options, draft, cell);
+        let done = finish(solid, options, draft, cell, watch)?;
+        watch.reach(1.0)?;
+        return Ok(done);
     };
     // The estimate from the volume is a few per cent off, more for thin walls: a correction or two land within 15 %.
-    for _ in 0..3 {
+    for attempt in 1..=3 {
         let ratio = draft.body.tets.len() as f64 / wanted as f64;
         let next = (cell * ratio.cbrt()).min(wall_cell);
         if (ratio - 1.0).abs() < 0.1 || (next / cell - 1.0).abs() < 0.01 {
@@ -176,6 +197,7 @@ pub fn tetrahedralize(
         }
         cell = next;
         draft = stuff(solid, cell)?;
+        watch.reach(0.15 + 0.05 * f64::from(attempt))?;
     }
     loop {
         if draft.body.tets.len() > options.most {
@@ -186,11 +208,12 @@ pub fn tetrahedralize(
             });
         }
         let tets = draft.body.tets.len();
-        let (body, report) = finish(solid, options, draft, cell)?;
+        let (body, report) = finish(solid, options, draft, cell, watch)?;
         let off = report
             .counted_volume
             .map_or(0.0, |v| (report.volume / v - 1.0).abs());
         if off <= VOLUME_OFF {
+            watch.reach(1.0)?;
             return Ok((body, report));
         }
         // Parts are lost that are thinner than the lattice: what is missing shrinks with the square of the cell.
@@ -199,7 +222,9 @@ pub fn tetrahedralize(
             "{tets} tetrahedra miss {:.1} % of the volume: refined",
             100.0 * off
         );
+        watch.start_over();
         draft = stuff(solid, cell)?;
+        watch.reach(0.3)?;
     }
 }
 
@@ -279,6 +304,7 @@ fn finish(
     options: &TetOptions,
     mut draft: Draft,
     cell: f64,
+    watch: &mut Watch<'_>,
 ) -> Result<(TetBody, TetReport), TetError> {
     let dropped = keep_largest(&mut draft);
     if dropped.kept < MAIN_PIECE {
@@ -295,7 +321,9 @@ fn finish(
     }
     let mut fixed = vec![false; draft.body.positions.len()];
     let mut features = Features::default();
+    watch.reach(0.35)?;
     improve(&mut draft, &fixed, solid, cell, WORTH_IMPROVING);
+    watch.reach(0.45)?;
     for round in 0..if options.snap { SNAP_ROUNDS } else { 0 } {
         let found = snap(&mut draft, &mut fixed, solid, cell, SMALLEST_ANGLE + 2.0);
         features = if round == 0 {
@@ -306,14 +334,18 @@ fn finish(
                 ..features
             }
         };
+        watch.reach(0.5 + 0.1 * round as f64)?;
         if found.sharp == 0 {
             break;
         }
         improve(&mut draft, &fixed, solid, cell, WORTH_IMPROVING);
+        watch.reach(0.55 + 0.1 * round as f64)?;
     }
+    watch.reach(0.8)?;
     if let Some(seed) = options.irregular {
         jitter(&mut draft, &fixed, solid, cell, seed);
     }
+    watch.reach(0.9)?;
     let body = draft.body;
     let (smallest_angle, largest_angle) = angles(&body);
     if smallest_angle < SMALLEST_ANGLE {

@@ -2,9 +2,13 @@
 
 mod common;
 
+use std::ops::ControlFlow;
+
 use common::{Ball, Block, check_sound};
 use frangible_mesh::glam::{DMat3, DVec3};
-use frangible_mesh::{Resolution, Solid, TetError, TetOptions, tetrahedralize};
+use frangible_mesh::{
+    Resolution, Solid, TetError, TetOptions, tetrahedralize, tetrahedralize_watched,
+};
 
 fn options(resolution: Resolution) -> TetOptions {
     let mut options = TetOptions::default();
@@ -235,4 +239,44 @@ fn numbers_that_cannot_be_used_are_refused() {
         tetrahedralize(&nowhere, &TetOptions::default()),
         Err(TetError::NotPositive { .. })
     ));
+}
+
+#[test]
+fn progress_rises_from_nought_to_one_and_changes_nothing() {
+    let mut told = Vec::new();
+    let watched = tetrahedralize_watched(
+        &ball(1.0, None),
+        &options(Resolution::Tets(3000)),
+        &mut |share| {
+            told.push(share);
+            ControlFlow::Continue(())
+        },
+    );
+    let (body, report) = watched.unwrap();
+    assert!(told.is_sorted() && told.len() > 5, "{told:?}");
+    assert_eq!((told[0], told[told.len() - 1]), (0.0, 1.0));
+    let (plain, plain_report) =
+        tetrahedralize(&ball(1.0, None), &options(Resolution::Tets(3000))).unwrap();
+    assert_eq!((body.positions, body.tets), (plain.positions, plain.tets));
+    assert_eq!(report, plain_report);
+}
+
+#[test]
+fn a_stop_at_any_report_ends_the_work_there() {
+    for stop_at in [0.0, 0.3, 0.7] {
+        let mut calls_after = 0;
+        let result = tetrahedralize_watched(
+            &ball(1.0, None),
+            &options(Resolution::Tets(3000)),
+            &mut |share| {
+                if share < stop_at {
+                    return ControlFlow::Continue(());
+                }
+                calls_after += 1;
+                ControlFlow::Break(())
+            },
+        );
+        assert_eq!(result.err(), Some(TetError::Cancelled));
+        assert_eq!(calls_after, 1);
+    }
 }

@@ -1,4 +1,4 @@
-//! Cost of a step: plain, with the copy of the world, with a break into 100 fragments.
+//! Cost of a step: plain, with the copy of the world, with a break into 100 fragments, and of asking what bodies carry.
 
 use std::hint::black_box;
 use std::time::Duration;
@@ -6,7 +6,7 @@ use std::time::Duration;
 use criterion::{BatchSize, Criterion, criterion_group, criterion_main};
 use frangible::glam::Vec3;
 use frangible_rapier::rapier3d::math::Vector;
-use frangible_rapier::{Ball, BreakableWorld, SurfaceProperties};
+use frangible_rapier::{Ball, BreakableWorld, SurfaceProperties, WorldConfig};
 
 #[path = "../tests/common/mod.rs"]
 mod common;
@@ -115,5 +115,43 @@ fn steps(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, steps);
+/// Blocks in pairs, one on the other, that never sleep; whether they are asked what they carry.
+fn pairs(count: usize, asked: bool) -> BreakableWorld {
+    let mut config = WorldConfig::default();
+    config.gravity = Vector::new(0.0, 0.0, -9.81);
+    config.resting_loads = asked;
+    let mut world = BreakableWorld::new(config).unwrap();
+    world
+        .insert_fixed_half_space(Vector::ZERO, Vector::Z, SurfaceProperties::STONE)
+        .unwrap();
+    for i in 0..count {
+        let (column, layer) = (i / 2, i % 2);
+        let pose = common::at(0.2 * column as f32, 0.0, 0.025 + 0.05 * layer as f32);
+        let still = Vector::ZERO;
+        let handle = world
+            .insert_breakable(common::body(common::baked::block()), pose, still, still)
+            .unwrap();
+        let activation = world.physics.bodies[handle].activation_mut();
+        activation.normalized_linear_threshold = -1.0;
+    }
+    for _ in 0..60 {
+        world.step().unwrap();
+    }
+    world
+}
+
+fn resting(c: &mut Criterion) {
+    let mut group = c.benchmark_group("resting");
+    group
+        .sample_size(20)
+        .measurement_time(Duration::from_secs(3))
+        .warm_up_time(Duration::from_millis(500));
+    for (name, asked) in [("100 blocks", false), ("100 blocks, loads asked", true)] {
+        let mut world = pairs(100, asked);
+        group.bench_function(name, |b| b.iter(|| world.step().map(<[_]>::len)));
+    }
+    group.finish();
+}
+
+criterion_group!(benches, steps, resting);
 criterion_main!(benches);

@@ -45,6 +45,8 @@ pub struct WorldConfig {
     pub max_debris: usize,
     /// Bodies at most; a body whose fragments would not fit stays whole. Default 4000.
     pub max_bodies: usize,
+    /// Ask after every step what bodies carry, and break those that carry too much. Default on.
+    pub resting_loads: bool,
     /// Also record the impacts that broke nothing, see [`crate::BreakableWorld::held`]. Default off.
     pub record_held: bool,
     /// Switches and numbers of the fracture.
@@ -69,6 +71,7 @@ impl Default for WorldConfig {
             debris_mass: 1e-4,
             max_debris: 200,
             max_bodies: 4000,
+            resting_loads: true,
             record_held: false,
             fracture: FractureConfig::default(),
         }

@@ -2,17 +2,19 @@
 //!
 //! Theory §2: point and direction in the body frame, the impulse on this body, the approach speed from the
 //! velocities **before** the step (Rapier keeps only those after it), and the striker's modulus, effective
-//! mass, curvature and restitution.
+//! mass, curvature, restitution, and, when it is breakable too, how long it answers.
 
 use std::collections::BTreeMap;
 
-use frangible::{Body, Contact, Striker};
-use rapier3d::dynamics::{RigidBody, RigidBodyHandle, RigidBodySet};
+use frangible::contact::answer_duration;
+use frangible::{Body, Contact, DurationModel, Striker};
+use rapier3d::dynamics::{FrictionModel, RigidBody, RigidBodyHandle, RigidBodySet};
 use rapier3d::geometry::ColliderHandle;
 use rapier3d::math::Vector;
 use rapier3d::pipeline::PhysicsWorld;
 
 use crate::config::WorldConfig;
+use crate::friction::{rub, solver_friction, unexplained};
 use crate::surface::{EDGE_RADIUS, SurfaceProperties};
 use crate::world::{Key, collider_key, key};
 
@@ -31,14 +33,17 @@ pub(crate) struct Surfaces<'a> {
 }
 
 /// A contact point in the body frame.
-struct Point {
-    position: Vector,
+pub(crate) struct Point {
+    pub(crate) position: Vector,
     /// Direction of the impulse on the body.
-    normal: Vector,
-    impulse: f32,
+    pub(crate) normal: Vector,
+    pub(crate) impulse: f32,
+    /// Friction impulse on the body, as the solver left it.
+    pub(crate) friction: Vector,
+    friction_coefficient: f32,
     restitution: f32,
     other_collider: ColliderHandle,
-    other: Option<RigidBodyHandle>,
+    pub(crate) other: Option<RigidBodyHandle>,
 }
 
 /// Impacts on `handle` in the step just taken; `before` holds the bodies as they were before it.
@@ -53,24 +58,50 @@ pub(crate) fn impact_on(
         return Impact::default();
     };
     let mut impact = Impact::default();
-    for group in merged_by_partner(points_on(handle, body, physics), config.merge_distance) {
+    let known = physics.integration_parameters.friction_model == FrictionModel::Coulomb;
+    let groups = merged_by_partner(points_on(handle, body, physics), config.merge_distance);
+    let rubbed = match (&groups[..], physics.bodies.get(handle)) {
+        ([only], Some(after)) if !known => {
+            let dt = physics.integration_parameters.dt;
+            unexplained(body, after, physics.gravity, dt, only)
+        }
+        _ => None,
+    };
+    for group in groups {
         let other = group[0].other;
         let partner = other.and_then(|other| before.get(other));
         let first = impact.contacts.len();
         for point in &group {
             let approach_speed = approach(body, partner, point.position, point.normal);
             if approach_speed > config.impact_speed && point.impulse > 0.0 {
-                impact.contacts.push(Contact::new(
+                let mut contact = Contact::new(
                     point.position,
                     point.normal,
                     point.impulse,
                     approach_speed,
                     striker(body, partner, point, physics, surfaces),
-                ));
+                );
+                if known {
+                    contact.friction = point.friction;
+                }
+                impact.contacts.push(contact);
             }
         }
         let added = &mut impact.contacts[first..];
-        limit_impulse(added, body, partner);
+        let share = limit_impulse(added, body, partner);
+        if !known {
+            let rubbed = rubbed.map(|impulse| impulse * share);
+            let coefficient = group[0].friction_coefficient;
+            rub(added, body, partner, coefficient, rubbed);
+        }
+        if let (Some(other), Some(partner)) = (other, partner) {
+            let other = surfaces.breakables.get(&key(other));
+            let itself = surfaces.breakables.get(&key(handle));
+            if let (Some(other), Some(itself)) = (other, itself) {
+                let model = config.fracture.duration;
+                answer(added, (body, itself), (partner, other), model);
+            }
+        }
         if let (false, Some(other)) = (added.is_empty(), other)
             && !impact.strikers.contains(&other)
         {
@@ -80,7 +111,12 @@ pub(crate) fn impact_on(
     impact
 }
 
-fn points_on(handle: RigidBodyHandle, body: &RigidBody, physics: &PhysicsWorld) -> Vec<Point> {
+/// Where, how and by what a body is pushed after a step; `body` says where its frame was.
+pub(crate) fn points_on(
+    handle: RigidBodyHandle,
+    body: &RigidBody,
+    physics: &PhysicsWorld,
+) -> Vec<Point> {
     let mut points = Vec::new();
     let to_body = body.rotation().inverse();
     for &collider_handle in body.colliders() {
@@ -124,10 +160,14 @@ fn points_on(handle: RigidBodyHandle, body: &RigidBody, physics: &PhysicsWorld) 
                         point.local_p2
                     };
                     let local = part.map_or(local, |pose| *pose * local);
+                    let friction =
+                        solver_friction(manifold, point, &physics.integration_parameters);
                     points.push(Point {
                         position: in_body * local,
                         normal,
                         impulse: point.data.impulse,
+                        friction: to_body * if first { friction } else { -friction },
+                        friction_coefficient: manifold.data.friction,
                         restitution: manifold.data.restitution,
                         other_collider,
                         other,
@@ -142,7 +182,7 @@ fn points_on(handle: RigidBodyHandle, body: &RigidBody, physics: &PhysicsWorld) 
 /// Points of one partner in a group; within it, points that are one place are one contact at the
 /// impulse-weighted mean: neighbouring cells of a compound both report a ball on their common face, and two
 /// half-size contacts would be taken for two softer blows.
-fn merged_by_partner(points: Vec<Point>, distance: f32) -> Vec<Vec<Point>> {
+pub(crate) fn merged_by_partner(points: Vec<Point>, distance: f32) -> Vec<Vec<Point>> {
     let mut groups: Vec<Vec<Point>> = Vec::new();
     for point in points {
         let same_partner = |p: &Point| match point.other {
@@ -165,6 +205,7 @@ fn merged_by_partner(points: Vec<Point>, distance: f32) -> Vec<Vec<Point>> {
                 .lerp(point.normal, share)
                 .normalize_or(point.normal);
             kept.impulse = total;
+            kept.friction += point.friction;
         } else {
             group.push(point);
         }
@@ -173,14 +214,23 @@ fn merged_by_partner(points: Vec<Point>, distance: f32) -> Vec<Vec<Point>> {
 }
 
 /// Speed at which the partner comes nearer along the direction of the impulse, before the step.
-fn approach(body: &RigidBody, partner: Option<&RigidBody>, point: Vector, normal: Vector) -> f32 {
+pub(crate) fn approach(
+    body: &RigidBody,
+    partner: Option<&RigidBody>,
+    point: Vector,
+    normal: Vector,
+) -> f32 {
     let world = *body.position() * point;
     let other = partner.map_or(Vector::ZERO, |p| p.velocity_at_point(world));
     (other - body.velocity_at_point(world)).dot(*body.rotation() * normal)
 }
 
 /// nᵀ K n, 1/kg: what one unit of impulse along n changes the speed of the body at the point by.
-fn inverse_effective_mass(body: &RigidBody, world_point: Vector, world_normal: Vector) -> f32 {
+pub(crate) fn inverse_effective_mass(
+    body: &RigidBody,
+    world_point: Vector,
+    world_normal: Vector,
+) -> f32 {
     if !body.is_dynamic() {
         return 0.0;
     }
@@ -258,12 +308,45 @@ fn curvature_at(body: &Body, point: Vector) -> f32 {
         .max(EDGE_RADIUS)
 }
 
-/// Scales the impulses of one pair so that their sum is no more than the two bodies' meeting can give,
-/// (1+e) v_n / (nᵀ K n of both): Rapier adds what pushes an overlap apart and what gravity presses, which is no blow.
-fn limit_impulse(contacts: &mut [Contact], body: &RigidBody, partner: Option<&RigidBody>) {
+/// Two breakable bodies meet: how long the other one answers each contact, for the models that ask. Hertz' law has both
+/// bodies in it already.
+fn answer(
+    contacts: &mut [Contact],
+    (body, itself): (&RigidBody, &Body),
+    (partner, other): (&RigidBody, &Body),
+    model: DurationModel,
+) {
+    if model == DurationModel::Hertz {
+        return;
+    }
+    let into = partner.position().inverse() * *body.position();
+    for contact in contacts {
+        let (world, normal) = (
+            *body.position() * contact.point,
+            *body.rotation() * contact.normal,
+        );
+        let mirrored = Contact {
+            point: into * contact.point,
+            normal: into.rotation * -contact.normal,
+            striker: Striker {
+                contact_modulus: itself.asset().material.contact_modulus() as f32,
+                inverse_effective_mass: inverse_effective_mass(body, world, normal),
+                curvature_radius: curvature_at(itself, contact.point),
+                ..contact.striker
+            },
+            ..*contact
+        };
+        let duration = answer_duration(other, &mirrored, model) as f32;
+        // Infinite or NaN where a mode cannot be excited: then the body's own duration stands.
+        contact.striker.modal_duration = if duration.is_finite() { duration } else { 0.0 };
+    }
+}
+
+/// Impulse-weighted centre and direction of contacts, and the sum of their normal impulses.
+pub(crate) fn weighted_mean(contacts: &[Contact]) -> Option<(Vector, Vector, f32)> {
     let total: f32 = contacts.iter().map(|c| c.impulse).sum();
     if total.is_nan() || total <= 0.0 {
-        return;
+        return None;
     }
     let mean = |f: &dyn Fn(&Contact) -> Vector| {
         contacts
@@ -271,9 +354,19 @@ fn limit_impulse(contacts: &mut [Contact], body: &RigidBody, partner: Option<&Ri
             .map(|c| f(c) * (c.impulse / total))
             .sum::<Vector>()
     };
-    let point = mean(&|c| c.point);
-    let Some(normal) = mean(&|c| c.normal).try_normalize() else {
-        return;
+    Some((
+        mean(&|c| c.point),
+        mean(&|c| c.normal).try_normalize()?,
+        total,
+    ))
+}
+
+/// Scales the impulses of one pair so that their sum is no more than the two bodies' meeting can give,
+/// (1+e) v_n / (nᵀ K n of both): Rapier adds what pushes an overlap apart and what gravity presses, which is no blow. Returns
+/// the share that is left.
+fn limit_impulse(contacts: &mut [Contact], body: &RigidBody, partner: Option<&RigidBody>) -> f32 {
+    let Some((point, normal, total)) = weighted_mean(contacts) else {
+        return 1.0;
     };
     let restitution = contacts
         .iter()
@@ -283,9 +376,12 @@ fn limit_impulse(contacts: &mut [Contact], body: &RigidBody, partner: Option<&Ri
     let k = inverse_effective_mass(body, world, direction)
         + partner.map_or(0.0, |p| inverse_effective_mass(p, world, direction));
     let limit = (1.0 + restitution) * approach(body, partner, point, normal).max(0.0) / k;
-    if limit.is_finite() && limit > 0.0 && limit < total {
-        for contact in contacts {
-            contact.impulse *= limit / total;
-        }
+    if !(limit.is_finite() && limit > 0.0 && limit < total) {
+        return 1.0;
     }
+    for contact in contacts {
+        contact.impulse *= limit / total;
+        contact.friction *= limit / total;
+    }
+    limit / total
 }

@@ -6,6 +6,20 @@ use frangible::{Asset, BodyState, Contact, Fracture, ImpactReport};
 use rapier3d::dynamics::RigidBodyHandle;
 use rapier3d::math::{Pose, Vector};
 
+/// What broke a body.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum BreakCause {
+    /// It was hit, or hit something.
+    Impact,
+    /// What it carried: resting contacts, and its own weight when it is held.
+    Rest,
+    /// [`BreakableWorld::blast`](crate::BreakableWorld::blast).
+    Blast,
+    /// [`BreakableWorld::fracture_at`](crate::BreakableWorld::fracture_at).
+    Script,
+}
+
 /// A body broke.
 #[derive(Clone, Debug)]
 pub struct BreakEvent {
@@ -13,15 +27,18 @@ pub struct BreakEvent {
     pub step: u64,
     /// Handle of the body that broke; it is no longer in the world.
     pub parent: RigidBodyHandle,
+    /// What broke it.
+    pub cause: BreakCause,
     /// What the body was.
     pub asset: Arc<Asset>,
     /// The new bodies, in the order of [`Fracture::fragments`]. Debris may be removed again later.
     pub fragments: Vec<RigidBodyHandle>,
     /// The pieces, their meshes and the report.
     pub fracture: Arc<Fracture>,
-    /// The contacts that broke it, body frame.
+    /// The contacts that broke it, body frame. Of a resting load: the pushes of one step, speed 0, friction within the
+    /// normal. Empty for a blast and a scripted blow.
     pub contacts: Vec<Contact>,
-    /// What hit it: bodies, without those removed or broken in the same step.
+    /// What hit it, or lay on it: bodies, without those removed or broken in the same step.
     pub strikers: Vec<RigidBodyHandle>,
     /// Pose of the body when it broke, at the start of the step.
     pub pose: Pose,
@@ -32,16 +49,25 @@ pub struct BreakEvent {
     /// Energy taken from the motion for the cracks, J: at most `fracture.report.fracture_energy`, less when the
     /// pieces hardly moved against each other.
     pub energy_paid: f64,
+    /// Kinetic energy before the step, of the body and of what hit it, J; of a blast or scripted blow, of the body alone.
+    pub kinetic_before: f64,
+    /// Kinetic energy after the step, of the fragments and of what hit the body (its fragments, if it broke too), J; of a
+    /// blast or scripted blow, of the fragments before the step moves them. At most `kinetic_before` + `work`, but for
+    /// rounding and for what others gave them in the same step.
+    pub kinetic_after: f64,
+    /// Work of gravity on them in the step where it speeds them up, or of the blast or scripted blow, J.
+    pub work: f64,
 }
 
-/// An impact that broke nothing; recorded on request.
+/// An impact, blast or scripted blow that broke nothing, or a resting load that cracked a body without parting it;
+/// recorded on request.
 #[derive(Clone, Debug)]
 pub struct HeldEvent {
     /// Number of the step, from 0.
     pub step: u64,
     /// The body that was hit.
     pub body: RigidBodyHandle,
-    /// The contacts, body frame.
+    /// The contacts, body frame; as [`BreakEvent::contacts`].
     pub contacts: Vec<Contact>,
     /// Strength over the bound of the stress: how many times as hard the blow could have been, at least.
     pub margin: f64,

@@ -19,6 +19,12 @@
 //! # Ok::<(), frangible_rapier::WorldError>(())
 //! ```
 //!
+//! # What breaks a body
+//! Impacts, with their friction, on one body or on two breakable ones that meet. What it carries: after every step the
+//! forces of its resting contacts, and a held body's weight, are put to [`frangible::rest()`];
+//! [`BreakableWorld::rest_margin`] says how far it is from breaking. [`BreakableWorld::blast`] and
+//! [`BreakableWorld::fracture_at`]. [`BreakEvent::cause`] tells which it was.
+//!
 //! # What it keeps
 //! - Mass, centre and inertia of a fragment are the exact ones of the piece, never those of its collider.
 //! - Replacing a body by its fragments changes neither momentum nor angular momentum, and adds no kinetic energy.
@@ -37,11 +43,13 @@
 //!
 //! # What it does not do yet
 //! Fragments are plain bodies: they do not break again. Multibody joints of a broken body are released,
-//! impulse joints move to the fragment that holds them. Contacts below the impact threshold (resting
-//! contacts) break nothing. Breakable bodies and fragments are swept against fixed bodies and balls only, not
-//! against each other. Rapier limits spin to an eighth of a turn per step, and applies a contact's impulse at the
-//! arms of the step's start: chips that would spin faster lose angular momentum, and a blow during which bodies
-//! move centimetres per step changes the total by some percent. Shorter steps cure both.
+//! impulse joints move to the fragment that holds them; neither loads a body. A blow of less than
+//! [`WorldConfig::impact_speed`] breaks nothing: only what presses for four steps in a row counts as carried.
+//! Rapier's simplified friction keeps no friction impulse of a blow; with several partners at once it is estimated by
+//! Coulomb's law (`FrictionModel::Coulomb` keeps it all). Breakable bodies and fragments are swept against fixed bodies
+//! and balls only, not against each other. Rapier limits spin to an eighth of a turn per step, and applies a contact's
+//! impulse at the arms of the step's start: chips that would spin faster lose angular momentum, and a blow during which
+//! bodies move centimetres per step changes the total by some percent. Shorter steps cure both.
 
 mod approach;
 mod collider;
@@ -51,15 +59,19 @@ mod debris;
 mod error;
 mod event;
 mod floor;
+mod friction;
 mod guard;
 mod insert;
 mod joints;
 mod mass;
 mod motion;
+mod pushes;
 mod replace;
 mod rest;
+mod resting;
 mod rigid;
 mod rolling;
+mod settle;
 mod siblings;
 mod snapshot;
 mod step;
@@ -69,8 +81,8 @@ mod world;
 
 pub use config::WorldConfig;
 pub use error::WorldError;
-pub use event::{BreakEvent, HeldEvent};
+pub use event::{BreakCause, BreakEvent, HeldEvent};
 pub use insert::Ball;
 pub use rapier3d;
 pub use surface::SurfaceProperties;
-pub use world::{BreakFn, BreakableWorld};
+pub use world::{BreakFn, BreakableWorld, RestFn};

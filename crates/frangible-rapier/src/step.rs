@@ -4,26 +4,24 @@
 //! impact is put to the fracture. If a body broke: back to the copy, fragments in its place with the velocities
 //! from before the impact, and the step is taken again, so that the striker meets fragments instead of a body
 //! that is gone. Several bodies may break in a step; a body that is only hit in the repeated step is asked then,
-//! up to [`MAX_REPEATS`] times. Fragments are not asked: they do not break again yet.
+//! up to [`MAX_REPEATS`] times. Fragments are not asked: they do not break again yet. What bodies carry is asked after
+//! every step (`resting.rs`); blasts and scripted blows come before it (`pushes.rs`).
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use frangible::{Fracture, Outcome};
-use rapier3d::dynamics::{RigidBody, RigidBodyHandle, RigidBodySet};
-use rapier3d::math::Vector;
+use rapier3d::dynamics::{RigidBodyHandle, RigidBodySet};
 
 use crate::approach::candidates;
 use crate::contacts::{Impact, Surfaces, impact_on};
 use crate::error::WorldError;
-use crate::event::{BreakEvent, HeldEvent};
+use crate::event::{BreakCause, BreakEvent, HeldEvent};
 use crate::guard::{Centres, centres, put_back};
-use crate::motion::kinetic_energy;
-use crate::replace::{Parts, is_debris};
+use crate::replace::Parts;
 use crate::rolling::resist_rolling;
+use crate::settle::Broken;
 use crate::snapshot::Snapshot;
-use crate::surface::{EDGE_RADIUS, SurfaceProperties};
-use crate::toll::take_energy;
 use crate::world::{BreakableWorld, Key, key};
 
 /// A step is undone at most so often; a body that would break only after that breaks in a later step.
@@ -32,15 +30,6 @@ const MAX_REPEATS: usize = 4;
 /// Solver iterations of a step with newborn fragments, in units of an ordinary step's. Measured with 100 fragments:
 /// 1, 2, 4 cost 5.0, 7.0, 8.2 ms for the whole breaking step; below 4, pieces left wedged gain energy afterwards.
 const BREAK_ITERATIONS: usize = 4;
-
-/// A body that breaks in this step.
-struct Broken {
-    parent: RigidBodyHandle,
-    fracture: Arc<Fracture>,
-    parts: Parts,
-    impact: Impact,
-    fragments: Vec<RigidBodyHandle>,
-}
 
 /// What was asked of the fracture in this step.
 #[derive(Default)]
@@ -62,14 +51,16 @@ impl BreakableWorld {
         self.siblings.step = self.steps;
         self.siblings.relaxation =
             self.config.overlap_relaxation * self.physics.integration_parameters.dt;
-        let near = candidates(&self.physics, self.breakables(), self.config.impact_speed);
-        let mut asked = if near.is_empty() {
+        let pushed = self.apply_pushes();
+        let near = self.near();
+        let (mut asked, before) = if near.is_empty() {
             let centres = self.guarded_centres();
             self.advance();
             put_back(&mut self.physics, &centres);
-            Asked::default()
+            (Asked::default(), None)
         } else {
-            self.step_with_breaks(near)
+            let (asked, before) = self.step_with_breaks(near);
+            (asked, Some(before))
         };
         // A break's impulses are a blow, not a weight that rolls; its energy is settled already.
         if self.events.is_empty() {
@@ -86,16 +77,45 @@ impl BreakableWorld {
                 asked.error.get_or_insert(error.into());
             }
         }
+        if asked.held.values().any(|(_, event)| event.state.is_some()) {
+            self.weigh_anew();
+        }
         if self.config.record_held {
             self.held
                 .extend(asked.held.into_values().map(|(_, event)| event));
         }
+        // A break's impulses are no weight either.
+        let weighed = if self.weighs_now() && self.events.is_empty() {
+            self.weigh(before.as_ref())
+        } else {
+            Ok(())
+        };
         self.steps += 1;
-        asked.error.map_or(Ok(&self.events), Err)
+        let asked = asked.error.map_or(Ok(()), Err);
+        pushed.and(asked).and(weighed).map(|()| &*self.events)
+    }
+
+    /// Breakable bodies that may be hit in the coming step, or break under what they carry; in the order of handles.
+    fn near(&self) -> Vec<RigidBodyHandle> {
+        let mut near = candidates(&self.physics, self.breakables(), self.config.impact_speed);
+        if self.weighs_now() {
+            let overloaded = self.overloaded().filter(|&h| self.breakable(h).is_some());
+            let new: Vec<RigidBodyHandle> = overloaded.filter(|h| !near.contains(h)).collect();
+            if !new.is_empty() {
+                near.extend(new);
+                near.sort_by_key(|&h| key(h));
+            }
+        }
+        near
     }
 
     fn advance(&mut self) {
-        self.physics.step_with_events(&self.siblings, &());
+        // Fragments of a blast are newborn when the step begins.
+        if self.events.is_empty() {
+            self.physics.step_with_events(&self.siblings, &());
+        } else {
+            self.advance_finely();
+        }
     }
 
     fn guarded_centres(&self) -> Centres {
@@ -110,11 +130,12 @@ impl BreakableWorld {
     fn advance_finely(&mut self) {
         let iterations = self.physics.integration_parameters.num_solver_iterations;
         self.physics.integration_parameters.num_solver_iterations = BREAK_ITERATIONS * iterations;
-        self.advance();
+        self.physics.step_with_events(&self.siblings, &());
         self.physics.integration_parameters.num_solver_iterations = iterations;
     }
 
-    fn step_with_breaks(&mut self, mut near: Vec<RigidBodyHandle>) -> Asked {
+    /// The step, and the bodies as they were before it.
+    fn step_with_breaks(&mut self, mut near: Vec<RigidBodyHandle>) -> (Asked, RigidBodySet) {
         let base = Snapshot::take(&self.physics, &self.siblings);
         self.snapshots += 1;
         let mut asked = Asked::default();
@@ -136,10 +157,8 @@ impl BreakableWorld {
             self.advance_finely();
         }
         put_back(&mut self.physics, &centres);
-        for broken in std::mem::take(&mut asked.broken) {
-            self.settle(broken, &base.bodies);
-        }
-        asked
+        self.settle(std::mem::take(&mut asked.broken), &base.bodies);
+        (asked, base.bodies)
     }
 
     /// Puts the impacts of the step just taken to the fracture; true when a body broke.
@@ -159,46 +178,40 @@ impl BreakableWorld {
                 .held
                 .get(&key(handle))
                 .is_some_and(|(known, _)| *known == impact);
-            if impact.contacts.is_empty() || unchanged {
-                continue;
-            }
-            let outcome = (self.break_function)(body, &impact.contacts, &self.config.fracture);
+            let (cause, impact, outcome) = if impact.contacts.is_empty() || unchanged {
+                match self.breaking_load(handle, body, before) {
+                    None => continue,
+                    Some(Ok((load, outcome))) => (BreakCause::Rest, load, Ok(outcome)),
+                    Some(Err(error)) => (BreakCause::Rest, impact, Err(error)),
+                }
+            } else {
+                let judge = &self.break_function;
+                let outcome = judge(body, &impact.contacts, &self.config.fracture);
+                (BreakCause::Impact, impact, outcome.map_err(Into::into))
+            };
             let fracture = match outcome {
                 Ok(Outcome::Broke(fracture)) if fracture.fragments.len() > 1 => *fracture,
                 Ok(outcome) => {
-                    self.remember_held(handle, impact, outcome, asked);
+                    if cause == BreakCause::Impact {
+                        self.remember_held(handle, impact, outcome, asked);
+                    }
                     continue;
                 }
                 Err(error) => {
-                    asked.error.get_or_insert(error.into());
+                    asked.error.get_or_insert(error);
                     continue;
                 }
             };
-            let fragments: usize = asked
-                .broken
-                .iter()
-                .map(|b| b.fracture.fragments.len())
-                .sum();
-            let room = self
-                .config
-                .max_bodies
-                .saturating_sub(self.physics.bodies.len())
-                + self.debris.len();
-            if fracture.fragments.len() + fragments > room {
-                self.refused_breaks += 1;
-                log::warn!(
-                    "{} fragments of `{}` exceed `max_bodies`; it stays whole",
-                    fracture.fragments.len(),
-                    body.asset().name
-                );
+            let fragments = asked.broken.iter().map(|b| b.fracture.fragments.len());
+            if !self.has_room(&fracture, fragments.sum(), handle) {
                 continue;
             }
             match Parts::new(&fracture, &self.config) {
                 Ok(parts) => {
-                    let fracture = Arc::new(fracture);
                     asked.broken.push(Broken {
                         parent: handle,
-                        fracture,
+                        cause,
+                        fracture: Arc::new(fracture),
                         parts,
                         impact,
                         fragments: Vec::new(),
@@ -212,6 +225,27 @@ impl BreakableWorld {
             }
         }
         news
+    }
+
+    /// Whether there is room for a body's fragments besides those `taken` already in this step.
+    pub(crate) fn has_room(
+        &mut self,
+        fracture: &Fracture,
+        taken: usize,
+        handle: RigidBodyHandle,
+    ) -> bool {
+        let limit = self.config.max_bodies;
+        let room = limit.saturating_sub(self.physics.bodies.len()) + self.debris.len();
+        let fits = fracture.fragments.len() + taken <= room;
+        if !fits {
+            self.refused_breaks += 1;
+            let name = self.breakable(handle).map_or("", |b| &b.asset().name);
+            log::warn!(
+                "{} fragments of `{name}` exceed `max_bodies`; it stays whole",
+                fracture.fragments.len()
+            );
+        }
+        fits
     }
 
     fn remember_held(
@@ -238,92 +272,5 @@ impl BreakableWorld {
             state: state.map(|s| *s),
         };
         asked.held.insert(key(body), (impact, event));
-    }
-
-    /// Takes the cracks' energy from the motion and records the break.
-    fn settle(&mut self, broken: Broken, before: &RigidBodySet) {
-        let Broken {
-            parent,
-            fracture,
-            impact,
-            fragments,
-            ..
-        } = broken;
-        let Some(body) = self.breakables.remove(&key(parent)) else {
-            return;
-        };
-        self.surfaces.remove(&key(parent));
-        let surface = SurfaceProperties::of(&body.asset().material, EDGE_RADIUS);
-        for (&handle, fragment) in fragments.iter().zip(&fracture.fragments) {
-            self.surfaces.insert(key(handle), surface);
-            if is_debris(fragment, &self.config) {
-                self.debris.push_back(handle);
-            }
-        }
-        let mut strikers = impact.strikers;
-        strikers.retain(|&s| self.physics.bodies.contains(s));
-        let gain = self.energy_gain(parent, &fragments, &strikers, before);
-        let toll = fracture.report.fracture_energy.max(gain);
-        let energy_paid = take_energy(&mut self.physics.bodies, &fragments, &strikers, toll);
-        let (pose, linvel, angvel) = before.get(parent).map_or_else(Default::default, |b| {
-            (*b.position(), b.linvel(), b.angvel())
-        });
-        self.events.push(BreakEvent {
-            step: self.steps,
-            parent,
-            asset: Arc::clone(body.asset()),
-            fragments,
-            fracture,
-            contacts: impact.contacts,
-            strikers,
-            pose,
-            linvel,
-            angvel,
-            energy_paid: energy_paid.min(toll),
-        });
-    }
-
-    /// Kinetic energy the group has more after the step than before it, beyond the work of gravity, J. Rapier's
-    /// restitution at many contacts at once can gain some; a break never does.
-    fn energy_gain(
-        &self,
-        parent: RigidBodyHandle,
-        fragments: &[RigidBodyHandle],
-        strikers: &[RigidBodyHandle],
-        before: &RigidBodySet,
-    ) -> f64 {
-        let energy = |bodies: &RigidBodySet, handle: RigidBodyHandle| {
-            bodies.get(handle).map_or(0.0, kinetic_energy)
-        };
-        let start: f64 = std::iter::once(&parent)
-            .chain(strikers)
-            .map(|&h| energy(before, h))
-            .sum();
-        let end: f64 = fragments
-            .iter()
-            .chain(strikers)
-            .map(|&h| energy(&self.physics.bodies, h))
-            .sum();
-        let dt = self.physics.integration_parameters.dt;
-        let gravity = self.physics.gravity;
-        let fall = |body: &RigidBody, start: Vector| {
-            let pull = gravity * body.gravity_scale();
-            f64::from(body.mass() * (pull * dt).dot(start + 0.5 * dt * pull))
-        };
-        let dynamic = |bodies: &RigidBodySet, handle: RigidBodyHandle, start: Option<Vector>| {
-            let body = bodies.get(handle).filter(|b| b.is_dynamic());
-            body.map_or(0.0, |b| fall(b, start.unwrap_or(b.linvel())))
-        };
-        let movers = std::iter::once(&parent).chain(strikers);
-        let mut work: f64 = movers.map(|&h| dynamic(before, h, None)).sum();
-        // Fragments of what was held begin their fall with the step.
-        if before.get(parent).is_some_and(|b| !b.is_dynamic()) {
-            let bodies = &self.physics.bodies;
-            let falls = fragments
-                .iter()
-                .map(|&h| dynamic(bodies, h, Some(Vector::ZERO)));
-            work += falls.sum::<f64>();
-        }
-        end - start - work.max(0.0)
     }
 }

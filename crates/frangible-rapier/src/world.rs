@@ -2,7 +2,8 @@
 
 use std::collections::{BTreeMap, VecDeque};
 
-use frangible::{Asset, Body, Contact, FractureConfig, InputError, Outcome};
+use frangible::glam::Vec3;
+use frangible::{Asset, Body, Contact, Force, FractureConfig, InputError, Outcome};
 use rapier3d::dynamics::RigidBodyHandle;
 use rapier3d::geometry::{ColliderHandle, SharedShape};
 use rapier3d::pipeline::PhysicsWorld;
@@ -12,7 +13,9 @@ use crate::config::WorldConfig;
 use crate::error::WorldError;
 use crate::event::{BreakEvent, HeldEvent};
 use crate::floor::FloorDispatcher;
+use crate::pushes::Push;
 use crate::rest::Places;
+use crate::resting::Burden;
 use crate::siblings::Siblings;
 use crate::surface::SurfaceProperties;
 
@@ -29,6 +32,11 @@ const STIFFNESS: f32 = 2.0;
 /// [`BreakableWorld::set_break_function`].
 pub type BreakFn =
     dyn Fn(&Body, &[Contact], &FractureConfig) -> Result<Outcome, InputError> + Send + Sync;
+
+/// Decides what a body's load does to it, with gravity in its frame; [`frangible::rest()`] unless replaced by
+/// [`BreakableWorld::set_rest_function`].
+pub type RestFn =
+    dyn Fn(&Body, &[Force], Vec3, &FractureConfig) -> Result<Outcome, InputError> + Send + Sync;
 
 /// Sort key of a body or collider handle: maps are ordered, so that no result hangs on a hash.
 pub(crate) type Key = (u32, u32);
@@ -48,12 +56,15 @@ pub struct BreakableWorld {
     pub physics: PhysicsWorld,
     pub(crate) config: WorldConfig,
     pub(crate) break_function: Box<BreakFn>,
+    pub(crate) rest_function: Box<RestFn>,
     pub(crate) breakables: BTreeMap<Key, Body>,
     pub(crate) surfaces: BTreeMap<Key, SurfaceProperties>,
     pub(crate) collider_surfaces: BTreeMap<Key, SurfaceProperties>,
     pub(crate) shapes: Vec<(Arc<Asset>, SharedShape)>,
     pub(crate) siblings: Siblings,
     pub(crate) places: Places,
+    pub(crate) burdens: BTreeMap<Key, Burden>,
+    pub(crate) pushes: Vec<Push>,
     pub(crate) debris: VecDeque<RigidBodyHandle>,
     pub(crate) events: Vec<BreakEvent>,
     pub(crate) held: Vec<HeldEvent>,
@@ -89,11 +100,14 @@ impl BreakableWorld {
             physics,
             siblings: Siblings::default(),
             break_function: Box::new(frangible::impact),
+            rest_function: Box::new(frangible::rest),
             breakables: BTreeMap::new(),
             surfaces: BTreeMap::new(),
             collider_surfaces: BTreeMap::new(),
             shapes: Vec::new(),
             places: Places::default(),
+            burdens: BTreeMap::new(),
+            pushes: Vec::new(),
             debris: VecDeque::new(),
             events: Vec::new(),
             held: Vec::new(),
@@ -116,6 +130,18 @@ impl BreakableWorld {
         self.break_function = Box::new(function);
     }
 
+    /// Replaces [`frangible::rest()`] by another judge of what bodies carry.
+    pub fn set_rest_function(
+        &mut self,
+        function: impl Fn(&Body, &[Force], Vec3, &FractureConfig) -> Result<Outcome, InputError>
+        + Send
+        + Sync
+        + 'static,
+    ) {
+        self.rest_function = Box::new(function);
+        self.weigh_anew();
+    }
+
     /// The configuration the world was made with.
     #[must_use]
     pub fn config(&self) -> &WorldConfig {
@@ -124,6 +150,7 @@ impl BreakableWorld {
 
     /// Switches and numbers of the fracture, to change between steps.
     pub fn fracture_config_mut(&mut self) -> &mut FractureConfig {
+        self.weigh_anew();
         &mut self.config.fracture
     }
 
@@ -145,7 +172,7 @@ impl BreakableWorld {
         &self.events
     }
 
-    /// Impacts of the last step that broke nothing; empty unless [`WorldConfig::record_held`].
+    /// Impacts and pushes of the last step that broke nothing; empty unless [`WorldConfig::record_held`].
     #[must_use]
     pub fn held(&self) -> &[HeldEvent] {
         &self.held

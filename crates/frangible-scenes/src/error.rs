@@ -59,7 +59,7 @@ pub enum SceneError {
     },
     /// A file of unknown kind.
     #[error(
-        "`{}` has no ending that is known; give a mesh (.obj, .stl, .ply, .gltf, .glb), a baked body (.frangible) or a scene (.toml)",
+        "`{}` has no ending that is known; give a mesh (.obj, .stl, .ply, .gltf, .glb), tetrahedra (.msh, .node, .ele, .vtk, .vtu, .mesh), a baked body (.frangible) or a scene (.toml)",
         .0.display()
     )]
     UnknownKind(PathBuf),

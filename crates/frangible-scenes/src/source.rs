@@ -4,6 +4,7 @@ mod asset;
 mod fit;
 mod mesh;
 mod ready;
+mod tets;
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -31,7 +32,7 @@ pub enum BodySource {
     },
     /// A mesh file.
     Mesh {
-        /// The file: .obj, .stl, .ply, .gltf or .glb.
+        /// The file: .obj, .stl, .ply, .gltf or .glb; or tetrahedra, .msh, .node with .ele, .vtk, .vtu or .mesh.
         path: PathBuf,
         /// Longest side, m; without it the file's unit is the metre.
         size: Option<f64>,
@@ -56,11 +57,13 @@ pub enum Axis {
 }
 
 impl Axis {
-    /// What is up in files of this ending: z in STL and PLY (printing, scanning), else y (OBJ, glTF).
+    /// What is up in files of this ending: z in STL and PLY (printing, scanning) and in tetrahedra (simulation), else y
+    /// (OBJ, glTF).
     #[must_use]
     pub fn up_in(path: &Path) -> Self {
         match ending(path).as_deref() {
             Some("stl" | "ply") => Self::Z,
+            _ if frangible_mesh::TetFormat::from_extension(path).is_some() => Self::Z,
             _ => Self::Y,
         }
     }
@@ -103,7 +106,7 @@ pub fn axes_of(letters: &str) -> Option<[bool; 3]> {
 /// Kinds of files that can be broken.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FileKind {
-    /// A surface mesh.
+    /// A surface mesh or tetrahedra.
     Mesh,
     /// A baked body.
     Asset,
@@ -117,6 +120,9 @@ impl FileKind {
     /// # Errors
     /// An ending that is not known, with those that are.
     pub fn of(path: &Path) -> Result<Self, SceneError> {
+        if frangible_mesh::TetFormat::from_extension(path).is_some() {
+            return Ok(Self::Mesh);
+        }
         match ending(path).as_deref() {
             Some("obj" | "stl" | "ply" | "gltf" | "glb") => Ok(Self::Mesh),
             Some("frangible") => Ok(Self::Asset),
@@ -174,6 +180,9 @@ pub fn open_source(source: &BodySource) -> Result<Opened, SceneError> {
             resolution,
         } => {
             check_file(path, FileKind::Mesh)?;
+            if frangible_mesh::TetFormat::from_extension(path).is_some() {
+                return tets::open(path, *size, *up, *resolution);
+            }
             let mut input = mesh::read(path)?;
             fit::fit(&mut input, path, *size, *up)?;
             mesh::shape(&input, path, *resolution)
@@ -212,7 +221,7 @@ pub(crate) fn check_file(path: &Path, kind: FileKind) -> Result<(), SceneError> 
             FileKind::Mesh if FileKind::of(path)? == FileKind::Asset => {
                 "this is a baked body, no mesh; in a scene file it stands under `asset`".into()
             }
-            FileKind::Mesh => "this is no mesh (.obj, .stl, .ply, .gltf, .glb)".into(),
+            FileKind::Mesh => "this is no mesh (.obj, .stl, .ply, .gltf, .glb, or tetrahedra: .msh, .node, .ele, .vtk, .vtu, .mesh)".into(),
             FileKind::Asset => "this is no baked body (.frangible)".into(),
             FileKind::Scene => "this is no scene (.toml)".into(),
         },

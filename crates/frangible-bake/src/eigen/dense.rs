@@ -55,29 +55,6 @@ pub(crate) fn symmetric_eigen(matrix: &Block) -> Result<(Vec<f64>, Block), BakeE
     Ok((values, vectors))
 }
 
-/// The `wanted` lowest elastic modes of a small system: rigid motions are lifted above the spectrum.
-pub(crate) fn solve(
-    scaled: &SparseColMat<usize, f64>,
-    rigid: &Block,
-    wanted: usize,
-) -> Result<(Vec<f64>, Block), BakeError> {
-    let n = rigid.rows;
-    let mut matrix = full_lower(scaled);
-    let trace: f64 = (0..n).map(|j| matrix.data[j * n + j]).sum();
-    // Above every elastic eigenvalue, since the trace is their sum; low enough not to drown the lowest.
-    for r in 0..rigid.columns() {
-        let x = rigid.column(r);
-        for j in 0..n {
-            for i in j..n {
-                matrix.data[j * n + i] += trace * x[i] * x[j];
-            }
-        }
-    }
-    let (values, mut vectors) = symmetric_eigen(&matrix)?;
-    vectors.data.truncate(n * wanted);
-    Ok((values[..wanted].to_vec(), vectors))
-}
-
 /// The `wanted` lowest elastic modes of A x = λ B x, from the lower triangle of A + sB = L Lᵀ: eigenvalues of
 /// L⁻¹ B L⁻ᵀ are 1/(λ + s). B may be nearly singular.
 pub(crate) fn solve_shifted(

@@ -18,6 +18,7 @@ mod metric;
 mod ordering;
 mod panel;
 mod reduce;
+mod refine;
 mod residual;
 mod rigid;
 mod substitution;
@@ -125,34 +126,49 @@ pub fn lowest_supported_modes(
     });
     let rigid = rigid::deflation_basis(system, &remaining, reduction, &metric)?;
     let small = n <= DENSE || wanted > n / 5;
-    let (eigenvalues, vectors) = if small && matches!(metric, Metric::Plain) {
+    let node_of = reduction.map_or_else(|| (0..n).map(|i| i / 3).collect(), Reduction::nodes);
+    let basis = Krylov::new(&metric, &rigid);
+    let shifted = Shifted::near_zero(&scaled, &node_of, &metric, &basis, &mut watch)?;
+    watch.tell(0.1)?;
+    let (mut eigenvalues, mut vectors) = if small {
+        let matrix = factor::add_shift(&scaled, &metric, shifted.shift);
         watch.time(Phase::Solves, || {
-            dense::solve(&scaled, &rigid.vectors, wanted)
+            dense::solve_shifted(&matrix, shifted.shift, &metric, &rigid, wanted)
         })?
     } else {
-        let node_of = reduction.map_or_else(|| (0..n).map(|i| i / 3).collect(), Reduction::nodes);
-        let basis = Krylov::new(&metric, &rigid);
-        let shifted = Shifted::near_zero(&scaled, &node_of, &metric, &basis, &mut watch)?;
-        watch.tell(0.1)?;
-        if small {
-            let matrix = factor::add_shift(&scaled, &metric, shifted.shift);
-            watch.time(Phase::Solves, || {
-                dense::solve_shifted(&matrix, shifted.shift, &metric, &rigid, wanted)
-            })?
-        } else {
-            lanczos::solve(&shifted, basis, wanted, &mut watch)?
-        }
+        lanczos::solve(&shifted, basis, wanted, &mut watch)?
     };
     watch.tell(0.95)?;
-    let vectors = match reduction {
-        Some(reduction) => reduction.scatter(&vectors),
-        None => vectors,
+    let found = |eigenvalues: &[f64], vectors: &Block| {
+        let vectors = match reduction {
+            Some(reduction) => reduction.scatter(vectors),
+            None => vectors.clone(),
+        };
+        let mut modes = finish(eigenvalues.to_vec(), vectors, &inverse_root);
+        modes.rigid_motions = remaining.len();
+        modes
     };
-    let mut modes = finish(eigenvalues, vectors, &inverse_root);
-    modes.rigid_motions = remaining.len();
-    modes.max_residual = watch.time(Phase::ResidualCheck, || {
+    let mut modes = found(&eigenvalues, &vectors);
+    let mut checked = watch.time(Phase::ResidualCheck, || {
         residual::check(system, reduction, &modes)
-    })?;
+    });
+    if matches!(checked, Err(BakeError::Residual { .. })) {
+        watch.time(Phase::Solves, || {
+            refine::refine(
+                &scaled,
+                &metric,
+                &rigid,
+                &shifted,
+                &mut eigenvalues,
+                &mut vectors,
+            );
+        });
+        modes = found(&eigenvalues, &vectors);
+        checked = watch.time(Phase::ResidualCheck, || {
+            residual::check(system, reduction, &modes)
+        });
+    }
+    modes.max_residual = checked?;
     watch.tell(1.0)?;
     modes.seconds = watch.seconds();
     Ok(modes)

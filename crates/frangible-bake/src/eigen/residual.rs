@@ -115,7 +115,7 @@ fn residuals(
 }
 
 /// y += (S ⊗ I) x, where the lower triangle of S is given and I has `axes` rows.
-fn add_product(lower: &SparseColMat<usize, f64>, axes: usize, x: &[Row], y: &mut [Row]) {
+pub(crate) fn add_product(lower: &SparseColMat<usize, f64>, axes: usize, x: &[Row], y: &mut [Row]) {
     let (pattern, values) = lower.parts();
     vectorised(|| {
         for j in 0..pattern.ncols() {

@@ -7,10 +7,12 @@ mod profile;
 mod ready;
 mod revolution;
 pub(crate) mod solid;
+pub(crate) mod tets;
 
 pub use frangible_mesh::READY_SHAPES;
 pub use profile::Station;
 pub use solid::SolidShape;
+pub use tets::{AnalysisChoice, TetShape};
 
 use crate::error::{BakeError, positive};
 use crate::mesh::BodyMesh;
@@ -48,6 +50,8 @@ pub enum Shape {
     },
     /// Anything with an inside: a mesh from a file, a signed distance.
     Solid(SolidShape),
+    /// Tetrahedra from a file, as they are.
+    Tets(TetShape),
 }
 
 impl Shape {
@@ -120,6 +124,7 @@ impl Shape {
             Self::Box { size } => block::validate(*size).map(|()| size.iter().product()),
             Self::Revolution { profile } => Ok(Profile::new(profile)?.area_and_volume().1),
             Self::Solid(shape) => solid::volume(shape),
+            Self::Tets(shape) => Ok(shape.body.volume()),
         }
     }
 
@@ -147,6 +152,9 @@ impl Shape {
         if let Self::Solid(shape) = self {
             return Ok(solid::size_for(solid::volume(shape)?, tets));
         }
+        if let Self::Tets(shape) = self {
+            return Ok(solid::size_for(shape.body.volume(), tets));
+        }
         let mut edge = self.volume()?.cbrt();
         while self.estimate(MeshSize { edge, layers: 0 })? < tets {
             edge *= 0.98;
@@ -159,6 +167,7 @@ impl Shape {
             Self::Box { size: sides } => block::estimate(*sides, size),
             Self::Revolution { profile } => revolution::estimate(&Profile::new(profile)?, size),
             Self::Solid(shape) => solid::estimate(solid::volume(shape)?, size),
+            Self::Tets(shape) => shape.body.tets.len() as f64,
         })
     }
 
@@ -171,7 +180,10 @@ impl Shape {
         match self {
             Self::Box { size: sides } => block::regular(*sides, size),
             Self::Revolution { profile } => revolution::mesh(&Profile::new(profile)?, size, None),
-            Self::Solid(shape) => solid::mesh(shape, Some(size.edge), None).map(|m| m.0),
+            Self::Solid(shape) => {
+                solid::mesh(shape, Some(size.edge), None, &mut solid::unwatched).map(|m| m.0)
+            }
+            Self::Tets(shape) => tets::mesh(shape),
         }
     }
 
@@ -186,7 +198,10 @@ impl Shape {
             Self::Revolution { profile } => {
                 revolution::mesh(&Profile::new(profile)?, size, Some(seed))
             }
-            Self::Solid(shape) => solid::mesh(shape, Some(size.edge), Some(seed)).map(|m| m.0),
+            Self::Solid(shape) => {
+                solid::mesh(shape, Some(size.edge), Some(seed), &mut solid::unwatched).map(|m| m.0)
+            }
+            Self::Tets(shape) => tets::mesh(shape),
         }
     }
 

@@ -1,10 +1,13 @@
 //! Bodies given by their inside: mesh files and signed distances.
 
 use std::fmt;
+use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use frangible::TetMesh;
-use frangible_mesh::{Resolution, Solid, TetOptions, TetReport, counted_volume, tetrahedralize};
+use frangible_mesh::{
+    Resolution, Solid, TetOptions, TetReport, counted_volume, tetrahedralize_watched,
+};
 
 use crate::clusters::cluster;
 use crate::error::{BakeError, positive};
@@ -12,14 +15,14 @@ use crate::mesh::BodyMesh;
 use crate::shapes::MeshSize;
 
 /// Collision cells of a body of any shape.
-const CELLS: usize = 64;
+pub(crate) const CELLS: usize = 64;
 
 /// Tetrahedra per lattice cube of body: twelve inside, a few more at the surface.
 const TETS_PER_CUBE: f64 = 12.6;
 
 /// Elements that carry the modes of a body with thin walls: at 3 000, a drinking glass is up to 6 % too stiff in its
 /// first twenty modes, at 6 000 up to 2.5 %.
-const SHELL_ELEMENTS: f64 = 5000.0;
+pub(crate) const SHELL_ELEMENTS: f64 = 5000.0;
 
 /// A wall above this share of the cube root of the volume is no thin one: a ball is 1.2 of it thick, a cube 1.
 const THICK: f64 = 0.5;
@@ -118,18 +121,25 @@ pub(crate) fn size_for(volume: f64, tets: f64) -> MeshSize {
     }
 }
 
-/// Tetrahedra, irregular for a seed; `cell` overrides the wanted number by the side of the lattice's cubes, m.
+/// Told, does nothing.
+pub(crate) fn unwatched(_: f64) -> ControlFlow<()> {
+    ControlFlow::Continue(())
+}
+
+/// Tetrahedra, irregular for a seed; `cell` overrides the wanted number by the side of the lattice's cubes, m. `watch` is
+/// told the share done.
 pub(crate) fn mesh(
     shape: &SolidShape,
     cell: Option<f64>,
     seed: Option<u64>,
+    watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<(BodyMesh, TetReport), BakeError> {
     let mut options = TetOptions::default();
     options.resolution = cell.map_or(Resolution::Tets(shape.tets), Resolution::Cell);
     options.most = shape.most;
     options.wall = shape.wall;
     options.irregular = seed;
-    let (body, report) = tetrahedralize(shape.solid.as_ref(), &options)?;
+    let (body, report) = tetrahedralize_watched(shape.solid.as_ref(), &options, watch)?;
     let mesh = TetMesh::new(
         body.positions.iter().map(|p| p.as_vec3()).collect(),
         body.tets.clone(),

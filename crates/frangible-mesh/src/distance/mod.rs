@@ -6,6 +6,7 @@
 
 mod build;
 mod extent;
+mod gradient;
 mod march;
 pub mod operators;
 pub mod primitives;
@@ -13,6 +14,7 @@ pub mod primitives;
 pub use march::first_hit;
 
 use crate::Solid;
+use crate::solid::newton;
 use extent::Extent;
 use glam::{DMat3, DVec2, DVec3};
 use operators::{smooth_max, smooth_min};
@@ -186,5 +188,14 @@ impl Solid for DistanceSolid {
 
     fn signed_distance(&self, p: DVec3) -> f64 {
         self.value(p, f64::INFINITY)
+    }
+
+    fn gradient(&self, p: DVec3) -> (f64, DVec3) {
+        self.sloped(p, f64::INFINITY)
+    }
+
+    fn foot(&self, p: DVec3, within: f64) -> Option<DVec3> {
+        let (foot, left, _) = newton(p, within, self.bounds(), |x| self.gradient(x));
+        (foot.distance(p) <= within && left.abs() <= within).then_some(foot)
     }
 }

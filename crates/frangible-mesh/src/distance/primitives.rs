@@ -15,6 +15,19 @@ pub fn sphere(p: DVec3, radius: f64) -> f64 {
 /// The closest point of the surface is x_i = r_i² p_i / (t + r_i²) with the largest t for which
 /// Σ (r_i p_i / (t + r_i²))² = 1 (Eberly, "Distance from a point to an ellipse, an ellipsoid, or a hyperellipsoid").
 pub fn ellipsoid(p: DVec3, radii: DVec3) -> f64 {
+    let (t, scaled) = ellipsoid_root(p, radii);
+    t * scaled.length()
+}
+
+/// The same with its gradient: the normal at the closest point.
+pub(super) fn sloped_ellipsoid(p: DVec3, radii: DVec3) -> (f64, DVec3) {
+    let (t, scaled) = ellipsoid_root(p, radii);
+    let gradient = scaled.normalize_or_zero().copysign(p);
+    (t * scaled.length(), gradient)
+}
+
+/// t, and |p_i| / (t + r_i²): normal to the surface at the closest point.
+fn ellipsoid_root(p: DVec3, radii: DVec3) -> (f64, DVec3) {
     let radii = radii.max(DVec3::splat(f64::MIN_POSITIVE.sqrt()));
     // Off the planes of symmetry, where the closest point is not unique; moving there shortens no way.
     let p = p.abs().max(1e-9 * radii);
@@ -34,7 +47,7 @@ pub fn ellipsoid(p: DVec3, radii: DVec3) -> f64 {
             break;
         }
     }
-    t * (p / (t + squares)).length()
+    (t, p / (t + squares))
 }
 
 /// Distance to the hull of two balls at `a` and `b`, m, with radii `radius_a` and `radius_b`, m. A capsule where
@@ -64,6 +77,31 @@ pub fn round_cone(p: DVec3, a: DVec3, radius_a: f64, b: DVec3, radius_b: f64) ->
         return from_a.length() - radius_a;
     }
     ((radial2 * slant2 / length2).sqrt() + along * taper) / length2 - radius_a
+}
+
+/// The distance of [`round_cone`] with its gradient.
+pub(super) fn sloped_round_cone(
+    p: DVec3,
+    a: DVec3,
+    radius_a: f64,
+    b: DVec3,
+    radius_b: f64,
+) -> (f64, DVec3) {
+    let value = round_cone(p, a, radius_a, b, radius_b);
+    let axis = b - a;
+    let length2 = axis.length_squared();
+    let taper = radius_a - radius_b;
+    // The nearest ball of those along the axis: exact for either end and for the slant between.
+    let slant2 = length2 - taper * taper;
+    if slant2 <= 0.0 {
+        let centre = if taper > 0.0 { a } else { b };
+        return (value, (p - centre).normalize_or_zero());
+    }
+    let from_a = p - a;
+    let along = from_a.dot(axis) / length2;
+    let radial = (from_a - along * axis).length();
+    let nearest = (along - radial * taper / (slant2 * length2).sqrt()).clamp(0.0, 1.0);
+    (value, (p - a - nearest * axis).normalize_or_zero())
 }
 
 /// Distance to a box around the origin. `half`: half its edges, m; `rounding`: radius of edges and corners within

@@ -86,6 +86,25 @@ pub enum ReadError {
         /// How many are allowed.
         limit: u64,
     },
+    /// Neither a surface nor tetrahedra of a known format.
+    #[error(
+        "cannot tell the format of {name}: known for tetrahedra are .msh, .node with .ele, .vtk, .vtu and .mesh"
+    )]
+    UnknownTetFormat {
+        /// File name, or what stands in for it.
+        name: String,
+    },
+    /// Nothing solid.
+    #[error("the file has no tetrahedra; save the volume mesh as well, not the surface alone")]
+    NoTetrahedra,
+    /// Solid elements of another shape.
+    #[error(
+        "the file has {kind}; only tetrahedra can be broken: have the mesher make tetrahedra, or split the {kind}"
+    )]
+    OtherCells {
+        /// Hexahedra, prisms …
+        kind: &'static str,
+    },
 }
 
 impl ReadError {

@@ -14,7 +14,7 @@ mod ply;
 mod polygon;
 mod runs;
 mod stl;
-mod text;
+pub(crate) mod text;
 
 use std::io;
 use std::path::Path;
@@ -105,7 +105,7 @@ pub(crate) fn read_file(path: &Path) -> Result<Vec<u8>, ReadError> {
     std::fs::read(path).map_err(unreadable)
 }
 
-fn check_bytes(found: u64) -> Result<(), ReadError> {
+pub(crate) fn check_bytes(found: u64) -> Result<(), ReadError> {
     check_limit("bytes", found, MOST_BYTES)
 }
 

@@ -68,8 +68,7 @@ pub(crate) fn snap(
         vertices.dedup();
         let mut candidates: Vec<Candidate> = vertices
             .into_iter()
-            .flat_map(|v| shape.candidates(draft, solid, v))
-            .filter(|c| refused[c.vertex as usize] >> c.choice & 1 == 0)
+            .flat_map(|v| shape.candidates(draft, solid, v, refused[v as usize]))
             .collect();
         // Corners first, then the nearest.
         candidates.sort_unstable_by(|x, y| {
@@ -129,6 +128,8 @@ struct Shape {
     /// Tangent plane next to each boundary vertex.
     at_vertex: Vec<DVec3>,
     on_boundary: Vec<bool>,
+    /// Where the vertices were when the planes were found.
+    seen: Vec<DVec3>,
     cell: f64,
 }
 
@@ -155,43 +156,61 @@ impl Shape {
             planes: Vec::new(),
             at_vertex: Vec::new(),
             on_boundary,
+            seen: Vec::new(),
             cell,
         };
         shape.refresh(draft, solid);
         shape
     }
 
+    /// Looks at the surface afresh, next to what has moved since the last time.
     fn refresh(&mut self, draft: &Draft, solid: &dyn Solid) {
         let (x, cell) = (&draft.body.positions, self.cell);
-        self.planes = self
-            .faces
-            .par_iter()
-            .map(|f| {
-                let [a, b, c] = f.map(|v| x[v as usize]);
-                let middle = (a + b + c) / 3.0;
-                let own = SurfacePoint {
+        let first = self.seen.is_empty();
+        let (seen, faces) = (&self.seen, &self.faces);
+        let moved = |v: u32| first || seen[v as usize] != x[v as usize];
+        let stale: Vec<bool> = faces.iter().map(|f| f.iter().any(|&v| moved(v))).collect();
+        self.planes.resize(
+            faces.len(),
+            SurfacePoint {
+                position: DVec3::ZERO,
+                normal: DVec3::ZERO,
+            },
+        );
+        let of_face = |f: &[u32; 3]| {
+            let [a, b, c] = f.map(|v| x[v as usize]);
+            let middle = (a + b + c) / 3.0;
+            let near = solid.closest(middle);
+            // Across a hole there is no surface to look at.
+            if near.position.distance(middle) < NEAR * cell {
+                near
+            } else {
+                SurfacePoint {
                     position: middle,
                     normal: (b - a).cross(c - a).normalize_or_zero(),
-                };
-                let near = solid.closest(middle);
-                // Across a hole there is no surface to look at.
-                if near.position.distance(middle) < NEAR * cell {
-                    near
-                } else {
-                    own
                 }
-            })
-            .collect();
+            }
+        };
+        self.planes
+            .par_iter_mut()
+            .zip(faces)
+            .zip(&stale)
+            .filter(|(_, stale)| **stale)
+            .for_each(|((plane, f), _)| *plane = of_face(f));
         let planes = &self.planes;
         let (around, on_boundary) = (&self.around, &self.on_boundary);
-        self.at_vertex = (0..x.len())
-            .into_par_iter()
-            .map(|v| {
-                if !on_boundary[v] {
-                    return DVec3::ZERO;
-                }
+        self.at_vertex.resize(x.len(), DVec3::ZERO);
+        self.at_vertex
+            .par_iter_mut()
+            .enumerate()
+            .filter(|(v, _)| {
+                // Its own place, or a plane that it may look at.
+                let near = || around.of(*v as u32).iter().any(|&f| stale[f as usize]);
+                on_boundary[*v] && near()
+            })
+            .for_each(|(v, normal)| {
                 let near = solid.closest(x[v]);
-                if near.position.distance(x[v]) < NEAR * cell {
+                *normal = if near.position.distance(x[v]) < NEAR * cell {
                     near.normal
                 } else {
                     around
@@ -200,9 +219,9 @@ impl Shape {
                         .map(|&f| planes[f as usize].normal)
                         .sum::<DVec3>()
                         .normalize_or_zero()
-                }
-            })
-            .collect();
+                };
+            });
+        self.seen.clone_from(x);
     }
 
     /// Boundary edges that cut a feature off: both ends unsnapped, their surfaces of different direction.
@@ -217,8 +236,9 @@ impl Shape {
             .collect()
     }
 
-    /// Where vertex `v` would lie on the features next to it: the corner of all planes it sees, and the edges of each two.
-    fn candidates(&self, draft: &Draft, solid: &dyn Solid, v: u32) -> Vec<Candidate> {
+    /// Where vertex `v` would lie on the features next to it: the corner of all planes it sees, and the edges of each two;
+    /// without the choices that were `refused`.
+    fn candidates(&self, draft: &Draft, solid: &dyn Solid, v: u32, refused: u32) -> Vec<Candidate> {
         let here = draft.body.positions[v as usize];
         let planes = self.planes_around(draft, v);
         let mut choices = vec![planes.clone()];
@@ -228,14 +248,17 @@ impl Shape {
             }
         }
         let on_feature = |(choice, planes): (usize, &Vec<SurfacePoint>)| {
+            if refused >> choice & 1 == 1 {
+                return None;
+            }
             let (place, rank) = meet(planes, here);
             let distance = place.distance(here);
             if rank < 2 || distance > if rank == 3 { CORNER_REACH } else { REACH } * self.cell {
                 return None;
             }
             // Rounded edges and false guesses: the place has to lie on the surface.
-            let off = solid.closest(place).position.distance(place);
-            (off < 0.06 * self.cell).then_some(Candidate {
+            let near = solid.foot(place, 0.06 * self.cell);
+            near.is_some().then_some(Candidate {
                 vertex: v,
                 place,
                 distance,

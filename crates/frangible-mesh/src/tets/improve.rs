@@ -69,10 +69,9 @@ pub(crate) fn relocate(
     for d in DIRECTIONS {
         let mut place = here + step * d;
         if draft.on_surface[v as usize] {
-            let near = solid.closest(place).position;
-            if near.distance(place) > step {
+            let Some(near) = solid.foot(place, step) else {
                 continue;
-            }
+            };
             place = near;
         }
         let b = badness_around(&draft.body, around, v, place, best.0);

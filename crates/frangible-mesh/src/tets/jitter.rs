@@ -25,10 +25,9 @@ pub(crate) fn jitter(draft: &mut Draft, fixed: &[bool], solid: &dyn Solid, cell:
         for scale in [1.0, 0.5] {
             let mut place = here + scale * AMOUNT * cell * random;
             if draft.on_surface[v as usize] {
-                let near = solid.closest(place).position;
-                if near.distance(place) > 0.5 * cell {
+                let Some(near) = solid.foot(place, 0.5 * cell) else {
                     continue;
-                }
+                };
                 place = near;
             }
             let then = badness_around(&draft.body, &around, v, place, f64::INFINITY);

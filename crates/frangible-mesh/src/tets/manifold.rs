@@ -5,8 +5,8 @@
 
 use crate::error::TetError;
 use crate::quality::volume;
-use crate::tets::Draft;
 use crate::tets::adjacency::{Around, FACES, OUTSIDE, neighbours};
+use crate::tets::{Draft, TetBody};
 
 /// Rounds after which the rest is given up; two have always been enough.
 const ROUNDS: usize = 40;
@@ -29,10 +29,27 @@ pub(crate) fn make_manifold(draft: &mut Draft) -> Result<usize, TetError> {
     Err(TetError::Pinched)
 }
 
-/// Tetrahedra of the smaller fans at edges with more than two boundary triangles, rising.
-fn pinched_fans(draft: &Draft) -> Vec<u32> {
-    let tets = &draft.body.tets;
-    let near = neighbours(tets);
+/// Gives each part of a body its own copy of a node at which it touches others; pairs of a node and its copy.
+pub(crate) fn part_touching(body: &mut TetBody) -> Vec<(u32, u32)> {
+    let mut draft = Draft {
+        on_surface: vec![true; body.positions.len()],
+        body: std::mem::take(body),
+    };
+    let copies = split_vertices(&mut draft);
+    *body = draft.body;
+    copies
+}
+
+/// Edges with more than two triangles of the surface.
+pub(crate) fn pinched_edges(tets: &[[u32; 4]]) -> usize {
+    surface_edges(tets, &neighbours(tets))
+        .chunk_by(|a, b| a == b)
+        .filter(|c| c.len() > 2)
+        .count()
+}
+
+/// Edges of the triangles of the surface, sorted.
+fn surface_edges(tets: &[[u32; 4]], near: &[[u32; 4]]) -> Vec<(u32, u32)> {
     let mut edges: Vec<(u32, u32)> = Vec::new();
     for (e, n) in near.iter().enumerate() {
         for k in (0..4).filter(|&k| n[k] == OUTSIDE) {
@@ -43,6 +60,14 @@ fn pinched_fans(draft: &Draft) -> Vec<u32> {
         }
     }
     edges.sort_unstable();
+    edges
+}
+
+/// Tetrahedra of the smaller fans at edges with more than two boundary triangles, rising.
+fn pinched_fans(draft: &Draft) -> Vec<u32> {
+    let tets = &draft.body.tets;
+    let near = neighbours(tets);
+    let edges = surface_edges(tets, &near);
     let pinched: Vec<(u32, u32)> = edges
         .chunk_by(|a, b| a == b)
         .filter(|c| c.len() > 2)
@@ -111,8 +136,9 @@ fn fans(ring: &[u32], near: &[[u32; 4]], shared: impl Fn(u32, usize) -> bool) ->
     groups
 }
 
-/// Gives each face-connected fan of tetrahedra around a vertex its own copy of the vertex.
-fn split_vertices(draft: &mut Draft) {
+/// Gives each face-connected fan of tetrahedra around a vertex its own copy of the vertex; pairs of the two.
+fn split_vertices(draft: &mut Draft) -> Vec<(u32, u32)> {
+    let mut copies = Vec::new();
     let near = neighbours(&draft.body.tets);
     let vertices = draft.body.positions.len();
     let around = Around::new(vertices, &draft.body.tets);
@@ -131,6 +157,7 @@ fn split_vertices(draft: &mut Draft) {
             let copy = draft.body.positions.len() as u32;
             draft.body.positions.push(draft.body.positions[v as usize]);
             draft.on_surface.push(true);
+            copies.push((v, copy));
             for &e in group {
                 for x in &mut draft.body.tets[e as usize] {
                     if *x == v {
@@ -140,4 +167,5 @@ fn split_vertices(draft: &mut Draft) {
             }
         }
     }
+    copies
 }

@@ -1,8 +1,8 @@
 //! Face-connected pieces.
 
 use crate::quality::volume;
+use crate::tets::Draft;
 use crate::tets::adjacency::{OUTSIDE, neighbours};
-use crate::tets::{Draft, TetBody};
 
 /// What was left of a body in several pieces.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -15,7 +15,7 @@ pub(crate) struct Dropped {
 
 /// Keeps the largest face-connected piece.
 pub(crate) fn keep_largest(draft: &mut Draft) -> Dropped {
-    let (label, pieces) = label(&draft.body);
+    let (label, pieces) = label(&draft.body.tets);
     if pieces <= 1 {
         return Dropped { pieces, kept: 1.0 };
     }
@@ -33,8 +33,9 @@ pub(crate) fn keep_largest(draft: &mut Draft) -> Dropped {
     }
 }
 
-fn label(body: &TetBody) -> (Vec<u32>, usize) {
-    let near = neighbours(&body.tets);
+/// Piece of each tetrahedron, and their number.
+pub(crate) fn label(tets: &[[u32; 4]]) -> (Vec<u32>, usize) {
+    let near = neighbours(tets);
     let mut label = vec![u32::MAX; near.len()];
     let mut pieces = 0;
     let mut stack = Vec::new();

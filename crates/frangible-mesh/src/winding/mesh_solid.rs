@@ -327,6 +327,10 @@ impl Solid for MeshSolid {
         }
     }
 
+    fn foot(&self, p: DVec3, within: f64) -> Option<DVec3> {
+        self.nearest(p, within).map(|n| n.position)
+    }
+
     fn exit(&self, from: DVec3, direction: DVec3) -> Option<f64> {
         let [low, high] = self.bounds;
         let reach = 1.001 * (high - low).length();

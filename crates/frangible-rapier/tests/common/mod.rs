@@ -1,6 +1,8 @@
 //! A glass box of convex cells, and a fake fracture that slices it into blocks.
 #![allow(dead_code, unreachable_pub)]
 
+pub mod baked;
+
 use std::sync::Arc;
 
 use frangible::asset::{AnalysisMesh, ConvexCell, EmbeddedPoint, Embedding, OuterSurface};

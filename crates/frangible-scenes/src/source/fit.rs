@@ -32,14 +32,31 @@ pub(super) fn fit(
             high = high.max(p);
         }
     }
+    let scale = scale([low, high], path, size)?;
+    for p in &mut mesh.positions {
+        let [x, y, z] = turned(p.to_array(), up);
+        *p = scale * DVec3::new(x, y, z);
+    }
+    for n in &mut mesh.normals {
+        *n = Vec3::from_array(turned(n.to_array(), up));
+    }
+    Ok(())
+}
+
+/// Factor that makes metres of a file's unit.
+pub(super) fn scale(
+    [low, high]: [DVec3; 2],
+    path: &Path,
+    size: Option<f64>,
+) -> Result<f64, SceneError> {
     let longest = (high - low).max_element();
     if !(longest.is_finite() && longest > 0.0) {
         return Err(SceneError::File {
             path: path.to_path_buf(),
-            problem: "this mesh has no extent; it needs triangles with finite corners".into(),
+            problem: "this mesh has no extent; it needs elements with finite corners".into(),
         });
     }
-    let scale = match size {
+    Ok(match size {
         Some(size) => size / longest,
         None if (SMALLEST..=LARGEST).contains(&longest) => 1.0,
         None => {
@@ -52,19 +69,11 @@ pub(super) fn fit(
                 example: if likely { rounded(millimetres) } else { 0.1 },
             });
         }
-    };
-    for p in &mut mesh.positions {
-        let [x, y, z] = turned(p.to_array(), up);
-        *p = scale * DVec3::new(x, y, z);
-    }
-    for n in &mut mesh.normals {
-        *n = Vec3::from_array(turned(n.to_array(), up));
-    }
-    Ok(())
+    })
 }
 
 /// Even permutations keep the body from being mirrored; z up turns about x, x up about z, as modellers do.
-fn turned<T: std::ops::Neg<Output = T>>([x, y, z]: [T; 3], up: Axis) -> [T; 3] {
+pub(super) fn turned<T: std::ops::Neg<Output = T>>([x, y, z]: [T; 3], up: Axis) -> [T; 3] {
     match up {
         Axis::X => [-y, x, z],
         Axis::Y => [x, y, z],

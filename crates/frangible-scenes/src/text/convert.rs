@@ -127,6 +127,10 @@ fn fracture(table: FractureTable) -> FractureConfig {
     set(&mut config.admissible_duration, table.admissible_duration);
     set(&mut config.samples_per_period, table.samples_per_period);
     set(&mut config.crumb_share, table.crumb_share);
+    set(&mut config.energy_ledger, table.energy_ledger);
+    set(&mut config.culling, table.culling);
+    set(&mut config.first_element_pays, table.first_element_pays);
+    set(&mut config.ends_inside, table.ends_inside);
     config
 }
 

@@ -173,6 +173,10 @@ pub(super) struct FractureTable {
     pub(super) timing: Option<TimingTable>,
     pub(super) path: Option<PathTable>,
     pub(super) crumb_share: Option<f64>,
+    pub(super) energy_ledger: Option<bool>,
+    pub(super) culling: Option<bool>,
+    pub(super) first_element_pays: Option<bool>,
+    pub(super) ends_inside: Option<bool>,
 }
 
 /// Contact duration models.

@@ -205,6 +205,10 @@ fn write_fracture(t: &mut Text, config: &FractureConfig) {
         _ => t.line("path", quoted("planar")),
     }
     t.line("crumb_share", number(config.crumb_share));
+    t.line("energy_ledger", config.energy_ledger);
+    t.line("culling", config.culling);
+    t.line("first_element_pays", config.first_element_pays);
+    t.line("ends_inside", config.ends_inside);
 }
 
 fn write_output(t: &mut Text, output: &Output) {

@@ -54,6 +54,13 @@ impl Cell {
         }
     }
 
+    /// A number for counting: different for any two cells less than a million cubes apart.
+    pub(crate) fn key(self) -> u64 {
+        let low = |c: i32| u64::from(c as u32 & 0xF_FFFF);
+        let [x, y, z] = self.cube;
+        low(x) << 44 | low(y) << 24 | low(z) << 4 | u64::from(self.kind)
+    }
+
     /// The four corners, right-handed.
     pub(crate) fn corners(self) -> [Quarters; 4] {
         let across = usize::from(self.kind / 4);

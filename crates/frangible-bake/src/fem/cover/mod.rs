@@ -27,11 +27,14 @@ use lattice::{CELL_VOLUME, Cell, Frame, Lattice, in_sides};
 use moments::Moments;
 use size::choose_lattice;
 use springs::add_springs;
-use topology::{Topology, face_pairs};
+use topology::{Fragment, Topology, face_pairs};
 
 /// Stiffness and mass added to the whole of each element, as a share of the material's: keeps the nodes outside the
 /// body from swinging (17 times the largest displacement of a glass without it, where slivers are kept).
 const FICTITIOUS: f64 = 1e-8;
+
+/// A cell whose volume is off by no more than this share is full: rounding of the cuts.
+const FULL: f64 = 1e-9;
 
 /// A lattice of quadratic elements that covers a body.
 #[derive(Clone, Debug)]
@@ -96,6 +99,12 @@ impl Cover {
         [1.0 - l[1] - l[2] - l[3], l[1], l[2], l[3]]
     }
 
+    /// The first element that holds a point, on its faces too. Looks at all of them.
+    pub(crate) fn element_at(&self, p: DVec3) -> Option<u32> {
+        (0..self.mesh.elements.len() as u32)
+            .find(|&e| self.barycentric(e, p).iter().all(|&l| l > -1e-9))
+    }
+
     /// Where the tetrahedra and nodes of the body lie in the elements. Barycentric coordinates are slightly
     /// negative where a sliver of the body is carried by the element next to it.
     #[must_use]
@@ -147,7 +156,7 @@ pub fn assemble_supported_cover(
             element,
             &moments.stiffness(&gradients, material),
         );
-        pattern.add_scalars(&mut mass, element, &moments.mass, material.density);
+        pattern.add_scalars(&mut mass, element, &moments.mass(), material.density);
     }
     add_springs(&mut stiffness, &pattern, cover, body, held, material);
     System {
@@ -194,6 +203,18 @@ fn elements_of_nodes(body: &BodyMesh, topology: &Topology, lattice: &Lattice) ->
     best.into_iter().map(|b| b.1).collect()
 }
 
+/// Elements whose own cell the body fills: their integrals are those of the cell.
+fn full_elements(topology: &Topology) -> Vec<bool> {
+    let mut volumes = vec![0.0; topology.cells.len()];
+    for f in &topology.fragments {
+        if f.cell == topology.cells[f.element as usize] {
+            volumes[f.element as usize] += f.volume;
+        }
+    }
+    let full = |v: f64| (v / CELL_VOLUME - 1.0).abs() < FULL;
+    volumes.into_iter().map(full).collect()
+}
+
 /// Moments of the body in each element, m³.
 fn integrate(body: &BodyMesh, topology: &Topology, lattice: &Lattice) -> Vec<Moments> {
     /// Shares of the work: fixed, and summed in order, so that the bits do not depend on the number of threads.
@@ -201,14 +222,21 @@ fn integrate(body: &BodyMesh, topology: &Topology, lattice: &Lattice) -> Vec<Mom
     let cube = lattice.side.powi(3);
     let frames: Vec<Frame> = topology.cells.iter().map(|c| c.frame()).collect();
     let tets = body.tets.len();
+    let full = &full_elements(topology);
+    let done =
+        |f: &Fragment| full[f.element as usize] && f.cell == topology.cells[f.element as usize];
     let share = &|number: usize| {
         let mut moments = vec![Moments::ZERO; frames.len()];
         let mut parts = Parts::default();
         for t in number * tets / SHARES..(number + 1) * tets / SHARES {
             let fragments = topology.of(t);
+            if fragments.iter().all(done) {
+                continue;
+            }
             let x = body.corners(t).map(|p| lattice.in_sides(p));
             cut(x, &mut parts, &mut |cell, part, volume| {
-                if let Some(fragment) = fragments.iter().find(|f| f.cell == cell) {
+                let mut with_cell = fragments.iter().filter(|f| f.cell == cell);
+                if let Some(fragment) = with_cell.next().filter(|f| !done(f)) {
                     let e = fragment.element as usize;
                     moments[e].add(part.map(|p| frames[e].barycentric(p)), volume * cube);
                 }
@@ -217,9 +245,11 @@ fn integrate(body: &BodyMesh, topology: &Topology, lattice: &Lattice) -> Vec<Mom
         moments
     };
     let mut moments = vec![Moments::ZERO; frames.len()];
-    for (moments, (frame, cell)) in moments.iter_mut().zip(frames.iter().zip(&topology.cells)) {
-        let corners = cell.corners().map(|c| frame.barycentric(in_sides(c)));
-        moments.add(corners, FICTITIOUS * CELL_VOLUME * cube);
+    for (e, moments) in moments.iter_mut().enumerate() {
+        let corners = topology.cells[e].corners();
+        let corners = corners.map(|c| frames[e].barycentric(in_sides(c)));
+        let filled = if full[e] { 1.0 } else { 0.0 };
+        moments.add(corners, (filled + FICTITIOUS) * CELL_VOLUME * cube);
     }
     std::thread::scope(|scope| {
         let shares: Vec<_> = (0..SHARES)

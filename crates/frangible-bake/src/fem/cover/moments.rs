@@ -3,15 +3,16 @@
 use frangible::glam::DVec3;
 
 use crate::fem::element::{Elasticity, add_point};
-use crate::fem::quadratic::{shape_gradients, shape_values};
+use crate::fem::quadratic::{MID_EDGES, shape_gradients};
 
 /// Integrals over a region, in the barycentric coordinates L of the element; their unit is a volume.
+///
+/// Products of two quadratic shape functions are forms of fourth order in L: the integrals of the 35 monomials of that
+/// order tell all others, since the coordinates sum to one.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Moments {
-    /// ∫ L_i L_j; their sum is the volume.
-    second: [[f64; 4]; 4],
-    /// ∫ N_a N_b, b ≤ a.
-    pub(crate) mass: [[f64; 10]; 10],
+    /// ∫ L_i L_j L_k L_l, i ≤ j ≤ k ≤ l, l running fastest.
+    quartic: [f64; 35],
 }
 
 /// Walkington's rule of fifth order: weight and the four coordinates up to permutation.
@@ -22,62 +23,110 @@ const VERTEX_POINTS: [(f64, f64); 2] = [
 ];
 const EDGE_POINTS: (f64, f64) = (0.042_546_020_777_081_466, 0.045_503_704_125_649_65);
 
+/// Where the monomials start whose lowest factor is L_i: of second, third and fourth order.
+const PAIR: [usize; 4] = [0, 4, 7, 9];
+const TRIPLE: [usize; 4] = [0, 10, 16, 19];
+const QUADRUPLE: [usize; 4] = [0, 20, 30, 34];
+
 impl Moments {
-    pub(crate) const ZERO: Self = Self {
-        second: [[0.0; 4]; 4],
-        mass: [[0.0; 10]; 10],
-    };
+    pub(crate) const ZERO: Self = Self { quartic: [0.0; 35] };
 
     /// Adds a tetrahedron by the barycentric coordinates of its corners and its volume. Exact.
     pub(crate) fn add(&mut self, corners: [[f64; 4]; 4], volume: f64) {
         let sum: [f64; 4] = std::array::from_fn(|i| (0..4).map(|c| corners[c][i]).sum());
-        for i in 0..4 {
-            for j in 0..4 {
-                // Of linear functions over a simplex: by their values at its corners.
-                let products: f64 = (0..4).map(|c| corners[c][i] * corners[c][j]).sum();
-                self.second[i][j] += volume / 20.0 * (products + sum[i] * sum[j]);
-            }
-        }
         for (weight, coordinate) in VERTEX_POINTS {
-            for k in 0..4 {
-                let mut at = [coordinate; 4];
-                at[k] = 1.0 - 3.0 * coordinate;
-                self.add_point(&corners, at, weight * volume);
+            for corner in &corners {
+                let place = |i: usize| coordinate * sum[i] + (1.0 - 4.0 * coordinate) * corner[i];
+                self.add_point(std::array::from_fn(place), weight * volume);
             }
         }
         let (weight, coordinate) = EDGE_POINTS;
-        for i in 0..4 {
-            for j in 0..i {
-                let mut at = [0.5 - coordinate; 4];
-                (at[i], at[j]) = (coordinate, coordinate);
-                self.add_point(&corners, at, weight * volume);
+        for a in 0..4 {
+            for b in 0..a {
+                let place = |i: usize| {
+                    (0.5 - coordinate) * sum[i]
+                        + (2.0 * coordinate - 0.5) * (corners[a][i] + corners[b][i])
+                };
+                self.add_point(std::array::from_fn(place), weight * volume);
             }
         }
     }
 
     /// Adds another region of the same element.
     pub(crate) fn merge(&mut self, other: &Self) {
-        for i in 0..4 {
-            for j in 0..4 {
-                self.second[i][j] += other.second[i][j];
+        for (own, other) in self.quartic.iter_mut().zip(&other.quartic) {
+            *own += other;
+        }
+    }
+
+    /// All monomials of one order are those of the order below times L_0, then those without L_0 times L_1 and so on:
+    /// runs that become vector instructions.
+    #[inline]
+    fn add_point(&mut self, l: [f64; 4], weight: f64) {
+        let mut second = [0.0; 10];
+        let mut third = [0.0; 20];
+        for j in 0..4 {
+            for k in j..4 {
+                second[PAIR[j] + k - j] = l[j] * l[k];
             }
         }
-        for a in 0..10 {
-            for b in 0..=a {
-                self.mass[a][b] += other.mass[a][b];
+        for i in 0..4 {
+            let run = &second[PAIR[i]..];
+            for (to, from) in third[TRIPLE[i]..].iter_mut().zip(run) {
+                *to = l[i] * from;
+            }
+        }
+        for i in 0..4 {
+            let (share, run) = (weight * l[i], &third[TRIPLE[i]..]);
+            for (to, from) in self.quartic[QUADRUPLE[i]..].iter_mut().zip(run) {
+                *to += share * from;
             }
         }
     }
 
-    fn add_point(&mut self, corners: &[[f64; 4]; 4], at: [f64; 4], weight: f64) {
-        let l: [f64; 4] = std::array::from_fn(|i| (0..4).map(|c| at[c] * corners[c][i]).sum());
-        let n = shape_values(l);
+    /// ∫ L_i L_j L_k L_l.
+    fn at(&self, mut order: [usize; 4]) -> f64 {
+        order.sort_unstable();
+        let [i, j, k, l] = order;
+        let pair = PAIR[k] + l - k - PAIR[j];
+        let triple = TRIPLE[j] + pair - TRIPLE[i];
+        self.quartic[QUADRUPLE[i] + triple]
+    }
+
+    /// ∫ L_i L_j; their sum is the volume.
+    fn second(&self) -> [[f64; 4]; 4] {
+        let with = |i: usize, j: usize| {
+            (0..4)
+                .flat_map(|k| (0..4).map(move |l| [i, j, k, l]))
+                .map(|order| self.at(order))
+                .sum()
+        };
+        std::array::from_fn(|i| std::array::from_fn(|j| with(i, j)))
+    }
+
+    /// ∫ N_a N_b, b ≤ a.
+    pub(crate) fn mass(&self) -> [[f64; 10]; 10] {
+        let forms: [[([usize; 2], f64); 4]; 10] = std::array::from_fn(|a| {
+            if a < 4 {
+                // L (2 L − 1), where 1 is the sum of all four.
+                std::array::from_fn(|j| ([a, j], if j == a { 1.0 } else { -1.0 }))
+            } else {
+                let whole = (MID_EDGES[a - 4], 4.0);
+                let nothing = (MID_EDGES[a - 4], 0.0);
+                [whole, nothing, nothing, nothing]
+            }
+        });
+        let mut mass = [[0.0; 10]; 10];
         for a in 0..10 {
-            let wn = weight * n[a];
             for b in 0..=a {
-                self.mass[a][b] += wn * n[b];
+                for ([i, j], x) in forms[a].into_iter().filter(|t| t.1 != 0.0) {
+                    for ([k, l], y) in forms[b].into_iter().filter(|t| t.1 != 0.0) {
+                        mass[a][b] += x * y * self.at([i, j, k, l]);
+                    }
+                }
             }
         }
+        mass
     }
 
     /// Stiffness of the region: 3 × 3 blocks of the node pairs (a, b), b ≤ a.
@@ -95,7 +144,7 @@ impl Moments {
             shape_gradients(l, gradients)
         });
         let mut k = [[[[0.0; 3]; 3]; 10]; 10];
-        for column in root(self.second) {
+        for column in root(self.second()) {
             let g: [DVec3; 10] =
                 std::array::from_fn(|a| (0..4).map(|i| column[i] * at_corners[i][a]).sum());
             add_point(&mut k, &g, 1.0, material.lame());
@@ -151,6 +200,7 @@ mod tests {
         // Consistent mass of T10, times 420 over the volume: 6 and 1 among corners, −4 and −6 between a corner
         // and a mid-edge, 32, 16 and 8 among mid-edges.
         let unit = tet_volume(x) / 420.0;
+        let mass = whole.mass();
         for (a, b, value) in [
             (0, 0, 6.0),
             (1, 0, 1.0),
@@ -160,7 +210,7 @@ mod tests {
             (5, 4, 16.0),
             (9, 4, 8.0),
         ] {
-            assert!((whole.mass[a][b] / unit - value).abs() < 1e-12, "{a} {b}");
+            assert!((mass[a][b] / unit - value).abs() < 1e-12, "{a} {b}");
         }
         let material = Elasticity {
             youngs_modulus: 3.0,

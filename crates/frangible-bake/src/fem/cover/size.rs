@@ -40,8 +40,8 @@ pub(crate) fn choose_lattice(
         .collect();
     let sampled = |side: f64| {
         let lattice = Lattice::new(low, side.max(finest));
-        let cell = |&p: &DVec3| Cell::at(lattice.in_sides(p));
-        let mut cells: Vec<Cell> = points.iter().map(cell).collect();
+        let cell = |&p: &DVec3| Cell::at(lattice.in_sides(p)).key();
+        let mut cells: Vec<u64> = points.iter().map(cell).collect();
         cells.sort_unstable();
         cells.dedup();
         cells.len() as f64

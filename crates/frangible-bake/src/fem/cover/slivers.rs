@@ -21,11 +21,24 @@ impl Contacts {
     /// From pairs that meet inside a tetrahedron of the body, with the area; each pair in one direction, any number
     /// of times.
     pub(crate) fn new(cells: &[Cell], pairs: impl Iterator<Item = (u32, u32, f64)>) -> Self {
-        let mut found: Vec<(u32, u32, f64)> = pairs
+        let pairs: Vec<(u32, u32, f64)> = pairs
             .flat_map(|(a, b, area)| [(a, b, area), (b, a, area)])
             .collect();
-        // Stable, so that areas are summed in the order of the tetrahedra.
-        found.sort_by_key(|c| (c.0, c.1));
+        // Sorted in two steps, both stable, so that areas are summed in the order of the tetrahedra.
+        let mut ends = vec![0; cells.len() + 1];
+        pairs.iter().for_each(|c| ends[c.0 as usize + 1] += 1);
+        for c in 0..cells.len() {
+            ends[c + 1] += ends[c];
+        }
+        let mut found = vec![(0, 0, 0.0); pairs.len()];
+        for pair in pairs {
+            let next: &mut usize = &mut ends[pair.0 as usize];
+            found[*next] = pair;
+            *next += 1;
+        }
+        found
+            .chunk_by_mut(|a, b| a.0 == b.0)
+            .for_each(|c| c.sort_by_key(|c| c.1));
         found.dedup_by(|later, kept| {
             let same = (later.0, later.1) == (kept.0, kept.1);
             kept.2 += if same { later.2 } else { 0.0 };

@@ -1,0 +1,64 @@
+//! Tetrahedra from a file as a shape to bake.
+
+use std::sync::Arc;
+
+use frangible_mesh::{Similarity, TetInput, TetMend, mend_tets};
+
+use crate::error::{BakeError, positive};
+use crate::shapes::{AnalysisChoice, Shape, TetShape};
+
+/// Tetrahedra taken in.
+#[derive(Clone, Debug)]
+pub struct ImportedTets {
+    /// The body; its groups are in it.
+    pub shape: Shape,
+    /// What was mended.
+    pub mend: TetMend,
+    /// Groups of tetrahedra, if there are several: a body has one material, so they only name places.
+    pub volumes: Vec<String>,
+    /// From the file's coordinates to those of the shape.
+    pub similarity: Similarity,
+}
+
+/// Mends and checks tetrahedra; `size`: longest side, m, or the file's unit is the metre.
+///
+/// # Errors
+/// Tetrahedra that are no body, or a size that cannot be used.
+pub fn import_tets(
+    input: &TetInput,
+    size: Option<f64>,
+    analysis: AnalysisChoice,
+) -> Result<ImportedTets, BakeError> {
+    let mut mended = mend_tets(input)?;
+    let similarity = match size {
+        Some(size) => {
+            positive("the size, in m,", size)?;
+            Similarity::resizing(input.bounds(), size)
+        }
+        None => Similarity::IDENTITY,
+    };
+    for p in &mut mended.body.positions {
+        *p = similarity.apply(*p);
+    }
+    let volumes: Vec<String> = mended
+        .groups
+        .iter()
+        .filter(|g| g.dimension == 3)
+        .map(|g| g.name.clone())
+        .collect();
+    Ok(ImportedTets {
+        shape: Shape::Tets(TetShape {
+            body: Arc::new(mended.body),
+            quadratic: mended.quadratic,
+            analysis,
+            groups: Arc::new(mended.groups),
+        }),
+        mend: mended.mend,
+        volumes: if volumes.len() > 1 {
+            volumes
+        } else {
+            Vec::new()
+        },
+        similarity,
+    })
+}

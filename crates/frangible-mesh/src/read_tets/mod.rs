@@ -1,0 +1,102 @@
+//! Files of tetrahedra to [`TetInput`].
+//!
+//! Gmsh's MSH, TetGen's three files, both formats of VTK and Medit's .mesh. The crates for them are stale, read one
+//! version each, or reserve what a header asks for. Nothing here reserves memory that the file does not fill.
+
+mod builder;
+mod cursor;
+mod data_array;
+mod medit;
+mod msh;
+mod msh2;
+mod msh4;
+mod tetgen;
+mod vtk;
+mod vtk_cells;
+mod vtu;
+mod xml;
+
+use std::path::Path;
+
+use crate::read::{ReadError, check_bytes, read_file};
+use crate::tet_input::TetInput;
+
+/// A format of tetrahedra that can be read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum TetFormat {
+    /// Gmsh 2.2 and 4.1, text and binary.
+    Msh,
+    /// TetGen's .node, .ele and .face.
+    TetGen,
+    /// VTK's legacy format, text and binary.
+    Vtk,
+    /// VTK's XML format of unstructured grids.
+    Vtu,
+    /// Medit's .mesh, text.
+    Medit,
+}
+
+impl TetFormat {
+    /// By the ending of the name.
+    #[must_use]
+    pub fn from_extension(path: &Path) -> Option<Self> {
+        match path.extension()?.to_str()?.to_ascii_lowercase().as_str() {
+            "msh" => Some(Self::Msh),
+            "node" | "ele" => Some(Self::TetGen),
+            "vtk" => Some(Self::Vtk),
+            "vtu" => Some(Self::Vtu),
+            "mesh" => Some(Self::Medit),
+            _ => None,
+        }
+    }
+}
+
+/// Reads a file of tetrahedra. Of TetGen's files the .node or the .ele is named; the other must lie beside it, and a
+/// .face may.
+///
+/// # Errors
+/// See [`ReadError`]; only those about the file itself name its path.
+pub fn read_tets(path: &Path) -> Result<TetInput, ReadError> {
+    match TetFormat::from_extension(path) {
+        Some(TetFormat::TetGen) => {
+            let node = read_file(&path.with_extension("node"))?;
+            let ele = read_file(&path.with_extension("ele"))?;
+            let face = path.with_extension("face");
+            let face = face.is_file().then(|| read_file(&face)).transpose()?;
+            parse_tetgen(&node, &ele, face.as_deref())
+        }
+        Some(format) => parse_tets(format, &read_file(path)?),
+        None => Err(ReadError::UnknownTetFormat {
+            name: path.display().to_string(),
+        }),
+    }
+}
+
+/// Reads tetrahedra from memory. TetGen's files are three: see [`parse_tetgen`].
+///
+/// # Errors
+/// See [`ReadError`].
+pub fn parse_tets(format: TetFormat, bytes: &[u8]) -> Result<TetInput, ReadError> {
+    check_bytes(bytes.len() as u64)?;
+    if bytes.is_empty() {
+        return Err(ReadError::Empty);
+    }
+    match format {
+        TetFormat::Msh => msh::parse(bytes),
+        TetFormat::Vtk => vtk::parse(bytes),
+        TetFormat::Vtu => vtu::parse(bytes),
+        TetFormat::Medit => medit::parse(bytes),
+        TetFormat::TetGen => Err(ReadError::Unsupported(
+            "its .node and its .ele together".into(),
+        )),
+    }
+}
+
+/// Reads TetGen's files from memory: nodes, tetrahedra, and faces with their markers.
+///
+/// # Errors
+/// See [`ReadError`].
+pub fn parse_tetgen(node: &[u8], ele: &[u8], face: Option<&[u8]>) -> Result<TetInput, ReadError> {
+    tetgen::parse(node, ele, face)
+}

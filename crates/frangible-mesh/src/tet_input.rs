@@ -1,0 +1,45 @@
+//! Tetrahedra as a file holds them.
+
+use glam::DVec3;
+
+/// Tetrahedra of first or second order with their groups, untouched: perhaps turned inside out, loose or doubled.
+/// [`mend_tets`](crate::mend_tets) makes a body of them.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct TetInput {
+    /// Node positions, in the file's unit.
+    pub positions: Vec<DVec3>,
+    /// Corners of each tetrahedron.
+    pub tets: Vec<[u32; 4]>,
+    /// Nodes on the edges 01, 12, 02, 03, 13, 23 of each tetrahedron; `None` for first order.
+    pub mid_edges: Option<Vec<[u32; 6]>>,
+    /// Number of each tetrahedron in the file, for messages.
+    pub numbers: Vec<u64>,
+    /// Corners of the triangles that belong to a group.
+    pub faces: Vec<[u32; 3]>,
+    /// Named parts: faces first, then tetrahedra, by number.
+    pub groups: Vec<TetGroup>,
+}
+
+/// A named part of a mesh: a physical group, a region, a marker.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TetGroup {
+    /// As in the file; “surface 3” or “volume 3” where it only has a number.
+    pub name: String,
+    /// 2: its members are faces; 3: tetrahedra.
+    pub dimension: u8,
+    /// Indices of its members, rising.
+    pub members: Vec<u32>,
+}
+
+impl TetInput {
+    /// Lowest and highest corner of the box that holds all tetrahedra, in the file's unit.
+    #[must_use]
+    pub fn bounds(&self) -> [DVec3; 2] {
+        let everything = [DVec3::INFINITY, DVec3::NEG_INFINITY];
+        let corners = self.tets.iter().flatten();
+        corners.fold(everything, |[low, high], &v| {
+            let p = self.positions[v as usize];
+            [low.min(p), high.max(p)]
+        })
+    }
+}

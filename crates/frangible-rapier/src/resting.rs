@@ -1,0 +1,259 @@
+//! What lies on what: resting contacts, asked at every step `[G12 §7.3.3]`.
+//!
+//! After a step each breakable body that is awake, or held, is put to [`frangible::rest()`] with the forces of its
+//! resting contacts: impulse / time step, friction included. Contacts that approach faster than the impact speed are not
+//! among them. A single step's impulses are noisy (a thing put down at 0.1 m/s presses for one step of 1/240 s with three
+//! times its weight), so a load counts as the smallest of the last [`STEADY`] steps: a body breaks only when each of
+//! them would have broken it. The last of these steps begins with a copy of the world and is taken again with fragments,
+//! as after an impact. Where steps are shorter than [`INTERVAL`], only one in each interval is looked at.
+
+use std::collections::BTreeMap;
+
+use frangible::glam::Vec3;
+use frangible::outcome::LookedAt;
+use frangible::{Body, Contact, Force, Outcome, Striker};
+use rapier3d::dynamics::{RigidBody, RigidBodyHandle, RigidBodySet};
+use rapier3d::pipeline::PhysicsWorld;
+
+use crate::config::WorldConfig;
+use crate::contacts::{Impact, Point, approach, merged_by_partner, points_on};
+use crate::error::WorldError;
+use crate::event::HeldEvent;
+use crate::world::{BreakableWorld, Key, key};
+
+/// Steps in a row that must each break a body, or crack it.
+const STEADY: u32 = 4;
+
+/// Time from one look at the loads to the next, s, or one step: four looks span several swings of most bodies.
+const INTERVAL: f32 = 1.0 / 240.0;
+
+/// Looks for which a body that held after a full computation is not asked again: that one costs milliseconds.
+const PAUSE: u32 = 8;
+
+/// Forces at most: more are merged with their neighbours, since the quick bound looks at no more. Stress at a distance
+/// from the forces changes little (Saint-Venant); their sum stays, and so does their moment where they are parallel.
+const MOST_FORCES: usize = 16;
+
+/// What a body carries.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Load {
+    pub(crate) forces: Vec<Force>,
+    pub(crate) gravity: Vec3,
+    pub(crate) partners: Vec<RigidBodyHandle>,
+}
+
+impl Load {
+    /// The load as the cause of a break: pushes of one step, without blow.
+    pub(crate) fn cause(&self, dt: f32) -> Impact {
+        let contact = |f: &Force| {
+            let (normal, size) = (f.force.normalize_or(Vec3::Y), f.force.length());
+            Contact::new(f.point, normal, size * dt, 0.0, Striker::rigid())
+        };
+        Impact {
+            contacts: self.forces.iter().map(contact).collect(),
+            strikers: self.partners.clone(),
+        }
+    }
+}
+
+/// A body's load, and what came of it.
+#[derive(Clone, Debug)]
+pub(crate) struct Burden {
+    load: Load,
+    margin: f64,
+    /// Steps in a row that would have broken or cracked it.
+    over: u32,
+    /// Looks until it is asked again.
+    pause: u32,
+}
+
+/// Whether a body is asked at all: a fixed one without supports has no modes for its hold.
+fn carries(body: &Body, rigid: &RigidBody) -> bool {
+    rigid.is_enabled() && (rigid.is_dynamic() || rigid.is_fixed() && body.asset().is_supported())
+}
+
+/// Forces on the body in the step just taken; with `before`, without those of impacts.
+fn load_on(
+    handle: RigidBodyHandle,
+    rigid: &RigidBody,
+    physics: &PhysicsWorld,
+    before: Option<&RigidBodySet>,
+    config: &WorldConfig,
+) -> Load {
+    let dt = physics.integration_parameters.dt;
+    let frame = before.and_then(|b| b.get(handle)).unwrap_or(rigid);
+    let mut points = points_on(handle, rigid, physics);
+    if let Some(before) = before {
+        points.retain(|p| {
+            let partner = p.other.and_then(|other| before.get(other));
+            let speed = approach(frame, partner, p.position, p.normal);
+            speed <= config.impact_speed
+        });
+    }
+    let mut distance = config.merge_distance.max(1e-5);
+    let mut groups = merged_by_partner(points, distance);
+    // Doubled up to a metre: what then is left differs in direction.
+    while groups.iter().map(Vec::len).sum::<usize>() > MOST_FORCES && distance < 1.0 {
+        distance *= 2.0;
+        let points: Vec<Point> = groups.into_iter().flatten().collect();
+        groups = merged_by_partner(points, distance);
+    }
+    let mut load = Load {
+        gravity: rigid.rotation().inverse() * (physics.gravity * rigid.gravity_scale()),
+        ..Load::default()
+    };
+    for group in groups {
+        load.partners.extend(group[0].other);
+        load.forces.extend(group.iter().map(|p| Force {
+            point: p.position,
+            force: (p.normal * p.impulse + p.friction) / dt,
+        }));
+    }
+    load
+}
+
+impl BreakableWorld {
+    /// How many times as much a body could carry, at least, of what it carries now: strength over the bound of the
+    /// stress that its resting contacts and, when it is held, its own weight cause. Infinite without load; `None` for
+    /// what is not breakable or was never asked ([`crate::WorldConfig::resting_loads`] off, or not one step yet).
+    #[must_use]
+    pub fn rest_margin(&self, handle: RigidBodyHandle) -> Option<f64> {
+        self.burdens.get(&key(handle)).map(|b| b.margin)
+    }
+
+    /// No load is known any more: something but the load has changed.
+    pub(crate) fn weigh_anew(&mut self) {
+        for burden in self.burdens.values_mut() {
+            burden.load.gravity = Vec3::NAN;
+        }
+    }
+
+    /// Whether loads are looked at after the coming step.
+    pub(crate) fn weighs_now(&self) -> bool {
+        let stride = (INTERVAL / self.physics.integration_parameters.dt).round();
+        self.config.resting_loads && self.steps.is_multiple_of((stride as u64).max(1))
+    }
+
+    /// Bodies that the coming step may break by what they carry.
+    pub(crate) fn overloaded(&self) -> impl Iterator<Item = RigidBodyHandle> {
+        let over = self.burdens.iter().filter(|(_, b)| b.over + 1 >= STEADY);
+        over.map(|(&(i, g), _)| RigidBodyHandle::from_raw_parts(i, g))
+    }
+
+    /// What an overloaded body's load of the step just taken does to it; `None` when it is not overloaded.
+    pub(crate) fn breaking_load(
+        &self,
+        handle: RigidBodyHandle,
+        body: &Body,
+        before: &RigidBodySet,
+    ) -> Option<Result<(Impact, Outcome), WorldError>> {
+        let burden = self.burdens.get(&key(handle))?;
+        let rigid = self.physics.bodies.get(handle)?;
+        if burden.over + 1 < STEADY || !carries(body, rigid) {
+            return None;
+        }
+        let load = load_on(handle, rigid, &self.physics, Some(before), &self.config);
+        let outcome = (self.rest_function)(body, &load.forces, load.gravity, &self.config.fracture);
+        let dt = self.physics.integration_parameters.dt;
+        Some(outcome.map(|o| (load.cause(dt), o)).map_err(Into::into))
+    }
+
+    /// Asks all bodies that carry something new; gives cracks to those that cracked.
+    pub(crate) fn weigh(&mut self, before: Option<&RigidBodySet>) -> Result<(), WorldError> {
+        let mut error = Ok(());
+        let mut burdens: BTreeMap<Key, Burden> = std::mem::take(&mut self.burdens);
+        burdens.retain(|key, _| self.breakables.contains_key(key));
+        let handles: Vec<RigidBodyHandle> = self.breakables().collect();
+        for handle in handles {
+            if let Err(problem) = self.weigh_one(handle, before, &mut burdens) {
+                error = error.and(Err(problem));
+            }
+        }
+        self.burdens = burdens;
+        error
+    }
+
+    fn weigh_one(
+        &mut self,
+        handle: RigidBodyHandle,
+        before: Option<&RigidBodySet>,
+        burdens: &mut BTreeMap<Key, Burden>,
+    ) -> Result<(), WorldError> {
+        let (Some(body), Some(rigid)) = (
+            self.breakables.get(&key(handle)),
+            self.physics.bodies.get(handle),
+        ) else {
+            return Ok(());
+        };
+        let asleep = rigid.is_sleeping() && burdens.get(&key(handle)).is_some_and(|b| b.over == 0);
+        if asleep || !carries(body, rigid) {
+            return Ok(());
+        }
+        let load = load_on(handle, rigid, &self.physics, before, &self.config);
+        let burden = burdens.entry(key(handle)).or_insert_with(|| Burden {
+            load: Load::default(),
+            margin: f64::INFINITY,
+            over: 0,
+            pause: 0,
+        });
+        let known = burden.over == 0 && burden.load == load;
+        burden.pause = burden.pause.saturating_sub(1);
+        if known || burden.pause > 0 {
+            return Ok(());
+        }
+        if load.forces.is_empty() && rigid.is_dynamic() {
+            (burden.margin, burden.over, burden.load) = (f64::INFINITY, 0, load);
+            return Ok(());
+        }
+        let asked = (self.rest_function)(body, &load.forces, load.gravity, &self.config.fracture);
+        let dt = self.physics.integration_parameters.dt;
+        let contacts = |load: &Load| load.cause(dt).contacts;
+        match asked {
+            Ok(Outcome::Held {
+                margin,
+                report,
+                state,
+            }) => {
+                burden.margin = margin;
+                burden.over = if state.is_some() { burden.over + 1 } else { 0 };
+                if report.looked_at != LookedAt::Impulses && state.is_none() {
+                    burden.pause = PAUSE;
+                }
+                if let (Some(state), true) = (state, burden.over >= STEADY) {
+                    (burden.over, burden.pause) = (0, PAUSE);
+                    let event = HeldEvent {
+                        step: self.steps,
+                        body: handle,
+                        contacts: contacts(&load),
+                        margin,
+                        report,
+                        state: Some((*state).clone()),
+                    };
+                    burden.load = load;
+                    if self.config.record_held {
+                        self.held.push(event);
+                    }
+                    if let Some(body) = self.breakables.get_mut(&key(handle)) {
+                        body.set_state(*state)?;
+                    }
+                    return Ok(());
+                }
+            }
+            Ok(outcome) => {
+                let report = outcome.report();
+                burden.margin = (report.strength / report.stress_bound).min(1.0);
+                burden.over += 1;
+                // It should have broken in this step: there was no room for its fragments.
+                if burden.over > STEADY {
+                    (burden.over, burden.pause) = (0, PAUSE);
+                }
+            }
+            Err(problem) => {
+                burden.pause = PAUSE;
+                return Err(problem.into());
+            }
+        }
+        burden.load = load;
+        Ok(())
+    }
+}

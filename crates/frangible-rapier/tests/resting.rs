@@ -1,0 +1,211 @@
+//! What lies on what: nothing breaks from lying there, and a shelf breaks when it carries too much.
+
+mod common;
+
+use common::baked::{block, pane, shelf};
+use common::{at, body, box_asset, sliced, step_to_break, world};
+use frangible::glam::Vec3;
+use frangible::{Body, Force, FractureConfig, Outcome, rest};
+use frangible_rapier::rapier3d::dynamics::RigidBodyHandle;
+use frangible_rapier::rapier3d::geometry::SharedShape;
+use frangible_rapier::rapier3d::math::{Pose, Vector};
+use frangible_rapier::{BreakCause, BreakableWorld, SurfaceProperties, WorldConfig};
+
+fn heavy_world(resting_loads: bool) -> BreakableWorld {
+    let mut config = WorldConfig::default();
+    config.gravity = Vector::new(0.0, 0.0, -9.81);
+    config.resting_loads = resting_loads;
+    BreakableWorld::new(config).unwrap()
+}
+
+fn never_sleeps(world: &mut BreakableWorld, handle: RigidBodyHandle) {
+    world.physics.bodies[handle]
+        .activation_mut()
+        .normalized_linear_threshold = -1.0;
+}
+
+#[test]
+fn nothing_breaks_from_merely_lying_there() {
+    let mut world = heavy_world(true);
+    world
+        .insert_fixed_half_space(Vector::ZERO, Vector::Z, SurfaceProperties::STONE)
+        .unwrap();
+    // Block, pane, block, block, with gaps of half a millimetre to fall through.
+    let mut z = 0.0;
+    let mut stack = Vec::new();
+    for (asset, thickness) in [
+        (block(), 0.05),
+        (pane(), 0.004),
+        (block(), 0.05),
+        (block(), 0.05),
+    ] {
+        z += 5e-4;
+        let pose = at(0.0, 0.0, z + 0.5 * thickness);
+        z += thickness;
+        let handle = world
+            .insert_breakable(body(asset), pose, Vector::ZERO, Vector::ZERO)
+            .unwrap();
+        never_sleeps(&mut world, handle);
+        stack.push(handle);
+    }
+    let mut least = [f64::INFINITY; 4];
+    for _ in 0..480 {
+        assert!(world.step().unwrap().is_empty(), "at {} s", world.time());
+        for (least, &handle) in least.iter_mut().zip(&stack) {
+            let margin = world.rest_margin(handle).unwrap();
+            assert!(margin > 1.0, "margin {margin} at {} s", world.time());
+            *least = least.min(margin);
+        }
+    }
+    println!("least margins from the floor up: {least:.1?}");
+    assert!(least.iter().all(|m| m.is_finite()), "never asked");
+}
+
+/// The load at which the shelf breaks under four corners of a box, N, by bisection.
+fn predicted(shelf: &Body, half: f32, top: f32) -> f32 {
+    let breaks = |newton: f32| {
+        let corner = |x: f32, y: f32| Force {
+            point: Vec3::new(x, y, top),
+            force: Vec3::NEG_Z * newton / 4.0,
+        };
+        let forces = [
+            corner(half, half),
+            corner(-half, half),
+            corner(-half, -half),
+            corner(half, -half),
+        ];
+        let gravity = Vec3::new(0.0, 0.0, -9.81);
+        let outcome = rest(shelf, &forces, gravity, &FractureConfig::default()).unwrap();
+        matches!(outcome, Outcome::Broke(_))
+    };
+    let (mut holds, mut fails) = (10.0, 1e4);
+    assert!(!breaks(holds) && breaks(fails));
+    while fails / holds > 1.01_f32 {
+        let middle = (holds * fails).sqrt();
+        *(if breaks(middle) {
+            &mut fails
+        } else {
+            &mut holds
+        }) = middle;
+    }
+    fails
+}
+
+/// A shelf with a box on it whose weight grows: the weight at which it broke, N.
+fn broke_at(world: &mut BreakableWorld, half: f32) -> Option<f32> {
+    let mass = 10.0;
+    world
+        .insert_breakable(body(shelf()), Pose::IDENTITY, Vector::ZERO, Vector::ZERO)
+        .unwrap();
+    let cube = SharedShape::cuboid(half, half, half);
+    let start = at(0.0, 0.0, 0.005 + half);
+    let weight = world
+        .insert_rigid(cube, mass, SurfaceProperties::STEEL, start, Vector::ZERO)
+        .unwrap();
+    never_sleeps(world, weight);
+    let mut scale = 1.0;
+    while scale < 60.0 {
+        world.physics.bodies[weight].set_gravity_scale(scale, true);
+        if let Some(event) = world.step().unwrap().first() {
+            assert_eq!(event.cause, BreakCause::Rest);
+            assert_eq!(event.strikers, [weight]);
+            assert!(event.fracture.fragments.iter().any(|f| f.supported));
+            assert!(event.kinetic_after <= event.kinetic_before + event.work + 1e-6);
+            return Some(mass * 9.81 * scale);
+        }
+        scale *= 1.003;
+    }
+    None
+}
+
+#[test]
+fn a_shelf_breaks_under_a_load_that_grows_when_its_stress_says_so() {
+    let half = 0.015;
+    let expected = predicted(&body(shelf()), half, 0.005);
+    let mut world = heavy_world(true);
+    let found = broke_at(&mut world, half).expect("it breaks under 600 kg");
+    println!("broke at {found} N, predicted {expected} N");
+    // It is asked every eighth step while it holds, and must break four times: the load grows 4 % meanwhile.
+    assert!(
+        (found / expected - 1.0).abs() < 0.08,
+        "{found} N, not {expected} N"
+    );
+    // What lay on it falls.
+    for _ in 0..60 {
+        world.step().unwrap();
+    }
+    assert!(world.momentum().z < 0.0);
+    assert_eq!(broke_at(&mut heavy_world(false), half), None);
+}
+
+#[test]
+fn one_step_of_overload_breaks_nothing_and_four_do() {
+    let half = Vec3::splat(0.05);
+    let run = |steps: u64| {
+        let mut world = world(true);
+        world
+            .insert_fixed_half_space(Vector::ZERO, Vector::Y, SurfaceProperties::STONE)
+            .unwrap();
+        let asset = box_asset(half, [1, 1, 1]);
+        let start = at(0.0, 0.05, 0.0);
+        world
+            .insert_breakable(body(&asset), start, Vector::ZERO, Vector::ZERO)
+            .unwrap();
+        for _ in 0..10 {
+            world.step().unwrap();
+        }
+        let asked = std::sync::atomic::AtomicU64::new(0);
+        world.set_rest_function(move |_, forces, _, _| {
+            assert!(!forces.is_empty());
+            let weight: f32 = forces.iter().map(|f| f.force.y).sum();
+            assert!((weight / (2.5 * 9.81) - 1.0).abs() < 0.2, "{weight} N");
+            let count = asked.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
+            Ok(if count < steps {
+                Outcome::Broke(Box::new(sliced(half, [2, 2, 2], 0.0, 0.0)))
+            } else {
+                Outcome::Held {
+                    margin: 2.0,
+                    report: Default::default(),
+                    state: None,
+                }
+            })
+        });
+        step_to_break(&mut world, 40)
+    };
+    assert!(run(1).is_none() && run(3).is_none());
+    let event = run(4).expect("four steps in a row");
+    assert_eq!((event.cause, event.fragments.len()), (BreakCause::Rest, 8));
+}
+
+#[test]
+fn what_sleeps_is_not_asked_again() {
+    use std::sync::Arc;
+    use std::sync::atomic::{AtomicU64, Ordering};
+    let mut world = heavy_world(true);
+    let asked = Arc::new(AtomicU64::new(0));
+    let count = Arc::clone(&asked);
+    world.set_rest_function(move |body, forces, gravity, config| {
+        count.fetch_add(1, Ordering::Relaxed);
+        rest(body, forces, gravity, config)
+    });
+    world
+        .insert_breakable(body(shelf()), Pose::IDENTITY, Vector::ZERO, Vector::ZERO)
+        .unwrap();
+    let brick = box_asset(Vec3::splat(0.02), [1, 1, 1]);
+    let start = at(0.0, 0.0, 0.0251);
+    world
+        .insert_breakable(body(&brick), start, Vector::ZERO, Vector::ZERO)
+        .unwrap();
+    let asleep = (0..600).find(|_| {
+        world.step().unwrap();
+        world.at_rest()
+    });
+    assert!(asleep.is_some(), "the brick never slept");
+    world.step().unwrap();
+    let before = asked.load(Ordering::Relaxed);
+    assert!(before > 20);
+    for _ in 0..50 {
+        world.step().unwrap();
+    }
+    assert_eq!(asked.load(Ordering::Relaxed), before);
+}

@@ -1,0 +1,58 @@
+//! Files of tetrahedra: the calls into the reader and the bake.
+
+use std::path::Path;
+
+use frangible_bake::{AnalysisChoice, Shape, import_tets};
+use frangible_mesh::glam::DVec3;
+use frangible_mesh::read_tets;
+
+use super::fit::{scale, turned};
+use super::{Axis, Opened};
+use crate::error::SceneError;
+
+/// A body of tetrahedra in metres, y up.
+pub(super) fn open(
+    path: &Path,
+    size: Option<f64>,
+    up: Axis,
+    resolution: Option<usize>,
+) -> Result<Opened, SceneError> {
+    let refused = |problem: String| SceneError::File {
+        path: path.to_path_buf(),
+        problem,
+    };
+    if resolution.is_some() {
+        let problem = "a resolution cannot be chosen: the file's tetrahedra are broken as they are; mesh it anew, or \
+                       give its surface (.stl, .obj) instead";
+        return Err(refused(problem.into()));
+    }
+    let mut input = read_tets(path).map_err(|error| refused(error.to_string()))?;
+    let scale = scale(input.bounds(), path, size)?;
+    for p in &mut input.positions {
+        *p = scale * DVec3::from_array(turned(p.to_array(), up));
+    }
+    let imported = import_tets(&input, None, AnalysisChoice::Auto)
+        .map_err(|error| refused(error.to_string()))?;
+    let mut notes = Vec::new();
+    let mended = imported.mend.to_string();
+    if !mended.is_empty() {
+        notes.push(format!("{}: {mended}", path.display()));
+    }
+    if !imported.volumes.is_empty() {
+        notes.push(format!(
+            "{}: the parts {} get one material: a body has only one",
+            path.display(),
+            imported.volumes.join(", ")
+        ));
+    }
+    let groups = match &imported.shape {
+        Shape::Tets(shape) => shape.named_parts(),
+        _ => Vec::new(),
+    };
+    Ok(Opened::Shape {
+        shape: imported.shape,
+        render: None,
+        groups,
+        notes,
+    })
+}
