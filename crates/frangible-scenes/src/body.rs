@@ -1,7 +1,7 @@
 //! One breakable body of a scene.
 
-use frangible::Material;
 use frangible::glam::{Quat, Vec3};
+use frangible::{Material, Patch};
 use frangible_bake::Support;
 
 use crate::rescale::Rescale;
@@ -33,6 +33,11 @@ pub struct BodySpec {
     /// Where it is held, m, in the frame of its shape: what these hold stays where it is, also after the break. Part of the bake, so that a
     /// [`BodySource::Asset`] brings its own.
     pub supports: Vec<Support>,
+    /// Where it is weaker than its material, or stronger; one over the other. m from its centre of mass, along the axes of
+    /// its shape. Not part of the bake.
+    pub weakness: Vec<Patch>,
+    /// Weibull modulus of the scatter of its strength, see [`frangible::Fields::weibull_modulus`]; 0: none.
+    pub weibull_modulus: f64,
     /// What is to differ from the bake of a [`BodySource::Asset`]; not looked at for other sources.
     pub rescale: Rescale,
 }
@@ -71,6 +76,8 @@ impl BodySpec {
             velocity: Vec3::ZERO,
             spin: Vec3::ZERO,
             supports: Vec::new(),
+            weakness: Vec::new(),
+            weibull_modulus: 0.0,
             rescale: Rescale::default(),
         }
     }

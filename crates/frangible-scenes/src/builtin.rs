@@ -3,7 +3,7 @@
 use std::f32::consts::FRAC_PI_2;
 
 use frangible::glam::{Quat, Vec3};
-use frangible::{Material, nearest_name};
+use frangible::{Material, Patch, Zone, nearest_name};
 use frangible_bake::{Region, Shape, Support};
 
 use crate::body::{BodySpec, Place};
@@ -34,6 +34,16 @@ pub const SCENE_NAMES: [&str; 13] = [
     "shelf",
     "cantilever",
 ];
+
+/// Length, width and thickness of the bar of chocolate, m.
+const BAR: [f64; 3] = [0.16, 0.08, 0.009];
+
+/// Side of its squares and half the width of the grooves between them, m.
+const SQUARE: f64 = 0.02;
+const GROOVE: f64 = 0.0015;
+
+/// Share of the strength at a groove down to half the thickness: bending stress goes with the thickness squared.
+const GROOVE_STRENGTH: f32 = 0.25;
 
 /// A built-in scene by name.
 ///
@@ -109,10 +119,8 @@ pub fn scene(name: &str) -> Result<Scene, SceneError> {
         ),
         "chocolate" => build(
             "chocolate",
-            "a bar of chocolate dropped on a stone floor",
-            Shape::Box {
-                size: [0.16, 0.08, 0.009],
-            },
+            "a bar of chocolate, scored into squares, dropped on a stone floor",
+            Shape::Box { size: BAR },
             "chocolate",
             80,
             Quat::from_rotation_z(0.3) * Quat::from_rotation_x(-1.2),
@@ -230,6 +238,22 @@ fn held<const N: usize>(mut scene: Scene, height: f32, regions: [Region; N]) -> 
     scene
 }
 
+/// Between the squares of the bar, through its thickness.
+fn grooves() -> Vec<Patch> {
+    let half = BAR.map(|side| 0.5 * side);
+    let across = |axis: usize| {
+        let lines = 1..(BAR[axis] / SQUARE).round() as usize;
+        lines.map(move |i| {
+            let at = i as f64 * SQUARE - half[axis];
+            let (mut low, mut high) = (half.map(|h| -h), half);
+            (low[axis], high[axis]) = (at - GROOVE, at + GROOVE);
+            let corners = [low, high].map(|c| Vec3::from_array(c.map(|x| x as f32)));
+            Patch::of_strength(Zone::Box(corners), GROOVE_STRENGTH)
+        })
+    };
+    across(0).chain(across(1)).collect()
+}
+
 fn ready(name: &str, tets: usize) -> BodySource {
     BodySource::Ready {
         name: name.into(),
@@ -276,6 +300,11 @@ fn build_of(
         seed,
         ..Scene::one_body(body)
     };
+    if name == "chocolate" {
+        for body in &mut scene.bodies {
+            body.weakness = grooves();
+        }
+    }
     if name == "piggy-bank" {
         // From higher up, so that the slot is seen.
         scene.look_from = Vec3::new(0.6, 0.85, 1.0);

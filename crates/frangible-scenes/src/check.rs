@@ -5,6 +5,7 @@ mod fracture;
 mod names;
 mod projectile;
 mod quantity;
+mod weakness;
 
 use crate::error::SceneError;
 use crate::scene::Scene;

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use frangible::glam::{Quat, Vec3};
-use frangible::{Asset, Body, Material};
+use frangible::{Asset, Breakable, Fields, Material};
 use frangible_rapier::rapier3d::dynamics::RigidBodyHandle;
 use frangible_rapier::rapier3d::math::{Pose, Rotation, Vector};
 use frangible_rapier::{BreakableWorld, SurfaceProperties, WorldConfig};
@@ -123,7 +123,10 @@ fn put<'a>(
             depth_mm: 1e3 * depth,
         });
     }
-    let body = Body::new(Arc::clone(asset), seed)?;
+    let fields =
+        Fields::from_patches(asset, &spec.weakness)?.with_weibull_modulus(spec.weibull_modulus);
+    let kind = Breakable::new(Arc::clone(asset))?.with_fields(fields)?;
+    let body = kind.body(seed);
     let q = spec.rotation;
     let pose = Pose::from_parts(vector(centre), Rotation::from_xyzw(q.x, q.y, q.z, q.w));
     let handle = world.insert_breakable(body, pose, vector(spec.velocity), vector(spec.spin))?;

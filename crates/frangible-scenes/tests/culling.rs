@@ -5,7 +5,8 @@ mod common;
 use common::{block, blow, glass, pane, rim_hit, steel_ball, stone_floor};
 use frangible::glam::Vec3;
 use frangible::{
-    Asset, Breakable, Contact, Force, FractureConfig, LookedAt, Outcome, impact, rest, would_break,
+    Asset, Breakable, Contact, Factors, Fields, Force, FractureConfig, LookedAt, Outcome, Patch,
+    Zone, impact, rest, would_break,
 };
 use std::sync::Arc;
 
@@ -152,4 +153,62 @@ fn a_refused_contact_allocates_nothing() {
     });
     assert!(all);
     assert_eq!(counted.count_total, 0, "{counted:?}");
+}
+
+#[test]
+fn culling_changes_no_bit_where_the_strength_varies() {
+    let mut numbers = Numbers(2);
+    let mut looked = [0; 3];
+    let mut broke = 0;
+    for (name, asset) in [("glass", glass()), ("pane", pane()), ("block", block())] {
+        let waves = Fields::from_function(asset, |p| Factors {
+            strength: 1.0 + 0.9 * (90.0 * p.x).sin(),
+            toughness: 1.0 + 0.8 * (70.0 * p.y).cos(),
+            weak_points: 1.0 + (50.0 * p.z).sin(),
+        });
+        let line = Zone::Tube {
+            line: vec![Vec3::new(0.02, -0.2, 0.0), Vec3::new(0.04, 0.2, 0.0)],
+            radius: 0.01,
+        };
+        let scored = Fields::from_patches(asset, &[Patch::of_strength(line, 0.3)]).unwrap();
+        for (k, fields) in [
+            waves.clone(),
+            waves.with_weibull_modulus(6.0),
+            scored,
+            Fields::default().with_weibull_modulus(10.0),
+        ]
+        .into_iter()
+        .enumerate()
+        {
+            let kind = Breakable::new(Arc::clone(asset)).unwrap();
+            let kind = kind.with_fields(fields).unwrap();
+            for blow in 0..3 {
+                let body = kind.body(blow);
+                let contact = [numbers.blow(asset)];
+                for config in models() {
+                    let mut without = config.clone();
+                    without.culling = false;
+                    let fast = impact(&body, &contact, &config).unwrap();
+                    let slow = impact(&body, &contact, &without).unwrap();
+                    let what = format!("{name}, fields {k}, blow {blow}");
+                    assert!(
+                        cracks_and_pieces(&fast) == cracks_and_pieces(&slow),
+                        "{what}"
+                    );
+                    let (a, b) = (fast.report(), slow.report());
+                    assert!(a.stress_bound >= b.peak_stress * (1.0 - 1e-6), "{what}");
+                    if let (Outcome::Held { margin: a, .. }, Outcome::Held { margin: b, .. }) =
+                        (&fast, &slow)
+                    {
+                        assert_eq!(*a >= 1.0, *b >= 1.0, "{what}: {a} {b}");
+                        assert!(*a <= b * (1.0 + 1e-6), "{what}: {a} {b}");
+                    }
+                    looked[fast.report().looked_at as usize] += 1;
+                    broke += usize::from(matches!(slow, Outcome::Broke(_)));
+                }
+            }
+        }
+    }
+    println!("{broke} broke; refused free of time, by time steps, looked at: {looked:?}");
+    assert!(broke > 5 && looked.iter().all(|&n| n > 3), "{looked:?}");
 }

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use frangible::glam::{Quat, Vec3};
-use frangible::{CrackPath, CrackTiming, FractureConfig, Material};
+use frangible::{CrackPath, CrackTiming, FractureConfig, Material, Patch, Zone};
 use frangible_bake::{Shape, Station};
 use frangible_scenes::{
     Axis, BodySource, BodySpec, FileWish, MaterialEdit, Place, Projectile, ProjectileKind, Region,
@@ -71,6 +71,26 @@ fn intricate() -> Scene {
         Material::preset("porcelain").unwrap(),
     );
     third.place = Place::Standing { over: [3.0, -2.0] };
+    third.weibull_modulus = 1e2 / 3.0;
+    let zones = [
+        Zone::Box([Vec3::ZERO, Vec3::new(0.1, -0.2, 1.0 / 3.0)]),
+        Zone::Sphere {
+            centre: Vec3::X,
+            radius: 0.1,
+        },
+        Zone::HalfSpace {
+            point: Vec3::splat(-1e-5),
+            normal: Vec3::new(0.3, 0.0, -7.0),
+        },
+        Zone::Tube {
+            line: vec![Vec3::ZERO, Vec3::Y, Vec3::new(0.1, 0.2, 0.7)],
+            radius: 1.0 / 3.0,
+        },
+    ];
+    third.weakness = zones.map(|zone| Patch::of_strength(zone, 0.1)).to_vec();
+    third.weakness[1].strength = None;
+    third.weakness[1].toughness = Some(2.0);
+    third.weakness[2].weak_points = Some(0.0);
     third.rescale.size = Some(1.0 / 3.0);
     let mut edit = MaterialEdit::preset("stone");
     edit.name = Some("soft “stone”".into());
@@ -501,4 +521,44 @@ fn supports_that_cannot_be_meant_are_refused() {
             "{message}"
         );
     }
+}
+
+#[test]
+fn weak_places_are_read_and_mistakes_in_them_named() {
+    let text = format!(
+        "{LEAST}weibull_modulus = 8\nweakness = [\n  {{ line = [[0, 0, 0], [0, 0, 0.1]], radius = 0.002, strength = 0.2 }},\n  \
+         {{ box = [[0, 0, 0], [1, 1, 1]], toughness = 2, weak_points = 0 }},\n]\n"
+    );
+    let body = &parsed(&text).bodies[0];
+    assert_eq!(body.weibull_modulus, 8.0);
+    let line = Zone::Tube {
+        line: vec![Vec3::ZERO, Vec3::Z * 0.1],
+        radius: 0.002,
+    };
+    assert_eq!(body.weakness[0], Patch::of_strength(line, 0.2));
+    assert_eq!(body.weakness[1].toughness, Some(2.0));
+    for (weakness, word) in [
+        ("{ line = [[0, 0, 0]], strength = 0.2 }", "radius"),
+        ("{ strength = 0.2 }", "sphere"),
+        ("{ line = [], radius = 0.1 }", "no points"),
+        ("{ sphere = [0, 0, 0], radius = -1 }", "radius"),
+        ("{ sphere = [0, nan, 0], radius = 1 }", "finite"),
+        (
+            "{ sphere = [0, 0, 0], radius = 1, strength = 0 }",
+            "strength",
+        ),
+        (
+            "{ sphere = [0, 0, 0], radius = 1, thoughness = 1 }",
+            "thoughness",
+        ),
+        (
+            "{ plane = { point = [0, 0, 0], normal = [0, 0, 0] } }",
+            "normal",
+        ),
+    ] {
+        let message = refused(&format!("{LEAST}weakness = [{weakness}]\n"));
+        assert!(message.contains(word), "{weakness}: {message}");
+    }
+    let message = refused(&format!("{LEAST}weibull_modulus = 0.5\n"));
+    assert!(message.contains("Weibull"), "{message}");
 }

@@ -6,6 +6,7 @@ use glam::Vec3;
 
 use crate::asset::Asset;
 use crate::error::InputError;
+use crate::fields::{Fields, Resistance, Toughness};
 use crate::fragment::RenderIndex;
 use crate::mesh::TriangleTree;
 use crate::rng::{Purpose, stream, uniform};
@@ -17,6 +18,8 @@ use crate::stress::{ShapeWeights, StressBounds, quadratic_modulus};
 pub struct Breakable {
     asset: Arc<Asset>,
     prepared: Arc<Prepared>,
+    fields: Arc<Fields>,
+    toughness: Toughness,
 }
 
 /// What follows from an asset and every impact needs.
@@ -82,10 +85,27 @@ impl Breakable {
                 .collect(),
             edge: asset.fracture.mean_edge(),
         };
+        let fields = Arc::new(Fields::default());
         Self {
+            toughness: Toughness::new(&asset.material, &fields),
             asset,
             prepared: Arc::new(prepared),
+            fields,
         }
+    }
+
+    /// Of the same asset, with strength, toughness and weak points that vary over the body: scored lines, painted weakness.
+    ///
+    /// # Errors
+    /// Fields of another asset, or with a number that cannot be used.
+    pub fn with_fields(self, fields: Fields) -> Result<Self, InputError> {
+        fields.check(&self.asset)?;
+        let fields = Arc::new(fields);
+        Ok(Self {
+            toughness: Toughness::new(&self.asset.material, &fields),
+            fields,
+            ..self
+        })
     }
 
     /// The asset.
@@ -104,15 +124,31 @@ impl Breakable {
         let mut rng = stream(seed, Purpose::WeakPoints, 0);
         let weak_tets: Vec<u32> = (0..asset.fracture.tets.len())
             .filter(|&e| {
-                let expected = asset.material.weak_point_density * asset.fracture.volume(e);
+                let expected = asset.material.weak_point_density
+                    * asset.fracture.volume(e)
+                    * self.fields.weak_points(e);
                 uniform(&mut rng) < -(-expected).exp_m1()
             })
             .map(|e| e as u32)
             .collect();
+        let resistance = Resistance::new(
+            &asset.material,
+            &self.fields,
+            self.toughness.clone(),
+            asset.fracture.tets.len(),
+            &weak_tets,
+            seed,
+        );
+        let clusters = WeakClusters::new(
+            &weak_tets,
+            &self.prepared.bounds.cluster_of_tet,
+            &resistance,
+        );
         Body {
             asset: Arc::clone(asset),
             prepared: Arc::clone(&self.prepared),
-            clusters: WeakClusters::new(&weak_tets, &self.prepared.bounds.cluster_of_tet),
+            resistance,
+            clusters,
             seed,
             weak_tets,
             state: BodyState::default(),
@@ -149,6 +185,7 @@ fn weight(asset: &Asset) -> Vec<Vec3> {
 pub struct Body {
     pub(crate) asset: Arc<Asset>,
     pub(crate) prepared: Arc<Prepared>,
+    pub(crate) resistance: Resistance,
     pub(crate) clusters: WeakClusters,
     /// Seed of its weak points and of the roughness of its cracks.
     seed: u64,
@@ -209,10 +246,12 @@ pub(crate) struct WeakClusters {
     /// Where each one's tetrahedra start in `tets`, and the end.
     starts: Vec<u32>,
     tets: Vec<u32>,
+    /// The smallest strength in each one, Pa.
+    pub(crate) weakest: Vec<f32>,
 }
 
 impl WeakClusters {
-    fn new(weak_tets: &[u32], cluster_of_tet: &[u32]) -> Self {
+    fn new(weak_tets: &[u32], cluster_of_tet: &[u32], resistance: &Resistance) -> Self {
         let mut tets = weak_tets.to_vec();
         tets.sort_by_key(|&e| (cluster_of_tet[e as usize], e));
         let (mut clusters, mut starts) = (Vec::new(), Vec::new());
@@ -224,10 +263,15 @@ impl WeakClusters {
             }
         }
         starts.push(tets.len() as u32);
+        let weakest = starts
+            .windows(2)
+            .map(|w| resistance.weakest_of(&tets[w[0] as usize..w[1] as usize]))
+            .collect();
         Self {
             clusters,
             starts,
             tets,
+            weakest,
         }
     }
 

@@ -49,6 +49,12 @@ pub enum InputError {
         "the state of a body cannot be used: {0}; replay its impacts, or begin with an intact one"
     )]
     State(&'static str),
+    /// Bytes of a contact that are too few or too many.
+    #[error("a contact has {wanted} bytes and these are {0}; give what Contact::to_bytes wrote", wanted = crate::Contact::BYTES)]
+    ContactBytes(usize),
+    /// Fields of strength, toughness or weak points that cannot be used.
+    #[error("fields of a body cannot be used: {0}")]
+    Field(String),
     /// Arrays of an asset that do not fit together.
     #[error("asset `{asset}`: {problem}; bake it again")]
     Asset {

@@ -5,7 +5,7 @@ use std::time::Instant;
 use crate::body::Body;
 use crate::config::FractureConfig;
 use crate::contact::{self, Contact};
-use crate::crack::{CrackSystem, Culling, StressField, advance, front_limit, start_cracks};
+use crate::crack::{CrackSystem, Culling, Peak, StressField, advance, front_limit, start_cracks};
 use crate::error::InputError;
 use crate::fragment::{self, Labels};
 use crate::modal::{self, Motion};
@@ -127,19 +127,19 @@ fn cracks<'a>(
 
 /// Below this stress bound nothing happens to a body, Pa: no crack starts, and none of its old ones moves.
 pub(crate) fn harmless(body: &Body) -> f32 {
-    let material = &body.asset.material;
-    let strength = material.strength as f32 * (1.0 - MARGIN);
+    let strength = body.resistance.weakest as f32 * (1.0 - MARGIN);
     if body.state().is_intact() {
         strength
     } else {
-        strength.min(front_limit(material))
+        let least = body.resistance.toughness.least;
+        strength.min(front_limit(&body.asset.material, least))
     }
 }
 
 /// A report with what is known of every load.
 pub(crate) fn report_on(body: &Body) -> ImpactReport {
     ImpactReport {
-        strength: body.asset.material.strength,
+        strength: body.resistance.weakest,
         weak_points: body.weak_tets().len(),
         ..ImpactReport::default()
     }
@@ -166,7 +166,7 @@ pub(crate) fn run_cracks<'a>(
     let mut displacement = DisplacementBatch::new(asset);
     let mut culling = Culling::new(body, config.culling);
     let elasticity = Elasticity::new(&asset.material);
-    let mut peak = 0.0;
+    let mut peak = Peak::default();
     for step in 0..motion.steps() {
         let root = culling.root(motion.at(step));
         system.wake(root);
@@ -197,12 +197,12 @@ pub(crate) fn run_cracks<'a>(
         }
         report.timings.cracks += start.elapsed().as_secs_f64();
     }
-    report.peak_stress = f64::from(peak);
-    report.stress_bound = f64::from(peak.max(culling.passed_over));
+    report.peak_stress = f64::from(peak.tension);
+    report.stress_bound = f64::from(peak.tension.max(culling.passed_over));
     report.cracks = system.cracks.len() - system.old_cracks;
     report.crack_area = system.area;
     report.fracture_energy = system.spent;
-    let margin = report.strength / report.stress_bound;
+    let margin = report.strength / f64::from(peak.as_weakest.max(culling.as_weakest));
     if system.area == 0.0 && trace.is_none() {
         return Cracked::Held(margin, report, None);
     }

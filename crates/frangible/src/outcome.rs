@@ -95,7 +95,7 @@ pub struct ImpactReport {
     pub stress_bound: f64,
     /// What had to be looked at.
     pub looked_at: LookedAt,
-    /// Tensile strength R_c it is compared with, Pa.
+    /// Tensile strength R_c it is compared with, Pa: where it varies over the body, that of the weakest weak point.
     pub strength: f64,
     /// Kinetic energy of approach that the contacts absorbed, J.
     pub approach_energy: f64,

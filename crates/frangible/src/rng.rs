@@ -9,6 +9,7 @@ pub(crate) enum Purpose {
     WeakPoints = 1,
     CrackDirection = 2,
     Roughness = 3,
+    Strength = 4,
 }
 
 /// The stream of one item.

@@ -83,7 +83,7 @@ impl BodyState {
         cuts.map(|cut| crossing_polygon(&asset.fracture.corners(cut.tet as usize), &cut.values))
     }
 
-    /// The state as bytes: little-endian, 36 bytes per tetrahedron cut and 24 per crack.
+    /// The state as bytes: little-endian, 12 bytes, 24 more per crack, 32 per tetrahedron cut and 4 per junction.
     #[must_use]
     pub fn to_bytes(&self) -> Vec<u8> {
         let mut bytes = MAGIC.to_vec();

@@ -112,6 +112,7 @@ pub(super) fn check_body(body: &BodySpec) -> Result<(), Fault> {
         let problem = "`supports` are part of a baked body; bake it again to change them";
         return Err(Fault::new("supports", SceneError::Clash(problem.into())));
     }
+    super::weakness::check_weakness(body)?;
     check_supports(&body.supports).map_err(|e| Fault::new("supports", e))
 }
 

@@ -106,6 +106,9 @@ pub(super) fn body(table: BodyTable, usual: String, folder: &Path) -> Result<Bod
         .into_iter()
         .map(support)
         .collect::<Result<_, _>>()?;
+    let weakness = table.weakness.into_iter().map(super::weakness::patch);
+    body.weakness = weakness.collect::<Result<_, _>>()?;
+    set(&mut body.weibull_modulus, table.weibull_modulus);
     Ok(body)
 }
 

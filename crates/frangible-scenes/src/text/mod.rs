@@ -7,6 +7,7 @@ mod message;
 mod schema;
 mod support;
 mod values;
+mod weakness;
 mod write;
 
 use std::path::Path;

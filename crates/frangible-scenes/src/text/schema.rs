@@ -3,6 +3,7 @@
 use serde::Deserialize;
 
 use super::either::{AxisTable, MaterialChoice, RotationChoice, SwitchOrName};
+use super::weakness::WeaknessTable;
 
 /// A whole file.
 #[derive(Deserialize)]
@@ -42,6 +43,9 @@ pub(super) struct BodyTable {
     pub(super) spin: Option<[f64; 3]>,
     #[serde(default)]
     pub(super) supports: Vec<SupportTable>,
+    #[serde(default)]
+    pub(super) weakness: Vec<WeaknessTable>,
+    pub(super) weibull_modulus: Option<f64>,
 }
 
 /// A ready shape by name, or `{ box = … }`, `{ revolution = … }`.

@@ -111,7 +111,7 @@ pub(super) fn number(value: f64) -> String {
 }
 
 /// The shortest text whose f64 rounds to the same f32.
-fn single(value: f32) -> String {
+pub(super) fn single(value: f32) -> String {
     let short = format!("{value:?}");
     let same = |x: f64| (x as f32).to_bits() == value.to_bits();
     if value.is_finite() && short.parse().is_ok_and(same) {

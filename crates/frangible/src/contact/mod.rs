@@ -1,6 +1,7 @@
 //! From contacts to a force pulse `[G12 §4.1-4.3]`.
 
 mod admissible;
+mod bytes;
 mod duration;
 mod kinds;
 mod load;

@@ -7,10 +7,10 @@ use crate::stress::{MARGIN, tension_bound};
 pub(crate) struct Culling<'a> {
     body: &'a Body,
     on: bool,
-    /// Below this bound no point of a cluster reaches the strength, Pa.
-    limit: f32,
-    /// Largest bound of what was passed over so far, Pa.
+    /// Largest bound of what was passed over so far, Pa …
     pub(crate) passed_over: f32,
+    /// … and as the weakest point would feel it, Pa.
+    pub(crate) as_weakest: f32,
     survivors: Vec<u32>,
 }
 
@@ -20,8 +20,8 @@ impl<'a> Culling<'a> {
         Self {
             body,
             on,
-            limit: body.asset.material.strength as f32 * (1.0 - MARGIN),
             passed_over: 0.0,
+            as_weakest: 0.0,
             survivors: Vec::new(),
         }
     }
@@ -44,8 +44,10 @@ impl<'a> Culling<'a> {
         let bound = |stress: &[f32], gradient: &[f32]| {
             tension_bound(amplitudes, stress, gradient, prepared.quadratic_modulus)
         };
-        if root <= self.limit {
+        let resistance = &self.body.resistance;
+        if root <= limit(resistance.weakest as f32) {
             self.passed_over = self.passed_over.max(root);
+            self.as_weakest = self.as_weakest.max(root);
             return &self.survivors;
         }
         let modes = amplitudes.len();
@@ -55,12 +57,20 @@ impl<'a> Culling<'a> {
                 &prepared.bounds.stress[row.clone()],
                 &prepared.bounds.gradient[row],
             );
-            if of_cluster <= self.limit {
+            let weakest = self.body.clusters.weakest[i];
+            if of_cluster <= limit(weakest) {
                 self.passed_over = self.passed_over.max(of_cluster);
+                let felt = resistance.as_weakest(of_cluster, weakest);
+                self.as_weakest = self.as_weakest.max(felt);
             } else {
                 self.survivors.push(i as u32);
             }
         }
         &self.survivors
     }
+}
+
+/// Below this bound no point reaches its strength where the smallest is this one, Pa.
+fn limit(strength: f32) -> f32 {
+    strength * (1.0 - MARGIN)
 }

@@ -19,15 +19,24 @@ use crate::stress::{
 /// Below this relative gap of the two largest tensions the direction between them is rounding noise.
 const ISOTROPIC: f64 = 1e-3;
 
-/// Starts every crack of this step; returns the largest principal tension met at a weak point so far, Pa.
+/// Largest principal tension met at a weak point so far, Pa.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Peak {
+    /// The tension …
+    pub(crate) tension: f32,
+    /// … and that of the largest share of its point's strength, as the weakest point would feel it.
+    pub(crate) as_weakest: f32,
+}
+
+/// Starts every crack of this step; returns the largest tension met at a weak point so far.
 pub(crate) fn start_cracks(
     system: &mut CrackSystem,
     field: &StressField,
     weak_tets: impl Iterator<Item = u32>,
     now: f64,
-    peak_so_far: f32,
-) -> f32 {
-    let strength = system.asset.material.strength as f32;
+    peak_so_far: Peak,
+) -> Peak {
+    let resistance = system.resistance;
     let mut candidates = Vec::new();
     let mut peak = peak_so_far;
     for e in weak_tets {
@@ -35,12 +44,18 @@ pub(crate) fn start_cracks(
             continue;
         }
         let stress = field.at(e as usize).stress;
+        let strength = resistance.strength(e);
         // Neither a crack nor a new peak: most points at most times, and the bound needs no trigonometry.
-        if largest_eigenvalue_bound(&stress) <= peak.min(strength) {
+        let bound = largest_eigenvalue_bound(&stress);
+        if bound <= peak.tension.min(strength)
+            && resistance.as_weakest(bound, strength) <= peak.as_weakest
+        {
             continue;
         }
         let tension = largest_eigenvalue(&stress);
-        peak = peak.max(tension);
+        peak.tension = peak.tension.max(tension);
+        let felt = resistance.as_weakest(tension, strength);
+        peak.as_weakest = peak.as_weakest.max(felt);
         if tension > strength {
             candidates.push((tension, e));
         }
@@ -59,7 +74,7 @@ fn try_start(system: &mut CrackSystem, field: &StressField, e: u32, now: f64) {
     let material = &asset.material;
     let centre = system.centroids[e as usize];
     let state = field.at(e as usize);
-    let strength = material.strength as f32;
+    let strength = system.resistance.strength(e);
     let mut releases = std::mem::take(&mut system.releases);
     let stress = released(system, &mut releases, state.stress, e, now);
     system.releases = releases;
@@ -68,7 +83,8 @@ fn try_start(system: &mut CrackSystem, field: &StressField, e: u32, now: f64) {
     }
     // e₀ must pay for its own area: A γ η > A G_c.
     if system.config.first_element_pays
-        && material.energy_depth * f64::from(state.energy_density) <= material.fracture_energy
+        && material.energy_depth * f64::from(state.energy_density)
+            <= system.resistance.toughness.of(e)
     {
         return;
     }
@@ -84,7 +100,7 @@ fn try_start(system: &mut CrackSystem, field: &StressField, e: u32, now: f64) {
     let x = asset.fracture.corners(e as usize);
     let values = x.map(|p| frame.planar(p));
     let area = crossing_area(&x, &values);
-    if area <= 0.0 || !system.affords(area) {
+    if area <= 0.0 || !system.affords(e, area) {
         return;
     }
     let id = system.cracks.len() as u32;

@@ -10,7 +10,7 @@ mod system;
 
 pub(crate) use culling::Culling;
 pub(crate) use field::StressField;
-pub(crate) use initiation::start_cracks;
+pub(crate) use initiation::{Peak, start_cracks};
 pub(crate) use propagation::advance;
 pub(crate) use surface::crossing_polygon;
 pub(crate) use system::front_limit;

@@ -95,7 +95,7 @@ fn enter(system: &mut CrackSystem, field: &StressField, front: Front) {
             let toward = steered(
                 from.direction,
                 &state,
-                system.asset.material.strength,
+                system.resistance.painted(front.tet),
                 f64::from(length),
                 turning_length,
             );
@@ -123,9 +123,9 @@ fn enter(system: &mut CrackSystem, field: &StressField, front: Front) {
     };
     let area = crossing_area(&x, &values);
     let material = &system.asset.material;
-    let cost = f64::from(area) * material.fracture_energy;
+    let cost = f64::from(area) * system.resistance.toughness.of(front.tet);
     let gain = f64::from(area) * material.energy_depth * f64::from(state.energy_density);
-    if !system.affords(area) {
+    if !system.affords(front.tet, area) {
         return;
     }
     if crack.spent + cost < crack.available + gain {

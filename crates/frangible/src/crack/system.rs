@@ -10,6 +10,7 @@ use super::surface::CrackFrame;
 use crate::asset::Asset;
 use crate::body::Body;
 use crate::config::{CrackTiming, FractureConfig};
+use crate::fields::Resistance;
 use crate::material::Material;
 use crate::state::OldCrack;
 use crate::stress::MARGIN;
@@ -55,11 +56,12 @@ impl Crack {
     }
 }
 
-/// No front of an old crack moves at a stress whose every principal value is below this, Pa: of the strain energy
+/// No front of an old crack moves at a stress whose every principal value is below this, Pa, where G_c (J/m²) is nowhere below
+/// the one given: of the strain energy
 /// density η ≤ (3 + 6|ν|) σ² / 2E it needs γ η > G_c.
-pub(crate) fn front_limit(material: &Material) -> f32 {
+pub(crate) fn front_limit(material: &Material, least_fracture_energy: f64) -> f32 {
     let share = 3.0 + 6.0 * material.poisson_ratio.abs();
-    let energy_density = material.fracture_energy / material.energy_depth;
+    let energy_density = least_fracture_energy / material.energy_depth;
     (2.0 * material.youngs_modulus * energy_density / share).sqrt() as f32 * (1.0 - MARGIN)
 }
 
@@ -127,6 +129,7 @@ impl PartialOrd for Front {
 pub(crate) struct CrackSystem<'a> {
     pub(crate) asset: &'a Asset,
     pub(crate) config: &'a FractureConfig,
+    pub(crate) resistance: &'a Resistance,
     pub(crate) seed: u64,
     pub(crate) cracks: Vec<Crack>,
     /// Crack that fractured each tetrahedron, or [`UNCUT`].
@@ -165,6 +168,7 @@ impl<'a> CrackSystem<'a> {
             area: 0.0,
             asset,
             config,
+            resistance: &body.resistance,
             seed: body.seed(),
             budget,
             spent: 0.0,
@@ -233,7 +237,9 @@ impl<'a> CrackSystem<'a> {
 
     /// Wakes the old fronts when there can be stress enough to move them.
     pub(crate) fn wake(&mut self, stress_bound: f32) {
-        if !self.dormant.is_empty() && stress_bound > front_limit(&self.asset.material) {
+        if !self.dormant.is_empty()
+            && stress_bound > front_limit(&self.asset.material, self.resistance.toughness.least)
+        {
             self.stalled.append(&mut self.dormant);
         }
     }
@@ -243,9 +249,9 @@ impl<'a> CrackSystem<'a> {
         self.fronts.is_empty() && self.stalled.is_empty()
     }
 
-    /// Whether the ledger has the fracture energy of this area, m². What it refuses it refuses for good.
-    pub(crate) fn affords(&self, area: f32) -> bool {
-        self.spent + f64::from(area) * self.asset.material.fracture_energy <= self.budget
+    /// Whether the ledger has the fracture energy of this area, m², in a tetrahedron. What it refuses it refuses for good.
+    pub(crate) fn affords(&self, tet: u32, area: f32) -> bool {
+        self.spent + f64::from(area) * self.resistance.toughness.of(tet) <= self.budget
     }
 
     /// Adds a fractured tetrahedron to a crack and sends the crack's front to its neighbours.
@@ -253,8 +259,9 @@ impl<'a> CrackSystem<'a> {
         let material = &self.asset.material;
         let tet = cut.tet as usize;
         let c = &mut self.cracks[crack as usize];
-        c.spent += f64::from(area) * material.fracture_energy;
-        self.spent += f64::from(area) * material.fracture_energy;
+        let cost = f64::from(area) * self.resistance.toughness.of(cut.tet);
+        c.spent += cost;
+        self.spent += cost;
         c.available += f64::from(area) * material.energy_depth * f64::from(energy_density);
         self.area += f64::from(area);
         self.join(crack, cut, area);

@@ -1,0 +1,145 @@
+//! A contact as bytes: with the body's seed all that a break needs to be replayed elsewhere.
+
+use glam::Vec3;
+
+use super::{Contact, Striker};
+use crate::error::InputError;
+
+/// Numbers of a contact.
+const NUMBERS: usize = Contact::BYTES / 4;
+
+impl Contact {
+    /// Length of a contact in bytes.
+    pub const BYTES: usize = 64;
+
+    /// The contact as bytes: its numbers in the order of the fields, little-endian, four bytes each.
+    #[must_use]
+    pub fn to_bytes(&self) -> [u8; Self::BYTES] {
+        let s = &self.striker;
+        let of = |v: Vec3| v.to_array();
+        let ([px, py, pz], [nx, ny, nz], [fx, fy, fz]) =
+            (of(self.point), of(self.normal), of(self.friction));
+        let numbers: [f32; NUMBERS] = [
+            px,
+            py,
+            pz,
+            nx,
+            ny,
+            nz,
+            self.impulse,
+            fx,
+            fy,
+            fz,
+            self.approach_speed,
+            s.contact_modulus,
+            s.inverse_effective_mass,
+            s.curvature_radius,
+            s.restitution,
+            s.modal_duration,
+        ];
+        let mut bytes = [0; Self::BYTES];
+        for (place, number) in bytes.as_chunks_mut().0.iter_mut().zip(numbers) {
+            *place = number.to_le_bytes();
+        }
+        bytes
+    }
+
+    /// Reads what [`Contact::to_bytes`] wrote, and checks it.
+    ///
+    /// # Errors
+    /// Another number of bytes than [`Contact::BYTES`], or what [`Contact::validate`] refuses.
+    pub fn from_bytes(bytes: &[u8]) -> Result<Self, InputError> {
+        let Ok(bytes) = <&[u8; Self::BYTES]>::try_from(bytes) else {
+            return Err(InputError::ContactBytes(bytes.len()));
+        };
+        let mut numbers = [0.0; NUMBERS];
+        for (number, &place) in numbers.iter_mut().zip(bytes.as_chunks().0) {
+            *number = f32::from_le_bytes(place);
+        }
+        let [
+            px,
+            py,
+            pz,
+            nx,
+            ny,
+            nz,
+            impulse,
+            fx,
+            fy,
+            fz,
+            approach_speed,
+            contact_modulus,
+            inverse_effective_mass,
+            curvature_radius,
+            restitution,
+            modal_duration,
+        ] = numbers;
+        let contact = Self {
+            point: Vec3::new(px, py, pz),
+            normal: Vec3::new(nx, ny, nz),
+            impulse,
+            friction: Vec3::new(fx, fy, fz),
+            approach_speed,
+            striker: Striker {
+                contact_modulus,
+                inverse_effective_mass,
+                curvature_radius,
+                restitution,
+                modal_duration,
+            },
+        };
+        contact.validate()?;
+        Ok(contact)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn contact() -> Contact {
+        let mut contact = Contact::new(
+            Vec3::new(0.1, -0.2, 0.3),
+            Vec3::new(0.6, 0.0, -0.8),
+            1.5,
+            7.25,
+            Striker::rigid(),
+        );
+        contact.friction = Vec3::new(0.01, f32::MIN_POSITIVE, -0.0);
+        contact
+    }
+
+    #[test]
+    fn a_contact_survives_its_bytes() {
+        let bytes = contact().to_bytes();
+        let back = Contact::from_bytes(&bytes).unwrap();
+        assert_eq!(back, contact());
+        assert_eq!(back.to_bytes(), bytes);
+    }
+
+    #[test]
+    fn the_bytes_of_a_contact_are_the_same_on_every_machine() {
+        let bytes = contact().to_bytes();
+        assert_eq!(bytes[..4], [0xcd, 0xcc, 0xcc, 0x3d]);
+        assert_eq!(bytes[24..28], [0, 0, 0xc0, 0x3f]);
+        assert_eq!(bytes[44..48], [0, 0, 0x80, 0x7f]);
+    }
+
+    #[test]
+    fn hostile_bytes_are_refused_and_never_a_panic() {
+        let bytes = contact().to_bytes();
+        for length in 0..bytes.len() {
+            assert_eq!(
+                Contact::from_bytes(&bytes[..length]),
+                Err(InputError::ContactBytes(length))
+            );
+        }
+        for number in 0..NUMBERS {
+            for value in [f32::NAN, f32::NEG_INFINITY] {
+                let mut changed = bytes;
+                changed[4 * number..4 * number + 4].copy_from_slice(&value.to_le_bytes());
+                assert!(Contact::from_bytes(&changed).is_err(), "{number}: {value}");
+            }
+        }
+    }
+}

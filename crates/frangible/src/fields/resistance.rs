@@ -1,0 +1,114 @@
+//! What each place of one body withstands: its fields, its scatter, and the least of them where bounds ask.
+
+use std::sync::Arc;
+
+use super::{Fields, scatter::scatter};
+use crate::material::Material;
+
+/// Fracture energies of a kind of body.
+#[derive(Clone, Debug)]
+pub(crate) struct Toughness {
+    material: f64,
+    fields: Arc<Fields>,
+    /// The smallest, J/m².
+    pub(crate) least: f64,
+}
+
+impl Toughness {
+    pub(crate) fn new(material: &Material, fields: &Arc<Fields>) -> Self {
+        let least = fields.of_tet.iter().map(|f| f64::from(f.toughness));
+        let least = least.min_by(f64::total_cmp).unwrap_or(1.0);
+        Self {
+            material: material.fracture_energy,
+            fields: Arc::clone(fields),
+            least: material.fracture_energy * least,
+        }
+    }
+
+    /// G_c of a tetrahedron, J/m².
+    pub(crate) fn of(&self, tet: u32) -> f64 {
+        match self.fields.of_tet.get(tet as usize) {
+            Some(f) => self.material * f64::from(f.toughness),
+            None => self.material,
+        }
+    }
+}
+
+/// Strengths and fracture energies of one body.
+#[derive(Clone, Debug)]
+pub(crate) struct Resistance {
+    material: f64,
+    fields: Arc<Fields>,
+    pub(crate) toughness: Toughness,
+    /// R_c of each tetrahedron, Pa, with the scatter of the weak ones; empty where all have the material's.
+    of_tet: Vec<f32>,
+    /// The smallest at a weak tetrahedron, Pa; the material's where there is none.
+    pub(crate) weakest: f64,
+}
+
+impl Resistance {
+    pub(crate) fn new(
+        material: &Material,
+        fields: &Arc<Fields>,
+        toughness: Toughness,
+        tets: usize,
+        weak_tets: &[u32],
+        seed: u64,
+    ) -> Self {
+        let mut body = Self {
+            material: material.strength,
+            fields: Arc::clone(fields),
+            toughness,
+            of_tet: Vec::new(),
+            weakest: material.strength,
+        };
+        if **fields == Fields::default() {
+            return body;
+        }
+        let mut of_tet: Vec<f32> = (0..tets).map(|e| body.painted(e as u32) as f32).collect();
+        if fields.weibull_modulus > 0.0 {
+            for &e in weak_tets {
+                let factor = scatter(seed, e, fields.weibull_modulus);
+                of_tet[e as usize] = (body.painted(e) * factor) as f32;
+            }
+        }
+        let weakest = weak_tets.iter().map(|&e| of_tet[e as usize]);
+        body.weakest = weakest
+            .min_by(f32::total_cmp)
+            .map_or(material.strength, f64::from);
+        body.of_tet = of_tet;
+        body
+    }
+
+    /// R_c that a crack must pass to start in a tetrahedron, Pa.
+    pub(crate) fn strength(&self, tet: u32) -> f32 {
+        let own = self.of_tet.get(tet as usize);
+        own.copied().unwrap_or(self.material as f32)
+    }
+
+    /// R_c of a place without the scatter of its weak points, Pa: what cracks that run there compare with.
+    pub(crate) fn painted(&self, tet: u32) -> f64 {
+        match self.fields.of_tet.get(tet as usize) {
+            Some(f) => self.material * f64::from(f.strength),
+            None => self.material,
+        }
+    }
+
+    /// The smallest strength of some tetrahedra, Pa.
+    pub(crate) fn weakest_of(&self, tets: &[u32]) -> f32 {
+        if self.of_tet.is_empty() {
+            return self.material as f32;
+        }
+        let strengths = tets.iter().map(|&e| self.strength(e));
+        strengths.min_by(f32::total_cmp).unwrap_or(f32::INFINITY)
+    }
+
+    /// A stress as a body of the weakest strength everywhere would feel it, Pa: of equal share of the strength.
+    pub(crate) fn as_weakest(&self, stress: f32, strength: f32) -> f32 {
+        if self.of_tet.is_empty() {
+            stress
+        } else {
+            (f64::from(stress) * (self.weakest / f64::from(strength))) as f32
+        }
+    }
+}

@@ -1,0 +1,179 @@
+//! Parts of a body by where they are.
+
+use glam::Vec3;
+
+use super::Factors;
+use crate::error::{InputError, finite, positive};
+
+/// A part of space, m, body frame.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Zone {
+    /// Between two corners, in any order.
+    Box([Vec3; 2]),
+    /// A ball.
+    Sphere {
+        /// Its centre.
+        centre: Vec3,
+        /// Its radius.
+        radius: f32,
+    },
+    /// All that lies behind a plane.
+    HalfSpace {
+        /// A point of the plane.
+        point: Vec3,
+        /// Points out of the zone; of any length.
+        normal: Vec3,
+    },
+    /// All that is close to a line of straight pieces: a score, a seam. One point is a ball.
+    Tube {
+        /// Its points, one after another.
+        line: Vec<Vec3>,
+        /// Largest distance from the line.
+        radius: f32,
+    },
+}
+
+impl Zone {
+    /// Whether a point lies in it.
+    #[must_use]
+    pub fn contains(&self, p: Vec3) -> bool {
+        match self {
+            Self::Box([a, b]) => p.cmpge(a.min(*b)).all() && p.cmple(a.max(*b)).all(),
+            Self::Sphere { centre, radius } => p.distance(*centre) <= *radius,
+            Self::HalfSpace { point, normal } => (p - point).dot(*normal) <= 0.0,
+            Self::Tube { line, radius } => match line.as_slice() {
+                [point] => p.distance(*point) <= *radius,
+                line => line
+                    .windows(2)
+                    .any(|piece| distance(p, piece[0], piece[1]) <= *radius),
+            },
+        }
+    }
+
+    /// Whether its numbers can be used.
+    ///
+    /// # Errors
+    /// A number that is not finite, a radius that is not above zero, a normal without direction, a line without points.
+    pub fn check(&self) -> Result<(), InputError> {
+        let radius_of = |radius: f32| positive("the radius of a weak zone", f64::from(radius), "m");
+        let place = |p: &Vec3| finite("a point of a weak zone", *p);
+        match self {
+            Self::Box(corners) => corners.iter().try_for_each(place),
+            Self::Sphere { centre, radius } => place(centre).and(radius_of(*radius)),
+            Self::HalfSpace { point, normal } => {
+                place(point)?;
+                finite("the normal of a weak zone", *normal)?;
+                let length = f64::from(normal.length());
+                positive("the length of a weak zone's normal", length, "")
+            }
+            Self::Tube { line, radius } => {
+                if line.is_empty() {
+                    return Err(InputError::Field(
+                        "a scored line has no points; give two or more".into(),
+                    ));
+                }
+                line.iter().try_for_each(place).and(radius_of(*radius))
+            }
+        }
+    }
+}
+
+/// Distance of p from the piece of a line from a to b.
+fn distance(p: Vec3, a: Vec3, b: Vec3) -> f32 {
+    let along = b - a;
+    let t = (p - a).dot(along) / along.length_squared();
+    // A piece without length has no t.
+    let t = if t.is_finite() {
+        t.clamp(0.0, 1.0)
+    } else {
+        0.0
+    };
+    p.distance(a + along * t)
+}
+
+/// A zone and what is different there.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Patch {
+    /// Where.
+    pub zone: Zone,
+    /// Factor on the tensile strength, if it differs.
+    pub strength: Option<f32>,
+    /// Factor on the fracture energy, if it differs. Where only the strength is given it is its square, as in
+    /// [`Factors::of_strength`].
+    pub toughness: Option<f32>,
+    /// Factor on the density of weak points, if it differs.
+    pub weak_points: Option<f32>,
+}
+
+impl Patch {
+    /// With this share of the strength, and the toughness that goes with it.
+    #[must_use]
+    pub const fn of_strength(zone: Zone, strength: f32) -> Self {
+        Self {
+            zone,
+            strength: Some(strength),
+            toughness: None,
+            weak_points: None,
+        }
+    }
+
+    pub(super) fn paint(&self, factors: &mut Factors) {
+        if let Some(strength) = self.strength {
+            factors.strength = strength;
+            factors.toughness = Factors::of_strength(strength).toughness;
+        }
+        if let Some(toughness) = self.toughness {
+            factors.toughness = toughness;
+        }
+        if let Some(weak_points) = self.weak_points {
+            factors.weak_points = weak_points;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn zones_hold_what_brute_force_finds_in_them() {
+        let tube = Zone::Tube {
+            line: vec![
+                Vec3::ZERO,
+                Vec3::X,
+                Vec3::new(1.0, 2.0, 0.0),
+                Vec3::new(1.0, 2.0, 0.0),
+            ],
+            radius: 0.3,
+        };
+        let slab = Zone::HalfSpace {
+            point: Vec3::splat(0.5),
+            normal: Vec3::new(0.0, 0.0, 7.0),
+        };
+        let turned = Zone::Box([Vec3::new(1.0, 0.0, 1.0), Vec3::new(0.0, 2.0, -1.0)]);
+        for k in 0..4000_u32 {
+            let at = |stride: u32| f32::from(((k * stride) % 997) as u16) / 997.0 * 3.0 - 0.7;
+            let p = Vec3::new(at(31), at(173), at(419));
+            let samples = (0..=2000).map(|i| i as f32 / 1000.0);
+            let nearest = samples
+                .map(|t| {
+                    let q = if t <= 1.0 {
+                        Vec3::X * t
+                    } else {
+                        Vec3::X + Vec3::Y * (2.0 * (t - 1.0))
+                    };
+                    p.distance(q)
+                })
+                .fold(f32::INFINITY, f32::min);
+            if (nearest - 0.3).abs() > 1e-3 {
+                assert_eq!(tube.contains(p), nearest < 0.3, "{p}");
+            }
+            assert_eq!(slab.contains(p), p.z <= 0.5);
+            let inside = (0.0..=1.0).contains(&p.x)
+                && (0.0..=2.0).contains(&p.y)
+                && (-1.0..=1.0).contains(&p.z);
+            assert_eq!(turned.contains(p), inside, "{p}");
+        }
+    }
+}
