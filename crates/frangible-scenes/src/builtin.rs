@@ -159,7 +159,7 @@ pub fn scene(name: &str) -> Result<Scene, SceneError> {
             Action::Throw(Projectile {
                 toward: Vec3::NEG_Y,
                 at: Vec3::new(0.01, 0.0, 0.0),
-                ..Projectile::hammer(0.5, 0.018, 4.0)
+                ..Projectile::hammer(0.5, 0.018, 12.0)
             }),
         ),
         "window" => Ok(held(
