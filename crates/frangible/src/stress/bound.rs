@@ -85,12 +85,6 @@ impl StressBounds {
         self.cluster_of_tet.is_empty()
     }
 
-    /// Number of clusters of a basis with `modes` modes.
-    #[must_use]
-    pub fn clusters(&self, modes: usize) -> usize {
-        self.stress.len().checked_div(modes).unwrap_or(0)
-    }
-
     /// Largest entries of all clusters: rows of stress and gradient for the whole body.
     #[must_use]
     pub fn root(&self, modes: usize) -> (Vec<f32>, Vec<f32>) {
@@ -215,8 +209,7 @@ fn accumulate(phi: &[f32], g: Vec3, x: &mut [f32], y: &mut [f32], z: &mut [f32])
 
 /// Largest absolute eigenvalue of a symmetric 3 × 3 matrix (xx, yy, zz, yz, zx, xy), by the trigonometric solution of
 /// its characteristic cubic.
-#[must_use]
-pub fn spectral_norm([xx, yy, zz, yz, zx, xy]: [f64; 6]) -> f64 {
+fn spectral_norm([xx, yy, zz, yz, zx, xy]: [f64; 6]) -> f64 {
     let mean = (xx + yy + zz) / 3.0;
     let (a, b, c) = (xx - mean, yy - mean, zz - mean);
     let p = ((a * a + b * b + c * c + 2.0 * (yz * yz + zx * zx + xy * xy)) / 6.0).sqrt();

@@ -5,8 +5,8 @@ mod displacement;
 mod principal;
 mod strain;
 
+pub use bound::StressBounds;
 pub(crate) use bound::{MARGIN, quadratic_modulus, tension_bound};
-pub use bound::{StressBounds, spectral_norm};
 pub use displacement::{DisplacementBatch, ShapeWeights};
 pub(crate) use principal::perpendicular_axes;
 pub use principal::{largest_eigenvalue, largest_eigenvalue_bound, principal_axes};
