@@ -45,7 +45,8 @@ pub enum TimeStep {
     /// What the sampling theorem asks for: `π / Im ω_high`, half a period.
     Nyquist,
     /// A whole number of steps, at least 16, per contact, with this many per period of the highest mode that matters:
-    /// the modes above it hold together at most 2 % of the sum of all modes' stress bounds.
+    /// what the modes above it swing beside their answer to a slow force holds together at most 2 % of the sum of all
+    /// modes' stress bounds.
     Sampled {
         /// Steps per period.
         per_period: f64,

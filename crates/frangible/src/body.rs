@@ -275,8 +275,13 @@ impl WeakClusters {
         }
     }
 
+    /// Where the tetrahedra of the cluster at place `i` of `clusters` stand among all weak ones, in this order.
+    pub(crate) fn places(&self, i: usize) -> std::ops::Range<usize> {
+        self.starts[i] as usize..self.starts[i + 1] as usize
+    }
+
     /// Weak tetrahedra of the cluster at place `i` of `clusters`.
     pub(crate) fn tets(&self, i: usize) -> &[u32] {
-        &self.tets[self.starts[i] as usize..self.starts[i + 1] as usize]
+        &self.tets[self.places(i)]
     }
 }

@@ -5,13 +5,13 @@ use std::time::Instant;
 use crate::body::Body;
 use crate::config::FractureConfig;
 use crate::contact::{self, Contact};
-use crate::crack::{CrackSystem, Culling, Peak, StressField, advance, front_limit, start_cracks};
+use crate::crack::{CrackSystem, Culling, Peak, StressField, Suspects, crack, front_limit};
 use crate::error::InputError;
 use crate::fragment::{self, Labels};
 use crate::modal::{self, Motion};
 use crate::outcome::{Fracture, ImpactReport, LookedAt, Outcome};
 use crate::state::BodyState;
-use crate::stress::{DisplacementBatch, Elasticity, MARGIN};
+use crate::stress::{BATCH, DisplacementBatch, Elasticity, MARGIN, STRIDE, lane};
 use crate::trace::CrackTrace;
 
 /// Computes what an impact does to a body. Nothing is changed; the caller replaces a broken body by its fragments.
@@ -167,35 +167,47 @@ pub(crate) fn run_cracks<'a>(
     let mut culling = Culling::new(body, config.culling);
     let elasticity = Elasticity::new(&asset.material);
     let mut peak = Peak::default();
+    let mut suspects = Suspects::default();
+    let mut roots = [0.0; BATCH];
     for step in 0..motion.steps() {
-        let root = culling.root(motion.at(step));
-        system.wake(root);
-        let survivors = culling.survivors(motion.at(step), root);
-        if survivors.is_empty() && system.is_quiet() {
+        let k = lane(step);
+        if step % STRIDE == 0 {
+            // Bounds, then the points that they leave, of all steps of the batch.
+            let start = Instant::now();
+            culling.begin();
+            for step in (step..motion.steps()).take(STRIDE) {
+                let k = lane(step);
+                roots[k] = culling.root(motion.at(step));
+                culling.survive(motion.at(step), roots[k], k);
+            }
+            displacement.seek(motion, step);
+            let mut field = StressField {
+                asset,
+                displacement: &mut displacement,
+                elasticity,
+                step,
+            };
+            suspects.find(body, &mut field, culling.survivors(), peak);
+            report.timings.stress += start.elapsed().as_secs_f64();
+        }
+        system.wake(roots[k]);
+        if !culling.survives(k) && system.is_quiet() {
             continue;
         }
         report.looked_at = LookedAt::Stresses;
-        let now = (step + 1) as f64 * time_step;
         let start = Instant::now();
-        displacement.seek(asset, motion, step);
-        report.timings.stress += start.elapsed().as_secs_f64();
-        let start = Instant::now();
-        let field = StressField {
+        let mut field = StressField {
             asset,
-            displacement: &displacement,
+            displacement: &mut displacement,
             elasticity,
             step,
         };
-        advance(&mut system, &field, now - time_step, now);
-        let weak = survivors
-            .iter()
-            .flat_map(|&c| body.clusters.tets(c as usize));
-        peak = start_cracks(&mut system, &field, weak.copied(), now, peak);
-        if report.first_crack_time.is_none() && system.cracks.len() > system.old_cracks {
-            report.first_crack_time = Some(now);
-            report.first_crack_point = Some(system.cracks[system.old_cracks].frame.origin);
-        }
+        peak = crack(&mut system, &mut field, &suspects, time_step, peak);
         report.timings.cracks += start.elapsed().as_secs_f64();
+    }
+    if let Some(first) = system.cracks.get(system.old_cracks) {
+        report.first_crack_time = first.elements.first().map(|cut| cut.time);
+        report.first_crack_point = Some(first.frame.origin);
     }
     report.peak_stress = f64::from(peak.tension);
     report.stress_bound = f64::from(peak.tension.max(culling.passed_over));

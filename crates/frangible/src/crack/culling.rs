@@ -11,7 +11,8 @@ pub(crate) struct Culling<'a> {
     pub(crate) passed_over: f32,
     /// … and as the weakest point would feel it, Pa.
     pub(crate) as_weakest: f32,
-    survivors: Vec<u32>,
+    /// Of each cluster, a bit for each step of the batch that needs a look.
+    survivors: Vec<u8>,
 }
 
 impl<'a> Culling<'a> {
@@ -22,7 +23,7 @@ impl<'a> Culling<'a> {
             on,
             passed_over: 0.0,
             as_weakest: 0.0,
-            survivors: Vec::new(),
+            survivors: vec![0; body.clusters.clusters.len()],
         }
     }
 
@@ -33,29 +34,28 @@ impl<'a> Culling<'a> {
         tension_bound(amplitudes, stress, gradient, prepared.quadratic_modulus)
     }
 
-    /// Clusters to look at then, as places in the body's list; `root`: the bound of the whole body.
-    pub(crate) fn survivors(&mut self, amplitudes: &[f32], root: f32) -> &[u32] {
+    /// Clusters to look at when the modes have these amplitudes at step `k` of a batch, added to the batch's list;
+    /// `root`: the bound of the whole body.
+    pub(crate) fn survive(&mut self, amplitudes: &[f32], root: f32, k: usize) {
         let (prepared, clusters) = (&self.body.prepared, &self.body.clusters.clusters);
-        self.survivors.clear();
         if !self.on {
-            self.survivors.extend(0..clusters.len() as u32);
-            return &self.survivors;
+            self.survivors.iter_mut().for_each(|steps| *steps |= 1 << k);
+            return;
         }
-        let bound = |stress: &[f32], gradient: &[f32]| {
-            tension_bound(amplitudes, stress, gradient, prepared.quadratic_modulus)
-        };
         let resistance = &self.body.resistance;
         if root <= limit(resistance.weakest as f32) {
             self.passed_over = self.passed_over.max(root);
             self.as_weakest = self.as_weakest.max(root);
-            return &self.survivors;
+            return;
         }
         let modes = amplitudes.len();
         for (i, &cluster) in clusters.iter().enumerate() {
             let row = cluster as usize * modes..(cluster as usize + 1) * modes;
-            let of_cluster = bound(
+            let of_cluster = tension_bound(
+                amplitudes,
                 &prepared.bounds.stress[row.clone()],
                 &prepared.bounds.gradient[row],
+                prepared.quadratic_modulus,
             );
             let weakest = self.body.clusters.weakest[i];
             if of_cluster <= limit(weakest) {
@@ -63,10 +63,25 @@ impl<'a> Culling<'a> {
                 let felt = resistance.as_weakest(of_cluster, weakest);
                 self.as_weakest = self.as_weakest.max(felt);
             } else {
-                self.survivors.push(i as u32);
+                self.survivors[i] |= 1 << k;
             }
         }
-        &self.survivors
+    }
+
+    /// Forgets the survivors: a new batch begins.
+    pub(crate) fn begin(&mut self) {
+        self.survivors.fill(0);
+    }
+
+    /// Whether any cluster needs a look at step `k` of the batch.
+    pub(crate) fn survives(&self, k: usize) -> bool {
+        self.survivors.iter().any(|steps| steps >> k & 1 == 1)
+    }
+
+    /// Clusters that need a look at any step of the batch, as places in the body's list, with a bit for each such step.
+    pub(crate) fn survivors(&self) -> impl Iterator<Item = (u32, u8)> {
+        let survivors = (0..).zip(self.survivors.iter().copied());
+        survivors.filter(|&(_, steps)| steps != 0)
     }
 }
 

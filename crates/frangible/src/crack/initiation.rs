@@ -1,19 +1,20 @@
 //! Cracks start `[G12 §4.4]`: at a weak tetrahedron whose largest principal tension passes R_c (Rankine), at its
 //! centre, across the direction of that tension.
 //!
-//! Order within a time step: falling stress, then element number.
+//! Order within a time step: when the stress passes the strength (instant cracks start together), then falling stress,
+//! then element number.
 
 use glam::Vec3;
 
 use super::field::StressField;
-use super::release::released;
+use super::suspects::{Suspect, Suspects};
 use super::surface::{CrackFrame, crossing_area};
 use super::system::{Crack, CrackSystem, ElementCut, UNCUT};
-use super::{advance, propagation::gradient};
+use super::{advance, propagation::gradient, retry};
 use crate::config::CrackTiming;
 use crate::rng::{Purpose, stream, uniform};
 use crate::stress::{
-    Symmetric3, largest_eigenvalue, largest_eigenvalue_bound, perpendicular_axes, principal_axes,
+    Symmetric3, lane, largest_eigenvalue, perpendicular_axes, principal_axes,
 };
 
 /// Below this relative gap of the two largest tensions the direction between them is rounding noise.
@@ -28,64 +29,122 @@ pub(crate) struct Peak {
     pub(crate) as_weakest: f32,
 }
 
-/// Starts every crack of this step; returns the largest tension met at a weak point so far.
-pub(crate) fn start_cracks(
+/// A weak point whose stress passes its strength at a step.
+struct Candidate<'a> {
+    /// When it does so, s.
+    time: f64,
+    tension: f32,
+    suspect: &'a Suspect,
+}
+
+/// Runs and starts all cracks of the field's step; returns the largest tension met at a weak point so far.
+///
+/// Instant cracks start at the step, the most stressed first. Others start when their stress passes the strength, taken
+/// as linear between the steps, and feel what ran and was released before: how many start does not hang on the step.
+pub(crate) fn crack(
     system: &mut CrackSystem,
-    field: &StressField,
-    weak_tets: impl Iterator<Item = u32>,
-    now: f64,
-    peak_so_far: Peak,
+    field: &mut StressField,
+    suspects: &Suspects,
+    time_step: f64,
+    peak: Peak,
 ) -> Peak {
-    let resistance = system.resistance;
-    let mut candidates = Vec::new();
-    let mut peak = peak_so_far;
-    for e in weak_tets {
-        if system.fractured_by[e as usize] != UNCUT {
-            continue;
-        }
-        let stress = field.at(e as usize).stress;
-        let strength = resistance.strength(e);
-        // Neither a crack nor a new peak: most points at most times, and the bound needs no trigonometry.
-        let bound = largest_eigenvalue_bound(&stress);
-        if bound <= peak.tension.min(strength)
-            && resistance.as_weakest(bound, strength) <= peak.as_weakest
-        {
-            continue;
-        }
-        let tension = largest_eigenvalue(&stress);
-        peak.tension = peak.tension.max(tension);
-        let felt = resistance.as_weakest(tension, strength);
-        peak.as_weakest = peak.as_weakest.max(felt);
-        if tension > strength {
-            candidates.push((tension, e));
+    let since = field.step as f64 * time_step;
+    let now = since + time_step;
+    retry(system, since);
+    let instant = system.config.timing == CrackTiming::Instant;
+    if instant {
+        advance(system, field, now);
+    }
+    let (mut candidates, peak) = candidates(system, field.step, suspects, [since, now], peak);
+    for candidate in &mut candidates {
+        if instant {
+            candidate.time = now;
         }
     }
-    candidates.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
-    for (_, e) in candidates {
-        if system.fractured_by[e as usize] == UNCUT {
-            try_start(system, field, e, now);
+    candidates.sort_unstable_by(|a, b| {
+        a.time
+            .total_cmp(&b.time)
+            .then(b.tension.total_cmp(&a.tension))
+            .then(a.suspect.tet.cmp(&b.suspect.tet))
+    });
+    for Candidate { time, suspect, .. } in candidates {
+        if !instant {
+            advance(system, field, time);
         }
+        if system.fractured_by[suspect.tet as usize] == UNCUT {
+            try_start(system, field, suspect, time);
+        }
+    }
+    if !instant {
+        advance(system, field, now);
     }
     peak
 }
 
-fn try_start(system: &mut CrackSystem, field: &StressField, e: u32, now: f64) {
+/// Weak points that pass their strength in a step, `times` its beginning and end, s, and are not released by then.
+fn candidates<'a>(
+    system: &mut CrackSystem,
+    step: usize,
+    suspects: &'a Suspects,
+    times: [f64; 2],
+    peak_so_far: Peak,
+) -> (Vec<Candidate<'a>>, Peak) {
+    let resistance = system.resistance;
+    let k = lane(step);
+    let mut candidates = Vec::new();
+    let mut peak = peak_so_far;
+    let mut releases = std::mem::take(&mut system.releases);
+    for suspect in suspects.at(k) {
+        let e = suspect.tet;
+        if system.fractured_by[e as usize] != UNCUT {
+            continue;
+        }
+        let strength = resistance.strength(e);
+        // Neither a crack nor a new peak: most points at most times, and the bound needs no trigonometry.
+        let felt = resistance.as_weakest(suspect.bounds[k], strength);
+        let may_start = suspect.bounds[k] > strength
+            && pays(system, suspect, k)
+            && releases.may_crack(system, suspect, step, strength, times[0]);
+        if !may_start && suspect.bounds[k] <= peak.tension && felt <= peak.as_weakest {
+            continue;
+        }
+        let tension = largest_eigenvalue(&suspect.state.stress(k));
+        peak.tension = peak.tension.max(tension);
+        let felt = resistance.as_weakest(tension, strength);
+        peak.as_weakest = peak.as_weakest.max(felt);
+        if may_start && tension > strength {
+            let before = largest_eigenvalue(&suspect.state.stress(k - 1));
+            let share = ((strength - before) / (tension - before)).clamp(0.0, 1.0);
+            // Above it all along, or falling: from the step's beginning on.
+            let share = if before >= strength { 0.0 } else { share };
+            candidates.push(Candidate {
+                time: times[0] + f64::from(share) * (times[1] - times[0]),
+                tension,
+                suspect,
+            });
+        }
+    }
+    system.releases = releases;
+    (candidates, peak)
+}
+
+/// Whether a crack's first tetrahedron pays for its own area: A γ η > A G_c.
+fn pays(system: &CrackSystem, suspect: &Suspect, k: usize) -> bool {
+    let gain = system.asset.material.energy_depth * f64::from(suspect.state.energy_density[k]);
+    !system.config.first_element_pays || gain > system.resistance.toughness.of(suspect.tet)
+}
+
+fn try_start(system: &mut CrackSystem, field: &mut StressField, suspect: &Suspect, now: f64) {
     let asset = system.asset;
     let material = &asset.material;
+    let e = suspect.tet;
+    let k = lane(field.step);
     let centre = system.centroids[e as usize];
-    let state = field.at(e as usize);
     let strength = system.resistance.strength(e);
     let mut releases = std::mem::take(&mut system.releases);
-    let stress = released(system, &mut releases, state.stress, e, now);
+    let stress = releases.released(system, suspect, k, now);
     system.releases = releases;
     if largest_eigenvalue(&stress) <= strength {
-        return;
-    }
-    // e₀ must pay for its own area: A γ η > A G_c.
-    if system.config.first_element_pays
-        && material.energy_depth * f64::from(state.energy_density)
-            <= system.resistance.toughness.of(e)
-    {
         return;
     }
     let normal = opening_direction(&stress, system.seed, e);
@@ -115,10 +174,10 @@ fn try_start(system: &mut CrackSystem, field: &StressField, e: u32, now: f64) {
             time: now,
         },
         area,
-        state.energy_density,
+        suspect.state.energy_density[k],
     );
     if system.config.timing == CrackTiming::Instant {
-        advance(system, field, now, f64::INFINITY);
+        advance(system, field, f64::INFINITY);
         // An instant crack that ran out of energy is over.
         system.stalled.clear();
     }

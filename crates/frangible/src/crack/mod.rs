@@ -5,13 +5,15 @@ mod field;
 mod initiation;
 mod propagation;
 mod release;
+mod suspects;
 mod surface;
 mod system;
 
 pub(crate) use culling::Culling;
 pub(crate) use field::StressField;
-pub(crate) use initiation::{Peak, start_cracks};
-pub(crate) use propagation::advance;
+pub(crate) use initiation::{Peak, crack};
+pub(crate) use suspects::Suspects;
 pub(crate) use surface::crossing_polygon;
+use propagation::{advance, retry};
 pub(crate) use system::front_limit;
 pub(crate) use system::{Crack, CrackSystem, ElementCut, Junction, UNCUT};

@@ -29,14 +29,18 @@ const SELF_MEETING: f32 = 0.5;
 /// … and this far if the sign differs too; less is the surface's own curvature.
 const SELF_MEETING_SIGN: f32 = 0.15;
 
-/// Runs all fronts that arrive by `now`; `since` is the previous step's time, from which stalled fronts go on, s.
-pub(crate) fn advance(system: &mut CrackSystem, field: &StressField, since: f64, now: f64) {
+/// Sends the stalled fronts on again from `since`, s.
+pub(crate) fn retry(system: &mut CrackSystem, since: f64) {
     for front in std::mem::take(&mut system.stalled) {
         system.fronts.push(Front {
             arrival: front.arrival.max(since),
             ..front
         });
     }
+}
+
+/// Runs all fronts that arrive by `now`, s.
+pub(crate) fn advance(system: &mut CrackSystem, field: &mut StressField, now: f64) {
     while let Some(front) = system.fronts.peek().copied() {
         if front.arrival > now {
             break;
@@ -46,7 +50,7 @@ pub(crate) fn advance(system: &mut CrackSystem, field: &StressField, since: f64,
     }
 }
 
-fn enter(system: &mut CrackSystem, field: &StressField, front: Front) {
+fn enter(system: &mut CrackSystem, field: &mut StressField, front: Front) {
     let n = front.tet as usize;
     if system.fractured_by[n] == front.crack {
         return;

@@ -11,17 +11,20 @@
 //! each fractured tetrahedron once: it keeps the nearest one that has released it and, of those still to come, only
 //! the ones that no nearer one will precede. The product of all its projections is kept until something arrives.
 
-use std::collections::HashMap;
-
 use glam::{Mat3, Vec3};
 
+use super::suspects::Suspect;
 use super::system::{Crack, CrackSystem};
 use crate::config::CrackTiming;
-use crate::stress::Symmetric3;
+use crate::stress::{MARGIN, STRIDE, Symmetric3, lane};
 
-/// What a point knows of one crack.
+/// Rounding of what is left, relative to the whole stress.
+const ROUNDING: f32 = 1e-5;
+
+/// What a point knows of one crack near it.
 #[derive(Clone, Debug)]
 struct Seen {
+    crack: u32,
     /// How many of the crack's sites it has looked at.
     scanned: usize,
     /// The crack's reach when it last looked, m.
@@ -37,123 +40,211 @@ struct Seen {
 /// What a point knows of all cracks.
 #[derive(Clone, Debug)]
 struct Point {
+    /// Cracks near it, by number.
     seen: Vec<Seen>,
-    /// P₁ P₂ … of the cracks that have released it.
-    projection: Mat3,
+    /// P₁ P₂ … of the cracks that have released it, if any has.
+    projection: Option<Mat3>,
     /// Nothing arrives before this time, s …
     next: f64,
-    /// … as long as there are this many sites.
-    sites: usize,
+    /// … as long as the cracks have grown this many times.
+    growths: usize,
+    /// Batch of steps that `held` is about, under this projection.
+    held_in: Option<usize>,
+    /// Bit k: at step k of the batch what is left stays below the strength.
+    held: u8,
 }
 
-impl Default for Point {
-    fn default() -> Self {
-        Self {
-            seen: Vec::new(),
-            projection: Mat3::IDENTITY,
-            next: f64::NEG_INFINITY,
-            sites: 0,
-        }
-    }
-}
-
-/// Memory of the points that have asked. Looked up only, never iterated.
+/// Memory of the points that have asked, by their place among the weak points.
 #[derive(Default)]
 pub(crate) struct Releases {
-    points: HashMap<u32, Point>,
+    points: Vec<Point>,
 }
 
-/// What is left of `stress` at the centre of tetrahedron `e` at time `now`, s.
-pub(crate) fn released(
-    system: &CrackSystem,
-    releases: &mut Releases,
-    stress: Symmetric3,
-    e: u32,
-    now: f64,
-) -> Symmetric3 {
-    let CrackTiming::TimeResolved { release_reach, .. } = system.config.timing else {
-        return stress;
-    };
-    let point = releases.points.entry(e).or_default();
-    if point.sites != system.site_count || now > point.next {
-        update(point, system, e, now, release_reach as f32);
+impl Releases {
+    /// Whether what is left of a suspect's stress at a step may pass its strength, Pa; a no is certain.
+    pub(crate) fn may_crack(
+        &mut self,
+        system: &CrackSystem,
+        suspect: &Suspect,
+        step: usize,
+        strength: f32,
+        now: f64,
+    ) -> bool {
+        let Some(point) = self.at_time(system, suspect, now) else {
+            return true;
+        };
+        let Some(q) = point.projection else {
+            return true;
+        };
+        // All steps of the batch at once, until the projection changes.
+        let batch = step / STRIDE;
+        if point.held_in != Some(batch) {
+            point.held_in = Some(batch);
+            let left = suspect.state.projected(&q).tension_bounds();
+            point.held = 0;
+            for (k, (left, whole)) in left.iter().zip(&suspect.bounds).enumerate() {
+                let holds = left + ROUNDING * whole.abs() <= strength * (1.0 - MARGIN);
+                point.held |= u8::from(holds) << k;
+            }
+        }
+        point.held >> lane(step) & 1 == 0
     }
-    let q = point.projection;
-    if q == Mat3::IDENTITY {
-        stress
-    } else {
-        Symmetric3::from_mat3(q.transpose() * stress.to_mat3() * q)
+
+    /// What is left of a suspect's stress at step k of the batch, at time `now`, s.
+    pub(crate) fn released(
+        &mut self,
+        system: &CrackSystem,
+        suspect: &Suspect,
+        k: usize,
+        now: f64,
+    ) -> Symmetric3 {
+        let stress = suspect.state.stress(k);
+        let point = self.at_time(system, suspect, now);
+        match point.and_then(|point| point.projection) {
+            Some(q) => Symmetric3::from_mat3(q.transpose() * stress.to_mat3() * q),
+            None => stress,
+        }
+    }
+
+    /// A point's memory as of `now`, s; none with cracks that release nothing.
+    fn at_time(
+        &mut self,
+        system: &CrackSystem,
+        suspect: &Suspect,
+        now: f64,
+    ) -> Option<&mut Point> {
+        let CrackTiming::TimeResolved { release_reach, .. } = system.config.timing else {
+            return None;
+        };
+        let place = suspect.place as usize;
+        if place >= self.points.len() {
+            let untouched = Point {
+                seen: Vec::new(),
+                projection: None,
+                next: f64::INFINITY,
+                growths: 0,
+                held_in: None,
+                held: 0,
+            };
+            self.points.resize(place + 1, untouched);
+        }
+        let point = &mut self.points[place];
+        if point.growths != system.growth.len() || now > point.next {
+            update(point, system, suspect.tet, now, release_reach as f32);
+        }
+        Some(point)
     }
 }
 
 fn update(point: &mut Point, system: &CrackSystem, e: u32, now: f64, release_reach: f32) {
     let centre = system.centroids[e as usize];
-    let wave = system.asset.material.rayleigh_speed();
-    point.sites = system.site_count;
-    point.next = f64::INFINITY;
-    point.projection = Mat3::IDENTITY;
-    for (i, crack) in system.cracks.iter().enumerate() {
-        if i == point.seen.len() {
-            let nearest = (f32::INFINITY, Vec3::ZERO);
-            point.seen.push(Seen {
+    let grown = &system.growth[point.growths..];
+    point.growths = system.growth.len();
+    let mut changed = false;
+    let mut refresh = |i: u32| {
+        let crack = &system.cracks[i as usize];
+        let reach = release_reach * (2.0 * crack.extent).max(system.edge);
+        // Out of reach of the whole crack: nothing to look at until it grows.
+        if centre.distance(crack.frame.origin) > crack.extent + reach {
+            return;
+        }
+        changed |= look_again(&mut point.seen, i, crack, centre, reach, now, system);
+    };
+    if grown.len() < system.cracks.len() {
+        grown.iter().for_each(|&i| refresh(i));
+    } else {
+        (0..system.cracks.len() as u32).for_each(refresh);
+    }
+    for seen in &mut point.seen {
+        if now > seen.next {
+            changed |= seen.arrive(&system.cracks[seen.crack as usize], now);
+        }
+    }
+    let next = point.seen.iter().map(|seen| seen.next);
+    point.next = next.fold(f64::INFINITY, f64::min);
+    if changed {
+        point.projection = projection(&point.seen);
+        point.held_in = None;
+    }
+}
+
+/// Looks at a crack that has grown, from a point within its reach; whether it releases the point more, or otherwise.
+fn look_again(
+    seen: &mut Vec<Seen>,
+    number: u32,
+    crack: &Crack,
+    centre: Vec3,
+    reach: f32,
+    now: f64,
+    system: &CrackSystem,
+) -> bool {
+    let i = match seen.binary_search_by_key(&number, |s| s.crack) {
+        Ok(i) => i,
+        Err(i) => {
+            let new = Seen {
+                crack: number,
                 scanned: 0,
-                reach: 0.0,
-                nearest,
+                reach: -1.0,
+                nearest: (f32::INFINITY, Vec3::ZERO),
                 pending: Vec::new(),
                 next: f64::INFINITY,
-            });
+            };
+            seen.insert(i, new);
+            i
         }
-        let seen = &mut point.seen[i];
-        let reach = release_reach * (2.0 * crack.extent).max(system.edge);
-        let grown = seen.scanned != crack.sites.len() || seen.reach != reach;
-        // Out of reach of the whole crack: nothing to look at until it grows.
-        if grown && centre.distance(crack.frame.origin) > crack.extent + reach {
-            continue;
-        }
-        if grown {
-            look(seen, crack, centre, wave);
-            seen.reach = reach;
-        }
-        if grown || now > seen.next {
-            arrive(seen, crack, now, reach);
-        }
-        point.next = point.next.min(seen.next);
-        if seen.nearest.0.is_finite() {
-            let n = seen.nearest.1;
-            point.projection *= Mat3::IDENTITY - Mat3::from_cols(n * n.x, n * n.y, n * n.z);
-        }
+    };
+    let seen = &mut seen[i];
+    if seen.scanned == crack.sites.len() && seen.reach == reach {
+        return false;
     }
+    seen.look(crack, centre, system.asset.material.rayleigh_speed());
+    seen.reach = reach;
+    seen.arrive(crack, now)
 }
 
-/// Looks at the sites that have joined since the last time.
-fn look(seen: &mut Seen, crack: &Crack, point: Vec3, wave: f64) {
-    for (k, site) in crack.sites.iter().enumerate().skip(seen.scanned) {
-        let distance = site.position.distance(point);
-        if seen.nearest.0 <= distance {
-            continue;
-        }
-        let arrival = site.time + f64::from(distance) / wave;
-        if seen.pending.iter().all(|p| p.0 > distance || p.1 > arrival) {
-            seen.pending.retain(|p| p.0 < distance || p.1 < arrival);
-            seen.pending.push((distance, arrival, k as u32));
-        }
-    }
-    seen.scanned = crack.sites.len();
+/// In crack order: projections do not commute.
+fn projection(seen: &[Seen]) -> Option<Mat3> {
+    let released = seen.iter().filter(|s| s.nearest.0.is_finite());
+    let across = released.map(|s| {
+        let n = s.nearest.1;
+        Mat3::IDENTITY - Mat3::from_cols(n * n.x, n * n.y, n * n.z)
+    });
+    across.reduce(|product, next| product * next)
 }
 
-/// Lets those arrive whose wave is here and that lie within reach.
-fn arrive(seen: &mut Seen, crack: &Crack, now: f64, reach: f32) {
-    for &(distance, arrival, k) in &seen.pending {
-        if arrival < now && distance < reach && distance < seen.nearest.0 {
-            seen.nearest = (distance, crack.sites[k as usize].direction);
+impl Seen {
+    /// Looks at the sites that have joined since the last time.
+    fn look(&mut self, crack: &Crack, point: Vec3, wave: f64) {
+        for (k, site) in crack.sites.iter().enumerate().skip(self.scanned) {
+            let distance = site.position.distance(point);
+            if self.nearest.0 <= distance {
+                continue;
+            }
+            let arrival = site.time + f64::from(distance) / wave;
+            if self
+                .pending
+                .iter()
+                .all(|p| p.0 > distance || p.1 > arrival)
+            {
+                self.pending.retain(|p| p.0 < distance || p.1 < arrival);
+                self.pending.push((distance, arrival, k as u32));
+            }
         }
+        self.scanned = crack.sites.len();
     }
-    let nearest = seen.nearest.0;
-    seen.pending.retain(|p| p.0 < nearest);
-    seen.next = seen
-        .pending
-        .iter()
-        .filter(|p| p.1 >= now)
-        .map(|p| p.1)
-        .fold(f64::INFINITY, f64::min);
+
+    /// Lets those arrive whose wave is here and that lie within reach; whether one is nearer than what was.
+    fn arrive(&mut self, crack: &Crack, now: f64) -> bool {
+        let before = self.nearest.0;
+        for &(distance, arrival, k) in &self.pending {
+            if arrival < now && distance < self.reach && distance < self.nearest.0 {
+                self.nearest = (distance, crack.sites[k as usize].direction);
+            }
+        }
+        let nearest = self.nearest.0;
+        self.pending.retain(|p| p.0 < nearest);
+        let ahead = self.pending.iter().filter(|p| p.1 >= now);
+        self.next = ahead.map(|p| p.1).fold(f64::INFINITY, f64::min);
+        nearest < before
+    }
 }

@@ -146,8 +146,8 @@ pub(crate) struct CrackSystem<'a> {
     pub(crate) area: f64,
     /// What has released the weak points so far.
     pub(crate) releases: Releases,
-    /// Number of sites of all cracks.
-    pub(crate) site_count: usize,
+    /// The crack that grew, each time that one did: got a site, or a longer reach.
+    pub(crate) growth: Vec<u32>,
     /// Centroid of each fracture tetrahedron, m.
     pub(crate) centroids: &'a [Vec3],
     /// Mean edge of the fracture mesh, m.
@@ -177,7 +177,7 @@ impl<'a> CrackSystem<'a> {
             fronts: BinaryHeap::new(),
             stalled: Vec::new(),
             releases: Releases::default(),
-            site_count: 0,
+            growth: Vec::new(),
             centroids: &body.prepared.centroids,
             edge: body.prepared.edge,
         };
@@ -292,7 +292,9 @@ impl<'a> CrackSystem<'a> {
         let c = &mut self.cracks[crack as usize];
         c.area += f64::from(area);
         let centre = self.centroids[tet];
-        c.extent = c.extent.max(centre.distance(c.frame.origin));
+        let extent = c.extent.max(centre.distance(c.frame.origin));
+        let mut grown = extent > c.extent;
+        c.extent = extent;
         for (&node, &s) in self.asset.fracture.tets[tet].iter().zip(&cut.values) {
             c.values.entry(node).or_insert(s);
         }
@@ -308,8 +310,11 @@ impl<'a> CrackSystem<'a> {
                 direction: cut.direction,
                 time: cut.time,
             });
-            self.site_count += 1;
+            grown = true;
         }
         c.elements.push(cut);
+        if grown {
+            self.growth.push(crack);
+        }
     }
 }

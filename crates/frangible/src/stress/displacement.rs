@@ -5,8 +5,16 @@ use glam::{Mat3, Vec3};
 use crate::asset::{Asset, EmbeddedPoint};
 use crate::modal::Motion;
 
-/// Steps multiplied at once: Φ is read from memory once for all of them.
-pub(super) const BATCH: usize = 8;
+/// Steps multiplied at once, side by side: Φ is read from memory once for all of them.
+pub(crate) const BATCH: usize = 8;
+
+/// The first of them is the last of the batch before, so that what happens between two steps lies within one batch.
+pub(crate) const STRIDE: usize = BATCH - 1;
+
+/// Where a step stands in its batch, 1..BATCH.
+pub(crate) fn lane(step: usize) -> usize {
+    step % STRIDE + 1
+}
 
 /// Values and gradients of the ten quadratic shape functions at a point of the body.
 #[derive(Clone, Copy, Debug)]
@@ -45,72 +53,114 @@ impl ShapeWeights {
     }
 }
 
-/// Displacements of the coarse nodes at a few consecutive steps.
+/// A value at each of the batch's steps.
+pub(crate) type Lanes = [f32; BATCH];
+
+/// Displacements of the coarse nodes at a few consecutive steps, each node computed when it is first asked for.
 #[derive(Clone, Debug)]
 pub struct DisplacementBatch {
-    first: usize,
-    steps: usize,
-    /// `displacements[node * BATCH + step]`, m.
-    displacements: Vec<Vec3>,
+    /// Amplitudes of every mode at the batch's steps, m·√kg.
+    amplitudes: Vec<Lanes>,
+    /// `displacements[node][axis][step]`, m.
+    displacements: Vec<[Lanes; 3]>,
+    /// Batch that each node's displacements belong to …
+    computed: Vec<u32>,
+    /// … and the one that is held, counted from 1; 0 for none.
+    batch: u32,
 }
 
 impl DisplacementBatch {
     /// Empty, for an asset.
     #[must_use]
     pub fn new(asset: &Asset) -> Self {
+        let nodes = asset.analysis.nodes.len();
         Self {
-            first: 0,
-            steps: 0,
-            displacements: vec![Vec3::ZERO; asset.analysis.nodes.len() * BATCH],
+            amplitudes: vec![[0.0; BATCH]; asset.modes.count()],
+            displacements: vec![[[0.0; BATCH]; 3]; nodes],
+            computed: vec![0; nodes],
+            batch: 0,
         }
     }
 
-    /// Makes sure that `step` is held, computing a batch from it when it is not.
-    pub fn seek(&mut self, asset: &Asset, motion: &Motion, step: usize) {
-        if (self.first..self.first + self.steps).contains(&step) {
+    /// Makes sure that the batch of `step` is held.
+    pub fn seek(&mut self, motion: &Motion, step: usize) {
+        let batch = step / STRIDE;
+        if self.batch == batch as u32 + 1 {
             return;
         }
-        self.first = step;
-        self.steps = BATCH.min(motion.steps() - step);
-        // Transposed amplitudes: the inner loop runs over the batch, so that it vectorises.
-        let modes = motion.modes;
-        let mut amplitudes = vec![[0.0_f32; BATCH]; modes];
-        for k in 0..self.steps {
-            for (i, row) in amplitudes.iter_mut().enumerate() {
-                row[k] = motion.amplitudes[(step + k) * modes + i];
+        self.batch = batch as u32 + 1;
+        // Transposed: the inner loops run over the batch, so that they vectorise. Before the first step all is at rest.
+        for k in 0..BATCH {
+            let step = (batch * STRIDE + k).checked_sub(1);
+            match step.filter(|&step| step < motion.steps()) {
+                Some(step) => {
+                    for (row, &q) in self.amplitudes.iter_mut().zip(motion.at(step)) {
+                        row[k] = q;
+                    }
+                }
+                None => self.amplitudes.iter_mut().for_each(|row| row[k] = 0.0),
             }
         }
-        for (node, out) in self.displacements.chunks_exact_mut(BATCH).enumerate() {
-            let mut sums = [[0.0_f32; BATCH]; 3];
-            for (axis, sum) in sums.iter_mut().enumerate() {
-                // High modes first: they move little, so that the sum is large, and rounds, only at the end.
-                let row = asset.modes.row(3 * node + axis).iter();
-                for (&phi, q) in row.zip(&amplitudes).rev() {
+    }
+
+    /// u = Φ q at a node, at all steps of the batch.
+    fn at_node(&mut self, asset: &Asset, node: usize) -> &[Lanes; 3] {
+        if self.computed[node] != self.batch {
+            self.computed[node] = self.batch;
+            self.displacements[node] = product(asset, node, &self.amplitudes);
+        }
+        &self.displacements[node]
+    }
+
+    /// ∇u at an embedded point at all steps of the batch: `[column j][row i]` = ∂u_i/∂x_j.
+    pub(crate) fn gradients(&mut self, asset: &Asset, point: &EmbeddedPoint) -> [[Lanes; 3]; 3] {
+        let element = point.element as usize;
+        let weights =
+            ShapeWeights::gradients(point, &asset.analysis.barycentric_gradients[element]);
+        let mut sum = [[[0.0; BATCH]; 3]; 3];
+        for (&node, g) in asset.analysis.elements[element].iter().zip(weights) {
+            let u = self.at_node(asset, node as usize);
+            for (column, weight) in sum.iter_mut().zip(g.to_array()) {
+                for (row, u) in column.iter_mut().zip(u) {
                     for k in 0..BATCH {
-                        sum[k] += phi * q[k];
+                        row[k] += u[k] * weight;
                     }
                 }
             }
-            for k in 0..BATCH {
-                out[k] = Vec3::new(sums[0][k], sums[1][k], sums[2][k]);
-            }
         }
+        sum
     }
 
     /// ∇u at an embedded point, column j = ∂u/∂x_j; the step must be held.
     #[must_use]
-    pub fn gradient(&self, asset: &Asset, point: &EmbeddedPoint, step: usize) -> Mat3 {
-        let k = step - self.first;
+    pub fn gradient(&mut self, asset: &Asset, point: &EmbeddedPoint, step: usize) -> Mat3 {
+        let k = lane(step);
         let element = point.element as usize;
         let gradients =
             ShapeWeights::gradients(point, &asset.analysis.barycentric_gradients[element]);
         let mut sum = Mat3::ZERO;
         for (&node, g) in asset.analysis.elements[element].iter().zip(gradients) {
-            let u = self.displacements[node as usize * BATCH + k];
+            let u = self.at_node(asset, node as usize);
+            let u = Vec3::new(u[0][k], u[1][k], u[2][k]);
             sum.x_axis += u * g.x;
             sum.y_axis += u * g.y;
             sum.z_axis += u * g.z;
         }
         sum
     }
+}
+
+/// One node's rows of Φ times the amplitudes.
+fn product(asset: &Asset, node: usize, amplitudes: &[Lanes]) -> [Lanes; 3] {
+    let mut sums = [[0.0_f32; BATCH]; 3];
+    let [x, y, z] = [0, 1, 2].map(|axis| asset.modes.row(3 * node + axis));
+    // High modes first: they move little, so that the sum is large, and rounds, only at the end.
+    for (((q, x), y), z) in amplitudes.iter().zip(x).zip(y).zip(z).rev() {
+        for k in 0..BATCH {
+            sums[0][k] += x * q[k];
+            sums[1][k] += y * q[k];
+            sums[2][k] += z * q[k];
+        }
+    }
+    sums
 }

@@ -7,7 +7,9 @@ mod strain;
 
 pub use bound::StressBounds;
 pub(crate) use bound::{MARGIN, quadratic_modulus, tension_bound};
+pub(crate) use displacement::{BATCH, Lanes, STRIDE, lane};
 pub use displacement::{DisplacementBatch, ShapeWeights};
 pub(crate) use principal::perpendicular_axes;
 pub use principal::{largest_eigenvalue, largest_eigenvalue_bound, principal_axes};
+pub(crate) use strain::StressLanes;
 pub use strain::{Elasticity, StressState, Symmetric3};

@@ -2,6 +2,8 @@
 
 use glam::{Mat3, Vec3};
 
+use super::displacement::{BATCH, Lanes};
+use super::principal::largest_eigenvalue_bound;
 use crate::material::Material;
 
 /// Symmetric 3 × 3 tensor.
@@ -83,26 +85,113 @@ impl Elasticity {
     /// E = ½(∇u + ∇uᵀ + ∇uᵀ∇u), σ = λ tr(E) I + 2 μ E `[G12 §4.4]`.
     #[must_use]
     pub fn state(&self, gradient: Mat3) -> StressState {
-        let (a, b, c) = (gradient.x_axis, gradient.y_axis, gradient.z_axis);
+        let columns = gradient.to_cols_array_2d();
+        let (stress, energy_density) = self.evaluate(&columns);
+        let [xx, yy, zz, xy, yz, zx] = stress;
+        StressState {
+            stress: Symmetric3 {
+                diagonal: [xx, yy, zz],
+                off: [xy, yz, zx],
+            },
+            energy_density,
+        }
+    }
+
+    /// The same for the steps of a batch side by side; `[column j][row i]` = ∂u_i/∂x_j.
+    pub(crate) fn lanes(&self, gradient: &[[Lanes; 3]; 3]) -> StressLanes {
+        let mut out = StressLanes::default();
+        for k in 0..BATCH {
+            let columns = gradient.map(|column| column.map(|row| row[k]));
+            let (stress, energy_density) = self.evaluate(&columns);
+            for (lanes, s) in out.components.iter_mut().zip(stress) {
+                lanes[k] = s;
+            }
+            out.energy_density[k] = energy_density;
+        }
+        out
+    }
+
+    /// σ as xx, yy, zz, xy, yz, zx, and η, of a gradient `[column j][row i]`.
+    #[inline(always)]
+    fn evaluate(&self, [a, b, c]: &[[f32; 3]; 3]) -> ([f32; 6], f32) {
+        let dot = |u: &[f32; 3], v: &[f32; 3]| u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
         let e = [
-            a.x + 0.5 * a.dot(a),
-            b.y + 0.5 * b.dot(b),
-            c.z + 0.5 * c.dot(c),
+            a[0] + 0.5 * dot(a, a),
+            b[1] + 0.5 * dot(b, b),
+            c[2] + 0.5 * dot(c, c),
         ];
         let s = [
-            0.5 * (b.x + a.y + a.dot(b)),
-            0.5 * (c.y + b.z + b.dot(c)),
-            0.5 * (a.z + c.x + c.dot(a)),
+            0.5 * (b[0] + a[1] + dot(a, b)),
+            0.5 * (c[1] + b[2] + dot(b, c)),
+            0.5 * (a[2] + c[0] + dot(c, a)),
         ];
         let trace = self.lambda * (e[0] + e[1] + e[2]);
         let diagonal = e.map(|x| trace + 2.0 * self.mu * x);
         let off = s.map(|x| 2.0 * self.mu * x);
-        let energy: f32 = (0..3)
-            .map(|i| 0.5 * diagonal[i] * e[i] + off[i] * s[i])
-            .sum();
-        StressState {
-            stress: Symmetric3 { diagonal, off },
-            energy_density: energy,
+        let mut energy = 0.0;
+        for i in 0..3 {
+            energy += 0.5 * diagonal[i] * e[i] + off[i] * s[i];
         }
+        (
+            [
+                diagonal[0],
+                diagonal[1],
+                diagonal[2],
+                off[0],
+                off[1],
+                off[2],
+            ],
+            energy,
+        )
+    }
+}
+
+/// Stress and strain energy at a point at the steps of a batch.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct StressLanes {
+    /// σ, Pa: xx, yy, zz, xy, yz, zx.
+    components: [Lanes; 6],
+    /// η, J/m³.
+    pub(crate) energy_density: Lanes,
+}
+
+impl StressLanes {
+    /// σ at step k of the batch, Pa.
+    pub(crate) fn stress(&self, k: usize) -> Symmetric3 {
+        let [xx, yy, zz, xy, yz, zx] = self.components.map(|lanes| lanes[k]);
+        Symmetric3 {
+            diagonal: [xx, yy, zz],
+            off: [xy, yz, zx],
+        }
+    }
+
+    /// Qᵀ σ Q, without the energy.
+    pub(crate) fn projected(&self, q: &Mat3) -> Self {
+        let [xx, yy, zz, xy, yz, zx] = &self.components;
+        let rows = [[xx, xy, zx], [xy, yy, yz], [zx, yz, zz]];
+        let columns = q.to_cols_array_2d();
+        let mut out = Self::default();
+        for (component, [i, j]) in [[0, 0], [1, 1], [2, 2], [0, 1], [1, 2], [2, 0]]
+            .into_iter()
+            .enumerate()
+        {
+            for (row, left) in rows.iter().zip(columns[i]) {
+                for (lanes, right) in row.iter().zip(columns[j]) {
+                    for k in 0..BATCH {
+                        out.components[component][k] += left * right * lanes[k];
+                    }
+                }
+            }
+        }
+        out
+    }
+
+    /// Upper bounds of the largest principal tension, Pa.
+    pub(crate) fn tension_bounds(&self) -> Lanes {
+        let mut bounds = [0.0; BATCH];
+        for (k, bound) in bounds.iter_mut().enumerate() {
+            *bound = largest_eigenvalue_bound(&self.stress(k));
+        }
+        bounds
     }
 }
