@@ -21,6 +21,7 @@ impl StressField<'_> {
     }
 
     /// The same at all steps of the batch.
+    #[inline(always)]
     pub(crate) fn lanes(&mut self, e: usize) -> StressLanes {
         let point = &self.asset.embedding.tets[e];
         self.elasticity

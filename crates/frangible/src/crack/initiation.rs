@@ -7,15 +7,13 @@
 use glam::Vec3;
 
 use super::field::StressField;
-use super::suspects::{Suspect, Suspects};
 use super::surface::{CrackFrame, crossing_area};
+use super::suspects::{Suspect, Suspects};
 use super::system::{Crack, CrackSystem, ElementCut, UNCUT};
 use super::{advance, propagation::gradient, retry};
 use crate::config::CrackTiming;
 use crate::rng::{Purpose, stream, uniform};
-use crate::stress::{
-    Symmetric3, lane, largest_eigenvalue, perpendicular_axes, principal_axes,
-};
+use crate::stress::{Symmetric3, lane, largest_eigenvalue, perpendicular_axes, principal_axes};
 
 /// Below this relative gap of the two largest tensions the direction between them is rounding noise.
 const ISOTROPIC: f64 = 1e-3;

@@ -5,15 +5,15 @@ mod field;
 mod initiation;
 mod propagation;
 mod release;
-mod suspects;
 mod surface;
+mod suspects;
 mod system;
 
 pub(crate) use culling::Culling;
 pub(crate) use field::StressField;
 pub(crate) use initiation::{Peak, crack};
-pub(crate) use suspects::Suspects;
-pub(crate) use surface::crossing_polygon;
 use propagation::{advance, retry};
+pub(crate) use surface::crossing_polygon;
+pub(crate) use suspects::Suspects;
 pub(crate) use system::front_limit;
 pub(crate) use system::{Crack, CrackSystem, ElementCut, Junction, UNCUT};

@@ -107,12 +107,7 @@ impl Releases {
     }
 
     /// A point's memory as of `now`, s; none with cracks that release nothing.
-    fn at_time(
-        &mut self,
-        system: &CrackSystem,
-        suspect: &Suspect,
-        now: f64,
-    ) -> Option<&mut Point> {
+    fn at_time(&mut self, system: &CrackSystem, suspect: &Suspect, now: f64) -> Option<&mut Point> {
         let CrackTiming::TimeResolved { release_reach, .. } = system.config.timing else {
             return None;
         };
@@ -221,11 +216,7 @@ impl Seen {
                 continue;
             }
             let arrival = site.time + f64::from(distance) / wave;
-            if self
-                .pending
-                .iter()
-                .all(|p| p.0 > distance || p.1 > arrival)
-            {
+            if self.pending.iter().all(|p| p.0 > distance || p.1 > arrival) {
                 self.pending.retain(|p| p.0 < distance || p.1 < arrival);
                 self.pending.push((distance, arrival, k as u32));
             }

@@ -38,21 +38,17 @@ impl Suspects {
     ) {
         self.points.clear();
         self.of_step.iter_mut().for_each(Vec::clear);
-        for (cluster, steps) in survivors {
-            let places = body.clusters.places(cluster as usize);
-            for (place, &tet) in places.zip(body.clusters.tets(cluster as usize)) {
-                let state = field.lanes(tet as usize);
-                let suspect = Suspect {
-                    place: place as u32,
-                    tet,
-                    bounds: state.tension_bounds(),
-                    state,
-                };
-                self.note(body, suspect, steps, peak);
-            }
-        }
+        // With the widest vectors that this processor has; the same operations in the same order, so the same bits.
+        pulp::Arch::new().dispatch(Look {
+            suspects: self,
+            body,
+            field,
+            survivors,
+            peak,
+        });
     }
 
+    #[inline(always)]
     fn note(&mut self, body: &Body, suspect: Suspect, steps: u8, peak: Peak) {
         let resistance = &body.resistance;
         let strength = resistance.strength(suspect.tet);
@@ -77,5 +73,35 @@ impl Suspects {
     /// Those of step `k` of the batch.
     pub(crate) fn at(&self, k: usize) -> impl Iterator<Item = &Suspect> {
         self.of_step[k].iter().map(|&i| &self.points[i as usize])
+    }
+}
+
+/// The look at all points of some clusters.
+struct Look<'a, 'f, I> {
+    suspects: &'a mut Suspects,
+    body: &'a Body,
+    field: &'a mut StressField<'f>,
+    survivors: I,
+    peak: Peak,
+}
+
+impl<I: Iterator<Item = (u32, u8)>> pulp::NullaryFnOnce for Look<'_, '_, I> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        for (cluster, steps) in self.survivors {
+            let places = self.body.clusters.places(cluster as usize);
+            for (place, &tet) in places.zip(self.body.clusters.tets(cluster as usize)) {
+                let state = self.field.lanes(tet as usize);
+                let suspect = Suspect {
+                    place: place as u32,
+                    tet,
+                    bounds: state.tension_bounds(),
+                    state,
+                };
+                self.suspects.note(self.body, suspect, steps, self.peak);
+            }
+        }
     }
 }

@@ -104,6 +104,7 @@ impl DisplacementBatch {
     }
 
     /// u = Φ q at a node, at all steps of the batch.
+    #[inline(always)]
     fn at_node(&mut self, asset: &Asset, node: usize) -> &[Lanes; 3] {
         if self.computed[node] != self.batch {
             self.computed[node] = self.batch;
@@ -113,6 +114,7 @@ impl DisplacementBatch {
     }
 
     /// ∇u at an embedded point at all steps of the batch: `[column j][row i]` = ∂u_i/∂x_j.
+    #[inline(always)]
     pub(crate) fn gradients(&mut self, asset: &Asset, point: &EmbeddedPoint) -> [[Lanes; 3]; 3] {
         let element = point.element as usize;
         let weights =
@@ -151,6 +153,7 @@ impl DisplacementBatch {
 }
 
 /// One node's rows of Φ times the amplitudes.
+#[inline(always)]
 fn product(asset: &Asset, node: usize, amplitudes: &[Lanes]) -> [Lanes; 3] {
     let mut sums = [[0.0_f32; BATCH]; 3];
     let [x, y, z] = [0, 1, 2].map(|axis| asset.modes.row(3 * node + axis));

@@ -21,6 +21,7 @@ pub fn largest_eigenvalue(s: &Symmetric3) -> f32 {
 }
 
 /// An upper bound of the largest eigenvalue without trigonometry: mean + 2 p, reached where the two smaller are equal.
+#[inline(always)]
 #[must_use]
 pub fn largest_eigenvalue_bound(s: &Symmetric3) -> f32 {
     let ([xx, yy, zz], [xy, yz, zx]) = (s.diagonal, s.off);

@@ -98,6 +98,7 @@ impl Elasticity {
     }
 
     /// The same for the steps of a batch side by side; `[column j][row i]` = ∂u_i/∂x_j.
+    #[inline(always)]
     pub(crate) fn lanes(&self, gradient: &[[Lanes; 3]; 3]) -> StressLanes {
         let mut out = StressLanes::default();
         for k in 0..BATCH {
@@ -157,6 +158,7 @@ pub(crate) struct StressLanes {
 
 impl StressLanes {
     /// σ at step k of the batch, Pa.
+    #[inline(always)]
     pub(crate) fn stress(&self, k: usize) -> Symmetric3 {
         let [xx, yy, zz, xy, yz, zx] = self.components.map(|lanes| lanes[k]);
         Symmetric3 {
@@ -166,6 +168,7 @@ impl StressLanes {
     }
 
     /// Qᵀ σ Q, without the energy.
+    #[inline(always)]
     pub(crate) fn projected(&self, q: &Mat3) -> Self {
         let [xx, yy, zz, xy, yz, zx] = &self.components;
         let rows = [[xx, xy, zx], [xy, yy, yz], [zx, yz, zz]];
@@ -187,6 +190,7 @@ impl StressLanes {
     }
 
     /// Upper bounds of the largest principal tension, Pa.
+    #[inline(always)]
     pub(crate) fn tension_bounds(&self) -> Lanes {
         let mut bounds = [0.0; BATCH];
         for (k, bound) in bounds.iter_mut().enumerate() {
