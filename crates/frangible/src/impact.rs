@@ -207,7 +207,7 @@ pub(crate) fn run_cracks<'a>(
         return Cracked::Held(margin, report, None);
     }
     let start = Instant::now();
-    let labels = fragment::label(&system, config.crumb_share);
+    let labels = fragment::label(&system, &body.prepared.index, config.crumb_share);
     report.timings.fragments = start.elapsed().as_secs_f64();
     if let Some(trace) = trace {
         *trace = CrackTrace::of(&system, &labels.of_node);
@@ -236,7 +236,7 @@ pub(crate) fn pieces(body: &Body, cracked: Cracked<'_>) -> Outcome {
     let start = Instant::now();
     let fragments = fragment::build(&system, &labels, &body.prepared);
     let volume: f64 = fragments.iter().map(|f| f.mass.volume).sum();
-    report.volume_error = volume / body.asset.fracture.total_volume() - 1.0;
+    report.volume_error = volume / body.prepared.index.total_volume - 1.0;
     report.timings.fragments += start.elapsed().as_secs_f64();
     Outcome::Broke(Box::new(Fracture { fragments, report }))
 }

@@ -6,79 +6,110 @@
 //! (or by an older part of itself), the edges among the nodes reachable over edges that the other did not cut are cut
 //! where the newcomer's surface, continued linearly, changes sign.
 
-use std::collections::{BTreeMap, VecDeque};
+use glam::Vec3;
 
 use super::cuts::Cuts;
-use crate::crack::{CrackSystem, ElementCut};
+use super::index::MeshIndex;
+use crate::crack::{CrackSystem, ElementCut, UNCUT};
 use crate::mesh::EDGES;
 
 /// How far from its last tetrahedron a newcomer is continued, in mean edges.
 const REACH: f32 = 2.5;
 
 /// Ends every crack inside what it met, cracks in order, junctions in the order they happened.
-pub(crate) fn end_cracks(system: &CrackSystem, cuts: &mut Cuts, tets_of_node: &NodeTets) {
+pub(crate) fn end_cracks(system: &CrackSystem, cuts: &mut Cuts, index: &MeshIndex) {
+    if system.cracks.iter().all(|crack| crack.junctions.is_empty()) {
+        return;
+    }
+    let mut queue = Queue::new(index.nodes());
     for (id, crack) in system.cracks.iter().enumerate() {
         for junction in &crack.junctions {
-            end_crack(
-                system,
-                cuts,
-                tets_of_node,
-                id as u32,
-                &crack.elements[junction.from as usize],
-                junction.own,
-            );
+            let last = &crack.elements[junction.from as usize];
+            let end = Continued::new(system, id as u32, last, junction.own);
+            end.cut(cuts, index, &mut queue);
         }
     }
 }
 
-fn end_crack(
-    system: &CrackSystem,
-    cuts: &mut Cuts,
-    tets_of_node: &NodeTets,
+/// A newcomer continued beyond its last tetrahedron, as the plane it has there.
+struct Continued<'a> {
+    system: &'a CrackSystem<'a>,
     newcomer: u32,
-    last: &ElementCut,
+    last: &'a ElementCut,
+    /// Whether it met an older part of itself.
     own: bool,
-) {
-    let mesh = &system.asset.fracture;
-    let nodes = mesh.tets[last.tet as usize];
-    let centre = mesh.centroid(last.tet as usize);
-    // The newcomer's surface, continued as the plane it has in its last tetrahedron.
-    let level = nodes
-        .iter()
-        .zip(&last.values)
-        .map(|(&v, s)| s - (mesh.positions[v as usize] - centre).dot(last.direction))
-        .sum::<f32>()
-        / 4.0;
-    let mut values: BTreeMap<u32, f32> = nodes.iter().copied().zip(last.values).collect();
-    let mut queue: VecDeque<u32> = nodes.into();
-    let mut queued = nodes.to_vec();
-    while let Some(v) = queue.pop_front() {
-        for &n in tets_of_node.of(v) {
-            let by = system.fractured_by[n as usize];
-            if by == crate::crack::UNCUT || n == last.tet || (by == newcomer && !own) {
-                continue;
+    nodes: [u32; 4],
+    centre: Vec3,
+    /// s at the centre, m.
+    level: f32,
+}
+
+impl<'a> Continued<'a> {
+    fn new(system: &'a CrackSystem, newcomer: u32, last: &'a ElementCut, own: bool) -> Self {
+        let mesh = &system.asset.fracture;
+        let nodes = mesh.tets[last.tet as usize];
+        let centre = mesh.centroid(last.tet as usize);
+        let level = nodes
+            .iter()
+            .zip(&last.values)
+            .map(|(&v, s)| s - (mesh.positions[v as usize] - centre).dot(last.direction))
+            .sum::<f32>()
+            / 4.0;
+        Self {
+            system,
+            newcomer,
+            last,
+            own,
+            nodes,
+            centre,
+            level,
+        }
+    }
+
+    fn place(&self, node: u32) -> Vec3 {
+        self.system.asset.fracture.positions[node as usize]
+    }
+
+    /// s at a node, m.
+    fn value(&self, node: u32) -> f32 {
+        match self.nodes.iter().position(|&v| v == node) {
+            Some(i) => self.last.values[i],
+            None => self.level + (self.place(node) - self.centre).dot(self.last.direction),
+        }
+    }
+
+    fn cut(&self, cuts: &mut Cuts, index: &MeshIndex, queue: &mut Queue) {
+        queue.begin(&self.nodes);
+        while let Some(v) = queue.pop() {
+            for &n in index.tets.of(v) {
+                let by = self.system.fractured_by[n as usize];
+                let own_cut = by == self.newcomer && !self.own;
+                if by != UNCUT && n != self.last.tet && !own_cut {
+                    self.cut_tet(n, v, cuts, queue);
+                }
             }
-            let corners = mesh.tets[n as usize];
-            for w in corners {
-                values.entry(w).or_insert_with(|| {
-                    level + (mesh.positions[w as usize] - centre).dot(last.direction)
-                });
-            }
-            let reachable = reachable(&corners, v, |a, b| {
-                cuts.get(a, b)
-                    .is_some_and(|cut| cut.crack != newcomer || own)
-            });
-            for [i, j] in EDGES {
-                let (a, b) = (corners[i], corners[j]);
-                if reachable[i] && reachable[j] && cuts.cut(a, b, values[&a], values[&b], newcomer)
-                {
-                    for end in [a, b] {
-                        let near =
-                            mesh.positions[end as usize].distance(centre) < REACH * system.edge;
-                        if near && !queued.contains(&end) {
-                            queued.push(end);
-                            queue.push_back(end);
-                        }
+        }
+    }
+
+    /// Cuts a tetrahedron among the corners reachable from corner `start`.
+    fn cut_tet(&self, n: u32, start: u32, cuts: &mut Cuts, queue: &mut Queue) {
+        let corners = self.system.asset.fracture.tets[n as usize];
+        let values = corners.map(|w| self.value(w));
+        let below = values.map(|s| s < 0.0);
+        if below == [below[0]; 4] {
+            return;
+        }
+        let blocked = EDGES.map(|[i, j]| {
+            cuts.get(corners[i], corners[j])
+                .is_some_and(|cut| cut.crack != self.newcomer || self.own)
+        });
+        let reachable = reachable(corners.map(|v| v == start), &blocked);
+        for [i, j] in EDGES {
+            let (a, b) = (corners[i], corners[j]);
+            if reachable[i] && reachable[j] && cuts.cut(a, b, values[i], values[j], self.newcomer) {
+                for end in [a, b] {
+                    if self.place(end).distance(self.centre) < REACH * self.system.edge {
+                        queue.add(end);
                     }
                 }
             }
@@ -86,13 +117,12 @@ fn end_crack(
     }
 }
 
-/// Corners of a tetrahedron reachable from corner `start` over edges that are not `blocked`.
-fn reachable(corners: &[u32; 4], start: u32, blocked: impl Fn(u32, u32) -> bool) -> [bool; 4] {
-    let mut seen = corners.map(|v| v == start);
+/// Corners of a tetrahedron that hang together with the `seen` ones over edges that are not blocked.
+fn reachable(mut seen: [bool; 4], blocked: &[bool; 6]) -> [bool; 4] {
     loop {
         let mut grown = false;
-        for [i, j] in EDGES {
-            if seen[i] != seen[j] && !blocked(corners[i], corners[j]) {
+        for ([i, j], blocked) in EDGES.into_iter().zip(blocked) {
+            if seen[i] != seen[j] && !blocked {
                 (seen[i], seen[j]) = (true, true);
                 grown = true;
             }
@@ -103,33 +133,41 @@ fn reachable(corners: &[u32; 4], start: u32, blocked: impl Fn(u32, u32) -> bool)
     }
 }
 
-/// Tetrahedra around each node, in compressed rows.
-pub(crate) struct NodeTets {
-    starts: Vec<u32>,
-    tets: Vec<u32>,
+/// Nodes to look at, each once per round.
+struct Queue {
+    nodes: Vec<u32>,
+    next: usize,
+    /// Latest round in which each node was added.
+    round_of_node: Vec<u32>,
+    round: u32,
 }
 
-impl NodeTets {
-    pub(crate) fn new(node_count: usize, tets: &[[u32; 4]]) -> Self {
-        let mut starts = vec![0_u32; node_count + 1];
-        for &v in tets.iter().flatten() {
-            starts[v as usize + 1] += 1;
+impl Queue {
+    fn new(node_count: usize) -> Self {
+        Self {
+            nodes: Vec::new(),
+            next: 0,
+            round_of_node: vec![0; node_count],
+            round: 0,
         }
-        for v in 0..node_count {
-            starts[v + 1] += starts[v];
-        }
-        let mut next = starts.clone();
-        let mut rows = vec![0; 4 * tets.len()];
-        for (e, tet) in tets.iter().enumerate() {
-            for &v in tet {
-                rows[next[v as usize] as usize] = e as u32;
-                next[v as usize] += 1;
-            }
-        }
-        Self { starts, tets: rows }
     }
 
-    pub(crate) fn of(&self, v: u32) -> &[u32] {
-        &self.tets[self.starts[v as usize] as usize..self.starts[v as usize + 1] as usize]
+    fn begin(&mut self, nodes: &[u32]) {
+        self.nodes.clear();
+        self.next = 0;
+        self.round += 1;
+        nodes.iter().for_each(|&v| self.add(v));
+    }
+
+    fn add(&mut self, node: u32) {
+        if std::mem::replace(&mut self.round_of_node[node as usize], self.round) != self.round {
+            self.nodes.push(node);
+        }
+    }
+
+    fn pop(&mut self) -> Option<u32> {
+        let node = self.nodes.get(self.next).copied();
+        self.next += 1;
+        node
     }
 }
