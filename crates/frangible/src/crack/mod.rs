@@ -14,4 +14,4 @@ pub(crate) use initiation::{Peak, start_cracks};
 pub(crate) use propagation::advance;
 pub(crate) use surface::crossing_polygon;
 pub(crate) use system::front_limit;
-pub(crate) use system::{Crack, CrackSystem, ElementCut, Junction, UNCUT};
+pub(crate) use system::{Crack, CrackSystem, ElementCut, Junction};

@@ -20,8 +20,8 @@ pub(super) struct Draft {
     pub(super) cracks: Vec<[Vec3; 3]>,
     /// Convex cells and the mesh nodes in them, ascending.
     pub(super) cell_nodes: Vec<(u32, u32)>,
-    /// Convex cells and points of the partition in them, in any order.
-    pub(super) cell_points: Vec<(u32, u32)>,
+    /// Convex cells (upper half) and points of the partition in them, in any order and repeated.
+    pub(super) cell_points: Vec<u64>,
     pub(super) supported: bool,
 }
 
@@ -49,7 +49,7 @@ pub(super) fn inner_faces(
                 drafts[inside as usize].inner.push([a, b, c]);
                 drafts[outside as usize].inner.push([a, c, b]);
                 for side in [inside, outside] {
-                    let points = [(cell, a), (cell, b), (cell, c)];
+                    let points = [a, b, c].map(|p| u64::from(cell) << 32 | u64::from(p));
                     drafts[side as usize].cell_points.extend(points);
                 }
             },
@@ -114,6 +114,10 @@ pub(super) fn outer_faces(
             if let Some(parts) = &mut parts {
                 let corners = numbers.map(|v| table.place(v));
                 parts.push(Part { corners, label: l });
+                if !whole {
+                    let on_rim = numbers.into_iter().filter(|&v| !table.is_node(v));
+                    parts.rim.extend(on_rim);
+                }
             }
         });
     }

@@ -76,7 +76,7 @@ impl<'a> Finisher<'a> {
     fn shares(
         &self,
         nodes: &[(u32, u32)],
-        mut points: Vec<(u32, u32)>,
+        mut points: Vec<u64>,
         centre: DVec3,
     ) -> Vec<(u32, Vec<Vec3>)> {
         points.sort_unstable();
@@ -85,14 +85,12 @@ impl<'a> Finisher<'a> {
         let cells = nodes.chunk_by(|x, y| x.0 == y.0);
         let share = |nodes: &[(u32, u32)]| {
             let cell = nodes[0].0;
-            let own = points.partition_point(|p| p.0 <= cell);
+            let own = points.partition_point(|p| (p >> 32) as u32 <= cell);
             let (here, later) = points.split_at(own);
             points = later;
-            let all = nodes.iter().chain(here);
-            (
-                cell,
-                all.map(|&(_, v)| self.in_fragment(v, centre)).collect(),
-            )
+            let here = here.iter().map(|&p| p as u32);
+            let all = nodes.iter().map(|&(_, v)| v).chain(here);
+            (cell, all.map(|v| self.in_fragment(v, centre)).collect())
         };
         cells.map(share).collect()
     }

@@ -20,7 +20,7 @@ pub(crate) struct Labels {
 pub(crate) fn label(system: &CrackSystem, index: &MeshIndex, crumb_share: f64) -> Labels {
     let mut cuts = Cuts::of_fractured_elements(system);
     if system.config.ends_inside {
-        end_cracks(system, &mut cuts, index);
+        end_cracks(system, &mut cuts);
     }
     of_cuts(cuts, &system.asset.fracture.tets, index, crumb_share)
 }

@@ -21,4 +21,4 @@ mod tests;
 pub(crate) use build::build;
 pub(crate) use index::MeshIndex;
 pub(crate) use label::{Labels, label};
-pub(crate) use render::RenderIndex;
+pub(crate) use render::{RenderIndex, draw};

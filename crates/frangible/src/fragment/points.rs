@@ -15,9 +15,9 @@ pub(super) struct PointTable<'a> {
     positions: Vec<DVec3>,
     /// Number of each cut edge's point, 0 for none yet; a mesh node's number is never asked for.
     of_cut: Vec<u32>,
-    /// Faces and uncut edges, by their lowest node and the others ...
+    /// Faces and uncut edges, by their lowest node and the others …
     others: ByNode<[u32; 2]>,
-    /// ... and their numbers.
+    /// … and their numbers.
     of_other: Vec<u32>,
     /// The latest centre: its tetrahedron is the only one that asks for it.
     centre: (u32, u32),
@@ -41,6 +41,11 @@ impl<'a> PointTable<'a> {
         self.mesh.positions.len() + self.positions.len()
     }
 
+    /// Whether a number is that of a mesh node.
+    pub(super) fn is_node(&self, number: u32) -> bool {
+        (number as usize) < self.mesh.positions.len()
+    }
+
     /// Where a point is, m, given its number.
     pub(super) fn place(&self, number: u32) -> DVec3 {
         let v = number as usize;
@@ -48,6 +53,11 @@ impl<'a> PointTable<'a> {
             Some(node) => node.as_dvec3(),
             None => self.positions[v - self.mesh.positions.len()],
         }
+    }
+
+    /// Where the points are that are no mesh nodes, m.
+    pub(super) fn into_positions(self) -> Vec<DVec3> {
+        self.positions
     }
 
     /// Number of a point.
