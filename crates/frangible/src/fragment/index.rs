@@ -32,8 +32,9 @@ impl MeshIndex {
         let nodes = mesh.positions.len();
         let tets = Rows::inverse(nodes, &mesh.tets);
         let neighbours = neighbours(mesh, &tets);
-        let total_volume = mesh.total_volume();
-        let volumes = volumes(mesh, total_volume);
+        let of_tets: Vec<f64> = (0..mesh.tets.len()).map(|e| mesh.volume(e)).collect();
+        let total_volume = of_tets.iter().sum();
+        let volumes = volumes(mesh, &of_tets, total_volume);
         Self {
             whole: volumes.iter().sum(),
             volumes,
@@ -104,10 +105,10 @@ fn nodes_of_cell(asset: &Asset) -> Rows {
     rows.shrunk()
 }
 
-fn volumes(mesh: &TetMesh, total: f64) -> Vec<u64> {
+fn volumes(mesh: &TetMesh, of_tets: &[f64], total: f64) -> Vec<u64> {
     let mut volumes = vec![0; mesh.positions.len()];
-    for (e, tet) in mesh.tets.iter().enumerate() {
-        let quarter = (mesh.volume(e) / total * (WHOLE / 4.0)).round() as u64;
+    for (tet, volume) in mesh.tets.iter().zip(of_tets) {
+        let quarter = (volume / total * (WHOLE / 4.0)).round() as u64;
         for &v in tet {
             volumes[v as usize] += quarter;
         }

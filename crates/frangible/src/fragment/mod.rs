@@ -14,6 +14,8 @@ mod points;
 mod render;
 
 #[cfg(test)]
+mod junction_tests;
+#[cfg(test)]
 mod label_tests;
 #[cfg(test)]
 mod tests;
