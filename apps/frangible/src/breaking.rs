@@ -157,7 +157,10 @@ fn stages_of(run: &Run) -> Vec<(String, f64)> {
             ("response", timings().map(|t| t.response).sum::<f64>()),
             ("stress", timings().map(|t| t.stress).sum()),
             ("cracks", timings().map(|t| t.cracks).sum()),
-            ("fragments", timings().map(|t| t.fragments).sum()),
+            (
+                "fragments",
+                timings().map(|t| t.labels + t.fragments + t.drawing).sum(),
+            ),
         ] {
             stages.push((name.to_string(), 1e3 * seconds));
         }

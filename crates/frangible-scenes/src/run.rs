@@ -2,7 +2,6 @@
 
 use std::time::Instant;
 
-use frangible::ImpactReport;
 use frangible_export::{Floor, Recording};
 use frangible_rapier::rapier3d::dynamics::RigidBodyHandle;
 use frangible_rapier::{BreakableWorld, HeldEvent};
@@ -113,10 +112,8 @@ pub fn play(
     run.at_rest = at_rest(&world, &projectiles);
     let floor = scene.floor.as_ref().map(|_| Floor::default());
     run.recording = recorder.finish(scene.look_from, floor);
-    let fracture = |r: &ImpactReport| {
-        r.timings.response + r.timings.stress + r.timings.cracks + r.timings.fragments
-    };
-    let fractured: f64 = run.breaks.iter().map(|b| fracture(&b.report)).sum();
+    let reports = run.breaks.iter().map(|b| &b.report);
+    let fractured: f64 = reports.map(|r| r.timings.total()).sum();
     run.rigid_seconds = clock.elapsed().as_secs_f64() - fractured;
     Ok(run)
 }

@@ -7,7 +7,7 @@ use glam::Vec3;
 use crate::asset::Asset;
 use crate::error::InputError;
 use crate::fields::{Fields, Resistance, Toughness};
-use crate::fragment::RenderIndex;
+use crate::fragment::{MeshIndex, RenderIndex};
 use crate::mesh::TriangleTree;
 use crate::rng::{Purpose, stream, uniform};
 use crate::state::BodyState;
@@ -25,6 +25,8 @@ pub struct Breakable {
 /// What follows from an asset and every impact needs.
 #[derive(Debug)]
 pub(crate) struct Prepared {
+    /// What hangs together in the fracture mesh.
+    pub(crate) index: MeshIndex,
     /// Over the triangles of the outer surface.
     pub(crate) surface: TriangleTree,
     /// Over those of the render surface.
@@ -66,6 +68,7 @@ impl Breakable {
         };
         let surface = TriangleTree::new(&asset.fracture.positions, &asset.surface.triangles);
         let prepared = Prepared {
+            index: MeshIndex::new(&asset),
             render: asset
                 .render
                 .as_ref()

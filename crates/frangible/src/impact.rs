@@ -219,8 +219,8 @@ pub(crate) fn run_cracks<'a>(
         return Cracked::Held(margin, report, None);
     }
     let start = Instant::now();
-    let labels = fragment::label(&system, config.crumb_share);
-    report.timings.fragments = start.elapsed().as_secs_f64();
+    let labels = fragment::label(&system, &body.prepared.index, config.crumb_share);
+    report.timings.labels = start.elapsed().as_secs_f64();
     if let Some(trace) = trace {
         *trace = CrackTrace::of(&system, &labels.of_node);
     }
@@ -246,9 +246,15 @@ pub(crate) fn pieces(body: &Body, cracked: Cracked<'_>) -> Outcome {
         }
     };
     let start = Instant::now();
-    let fragments = fragment::build(&system, &labels, &body.prepared);
+    let (mut fragments, undrawn) = fragment::build(&system, &labels, &body.prepared);
     let volume: f64 = fragments.iter().map(|f| f.mass.volume).sum();
-    report.volume_error = volume / body.asset.fracture.total_volume() - 1.0;
-    report.timings.fragments += start.elapsed().as_secs_f64();
+    report.volume_error = volume / body.prepared.index.total_volume - 1.0;
+    report.timings.fragments = start.elapsed().as_secs_f64();
+    let start = Instant::now();
+    if let (Some(surface), Some(undrawn)) = (&body.asset.render, undrawn) {
+        let (mesh, prepared) = (&body.asset.fracture, &body.prepared);
+        fragment::draw(surface, mesh, prepared, &mut fragments, undrawn);
+        report.timings.drawing = start.elapsed().as_secs_f64();
+    }
     Outcome::Broke(Box::new(Fracture { fragments, report }))
 }

@@ -130,6 +130,18 @@ pub struct StageTimings {
     pub stress: f64,
     /// Crack initiation and growth.
     pub cracks: f64,
-    /// Labels, partition, surfaces, masses.
+    /// What hangs together still.
+    pub labels: f64,
+    /// Partition, surfaces, masses.
     pub fragments: f64,
+    /// What to draw of a body with a surface of its author's.
+    pub drawing: f64,
+}
+
+impl StageTimings {
+    /// Sum of all stages, s.
+    #[must_use]
+    pub fn total(&self) -> f64 {
+        self.response + self.stress + self.cracks + self.labels + self.fragments + self.drawing
+    }
 }

@@ -16,4 +16,4 @@ use propagation::{advance, retry};
 pub(crate) use surface::crossing_polygon;
 pub(crate) use suspects::Suspects;
 pub(crate) use system::front_limit;
-pub(crate) use system::{Crack, CrackSystem, ElementCut, Junction, UNCUT};
+pub(crate) use system::{Crack, CrackSystem, ElementCut, Junction};

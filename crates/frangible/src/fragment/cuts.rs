@@ -1,7 +1,6 @@
 //! Which mesh edges are cut, where, and by which crack `[G12 §6.3]`.
 
-use std::collections::HashMap;
-
+use super::by_node::ByNode;
 use crate::crack::CrackSystem;
 use crate::mesh::EDGES;
 
@@ -11,26 +10,33 @@ const CUT_MARGIN: f64 = 0.02;
 /// A cut edge.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct EdgeCut {
+    /// Lower node and higher.
+    pub(crate) ends: [u32; 2],
     /// Place along the edge, from its lower node (0) to its higher (1).
     pub(crate) at: f64,
     /// Crack that cut it first.
     pub(crate) crack: u32,
 }
 
-/// All cut edges. Looked up only, never iterated.
-#[derive(Debug, Default)]
+/// All cut edges.
+#[derive(Debug)]
 pub(crate) struct Cuts {
-    edges: HashMap<(u32, u32), EdgeCut>,
-    /// Nodes with a cut edge.
-    pub(crate) touched: Vec<bool>,
+    /// Places in the list, by the lower end and the higher.
+    places: ByNode<u32>,
+    /// In the order they were cut.
+    list: Vec<EdgeCut>,
+    touched: Vec<bool>,
+    nodes: Vec<u32>,
 }
 
 impl Cuts {
     /// No cut edge.
     pub(crate) fn none(node_count: usize) -> Self {
         Self {
-            edges: HashMap::new(),
+            places: ByNode::new(node_count),
+            list: Vec::new(),
             touched: vec![false; node_count],
+            nodes: Vec::new(),
         }
     }
 
@@ -65,21 +71,47 @@ impl Cuts {
         } else {
             (b, a, value_b, value_a)
         };
+        if self.place(low, high).is_some() {
+            return true;
+        }
         let (s, t) = (f64::from(s), f64::from(t));
         let at = (s / (s - t)).clamp(CUT_MARGIN, 1.0 - CUT_MARGIN);
-        self.edges
-            .entry((low, high))
-            .or_insert(EdgeCut { at, crack });
-        self.touched[a as usize] = true;
-        self.touched[b as usize] = true;
+        let ends = [low, high];
+        self.places.add(low, high);
+        self.list.push(EdgeCut { ends, at, crack });
+        for end in ends {
+            if !std::mem::replace(&mut self.touched[end as usize], true) {
+                self.nodes.push(end);
+            }
+        }
         true
     }
 
     /// The cut of an edge, if any.
     pub(crate) fn get(&self, a: u32, b: u32) -> Option<EdgeCut> {
-        if !(self.touched[a as usize] && self.touched[b as usize]) {
+        Some(self.list[self.place(a.min(b), a.max(b))? as usize])
+    }
+
+    /// Place in [`Cuts::list`] of the cut of an edge, its lower node first.
+    pub(super) fn place(&self, low: u32, high: u32) -> Option<u32> {
+        if !(self.touched[low as usize] && self.touched[high as usize]) {
             return None;
         }
-        self.edges.get(&(a.min(b), a.max(b))).copied()
+        self.places.find(low, high)
+    }
+
+    /// The cut edges in the order they were cut.
+    pub(crate) fn list(&self) -> &[EdgeCut] {
+        &self.list
+    }
+
+    /// Nodes with a cut edge, in the order they got one.
+    pub(super) fn nodes(&self) -> &[u32] {
+        &self.nodes
+    }
+
+    /// Whether a node has a cut edge.
+    pub(super) fn touches(&self, node: u32) -> bool {
+        self.touched[node as usize]
     }
 }

@@ -1,9 +1,10 @@
 //! Labels: fragments are the connected components of nodes over uncut edges `[G12 §6.1-6.2]`.
 
+use super::components::{Component, Components, DisjointSets};
 use super::cuts::Cuts;
-use super::junction::{NodeTets, end_cracks};
+use super::index::MeshIndex;
+use super::junction::end_cracks;
 use crate::crack::CrackSystem;
-use crate::mesh::{EDGES, TetMesh};
 
 /// A fragment number for every node.
 pub(crate) struct Labels {
@@ -16,73 +17,76 @@ pub(crate) struct Labels {
 }
 
 /// Cuts, flood fill, crumbs: components smaller than `crumb_share` of the volume join the neighbour they share most with.
-pub(crate) fn label(system: &CrackSystem, crumb_share: f64) -> Labels {
-    let mesh = &system.asset.fracture;
+pub(crate) fn label(system: &CrackSystem, index: &MeshIndex, crumb_share: f64) -> Labels {
     let mut cuts = Cuts::of_fractured_elements(system);
     if system.config.ends_inside {
-        let tets_of_node = NodeTets::new(mesh.positions.len(), &mesh.tets);
-        end_cracks(system, &mut cuts, &tets_of_node);
+        end_cracks(system, &mut cuts);
     }
-    let mut sets = DisjointSets::new(mesh.positions.len());
-    for tet in &mesh.tets {
-        for [i, j] in EDGES {
-            if cuts.get(tet[i], tet[j]).is_none() {
-                sets.join(tet[i], tet[j]);
-            }
-        }
-    }
-    let (of_node, count) = number(&absorb_crumbs(mesh, &mut sets, crumb_share), mesh);
+    of_cuts(cuts, &system.asset.fracture.tets, index, crumb_share)
+}
+
+/// The labels that these cuts leave.
+pub(super) fn of_cuts(
+    cuts: Cuts,
+    tets: &[[u32; 4]],
+    index: &MeshIndex,
+    crumb_share: f64,
+) -> Labels {
+    let components = Components::of(&cuts, index);
+    let (number, count) = if components.list.len() == 1 {
+        (vec![0], 1)
+    } else {
+        let joined = absorb_crumbs(&components, &cuts, tets, index, crumb_share);
+        number(&components.list, &joined)
+    };
     Labels {
-        of_node,
+        of_node: components.spread(&number),
         count,
         cuts,
     }
 }
 
-/// Component root of every node after crumbs have joined a neighbour.
-fn absorb_crumbs(mesh: &TetMesh, sets: &mut DisjointSets, crumb_share: f64) -> Vec<u32> {
-    let nodes = mesh.positions.len();
-    let mut root: Vec<u32> = (0..nodes as u32).map(|v| sets.find(v)).collect();
-    let volumes = lumped_volumes(mesh);
-    let limit = crumb_share * volumes.iter().sum::<f64>();
+/// A place where two components meet: the two, and how many pairs of a tetrahedron and its edge run from one to the other.
+type Meeting = (u32, u32, u32);
+
+/// The component that each component is part of after crumbs have joined a neighbour: the lowest of them.
+fn absorb_crumbs(
+    components: &Components,
+    cuts: &Cuts,
+    tets: &[[u32; 4]],
+    index: &MeshIndex,
+    crumb_share: f64,
+) -> Vec<u32> {
+    let list = &components.list;
+    let count = list.len();
+    let limit = crumb_share * index.whole as f64;
+    let crumb = |volume: u64| (volume as f64) < limit;
+    let mut sets = DisjointSets::new(count);
+    let mut root: Vec<u32> = (0..count as u32).collect();
+    if !list.iter().any(|c| crumb(c.volume)) {
+        return root;
+    }
+    let is_crumb: Vec<bool> = list.iter().map(|c| crumb(c.volume)).collect();
+    let meetings = meetings(components, cuts, tets, index, &is_crumb);
     // Each pass joins every crumb to its best neighbour; a crumb among crumbs needs several.
     for _ in 0..16 {
-        let mut volume = vec![0.0; nodes];
-        for (v, &r) in root.iter().enumerate() {
-            volume[r as usize] += volumes[v];
+        let mut volume = vec![0_u64; count];
+        for (component, &r) in list.iter().zip(&root) {
+            volume[r as usize] += component.volume;
         }
-        let crumb = |r: u32| volume[r as usize] < limit;
-        let mut contacts: Vec<(u32, u32)> = Vec::new();
-        for tet in &mesh.tets {
-            for [i, j] in EDGES {
-                let (a, b) = (root[tet[i] as usize], root[tet[j] as usize]);
-                if a != b {
-                    if crumb(a) {
-                        contacts.push((a, b));
-                    }
-                    if crumb(b) {
-                        contacts.push((b, a));
-                    }
+        let mut contacts: Vec<Meeting> = Vec::new();
+        for &(a, b, pairs) in &meetings {
+            let (a, b) = (root[a as usize], root[b as usize]);
+            for (a, b) in [(a, b), (b, a)] {
+                if a != b && crumb(volume[a as usize]) {
+                    contacts.push((a, b, pairs));
                 }
             }
         }
         if contacts.is_empty() {
             break;
         }
-        contacts.sort_unstable();
-        let mut best: Option<(u32, u32, usize)> = None;
-        let mut joins = Vec::new();
-        for group in contacts.chunk_by(|x, y| x == y) {
-            let (a, b) = group[0];
-            if best.is_some_and(|(c, ..)| c != a) {
-                joins.extend(best.take());
-            }
-            if best.is_none_or(|(_, _, n)| group.len() > n) {
-                best = Some((a, b, group.len()));
-            }
-        }
-        joins.extend(best);
-        for (a, b, _) in joins {
+        for (a, b) in best_neighbours(contacts) {
             sets.join(a, b);
         }
         for r in &mut root {
@@ -92,23 +96,54 @@ fn absorb_crumbs(mesh: &TetMesh, sets: &mut DisjointSets, crumb_share: f64) -> V
     root
 }
 
-/// Numbers the components by falling volume, then by lowest node.
-fn number(root: &[u32], mesh: &TetMesh) -> (Vec<u32>, usize) {
-    let volumes = lumped_volumes(mesh);
-    let mut component = vec![(0.0_f64, u32::MAX); root.len()];
-    for (v, &r) in root.iter().enumerate() {
-        let c = &mut component[r as usize];
-        c.0 += volumes[v];
-        c.1 = c.1.min(v as u32);
+/// Where crumbs meet others.
+fn meetings(
+    components: &Components,
+    cuts: &Cuts,
+    tets: &[[u32; 4]],
+    index: &MeshIndex,
+    is_crumb: &[bool],
+) -> Vec<Meeting> {
+    let mut meetings = Vec::new();
+    for cut in cuts.list() {
+        let [low, high] = cut.ends;
+        let (a, b) = (components.of_node(low), components.of_node(high));
+        if a != b && (is_crumb[a as usize] || is_crumb[b as usize]) {
+            let around = index.tets.of(low).iter();
+            let pairs = around.filter(|&&e| tets[e as usize].contains(&high));
+            meetings.push((a, b, pairs.count() as u32));
+        }
     }
-    let mut order: Vec<u32> = (0..root.len() as u32)
-        .filter(|&r| component[r as usize].1 != u32::MAX)
-        .collect();
-    order.sort_by(|&a, &b| {
-        let (x, y) = (component[a as usize], component[b as usize]);
-        y.0.total_cmp(&x.0).then(x.1.cmp(&y.1))
-    });
-    let mut label = vec![0; root.len()];
+    meetings
+}
+
+/// For each first component the one it shares most with, the lowest of equals.
+fn best_neighbours(mut contacts: Vec<Meeting>) -> Vec<(u32, u32)> {
+    contacts.sort_unstable();
+    let mut best: Vec<Meeting> = Vec::new();
+    for group in contacts.chunk_by(|x, y| (x.0, x.1) == (y.0, y.1)) {
+        let (a, b, _) = group[0];
+        let pairs = group.iter().map(|c| c.2).sum();
+        match best.last_mut().filter(|last| last.0 == a) {
+            None => best.push((a, b, pairs)),
+            Some(last) if pairs > last.2 => *last = (a, b, pairs),
+            Some(_) => {}
+        }
+    }
+    best.into_iter().map(|(a, b, _)| (a, b)).collect()
+}
+
+/// Numbers the components by falling volume, then by lowest node; returns how many there are, too.
+fn number(list: &[Component], root: &[u32]) -> (Vec<u32>, usize) {
+    let mut volume = vec![0_u64; list.len()];
+    for (component, &r) in list.iter().zip(root) {
+        volume[r as usize] += component.volume;
+    }
+    let roots = 0..list.len() as u32;
+    let mut order: Vec<u32> = roots.filter(|&r| root[r as usize] == r).collect();
+    // Components are listed by rising lowest node.
+    order.sort_by_key(|&r| (std::cmp::Reverse(volume[r as usize]), r));
+    let mut label = vec![0; list.len()];
     for (i, &r) in order.iter().enumerate() {
         label[r as usize] = i as u32;
     }
@@ -116,43 +151,4 @@ fn number(root: &[u32], mesh: &TetMesh) -> (Vec<u32>, usize) {
         root.iter().map(|&r| label[r as usize]).collect(),
         order.len(),
     )
-}
-
-/// A quarter of each tetrahedron's volume to each of its nodes, m³.
-fn lumped_volumes(mesh: &TetMesh) -> Vec<f64> {
-    let mut volumes = vec![0.0; mesh.positions.len()];
-    for (e, tet) in mesh.tets.iter().enumerate() {
-        let quarter = mesh.volume(e) / 4.0;
-        for &v in tet {
-            volumes[v as usize] += quarter;
-        }
-    }
-    volumes
-}
-
-/// Union-find with path halving; the lower number becomes the root.
-struct DisjointSets {
-    parent: Vec<u32>,
-}
-
-impl DisjointSets {
-    fn new(count: usize) -> Self {
-        Self {
-            parent: (0..count as u32).collect(),
-        }
-    }
-
-    fn find(&mut self, mut v: u32) -> u32 {
-        while self.parent[v as usize] != v {
-            let above = self.parent[self.parent[v as usize] as usize];
-            self.parent[v as usize] = above;
-            v = above;
-        }
-        v
-    }
-
-    fn join(&mut self, a: u32, b: u32) {
-        let (a, b) = (self.find(a), self.find(b));
-        self.parent[a.max(b) as usize] = a.min(b);
-    }
 }

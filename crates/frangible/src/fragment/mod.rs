@@ -1,15 +1,26 @@
 //! Fragments: labels of nodes, exact partition of tetrahedra, closed surfaces and masses `[G12 §6]`.
 
 mod build;
+mod by_node;
+mod components;
 mod cuts;
+mod draft;
+mod finish;
+mod index;
 mod junction;
 mod label;
 mod partition;
+mod points;
 mod render;
 
+#[cfg(test)]
+mod junction_tests;
+#[cfg(test)]
+mod label_tests;
 #[cfg(test)]
 mod tests;
 
 pub(crate) use build::build;
+pub(crate) use index::MeshIndex;
 pub(crate) use label::{Labels, label};
-pub(crate) use render::RenderIndex;
+pub(crate) use render::{RenderIndex, draw};

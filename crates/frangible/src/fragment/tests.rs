@@ -118,7 +118,7 @@ fn fragments_of_arbitrary_labels_tile_the_body_and_are_closed() {
             count: count as usize,
             cuts,
         };
-        let fragments = build(&system, &labels, &body.prepared);
+        let (fragments, _) = build(&system, &labels, &body.prepared);
         assert_eq!(fragments.len(), count as usize);
         let volume: f64 = fragments.iter().map(|f| f.mass.volume).sum();
         let whole = asset.fracture.total_volume();
@@ -170,7 +170,7 @@ fn the_fragment_that_holds_a_supported_node_is_supported() {
         asset.supported = vec![node];
         let config = FractureConfig::default();
         let body = Breakable::of_sound(asset.clone().into()).body(1);
-        let fragments = build(
+        let (fragments, _) = build(
             &CrackSystem::new(&body, &config, 0.0),
             &labels,
             &body.prepared,

@@ -1,6 +1,6 @@
 //! Exact mass properties of polyhedra and tetrahedra.
 
-use glam::{DMat3, DVec3};
+use glam::{DMat3, DVec3, Vec3Swizzles as _};
 
 /// Mass, centre of mass and inertia of a rigid piece.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,6 +42,40 @@ impl MassProperties {
             volume,
             centre,
             inertia,
+        }
+    }
+
+    /// Of what a closed surface encloses, of one density, kg/m³, given the corners of its triangles: the tetrahedra of
+    /// the triangles with the origin.
+    pub(crate) fn of_surface(density: f64, triangles: impl Iterator<Item = [DVec3; 3]>) -> Self {
+        let (mut volume, mut first) = (0.0, DVec3::ZERO);
+        // xx, yy, zz and yz, zx, xy of the second moments.
+        let (mut squares, mut products) = (DVec3::ZERO, DVec3::ZERO);
+        let square = |p: DVec3| p * p;
+        let product = |p: DVec3| p.zxy() * p.yzx();
+        for [a, b, c] in triangles {
+            let v = a.cross(b).dot(c) / 6.0;
+            let sum = a + b + c;
+            volume += v;
+            first += v / 4.0 * sum;
+            let share = v / 20.0;
+            squares += (square(a) + square(b) + square(c) + square(sum)) * share;
+            products += (product(a) + product(b) + product(c) + product(sum)) * share;
+        }
+        let centre = first / volume;
+        let squares = squares - square(centre) * volume;
+        let products = products - product(centre) * volume;
+        let second = DMat3::from_cols(
+            DVec3::new(squares.x, products.z, products.y),
+            DVec3::new(products.z, squares.y, products.x),
+            DVec3::new(products.y, products.x, squares.z),
+        );
+        let trace = squares.x + squares.y + squares.z;
+        Self {
+            mass: density * volume,
+            volume,
+            centre,
+            inertia: (DMat3::from_diagonal(DVec3::splat(trace)) - second) * density,
         }
     }
 

@@ -3,6 +3,7 @@
 mod closest;
 mod mass;
 mod render;
+mod rows;
 mod smooth;
 mod surface;
 mod tet;
@@ -11,6 +12,7 @@ mod tree;
 pub use closest::closest_on_triangle;
 pub use mass::MassProperties;
 pub use render::{RenderMesh, box_projection};
+pub(crate) use rows::Rows;
 pub(crate) use smooth::smooth_normals;
 pub use surface::TriMesh;
 pub(crate) use tet::{EDGES, FACES};

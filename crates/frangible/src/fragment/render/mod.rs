@@ -4,6 +4,7 @@
 //! projecting the partition of the fracture mesh's boundary on it, and the rims of the crack faces are drawn to it.
 
 mod assemble;
+mod draw;
 mod overlay;
 mod parts;
 mod polygon;
@@ -14,6 +15,7 @@ use glam::{DVec3, Vec3};
 
 use crate::asset::RenderSurface;
 use crate::mesh::TriangleTree;
+pub(crate) use draw::{Undrawn, draw};
 use overlay::Overlay;
 pub(crate) use parts::{Part, Parts};
 use polygon::Polygon;

@@ -18,6 +18,8 @@ pub(crate) struct Parts {
     list: Vec<Part>,
     /// Number of parts before those of each triangle, begun so far.
     first: Vec<u32>,
+    /// Points of the partition on the boundary, in any order and repeated.
+    pub(crate) rim: Vec<u32>,
 }
 
 impl Parts {

@@ -5,10 +5,10 @@ use rand_chacha::rand_core::Rng;
 
 use crate::asset::{RenderMaterial, RenderSurface};
 use crate::crack::CrackSystem;
-use crate::fragment::build;
 use crate::fragment::cuts::Cuts;
 use crate::fragment::label::Labels;
 use crate::fragment::tests::block;
+use crate::fragment::{build, draw};
 use crate::mesh::EDGES;
 use crate::outcome::Fragment;
 use crate::rng::{Purpose, stream, uniform};
@@ -104,7 +104,16 @@ fn broken(surface: &RenderSurface, count: u32, random: bool, seed: u64) -> Vec<F
     let config = FractureConfig::default();
     let body = Breakable::of_sound(asset.into()).body(1);
     let system = CrackSystem::new(&body, &config, 0.0);
-    build(&system, &labels, &body.prepared)
+    let (mut fragments, undrawn) = build(&system, &labels, &body.prepared);
+    let mesh = &body.asset.fracture;
+    draw(
+        surface,
+        mesh,
+        &body.prepared,
+        &mut fragments,
+        undrawn.unwrap(),
+    );
+    fragments
 }
 
 fn area(positions: &[Vec3], triangles: &[[u32; 3]]) -> f64 {

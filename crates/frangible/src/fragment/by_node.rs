@@ -1,0 +1,39 @@
+//! Tables of what lies among a few mesh nodes.
+
+/// Entries by their lowest node and what else names them: a chain per node, numbered in the order they came. Costs
+/// what is in it, not what the mesh has, and knows no hash.
+#[derive(Debug)]
+pub(super) struct ByNode<K> {
+    /// Number plus one of each node's latest entry, 0 for none.
+    latest: Vec<u32>,
+    /// Each entry's key, and the node's entry before it.
+    entries: Vec<(K, u32)>,
+}
+
+impl<K: Copy + PartialEq> ByNode<K> {
+    pub(super) fn new(node_count: usize) -> Self {
+        Self {
+            latest: vec![0; node_count],
+            entries: Vec::new(),
+        }
+    }
+
+    pub(super) fn find(&self, node: u32, key: K) -> Option<u32> {
+        let mut at = self.latest[node as usize];
+        while at != 0 {
+            let (known, before) = self.entries[at as usize - 1];
+            if known == key {
+                return Some(at - 1);
+            }
+            at = before;
+        }
+        None
+    }
+
+    /// Adds an entry that is not there yet.
+    pub(super) fn add(&mut self, node: u32, key: K) {
+        let latest = &mut self.latest[node as usize];
+        self.entries.push((key, *latest));
+        *latest = self.entries.len() as u32;
+    }
+}

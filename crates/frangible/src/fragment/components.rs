@@ -1,0 +1,323 @@
+//! Connected components of the nodes over uncut edges `[G12 §6.1-6.2]`, at the cost of the smaller sides.
+//!
+//! Every component has a node beside a cut (or is a part of the mesh that was never joined to the rest). So the search
+//! starts there, from all sides of the cuts at once, the side that has seen least going on. Sides that meet are one;
+//! a side that has nowhere to go is a component. When one side is left, it has all that nobody has seen: it is
+//! not searched further, and its volume is what the others leave of the whole.
+
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+use super::cuts::Cuts;
+use super::index::MeshIndex;
+
+/// Nodes that a side looks at before it is asked again whether it has seen least.
+const TURN: u32 = 32;
+
+/// A connected component.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Component {
+    /// Its lowest node.
+    pub(super) lowest: u32,
+    /// Sum of [`MeshIndex::volumes`] of its nodes.
+    pub(super) volume: u64,
+}
+
+/// The components, and who is in which.
+pub(super) struct Components {
+    /// By rising lowest node.
+    pub(super) list: Vec<Component>,
+    /// Component of all nodes that were not seen.
+    pub(super) rest: u32,
+    /// Nodes that were seen.
+    seen: Vec<u32>,
+    /// Side plus one that saw each node, 0 for none.
+    side_of_node: Vec<u32>,
+    /// Component of each side.
+    of_side: Vec<u32>,
+}
+
+impl Components {
+    pub(super) fn of(cuts: &Cuts, index: &MeshIndex) -> Self {
+        let mut search = Search::new(cuts, index);
+        search.run();
+        search.finish()
+    }
+
+    /// Component of a node.
+    pub(super) fn of_node(&self, node: u32) -> u32 {
+        match self.side_of_node[node as usize] {
+            0 => self.rest,
+            side => self.of_side[side as usize - 1],
+        }
+    }
+
+    /// How many nodes were seen.
+    #[cfg(test)]
+    pub(super) fn cost(&self) -> usize {
+        self.seen.len()
+    }
+
+    /// A number for every node, given that of every component.
+    pub(super) fn spread(&self, number: &[u32]) -> Vec<u32> {
+        let rest = number[self.rest as usize];
+        let mut of_node = vec![rest; self.side_of_node.len()];
+        for &v in &self.seen {
+            of_node[v as usize] = number[self.of_node(v) as usize];
+        }
+        of_node
+    }
+}
+
+/// What has been seen from one place beside the cuts.
+#[derive(Clone, Debug)]
+struct Side {
+    /// Nodes seen and not looked at, from `next` on.
+    waiting: Vec<u32>,
+    next: usize,
+    /// How many were looked at.
+    looked_at: u32,
+    lowest: u32,
+    volume: u64,
+}
+
+struct Search<'a> {
+    cuts: &'a Cuts,
+    index: &'a MeshIndex,
+    side_of_node: Vec<u32>,
+    seen: Vec<u32>,
+    sides: Vec<Side>,
+    /// Sides that have met.
+    sets: DisjointSets,
+    /// Sides that may still go on, met ones counted once.
+    going: usize,
+}
+
+impl<'a> Search<'a> {
+    /// The sides: nodes with a cut edge, joined where an uncut edge joins them, and a node of each part of the mesh.
+    fn new(cuts: &'a Cuts, index: &'a MeshIndex) -> Self {
+        let mut side_of_node = vec![0_u32; index.nodes()];
+        let mut starts = cuts.nodes().to_vec();
+        if index.first_nodes.len() > 1 {
+            let untouched = index.first_nodes.iter().filter(|&&v| !cuts.touches(v));
+            starts.extend(untouched);
+        }
+        for (place, &v) in (1..).zip(&starts) {
+            side_of_node[v as usize] = place;
+        }
+        let mut sets = DisjointSets::new(starts.len());
+        for &v in cuts.nodes() {
+            for &w in index.neighbours.of(v) {
+                if w < v && cuts.touches(w) && cuts.place(w, v).is_none() {
+                    sets.join(side_of_node[v as usize] - 1, side_of_node[w as usize] - 1);
+                }
+            }
+        }
+        let mut search = Self {
+            cuts,
+            index,
+            side_of_node,
+            sets: DisjointSets::new(0),
+            sides: Vec::new(),
+            going: 0,
+            seen: starts,
+        };
+        search.gather(&mut sets);
+        search
+    }
+
+    /// A side for every set of starts.
+    fn gather(&mut self, sets: &mut DisjointSets) {
+        let mut side_of_set = vec![u32::MAX; self.seen.len()];
+        for (place, &v) in self.seen.iter().enumerate() {
+            let side = &mut side_of_set[sets.find(place as u32) as usize];
+            if *side == u32::MAX {
+                *side = self.sides.len() as u32;
+                self.sides.push(Side::default());
+            }
+            self.side_of_node[v as usize] = *side + 1;
+            self.sides[*side as usize].add(v, self.index);
+        }
+        self.sets = DisjointSets::new(self.sides.len());
+        self.going = self.sides.len();
+    }
+
+    fn run(&mut self) {
+        let mut order: BinaryHeap<Reverse<(u32, u32)>> = (0..self.sides.len() as u32)
+            .map(|side| Reverse((0, side)))
+            .collect();
+        while self.going > 1 {
+            let Some(Reverse((looked_at, side))) = order.pop() else {
+                break;
+            };
+            // Entries of sides that have met another, or have gone on since, are out of date.
+            if self.sets.find(side) != side || self.sides[side as usize].looked_at != looked_at {
+                continue;
+            }
+            let side = self.turn(side);
+            let s = &self.sides[side as usize];
+            if s.next < s.waiting.len() {
+                order.push(Reverse((s.looked_at, side)));
+            } else {
+                self.going -= 1;
+            }
+        }
+    }
+
+    /// Lets a side look at some nodes; returns the one it is part of afterwards.
+    fn turn(&mut self, mut side: u32) -> u32 {
+        for _ in 0..TURN {
+            let s = &mut self.sides[side as usize];
+            let Some(&v) = s.waiting.get(s.next) else {
+                break;
+            };
+            s.next += 1;
+            s.looked_at += 1;
+            let v_is_cut = self.cuts.touches(v);
+            let index = self.index;
+            for &w in index.neighbours.of(v) {
+                match self.side_of_node[w as usize] {
+                    // Not beside a cut, or it would be a start: the edge is whole.
+                    0 => {
+                        self.side_of_node[w as usize] = side + 1;
+                        self.seen.push(w);
+                        self.sides[side as usize].add(w, index);
+                    }
+                    // Between two starts an uncut edge has joined them already.
+                    _ if v_is_cut && self.cuts.touches(w) => {}
+                    other => side = self.meet(side, other - 1),
+                }
+            }
+        }
+        side
+    }
+
+    fn meet(&mut self, a: u32, b: u32) -> u32 {
+        let b = self.sets.find(b);
+        if a == b {
+            return a;
+        }
+        // The lower one stays.
+        let side = self.sets.join(a, b);
+        let gone = std::mem::take(&mut self.sides[a.max(b) as usize]);
+        self.sides[side as usize].take(gone);
+        self.going -= 1;
+        side
+    }
+
+    fn finish(mut self) -> Components {
+        let ends: Vec<u32> = (0..self.sides.len() as u32)
+            .filter(|&side| self.sets.find(side) == side)
+            .collect();
+        let unfinished = ends.iter().copied().find(|&side| {
+            let s = &self.sides[side as usize];
+            s.next < s.waiting.len()
+        });
+        if let Some(rest) = unfinished {
+            self.complete(rest, &ends);
+        }
+        let mut order = ends;
+        order.sort_unstable_by_key(|&side| self.sides[side as usize].lowest);
+        let component = |&side: &u32| {
+            let Side { lowest, volume, .. } = self.sides[side as usize];
+            Component { lowest, volume }
+        };
+        let mut list: Vec<Component> = order.iter().map(component).collect();
+        if list.is_empty() {
+            list.push(Component {
+                lowest: 0,
+                volume: self.index.whole,
+            });
+        }
+        let mut component_of_end = vec![0; self.sides.len()];
+        for (component, &side) in order.iter().enumerate() {
+            component_of_end[side as usize] = component as u32;
+        }
+        let of_side: Vec<u32> = (0..self.sides.len() as u32)
+            .map(|side| component_of_end[self.sets.find(side) as usize])
+            .collect();
+        let rest = unfinished.map_or(0, |side| component_of_end[side as usize]);
+        Components {
+            list,
+            rest,
+            seen: self.seen,
+            side_of_node: self.side_of_node,
+            of_side,
+        }
+    }
+
+    /// Gives a side all that nobody has seen.
+    fn complete(&mut self, rest: u32, ends: &[u32]) {
+        let others = ends.iter().filter(|&&side| side != rest);
+        let elsewhere: u64 = others.map(|&s| self.sides[s as usize].volume).sum();
+        let mut own =
+            (0..self.index.nodes() as u32).filter(|&v| match self.side_of_node[v as usize] {
+                0 => true,
+                side => self.sets.find(side - 1) == rest,
+            });
+        let lowest = own.next().unwrap_or(0);
+        let side = &mut self.sides[rest as usize];
+        side.volume = self.index.whole - elsewhere;
+        side.lowest = lowest;
+    }
+}
+
+impl Default for Side {
+    fn default() -> Self {
+        Self {
+            waiting: Vec::new(),
+            next: 0,
+            looked_at: 0,
+            lowest: u32::MAX,
+            volume: 0,
+        }
+    }
+}
+
+impl Side {
+    fn add(&mut self, node: u32, index: &MeshIndex) {
+        self.waiting.push(node);
+        self.lowest = self.lowest.min(node);
+        self.volume += index.volumes[node as usize];
+    }
+
+    fn take(&mut self, mut other: Self) {
+        if other.waiting.len() - other.next > self.waiting.len() - self.next {
+            std::mem::swap(&mut self.waiting, &mut other.waiting);
+            std::mem::swap(&mut self.next, &mut other.next);
+        }
+        self.waiting.extend_from_slice(&other.waiting[other.next..]);
+        self.looked_at += other.looked_at;
+        self.lowest = self.lowest.min(other.lowest);
+        self.volume += other.volume;
+    }
+}
+
+/// Union-find with path halving; the lower number becomes the root.
+pub(super) struct DisjointSets {
+    parent: Vec<u32>,
+}
+
+impl DisjointSets {
+    pub(super) fn new(count: usize) -> Self {
+        Self {
+            parent: (0..count as u32).collect(),
+        }
+    }
+
+    pub(super) fn find(&mut self, mut v: u32) -> u32 {
+        while self.parent[v as usize] != v {
+            let above = self.parent[self.parent[v as usize] as usize];
+            self.parent[v as usize] = above;
+            v = above;
+        }
+        v
+    }
+
+    /// The root of both from now on.
+    pub(super) fn join(&mut self, a: u32, b: u32) -> u32 {
+        let (a, b) = (self.find(a), self.find(b));
+        self.parent[a.max(b) as usize] = a.min(b);
+        a.min(b)
+    }
+}

@@ -1,0 +1,185 @@
+//! Labels against a plain union-find over all nodes and edges.
+
+use glam::Vec3;
+use rand_chacha::rand_core::Rng;
+
+use super::components::{Components, DisjointSets};
+use super::cuts::Cuts;
+use super::index::MeshIndex;
+use super::label::{Labels, of_cuts};
+use super::tests::block;
+use crate::asset::Asset;
+use crate::mesh::{EDGES, TetMesh};
+use crate::rng::{Purpose, stream, uniform};
+
+/// What [`of_cuts`] gives, the plain way.
+fn plain(cuts: &Cuts, tets: &[[u32; 4]], volumes: &[u64], crumb_share: f64) -> (Vec<u32>, usize) {
+    let nodes = volumes.len();
+    let mut sets = DisjointSets::new(nodes);
+    for tet in tets {
+        for [i, j] in EDGES {
+            if cuts.get(tet[i], tet[j]).is_none() {
+                sets.join(tet[i], tet[j]);
+            }
+        }
+    }
+    let mut root: Vec<u32> = (0..nodes as u32).map(|v| sets.find(v)).collect();
+    let limit = crumb_share * volumes.iter().sum::<u64>() as f64;
+    let volume_of = |root: &[u32]| {
+        let mut volume = vec![0; nodes];
+        for (v, &r) in root.iter().enumerate() {
+            volume[r as usize] += volumes[v];
+        }
+        volume
+    };
+    for _ in 0..16 {
+        let volume = volume_of(&root);
+        let mut contacts = Vec::new();
+        for tet in tets {
+            for [i, j] in EDGES {
+                let (a, b) = (root[tet[i] as usize], root[tet[j] as usize]);
+                for (a, b) in [(a, b), (b, a)] {
+                    if a != b && (volume[a as usize] as f64) < limit {
+                        contacts.push((a, b));
+                    }
+                }
+            }
+        }
+        contacts.sort_unstable();
+        let mut best: Vec<(u32, u32, usize)> = Vec::new();
+        for group in contacts.chunk_by(|x, y| x == y) {
+            let (a, b) = group[0];
+            match best.iter_mut().find(|known| known.0 == a) {
+                None => best.push((a, b, group.len())),
+                Some(known) if group.len() > known.2 => *known = (a, b, group.len()),
+                Some(_) => {}
+            }
+        }
+        best.iter().for_each(|&(a, b, _)| {
+            sets.join(a, b);
+        });
+        root = root.iter().map(|&r| sets.find(r)).collect();
+    }
+    let volume = volume_of(&root);
+    let mut order: Vec<u32> = (0..nodes as u32)
+        .filter(|&v| root[v as usize] == v)
+        .collect();
+    order.sort_by_key(|&r| (std::cmp::Reverse(volume[r as usize]), r));
+    let label = |r: &u32| order.iter().position(|o| o == r).unwrap() as u32;
+    (root.iter().map(label).collect(), order.len())
+}
+
+/// Number of pieces, and whether crumbs were absorbed, for several sizes of crumbs.
+fn compare(asset: &Asset, cuts: impl Fn() -> Cuts) -> (usize, bool) {
+    let index = MeshIndex::new(asset);
+    let tets = &asset.fracture.tets;
+    let counts = [0.0, 2e-4, 0.01, 0.2].map(|share| {
+        let (of_node, count) = plain(&cuts(), tets, &index.volumes, share);
+        let found: Labels = of_cuts(cuts(), tets, &index, share);
+        assert_eq!(found.count, count);
+        assert_eq!(found.of_node, of_node);
+        count
+    });
+    (counts[0], counts[3] < counts[0])
+}
+
+/// Cuts every edge for which `is_cut` says so.
+fn cut_where(mesh: &TetMesh, mut is_cut: impl FnMut(u32, u32) -> bool) -> Cuts {
+    let mut cuts = Cuts::none(mesh.positions.len());
+    for tet in &mesh.tets {
+        for [i, j] in EDGES {
+            let (low, high) = (tet[i].min(tet[j]), tet[i].max(tet[j]));
+            if cuts.get(low, high).is_none() && is_cut(low, high) {
+                cuts.cut(low, high, -1.0, 1.0, 0);
+            }
+        }
+    }
+    cuts
+}
+
+#[test]
+fn labels_of_arbitrary_cuts_are_those_of_a_plain_union_find() {
+    let (mut pieces, mut absorbed) = (0, 0);
+    for (round, share) in [0.02, 0.3, 0.6, 0.75, 0.85, 0.95].into_iter().enumerate() {
+        let asset = block(5);
+        let cuts = || {
+            let mut rng = stream(round as u64, Purpose::CrackDirection, 0);
+            cut_where(&asset.fracture, |_, _| uniform(&mut rng) < share)
+        };
+        let (count, joined) = compare(&asset, cuts);
+        pieces += count;
+        absorbed += usize::from(joined);
+    }
+    assert!(pieces > 100 && absorbed > 2, "{pieces}, {absorbed}");
+}
+
+/// Whether the edge crosses one of these discs.
+fn crosses(mesh: &TetMesh, discs: &[(Vec3, Vec3, f32)], low: u32, high: u32) -> bool {
+    let [a, b] = [low, high].map(|v| mesh.positions[v as usize]);
+    discs.iter().any(|&(centre, normal, radius)| {
+        ((a - centre).dot(normal) < 0.0) != ((b - centre).dot(normal) < 0.0)
+            && a.midpoint(b).distance(centre) < radius
+    })
+}
+
+#[test]
+fn labels_of_flat_cracks_are_those_of_a_plain_union_find() {
+    let (mut held, mut parted) = (0, 0);
+    for seed in 0..40_u32 {
+        let asset = block(6);
+        let mut rng = stream(seed.into(), Purpose::CrackDirection, 1);
+        let count = 1 + rng.next_u32() % 6;
+        let mut random = || Vec3::from_array(std::array::from_fn(|_| uniform(&mut rng) as f32));
+        let discs: Vec<_> = (0..count)
+            .map(|_| (0.06 * random(), random() - 0.5, 0.09 * random().x))
+            .collect();
+        let mesh = &asset.fracture;
+        let cuts = || cut_where(mesh, |low, high| crosses(mesh, &discs, low, high));
+        let (pieces, _) = compare(&asset, cuts);
+        held += usize::from(pieces == 1);
+        parted += usize::from(pieces > 1);
+    }
+    assert!(held > 5 && parted > 5, "{held} held, {parted} parted");
+}
+
+#[test]
+fn parts_that_no_edge_joins_are_pieces_whether_cracks_touch_them_or_not() {
+    let mut asset = block(3);
+    let mesh = &asset.fracture;
+    let nodes = mesh.positions.len() as u32;
+    let (mut positions, mut tets) = (mesh.positions.clone(), mesh.tets.clone());
+    positions.extend(mesh.positions.iter().map(|p| p + 1.0));
+    tets.extend(mesh.tets.iter().map(|t| t.map(|v| v + nodes)));
+    asset.cell_of_tet = vec![0; tets.len()];
+    asset.fracture = TetMesh::new(positions, tets);
+    let mesh = &asset.fracture;
+    assert_eq!(compare(&asset, || Cuts::none(mesh.positions.len())).0, 2);
+    let corner = (Vec3::ZERO, Vec3::ONE, 0.012);
+    let cuts = || cut_where(mesh, |low, high| crosses(mesh, &[corner], low, high));
+    assert_eq!(compare(&asset, cuts).0, 2);
+    let middle = (Vec3::splat(0.015), Vec3::X, 1.0);
+    let cuts = || cut_where(mesh, |low, high| crosses(mesh, &[middle], low, high));
+    assert_eq!(compare(&asset, cuts).0, 3);
+}
+
+#[test]
+fn a_crack_costs_what_it_crosses_not_what_the_body_has() {
+    // Across an edge of the block, and between two that part what it cuts off from the rest of the edge.
+    let slant = (Vec3::new(0.01, 0.01, 0.05), Vec3::new(1.0, 1.0, 0.0), 0.025);
+    let long = (slant.0, slant.1, 0.08);
+    let level = |z| (Vec3::new(0.0, 0.0, z), Vec3::Z, 0.05);
+    for (parts, discs) in [
+        (false, vec![slant]),
+        (true, vec![long, level(0.025), level(0.075)]),
+    ] {
+        let costs = [10, 20].map(|n| {
+            let asset = block(n);
+            let mesh = &asset.fracture;
+            let cuts = cut_where(mesh, |low, high| crosses(mesh, &discs, low, high));
+            let components = Components::of(&cuts, &MeshIndex::new(&asset));
+            assert_eq!(components.list.len() > 1, parts);
+            components.cost()
+        });
+        assert!(costs[1] < 300 && costs[1] * 3 < costs[0] * 4, "{costs:?}");
+    }
+}

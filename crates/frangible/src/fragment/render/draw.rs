@@ -1,0 +1,62 @@
+//! What there is to draw of the fragments, made from what building them left.
+
+use glam::DVec3;
+
+use super::Parts;
+use crate::asset::RenderSurface;
+use crate::body::Prepared;
+use crate::mesh::TetMesh;
+use crate::outcome::Fragment;
+
+/// What drawing fragments needs and building them knows.
+pub(crate) struct Undrawn {
+    /// The boundary divided among the labels.
+    pub(crate) parts: Parts,
+    /// Label of each fragment.
+    pub(crate) labels: Vec<u32>,
+    /// Crack faces of each label, in numbers of the points: mesh nodes, then the others.
+    pub(crate) faces: Vec<Vec<[u32; 3]>>,
+    /// Where the others are, m, body frame.
+    pub(crate) points: Vec<DVec3>,
+}
+
+/// Gives each fragment its share of the render surface and its crack faces, the rims of these drawn to that surface.
+pub(crate) fn draw(
+    surface: &RenderSurface,
+    mesh: &TetMesh,
+    prepared: &Prepared,
+    fragments: &mut [Fragment],
+    undrawn: Undrawn,
+) {
+    let Some(index) = &prepared.render else {
+        return;
+    };
+    let reach = prepared.edge;
+    let Undrawn {
+        parts,
+        labels,
+        faces,
+        mut points,
+    } = undrawn;
+    let shares = index.shares(surface, &prepared.surface, &parts, faces.len(), reach);
+    let nodes = mesh.positions.len();
+    let mut rim = parts.rim;
+    rim.sort_unstable();
+    rim.dedup();
+    for v in rim {
+        let place = &mut points[v as usize - nodes];
+        *place = index.drawn_to(*place, reach);
+    }
+    let place = |v: u32| points[v as usize - nodes];
+    let mut local = vec![u32::MAX; surface.positions.len()];
+    for (fragment, &label) in fragments.iter_mut().zip(&labels) {
+        let normals = &fragment.mesh.normals[fragment.mesh.outer_triangles..];
+        let faces = faces[label as usize]
+            .iter()
+            .zip(normals)
+            .map(|(face, n)| [0, 1, 2].map(|k| (place(face[k]), n[k])))
+            .collect();
+        let (share, centre) = (&shares[label as usize], fragment.mass.centre);
+        fragment.render = Some(index.assemble(surface, share, &faces, centre, &mut local));
+    }
+}

@@ -1,0 +1,63 @@
+//! Lists of numbers of different lengths, one behind another.
+
+/// Rows of numbers, compressed: where each row starts, and all rows one behind another.
+#[derive(Clone, Debug)]
+pub(crate) struct Rows {
+    starts: Vec<u32>,
+    items: Vec<u32>,
+}
+
+impl Rows {
+    /// No row yet.
+    pub(crate) fn new() -> Self {
+        Self {
+            starts: vec![0],
+            items: Vec::new(),
+        }
+    }
+
+    /// Row r lists, ascending, the keys' places where r stands: for the nodes of tetrahedra, the tetrahedra of a node.
+    pub(crate) fn inverse<const N: usize>(count: usize, keys: &[[u32; N]]) -> Self {
+        let mut starts = vec![0_u32; count + 1];
+        for &r in keys.iter().flatten() {
+            starts[r as usize + 1] += 1;
+        }
+        for r in 0..count {
+            starts[r + 1] += starts[r];
+        }
+        let mut next = starts.clone();
+        let mut items = vec![0; N * keys.len()];
+        for (i, key) in keys.iter().enumerate() {
+            for &r in key {
+                items[next[r as usize] as usize] = i as u32;
+                next[r as usize] += 1;
+            }
+        }
+        Self { starts, items }
+    }
+
+    /// Adds a row, ascending.
+    pub(crate) fn push(&mut self, row: &mut [u32]) {
+        row.sort_unstable();
+        self.items.extend_from_slice(row);
+        self.starts.push(self.items.len() as u32);
+    }
+
+    /// Gives back what memory it has too much.
+    pub(crate) fn shrunk(mut self) -> Self {
+        self.starts.shrink_to_fit();
+        self.items.shrink_to_fit();
+        self
+    }
+
+    /// Number of rows.
+    pub(crate) fn len(&self) -> usize {
+        self.starts.len() - 1
+    }
+
+    /// A row.
+    pub(crate) fn of(&self, row: u32) -> &[u32] {
+        let r = row as usize;
+        &self.items[self.starts[r] as usize..self.starts[r + 1] as usize]
+    }
+}
