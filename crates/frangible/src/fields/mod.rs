@@ -5,6 +5,7 @@
 //! from the vertex colours of the asset's drawn surface ([`Fields::from_paint`]), or from whatever the vertices of a surface
 //! hold ([`Fields::from_vertices`]).
 
+mod kink;
 mod paint;
 mod resistance;
 mod scatter;
@@ -16,6 +17,7 @@ use crate::asset::Asset;
 use crate::error::InputError;
 use crate::mesh::TriangleTree;
 
+pub(crate) use kink::Tip;
 pub use paint::{Channel, Paint};
 pub(crate) use resistance::{Resistance, Toughness};
 pub use zone::{Patch, Zone};
