@@ -197,6 +197,9 @@ pub(crate) fn run_cracks<'a>(
         }
         report.timings.cracks += start.elapsed().as_secs_f64();
     }
+    if report.looked_at == LookedAt::Amplitudes && culling.asked_clusters {
+        report.looked_at = LookedAt::Clusters;
+    }
     report.peak_stress = f64::from(peak.tension);
     report.stress_bound = f64::from(peak.tension.max(culling.passed_over));
     report.cracks = system.cracks.len() - system.old_cracks;
