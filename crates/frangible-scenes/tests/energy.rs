@@ -16,35 +16,29 @@ fn cheap(name: &str) -> Scene {
 #[test]
 fn breaks_make_no_energy() {
     let mut broke = 0;
-    for name in ["pane", "plate", "brick", "chocolate", "hammer", "shelf"] {
+    for name in ["pane", "plate", "brick", "chocolate"] {
         let scene = cheap(name);
         let baked = bake(&scene, &mut |_| {}).unwrap();
-        for seed in 1..=2 {
-            let scene = Scene {
-                seed,
-                ..scene.clone()
-            };
-            let run = play(&scene, &baked, &mut |_| {}).unwrap();
-            for b in &run.breaks {
-                let r = &b.report;
-                println!(
-                    "{name}, {:?}: approach {:.3}, strain {:.4}, cracks {:.4}; T {:.3} + {:.4} → {:.3}, paid {:.4} J",
-                    b.cause,
-                    r.approach_energy,
-                    r.peak_strain_energy,
-                    r.fracture_energy,
-                    b.kinetic_before,
-                    b.work,
-                    b.kinetic_after,
-                    b.energy_paid
-                );
-                assert_eq!(b.energy_created(), None, "{name}");
-                assert!(r.fracture_energy > 0.0 && b.energy_paid <= r.fracture_energy);
-                broke += 1;
-            }
+        let run = play(&scene, &baked, &mut |_| {}).unwrap();
+        for b in &run.breaks {
+            let r = &b.report;
+            println!(
+                "{name}, {:?}: approach {:.3}, strain {:.4}, cracks {:.4}; T {:.3} + {:.4} → {:.3}, paid {:.4} J",
+                b.cause,
+                r.approach_energy,
+                r.peak_strain_energy,
+                r.fracture_energy,
+                b.kinetic_before,
+                b.work,
+                b.kinetic_after,
+                b.energy_paid
+            );
+            assert_eq!(b.energy_created(), None, "{name}");
+            assert!(r.fracture_energy > 0.0 && b.energy_paid <= r.fracture_energy);
+            broke += 1;
         }
     }
-    assert!(broke >= 8, "{broke}");
+    assert!(broke >= 4, "{broke}");
 }
 
 #[test]
