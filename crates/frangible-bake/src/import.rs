@@ -86,7 +86,7 @@ pub fn import_mesh(mesh: &InputMesh, options: &ImportOptions) -> Result<Imported
     })
 }
 
-/// The mesh as drawn, its vertices, texture coordinates, normals and materials kept.
+/// The mesh as drawn, its vertices, texture coordinates, normals, colours and materials kept.
 fn drawn(mesh: &InputMesh, similarity: &Similarity) -> RenderSurface {
     RenderSurface {
         positions: mesh
@@ -96,6 +96,7 @@ fn drawn(mesh: &InputMesh, similarity: &Similarity) -> RenderSurface {
             .collect(),
         normals: mesh.normals.clone(),
         uvs: mesh.uvs.iter().map(|uv| uv.to_array()).collect(),
+        colors: mesh.colors.clone(),
         triangles: mesh.triangles.clone(),
         material_of_triangle: mesh.material_of_triangle.clone(),
         materials: mesh

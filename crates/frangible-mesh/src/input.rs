@@ -17,6 +17,9 @@ pub struct InputMesh {
     pub normals: Vec<Vec3>,
     /// One texture coordinate per vertex (as in glTF: origin at the top left of the picture, v down), or none at all.
     pub uvs: Vec<Vec2>,
+    /// One colour per vertex, red, green, blue and opacity, each 0..=1 and as in the file (linear in glTF, as a rule sRGB
+    /// elsewhere), or none at all. Vertices on a seam have their own on either side.
+    pub colors: Vec<[f32; 4]>,
     /// Vertex indices of each triangle.
     pub triangles: Vec<[u32; 3]>,
     /// Index into [`InputMesh::materials`] of each triangle, or empty when the file names no material.

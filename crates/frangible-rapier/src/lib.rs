@@ -55,6 +55,7 @@ mod approach;
 mod collider;
 mod config;
 mod contacts;
+mod counts;
 mod debris;
 mod error;
 mod event;
@@ -80,6 +81,7 @@ mod toll;
 mod world;
 
 pub use config::WorldConfig;
+pub use counts::LoadCounts;
 pub use error::WorldError;
 pub use event::{BreakCause, BreakEvent, HeldEvent};
 pub use insert::Ball;

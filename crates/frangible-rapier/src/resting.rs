@@ -206,6 +206,9 @@ impl BreakableWorld {
             return Ok(());
         }
         let asked = (self.rest_function)(body, &load.forces, load.gravity, &self.config.fracture);
+        if let Ok(outcome) = &asked {
+            self.rest_counts.count(load.forces.len(), outcome);
+        }
         let dt = self.physics.integration_parameters.dt;
         let contacts = |load: &Load| load.cause(dt).contacts;
         match asked {

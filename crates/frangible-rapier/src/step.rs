@@ -181,12 +181,18 @@ impl BreakableWorld {
             let (cause, impact, outcome) = if impact.contacts.is_empty() || unchanged {
                 match self.breaking_load(handle, body, before) {
                     None => continue,
-                    Some(Ok((load, outcome))) => (BreakCause::Rest, load, Ok(outcome)),
+                    Some(Ok((load, outcome))) => {
+                        self.rest_counts.count(load.contacts.len(), &outcome);
+                        (BreakCause::Rest, load, Ok(outcome))
+                    }
                     Some(Err(error)) => (BreakCause::Rest, impact, Err(error)),
                 }
             } else {
                 let judge = &self.break_function;
                 let outcome = judge(body, &impact.contacts, &self.config.fracture);
+                if let Ok(outcome) = &outcome {
+                    self.impact_counts.count(impact.contacts.len(), outcome);
+                }
                 (BreakCause::Impact, impact, outcome.map_err(Into::into))
             };
             let fracture = match outcome {

@@ -10,6 +10,7 @@ use rapier3d::pipeline::PhysicsWorld;
 use std::sync::Arc;
 
 use crate::config::WorldConfig;
+use crate::counts::LoadCounts;
 use crate::error::WorldError;
 use crate::event::{BreakEvent, HeldEvent};
 use crate::floor::FloorDispatcher;
@@ -72,6 +73,8 @@ pub struct BreakableWorld {
     pub(crate) refused_breaks: u64,
     pub(crate) undone_steps: u64,
     pub(crate) snapshots: u64,
+    pub(crate) impact_counts: LoadCounts,
+    pub(crate) rest_counts: LoadCounts,
 }
 
 impl BreakableWorld {
@@ -115,6 +118,8 @@ impl BreakableWorld {
             refused_breaks: 0,
             undone_steps: 0,
             snapshots: 0,
+            impact_counts: LoadCounts::default(),
+            rest_counts: LoadCounts::default(),
             config,
         })
     }
@@ -200,6 +205,18 @@ impl BreakableWorld {
     #[must_use]
     pub fn refused_breaks(&self) -> u64 {
         self.refused_breaks
+    }
+
+    /// What became of all impacts so far.
+    #[must_use]
+    pub fn impact_counts(&self) -> LoadCounts {
+        self.impact_counts
+    }
+
+    /// What became of all resting loads so far.
+    #[must_use]
+    pub fn rest_counts(&self) -> LoadCounts {
+        self.rest_counts
     }
 
     /// Steps that began with a copy of the world, since a breakable body was about to be hit.

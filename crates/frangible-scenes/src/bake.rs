@@ -53,8 +53,31 @@ pub fn open_sources(scene: &Scene) -> Result<Vec<Opened>, SceneError> {
         if let Some(Opened::Shape { groups, .. }) = opened.last() {
             check_groups(&body.supports, groups)?;
         }
+        if let Some(opened) = opened.last().filter(|_| !body.paint.is_empty()) {
+            check_painted(body, opened)?;
+        }
     }
     Ok(opened)
+}
+
+/// Refuses paint on a body whose file has no vertex colours, before it is baked.
+fn check_painted(body: &BodySpec, opened: &Opened) -> Result<(), SceneError> {
+    let (BodySource::Mesh { path, .. } | BodySource::Asset(path)) = &body.source else {
+        return Ok(());
+    };
+    let colors = match opened {
+        Opened::Shape { render, .. } => render.as_ref().map_or(0, |r| r.colors.len()),
+        Opened::Asset(asset) => asset.render.as_ref().map_or(0, |r| r.colors.len()),
+    };
+    if colors > 0 {
+        return Ok(());
+    }
+    Err(SceneError::File {
+        path: path.clone(),
+        problem: "weakness is painted with vertex colours, but this file has none; export it with them (glTF COLOR_0, PLY \
+                  red green blue, OBJ v x y z r g b), or remove `paint`"
+            .into(),
+    })
 }
 
 /// Reads a body's source; a baked one is brought to the material and size asked for.

@@ -1,7 +1,7 @@
 //! One breakable body of a scene.
 
 use frangible::glam::{Quat, Vec3};
-use frangible::{Material, Patch};
+use frangible::{Material, Paint, Patch};
 use frangible_bake::Support;
 
 use crate::rescale::Rescale;
@@ -36,6 +36,9 @@ pub struct BodySpec {
     /// Where it is weaker than its material, or stronger; one over the other. m from its centre of mass, along the axes of
     /// its shape. Not part of the bake.
     pub weakness: Vec<Patch>,
+    /// Weakness painted with the vertex colours of its mesh; [`BodySpec::weakness`] lies over it. Not part of the bake, but the
+    /// colours are.
+    pub paint: Vec<Paint>,
     /// Weibull modulus of the scatter of its strength, see [`frangible::Fields::weibull_modulus`]; 0: none.
     pub weibull_modulus: f64,
     /// What is to differ from the bake of a [`BodySource::Asset`]; not looked at for other sources.
@@ -77,6 +80,7 @@ impl BodySpec {
             spin: Vec3::ZERO,
             supports: Vec::new(),
             weakness: Vec::new(),
+            paint: Vec::new(),
             weibull_modulus: 0.0,
             rescale: Rescale::default(),
         }

@@ -2,6 +2,7 @@
 
 use frangible::{Contact, ImpactReport};
 use frangible_export::Recording;
+use frangible_rapier::BreakCause;
 
 /// What came of a scene.
 #[derive(Clone, Debug)]
@@ -48,6 +49,51 @@ pub struct BreakRecord {
     pub volume: f64,
     /// Energy taken from the motion for the cracks, J.
     pub energy_paid: f64,
+    /// What broke it.
+    pub cause: BreakCause,
+    /// Kinetic energy of the body and of what hit it before the step of the break, J.
+    pub kinetic_before: f64,
+    /// Kinetic energy of the pieces and of what hit the body after that step, J.
+    pub kinetic_after: f64,
+    /// Work of gravity on them in that step, J.
+    pub work: f64,
+}
+
+/// Rounding of energies that are sums of f32, relative.
+const ROUNDING: f64 = 1e-5;
+
+impl BreakRecord {
+    /// Where the break has made energy out of nothing, if it has: of its approach the impact gives the vibration no more
+    /// than there was (with admissible durations), the vibration gives the cracks no more than its strain energy (with the
+    /// ledger), and motion and cracks together have no more than the motion had before.
+    #[must_use]
+    pub fn energy_created(&self) -> Option<String> {
+        let r = &self.report;
+        let impact = self.cause == BreakCause::Impact;
+        let above = |what: f64, limit: f64| what > limit * (1.0 + ROUNDING) + f64::MIN_POSITIVE;
+        if impact && above(r.peak_strain_energy, r.approach_energy) {
+            let (strain, approach) = (r.peak_strain_energy, r.approach_energy);
+            return Some(format!(
+                "{strain} J of strain energy out of {approach} J of approach"
+            ));
+        }
+        if above(r.fracture_energy, r.peak_strain_energy) {
+            let (cracks, strain) = (r.fracture_energy, r.peak_strain_energy);
+            return Some(format!(
+                "{cracks} J of cracks out of {strain} J of strain energy"
+            ));
+        }
+        let before = self.kinetic_before + self.work.max(0.0);
+        // What a resting load spends on cracks is the work of gravity that bent the body before.
+        let cracks = if impact {
+            r.fracture_energy
+        } else {
+            self.energy_paid
+        };
+        let after = self.kinetic_after + cracks;
+        above(after, before)
+            .then(|| format!("{after} J of motion and cracks out of {before} J of motion and work"))
+    }
 }
 
 impl Run {

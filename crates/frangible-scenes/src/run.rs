@@ -91,6 +91,10 @@ pub fn play(
                     masses: fragments.iter().map(|f| f.mass.mass).collect(),
                     volume: fragments.iter().map(|f| f.mass.volume).sum(),
                     energy_paid: event.energy_paid,
+                    cause: event.cause,
+                    kinetic_before: event.kinetic_before,
+                    kinetic_after: event.kinetic_after,
+                    work: event.work,
                 });
             }
         }

@@ -123,8 +123,9 @@ fn put<'a>(
             depth_mm: 1e3 * depth,
         });
     }
-    let fields =
-        Fields::from_patches(asset, &spec.weakness)?.with_weibull_modulus(spec.weibull_modulus);
+    let fields = Fields::from_paint(asset, &spec.paint)?
+        .patched(asset, &spec.weakness)?
+        .with_weibull_modulus(spec.weibull_modulus);
     let kind = Breakable::new(Arc::clone(asset))?.with_fields(fields)?;
     let body = kind.body(seed);
     let q = spec.rotation;

@@ -1,4 +1,7 @@
-//! A body and its blow turned together break the same way.
+//! A body and its blow turned together break the same way, but for rounding: a turn rounds every f32 anew.
+//!
+//! Measured: turns change the cracks of 5 of 20 blows, of three places of ten. Mode shapes changed by at most two units in the last
+//! place, nothing turned, change 10 of 40, among them all that the turns change.
 
 mod common;
 

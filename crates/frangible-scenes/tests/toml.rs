@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use frangible::glam::{Quat, Vec3};
-use frangible::{CrackPath, CrackTiming, FractureConfig, Material, Patch, Zone};
+use frangible::{Channel, CrackPath, CrackTiming, FractureConfig, Material, Paint, Patch, Zone};
 use frangible_bake::{Shape, Station};
 use frangible_scenes::{
     Axis, BodySource, BodySpec, FileWish, MaterialEdit, Place, Projectile, ProjectileKind, Region,
@@ -91,6 +91,15 @@ fn intricate() -> Scene {
     third.weakness[1].strength = None;
     third.weakness[1].toughness = Some(2.0);
     third.weakness[2].weak_points = Some(0.0);
+    third.paint = vec![
+        Paint::of_strength(Channel::Green, [1.0 / 3.0, 1.0]),
+        Paint {
+            channel: Channel::Alpha,
+            strength: None,
+            toughness: Some([1.0, 7.0]),
+            weak_points: Some([0.0, 0.1]),
+        },
+    ];
     third.rescale.size = Some(1.0 / 3.0);
     let mut edit = MaterialEdit::preset("stone");
     edit.name = Some("soft “stone”".into());
@@ -559,6 +568,27 @@ fn weak_places_are_read_and_mistakes_in_them_named() {
         let message = refused(&format!("{LEAST}weakness = [{weakness}]\n"));
         assert!(message.contains(word), "{weakness}: {message}");
     }
+    let painted = "[[body]]\nmesh = \"a.ply\"\nweakness = [{ paint = \"red\", strength = 0.2 }, { paint = \"alpha\", weak_points = [4, 0] }]\n";
+    let body = &parsed(painted).bodies[0];
+    assert_eq!(body.paint[0], Paint::of_strength(Channel::Red, [1.0, 0.2]));
+    assert_eq!(body.paint[1].weak_points, Some([4.0, 0.0]));
+    for (weakness, word) in [
+        ("{ paint = \"read\", strength = 0.2 }", "did you mean `red`"),
+        ("{ paint = \"red\", radius = 1 }", "one of"),
+        ("{ paint = \"red\", strength = [1, 0] }", "strength"),
+        ("{ paint = \"red\", strength = [1, 0.5, 0.2] }", "line 3"),
+        (
+            "{ sphere = [0, 0, 0], radius = 1, strength = [1, 0.2] }",
+            "`paint`",
+        ),
+    ] {
+        let message = refused(&format!(
+            "[[body]]\nmesh = \"a.ply\"\nweakness = [{weakness}]\n"
+        ));
+        assert!(message.contains(word), "{weakness}: {message}");
+    }
+    let message = refused(&format!("{LEAST}weakness = [{{ paint = \"red\" }}]\n"));
+    assert!(message.contains("built-in shape"), "{message}");
     let message = refused(&format!("{LEAST}weibull_modulus = 0.5\n"));
     assert!(message.contains("Weibull"), "{message}");
 }

@@ -209,6 +209,9 @@ pub(crate) fn run_cracks<'a>(
         report.first_crack_time = first.elements.first().map(|cut| cut.time);
         report.first_crack_point = Some(first.frame.origin);
     }
+    if report.looked_at == LookedAt::Amplitudes && culling.asked_clusters {
+        report.looked_at = LookedAt::Clusters;
+    }
     report.peak_stress = f64::from(peak.tension);
     report.stress_bound = f64::from(peak.tension.max(culling.passed_over));
     report.cracks = system.cracks.len() - system.old_cracks;

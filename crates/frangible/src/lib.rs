@@ -39,7 +39,7 @@ pub use body::{Body, Breakable};
 pub use config::{CrackPath, CrackTiming, DurationModel, FractureConfig};
 pub use contact::{Contact, Striker};
 pub use error::InputError;
-pub use fields::{Factors, Fields, Patch, Zone};
+pub use fields::{Channel, Factors, Fields, Paint, Patch, Zone};
 pub use glam;
 pub use impact::{impact, impact_traced, would_break};
 pub use loads::{Blast, Force, blast, fracture_at, rest};

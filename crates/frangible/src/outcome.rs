@@ -68,8 +68,10 @@ pub enum LookedAt {
     /// Its impulses alone: a bound free of time refused it.
     #[default]
     Impulses,
-    /// The amplitudes of the modes over time: a bound refused every time step.
+    /// The amplitudes of the modes over time: a bound of the whole body refused every time step.
     Amplitudes,
+    /// The amplitudes, and bounds of parts of the body: they refused every time step.
+    Clusters,
     /// Stresses at weak points.
     Stresses,
 }

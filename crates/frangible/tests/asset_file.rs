@@ -453,7 +453,7 @@ fn sections_of_unknown_number_are_skipped() {
 fn arrays_that_do_not_fit_are_refused() {
     let nan = f32::NAN;
     type Change = fn(&mut Asset);
-    let cases: [(Change, &str); 37] = [
+    let cases: [(Change, &str); 39] = [
         (
             |a| a.supported[1] = 8,
             "supported node 1 lies beyond the 8 nodes",
@@ -549,6 +549,13 @@ fn arrays_that_do_not_fit_are_refused() {
         (
             |a| drawn(a).material_of_triangle[0] = 2,
             "material number of render triangle 0",
+        ),
+        (|a| drawn(a).colors[2][3] = 1.5, "colour of render vertex 2"),
+        (
+            |a| {
+                drawn(a).colors.pop();
+            },
+            "one colour per render vertex",
         ),
         (
             |a| drawn(a).materials[1].metallic = 1.5,

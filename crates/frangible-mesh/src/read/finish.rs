@@ -8,6 +8,9 @@ use crate::{InputMaterial, InputMesh};
 /// Stands for “no material” until the mesh is finished.
 pub(crate) const NO_MATERIAL: u32 = u32::MAX;
 
+/// Of vertices without a colour where others have one.
+pub(crate) const WHITE: [f32; 4] = [1.0; 4];
+
 /// Checks coordinates and sizes, makes normals unit and completes missing ones, gives material-less triangles the
 /// default material if others have one. Indices have been checked by the reader.
 pub(crate) fn finish(mut mesh: InputMesh) -> Result<InputMesh, ReadError> {
@@ -21,6 +24,7 @@ pub(crate) fn finish(mut mesh: InputMesh) -> Result<InputMesh, ReadError> {
     }
     complete_normals(&mut mesh);
     complete_uvs(&mut mesh);
+    complete_colors(&mut mesh);
     complete_materials(&mut mesh);
     Ok(mesh)
 }
@@ -55,6 +59,28 @@ fn complete_uvs(mesh: &mut InputMesh) {
         if !uv.is_finite() {
             *uv = Vec2::ZERO;
         }
+    }
+}
+
+/// A colour that cannot be used costs paint, not the shape: it is logged.
+fn complete_colors(mesh: &mut InputMesh) {
+    let (mut not_numbers, mut outside) = (0, 0);
+    for color in &mut mesh.colors {
+        if !color.iter().all(|x| x.is_finite()) {
+            *color = WHITE;
+            not_numbers += 1;
+        } else if !color.iter().all(|x| (0.0..=1.0).contains(x)) {
+            *color = color.map(|x| x.clamp(0.0, 1.0));
+            outside += 1;
+        }
+    }
+    if not_numbers > 0 {
+        log::warn!(
+            "{not_numbers} vertices have a colour that is not a finite number; they are taken as white"
+        );
+    }
+    if outside > 0 {
+        log::warn!("{outside} vertices have a colour outside 0 to 1; it is cut to that range");
     }
 }
 

@@ -2,6 +2,7 @@
 #![allow(dead_code, unreachable_pub)]
 
 pub mod baked;
+pub mod tumble;
 
 use std::sync::Arc;
 

@@ -1,15 +1,17 @@
 //! Weak places of a body.
 
-use frangible::Patch;
+use frangible::{Paint, Patch};
 
 use super::{Fault, quantity};
 use crate::body::BodySpec;
+use crate::error::SceneError;
+use crate::source::BodySource;
 
 /// Most weak places of a body.
 const MOST_PATCHES: usize = 1000;
 
 pub(super) fn check_weakness(body: &BodySpec) -> Result<(), Fault> {
-    let given = body.weakness.len();
+    let given = body.weakness.len() + body.paint.len();
     if given > MOST_PATCHES {
         let must = "at most 1000";
         return Err(quantity(
@@ -20,6 +22,14 @@ pub(super) fn check_weakness(body: &BodySpec) -> Result<(), Fault> {
         ));
     }
     body.weakness.iter().try_for_each(check_patch)?;
+    body.paint.iter().try_for_each(check_paint)?;
+    if !body.paint.is_empty()
+        && !matches!(body.source, BodySource::Mesh { .. } | BodySource::Asset(_))
+    {
+        let problem = "`paint` needs vertex colours, which a built-in shape has not; give a `mesh`, or weak places by `box`, \
+                       `sphere`, `plane` or `line`";
+        return Err(Fault::new("weakness", SceneError::Clash(problem.into())));
+    }
     let m = body.weibull_modulus;
     if m.to_bits() != 0 && !(m.is_finite() && m >= 1.0) {
         let must = "0 (no scatter), or 1 or above";
@@ -30,23 +40,25 @@ pub(super) fn check_weakness(body: &BodySpec) -> Result<(), Fault> {
 
 fn check_patch(patch: &Patch) -> Result<(), Fault> {
     patch.zone.check().map_err(|e| Fault::new("weakness", e))?;
-    for (what, factor, least) in [
-        (
-            "the strength of a weak place",
-            patch.strength,
-            f32::MIN_POSITIVE,
-        ),
-        (
-            "the toughness of a weak place",
-            patch.toughness,
-            f32::MIN_POSITIVE,
-        ),
-        ("the weak points of a weak place", patch.weak_points, 0.0),
-    ] {
+    let one = |factor: Option<f32>| factor.map(|f| [f, f]);
+    check_factors([patch.strength, patch.toughness, patch.weak_points].map(one))
+}
+
+fn check_paint(paint: &Paint) -> Result<(), Fault> {
+    check_factors([paint.strength, paint.toughness, paint.weak_points])
+}
+
+/// Of strength, toughness and weak points, where given.
+fn check_factors(factors: [Option<[f32; 2]>; 3]) -> Result<(), Fault> {
+    const WHAT: [&str; 3] = [
+        "the strength of a weak place",
+        "the toughness of a weak place",
+        "the weak points of a weak place",
+    ];
+    for (k, (what, given)) in WHAT.into_iter().zip(factors).enumerate() {
         // Its square, too, must be a number.
-        if let Some(factor) = factor
-            && !((least.max(1e-6)..=1e6).contains(&factor) || (factor == 0.0 && least == 0.0))
-        {
+        let sound = |f: &f32| (1e-6..=1e6).contains(f) || (k == 2 && *f == 0.0);
+        if let Some(factor) = given.iter().flatten().find(|f| !sound(f)) {
             let must = "a factor on the material's: 1e-6 to 1e6 (weak points also 0)";
             return Err(quantity("weakness", what, factor, must));
         }

@@ -106,8 +106,7 @@ pub(super) fn body(table: BodyTable, usual: String, folder: &Path) -> Result<Bod
         .into_iter()
         .map(support)
         .collect::<Result<_, _>>()?;
-    let weakness = table.weakness.into_iter().map(super::weakness::patch);
-    body.weakness = weakness.collect::<Result<_, _>>()?;
+    (body.paint, body.weakness) = super::weakness::weakness(table.weakness)?;
     set(&mut body.weibull_modulus, table.weibull_modulus);
     Ok(body)
 }

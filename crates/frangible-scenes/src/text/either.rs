@@ -5,7 +5,7 @@ use std::fmt;
 
 use serde::Deserialize;
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
-use serde::de::{Deserializer, Error, MapAccess, SeqAccess, Visitor};
+use serde::de::{Deserializer, Error, Expected, IgnoredAny, MapAccess, SeqAccess, Visitor};
 
 use super::schema::{MaterialTable, RotationTable};
 
@@ -58,11 +58,26 @@ impl<'de> Deserialize<'de> for AxisTable {
             }
 
             fn visit_seq<A: SeqAccess<'de>>(self, seq: A) -> Result<AxisTable, A::Error> {
-                let vector = Deserialize::deserialize(SeqAccessDeserializer::new(seq))?;
-                Ok(AxisTable::Vector(vector))
+                Ok(AxisTable::Vector(exactly(seq, &self)?))
             }
         }
         deserializer.deserialize_any(Reader)
+    }
+}
+
+/// As many values as asked for, neither fewer nor more.
+fn exactly<'de, A: SeqAccess<'de>, T: Deserialize<'de> + Copy + Default, const N: usize>(
+    mut seq: A,
+    expected: &dyn Expected,
+) -> Result<[T; N], A::Error> {
+    let mut values = [T::default(); N];
+    for (k, value) in values.iter_mut().enumerate() {
+        let next = seq.next_element()?;
+        *value = next.ok_or_else(|| A::Error::invalid_length(k, expected))?;
+    }
+    match seq.next_element::<IgnoredAny>()? {
+        None => Ok(values),
+        Some(_) => Err(A::Error::invalid_length(N + 1, expected)),
     }
 }
 
@@ -116,6 +131,61 @@ impl<'de> Deserialize<'de> for MaterialChoice {
             fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<MaterialChoice, A::Error> {
                 let table = MaterialTable::deserialize(MapAccessDeserializer::new(map))?;
                 Ok(MaterialChoice(table))
+            }
+        }
+        deserializer.deserialize_any(Reader)
+    }
+}
+
+/// A factor, or two: where a colour is 0, and where it is 1.
+#[derive(Clone, Copy)]
+pub(super) enum OneOrTwo {
+    One(f32),
+    Two([f32; 2]),
+}
+
+impl OneOrTwo {
+    /// The two; of one alone the first is `unpainted`.
+    pub(super) const fn two(self, unpainted: f32) -> [f32; 2] {
+        match self {
+            Self::One(painted) => [unpainted, painted],
+            Self::Two(both) => both,
+        }
+    }
+
+    /// The one, if it is one.
+    pub(super) const fn one(self) -> Option<f32> {
+        match self {
+            Self::One(factor) => Some(factor),
+            Self::Two(_) => None,
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for OneOrTwo {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Reader;
+        impl<'de> Visitor<'de> for Reader {
+            type Value = OneOrTwo;
+
+            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+                f.write_str("a number, or two with `paint`")
+            }
+
+            fn visit_f64<E: Error>(self, value: f64) -> Result<OneOrTwo, E> {
+                Ok(OneOrTwo::One(value as f32))
+            }
+
+            fn visit_i64<E: Error>(self, value: i64) -> Result<OneOrTwo, E> {
+                Ok(OneOrTwo::One(value as f32))
+            }
+
+            fn visit_u64<E: Error>(self, value: u64) -> Result<OneOrTwo, E> {
+                Ok(OneOrTwo::One(value as f32))
+            }
+
+            fn visit_seq<A: SeqAccess<'de>>(self, seq: A) -> Result<OneOrTwo, A::Error> {
+                Ok(OneOrTwo::Two(exactly(seq, &self)?))
             }
         }
         deserializer.deserialize_any(Reader)

@@ -1,20 +1,22 @@
 //! Weak places of a body, from and to TOML.
 
 use frangible::glam::Vec3;
-use frangible::{Patch, Zone};
+use frangible::{Channel, Paint, Patch, Zone};
 use serde::Deserialize;
 
 use super::body::clash;
-use super::convert::vector;
+use super::convert::{did_you_mean, short, vector};
+use super::either::OneOrTwo;
 use super::values::{list, single, vector as vector_text};
 use crate::check::Fault;
+use crate::error::SceneError;
 
 const KEY: &str = "weakness";
 
-const ONE_ZONE: &str = "a weakness has one of `box`, `sphere` with `radius`, `plane`, and `line` with `radius`, \
+const ONE_ZONE: &str = "a weakness has one of `box`, `sphere` with `radius`, `plane`, `line` with `radius`, and `paint`, \
      for example { line = [[0, -0.04, 0], [0, 0.04, 0]], radius = 0.002, strength = 0.3 }";
 
-/// Where a body is weaker, or stronger: one zone, and the factors there.
+/// Where a body is weaker, or stronger: one zone, or a channel of its vertex colours, and the factors there.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct WeaknessTable {
@@ -23,10 +25,11 @@ pub(super) struct WeaknessTable {
     sphere: Option<[f64; 3]>,
     plane: Option<PlaneTable>,
     line: Option<Vec<[f64; 3]>>,
+    paint: Option<String>,
     radius: Option<f64>,
-    strength: Option<f32>,
-    toughness: Option<f32>,
-    weak_points: Option<f32>,
+    strength: Option<OneOrTwo>,
+    toughness: Option<OneOrTwo>,
+    weak_points: Option<OneOrTwo>,
 }
 
 /// A plane; what lies behind it belongs to the zone.
@@ -37,7 +40,47 @@ struct PlaneTable {
     normal: [f64; 3],
 }
 
-pub(super) fn patch(table: WeaknessTable) -> Result<Patch, Fault> {
+/// Sorts entries into paint and zones, which lie over it.
+pub(super) fn weakness(tables: Vec<WeaknessTable>) -> Result<(Vec<Paint>, Vec<Patch>), Fault> {
+    let (mut paint, mut patches) = (Vec::new(), Vec::new());
+    for table in tables {
+        match table.paint.clone() {
+            Some(channel) => paint.push(self::paint(&channel, table)?),
+            None => patches.push(patch(table)?),
+        }
+    }
+    Ok((paint, patches))
+}
+
+fn paint(channel: &str, table: WeaknessTable) -> Result<Paint, Fault> {
+    let zoned = table.cuboid.is_some()
+        || table.sphere.is_some()
+        || table.plane.is_some()
+        || table.line.is_some()
+        || table.radius.is_some();
+    if zoned {
+        return Err(clash(KEY, ONE_ZONE));
+    }
+    let channel = Channel::from_name(channel).ok_or_else(|| {
+        let names = Channel::ALL.map(Channel::name);
+        let hint = did_you_mean(channel, names);
+        let channel = short(channel);
+        let problem = format!(
+            "`{channel}` is no channel of a colour{hint}; channels: {}",
+            names.join(", ")
+        );
+        Fault::new(KEY, SceneError::Clash(problem))
+    })?;
+    let pair = |given: Option<OneOrTwo>| given.map(|g| g.two(1.0));
+    Ok(Paint {
+        channel,
+        strength: pair(table.strength),
+        toughness: pair(table.toughness),
+        weak_points: pair(table.weak_points),
+    })
+}
+
+fn patch(table: WeaknessTable) -> Result<Patch, Fault> {
     let radius = table.radius.map(|r| r as f32);
     let zone = match (table.cuboid, table.sphere, table.plane, table.line, radius) {
         (Some(corners), None, None, None, None) => Zone::Box(corners.map(vector)),
@@ -57,10 +100,30 @@ pub(super) fn patch(table: WeaknessTable) -> Result<Patch, Fault> {
     };
     Ok(Patch {
         zone,
-        strength: table.strength,
-        toughness: table.toughness,
-        weak_points: table.weak_points,
+        strength: single_factor(table.strength)?,
+        toughness: single_factor(table.toughness)?,
+        weak_points: single_factor(table.weak_points)?,
     })
+}
+
+fn single_factor(given: Option<OneOrTwo>) -> Result<Option<f32>, Fault> {
+    let problem =
+        "a zone has one factor each; two, where a colour is 0 and where it is 1, go with `paint`";
+    given
+        .map(|g| g.one().ok_or_else(|| clash(KEY, problem)))
+        .transpose()
+}
+
+pub(super) fn paint_text(paint: &Paint) -> String {
+    let mut parts = vec![format!("paint = \"{}\"", paint.channel.name())];
+    for (key, factors) in [
+        ("strength", paint.strength),
+        ("toughness", paint.toughness),
+        ("weak_points", paint.weak_points),
+    ] {
+        parts.extend(factors.map(|f| format!("{key} = {}", list(&f))));
+    }
+    format!("{{ {} }}", parts.join(", "))
 }
 
 pub(super) fn patch_text(patch: &Patch) -> String {

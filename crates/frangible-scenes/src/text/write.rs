@@ -7,7 +7,7 @@ use frangible::{CrackPath, CrackTiming, DurationModel, FractureConfig};
 
 use super::support::support_text;
 use super::values::{edit_text, list, material_text, number, quoted, shape_text, vector};
-use super::weakness::patch_text;
+use super::weakness::{paint_text, patch_text};
 use crate::body::{BodySpec, Place};
 use crate::output::{FileWish, Output};
 use crate::projectile::{Projectile, ProjectileKind};
@@ -139,8 +139,9 @@ fn write_body(t: &mut Text, body: &BodySpec) {
         let all: Vec<String> = body.supports.iter().map(support_text).collect();
         t.line("supports", format!("[{}]", all.join(", ")));
     }
-    if !body.weakness.is_empty() {
-        let all: Vec<String> = body.weakness.iter().map(patch_text).collect();
+    if !(body.weakness.is_empty() && body.paint.is_empty()) {
+        let paint = body.paint.iter().map(paint_text);
+        let all: Vec<String> = paint.chain(body.weakness.iter().map(patch_text)).collect();
         t.line("weakness", format!("[\n  {},\n]", all.join(",\n  ")));
     }
     if body.weibull_modulus.to_bits() != 0 {

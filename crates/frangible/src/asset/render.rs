@@ -17,6 +17,9 @@ pub struct RenderSurface {
     pub normals: Vec<Vec3>,
     /// Texture coordinates: none, or one pair per vertex.
     pub uvs: Vec<[f32; 2]>,
+    /// Red, green, blue and opacity, each 0..=1: none, or one per vertex. Weakness may be painted with them, see
+    /// [`Fields::from_paint`](crate::Fields::from_paint).
+    pub colors: Vec<[f32; 4]>,
     /// Vertices of each triangle, counter-clockwise seen from outside.
     pub triangles: Vec<[u32; 3]>,
     /// Index into [`RenderSurface::materials`]: none, or one per triangle.

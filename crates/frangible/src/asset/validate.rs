@@ -296,6 +296,12 @@ fn render(surface: &RenderSurface) -> Check {
         "texture coordinate",
         surface.uvs.len(),
     )?;
+    none_or_one_each("render vertex", vertices, "colour", surface.colors.len())?;
+    all(
+        &surface.colors,
+        |color| color.iter().all(|x| (0.0..=1.0).contains(x)),
+        |v| format!("the colour of render vertex {v} lies outside 0 to 1"),
+    )?;
     below("render triangle", &surface.triangles, vertices, "vertex")?;
     let (triangles, materials) = (surface.triangles.len(), surface.materials.len());
     let numbers = surface.material_of_triangle.len();

@@ -11,6 +11,8 @@ pub(crate) struct Culling<'a> {
     pub(crate) passed_over: f32,
     /// … and as the weakest point would feel it, Pa.
     pub(crate) as_weakest: f32,
+    /// Whether the bound of the whole body ever let a time step pass.
+    pub(crate) asked_clusters: bool,
     /// Of each cluster, a bit for each step of the batch that needs a look.
     survivors: Vec<u8>,
 }
@@ -23,6 +25,7 @@ impl<'a> Culling<'a> {
             on,
             passed_over: 0.0,
             as_weakest: 0.0,
+            asked_clusters: false,
             survivors: vec![0; body.clusters.clusters.len()],
         }
     }
@@ -48,6 +51,7 @@ impl<'a> Culling<'a> {
             self.as_weakest = self.as_weakest.max(root);
             return;
         }
+        self.asked_clusters = true;
         let modes = amplitudes.len();
         for (i, &cluster) in clusters.iter().enumerate() {
             let row = cluster as usize * modes..(cluster as usize + 1) * modes;

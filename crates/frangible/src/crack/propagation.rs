@@ -9,6 +9,7 @@
 //!   energy waits and is tried again with the stress of the next step, so cracks follow the wave outwards;
 //! - *steering*: s is kept at the nodes. The fourth node of n gets the mean over the three shared ones of
 //!   `s_i + (x_v − x_i)·d − A (N(x_v) − N(x_i))`, d the crack's direction turned towards the largest tension at n.
+//!   Where toughness varies the crack then kinks to where it costs least for what it releases (`fields/kink.rs`).
 //!   The turn is gated by tension, absolute and against the largest compression: on the compressed side of a bent wall
 //!   the largest principal direction points across it, and an ungated crack would peel the wall along its middle.
 
@@ -18,10 +19,14 @@ use super::field::StressField;
 use super::surface::crossing_area;
 use super::system::{CrackSystem, ElementCut, Front, Junction, UNCUT};
 use crate::config::{CrackPath, CrackTiming};
+use crate::fields::Tip;
 use crate::stress::{StressState, principal_axes};
 
 /// Share of R_c below which tension does not steer.
 const STEERING_GATE: f64 = 0.3;
+
+/// A crack looks so far ahead for where it costs least (in mean edges).
+const KINK_REACH: f32 = 1.0;
 
 /// A known value this far (in mean edges) from its prediction means that the crack has met itself …
 const SELF_MEETING: f32 = 0.5;
@@ -103,6 +108,13 @@ fn enter(system: &mut CrackSystem, field: &mut StressField, front: Front) {
                 f64::from(length),
                 turning_length,
             );
+            let tip = Tip {
+                tet: front.tet,
+                normal: toward,
+                from: mesh.centroid(from.tet as usize),
+                reach: KINK_REACH * system.edge,
+            };
+            let toward = system.resistance.toughness.kinked(mesh, tip);
             let predicted = extrapolated(crack, &x, &values, fourth, toward);
             match crack.values.get(&nodes[fourth]) {
                 None => values[fourth] = predicted,

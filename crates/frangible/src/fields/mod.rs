@@ -2,8 +2,11 @@
 //! tetrahedron.
 //!
 //! They come from a function of the place ([`Fields::from_function`]), from zones and scored lines ([`Fields::from_patches`]),
-//! or from paint on the vertices of a surface ([`Fields::from_vertices`]).
+//! from the vertex colours of the asset's drawn surface ([`Fields::from_paint`]), or from whatever the vertices of a surface
+//! hold ([`Fields::from_vertices`]).
 
+mod kink;
+mod paint;
 mod resistance;
 mod scatter;
 mod zone;
@@ -14,6 +17,8 @@ use crate::asset::Asset;
 use crate::error::InputError;
 use crate::mesh::TriangleTree;
 
+pub(crate) use kink::Tip;
+pub use paint::{Channel, Paint};
 pub(crate) use resistance::{Resistance, Toughness};
 pub use zone::{Patch, Zone};
 
@@ -81,16 +86,36 @@ impl Fields {
     /// # Errors
     /// A zone with a number that is not finite, a radius that is not above zero, or a normal without direction.
     pub fn from_patches(asset: &Asset, patches: &[Patch]) -> Result<Self, InputError> {
+        Self::default().patched(asset, patches)
+    }
+
+    /// With patches over what is there, see [`Fields::from_patches`].
+    ///
+    /// # Errors
+    /// As there.
+    pub fn patched(mut self, asset: &Asset, patches: &[Patch]) -> Result<Self, InputError> {
         patches.iter().try_for_each(|p| p.zone.check())?;
         if patches.is_empty() {
-            return Ok(Self::default());
+            return Ok(self);
         }
-        Ok(Self::from_function(asset, |p| {
-            let mut factors = Factors::ONE;
+        self.of_tet.resize(asset.fracture.tets.len(), Factors::ONE);
+        for (tet, factors) in self.of_tet.iter_mut().enumerate() {
+            let p = asset.fracture.centroid(tet);
             let over = patches.iter().filter(|patch| patch.zone.contains(p));
-            over.for_each(|patch| patch.paint(&mut factors));
-            factors
-        }))
+            over.for_each(|patch| patch.paint(factors));
+        }
+        Ok(self)
+    }
+
+    /// From the [vertex colours](crate::asset::RenderSurface::colors) of the asset's drawn surface: each tetrahedron takes
+    /// the colour of the nearest point of it. Of several entries what a later one names replaces what an earlier one says.
+    ///
+    /// Paint reaches halfway through a wall: a score right through it is painted on both sides.
+    ///
+    /// # Errors
+    /// An asset without vertex colours, or a factor that cannot be used.
+    pub fn from_paint(asset: &Asset, paint: &[Paint]) -> Result<Self, InputError> {
+        paint::fields(asset, paint)
     }
 
     /// Painted on the vertices of a surface (m, body frame): each tetrahedron takes the paint of the nearest point of it.
@@ -116,22 +141,35 @@ impl Fields {
                 "the painted surface has a vertex that is not finite".into(),
             ));
         }
-        let tree = TriangleTree::new(positions, triangles);
-        Ok(Self::from_function(asset, |p| {
-            let at = tree.closest(p);
+        Ok(Self::from_surface(asset, positions, triangles, |at| {
             let mut mean = Factors {
                 strength: 0.0,
                 toughness: 0.0,
                 weak_points: 0.0,
             };
-            for (&v, w) in triangles[at.triangle as usize].iter().zip(at.weights) {
-                let of_vertex = factors(v as usize);
+            for (v, w) in at {
+                let of_vertex = factors(v);
                 mean.strength += w * of_vertex.strength;
                 mean.toughness += w * of_vertex.toughness;
                 mean.weak_points += w * of_vertex.weak_points;
             }
             mean
         }))
+    }
+
+    /// Factors of the nearest point of a sound surface, given by the vertices of its triangle and their weights.
+    fn from_surface(
+        asset: &Asset,
+        positions: &[Vec3],
+        triangles: &[[u32; 3]],
+        factors: impl Fn([(usize, f32); 3]) -> Factors,
+    ) -> Self {
+        let tree = TriangleTree::new(positions, triangles);
+        Self::from_function(asset, |p| {
+            let at = tree.closest(p);
+            let corners = triangles[at.triangle as usize];
+            factors([0, 1, 2].map(|k| (corners[k] as usize, at.weights[k])))
+        })
     }
 
     /// With this scatter of the strength, see [`Fields::weibull_modulus`].

@@ -25,6 +25,11 @@ impl Toughness {
         }
     }
 
+    /// Whether it is not the same everywhere.
+    pub(super) fn varies(&self) -> bool {
+        !self.fields.of_tet.is_empty()
+    }
+
     /// G_c of a tetrahedron, J/m².
     pub(crate) fn of(&self, tet: u32) -> f64 {
         match self.fields.of_tet.get(tet as usize) {

@@ -154,6 +154,7 @@ pub fn drawn_surface() -> RenderSurface {
     RenderSurface {
         positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z],
         normals: vec![Vec3::Z; 4],
+        colors: vec![[1.0, 0.0, 0.5, 1.0], [0.0; 4], [1.0; 4], [0.25; 4]],
         uvs: vec![[0.0, -0.0], [1.0, 0.0], [0.0, 1.0], [1.5, -1.5]],
         triangles: vec![[0, 1, 2], [0, 3, 1]],
         material_of_triangle: vec![1, 0],

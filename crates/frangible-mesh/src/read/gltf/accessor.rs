@@ -108,6 +108,37 @@ pub(super) fn read<const N: usize>(
     Ok(values)
 }
 
+/// All rows of an accessor of colours: three or four numbers each, whole ones standing for shares, as the format has it.
+pub(super) fn read_colors(
+    root: &Root,
+    buffers: &Buffers,
+    index: Index<Accessor>,
+) -> Result<Vec<[f32; 4]>, ReadError> {
+    let place = || format!("accessor {}", index.value());
+    let accessor = root
+        .get(index)
+        .ok_or_else(|| ReadError::malformed(place(), "there is none"))?;
+    let mut rows = match accessor.type_ {
+        Checked::Valid(Type::Vec3) => read::<3>(root, buffers, index)?
+            .into_iter()
+            .map(|[r, g, b]| [r, g, b, 0.0])
+            .collect(),
+        Checked::Valid(Type::Vec4) => read::<4>(root, buffers, index)?,
+        _ => {
+            let problem = "it holds colours; its rows should have 3 or 4 numbers";
+            return Err(ReadError::malformed(place(), problem));
+        }
+    };
+    if let (Checked::Valid(kind), false) = (accessor.component_type, accessor.normalized) {
+        normalize(kind.0, &mut rows);
+    }
+    let is_opaque = matches!(accessor.type_, Checked::Valid(Type::Vec3));
+    Ok(rows
+        .into_iter()
+        .map(|[r, g, b, a]| [r, g, b, if is_opaque { 1.0 } else { a }].map(|x| x as f32))
+        .collect())
+}
+
 fn replace_sparse<const N: usize>(
     root: &Root,
     buffers: &Buffers,

@@ -7,14 +7,17 @@ use gltf_json::mesh::{Mode, Primitive, Semantic};
 use gltf_json::validation::Checked;
 use gltf_json::{Accessor, Index, Mesh, Root};
 
-use super::accessor::read;
+use super::accessor::{read, read_colors};
 use super::buffers::Buffers;
 use crate::InputMesh;
-use crate::read::finish::NO_MATERIAL;
+use crate::read::finish::{NO_MATERIAL, WHITE};
 use crate::read::{ReadError, check_triangles, check_vertices};
 
-/// The vertices of a primitive: its accessors of positions, normals and texture coordinates.
-type Streams = [Option<usize>; 3];
+/// The vertices of a primitive: its accessors of normals, texture coordinates and colours.
+type Attributes = [Option<Index<Accessor>>; 3];
+
+/// The numbers of the accessors, that of the positions first.
+type Streams = [Option<usize>; 4];
 
 /// Collects the triangles of all meshes that are added.
 pub(super) struct Meshes<'a> {
@@ -52,16 +55,17 @@ impl<'a> Meshes<'a> {
             let Some(positions) = stream(Semantic::Positions) else {
                 continue;
             };
-            let (normals, uvs) = (stream(Semantic::Normals), stream(Semantic::TexCoords(0)));
-            let key = [
-                Some(positions.value()),
-                normals.map(|a| a.value()),
-                uvs.map(|a| a.value()),
+            let attributes = [
+                stream(Semantic::Normals),
+                stream(Semantic::TexCoords(0)),
+                stream(Semantic::Colors(0)),
             ];
+            let [normals, uvs, colors] = attributes.map(|a| a.map(|a| a.value()));
+            let key = [Some(positions.value()), normals, uvs, colors];
             let vertices = match added.get(&key) {
                 Some(&vertices) => vertices,
                 None => {
-                    let vertices = self.add_vertices(positions, normals, uvs, transform)?;
+                    let vertices = self.add_vertices(positions, attributes, transform)?;
                     added.insert(key, vertices);
                     vertices
                 }
@@ -75,8 +79,7 @@ impl<'a> Meshes<'a> {
     fn add_vertices(
         &mut self,
         positions: Index<Accessor>,
-        normals: Option<Index<Accessor>>,
-        uvs: Option<Index<Accessor>>,
+        [normals, uvs, colors]: Attributes,
         transform: DMat4,
     ) -> Result<(u32, u32), ReadError> {
         let positions = read::<3>(self.root, self.buffers, positions)?;
@@ -114,6 +117,14 @@ impl<'a> Meshes<'a> {
                     .take(count)
                     .map(|[u, v]| Vec2::new(u as f32, v as f32)),
             );
+        }
+        if let Some(colors) = colors {
+            let colors = read_colors(self.root, self.buffers, colors)?;
+            self.mesh.colors.resize(first, WHITE);
+            self.mesh.colors.extend(colors.into_iter().take(count));
+        }
+        if !self.mesh.colors.is_empty() {
+            self.mesh.colors.resize(first + count, WHITE);
         }
         if !self.mesh.normals.is_empty() {
             self.mesh.normals.resize(first + count, Vec3::ZERO);

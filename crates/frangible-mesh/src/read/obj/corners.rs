@@ -90,13 +90,18 @@ impl<'a> Splitter<'a> {
         Ok(vertex)
     }
 
-    pub(super) fn finish(self, mesh: &mut InputMesh) {
+    /// `colors` has one per position, or none.
+    pub(super) fn finish(self, colors: &[[f32; 4]], mesh: &mut InputMesh) {
         let attribute = |index: u32| (index != Corner::NONE).then_some(index as usize);
         mesh.positions = self
             .vertices
             .iter()
             .map(|c| self.positions[c.position as usize])
             .collect();
+        if !colors.is_empty() {
+            let of = |c: &Corner| colors[c.position as usize];
+            mesh.colors = self.vertices.iter().map(of).collect();
+        }
         if self.has_uvs {
             let uv = |c: &Corner| attribute(c.uv).and_then(|i| self.uvs.get(i).copied());
             mesh.uvs = self

@@ -9,10 +9,10 @@ use glam::{DVec3, Vec2, Vec3};
 
 use self::corners::{Corner, Splitter};
 use self::mtl::Materials;
-use super::finish::NO_MATERIAL;
+use super::finish::{NO_MATERIAL, WHITE};
 use super::polygon::triangulate;
 use super::runs::Runs;
-use super::text::{Lines, next_number, shown, words};
+use super::text::{Lines, next_number, number, shown, words};
 use super::{ReadError, check_triangles, check_vertices};
 use crate::InputMesh;
 
@@ -20,12 +20,16 @@ use crate::InputMesh;
 #[derive(Default)]
 struct Obj {
     positions: Vec<DVec3>,
+    /// Of each position; empty where no line has one.
+    colors: Vec<[f32; 4]>,
     uvs: Vec<Vec2>,
     normals: Vec<Vec3>,
     corners: Vec<Corner>,
     /// Where the corners of each face end, and its material.
     faces: Vec<(u32, u32)>,
     triangles: u64,
+    /// Whether something that is no colour was reported.
+    warned: bool,
 }
 
 pub(crate) fn parse(bytes: &[u8], folder: Option<&Path>) -> Result<InputMesh, ReadError> {
@@ -37,11 +41,14 @@ pub(crate) fn parse(bytes: &[u8], folder: Option<&Path>) -> Result<InputMesh, Re
     for (line, text) in Lines::new(bytes) {
         let mut words = words(&text);
         match words.next() {
-            Some(b"v") => obj.positions.push(vector(&mut words, line)?),
+            Some(b"v") => {
+                obj.positions.push(vector(&mut words, line)?);
+                obj.color(&mut words, line);
+            }
             Some(b"vn") => obj.normals.push(vector(&mut words, line)?.as_vec3()),
             Some(b"vt") => {
                 let u = next_number(&mut words, line)?;
-                let v = words.next().and_then(super::text::number).unwrap_or(0.0);
+                let v = words.next().and_then(number).unwrap_or(0.0);
                 // The file's origin is the lower left corner of the picture.
                 obj.uvs.push(Vec2::new(u as f32, 1.0 - v as f32));
             }
@@ -90,6 +97,38 @@ fn name_of(bytes: &[u8]) -> String {
 }
 
 impl Obj {
+    /// Three numbers behind a position are its colour, an extension that modellers and scanners share. One alone is a
+    /// weight of curves.
+    fn color<'a>(&mut self, words: &mut impl Iterator<Item = &'a [u8]>, line: usize) {
+        let words: Vec<&[u8]> = words
+            .take_while(|word| !word.starts_with(b"#"))
+            .take(5)
+            .collect();
+        let read = |word: &[u8]| number(word).map(|x| x as f32);
+        let color = match words.as_slice() {
+            [] | [_] => None,
+            &[r, g, b] => match (read(r), read(g), read(b)) {
+                (Some(r), Some(g), Some(b)) => Some([r, g, b, 1.0]),
+                _ => self.no_color(line),
+            },
+            _ => self.no_color(line),
+        };
+        if let Some(color) = color {
+            self.colors.resize(self.positions.len() - 1, WHITE);
+            self.colors.push(color);
+        }
+    }
+
+    /// Says so once.
+    fn no_color(&mut self, line: usize) -> Option<[f32; 4]> {
+        if !std::mem::replace(&mut self.warned, true) {
+            log::warn!(
+                "line {line}: what follows the coordinates is no colour “r g b”; it is passed over"
+            );
+        }
+        None
+    }
+
     fn face<'a>(
         &mut self,
         words: &mut impl Iterator<Item = &'a [u8]>,
@@ -159,7 +198,10 @@ impl Obj {
             })
     }
 
-    fn assemble(self) -> Result<InputMesh, ReadError> {
+    fn assemble(mut self) -> Result<InputMesh, ReadError> {
+        if !self.colors.is_empty() {
+            self.colors.resize(self.positions.len(), WHITE);
+        }
         let mut splitter = Splitter::new(&self.positions, &self.uvs, &self.normals, &self.corners);
         let mut mesh = InputMesh::default();
         let mut vertices = Vec::new();
@@ -180,7 +222,7 @@ impl Obj {
             mesh.material_of_triangle
                 .resize(mesh.triangles.len(), material);
         }
-        splitter.finish(&mut mesh);
+        splitter.finish(&self.colors, &mut mesh);
         Ok(mesh)
     }
 }

@@ -5,8 +5,9 @@ mod values;
 
 use glam::{DVec3, Vec2, Vec3};
 
-use self::header::{Element, Header, Property};
+use self::header::{Element, Header, Kind, Property};
 use self::values::Values;
+use super::finish::WHITE;
 use super::polygon::triangulate;
 use super::{ReadError, check_triangles, check_vertices};
 use crate::InputMesh;
@@ -33,10 +34,18 @@ enum Slot {
     Position(usize),
     Normal(usize),
     Uv(usize),
+    /// Which channel, and what stands for all of it.
+    Color(usize, f64),
     Nowhere,
 }
 
 fn slot(property: &Property) -> Slot {
+    let full = match property.value {
+        Kind::F32 | Kind::F64 => 1.0,
+        Kind::U16 => f64::from(u16::MAX),
+        // Other whole numbers stand for bytes, whatever they are kept in.
+        _ => f64::from(u8::MAX),
+    };
     match property.name.as_slice() {
         b"x" => Slot::Position(0),
         b"y" => Slot::Position(1),
@@ -46,6 +55,10 @@ fn slot(property: &Property) -> Slot {
         b"nz" => Slot::Normal(2),
         b"s" | b"u" | b"texture_u" => Slot::Uv(0),
         b"t" | b"v" | b"texture_v" => Slot::Uv(1),
+        b"red" | b"diffuse_red" => Slot::Color(0, full),
+        b"green" | b"diffuse_green" => Slot::Color(1, full),
+        b"blue" | b"diffuse_blue" => Slot::Color(2, full),
+        b"alpha" | b"diffuse_alpha" => Slot::Color(3, full),
         _ => Slot::Nowhere,
     }
 }
@@ -68,9 +81,13 @@ fn read_vertices(
     }
     let has_normals = slots.iter().any(|slot| matches!(slot, Slot::Normal(_)));
     let has_uvs = slots.iter().any(|slot| matches!(slot, Slot::Uv(_)));
+    let has_colors = slots.iter().any(|slot| matches!(slot, Slot::Color(..)));
+    // A file may have vertices in several runs, with other properties each.
+    complete(mesh, [has_normals, has_uvs, has_colors]);
     for row in 0..element.count {
         let place = || format!("vertex {}", row + 1);
         let (mut position, mut normal, mut uv) = ([0.0; 3], [0.0_f32; 3], [0.0_f32; 2]);
+        let mut color = WHITE;
         for (property, slot) in element.properties.iter().zip(&slots) {
             if property.count.is_some() {
                 values.skip(property, place)?;
@@ -81,6 +98,7 @@ fn read_vertices(
                 Slot::Position(k) => position[k] = value,
                 Slot::Normal(k) => normal[k] = value as f32,
                 Slot::Uv(k) => uv[k] = value as f32,
+                Slot::Color(k, full) => color[k] = (value / full) as f32,
                 Slot::Nowhere => {}
             }
         }
@@ -92,8 +110,31 @@ fn read_vertices(
             // The file's origin is the lower left corner of the picture.
             mesh.uvs.push(Vec2::new(uv[0], 1.0 - uv[1]));
         }
+        if has_colors {
+            mesh.colors.push(color);
+        }
     }
+    let has = [
+        !mesh.normals.is_empty(),
+        !mesh.uvs.is_empty(),
+        !mesh.colors.is_empty(),
+    ];
+    complete(mesh, has);
     Ok(())
+}
+
+/// Gives every vertex so far the attributes that are wanted.
+fn complete(mesh: &mut InputMesh, [normals, uvs, colors]: [bool; 3]) {
+    let count = mesh.positions.len();
+    if normals {
+        mesh.normals.resize(count, Vec3::ZERO);
+    }
+    if uvs {
+        mesh.uvs.resize(count, Vec2::ZERO);
+    }
+    if colors {
+        mesh.colors.resize(count, WHITE);
+    }
 }
 
 /// Faces as the file has them: vertices may come after them.

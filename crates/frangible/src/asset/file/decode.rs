@@ -214,6 +214,11 @@ fn render(r: &Reader<'_>) -> Result<Option<RenderSurface>, AssetFileError> {
         positions: r.rows(s::RENDER_POSITIONS)?,
         normals: r.rows(s::RENDER_NORMALS)?,
         uvs: r.rows(s::RENDER_UVS)?,
+        colors: if r.has(s::RENDER_COLORS) {
+            r.rows(s::RENDER_COLORS)?
+        } else {
+            Vec::new()
+        },
         triangles: r.rows(s::RENDER_TRIANGLES)?,
         material_of_triangle: r.rows(s::RENDER_MATERIAL_OF_TRIANGLE)?,
         materials: render_materials(r)?,

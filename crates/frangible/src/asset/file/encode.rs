@@ -133,4 +133,7 @@ fn render(w: &mut Writer, surface: &RenderSurface) {
     );
     let names: String = materials.map(|m| m.name.as_str()).collect();
     w.text(s::RENDER_NAMES, &names);
+    if !surface.colors.is_empty() {
+        w.rows(s::RENDER_COLORS, &surface.colors);
+    }
 }

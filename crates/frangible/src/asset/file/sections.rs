@@ -58,9 +58,10 @@ sections! {
     RENDER_MATERIALS = 117, "render materials";
     RENDER_NAME_LENGTHS = 118, "render material name lengths";
     RENDER_NAMES = 119, "render material names";
+    RENDER_COLORS = 120, "render colours";
 }
 
-/// The sections of the drawn surface, which a file has all of or none.
+/// The sections of the drawn surface, which a file has all of or none; colours only where there are any.
 pub(super) const RENDER: [Section; 8] = [
     RENDER_POSITIONS,
     RENDER_NORMALS,

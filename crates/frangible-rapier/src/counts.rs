@@ -1,0 +1,41 @@
+//! How many loads were put to the fracture, and how cheaply most were refused.
+
+use frangible::Outcome;
+use frangible::outcome::LookedAt;
+
+/// What became of the loads that a world put to the fracture. Each load is one question; a load that a repeated step brings
+/// again unchanged is not asked again.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct LoadCounts {
+    /// Loads asked: one body in one step each, with all its contacts.
+    pub asked: u64,
+    /// Contacts in them.
+    pub contacts: u64,
+    /// Refused by their impulses alone, free of time ([`LookedAt::Impulses`]).
+    pub by_impulses: u64,
+    /// Refused by the amplitudes of the modes and bounds of the whole body, at every time step ([`LookedAt::Amplitudes`]).
+    pub by_amplitudes: u64,
+    /// Refused by bounds of parts of the body ([`LookedAt::Clusters`]).
+    pub by_clusters: u64,
+    /// Held after a look at stresses ([`LookedAt::Stresses`]).
+    pub by_stresses: u64,
+    /// Broke; also where there was no room for the pieces.
+    pub broke: u64,
+}
+
+impl LoadCounts {
+    /// Counts one answer.
+    pub(crate) fn count(&mut self, contacts: usize, outcome: &Outcome) {
+        self.asked += 1;
+        self.contacts += contacts as u64;
+        let of = match (outcome, outcome.report().looked_at) {
+            (Outcome::Broke(_), _) => &mut self.broke,
+            (_, LookedAt::Impulses) => &mut self.by_impulses,
+            (_, LookedAt::Amplitudes) => &mut self.by_amplitudes,
+            (_, LookedAt::Clusters) => &mut self.by_clusters,
+            (_, LookedAt::Stresses) => &mut self.by_stresses,
+        };
+        *of += 1;
+    }
+}

@@ -1,0 +1,89 @@
+//! Prints where the energy of every built-in scene's breaks goes: the page `docs/energy.md`. Takes names of scenes, or all.
+//! Fails when a break makes energy.
+
+use std::error::Error;
+
+use frangible_rapier::BreakCause;
+use frangible_scenes::{BreakRecord, SCENE_NAMES, bake, play, scene};
+
+/// All of them break sooner, s.
+const LONGEST: f64 = 2.0;
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let asked: Vec<String> = std::env::args().skip(1).collect();
+    let wanted = |name: &&&str| asked.is_empty() || asked.iter().any(|a| a == **name);
+    println!("{HEAD}");
+    let mut problems = Vec::new();
+    for name in SCENE_NAMES.iter().filter(wanted) {
+        let mut scene = scene(name)?;
+        scene.duration = scene.duration.min(LONGEST);
+        let baked = bake(&scene, &mut |_| {})?;
+        let run = play(&scene, &baked, &mut |_| {})?;
+        for record in &run.breaks {
+            println!("{}", row(name, record));
+            let problem = record.energy_created();
+            problems.extend(problem.map(|problem| format!("{name}: {problem}")));
+        }
+        if run.breaks.is_empty() {
+            println!("| {name} | held | | | | | | | | | | |");
+        }
+    }
+    println!("\n{FOOT}");
+    if problems.is_empty() {
+        Ok(())
+    } else {
+        Err(problems.join("\n").into())
+    }
+}
+
+const HEAD: &str = "# Energy of the built-in scenes' breaks
+
+Written by `cargo run --release -p frangible-scenes --example energy > docs/energy.md`, which fails where energy is made;
+`crates/frangible-scenes/tests/energy.rs` checks the same of some scenes. Energies in J.
+
+| scene | cause | pieces | approach | peak strain | cracks | cracks / strain | kinetic before | work | kinetic after | paid by motion | lost to contacts |
+|---|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|";
+
+const FOOT: &str = "*Approach*: kinetic energy of approach that the contacts absorbed, the most that vibration may have. *Peak strain*: largest
+strain energy of the vibration at a time step, the most that all cracks together may spend. *Cracks*: fracture energy Σ A G_c.
+*Kinetic before* and *after*: of the body, or its pieces, and of what hit it, around the step of the break. *Work*: of gravity in
+that step. *Paid by motion*: what of the cracks' energy was taken from the relative motion of the pieces. *Lost to contacts*:
+the rest, before + work − after − paid; restitution and friction took it.
+
+Approach counts all that a collision absorbs up to its turning point; kinetic energy before also has what the collision leaves alone.
+So in every row cracks ≤ peak strain ≤ approach ≤ before + work, and after + cracks ≤ before + work. A load that
+rests has no approach: its strain energy is the work it does on the body.";
+
+fn row(name: &str, b: &BreakRecord) -> String {
+    let r = &b.report;
+    let cause = match b.cause {
+        BreakCause::Impact => "impact",
+        BreakCause::Rest => "load",
+        BreakCause::Blast => "blast",
+        _ => "script",
+    };
+    let lost = b.kinetic_before + b.work - b.kinetic_after - b.energy_paid;
+    let share = 100.0 * r.fracture_energy / r.peak_strain_energy;
+    let j = short;
+    format!(
+        "| {name} | {cause} | {} | {} | {} | {} | {share:.0} % | {} | {} | {} | {} | {} |",
+        b.masses.len(),
+        j(r.approach_energy),
+        j(r.peak_strain_energy),
+        j(r.fracture_energy),
+        j(b.kinetic_before),
+        j(b.work),
+        j(b.kinetic_after),
+        j(b.energy_paid),
+        j(lost),
+    )
+}
+
+/// To three digits.
+fn short(x: f64) -> String {
+    if x.abs() < 5e-5 {
+        return "0".into();
+    }
+    let digits = (2.0 - x.abs().log10().floor()).clamp(0.0, 5.0);
+    format!("{x:.*}", digits as usize)
+}

@@ -1,0 +1,134 @@
+//! Weakness painted with vertex colours.
+
+use super::{Factors, Fields};
+use crate::asset::Asset;
+use crate::error::InputError;
+
+/// A channel of a colour.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Channel {
+    /// The first.
+    Red,
+    /// The second.
+    Green,
+    /// The third.
+    Blue,
+    /// Opacity.
+    Alpha,
+}
+
+impl Channel {
+    /// All of them, in the order of a colour's numbers.
+    pub const ALL: [Self; 4] = [Self::Red, Self::Green, Self::Blue, Self::Alpha];
+
+    /// Its name, lower case.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Red => "red",
+            Self::Green => "green",
+            Self::Blue => "blue",
+            Self::Alpha => "alpha",
+        }
+    }
+
+    /// The channel of this name.
+    #[must_use]
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|channel| channel.name() == name)
+    }
+}
+
+/// What a channel of the vertex colours means: factors on the material's numbers where it is 0 and where it is 1, linear
+/// between them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Paint {
+    /// The channel.
+    pub channel: Channel,
+    /// Factors on the tensile strength, if it differs; above 0.
+    pub strength: Option<[f32; 2]>,
+    /// Factors on the fracture energy, if it differs; above 0. Where only the strength is given it is its square, as in
+    /// [`Factors::of_strength`].
+    pub toughness: Option<[f32; 2]>,
+    /// Factors on the density of weak points, if it differs; 0 or above.
+    pub weak_points: Option<[f32; 2]>,
+}
+
+impl Paint {
+    /// With these shares of the strength, and the toughness that goes with them.
+    #[must_use]
+    pub const fn of_strength(channel: Channel, strength: [f32; 2]) -> Self {
+        Self {
+            channel,
+            strength: Some(strength),
+            toughness: None,
+            weak_points: None,
+        }
+    }
+
+    /// Whether its numbers can be used.
+    ///
+    /// # Errors
+    /// A factor that is not finite, or not above zero (weak points: below zero).
+    pub fn check(&self) -> Result<(), InputError> {
+        for (what, factors, least) in [
+            ("strength", self.strength, f32::MIN_POSITIVE),
+            ("toughness", self.toughness, f32::MIN_POSITIVE),
+            ("weak points", self.weak_points, 0.0),
+        ] {
+            let sound = |f: &f32| f.is_finite() && *f >= least;
+            if let Some(bad) = factors.iter().flatten().find(|f| !sound(f)) {
+                let channel = self.channel.name();
+                let must = if least > 0.0 { "above 0" } else { "0 or above" };
+                return Err(InputError::Field(format!(
+                    "the factor on the {what} painted in {channel} is {bad}; it must be finite and {must}"
+                )));
+            }
+        }
+        Ok(())
+    }
+
+    fn lay(&self, color: [f32; 4], factors: &mut Factors) {
+        let share = color[self.channel as usize];
+        let at = |[none, all]: [f32; 2]| none * (1.0 - share) + all * share;
+        if let Some(strength) = self.strength {
+            *factors = Factors {
+                weak_points: factors.weak_points,
+                ..Factors::of_strength(at(strength))
+            };
+        }
+        if let Some(toughness) = self.toughness {
+            factors.toughness = at(toughness);
+        }
+        if let Some(weak_points) = self.weak_points {
+            factors.weak_points = at(weak_points);
+        }
+    }
+}
+
+/// See [`Fields::from_paint`].
+pub(super) fn fields(asset: &Asset, paint: &[Paint]) -> Result<Fields, InputError> {
+    paint.iter().try_for_each(Paint::check)?;
+    if paint.is_empty() {
+        return Ok(Fields::default());
+    }
+    let drawn = asset.render.as_ref();
+    let Some(drawn) = drawn.filter(|r| !r.triangles.is_empty() && !r.colors.is_empty()) else {
+        let name = &asset.name;
+        return Err(InputError::Field(format!(
+            "`{name}` has no vertex colours to paint weakness with; export its mesh with them and bake it again"
+        )));
+    };
+    let fields = Fields::from_surface(asset, &drawn.positions, &drawn.triangles, |at| {
+        let mut color = [0.0; 4];
+        for (v, weight) in at {
+            for (sum, x) in color.iter_mut().zip(drawn.colors[v]) {
+                *sum += weight * x;
+            }
+        }
+        let mut factors = Factors::ONE;
+        paint.iter().for_each(|p| p.lay(color, &mut factors));
+        factors
+    });
+    Ok(fields)
+}
