@@ -1,11 +1,18 @@
 //! The body's stress at one time step, evaluated where it is asked for.
 
-use crate::asset::Asset;
-use crate::stress::{DisplacementBatch, Elasticity, StressState};
+use crate::asset::{Asset, EmbeddedPoint};
+use crate::config::FractureConfig;
+use crate::stress::{
+    DisplacementBatch, Elasticity, Skin, StressState, Symmetric3, Wall, largest_eigenvalue,
+};
 
 /// Stress at fracture tetrahedra at one step.
 pub(crate) struct StressField<'a> {
     pub(crate) asset: &'a Asset,
+    pub(crate) skin: &'a Skin,
+    pub(crate) config: &'a FractureConfig,
+    /// Surface triangles that something presses on: they are not free.
+    pub(crate) pressed: &'a [u32],
     pub(crate) displacement: &'a DisplacementBatch,
     pub(crate) elasticity: Elasticity,
     pub(crate) step: usize,
@@ -14,9 +21,68 @@ pub(crate) struct StressField<'a> {
 impl StressField<'_> {
     /// Stress and strain energy density at the centroid of fracture tetrahedron `e`.
     pub(crate) fn at(&self, e: usize) -> StressState {
-        let gradient =
-            self.displacement
-                .gradient(self.asset, &self.asset.embedding.tets[e], self.step);
-        self.elasticity.state(gradient)
+        let gradient = self.gradient(&self.asset.embedding.tets[e]);
+        match self.wall(e) {
+            Some(wall) => self.elasticity.free_state(gradient, wall.normal),
+            None => self.elasticity.state(gradient),
+        }
+    }
+
+    /// The wall that fracture tetrahedron `e` is part of.
+    pub(crate) fn wall(&self, e: usize) -> Option<Wall> {
+        if self.config.plane_stress_walls {
+            self.skin.wall(self.asset, e)
+        } else {
+            None
+        }
+    }
+
+    /// Stress that steers a crack in fracture tetrahedron `e`: in a wall that of its face with the larger tension, since
+    /// there the crack opens; behind, a bent wall may be stretched another way. `state`: that at the centroid.
+    pub(crate) fn steering(
+        &self,
+        e: usize,
+        wall: Option<&Wall>,
+        state: &StressState,
+    ) -> Symmetric3 {
+        let Some(wall) = wall else {
+            return state.stress;
+        };
+        let centre = &self.asset.embedding.tets[e];
+        let height = self.asset.fracture.centroid(e).dot(wall.normal);
+        let gradients = &self.asset.analysis.barycentric_gradients[centre.element as usize];
+        let [front, back] = wall.faces.map(|face| {
+            let up = wall.normal * (face - height);
+            let point = EmbeddedPoint {
+                barycentric: std::array::from_fn(|k| centre.barycentric[k] + gradients[k].dot(up)),
+                ..*centre
+            };
+            let state = self
+                .elasticity
+                .free_state(self.gradient(&point), wall.normal);
+            (largest_eigenvalue(&state.stress), state.stress)
+        });
+        if front.0 >= back.0 { front.1 } else { back.1 }
+    }
+
+    /// The same where a crack may start in it: at its flaw on the free surface, else at its centroid.
+    ///
+    /// Under a contact the surface is pressed together, which no mode resolves: there the centroid serves.
+    pub(crate) fn at_weak_point(&self, e: usize) -> StressState {
+        let flaw = self.skin.flaw(e).filter(|_| self.config.surface_flaws);
+        match flaw.filter(|flaw| !self.pressed.contains(&flaw.triangle)) {
+            Some(flaw) => {
+                let gradient = self.gradient(&flaw.point);
+                match self.wall(e).and_then(|wall| wall.edge(flaw.normal)) {
+                    Some(along) => self.elasticity.edge_state(gradient, along),
+                    None => self.elasticity.free_state(gradient, flaw.normal),
+                }
+            }
+            None => self.at(e),
+        }
+    }
+
+    fn gradient(&self, point: &EmbeddedPoint) -> glam::Mat3 {
+        self.displacement.gradient(self.asset, point, self.step)
     }
 }

@@ -1,5 +1,6 @@
-//! Cracks start `[G12 §4.4]`: at a weak tetrahedron whose largest principal tension passes R_c (Rankine), at its
-//! centre, across the direction of that tension.
+//! Cracks start `[G12 §4.4]`: at a weak tetrahedron whose largest principal tension passes R_c (Rankine), across the
+//! direction of that tension, through its centre. The tension is that of its flaw on the free surface, where it has one
+//! (beyond the paper, `stress/skin.rs`): a crack from there stands upright on the surface.
 //!
 //! Order within a time step: falling stress, then element number.
 
@@ -43,7 +44,7 @@ pub(crate) fn start_cracks(
         if system.fractured_by[e as usize] != UNCUT {
             continue;
         }
-        let stress = field.at(e as usize).stress;
+        let stress = field.at_weak_point(e as usize).stress;
         let strength = resistance.strength(e);
         // Neither a crack nor a new peak: most points at most times, and the bound needs no trigonometry.
         let bound = largest_eigenvalue_bound(&stress);
@@ -73,7 +74,7 @@ fn try_start(system: &mut CrackSystem, field: &StressField, e: u32, now: f64) {
     let asset = system.asset;
     let material = &asset.material;
     let centre = system.centroids[e as usize];
-    let state = field.at(e as usize);
+    let state = field.at_weak_point(e as usize);
     let strength = system.resistance.strength(e);
     let mut releases = std::mem::take(&mut system.releases);
     let stress = released(system, &mut releases, state.stress, e, now);

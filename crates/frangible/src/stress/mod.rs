@@ -3,11 +3,15 @@
 mod bound;
 mod displacement;
 mod principal;
+mod skin;
 mod strain;
+mod wall;
 
 pub use bound::StressBounds;
 pub(crate) use bound::{MARGIN, quadratic_modulus, tension_bound};
 pub use displacement::{DisplacementBatch, ShapeWeights};
 pub(crate) use principal::perpendicular_axes;
 pub use principal::{largest_eigenvalue, largest_eigenvalue_bound, principal_axes};
+pub use skin::{Flaw, Skin};
 pub use strain::{Elasticity, StressState, Symmetric3};
+pub use wall::Wall;
