@@ -11,12 +11,13 @@ const SIZE: [f64; 3] = [0.2, 0.1, 0.006];
 
 fn baked(shape: Shape, layers: usize, supports: Vec<Support>) -> Asset {
     let material = Material::preset("glass").unwrap();
+    let hollow = matches!(shape, Shape::Revolution { .. });
     let spec = BakeSpec {
-        analysis: Some(MeshSize {
+        analysis: (!hollow).then_some(MeshSize {
             edge: 0.02,
             layers: 1,
         }),
-        fracture: Some(MeshSize {
+        fracture: (!hollow).then_some(MeshSize {
             edge: 0.008,
             layers,
         }),

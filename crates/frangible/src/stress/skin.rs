@@ -56,7 +56,8 @@ impl Skin {
         let search = Search::new(&asset.analysis);
         let mut flaw_of_tet = vec![NONE; asset.fracture.tets.len()];
         let (mut flaws, mut places) = (Vec::new(), Vec::new());
-        for (tet, &triangle) in free.largest.iter().enumerate() {
+        let centres = free.largest.iter().zip(&asset.embedding.tets);
+        for (tet, (&triangle, centre)) in centres.enumerate() {
             if triangle == NONE {
                 continue;
             }
@@ -64,11 +65,10 @@ impl Skin {
             let nodes = asset.surface.triangles[triangle as usize];
             let corners = nodes.map(|v| asset.fracture.positions[v as usize]);
             let place = (corners[0] + corners[1] + corners[2]) / 3.0;
-            let start = asset.embedding.tets[tet].element;
             places.push(place);
             flaws.push(Flaw {
                 triangle,
-                point: search.embed(place, start),
+                point: search.embed(place, centre.element),
                 normal: free.normals[triangle as usize],
             });
         }
