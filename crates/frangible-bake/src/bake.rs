@@ -166,8 +166,7 @@ pub fn bake(
     let cells = convex_cells(&fracture, &fine.cell_of_tet, fine.cells);
 
     clock.enter(Stage::Stress)?;
-    let stored = analysis.stored();
-    let mut basis = ModalBasis {
+    let basis = ModalBasis {
         shapes: analysis.shapes(
             row_major(&modes.shapes, modes.unknowns),
             modes.eigenvalues.len(),
@@ -175,8 +174,24 @@ pub fn bake(
         peak_stress: Vec::new(),
         eigenvalues: modes.eigenvalues.clone(),
     };
-    let bounds = StressBounds::new(&fracture, &stored, &embedding.tets, &basis, &spec.material);
-    basis.peak_stress = bounds.root(spec.modes).0;
+    let asset = Asset {
+        name: spec.name.clone(),
+        material: spec.material.clone(),
+        analysis: analysis.stored(),
+        fracture,
+        surface,
+        embedding,
+        modes: basis,
+        bounds: StressBounds::default(),
+        mass,
+        cells,
+        cell_of_tet: fine.cell_of_tet.clone(),
+        supported: (0..held.len() as u32)
+            .filter(|&v| held[v as usize] != [false; 3])
+            .collect(),
+        render: spec.render.as_ref().map(|r| moved(r, -centre)),
+    }
+    .restressed();
 
     let report = BakeReport {
         analysis: analysis.report(&fine),
@@ -192,23 +207,6 @@ pub fn bake(
         mass: mass.mass,
         seconds: clock.finish(),
         mode_seconds: modes.seconds,
-    };
-    let asset = Asset {
-        name: spec.name.clone(),
-        material: spec.material.clone(),
-        fracture,
-        surface,
-        analysis: stored,
-        embedding,
-        modes: basis,
-        bounds,
-        mass,
-        cells,
-        cell_of_tet: fine.cell_of_tet,
-        supported: (0..held.len() as u32)
-            .filter(|&v| held[v as usize] != [false; 3])
-            .collect(),
-        render: spec.render.as_ref().map(|r| moved(r, -centre)),
     };
     asset.validate()?;
     Ok((asset, report))

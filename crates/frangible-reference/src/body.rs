@@ -1,5 +1,6 @@
 //! The body as plain numbers in f64.
 
+use frangible::asset::EmbeddedPoint;
 use frangible::glam::DVec3;
 use frangible::mesh::NO_NEIGHBOUR;
 use frangible::{Asset, Material};
@@ -142,33 +143,38 @@ impl<'a> Solid<'a> {
 
     /// ∇u in fracture element `e`, `[i][j]` = ∂u_i/∂x_j.
     pub(crate) fn gradient(&self, u: &[DVec3], e: usize) -> [[f64; 3]; 3] {
-        let mut sum = [[0.0; 3]; 3];
-        let mut add = |u: DVec3, g: DVec3| {
-            for i in 0..3 {
-                for j in 0..3 {
-                    sum[i][j] += u[i] * g[j];
-                }
-            }
-        };
         match self.field {
             Field::Linear => {
                 let tet = self.asset.fracture.tets[e];
-                for a in 0..4 {
-                    add(u[tet[a] as usize], self.gradients[e][a]);
-                }
+                sum((0..4).map(|a| (u[tet[a] as usize], self.gradients[e][a])))
             }
-            Field::Embedded => {
-                let at = &self.asset.embedding.tets[e];
-                let element = at.element as usize;
-                let g = quadratic_gradients(at.barycentric.map(f64::from), self.gradients[element]);
-                for a in 0..10 {
-                    let node = self.asset.analysis.elements[element][a];
-                    add(u[node as usize], g[a]);
-                }
+            Field::Embedded => self.gradient_at(u, &self.asset.embedding.tets[e]),
+        }
+    }
+
+    /// The same at a point of the analysis mesh.
+    pub(crate) fn gradient_at(&self, u: &[DVec3], at: &EmbeddedPoint) -> [[f64; 3]; 3] {
+        let element = at.element as usize;
+        if self.field == Field::Linear {
+            return self.gradient(u, element);
+        }
+        let g = quadratic_gradients(at.barycentric.map(f64::from), self.gradients[element]);
+        let nodes = self.asset.analysis.elements[element];
+        sum((0..10).map(|a| (u[nodes[a] as usize], g[a])))
+    }
+}
+
+/// Σ u ⊗ ∇N.
+fn sum(terms: impl Iterator<Item = (DVec3, DVec3)>) -> [[f64; 3]; 3] {
+    let mut sum = [[0.0; 3]; 3];
+    for (u, g) in terms {
+        for i in 0..3 {
+            for j in 0..3 {
+                sum[i][j] += u[i] * g[j];
             }
         }
-        sum
     }
+    sum
 }
 
 /// Gradients of the barycentric coordinates: of L_k, the area vector of the face opposite k over three volumes.

@@ -45,6 +45,8 @@ fn admissible(solid: &Solid, modal_impulse: &[f64], mut duration: f64, brought: 
 
 /// A contact and what the modes see of it.
 struct Touch {
+    /// Number of the surface triangle.
+    triangle: u32,
     speed: f64,
     /// ξ_i = φ_i(b) · n, 1/√kg.
     xi: Vec<f64>,
@@ -65,6 +67,8 @@ pub(crate) struct Force {
     pub(crate) duration: f64,
     /// Δt, s.
     pub(crate) time_step: f64,
+    /// Surface triangles that the contacts touch.
+    pub(crate) pressed: Vec<u32>,
     /// Steps until the contact's end.
     pub(crate) contact_steps: usize,
     /// Steps in all.
@@ -115,6 +119,7 @@ impl Force {
         let mut force = Self {
             modal_impulse,
             duration,
+            pressed: touches.iter().map(|t| t.triangle).collect(),
             time_step,
             contact_steps,
             steps: contact_steps,
@@ -188,6 +193,7 @@ fn touch(solid: &Solid, contact: &Contact) -> Touch {
     let r = (1.0 / bend).min(ball);
     let hertz = C * (mass * mass / (modulus * modulus * r) / speed).powf(0.2); // [G12 Eq. 1]
     Touch {
+        triangle: t as u32,
         speed,
         xi: solid.modal_shape(asset.surface.triangles[t], l, n),
         radius: radius.clamp(3e-3, ball),

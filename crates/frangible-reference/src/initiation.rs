@@ -9,7 +9,8 @@ use crate::fragments::fragments;
 use crate::modes::amplitudes;
 use crate::options::{Initiation, Options};
 use crate::propagation::{Crack, propagate};
-use crate::stress::{principal, stress};
+use crate::skin::Look;
+use crate::stress::principal;
 use crate::surface::{Surface, area};
 
 /// Tests of strength this close to it are kept.
@@ -92,6 +93,7 @@ fn run(
     result.time_step = force.time_step; // line 6
     result.steps = force.steps;
     result.steps_margin = force.margin;
+    let look = Look::new(&solid, options.surface_flaws, &force.pressed);
     let mut marked = vec![None; body.asset().fracture.tets.len()];
     for step in 0..force.steps {
         // lines 7, 8
@@ -99,15 +101,27 @@ fn run(
         let u = solid.displacements(&q); // line 10
         let starts = match options.initiation {
             // line 11
-            Initiation::WeakElements => weak_elements(&solid, body, &u, step, &marked, &mut result),
-            Initiation::NearestWeak => nearest_weak(&solid, body, &u, &marked, &mut result),
+            Initiation::WeakElements => {
+                weak_elements(&solid, &look, body, &u, step, &marked, &mut result)
+            }
+            Initiation::NearestWeak => nearest_weak(&solid, &look, body, &u, &marked, &mut result),
         };
         if result.cracks.len() >= most_cracks {
             break;
         }
         for e in starts {
             if marked[e].is_none() && result.cracks.len() < most_cracks {
-                start(&solid, body, &u, e, step, options, &mut marked, &mut result); // line 12
+                start(
+                    &solid,
+                    &look,
+                    body,
+                    &u,
+                    e,
+                    step,
+                    options,
+                    &mut marked,
+                    &mut result,
+                ); // line 12
             }
         }
     }
@@ -118,6 +132,7 @@ fn run(
 /// Weak elements above R_c by falling stress, then by number.
 fn weak_elements(
     solid: &Solid,
+    look: &Look,
     body: &Body,
     u: &[DVec3],
     step: usize,
@@ -129,7 +144,7 @@ fn weak_elements(
         if marked[e as usize].is_some() {
             continue;
         }
-        let sigma = largest_stress(solid, u, e as usize);
+        let sigma = largest_stress(solid, look, u, e as usize);
         result.peak_stress = result.peak_stress.max(sigma);
         let stress = sigma / solid.material.strength;
         if stress > 1.0 {
@@ -151,6 +166,7 @@ fn weak_elements(
 /// "at the location of the weak element which is the closest to the element that has the highest principal stress".
 fn nearest_weak(
     solid: &Solid,
+    look: &Look,
     body: &Body,
     u: &[DVec3],
     marked: &[Option<u32>],
@@ -158,7 +174,7 @@ fn nearest_weak(
 ) -> Vec<usize> {
     let mut highest = (f64::NEG_INFINITY, 0);
     for e in (0..marked.len()).filter(|&e| marked[e].is_none()) {
-        let sigma = largest_stress(solid, u, e);
+        let sigma = largest_stress(solid, look, u, e);
         if sigma > highest.0 {
             highest = (sigma, e);
         }
@@ -178,13 +194,14 @@ fn nearest_weak(
     nearest.1.into_iter().collect()
 }
 
-fn largest_stress(solid: &Solid, u: &[DVec3], e: usize) -> f64 {
-    let (sigma, _) = stress(solid.material, &solid.gradient(u, e));
+fn largest_stress(solid: &Solid, look: &Look, u: &[DVec3], e: usize) -> f64 {
+    let (sigma, _) = look.stress(solid, u, e);
     principal(&sigma).0[0]
 }
 
 fn start(
     solid: &Solid,
+    look: &Look,
     body: &Body,
     u: &[DVec3],
     e: usize,
@@ -193,7 +210,7 @@ fn start(
     marked: &mut [Option<u32>],
     result: &mut Break,
 ) {
-    let (sigma, energy) = stress(solid.material, &solid.gradient(u, e));
+    let (sigma, energy) = look.stress(solid, u, e);
     let material = solid.material;
     let surface = Surface::new(solid.centres[e], &sigma, material, body.seed(), e);
     let x = solid.corners(e);

@@ -12,7 +12,7 @@
 //! | Eq. 3 (§4.2) | `contact.rs`: `time_step`; [`TimeStep`] |
 //! | Eq. 4, 5 (§4.3) | `contact.rs`: `Force::{frequency, amplitude}` |
 //! | "analytically compute the damped deformation wave" (§4.4, appendix) | `modes.rs`: `forced`; `body.rs`: `displacements` |
-//! | Green-Lagrange strain, Hooke, principal stress (§4.4) | `stress.rs` |
+//! | Green-Lagrange strain, Hooke, principal stress (§4.4) | `stress.rs`; of our model at free surfaces `skin.rs` |
 //! | where a crack starts (§4.4) | `initiation.rs`: `weak_elements`, `nearest_weak`; [`Initiation`] |
 //! | Eq. 6-8 | `surface.rs`: `Surface::{s, bump}` |
 //! | Eq. 9, 10 (§5.2.1) | `surface.rs`: `Surface::new` |
@@ -38,6 +38,7 @@ mod initiation;
 mod modes;
 mod options;
 mod propagation;
+mod skin;
 mod stress;
 mod surface;
 

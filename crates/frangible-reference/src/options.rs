@@ -21,6 +21,9 @@ pub struct Options {
     pub after_contact: bool,
     /// Beyond the paper: the element where a crack starts must pay for its own area. Default: off.
     pub first_element_pays: bool,
+    /// Beyond the paper: a weak element with a free outer face is looked at in the middle of the largest one, where no
+    /// traction acts; in a thin wall none acts across the wall. Default: off.
+    pub surface_flaws: bool,
 }
 
 /// `[G12 §4.1]`.
@@ -92,6 +95,7 @@ impl Default for Options {
             admissible: false,
             after_contact: false,
             first_element_pays: false,
+            surface_flaws: false,
         }
     }
 }
@@ -118,6 +122,7 @@ impl Options {
             admissible: true,
             after_contact: true,
             first_element_pays: true,
+            surface_flaws: true,
             ..Self::default()
         }
     }

@@ -3,10 +3,15 @@
 use frangible::Material;
 use frangible::glam::DVec3;
 
-type Matrix = [[f64; 3]; 3];
+pub(crate) type Matrix = [[f64; 3]; 3];
 
 /// Stress σ (Pa) and strain energy density η (J/m³) from ∇u.
 pub(crate) fn stress(material: &Material, gradient: &Matrix) -> (Matrix, f64) {
+    hooke(material, &green_lagrange(gradient))
+}
+
+/// E = ½(∇u + ∇uᵀ + ∇uᵀ∇u).
+pub(crate) fn green_lagrange(gradient: &Matrix) -> Matrix {
     let mut strain = [[0.0; 3]; 3];
     for i in 0..3 {
         for j in 0..3 {
@@ -16,6 +21,11 @@ pub(crate) fn stress(material: &Material, gradient: &Matrix) -> (Matrix, f64) {
             }
         }
     }
+    strain
+}
+
+/// σ = λ tr(E) I + 2μ E and η = ½ σ : E.
+pub(crate) fn hooke(material: &Material, strain: &Matrix) -> (Matrix, f64) {
     let (e, nu) = (material.youngs_modulus, material.poisson_ratio);
     let lambda = e * nu / ((1.0 + nu) * (1.0 - 2.0 * nu));
     let mu = e / (2.0 * (1.0 + nu));

@@ -11,7 +11,7 @@ use crate::fragment::{MeshIndex, RenderIndex};
 use crate::mesh::TriangleTree;
 use crate::rng::{Purpose, stream, uniform};
 use crate::state::BodyState;
-use crate::stress::{ShapeWeights, StressBounds, quadratic_modulus};
+use crate::stress::{ShapeWeights, Skin, StressBounds, quadratic_modulus};
 
 /// An asset that has been checked and made ready: one per kind of object, cheap to clone, shared by its bodies.
 #[derive(Clone, Debug)]
@@ -31,6 +31,8 @@ pub(crate) struct Prepared {
     pub(crate) surface: TriangleTree,
     /// Over those of the render surface.
     pub(crate) render: Option<RenderIndex>,
+    /// Free surfaces: flaws and walls.
+    pub(crate) skin: Skin,
     /// Stress bounds of the clusters …
     pub(crate) bounds: StressBounds,
     /// … and of the whole body: stress and gradient, one number per mode.
@@ -61,8 +63,9 @@ impl Breakable {
     /// Of an asset that has been checked.
     pub(crate) fn of_sound(asset: Arc<Asset>) -> Self {
         let modes = &asset.modes;
+        let skin = Skin::of(&asset);
         let bounds = if asset.bounds.is_empty() {
-            StressBounds::of(&asset)
+            StressBounds::with_skin(&asset, &skin)
         } else {
             asset.bounds.clone()
         };
@@ -76,6 +79,7 @@ impl Breakable {
             surface,
             root: bounds.root(modes.count()),
             bounds,
+            skin,
             weight: weight(&asset),
             periods: modes
                 .eigenvalues

@@ -118,6 +118,7 @@ fn cracks<'a>(
         body,
         config,
         &motion,
+        &load.pressed(),
         pulse.time_step,
         budget,
         report,
@@ -146,11 +147,12 @@ pub(crate) fn report_on(body: &Body) -> ImpactReport {
 }
 
 /// Stress wave → cracks `[G12 §4.4, §5]` → which nodes hang together `[G12 §6.1]`, for any motion of the modes.
-/// `budget`: energy that the cracks may spend, with the ledger, J.
+/// `pressed`: surface triangles under a contact; `budget`: energy that the cracks may spend, with the ledger, J.
 pub(crate) fn run_cracks<'a>(
     body: &'a Body,
     config: &'a FractureConfig,
     motion: &Motion,
+    pressed: &[u32],
     time_step: f64,
     budget: f64,
     mut report: ImpactReport,
@@ -183,6 +185,9 @@ pub(crate) fn run_cracks<'a>(
             displacement.seek(motion, step);
             let mut field = StressField {
                 asset,
+                skin: &body.prepared.skin,
+                config,
+                pressed,
                 displacement: &mut displacement,
                 elasticity,
                 step,
@@ -198,6 +203,9 @@ pub(crate) fn run_cracks<'a>(
         let start = Instant::now();
         let mut field = StressField {
             asset,
+            skin: &body.prepared.skin,
+            config,
+            pressed,
             displacement: &mut displacement,
             elasticity,
             step,

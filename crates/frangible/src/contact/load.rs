@@ -13,6 +13,8 @@ use crate::stress::{ShapeWeights, tension_bound};
 pub struct Touch {
     /// The contact, its point moved onto the surface.
     pub contact: Contact,
+    /// Number of the surface triangle that it touches.
+    pub triangle: u32,
     /// ξ_i = φ_i(b) · n of every mode, 1/√kg.
     pub modal_shape: Vec<f64>,
     /// Radius of curvature of the body there, m; infinite where flat.
@@ -28,6 +30,13 @@ pub struct Load {
     pub touches: Vec<Touch>,
     /// Σ_k φ_i(b_k) · J_k of every mode, J the whole impulse with friction, N·s/√kg: the modal impulses.
     pub modal_impulse: Vec<f64>,
+}
+
+impl Load {
+    /// Surface triangles that the contacts press on.
+    pub(crate) fn pressed(&self) -> Vec<u32> {
+        self.touches.iter().map(|t| t.triangle).collect()
+    }
 }
 
 /// Finds each contact on the surface and sums up the modal impulses.
@@ -57,6 +66,7 @@ pub fn modal_load(body: &Body, contacts: &[Contact]) -> Load {
                 normal,
                 ..*contact
             },
+            triangle: at.triangle,
             modal_shape,
             curvature_radius: f64::from(asset.surface.curvature_radius[at.triangle as usize]),
             inverse_effective_mass: if asset.is_supported() {

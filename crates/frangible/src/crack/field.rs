@@ -1,11 +1,19 @@
 //! The body's stress at one time step, evaluated where it is asked for.
 
-use crate::asset::Asset;
-use crate::stress::{DisplacementBatch, Elasticity, StressLanes, StressState};
+use crate::asset::{Asset, EmbeddedPoint};
+use crate::config::FractureConfig;
+use crate::stress::{
+    DisplacementBatch, Elasticity, Law, Skin, StressLanes, StressState, Symmetric3, Wall,
+    largest_eigenvalue,
+};
 
 /// Stress at fracture tetrahedra at one step.
 pub(crate) struct StressField<'a> {
     pub(crate) asset: &'a Asset,
+    pub(crate) skin: &'a Skin,
+    pub(crate) config: &'a FractureConfig,
+    /// Surface triangles that something presses on: they are not free.
+    pub(crate) pressed: &'a [u32],
     pub(crate) displacement: &'a mut DisplacementBatch,
     pub(crate) elasticity: Elasticity,
     pub(crate) step: usize,
@@ -14,17 +22,72 @@ pub(crate) struct StressField<'a> {
 impl StressField<'_> {
     /// Stress and strain energy density at the centroid of fracture tetrahedron `e`.
     pub(crate) fn at(&mut self, e: usize) -> StressState {
-        let gradient =
-            self.displacement
-                .gradient(self.asset, &self.asset.embedding.tets[e], self.step);
-        self.elasticity.state(gradient)
+        let gradient = self.gradient(&self.asset.embedding.tets[e]);
+        match self.wall(e) {
+            Some(wall) => self.elasticity.free_state(gradient, wall.normal),
+            None => self.elasticity.state(gradient),
+        }
     }
 
-    /// The same at all steps of the batch.
+    /// The wall that fracture tetrahedron `e` is part of.
+    pub(crate) fn wall(&self, e: usize) -> Option<Wall> {
+        if self.config.plane_stress_walls {
+            self.skin.wall(self.asset, e)
+        } else {
+            None
+        }
+    }
+
+    /// Stress that steers a crack in fracture tetrahedron `e`: in a wall that of its face with the larger tension, since
+    /// there the crack opens; behind, a bent wall may be stretched another way. `state`: that at the centroid.
+    pub(crate) fn steering(
+        &mut self,
+        e: usize,
+        wall: Option<&Wall>,
+        state: &StressState,
+    ) -> Symmetric3 {
+        let Some(wall) = wall else {
+            return state.stress;
+        };
+        let centre = &self.asset.embedding.tets[e];
+        let height = self.asset.fracture.centroid(e).dot(wall.normal);
+        let gradients = &self.asset.analysis.barycentric_gradients[centre.element as usize];
+        let [front, back] = wall.faces.map(|face| {
+            let up = wall.normal * (face - height);
+            let point = EmbeddedPoint {
+                barycentric: std::array::from_fn(|k| centre.barycentric[k] + gradients[k].dot(up)),
+                ..*centre
+            };
+            let gradient = self.gradient(&point);
+            let state = self.elasticity.free_state(gradient, wall.normal);
+            (largest_eigenvalue(&state.stress), state.stress)
+        });
+        if front.0 >= back.0 { front.1 } else { back.1 }
+    }
+
+    /// The same where a crack may start in it, at all steps of the batch: at its flaw on the free surface, else at its
+    /// centroid.
+    ///
+    /// Under a contact the surface is pressed together, which no mode resolves: there the centroid serves.
     #[inline(always)]
-    pub(crate) fn lanes(&mut self, e: usize) -> StressLanes {
-        let point = &self.asset.embedding.tets[e];
-        self.elasticity
-            .lanes(&self.displacement.gradients(self.asset, point))
+    pub(crate) fn at_weak_point(&mut self, e: usize) -> StressLanes {
+        let wall = self.wall(e);
+        let flaw = self.skin.flaw(e).filter(|_| self.config.surface_flaws);
+        let (point, law) = match flaw.filter(|flaw| !self.pressed.contains(&flaw.triangle)) {
+            Some(flaw) => match wall.and_then(|wall| wall.edge(flaw.normal)) {
+                Some(along) => (&flaw.point, Law::Edge(along)),
+                None => (&flaw.point, Law::Free(flaw.normal)),
+            },
+            None => {
+                let law = wall.map_or(Law::Solid, |wall| Law::Free(wall.normal));
+                (&self.asset.embedding.tets[e], law)
+            }
+        };
+        let gradients = self.displacement.gradients(self.asset, point);
+        self.elasticity.lanes(&gradients, law)
+    }
+
+    fn gradient(&mut self, point: &EmbeddedPoint) -> glam::Mat3 {
+        self.displacement.gradient(self.asset, point, self.step)
     }
 }

@@ -1,5 +1,6 @@
-//! Cracks start `[G12 §4.4]`: at a weak tetrahedron whose largest principal tension passes R_c (Rankine), at its
-//! centre, across the direction of that tension.
+//! Cracks start `[G12 §4.4]`: at a weak tetrahedron whose largest principal tension passes R_c (Rankine), across the
+//! direction of that tension, through its centre. The tension is that of its flaw on the free surface, where it has one
+//! (beyond the paper, `stress/skin.rs`): a crack from there stands upright on the surface.
 //!
 //! Order within a time step: when the stress passes the strength (instant cracks start together), then falling stress,
 //! then element number.

@@ -12,6 +12,7 @@
 //!   Where toughness varies the crack then kinks to where it costs least for what it releases (`fields/kink.rs`).
 //!   The turn is gated by tension, absolute and against the largest compression: on the compressed side of a bent wall
 //!   the largest principal direction points across it, and an ungated crack would peel the wall along its middle.
+//!   Cracks in thin walls stand upright (`stress/wall.rs`): no traction acts on the wall's faces.
 
 use glam::Vec3;
 
@@ -20,7 +21,7 @@ use super::surface::crossing_area;
 use super::system::{CrackSystem, ElementCut, Front, Junction, UNCUT};
 use crate::config::{CrackPath, CrackTiming};
 use crate::fields::Tip;
-use crate::stress::{StressState, principal_axes};
+use crate::stress::{Symmetric3, principal_axes};
 
 /// Share of R_c below which tension does not steer.
 const STEERING_GATE: f64 = 0.3;
@@ -101,9 +102,15 @@ fn enter(system: &mut CrackSystem, field: &mut StressField, front: Front) {
         CrackPath::Planar => crack.frame.normal,
         CrackPath::Steered { turning_length } => {
             let length = mesh.centroid(n).distance(mesh.centroid(from.tet as usize));
+            let wall = field.wall(n);
+            let stress = field.steering(n, wall.as_ref(), &state);
+            let ahead = match wall {
+                Some(wall) => upright(from.direction, wall.normal),
+                _ => from.direction,
+            };
             let toward = steered(
-                from.direction,
-                &state,
+                ahead,
+                &stress,
                 system.resistance.painted(front.tet),
                 f64::from(length),
                 turning_length,
@@ -163,12 +170,12 @@ fn enter(system: &mut CrackSystem, field: &mut StressField, front: Front) {
 /// The crack's direction, turned towards the largest tension over a length of path.
 fn steered(
     direction: Vec3,
-    state: &StressState,
+    stress: &Symmetric3,
     strength: f64,
     length: f64,
     turning_length: f64,
 ) -> Vec3 {
-    let (sigma, axes) = principal_axes(&state.stress);
+    let (sigma, axes) = principal_axes(stress);
     if sigma[0] <= 0.0 {
         return direction;
     }
@@ -185,6 +192,11 @@ fn steered(
         tension
     };
     (direction * (1.0 - weight) + tension * weight).normalize_or(direction)
+}
+
+/// A direction turned into a wall of this normal: no traction acts on the faces, so nothing opens a crack that lies askew.
+fn upright(direction: Vec3, normal: Vec3) -> Vec3 {
+    (direction - direction.dot(normal) * normal).normalize_or(direction)
 }
 
 /// s at the fourth node: mean of the extrapolations from the three known ones.

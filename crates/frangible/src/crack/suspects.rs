@@ -93,7 +93,7 @@ impl<I: Iterator<Item = (u32, u8)>> pulp::NullaryFnOnce for Look<'_, '_, I> {
         for (cluster, steps) in self.survivors {
             let places = self.body.clusters.places(cluster as usize);
             for (place, &tet) in places.zip(self.body.clusters.tets(cluster as usize)) {
-                let state = self.field.lanes(tet as usize);
+                let state = self.field.at_weak_point(tet as usize);
                 let suspect = Suspect {
                     place: place as u32,
                     tet,

@@ -59,6 +59,8 @@ pub fn blast(body: &Body, blast: &Blast, config: &FractureConfig) -> Result<Outc
         body,
         config,
         &motion,
+        // A blast presses everywhere, far below any strength.
+        &[],
         pulse.time_step,
         budget,
         report,

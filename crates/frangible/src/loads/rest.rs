@@ -64,8 +64,10 @@ pub fn rest(
     }
     report.looked_at = LookedAt::Amplitudes;
     let mut amplitudes: Vec<f32> = (0..asset.modes.count()).map(weight).collect();
+    let mut pressed = Vec::with_capacity(forces.len());
     for force in forces {
         let at = prepared.surface.closest(force.point);
+        pressed.push(at.triangle);
         each_row(asset, &at, |node, share| {
             for axis in 0..3 {
                 let w = share * force.force[axis];
@@ -95,6 +97,7 @@ pub fn rest(
         body,
         config,
         &motion,
+        &pressed,
         time_step,
         f64::INFINITY,
         report,

@@ -6,10 +6,16 @@
 //! tetrahedra bound all of them. The maxima contain what the rounding of the run time's f32 can add, so a cluster whose
 //! bound stays below the strength holds no crack, exactly: results with and without the bounds are the same bits.
 //! The Frobenius norm serves for g: it is never below the spectral norm, and its term is small.
+//!
+//! Stress is looked at where it may be asked for: at each tetrahedron's centre, with the traction across a wall and
+//! without it, and at its flaw on the free surface, without ([`Skin`]). Without traction Hooke's law has λ* = 2λμ/(λ + 2μ)
+//! and the strain in the surface has two principal values, so the quadratic term is at most ½ (2 max(λ*, 0) + 2μ) g², and
+//! 2λ* < 3λ where λ is positive: the same k bounds both. At an edge Young's modulus serves, which is below k too.
 
 use glam::Vec3;
 
 use super::displacement::ShapeWeights;
+use super::{Elasticity, Skin, Symmetric3};
 use crate::asset::{AnalysisMesh, Asset, EmbeddedPoint};
 use crate::material::Material;
 use crate::mesh::TetMesh;
@@ -37,46 +43,47 @@ pub struct StressBounds {
 }
 
 impl StressBounds {
-    /// Computes them for the tetrahedra of `mesh`, embedded in the analysis mesh at `points`.
-    #[must_use]
-    pub fn new(
-        mesh: &TetMesh,
-        analysis: &AnalysisMesh,
-        points: &[EmbeddedPoint],
-        modes: &ModalBasis,
-        material: &Material,
-    ) -> Self {
-        let (cluster_of_tet, clusters) = clusters(mesh);
-        let m = modes.count();
-        let mut bounds = Self {
-            stress: vec![0.0; clusters * m],
-            gradient: vec![0.0; clusters * m],
-            cluster_of_tet,
-        };
-        let mut rows = Rows::new(m);
-        for (point, &cluster) in points.iter().zip(&bounds.cluster_of_tet) {
-            rows.gradients(point, analysis, modes);
-            let row = cluster as usize * m..(cluster as usize + 1) * m;
-            rows.raise(
-                &mut bounds.stress[row.clone()],
-                &mut bounds.gradient[row],
-                material.lame_lambda() as f32,
-                material.shear_modulus() as f32,
-            );
-        }
-        bounds
-    }
-
     /// Of an asset, from its own arrays.
     #[must_use]
     pub fn of(asset: &Asset) -> Self {
-        Self::new(
-            &asset.fracture,
-            &asset.analysis,
-            &asset.embedding.tets,
-            &asset.modes,
-            &asset.material,
-        )
+        Self::with_skin(asset, &Skin::of(asset))
+    }
+
+    /// Of an asset whose skin is known.
+    pub(crate) fn with_skin(asset: &Asset, skin: &Skin) -> Self {
+        let (cluster_of_tet, clusters) = clusters(&asset.fracture);
+        let m = asset.modes.count();
+        let mut stress = vec![0.0; clusters * m];
+        let mut gradient = vec![0.0; clusters * m];
+        let mut rows = Rows::new(m, &asset.material);
+        let law = Elasticity::new(&asset.material);
+        for (tet, point) in asset.embedding.tets.iter().enumerate() {
+            let cluster = cluster_of_tet[tet] as usize;
+            let row = cluster * m..(cluster + 1) * m;
+            let (stress, gradient) = (&mut stress[row.clone()], &mut gradient[row]);
+            rows.gradients(point, &asset.analysis, &asset.modes);
+            rows.raise(stress, gradient, |strain| law.hooke(strain));
+            let wall = skin.wall(asset, tet);
+            if let Some(wall) = wall {
+                rows.raise(stress, gradient, |strain| {
+                    law.free_hooke(strain, wall.normal)
+                });
+            }
+            if let Some(flaw) = skin.flaw(tet) {
+                rows.gradients(&flaw.point, &asset.analysis, &asset.modes);
+                rows.raise(stress, gradient, |strain| {
+                    law.free_hooke(strain, flaw.normal)
+                });
+                if let Some(along) = wall.and_then(|wall| wall.edge(flaw.normal)) {
+                    rows.raise(stress, gradient, |strain| law.edge_hooke(strain, along));
+                }
+            }
+        }
+        Self {
+            cluster_of_tet,
+            stress,
+            gradient,
+        }
     }
 
     /// Whether there are none: they are then computed when a body is made.
@@ -135,13 +142,16 @@ struct Rows {
     gradient: Vec<f32>,
     /// Σ |φ| |∇N| of every mode: what rounding is relative to.
     terms: Vec<f32>,
+    /// k of the quadratic term, Pa.
+    modulus: f32,
 }
 
 impl Rows {
-    fn new(modes: usize) -> Self {
+    fn new(modes: usize, material: &Material) -> Self {
         Self {
             gradient: vec![0.0; 9 * modes],
             terms: vec![0.0; modes],
+            modulus: quadratic_modulus(material),
         }
     }
 
@@ -166,31 +176,38 @@ impl Rows {
         }
     }
 
-    /// Raises one cluster's rows to this tetrahedron's values.
-    fn raise(&self, stress: &mut [f32], gradient: &mut [f32], lambda: f32, mu: f32) {
+    /// Raises one cluster's rows to this place's values; `law`: stress of a strain, linear in it.
+    fn raise(
+        &self,
+        stress: &mut [f32],
+        gradient: &mut [f32],
+        law: impl Fn(&Symmetric3) -> Symmetric3,
+    ) {
         let m = stress.len();
-        let modulus = (3.0 * lambda).max(0.0) + 2.0 * mu;
         let at = |k: usize, i: usize| self.gradient[k * m + i];
         for i in 0..m {
             let g: [f32; 9] = std::array::from_fn(|k| at(k, i));
             let allowance = ROUNDING * self.terms[i];
             let frobenius = g.iter().map(|x| x * x).sum::<f32>().sqrt() + allowance;
             gradient[i] = gradient[i].max(frobenius);
-            let pressure = lambda * (g[0] + g[4] + g[8]);
-            let s = [
-                2.0 * mu * g[0] + pressure,
-                2.0 * mu * g[4] + pressure,
-                2.0 * mu * g[8] + pressure,
-                mu * (g[5] + g[7]),
-                mu * (g[6] + g[2]),
-                mu * (g[1] + g[3]),
-            ];
+            let Symmetric3 {
+                diagonal: [xx, yy, zz],
+                off: [xy, yz, zx],
+            } = law(&Symmetric3 {
+                diagonal: [g[0], g[4], g[8]],
+                off: [
+                    0.5 * (g[1] + g[3]),
+                    0.5 * (g[5] + g[7]),
+                    0.5 * (g[6] + g[2]),
+                ],
+            });
+            let s = [xx, yy, zz, yz, zx, xy];
             // The Frobenius norm is never below the spectral norm: nearly all tetrahedra end here.
             let squared = s[0] * s[0]
                 + s[1] * s[1]
                 + s[2] * s[2]
                 + 2.0 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]);
-            let allowance = modulus * allowance;
+            let allowance = self.modulus * allowance;
             if squared.sqrt() + allowance > stress[i] {
                 let norm = spectral_norm(s.map(f64::from)) as f32 * (1.0 + 1e-6);
                 stress[i] = stress[i].max(norm + allowance);

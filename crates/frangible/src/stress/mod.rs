@@ -3,7 +3,9 @@
 mod bound;
 mod displacement;
 mod principal;
+mod skin;
 mod strain;
+mod wall;
 
 pub use bound::StressBounds;
 pub(crate) use bound::{MARGIN, quadratic_modulus, tension_bound};
@@ -11,5 +13,7 @@ pub(crate) use displacement::{BATCH, Lanes, STRIDE, lane};
 pub use displacement::{DisplacementBatch, ShapeWeights};
 pub(crate) use principal::perpendicular_axes;
 pub use principal::{largest_eigenvalue, largest_eigenvalue_bound, principal_axes};
-pub(crate) use strain::StressLanes;
+pub use skin::{Flaw, Skin};
 pub use strain::{Elasticity, StressState, Symmetric3};
+pub(crate) use strain::{Law, StressLanes};
+pub use wall::Wall;

@@ -43,9 +43,9 @@ sections! {
     PEAK_STRESS = 82, "peak stress";
     HALF_SHAPES = 83, "mode shapes of half precision";
     HALF_SCALES = 84, "scales of mode shapes";
-    BOUND_CLUSTERS = 85, "clusters of tetrahedra";
-    STRESS_BOUNDS = 86, "stress bounds";
-    GRADIENT_BOUNDS = 87, "gradient bounds";
+    BOUND_CLUSTERS = 88, "clusters of tetrahedra";
+    STRESS_BOUNDS = 89, "stress bounds";
+    GRADIENT_BOUNDS = 90, "gradient bounds";
     CELL_SIZES = 96, "points per cell";
     CELL_POINTS = 97, "cell points";
     CELL_OF_TET = 98, "cells of tetrahedra";

@@ -1,0 +1,201 @@
+//! Free surfaces: where flaws lie, and what the stress beside them is (beyond the paper).
+//!
+//! Brittle bodies break from flaws of their surface, and in bending the stress is largest there. The paper tests stress at
+//! the centre of an element, which in a wall of one layer of tetrahedra lies at a quarter of the thickness or less from its
+//! middle: there a bent wall has at most half the stress of its surface.
+//! - A *flaw*: the weak point of a tetrahedron with free outer faces lies at the centroid of the largest of them: of flaws
+//!   spread over the surface it holds the most.
+//! - At a free surface the traction σ·n is exactly zero ([`Elasticity::free_state`](super::Elasticity::free_state)); the modes of a mesh meet that only on average.
+//! - Inside a thin [wall](super::Wall) no traction acts across it either.
+//!
+//! Faces that something holds are not free.
+
+use glam::Vec3;
+
+use super::wall::{Wall, Walls};
+use crate::asset::{AnalysisMesh, Asset, EmbeddedPoint};
+use crate::mesh::{NO_NEIGHBOUR, TetMesh};
+
+/// No flaw.
+const NONE: u32 = u32::MAX;
+
+/// Cosine below which the normals of two faces count as opposite: walls taper, and bend from face to face.
+pub(super) const OPPOSITE: f32 = -0.8;
+
+/// Barycentric coordinates this little below zero still count as inside: the rounding of f32 ten body lengths off.
+const INSIDE: f32 = -1e-4;
+
+/// Most elements that the search for a point passes; the face of a tetrahedron is next to its centre.
+const MOST_STEPS: usize = 64;
+
+/// The place of a flaw on the free surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Flaw {
+    /// Number of the surface triangle.
+    pub triangle: u32,
+    /// Its centroid, seen by the analysis mesh.
+    pub point: EmbeddedPoint,
+    /// Its outward unit normal.
+    pub normal: Vec3,
+}
+
+/// Flaws and walls of a body: what follows from its surface and supports.
+#[derive(Clone, Debug, Default)]
+pub struct Skin {
+    /// Place in `flaws` of each fracture tetrahedron's, or [`NONE`].
+    flaw_of_tet: Vec<u32>,
+    flaws: Vec<Flaw>,
+    walls: Walls,
+}
+
+impl Skin {
+    /// Of an asset.
+    #[must_use]
+    pub fn of(asset: &Asset) -> Self {
+        let free = FreeFaces::of(asset);
+        let search = Search::new(&asset.analysis);
+        let mut flaw_of_tet = vec![NONE; asset.fracture.tets.len()];
+        let (mut flaws, mut places) = (Vec::new(), Vec::new());
+        let centres = free.largest.iter().zip(&asset.embedding.tets);
+        for (tet, (&triangle, centre)) in centres.enumerate() {
+            if triangle == NONE {
+                continue;
+            }
+            flaw_of_tet[tet] = flaws.len() as u32;
+            let nodes = asset.surface.triangles[triangle as usize];
+            let corners = nodes.map(|v| asset.fracture.positions[v as usize]);
+            let place = (corners[0] + corners[1] + corners[2]) / 3.0;
+            places.push(place);
+            flaws.push(Flaw {
+                triangle,
+                point: search.embed(place, centre.element),
+                normal: free.normals[triangle as usize],
+            });
+        }
+        Self {
+            walls: Walls::new(&asset.analysis, &search.neighbours, &flaws, &places),
+            flaw_of_tet,
+            flaws,
+        }
+    }
+
+    /// The flaw of a fracture tetrahedron, if it has a free outer face.
+    #[must_use]
+    pub fn flaw(&self, tet: usize) -> Option<&Flaw> {
+        self.flaws.get(self.flaw_of_tet[tet] as usize)
+    }
+
+    /// The wall that a fracture tetrahedron of this asset is part of, if any. Its normal is that of the tetrahedron's own face, where that is one of the
+    /// wall's.
+    #[must_use]
+    pub fn wall(&self, asset: &Asset, tet: usize) -> Option<Wall> {
+        let wall = self.walls.of_element[asset.embedding.tets[tet].element as usize]?;
+        let own = self.flaw(tet).map(|flaw| flaw.normal);
+        let along = own.filter(|n| n.dot(wall.normal).abs() > -OPPOSITE);
+        Some(along.map_or(wall, |normal| Wall { normal, ..wall }))
+    }
+}
+
+/// The free part of the outer surface.
+struct FreeFaces {
+    /// Outward unit normal of each surface triangle; zero where it is held.
+    normals: Vec<Vec3>,
+    /// Largest free triangle of each tetrahedron, or [`NONE`].
+    largest: Vec<u32>,
+}
+
+impl FreeFaces {
+    fn of(asset: &Asset) -> Self {
+        let positions = &asset.fracture.positions;
+        let triangles = &asset.surface.triangles;
+        let mut held = vec![false; positions.len()];
+        asset
+            .supported
+            .iter()
+            .for_each(|&v| held[v as usize] = true);
+        let mut largest = vec![NONE; asset.fracture.tets.len()];
+        let mut areas = vec![0.0_f32; largest.len()];
+        let mut normals = vec![Vec3::ZERO; triangles.len()];
+        for (t, (triangle, &tet)) in triangles.iter().zip(&asset.surface.tets).enumerate() {
+            if triangle.iter().all(|&v| held[v as usize]) {
+                continue;
+            }
+            let [a, b, c] = triangle.map(|v| positions[v as usize]);
+            let across = (b - a).cross(c - a);
+            let Some(normal) = across.try_normalize() else {
+                continue;
+            };
+            normals[t] = normal;
+            let area = across.length();
+            if area > areas[tet as usize] {
+                areas[tet as usize] = area;
+                largest[tet as usize] = t as u32;
+            }
+        }
+        Self { normals, largest }
+    }
+}
+
+/// Finds points in the analysis mesh by walking from element to element.
+struct Search<'a> {
+    mesh: &'a AnalysisMesh,
+    /// Across the face opposite each corner.
+    neighbours: Vec<[u32; 4]>,
+}
+
+impl<'a> Search<'a> {
+    fn new(mesh: &'a AnalysisMesh) -> Self {
+        let corners = mesh.elements.iter().map(|e| [e[0], e[1], e[2], e[3]]);
+        // Only the adjacency is wanted, and it needs no positions.
+        let neighbours = TetMesh::new(Vec::new(), corners.collect()).neighbours;
+        Self { mesh, neighbours }
+    }
+
+    /// The point in the element that holds it, found from `start`; a point outside is moved onto the face it lies beyond.
+    fn embed(&self, p: Vec3, start: u32) -> EmbeddedPoint {
+        let mut element = start;
+        for _ in 0..MOST_STEPS {
+            let l = self.barycentric(element, p);
+            let beyond = (0..4)
+                .filter(|&k| l[k] < INSIDE && self.neighbours[element as usize][k] != NO_NEIGHBOUR)
+                .min_by(|&a, &b| l[a].total_cmp(&l[b]));
+            match beyond {
+                Some(k) => element = self.neighbours[element as usize][k],
+                None => break,
+            }
+        }
+        self.onto(element, p)
+    }
+
+    fn barycentric(&self, element: u32, p: Vec3) -> [f32; 4] {
+        let element = element as usize;
+        let first = self.mesh.nodes[self.mesh.elements[element][0] as usize];
+        let g = &self.mesh.barycentric_gradients[element];
+        let [y, z, w] = [1, 2, 3].map(|k| g[k].dot(p - first));
+        [1.0 - y - z - w, y, z, w]
+    }
+
+    fn onto(&self, element: u32, p: Vec3) -> EmbeddedPoint {
+        let g = &self.mesh.barycentric_gradients[element as usize];
+        let mut l = self.barycentric(element, p);
+        let mut offset = Vec3::ZERO;
+        for _ in 0..3 {
+            let Some(k) = (0..4)
+                .filter(|&k| l[k] < INSIDE)
+                .min_by(|&a, &b| l[a].total_cmp(&l[b]))
+            else {
+                break;
+            };
+            let back = g[k] * (l[k] / g[k].length_squared());
+            offset += back;
+            for j in 0..4 {
+                l[j] = if j == k { 0.0 } else { l[j] - g[j].dot(back) };
+            }
+        }
+        EmbeddedPoint {
+            element,
+            barycentric: l,
+            offset,
+        }
+    }
+}

@@ -1,0 +1,114 @@
+//! Walls: parts of a body thinner than the elements that carry its modes are long (beyond the paper).
+//!
+//! At both faces of a wall the traction σ·n is zero, and between them it is of second order in the thickness over the length
+//! of the waves. One layer of elements does not resolve it: its σ·n is noise of the short waves, which also leaks into the stress along the
+//! wall (λ tr E), and cracks that follow it lie flat in the wall. Without traction (plane stress) all that is left is the
+//! stretching and bending of the wall.
+
+use glam::Vec3;
+
+use super::skin::{Flaw, OPPOSITE};
+use crate::asset::AnalysisMesh;
+use crate::mesh::NO_NEIGHBOUR;
+
+/// Normals with a cosine above this are one direction.
+const SAME: f32 = 0.95;
+
+/// Cosine below which a face does not belong to a wall's two faces.
+const ASKEW: f32 = 0.5;
+
+/// A wall at one element of the analysis mesh.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Wall {
+    /// Unit normal.
+    pub normal: Vec3,
+    /// x · normal at the face it points to, and at the face behind, m.
+    pub faces: [f32; 2],
+}
+
+impl Wall {
+    /// Direction of the wall's narrow edge, where a face of this unit normal belongs to that and not to one of the wall's two faces.
+    #[must_use]
+    pub fn edge(&self, face: Vec3) -> Option<Vec3> {
+        if face.dot(self.normal).abs() < ASKEW {
+            face.cross(self.normal).try_normalize()
+        } else {
+            None
+        }
+    }
+}
+
+/// Walls of a body.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Walls {
+    /// That of each analysis element, if it is part of one.
+    pub(super) of_element: Vec<Option<Wall>>,
+}
+
+impl Walls {
+    /// `neighbours`: across the faces of the analysis elements; `places`: positions of the flaws, m.
+    pub(super) fn new(
+        mesh: &AnalysisMesh,
+        neighbours: &[[u32; 4]],
+        flaws: &[Flaw],
+        places: &[Vec3],
+    ) -> Self {
+        let count = mesh.elements.len();
+        // Faces of the body in each element, one per direction.
+        let mut faces: Vec<Vec<(Vec3, Vec3)>> = vec![Vec::new(); count];
+        for (flaw, &place) in flaws.iter().zip(places) {
+            let known = &mut faces[flaw.point.element as usize];
+            if known.iter().all(|f| f.0.dot(flaw.normal) < SAME) {
+                known.push((flaw.normal, place));
+            }
+        }
+        let mut around: Vec<Vec<u32>> = vec![Vec::new(); mesh.nodes.len()];
+        for (e, element) in mesh.elements.iter().enumerate() {
+            if !faces[e].is_empty() {
+                let corners = element[..4].iter();
+                corners.for_each(|&v| around[v as usize].push(e as u32));
+            }
+        }
+        let own: Vec<Option<Wall>> = (0..count)
+            .map(|e| {
+                let corners = &mesh.elements[e][..4];
+                let length = longest(corners, &mesh.nodes);
+                let others = || corners.iter().flat_map(|&v| &around[v as usize]);
+                faces[e].iter().find_map(|&(normal, place)| {
+                    let opposite = others().flat_map(|&o| &faces[o as usize]).find(|other| {
+                        let thickness = (place - other.1).dot(normal);
+                        other.0.dot(normal) < OPPOSITE && (0.0..length).contains(&thickness)
+                    })?;
+                    Some(Wall {
+                        normal,
+                        faces: [place.dot(normal), opposite.1.dot(normal)],
+                    })
+                })
+            })
+            .collect();
+        let between = |e: usize| {
+            let sides = neighbours[e].map(|n| match n {
+                NO_NEIGHBOUR => None,
+                n => own[n as usize],
+            });
+            let sides = || sides.iter().flatten();
+            // The first of its neighbours whose wall goes on behind this element.
+            sides()
+                .find(|a| sides().any(|b| a.normal.dot(b.normal) < OPPOSITE))
+                .copied()
+        };
+        Self {
+            of_element: (0..count).map(|e| own[e].or_else(|| between(e))).collect(),
+        }
+    }
+}
+
+fn longest(corners: &[u32], nodes: &[Vec3]) -> f32 {
+    let at = |v: u32| nodes[v as usize];
+    let pairs = corners
+        .iter()
+        .flat_map(|&a| corners.iter().map(move |&b| (a, b)));
+    pairs
+        .map(|(a, b)| at(a).distance(at(b)))
+        .fold(0.0, f32::max)
+}
