@@ -140,7 +140,7 @@ fn update(point: &mut Point, system: &CrackSystem, e: u32, now: f64, release_rea
         let crack = &system.cracks[i as usize];
         let reach = release_reach * (2.0 * crack.extent).max(system.edge);
         // Out of reach of the whole crack: nothing to look at until it grows.
-        if centre.distance(crack.frame.origin) > crack.extent + reach {
+        if centre.distance_squared(crack.frame.origin) > (crack.extent + reach).powi(2) {
             return;
         }
         changed |= look_again(&mut point.seen, i, crack, centre, reach, now, system);

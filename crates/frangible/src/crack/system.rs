@@ -35,6 +35,8 @@ pub(crate) struct Crack {
     pub(crate) extent: f32,
     /// Its tetrahedra thinned to one per place: what releases the stress around it.
     pub(crate) sites: Vec<Site>,
+    /// Question about releases that it last grew before.
+    grown_before: u64,
     /// Where it ran into another crack (or into itself).
     pub(crate) junctions: Vec<Junction>,
 }
@@ -51,6 +53,7 @@ impl Crack {
             area: 0.0,
             extent: 0.0,
             sites: Vec::new(),
+            grown_before: 0,
             junctions: Vec::new(),
         }
     }
@@ -146,8 +149,10 @@ pub(crate) struct CrackSystem<'a> {
     pub(crate) area: f64,
     /// What has released the weak points so far.
     pub(crate) releases: Releases,
-    /// The crack that grew, each time that one did: got a site, or a longer reach.
+    /// The crack that grew, got a site or a longer reach, once for each time between two questions about releases.
     pub(crate) growth: Vec<u32>,
+    /// Number of questions so far.
+    pub(crate) questions: u64,
     /// Centroid of each fracture tetrahedron, m.
     pub(crate) centroids: &'a [Vec3],
     /// Mean edge of the fracture mesh, m.
@@ -178,6 +183,7 @@ impl<'a> CrackSystem<'a> {
             stalled: Vec::new(),
             releases: Releases::default(),
             growth: Vec::new(),
+            questions: 1,
             centroids: &body.prepared.centroids,
             edge: body.prepared.edge,
         };
@@ -313,7 +319,8 @@ impl<'a> CrackSystem<'a> {
             grown = true;
         }
         c.elements.push(cut);
-        if grown {
+        if grown && c.grown_before != self.questions {
+            c.grown_before = self.questions;
             self.growth.push(crack);
         }
     }
