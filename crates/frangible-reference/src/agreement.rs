@@ -2,10 +2,14 @@
 
 use frangible::{CrackTrace, ImpactReport};
 
-use crate::initiation::Break;
+use crate::initiation::{Break, StartTest};
 
 /// A mismatch counts against the pipeline unless the reference's own deciding test was this close, relative.
 pub const MARGIN: f64 = 1e-4;
+
+/// Starts of one element this near, in steps, are one: where the stress hardly rises the time it passes the strength at is
+/// rounding.
+const SAME_TIME: f64 = 0.05;
 
 /// The first thing that the pipeline did otherwise.
 #[derive(Clone, Debug, PartialEq)]
@@ -68,32 +72,47 @@ fn compare_steps(report: &ImpactReport, reference: &Break) -> Result<(), Mismatc
 /// Where and when crack `k` starts.
 fn compare_start(trace: &CrackTrace, reference: &Break, k: usize) -> Result<(), Mismatch> {
     let theirs = trace.cracks.get(k).map(|c| {
-        let step = (c[0].time / reference.time_step).round() as usize - 1;
-        (step, c[0].tet)
+        let time = c[0].time / reference.time_step;
+        (time, c[0].tet)
     });
-    let own = reference.cracks.get(k).map(|c| (c.step, c.elements[0].tet));
-    if theirs == own {
-        return Ok(());
+    let own = reference.cracks.get(k).map(|c| (c.time, c.elements[0].tet));
+    match (theirs, own) {
+        (None, None) => return Ok(()),
+        (Some(p), Some(r)) if p.1 == r.1 && (p.0 - r.0).abs() < SAME_TIME => return Ok(()),
+        _ => {}
     }
-    let test = |at: (usize, u32)| reference.starts.iter().find(|s| (s.step, s.tet) == at);
+    let test = |(time, tet): (f64, u32)| {
+        let of_tet = reference.starts.iter().filter(|s| s.tet == tet);
+        of_tet.min_by(|a, b| (a.time - time).abs().total_cmp(&(b.time - time).abs()))
+    };
     let strength = |at: Option<_>| at.and_then(test).map_or(f64::INFINITY, |s| s.margin);
     let margin = match (theirs, own) {
         // Both above strength in one step: their order decided, or one of the two was not above it.
-        (Some(p), Some(r)) if p.0 == r.0 => {
+        (Some(p), Some(r)) if test(p).map(|t| t.step) == test(r).map(|t| t.step) => {
             let order = match (test(p), test(r)) {
-                (Some(a), Some(b)) => (a.stress / b.stress - 1.0).abs(),
+                (Some(a), Some(b)) => order_margin(a, b),
                 _ => f64::INFINITY,
             };
             order.min(strength(theirs)).min(strength(own))
         }
         // The earlier one alone was above strength.
-        (Some(p), Some(r)) => strength(Some(p.min(r))),
+        (Some(p), Some(r)) => strength(Some(if p.0 < r.0 { p } else { r })),
         _ => strength(theirs.or(own)),
     };
     mismatch(
         format!("crack {k} starts at {theirs:?}, not {own:?}"),
         margin,
     )
+}
+
+/// Relative change of the stresses that would swap the order of two starts of one step: of the time they pass the strength
+/// at, or, of instant cracks, of the stress.
+fn order_margin(a: &StartTest, b: &StartTest) -> f64 {
+    if a.time == b.time {
+        (a.stress / b.stress - 1.0).abs()
+    } else {
+        (a.time - b.time).abs() / (1.0 / a.rise + 1.0 / b.rise)
+    }
 }
 
 /// The order in which crack `k` fractures its elements.

@@ -42,6 +42,10 @@ pub struct Break {
 pub struct StartTest {
     /// Time step, from 0.
     pub step: usize,
+    /// When the crack starts, in steps: that step's end, or between the two as the stress passes R_c.
+    pub time: f64,
+    /// Change of σ₁ / R_c since the step before; infinite where the time does not hang on it.
+    pub rise: f64,
     /// Number of the tetrahedron.
     pub tet: u32,
     /// σ₁ / R_c.
@@ -95,6 +99,7 @@ fn run(
     result.steps_margin = force.margin;
     let look = Look::new(&solid, options.surface_flaws, &force.pressed);
     let mut marked = vec![None; body.asset().fracture.tets.len()];
+    let mut before = vec![DVec3::ZERO; solid.displacements(&amplitudes(&solid, &force, 1)).len()];
     for step in 0..force.steps {
         // lines 7, 8
         let q = amplitudes(&solid, &force, step + 1); // line 9
@@ -102,7 +107,8 @@ fn run(
         let starts = match options.initiation {
             // line 11
             Initiation::WeakElements => {
-                weak_elements(&solid, &look, body, &u, step, &marked, &mut result)
+                let before = options.between_steps.then_some(&before[..]);
+                weak_elements(&solid, &look, body, &u, before, step, &marked, &mut result)
             }
             Initiation::NearestWeak => nearest_weak(&solid, &look, body, &u, &marked, &mut result),
         };
@@ -124,17 +130,19 @@ fn run(
                 ); // line 12
             }
         }
+        before = u;
     }
     result.fragment_of_node = fragments(&solid, &result.cracks, options.marks);
     Ok(result)
 }
 
-/// Weak elements above R_c by falling stress, then by number.
+/// Weak elements above R_c, by the time they pass it where a step before is given, by falling stress, then by number.
 fn weak_elements(
     solid: &Solid,
     look: &Look,
     body: &Body,
     u: &[DVec3],
+    before: Option<&[DVec3]>,
     step: usize,
     marked: &[Option<u32>],
     result: &mut Break,
@@ -147,20 +155,36 @@ fn weak_elements(
         let sigma = largest_stress(solid, look, u, e as usize);
         result.peak_stress = result.peak_stress.max(sigma);
         let stress = sigma / solid.material.strength;
+        if stress <= 1.0 - NEAR {
+            continue;
+        }
+        let (mut time, mut rise) = (step as f64 + 1.0, f64::INFINITY);
+        if let Some(before) = before {
+            let was = largest_stress(solid, look, before, e as usize) / solid.material.strength;
+            rise = stress - was;
+            time = step as f64;
+            if was < 1.0 && rise > 0.0 {
+                time += ((1.0 - was) / rise).min(1.0);
+            }
+        }
         if stress > 1.0 {
-            above.push((stress, e as usize));
+            above.push((time, stress, e as usize));
         }
-        if stress > 1.0 - NEAR {
-            result.starts.push(StartTest {
-                step,
-                tet: e,
-                stress,
-                margin: (stress - 1.0).abs(),
-            });
-        }
+        result.starts.push(StartTest {
+            step,
+            time,
+            rise,
+            tet: e,
+            stress,
+            margin: (stress - 1.0).abs(),
+        });
     }
-    above.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
-    above.into_iter().map(|(_, e)| e).collect()
+    above.sort_by(|a, b| {
+        a.0.total_cmp(&b.0)
+            .then(b.1.total_cmp(&a.1))
+            .then(a.2.cmp(&b.2))
+    });
+    above.into_iter().map(|(.., e)| e).collect()
 }
 
 /// "at the location of the weak element which is the closest to the element that has the highest principal stress".
@@ -240,5 +264,7 @@ fn start(
     let test = options.energy_test;
     let mut crack = propagate(solid, u, &surface, e, id, test, marked);
     crack.step = step;
+    let test = result.starts.iter().rev().find(|t| t.tet == e as u32);
+    crack.time = test.map_or(step as f64 + 1.0, |t| t.time);
     result.cracks.push(crack);
 }

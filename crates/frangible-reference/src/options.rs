@@ -24,6 +24,9 @@ pub struct Options {
     /// Beyond the paper: a weak element with a free outer face is looked at in the middle of the largest one, where no
     /// traction acts; in a thin wall none acts across the wall. Default: off.
     pub surface_flaws: bool,
+    /// Beyond the paper: of the elements that pass R_c between two steps the first to do so, stress taken as linear there,
+    /// starts first, and not the most stressed one. Default: off.
+    pub between_steps: bool,
 }
 
 /// `[G12 §4.1]`.
@@ -96,6 +99,7 @@ impl Default for Options {
             after_contact: false,
             first_element_pays: false,
             surface_flaws: false,
+            between_steps: false,
         }
     }
 }
@@ -123,6 +127,7 @@ impl Options {
             after_contact: true,
             first_element_pays: true,
             surface_flaws: true,
+            between_steps: true,
             ..Self::default()
         }
     }

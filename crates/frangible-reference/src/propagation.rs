@@ -14,6 +14,8 @@ use crate::surface::{Surface, area};
 pub struct Crack {
     /// Time step at which it started, from 0.
     pub step: usize,
+    /// When it started, in steps: at that step's end, or between the two.
+    pub time: f64,
     /// Its elements in the order they joined.
     pub elements: Vec<Element>,
     /// E_f, J.
