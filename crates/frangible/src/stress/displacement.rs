@@ -119,13 +119,16 @@ impl DisplacementBatch {
         let element = point.element as usize;
         let weights =
             ShapeWeights::gradients(point, &asset.analysis.barycentric_gradients[element]);
+        let nodes = &asset.analysis.elements[element];
+        // The gradients of the shape functions add up to nothing: what all nodes share only costs digits.
+        let shared = *self.at_node(asset, nodes[0] as usize);
         let mut sum = [[[0.0; BATCH]; 3]; 3];
-        for (&node, g) in asset.analysis.elements[element].iter().zip(weights) {
+        for (&node, g) in nodes.iter().zip(weights).skip(1) {
             let u = self.at_node(asset, node as usize);
             for (column, weight) in sum.iter_mut().zip(g.to_array()) {
-                for (row, u) in column.iter_mut().zip(u) {
+                for ((row, u), shared) in column.iter_mut().zip(u).zip(&shared) {
                     for k in 0..BATCH {
-                        row[k] += u[k] * weight;
+                        row[k] += (u[k] - shared[k]) * weight;
                     }
                 }
             }
@@ -140,10 +143,12 @@ impl DisplacementBatch {
         let element = point.element as usize;
         let gradients =
             ShapeWeights::gradients(point, &asset.analysis.barycentric_gradients[element]);
+        let nodes = &asset.analysis.elements[element];
+        let at = |u: &[Lanes; 3]| Vec3::new(u[0][k], u[1][k], u[2][k]);
+        let shared = at(self.at_node(asset, nodes[0] as usize));
         let mut sum = Mat3::ZERO;
-        for (&node, g) in asset.analysis.elements[element].iter().zip(gradients) {
-            let u = self.at_node(asset, node as usize);
-            let u = Vec3::new(u[0][k], u[1][k], u[2][k]);
+        for (&node, g) in nodes.iter().zip(gradients).skip(1) {
+            let u = at(self.at_node(asset, node as usize)) - shared;
             sum.x_axis += u * g.x;
             sum.y_axis += u * g.y;
             sum.z_axis += u * g.z;
