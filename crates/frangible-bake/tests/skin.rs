@@ -159,7 +159,9 @@ fn walls_are_what_is_thinner_than_its_elements_are_long() {
         for e in 0..asset.fracture.tets.len() {
             let wall = skin.wall(&asset, e).unwrap();
             assert!(wall.normal.z.abs() > 0.999, "{}", wall.normal);
-            let thickness = wall.faces[0] - wall.faces[1];
+            let [front, back] = wall.distances(asset.fracture.centroid(e));
+            assert!(front > 0.0 && back < 0.0, "{front} {back}");
+            let thickness = front - back;
             assert!((f64::from(thickness) - SIZE[2]).abs() < 1e-5, "{thickness}");
         }
     }
@@ -171,6 +173,12 @@ fn walls_are_what_is_thinner_than_its_elements_are_long() {
         .count();
     println!("{walled} of {tets} tetrahedra of the glass are wall");
     assert!(walled * 10 > tets * 8);
+    // From a centre in a curved wall both faces are within its thickness, one before and one behind.
+    let astray = (0..tets)
+        .filter_map(|e| Some(skin.wall(&glass, e)?.distances(glass.fracture.centroid(e))))
+        .filter(|[front, back]| *front < 0.0 || *back > 0.0)
+        .count();
+    assert!(astray * 20 < tets, "{astray} of {tets}");
     let block = baked(Shape::block([0.06, 0.05, 0.04]), 0, Vec::new());
     let skin = Skin::of(&block);
     assert!((0..block.fracture.tets.len()).all(|e| skin.wall(&block, e).is_none()));

@@ -50,10 +50,10 @@ impl StressField<'_> {
             return state.stress;
         };
         let centre = &self.asset.embedding.tets[e];
-        let height = self.asset.fracture.centroid(e).dot(wall.normal);
+        let distances = wall.distances(self.asset.fracture.centroid(e));
         let gradients = &self.asset.analysis.barycentric_gradients[centre.element as usize];
-        let [front, back] = wall.faces.map(|face| {
-            let up = wall.normal * (face - height);
+        let [front, back] = distances.map(|distance| {
+            let up = wall.normal * distance;
             let point = EmbeddedPoint {
                 barycentric: std::array::from_fn(|k| centre.barycentric[k] + gradients[k].dot(up)),
                 ..*centre

@@ -5,7 +5,8 @@
 //! middle: there a bent wall has at most half the stress of its surface.
 //! - A *flaw*: the weak point of a tetrahedron with free outer faces lies at the centroid of the largest of them: of flaws
 //!   spread over the surface it holds the most.
-//! - At a free surface the traction σ·n is exactly zero ([`Elasticity::free_state`](super::Elasticity::free_state)); the modes of a mesh meet that only on average.
+//! - At a free surface the traction σ·n is exactly zero ([`Elasticity::free_state`](super::Elasticity::free_state)); the
+//!   modes of a mesh meet that only on average.
 //! - Inside a thin [wall](super::Wall) no traction acts across it either.
 //!
 //! Faces that something holds are not free.
@@ -85,14 +86,17 @@ impl Skin {
         self.flaws.get(self.flaw_of_tet[tet] as usize)
     }
 
-    /// The wall that a fracture tetrahedron of this asset is part of, if any. Its normal is that of the tetrahedron's own face, where that is one of the
-    /// wall's.
+    /// The wall that a fracture tetrahedron of this asset is part of, if any. Its normal is that of the tetrahedron's own
+    /// face, where that is one of the wall's.
     #[must_use]
     pub fn wall(&self, asset: &Asset, tet: usize) -> Option<Wall> {
         let wall = self.walls.of_element[asset.embedding.tets[tet].element as usize]?;
         let own = self.flaw(tet).map(|flaw| flaw.normal);
         let along = own.filter(|n| n.dot(wall.normal).abs() > -OPPOSITE);
-        Some(along.map_or(wall, |normal| Wall { normal, ..wall }))
+        Some(along.map_or(wall, |n| Wall {
+            normal: n * n.dot(wall.normal).signum(),
+            ..wall
+        }))
     }
 }
 

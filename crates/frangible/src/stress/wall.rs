@@ -22,11 +22,19 @@ const ASKEW: f32 = 0.5;
 pub struct Wall {
     /// Unit normal.
     pub normal: Vec3,
-    /// x · normal at the face it points to, and at the face behind, m.
-    pub faces: [f32; 2],
+    /// A place on the face it points to, and one on the face behind, m.
+    pub faces: [Vec3; 2],
 }
 
 impl Wall {
+    /// How far the two faces are from a point within, along the normal, m: the second lies behind. Never farther than the wall is thick.
+    #[must_use]
+    pub fn distances(&self, p: Vec3) -> [f32; 2] {
+        let thickness = (self.faces[0] - self.faces[1]).dot(self.normal).abs();
+        self.faces
+            .map(|face| (face - p).dot(self.normal).clamp(-thickness, thickness))
+    }
+
     /// Direction of the wall's narrow edge, where a face of this unit normal belongs to that and not to one of the wall's two faces.
     #[must_use]
     pub fn edge(&self, face: Vec3) -> Option<Vec3> {
@@ -81,7 +89,7 @@ impl Walls {
                     })?;
                     Some(Wall {
                         normal,
-                        faces: [place.dot(normal), opposite.1.dot(normal)],
+                        faces: [place, opposite.1],
                     })
                 })
             })
