@@ -68,7 +68,8 @@ pub(crate) fn make_folders(folder: Option<&Path>, page: &str, plots: &str) -> Re
     };
     let wrong = |e: String| e.replace("--out DIR", "--write DIR");
     make_folder(folder, &[page.into()]).map_err(wrong)?;
-    make_folder(&folder.join(plots), &[]).map_err(wrong)
+    make_folder(&folder.join(plots), &[]).map_err(wrong)?;
+    Ok(())
 }
 
 /// An error when a check failed.

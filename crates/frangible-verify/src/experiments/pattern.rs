@@ -132,3 +132,38 @@ pub(crate) fn median(mut numbers: Vec<f64>) -> f64 {
         _ => 0.5 * (numbers[n / 2 - 1] + numbers[n / 2]),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use frangible::glam::DVec2;
+
+    use super::piece;
+
+    #[test]
+    fn a_crack_meets_a_plane_along_a_line_that_neighbours_continue() {
+        // Cut by the crack x + y = 0.6.
+        let corners = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.1, 0.2, 1.0]];
+        let below = [
+            [0.0, 0.0, 0.3],
+            [1.0, 0.1, 0.4],
+            [0.2, 1.0, 0.5],
+            [0.3, 0.3, -1.0],
+        ];
+        let s = |c: &[f64; 3]| c[0] + c[1] - 0.6;
+        let cut = |corners: [[f64; 3]; 4], height| piece(corners, corners.map(|c| s(&c)), height);
+        for (corners, height) in [(corners, 0.2), (below, 0.2), (below, 0.35)] {
+            let [a, b] = cut(corners, height).unwrap();
+            assert!((a.x + a.y - 0.6).abs() < 1e-12 && (b.x + b.y - 0.6).abs() < 1e-12);
+            assert!(a.distance(b) > 0.1);
+        }
+        assert_eq!(cut(corners, 1.5), None, "above the tetrahedron");
+        assert_eq!(piece(corners, [1.0; 4], 0.2), None, "no crack in it");
+        // The same face in another order of corners: the same end.
+        let other = [corners[3], corners[1], corners[0], [0.5, -1.0, 0.5]];
+        let [a, b] = cut(corners, 0.2).unwrap();
+        let [c, d] = cut(other, 0.2).unwrap();
+        let same = |p: DVec2, q: DVec2| p.distance(q) < 1e-12;
+        let shared = [(a, c), (a, d), (b, c), (b, d)];
+        assert_eq!(shared.into_iter().filter(|(p, q)| same(*p, *q)).count(), 1);
+    }
+}
