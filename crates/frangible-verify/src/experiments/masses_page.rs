@@ -37,7 +37,7 @@ pub(crate) fn text(masses: &Masses, folder: &str) -> String {
     let _ = write!(
         text,
         "\nThe law N(> m) ∝ m^−(τ−1) exp(−m/m₀), a power law with an exponential cut-off, by maximum likelihood. All pieces above {LEAST} \
-         crumb limits count, {:.0e} of the body's mass (smaller ones join their neighbours in the model), but not the largest of each body, \
+         crumb limits count, {:.0e} of the body's mass (below the limit pieces join their neighbours, as far as these let them), but not the largest of each body, \
          which is what the others leave. The pieces of a body depend on each other: the standard error is from the spread between bodies. \
          *Distance*: the largest difference between the counted and the fitted share of heavier pieces; below 1.36/√n a sample of n independent pieces \
          would not tell the two apart.\n\n",
