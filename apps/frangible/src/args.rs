@@ -30,17 +30,31 @@ pub(crate) enum Command {
         /// Scene to print as TOML; saved, and given to `break`, it does the same
         name: Option<String>,
     },
-    /// Check modes, responses and contacts against closed forms; fails when one is off
+    /// Check modes, responses and contacts against closed forms; fails when one is off. `verify experiments` compares cracks and
+    /// pieces with published experiments, which takes minutes
     Verify(VerifyArgs),
+}
+
+/// What `verify` computes.
+#[derive(clap::ValueEnum, Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Verification {
+    /// Modes, responses and contacts against closed forms: seconds
+    Forms,
+    /// Cracks and pieces beside published experiments: minutes
+    Experiments,
 }
 
 #[derive(Args, Clone, Debug)]
 pub(crate) struct VerifyArgs {
+    /// What to verify [default: closed forms]
+    #[arg(value_enum)]
+    pub(crate) what: Option<Verification>,
+
     /// Print JSON instead of a table
     #[arg(long)]
     pub(crate) json: bool,
 
-    /// Also write verification.md and its plots into this folder, made when it is missing
+    /// Also write verification.md (or experiments.md) and its plots into this folder, made when it is missing
     #[arg(long, value_name = "DIR")]
     pub(crate) write: Option<PathBuf>,
 }

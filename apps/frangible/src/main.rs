@@ -3,6 +3,7 @@
 mod args;
 mod baking;
 mod breaking;
+mod experimenting;
 mod list;
 mod mode_files;
 mod mode_report;
@@ -23,7 +24,7 @@ use clap::Parser;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use frangible_scenes::FileKind;
 
-use args::{Cli, Command};
+use args::{Cli, Command, Verification};
 
 /// A file given where a command should stand.
 fn file_without_command(error: &clap::Error) -> Option<&str> {
@@ -51,6 +52,9 @@ fn main() -> ExitCode {
         Some(Command::Break(command)) => breaking::run(command.file.as_deref(), &command.args),
         Some(Command::Bake(args)) => baking::run(&args),
         Some(Command::Modes(args)) => modes::run(&args),
+        Some(Command::Verify(args)) if args.what == Some(Verification::Experiments) => {
+            experimenting::run(&args)
+        }
         Some(Command::Verify(args)) => verifying::run(&args),
         Some(Command::Scenes { name: None }) => list::print(),
         Some(Command::Scenes { name: Some(name) }) => list::print_scene(&name),

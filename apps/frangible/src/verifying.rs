@@ -2,6 +2,7 @@
 
 use std::error::Error;
 use std::fmt::Write;
+use std::path::Path;
 use std::time::Instant;
 
 use frangible_export::write_atomically;
@@ -24,11 +25,7 @@ const SIZE: (u32, u32) = (800, 600);
 type Computed = (&'static Case, Findings, f64);
 
 pub(crate) fn run(args: &VerifyArgs) -> Result<(), Box<dyn Error>> {
-    if let Some(folder) = &args.write {
-        let wrong = |e: String| e.replace("--out DIR", "--write DIR");
-        make_folder(folder, &[PAGE.into()]).map_err(wrong)?;
-        make_folder(&folder.join(PLOTS), &[]).map_err(wrong)?;
-    }
+    make_folders(args.write.as_deref(), PAGE, PLOTS)?;
     let bar = Bar::new(args.json);
     let mut found: Vec<Computed> = Vec::new();
     for (i, case) in CASES.iter().enumerate() {
@@ -62,6 +59,17 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<(), Box<dyn Error>> {
         say(&table(&found, &files))?;
     }
     Ok(conclude(found.iter().flat_map(|f| &f.1.checks))?)
+}
+
+/// Makes the folder of a page and that of its plots, so that a place that cannot be written is refused at once.
+pub(crate) fn make_folders(folder: Option<&Path>, page: &str, plots: &str) -> Result<(), String> {
+    let Some(folder) = folder else {
+        return Ok(());
+    };
+    let wrong = |e: String| e.replace("--out DIR", "--write DIR");
+    make_folder(folder, &[page.into()]).map_err(wrong)?;
+    make_folder(&folder.join(plots), &[]).map_err(wrong)?;
+    Ok(())
 }
 
 /// An error when a check failed.

@@ -11,9 +11,10 @@ fn folder(test: &str) -> PathBuf {
     path
 }
 
-fn verify(write: &Path) -> Output {
+fn verify(what: &[&str], write: &Path) -> Output {
     let mut command = Command::new(env!("CARGO_BIN_EXE_frangible"));
-    command.args(["verify", "--json", "--write"]).arg(write);
+    command.arg("verify").args(what);
+    command.args(["--json", "--write"]).arg(write);
     command.output().expect("the program starts")
 }
 
@@ -25,7 +26,7 @@ fn text(bytes: &[u8]) -> String {
 fn all_cases_pass_and_the_page_is_the_published_one() {
     let folder = folder("page");
     let place = folder.join("docs");
-    let output = verify(&place);
+    let output = verify(&[], &place);
     assert!(output.status.success(), "{}", text(&output.stderr));
     let report: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
     assert_eq!(report["pass"], true);
@@ -61,13 +62,15 @@ fn a_folder_that_cannot_be_made_is_refused_before_anything_is_computed() {
     let folder = folder("file");
     let file = folder.join("taken");
     fs::write(&file, "a file").expect("a file");
-    let output = verify(&file);
-    assert!(!output.status.success());
-    let message = text(&output.stderr);
-    assert!(
-        message.starts_with("error: ") && message.contains("--write DIR"),
-        "{message}"
-    );
-    assert!(output.stdout.is_empty());
+    for what in [&[][..], &["experiments"]] {
+        let output = verify(what, &file);
+        assert!(!output.status.success());
+        let message = text(&output.stderr);
+        assert!(
+            message.starts_with("error: ") && message.contains("--write DIR"),
+            "{message}"
+        );
+        assert!(output.stdout.is_empty());
+    }
     let _ = fs::remove_dir_all(folder);
 }

@@ -2,11 +2,13 @@
 //!
 //! A [`Case`] computes something with the code that bakes and breaks, and compares it with a reference found by other
 //! means: a closed form, a published number, an integrator or a Ritz series of our own that shares no code with it.
-//! [`CASES`] lists them all; [`report`] makes text of what they found, [`plot`] pictures.
+//! [`CASES`] lists them all; [`report`] makes text of what they found, [`plot`] pictures. [`experiments`] compares cracks
+//! and pieces with published experiments, which takes minutes.
 
 mod case;
 mod cases;
 mod check;
+pub mod experiments;
 mod models;
 mod ode;
 pub mod plot;
@@ -17,6 +19,7 @@ pub use case::{CASES, Case, Findings, Plot, case};
 pub use check::Check;
 pub use ritz::{box_frequencies, first_box_frequency};
 
+use frangible::{InputError, UnknownMaterial};
 use frangible_bake::BakeError;
 use thiserror::Error;
 
@@ -31,6 +34,22 @@ pub enum VerifyError {
         case: &'static str,
         /// What the bake said.
         source: BakeError,
+    },
+    /// A material that an experiment needs is not there.
+    #[error("the material `{name}` is missing: {source}")]
+    Material {
+        /// Name of the preset.
+        name: &'static str,
+        /// What was said.
+        source: UnknownMaterial,
+    },
+    /// The fracture code refused what an experiment gave it.
+    #[error("the experiment `{case}` could not be computed: {source}")]
+    Impact {
+        /// Name of the experiment.
+        case: &'static str,
+        /// What was said.
+        source: InputError,
     },
     /// A chart could not be drawn or written as PNG.
     #[error("the plot `{name}` could not be made: {reason}")]

@@ -115,7 +115,8 @@ pub fn markdown(found: &[(&Case, Findings)], folder: &str) -> String {
     let mut text = format!(
         "# Verification\n\nWritten by `frangible verify --write docs`, which computes it anew; `cargo test -p frangible-verify` \
          holds this page to it.\nEach value was computed by the code that bakes and breaks, each reference by other means. The error is \
-         relative to the reference, or absolute where that is 0.\n\n**{passed} of {} checks pass.**\n",
+         relative to the reference, or absolute where that is 0.\nHow cracks and pieces compare with published experiments is told \
+         in [experiments.md](experiments.md).\n\n**{passed} of {} checks pass.**\n",
         checks().count()
     );
     for (case, findings) in found {

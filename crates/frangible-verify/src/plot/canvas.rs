@@ -72,6 +72,7 @@ impl Canvas {
                 Marker::Diamond => 0.5_f64.sqrt() * (1.15 * radius - x - y.abs()),
                 // The point up; edges at 0.55 radii from the middle.
                 Marker::Triangle => 0.55 * radius - y.max(0.75_f64.sqrt() * x - 0.5 * y),
+                Marker::Nothing => -1.0,
             }
         });
     }

@@ -80,6 +80,8 @@ pub enum Marker {
     Diamond,
     /// A triangle, point up.
     Triangle,
+    /// Nothing: a law through the points of the series before, in its colour.
+    Nothing,
 }
 
 /// Okabe and Ito's colours (2008), told apart by the colour-blind too.
@@ -117,13 +119,13 @@ impl Chart {
         self.draw_axes(&mut canvas, &x, &y);
         let place = |(px, py): (f64, f64)| [x.pixel(px), y.pixel(py)];
         let mut pixels = Vec::new();
-        for (series, colour) in self.series.iter().zip(COLOURS.iter().cycle()) {
+        for (series, colour) in self.series.iter().zip(self.colours()) {
             let points: Vec<[f64; 2]> = self.finite(series).map(place).collect();
             for ends in points.windows(2).filter(|_| series.line) {
-                canvas.line(ends[0], ends[1], 2.0, *colour);
+                canvas.line(ends[0], ends[1], 2.0, colour);
             }
             for &point in &points {
-                canvas.marker(point, series.marker, 6.0, *colour);
+                canvas.marker(point, series.marker, 6.0, colour);
             }
             pixels.extend(points);
         }
@@ -140,6 +142,18 @@ impl Chart {
         self.draw(width, height)
             .write_to(&mut bytes, ImageFormat::Png)?;
         Ok(bytes.into_inner())
+    }
+
+    /// The colour of each series: the next one for each with a marker.
+    fn colours(&self) -> Vec<Colour> {
+        let mut next = 0;
+        let colour = |series: &Series| {
+            if series.marker != Marker::Nothing || next == 0 {
+                next += 1;
+            }
+            COLOURS[(next - 1) % COLOURS.len()]
+        };
+        self.series.iter().map(colour).collect()
     }
 
     /// Points that have a place on the axes.
@@ -222,13 +236,13 @@ impl Chart {
         canvas.rectangle([x, y], [x + width, y + height], GRID);
         let (low, high) = ([x + 1.0, y + 1.0], [x + width - 1.0, y + height - 1.0]);
         canvas.rectangle(low, high, WHITE);
-        for (row, (series, colour)) in self.series.iter().zip(COLOURS.iter().cycle()).enumerate() {
+        for (row, (series, colour)) in self.series.iter().zip(self.colours()).enumerate() {
             let at = y + 5.0 + ROW * (row as f64 + 0.5);
             if series.line {
-                canvas.line([x + 8.0, at], [x + SAMPLE, at], 2.0, *colour);
+                canvas.line([x + 8.0, at], [x + SAMPLE, at], 2.0, colour);
             }
             let marker = [x + 0.5 * (8.0 + SAMPLE), at];
-            canvas.marker(marker, series.marker, 6.0, *colour);
+            canvas.marker(marker, series.marker, 6.0, colour);
             let start = [x + SAMPLE + 8.0, at + 0.5 * letters];
             canvas.text(start, &series.name, letters, false, INK);
         }

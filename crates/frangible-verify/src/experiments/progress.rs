@@ -1,0 +1,30 @@
+//! How much of an experiment is done, told from several threads.
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// Hears the share done, 0..=1, from any thread.
+pub type Hear<'a> = &'a (dyn Fn(f64) + Sync);
+
+/// Counts what is done of something.
+pub(crate) struct Counter<'a> {
+    done: AtomicUsize,
+    all: usize,
+    hear: Hear<'a>,
+}
+
+impl<'a> Counter<'a> {
+    pub(crate) fn new(all: usize, hear: Hear<'a>) -> Self {
+        hear(0.0);
+        Self {
+            done: AtomicUsize::new(0),
+            all: all.max(1),
+            hear,
+        }
+    }
+
+    /// One more is done.
+    pub(crate) fn count(&self) {
+        let done = self.done.fetch_add(1, Ordering::Relaxed) + 1;
+        (self.hear)(done as f64 / self.all as f64);
+    }
+}
