@@ -2,6 +2,7 @@
 
 mod args;
 mod baking;
+mod benching;
 mod breaking;
 mod list;
 mod mode_files;
@@ -52,6 +53,7 @@ fn main() -> ExitCode {
         Some(Command::Bake(args)) => baking::run(&args),
         Some(Command::Modes(args)) => modes::run(&args),
         Some(Command::Verify(args)) => verifying::run(&args),
+        Some(Command::Bench(args)) => benching::run(&args),
         Some(Command::Scenes { name: None }) => list::print(),
         Some(Command::Scenes { name: Some(name) }) => list::print_scene(&name),
     };

@@ -79,6 +79,7 @@ mod surface;
 mod toll;
 mod world;
 
+pub use collider::collision_shape;
 pub use config::WorldConfig;
 pub use error::WorldError;
 pub use event::{BreakCause, BreakEvent, HeldEvent};
