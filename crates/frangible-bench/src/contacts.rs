@@ -20,13 +20,13 @@ use crate::stats::{Spread, Times};
 use crate::subjects::{MODES, PIG_GROWN, PIG_TETS, blow, solid, steel_ball};
 
 /// Contacts of the game-like distribution.
-const GAME: usize = 20_000;
+const GAME: usize = 4000;
 /// Speeds of the game-like distribution, m/s.
 const GAME_SPEEDS: [f64; 2] = [0.01, 1.0];
 /// Speeds among which contacts for each class are looked for, m/s.
 const ALL_SPEEDS: [f64; 2] = [0.01, 6.0];
 /// Contacts tried for the classes.
-const TRIED: usize = 1500;
+const TRIED: usize = 800;
 /// Different contacts of a class at most.
 const KEPT: usize = 400;
 /// A class is timed for about so long, s, but for each of its contacts at least once.
