@@ -8,7 +8,8 @@ use frangible::{FractureConfig, StageTimings};
 use frangible_bench::stages::{Bench, Depth, small_body};
 
 fn stages(c: &mut Criterion) {
-    let bench = Bench::new(small_body().expect("the pane bakes")).expect("the blows do as meant");
+    let bench = Bench::new(small_body().expect("the pane bakes")).expect("the pane is sound");
+    bench.check().expect("the blows do as meant");
     let mut group = c.benchmark_group("stage");
     group
         .sample_size(20)
@@ -24,7 +25,7 @@ fn stages(c: &mut Criterion) {
         b.iter(|| bench.asked(black_box(Depth::Stresses)));
     });
     group.bench_function("response of the modes", |b| b.iter(|| bench.response()));
-    group.bench_function("displacements, all steps", |b| {
+    group.bench_function("displacements, 64 steps", |b| {
         b.iter(|| bench.displacements())
     });
     let middle = bench.middle();

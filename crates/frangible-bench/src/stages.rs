@@ -2,7 +2,7 @@
 
 use std::hint::black_box;
 
-use frangible::contact::{Load, Pulse, modal_load, pulse};
+use frangible::contact::{Load, Pulse, contact_duration, modal_load, pulse};
 use frangible::glam::Vec3;
 use frangible::modal::{Motion, respond};
 use frangible::stress::{
@@ -20,6 +20,9 @@ use crate::subjects::{blow, steel_ball};
 /// Speed of the ball for each [`Depth`], m/s.
 const SPEEDS: [f64; 4] = [0.05, 1.0, 4.0, 15.0];
 
+/// Steps of [`Bench::displacements`].
+pub const STEPS: usize = 64;
+
 /// What a blow is to come to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Depth {
@@ -33,7 +36,7 @@ pub enum Depth {
     Break,
 }
 
-/// Bakes the small body: a pane of glass 300 × 200 × 6 mm, about 8 000 tetrahedra and 60 modes. No two sides are alike, so
+/// Bakes the small body: a pane of glass 300 × 200 × 6 mm, about 5 000 tetrahedra and 40 modes. No two sides are alike, so
 /// that no two modes are of one frequency and a last bit decides nothing.
 ///
 /// # Errors
@@ -41,13 +44,13 @@ pub enum Depth {
 pub fn small_body() -> Result<Asset, BenchError> {
     let shape = Shape::plate(0.3, 0.2, 0.006);
     let spec = BakeSpec {
-        modes: 60,
+        modes: 40,
         analysis: Some(MeshSize {
-            edge: 0.02,
+            edge: 0.025,
             layers: 1,
         }),
         fracture: Some(MeshSize {
-            edge: 0.0066,
+            edge: 0.009,
             layers: 1,
         }),
         ..BakeSpec::new("pane", shape, Material::preset("glass")?)
@@ -75,7 +78,7 @@ impl Bench {
     /// Of the baked [`small_body`].
     ///
     /// # Errors
-    /// A blow that does not do what it is there for: the speeds want to be chosen anew.
+    /// An asset that the run time refuses.
     pub fn new(asset: Asset) -> Result<Self, BenchError> {
         let body = Breakable::new(asset)?.body(1);
         let ours = FractureConfig::default();
@@ -97,12 +100,11 @@ impl Bench {
             hit(SPEEDS[3])?,
         ];
         let load = modal_load(&body, &blows[3..]);
-        let outcome = impact(&body, &blows[3..], &ours)?;
-        let duration = outcome.report().contact_duration;
         let asset = body.asset();
+        let duration = contact_duration(asset, &load, ours.duration);
         let pulse = pulse(asset, &load, duration, &ours);
         let motion = respond(&asset.modes, &asset.material, &load.modal_impulse, &pulse);
-        let bench = Self {
+        Ok(Self {
             body,
             ours,
             paper,
@@ -110,12 +112,14 @@ impl Bench {
             load,
             pulse,
             motion,
-        };
-        bench.check()?;
-        Ok(bench)
+        })
     }
 
-    fn check(&self) -> Result<(), BenchError> {
+    /// Whether each blow does what it is there for.
+    ///
+    /// # Errors
+    /// The first that does not: its speed wants to be chosen anew.
+    pub fn check(&self) -> Result<(), BenchError> {
         use Depth::{Amplitudes, Break, Impulse, Stresses};
         for depth in [Impulse, Amplitudes, Stresses, Break] {
             let outcome = impact(&self.body, &[self.blow(depth)], &self.ours)?;
@@ -152,16 +156,14 @@ impl Bench {
         )
     }
 
-    /// u = Φ q at every step; returns the steps.
-    #[must_use]
-    pub fn displacements(&self) -> usize {
+    /// u = Φ q at the first [`STEPS`] steps.
+    pub fn displacements(&self) {
         let asset = self.body.asset();
         let mut batch = DisplacementBatch::new(asset);
-        for step in 0..self.motion.steps() {
+        for step in 0..self.motion.steps().min(STEPS) {
             batch.seek(asset, &self.motion, step);
+            black_box(&batch);
         }
-        black_box(&batch);
-        self.motion.steps()
     }
 
     /// Displacements of the middle step, for [`Bench::stresses`].
