@@ -77,7 +77,7 @@ pub(crate) struct BenchArgs {
     #[arg(long)]
     pub(crate) json: bool,
 
-    /// Also write performance.md into this folder, made when it is missing; needs all of both
+    /// Also write performance.md into this folder, made when it is missing; needs all of both, and bakes anew
     #[arg(long, value_name = "DIR", conflicts_with = "bodies")]
     pub(crate) write: Option<PathBuf>,
 }

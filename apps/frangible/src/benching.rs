@@ -31,7 +31,8 @@ pub(crate) fn run(args: &BenchArgs) -> Result<(), Box<dyn Error>> {
     }
     let cache = Cache {
         folder: args.cache.clone(),
-        rebake: args.rebake,
+        // A page that stays must not show a body, or a bake time, of another day.
+        rebake: args.rebake || args.write.is_some(),
     };
     let options = table1::Options {
         runs: args.runs as usize,
