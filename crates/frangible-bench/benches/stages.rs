@@ -16,7 +16,7 @@ fn stages(c: &mut Criterion) {
         .measurement_time(Duration::from_secs(2))
         .warm_up_time(Duration::from_millis(500));
     group.bench_function("first bound", |b| {
-        b.iter(|| bench.asked(black_box(Depth::Impulse)))
+        b.iter(|| bench.asked(black_box(Depth::Impulse)));
     });
     group.bench_function("refused by amplitudes", |b| {
         b.iter(|| bench.asked(black_box(Depth::Amplitudes)));
@@ -26,7 +26,7 @@ fn stages(c: &mut Criterion) {
     });
     group.bench_function("response of the modes", |b| b.iter(|| bench.response()));
     group.bench_function("displacements, 64 steps", |b| {
-        b.iter(|| bench.displacements())
+        b.iter(|| bench.displacements());
     });
     let middle = bench.middle();
     group.bench_function("stresses at weak points, one step", |b| {
@@ -43,7 +43,7 @@ fn stages(c: &mut Criterion) {
         reported("stresses and propagation", |t| t.cracks);
         reported("fragments", |t| t.fragments);
         group.bench_function(format!("break, {model}"), |b| {
-            b.iter(|| bench.broken(config))
+            b.iter(|| bench.broken(config));
         });
     }
     group.finish();
