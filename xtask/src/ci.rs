@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 
 use crate::check_output::check_output;
 use crate::command::{Result, cargo, output, root, run, run_keeping, run_within, shown, succeeds};
+use crate::counts::counts;
 use crate::fuzz::{USUAL_SECONDS, fuzz};
 use crate::test::packages;
 
@@ -19,7 +20,7 @@ const LICENCES: [&str; 2] = ["LICENSE-MIT", "LICENSE-APACHE"];
 /// A step returns the lines worth repeating at the end.
 type Step = (&'static str, fn() -> Result<Vec<String>>);
 
-const STEPS: [Step; 8] = [
+const STEPS: [Step; 9] = [
     ("format", || quiet(&["fmt", "--all", "--check"])),
     ("clippy", || {
         quiet(&[
@@ -37,6 +38,7 @@ const STEPS: [Step; 8] = [
     ("licences", deny),
     ("packages", package_lists),
     ("main job", main_job),
+    ("counts", || counts(false)),
     ("fuzz", || fuzz(USUAL_SECONDS, Some(FUZZ_LIMIT))),
 ];
 

@@ -3,6 +3,7 @@
 mod check_output;
 mod ci;
 mod command;
+mod counts;
 mod fuzz;
 mod glb;
 mod setup;
@@ -17,6 +18,7 @@ cargo xtask setup             install the system packages that are missing, wher
 cargo xtask test              setup, then all tests of the workspace in the release profile
 cargo xtask ci                everything the continuous integration checks, with the minutes per step
 cargo xtask fuzz [SECONDS]    feed each reader of files hostile bytes for so long, 30 s if not told
+cargo xtask counts [--write]  count the instructions of each stage; fail where they grew by over 5 %, or store them
 cargo xtask check-output DIR  check what `cargo run --release -- --out DIR --json > DIR/report.json` wrote";
 
 fn main() -> ExitCode {
@@ -36,6 +38,7 @@ fn run(words: &[&str]) -> Result {
         ["setup"] => {
             setup::setup();
             setup::cpp_compiler();
+            setup::valgrind();
             Ok(())
         }
         ["test"] => {
@@ -50,6 +53,8 @@ fn run(words: &[&str]) -> Result {
                 "`{seconds}` is no whole number of seconds from 1; for example `cargo xtask fuzz 60`"
             )),
         },
+        ["counts"] => counts::counts(false).map(drop),
+        ["counts", "--write"] => counts::counts(true).map(drop),
         ["check-output", directory] => check_output::check_output(directory.as_ref()),
         [] | ["help" | "--help" | "-h"] => {
             println!("{HELP}");

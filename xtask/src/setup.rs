@@ -1,4 +1,5 @@
-//! System packages: the pictures need a Vulkan driver and fuzzing a C++ compiler, nothing else is needed beyond a C linker.
+//! System packages: the pictures need a Vulkan driver, fuzzing a C++ compiler and counting instructions valgrind; nothing else
+//! is needed beyond a C linker.
 
 use std::path::Path;
 use std::process::Command;
@@ -9,6 +10,8 @@ use crate::command::{run, succeeds};
 const DRIVER: &str = "mesa-vulkan-drivers";
 /// Compiles libFuzzer, which comes as C++.
 const COMPILER: &str = "g++";
+/// Counts instructions.
+const COUNTER: &str = "valgrind";
 /// Where Linux drivers announce themselves.
 const DRIVER_FOLDERS: [&str; 3] = [
     "/usr/share/vulkan/icd.d",
@@ -40,6 +43,18 @@ pub(crate) fn cpp_compiler() -> bool {
         install(
             COMPILER,
             &format!("fuzzing needs a C++ compiler: install `{COMPILER}`"),
+        );
+    }
+    there()
+}
+
+/// True if there is valgrind, which is installed where it is missing and that is possible.
+pub(crate) fn valgrind() -> bool {
+    let there = || succeeds(COUNTER, &["--version"]);
+    if !there() && cfg!(target_os = "linux") {
+        install(
+            COUNTER,
+            &format!("counting instructions needs `{COUNTER}`: install it"),
         );
     }
     there()

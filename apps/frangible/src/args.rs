@@ -33,6 +33,54 @@ pub(crate) enum Command {
     /// Check modes, responses and contacts against closed forms; fails when one is off. `verify experiments` compares cracks and
     /// pieces with published experiments, which takes minutes
     Verify(VerifyArgs),
+    /// Measure how fast the bodies of the paper's Table 1 break, and how fast harmless contacts are refused
+    Bench(BenchArgs),
+}
+
+/// What to measure.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub(crate) enum Measured {
+    /// The bodies of the paper's Table 1
+    Table1,
+    /// Refused contacts
+    Contacts,
+    /// Both
+    All,
+}
+
+#[derive(Args, Clone, Debug)]
+pub(crate) struct BenchArgs {
+    /// What to measure
+    #[arg(value_enum, default_value = "all")]
+    pub(crate) what: Measured,
+
+    /// Only this body of Table 1; repeat it for several
+    #[arg(long = "body", value_name = "NAME")]
+    pub(crate) bodies: Vec<String>,
+
+    /// Warm runs of each body, 1 to 10000; fewer where they take longer than ten seconds
+    #[arg(long, value_name = "N", default_value_t = 30, value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    pub(crate) runs: u32,
+
+    /// Leave out the paper's algorithms word for word, which take most of the time
+    #[arg(long)]
+    pub(crate) no_reference: bool,
+
+    /// Folder of the baked bodies, made when it is missing
+    #[arg(long, value_name = "DIR", default_value = "target/bench")]
+    pub(crate) cache: PathBuf,
+
+    /// Bake all bodies anew
+    #[arg(long)]
+    pub(crate) rebake: bool,
+
+    /// Print JSON instead of tables
+    #[arg(long)]
+    pub(crate) json: bool,
+
+    /// Also write performance.md into this folder, made when it is missing; needs all of both, and bakes anew
+    #[arg(long, value_name = "DIR", conflicts_with = "bodies")]
+    pub(crate) write: Option<PathBuf>,
 }
 
 /// What `verify` computes.

@@ -2,6 +2,7 @@
 
 mod args;
 mod baking;
+mod benching;
 mod breaking;
 mod experimenting;
 mod list;
@@ -56,6 +57,7 @@ fn main() -> ExitCode {
             experimenting::run(&args)
         }
         Some(Command::Verify(args)) => verifying::run(&args),
+        Some(Command::Bench(args)) => benching::run(&args),
         Some(Command::Scenes { name: None }) => list::print(),
         Some(Command::Scenes { name: Some(name) }) => list::print_scene(&name),
     };

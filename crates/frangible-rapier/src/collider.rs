@@ -7,12 +7,25 @@ use frangible::{Asset, Fragment};
 use rapier3d::geometry::{SharedShape, TypedShape};
 use rapier3d::math::{Pose, Vector};
 
+use crate::config::WorldConfig;
+use crate::replace::is_debris;
+
 /// More points than this are thinned before a hull is built: it bounds both the hull's cost and that of every
 /// later contact with it.
 const MAX_HULL_POINTS: usize = 128;
 
 /// Smallest half extent of a stand-in box, m.
 const MIN_HALF_EXTENT: f32 = 2e-4;
+
+/// The collision shape that a world of this configuration gives a fragment, in the fragment frame.
+#[must_use]
+pub fn collision_shape(fragment: &Fragment, config: &WorldConfig) -> SharedShape {
+    if is_debris(fragment, config) {
+        debris_shape(fragment)
+    } else {
+        fragment_shape(fragment, config.hull_volume_ratio)
+    }
+}
 
 /// Compound of the asset's cells, in the body frame.
 pub(crate) fn whole_shape(asset: &Asset) -> SharedShape {
@@ -22,7 +35,7 @@ pub(crate) fn whole_shape(asset: &Asset) -> SharedShape {
 }
 
 /// One hull where the piece is nearly convex, else the hulls of its shares of the cells, else a box.
-pub(crate) fn fragment_shape(fragment: &Fragment, hull_volume_ratio: f32) -> SharedShape {
+fn fragment_shape(fragment: &Fragment, hull_volume_ratio: f32) -> SharedShape {
     let positions = &fragment.mesh.positions;
     let whole = hull(positions);
     if let Some((shape, volume)) = &whole
@@ -40,7 +53,7 @@ pub(crate) fn fragment_shape(fragment: &Fragment, hull_volume_ratio: f32) -> Sha
 }
 
 /// A box of the piece's volume in the proportions of its bounds.
-pub(crate) fn debris_shape(fragment: &Fragment) -> SharedShape {
+fn debris_shape(fragment: &Fragment) -> SharedShape {
     fitted_box(&fragment.mesh.positions, fragment.mass.volume)
 }
 

@@ -80,6 +80,7 @@ mod surface;
 mod toll;
 mod world;
 
+pub use collider::collision_shape;
 pub use config::WorldConfig;
 pub use counts::LoadCounts;
 pub use error::WorldError;

@@ -9,7 +9,7 @@ use rapier3d::math::{Pose, Vector};
 use rapier3d::parry::bounding_volume::BoundingVolume;
 use rapier3d::pipeline::ActiveHooks;
 
-use crate::collider::{debris_shape, fragment_shape};
+use crate::collider::collision_shape;
 use crate::config::WorldConfig;
 use crate::error::WorldError;
 use crate::joints::hand_over_joints;
@@ -35,13 +35,8 @@ impl Parts {
     pub(crate) fn new(fracture: &Fracture, config: &WorldConfig) -> Result<Self, WorldError> {
         let part = |fragment: &Fragment| -> Result<Part, WorldError> {
             let mass = rapier_mass(&fragment.mass)?;
-            let shape = if is_debris(fragment, config) {
-                debris_shape(fragment)
-            } else {
-                fragment_shape(fragment, config.hull_volume_ratio)
-            };
             Ok(Part {
-                shape,
+                shape: collision_shape(fragment, config),
                 mass,
                 centre: fragment.mass.centre.as_vec3(),
                 supported: fragment.supported,

@@ -1,0 +1,62 @@
+//! `frangible bench`: the figures are there and fit together; what cannot be measured is refused.
+
+use std::process::{Command, Output};
+
+fn frangible(args: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_frangible"));
+    command.args(args).output().expect("the program starts")
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}
+
+#[test]
+fn a_body_of_table_1_is_baked_once_and_measured() {
+    let folder = std::env::temp_dir().join(format!("frangible-bench-{}", std::process::id()));
+    let cache = folder.to_str().expect("a plain path");
+    let words = [
+        "bench", "table1", "--body", "slab-low", "--runs", "2", "--json", "--cache", cache,
+    ];
+    let measured = || -> serde_json::Value {
+        let output = frangible(&words);
+        assert!(output.status.success(), "{}", text(&output.stderr));
+        serde_json::from_slice(&output.stdout).expect("JSON")
+    };
+    let (first, second) = (measured(), measured());
+    let row = &first["table1"][0];
+    assert_eq!(row["subject"]["name"], "slab-low");
+    // The second run read what the first one baked, and broke it the same way.
+    assert_eq!(row["bake"], second["table1"][0]["bake"]);
+    for model in ["paper", "two_samples", "ours"] {
+        let (a, b) = (&row[model], &second["table1"][0][model]);
+        for count in ["steps", "crossed", "cracks", "fragments"] {
+            assert_eq!(a[count], b[count], "{model} {count}");
+        }
+        let number = |key: &str| a["warm"][key].as_f64().expect("a number");
+        assert!(a["fragments"].as_u64() > Some(1), "{a}");
+        let stages = ["response", "displacements", "cracks", "fragments"];
+        assert!(stages.iter().all(|s| number(s) > 0.0), "{a}");
+        assert!(
+            number("total") > 0.0 && a["colliders"].as_f64() > Some(0.0),
+            "{a}"
+        );
+    }
+    assert!(row["paper"]["reference"].as_f64() > Some(0.0));
+    assert!(first["contacts"].is_null());
+    let _ = std::fs::remove_dir_all(folder);
+}
+
+#[test]
+fn what_cannot_be_measured_is_refused() {
+    let refused = |words: &[&str], part: &str| {
+        let output = frangible(words);
+        let message = text(&output.stderr);
+        assert!(!output.status.success(), "{words:?} was accepted");
+        assert!(message.contains(part), "{message}");
+    };
+    refused(&["bench", "table1", "--body", "cow"], "slab-low");
+    refused(&["bench", "table1", "--write", "."], "bench all --write");
+    refused(&["bench", "--runs", "0"], "1..=10000");
+    refused(&["bench", "--body", "glass", "--write", "."], "--write");
+}
