@@ -50,7 +50,7 @@ impl BreakableWorld {
         {
             Some((_, shape)) => shape.clone(),
             None => {
-                let shape = whole_shape(body.asset());
+                let shape = whole_shape(body.asset(), self.config.whole_collider);
                 self.shapes.push((Arc::clone(body.asset()), shape.clone()));
                 shape
             }

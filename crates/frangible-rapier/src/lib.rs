@@ -51,6 +51,7 @@
 //! impulse at the arms of the step's start: chips that would spin faster lose angular momentum, and a blow during which
 //! bodies move centimetres per step changes the total by some percent. Shorter steps cure both.
 
+mod after;
 mod approach;
 mod collider;
 mod config;
@@ -63,8 +64,10 @@ mod friction;
 mod guard;
 mod insert;
 mod joints;
+mod judge;
 mod mass;
 mod motion;
+mod motions;
 mod pushes;
 mod replace;
 mod rest;
@@ -76,13 +79,15 @@ mod siblings;
 mod snapshot;
 mod step;
 mod surface;
+mod timings;
 mod toll;
 mod world;
 
-pub use config::WorldConfig;
+pub use config::{Breaking, ColliderDetail, WorldConfig};
 pub use error::WorldError;
 pub use event::{BreakCause, BreakEvent, HeldEvent};
 pub use insert::Ball;
 pub use rapier3d;
 pub use surface::SurfaceProperties;
+pub use timings::StepTimings;
 pub use world::{BreakFn, BreakableWorld, RestFn};

@@ -22,7 +22,8 @@ pub(crate) struct Parts {
 }
 
 struct Part {
-    shape: SharedShape,
+    /// None of dust.
+    shape: Option<SharedShape>,
     mass: MassProperties,
     /// Of mass, in the parent's frame, m.
     centre: Vector,
@@ -35,10 +36,13 @@ impl Parts {
     pub(crate) fn new(fracture: &Fracture, config: &WorldConfig) -> Result<Self, WorldError> {
         let part = |fragment: &Fragment| -> Result<Part, WorldError> {
             let mass = rapier_mass(&fragment.mass)?;
-            let shape = if is_debris(fragment, config) {
-                debris_shape(fragment)
+            let shape = if fragment.mass.mass < f64::from(config.dust_mass) {
+                None
+            } else if is_debris(fragment, config) {
+                Some(debris_shape(fragment))
             } else {
-                fragment_shape(fragment, config.hull_volume_ratio)
+                let ratio = config.hull_volume_ratio;
+                Some(fragment_shape(fragment, ratio, config.fragment_collider))
             };
             Ok(Part {
                 shape,
@@ -83,8 +87,10 @@ impl BreakableWorld {
         for part in &parts.parts {
             let builder = fragment_body(&body, part).additional_mass_properties(part.mass);
             let handle = self.physics.bodies.insert(builder);
-            let collider = fragment_collider(part.shape.clone(), skin.as_ref());
-            self.physics.insert_collider(collider, Some(handle));
+            if let Some(shape) = &part.shape {
+                let collider = fragment_collider(shape.clone(), skin.as_ref());
+                self.physics.insert_collider(collider, Some(handle));
+            }
             if let Some(fragment) = self.physics.bodies.get_mut(handle) {
                 fragment.recompute_mass_properties_from_colliders(&self.physics.colliders);
             }

@@ -12,13 +12,14 @@ use std::collections::BTreeMap;
 use frangible::glam::Vec3;
 use frangible::outcome::LookedAt;
 use frangible::{Body, Contact, Force, Outcome, Striker};
-use rapier3d::dynamics::{RigidBody, RigidBodyHandle, RigidBodySet};
+use rapier3d::dynamics::{RigidBody, RigidBodyHandle};
 use rapier3d::pipeline::PhysicsWorld;
 
 use crate::config::WorldConfig;
 use crate::contacts::{Impact, Point, approach, merged_by_partner, points_on};
 use crate::error::WorldError;
 use crate::event::HeldEvent;
+use crate::motions::Before;
 use crate::world::{BreakableWorld, Key, key};
 
 /// Steps in a row that must each break a body, or crack it.
@@ -77,15 +78,16 @@ fn load_on(
     handle: RigidBodyHandle,
     rigid: &RigidBody,
     physics: &PhysicsWorld,
-    before: Option<&RigidBodySet>,
+    before: Option<&impl Before>,
     config: &WorldConfig,
 ) -> Load {
     let dt = physics.integration_parameters.dt;
-    let frame = before.and_then(|b| b.get(handle)).unwrap_or(rigid);
+    let before = before.filter(|b| b.body(handle).is_some());
+    let frame = before.and_then(|b| b.body(handle)).unwrap_or(rigid);
     let mut points = points_on(handle, rigid, physics);
     if let Some(before) = before {
         points.retain(|p| {
-            let partner = p.other.and_then(|other| before.get(other));
+            let partner = p.other.and_then(|other| before.body(other));
             let speed = approach(frame, partner, p.position, p.normal);
             speed <= config.impact_speed
         });
@@ -128,6 +130,13 @@ impl BreakableWorld {
         }
     }
 
+    /// Nothing is known of this one's load any more.
+    pub(crate) fn weigh_anew_one(&mut self, handle: RigidBodyHandle) {
+        if let Some(burden) = self.burdens.get_mut(&key(handle)) {
+            burden.load.gravity = Vec3::NAN;
+        }
+    }
+
     /// Whether loads are looked at after the coming step.
     pub(crate) fn weighs_now(&self) -> bool {
         let stride = (INTERVAL / self.physics.integration_parameters.dt).round();
@@ -145,7 +154,7 @@ impl BreakableWorld {
         &self,
         handle: RigidBodyHandle,
         body: &Body,
-        before: &RigidBodySet,
+        before: &impl Before,
     ) -> Option<Result<(Impact, Outcome), WorldError>> {
         let burden = self.burdens.get(&key(handle))?;
         let rigid = self.physics.bodies.get(handle)?;
@@ -159,7 +168,7 @@ impl BreakableWorld {
     }
 
     /// Asks all bodies that carry something new; gives cracks to those that cracked.
-    pub(crate) fn weigh(&mut self, before: Option<&RigidBodySet>) -> Result<(), WorldError> {
+    pub(crate) fn weigh(&mut self, before: Option<&impl Before>) -> Result<(), WorldError> {
         let mut error = Ok(());
         let mut burdens: BTreeMap<Key, Burden> = std::mem::take(&mut self.burdens);
         burdens.retain(|key, _| self.breakables.contains_key(key));
@@ -176,7 +185,7 @@ impl BreakableWorld {
     fn weigh_one(
         &mut self,
         handle: RigidBodyHandle,
-        before: Option<&RigidBodySet>,
+        before: Option<&impl Before>,
         burdens: &mut BTreeMap<Key, Burden>,
     ) -> Result<(), WorldError> {
         let (Some(body), Some(rigid)) = (

@@ -97,7 +97,8 @@ impl BreakableWorld {
             let toll = broken.fracture.report.fracture_energy.max(gain);
             let bodies = &mut self.physics.bodies;
             let paid = take_energy(bodies, &broken.fragments, &group.others(), toll);
-            if self.record(broken, before, paid.min(toll)) {
+            let parent = before.get(broken.parent);
+            if self.record(broken, parent, paid.min(toll)) {
                 groups.push((group, energy, work));
             }
         }
@@ -113,13 +114,12 @@ impl BreakableWorld {
     pub(crate) fn record(
         &mut self,
         broken: Broken,
-        before: &RigidBodySet,
+        parent: Option<&RigidBody>,
         energy_paid: f64,
     ) -> bool {
         let Some(body) = self.hand_over(&broken) else {
             return false;
         };
-        let parent = before.get(broken.parent);
         let (pose, linvel, angvel) = parent.map_or_else(Default::default, |b| {
             (*b.position(), b.linvel(), b.angvel())
         });

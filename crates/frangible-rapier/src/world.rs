@@ -9,15 +9,18 @@ use rapier3d::geometry::{ColliderHandle, SharedShape};
 use rapier3d::pipeline::PhysicsWorld;
 use std::sync::Arc;
 
+use crate::after::Waiting;
 use crate::config::WorldConfig;
 use crate::error::WorldError;
 use crate::event::{BreakEvent, HeldEvent};
 use crate::floor::FloorDispatcher;
+use crate::motions::Motions;
 use crate::pushes::Push;
 use crate::rest::Places;
 use crate::resting::Burden;
 use crate::siblings::Siblings;
 use crate::surface::SurfaceProperties;
+use crate::timings::StepTimings;
 
 /// Angular frequency of contacts × substep, against fixed bodies. Rapier lets a share c/(1+c) of the approach speed
 /// through in a substep, c = x² / ((1+x) 4ζ²), x = 2ζ / this: its 0.4 is 11 %, so a ball of 200 m/s goes 23 mm into
@@ -72,6 +75,11 @@ pub struct BreakableWorld {
     pub(crate) refused_breaks: u64,
     pub(crate) undone_steps: u64,
     pub(crate) snapshots: u64,
+    pub(crate) timings: StepTimings,
+    pub(crate) waiting: VecDeque<Waiting>,
+    pub(crate) motions: Motions,
+    /// Whether blows are judged by the fracture itself, whose quick bound then clears most of them.
+    pub(crate) clears_quickly: bool,
 }
 
 impl BreakableWorld {
@@ -115,6 +123,10 @@ impl BreakableWorld {
             refused_breaks: 0,
             undone_steps: 0,
             snapshots: 0,
+            timings: StepTimings::default(),
+            waiting: VecDeque::new(),
+            motions: Motions::default(),
+            clears_quickly: true,
             config,
         })
     }
@@ -127,6 +139,7 @@ impl BreakableWorld {
         + Sync
         + 'static,
     ) {
+        self.clears_quickly = false;
         self.break_function = Box::new(function);
     }
 
@@ -200,6 +213,12 @@ impl BreakableWorld {
     #[must_use]
     pub fn refused_breaks(&self) -> u64 {
         self.refused_breaks
+    }
+
+    /// Where the time of the last step went.
+    #[must_use]
+    pub fn timings(&self) -> &StepTimings {
+        &self.timings
     }
 
     /// Steps that began with a copy of the world, since a breakable body was about to be hit.

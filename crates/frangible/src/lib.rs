@@ -41,7 +41,7 @@ pub use contact::{Contact, Striker};
 pub use error::InputError;
 pub use fields::{Factors, Fields, Patch, Zone};
 pub use glam;
-pub use impact::{impact, impact_traced, would_break};
+pub use impact::{impact, impact_traced, is_harmless, would_break};
 pub use loads::{Blast, Force, blast, fracture_at, rest};
 pub use material::Material;
 pub use mesh::{MassProperties, RenderMesh, TetMesh, TriMesh, box_projection};
