@@ -12,7 +12,7 @@ use crate::contacts::{Impact, Surfaces, impact_on};
 use crate::error::WorldError;
 use crate::event::{BreakCause, HeldEvent};
 use crate::guard::put_back;
-use crate::judge::Verdict;
+use crate::judge::{Verdict, verdict};
 use crate::motion::kinetic_energy;
 use crate::settle::Broken;
 use crate::timings::Watch;
@@ -33,11 +33,16 @@ impl BreakableWorld {
     /// Bodies that were hit and wait for their turn, the first in line first: see
     /// [`Breaking::AfterStep`](crate::Breaking::AfterStep).
     pub fn waiting(&self) -> impl Iterator<Item = RigidBodyHandle> {
-        self.waiting.iter().map(|w| w.body)
+        let judged = self.cases.iter().map(|case| case.body);
+        judged.chain(self.waiting.iter().map(|w| w.body))
     }
 
     /// A step of Rapier, and what it broke.
-    pub(crate) fn step_then_break(&mut self, budget: usize) -> Result<(), WorldError> {
+    pub(crate) fn step_then_break(
+        &mut self,
+        budget: usize,
+        delay: usize,
+    ) -> Result<(), WorldError> {
         let mut watch = Watch::start();
         self.motions.note(&self.physics.bodies);
         let weighs = self.weighs_now();
@@ -68,7 +73,9 @@ impl BreakableWorld {
         for handle in overloaded {
             done = done.and(self.give_way_to_load(handle, &before));
         }
-        done.and(self.serve(budget)).and(weighed)
+        done.and(self.serve(budget, delay))
+            .and(self.conclude())
+            .and(weighed)
     }
 
     /// Bodies that may have been hit in the step just taken, with what touches them; and the overloaded ones.
@@ -83,7 +90,13 @@ impl BreakableWorld {
                 && [a, b].iter().flatten().any(breakable)
                 && pair.has_any_active_contact()
             {
-                hit.extend([a, b].iter().flatten().filter(|h| breakable(h)).map(|&h| key(h)));
+                hit.extend(
+                    [a, b]
+                        .iter()
+                        .flatten()
+                        .filter(|h| breakable(h))
+                        .map(|&h| key(h)),
+                );
             }
         }
         let mut bodies = HitBodies::new();
@@ -97,10 +110,16 @@ impl BreakableWorld {
         for (index, generation) in hit {
             let handle = RigidBodyHandle::from_raw_parts(index, generation);
             note(handle);
-            let colliders = physics.bodies.get(handle).map_or(&[][..], |b| b.colliders());
+            let colliders = physics
+                .bodies
+                .get(handle)
+                .map_or(&[][..], |b| b.colliders());
             for &collider in colliders {
                 for pair in physics.narrow_phase.contact_pairs_with(collider) {
-                    [pair.collider1, pair.collider2].into_iter().filter_map(parent).for_each(&mut note);
+                    [pair.collider1, pair.collider2]
+                        .into_iter()
+                        .filter_map(parent)
+                        .for_each(&mut note);
                 }
             }
         }
@@ -114,7 +133,9 @@ impl BreakableWorld {
             colliders: &self.collider_surfaces,
             breakables: &self.breakables,
         };
-        let hit = before.keys().filter(|key| self.breakables.contains_key(key));
+        let hit = before
+            .keys()
+            .filter(|key| self.breakables.contains_key(key));
         let blows = hit.map(|&(index, generation)| {
             let body = RigidBodyHandle::from_raw_parts(index, generation);
             let impact = impact_on(body, &self.physics, before, &surfaces, &self.config);
@@ -135,33 +156,64 @@ impl BreakableWorld {
         }
     }
 
-    /// Puts those first in line to the fracture.
-    fn serve(&mut self, budget: usize) -> Result<(), WorldError> {
+    /// Puts those first in line to the fracture: at once, or elsewhere until `delay` steps from now.
+    fn serve(&mut self, budget: usize, delay: usize) -> Result<(), WorldError> {
+        let mut watch = Watch::start();
         let mut line: VecDeque<Waiting> = std::mem::take(&mut self.waiting);
         line.retain(|w| self.breakables.contains_key(&key(w.body)));
-        let (mut questions, mut work) = (Vec::new(), 0);
-        let mut later = VecDeque::new();
+        let (mut cheap, mut dear, mut later) = (Vec::new(), Vec::new(), VecDeque::new());
+        let mut work = 0_usize;
         for Waiting { body, impact } in line {
+            let busy = self.cases.iter().any(|case| case.body == body);
             let cost = self.work(body, &impact);
-            if work == 0 || cost == 0 || cost <= budget.saturating_sub(work) {
+            if cost == 0 && !busy {
+                cheap.push((body, impact));
+            } else if !busy && (work == 0 || work.saturating_add(cost) <= budget) {
                 work += cost;
-                questions.push((body, impact));
+                dear.push((body, impact));
             } else {
-                // Whoever comes after it waits too, however cheap: first come, first served.
-                work = usize::MAX;
+                // First come, first served: whoever comes after one that must wait for the budget waits too.
+                work = if busy { work } else { usize::MAX };
                 later.push_back(Waiting { body, impact });
             }
         }
         self.waiting = later;
-        let mut watch = Watch::start();
-        let verdicts = self.judge(&questions);
-        self.timings.fracture += watch.lap();
         let mut done = Ok(());
-        for ((body, impact), verdict) in questions.into_iter().zip(verdicts) {
+        if delay == 0 {
+            cheap.extend(dear);
+        } else {
+            let due = self.steps + delay as u64;
+            for (body, impact) in dear {
+                match self.judge_elsewhere(body, impact, due) {
+                    Ok(case) => self.cases.push_back(case),
+                    Err(error) => done = done.and(Err(error)),
+                }
+            }
+        }
+        let verdicts = self.judge(&cheap);
+        self.timings.fracture += watch.lap();
+        for ((body, impact), verdict) in cheap.into_iter().zip(verdicts) {
             let obeyed = verdict.and_then(|v| self.obey(body, BreakCause::Impact, impact, v));
             done = done.and(obeyed);
         }
         self.timings.fragments += watch.lap();
+        done
+    }
+
+    /// Does what was decided elsewhere and is due.
+    fn conclude(&mut self) -> Result<(), WorldError> {
+        let mut watch = Watch::start();
+        let mut done = Ok(());
+        while let Some(case) = self.cases.pop_front_if(|case| case.due <= self.steps) {
+            let verdict = case.verdict();
+            self.timings.fracture += watch.lap();
+            if self.breakables.contains_key(&key(case.body)) {
+                let cause = BreakCause::Impact;
+                let obeyed = verdict.and_then(|v| self.obey(case.body, cause, case.impact, v));
+                done = done.and(obeyed);
+            }
+            self.timings.fragments += watch.lap();
+        }
         done
     }
 
@@ -191,7 +243,7 @@ impl BreakableWorld {
             return Ok(());
         };
         let (load, outcome) = asked?;
-        match self.verdict(outcome)? {
+        match verdict(outcome, &self.config)? {
             // What only cracks is dealt with when all loads are looked at.
             Verdict::Held(_) => Ok(()),
             broke => self.obey(handle, BreakCause::Rest, load, broke),
@@ -251,7 +303,12 @@ impl BreakableWorld {
         impact: Impact,
         outcome: frangible::Outcome,
     ) -> Result<(), WorldError> {
-        let frangible::Outcome::Held { margin, report, state } = outcome else {
+        let frangible::Outcome::Held {
+            margin,
+            report,
+            state,
+        } = outcome
+        else {
             return Ok(());
         };
         let state = state.map(|s| *s);

@@ -22,6 +22,10 @@ pub enum Breaking {
         /// at least. The others wait in the order of their blows, and stay whole until then: they collide as whole bodies
         /// do, and of several blows while one waits the hardest counts. `usize::MAX`: none waits.
         budget: usize,
+        /// Steps that the fracture has for it on other threads while the world goes on; then the world waits for what is not
+        /// ready, so that a body breaks in the same step however fast the machine is. 0: at once, inside
+        /// [`step`](crate::BreakableWorld::step).
+        delay: usize,
     },
 }
 

@@ -72,9 +72,8 @@ impl Motions {
         a: Option<RigidBodyHandle>,
         b: Option<RigidBodyHandle>,
     ) -> bool {
-        let fastest = |h: Option<RigidBodyHandle>| {
-            h.and_then(|h| self.of(h)).map_or(0.0, |m| m.fastest)
-        };
+        let fastest =
+            |h: Option<RigidBodyHandle>| h.and_then(|h| self.of(h)).map_or(0.0, |m| m.fastest);
         let most = fastest(a) + fastest(b);
         // NaN counts as fast: whatever meets it is looked at.
         most.is_nan() || most >= speed

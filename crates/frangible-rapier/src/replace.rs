@@ -162,7 +162,7 @@ fn fragment_body(parent: &RigidBody, part: &Part) -> RigidBodyBuilder {
 
 fn fragment_collider(shape: SharedShape, parent: Option<&Collider>) -> ColliderBuilder {
     let builder = ColliderBuilder::new(shape)
-        .density(0.0)
+        .mass_properties(MassProperties::default())
         .active_hooks(ActiveHooks::MODIFY_SOLVER_CONTACTS);
     let Some(parent) = parent else { return builder };
     builder

@@ -18,7 +18,7 @@ use crate::contacts::{Impact, Surfaces, impact_on};
 use crate::error::WorldError;
 use crate::event::{BreakCause, BreakEvent, HeldEvent};
 use crate::guard::{Centres, centres, put_back};
-use crate::judge::Verdict;
+use crate::judge::{Verdict, verdict};
 use crate::rolling::resist_rolling;
 use crate::settle::Broken;
 use crate::snapshot::Snapshot;
@@ -66,7 +66,7 @@ impl BreakableWorld {
         self.timings.upkeep += watch.lap();
         let done = match self.config.breaking {
             Breaking::InsideStep => self.step_breaking_inside(),
-            Breaking::AfterStep { budget } => self.step_then_break(budget),
+            Breaking::AfterStep { budget, delay } => self.step_then_break(budget, delay),
         };
         self.steps += 1;
         pushed.and(done).map(|()| &*self.events)
@@ -221,12 +221,17 @@ impl BreakableWorld {
         self.timings.contacts += watch.lap();
         let verdicts = self.judge(&blows);
         let mut answers: Vec<Answer> = loads;
-        answers.extend(blows.into_iter().zip(verdicts).map(|((body, impact), verdict)| Answer {
-            body,
-            cause: BreakCause::Impact,
-            impact,
-            verdict,
-        }));
+        answers.extend(
+            blows
+                .into_iter()
+                .zip(verdicts)
+                .map(|((body, impact), verdict)| Answer {
+                    body,
+                    cause: BreakCause::Impact,
+                    impact,
+                    verdict,
+                }),
+        );
         answers.sort_by_key(|answer| key(answer.body));
         self.timings.fracture += watch.lap();
         let mut news = false;
@@ -259,7 +264,7 @@ impl BreakableWorld {
                 blows.push((handle, impact));
             } else if let Some(load) = self.breaking_load(handle, body, before) {
                 let (impact, verdict) = match load {
-                    Ok((load, outcome)) => (load, self.verdict(outcome)),
+                    Ok((load, outcome)) => (load, verdict(outcome, &self.config)),
                     Err(error) => (impact, Err(error)),
                 };
                 loads.push(Answer {

@@ -7,6 +7,7 @@ use frangible::{Asset, Body, Contact, Force, FractureConfig, InputError, Outcome
 use rapier3d::dynamics::RigidBodyHandle;
 use rapier3d::geometry::{ColliderHandle, SharedShape};
 use rapier3d::pipeline::PhysicsWorld;
+use rayon::ThreadPool;
 use std::sync::Arc;
 
 use crate::after::Waiting;
@@ -14,6 +15,7 @@ use crate::config::WorldConfig;
 use crate::error::WorldError;
 use crate::event::{BreakEvent, HeldEvent};
 use crate::floor::FloorDispatcher;
+use crate::judge::Case;
 use crate::motions::Motions;
 use crate::pushes::Push;
 use crate::rest::Places;
@@ -58,7 +60,7 @@ pub struct BreakableWorld {
     /// gravity and time step are Rapier's own (`gravity`, `integration_parameters.dt`).
     pub physics: PhysicsWorld,
     pub(crate) config: WorldConfig,
-    pub(crate) break_function: Box<BreakFn>,
+    pub(crate) break_function: Arc<BreakFn>,
     pub(crate) rest_function: Box<RestFn>,
     pub(crate) breakables: BTreeMap<Key, Body>,
     pub(crate) surfaces: BTreeMap<Key, SurfaceProperties>,
@@ -77,9 +79,13 @@ pub struct BreakableWorld {
     pub(crate) snapshots: u64,
     pub(crate) timings: StepTimings,
     pub(crate) waiting: VecDeque<Waiting>,
+    pub(crate) cases: VecDeque<Case>,
+    pub(crate) jury: Option<Option<ThreadPool>>,
     pub(crate) motions: Motions,
     /// Whether blows are judged by the fracture itself, whose quick bound then clears most of them.
     pub(crate) clears_quickly: bool,
+    /// The same of loads.
+    pub(crate) weighs_quickly: bool,
 }
 
 impl BreakableWorld {
@@ -107,7 +113,7 @@ impl BreakableWorld {
         Ok(Self {
             physics,
             siblings: Siblings::default(),
-            break_function: Box::new(frangible::impact),
+            break_function: Arc::new(frangible::impact),
             rest_function: Box::new(frangible::rest),
             breakables: BTreeMap::new(),
             surfaces: BTreeMap::new(),
@@ -125,8 +131,11 @@ impl BreakableWorld {
             snapshots: 0,
             timings: StepTimings::default(),
             waiting: VecDeque::new(),
+            cases: VecDeque::new(),
+            jury: None,
             motions: Motions::default(),
             clears_quickly: true,
+            weighs_quickly: true,
             config,
         })
     }
@@ -140,7 +149,7 @@ impl BreakableWorld {
         + 'static,
     ) {
         self.clears_quickly = false;
-        self.break_function = Box::new(function);
+        self.break_function = Arc::new(function);
     }
 
     /// Replaces [`frangible::rest()`] by another judge of what bodies carry.
@@ -151,6 +160,7 @@ impl BreakableWorld {
         + Sync
         + 'static,
     ) {
+        self.weighs_quickly = false;
         self.rest_function = Box::new(function);
         self.weigh_anew();
     }

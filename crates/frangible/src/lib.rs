@@ -42,7 +42,7 @@ pub use error::InputError;
 pub use fields::{Factors, Fields, Patch, Zone};
 pub use glam;
 pub use impact::{impact, impact_traced, is_harmless, would_break};
-pub use loads::{Blast, Force, blast, fracture_at, rest};
+pub use loads::{Blast, Force, blast, fracture_at, rest, rest_margin_at_least};
 pub use material::Material;
 pub use mesh::{MassProperties, RenderMesh, TetMesh, TriMesh, box_projection};
 pub use names::nearest_name;

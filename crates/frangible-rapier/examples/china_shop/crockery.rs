@@ -95,4 +95,3 @@ fn scaled(shape: &Shape, scale: f64) -> Shape {
 pub fn bytes(kind: &Kind) -> usize {
     kind.breakable.asset().to_bytes().len()
 }
-

@@ -27,7 +27,8 @@ struct Frame {
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let asked: Vec<String> = std::env::args().skip(1).collect();
-    let number = |i: usize, default: usize| asked.get(i).and_then(|a| a.parse().ok()).unwrap_or(default);
+    let number =
+        |i: usize, default: usize| asked.get(i).and_then(|a| a.parse().ok()).unwrap_or(default);
     let (runs, seconds) = (number(1, 5), number(2, 4));
     let kinds = crockery::bake_all()?;
     for kind in &kinds {
@@ -45,9 +46,17 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut best: Vec<Frame> = Vec::new();
     let mut first = None;
     for run in 0..runs {
-        let (frames, print) = play(&kinds, asked.first().map_or("after", |s| s), seconds, run == 0)?;
+        let (frames, print) = play(
+            &kinds,
+            asked.first().map_or("after", |s| s),
+            seconds,
+            run == 0,
+        )?;
         let known = *first.get_or_insert(print);
-        println!("run {run}: fingerprint {print:016x}{}", if known == print { "" } else { " DIFFERS" });
+        println!(
+            "run {run}: fingerprint {print:016x}{}",
+            if known == print { "" } else { " DIFFERS" }
+        );
         if best.is_empty() {
             best = frames;
         } else {
@@ -67,10 +76,27 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 fn config(mode: &str) -> WorldConfig {
     let mut config = WorldConfig::default();
     config.dt = 1.0 / (FRAME_RATE * STEPS as f32);
-    if mode == "after" {
-        config.breaking = Breaking::AfterStep { budget: 8000 };
-        config.whole_collider = ColliderDetail { parts: 1, hull_points: 48 };
-        config.fragment_collider = ColliderDetail { parts: 4, hull_points: 24 };
+    if mode.starts_with("after") {
+        let number = |i: usize| {
+            mode[5..]
+                .split(',')
+                .nth(i)
+                .and_then(|n| n.parse().ok())
+                .unwrap_or([3000, 8][i])
+        };
+        config.fracture.samples_per_period = 4.0;
+        config.breaking = Breaking::AfterStep {
+            budget: number(0),
+            delay: number(1),
+        };
+        config.whole_collider = ColliderDetail {
+            parts: 1,
+            hull_points: 48,
+        };
+        config.fragment_collider = ColliderDetail {
+            parts: 4,
+            hull_points: 24,
+        };
         config.dust_mass = 2e-5;
     }
     config
@@ -88,7 +114,13 @@ fn play(
         settling.push(frame(&mut world)?.0);
     }
     if talk {
-        println!("before the bull: {} things, {} bodies asleep of {}, {} broken", things.len(), asleep(&world), world.physics.bodies.len(), things.len() - world.breakables().count());
+        println!(
+            "before the bull: {} things, {} bodies asleep of {}, {} broken",
+            things.len(),
+            asleep(&world),
+            world.physics.bodies.len(),
+            things.len() - world.breakables().count()
+        );
         println!("frame times while all is awake:");
         table(&settling[2..20]);
     }
@@ -101,7 +133,15 @@ fn play(
         breaks += broke;
         pieces += made;
         if talk && i % 20 == 19 {
-            println!("{:.2} s: {breaks} broken into {pieces}, {} bodies, {} awake, {} pairs, {:.1} ms, of it Rapier {:.1} ms", (i + 1) as f32 / FRAME_RATE, world.physics.bodies.len(), world.physics.bodies.len() - asleep(&world), world.physics.narrow_phase.contact_pairs().count(), 1e3 * times.all, 1e3 * times.rigid);
+            println!(
+                "{:.2} s: {breaks} broken into {pieces}, {} bodies, {} awake, {} pairs, {:.1} ms, of it Rapier {:.1} ms",
+                (i + 1) as f32 / FRAME_RATE,
+                world.physics.bodies.len(),
+                world.physics.bodies.len() - asleep(&world),
+                world.physics.narrow_phase.contact_pairs().count(),
+                1e3 * times.all,
+                1e3 * times.rigid
+            );
         }
     }
     Ok((frames, fingerprint(&world)))
@@ -109,21 +149,49 @@ fn play(
 
 fn asleep(world: &BreakableWorld) -> usize {
     let bodies = world.physics.bodies.iter();
-    bodies.filter(|(_, b)| b.is_sleeping() || b.is_fixed()).count()
+    bodies
+        .filter(|(_, b)| b.is_sleeping() || b.is_fixed())
+        .count()
 }
 
 fn frame(world: &mut BreakableWorld) -> Result<(Frame, usize, usize), Box<dyn std::error::Error>> {
     let mut sum = Frame::default();
     let (mut breaks, mut pieces) = (0, 0);
     for _ in 0..STEPS {
-        let start = std::time::Instant::now();
         let events = world.step()?;
         breaks += events.len();
+        for e in events {
+            let r = &e.fracture.report;
+            let t = &r.timings;
+            if std::env::var("TALK").is_ok() {
+                println!(
+                    "   {} {} contacts {} pieces {} cracks {} steps, J {:.3} area; response {:.2} stress {:.2} cracks {:.2} fragments {:.2}",
+                    e.asset.name,
+                    e.contacts.len(),
+                    e.fragments.len(),
+                    r.cracks,
+                    r.time_steps,
+                    r.crack_area * 1e4,
+                    1e3 * t.response,
+                    1e3 * t.stress,
+                    1e3 * t.cracks,
+                    1e3 * t.fragments
+                );
+            }
+        }
         pieces += events.iter().map(|e| e.fragments.len()).sum::<usize>();
-        sum.all += start.elapsed().as_secs_f64();
         let t = world.timings();
+        sum.all += t.rigid + t.ours();
         sum.rigid += t.rigid;
-        for (sum, part) in sum.parts.iter_mut().zip([t.undone, t.copies, t.contacts, t.fracture, t.fragments, t.loads, t.upkeep]) {
+        for (sum, part) in sum.parts.iter_mut().zip([
+            t.undone,
+            t.copies,
+            t.contacts,
+            t.fracture,
+            t.fragments,
+            t.loads,
+            t.upkeep,
+        ]) {
             *sum += part;
         }
     }
@@ -142,18 +210,37 @@ fn fingerprint(world: &BreakableWorld) -> u64 {
 }
 
 fn table(frames: &[Frame]) {
-    println!("{:>12} {:>8} {:>8} {:>8} {:>8}", "ms", "median", "p99", "worst", "mean");
+    println!(
+        "{:>12} {:>8} {:>8} {:>8} {:>8}",
+        "ms", "median", "p99", "worst", "mean"
+    );
     let row = |name: &str, of: &dyn Fn(&Frame) -> f64| {
         let mut times: Vec<f64> = frames.iter().map(|f| 1e3 * of(f)).collect();
         times.sort_by(f64::total_cmp);
         let at = |share: f64| times[((times.len() - 1) as f64 * share).ceil() as usize];
         let mean = times.iter().sum::<f64>() / times.len() as f64;
-        println!("{name:>12} {:8.2} {:8.2} {:8.2} {mean:8.2}", at(0.5), at(0.99), at(1.0));
+        println!(
+            "{name:>12} {:8.2} {:8.2} {:8.2} {mean:8.2}",
+            at(0.5),
+            at(0.99),
+            at(1.0)
+        );
     };
     row("frame", &|f| f.all);
     row("Rapier", &|f| f.rigid);
     row("ours", &|f| f.all - f.rigid);
-    for (i, name) in ["undone", "copies", "contacts", "fracture", "fragments", "loads", "upkeep"].iter().enumerate() {
+    for (i, name) in [
+        "undone",
+        "copies",
+        "contacts",
+        "fracture",
+        "fragments",
+        "loads",
+        "upkeep",
+    ]
+    .iter()
+    .enumerate()
+    {
         row(name, &|f| f.parts[i]);
     }
 }

@@ -73,7 +73,13 @@ pub fn furnish(kinds: &[Kind], config: WorldConfig, seed: u64) -> Result<Shop, W
 fn plank(world: &mut BreakableWorld, middle: Vector) -> Result<(), WorldError> {
     let shape = SharedShape::cuboid(PLANK.x, PLANK.y, PLANK.z);
     let pose = Pose::from_translation(middle);
-    world.insert_rigid(shape, PLANK_MASS, SurfaceProperties::WOOD, pose, Vector::ZERO)?;
+    world.insert_rigid(
+        shape,
+        PLANK_MASS,
+        SurfaceProperties::WOOD,
+        pose,
+        Vector::ZERO,
+    )?;
     for side in [-1.0, 1.0] {
         let half = Vector::new(0.02, 0.01, PLANK.z);
         let ledge = middle + Vector::new(side * (PLANK.x - half.x), -PLANK.y - half.y, 0.0);
