@@ -27,6 +27,8 @@ pub(crate) type HitBodies = BTreeMap<Key, RigidBody>;
 pub(crate) struct Waiting {
     pub(crate) body: RigidBodyHandle,
     pub(crate) impact: Impact,
+    /// Tetrahedra to look at; none where a quick bound refuses the impact.
+    pub(crate) cost: usize,
 }
 
 impl BreakableWorld {
@@ -139,7 +141,8 @@ impl BreakableWorld {
         let blows = hit.map(|&(index, generation)| {
             let body = RigidBodyHandle::from_raw_parts(index, generation);
             let impact = impact_on(body, &self.physics, before, &surfaces, &self.config);
-            Waiting { body, impact }
+            let cost = self.work(body, &impact);
+            Waiting { body, impact, cost }
         });
         blows.filter(|w| !w.impact.contacts.is_empty()).collect()
     }
@@ -163,9 +166,8 @@ impl BreakableWorld {
         line.retain(|w| self.breakables.contains_key(&key(w.body)));
         let (mut cheap, mut dear, mut later) = (Vec::new(), Vec::new(), VecDeque::new());
         let mut work = 0_usize;
-        for Waiting { body, impact } in line {
+        for Waiting { body, impact, cost } in line {
             let busy = self.cases.iter().any(|case| case.body == body);
-            let cost = self.work(body, &impact);
             if cost == 0 && !busy {
                 cheap.push((body, impact));
             } else if !busy && (work == 0 || work.saturating_add(cost) <= budget) {
@@ -174,7 +176,7 @@ impl BreakableWorld {
             } else {
                 // First come, first served: whoever comes after one that must wait for the budget waits too.
                 work = if busy { work } else { usize::MAX };
-                later.push_back(Waiting { body, impact });
+                later.push_back(Waiting { body, impact, cost });
             }
         }
         self.waiting = later;
@@ -217,7 +219,6 @@ impl BreakableWorld {
         done
     }
 
-    /// Tetrahedra to look at; none where a quick bound refuses the impact.
     fn work(&self, handle: RigidBodyHandle, impact: &Impact) -> usize {
         let Some(body) = self.breakables.get(&key(handle)) else {
             return 0;

@@ -79,8 +79,8 @@ pub struct WorldConfig {
     /// Fragments lighter than this are debris: a box for a collider, removed when too many. kg, default 1e-4, a
     /// chip of glass 3 mm wide.
     pub debris_mass: f32,
-    /// Fragments lighter than this are dust: debris without a collider, so that it falls through everything and costs
-    /// next to nothing. kg, default 0: none.
+    /// Fragments lighter than this are dust: debris without a collider, so that it falls through everything, costs next to
+    /// nothing, and is removed after a second. kg, default 0: none.
     pub dust_mass: f32,
     /// Debris kept at most; the oldest goes first. Default 200.
     pub max_debris: usize,

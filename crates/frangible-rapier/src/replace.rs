@@ -36,7 +36,7 @@ impl Parts {
     pub(crate) fn new(fracture: &Fracture, config: &WorldConfig) -> Result<Self, WorldError> {
         let part = |fragment: &Fragment| -> Result<Part, WorldError> {
             let mass = rapier_mass(&fragment.mass)?;
-            let shape = if fragment.mass.mass < f64::from(config.dust_mass) {
+            let shape = if is_dust(fragment, config) {
                 None
             } else if is_debris(fragment, config) {
                 Some(debris_shape(fragment))
@@ -61,8 +61,12 @@ impl Parts {
     }
 }
 
+pub(crate) fn is_dust(fragment: &Fragment, config: &WorldConfig) -> bool {
+    fragment.mass.mass < f64::from(config.dust_mass) && !fragment.supported
+}
+
 pub(crate) fn is_debris(fragment: &Fragment, config: &WorldConfig) -> bool {
-    fragment.mass.mass < f64::from(config.debris_mass)
+    fragment.mass.mass < f64::from(config.debris_mass.max(config.dust_mass))
 }
 
 impl BreakableWorld {

@@ -10,7 +10,7 @@ use rapier3d::math::Vector;
 use crate::contacts::Impact;
 use crate::event::{BreakCause, BreakEvent};
 use crate::motion::kinetic_energy;
-use crate::replace::{Parts, is_debris};
+use crate::replace::{Parts, is_debris, is_dust};
 use crate::surface::{EDGE_RADIUS, SurfaceProperties};
 use crate::toll::take_energy;
 use crate::world::{BreakableWorld, Key, key};
@@ -58,10 +58,14 @@ impl BreakableWorld {
         self.burdens.remove(&key(broken.parent));
         self.surfaces.remove(&key(broken.parent));
         let surface = SurfaceProperties::of(&body.asset().material, EDGE_RADIUS);
+        let now = self.time();
         for (&handle, fragment) in broken.fragments.iter().zip(&broken.fracture.fragments) {
             self.surfaces.insert(key(handle), surface);
             if is_debris(fragment, &self.config) {
                 self.debris.push_back(handle);
+            }
+            if is_dust(fragment, &self.config) {
+                self.dust.push_back((handle, now));
             }
         }
         Some(body)

@@ -112,6 +112,7 @@ impl BreakableWorld {
             self.places.rest(&mut self.physics, self.config.rest_drift);
         }
         self.limit_debris(self.config.max_debris);
+        self.settle_dust();
         self.timings.upkeep += watch.lap();
     }
 

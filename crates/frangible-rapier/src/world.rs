@@ -71,6 +71,8 @@ pub struct BreakableWorld {
     pub(crate) burdens: BTreeMap<Key, Burden>,
     pub(crate) pushes: Vec<Push>,
     pub(crate) debris: VecDeque<RigidBodyHandle>,
+    /// With the time when it was born, s.
+    pub(crate) dust: VecDeque<(RigidBodyHandle, f64)>,
     pub(crate) events: Vec<BreakEvent>,
     pub(crate) held: Vec<HeldEvent>,
     pub(crate) steps: u64,
@@ -123,6 +125,7 @@ impl BreakableWorld {
             burdens: BTreeMap::new(),
             pushes: Vec::new(),
             debris: VecDeque::new(),
+            dust: VecDeque::new(),
             events: Vec::new(),
             held: Vec::new(),
             steps: 0,

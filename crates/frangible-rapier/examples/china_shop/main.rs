@@ -13,7 +13,7 @@ use frangible_rapier::{BreakableWorld, Breaking, ColliderDetail, WorldConfig};
 
 /// Frames per second, and physics steps per frame.
 const FRAME_RATE: f32 = 60.0;
-const STEPS: usize = 2;
+const STEPS: usize = 1;
 /// Frames for the things to come to rest before the bull comes.
 const SETTLE: usize = 90;
 
@@ -97,7 +97,9 @@ fn config(mode: &str) -> WorldConfig {
             parts: 4,
             hull_points: 24,
         };
-        config.dust_mass = 2e-5;
+        config.hull_volume_ratio = 3.0;
+        config.debris_mass = 1e-3;
+        config.dust_mass = 1e-4;
     }
     config
 }
@@ -124,7 +126,7 @@ fn play(
         println!("frame times while all is awake:");
         table(&settling[2..20]);
     }
-    shop::let_in(&mut world)?;
+    let bull = shop::let_in(&mut world)?;
     let mut frames = Vec::new();
     let (mut breaks, mut pieces) = (0, 0);
     for i in 0..seconds * FRAME_RATE as usize {
@@ -134,8 +136,11 @@ fn play(
         pieces += made;
         if talk && i % 20 == 19 {
             println!(
-                "{:.2} s: {breaks} broken into {pieces}, {} bodies, {} awake, {} pairs, {:.1} ms, of it Rapier {:.1} ms",
+                "{:.2} s: bull at {:.2} m, {:.1} m/s, {} wait, {breaks} broken into {pieces}, {} bodies, {} awake, {} pairs, {:.1} ms, of it Rapier {:.1} ms",
                 (i + 1) as f32 / FRAME_RATE,
+                world.physics.bodies[bull].translation().z,
+                world.physics.bodies[bull].linvel().z,
+                world.waiting().count(),
                 world.physics.bodies.len(),
                 world.physics.bodies.len() - asleep(&world),
                 world.physics.narrow_phase.contact_pairs().count(),

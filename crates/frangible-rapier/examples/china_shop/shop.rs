@@ -34,7 +34,9 @@ pub struct Shop {
 /// The shop before the bull comes; `seed` decides the weak points.
 pub fn furnish(kinds: &[Kind], config: WorldConfig, seed: u64) -> Result<Shop, WorldError> {
     let mut world = BreakableWorld::new(config)?;
-    world.insert_fixed_half_space(Vector::ZERO, Vector::Y, SurfaceProperties::STONE)?;
+    let floor = Vector::new(20.0, 0.5, 20.0);
+    let pose = Pose::translation(0.0, -floor.y, 0.0);
+    world.insert_fixed_box(floor, pose, SurfaceProperties::STONE)?;
     let mut things = Vec::new();
     for rack in 0..RACKS {
         for board in 0..BOARDS {
