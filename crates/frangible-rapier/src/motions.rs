@@ -31,8 +31,8 @@ struct Motion {
     pose: Pose,
     linvel: Vector,
     angvel: Vector,
-    /// No point of the body was faster, m/s.
-    fastest: f32,
+    /// No point of the body was faster than this against its centre of mass, m/s.
+    spin: f32,
 }
 
 /// Pose and velocity of every body that is not fixed, by index.
@@ -55,7 +55,7 @@ impl Motions {
                 pose: *body.position(),
                 linvel,
                 angvel,
-                fastest: linvel.length() + angvel.length() * reach,
+                spin: angvel.length() * reach,
             });
         }
     }
@@ -72,9 +72,12 @@ impl Motions {
         a: Option<RigidBodyHandle>,
         b: Option<RigidBodyHandle>,
     ) -> bool {
-        let fastest =
-            |h: Option<RigidBodyHandle>| h.and_then(|h| self.of(h)).map_or(0.0, |m| m.fastest);
-        let most = fastest(a) + fastest(b);
+        let motion = |h: Option<RigidBodyHandle>| {
+            let motion = h.and_then(|h| self.of(h));
+            motion.map_or((Vector::ZERO, 0.0), |m| (m.linvel, m.spin))
+        };
+        let ((v, a), (w, b)) = (motion(a), motion(b));
+        let most = (v - w).length() + a + b;
         // NaN counts as fast: whatever meets it is looked at.
         most.is_nan() || most >= speed
     }

@@ -91,15 +91,16 @@ fn config(mode: &str) -> WorldConfig {
         };
         config.whole_collider = ColliderDetail {
             parts: 1,
-            hull_points: 48,
+            hull_points: 24,
         };
         config.fragment_collider = ColliderDetail {
             parts: 4,
             hull_points: 24,
         };
         config.hull_volume_ratio = 3.0;
-        config.debris_mass = 1e-3;
-        config.dust_mass = 1e-4;
+        config.debris_mass = 3e-3;
+        config.dust_mass = 1e-3;
+        config.fracture.crumb_share = 5e-3;
     }
     config
 }

@@ -1,7 +1,9 @@
 //! The shop: a thousand things on planks, and the bull.
 
 use frangible_rapier::rapier3d::dynamics::RigidBodyHandle;
-use frangible_rapier::rapier3d::geometry::SharedShape;
+use frangible_rapier::rapier3d::geometry::{
+    Group, InteractionGroups, InteractionTestMode, SharedShape,
+};
 use frangible_rapier::rapier3d::math::{Pose, Rotation, Vector};
 use frangible_rapier::{Ball, BreakableWorld, SurfaceProperties, WorldConfig, WorldError};
 
@@ -46,7 +48,7 @@ pub fn furnish(kinds: &[Kind], config: WorldConfig, seed: u64) -> Result<Shop, W
                     0.25 + BOARD * board as f32,
                     RACK * rack as f32,
                 );
-                plank(&mut world, middle)?;
+                plank(&mut world, rack, middle)?;
                 for place in 0..PLACES[0] * PLACES[1] {
                     let (along, across) = (place % PLACES[0], place / PLACES[0]);
                     let kind = &kinds[(3 * along + across + board + rack) % kinds.len()];
@@ -71,24 +73,32 @@ pub fn furnish(kinds: &[Kind], config: WorldConfig, seed: u64) -> Result<Shop, W
     Ok(Shop { world, things })
 }
 
-/// A loose plank on two ledges.
-fn plank(world: &mut BreakableWorld, middle: Vector) -> Result<(), WorldError> {
+/// A loose plank on two ledges. They hold the planks of their rack alone: a plank on its way through the shop that
+/// caught on the fixed ledges of the next rack would stop the bull.
+fn plank(world: &mut BreakableWorld, rack: usize, middle: Vector) -> Result<(), WorldError> {
     let shape = SharedShape::cuboid(PLANK.x, PLANK.y, PLANK.z);
     let pose = Pose::from_translation(middle);
-    world.insert_rigid(
-        shape,
-        PLANK_MASS,
-        SurfaceProperties::WOOD,
-        pose,
-        Vector::ZERO,
-    )?;
+    let wood = SurfaceProperties::WOOD;
+    let plank = world.insert_rigid(shape, PLANK_MASS, wood, pose, Vector::ZERO)?;
+    // Nothing here is so thin that it passes through in a step.
+    world.physics.bodies[plank].enable_ccd(false);
+    let own = Group::from_bits_truncate(1 << rack);
+    group(world, plank, own, Group::ALL);
     for side in [-1.0, 1.0] {
         let half = Vector::new(0.02, 0.01, PLANK.z);
         let ledge = middle + Vector::new(side * (PLANK.x - half.x), -PLANK.y - half.y, 0.0);
         let pose = Pose::from_translation(ledge);
-        world.insert_fixed_box(half, pose, SurfaceProperties::WOOD)?;
+        let ledge = world.insert_fixed_box(half, pose, wood)?;
+        group(world, ledge, Group::GROUP_32, own);
     }
     Ok(())
+}
+
+fn group(world: &mut BreakableWorld, body: RigidBodyHandle, members: Group, filter: Group) {
+    let groups = InteractionGroups::new(members, filter, InteractionTestMode::And);
+    for &collider in world.physics.bodies[body].colliders() {
+        world.physics.colliders[collider].set_collision_groups(groups);
+    }
 }
 
 /// Lets the bull in: it rolls along the middle of the right-hand planks.
@@ -96,5 +106,7 @@ pub fn let_in(world: &mut BreakableWorld) -> Result<RigidBodyHandle, WorldError>
     let lane = PLANK.x + 0.02;
     let start = Pose::translation(lane, BULL.radius + 0.001, -1.2);
     let velocity = Vector::new(0.0, 0.0, SPEED);
-    world.insert_ball(BULL, SurfaceProperties::STONE, start, velocity)
+    let bull = world.insert_ball(BULL, SurfaceProperties::STONE, start, velocity)?;
+    world.physics.bodies[bull].enable_ccd(false);
+    Ok(bull)
 }
