@@ -69,6 +69,8 @@ pub(crate) struct Burden {
     over: u32,
     /// Looks until it is asked again.
     pause: u32,
+    /// Looks in a row at which the quick bound did not clear it: only a load that lasts is looked at closer.
+    hard: u32,
 }
 
 impl Default for Burden {
@@ -78,6 +80,7 @@ impl Default for Burden {
             margin: f64::INFINITY,
             over: 0,
             pause: 0,
+            hard: 0,
         }
     }
 }
@@ -230,8 +233,15 @@ impl BreakableWorld {
             let total = most_force_on(rigid, &self.physics);
             let gravity = self.physics.gravity.length() * rigid.gravity_scale().abs();
             let margin = frangible::rest_margin_at_least(body, total, gravity);
-            if margin >= EASE {
-                let burden = burdens.entry(key(handle)).or_default();
+            let known = burdens.contains_key(&key(handle));
+            let burden = burdens.entry(key(handle)).or_default();
+            burden.hard = match (margin >= EASE, known) {
+                (true, _) => 0,
+                // Its first load is looked at whatever it is.
+                (false, false) => STEADY,
+                (false, true) => burden.hard.saturating_add(1),
+            };
+            if burden.hard < STEADY {
                 burden.margin = margin;
                 burden.load.gravity = Vec3::NAN;
                 return Ok(());

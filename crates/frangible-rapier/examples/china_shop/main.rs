@@ -101,6 +101,7 @@ fn config(mode: &str) -> WorldConfig {
         config.debris_mass = 3e-3;
         config.dust_mass = 1e-3;
         config.fracture.crumb_share = 5e-3;
+        config.impact_speed = 1.0;
     }
     config
 }
@@ -111,7 +112,9 @@ fn play(
     seconds: usize,
     talk: bool,
 ) -> Result<(Vec<Frame>, u64), Box<dyn std::error::Error>> {
+    let before = resident();
     let shop::Shop { mut world, things } = shop::furnish(kinds, config(mode), 7)?;
+    let furnished = resident() - before;
     let mut settling = Vec::new();
     for _ in 0..SETTLE {
         settling.push(frame(&mut world)?.0);
@@ -124,6 +127,8 @@ fn play(
             world.physics.bodies.len(),
             things.len() - world.breakables().count()
         );
+        let per_thing = furnished * 1024.0 / things.len() as f64;
+        println!("memory: {furnished:.1} MB for the world, {per_thing:.1} kB per thing");
         println!("frame times while all is awake:");
         table(&settling[2..20]);
     }
@@ -149,6 +154,10 @@ fn play(
                 1e3 * times.rigid
             );
         }
+    }
+    if talk {
+        let now = resident() - before;
+        println!("memory in the end: {now:.1} MB more than before the shop was furnished");
     }
     Ok((frames, fingerprint(&world)))
 }
@@ -249,4 +258,12 @@ fn table(frames: &[Frame]) {
     {
         row(name, &|f| f.parts[i]);
     }
+}
+
+/// Memory of this process, MB; 0 where the system does not tell.
+fn resident() -> f64 {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let line = status.lines().find(|l| l.starts_with("VmRSS:"));
+    let kilobytes = line.and_then(|l| l.split_whitespace().nth(1)?.parse::<f64>().ok());
+    kilobytes.unwrap_or(0.0) / 1024.0
 }
