@@ -242,7 +242,12 @@ impl BreakableWorld {
                 (false, true) => burden.hard.saturating_add(1),
             };
             if burden.hard < STEADY {
-                burden.margin = margin;
+                // A knock that does not last is no load.
+                burden.margin = if margin >= EASE {
+                    margin
+                } else {
+                    burden.margin
+                };
                 burden.load.gravity = Vec3::NAN;
                 return Ok(());
             }

@@ -10,13 +10,13 @@ const TETS: [f64; 2] = [1500.0, 1500.0];
 const MODES: usize = 40;
 
 /// A kind of object, and how far its centre of mass is above its foot, m.
-pub struct Kind {
-    pub breakable: Breakable,
-    pub foot: f32,
+pub(crate) struct Kind {
+    pub(crate) breakable: Breakable,
+    pub(crate) foot: f32,
 }
 
 /// Bakes all kinds; some seconds each.
-pub fn bake_all() -> Result<Vec<Kind>, Box<dyn std::error::Error>> {
+pub(crate) fn bake_all() -> Result<Vec<Kind>, Box<dyn std::error::Error>> {
     let shapes = [
         ("cup", cup(), "porcelain"),
         ("plate", scaled(&Shape::dinner_plate(), 0.6), "porcelain"),
@@ -92,6 +92,6 @@ fn scaled(shape: &Shape, scale: f64) -> Shape {
 }
 
 /// Bytes of what bodies of a kind share, and of one body's own.
-pub fn bytes(kind: &Kind) -> usize {
+pub(crate) fn bytes(kind: &Kind) -> usize {
     kind.breakable.asset().to_bytes().len()
 }

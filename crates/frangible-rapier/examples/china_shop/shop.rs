@@ -23,18 +23,18 @@ const PLANK: Vector = Vector::new(0.88, 0.012, 0.18);
 const PLANK_MASS: f32 = 5.0;
 /// The bull, kg and m, and its speed, m/s.
 const BULL: Ball = Ball {
-    mass: 500.0,
-    radius: 0.6,
+    mass: 400.0,
+    radius: 0.45,
 };
 const SPEED: f32 = 7.0;
 
-pub struct Shop {
-    pub world: BreakableWorld,
-    pub things: Vec<RigidBodyHandle>,
+pub(crate) struct Shop {
+    pub(crate) world: BreakableWorld,
+    pub(crate) things: Vec<RigidBodyHandle>,
 }
 
 /// The shop before the bull comes; `seed` decides the weak points.
-pub fn furnish(kinds: &[Kind], config: WorldConfig, seed: u64) -> Result<Shop, WorldError> {
+pub(crate) fn furnish(kinds: &[Kind], config: WorldConfig, seed: u64) -> Result<Shop, WorldError> {
     let mut world = BreakableWorld::new(config)?;
     let floor = Vector::new(20.0, 0.5, 20.0);
     let pose = Pose::translation(0.0, -floor.y, 0.0);
@@ -102,7 +102,7 @@ fn group(world: &mut BreakableWorld, body: RigidBodyHandle, members: Group, filt
 }
 
 /// Lets the bull in: it rolls along the middle of the right-hand planks.
-pub fn let_in(world: &mut BreakableWorld) -> Result<RigidBodyHandle, WorldError> {
+pub(crate) fn let_in(world: &mut BreakableWorld) -> Result<RigidBodyHandle, WorldError> {
     let lane = PLANK.x + 0.02;
     let start = Pose::translation(lane, BULL.radius + 0.001, -1.2);
     let velocity = Vector::new(0.0, 0.0, SPEED);
