@@ -1,4 +1,4 @@
-//! A bull in a china shop: a thousand breakable things, a ball of half a ton, frame times.
+//! A bull in a china shop: a thousand breakable things, a ball of 400 kg, frame times.
 //!
 //! `cargo run --release -p frangible-rapier --example china_shop -- [inside|after|after8000,8] [runs] [seconds]`: breaks inside the
 //! step as scenes do by default, or after it with this budget and delay.
