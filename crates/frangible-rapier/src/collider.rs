@@ -7,12 +7,8 @@ use frangible::{Asset, Fragment};
 use rapier3d::geometry::{SharedShape, TypedShape};
 use rapier3d::math::{Pose, Vector};
 
-use crate::config::WorldConfig;
+use crate::config::{ColliderDetail, WorldConfig};
 use crate::replace::is_debris;
-
-/// More points than this are thinned before a hull is built: it bounds both the hull's cost and that of every
-/// later contact with it.
-const MAX_HULL_POINTS: usize = 128;
 
 /// Smallest half extent of a stand-in box, m.
 const MIN_HALF_EXTENT: f32 = 2e-4;
@@ -23,30 +19,35 @@ pub fn collision_shape(fragment: &Fragment, config: &WorldConfig) -> SharedShape
     if is_debris(fragment, config) {
         debris_shape(fragment)
     } else {
-        fragment_shape(fragment, config.hull_volume_ratio)
+        fragment_shape(fragment, config.hull_volume_ratio, config.fragment_collider)
     }
 }
 
 /// Compound of the asset's cells, in the body frame.
-pub(crate) fn whole_shape(asset: &Asset) -> SharedShape {
-    let hulls = asset.cells.iter().filter_map(|cell| hull(&cell.points));
+pub(crate) fn whole_shape(asset: &Asset, detail: ColliderDetail) -> SharedShape {
+    let cells = asset.cells.iter().map(|cell| &*cell.points).collect();
+    let parts = merged(cells, detail.parts);
+    let hulls = parts.iter().filter_map(|points| hull(points, detail));
     compound(hulls.map(|(shape, _)| shape))
         .unwrap_or_else(|| fitted_box(&asset.fracture.positions, asset.mass.volume))
 }
 
 /// One hull where the piece is nearly convex, else the hulls of its shares of the cells, else a box.
-fn fragment_shape(fragment: &Fragment, hull_volume_ratio: f32) -> SharedShape {
+fn fragment_shape(
+    fragment: &Fragment,
+    hull_volume_ratio: f32,
+    detail: ColliderDetail,
+) -> SharedShape {
     let positions = &fragment.mesh.positions;
-    let whole = hull(positions);
+    let whole = hull(positions, detail);
     if let Some((shape, volume)) = &whole
         && *volume <= f64::from(hull_volume_ratio) * fragment.mass.volume
     {
         return shape.clone();
     }
-    let shares = fragment
-        .cell_shares
-        .iter()
-        .filter_map(|(_, points)| hull(points));
+    let shares = fragment.cell_shares.iter().map(|(_, points)| &**points);
+    let parts = merged(shares.collect(), detail.parts);
+    let shares = parts.iter().filter_map(|points| hull(points, detail));
     compound(shares.map(|(shape, _)| shape))
         .or(whole.map(|(shape, _)| shape))
         .unwrap_or_else(|| debris_shape(fragment))
@@ -57,9 +58,33 @@ fn debris_shape(fragment: &Fragment) -> SharedShape {
     fitted_box(&fragment.mesh.positions, fragment.mass.volume)
 }
 
+/// Convex parts, neighbours put together until at most `most` are left: halved again and again at the median across the
+/// longest side of the box of their middles.
+fn merged(parts: Vec<&[Vector]>, most: usize) -> Vec<Vec<Vector>> {
+    if parts.len() <= most.max(1) {
+        return parts.into_iter().map(<[_]>::to_vec).collect();
+    }
+    if most <= 1 {
+        return vec![parts.concat()];
+    }
+    let middle = |points: &[Vector]| points.iter().sum::<Vector>() / points.len().max(1) as f32;
+    let mut parts: Vec<(Vector, &[Vector])> = parts.into_iter().map(|p| (middle(p), p)).collect();
+    let middles: Vec<Vector> = parts.iter().map(|(m, _)| *m).collect();
+    let (low, high) = bounds(&middles);
+    let axis = (high - low).max_position();
+    parts.sort_by(|(a, _), (b, _)| a[axis].total_cmp(&b[axis]));
+    let far = parts.split_off(parts.len() / 2);
+    let half = |parts: Vec<(Vector, &[Vector])>, most| {
+        merged(parts.into_iter().map(|(_, p)| p).collect(), most)
+    };
+    let mut all = half(parts, most / 2);
+    all.extend(half(far, most - most / 2));
+    all
+}
+
 /// Convex hull and its volume, m³; `None` when the points have no volume.
-fn hull(points: &[Vector]) -> Option<(SharedShape, f64)> {
-    let points = thinned(points);
+fn hull(points: &[Vector], detail: ColliderDetail) -> Option<(SharedShape, f64)> {
+    let points = thinned(points, detail.hull_points.max(4));
     if points.len() < 4 {
         return None;
     }
@@ -85,7 +110,7 @@ fn hull(points: &[Vector]) -> Option<(SharedShape, f64)> {
 
 /// Points welded on a grid of 1e-5 of their extent, then at most the extreme ones along evenly spread directions:
 /// nearly coincident points are what breaks hull algorithms.
-fn thinned(points: &[Vector]) -> Vec<Vector> {
+fn thinned(points: &[Vector], most: usize) -> Vec<Vector> {
     let (low, high) = bounds(points);
     let grid = (high - low).max_element() * 1e-5;
     if !(grid.is_finite() && grid > 0.0) {
@@ -99,10 +124,10 @@ fn thinned(points: &[Vector]) -> Vec<Vector> {
     cells.sort_unstable();
     cells.dedup_by_key(|(cell, _)| *cell);
     let mut kept: Vec<usize> = cells.into_iter().map(|(_, i)| i).collect();
-    if kept.len() > MAX_HULL_POINTS {
+    if kept.len() > most {
         let candidates = std::mem::take(&mut kept);
-        for k in 0..MAX_HULL_POINTS {
-            let direction = spread_direction(k, MAX_HULL_POINTS);
+        for k in 0..most {
+            let direction = spread_direction(k, most);
             let farthest = candidates.iter().copied().max_by(|&a, &b| {
                 points[a]
                     .dot(direction)

@@ -8,13 +8,14 @@ use std::collections::BTreeMap;
 
 use frangible::contact::answer_duration;
 use frangible::{Body, Contact, DurationModel, Striker};
-use rapier3d::dynamics::{FrictionModel, RigidBody, RigidBodyHandle, RigidBodySet};
+use rapier3d::dynamics::{FrictionModel, RigidBody, RigidBodyHandle};
 use rapier3d::geometry::ColliderHandle;
 use rapier3d::math::Vector;
 use rapier3d::pipeline::PhysicsWorld;
 
 use crate::config::WorldConfig;
 use crate::friction::{rub, solver_friction, unexplained};
+use crate::motions::Before;
 use crate::surface::{EDGE_RADIUS, SurfaceProperties};
 use crate::world::{Key, collider_key, key};
 
@@ -50,11 +51,11 @@ pub(crate) struct Point {
 pub(crate) fn impact_on(
     handle: RigidBodyHandle,
     physics: &PhysicsWorld,
-    before: &RigidBodySet,
+    before: &impl Before,
     surfaces: &Surfaces<'_>,
     config: &WorldConfig,
 ) -> Impact {
-    let Some(body) = before.get(handle) else {
+    let Some(body) = before.body(handle) else {
         return Impact::default();
     };
     let mut impact = Impact::default();
@@ -69,7 +70,7 @@ pub(crate) fn impact_on(
     };
     for group in groups {
         let other = group[0].other;
-        let partner = other.and_then(|other| before.get(other));
+        let partner = other.and_then(|other| before.body(other));
         let first = impact.contacts.len();
         for point in &group {
             let approach_speed = approach(body, partner, point.position, point.normal);

@@ -12,7 +12,7 @@ pub struct LoadCounts {
     pub asked: u64,
     /// Contacts in them.
     pub contacts: u64,
-    /// Refused by their impulses alone, free of time ([`LookedAt::Impulses`]).
+    /// Refused by their impulses alone, free of time ([`LookedAt::Impulses`]); steady loads by the size of their forces.
     pub by_impulses: u64,
     /// Refused by the amplitudes of the modes and bounds of the whole body, at every time step ([`LookedAt::Amplitudes`]).
     pub by_amplitudes: u64,
@@ -25,17 +25,25 @@ pub struct LoadCounts {
 }
 
 impl LoadCounts {
-    /// Counts one answer.
-    pub(crate) fn count(&mut self, contacts: usize, outcome: &Outcome) {
+    /// Counts one answer: how closely the load was looked at, or that the body broke.
+    pub(crate) fn count(&mut self, contacts: usize, held: Option<LookedAt>) {
         self.asked += 1;
         self.contacts += contacts as u64;
-        let of = match (outcome, outcome.report().looked_at) {
-            (Outcome::Broke(_), _) => &mut self.broke,
-            (_, LookedAt::Impulses) => &mut self.by_impulses,
-            (_, LookedAt::Amplitudes) => &mut self.by_amplitudes,
-            (_, LookedAt::Clusters) => &mut self.by_clusters,
-            (_, LookedAt::Stresses) => &mut self.by_stresses,
+        let of = match held {
+            None => &mut self.broke,
+            Some(LookedAt::Impulses) => &mut self.by_impulses,
+            Some(LookedAt::Amplitudes) => &mut self.by_amplitudes,
+            Some(LookedAt::Clusters) => &mut self.by_clusters,
+            Some(LookedAt::Stresses) => &mut self.by_stresses,
         };
         *of += 1;
+    }
+}
+
+/// How closely an outcome was looked at; none where the body broke.
+pub(crate) fn held(outcome: &Outcome) -> Option<LookedAt> {
+    match outcome {
+        Outcome::Broke(_) => None,
+        outcome => Some(outcome.report().looked_at),
     }
 }

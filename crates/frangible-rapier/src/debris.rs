@@ -1,10 +1,22 @@
-//! Too much debris: the oldest goes.
+//! Too much debris: the oldest goes. Dust goes soon: it has no collider, and falls through the floor.
 
 use rapier3d::dynamics::RigidBodyHandle;
 
 use crate::world::{BreakableWorld, key};
 
+/// How long dust is there, s: it has fallen 5 m by then.
+const DUST_TIME: f64 = 1.0;
+
 impl BreakableWorld {
+    /// Removes dust that has been there for long.
+    pub(crate) fn settle_dust(&mut self) {
+        let now = self.time();
+        while let Some((handle, _)) = self.dust.pop_front_if(|(_, born)| now - *born > DUST_TIME) {
+            self.physics.remove_body(handle);
+            self.surfaces.remove(&key(handle));
+        }
+    }
+
     /// Removes the oldest debris until at most `limit` pieces are left.
     pub(crate) fn limit_debris(&mut self, limit: usize) {
         while self.debris.len() > limit {

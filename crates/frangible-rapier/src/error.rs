@@ -8,6 +8,9 @@ use thiserror::Error;
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum WorldError {
+    /// A thread that computed a break died.
+    #[error("the computation of a break failed on its thread; the body stays whole")]
+    JudgeFailed,
     /// A quantity that must be finite and above zero is not.
     #[error("{what} is {value}; it must be a finite number above zero")]
     NotPositive {

@@ -117,6 +117,16 @@ fn touch(
         .first_mut()
         .map(|m| std::mem::take(&mut m.points))
         .unwrap_or_default();
+    if let Some(compound) = shape.as_compound() {
+        // A half-space meets every body; most are far above it.
+        let bounds = compound.local_aabb().transform_by(to_plane);
+        let nearest =
+            bounds.center().dot(plane.normal) - bounds.half_extents().dot(plane.normal.abs());
+        if nearest > prediction {
+            manifolds.truncate(0);
+            return Ok(());
+        }
+    }
     let known = |id| {
         old.iter()
             .any(|c| if flipped { c.fid1 == id } else { c.fid2 == id })

@@ -1,7 +1,7 @@
 //! Ways into the world.
 
 use frangible::Body;
-use rapier3d::dynamics::{RigidBodyBuilder, RigidBodyHandle};
+use rapier3d::dynamics::{MassProperties, RigidBodyBuilder, RigidBodyHandle};
 use rapier3d::geometry::{ColliderBuilder, ColliderHandle, HalfSpace, SharedShape};
 use rapier3d::math::{Pose, Vector};
 use std::sync::Arc;
@@ -50,7 +50,7 @@ impl BreakableWorld {
         {
             Some((_, shape)) => shape.clone(),
             None => {
-                let shape = whole_shape(body.asset());
+                let shape = whole_shape(body.asset(), self.config.whole_collider);
                 self.shapes.push((Arc::clone(body.asset()), shape.clone()));
                 shape
             }
@@ -200,7 +200,7 @@ impl BreakableWorld {
     ) -> RigidBodyHandle {
         let handle = self.physics.bodies.insert(body);
         let collider = ColliderBuilder::new(shape)
-            .density(0.0)
+            .mass_properties(MassProperties::default())
             .friction(surface.friction)
             .restitution(surface.restitution);
         self.physics.insert_collider(collider, Some(handle));

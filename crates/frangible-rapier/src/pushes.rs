@@ -251,7 +251,7 @@ impl BreakableWorld {
             }
         };
         let parts = Parts::new(&fracture, &self.config)?;
-        let before = self.physics.bodies.clone();
+        let before = self.physics.bodies.get(handle).cloned();
         let fragments = self.replace(handle, &parts);
         for (i, &fragment) in fragments.iter().enumerate() {
             self.kick(fragment, piece(&fracture, i));
@@ -262,7 +262,7 @@ impl BreakableWorld {
                 .filter_map(|&f| world.physics.bodies.get(f));
             bodies.map(kinetic_energy).sum()
         };
-        let kinetic_before = before.get(handle).map_or(0.0, kinetic_energy);
+        let kinetic_before = before.as_ref().map_or(0.0, kinetic_energy);
         let pushed = energy(self);
         let toll = fracture.report.fracture_energy;
         let energy_paid = take_energy(&mut self.physics.bodies, &fragments, &[], toll);
@@ -275,7 +275,7 @@ impl BreakableWorld {
             impact: Impact::default(),
             fragments,
         };
-        if self.record(broken, &before, energy_paid)
+        if self.record(broken, before.as_ref(), energy_paid)
             && let Some(event) = self.events.last_mut()
         {
             (event.kinetic_before, event.kinetic_after) = (kinetic_before, kinetic_after);

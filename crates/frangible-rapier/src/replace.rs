@@ -22,7 +22,8 @@ pub(crate) struct Parts {
 }
 
 struct Part {
-    shape: SharedShape,
+    /// None of dust.
+    shape: Option<SharedShape>,
     mass: MassProperties,
     /// Of mass, in the parent's frame, m.
     centre: Vector,
@@ -35,8 +36,9 @@ impl Parts {
     pub(crate) fn new(fracture: &Fracture, config: &WorldConfig) -> Result<Self, WorldError> {
         let part = |fragment: &Fragment| -> Result<Part, WorldError> {
             let mass = rapier_mass(&fragment.mass)?;
+            let shape = (!is_dust(fragment, config)).then(|| collision_shape(fragment, config));
             Ok(Part {
-                shape: collision_shape(fragment, config),
+                shape,
                 mass,
                 centre: fragment.mass.centre.as_vec3(),
                 supported: fragment.supported,
@@ -52,8 +54,12 @@ impl Parts {
     }
 }
 
+pub(crate) fn is_dust(fragment: &Fragment, config: &WorldConfig) -> bool {
+    fragment.mass.mass < f64::from(config.dust_mass) && !fragment.supported
+}
+
 pub(crate) fn is_debris(fragment: &Fragment, config: &WorldConfig) -> bool {
-    fragment.mass.mass < f64::from(config.debris_mass)
+    fragment.mass.mass < f64::from(config.debris_mass.max(config.dust_mass))
 }
 
 impl BreakableWorld {
@@ -78,8 +84,10 @@ impl BreakableWorld {
         for part in &parts.parts {
             let builder = fragment_body(&body, part).additional_mass_properties(part.mass);
             let handle = self.physics.bodies.insert(builder);
-            let collider = fragment_collider(part.shape.clone(), skin.as_ref());
-            self.physics.insert_collider(collider, Some(handle));
+            if let Some(shape) = &part.shape {
+                let collider = fragment_collider(shape.clone(), skin.as_ref());
+                self.physics.insert_collider(collider, Some(handle));
+            }
             if let Some(fragment) = self.physics.bodies.get_mut(handle) {
                 fragment.recompute_mass_properties_from_colliders(&self.physics.colliders);
             }
@@ -151,7 +159,7 @@ fn fragment_body(parent: &RigidBody, part: &Part) -> RigidBodyBuilder {
 
 fn fragment_collider(shape: SharedShape, parent: Option<&Collider>) -> ColliderBuilder {
     let builder = ColliderBuilder::new(shape)
-        .density(0.0)
+        .mass_properties(MassProperties::default())
         .active_hooks(ActiveHooks::MODIFY_SOLVER_CONTACTS);
     let Some(parent) = parent else { return builder };
     builder

@@ -23,6 +23,8 @@ const LENIENT: f32 = 10.0;
 struct Place {
     pose: Pose,
     since: f32,
+    /// Farthest point of the body's shapes from its origin, m.
+    reach: f32,
     /// The body's own sleep threshold while it has the lenient one.
     threshold: Option<f32>,
 }
@@ -44,17 +46,19 @@ impl Places {
         let mut thresholds = Vec::new();
         let awake = |b: &RigidBody| b.is_dynamic() && b.is_enabled() && !b.is_sleeping();
         for (handle, body) in bodies.iter().filter(|(_, b)| awake(b)) {
-            let here = Place {
+            let here = || Place {
                 pose: *body.position(),
                 since: 0.0,
+                reach: reach(body, physics),
                 threshold: None,
             };
-            let place = self.places.entry(key(handle)).or_insert(here);
+            let place = self.places.entry(key(handle)).or_insert_with(here);
             let own = body.activation().normalized_linear_threshold;
             // A body that may not sleep says so by a negative threshold.
-            if own < 0.0 || way(&place.pose, body, physics) > drift || !touches(body, physics) {
-                thresholds.extend(place.threshold.map(|threshold| (handle, threshold, false)));
-                *place = here;
+            if own < 0.0 || way(place, body) > drift || !touches(body, physics) {
+                let threshold = place.threshold.take();
+                thresholds.extend(threshold.map(|threshold| (handle, threshold, false)));
+                (place.pose, place.since) = (*body.position(), 0.0);
                 continue;
             }
             place.since += dt;
@@ -78,9 +82,15 @@ impl Places {
     }
 }
 
-/// The longest way a point of the body may have gone since it had this pose, m.
-fn way(from: &Pose, body: &RigidBody, physics: &PhysicsWorld) -> f32 {
-    let now = body.position();
+/// The longest way a point of the body may have gone since it came to this place, m.
+fn way(place: &Place, body: &RigidBody) -> f32 {
+    let (from, now) = (&place.pose, body.position());
+    let turn = now.rotation * from.rotation.inverse();
+    let half_sine = turn.xyz().length();
+    (now.translation - from.translation).length() + 2.0 * half_sine * place.reach
+}
+
+fn reach(body: &RigidBody, physics: &PhysicsWorld) -> f32 {
     let colliders = body
         .colliders()
         .iter()
@@ -89,9 +99,7 @@ fn way(from: &Pose, body: &RigidBody, physics: &PhysicsWorld) -> f32 {
         let sphere = c.shape().compute_local_bounding_sphere();
         sphere.center.length() + sphere.radius
     });
-    let turn = now.rotation * from.rotation.inverse();
-    let half_sine = turn.xyz().length();
-    (now.translation - from.translation).length() + 2.0 * half_sine * reach.fold(0.0, f32::max)
+    reach.fold(0.0, f32::max)
 }
 
 fn touches(body: &RigidBody, physics: &PhysicsWorld) -> bool {

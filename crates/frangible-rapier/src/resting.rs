@@ -12,13 +12,15 @@ use std::collections::BTreeMap;
 use frangible::glam::Vec3;
 use frangible::outcome::LookedAt;
 use frangible::{Body, Contact, Force, Outcome, Striker};
-use rapier3d::dynamics::{RigidBody, RigidBodyHandle, RigidBodySet};
+use rapier3d::dynamics::{RigidBody, RigidBodyHandle};
 use rapier3d::pipeline::PhysicsWorld;
 
 use crate::config::WorldConfig;
 use crate::contacts::{Impact, Point, approach, merged_by_partner, points_on};
+use crate::counts::held;
 use crate::error::WorldError;
 use crate::event::HeldEvent;
+use crate::motions::Before;
 use crate::world::{BreakableWorld, Key, key};
 
 /// Steps in a row that must each break a body, or crack it.
@@ -33,6 +35,9 @@ const PAUSE: u32 = 8;
 /// Forces at most: more are merged with their neighbours, since the quick bound looks at no more. Stress at a distance
 /// from the forces changes little (Saint-Venant); their sum stays, and so does their moment where they are parallel.
 const MOST_FORCES: usize = 16;
+
+/// A body that carries at most so much less than it could, by a bound that costs next to nothing, is not looked at closer.
+const EASE: f64 = 1.5;
 
 /// What a body carries.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -65,6 +70,34 @@ pub(crate) struct Burden {
     over: u32,
     /// Looks until it is asked again.
     pause: u32,
+    /// Looks in a row at which the quick bound did not clear it: only a load that lasts is looked at closer.
+    hard: u32,
+}
+
+impl Default for Burden {
+    fn default() -> Self {
+        Self {
+            load: Load::default(),
+            margin: f64::INFINITY,
+            over: 0,
+            pause: 0,
+            hard: 0,
+        }
+    }
+}
+
+/// No less than the sizes of all forces on a body in the step just taken add up to, N.
+fn most_force_on(rigid: &RigidBody, physics: &PhysicsWorld) -> f32 {
+    let colliders = rigid.colliders().iter();
+    let pairs = colliders.flat_map(|&c| physics.narrow_phase.contact_pairs_with(c));
+    let manifolds = pairs.flat_map(|pair| pair.solver_manifolds());
+    let impulse: f32 = manifolds
+        .map(|m| {
+            let normal: f32 = m.points.iter().map(|p| p.data.impulse.max(0.0)).sum();
+            normal * (1.0 + m.data.friction)
+        })
+        .sum();
+    impulse / physics.integration_parameters.dt
 }
 
 /// Whether a body is asked at all: a fixed one without supports has no modes for its hold.
@@ -77,15 +110,16 @@ fn load_on(
     handle: RigidBodyHandle,
     rigid: &RigidBody,
     physics: &PhysicsWorld,
-    before: Option<&RigidBodySet>,
+    before: Option<&impl Before>,
     config: &WorldConfig,
 ) -> Load {
     let dt = physics.integration_parameters.dt;
-    let frame = before.and_then(|b| b.get(handle)).unwrap_or(rigid);
+    let before = before.filter(|b| b.body(handle).is_some());
+    let frame = before.and_then(|b| b.body(handle)).unwrap_or(rigid);
     let mut points = points_on(handle, rigid, physics);
     if let Some(before) = before {
         points.retain(|p| {
-            let partner = p.other.and_then(|other| before.get(other));
+            let partner = p.other.and_then(|other| before.body(other));
             let speed = approach(frame, partner, p.position, p.normal);
             speed <= config.impact_speed
         });
@@ -128,6 +162,13 @@ impl BreakableWorld {
         }
     }
 
+    /// Nothing is known of this one's load any more.
+    pub(crate) fn weigh_anew_one(&mut self, handle: RigidBodyHandle) {
+        if let Some(burden) = self.burdens.get_mut(&key(handle)) {
+            burden.load.gravity = Vec3::NAN;
+        }
+    }
+
     /// Whether loads are looked at after the coming step.
     pub(crate) fn weighs_now(&self) -> bool {
         let stride = (INTERVAL / self.physics.integration_parameters.dt).round();
@@ -145,7 +186,7 @@ impl BreakableWorld {
         &self,
         handle: RigidBodyHandle,
         body: &Body,
-        before: &RigidBodySet,
+        before: &impl Before,
     ) -> Option<Result<(Impact, Outcome), WorldError>> {
         let burden = self.burdens.get(&key(handle))?;
         let rigid = self.physics.bodies.get(handle)?;
@@ -159,7 +200,7 @@ impl BreakableWorld {
     }
 
     /// Asks all bodies that carry something new; gives cracks to those that cracked.
-    pub(crate) fn weigh(&mut self, before: Option<&RigidBodySet>) -> Result<(), WorldError> {
+    pub(crate) fn weigh(&mut self, before: Option<&impl Before>) -> Result<(), WorldError> {
         let mut error = Ok(());
         let mut burdens: BTreeMap<Key, Burden> = std::mem::take(&mut self.burdens);
         burdens.retain(|key, _| self.breakables.contains_key(key));
@@ -176,7 +217,7 @@ impl BreakableWorld {
     fn weigh_one(
         &mut self,
         handle: RigidBodyHandle,
-        before: Option<&RigidBodySet>,
+        before: Option<&impl Before>,
         burdens: &mut BTreeMap<Key, Burden>,
     ) -> Result<(), WorldError> {
         let (Some(body), Some(rigid)) = (
@@ -189,13 +230,34 @@ impl BreakableWorld {
         if asleep || !carries(body, rigid) {
             return Ok(());
         }
+        if self.weighs_quickly && burdens.get(&key(handle)).is_none_or(|b| b.over == 0) {
+            let total = most_force_on(rigid, &self.physics);
+            let gravity = self.physics.gravity.length() * rigid.gravity_scale().abs();
+            let margin = frangible::rest_margin_at_least(body, total, gravity);
+            let known = burdens.contains_key(&key(handle));
+            let burden = burdens.entry(key(handle)).or_default();
+            burden.hard = match (margin >= EASE, known) {
+                (true, _) => 0,
+                // Its first load is looked at whatever it is.
+                (false, false) => STEADY,
+                (false, true) => burden.hard.saturating_add(1),
+            };
+            if margin >= EASE {
+                self.rest_counts.count(0, Some(LookedAt::Impulses));
+            }
+            if burden.hard < STEADY {
+                // A knock that does not last is no load.
+                burden.margin = if margin >= EASE {
+                    margin
+                } else {
+                    burden.margin
+                };
+                burden.load.gravity = Vec3::NAN;
+                return Ok(());
+            }
+        }
         let load = load_on(handle, rigid, &self.physics, before, &self.config);
-        let burden = burdens.entry(key(handle)).or_insert_with(|| Burden {
-            load: Load::default(),
-            margin: f64::INFINITY,
-            over: 0,
-            pause: 0,
-        });
+        let burden = burdens.entry(key(handle)).or_default();
         let known = burden.over == 0 && burden.load == load;
         burden.pause = burden.pause.saturating_sub(1);
         if known || burden.pause > 0 {
@@ -207,7 +269,7 @@ impl BreakableWorld {
         }
         let asked = (self.rest_function)(body, &load.forces, load.gravity, &self.config.fracture);
         if let Ok(outcome) = &asked {
-            self.rest_counts.count(load.forces.len(), outcome);
+            self.rest_counts.count(load.forces.len(), held(outcome));
         }
         let dt = self.physics.integration_parameters.dt;
         let contacts = |load: &Load| load.cause(dt).contacts;

@@ -17,6 +17,13 @@ pub(crate) fn resist_rolling(physics: &mut PhysicsWorld, arm: f32) {
     let mut pressed = Vec::new();
     for pair in physics.narrow_phase.contact_pairs() {
         let parent = |c| physics.colliders.get(c).and_then(|c| c.parent());
+        let awake = |c| {
+            let body = parent(c).and_then(|h| physics.bodies.get(h));
+            body.is_some_and(|b| b.is_dynamic() && !b.is_sleeping())
+        };
+        if !awake(pair.collider1) && !awake(pair.collider2) {
+            continue;
+        }
         let points = pair.solver_manifolds().iter().flat_map(|m| &m.points);
         let impulse: f32 = points.map(|p| p.data.impulse.max(0.0)).sum();
         if impulse > 0.0 {

@@ -10,7 +10,7 @@ use rapier3d::math::Vector;
 use crate::contacts::Impact;
 use crate::event::{BreakCause, BreakEvent};
 use crate::motion::kinetic_energy;
-use crate::replace::{Parts, is_debris};
+use crate::replace::{Parts, is_debris, is_dust};
 use crate::surface::{EDGE_RADIUS, SurfaceProperties};
 use crate::toll::take_energy;
 use crate::world::{BreakableWorld, Key, key};
@@ -58,10 +58,14 @@ impl BreakableWorld {
         self.burdens.remove(&key(broken.parent));
         self.surfaces.remove(&key(broken.parent));
         let surface = SurfaceProperties::of(&body.asset().material, EDGE_RADIUS);
+        let now = self.time();
         for (&handle, fragment) in broken.fragments.iter().zip(&broken.fracture.fragments) {
             self.surfaces.insert(key(handle), surface);
             if is_debris(fragment, &self.config) {
                 self.debris.push_back(handle);
+            }
+            if is_dust(fragment, &self.config) {
+                self.dust.push_back((handle, now));
             }
         }
         Some(body)
@@ -97,7 +101,8 @@ impl BreakableWorld {
             let toll = broken.fracture.report.fracture_energy.max(gain);
             let bodies = &mut self.physics.bodies;
             let paid = take_energy(bodies, &broken.fragments, &group.others(), toll);
-            if self.record(broken, before, paid.min(toll)) {
+            let parent = before.get(broken.parent);
+            if self.record(broken, parent, paid.min(toll)) {
                 groups.push((group, energy, work));
             }
         }
@@ -113,13 +118,12 @@ impl BreakableWorld {
     pub(crate) fn record(
         &mut self,
         broken: Broken,
-        before: &RigidBodySet,
+        parent: Option<&RigidBody>,
         energy_paid: f64,
     ) -> bool {
         let Some(body) = self.hand_over(&broken) else {
             return false;
         };
-        let parent = before.get(broken.parent);
         let (pose, linvel, angvel) = parent.map_or_else(Default::default, |b| {
             (*b.position(), b.linvel(), b.angvel())
         });

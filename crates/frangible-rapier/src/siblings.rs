@@ -7,18 +7,15 @@
 //! explodes; it may part at any speed, so nothing sticks; and it ends at the true surfaces, so nothing hovers.
 //! Only overlap is softened, a blow between siblings is as hard as any.
 
-use std::collections::BTreeMap;
-
 use rapier3d::dynamics::RigidBodyHandle;
 use rapier3d::pipeline::{ContactModificationContext, PhysicsHooks};
-
-use crate::world::{Key, key};
 
 /// Steps after birth in which siblings do not bounce off each other.
 const NEWBORN_STEPS: u64 = 2;
 
 #[derive(Clone, Copy, Debug)]
 struct Birth {
+    handle: RigidBodyHandle,
     parent: u64,
     step: u64,
 }
@@ -31,39 +28,48 @@ pub(crate) struct Siblings {
     /// How much of an overlap siblings part by in a step, m.
     pub(crate) relaxation: f32,
     parents: u64,
-    births: BTreeMap<Key, Birth>,
+    /// By index of the body: asked for every pair of fragments in every step.
+    births: Vec<Option<Birth>>,
 }
 
 impl Siblings {
     /// These bodies are the fragments of one parent, born in the current step.
     pub(crate) fn born(&mut self, fragments: &[RigidBodyHandle]) {
         self.parents += 1;
-        let birth = Birth {
-            parent: self.parents,
-            step: self.step,
-        };
-        self.births
-            .extend(fragments.iter().map(|&fragment| (key(fragment), birth)));
+        for &handle in fragments {
+            let index = handle.into_raw_parts().0 as usize;
+            if self.births.len() <= index {
+                self.births.resize(index + 1, None);
+            }
+            self.births[index] = Some(Birth {
+                handle,
+                parent: self.parents,
+                step: self.step,
+            });
+        }
     }
 
     /// Forgets bodies that are gone.
     pub(crate) fn purge(&mut self, alive: impl Fn(RigidBodyHandle) -> bool) {
-        self.births.retain(|&(index, generation), _| {
-            alive(RigidBodyHandle::from_raw_parts(index, generation))
-        });
+        for birth in &mut self.births {
+            *birth = birth.filter(|b| alive(b.handle));
+        }
     }
 
     /// All fragments, in the order of their handles.
     pub(crate) fn fragments(&self) -> impl Iterator<Item = RigidBodyHandle> {
-        self.births
-            .keys()
-            .map(|&(index, generation)| RigidBodyHandle::from_raw_parts(index, generation))
+        self.births.iter().flatten().map(|birth| birth.handle)
+    }
+
+    fn birth(&self, body: RigidBodyHandle) -> Option<Birth> {
+        let birth = self.births.get(body.into_raw_parts().0 as usize)?;
+        birth.filter(|b| b.handle == body)
     }
 
     /// Birth of two bodies of one parent.
     fn common_birth(&self, a: RigidBodyHandle, b: RigidBodyHandle) -> Option<Birth> {
-        let (a, b) = (self.births.get(&key(a))?, self.births.get(&key(b))?);
-        (a.parent == b.parent).then_some(*a)
+        let (a, b) = (self.birth(a)?, self.birth(b)?);
+        (a.parent == b.parent).then_some(a)
     }
 }
 

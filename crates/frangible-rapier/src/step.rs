@@ -8,20 +8,21 @@
 //! every step (`resting.rs`); blasts and scripted blows come before it (`pushes.rs`).
 
 use std::collections::BTreeMap;
-use std::sync::Arc;
 
 use frangible::{Fracture, Outcome};
 use rapier3d::dynamics::{RigidBodyHandle, RigidBodySet};
 
 use crate::approach::candidates;
+use crate::config::Breaking;
 use crate::contacts::{Impact, Surfaces, impact_on};
 use crate::error::WorldError;
 use crate::event::{BreakCause, BreakEvent, HeldEvent};
 use crate::guard::{Centres, centres, put_back};
-use crate::replace::Parts;
+use crate::judge::{Verdict, verdict};
 use crate::rolling::resist_rolling;
 use crate::settle::Broken;
 use crate::snapshot::Snapshot;
+use crate::timings::{StepTimings, Watch};
 use crate::world::{BreakableWorld, Key, key};
 
 /// A step is undone at most so often; a body that would break only after that breaks in a later step.
@@ -39,12 +40,22 @@ struct Asked {
     error: Option<WorldError>,
 }
 
+/// What an impact or a load does to a body.
+struct Answer {
+    body: RigidBodyHandle,
+    cause: BreakCause,
+    impact: Impact,
+    verdict: Result<Verdict, WorldError>,
+}
+
 impl BreakableWorld {
     /// Advances by one time step; returns the breaks in it.
     ///
     /// # Errors
     /// The fracture refused an asset or a contact. The step is complete and the body whole: go on, or remove it.
     pub fn step(&mut self) -> Result<&[BreakEvent], WorldError> {
+        let mut watch = Watch::start();
+        self.timings = StepTimings::default();
         self.events.clear();
         self.held.clear();
         self.forget_removed();
@@ -52,16 +63,47 @@ impl BreakableWorld {
         self.siblings.relaxation =
             self.config.overlap_relaxation * self.physics.integration_parameters.dt;
         let pushed = self.apply_pushes();
+        self.timings.upkeep += watch.lap();
+        let done = match self.config.breaking {
+            Breaking::InsideStep => self.step_breaking_inside(),
+            Breaking::AfterStep { budget, delay } => self.step_then_break(budget, delay),
+        };
+        self.steps += 1;
+        pushed.and(done).map(|()| &*self.events)
+    }
+
+    fn step_breaking_inside(&mut self) -> Result<(), WorldError> {
+        let mut watch = Watch::start();
         let near = self.near();
-        let (mut asked, before) = if near.is_empty() {
+        self.timings.copies += watch.lap();
+        let (asked, before) = if near.is_empty() {
             let centres = self.guarded_centres();
+            self.timings.upkeep += watch.lap();
             self.advance();
+            watch.lap();
             put_back(&mut self.physics, &centres);
+            self.timings.upkeep += watch.lap();
             (Asked::default(), None)
         } else {
             let (asked, before) = self.step_with_breaks(near);
             (asked, Some(before))
         };
+        self.upkeep();
+        watch.lap();
+        let asked = self.keep_cracks(asked);
+        // A break's impulses are no weight either.
+        let weighed = if self.weighs_now() && self.events.is_empty() {
+            self.weigh(before.as_ref())
+        } else {
+            Ok(())
+        };
+        self.timings.loads += watch.lap();
+        asked.and(weighed)
+    }
+
+    /// Rolling, rest, debris.
+    pub(crate) fn upkeep(&mut self) {
+        let mut watch = Watch::start();
         // A break's impulses are a blow, not a weight that rolls; its energy is settled already.
         if self.events.is_empty() {
             resist_rolling(&mut self.physics, self.config.rolling_arm);
@@ -70,6 +112,12 @@ impl BreakableWorld {
             self.places.rest(&mut self.physics, self.config.rest_drift);
         }
         self.limit_debris(self.config.max_debris);
+        self.settle_dust();
+        self.timings.upkeep += watch.lap();
+    }
+
+    /// Bodies that held keep the cracks they got.
+    fn keep_cracks(&mut self, mut asked: Asked) -> Result<(), WorldError> {
         for (body, (_, event)) in &asked.held {
             if let (Some(body), Some(state)) = (self.breakables.get_mut(body), &event.state)
                 && let Err(error) = body.set_state(state.clone())
@@ -84,15 +132,7 @@ impl BreakableWorld {
             self.held
                 .extend(asked.held.into_values().map(|(_, event)| event));
         }
-        // A break's impulses are no weight either.
-        let weighed = if self.weighs_now() && self.events.is_empty() {
-            self.weigh(before.as_ref())
-        } else {
-            Ok(())
-        };
-        self.steps += 1;
-        let asked = asked.error.map_or(Ok(()), Err);
-        pushed.and(asked).and(weighed).map(|()| &*self.events)
+        asked.error.map_or(Ok(()), Err)
     }
 
     /// Breakable bodies that may be hit in the coming step, or break under what they carry; in the order of handles.
@@ -109,16 +149,18 @@ impl BreakableWorld {
         near
     }
 
-    fn advance(&mut self) {
+    pub(crate) fn advance(&mut self) {
         // Fragments of a blast are newborn when the step begins.
         if self.events.is_empty() {
+            let mut watch = Watch::start();
             self.physics.step_with_events(&self.siblings, &());
+            self.timings.rigid += watch.lap();
         } else {
             self.advance_finely();
         }
     }
 
-    fn guarded_centres(&self) -> Centres {
+    pub(crate) fn guarded_centres(&self) -> Centres {
         centres(
             &self.physics,
             self.siblings.fragments().chain(self.breakables()),
@@ -130,107 +172,161 @@ impl BreakableWorld {
     fn advance_finely(&mut self) {
         let iterations = self.physics.integration_parameters.num_solver_iterations;
         self.physics.integration_parameters.num_solver_iterations = BREAK_ITERATIONS * iterations;
+        let mut watch = Watch::start();
         self.physics.step_with_events(&self.siblings, &());
+        self.timings.rigid += watch.lap();
         self.physics.integration_parameters.num_solver_iterations = iterations;
     }
 
     /// The step, and the bodies as they were before it.
     fn step_with_breaks(&mut self, mut near: Vec<RigidBodyHandle>) -> (Asked, RigidBodySet) {
+        let mut watch = Watch::start();
         let base = Snapshot::take(&self.physics, &self.siblings);
         self.snapshots += 1;
         let mut asked = Asked::default();
         let mut before: Option<RigidBodySet> = None;
         let mut centres = self.guarded_centres();
+        self.timings.copies += watch.lap();
         self.advance();
         for _ in 0..MAX_REPEATS {
             if !self.ask(&near, before.as_ref().unwrap_or(&base.bodies), &mut asked) {
                 break;
             }
+            watch.lap();
             near.retain(|&handle| asked.broken.iter().all(|b| b.parent != handle));
             self.undone_steps += 1;
+            self.timings.undone += std::mem::take(&mut self.timings.rigid);
             base.restore(&mut self.physics, &mut self.siblings);
+            self.timings.copies += watch.lap();
             for broken in &mut asked.broken {
                 broken.fragments = self.replace(broken.parent, &broken.parts);
             }
+            self.timings.fragments += watch.lap();
             before = Some(self.physics.bodies.clone());
             centres = self.guarded_centres();
+            self.timings.copies += watch.lap();
             self.advance_finely();
         }
+        watch.lap();
         put_back(&mut self.physics, &centres);
+        self.timings.upkeep += watch.lap();
         self.settle(std::mem::take(&mut asked.broken), &base.bodies);
+        self.timings.fragments += watch.lap();
         (asked, base.bodies)
     }
 
     /// Puts the impacts of the step just taken to the fracture; true when a body broke.
     fn ask(&mut self, near: &[RigidBodyHandle], before: &RigidBodySet, asked: &mut Asked) -> bool {
-        let mut news = false;
-        for &handle in near {
-            let surfaces = Surfaces {
-                bodies: &self.surfaces,
-                colliders: &self.collider_surfaces,
-                breakables: &self.breakables,
+        let mut watch = Watch::start();
+        let (blows, loads) = self.questions(near, before, asked);
+        self.timings.contacts += watch.lap();
+        let verdicts = self.judge(&blows);
+        for (rest, contacts, verdict) in loads
+            .iter()
+            .map(|load| (true, &load.impact, &load.verdict))
+            .chain(
+                blows
+                    .iter()
+                    .zip(&verdicts)
+                    .map(|(blow, v)| (false, &blow.1, v)),
+            )
+            .filter_map(|(rest, impact, v)| Some((rest, impact.contacts.len(), v.as_ref().ok()?)))
+        {
+            let of = if rest {
+                &mut self.rest_counts
+            } else {
+                &mut self.impact_counts
             };
+            of.count(contacts, verdict.held());
+        }
+        let mut answers: Vec<Answer> = loads;
+        answers.extend(
+            blows
+                .into_iter()
+                .zip(verdicts)
+                .map(|((body, impact), verdict)| Answer {
+                    body,
+                    cause: BreakCause::Impact,
+                    impact,
+                    verdict,
+                }),
+        );
+        answers.sort_by_key(|answer| key(answer.body));
+        self.timings.fracture += watch.lap();
+        let mut news = false;
+        for answer in answers {
+            news |= self.hear(answer, asked);
+        }
+        news
+    }
+
+    /// Blows to be put to the fracture, and what overloads do.
+    fn questions(
+        &self,
+        near: &[RigidBodyHandle],
+        before: &RigidBodySet,
+        asked: &Asked,
+    ) -> (Vec<(RigidBodyHandle, Impact)>, Vec<Answer>) {
+        let (mut blows, mut loads) = (Vec::new(), Vec::new());
+        let surfaces = Surfaces {
+            bodies: &self.surfaces,
+            colliders: &self.collider_surfaces,
+            breakables: &self.breakables,
+        };
+        for &handle in near {
             let Some(body) = self.breakables.get(&key(handle)) else {
                 continue;
             };
             let impact = impact_on(handle, &self.physics, before, &surfaces, &self.config);
-            let unchanged = asked
-                .held
-                .get(&key(handle))
-                .is_some_and(|(known, _)| *known == impact);
-            let (cause, impact, outcome) = if impact.contacts.is_empty() || unchanged {
-                match self.breaking_load(handle, body, before) {
-                    None => continue,
-                    Some(Ok((load, outcome))) => {
-                        self.rest_counts.count(load.contacts.len(), &outcome);
-                        (BreakCause::Rest, load, Ok(outcome))
-                    }
-                    Some(Err(error)) => (BreakCause::Rest, impact, Err(error)),
-                }
-            } else {
-                let judge = &self.break_function;
-                let outcome = judge(body, &impact.contacts, &self.config.fracture);
-                if let Ok(outcome) = &outcome {
-                    self.impact_counts.count(impact.contacts.len(), outcome);
-                }
-                (BreakCause::Impact, impact, outcome.map_err(Into::into))
-            };
-            let fracture = match outcome {
-                Ok(Outcome::Broke(fracture)) if fracture.fragments.len() > 1 => *fracture,
-                Ok(outcome) => {
-                    if cause == BreakCause::Impact {
-                        self.remember_held(handle, impact, outcome, asked);
-                    }
-                    continue;
-                }
-                Err(error) => {
-                    asked.error.get_or_insert(error);
-                    continue;
-                }
-            };
-            let fragments = asked.broken.iter().map(|b| b.fracture.fragments.len());
-            if !self.has_room(&fracture, fragments.sum(), handle) {
-                continue;
-            }
-            match Parts::new(&fracture, &self.config) {
-                Ok(parts) => {
-                    asked.broken.push(Broken {
-                        parent: handle,
-                        cause,
-                        fracture: Arc::new(fracture),
-                        parts,
-                        impact,
-                        fragments: Vec::new(),
-                    });
-                    asked.held.remove(&key(handle));
-                    news = true;
-                }
-                Err(error) => {
-                    asked.error.get_or_insert(error);
-                }
+            let known = asked.held.get(&key(handle));
+            if !impact.contacts.is_empty() && known.is_none_or(|(known, _)| *known != impact) {
+                blows.push((handle, impact));
+            } else if let Some(load) = self.breaking_load(handle, body, before) {
+                let (impact, verdict) = match load {
+                    Ok((load, outcome)) => (load, verdict(outcome, &self.config)),
+                    Err(error) => (impact, Err(error)),
+                };
+                loads.push(Answer {
+                    body: handle,
+                    cause: BreakCause::Rest,
+                    impact,
+                    verdict,
+                });
             }
         }
-        news
+        (blows, loads)
+    }
+
+    /// Takes note of an answer; true when it broke the body.
+    fn hear(&mut self, answer: Answer, asked: &mut Asked) -> bool {
+        let handle = answer.body;
+        let (fracture, parts) = match answer.verdict {
+            Ok(Verdict::Broke(fracture, parts)) => (fracture, parts),
+            Ok(Verdict::Held(outcome)) => {
+                if answer.cause == BreakCause::Impact {
+                    self.remember_held(handle, answer.impact, outcome, asked);
+                }
+                return false;
+            }
+            Err(error) => {
+                asked.error.get_or_insert(error);
+                return false;
+            }
+        };
+        let taken = asked.broken.iter().map(|b| b.fracture.fragments.len());
+        if !self.has_room(&fracture, taken.sum(), handle) {
+            return false;
+        }
+        asked.broken.push(Broken {
+            parent: handle,
+            cause: answer.cause,
+            fracture,
+            parts,
+            impact: answer.impact,
+            fragments: Vec::new(),
+        });
+        asked.held.remove(&key(handle));
+        true
     }
 
     /// Whether there is room for a body's fragments besides those `taken` already in this step.

@@ -7,18 +7,23 @@ use frangible::{Asset, Body, Contact, Force, FractureConfig, InputError, Outcome
 use rapier3d::dynamics::RigidBodyHandle;
 use rapier3d::geometry::{ColliderHandle, SharedShape};
 use rapier3d::pipeline::PhysicsWorld;
+use rayon::ThreadPool;
 use std::sync::Arc;
 
+use crate::after::Waiting;
 use crate::config::WorldConfig;
 use crate::counts::LoadCounts;
 use crate::error::WorldError;
 use crate::event::{BreakEvent, HeldEvent};
 use crate::floor::FloorDispatcher;
+use crate::judge::Case;
+use crate::motions::Motions;
 use crate::pushes::Push;
 use crate::rest::Places;
 use crate::resting::Burden;
 use crate::siblings::Siblings;
 use crate::surface::SurfaceProperties;
+use crate::timings::StepTimings;
 
 /// Angular frequency of contacts × substep, against fixed bodies. Rapier lets a share c/(1+c) of the approach speed
 /// through in a substep, c = x² / ((1+x) 4ζ²), x = 2ζ / this: its 0.4 is 11 %, so a ball of 200 m/s goes 23 mm into
@@ -56,7 +61,7 @@ pub struct BreakableWorld {
     /// gravity and time step are Rapier's own (`gravity`, `integration_parameters.dt`).
     pub physics: PhysicsWorld,
     pub(crate) config: WorldConfig,
-    pub(crate) break_function: Box<BreakFn>,
+    pub(crate) break_function: Arc<BreakFn>,
     pub(crate) rest_function: Box<RestFn>,
     pub(crate) breakables: BTreeMap<Key, Body>,
     pub(crate) surfaces: BTreeMap<Key, SurfaceProperties>,
@@ -67,6 +72,8 @@ pub struct BreakableWorld {
     pub(crate) burdens: BTreeMap<Key, Burden>,
     pub(crate) pushes: Vec<Push>,
     pub(crate) debris: VecDeque<RigidBodyHandle>,
+    /// With the time when it was born, s.
+    pub(crate) dust: VecDeque<(RigidBodyHandle, f64)>,
     pub(crate) events: Vec<BreakEvent>,
     pub(crate) held: Vec<HeldEvent>,
     pub(crate) steps: u64,
@@ -75,6 +82,15 @@ pub struct BreakableWorld {
     pub(crate) snapshots: u64,
     pub(crate) impact_counts: LoadCounts,
     pub(crate) rest_counts: LoadCounts,
+    pub(crate) timings: StepTimings,
+    pub(crate) waiting: VecDeque<Waiting>,
+    pub(crate) cases: VecDeque<Case>,
+    pub(crate) jury: Option<Option<ThreadPool>>,
+    pub(crate) motions: Motions,
+    /// Whether blows are judged by the fracture itself, whose quick bound then clears most of them.
+    pub(crate) clears_quickly: bool,
+    /// The same of loads.
+    pub(crate) weighs_quickly: bool,
 }
 
 impl BreakableWorld {
@@ -102,7 +118,7 @@ impl BreakableWorld {
         Ok(Self {
             physics,
             siblings: Siblings::default(),
-            break_function: Box::new(frangible::impact),
+            break_function: Arc::new(frangible::impact),
             rest_function: Box::new(frangible::rest),
             breakables: BTreeMap::new(),
             surfaces: BTreeMap::new(),
@@ -112,6 +128,7 @@ impl BreakableWorld {
             burdens: BTreeMap::new(),
             pushes: Vec::new(),
             debris: VecDeque::new(),
+            dust: VecDeque::new(),
             events: Vec::new(),
             held: Vec::new(),
             steps: 0,
@@ -120,6 +137,13 @@ impl BreakableWorld {
             snapshots: 0,
             impact_counts: LoadCounts::default(),
             rest_counts: LoadCounts::default(),
+            timings: StepTimings::default(),
+            waiting: VecDeque::new(),
+            cases: VecDeque::new(),
+            jury: None,
+            motions: Motions::default(),
+            clears_quickly: true,
+            weighs_quickly: true,
             config,
         })
     }
@@ -132,7 +156,8 @@ impl BreakableWorld {
         + Sync
         + 'static,
     ) {
-        self.break_function = Box::new(function);
+        self.clears_quickly = false;
+        self.break_function = Arc::new(function);
     }
 
     /// Replaces [`frangible::rest()`] by another judge of what bodies carry.
@@ -143,6 +168,7 @@ impl BreakableWorld {
         + Sync
         + 'static,
     ) {
+        self.weighs_quickly = false;
         self.rest_function = Box::new(function);
         self.weigh_anew();
     }
@@ -217,6 +243,12 @@ impl BreakableWorld {
     #[must_use]
     pub fn rest_counts(&self) -> LoadCounts {
         self.rest_counts
+    }
+
+    /// Where the time of the last step went.
+    #[must_use]
+    pub fn timings(&self) -> &StepTimings {
+        &self.timings
     }
 
     /// Steps that began with a copy of the world, since a breakable body was about to be hit.

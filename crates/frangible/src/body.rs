@@ -1,6 +1,6 @@
 //! Breakable bodies: what is shared by all bodies of a kind, and what is a body's own.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use glam::Vec3;
 
@@ -8,6 +8,7 @@ use crate::asset::Asset;
 use crate::error::InputError;
 use crate::fields::{Fields, Resistance, Toughness};
 use crate::fragment::{MeshIndex, RenderIndex};
+use crate::loads::PerNewton;
 use crate::mesh::TriangleTree;
 use crate::rng::{Purpose, stream, uniform};
 use crate::state::BodyState;
@@ -43,6 +44,8 @@ pub(crate) struct Prepared {
     pub(crate) weight: Vec<Vec3>,
     /// k of the bounds' quadratic term, Pa.
     pub(crate) quadratic_modulus: f32,
+    /// What any newton does at most; made when it is asked for.
+    pub(crate) per_newton: OnceLock<PerNewton>,
     /// Centroid of each fracture tetrahedron, m.
     pub(crate) centroids: Vec<Vec3>,
     /// Mean edge of the fracture mesh, m.
@@ -86,6 +89,7 @@ impl Breakable {
                 .iter()
                 .map(|l| (1.0 / l.sqrt()) as f32)
                 .collect(),
+            per_newton: OnceLock::new(),
             quadratic_modulus: quadratic_modulus(&asset.material),
             centroids: (0..asset.fracture.tets.len())
                 .map(|e| asset.fracture.centroid(e))

@@ -58,6 +58,15 @@ pub fn would_break(
     Ok(matches!(cracked, Cracked::Parted(..)))
 }
 
+/// Whether a bound that costs microseconds shows that an impact does nothing to a body; [`impact()`] asks it first. False
+/// says nothing.
+#[must_use]
+pub fn is_harmless(body: &Body, contacts: &[Contact], config: &FractureConfig) -> bool {
+    config.culling
+        && contacts.iter().all(|c| c.validate().is_ok())
+        && contact::first_bound(body, contacts).is_some_and(|bound| bound <= harmless(body))
+}
+
 /// What the cracks of an impact did to a body.
 #[expect(clippy::large_enum_variant, reason = "one at a time, never stored")]
 pub(crate) enum Cracked<'a> {

@@ -4,7 +4,10 @@
 mod blast;
 mod rest;
 mod scripted;
+mod sum;
 
 pub use blast::{Blast, blast};
 pub use rest::{Force, rest};
 pub use scripted::fracture_at;
+pub(crate) use sum::PerNewton;
+pub use sum::rest_margin_at_least;
