@@ -32,6 +32,21 @@ pub(crate) enum Command {
     },
     /// Check modes, responses and contacts against closed forms; fails when one is off
     Verify(VerifyArgs),
+    /// Compute the figures of the paper this model is taken from, and what they show in numbers (PNG, Markdown)
+    #[cfg(feature = "draw")]
+    Figures(FiguresArgs),
+}
+
+#[cfg(feature = "draw")]
+#[derive(Args, Clone, Debug)]
+pub(crate) struct FiguresArgs {
+    /// Figures to compute, such as fig3 fig12 [default: all]
+    #[arg(value_name = "NAME")]
+    pub(crate) names: Vec<String>,
+
+    /// Folder for figures.md and its pictures, made when it is missing; figures not computed keep their place on the page
+    #[arg(short = 'o', long, default_value = "out", value_name = "DIR")]
+    pub(crate) write: PathBuf,
 }
 
 #[derive(Args, Clone, Debug)]

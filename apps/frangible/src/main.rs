@@ -3,6 +3,8 @@
 mod args;
 mod baking;
 mod breaking;
+#[cfg(feature = "draw")]
+mod drawing;
 mod list;
 mod mode_files;
 mod mode_report;
@@ -52,6 +54,8 @@ fn main() -> ExitCode {
         Some(Command::Bake(args)) => baking::run(&args),
         Some(Command::Modes(args)) => modes::run(&args),
         Some(Command::Verify(args)) => verifying::run(&args),
+        #[cfg(feature = "draw")]
+        Some(Command::Figures(args)) => drawing::run(&args),
         Some(Command::Scenes { name: None }) => list::print(),
         Some(Command::Scenes { name: Some(name) }) => list::print_scene(&name),
     };

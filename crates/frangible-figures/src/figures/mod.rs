@@ -1,0 +1,10 @@
+//! One file per figure.
+
+mod coarse;
+pub(crate) mod damping;
+pub(crate) mod labels;
+pub(crate) mod propagation;
+pub(crate) mod rod;
+pub(crate) mod surface;
+pub(crate) mod toughness;
+pub(crate) mod wave;
