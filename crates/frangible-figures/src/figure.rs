@@ -88,13 +88,16 @@ impl Table {
 
 /// All figures.
 pub const FIGURES: &[Figure] = &[
+    figures::scenes::FIGURE,
     figures::rod::FIGURE,
+    figures::stiffness::FIGURE,
     figures::wave::FIGURE,
     figures::propagation::FIGURE,
     figures::toughness::FIGURE,
     figures::labels::FIGURE,
     figures::surface::FIGURE,
     figures::damping::FIGURE,
+    figures::chocolate::FIGURE,
 ];
 
 /// The figures of these names, all without one, in the order of the paper.

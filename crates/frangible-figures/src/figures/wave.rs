@@ -259,8 +259,8 @@ fn time_chart(waves: &[Wave; 2], curves: &[Vec<(f64, f64)>; 2]) -> Chart {
     {
         series.push(Series {
             name: format!(
-                "peak tension, {name} (t_d {:.0} µs)",
-                1e6 * wave.pulse.duration
+                "peak tension, {name} (t_d {:.2} ms)",
+                1e3 * wave.pulse.duration
             ),
             points: curve
                 .iter()
@@ -284,7 +284,7 @@ fn time_chart(waves: &[Wave; 2], curves: &[Vec<(f64, f64)>; 2]) -> Chart {
     Chart {
         title: "largest tension on the slab".into(),
         x: Axis::linear("time over the contact duration t_d"),
-        y: Axis::linear("tension, MPa"),
+        y: Axis::linear("tension, MPa").including(1.35e-6 * highest),
         series,
     }
 }
@@ -313,12 +313,12 @@ fn maps(
         .collect();
     let options = ModeSheetOptions {
         cell_width: 330,
-        cell_height: 300,
+        cell_height: 270,
         columns: 3,
         look_from: Vec3::new(0.15, -0.75, -1.0),
         up: Vec3::Y,
         legend: vec![format!(
-            "Largest principal tension on the far face; colour: square root of its share of {:.0} MPa",
+            "Tension on the far face; colour: root of its share of {:.0} MPa",
             1e-6 * most
         )],
     };
