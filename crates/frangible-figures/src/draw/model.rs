@@ -1,7 +1,7 @@
 //! Coloured things to look at, as a recording of one frame.
 
-use frangible::glam::Vec3;
-use frangible_export::{MeshPart, RecordedMesh, RecordedNode, Recording, SurfaceMaterial};
+use frangible::glam::{Quat, Vec3};
+use frangible_export::{MeshPart, Pose, RecordedMesh, RecordedNode, Recording, SurfaceMaterial};
 
 /// Linear red, green, blue, and opacity.
 pub(crate) type Colour = [f32; 4];
@@ -81,8 +81,8 @@ impl Model {
             .flat_map(|(_, mesh)| mesh.positions.iter().copied())
     }
 
-    /// As a recording, turned so that `up` is up.
-    pub(crate) fn recording(&self) -> Recording {
+    /// As a recording, turned.
+    pub(crate) fn recording(&self, rotation: Quat) -> Recording {
         let mut recording = Recording {
             frame_rate: 60.0,
             frame_count: 1,
@@ -102,7 +102,10 @@ impl Model {
             });
             recording.nodes.push(RecordedNode {
                 mesh: recording.meshes.len(),
-                poses: vec![frangible_export::Pose::default()],
+                poses: vec![Pose {
+                    translation: Vec3::ZERO,
+                    rotation,
+                }],
                 visible: 0..1,
                 ..RecordedNode::default()
             });

@@ -1,6 +1,6 @@
 //! Where to look from.
 
-use frangible::glam::Vec3;
+use frangible::glam::{Quat, Vec3};
 use frangible_draw::{DrawError, RgbImage, Studio};
 use frangible_export::View;
 
@@ -23,11 +23,14 @@ const FIELD: f32 = 0.35;
 /// Free around what is shown, as a share of its size.
 const MARGIN: f32 = 1.05;
 
+/// Height of the strip that a label takes, pixels.
+const HEADING: f32 = 40.0;
+
 impl Look {
     /// Draws the model so that it fills the picture, below a label.
     pub(crate) fn at(&self, model: &Model, label: &str) -> Result<RgbImage, DrawError> {
         let points: Vec<Vec3> = model.points().collect();
-        self.draw(model, &self.fit(&points), label)
+        self.at_points(model, &points, label)
     }
 
     /// Draws the model so that these points fill the picture.
@@ -37,16 +40,18 @@ impl Look {
         points: &[Vec3],
         label: &str,
     ) -> Result<RgbImage, DrawError> {
-        self.draw(model, &self.fit(points), label)
+        // Lamps and surroundings are set up for y upwards.
+        let turn = Quat::from_rotation_arc(self.up.normalize_or(Vec3::Y), Vec3::Y);
+        let turned: Vec<Vec3> = points.iter().map(|&p| turn * p).collect();
+        let heading = if label.is_empty() { 0.0 } else { HEADING };
+        let view = self.fit(&turned, turn * self.from, heading);
+        Studio::new(self.width, self.height)?.frame(&model.recording(turn), 0, &view, label)
     }
 
-    fn draw(&self, model: &Model, view: &View, label: &str) -> Result<RgbImage, DrawError> {
-        Studio::new(self.width, self.height)?.frame(&model.recording(), 0, view, label)
-    }
-
-    fn fit(&self, points: &[Vec3]) -> View {
-        let back = self.from.normalize_or(Vec3::Z);
-        let right = self.up.cross(back).normalize_or(Vec3::X);
+    /// The view from `from`, y upwards, in which the points fill what the heading leaves.
+    fn fit(&self, points: &[Vec3], from: Vec3, heading: f32) -> View {
+        let back = from.normalize_or(Vec3::Z);
+        let right = Vec3::Y.cross(back).normalize_or(Vec3::X);
         let up = back.cross(right);
         let axes = [right, up, back];
         let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
@@ -57,19 +62,21 @@ impl Look {
         let middle = 0.5 * (low + high);
         let target = right * middle.x + up * middle.y + back * middle.z;
         let tangent = (0.5 * FIELD).tan();
-        let aspect = self.width as f32 / self.height as f32;
+        let (width, height) = (self.width as f32, self.height as f32);
+        let free = (height - heading) / height;
         let distance = points
             .iter()
             .map(|&p| {
                 let d = p - target;
-                let across = (d.dot(right).abs() / aspect).max(d.dot(up).abs());
+                let across = (d.dot(right).abs() * height / width).max(d.dot(up).abs() / free);
                 MARGIN * across / tangent + d.dot(back)
             })
             .fold(1e-3, f32::max);
+        let target = target + up * (distance * tangent * heading / height);
         View {
             eye: target + back * distance,
             target,
-            up: self.up,
+            up: Vec3::Y,
             vertical_fov: FIELD,
         }
     }

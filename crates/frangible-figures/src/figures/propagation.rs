@@ -159,8 +159,8 @@ fn frame(broken: &Broken) -> Model {
         &mut model,
         mesh,
         &broken.asset.surface.triangles,
-        [0.30, 0.31, 0.33, 1.0],
-        1e-4,
+        INK,
+        1.8e-4,
     );
     model
 }
@@ -179,7 +179,7 @@ fn elements(broken: &Broken, cut: &[ElementTrace], label: &str) -> Result<RgbIma
     }
     Ok(Look {
         width: 247,
-        height: 210,
+        height: 190,
         ..LOOK
     }
     .at(&model, label)?)
@@ -198,8 +198,8 @@ fn surface(broken: &Broken, cut: &[ElementTrace]) -> Result<RgbImage, FigureErro
     }
     Ok(Look {
         width: 247,
-        height: 210,
+        height: 190,
         ..LOOK
     }
-    .at(&model, "")?)
+    .at(&model, "its surface")?)
 }

@@ -113,7 +113,7 @@ fn compute(workshop: &mut Workshop<'_>) -> Result<Findings, FigureError> {
     let leaning: Vec<(f64, Answer)> = angles
         .map(|a| (a, Landing::Leaning(a).answer(&body)))
         .collect();
-    let places = (0..=25).map(|i| 0.02 * f64::from(i));
+    let places = (2..=25).map(|i| 0.02 * f64::from(i));
     let on_rail: Vec<(f64, Answer)> = places
         .map(|x| (x, Landing::OnRail(x).answer(&body)))
         .collect();

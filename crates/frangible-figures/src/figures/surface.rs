@@ -32,10 +32,10 @@ fn compute(workshop: &mut Workshop<'_>) -> Result<Findings, FigureError> {
     let image = beside(&[
         look.at(&piece(&broken), "one piece, and the mesh")?,
         Look {
-            from: Vec3::new(-1.0, -0.45, 0.3),
+            from: facing(&broken) + 0.25 * Vec3::Z - 0.2 * Vec3::Y,
             ..look
         }
-        .at(&piece(&broken), "the other way round")?,
+        .at(&section(&broken), "the section, and the elements it cuts")?,
     ]);
     let (surface, nodes) = deviations(&broken);
     let mesh = &broken.asset.fracture;
@@ -87,6 +87,40 @@ fn piece(broken: &Broken) -> Model {
                 }
             }
         }
+    }
+    model
+}
+
+/// From the smaller piece out of its crack face.
+fn facing(broken: &Broken) -> Vec3 {
+    let centres = broken
+        .fracture
+        .fragments
+        .iter()
+        .map(|f| f.mass.centre.as_vec3());
+    let [first, .., last] = centres.collect::<Vec<_>>()[..] else {
+        return Vec3::X;
+    };
+    (first - last).normalize_or(Vec3::X)
+}
+
+/// The crack's surface, and the edges of the elements that it cuts.
+fn section(broken: &Broken) -> Model {
+    let mut model = Model::default();
+    let mesh = &broken.asset.fracture;
+    let mut edges = std::collections::BTreeSet::new();
+    for element in broken.trace.cracks.iter().flatten() {
+        for triangle in crossing(mesh, element) {
+            model.sheet(SECTION, triangle);
+        }
+        let nodes = mesh.tets[element.tet as usize];
+        for (i, j) in (0..4).flat_map(|i| (i + 1..4).map(move |j| (i, j))) {
+            edges.insert((nodes[i].min(nodes[j]), nodes[i].max(nodes[j])));
+        }
+    }
+    for (v, w) in edges {
+        let ends = [v, w].map(|v| mesh.positions[v as usize]);
+        model.bar(INK, ends, 1.6e-4);
     }
     model
 }

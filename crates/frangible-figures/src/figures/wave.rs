@@ -151,7 +151,7 @@ fn compute(workshop: &mut Workshop<'_>) -> Result<Findings, FigureError> {
     let [mass, _, speed] = SLAB_BALL;
     let text = format!(
         "A slab of {:.0} × {:.0} × {:.0} mm of `paper-slab-high`, hit in its middle by a steel ball of {mass} kg at {speed:.0} m/s; no cracks. The maps show \
-         the largest principal tension on the upper face under our pulse (Hertz, {:.0} µs): at first only around the hit, then a ring that runs \
+         the largest principal tension on the face away from the ball, under our pulse (Hertz, {:.0} µs): at first only around the hit, then a ring that runs \
          outwards, later the whole slab bends. The chart shows the largest tension anywhere on the outside. The paper's duration, that of the most \
          excited mode, is {:.1} ms: the slab swings once, slowly, and feels {:.0} MPa at most instead of {:.0} MPa.",
         1e3 * SLAB[0],
