@@ -21,11 +21,18 @@ pub(crate) const SLAB_BALL: [f64; 3] = [0.13, 0.0158, 80.0];
 /// in its model, where no crack relieves another, each of them cracks.
 pub(crate) const SLAB_WEAK_POINTS: f64 = 3e5;
 
-/// The paper's slab, between its "moderate" and its "high" in fineness.
+/// The paper's slab, between its "moderate" and its "high" in fineness; elements of the modes are about 16 mm
+/// long, the hundredth mode's half waves 27 mm.
 pub(crate) fn slab() -> Result<Arc<Asset>, FigureError> {
     let [width, depth, thickness] = SLAB;
     let shape = Shape::plate(width, depth, thickness);
-    let slab = baked("slab", shape, "paper-slab-high", 20_000.0, MODES)?;
+    let spec = BakeSpec {
+        modes: MODES,
+        analysis: Some(shape.size_for(2000.0)?),
+        fracture: Some(shape.size_for(20_000.0)?),
+        ..BakeSpec::new("slab", shape, Material::preset("paper-slab-high")?)
+    };
+    let slab = Arc::new(bake(&spec, &mut |_| {})?.0);
     Ok(changed(&slab, |m| m.weak_point_density = SLAB_WEAK_POINTS))
 }
 

@@ -31,14 +31,14 @@ pub(crate) const FIGURE: Figure = Figure {
 /// Mass, kg, radius, m, speed, m/s, and restitution of every ball, whatever it is made of: the impulse is the same.
 const BALL: [f64; 4] = [0.5, 0.03, 25.0, 0.5];
 
-/// Balls: contact modulus E/(1 − ν²), Pa; the first, third and last are those of the presets rubber, wood and steel.
+/// Balls: contact modulus E/(1 − ν²), Pa; from rubber over concrete (the fourth) to steel.
 const MODULI: [f64; 5] = [3.3e6, 1e8, 2.5e9, 3e10, 2.3e11];
 
-/// Those that are drawn: as rubber, wood and steel.
-const DRAWN: [(usize, &str); 3] = [(0, "soft"), (2, "medium"), (4, "stiff")];
+/// Those that are drawn: as rubber, concrete and steel.
+const DRAWN: [(usize, &str); 3] = [(0, "soft"), (3, "medium"), (4, "stiff")];
 
 /// Time step whose force stands for the impulse in the quasi-static approach, s. The paper does not name its own.
-const STEP: f64 = 2e-4;
+const STEP: f64 = 5e-5;
 
 fn striker(modulus: f64) -> Striker {
     let [mass, radius, _, restitution] = BALL;
@@ -158,7 +158,7 @@ fn text(hits: &[(&str, Vec<Hit>)], static_pieces: usize) -> String {
     };
     format!(
         "A piggy bank of `paper-piggy` (0.75 kg), hit on its flank at {speed:.0} m/s by balls of {mass} kg and {:.0} mm radius that differ in stiffness alone: as \
-         rubber, wood and steel. All bring the same impulse. *Quasi-static*: the impulse over {:.1} ms as a steady force (`rest`), {static_pieces} pieces \
+         rubber, concrete and steel. All bring the same impulse. *Quasi-static*: the impulse over {:.2} ms as a steady force (`rest`), {static_pieces} pieces \
          whatever the ball. *The paper's model*: contacts of {}. *Ours*: {}; against the stiff balls it is lengthened until the vibration holds no more \
          energy than the ball brought. Pieces are pulled apart; seed 1.",
         1e3 * radius,
