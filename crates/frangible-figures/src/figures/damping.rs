@@ -56,7 +56,7 @@ fn compute(workshop: &mut Workshop<'_>) -> Result<Findings, FigureError> {
                     &plate,
                     &contact,
                     &config,
-                    &format!("{name}, α = {} s", shown(alpha)),
+                    &format!("{name}, alpha {} s", shown(alpha)),
                 )?);
                 means.push(damage);
             }
@@ -136,7 +136,7 @@ fn broken(
     }
     let look = Look {
         from: Vec3::new(0.0, -0.6, 1.0),
-        up: Vec3::Y,
+        up: Vec3::Z,
         width: 498,
         height: 400,
     };

@@ -165,7 +165,7 @@ pub(crate) fn pattern(
     }
     let look = Look {
         from: Vec3::new(0.0, -0.35, 1.0),
-        up: Vec3::Y,
+        up: Vec3::Z,
         width: 330,
         height: 320,
     };
