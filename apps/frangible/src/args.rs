@@ -35,6 +35,21 @@ pub(crate) enum Command {
     Verify(VerifyArgs),
     /// Measure how fast the bodies of the paper's Table 1 break, and how fast harmless contacts are refused
     Bench(BenchArgs),
+    /// Compute the figures of the paper this model is taken from, and what they show in numbers (PNG, Markdown)
+    #[cfg(feature = "draw")]
+    Figures(FiguresArgs),
+}
+
+#[cfg(feature = "draw")]
+#[derive(Args, Clone, Debug)]
+pub(crate) struct FiguresArgs {
+    /// Figures to compute, such as fig3 fig12 [default: all]
+    #[arg(value_name = "NAME")]
+    pub(crate) names: Vec<String>,
+
+    /// Folder for figures.md and its pictures, made when it is missing; figures not computed keep their place on the page
+    #[arg(short = 'o', long, default_value = "out", value_name = "DIR")]
+    pub(crate) write: PathBuf,
 }
 
 /// What to measure.

@@ -4,6 +4,8 @@ mod args;
 mod baking;
 mod benching;
 mod breaking;
+#[cfg(feature = "draw")]
+mod drawing;
 mod experimenting;
 mod list;
 mod mode_files;
@@ -58,6 +60,8 @@ fn main() -> ExitCode {
         }
         Some(Command::Verify(args)) => verifying::run(&args),
         Some(Command::Bench(args)) => benching::run(&args),
+        #[cfg(feature = "draw")]
+        Some(Command::Figures(args)) => drawing::run(&args),
         Some(Command::Scenes { name: None }) => list::print(),
         Some(Command::Scenes { name: Some(name) }) => list::print_scene(&name),
     };

@@ -28,9 +28,9 @@ fn stages(c: &mut Criterion) {
     group.bench_function("displacements, 64 steps", |b| {
         b.iter(|| bench.displacements());
     });
-    let middle = bench.middle();
+    let mut middle = bench.middle();
     group.bench_function("stresses at weak points, one step", |b| {
-        b.iter(|| bench.stresses(black_box(&middle)));
+        b.iter(|| bench.stresses(black_box(&mut middle)));
     });
     let models = [("paper's model", &bench.paper), ("our model", &bench.ours)];
     for (model, config) in models {

@@ -161,7 +161,8 @@ impl Bench {
         let asset = self.body.asset();
         let mut batch = DisplacementBatch::new(asset);
         for step in 0..self.motion.steps().min(STEPS) {
-            batch.seek(asset, &self.motion, step);
+            batch.seek(&self.motion, step);
+            batch.fill(asset);
             black_box(&batch);
         }
     }
@@ -171,13 +172,14 @@ impl Bench {
     pub fn middle(&self) -> (DisplacementBatch, usize) {
         let step = self.motion.steps() / 2;
         let mut batch = DisplacementBatch::new(self.body.asset());
-        batch.seek(self.body.asset(), &self.motion, step);
+        batch.seek(&self.motion, step);
+        batch.fill(self.body.asset());
         (batch, step)
     }
 
     /// The largest principal tension at the weak elements at one step, Pa.
     #[must_use]
-    pub fn stresses(&self, (batch, step): &(DisplacementBatch, usize)) -> f32 {
+    pub fn stresses(&self, (batch, step): &mut (DisplacementBatch, usize)) -> f32 {
         let asset = self.body.asset();
         let elasticity = Elasticity::new(&asset.material);
         let mut peak = 0.0_f32;

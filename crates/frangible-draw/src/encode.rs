@@ -19,10 +19,19 @@ const STEPS: [u8; 6] = [1, 2, 3, 4, 6, 8];
 ///
 /// [`DrawError::Encode`] if the picture has no pixel.
 pub fn encode_png(picture: &RgbImage) -> Result<Vec<u8>, DrawError> {
+    encode_png_within(picture, TARGET_BYTES)
+}
+
+/// [`encode_png`] with another limit than 190 kB, bytes.
+///
+/// # Errors
+///
+/// As [`encode_png`].
+pub fn encode_png_within(picture: &RgbImage, most: usize) -> Result<Vec<u8>, DrawError> {
     let mut bytes = Vec::new();
     for step in STEPS {
         bytes = encode_rounded(picture, step)?;
-        if bytes.len() <= TARGET_BYTES {
+        if bytes.len() <= most {
             break;
         }
     }

@@ -28,7 +28,7 @@ mod stage;
 mod studio;
 
 pub use adapter::has_adapter;
-pub use encode::encode_png;
+pub use encode::{encode_png, encode_png_within};
 pub use error::DrawError;
 pub use image::RgbImage;
 pub use mode_sheet::{ModeCell, ModeSheetOptions, mode_sheet};

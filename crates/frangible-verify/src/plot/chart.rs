@@ -27,6 +27,8 @@ pub struct Axis {
     pub label: String,
     /// Even steps or even factors.
     pub scale: Scale,
+    /// A number that the range is to include too, to leave room.
+    pub including: Option<f64>,
 }
 
 impl Axis {
@@ -35,6 +37,7 @@ impl Axis {
         Self {
             label: label.into(),
             scale: Scale::Linear,
+            including: None,
         }
     }
 
@@ -43,6 +46,16 @@ impl Axis {
         Self {
             label: label.into(),
             scale: Scale::Log,
+            including: None,
+        }
+    }
+
+    /// With a range that includes this number too.
+    #[must_use]
+    pub fn including(self, number: f64) -> Self {
+        Self {
+            including: Some(number),
+            ..self
         }
     }
 }
@@ -114,8 +127,10 @@ impl Chart {
         let [left, right, top, bottom] = MARGINS;
         let (x_end, y_end) = (f64::from(width) - right, f64::from(height) - bottom);
         let points = || self.series.iter().flat_map(|s| self.finite(s));
-        let x = Ruler::new(self.x.scale, points().map(|p| p.0), [left, x_end]);
-        let y = Ruler::new(self.y.scale, points().map(|p| p.1), [y_end, top]);
+        let across = points().map(|p| p.0).chain(self.x.including);
+        let upwards = points().map(|p| p.1).chain(self.y.including);
+        let x = Ruler::new(self.x.scale, across, [left, x_end]);
+        let y = Ruler::new(self.y.scale, upwards, [y_end, top]);
         self.draw_axes(&mut canvas, &x, &y);
         let place = |(px, py): (f64, f64)| [x.pixel(px), y.pixel(py)];
         let mut pixels = Vec::new();

@@ -103,6 +103,13 @@ impl DisplacementBatch {
         }
     }
 
+    /// Computes the batch at every node, as if all were asked for.
+    pub fn fill(&mut self, asset: &Asset) {
+        for node in 0..self.displacements.len() {
+            self.at_node(asset, node);
+        }
+    }
+
     /// u = Φ q at a node, at all steps of the batch.
     #[inline(always)]
     fn at_node(&mut self, asset: &Asset, node: usize) -> &[Lanes; 3] {

@@ -1,0 +1,86 @@
+//! Bodies and blows of the figures.
+
+use std::sync::Arc;
+
+use frangible::glam::Vec3;
+use frangible::{Asset, Contact, Material, Striker};
+use frangible_bake::{BakeSpec, Shape, bake};
+
+use crate::FigureError;
+
+/// Modes of a body, as in the paper (its Table 1).
+pub(crate) const MODES: usize = 100;
+
+/// Length of the slab's sides and its thickness, m. The paper gives none.
+pub(crate) const SLAB: [f64; 3] = [0.3, 0.3, 0.006];
+
+/// Mass, kg, radius, m, and speed, m/s, of the steel ball that hits the slab: R_c of the paper's slab is 1 GPa.
+pub(crate) const SLAB_BALL: [f64; 3] = [0.13, 0.0158, 80.0];
+
+/// Weak points of the slab, 1/m³. The paper gives no number; that of real glass, 4e7, makes every other tetrahedron weak, and
+/// in its model, where no crack relieves another, each of them cracks.
+pub(crate) const SLAB_WEAK_POINTS: f64 = 3e5;
+
+/// The paper's slab, between its "moderate" and its "high" in fineness; elements of the modes are about 16 mm
+/// long, the hundredth mode's half waves 27 mm.
+pub(crate) fn slab() -> Result<Arc<Asset>, FigureError> {
+    let [width, depth, thickness] = SLAB;
+    let shape = Shape::plate(width, depth, thickness);
+    let spec = BakeSpec {
+        modes: MODES,
+        analysis: Some(shape.size_for(2000.0)?),
+        fracture: Some(shape.size_for(20_000.0)?),
+        ..BakeSpec::new("slab", shape, Material::preset("paper-slab-high")?)
+    };
+    let slab = Arc::new(bake(&spec, &mut |_| {})?.0);
+    Ok(changed(&slab, |m| m.weak_point_density = SLAB_WEAK_POINTS))
+}
+
+/// The slab's blow: a steel ball in the middle of its upper face.
+pub(crate) fn slab_blow(slab: &Asset) -> Result<Contact, FigureError> {
+    let [mass, radius, speed] = SLAB_BALL;
+    let steel = Material::preset("steel")?;
+    let point = Vec3::Z * (0.5 * SLAB[2] as f32);
+    let ball = Striker::ball(&steel, mass, radius);
+    Ok(blow(slab, point, Vec3::NEG_Z, speed, ball))
+}
+
+/// A body of about so many fracture tetrahedra and so many modes.
+pub(crate) fn baked(
+    name: &str,
+    shape: Shape,
+    material: &str,
+    tets: f64,
+    modes: usize,
+) -> Result<Arc<Asset>, FigureError> {
+    let spec = BakeSpec {
+        modes,
+        fracture: Some(shape.size_for(tets)?),
+        ..BakeSpec::new(name, shape, Material::preset(material)?)
+    };
+    Ok(Arc::new(bake(&spec, &mut |_| {})?.0))
+}
+
+/// The body with other numbers of its material. Not for those that are in the modes: E, ν, ρ.
+pub(crate) fn changed(asset: &Arc<Asset>, change: impl FnOnce(&mut Material)) -> Arc<Asset> {
+    let mut asset = Asset::clone(asset);
+    change(&mut asset.material);
+    Arc::new(asset)
+}
+
+/// A blow at `point` in direction `normal`, with the impulse of a collision of rigid bodies at `speed`, m/s.
+pub(crate) fn blow(
+    asset: &Asset,
+    point: Vec3,
+    normal: Vec3,
+    speed: f64,
+    striker: Striker,
+) -> Contact {
+    let normal = normal.normalize();
+    let own = asset
+        .mass
+        .inverse_effective_mass(point.as_dvec3(), normal.as_dvec3());
+    let mass = 1.0 / (own + f64::from(striker.inverse_effective_mass));
+    let impulse = (1.0 + f64::from(striker.restitution)) * mass * speed;
+    Contact::new(point, normal, impulse as f32, speed as f32, striker)
+}

@@ -1,0 +1,40 @@
+//! Pieces of a broken body, pulled apart.
+
+use frangible::Fragment;
+use frangible::glam::{Quat, Vec3};
+
+use super::model::{Colour, Model};
+
+/// Colours of the outside and of crack faces.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PieceColours {
+    pub(crate) outside: Colour,
+    pub(crate) inside: Colour,
+}
+
+/// Adds the pieces, each moved away from the body's centre by this share of its distance, all turned by `rotation`.
+pub(crate) fn add_pieces(
+    model: &mut Model,
+    pieces: &[Fragment],
+    apart: f32,
+    rotation: Quat,
+    colours: PieceColours,
+) {
+    for piece in pieces {
+        let centre = piece.mass.centre.as_vec3() * (1.0 + apart);
+        let mesh = &piece.mesh;
+        let place = |p: Vec3| rotation * (centre + p);
+        for (i, (triangle, normals)) in mesh.triangles.iter().zip(&mesh.normals).enumerate() {
+            let colour = if i < mesh.outer_triangles {
+                colours.outside
+            } else {
+                colours.inside
+            };
+            let corners = triangle.map(|v| place(mesh.positions[v as usize]));
+            model.smooth(colour, corners, normals.map(|n| rotation * n));
+        }
+        for crack in &mesh.cracks {
+            model.sheet(colours.inside, crack.map(place));
+        }
+    }
+}
