@@ -40,9 +40,9 @@ fn main() -> Result<(), Box<dyn Error>> {
             let case = CASES.iter().position(|(known, _)| *known == name);
             let case = case.ok_or_else(|| format!("`{name}` is no case; `list` names them"))?;
             let bench = Bench::new(Asset::load(file)?)?;
-            let middle = bench.middle();
+            let mut middle = bench.middle();
             for _ in 0..CASES[case].1 {
-                counted_work(&bench, case, &middle);
+                counted_work(&bench, case, &mut middle);
             }
             Ok(())
         }
@@ -55,7 +55,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 fn counted_work(
     bench: &Bench,
     case: usize,
-    middle: &(frangible::stress::DisplacementBatch, usize),
+    middle: &mut (frangible::stress::DisplacementBatch, usize),
 ) {
     match case {
         0 => {

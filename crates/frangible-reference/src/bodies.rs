@@ -15,6 +15,7 @@ use frangible_bake::{BakeError, BakeSpec, BodyMesh, MeshSize, Shape, bake};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
+use crate::options::Strain;
 use crate::stress::{principal, stress};
 
 /// The paper's case: the linear elements that crack carry the modes as well.
@@ -136,7 +137,8 @@ fn peak_stress(asset: &Asset) -> Vec<f32> {
                     }
                 }
             }
-            let (sigma, _) = principal(&stress(&asset.material, &gradient).0);
+            let (sigma, _) =
+                principal(&stress(&asset.material, &gradient, Strain::GreenLagrange).0);
             let largest = sigma[0].abs().max(sigma[2].abs()) / SMALL;
             *peak = peak.max(largest as f32);
         }

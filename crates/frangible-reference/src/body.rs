@@ -6,6 +6,8 @@ use frangible::mesh::NO_NEIGHBOUR;
 use frangible::{Asset, Material};
 use thiserror::Error;
 
+use crate::options::Strain;
+
 /// How displacements vary within an element.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Field {
@@ -34,6 +36,7 @@ pub(crate) struct Solid<'a> {
     pub(crate) asset: &'a Asset,
     pub(crate) material: &'a Material,
     pub(crate) field: Field,
+    pub(crate) strain: Strain,
     pub(crate) nodes: Vec<DVec3>,
     pub(crate) centres: Vec<DVec3>,
     /// ∇L of the four barycentric coordinates of the element that carries the displacement, 1/m.
@@ -70,6 +73,7 @@ impl<'a> Solid<'a> {
             asset,
             material: &asset.material,
             field,
+            strain: Strain::GreenLagrange,
             centres: mesh.tets.iter().map(centre).collect(),
             gradients,
             nodes,

@@ -87,7 +87,8 @@ fn run(
     options: &Options,
     most_cracks: usize,
 ) -> Result<Break, ReferenceError> {
-    let solid = Solid::new(body.asset(), field)?;
+    let mut solid = Solid::new(body.asset(), field)?;
+    solid.strain = options.strain;
     let mut result = Break::default();
     let Some(force) = Force::new(&solid, contacts, options) else {
         result.fragment_of_node = vec![0; solid.nodes.len()];

@@ -44,5 +44,5 @@ mod surface;
 
 pub use body::{Field, ReferenceError};
 pub use initiation::{Break, StartTest, first_crack, fracture};
-pub use options::{Duration, EnergyTest, Initiation, Marks, Options, TimeStep};
+pub use options::{Duration, EnergyTest, Initiation, Marks, Options, Strain, TimeStep};
 pub use propagation::{Crack, Element, Visit};

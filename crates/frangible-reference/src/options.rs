@@ -27,6 +27,17 @@ pub struct Options {
     /// Beyond the paper: of the elements that pass R_c between two steps the first to do so, stress taken as linear there,
     /// starts first, and not the most stressed one. Default: off.
     pub between_steps: bool,
+    /// Strain. Default: [`Strain::GreenLagrange`].
+    pub strain: Strain,
+}
+
+/// `[G12 §4.4]`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Strain {
+    /// ½(∇u + ∇uᵀ + ∇uᵀ∇u).
+    GreenLagrange,
+    /// Beyond the paper: ½(∇u + ∇uᵀ).
+    Linear,
 }
 
 /// `[G12 §4.1]`.
@@ -100,6 +111,7 @@ impl Default for Options {
             first_element_pays: false,
             surface_flaws: false,
             between_steps: false,
+            strain: Strain::GreenLagrange,
         }
     }
 }
@@ -128,6 +140,7 @@ impl Options {
             first_element_pays: true,
             surface_flaws: true,
             between_steps: true,
+            strain: Strain::Linear,
             ..Self::default()
         }
     }

@@ -148,7 +148,7 @@ fn crossing(solid: &Solid, u: &[DVec3], surface: &Surface, e: usize) -> Crossing
     let x = solid.corners(e);
     let values = x.map(|p| surface.s(p));
     let sign_margins = std::array::from_fn(|k| surface.margin_of(x[k], values[k]));
-    let (_, energy) = stress(solid.material, &solid.gradient(u, e));
+    let (_, energy) = stress(solid.material, &solid.gradient(u, e), solid.strain);
     let side = |negative: bool| (0..4).filter(move |&k| (values[k] < 0.0) == negative);
     let crossed = side(true).count() > 0 && side(false).count() > 0;
     // Uncrossed when all nodes of one side change over; crossed when one does.

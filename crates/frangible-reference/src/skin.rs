@@ -9,7 +9,7 @@ use frangible::mesh::NO_NEIGHBOUR;
 use frangible::stress::Skin;
 
 use crate::body::Solid;
-use crate::stress::{Matrix, green_lagrange, hooke};
+use crate::stress::{Matrix, hooke, strain};
 
 /// How the weak elements of a body are looked at.
 pub(crate) enum Look {
@@ -34,7 +34,7 @@ impl Look {
     /// Stress (Pa) and energy density (J/m³) of a weak element.
     pub(crate) fn stress(&self, solid: &Solid, u: &[DVec3], e: usize) -> (Matrix, f64) {
         let Self::Flaws { skin, pressed } = self else {
-            return crate::stress::stress(solid.material, &solid.gradient(u, e));
+            return crate::stress::stress(solid.material, &solid.gradient(u, e), solid.strain);
         };
         let wall = skin.wall(solid.asset, e);
         let across = wall.map(|w| w.normal.as_dvec3().normalize());
@@ -42,17 +42,19 @@ impl Look {
         let flaw = face.filter(|(triangle, _)| !pressed.contains(triangle));
         match (flaw.zip(skin.flaw(e)), across) {
             (Some(((_, n), flaw)), across) => {
-                let strain = green_lagrange(&solid.gradient_at(u, &flaw.point));
+                let strain = strain(&solid.gradient_at(u, &flaw.point), solid.strain);
                 match across.filter(|a| a.dot(n).abs() < 0.5) {
                     Some(a) => free_of_two(solid.material, &strain, n, a),
                     None => free_of_one(solid.material, &strain, n),
                 }
             }
             (None, Some(a)) => {
-                let strain = green_lagrange(&solid.gradient(u, e));
+                let strain = strain(&solid.gradient(u, e), solid.strain);
                 free_of_one(solid.material, &strain, a)
             }
-            (None, None) => crate::stress::stress(solid.material, &solid.gradient(u, e)),
+            (None, None) => {
+                crate::stress::stress(solid.material, &solid.gradient(u, e), solid.strain)
+            }
         }
     }
 }

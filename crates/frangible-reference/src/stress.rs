@@ -3,15 +3,33 @@
 use frangible::Material;
 use frangible::glam::DVec3;
 
+use crate::options::Strain;
+
 pub(crate) type Matrix = [[f64; 3]; 3];
 
 /// Stress σ (Pa) and strain energy density η (J/m³) from ∇u.
-pub(crate) fn stress(material: &Material, gradient: &Matrix) -> (Matrix, f64) {
-    hooke(material, &green_lagrange(gradient))
+pub(crate) fn stress(material: &Material, gradient: &Matrix, kind: Strain) -> (Matrix, f64) {
+    hooke(material, &strain(gradient, kind))
+}
+
+/// E, or its part that is linear in ∇u.
+pub(crate) fn strain(gradient: &Matrix, kind: Strain) -> Matrix {
+    match kind {
+        Strain::GreenLagrange => green_lagrange(gradient),
+        Strain::Linear => {
+            let mut strain = [[0.0; 3]; 3];
+            for i in 0..3 {
+                for j in 0..3 {
+                    strain[i][j] = 0.5 * (gradient[i][j] + gradient[j][i]);
+                }
+            }
+            strain
+        }
+    }
 }
 
 /// E = ½(∇u + ∇uᵀ + ∇uᵀ∇u).
-pub(crate) fn green_lagrange(gradient: &Matrix) -> Matrix {
+fn green_lagrange(gradient: &Matrix) -> Matrix {
     let mut strain = [[0.0; 3]; 3];
     for i in 0..3 {
         for j in 0..3 {

@@ -5,6 +5,7 @@ use std::sync::{Arc, OnceLock};
 use glam::Vec3;
 
 use crate::asset::Asset;
+use crate::config::FractureConfig;
 use crate::error::InputError;
 use crate::fields::{Fields, Resistance, Toughness};
 use crate::fragment::{MeshIndex, RenderIndex};
@@ -223,6 +224,15 @@ impl Body {
     #[must_use]
     pub fn seed(&self) -> u64 {
         self.seed
+    }
+
+    /// k of the stress bounds' quadratic term, Pa.
+    pub(crate) fn quadratic_modulus(&self, config: &FractureConfig) -> f32 {
+        if config.green_lagrange {
+            self.prepared.quadratic_modulus
+        } else {
+            0.0
+        }
     }
 
     /// The cracks it has so far.

@@ -19,6 +19,10 @@ pub struct FractureConfig {
     pub timing: CrackTiming,
     /// Where cracks run. Default: [`CrackPath::Steered`].
     pub path: CrackPath,
+    /// Green and Lagrange's strain of the modes' motion `[G12 §4.4]`, with its quadratic terms. Default: off, strain is linear as
+    /// the modes are: their displacements take a turn for a stretch of half its square, which for a thin body that swings
+    /// by more than its thickness is more than it can bear.
+    pub green_lagrange: bool,
     /// A weak point whose tetrahedron has a free outer face lies on it, where no traction acts; strengths are then those of
     /// surfaces. Default: on; in the paper it lies at the tetrahedron's centre `[G12 §4.4]`.
     pub surface_flaws: bool,
@@ -94,6 +98,7 @@ impl Default for FractureConfig {
             path: CrackPath::Steered {
                 turning_length: 0.0067,
             },
+            green_lagrange: false,
             surface_flaws: true,
             plane_stress_walls: true,
             first_element_pays: true,
@@ -114,6 +119,7 @@ impl FractureConfig {
             energy_ledger: false,
             timing: CrackTiming::Instant,
             path: CrackPath::Planar,
+            green_lagrange: true,
             surface_flaws: false,
             plane_stress_walls: false,
             first_element_pays: false,

@@ -64,7 +64,7 @@ pub fn would_break(
 pub fn is_harmless(body: &Body, contacts: &[Contact], config: &FractureConfig) -> bool {
     config.culling
         && contacts.iter().all(|c| c.validate().is_ok())
-        && contact::first_bound(body, contacts).is_some_and(|bound| bound <= harmless(body))
+        && contact::first_bound(body, contacts, config).is_some_and(|bound| bound <= harmless(body))
 }
 
 /// What the cracks of an impact did to a body.
@@ -90,7 +90,7 @@ fn cracks<'a>(
 
     // Most contacts end here (beyond the paper: stress/bound.rs).
     if config.culling
-        && let Some(bound) = contact::first_bound(body, contacts)
+        && let Some(bound) = contact::first_bound(body, contacts, config)
         && bound <= harmless(body)
     {
         report.stress_bound = f64::from(bound);
@@ -175,8 +175,8 @@ pub(crate) fn run_cracks<'a>(
     };
     let mut system = CrackSystem::new(body, config, budget);
     let mut displacement = DisplacementBatch::new(asset);
-    let mut culling = Culling::new(body, config.culling);
-    let elasticity = Elasticity::new(&asset.material);
+    let mut culling = Culling::new(body, config);
+    let elasticity = Elasticity::new(&asset.material).with_green_lagrange(config.green_lagrange);
     let mut peak = Peak::default();
     let mut suspects = Suspects::default();
     let mut roots = [0.0; BATCH];

@@ -129,6 +129,7 @@ fn fracture(table: FractureTable) -> FractureConfig {
     set(&mut config.crumb_share, table.crumb_share);
     set(&mut config.energy_ledger, table.energy_ledger);
     set(&mut config.culling, table.culling);
+    set(&mut config.green_lagrange, table.green_lagrange);
     set(&mut config.surface_flaws, table.surface_flaws);
     set(&mut config.plane_stress_walls, table.plane_stress_walls);
     set(&mut config.first_element_pays, table.first_element_pays);

@@ -175,6 +175,7 @@ pub(super) struct FractureTable {
     pub(super) crumb_share: Option<f64>,
     pub(super) energy_ledger: Option<bool>,
     pub(super) culling: Option<bool>,
+    pub(super) green_lagrange: Option<bool>,
     pub(super) surface_flaws: Option<bool>,
     pub(super) plane_stress_walls: Option<bool>,
     pub(super) first_element_pays: Option<bool>,

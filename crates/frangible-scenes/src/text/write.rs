@@ -208,6 +208,7 @@ fn write_fracture(t: &mut Text, config: &FractureConfig) {
     t.line("crumb_share", number(config.crumb_share));
     t.line("energy_ledger", config.energy_ledger);
     t.line("culling", config.culling);
+    t.line("green_lagrange", config.green_lagrange);
     t.line("surface_flaws", config.surface_flaws);
     t.line("plane_stress_walls", config.plane_stress_walls);
     t.line("first_element_pays", config.first_element_pays);

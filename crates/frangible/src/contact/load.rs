@@ -5,6 +5,7 @@ use glam::Vec3;
 use super::Contact;
 use crate::asset::Asset;
 use crate::body::Body;
+use crate::config::FractureConfig;
 use crate::mesh::SurfacePoint;
 use crate::stress::{ShapeWeights, tension_bound};
 
@@ -121,11 +122,16 @@ const BLOCK: usize = 64;
 /// J moves a mode at most |J_i|/√λ_i, damped or not. Costs a few rows of the mode shapes, allocates nothing.
 ///
 /// `None` when there are too many contacts.
-pub(crate) fn first_bound(body: &Body, contacts: &[Contact]) -> Option<f32> {
+pub(crate) fn first_bound(
+    body: &Body,
+    contacts: &[Contact],
+    config: &FractureConfig,
+) -> Option<f32> {
     let hit = contacts.iter().filter(|c| c.impulse > 0.0);
     let pushes = hit.map(|c| (c.point, c.push()));
     let periods = &body.prepared.periods;
-    quick_bound(body, pushes, |mode, push| push * periods[mode])
+    let k = body.quadratic_modulus(config);
+    quick_bound(body, pushes, k, |mode, push| push * periods[mode])
 }
 
 /// The stress bound of amplitudes that follow, mode by mode, from what pushes on the surface: places, m, with an impulse
@@ -135,6 +141,7 @@ pub(crate) fn first_bound(body: &Body, contacts: &[Contact]) -> Option<f32> {
 pub(crate) fn quick_bound(
     body: &Body,
     pushes: impl Iterator<Item = (Vec3, Vec3)>,
+    quadratic_modulus: f32,
     amplitude: impl Fn(usize, f32) -> f32,
 ) -> Option<f32> {
     let (asset, prepared) = (&*body.asset, &*body.prepared);
@@ -175,5 +182,5 @@ pub(crate) fn quick_bound(
         stress += tension_bound(amplitudes, &prepared.root.0[block.clone()], zero, 0.0);
         gradient += tension_bound(amplitudes, &prepared.root.1[block], zero, 0.0);
     }
-    Some(stress + 0.5 * prepared.quadratic_modulus * gradient * gradient)
+    Some(stress + 0.5 * quadratic_modulus * gradient * gradient)
 }

@@ -1,12 +1,14 @@
 //! Which weak points need a look at a time step: those of clusters whose stress bound passes the strength.
 
 use crate::body::Body;
+use crate::config::FractureConfig;
 use crate::stress::{MARGIN, tension_bound};
 
 /// Passes over clusters of weak points that cannot crack.
 pub(crate) struct Culling<'a> {
     body: &'a Body,
     on: bool,
+    quadratic_modulus: f32,
     /// Largest bound of what was passed over so far, Pa …
     pub(crate) passed_over: f32,
     /// … and as the weakest point would feel it, Pa.
@@ -18,11 +20,12 @@ pub(crate) struct Culling<'a> {
 }
 
 impl<'a> Culling<'a> {
-    /// With `on` false every cluster needs a look at every step.
-    pub(crate) fn new(body: &'a Body, on: bool) -> Self {
+    /// Without `config.culling` every cluster needs a look at every step.
+    pub(crate) fn new(body: &'a Body, config: &FractureConfig) -> Self {
         Self {
             body,
-            on,
+            on: config.culling,
+            quadratic_modulus: body.quadratic_modulus(config),
             passed_over: 0.0,
             as_weakest: 0.0,
             asked_clusters: false,
@@ -34,7 +37,7 @@ impl<'a> Culling<'a> {
     pub(crate) fn root(&self, amplitudes: &[f32]) -> f32 {
         let prepared = &self.body.prepared;
         let (stress, gradient) = &prepared.root;
-        tension_bound(amplitudes, stress, gradient, prepared.quadratic_modulus)
+        tension_bound(amplitudes, stress, gradient, self.quadratic_modulus)
     }
 
     /// Clusters to look at when the modes have these amplitudes at step `k` of a batch, added to the batch's list;
@@ -59,7 +62,7 @@ impl<'a> Culling<'a> {
                 amplitudes,
                 &prepared.bounds.stress[row.clone()],
                 &prepared.bounds.gradient[row],
-                prepared.quadratic_modulus,
+                self.quadratic_modulus,
             );
             let weakest = self.body.clusters.weakest[i];
             if of_cluster <= limit(weakest) {

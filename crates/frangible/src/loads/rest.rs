@@ -51,7 +51,8 @@ pub fn rest(
     let mut report = report_on(body);
     if config.culling {
         let pushes = forces.iter().map(|f| (f.point, f.force));
-        let bound = quick_bound(body, pushes, |i, f| (f + weight(i)) * compliance(i));
+        let k = body.quadratic_modulus(config);
+        let bound = quick_bound(body, pushes, k, |i, f| (f + weight(i)) * compliance(i));
         if let Some(bound) = bound.filter(|b| *b <= harmless(body)) {
             report.stress_bound = f64::from(bound);
             let margin = report.strength / f64::from(bound);

@@ -73,6 +73,8 @@ impl Symmetric3 {
 pub struct Elasticity {
     lambda: f32,
     mu: f32,
+    /// Whether strain has its quadratic terms.
+    quadratic: bool,
     /// λ* = 2 λ μ / (λ + 2 μ): λ where nothing holds the third direction.
     plane_lambda: f32,
     /// E = μ (3 λ + 2 μ) / (λ + μ).
@@ -96,8 +98,24 @@ impl Elasticity {
         Self {
             lambda: lambda as f32,
             mu: mu as f32,
+            quadratic: true,
             plane_lambda: (2.0 * lambda * mu / (lambda + 2.0 * mu)) as f32,
             youngs_modulus: material.youngs_modulus as f32,
+        }
+    }
+
+    /// With Green and Lagrange's strain, as [`Elasticity::new`] has it, or else the linear one, ½(∇u + ∇uᵀ).
+    #[must_use]
+    pub fn with_green_lagrange(self, quadratic: bool) -> Self {
+        Self { quadratic, ..self }
+    }
+
+    #[inline(always)]
+    fn strain(&self, gradient: Mat3) -> Symmetric3 {
+        if self.quadratic {
+            green_lagrange(gradient)
+        } else {
+            Symmetric3::from_mat3(gradient)
         }
     }
 
@@ -105,7 +123,7 @@ impl Elasticity {
     #[must_use]
     #[inline(always)]
     pub fn state(&self, gradient: Mat3) -> StressState {
-        let strain = green_lagrange(gradient);
+        let strain = self.strain(gradient);
         let stress = self.hooke(&strain);
         let ([e, s], [t, u]) = ([strain.diagonal, strain.off], [stress.diagonal, stress.off]);
         StressState {
@@ -130,7 +148,7 @@ impl Elasticity {
     #[must_use]
     #[inline(always)]
     pub fn free_state(&self, gradient: Mat3, n: Vec3) -> StressState {
-        let strain = green_lagrange(gradient);
+        let strain = self.strain(gradient);
         let in_surface = tangential(&strain, n);
         let stress = self.plane_stress(&in_surface, n);
         let ([e, s], [t, u]) = (
@@ -148,7 +166,7 @@ impl Elasticity {
     #[must_use]
     #[inline(always)]
     pub fn edge_state(&self, gradient: Mat3, t: Vec3) -> StressState {
-        let strain = green_lagrange(gradient);
+        let strain = self.strain(gradient);
         let stress = self.edge_hooke(&strain, t);
         let along = stress.diagonal.iter().sum::<f32>() / self.youngs_modulus;
         StressState {
