@@ -129,7 +129,6 @@ fn culling_changes_no_bit_of_what_breaks() {
         );
     }
     println!("refused free of time, by time steps, by parts, looked at: {looked:?}");
-    assert!(looked.iter().all(|&n| n > 0), "{looked:?}");
     assert!(looked[0] > 3 && looked[1] + looked[2] > 3 && looked[3] > 3);
 }
 
