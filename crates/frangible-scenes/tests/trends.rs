@@ -54,7 +54,6 @@ fn a_tougher_glass_cracks_less_near_the_threshold() {
 }
 
 #[test]
-#[ignore = "10 m/s, G_c times 1, 3, 10, 20 seeds: 25.8, 27.4, 23.6 cm2 and 12.2, 11.7, 14.2 pieces"]
 fn a_tougher_glass_cracks_less() {
     let d = tougher(glass(), rim_hit(20.0, 10.0), &FractureConfig::default(), 20);
     println!("glass, ours, G_c × 1, 3, 10: (cm², pieces) {d:.1?}");
@@ -74,7 +73,7 @@ fn a_tougher_glass_cracks_less_in_the_papers_model_too() {
 }
 
 #[test]
-#[ignore = "12 m/s, G_c times 1, 3, 10, 20 seeds: 203, 213, 165 cm2 and 63, 67, 67 pieces"]
+#[ignore = "12 m/s, G_c times 1, 3, 10, 20 seeds: 31.6, 82.9, 169 cm2 and 5, 24, 67 pieces: short cracks release less, so more start"]
 fn a_tougher_pane_cracks_less() {
     let d = tougher(
         pane(),
@@ -136,7 +135,7 @@ fn damped(asset: &Arc<Asset>, contact: Contact, config: &FractureConfig) -> [(f6
 }
 
 #[test]
-#[ignore = "alpha 0, 1e-7, 1e-6 s, 20 seeds: 25.8, 27.3, 27.0 cm2 and 12.2, 13.8, 14.7 pieces"]
+#[ignore = "alpha 0, 1e-7, 1e-6 s, 20 seeds: 23.8, 24.0, 24.8 cm2 and 12.4, 12.6, 11.5 pieces: no clear effect"]
 fn damping_of_high_frequencies_spares_the_glass() {
     let d = damped(glass(), rim_hit(20.0, 10.0), &FractureConfig::default());
     println!("glass, ours, α 0, 1e-7, 1e-6 s: (cm², pieces) {d:.1?}");
@@ -144,7 +143,7 @@ fn damping_of_high_frequencies_spares_the_glass() {
 }
 
 #[test]
-#[ignore = "alpha 0, 1e-7, 1e-6 s, 20 seeds: 162.9, 163.6, 162.8 cm2 and 223, 223, 223 pieces: no effect"]
+#[ignore = "alpha 0, 1e-7, 1e-6 s, 20 seeds: 163.7, 163.4, 164.2 cm2 and 222, 225, 223 pieces: no effect"]
 fn damping_of_high_frequencies_spares_the_glass_in_the_papers_model_too() {
     let d = damped(
         glass(),

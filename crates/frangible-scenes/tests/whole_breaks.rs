@@ -322,22 +322,29 @@ fn a_soft_hit_holds_and_a_harder_one_cracks_more() {
     }
 }
 
-#[test]
-#[ignore = "2, 6, 15, 30 m/s, mean of 5 seeds: ours 0, 453, 190, 210 cm2; paper 0, 0, 475, 464 cm2"]
-fn a_harder_hit_cracks_the_pane_more() {
-    let all = models().map(|(_, config)| {
-        [2.0, 6.0, 15.0, 30.0].map(|v| {
-            let hit = pane_hit(0.0, 0.0, v);
-            1e4 * mean(5, |seed| {
-                strike(pane(), seed, &[hit], &config).report().crack_area
-            })
+fn pane_areas(config: &FractureConfig) -> [f64; 4] {
+    let areas = [2.0, 6.0, 15.0, 30.0].map(|v| {
+        let hit = pane_hit(0.0, 0.0, v);
+        1e4 * mean(5, |seed| {
+            strike(pane(), seed, &[hit], config).report().crack_area
         })
     });
-    println!("pane at 2, 6, 15, 30 m/s, crack area in cm², ours and paper: {all:.1?}");
-    for areas in all {
-        let rises = areas.windows(2).all(|w| w[1] >= w[0]) && areas[3] > areas[0];
-        assert!(rises, "{areas:?} cm²");
-    }
+    println!("pane at 2, 6, 15, 30 m/s, crack area in cm²: {areas:.1?}");
+    areas
+}
+
+#[test]
+fn a_harder_hit_cracks_the_pane_more() {
+    let areas = pane_areas(&FractureConfig::default());
+    assert_eq!(areas[0], 0.0);
+    assert!(areas.windows(2).all(|w| w[1] > w[0]), "{areas:.1?} cm²");
+}
+
+#[test]
+#[ignore = "2, 6, 15, 30 m/s, mean of 5 seeds: 0, 0, 474, 464 cm2: the whole pane is cut at once"]
+fn a_harder_hit_cracks_the_pane_more_in_the_papers_model_too() {
+    let areas = pane_areas(&FractureConfig::as_in_the_paper());
+    assert!(areas.windows(2).all(|w| w[1] >= w[0]), "{areas:.1?} cm²");
 }
 
 /// Share of the crack faces' area that lies more than 30° askew in the pane.
