@@ -114,6 +114,14 @@ impl Breakable {
         &self.asset
     }
 
+    /// Largest stress (Pa) and displacement gradient of every mode anywhere in the body, per m·√kg of amplitude, with
+    /// room for the rounding of the run time: what [its bounds](crate::stress::StressBounds) are for the whole of it.
+    #[must_use]
+    pub fn root_bound(&self) -> (&[f32], &[f32]) {
+        let (stress, gradient) = &self.prepared.root;
+        (stress, gradient)
+    }
+
     /// A body of this kind; `seed` decides its weak points.
     ///
     /// Weak points are a Poisson process of the material's density (1/m³): a tetrahedron of volume V is weak
@@ -235,6 +243,18 @@ impl Body {
     #[must_use]
     pub fn weak_tets(&self) -> &[u32] {
         &self.weak_tets
+    }
+
+    /// R_c that the stress must pass for a crack to start in a fracture tetrahedron, Pa.
+    #[must_use]
+    pub fn strength(&self, tet: u32) -> f32 {
+        self.resistance.strength(tet)
+    }
+
+    /// The smallest strength of its weak tetrahedra, Pa; the material's where there is none.
+    #[must_use]
+    pub fn weakest(&self) -> f64 {
+        self.resistance.weakest
     }
 }
 

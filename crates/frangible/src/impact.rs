@@ -8,8 +8,9 @@ use crate::contact::{self, Contact};
 use crate::crack::{CrackSystem, Culling, Peak, StressField, advance, front_limit, start_cracks};
 use crate::error::InputError;
 use crate::fragment::{self, Labels};
-use crate::modal::{self, Motion};
+use crate::modal::Motion;
 use crate::outcome::{Fracture, ImpactReport, LookedAt, Outcome};
+use crate::stages::Vibration;
 use crate::state::BodyState;
 use crate::stress::{DisplacementBatch, Elasticity, MARGIN};
 use crate::trace::CrackTrace;
@@ -73,6 +74,30 @@ fn cracks<'a>(
     config: &'a FractureConfig,
     trace: &mut Option<CrackTrace>,
 ) -> Result<Cracked<'a>, InputError> {
+    Ok(match begin(body, contacts, config)? {
+        Begun::Held(margin, report) => Cracked::Held(margin, report, None),
+        Begun::Vibrates(vibration) => vibrate(body, config, vibration, 0, trace),
+    })
+}
+
+/// What is known of an impact before the motion of the modes is.
+#[expect(
+    clippy::large_enum_variant,
+    reason = "a refused contact must not allocate"
+)]
+pub(crate) enum Begun {
+    /// Too weak for any crack: margin and report.
+    Held(f64, ImpactReport),
+    /// The modes have to be followed.
+    Vibrates(Vibration),
+}
+
+/// First stage: bound, force pulse and time steps.
+pub(crate) fn begin(
+    body: &Body,
+    contacts: &[Contact],
+    config: &FractureConfig,
+) -> Result<Begun, InputError> {
     contacts.iter().try_for_each(Contact::validate)?;
     let asset = &*body.asset;
     let mut report = report_on(body);
@@ -87,13 +112,13 @@ fn cracks<'a>(
         report.stress_bound = f64::from(bound);
         report.timings.response = clock.elapsed().as_secs_f64();
         let margin = report.strength / f64::from(bound);
-        return Ok(Cracked::Held(margin, report, None));
+        return Ok(Begun::Held(margin, report));
     }
 
     // Contact → force pulse → modal response [G12 §4.1-4.3].
     let load = contact::modal_load(body, contacts);
     if load.touches.is_empty() {
-        return Ok(Cracked::Held(f64::INFINITY, report, None));
+        return Ok(Begun::Held(f64::INFINITY, report));
     }
     report.unadjusted_duration = contact::contact_duration(asset, &load, config.duration);
     report.contact_duration = if config.admissible_duration {
@@ -103,26 +128,45 @@ fn cracks<'a>(
         report.unadjusted_duration
     };
     let pulse = contact::pulse(asset, &load, report.contact_duration, config);
-    let motion = modal::respond(&asset.modes, &asset.material, &load.modal_impulse, &pulse);
     report.looked_at = LookedAt::Amplitudes;
     report.time_step = pulse.time_step;
-    report.time_steps = motion.steps();
-    report.peak_elastic_energy = motion.peak_energy;
-    report.peak_strain_energy = motion.peak_strain_energy;
+    report.time_steps = pulse.total_steps;
     report.most_excited_frequency = contact::most_excited_mode(asset, &load.modal_impulse)
         .map_or(0.0, |i| asset.modes.frequency(i));
     report.timings.response = clock.elapsed().as_secs_f64();
+    let modal_impulse = load.modal_impulse;
+    Ok(Begun::Vibrates(Vibration {
+        modal_impulse,
+        pulse,
+        report,
+    }))
+}
 
+/// Second stage: the motion of the modes, and what it does from time step `first_step` on.
+pub(crate) fn vibrate<'a>(
+    body: &'a Body,
+    config: &'a FractureConfig,
+    vibration: Vibration,
+    first_step: usize,
+    trace: &mut Option<CrackTrace>,
+) -> Cracked<'a> {
+    let clock = Instant::now();
+    let motion = vibration.motion(body);
+    let mut report = vibration.report;
+    report.peak_elastic_energy = motion.peak_energy;
+    report.peak_strain_energy = motion.peak_strain_energy;
+    report.timings.response += clock.elapsed().as_secs_f64();
     let budget = motion.peak_strain_energy;
-    Ok(run_cracks(
+    run_cracks_from(
+        first_step,
         body,
         config,
         &motion,
-        pulse.time_step,
+        vibration.pulse.time_step,
         budget,
         report,
         trace,
-    ))
+    )
 }
 
 /// Below this stress bound nothing happens to a body, Pa: no crack starts, and none of its old ones moves.
@@ -153,6 +197,20 @@ pub(crate) fn run_cracks<'a>(
     motion: &Motion,
     time_step: f64,
     budget: f64,
+    report: ImpactReport,
+    trace: &mut Option<CrackTrace>,
+) -> Cracked<'a> {
+    run_cracks_from(0, body, config, motion, time_step, budget, report, trace)
+}
+
+/// [`run_cracks`], where it is known that nothing happens before time step `first_step`.
+fn run_cracks_from<'a>(
+    first_step: usize,
+    body: &'a Body,
+    config: &'a FractureConfig,
+    motion: &Motion,
+    time_step: f64,
+    budget: f64,
     mut report: ImpactReport,
     trace: &mut Option<CrackTrace>,
 ) -> Cracked<'a> {
@@ -167,7 +225,7 @@ pub(crate) fn run_cracks<'a>(
     let mut culling = Culling::new(body, config.culling);
     let elasticity = Elasticity::new(&asset.material);
     let mut peak = Peak::default();
-    for step in 0..motion.steps() {
+    for step in first_step..motion.steps() {
         let root = culling.root(motion.at(step));
         system.wake(root);
         let survivors = culling.survivors(motion.at(step), root);

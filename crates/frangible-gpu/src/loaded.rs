@@ -1,0 +1,127 @@
+//! What a kind of body keeps on the GPU.
+
+use std::sync::Arc;
+
+use frangible::asset::EmbeddedPoint;
+use frangible::{Asset, Breakable, Material};
+use wgpu::{Buffer, BufferUsages};
+
+use crate::device::Gpu;
+use crate::error::GpuError;
+use crate::scratch::MOST;
+
+/// A kind of body, its mode shapes and meshes on the GPU. Dropping it frees them.
+#[derive(Clone, Debug)]
+pub struct Loaded {
+    pub(crate) asset: Arc<Asset>,
+    /// Largest stress and gradient of every mode.
+    pub(crate) root: Arc<[[f32; 2]]>,
+    pub(crate) buffers: Option<Arc<Buffers>>,
+}
+
+/// Buffers of a kind.
+#[derive(Debug)]
+pub(crate) struct Buffers {
+    pub(crate) shapes: Buffer,
+    /// Per fracture tetrahedron where its stress is taken.
+    pub(crate) samples: Buffer,
+    pub(crate) elements: Buffer,
+    /// Per mode its largest stress and gradient.
+    pub(crate) root: Buffer,
+    /// The device they are on.
+    pub(crate) device: wgpu::Device,
+}
+
+/// Where a fracture tetrahedron's stress is taken, as the CPU does: the one place to change when that moves.
+pub(crate) fn sample(asset: &Asset, tet: usize) -> &EmbeddedPoint {
+    &asset.embedding.tets[tet]
+}
+
+impl Loaded {
+    /// Without a GPU.
+    pub(crate) fn on_cpu(kind: &Breakable) -> Self {
+        let (stress, gradient) = kind.root_bound();
+        Self {
+            asset: Arc::clone(kind.asset()),
+            root: stress.iter().zip(gradient).map(|(&s, &g)| [s, g]).collect(),
+            buffers: None,
+        }
+    }
+}
+
+/// k of the bound's quadratic term, Pa: max(3λ, 0) + 2μ, λ and μ Lamé's parameters.
+pub(crate) fn quadratic_modulus(material: &Material) -> f64 {
+    (3.0 * material.lame_lambda()).max(0.0) + 2.0 * material.shear_modulus()
+}
+
+impl Gpu {
+    /// Loads a kind of body; once for all its bodies.
+    ///
+    /// # Errors
+    /// A kind whose arrays do not fit the GPU's buffers.
+    pub fn load(&self, kind: &Breakable) -> Result<Loaded, GpuError> {
+        let asset = kind.asset();
+        let loaded = Loaded::on_cpu(kind);
+        let buffers = self.checked(|| {
+            let samples: Vec<u32> = (0..asset.fracture.tets.len())
+                .flat_map(|tet| sample_words(sample(asset, tet)))
+                .collect();
+            let elements: Vec<u32> = (0..asset.analysis.elements.len())
+                .flat_map(|e| element_words(asset, e))
+                .collect();
+            let buffer = |what, bytes: &[u8]| self.fixed(asset, what, bytes);
+            Ok(Buffers {
+                shapes: buffer("the mode shapes", bytemuck::cast_slice(&asset.modes.shapes))?,
+                samples: buffer("the fracture mesh", bytemuck::cast_slice(&samples))?,
+                elements: buffer("the analysis mesh", bytemuck::cast_slice(&elements))?,
+                root: buffer("the stress bounds", bytemuck::cast_slice(&loaded.root))?,
+                device: self.device.clone(),
+            })
+        })?;
+        Ok(Loaded {
+            buffers: Some(Arc::new(buffers)),
+            ..loaded
+        })
+    }
+
+    /// A buffer that never changes.
+    fn fixed(&self, asset: &Asset, what: &'static str, bytes: &[u8]) -> Result<Buffer, GpuError> {
+        let size = (bytes.len() as u64).max(16);
+        if size > MOST {
+            return Err(GpuError::TooLarge {
+                what,
+                asset: asset.name.clone(),
+                bytes: size,
+                limit: MOST,
+            });
+        }
+        let buffer = self.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some(what),
+            size,
+            usage: BufferUsages::STORAGE | BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        });
+        self.queue.write_buffer(&buffer, 0, bytes);
+        Ok(buffer)
+    }
+}
+
+/// As the shader's `Sample`.
+fn sample_words(point: &EmbeddedPoint) -> [u32; 8] {
+    let [a, b, c, d] = point.barycentric.map(f32::to_bits);
+    [a, b, c, d, point.element, 0, 0, 0]
+}
+
+/// As the shader's `elements`.
+fn element_words(asset: &Asset, element: usize) -> [u32; 24] {
+    let mut words = [0; 24];
+    words[..10].copy_from_slice(&asset.analysis.elements[element]);
+    let gradients = asset.analysis.barycentric_gradients[element];
+    for (word, x) in words[12..]
+        .iter_mut()
+        .zip(gradients.iter().flat_map(|g| g.to_array()))
+    {
+        *word = x.to_bits();
+    }
+    words
+}

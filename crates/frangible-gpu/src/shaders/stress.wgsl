@@ -1,0 +1,172 @@
+// Largest principal tension at each weak tetrahedron over the time steps of a chunk. One workgroup per impact and weak
+// tetrahedron; its invocations share out the time steps.
+
+// Where a tetrahedron's stress is taken: a point of an analysis element.
+struct Sample {
+    barycentric: vec4<f32>,
+    element: u32,
+}
+
+// What is known of a weak tetrahedron of an impact so far. Steps count down from NONE, so that 0, what buffers are
+// cleared to, is never, and the larger is the earlier.
+struct Record {
+    // Largest tension, Pa; never below zero.
+    peak: f32,
+    // First step at which the tension nears the strength …
+    doubt: u32,
+    // … and passes it, and the tension there, Pa.
+    crack: u32,
+    tension: f32,
+}
+
+@group(0) @binding(0) var<uniform> chunk: Chunk;
+@group(0) @binding(1) var<storage, read> jobs: array<Job>;
+// Tetrahedron and strength, Pa, as bits.
+@group(0) @binding(2) var<storage, read> weak: array<vec2<u32>>;
+@group(0) @binding(3) var<storage, read> samples: array<Sample>;
+// Per analysis element: ten nodes, two of padding, the gradients of the four barycentric coordinates as bits.
+@group(0) @binding(4) var<storage, read> elements: array<array<u32, 24>>;
+@group(0) @binding(5) var<storage, read> displacements: array<f32>;
+@group(0) @binding(6) var<storage, read> bounds: array<f32>;
+@group(0) @binding(7) var<storage, read_write> records: array<Record>;
+
+var<workgroup> lanes: array<Record, 64>;
+
+fn barycentric_gradient(element: u32, i: u32) -> vec3<f32> {
+    let at = 12u + 3u * i;
+    return vec3(
+        bitcast<f32>(elements[element][at]),
+        bitcast<f32>(elements[element][at + 1u]),
+        bitcast<f32>(elements[element][at + 2u]),
+    );
+}
+
+// Corner pairs of the six mid-edge nodes.
+const FROM = array<u32, 6>(0u, 1u, 0u, 0u, 1u, 2u);
+const TO = array<u32, 6>(1u, 2u, 2u, 3u, 3u, 3u);
+
+// Gradients of the ten quadratic shape functions at a point, 1/m.
+fn shape_gradients(sample: Sample) -> array<vec3<f32>, 10> {
+    var l = array<f32, 4>(
+        sample.barycentric.x,
+        sample.barycentric.y,
+        sample.barycentric.z,
+        sample.barycentric.w,
+    );
+    var g: array<vec3<f32>, 4>;
+    var gradients: array<vec3<f32>, 10>;
+    for (var a = 0u; a < 4u; a++) {
+        g[a] = barycentric_gradient(sample.element, a);
+        gradients[a] = g[a] * (4.0 * l[a] - 1.0);
+    }
+    var edge_from = FROM;
+    var edge_to = TO;
+    for (var a = 0u; a < 6u; a++) {
+        let i = edge_from[a];
+        let j = edge_to[a];
+        gradients[4u + a] = (g[j] * l[i] + g[i] * l[j]) * 4.0;
+    }
+    return gradients;
+}
+
+// Largest eigenvalue of a symmetric tensor (diagonal xx yy zz, off xy yz zx). The cubic's solution
+// mean + 2 p cos(acos(h) / 3), with the cosine as a polynomial of cos(acos(h) / 2) = √((1 + h) / 2): to 2e-7, where
+// WGSL's own cos and acos promise 5e-4.
+fn largest_eigenvalue(diagonal: vec3<f32>, off: vec3<f32>) -> f32 {
+    let mean = (diagonal.x + diagonal.y + diagonal.z) / 3.0;
+    let d = diagonal - mean;
+    let p2 = dot(d, d) / 6.0 + dot(off, off) / 3.0;
+    let p = sqrt(p2);
+    if (p2 <= 1e-30) {
+        return mean;
+    }
+    let determinant = d.x * (d.y * d.z - off.y * off.y) - off.x * (off.x * d.z - off.y * off.z)
+        + off.z * (off.x * off.y - d.y * off.z);
+    // In this order, since p³ of a strong tension comes near the largest number.
+    let h = clamp(determinant / p2 / p * 0.5, -1.0, 1.0);
+    let s = sqrt(max(0.0, 0.5 + 0.5 * h));
+    var c = 1.1504290e-3;
+    c = c * s - 6.1699497e-3;
+    c = c * s + 1.6159489e-2;
+    c = c * s - 3.0313063e-2;
+    c = c * s + 5.2869106e-2;
+    c = c * s - 0.11104324;
+    c = c * s + 0.57734722;
+    c = c * s + 0.5;
+    return mean + 2.0 * p * c;
+}
+
+// Green–Lagrange strain and Hooke's law; x, y, z are the columns ∂u/∂x, ∂u/∂y, ∂u/∂z.
+fn tension(x: vec3<f32>, y: vec3<f32>, z: vec3<f32>) -> f32 {
+    let e = vec3(x.x + 0.5 * dot(x, x), y.y + 0.5 * dot(y, y), z.z + 0.5 * dot(z, z));
+    let s = vec3(y.x + x.y + dot(x, y), z.y + y.z + dot(y, z), x.z + z.x + dot(z, x));
+    let pressure = chunk.lambda * (e.x + e.y + e.z);
+    return largest_eigenvalue(pressure + 2.0 * chunk.mu * e, chunk.mu * s);
+}
+
+// Of two times at the same place. A step is in one of them only, so the later one's tension never wins.
+fn merged(a: Record, b: Record) -> Record {
+    return Record(
+        max(a.peak, b.peak),
+        max(a.doubt, b.doubt),
+        max(a.crack, b.crack),
+        select(b.tension, a.tension, a.crack >= b.crack),
+    );
+}
+
+@compute @workgroup_size(64)
+fn main(@builtin(workgroup_id) id: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let job = jobs[chunk.first_job + id.z];
+    let place = id.y * ROW + id.x;
+    if (place >= job.weak) {
+        return;
+    }
+    let here = weak[job.first_weak + place];
+    let strength = bitcast<f32>(here.y);
+    let element = samples[here.x].element;
+    var gradients = shape_gradients(samples[here.x]);
+    let first = max(job.first_column, chunk.first);
+    let end = min(job.first_column + job.steps, chunk.first + chunk.count);
+    var mine = Record(0.0, 0u, 0u, 0.0);
+    for (var column = first + lane; column < end; column += 64u) {
+        if (bounds[column] <= 0.0) {
+            continue;
+        }
+        var x = vec3(0.0);
+        var y = vec3(0.0);
+        var z = vec3(0.0);
+        for (var a = 0u; a < 10u; a++) {
+            let at = 3u * elements[element][a] * chunk.stride + (column - chunk.first);
+            let u = vec3(
+                displacements[at],
+                displacements[at + chunk.stride],
+                displacements[at + 2u * chunk.stride],
+            );
+            let g = gradients[a];
+            x += u * g.x;
+            y += u * g.y;
+            z += u * g.z;
+        }
+        let t = tension(x, y, z);
+        mine.peak = max(mine.peak, t);
+        let step = NONE - (column - job.first_column);
+        if (t > strength * (1.0 - DOUBT)) {
+            mine.doubt = max(mine.doubt, step);
+        }
+        if (t > strength && mine.crack == 0u) {
+            mine.crack = step;
+            mine.tension = t;
+        }
+    }
+    lanes[lane] = mine;
+    for (var half = 32u; half > 0u; half /= 2u) {
+        workgroupBarrier();
+        if (lane < half) {
+            lanes[lane] = merged(lanes[lane], lanes[lane + half]);
+        }
+    }
+    if (lane == 0u) {
+        let at = job.first_record + place;
+        records[at] = merged(records[at], lanes[0]);
+    }
+}
