@@ -168,7 +168,12 @@ impl Gpu {
             .filter_map(|&i| match &begun[i] {
                 Stage::Vibrates(vibration) => Some(Job {
                     body: impacts[i].body,
-                    response: Response::new(asset, vibration),
+                    response: Response::new(
+                        &asset.modes,
+                        &asset.material,
+                        &vibration.modal_impulse,
+                        &vibration.pulse,
+                    ),
                     vibration,
                 }),
                 Stage::Held(_) => None,

@@ -85,7 +85,7 @@ impl Scratch {
             readback: new(),
             // A GPU wants many columns at once; a CPU wants them to stay in its cache.
             chunk_bytes: match kind {
-                wgpu::DeviceType::Cpu => 8 << 20,
+                wgpu::DeviceType::Cpu => 32 << 20,
                 _ => 64 << 20,
             },
         }

@@ -14,6 +14,16 @@ const DEPTH: u32 = 16u;
 var<workgroup> left: array<f32, 1040>;
 var<workgroup> right: array<f32, 1040>;
 
+fn store(row: u32, column: u32, u: vec4<f32>) {
+    if (row < chunk.rows) {
+        let at = row * chunk.stride + column;
+        displacements[at] = u.x;
+        displacements[at + 16u] = u.y;
+        displacements[at + 32u] = u.z;
+        displacements[at + 48u] = u.w;
+    }
+}
+
 @compute @workgroup_size(16, 16)
 fn main(
     @builtin(workgroup_id) tile: vec3<u32>,
@@ -25,23 +35,27 @@ fn main(
     if (tiles[column / COLUMNS] == 0u) {
         return;
     }
-    var sums: array<vec4<f32>, 4>;
+    // Four variables, no array: an index that is not constant would put it into memory.
+    var a = vec4(0.0);
+    var b = vec4(0.0);
+    var c = vec4(0.0);
+    var d = vec4(0.0);
     let depths = (chunk.modes + DEPTH - 1u) / DEPTH;
     // High modes first: they move little, so that the sum is large, and rounds, only at the end.
-    for (var d = 0u; d < depths; d++) {
-        let first = (depths - 1u - d) * DEPTH;
+    for (var depth = depths; depth > 0u; depth--) {
+        let first = (depth - 1u) * DEPTH;
         for (var i = lane; i < 64u * DEPTH; i += 256u) {
             let mode = first + i % DEPTH;
             let at = (i % DEPTH) * 65u + i / DEPTH;
             let r = row + i / DEPTH;
-            let c = column + i / DEPTH;
+            let col = column + i / DEPTH;
             left[at] = 0.0;
             if (mode < chunk.modes && r < chunk.rows) {
                 left[at] = shapes[r * chunk.modes + mode];
             }
             right[at] = 0.0;
-            if (mode < chunk.modes && c < chunk.columns) {
-                right[at] = amplitudes[c * chunk.modes + mode];
+            if (mode < chunk.modes && col < chunk.columns) {
+                right[at] = amplitudes[col * chunk.modes + mode];
             }
         }
         workgroupBarrier();
@@ -54,20 +68,18 @@ fn main(
                 right[at + local.x + 32u],
                 right[at + local.x + 48u],
             );
-            for (var i = 0u; i < 4u; i++) {
-                sums[i] += left[at + local.y * 4u + i] * q;
-            }
+            let of_rows = at + local.y * 4u;
+            a += left[of_rows] * q;
+            b += left[of_rows + 1u] * q;
+            c += left[of_rows + 2u] * q;
+            d += left[of_rows + 3u] * q;
         }
         workgroupBarrier();
     }
-    for (var i = 0u; i < 4u; i++) {
-        let r = row + local.y * 4u + i;
-        if (r < chunk.rows) {
-            let at = r * chunk.stride + tile.y * COLUMNS + local.x;
-            displacements[at] = sums[i].x;
-            displacements[at + 16u] = sums[i].y;
-            displacements[at + 32u] = sums[i].z;
-            displacements[at + 48u] = sums[i].w;
-        }
-    }
+    let first_row = row + local.y * 4u;
+    let first_column = tile.y * COLUMNS + local.x;
+    store(first_row, first_column, a);
+    store(first_row + 1u, first_column, b);
+    store(first_row + 2u, first_column, c);
+    store(first_row + 3u, first_column, d);
 }

@@ -125,6 +125,10 @@ fn main(@builtin(workgroup_id) id: vec3<u32>, @builtin(local_invocation_index) l
     let strength = bitcast<f32>(here.y);
     let element = samples[here.x].element;
     var gradients = shape_gradients(samples[here.x]);
+    var rows: array<u32, 10>;
+    for (var a = 0u; a < 10u; a++) {
+        rows[a] = 3u * elements[element][a] * chunk.stride;
+    }
     let first = max(job.first_column, chunk.first);
     let end = min(job.first_column + job.steps, chunk.first + chunk.count);
     var mine = Record(0.0, 0u, 0u, 0.0);
@@ -136,7 +140,7 @@ fn main(@builtin(workgroup_id) id: vec3<u32>, @builtin(local_invocation_index) l
         var y = vec3(0.0);
         var z = vec3(0.0);
         for (var a = 0u; a < 10u; a++) {
-            let at = 3u * elements[element][a] * chunk.stride + (column - chunk.first);
+            let at = rows[a] + (column - chunk.first);
             let u = vec3(
                 displacements[at],
                 displacements[at + chunk.stride],
