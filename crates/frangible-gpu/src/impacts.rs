@@ -8,7 +8,6 @@ use crate::error::GpuError;
 use crate::initiation::{Initiation, starts_on_cpu};
 use crate::loaded::{Buffers, Loaded, quadratic_modulus};
 use crate::response::Response;
-use crate::run::RESULT;
 use crate::wave::{Job, waves};
 
 /// Steps whose bound is below the strength by this share need no look: the rounding of the bound itself, as on the CPU.
@@ -162,7 +161,8 @@ impl Gpu {
             return Ok(());
         };
         let buffers = self.buffers_of(first, &impacts[first])?;
-        let asset = &impacts[first].kind.asset;
+        let kind = impacts[first].kind;
+        let asset = kind.asset();
         let jobs: Vec<Job<'_>> = group
             .par_iter()
             .filter_map(|&i| match &begun[i] {
@@ -186,19 +186,20 @@ impl Gpu {
                 -1.0
             }
         };
-        let mut numbers = group.iter().zip(&jobs);
-        for wave in waves(asset, &jobs, limit)? {
-            let words = self.run(asset, buffers, &wave)?;
-            for (words, (&i, job)) in words.chunks_exact(RESULT).zip(&mut numbers) {
-                let steps = job.vibration.pulse.total_steps;
-                found[i] = Some(Initiation::read(words, job.body, steps));
+        let mut numbers = group.iter();
+        let mut rest = jobs.iter();
+        for mut wave in waves(&kind.kind, &jobs, limit)? {
+            let here: Vec<&Job<'_>> = rest.by_ref().take(wave.spans.len()).collect();
+            let of_wave = self.run(kind, buffers, &mut wave, &here)?;
+            for (initiation, &i) in of_wave.into_iter().zip(&mut numbers) {
+                found[i] = Some(initiation);
             }
         }
         Ok(())
     }
 
     fn buffers_of<'a>(&self, number: usize, impact: &Impact<'a>) -> Result<&'a Buffers, GpuError> {
-        if !std::sync::Arc::ptr_eq(&impact.kind.asset, impact.body.asset()) {
+        if !std::ptr::eq(impact.kind.asset(), &**impact.body.asset()) {
             return Err(GpuError::WrongBody(number));
         }
         let buffers = impact.kind.buffers.as_deref();
@@ -236,7 +237,7 @@ fn groups(impacts: &[Impact<'_>], begun: &[Stage]) -> Vec<Vec<usize>> {
             continue;
         }
         let same =
-            |g: &&mut Vec<usize>| std::ptr::eq(&*impacts[g[0]].kind.asset, &*impact.kind.asset);
+            |g: &&mut Vec<usize>| std::ptr::eq(impacts[g[0]].kind.asset(), impact.kind.asset());
         match groups.iter_mut().find(same) {
             Some(group) => group.push(i),
             None => groups.push(vec![i]),
@@ -248,7 +249,7 @@ fn groups(impacts: &[Impact<'_>], begun: &[Stage]) -> Vec<Vec<usize>> {
 /// Whether no stress can be so large that its cube leaves the numbers of the GPU: no real blow comes near.
 fn within_range(kind: &Loaded, vibration: &Vibration) -> bool {
     const MOST: f64 = 1e12;
-    let asset = &kind.asset;
+    let asset = kind.asset();
     let modes = &asset.modes;
     let (mut stress, mut gradient) = (0.0, 0.0);
     for (i, impulse) in vibration.modal_impulse.iter().enumerate() {

@@ -33,8 +33,8 @@ pub struct Initiation {
     pub looked_at: LookedAt,
     /// Time steps of the impact.
     pub time_steps: usize,
-    /// Largest principal tension met, Pa, and the tetrahedron where. Steps whose bound stays below every strength are not
-    /// looked at, with [culling](frangible::FractureConfig::culling).
+    /// Largest principal tension met, Pa, and the tetrahedron where. Where and when a bound stays below every strength is
+    /// not looked at, with [culling](frangible::FractureConfig::culling).
     pub peak_stress: f32,
     /// See [`Self::peak_stress`].
     pub peak_tet: Option<u32>,
@@ -42,7 +42,7 @@ pub struct Initiation {
     pub peak_share: f32,
     /// See [`Self::peak_share`].
     pub most_strained: Option<u32>,
-    /// Largest bound of the steps that were not looked at, Pa.
+    /// Largest bound of what was not looked at, Pa.
     pub passed_over: f32,
     /// Strength over the largest tension or bound, each as the weakest tetrahedron would feel it.
     pub margin: f64,
@@ -86,8 +86,18 @@ impl Initiation {
         self.margin = body.weakest() / felt;
     }
 
-    /// From the words of `gather.wgsl`.
-    pub(crate) fn read(words: &[u32], body: &Body, time_steps: usize) -> Self {
+    /// Of an impact whose bound, Pa, passes the limit at no time step.
+    pub(crate) fn passed_over(bound: f32, body: &Body, time_steps: usize) -> Self {
+        let mut found = Self {
+            passed_over: bound,
+            ..Self::none(time_steps)
+        };
+        found.set_margin(body);
+        found
+    }
+
+    /// From the words of `gather.wgsl` and the largest bound of the steps that were passed over, Pa.
+    pub(crate) fn read(words: &[u32], bound: f32, body: &Body, time_steps: usize) -> Self {
         let (header, list) = words.split_at(HEADER);
         let float = f32::from_bits;
         let step = |word: u32| (word != u32::MAX).then_some(word as usize);
@@ -95,16 +105,12 @@ impl Initiation {
         let peak_stress = float(header[0]);
         let count = header[8] as usize;
         let mut found = Self {
-            looked_at: if header[9] > 0 {
-                LookedAt::Stresses
-            } else {
-                LookedAt::Amplitudes
-            },
+            looked_at: LookedAt::Stresses,
             peak_stress,
             peak_tet: tet(header[1]),
             peak_share: float(header[2]),
             most_strained: tet(header[3]),
-            passed_over: float(header[10]),
+            passed_over: float(header[9]).max(bound),
             doubt: step(header[4]),
             first: step(header[5])
                 .zip(tet(header[6]))
@@ -112,7 +118,7 @@ impl Initiation {
                     tet,
                     step,
                     stress: float(header[7]),
-                    peak: float(header[11]),
+                    peak: float(header[10]),
                 }),
             exceeding: list
                 .chunks_exact(4)

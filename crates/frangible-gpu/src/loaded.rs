@@ -13,7 +13,7 @@ use crate::scratch::MOST;
 /// A kind of body, its mode shapes and meshes on the GPU. Dropping it frees them.
 #[derive(Clone, Debug)]
 pub struct Loaded {
-    pub(crate) asset: Arc<Asset>,
+    pub(crate) kind: Breakable,
     /// Largest stress and gradient of every mode.
     pub(crate) root: Arc<[[f32; 2]]>,
     pub(crate) buffers: Option<Arc<Buffers>>,
@@ -28,6 +28,8 @@ pub(crate) struct Buffers {
     pub(crate) elements: Buffer,
     /// Per mode its largest stress and gradient.
     pub(crate) root: Buffer,
+    /// Per cluster and mode the same.
+    pub(crate) clusters: Buffer,
     /// The device they are on.
     pub(crate) device: wgpu::Device,
 }
@@ -40,13 +42,26 @@ pub(crate) fn sample(asset: &Asset, tet: usize) -> &EmbeddedPoint {
 impl Loaded {
     /// Without a GPU.
     pub(crate) fn on_cpu(kind: &Breakable) -> Self {
-        let (stress, gradient) = kind.root_bound();
+        let (stress, gradient) = kind.stress_bounds().root(kind.asset().modes.count());
         Self {
-            asset: Arc::clone(kind.asset()),
-            root: stress.iter().zip(gradient).map(|(&s, &g)| [s, g]).collect(),
+            kind: kind.clone(),
+            root: pairs(&stress, &gradient).collect(),
             buffers: None,
         }
     }
+
+    pub(crate) fn asset(&self) -> &Asset {
+        self.kind.asset()
+    }
+
+    /// Number of clusters of tetrahedra.
+    pub(crate) fn clusters(&self) -> usize {
+        self.kind.stress_bounds().stress.len() / self.root.len().max(1)
+    }
+}
+
+fn pairs<'a>(stress: &'a [f32], gradient: &'a [f32]) -> impl Iterator<Item = [f32; 2]> + 'a {
+    stress.iter().zip(gradient).map(|(&s, &g)| [s, g])
 }
 
 /// k of the bound's quadratic term, Pa: max(3λ, 0) + 2μ, λ and μ Lamé's parameters.
@@ -69,12 +84,15 @@ impl Gpu {
             let elements: Vec<u32> = (0..asset.analysis.elements.len())
                 .flat_map(|e| element_words(asset, e))
                 .collect();
+            let bounds = kind.stress_bounds();
+            let clusters: Vec<[f32; 2]> = pairs(&bounds.stress, &bounds.gradient).collect();
             let buffer = |what, bytes: &[u8]| self.fixed(asset, what, bytes);
             Ok(Buffers {
                 shapes: buffer("the mode shapes", bytemuck::cast_slice(&asset.modes.shapes))?,
                 samples: buffer("the fracture mesh", bytemuck::cast_slice(&samples))?,
                 elements: buffer("the analysis mesh", bytemuck::cast_slice(&elements))?,
                 root: buffer("the stress bounds", bytemuck::cast_slice(&loaded.root))?,
+                clusters: buffer("the stress bounds", bytemuck::cast_slice(&clusters))?,
                 device: self.device.clone(),
             })
         })?;

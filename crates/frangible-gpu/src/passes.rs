@@ -1,9 +1,10 @@
 //! The shaders and their pipelines.
 
 /// One pass: its name, and its own part of the shader.
-pub(crate) const PASSES: [(&str, &str); 5] = [
+pub(crate) const PASSES: [(&str, &str); 6] = [
     ("amplitudes", include_str!("shaders/amplitudes.wgsl")),
     ("bounds", include_str!("shaders/bounds.wgsl")),
+    ("clusters", include_str!("shaders/clusters.wgsl")),
     ("displacements", include_str!("shaders/displacements.wgsl")),
     ("stress", include_str!("shaders/stress.wgsl")),
     ("gather", include_str!("shaders/gather.wgsl")),
@@ -14,11 +15,14 @@ const COMMON: &str = include_str!("shaders/common.wgsl");
 /// Columns of a tile of displacements, and steps from one restart of the response to the next: as in `common.wgsl`.
 pub(crate) const COLUMNS: usize = 64;
 
+/// Clusters of tetrahedra per invocation: as in `common.wgsl`.
+pub(crate) const CLUSTERS: usize = 16;
+
 /// Weak tetrahedra, or blocks, along the first axis of a dispatch: as in `common.wgsl`.
 pub(crate) const ROW: usize = 32768;
 
 /// Words that come back of an impact before its list: as in `gather.wgsl`.
-pub(crate) const HEADER: usize = 12;
+pub(crate) const HEADER: usize = 11;
 
 /// The whole text of a pass.
 pub(crate) fn source(pass: &str) -> String {
@@ -30,6 +34,7 @@ pub(crate) fn source(pass: &str) -> String {
 pub(crate) struct Passes {
     pub(crate) amplitudes: wgpu::ComputePipeline,
     pub(crate) bounds: wgpu::ComputePipeline,
+    pub(crate) clusters: wgpu::ComputePipeline,
     pub(crate) displacements: wgpu::ComputePipeline,
     pub(crate) stress: wgpu::ComputePipeline,
     pub(crate) gather: wgpu::ComputePipeline,
@@ -37,23 +42,25 @@ pub(crate) struct Passes {
 
 impl Passes {
     pub(crate) fn new(device: &wgpu::Device) -> Self {
-        let [amplitudes, bounds, displacements, stress, gather] = PASSES.map(|(name, text)| {
-            let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-                label: Some(name),
-                source: wgpu::ShaderSource::Wgsl(source(text).into()),
+        let [amplitudes, bounds, clusters, displacements, stress, gather] =
+            PASSES.map(|(name, text)| {
+                let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+                    label: Some(name),
+                    source: wgpu::ShaderSource::Wgsl(source(text).into()),
+                });
+                device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+                    label: Some(name),
+                    layout: None,
+                    module: &module,
+                    entry_point: Some("main"),
+                    compilation_options: wgpu::PipelineCompilationOptions::default(),
+                    cache: None,
+                })
             });
-            device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-                label: Some(name),
-                layout: None,
-                module: &module,
-                entry_point: Some("main"),
-                compilation_options: wgpu::PipelineCompilationOptions::default(),
-                cache: None,
-            })
-        });
         Self {
             amplitudes,
             bounds,
+            clusters,
             displacements,
             stress,
             gather,
@@ -113,10 +120,11 @@ mod tests {
 
     #[test]
     fn constants_of_the_shaders_are_those_of_the_host() {
-        let all = source(PASSES[4].1);
+        let all = source(PASSES[5].1);
         for line in [
             format!("const COLUMNS: u32 = {COLUMNS}u;"),
             format!("const RESTART: u32 = {COLUMNS}u;"),
+            format!("const CLUSTERS: u32 = {CLUSTERS}u;"),
             format!("const ROW: u32 = {ROW}u;"),
             format!("const HEADER: u32 = {HEADER}u;"),
             format!("const DOUBT: f32 = {:e};", crate::DOUBT),

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use frangible::{Asset, Body, Vibration};
+use frangible::{Body, Breakable, Vibration};
 
 use crate::error::GpuError;
 use crate::passes::COLUMNS;
@@ -17,7 +17,13 @@ pub(crate) struct Job<'a> {
 }
 
 /// Words of a job on the GPU: as the shader's `Job`.
-const JOB: usize = 8;
+const JOB: usize = 9;
+
+/// Words of a job before its live columns.
+const BEFORE_ALIVE: usize = 6;
+
+/// Words of a weak tetrahedron.
+const WEAK: usize = 4;
 
 /// Most impacts of a wave: the third axis of a dispatch.
 const MOST_JOBS: usize = 65_535;
@@ -32,18 +38,33 @@ pub(crate) struct Wave {
     pub(crate) weak: Vec<u32>,
     pub(crate) columns: usize,
     pub(crate) records: usize,
-    /// First column and number of weak tetrahedra of each impact.
-    pub(crate) spans: Vec<(usize, usize)>,
+    /// Of each impact.
+    pub(crate) spans: Vec<Span>,
     /// Where the weak tetrahedra of a body begin: many impacts of one body share them.
     weak_of_body: HashMap<*const Body, u32>,
 }
 
+/// Where an impact stands in its wave.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Span {
+    first_column: usize,
+    steps: usize,
+    weak: usize,
+    limit: f32,
+    /// Its first live column, once the bounds are known, and how many it has.
+    first_alive: usize,
+    pub(crate) alive: usize,
+    /// Largest bound of its other columns, Pa.
+    pub(crate) passed_over: f32,
+}
+
 /// Packs impacts of one kind of body, in their order. `limit` is the bound below which a step of a body needs no look.
 pub(crate) fn waves(
-    asset: &Asset,
+    kind: &Breakable,
     jobs: &[Job<'_>],
     limit: impl Fn(&Body) -> f32,
 ) -> Result<Vec<Wave>, GpuError> {
+    let asset = kind.asset();
     let modes = asset.modes.count();
     let mut waves: Vec<Wave> = Vec::new();
     for job in jobs {
@@ -74,27 +95,28 @@ pub(crate) fn waves(
             waves.push(Wave::default());
         }
         if let Some(wave) = waves.last_mut() {
-            wave.push(job, limit(job.body));
+            wave.push(kind, job, limit(job.body));
         }
     }
     Ok(waves)
 }
 
 impl Wave {
-    fn push(&mut self, job: &Job<'_>, limit: f32) {
+    fn push(&mut self, kind: &Breakable, job: &Job<'_>, limit: f32) {
         let pulse = &job.vibration.pulse;
         let weak = job.body.weak_tets();
         let number = self.spans.len() as u32;
-        let next = self.weak.len() as u32 / 2;
+        let next = (self.weak.len() / WEAK) as u32;
         let first_weak = *self
             .weak_of_body
             .entry(std::ptr::from_ref(job.body))
             .or_insert(next);
         if first_weak == next {
-            let words = weak
-                .iter()
-                .flat_map(|&t| [t, job.body.strength(t).to_bits()]);
-            self.weak.extend(words);
+            let cluster_of_tet = &kind.stress_bounds().cluster_of_tet;
+            self.weak.extend(weak.iter().flat_map(|&tet| {
+                let strength = job.body.strength(tet).to_bits();
+                [tet, strength, cluster_of_tet[tet as usize], 0]
+            }));
         }
         let words: [u32; JOB] = [
             self.columns as u32,
@@ -103,8 +125,9 @@ impl Wave {
             first_weak,
             weak.len() as u32,
             self.records as u32,
-            limit.to_bits(),
             0,
+            0,
+            limit.to_bits(),
         ];
         self.jobs.extend(words);
         for first in (0..pulse.total_steps).step_by(COLUMNS) {
@@ -112,16 +135,51 @@ impl Wave {
         }
         self.matrices.extend(&job.response.matrices);
         self.restarts.extend(&job.response.restarts);
-        self.spans.push((self.columns, weak.len()));
+        self.spans.push(Span {
+            first_column: self.columns,
+            steps: pulse.total_steps,
+            weak: weak.len(),
+            limit,
+            first_alive: 0,
+            alive: 0,
+            passed_over: 0.0,
+        });
         self.columns += pulse.total_steps;
         self.records += weak.len();
     }
 
-    /// Impacts with a column in a range, and the most weak tetrahedra of one.
+    /// Finds out which columns are alive: column and impact of each.
+    pub(crate) fn revive(&mut self, bounds: &[f32]) -> Vec<u32> {
+        let mut live = Vec::new();
+        for (number, span) in self.spans.iter_mut().enumerate() {
+            span.first_alive = live.len() / 2;
+            let end = span.first_column + span.steps;
+            for (&bound, column) in bounds[span.first_column..end]
+                .iter()
+                .zip(span.first_column..)
+            {
+                if bound <= span.limit {
+                    span.passed_over = span.passed_over.max(bound);
+                } else {
+                    live.extend([column as u32, number as u32]);
+                }
+            }
+            span.alive = live.len() / 2 - span.first_alive;
+            let at = JOB * number + BEFORE_ALIVE;
+            self.jobs[at..at + 2].copy_from_slice(&[span.first_alive as u32, span.alive as u32]);
+        }
+        live
+    }
+
+    /// Impacts with a live column in a range: the first, how many, and the most weak tetrahedra of one.
     pub(crate) fn within(&self, first: usize, end: usize) -> (usize, usize, usize) {
-        let from = self.spans.partition_point(|s| s.0 <= first).max(1) - 1;
-        let to = self.spans.partition_point(|s| s.0 < end);
-        let most = self.spans[from..to].iter().map(|s| s.1).max();
+        let from = self
+            .spans
+            .partition_point(|s| s.first_alive <= first)
+            .max(1)
+            - 1;
+        let to = self.spans.partition_point(|s| s.first_alive < end);
+        let most = self.spans[from..to].iter().map(|s| s.weak).max();
         (from, to - from, most.unwrap_or(0))
     }
 }

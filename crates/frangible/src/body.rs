@@ -114,12 +114,10 @@ impl Breakable {
         &self.asset
     }
 
-    /// Largest stress (Pa) and displacement gradient of every mode anywhere in the body, per m·√kg of amplitude, with
-    /// room for the rounding of the run time: what [its bounds](crate::stress::StressBounds) are for the whole of it.
+    /// What bounds the stress of a motion, cluster by cluster.
     #[must_use]
-    pub fn root_bound(&self) -> (&[f32], &[f32]) {
-        let (stress, gradient) = &self.prepared.root;
-        (stress, gradient)
+    pub fn stress_bounds(&self) -> &StressBounds {
+        &self.prepared.bounds
     }
 
     /// A body of this kind; `seed` decides its weak points.

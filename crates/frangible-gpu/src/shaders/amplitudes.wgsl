@@ -17,8 +17,6 @@ struct Mode {
 @group(0) @binding(4) var<storage, read> restarts: array<vec4<f32>>;
 // Column-major: one column of modes per time step.
 @group(0) @binding(5) var<storage, read_write> amplitudes: array<f32>;
-// Until the next pass the limit of each column.
-@group(0) @binding(6) var<storage, read_write> bounds: array<f32>;
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
@@ -40,10 +38,6 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
             s.w = 0.0;
         }
         s = vec4(dot(m.displacement, s), dot(m.velocity, s), turned);
-        let column = job.first_column + step;
-        amplitudes[column * chunk.modes + mode] = s.x * m.turn.z;
-        if (mode == 0u) {
-            bounds[column] = job.limit;
-        }
+        amplitudes[(job.first_column + step) * chunk.modes + mode] = s.x * m.turn.z;
     }
 }

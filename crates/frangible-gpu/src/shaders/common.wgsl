@@ -1,9 +1,13 @@
 // What all passes share; put before each of them.
 //
-// A column is a time step of an impact; the columns of all impacts of a batch stand one after another. A tile is
-// COLUMNS of them. A chunk is a run of columns whose displacements fit the buffer for them.
+// A column is a time step of an impact; the columns of all impacts of a wave stand one after another. Those whose bound
+// passes the strength are alive, and are counted by themselves, in the same order. A chunk is a run of live columns
+// whose displacements fit the buffer for them.
 
+// Columns of a tile of displacements.
 const COLUMNS: u32 = 64u;
+// Clusters of tetrahedra per invocation.
+const CLUSTERS: u32 = 16u;
 // Time steps from one restart of the recurrence to the next.
 const RESTART: u32 = 64u;
 // Weak tetrahedra along the first axis of a dispatch.
@@ -18,20 +22,22 @@ struct Chunk {
     // Rows of the mode shapes: three per analysis node.
     rows: u32,
     columns: u32,
-    // First column of the chunk.
+    // First live column of the chunk, and how many it has …
     first: u32,
-    // Columns of the chunk …
     count: u32,
     // … and room for them: a multiple of COLUMNS.
     stride: u32,
+    // Live columns of the wave.
+    alive: u32,
     first_job: u32,
     blocks: u32,
+    clusters: u32,
+    // Entries of each impact's list.
+    list: u32,
     // Lamé's parameters and the modulus of the bound's quadratic term, Pa.
     lambda: f32,
     mu: f32,
     quadratic: f32,
-    // Entries of each impact's list.
-    list: u32,
 }
 
 struct Job {
@@ -42,7 +48,9 @@ struct Job {
     first_weak: u32,
     weak: u32,
     first_record: u32,
-    // Steps whose bound is not above this, Pa, need no look.
+    // Its live columns.
+    first_alive: u32,
+    alive: u32,
+    // Steps, and clusters, whose bound is not above this, Pa, need no look.
     limit: f32,
-    padding: u32,
 }

@@ -1,12 +1,13 @@
-// u = Φ q: displacements of the analysis nodes at the time steps of a chunk. Tiles of 64 × 64, 4 × 4 per invocation;
-// tiles without a column that needs a look are left alone.
+// u = Φ q: displacements of the analysis nodes at the live columns of a chunk. Tiles of 64 × 64, 4 × 4 per
+// invocation.
 
 @group(0) @binding(0) var<uniform> chunk: Chunk;
 // Row-major: one row per node and axis, one column per mode.
 @group(0) @binding(1) var<storage, read> shapes: array<f32>;
 @group(0) @binding(2) var<storage, read> amplitudes: array<f32>;
-@group(0) @binding(3) var<storage, read> tiles: array<u32>;
-// Row-major: one row per node and axis, one column per time step.
+// Column and impact of each live column.
+@group(0) @binding(3) var<storage, read> live: array<vec2<u32>>;
+// Row-major: one row per node and axis, one column per live column of the chunk.
 @group(0) @binding(4) var<storage, read_write> displacements: array<f32>;
 
 const DEPTH: u32 = 16u;
@@ -31,10 +32,7 @@ fn main(
     @builtin(local_invocation_index) lane: u32,
 ) {
     let row = tile.x * 64u;
-    let column = chunk.first + tile.y * COLUMNS;
-    if (tiles[column / COLUMNS] == 0u) {
-        return;
-    }
+    let column = tile.y * COLUMNS;
     // Four variables, no array: an index that is not constant would put it into memory.
     var a = vec4(0.0);
     var b = vec4(0.0);
@@ -54,8 +52,8 @@ fn main(
                 left[at] = shapes[r * chunk.modes + mode];
             }
             right[at] = 0.0;
-            if (mode < chunk.modes && col < chunk.columns) {
-                right[at] = amplitudes[col * chunk.modes + mode];
+            if (mode < chunk.modes && col < chunk.count) {
+                right[at] = amplitudes[live[chunk.first + col].x * chunk.modes + mode];
             }
         }
         workgroupBarrier();
@@ -77,7 +75,7 @@ fn main(
         workgroupBarrier();
     }
     let first_row = row + local.y * 4u;
-    let first_column = tile.y * COLUMNS + local.x;
+    let first_column = column + local.x;
     store(first_row, first_column, a);
     store(first_row + 1u, first_column, b);
     store(first_row + 2u, first_column, c);

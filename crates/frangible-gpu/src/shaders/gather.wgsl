@@ -10,13 +10,13 @@ struct Record {
 
 @group(0) @binding(0) var<uniform> chunk: Chunk;
 @group(0) @binding(1) var<storage, read> jobs: array<Job>;
-@group(0) @binding(2) var<storage, read> weak: array<vec2<u32>>;
+@group(0) @binding(2) var<storage, read> weak: array<vec4<u32>>;
 @group(0) @binding(3) var<storage, read> records: array<Record>;
-@group(0) @binding(4) var<storage, read> bounds: array<f32>;
+@group(0) @binding(4) var<storage, read> passed_over: array<f32>;
 // Per impact HEADER words, then `list` entries of place, first step, tension then, largest tension.
 @group(0) @binding(5) var<storage, read_write> results: array<u32>;
 
-const HEADER: u32 = 12u;
+const HEADER: u32 = 11u;
 
 struct Summary {
     // Largest tension, and where.
@@ -33,8 +33,7 @@ struct Summary {
     tension: f32,
     // Tetrahedra that pass their strength.
     count: u32,
-    // Time steps that were looked at, and the largest bound of the others.
-    looked_at: u32,
+    // Largest bound of the clusters that were passed over.
     passed_over: f32,
 }
 
@@ -58,7 +57,6 @@ fn joined(a: Summary, b: Summary) -> Summary {
         s.tension = b.tension;
     }
     s.count += b.count;
-    s.looked_at += b.looked_at;
     s.passed_over = max(a.passed_over, b.passed_over);
     return s;
 }
@@ -69,22 +67,21 @@ fn main(@builtin(workgroup_id) id: vec3<u32>, @builtin(local_invocation_index) l
     let run = (job.weak + 63u) / 64u;
     let first = min(lane * run, job.weak);
     let end = min(first + run, job.weak);
-    var mine = Summary(0.0, NONE, 0.0, NONE, 0u, 0u, NONE, 0.0, 0u, 0u, 0.0);
+    var mine = Summary(0.0, NONE, 0.0, NONE, 0u, 0u, NONE, 0.0, 0u, 0.0);
     for (var i = first; i < end; i++) {
         let r = records[job.first_record + i];
         let share = r.peak / bitcast<f32>(weak[job.first_weak + i].y);
         let cracks = select(0u, 1u, r.crack > 0u);
         mine = joined(
             mine,
-            Summary(r.peak, i, share, i, r.doubt, r.crack, i, r.tension, cracks, 0u, 0.0),
+            Summary(r.peak, i, share, i, r.doubt, r.crack, i, r.tension, cracks, 0.0),
         );
     }
-    for (var step = lane; step < job.steps; step += 64u) {
-        let bound = bounds[job.first_column + step];
-        if (bound > 0.0) {
-            mine.looked_at++;
-        } else {
-            mine.passed_over = max(mine.passed_over, -bound);
+    let groups = (chunk.clusters + CLUSTERS - 1u) / CLUSTERS;
+    for (var column = lane; column < job.alive; column += 64u) {
+        for (var i = 0u; i < groups; i++) {
+            let below = passed_over[i * chunk.alive + job.first_alive + column];
+            mine.passed_over = max(mine.passed_over, below);
         }
     }
     parts[lane] = mine;
@@ -119,11 +116,10 @@ fn main(@builtin(workgroup_id) id: vec3<u32>, @builtin(local_invocation_index) l
         results[out + 6u] = all.crack_at;
         results[out + 7u] = bitcast<u32>(all.tension);
         results[out + 8u] = all.count;
-        results[out + 9u] = all.looked_at;
-        results[out + 10u] = bitcast<u32>(all.passed_over);
-        results[out + 11u] = 0u;
+        results[out + 9u] = bitcast<u32>(all.passed_over);
+        results[out + 10u] = 0u;
         if (all.crack > 0u) {
-            results[out + 11u] = bitcast<u32>(records[job.first_record + all.crack_at].peak);
+            results[out + 10u] = bitcast<u32>(records[job.first_record + all.crack_at].peak);
         }
     }
 }

@@ -1,5 +1,5 @@
-// Largest principal tension at each weak tetrahedron over the time steps of a chunk. One workgroup per impact and weak
-// tetrahedron; its invocations share out the time steps.
+// Largest principal tension at each weak tetrahedron over the live columns of a chunk where its cluster passes the
+// limit. One workgroup per impact and weak tetrahedron; its invocations share out the columns.
 
 // Where a tetrahedron's stress is taken: a point of an analysis element.
 struct Sample {
@@ -21,14 +21,17 @@ struct Record {
 
 @group(0) @binding(0) var<uniform> chunk: Chunk;
 @group(0) @binding(1) var<storage, read> jobs: array<Job>;
-// Tetrahedron and strength, Pa, as bits.
-@group(0) @binding(2) var<storage, read> weak: array<vec2<u32>>;
+// Tetrahedron, strength, Pa, as bits, cluster, padding.
+@group(0) @binding(2) var<storage, read> weak: array<vec4<u32>>;
 @group(0) @binding(3) var<storage, read> samples: array<Sample>;
 // Per analysis element: ten nodes, two of padding, the gradients of the four barycentric coordinates as bits.
 @group(0) @binding(4) var<storage, read> elements: array<array<u32, 24>>;
 @group(0) @binding(5) var<storage, read> displacements: array<f32>;
-@group(0) @binding(6) var<storage, read> bounds: array<f32>;
-@group(0) @binding(7) var<storage, read_write> records: array<Record>;
+// Column and impact of each live column.
+@group(0) @binding(6) var<storage, read> live: array<vec2<u32>>;
+// Whether a cluster passes at a column of the chunk: one row per cluster.
+@group(0) @binding(7) var<storage, read> passing: array<u32>;
+@group(0) @binding(8) var<storage, read_write> records: array<Record>;
 
 var<workgroup> lanes: array<Record, 64>;
 
@@ -114,14 +117,8 @@ fn merged(a: Record, b: Record) -> Record {
     );
 }
 
-@compute @workgroup_size(64)
-fn main(@builtin(workgroup_id) id: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
-    let job = jobs[chunk.first_job + id.z];
-    let place = id.y * ROW + id.x;
-    if (place >= job.weak) {
-        return;
-    }
-    let here = weak[job.first_weak + place];
+// What the columns `first`, `first` + 64, … before `end` (places in the chunk) have of a weak tetrahedron.
+fn follow(here: vec4<u32>, job: Job, first: u32, end: u32) -> Record {
     let strength = bitcast<f32>(here.y);
     let element = samples[here.x].element;
     var gradients = shape_gradients(samples[here.x]);
@@ -129,18 +126,16 @@ fn main(@builtin(workgroup_id) id: vec3<u32>, @builtin(local_invocation_index) l
     for (var a = 0u; a < 10u; a++) {
         rows[a] = 3u * elements[element][a] * chunk.stride;
     }
-    let first = max(job.first_column, chunk.first);
-    let end = min(job.first_column + job.steps, chunk.first + chunk.count);
-    var mine = Record(0.0, 0u, 0u, 0.0);
-    for (var column = first + lane; column < end; column += 64u) {
-        if (bounds[column] <= 0.0) {
+    var found = Record(0.0, 0u, 0u, 0.0);
+    for (var column = first; column < end; column += 64u) {
+        if (passing[here.z * chunk.stride + column] == 0u) {
             continue;
         }
         var x = vec3(0.0);
         var y = vec3(0.0);
         var z = vec3(0.0);
         for (var a = 0u; a < 10u; a++) {
-            let at = rows[a] + (column - chunk.first);
+            let at = rows[a] + column;
             let u = vec3(
                 displacements[at],
                 displacements[at + chunk.stride],
@@ -152,17 +147,37 @@ fn main(@builtin(workgroup_id) id: vec3<u32>, @builtin(local_invocation_index) l
             z += u * g.z;
         }
         let t = tension(x, y, z);
-        mine.peak = max(mine.peak, t);
-        let step = NONE - (column - job.first_column);
+        found.peak = max(found.peak, t);
+        let step = NONE - (live[chunk.first + column].x - job.first_column);
         if (t > strength * (1.0 - DOUBT)) {
-            mine.doubt = max(mine.doubt, step);
+            found.doubt = max(found.doubt, step);
         }
-        if (t > strength && mine.crack == 0u) {
-            mine.crack = step;
-            mine.tension = t;
+        if (t > strength && found.crack == 0u) {
+            found.crack = step;
+            found.tension = t;
         }
     }
-    lanes[lane] = mine;
+    return found;
+}
+
+@compute @workgroup_size(64)
+fn main(@builtin(workgroup_id) id: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let job = jobs[chunk.first_job + id.z];
+    let place = id.y * ROW + id.x;
+    if (place >= job.weak) {
+        return;
+    }
+    let here = weak[job.first_weak + place];
+    let first = max(job.first_alive, chunk.first) - chunk.first + lane;
+    let end = min(job.first_alive + job.alive, chunk.first + chunk.count) - chunk.first;
+    var any = 0u;
+    for (var column = first; column < end; column += 64u) {
+        any |= passing[here.z * chunk.stride + column];
+    }
+    lanes[lane] = Record(0.0, 0u, 0u, 0.0);
+    if (any != 0u) {
+        lanes[lane] = follow(here, job, first, end);
+    }
     for (var half = 32u; half > 0u; half /= 2u) {
         workgroupBarrier();
         if (lane < half) {
