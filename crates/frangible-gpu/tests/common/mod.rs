@@ -22,13 +22,14 @@ pub(crate) fn gpu() -> Option<&'static Gpu> {
     }
 }
 
-fn kind(name: &str, shape: Shape, material: &str, coarser: f64) -> Breakable {
-    let mut size = shape.fracture_size().unwrap();
-    size.edge *= coarser;
-    let material = Material::preset(material).unwrap();
+/// Coarse: an adapter in software does a hundredth of what one in hardware does.
+fn kind(name: &str, shape: Shape, material: &str, analysis: f64) -> Breakable {
+    let mut material = Material::preset(material).unwrap();
+    material.weak_point_density *= 0.2;
     let spec = BakeSpec {
-        modes: 24,
-        fracture: Some(size),
+        modes: 20,
+        analysis: Some(shape.size_for(analysis).unwrap()),
+        fracture: Some(shape.size_for(6000.0).unwrap()),
         ..BakeSpec::new(name, shape, material)
     };
     Breakable::new(bake(&spec, &mut |_| {}).unwrap().0).unwrap()
@@ -43,10 +44,10 @@ pub(crate) fn kinds() -> &'static [(&'static str, Breakable); 3] {
         [
             (
                 "glass",
-                kind("glass", Shape::drinking_glass(), "glass", 3.0),
+                kind("glass", Shape::drinking_glass(), "glass", 2500.0),
             ),
-            ("pane", kind("pane", pane, "glass", 4.0)),
-            ("block", kind("block", block, "brick", 3.0)),
+            ("pane", kind("pane", pane, "glass", 500.0)),
+            ("block", kind("block", block, "brick", 500.0)),
         ]
     })
 }
