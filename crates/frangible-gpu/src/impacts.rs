@@ -39,7 +39,6 @@ impl<'a> Impact<'a> {
 
 /// What the GPU says of an impact.
 #[derive(Clone, Debug)]
-#[expect(clippy::large_enum_variant, reason = "as frangible::Outcome")]
 pub enum Verdict {
     /// The body held, clearly; with what was computed of it where the first bound did not refuse it.
     Held(Outcome, Option<Initiation>),

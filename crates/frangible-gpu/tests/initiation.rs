@@ -197,13 +197,14 @@ fn near_the_strength_the_cpu_decides() {
             };
             initiation_on_cpu(&body, &vibration, 0).peak_share
         };
-        // Nearly linear: a few steps find the impulse that just reaches the strength.
+        // Nearly linear: a few steps find the impulse that just reaches the strength, to the rounding of a tension that
+        // is the same in all directions of a plane.
         let mut at_strength = 1.0;
-        for _ in 0..4 {
+        for _ in 0..6 {
             at_strength /= f64::from(share(at_strength));
         }
         let reached = share(at_strength);
-        assert!((reached - 1.0).abs() < 1e-5, "{name}: {reached}");
+        assert!((reached - 1.0).abs() < 1e-4, "{name}: {reached}");
         for offset in [-2e-2, -5e-4, -1e-5, -1e-6, 0.0, 1e-6, 1e-5, 5e-4, 2e-2] {
             let contacts = [scaled(at_strength * (1.0 + offset))];
             let batch = [Impact::new(&loaded, &body, &contacts)];

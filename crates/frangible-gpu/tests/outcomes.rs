@@ -15,15 +15,16 @@ fn cracks_and_pieces_are_the_same_bits_with_and_without_a_gpu() {
         for (name, kind) in kinds() {
             for kind in [kind.clone(), uneven(kind)] {
                 let loaded = gpu.load(&kind).unwrap();
-                let (mut bodies, contacts) = blows(&kind, &mut numbers, 10);
-                // One with a crack from before, if a blow leaves one.
-                let outcome = impact(&bodies[0], &contacts[0], &config).unwrap();
-                if let Outcome::Held {
-                    state: Some(state), ..
-                } = outcome
-                {
-                    bodies[0].set_state(*state).unwrap();
-                    cracked += 1;
+                let (mut bodies, contacts) = blows(&kind, &mut numbers, 8);
+                // Bodies that a blow leaves with a crack get it once more.
+                for (body, contacts) in bodies.iter_mut().zip(&contacts) {
+                    if let Outcome::Held {
+                        state: Some(state), ..
+                    } = impact(body, contacts, &config).unwrap()
+                    {
+                        body.set_state(*state).unwrap();
+                        cracked += 1;
+                    }
                 }
                 let batch: Vec<Impact<'_>> = (bodies.iter().zip(&contacts))
                     .map(|(body, contacts)| Impact::new(&loaded, body, contacts))

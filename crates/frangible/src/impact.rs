@@ -81,10 +81,6 @@ fn cracks<'a>(
 }
 
 /// What is known of an impact before the motion of the modes is.
-#[expect(
-    clippy::large_enum_variant,
-    reason = "a refused contact must not allocate"
-)]
 pub(crate) enum Begun {
     /// Too weak for any crack: margin and report.
     Held(f64, ImpactReport),

@@ -10,10 +10,6 @@ use crate::outcome::{ImpactReport, Outcome};
 
 /// What the first stage of an impact leaves to do.
 #[derive(Clone, Debug)]
-#[expect(
-    clippy::large_enum_variant,
-    reason = "a refused contact must not allocate"
-)]
 pub enum Stage {
     /// Nothing: its impulses are too weak for any crack.
     Held(Outcome),
