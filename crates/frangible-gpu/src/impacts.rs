@@ -80,7 +80,7 @@ impl Gpu {
     }
 
     /// Whether the stress of each impact passes the strength at a weak point: whether a crack would start, if it also
-    /// has the energy. Near the strength the CPU decides.
+    /// has the energy. Near the strength the CPU decides. Weak points on cracks from earlier impacts count as well.
     ///
     /// # Errors
     /// As [`Self::impacts`].
