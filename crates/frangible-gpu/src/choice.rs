@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use frangible::{Breakable, FractureConfig, Outcome, Stage, impact};
+use frangible::{Breakable, FractureConfig, Outcome, Stage};
 use rayon::prelude::*;
 
 use crate::device::Gpu;
@@ -109,15 +109,21 @@ impl Solver {
         impacts: &[Impact<'_>],
         config: &FractureConfig,
     ) -> Result<(Vec<Outcome>, Ran), GpuError> {
-        let ran = self.decide(impacts, config)?;
+        let begun = begin(impacts, config)?;
+        let ran = self.decide(impacts, &begun, config)?;
         let outcomes = match (&self.gpu, ran.on) {
-            (Ok(gpu), RanOn::Gpu) => gpu.impacts(impacts, config)?,
-            _ => on_cpu(impacts, config)?,
+            (Ok(gpu), RanOn::Gpu) => gpu.end(impacts, begun, config)?,
+            _ => end_on_cpu(impacts, begun, config),
         };
         Ok((outcomes, ran))
     }
 
-    fn decide(&mut self, impacts: &[Impact<'_>], config: &FractureConfig) -> Result<Ran, GpuError> {
+    fn decide(
+        &mut self,
+        impacts: &[Impact<'_>],
+        begun: &[Stage],
+        config: &FractureConfig,
+    ) -> Result<Ran, GpuError> {
         let gpu = match (&self.gpu, self.choice) {
             (_, Choice::Cpu) => return Ok(ran(RanOn::Cpu, 0, "the CPU was asked for".into())),
             (Ok(_), Choice::Gpu) => return Ok(ran(RanOn::Gpu, 0, "the GPU was asked for".into())),
@@ -128,8 +134,7 @@ impl Solver {
             let why = "a kind in the batch is too large for the GPU".into();
             return Ok(ran(RanOn::Cpu, 0, why));
         }
-        let begun = begin(impacts, config)?;
-        let costly: Vec<Impact<'_>> = (impacts.iter().zip(&begun))
+        let costly: Vec<Impact<'_>> = (impacts.iter().zip(begun))
             .filter(|(_, stage)| matches!(stage, Stage::Vibrates(_)))
             .map(|(impact, _)| *impact)
             .collect();
@@ -172,23 +177,25 @@ fn ran(on: RanOn, past_bound: usize, why: String) -> Ran {
     }
 }
 
-/// All impacts on the CPU, on all its threads.
-fn on_cpu(impacts: &[Impact<'_>], config: &FractureConfig) -> Result<Vec<Outcome>, GpuError> {
-    let outcomes: Vec<_> = impacts
-        .par_iter()
-        .map(|i| impact(i.body, i.contacts, config))
-        .collect();
-    outcomes
-        .into_iter()
-        .enumerate()
-        .map(|(impact, outcome)| outcome.map_err(|error| GpuError::Input { impact, error }))
+/// The second stage of each impact on the CPU, on all its threads.
+fn end_on_cpu(impacts: &[Impact<'_>], begun: Vec<Stage>, config: &FractureConfig) -> Vec<Outcome> {
+    begun
+        .into_par_iter()
+        .zip(impacts)
+        .map(|(stage, impact)| match stage {
+            Stage::Held(outcome) => outcome,
+            Stage::Vibrates(vibration) => vibration.end(impact.body, config, 0),
+        })
         .collect()
 }
 
 /// Both on the same few impacts, and the GPU on one of them as well; the first run of each warms up.
 fn measure(gpu: &Gpu, trial: &[Impact<'_>], config: &FractureConfig) -> Result<Speed, GpuError> {
     gpu.impacts(trial, config)?;
-    let cpu = seconds(|| on_cpu(trial, config).map(drop))?;
+    let cpu = seconds(|| {
+        drop(end_on_cpu(trial, begin(trial, config)?, config));
+        Ok(())
+    })?;
     let many = seconds(|| gpu.impacts(trial, config).map(drop))?;
     let one = seconds(|| gpu.impacts(&trial[..1], config).map(drop))?;
     let n = trial.len() as f64;

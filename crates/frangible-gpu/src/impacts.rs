@@ -64,7 +64,17 @@ impl Gpu {
         impacts: &[Impact<'_>],
         config: &FractureConfig,
     ) -> Result<Vec<Outcome>, GpuError> {
-        let verdicts = self.verdicts(impacts, config)?;
+        self.end(impacts, begin(impacts, config)?, config)
+    }
+
+    /// [`Self::impacts`] after the first stage.
+    pub(crate) fn end(
+        &self,
+        impacts: &[Impact<'_>],
+        begun: Vec<Stage>,
+        config: &FractureConfig,
+    ) -> Result<Vec<Outcome>, GpuError> {
+        let verdicts = self.judge(impacts, begun, config)?;
         Ok(verdicts
             .into_par_iter()
             .zip(impacts)
@@ -132,10 +142,18 @@ impl Gpu {
         impacts: &[Impact<'_>],
         config: &FractureConfig,
     ) -> Result<Vec<Verdict>, GpuError> {
+        self.judge(impacts, begin(impacts, config)?, config)
+    }
+
+    fn judge(
+        &self,
+        impacts: &[Impact<'_>],
+        begun: Vec<Stage>,
+        config: &FractureConfig,
+    ) -> Result<Vec<Verdict>, GpuError> {
         for (number, impact) in impacts.iter().enumerate() {
             self.buffers_of(number, impact)?;
         }
-        let begun = begin(impacts, config)?;
         let mut found: Vec<Option<Initiation>> = vec![None; impacts.len()];
         for group in groups(impacts, &begun) {
             self.group(impacts, &begun, &group, config, &mut found)?;
