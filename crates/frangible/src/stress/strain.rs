@@ -132,7 +132,17 @@ impl Elasticity {
         }
     }
 
-    /// By any of the laws, for the steps of a batch side by side; `[column j][row i]` = ∂u_i/∂x_j.
+    /// By any of the laws.
+    #[must_use]
+    pub fn state_by(&self, law: Law, gradient: Mat3) -> StressState {
+        match law {
+            Law::Solid => self.state(gradient),
+            Law::Free(n) => self.free_state(gradient, n),
+            Law::Edge(t) => self.edge_state(gradient, t),
+        }
+    }
+
+    /// The same for the steps of a batch side by side; `[column j][row i]` = ∂u_i/∂x_j.
     #[inline(always)]
     pub(crate) fn lanes(&self, gradient: &[[Lanes; 3]; 3], law: Law) -> StressLanes {
         match law {
@@ -330,8 +340,8 @@ mod tests {
 }
 
 /// Which law makes stress of strain at a place.
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum Law {
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Law {
     /// Hooke's, inside a body.
     Solid,
     /// Beside a free surface of this unit normal: [`Elasticity::free_state`].
