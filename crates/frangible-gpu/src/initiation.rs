@@ -259,7 +259,7 @@ fn follow(
         for (place, &tet) in body.weak_tets().iter().enumerate() {
             let (point, law) = places[place];
             let gradient = displacement.gradient(asset, point, step);
-            if !visit(place, tet, step, &elasticity.state_by(law, gradient).stress) {
+            if !visit(place, tet, step, &elasticity.state_by(gradient, law).stress) {
                 return false;
             }
         }

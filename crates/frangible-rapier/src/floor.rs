@@ -123,7 +123,7 @@ fn touch(
         let nearest =
             bounds.center().dot(plane.normal) - bounds.half_extents().dot(plane.normal.abs());
         if nearest > prediction {
-            manifolds.truncate(0);
+            // The manifold stays, without points: the solver may still refer to it.
             return Ok(());
         }
     }

@@ -10,7 +10,7 @@ use glam::Vec3;
 use super::field::StressField;
 use super::surface::{CrackFrame, crossing_area};
 use super::suspects::{Suspect, Suspects};
-use super::system::{Crack, CrackSystem, ElementCut, UNCUT};
+use super::system::{CrackSystem, ElementCut, UNCUT};
 use super::{advance, propagation::gradient, retry};
 use crate::config::CrackTiming;
 use crate::rng::{Purpose, stream, uniform};
@@ -164,7 +164,7 @@ fn try_start(system: &mut CrackSystem, field: &mut StressField, suspect: &Suspec
         return;
     }
     let id = system.cracks.len() as u32;
-    system.cracks.push(Crack::new(frame));
+    system.add(frame);
     let direction = gradient(&x, &values).unwrap_or(normal);
     system.fracture(
         id,

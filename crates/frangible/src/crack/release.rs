@@ -11,30 +11,40 @@
 //! each fractured tetrahedron once: it keeps the nearest one that has released it and, of those still to come, only
 //! the ones that no nearer one will precede. The product of all its projections is kept until something arrives.
 
+use std::ops::Range;
+
 use glam::{Mat3, Vec3};
 
 use super::suspects::Suspect;
-use super::system::{Crack, CrackSystem};
+use super::system::{CrackSystem, Growth};
 use crate::config::CrackTiming;
 use crate::stress::{MARGIN, STRIDE, Symmetric3, lane};
 
 /// Rounding of what is left, relative to the whole stress.
 const ROUNDING: f32 = 1e-5;
 
-/// What a point knows of one crack near it.
-#[derive(Clone, Debug)]
+/// What has released a point of one crack near it.
+#[derive(Clone, Copy, Debug)]
 struct Seen {
     crack: u32,
-    /// How many of the crack's sites it has looked at.
-    scanned: usize,
-    /// The crack's reach when it last looked, m.
-    reach: f32,
-    /// Nearest one that has released it: distance, m, and the crack's normal there.
-    nearest: (f32, Vec3),
-    /// Those to come: nearer means later. Distance, m; arrival of the wave, s; index in the crack.
-    pending: Vec<(f32, f64, u32)>,
-    /// Earliest of their arrivals still ahead, s.
-    next: f64,
+    /// Nearest site that has, or [`NONE`].
+    site: u32,
+    /// Its distance, m; infinite without one.
+    distance: f32,
+}
+
+/// No site.
+const NONE: u32 = u32::MAX;
+
+/// A site whose wave is on its way, or that lies beyond its crack's reach; of one crack, nearer means later.
+#[derive(Clone, Copy, Debug)]
+struct Pending {
+    crack: u32,
+    site: u32,
+    /// m.
+    distance: f32,
+    /// s.
+    arrival: f64,
 }
 
 /// What a point knows of all cracks.
@@ -42,6 +52,7 @@ struct Seen {
 struct Point {
     /// Cracks near it, by number.
     seen: Vec<Seen>,
+    pending: Vec<Pending>,
     /// P₁ P₂ … of the cracks that have released it, if any has.
     projection: Option<Mat3>,
     /// Nothing arrives before this time, s …
@@ -115,6 +126,7 @@ impl Releases {
         if place >= self.points.len() {
             let untouched = Point {
                 seen: Vec::new(),
+                pending: Vec::new(),
                 projection: None,
                 next: f64::INFINITY,
                 growths: 0,
@@ -136,106 +148,150 @@ fn update(point: &mut Point, system: &CrackSystem, e: u32, now: f64, release_rea
     let grown = &system.growth[point.growths..];
     point.growths = system.growth.len();
     let mut changed = false;
-    let mut refresh = |i: u32| {
-        let crack = &system.cracks[i as usize];
-        let reach = release_reach * (2.0 * crack.extent).max(system.edge);
-        // Out of reach of the whole crack: nothing to look at until it grows.
-        if centre.distance_squared(crack.frame.origin) > (crack.extent + reach).powi(2) {
-            return;
+    if grown.len() < 4 * system.cracks.len() {
+        for growth in grown {
+            changed |= look(point, system, growth, centre, now, release_reach);
         }
-        changed |= look_again(&mut point.seen, i, crack, centre, reach, now, system);
-    };
-    if grown.len() < system.cracks.len() {
-        grown.iter().for_each(|&i| refresh(i));
     } else {
-        (0..system.cracks.len() as u32).for_each(refresh);
-    }
-    for seen in &mut point.seen {
-        if now > seen.next {
-            changed |= seen.arrive(&system.cracks[seen.crack as usize], now);
+        for crack in 0..system.cracks.len() as u32 {
+            let growth = Growth { crack, sites: 0 };
+            changed |= look(point, system, &growth, centre, now, release_reach);
         }
     }
-    let next = point.seen.iter().map(|seen| seen.next);
-    point.next = next.fold(f64::INFINITY, f64::min);
+    if now > point.next {
+        let mut waiting = point.pending.iter().map(|p| p.crack).collect::<Vec<_>>();
+        waiting.dedup();
+        for crack in waiting {
+            let reach = reach(system, crack, release_reach);
+            changed |= arrive(point, crack, now, reach);
+        }
+    }
+    let ahead = point
+        .pending
+        .iter()
+        .map(|p| p.arrival)
+        .filter(|&t| t >= now);
+    point.next = ahead.fold(f64::INFINITY, f64::min);
     if changed {
-        point.projection = projection(&point.seen);
+        point.projection = projection(system, &point.seen);
         point.held_in = None;
     }
 }
 
-/// Looks at a crack that has grown, from a point within its reach; whether it releases the point more, or otherwise.
-fn look_again(
-    seen: &mut Vec<Seen>,
-    number: u32,
-    crack: &Crack,
-    centre: Vec3,
-    reach: f32,
-    now: f64,
+/// How far a crack releases, m.
+fn reach(system: &CrackSystem, crack: u32, release_reach: f32) -> f32 {
+    release_reach * (2.0 * system.extents[crack as usize].size).max(system.edge)
+}
+
+/// Looks at a crack that has grown; whether it releases the point more, or otherwise.
+fn look(
+    point: &mut Point,
     system: &CrackSystem,
+    growth: &Growth,
+    centre: Vec3,
+    now: f64,
+    release_reach: f32,
 ) -> bool {
-    let i = match seen.binary_search_by_key(&number, |s| s.crack) {
-        Ok(i) => i,
+    let crack = growth.crack;
+    let reach = reach(system, crack, release_reach);
+    let (i, first) = match point.seen.binary_search_by_key(&crack, |s| s.crack) {
+        Ok(i) => (i, growth.sites as usize),
         Err(i) => {
+            let extent = &system.extents[crack as usize];
+            // Out of reach of the whole crack: nothing to look at until it grows.
+            if centre.distance_squared(extent.origin) > (extent.size + reach).powi(2) {
+                return false;
+            }
             let new = Seen {
-                crack: number,
-                scanned: 0,
-                reach: -1.0,
-                nearest: (f32::INFINITY, Vec3::ZERO),
-                pending: Vec::new(),
-                next: f64::INFINITY,
+                crack,
+                site: NONE,
+                distance: f32::INFINITY,
             };
-            seen.insert(i, new);
-            i
+            point.seen.insert(i, new);
+            (i, 0)
         }
     };
-    let seen = &mut seen[i];
-    if seen.scanned == crack.sites.len() && seen.reach == reach {
+    let nearest = point.seen[i].distance;
+    let wave = system.asset.material.rayleigh_speed();
+    let sites = &system.cracks[crack as usize].sites;
+    for (site, place) in sites.iter().enumerate().skip(first) {
+        let distance = place.position.distance(centre);
+        if nearest <= distance {
+            continue;
+        }
+        let arrival = place.time + f64::from(distance) / wave;
+        let own = of_crack(&point.pending, crack);
+        let precedes = |p: &Pending| p.distance <= distance && p.arrival <= arrival;
+        if point.pending[own.clone()].iter().any(precedes) {
+            continue;
+        }
+        let own = keep(&mut point.pending, own, |p| {
+            p.distance < distance || p.arrival < arrival
+        });
+        let new = Pending {
+            crack,
+            site: site as u32,
+            distance,
+            arrival,
+        };
+        point.pending.insert(own.end, new);
+    }
+    arrive(point, crack, now, reach)
+}
+
+/// Lets those sites of a crack arrive whose wave is here and that lie within reach; whether one is nearer than what was.
+fn arrive(point: &mut Point, crack: u32, now: f64, reach: f32) -> bool {
+    let own = of_crack(&point.pending, crack);
+    let waiting = point.pending[own.clone()].iter();
+    let here = waiting.filter(|p| p.arrival < now && p.distance < reach);
+    let Some(nearest) = here
+        .min_by(|a, b| a.distance.total_cmp(&b.distance))
+        .copied()
+    else {
+        return false;
+    };
+    let Ok(i) = point.seen.binary_search_by_key(&crack, |s| s.crack) else {
+        return false;
+    };
+    if nearest.distance >= point.seen[i].distance {
         return false;
     }
-    seen.look(crack, centre, system.asset.material.rayleigh_speed());
-    seen.reach = reach;
-    seen.arrive(crack, now)
+    point.seen[i].site = nearest.site;
+    point.seen[i].distance = nearest.distance;
+    keep(&mut point.pending, own, |p| p.distance < nearest.distance);
+    true
+}
+
+/// Where a crack's sites stand among those pending, which are in crack order.
+fn of_crack(pending: &[Pending], crack: u32) -> Range<usize> {
+    let start = pending.partition_point(|p| p.crack < crack);
+    let own = pending[start..].iter().take_while(|p| p.crack == crack);
+    start..start + own.count()
+}
+
+/// Keeps those of a range that pass; returns what is left of the range.
+fn keep(
+    pending: &mut Vec<Pending>,
+    range: Range<usize>,
+    passes: impl Fn(&Pending) -> bool,
+) -> Range<usize> {
+    let mut end = range.start;
+    for i in range.clone() {
+        if passes(&pending[i]) {
+            pending[end] = pending[i];
+            end += 1;
+        }
+    }
+    pending.drain(end..range.end);
+    range.start..end
 }
 
 /// In crack order: projections do not commute.
-fn projection(seen: &[Seen]) -> Option<Mat3> {
-    let released = seen.iter().filter(|s| s.nearest.0.is_finite());
+fn projection(system: &CrackSystem, seen: &[Seen]) -> Option<Mat3> {
+    let released = seen.iter().filter(|s| s.site != NONE);
     let across = released.map(|s| {
-        let n = s.nearest.1;
+        let n = system.cracks[s.crack as usize].sites[s.site as usize].direction;
         Mat3::IDENTITY - Mat3::from_cols(n * n.x, n * n.y, n * n.z)
     });
     across.reduce(|product, next| product * next)
-}
-
-impl Seen {
-    /// Looks at the sites that have joined since the last time.
-    fn look(&mut self, crack: &Crack, point: Vec3, wave: f64) {
-        for (k, site) in crack.sites.iter().enumerate().skip(self.scanned) {
-            let distance = site.position.distance(point);
-            if self.nearest.0 <= distance {
-                continue;
-            }
-            let arrival = site.time + f64::from(distance) / wave;
-            if self.pending.iter().all(|p| p.0 > distance || p.1 > arrival) {
-                self.pending.retain(|p| p.0 < distance || p.1 < arrival);
-                self.pending.push((distance, arrival, k as u32));
-            }
-        }
-        self.scanned = crack.sites.len();
-    }
-
-    /// Lets those arrive whose wave is here and that lie within reach; whether one is nearer than what was.
-    fn arrive(&mut self, crack: &Crack, now: f64) -> bool {
-        let before = self.nearest.0;
-        for &(distance, arrival, k) in &self.pending {
-            if arrival < now && distance < self.reach && distance < self.nearest.0 {
-                self.nearest = (distance, crack.sites[k as usize].direction);
-            }
-        }
-        let nearest = self.nearest.0;
-        self.pending.retain(|p| p.0 < nearest);
-        let ahead = self.pending.iter().filter(|p| p.1 >= now);
-        self.next = ahead.map(|p| p.1).fold(f64::INFINITY, f64::min);
-        nearest < before
-    }
 }

@@ -31,8 +31,6 @@ pub(crate) struct Crack {
     pub(crate) available: f64,
     /// Area, m².
     pub(crate) area: f64,
-    /// Largest distance of a fractured tetrahedron from the start, m.
-    pub(crate) extent: f32,
     /// Its tetrahedra thinned to one per place: what releases the stress around it.
     pub(crate) sites: Vec<Site>,
     /// Question about releases that it last grew before.
@@ -51,7 +49,6 @@ impl Crack {
             spent: 0.0,
             available: 0.0,
             area: 0.0,
-            extent: 0.0,
             sites: Vec::new(),
             grown_before: 0,
             junctions: Vec::new(),
@@ -78,6 +75,22 @@ pub(crate) struct ElementCut {
     pub(crate) direction: Vec3,
     /// When it joined, s after the contact began.
     pub(crate) time: f64,
+}
+
+/// Start and size of a crack.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Extent {
+    pub(crate) origin: Vec3,
+    /// Largest distance of a fractured tetrahedron from the start, m.
+    pub(crate) size: f32,
+}
+
+/// A crack that grew.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Growth {
+    pub(crate) crack: u32,
+    /// How many sites it had before.
+    pub(crate) sites: u32,
 }
 
 /// A place on a crack.
@@ -150,7 +163,9 @@ pub(crate) struct CrackSystem<'a> {
     /// What has released the weak points so far.
     pub(crate) releases: Releases,
     /// The crack that grew, got a site or a longer reach, once for each time between two questions about releases.
-    pub(crate) growth: Vec<u32>,
+    pub(crate) growth: Vec<Growth>,
+    /// Start and size of each crack.
+    pub(crate) extents: Vec<Extent>,
     /// Number of questions so far.
     pub(crate) questions: u64,
     /// Centroid of each fracture tetrahedron, m.
@@ -183,6 +198,7 @@ impl<'a> CrackSystem<'a> {
             stalled: Vec::new(),
             releases: Releases::default(),
             growth: Vec::new(),
+            extents: Vec::new(),
             questions: 1,
             centroids: &body.prepared.centroids,
             edge: body.prepared.edge,
@@ -207,7 +223,7 @@ impl<'a> CrackSystem<'a> {
             self.seed,
             old.start,
         );
-        self.cracks.push(Crack::new(frame));
+        self.add(frame);
         for cut in &old.cuts {
             let cut = ElementCut {
                 tet: cut.tet,
@@ -291,6 +307,15 @@ impl<'a> CrackSystem<'a> {
         }
     }
 
+    /// Adds a crack without tetrahedra.
+    pub(crate) fn add(&mut self, frame: CrackFrame) {
+        self.extents.push(Extent {
+            origin: frame.origin,
+            size: 0.0,
+        });
+        self.cracks.push(Crack::new(frame));
+    }
+
     /// Adds a fractured tetrahedron to a crack.
     fn join(&mut self, crack: u32, cut: ElementCut, area: f32) {
         let tet = cut.tet as usize;
@@ -298,9 +323,11 @@ impl<'a> CrackSystem<'a> {
         let c = &mut self.cracks[crack as usize];
         c.area += f64::from(area);
         let centre = self.centroids[tet];
-        let extent = c.extent.max(centre.distance(c.frame.origin));
-        let mut grown = extent > c.extent;
-        c.extent = extent;
+        let extent = &mut self.extents[crack as usize];
+        let size = extent.size.max(centre.distance(extent.origin));
+        let mut grown = size > extent.size;
+        extent.size = size;
+        let sites = c.sites.len() as u32;
         for (&node, &s) in self.asset.fracture.tets[tet].iter().zip(&cut.values) {
             c.values.entry(node).or_insert(s);
         }
@@ -321,7 +348,7 @@ impl<'a> CrackSystem<'a> {
         c.elements.push(cut);
         if grown && c.grown_before != self.questions {
             c.grown_before = self.questions;
-            self.growth.push(crack);
+            self.growth.push(Growth { crack, sites });
         }
     }
 }

@@ -2,6 +2,7 @@
 
 use glam::{Mat3, Vec3};
 
+use super::wide::Wide;
 use crate::asset::{Asset, EmbeddedPoint};
 use crate::modal::Motion;
 
@@ -122,21 +123,19 @@ impl DisplacementBatch {
 
     /// ∇u at an embedded point at all steps of the batch: `[column j][row i]` = ∂u_i/∂x_j.
     #[inline(always)]
-    pub(crate) fn gradients(&mut self, asset: &Asset, point: &EmbeddedPoint) -> [[Lanes; 3]; 3] {
+    pub(crate) fn gradients(&mut self, asset: &Asset, point: &EmbeddedPoint) -> [[Wide; 3]; 3] {
         let element = point.element as usize;
         let weights =
             ShapeWeights::gradients(point, &asset.analysis.barycentric_gradients[element]);
         let nodes = &asset.analysis.elements[element];
         // The gradients of the shape functions add up to nothing: what all nodes share only costs digits.
         let shared = *self.at_node(asset, nodes[0] as usize);
-        let mut sum = [[[0.0; BATCH]; 3]; 3];
+        let mut sum = [[Wide::default(); 3]; 3];
         for (&node, g) in nodes.iter().zip(weights).skip(1) {
             let u = self.at_node(asset, node as usize);
             for (column, weight) in sum.iter_mut().zip(g.to_array()) {
-                for ((row, u), shared) in column.iter_mut().zip(u).zip(&shared) {
-                    for k in 0..BATCH {
-                        row[k] += (u[k] - shared[k]) * weight;
-                    }
+                for ((row, &u), &shared) in column.iter_mut().zip(u).zip(&shared) {
+                    *row = *row + (Wide(u) - Wide(shared)) * weight;
                 }
             }
         }

@@ -6,6 +6,7 @@ mod principal;
 mod skin;
 mod strain;
 mod wall;
+mod wide;
 
 pub use bound::StressBounds;
 pub(crate) use bound::{MARGIN, quadratic_modulus, tension_bound};

@@ -1,9 +1,11 @@
 //! Green–Lagrange strain and Hooke's law.
 
+use std::ops::{Add, Mul, Sub};
+
 use glam::{Mat3, Vec3};
 
-use super::displacement::{BATCH, Lanes};
-use super::principal::largest_eigenvalue_bound;
+use super::displacement::Lanes;
+use super::wide::Wide;
 use crate::material::Material;
 
 /// Symmetric 3 × 3 tensor.
@@ -16,6 +18,21 @@ pub struct Symmetric3 {
 }
 
 impl Symmetric3 {
+    /// xx, yy, zz, xy, yz, zx.
+    #[inline(always)]
+    fn components(self) -> [f32; 6] {
+        let ([xx, yy, zz], [xy, yz, zx]) = (self.diagonal, self.off);
+        [xx, yy, zz, xy, yz, zx]
+    }
+
+    #[inline(always)]
+    fn from_components([xx, yy, zz, xy, yz, zx]: [f32; 6]) -> Self {
+        Self {
+            diagonal: [xx, yy, zz],
+            off: [xy, yz, zx],
+        }
+    }
+
     /// As a full matrix.
     #[must_use]
     pub fn to_mat3(self) -> Mat3 {
@@ -50,14 +67,8 @@ impl Symmetric3 {
 
     /// The tensor times a vector.
     #[must_use]
-    #[inline(always)]
     pub fn times(self, v: Vec3) -> Vec3 {
-        let ([xx, yy, zz], [xy, yz, zx]) = (self.diagonal, self.off);
-        Vec3::new(
-            xx * v.x + xy * v.y + zx * v.z,
-            xy * v.x + yy * v.y + yz * v.z,
-            zx * v.x + yz * v.y + zz * v.z,
-        )
+        Vec3::from_array(times(&self.components(), v))
     }
 
     /// What is left of a stress beside a free surface of unit normal `n`: P σ P, P = I − n nᵀ.
@@ -110,156 +121,265 @@ impl Elasticity {
         Self { quadratic, ..self }
     }
 
+    /// E, or its linear part, of ∇u, `[column j][row i]` = ∂u_i/∂x_j.
     #[inline(always)]
-    fn strain(&self, gradient: Mat3) -> Symmetric3 {
+    fn strain<T: Real>(&self, [a, b, c]: &[[T; 3]; 3]) -> [T; 6] {
+        let mut e = [
+            a[0],
+            b[1],
+            c[2],
+            (b[0] + a[1]) * 0.5,
+            (c[1] + b[2]) * 0.5,
+            (a[2] + c[0]) * 0.5,
+        ];
         if self.quadratic {
-            green_lagrange(gradient)
-        } else {
-            Symmetric3::from_mat3(gradient)
+            let dot = |u: &[T; 3], v: &[T; 3]| (u[0] * v[0] + u[1] * v[1] + u[2] * v[2]) * 0.5;
+            let terms = [
+                dot(a, a),
+                dot(b, b),
+                dot(c, c),
+                dot(a, b),
+                dot(b, c),
+                dot(c, a),
+            ];
+            for (e, term) in e.iter_mut().zip(terms) {
+                *e = *e + term;
+            }
         }
+        e
     }
 
-    /// E = ½(∇u + ∇uᵀ + ∇uᵀ∇u), σ = λ tr(E) I + 2 μ E `[G12 §4.4]`.
-    #[must_use]
+    /// Stress by a law, and energy density, of ∇u.
     #[inline(always)]
-    pub fn state(&self, gradient: Mat3) -> StressState {
+    fn evaluate<T: Real>(&self, gradient: &[[T; 3]; 3], law: Law) -> ([T; 6], T) {
         let strain = self.strain(gradient);
-        let stress = self.hooke(&strain);
-        let ([e, s], [t, u]) = ([strain.diagonal, strain.off], [stress.diagonal, stress.off]);
-        StressState {
-            stress,
-            energy_density: (0..3).map(|i| 0.5 * t[i] * e[i] + u[i] * s[i]).sum(),
+        match law {
+            Law::Solid => {
+                let stress = self.hooke_of(&strain);
+                (stress, half_product(&stress, &strain))
+            }
+            Law::Free(n) => {
+                let in_surface = tangential(&strain, n);
+                let stress = self.plane_stress(&in_surface, n);
+                (stress, half_product(&stress, &in_surface))
+            }
+            Law::Edge(t) => {
+                let along = stretch(&strain, t);
+                let tension = along * self.youngs_modulus;
+                (uniaxial(tension, t), tension * along * 0.5)
+            }
         }
     }
 
     /// By any of the laws.
     #[must_use]
-    pub fn state_by(&self, law: Law, gradient: Mat3) -> StressState {
-        match law {
-            Law::Solid => self.state(gradient),
-            Law::Free(n) => self.free_state(gradient, n),
-            Law::Edge(t) => self.edge_state(gradient, t),
+    #[inline(always)]
+    pub fn state_by(&self, gradient: Mat3, law: Law) -> StressState {
+        let (stress, energy_density) = self.evaluate(&gradient.to_cols_array_2d(), law);
+        StressState {
+            stress: Symmetric3::from_components(stress),
+            energy_density,
         }
     }
 
-    /// The same for the steps of a batch side by side; `[column j][row i]` = ∂u_i/∂x_j.
-    #[inline(always)]
-    pub(crate) fn lanes(&self, gradient: &[[Lanes; 3]; 3], law: Law) -> StressLanes {
-        match law {
-            Law::Solid => each_lane(gradient, |g| self.state(g)),
-            Law::Free(n) => each_lane(gradient, |g| self.free_state(g, n)),
-            Law::Edge(t) => each_lane(gradient, |g| self.edge_state(g, t)),
-        }
+    /// E = ½(∇u + ∇uᵀ + ∇uᵀ∇u), σ = λ tr(E) I + 2 μ E `[G12 §4.4]`.
+    #[must_use]
+    pub fn state(&self, gradient: Mat3) -> StressState {
+        self.state_by(gradient, Law::Solid)
     }
 
     /// The same beside a free surface of unit normal `n`, where the traction σ·n is zero: the strain in the surface is
     /// kept, the rest is what Hooke's law makes of it (plane stress). With P = I − n nᵀ and E_t = P E P:
     /// σ = λ* tr(E_t) P + 2 μ E_t, λ* = 2 λ μ / (λ + 2 μ), η = ½ σ : E_t.
     #[must_use]
-    #[inline(always)]
     pub fn free_state(&self, gradient: Mat3, n: Vec3) -> StressState {
-        let strain = self.strain(gradient);
-        let in_surface = tangential(&strain, n);
-        let stress = self.plane_stress(&in_surface, n);
-        let ([e, s], [t, u]) = (
-            [in_surface.diagonal, in_surface.off],
-            [stress.diagonal, stress.off],
-        );
-        let energy: f32 = (0..3).map(|i| 0.5 * t[i] * e[i] + u[i] * s[i]).sum();
-        StressState {
-            stress,
-            energy_density: energy,
-        }
+        self.state_by(gradient, Law::Free(n))
     }
 
     /// The same at the edge between two free surfaces that runs along unit `t`: all that is left is the tension along it.
     #[must_use]
-    #[inline(always)]
     pub fn edge_state(&self, gradient: Mat3, t: Vec3) -> StressState {
-        let strain = self.strain(gradient);
-        let stress = self.edge_hooke(&strain, t);
-        let along = stress.diagonal.iter().sum::<f32>() / self.youngs_modulus;
-        StressState {
-            stress,
-            energy_density: 0.5 * self.youngs_modulus * along * along,
+        self.state_by(gradient, Law::Edge(t))
+    }
+
+    /// By any of the laws, for the steps of a batch side by side; `[column j][row i]` = ∂u_i/∂x_j.
+    #[inline(always)]
+    pub(crate) fn lanes(&self, gradient: &[[Wide; 3]; 3], law: Law) -> StressLanes {
+        let (components, energy_density) = self.evaluate(gradient, law);
+        StressLanes {
+            components: components.map(|c| c.0),
+            energy_density: energy_density.0,
         }
     }
 
     /// σ = λ tr(E) I + 2 μ E.
-    #[inline(always)]
     pub(super) fn hooke(&self, strain: &Symmetric3) -> Symmetric3 {
-        let trace = self.lambda * strain.diagonal.iter().sum::<f32>();
-        Symmetric3 {
-            diagonal: strain.diagonal.map(|x| trace + 2.0 * self.mu * x),
-            off: strain.off.map(|x| 2.0 * self.mu * x),
-        }
+        Symmetric3::from_components(self.hooke_of(&strain.components()))
     }
 
     /// Stress beside a free surface of unit normal `n`, linear in the strain.
     pub(super) fn free_hooke(&self, strain: &Symmetric3, n: Vec3) -> Symmetric3 {
-        self.plane_stress(&tangential(strain, n), n)
+        let in_surface = tangential(&strain.components(), n);
+        Symmetric3::from_components(self.plane_stress(&in_surface, n))
     }
 
     /// Stress at an edge along unit `t`, linear in the strain: E (t·E t) t tᵀ.
-    #[inline(always)]
     pub(super) fn edge_hooke(&self, strain: &Symmetric3, t: Vec3) -> Symmetric3 {
-        let tension = self.youngs_modulus * t.dot(strain.times(t));
-        Symmetric3 {
-            diagonal: [t.x * t.x, t.y * t.y, t.z * t.z].map(|x| tension * x),
-            off: [t.x * t.y, t.y * t.z, t.z * t.x].map(|x| tension * x),
-        }
+        let along = stretch(&strain.components(), t);
+        Symmetric3::from_components(uniaxial(along * self.youngs_modulus, t))
     }
 
     #[inline(always)]
-    fn plane_stress(&self, in_surface: &Symmetric3, n: Vec3) -> Symmetric3 {
-        let trace = self.plane_lambda * in_surface.diagonal.iter().sum::<f32>();
-        let along = [n.x, n.y, n.z];
-        let across = [n.x * n.y, n.y * n.z, n.z * n.x];
-        let two_mu = 2.0 * self.mu;
-        Symmetric3 {
-            diagonal: std::array::from_fn(|i| {
-                two_mu * in_surface.diagonal[i] + trace * (1.0 - along[i] * along[i])
-            }),
-            off: std::array::from_fn(|i| two_mu * in_surface.off[i] - trace * across[i]),
+    fn hooke_of<T: Real>(&self, strain: &[T; 6]) -> [T; 6] {
+        let trace = (strain[0] + strain[1] + strain[2]) * self.lambda;
+        let mut stress = strain.map(|e| e * (2.0 * self.mu));
+        for s in &mut stress[..3] {
+            *s = *s + trace;
         }
+        stress
+    }
+
+    #[inline(always)]
+    fn plane_stress<T: Real>(&self, in_surface: &[T; 6], n: Vec3) -> [T; 6] {
+        let trace = (in_surface[0] + in_surface[1] + in_surface[2]) * self.plane_lambda;
+        let mut stress = in_surface.map(|e| e * (2.0 * self.mu));
+        let across = products(n, n);
+        for (i, s) in stress.iter_mut().enumerate() {
+            let part = if i < 3 { 1.0 - across[i] } else { -across[i] };
+            *s = *s + trace * part;
+        }
+        stress
     }
 }
 
-/// E = ½(∇u + ∇uᵀ + ∇uᵀ∇u).
+/// a_x b_x, a_y b_y, a_z b_z, and the halves of a b + b a off the diagonal: xy, yz, zx.
+fn products(a: Vec3, b: Vec3) -> [f32; 6] {
+    [
+        a.x * b.x,
+        a.y * b.y,
+        a.z * b.z,
+        0.5 * (a.x * b.y + a.y * b.x),
+        0.5 * (a.y * b.z + a.z * b.y),
+        0.5 * (a.z * b.x + a.x * b.z),
+    ]
+}
+
+/// E n.
 #[inline(always)]
-fn green_lagrange(gradient: Mat3) -> Symmetric3 {
-    let (a, b, c) = (gradient.x_axis, gradient.y_axis, gradient.z_axis);
-    Symmetric3 {
-        diagonal: [
-            a.x + 0.5 * a.dot(a),
-            b.y + 0.5 * b.dot(b),
-            c.z + 0.5 * c.dot(c),
-        ],
-        off: [
-            0.5 * (b.x + a.y + a.dot(b)),
-            0.5 * (c.y + b.z + b.dot(c)),
-            0.5 * (a.z + c.x + c.dot(a)),
-        ],
-    }
+fn times<T: Real>(e: &[T; 6], n: Vec3) -> [T; 3] {
+    let [xx, yy, zz, xy, yz, zx] = *e;
+    [
+        xx * n.x + xy * n.y + zx * n.z,
+        xy * n.x + yy * n.y + yz * n.z,
+        zx * n.x + yz * n.y + zz * n.z,
+    ]
+}
+
+/// t·E t.
+#[inline(always)]
+fn stretch<T: Real>(e: &[T; 6], t: Vec3) -> T {
+    let [x, y, z] = times(e, t);
+    x * t.x + y * t.y + z * t.z
+}
+
+/// Tension along unit `t`.
+#[inline(always)]
+fn uniaxial<T: Real>(tension: T, t: Vec3) -> [T; 6] {
+    products(t, t).map(|p| tension * p)
 }
 
 /// P E P, P = I − n nᵀ: E − n mᵀ − m nᵀ + (n·m) n nᵀ with m = E n.
 #[inline(always)]
-fn tangential(e: &Symmetric3, n: Vec3) -> Symmetric3 {
-    let ([xx, yy, zz], [xy, yz, zx]) = (e.diagonal, e.off);
-    let m = e.times(n);
-    let nm = n.dot(m);
-    Symmetric3 {
-        diagonal: [
-            xx - (2.0 * m.x - nm * n.x) * n.x,
-            yy - (2.0 * m.y - nm * n.y) * n.y,
-            zz - (2.0 * m.z - nm * n.z) * n.z,
-        ],
-        off: [
-            xy - n.x * m.y - m.x * n.y + nm * n.x * n.y,
-            yz - n.y * m.z - m.y * n.z + nm * n.y * n.z,
-            zx - n.z * m.x - m.z * n.x + nm * n.z * n.x,
-        ],
+fn tangential<T: Real>(e: &[T; 6], n: Vec3) -> [T; 6] {
+    let [x, y, z] = times(e, n);
+    let across = x * n.x + y * n.y + z * n.z;
+    let [xx, yy, zz, xy, yz, zx] = *e;
+    [
+        xx - (x * 2.0 - across * n.x) * n.x,
+        yy - (y * 2.0 - across * n.y) * n.y,
+        zz - (z * 2.0 - across * n.z) * n.z,
+        xy - y * n.x - x * n.y + across * (n.x * n.y),
+        yz - z * n.y - y * n.z + across * (n.y * n.z),
+        zx - x * n.z - z * n.x + across * (n.z * n.x),
+    ]
+}
+
+/// ½ σ : E.
+#[inline(always)]
+fn half_product<T: Real>(stress: &[T; 6], strain: &[T; 6]) -> T {
+    let of = |i: usize| stress[i] * strain[i];
+    (of(0) + of(1) + of(2)) * 0.5 + (of(3) + of(4) + of(5))
+}
+
+/// A number, or one for each step of a batch: the same operations in the same order.
+pub(crate) trait Real:
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Mul<f32, Output = Self>
+{
+}
+
+impl Real for f32 {}
+impl Real for Wide {}
+
+/// Which law makes stress of strain at a place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Law {
+    /// Hooke's, inside a body.
+    Solid,
+    /// Beside a free surface of this unit normal: [`Elasticity::free_state`].
+    Free(Vec3),
+    /// At an edge along this unit vector: [`Elasticity::edge_state`].
+    Edge(Vec3),
+}
+
+/// Stress and strain energy at a point at the steps of a batch.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct StressLanes {
+    /// σ, Pa: xx, yy, zz, xy, yz, zx.
+    components: [Lanes; 6],
+    /// η, J/m³.
+    pub(crate) energy_density: Lanes,
+}
+
+impl StressLanes {
+    /// σ at step k of the batch, Pa.
+    #[inline(always)]
+    pub(crate) fn stress(&self, k: usize) -> Symmetric3 {
+        Symmetric3::from_components(self.components.map(|lanes| lanes[k]))
+    }
+
+    /// Qᵀ σ Q, without the energy.
+    #[inline(always)]
+    pub(crate) fn projected(&self, q: &Mat3) -> Self {
+        let [xx, yy, zz, xy, yz, zx] = self.components.map(Wide);
+        let rows = [[xx, xy, zx], [xy, yy, yz], [zx, yz, zz]];
+        let columns = q.to_cols_array_2d();
+        let halves = columns.map(|c| rows.map(|r| r[0] * c[0] + r[1] * c[1] + r[2] * c[2]));
+        let part = |i: usize, j: usize| {
+            let (half, left) = (halves[j], columns[i]);
+            (half[0] * left[0] + half[1] * left[1] + half[2] * left[2]).0
+        };
+        Self {
+            components: [
+                part(0, 0),
+                part(1, 1),
+                part(2, 2),
+                part(0, 1),
+                part(1, 2),
+                part(2, 0),
+            ],
+            energy_density: Lanes::default(),
+        }
+    }
+
+    /// Upper bounds of the largest principal tension, Pa: [`largest_eigenvalue_bound`](super::largest_eigenvalue_bound).
+    #[inline(always)]
+    pub(crate) fn tension_bounds(&self) -> Lanes {
+        let [xx, yy, zz, xy, yz, zx] = self.components.map(Wide);
+        let mean = (xx + yy + zz) * (1.0 / 3.0);
+        let (a, b, c) = (xx - mean, yy - mean, zz - mean);
+        let squares =
+            (a * a + b * b + c * c) * (1.0 / 6.0) + (xy * xy + yz * yz + zx * zx) * (1.0 / 3.0);
+        (mean + squares.sqrt() * 2.0).0
     }
 }
 
@@ -301,7 +421,7 @@ mod tests {
                 let size = e * 1e-4;
                 assert!(free.stress.times(n).length() < 1e-5 * size);
                 // Hooke's law of plane stress, read backwards: ε = ((1 + ν) σ − ν tr(σ) I) / E in the surface.
-                let strain = green_lagrange(g);
+                let strain = Symmetric3::from_components(law.strain(&g.to_cols_array_2d()));
                 let (a, b) = crate::stress::perpendicular_axes(n);
                 let trace: f32 = free.stress.diagonal.iter().sum();
                 let mut energy = 0.0;
@@ -336,87 +456,5 @@ mod tests {
                 assert!((0..3).all(|i| (a.off[i] - b.off[i]).abs() < 50.0));
             }
         }
-    }
-}
-
-/// Which law makes stress of strain at a place.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Law {
-    /// Hooke's, inside a body.
-    Solid,
-    /// Beside a free surface of this unit normal: [`Elasticity::free_state`].
-    Free(Vec3),
-    /// At an edge along this unit vector: [`Elasticity::edge_state`].
-    Edge(Vec3),
-}
-
-#[inline(always)]
-fn each_lane(gradient: &[[Lanes; 3]; 3], state: impl Fn(Mat3) -> StressState) -> StressLanes {
-    let mut out = StressLanes::default();
-    for k in 0..BATCH {
-        let [x, y, z] = gradient.map(|column| Vec3::from_array(column.map(|row| row[k])));
-        let StressState {
-            stress,
-            energy_density,
-        } = state(Mat3::from_cols(x, y, z));
-        let ([xx, yy, zz], [xy, yz, zx]) = (stress.diagonal, stress.off);
-        for (lanes, s) in out.components.iter_mut().zip([xx, yy, zz, xy, yz, zx]) {
-            lanes[k] = s;
-        }
-        out.energy_density[k] = energy_density;
-    }
-    out
-}
-
-/// Stress and strain energy at a point at the steps of a batch.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct StressLanes {
-    /// σ, Pa: xx, yy, zz, xy, yz, zx.
-    components: [Lanes; 6],
-    /// η, J/m³.
-    pub(crate) energy_density: Lanes,
-}
-
-impl StressLanes {
-    /// σ at step k of the batch, Pa.
-    #[inline(always)]
-    pub(crate) fn stress(&self, k: usize) -> Symmetric3 {
-        let [xx, yy, zz, xy, yz, zx] = self.components.map(|lanes| lanes[k]);
-        Symmetric3 {
-            diagonal: [xx, yy, zz],
-            off: [xy, yz, zx],
-        }
-    }
-
-    /// Qᵀ σ Q, without the energy.
-    #[inline(always)]
-    pub(crate) fn projected(&self, q: &Mat3) -> Self {
-        let [xx, yy, zz, xy, yz, zx] = &self.components;
-        let rows = [[xx, xy, zx], [xy, yy, yz], [zx, yz, zz]];
-        let columns = q.to_cols_array_2d();
-        let mut out = Self::default();
-        for (component, [i, j]) in [[0, 0], [1, 1], [2, 2], [0, 1], [1, 2], [2, 0]]
-            .into_iter()
-            .enumerate()
-        {
-            for (row, left) in rows.iter().zip(columns[i]) {
-                for (lanes, right) in row.iter().zip(columns[j]) {
-                    for k in 0..BATCH {
-                        out.components[component][k] += left * right * lanes[k];
-                    }
-                }
-            }
-        }
-        out
-    }
-
-    /// Upper bounds of the largest principal tension, Pa.
-    #[inline(always)]
-    pub(crate) fn tension_bounds(&self) -> Lanes {
-        let mut bounds = [0.0; BATCH];
-        for (k, bound) in bounds.iter_mut().enumerate() {
-            *bound = largest_eigenvalue_bound(&self.stress(k));
-        }
-        bounds
     }
 }
