@@ -4,8 +4,9 @@ use std::sync::{Arc, OnceLock};
 
 use glam::Vec3;
 
-use crate::asset::Asset;
+use crate::asset::{Asset, EmbeddedPoint};
 use crate::config::FractureConfig;
+use crate::crack::weak_place;
 use crate::error::InputError;
 use crate::fields::{Fields, Resistance, Toughness};
 use crate::fragment::{MeshIndex, RenderIndex};
@@ -13,7 +14,7 @@ use crate::loads::PerNewton;
 use crate::mesh::TriangleTree;
 use crate::rng::{Purpose, stream, uniform};
 use crate::state::BodyState;
-use crate::stress::{ShapeWeights, Skin, StressBounds, quadratic_modulus};
+use crate::stress::{Law, ShapeWeights, Skin, StressBounds, quadratic_modulus};
 
 /// An asset that has been checked and made ready: one per kind of object, cheap to clone, shared by its bodies.
 #[derive(Clone, Debug)]
@@ -124,6 +125,12 @@ impl Breakable {
     #[must_use]
     pub fn asset(&self) -> &Arc<Asset> {
         &self.asset
+    }
+
+    /// What bounds the stress of a motion, cluster by cluster.
+    #[must_use]
+    pub fn stress_bounds(&self) -> &StressBounds {
+        &self.prepared.bounds
     }
 
     /// A body of this kind; `seed` decides its weak points.
@@ -256,6 +263,31 @@ impl Body {
     #[must_use]
     pub fn weak_tets(&self) -> &[u32] {
         &self.weak_tets
+    }
+
+    /// R_c that the stress must pass for a crack to start in a fracture tetrahedron, Pa.
+    #[must_use]
+    pub fn strength(&self, tet: u32) -> f32 {
+        self.resistance.strength(tet)
+    }
+
+    /// Where the stress of a weak tetrahedron is taken, and by which law: at its flaw on the free surface, else at its
+    /// centroid. `pressed`: surface triangles that something presses on, whose flaws do not count.
+    #[must_use]
+    pub fn weak_place(
+        &self,
+        tet: u32,
+        config: &FractureConfig,
+        pressed: &[u32],
+    ) -> (&EmbeddedPoint, Law) {
+        let skin = &self.prepared.skin;
+        weak_place(&self.asset, skin, config, pressed, tet as usize)
+    }
+
+    /// The smallest strength of its weak tetrahedra, Pa; the material's where there is none.
+    #[must_use]
+    pub fn weakest(&self) -> f64 {
+        self.resistance.weakest
     }
 }
 

@@ -8,8 +8,9 @@ use crate::contact::{self, Contact};
 use crate::crack::{CrackSystem, Culling, Peak, StressField, Suspects, crack, front_limit};
 use crate::error::InputError;
 use crate::fragment::{self, Labels};
-use crate::modal::{self, Motion};
+use crate::modal::Motion;
 use crate::outcome::{Fracture, ImpactReport, LookedAt, Outcome};
+use crate::stages::Vibration;
 use crate::state::BodyState;
 use crate::stress::{BATCH, DisplacementBatch, Elasticity, MARGIN, STRIDE, lane};
 use crate::trace::CrackTrace;
@@ -82,6 +83,26 @@ fn cracks<'a>(
     config: &'a FractureConfig,
     trace: &mut Option<CrackTrace>,
 ) -> Result<Cracked<'a>, InputError> {
+    Ok(match begin(body, contacts, config)? {
+        Begun::Held(margin, report) => Cracked::Held(margin, report, None),
+        Begun::Vibrates(vibration) => vibrate(body, config, vibration, 0, trace),
+    })
+}
+
+/// What is known of an impact before the motion of the modes is.
+pub(crate) enum Begun {
+    /// Too weak for any crack: margin and report.
+    Held(f64, ImpactReport),
+    /// The modes have to be followed.
+    Vibrates(Vibration),
+}
+
+/// First stage: bound, force pulse and time steps.
+pub(crate) fn begin(
+    body: &Body,
+    contacts: &[Contact],
+    config: &FractureConfig,
+) -> Result<Begun, InputError> {
     contacts.iter().try_for_each(Contact::validate)?;
     let asset = &*body.asset;
     let mut report = report_on(body);
@@ -96,13 +117,13 @@ fn cracks<'a>(
         report.stress_bound = f64::from(bound);
         report.timings.response = clock.elapsed().as_secs_f64();
         let margin = report.strength / f64::from(bound);
-        return Ok(Cracked::Held(margin, report, None));
+        return Ok(Begun::Held(margin, report));
     }
 
     // Contact → force pulse → modal response [G12 §4.1-4.3].
     let load = contact::modal_load(body, contacts);
     if load.touches.is_empty() {
-        return Ok(Cracked::Held(f64::INFINITY, report, None));
+        return Ok(Begun::Held(f64::INFINITY, report));
     }
     report.unadjusted_duration = contact::contact_duration(asset, &load, config.duration);
     report.contact_duration = if config.admissible_duration {
@@ -112,27 +133,48 @@ fn cracks<'a>(
         report.unadjusted_duration
     };
     let pulse = contact::pulse(asset, &load, report.contact_duration, config);
-    let motion = modal::respond(&asset.modes, &asset.material, &load.modal_impulse, &pulse);
     report.looked_at = LookedAt::Amplitudes;
     report.time_step = pulse.time_step;
-    report.time_steps = motion.steps();
-    report.peak_elastic_energy = motion.peak_energy;
-    report.peak_strain_energy = motion.peak_strain_energy;
+    report.time_steps = pulse.total_steps;
     report.most_excited_frequency = contact::most_excited_mode(asset, &load.modal_impulse)
         .map_or(0.0, |i| asset.modes.frequency(i));
     report.timings.response = clock.elapsed().as_secs_f64();
+    let pressed = load.pressed();
+    let modal_impulse = load.modal_impulse;
+    Ok(Begun::Vibrates(Vibration {
+        modal_impulse,
+        pressed,
+        pulse,
+        report,
+    }))
+}
 
+/// Second stage: the motion of the modes, and what it does from time step `first_step` on.
+pub(crate) fn vibrate<'a>(
+    body: &'a Body,
+    config: &'a FractureConfig,
+    vibration: Vibration,
+    first_step: usize,
+    trace: &mut Option<CrackTrace>,
+) -> Cracked<'a> {
+    let clock = Instant::now();
+    let motion = vibration.motion(body);
+    let mut report = vibration.report;
+    report.peak_elastic_energy = motion.peak_energy;
+    report.peak_strain_energy = motion.peak_strain_energy;
+    report.timings.response += clock.elapsed().as_secs_f64();
     let budget = motion.peak_strain_energy;
-    Ok(run_cracks(
+    run_cracks_from(
+        first_step,
         body,
         config,
         &motion,
-        &load.pressed(),
-        pulse.time_step,
+        &vibration.pressed,
+        vibration.pulse.time_step,
         budget,
         report,
         trace,
-    ))
+    )
 }
 
 /// Below this stress bound nothing happens to a body, Pa: no crack starts, and none of its old ones moves.
@@ -164,6 +206,23 @@ pub(crate) fn run_cracks<'a>(
     pressed: &[u32],
     time_step: f64,
     budget: f64,
+    report: ImpactReport,
+    trace: &mut Option<CrackTrace>,
+) -> Cracked<'a> {
+    run_cracks_from(
+        0, body, config, motion, pressed, time_step, budget, report, trace,
+    )
+}
+
+/// [`run_cracks`], where it is known that nothing happens before time step `first_step`.
+fn run_cracks_from<'a>(
+    first_step: usize,
+    body: &'a Body,
+    config: &'a FractureConfig,
+    motion: &Motion,
+    pressed: &[u32],
+    time_step: f64,
+    budget: f64,
     mut report: ImpactReport,
     trace: &mut Option<CrackTrace>,
 ) -> Cracked<'a> {
@@ -180,7 +239,8 @@ pub(crate) fn run_cracks<'a>(
     let mut peak = Peak::default();
     let mut suspects = Suspects::default();
     let mut roots = [0.0; BATCH];
-    for step in 0..motion.steps() {
+    // From the beginning of its batch, so that every batch is whole.
+    for step in first_step / STRIDE * STRIDE..motion.steps() {
         let k = lane(step);
         if step % STRIDE == 0 {
             // Bounds, then the points that they leave, of all steps of the batch.

@@ -31,11 +31,7 @@ impl StressField<'_> {
 
     /// The wall that fracture tetrahedron `e` is part of.
     pub(crate) fn wall(&self, e: usize) -> Option<Wall> {
-        if self.config.plane_stress_walls {
-            self.skin.wall(self.asset, e)
-        } else {
-            None
-        }
+        wall(self.asset, self.skin, self.config, e)
     }
 
     /// Stress that steers a crack in fracture tetrahedron `e`: in a wall that of its face with the larger tension, since
@@ -65,29 +61,49 @@ impl StressField<'_> {
         if front.0 >= back.0 { front.1 } else { back.1 }
     }
 
-    /// The same where a crack may start in it, at all steps of the batch: at its flaw on the free surface, else at its
-    /// centroid.
-    ///
-    /// Under a contact the surface is pressed together, which no mode resolves: there the centroid serves.
+    /// The same where a crack may start in it, at all steps of the batch: at its [`weak_place`].
     #[inline(always)]
     pub(crate) fn at_weak_point(&mut self, e: usize) -> StressLanes {
-        let wall = self.wall(e);
-        let flaw = self.skin.flaw(e).filter(|_| self.config.surface_flaws);
-        let (point, law) = match flaw.filter(|flaw| !self.pressed.contains(&flaw.triangle)) {
-            Some(flaw) => match wall.and_then(|wall| wall.edge(flaw.normal)) {
-                Some(along) => (&flaw.point, Law::Edge(along)),
-                None => (&flaw.point, Law::Free(flaw.normal)),
-            },
-            None => {
-                let law = wall.map_or(Law::Solid, |wall| Law::Free(wall.normal));
-                (&self.asset.embedding.tets[e], law)
-            }
-        };
+        let (point, law) = weak_place(self.asset, self.skin, self.config, self.pressed, e);
         let gradients = self.displacement.gradients(self.asset, point);
         self.elasticity.lanes(&gradients, law)
     }
 
     fn gradient(&mut self, point: &EmbeddedPoint) -> glam::Mat3 {
         self.displacement.gradient(self.asset, point, self.step)
+    }
+}
+
+fn wall(asset: &Asset, skin: &Skin, config: &FractureConfig, e: usize) -> Option<Wall> {
+    if config.plane_stress_walls {
+        skin.wall(asset, e)
+    } else {
+        None
+    }
+}
+
+/// Where a crack may start in fracture tetrahedron `e`, and the law of the stress there: at its flaw on the free surface,
+/// else at its centroid.
+///
+/// Under a contact the surface is pressed together, which no mode resolves: there the centroid serves.
+#[inline(always)]
+pub(crate) fn weak_place<'a>(
+    asset: &'a Asset,
+    skin: &'a Skin,
+    config: &FractureConfig,
+    pressed: &[u32],
+    e: usize,
+) -> (&'a EmbeddedPoint, Law) {
+    let wall = wall(asset, skin, config, e);
+    let flaw = skin.flaw(e).filter(|_| config.surface_flaws);
+    match flaw.filter(|flaw| !pressed.contains(&flaw.triangle)) {
+        Some(flaw) => match wall.and_then(|wall| wall.edge(flaw.normal)) {
+            Some(along) => (&flaw.point, Law::Edge(along)),
+            None => (&flaw.point, Law::Free(flaw.normal)),
+        },
+        None => {
+            let law = wall.map_or(Law::Solid, |wall| Law::Free(wall.normal));
+            (&asset.embedding.tets[e], law)
+        }
     }
 }

@@ -10,7 +10,7 @@ mod suspects;
 mod system;
 
 pub(crate) use culling::Culling;
-pub(crate) use field::StressField;
+pub(crate) use field::{StressField, weak_place};
 pub(crate) use initiation::{Peak, crack};
 use propagation::{advance, retry};
 pub(crate) use surface::crossing_polygon;

@@ -49,6 +49,13 @@ impl Oscillator {
         self.state = std::array::from_fn(|i| (0..4).map(|j| a[i][j] * self.state[j]).sum());
     }
 
+    /// What a step multiplies the state with, under the pulse; free of it the entries `[1][2]` and those that follow
+    /// from it, the upper right quarter, are zero. Row-major.
+    #[must_use]
+    pub fn step_matrix(&self) -> &[[f64; 4]; 4] {
+        &self.forced
+    }
+
     /// Displacement q, in m·√kg per N/√kg of modal force.
     #[must_use]
     pub fn displacement(&self) -> f64 {

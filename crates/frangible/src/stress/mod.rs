@@ -15,6 +15,6 @@ pub use displacement::{DisplacementBatch, ShapeWeights};
 pub(crate) use principal::perpendicular_axes;
 pub use principal::{largest_eigenvalue, largest_eigenvalue_bound, principal_axes};
 pub use skin::{Flaw, Skin};
-pub use strain::{Elasticity, StressState, Symmetric3};
-pub(crate) use strain::{Law, StressLanes};
+pub(crate) use strain::StressLanes;
+pub use strain::{Elasticity, Law, StressState, Symmetric3};
 pub use wall::Wall;

@@ -171,8 +171,10 @@ impl Elasticity {
         }
     }
 
+    /// By any of the laws.
+    #[must_use]
     #[inline(always)]
-    fn state_by(&self, gradient: Mat3, law: Law) -> StressState {
+    pub fn state_by(&self, gradient: Mat3, law: Law) -> StressState {
         let (stress, energy_density) = self.evaluate(&gradient.to_cols_array_2d(), law);
         StressState {
             stress: Symmetric3::from_components(stress),
@@ -319,8 +321,8 @@ impl Real for f32 {}
 impl Real for Wide {}
 
 /// Which law makes stress of strain at a place.
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum Law {
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Law {
     /// Hooke's, inside a body.
     Solid,
     /// Beside a free surface of this unit normal: [`Elasticity::free_state`].

@@ -1,0 +1,238 @@
+//! CPU or GPU: as told, or by measurement.
+
+use std::time::Instant;
+
+use frangible::{Breakable, FractureConfig, Outcome, Stage};
+use rayon::prelude::*;
+
+use crate::device::Gpu;
+use crate::error::GpuError;
+use crate::impacts::{Impact, begin};
+use crate::loaded::Loaded;
+
+/// Impacts that the two are compared with.
+const TRIAL: usize = 4;
+
+/// What computes the impacts of a [`Solver`]. Cracks and pieces are the same bits in any case.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Choice {
+    /// The CPU.
+    Cpu,
+    /// The GPU; no GPU is an error.
+    Gpu,
+    /// What a short trial with the first batch finds faster for a batch of its size; no GPU is none chosen.
+    #[default]
+    Auto,
+}
+
+/// What computed a batch.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RanOn {
+    /// The CPU, on all its threads.
+    Cpu,
+    /// The GPU, and the CPU for what it left.
+    Gpu,
+}
+
+/// How a batch was computed.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Ran {
+    /// Where.
+    pub on: RanOn,
+    /// Why there, in a sentence.
+    pub why: String,
+    /// Impacts past the first bound: those that cost anything.
+    pub past_bound: usize,
+}
+
+/// Computes batches of impacts, on the CPU or on the GPU.
+#[derive(Debug)]
+pub struct Solver {
+    gpu: Result<Gpu, GpuError>,
+    choice: Choice,
+    speed: Option<Speed>,
+}
+
+/// Seconds of a batch of n impacts past the first bound.
+#[derive(Clone, Copy, Debug)]
+struct Speed {
+    cpu_each: f64,
+    gpu_call: f64,
+    gpu_each: f64,
+}
+
+impl Speed {
+    /// Number of impacts from which the GPU is faster; none where it never is.
+    fn threshold(&self) -> Option<f64> {
+        (self.gpu_each < self.cpu_each).then(|| self.gpu_call / (self.cpu_each - self.gpu_each))
+    }
+}
+
+impl Solver {
+    /// With the CPU, the GPU, or the faster.
+    ///
+    /// # Errors
+    /// No usable GPU, where [`Choice::Gpu`] asks for one.
+    pub fn new(choice: Choice) -> Result<Self, GpuError> {
+        let gpu = match choice {
+            Choice::Cpu => Err(GpuError::NoAdapter),
+            Choice::Gpu => Ok(Gpu::new()?),
+            Choice::Auto => Gpu::new(),
+        };
+        let speed = None;
+        Ok(Self { gpu, choice, speed })
+    }
+
+    /// Makes a kind of body ready, once for all its bodies.
+    ///
+    /// # Errors
+    /// A kind too large for the GPU, where [`Choice::Gpu`] asks for one; else the CPU computes it.
+    pub fn load(&self, kind: &Breakable) -> Result<Loaded, GpuError> {
+        let Ok(gpu) = &self.gpu else {
+            return Ok(Loaded::on_cpu(kind));
+        };
+        match gpu.load(kind) {
+            Err(GpuError::TooLarge { .. }) if self.choice == Choice::Auto => {
+                Ok(Loaded::on_cpu(kind))
+            }
+            other => other,
+        }
+    }
+
+    /// What becomes of each impact: as [`frangible::impact()`], one after another.
+    ///
+    /// # Errors
+    /// A contact that cannot be used; with the GPU, what [`Gpu::impacts`] refuses.
+    pub fn impacts(
+        &mut self,
+        impacts: &[Impact<'_>],
+        config: &FractureConfig,
+    ) -> Result<(Vec<Outcome>, Ran), GpuError> {
+        let begun = begin(impacts, config)?;
+        let ran = self.decide(impacts, &begun, config)?;
+        let outcomes = match (&self.gpu, ran.on) {
+            (Ok(gpu), RanOn::Gpu) => gpu.end(impacts, begun, config)?,
+            _ => end_on_cpu(impacts, begun, config),
+        };
+        Ok((outcomes, ran))
+    }
+
+    fn decide(
+        &mut self,
+        impacts: &[Impact<'_>],
+        begun: &[Stage],
+        config: &FractureConfig,
+    ) -> Result<Ran, GpuError> {
+        let gpu = match (&self.gpu, self.choice) {
+            (_, Choice::Cpu) => return Ok(ran(RanOn::Cpu, 0, "the CPU was asked for".into())),
+            (Ok(_), Choice::Gpu) => return Ok(ran(RanOn::Gpu, 0, "the GPU was asked for".into())),
+            (Err(error), _) => return Ok(ran(RanOn::Cpu, 0, error.to_string())),
+            (Ok(gpu), Choice::Auto) => gpu,
+        };
+        if impacts.iter().any(|i| i.kind.buffers.is_none()) {
+            let why = "a kind in the batch is too large for the GPU".into();
+            return Ok(ran(RanOn::Cpu, 0, why));
+        }
+        let costly: Vec<Impact<'_>> = (impacts.iter().zip(begun))
+            .filter(|(_, stage)| matches!(stage, Stage::Vibrates(_)))
+            .map(|(impact, _)| *impact)
+            .collect();
+        let n = costly.len();
+        if n == 0 {
+            let why = "the first bound refuses the whole batch".into();
+            return Ok(ran(RanOn::Cpu, n, why));
+        }
+        let speed = match self.speed {
+            Some(speed) => speed,
+            None => {
+                let trial = &costly[..n.min(TRIAL)];
+                *self.speed.insert(measure(gpu, trial, config)?)
+            }
+        };
+        let on = match speed.threshold() {
+            Some(threshold) if n as f64 >= threshold => RanOn::Gpu,
+            _ => RanOn::Cpu,
+        };
+        let from = speed.threshold().map_or_else(
+            || "at no batch size".into(),
+            |t| format!("from {} impacts on", t.ceil().max(1.0)),
+        );
+        let why = format!(
+            "a trial found {} faster than the CPU {from}: {:.2} ms + {:.3} ms per impact against {:.3} ms",
+            gpu.adapter(),
+            1e3 * speed.gpu_call,
+            1e3 * speed.gpu_each,
+            1e3 * speed.cpu_each,
+        );
+        Ok(ran(on, n, why))
+    }
+}
+
+fn ran(on: RanOn, past_bound: usize, why: String) -> Ran {
+    Ran {
+        on,
+        why,
+        past_bound,
+    }
+}
+
+/// The second stage of each impact on the CPU, on all its threads.
+fn end_on_cpu(impacts: &[Impact<'_>], begun: Vec<Stage>, config: &FractureConfig) -> Vec<Outcome> {
+    begun
+        .into_par_iter()
+        .zip(impacts)
+        .map(|(stage, impact)| match stage {
+            Stage::Held(outcome) => outcome,
+            Stage::Vibrates(vibration) => vibration.end(impact.body, config, 0),
+        })
+        .collect()
+}
+
+/// Both on the same few impacts, and the GPU on one of them as well; the first run of each warms up.
+fn measure(gpu: &Gpu, trial: &[Impact<'_>], config: &FractureConfig) -> Result<Speed, GpuError> {
+    gpu.impacts(trial, config)?;
+    let cpu = seconds(|| {
+        drop(end_on_cpu(trial, begin(trial, config)?, config));
+        Ok(())
+    })?;
+    let many = seconds(|| gpu.impacts(trial, config).map(drop))?;
+    let one = seconds(|| gpu.impacts(&trial[..1], config).map(drop))?;
+    let n = trial.len() as f64;
+    let gpu_each = if trial.len() > 1 {
+        ((many - one) / (n - 1.0)).max(0.0)
+    } else {
+        0.0
+    };
+    Ok(Speed {
+        cpu_each: cpu / n,
+        gpu_call: (one - gpu_each).max(0.0),
+        gpu_each,
+    })
+}
+
+fn seconds(run: impl FnOnce() -> Result<(), GpuError>) -> Result<f64, GpuError> {
+    let start = Instant::now();
+    run()?;
+    Ok(start.elapsed().as_secs_f64())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Speed;
+
+    #[test]
+    fn the_gpu_serves_from_where_its_line_crosses_the_cpus() {
+        let speed = Speed {
+            cpu_each: 3.0,
+            gpu_call: 10.0,
+            gpu_each: 1.0,
+        };
+        assert_eq!(speed.threshold(), Some(5.0));
+        let slow = Speed {
+            gpu_each: 4.0,
+            ..speed
+        };
+        assert_eq!(slow.threshold(), None);
+    }
+}

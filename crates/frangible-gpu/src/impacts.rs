@@ -1,0 +1,324 @@
+//! Impacts in batches: which of them held, and what becomes of the others.
+
+use frangible::{Body, Contact, FractureConfig, Outcome, Stage, Vibration};
+use rayon::prelude::*;
+
+use crate::device::Gpu;
+use crate::error::GpuError;
+use crate::initiation::{Initiation, starts_on_cpu};
+use crate::loaded::{Buffers, Loaded, quadratic_modulus};
+use crate::response::Response;
+use crate::wave::{Job, waves};
+
+/// Steps whose bound is below the strength by this share need no look: the rounding of the bound itself, as on the CPU.
+const BOUND_MARGIN: f64 = 1e-4;
+
+/// One impact on one body: all contacts of a moment, as for [`frangible::impact()`].
+#[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
+pub struct Impact<'a> {
+    /// The body's kind, loaded.
+    pub kind: &'a Loaded,
+    /// The body.
+    pub body: &'a Body,
+    /// The contacts, in its body frame.
+    pub contacts: &'a [Contact],
+}
+
+impl<'a> Impact<'a> {
+    /// Of a body whose kind is loaded.
+    #[must_use]
+    pub fn new(kind: &'a Loaded, body: &'a Body, contacts: &'a [Contact]) -> Self {
+        Self {
+            kind,
+            body,
+            contacts,
+        }
+    }
+}
+
+/// What the GPU says of an impact.
+#[derive(Clone, Debug)]
+pub enum Verdict {
+    /// The body held, clearly; with what was computed of it where the first bound did not refuse it.
+    Held(Outcome, Option<Initiation>),
+    /// The CPU has to go on, from a time step: `vibration.end(body, config, first_step)`.
+    Open {
+        /// What was begun.
+        vibration: Vibration,
+        /// First step at which a crack can start.
+        first_step: usize,
+        /// What was computed; nothing for a body with cracks from earlier impacts.
+        initiation: Option<Initiation>,
+    },
+}
+
+impl Gpu {
+    /// What becomes of each impact: as [`frangible::impact()`], one after another. Those the GPU finds clearly held end
+    /// here; the others end on the CPU, on all its threads.
+    ///
+    /// # Errors
+    /// A contact that cannot be used, a body of another kind than said, a GPU that fails.
+    pub fn impacts(
+        &self,
+        impacts: &[Impact<'_>],
+        config: &FractureConfig,
+    ) -> Result<Vec<Outcome>, GpuError> {
+        self.end(impacts, begin(impacts, config)?, config)
+    }
+
+    /// [`Self::impacts`] after the first stage.
+    pub(crate) fn end(
+        &self,
+        impacts: &[Impact<'_>],
+        begun: Vec<Stage>,
+        config: &FractureConfig,
+    ) -> Result<Vec<Outcome>, GpuError> {
+        let verdicts = self.judge(impacts, begun, config)?;
+        Ok(verdicts
+            .into_par_iter()
+            .zip(impacts)
+            .map(|(verdict, impact)| match verdict {
+                Verdict::Held(outcome, _) => outcome,
+                Verdict::Open {
+                    vibration,
+                    first_step,
+                    ..
+                } => vibration.end(impact.body, config, first_step),
+            })
+            .collect())
+    }
+
+    /// Whether the stress of each impact passes the strength at a weak point: whether a crack would start, if it also
+    /// has the energy. Near the strength the CPU decides. Weak points on cracks from earlier impacts count as well.
+    ///
+    /// # Errors
+    /// As [`Self::impacts`].
+    pub fn would_start(
+        &self,
+        impacts: &[Impact<'_>],
+        config: &FractureConfig,
+    ) -> Result<Vec<bool>, GpuError> {
+        let verdicts = self.verdicts(impacts, config)?;
+        Ok(verdicts
+            .into_par_iter()
+            .zip(impacts)
+            .map(|(verdict, impact)| match verdict {
+                Verdict::Held(..) => false,
+                Verdict::Open {
+                    vibration,
+                    first_step,
+                    initiation,
+                } => {
+                    initiation.is_some_and(|i| {
+                        i.is_safe(impact.body) && i.peak_share > 1.0 + crate::DOUBT
+                    }) || starts_on_cpu(impact.body, &vibration, config, first_step)
+                }
+            })
+            .collect())
+    }
+
+    /// Crack initiation of each impact; `None` for those the first bound refuses, and for bodies that have cracks.
+    ///
+    /// # Errors
+    /// As [`Self::impacts`].
+    pub fn initiation(
+        &self,
+        impacts: &[Impact<'_>],
+        config: &FractureConfig,
+    ) -> Result<Vec<Option<Initiation>>, GpuError> {
+        let verdicts = self.verdicts(impacts, config)?;
+        let initiation = |verdict| match verdict {
+            Verdict::Held(_, initiation) | Verdict::Open { initiation, .. } => initiation,
+        };
+        Ok(verdicts.into_iter().map(initiation).collect())
+    }
+
+    /// Which impacts clearly held, and from which time step the CPU has to look at the others.
+    ///
+    /// # Errors
+    /// As [`Self::impacts`].
+    pub fn verdicts(
+        &self,
+        impacts: &[Impact<'_>],
+        config: &FractureConfig,
+    ) -> Result<Vec<Verdict>, GpuError> {
+        self.judge(impacts, begin(impacts, config)?, config)
+    }
+
+    fn judge(
+        &self,
+        impacts: &[Impact<'_>],
+        begun: Vec<Stage>,
+        config: &FractureConfig,
+    ) -> Result<Vec<Verdict>, GpuError> {
+        for (number, impact) in impacts.iter().enumerate() {
+            self.buffers_of(number, impact)?;
+        }
+        let mut found: Vec<Option<Initiation>> = vec![None; impacts.len()];
+        for group in groups(impacts, &begun, config) {
+            self.group(impacts, &begun, &group, config, &mut found)?;
+        }
+        Ok(begun
+            .into_iter()
+            .zip(found)
+            .zip(impacts)
+            .map(|((stage, found), impact)| verdict(impact.body, stage, found))
+            .collect())
+    }
+
+    /// Computes the impacts of these numbers, all of one kind.
+    fn group(
+        &self,
+        impacts: &[Impact<'_>],
+        begun: &[Stage],
+        group: &[usize],
+        config: &FractureConfig,
+        found: &mut [Option<Initiation>],
+    ) -> Result<(), GpuError> {
+        let Some(&first) = group.first() else {
+            return Ok(());
+        };
+        let buffers = self.buffers_of(first, &impacts[first])?;
+        let kind = impacts[first].kind;
+        let asset = kind.asset();
+        let jobs: Vec<Job<'_>> = group
+            .par_iter()
+            .filter_map(|&i| match &begun[i] {
+                Stage::Vibrates(vibration) => Some(Job {
+                    body: impacts[i].body,
+                    response: Response::new(
+                        &asset.modes,
+                        &asset.material,
+                        &vibration.modal_impulse,
+                        &vibration.pulse,
+                    ),
+                    vibration,
+                }),
+                Stage::Held(_) => None,
+            })
+            .collect();
+        let limit = |body: &Body| {
+            if config.culling {
+                (body.weakest() * (1.0 - BOUND_MARGIN)) as f32
+            } else {
+                -1.0
+            }
+        };
+        let mut numbers = group.iter();
+        let mut rest = jobs.iter();
+        for mut wave in waves(&kind.kind, &jobs, config, limit)? {
+            let here: Vec<&Job<'_>> = rest.by_ref().take(wave.spans.len()).collect();
+            let of_wave = self.run(kind, buffers, &mut wave, &here, config)?;
+            for (initiation, &i) in of_wave.into_iter().zip(&mut numbers) {
+                found[i] = Some(initiation);
+            }
+        }
+        Ok(())
+    }
+
+    fn buffers_of<'a>(&self, number: usize, impact: &Impact<'a>) -> Result<&'a Buffers, GpuError> {
+        if !std::ptr::eq(impact.kind.asset(), &**impact.body.asset()) {
+            return Err(GpuError::WrongBody(number));
+        }
+        let buffers = impact.kind.buffers.as_deref();
+        buffers
+            .filter(|b| b.device == self.device)
+            .ok_or(GpuError::NotLoaded(number))
+    }
+}
+
+/// The first stage of each impact, on all threads.
+pub(crate) fn begin(
+    impacts: &[Impact<'_>],
+    config: &FractureConfig,
+) -> Result<Vec<Stage>, GpuError> {
+    let begun: Vec<_> = impacts
+        .par_iter()
+        .map(|i| Vibration::begin(i.body, i.contacts, config))
+        .collect();
+    begun
+        .into_iter()
+        .enumerate()
+        .map(|(impact, stage)| stage.map_err(|error| GpuError::Input { impact, error }))
+        .collect()
+}
+
+/// Numbers of the impacts that the GPU computes, by kind.
+fn groups(impacts: &[Impact<'_>], begun: &[Stage], config: &FractureConfig) -> Vec<Vec<usize>> {
+    let mut groups: Vec<Vec<usize>> = Vec::new();
+    for (i, impact) in impacts.iter().enumerate() {
+        // Old cracks move at stresses below the strength.
+        let Stage::Vibrates(vibration) = &begun[i] else {
+            continue;
+        };
+        if !impact.body.state().is_intact() || !within_range(impact.kind, vibration, config) {
+            continue;
+        }
+        let same =
+            |g: &&mut Vec<usize>| std::ptr::eq(impacts[g[0]].kind.asset(), impact.kind.asset());
+        match groups.iter_mut().find(same) {
+            Some(group) => group.push(i),
+            None => groups.push(vec![i]),
+        }
+    }
+    groups
+}
+
+/// Whether no stress can be so large that its cube leaves the numbers of the GPU: no real blow comes near.
+fn within_range(kind: &Loaded, vibration: &Vibration, config: &FractureConfig) -> bool {
+    const MOST: f64 = 1e12;
+    let asset = kind.asset();
+    let modes = &asset.modes;
+    let (mut stress, mut gradient) = (0.0, 0.0);
+    for (i, impulse) in vibration.modal_impulse.iter().enumerate() {
+        let amplitude = impulse.abs() / modes.eigenvalues[i].sqrt();
+        stress += amplitude * f64::from(kind.root[i][0]);
+        gradient += amplitude * f64::from(kind.root[i][1]);
+    }
+    let modulus = quadratic_modulus(&asset.material, config);
+    // A NaN is not within.
+    stress + 0.5 * modulus * gradient * gradient < MOST
+}
+
+fn verdict(body: &Body, stage: Stage, found: Option<Initiation>) -> Verdict {
+    let vibration = match stage {
+        Stage::Vibrates(vibration) => vibration,
+        Stage::Held(outcome) => return Verdict::Held(outcome, None),
+    };
+    let open = found.as_ref().map_or(Some(0), |f| f.first_open(body));
+    match (open, found) {
+        (None, Some(found)) => {
+            let mut report = vibration.report;
+            report.looked_at = found.looked_at;
+            report.peak_stress = f64::from(found.peak_stress);
+            report.stress_bound = f64::from(found.peak_stress.max(found.passed_over));
+            let held = Outcome::Held {
+                margin: found.margin,
+                report,
+                state: None,
+            };
+            Verdict::Held(held, Some(found))
+        }
+        (open, found) => Verdict::Open {
+            vibration,
+            first_step: open.unwrap_or(0),
+            initiation: found,
+        },
+    }
+}
+
+/// [`Gpu::would_start`] for one impact, on the CPU alone.
+///
+/// # Errors
+/// A contact that cannot be used.
+pub fn would_start_on_cpu(
+    body: &Body,
+    contacts: &[Contact],
+    config: &FractureConfig,
+) -> Result<bool, frangible::InputError> {
+    Ok(match Vibration::begin(body, contacts, config)? {
+        Stage::Vibrates(vibration) => starts_on_cpu(body, &vibration, config, 0),
+        Stage::Held(_) => false,
+    })
+}

@@ -1,0 +1,81 @@
+//! An impact in two stages, for those who find elsewhere, on a GPU, when its stress first nears the strength.
+
+use crate::body::Body;
+use crate::config::FractureConfig;
+use crate::contact::{Contact, Pulse};
+use crate::error::InputError;
+use crate::impact::{Begun, Cracked, begin, pieces, vibrate};
+use crate::modal::{self, Motion};
+use crate::outcome::{ImpactReport, Outcome};
+
+/// What the first stage of an impact leaves to do.
+#[derive(Clone, Debug)]
+pub enum Stage {
+    /// Nothing: its impulses are too weak for any crack.
+    Held(Outcome),
+    /// Its modes have to be followed over time.
+    Vibrates(Vibration),
+}
+
+/// An impact whose modes have to be followed over time.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct Vibration {
+    /// Modal impulse of every mode, N·s/√kg.
+    pub modal_impulse: Vec<f64>,
+    /// Surface triangles under its contacts: their flaws are pressed together, see [`Body::weak_place`].
+    pub pressed: Vec<u32>,
+    /// The pulse of unit impulse and its time steps.
+    pub pulse: Pulse,
+    /// What is known of the impact so far.
+    pub report: ImpactReport,
+}
+
+impl Vibration {
+    /// Begins an impact: everything of [`impact()`](crate::impact()) before the motion of the modes.
+    ///
+    /// # Errors
+    /// As [`impact()`](crate::impact()).
+    pub fn begin(
+        body: &Body,
+        contacts: &[Contact],
+        config: &FractureConfig,
+    ) -> Result<Stage, InputError> {
+        Ok(match begin(body, contacts, config)? {
+            Begun::Held(margin, report) => Stage::Held(Outcome::Held {
+                margin,
+                report,
+                state: None,
+            }),
+            Begun::Vibrates(vibration) => Stage::Vibrates(vibration),
+        })
+    }
+
+    /// Amplitudes of the modes over time.
+    #[must_use]
+    pub fn motion(&self, body: &Body) -> Motion {
+        let asset = &*body.asset;
+        modal::respond(
+            &asset.modes,
+            &asset.material,
+            &self.modal_impulse,
+            &self.pulse,
+        )
+    }
+
+    /// Ends the impact. With `first_step` 0 this is [`impact()`](crate::impact()); time steps before it are passed over.
+    ///
+    /// Where none of those has a weak point's stress above its strength, and the body has no cracks yet, the cracks and
+    /// the pieces are the same bit for bit; the report's stresses and the margin are those of the steps looked at.
+    #[must_use]
+    pub fn end(self, body: &Body, config: &FractureConfig, first_step: usize) -> Outcome {
+        pieces(body, vibrate(body, config, self, first_step, &mut None))
+    }
+
+    /// Whether the impact would break the body into pieces: [`Self::end`] without making them.
+    #[must_use]
+    pub fn would_break(self, body: &Body, config: &FractureConfig, first_step: usize) -> bool {
+        let cracked = vibrate(body, config, self, first_step, &mut None);
+        matches!(cracked, Cracked::Parted(..))
+    }
+}
