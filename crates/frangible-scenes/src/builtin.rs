@@ -73,7 +73,7 @@ pub fn scene(name: &str) -> Result<Scene, SceneError> {
             "glass",
             60,
             Quat::IDENTITY,
-            Action::Throw(Projectile::ball(0.13, 0.0158, 12.0)),
+            Action::Throw(Projectile::ball(0.25, 0.02, 20.0)),
         ),
         "plate" => build(
             "plate",

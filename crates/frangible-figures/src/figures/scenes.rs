@@ -25,7 +25,12 @@ const MODES: usize = 80;
 
 /// Drops of the glass that are tried: tilts, degrees, and heights, m.
 const TILTS: [f32; 6] = [75.0, 100.0, 60.0, 115.0, 40.0, 130.0];
-const HEIGHTS: [f64; 10] = [0.15, 0.2, 0.26, 0.33, 0.42, 0.53, 0.67, 0.85, 1.07, 1.35];
+/// The lowest drop, m, and how much higher each next one is.
+const LOWEST: f64 = 0.15;
+const HIGHER: f64 = 1.08;
+
+/// Drops at each tilt: up to about 3 m.
+const DROPS: i32 = 40;
 
 /// Longest simulated time of the search, s, and of what is shown.
 const SEARCHED: f64 = 1.6;
@@ -121,7 +126,7 @@ fn second_bounce() -> Result<Drop, FigureError> {
     let mut later = None;
     for tilt in TILTS {
         tilted(&mut scene, tilt);
-        for height in HEIGHTS {
+        for height in (0..DROPS).map(|k| LOWEST * HIGHER.powi(k)) {
             scene.drop_all(height);
             let run = play(&scene, &baked, &mut |_| {})?;
             match bounce_of_break(&run) {

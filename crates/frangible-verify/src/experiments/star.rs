@@ -56,6 +56,7 @@ pub(crate) struct Variant {
     pub(crate) name: &'static str,
     reach: f64,
     instant: bool,
+    green_lagrange: bool,
     strength: f64,
     weak_points: f64,
 }
@@ -64,11 +65,12 @@ const DEFAULT: Variant = Variant {
     name: "default",
     reach: 1.0,
     instant: false,
+    green_lagrange: false,
     strength: 1.0,
     weak_points: 1.0,
 };
 
-const VARIANTS: [Variant; 7] = [
+const VARIANTS: [Variant; 8] = [
     Variant {
         name: "cracks at once, no release (`CrackTiming::Instant`)",
         instant: true,
@@ -77,6 +79,11 @@ const VARIANTS: [Variant; 7] = [
     Variant {
         name: "finite speed, no release (κ = 0)",
         reach: 0.0,
+        ..DEFAULT
+    },
+    Variant {
+        name: "Green and Lagrange's strain of the linear modes (`green_lagrange`, the paper's)",
+        green_lagrange: true,
         ..DEFAULT
     },
     Variant {
@@ -355,6 +362,7 @@ fn strike(
     seed: u64,
 ) -> Result<StarImpact, VerifyError> {
     let mut config = FractureConfig::default();
+    config.green_lagrange = variant.green_lagrange;
     if variant.instant {
         config.timing = CrackTiming::Instant;
     } else if let CrackTiming::TimeResolved { release_reach, .. } = &mut config.timing {
