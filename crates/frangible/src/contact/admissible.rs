@@ -6,7 +6,7 @@
 
 use super::{Contact, Load};
 use crate::asset::Asset;
-use crate::modal::peak_contact_energy;
+use crate::modal::contact_energy_within;
 
 /// Growth of the duration per try.
 const GROWTH: f64 = 1.05;
@@ -31,7 +31,8 @@ pub fn approach_energy(contacts: &[Contact]) -> f64 {
 pub fn admissible_duration(asset: &Asset, load: &Load, budget: f64, duration: f64) -> f64 {
     let mut t = duration;
     for _ in 0..TRIES {
-        if peak_contact_energy(&asset.modes, &asset.material, &load.modal_impulse, t) <= budget {
+        let impulse = &load.modal_impulse;
+        if contact_energy_within(&asset.modes, &asset.material, impulse, t, budget) {
             break;
         }
         t *= GROWTH;

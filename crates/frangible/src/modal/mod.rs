@@ -6,4 +6,4 @@ mod response;
 
 pub use basis::ModalBasis;
 pub use field::ModeField;
-pub use response::{Motion, Oscillator, peak_contact_energy, respond};
+pub use response::{Motion, Oscillator, contact_energy_within, respond};
