@@ -31,6 +31,8 @@ struct Seen {
     site: u32,
     /// Its distance, m; infinite without one.
     distance: f32,
+    /// How many of its sites are pending.
+    pending: u32,
 }
 
 /// No site.
@@ -159,19 +161,15 @@ fn update(point: &mut Point, system: &CrackSystem, e: u32, now: f64, release_rea
         }
     }
     if now > point.next {
-        let mut waiting = point.pending.iter().map(|p| p.crack).collect::<Vec<_>>();
-        waiting.dedup();
-        for crack in waiting {
-            let reach = reach(system, crack, release_reach);
-            changed |= arrive(point, crack, now, reach);
+        for i in 0..point.seen.len() {
+            if point.seen[i].pending > 0 {
+                let reach = reach(system, point.seen[i].crack, release_reach);
+                changed |= arrive(point, i, now, reach);
+            }
         }
+        let arrivals = point.pending.iter().map(|p| p.arrival);
+        point.next = arrivals.filter(|&t| t >= now).fold(f64::INFINITY, f64::min);
     }
-    let ahead = point
-        .pending
-        .iter()
-        .map(|p| p.arrival)
-        .filter(|&t| t >= now);
-    point.next = ahead.fold(f64::INFINITY, f64::min);
     if changed {
         point.projection = projection(system, &point.seen);
         point.held_in = None;
@@ -206,6 +204,7 @@ fn look(
                 crack,
                 site: NONE,
                 distance: f32::INFINITY,
+                pending: 0,
             };
             point.seen.insert(i, new);
             (i, 0)
@@ -220,7 +219,7 @@ fn look(
             continue;
         }
         let arrival = place.time + f64::from(distance) / wave;
-        let own = of_crack(&point.pending, crack);
+        let own = of_crack(&point.pending, &point.seen[i]);
         let precedes = |p: &Pending| p.distance <= distance && p.arrival <= arrival;
         if point.pending[own.clone()].iter().any(precedes) {
             continue;
@@ -235,13 +234,22 @@ fn look(
             arrival,
         };
         point.pending.insert(own.end, new);
+        point.seen[i].pending = own.len() as u32 + 1;
+        if arrival >= now {
+            point.next = point.next.min(arrival);
+        }
     }
-    arrive(point, crack, now, reach)
+    arrive(point, i, now, reach)
 }
 
-/// Lets those sites of a crack arrive whose wave is here and that lie within reach; whether one is nearer than what was.
-fn arrive(point: &mut Point, crack: u32, now: f64, reach: f32) -> bool {
-    let own = of_crack(&point.pending, crack);
+/// Lets those sites of the crack at place `i` of those seen arrive whose wave is here and that lie within reach; whether one is
+/// nearer than what was.
+fn arrive(point: &mut Point, i: usize, now: f64, reach: f32) -> bool {
+    let seen = &mut point.seen[i];
+    if seen.pending == 0 {
+        return false;
+    }
+    let own = of_crack(&point.pending, seen);
     let waiting = point.pending[own.clone()].iter();
     let here = waiting.filter(|p| p.arrival < now && p.distance < reach);
     let Some(nearest) = here
@@ -250,23 +258,20 @@ fn arrive(point: &mut Point, crack: u32, now: f64, reach: f32) -> bool {
     else {
         return false;
     };
-    let Ok(i) = point.seen.binary_search_by_key(&crack, |s| s.crack) else {
-        return false;
-    };
-    if nearest.distance >= point.seen[i].distance {
+    if nearest.distance >= seen.distance {
         return false;
     }
-    point.seen[i].site = nearest.site;
-    point.seen[i].distance = nearest.distance;
-    keep(&mut point.pending, own, |p| p.distance < nearest.distance);
+    seen.site = nearest.site;
+    seen.distance = nearest.distance;
+    let left = keep(&mut point.pending, own, |p| p.distance < nearest.distance);
+    seen.pending = left.len() as u32;
     true
 }
 
 /// Where a crack's sites stand among those pending, which are in crack order.
-fn of_crack(pending: &[Pending], crack: u32) -> Range<usize> {
-    let start = pending.partition_point(|p| p.crack < crack);
-    let own = pending[start..].iter().take_while(|p| p.crack == crack);
-    start..start + own.count()
+fn of_crack(pending: &[Pending], seen: &Seen) -> Range<usize> {
+    let start = pending.partition_point(|p| p.crack < seen.crack);
+    start..start + seen.pending as usize
 }
 
 /// Keeps those of a range that pass; returns what is left of the range.
