@@ -100,15 +100,28 @@ fn projected(asset: &Asset, at: &SurfacePoint, v: Vec3) -> Vec<f64> {
     sums
 }
 
-/// The analysis nodes that carry a point of the surface, with their weights: ten for each corner of its triangle.
+/// The analysis nodes that carry a point of the surface, each once, with their weights: ten for each corner of its triangle,
+/// which mostly share an element.
 pub(crate) fn each_row(asset: &Asset, at: &SurfacePoint, mut visit: impl FnMut(usize, f32)) {
     let triangle = asset.surface.triangles[at.triangle as usize];
+    let mut carriers = [(0_u32, 0.0_f32); 30];
+    let mut count = 0;
     for (&node, corner) in triangle.iter().zip(at.weights) {
         let point = &asset.embedding.nodes[node as usize];
         let element = asset.analysis.elements[point.element as usize];
-        for (&analysis_node, weight) in element.iter().zip(ShapeWeights::values(point)) {
-            visit(analysis_node as usize, corner * weight);
+        for (&carrier, weight) in element.iter().zip(ShapeWeights::values(point)) {
+            let known = carriers[..count].iter_mut().find(|c| c.0 == carrier);
+            match known {
+                Some(known) => known.1 += corner * weight,
+                None => {
+                    carriers[count] = (carrier, corner * weight);
+                    count += 1;
+                }
+            }
         }
+    }
+    for &(carrier, weight) in &carriers[..count] {
+        visit(carrier as usize, weight);
     }
 }
 
@@ -158,6 +171,7 @@ pub(crate) fn quick_bound(
     }
     let modes = asset.modes.count();
     let (mut stress, mut gradient) = (0.0, 0.0);
+    let with_gradient = quadratic_modulus > 0.0;
     for first in (0..modes).step_by(BLOCK) {
         let block = first..(first + BLOCK).min(modes);
         let mut amplitudes = [0.0_f32; BLOCK];
@@ -180,7 +194,9 @@ pub(crate) fn quick_bound(
         let zero = [0.0; BLOCK];
         let zero = &zero[..block.len()];
         stress += tension_bound(amplitudes, &prepared.root.0[block.clone()], zero, 0.0);
-        gradient += tension_bound(amplitudes, &prepared.root.1[block], zero, 0.0);
+        if with_gradient {
+            gradient += tension_bound(amplitudes, &prepared.root.1[block], zero, 0.0);
+        }
     }
     Some(stress + 0.5 * quadratic_modulus * gradient * gradient)
 }
