@@ -17,7 +17,7 @@ use serde::Serialize;
 use crate::cache::Cache;
 use crate::error::BenchError;
 use crate::stats::{Spread, Times};
-use crate::subjects::{MODES, PIG_GROWN, PIG_TETS, blow, solid, steel_ball};
+use crate::subjects::{MODES, PIG_GROWN, PIG_TETS, solid, steel_ball};
 
 /// Contacts of the game-like distribution.
 const GAME: usize = 2000;
@@ -217,7 +217,7 @@ impl<'a> Source<'a> {
             self.stone
         };
         let point: Vec3 = self.asset.fracture.positions[corner];
-        Ok(blow(
+        Ok(Contact::collision(
             self.asset,
             point,
             inward + tilt * aside,

@@ -15,7 +15,7 @@ use frangible::{
 use frangible_bake::{BakeSpec, MeshSize, Shape, bake};
 
 use crate::error::BenchError;
-use crate::subjects::{blow, steel_ball};
+use crate::subjects::steel_ball;
 
 /// Speed of the ball for each [`Depth`], m/s.
 const SPEEDS: [f64; 4] = [0.05, 1.0, 4.0, 15.0];
@@ -85,7 +85,7 @@ impl Bench {
         let paper = FractureConfig::as_in_the_paper();
         let hit = |speed: f64| {
             let at = Vec3::new(0.04, 0.02, 0.003);
-            Ok::<_, BenchError>(blow(
+            Ok::<_, BenchError>(Contact::collision(
                 body.asset(),
                 at,
                 Vec3::NEG_Z,

@@ -272,7 +272,7 @@ impl Subject {
             Some(mass) => steel_ball(mass)?,
             None => Striker::fixed(&Material::preset("stone")?),
         };
-        Ok(blow(
+        Ok(Contact::collision(
             asset,
             point,
             Vec3::from_array(self.blow.toward),
@@ -302,23 +302,6 @@ pub(crate) fn steel_ball(mass: f64) -> Result<Striker, BenchError> {
         restitution: 0.5,
         ..Striker::ball(&steel, mass, radius)
     })
-}
-
-/// A blow with the impulse that a rigid-body engine would find, (1 + e) v / (nᵀ K n of both).
-pub(crate) fn blow(
-    asset: &Asset,
-    point: Vec3,
-    toward: Vec3,
-    speed: f64,
-    striker: Striker,
-) -> Contact {
-    let normal = toward.normalize();
-    let own = asset
-        .mass
-        .inverse_effective_mass(point.as_dvec3(), normal.as_dvec3());
-    let mass = 1.0 / (own + f64::from(striker.inverse_effective_mass));
-    let impulse = (1.0 + f64::from(striker.restitution)) * mass * speed;
-    Contact::new(point, normal, impulse as f32, speed as f32, striker)
 }
 
 #[cfg(test)]

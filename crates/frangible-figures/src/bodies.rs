@@ -42,7 +42,7 @@ pub(crate) fn slab_blow(slab: &Asset) -> Result<Contact, FigureError> {
     let steel = Material::preset("steel")?;
     let point = Vec3::Z * (0.5 * SLAB[2] as f32);
     let ball = Striker::ball(&steel, mass, radius);
-    Ok(blow(slab, point, Vec3::NEG_Z, speed, ball))
+    Ok(Contact::collision(slab, point, Vec3::NEG_Z, speed, ball))
 }
 
 /// A body of about so many fracture tetrahedra and so many modes.
@@ -66,21 +66,4 @@ pub(crate) fn changed(asset: &Arc<Asset>, change: impl FnOnce(&mut Material)) ->
     let mut asset = Asset::clone(asset);
     change(&mut asset.material);
     Arc::new(asset)
-}
-
-/// A blow at `point` in direction `normal`, with the impulse of a collision of rigid bodies at `speed`, m/s.
-pub(crate) fn blow(
-    asset: &Asset,
-    point: Vec3,
-    normal: Vec3,
-    speed: f64,
-    striker: Striker,
-) -> Contact {
-    let normal = normal.normalize();
-    let own = asset
-        .mass
-        .inverse_effective_mass(point.as_dvec3(), normal.as_dvec3());
-    let mass = 1.0 / (own + f64::from(striker.inverse_effective_mass));
-    let impulse = (1.0 + f64::from(striker.restitution)) * mass * speed;
-    Contact::new(point, normal, impulse as f32, speed as f32, striker)
 }

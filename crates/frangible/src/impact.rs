@@ -237,11 +237,21 @@ fn run_cracks_from<'a>(
     let mut culling = Culling::new(body, config);
     let elasticity = Elasticity::new(&asset.material).with_green_lagrange(config.green_lagrange);
     let mut peak = Peak::default();
+    let mut field = StressField {
+        asset,
+        skin: &body.prepared.skin,
+        config,
+        pressed,
+        displacement: &mut displacement,
+        elasticity,
+        step: 0,
+    };
     let mut suspects = Suspects::default();
     let mut roots = [0.0; BATCH];
     // From the beginning of its batch, so that every batch is whole.
     for step in first_step / STRIDE * STRIDE..motion.steps() {
         let k = lane(step);
+        field.step = step;
         if step % STRIDE == 0 {
             // Bounds, then the points that they leave, of all steps of the batch.
             let start = Instant::now();
@@ -251,16 +261,7 @@ fn run_cracks_from<'a>(
                 roots[k] = culling.root(motion.at(step));
                 culling.survive(motion.at(step), roots[k], k);
             }
-            displacement.seek(motion, step);
-            let mut field = StressField {
-                asset,
-                skin: &body.prepared.skin,
-                config,
-                pressed,
-                displacement: &mut displacement,
-                elasticity,
-                step,
-            };
+            field.displacement.seek(motion, step);
             suspects.find(body, &mut field, culling.survivors(), peak);
             report.timings.stress += start.elapsed().as_secs_f64();
         }
@@ -270,15 +271,6 @@ fn run_cracks_from<'a>(
         }
         report.looked_at = LookedAt::Stresses;
         let start = Instant::now();
-        let mut field = StressField {
-            asset,
-            skin: &body.prepared.skin,
-            config,
-            pressed,
-            displacement: &mut displacement,
-            elasticity,
-            step,
-        };
         peak = crack(&mut system, &mut field, &suspects, time_step, peak);
         report.timings.cracks += start.elapsed().as_secs_f64();
     }

@@ -12,7 +12,7 @@ use frangible_bake::Shape;
 use frangible_draw::RgbImage;
 
 use crate::FigureError;
-use crate::bodies::{MODES, baked, blow};
+use crate::bodies::{MODES, baked};
 use crate::draw::{Look, Model, PieceColours, add_pieces, below, beside};
 use crate::figure::{Claim, Figure, Findings, Picture, Table};
 use crate::statistics::pieces;
@@ -148,7 +148,7 @@ fn throw(
 fn contact(rabbit: &Asset, speed: f64, wall: Striker) -> Contact {
     let all = rabbit.fracture.positions.iter().copied();
     let point = all.max_by(|a, b| a.x.total_cmp(&b.x)).unwrap_or(Vec3::ZERO);
-    blow(rabbit, point, Vec3::NEG_X, speed, wall)
+    Contact::collision(rabbit, point, Vec3::NEG_X, speed, wall)
 }
 
 /// Cut elements without a face on the outside, and all of them.

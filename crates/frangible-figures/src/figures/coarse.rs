@@ -11,7 +11,7 @@ use frangible::{
 use frangible_bake::Shape;
 
 use crate::FigureError;
-use crate::bodies::{baked, blow, changed};
+use crate::bodies::{baked, changed};
 use crate::draw::{Colour, Model};
 
 /// A break, and how its cracks ran.
@@ -92,7 +92,7 @@ fn search(
     let [slowest, fastest, factor] = SPEEDS;
     let mut speed = slowest;
     while speed < fastest {
-        let contact: Contact = blow(
+        let contact: Contact = Contact::collision(
             asset,
             point,
             Vec3::NEG_Z,

@@ -9,7 +9,7 @@ use frangible_draw::{ModeCell, ModeSheetOptions, mode_sheet};
 use frangible_verify::plot::{Axis, Chart, Marker, Series};
 
 use crate::FigureError;
-use crate::bodies::{MODES, baked, blow};
+use crate::bodies::{MODES, baked};
 use crate::draw::{below, beside, chart};
 use crate::figure::{Claim, Figure, Findings, Picture, Table};
 use crate::workshop::Workshop;
@@ -64,7 +64,7 @@ impl Landing {
                 (Vec3::new(x, 0.0, -0.5 * SIDE as f32), Vec3::Z)
             }
         };
-        blow(rod, point, up, SPEED, Striker::rigid())
+        Contact::collision(rod, point, up, SPEED, Striker::rigid())
     }
 
     fn answer(self, body: &Body) -> Answer {

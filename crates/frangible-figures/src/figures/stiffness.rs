@@ -13,7 +13,7 @@ use frangible_verify::plot::{Axis, Chart, Marker, Series};
 use rayon::prelude::*;
 
 use crate::FigureError;
-use crate::bodies::{MODES, baked, blow};
+use crate::bodies::{MODES, baked};
 use crate::draw::{Look, Model, PieceColours, add_pieces, below, beside, chart};
 use crate::figure::{Claim, Figure, Findings, Picture, Table};
 use crate::statistics::{Damage, damage, models, pieces};
@@ -56,7 +56,7 @@ fn contact(pig: &Asset, striker: Striker) -> Contact {
     let point = flank
         .max_by(|a, b| a.x.total_cmp(&b.x))
         .unwrap_or(Vec3::ZERO);
-    blow(pig, point, Vec3::NEG_X, BALL[2], striker)
+    Contact::collision(pig, point, Vec3::NEG_X, BALL[2], striker)
 }
 
 /// The state under the impulse spread over a step, the same modes and cracks `[G12 Fig. 4, top]`.

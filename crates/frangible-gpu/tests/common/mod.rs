@@ -72,12 +72,7 @@ impl Numbers {
         let tilt = Vec3::from_array(std::array::from_fn(|_| self.next() as f32 - 0.5));
         let normal = (tilt - asset.surface.normals[triangle][0]).normalize();
         let striker = self.striker();
-        let own = asset
-            .mass
-            .inverse_effective_mass(point.as_dvec3(), normal.as_dvec3());
-        let mass = 1.0 / (own + f64::from(striker.inverse_effective_mass));
-        let impulse = (1.0 + f64::from(striker.restitution)) * mass * speed;
-        Contact::new(point, normal, impulse as f32, speed as f32, striker)
+        Contact::collision(asset, point, normal, speed, striker)
     }
 
     fn striker(&mut self) -> Striker {

@@ -64,13 +64,7 @@ pub(crate) fn blow(
     speed: f64,
     striker: Striker,
 ) -> Contact {
-    let normal = normal.normalize();
-    let own = asset
-        .mass
-        .inverse_effective_mass(point.as_dvec3(), normal.as_dvec3());
-    let mass = 1.0 / (own + f64::from(striker.inverse_effective_mass));
-    let impulse = (1.0 + f64::from(striker.restitution)) * mass * speed;
-    Contact::new(point, normal, impulse as f32, speed as f32, striker)
+    Contact::collision(asset, point, normal, speed, striker)
 }
 
 /// The outermost node near the rim at this azimuth, degrees.

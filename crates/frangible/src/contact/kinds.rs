@@ -2,6 +2,7 @@
 
 use glam::Vec3;
 
+use crate::asset::Asset;
 use crate::error::{InputError, finite, positive};
 use crate::material::Material;
 
@@ -93,6 +94,31 @@ impl Contact {
             approach_speed,
             striker,
         }
+    }
+
+    /// A collision of rigid bodies: what strikes a body of this asset at `point`, m, moving `toward` a direction of any length at
+    /// `speed`, m/s, leaves the impulse (1 + e) v / (nᵀ K n of both). Without friction; none where neither can move.
+    #[must_use]
+    pub fn collision(
+        asset: &Asset,
+        point: Vec3,
+        toward: Vec3,
+        speed: f64,
+        striker: Striker,
+    ) -> Self {
+        let normal = toward.normalize_or_zero();
+        let mut give = f64::from(striker.inverse_effective_mass);
+        if !asset.is_supported() {
+            give += asset
+                .mass
+                .inverse_effective_mass(point.as_dvec3(), normal.as_dvec3());
+        }
+        let impulse = if give > 0.0 {
+            (1.0 + f64::from(striker.restitution)) * speed / give
+        } else {
+            0.0
+        };
+        Self::new(point, normal, impulse as f32, speed as f32, striker)
     }
 
     /// The whole impulse on this body, N·s.
