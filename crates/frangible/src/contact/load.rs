@@ -170,20 +170,18 @@ pub(crate) fn quick_bound(
         count += 1;
     }
     let modes = asset.modes.count();
-    let (mut stress, mut gradient) = (0.0, 0.0);
     let with_gradient = quadratic_modulus > 0.0;
+    let (mut stress, mut gradient) = (0.0, 0.0);
     for first in (0..modes).step_by(BLOCK) {
         let block = first..(first + BLOCK).min(modes);
         let mut amplitudes = [0.0_f32; BLOCK];
         let amplitudes = &mut amplitudes[..block.len()];
         for (place, push) in &places[..count] {
             each_row(asset, place, |node, weight| {
-                for axis in 0..3 {
-                    let w = weight * push[axis];
-                    let row = &asset.modes.row(3 * node + axis)[block.clone()];
-                    for (sum, &phi) in amplitudes.iter_mut().zip(row) {
-                        *sum += w * phi;
-                    }
+                let w = *push * weight;
+                let [x, y, z] = [0, 1, 2].map(|k| &asset.modes.row(3 * node + k)[block.clone()]);
+                for (((sum, x), y), z) in amplitudes.iter_mut().zip(x).zip(y).zip(z) {
+                    *sum += w.x * x + w.y * y + w.z * z;
                 }
             });
         }

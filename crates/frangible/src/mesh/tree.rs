@@ -123,13 +123,16 @@ impl TriangleTree {
             waiting -= 1;
             let at = stack[waiting];
             let node = &self.nodes[at as usize];
-            if gap(node, point) > nearest {
+            if gap(node.low, node.high, point) > nearest {
                 continue;
             }
             if node.count == 0 {
                 let (a, b) = (at + 1, node.first);
-                let nearer_first =
-                    gap(&self.nodes[a as usize], point) <= gap(&self.nodes[b as usize], point);
+                let [gap_a, gap_b] = [a, b].map(|child| {
+                    let child = &self.nodes[child as usize];
+                    gap(child.low, child.high, point)
+                });
+                let nearer_first = gap_a <= gap_b;
                 let (near, far) = if nearer_first { (a, b) } else { (b, a) };
                 stack[waiting] = far;
                 stack[waiting + 1] = near;
@@ -138,6 +141,10 @@ impl TriangleTree {
             }
             let leaf = node.first as usize..(node.first + node.count) as usize;
             for (x, &triangle) in self.corners[leaf.clone()].iter().zip(&self.order[leaf]) {
+                let (low, high) = (x[0].min(x[1]).min(x[2]), x[0].max(x[1]).max(x[2]));
+                if gap(low, high, point) > nearest {
+                    continue;
+                }
                 let weights =
                     closest_on_triangle(x.map(Vec3::as_dvec3), point.as_dvec3()).map(|w| w as f32);
                 let position = x[0] * weights[0] + x[1] * weights[1] + x[2] * weights[2];
@@ -157,9 +164,9 @@ impl TriangleTree {
 }
 
 /// Squared distance of a point from a box, m², a little less than it is: rounding must not hide a triangle.
-fn gap(node: &Node, point: Vec3) -> f32 {
-    let outside = (node.low - point).max(point - node.high).max(Vec3::ZERO);
-    outside.length_squared() * (1.0 - 1e-5) - 1e-7 * (point - node.low).length_squared()
+fn gap(low: Vec3, high: Vec3, point: Vec3) -> f32 {
+    let outside = (low - point).max(point - high).max(Vec3::ZERO);
+    outside.length_squared() * (1.0 - 1e-5) - 1e-7 * (point - low).length_squared()
 }
 
 #[cfg(test)]
