@@ -2,6 +2,7 @@
 
 mod bound;
 mod displacement;
+mod lanes;
 mod principal;
 mod skin;
 mod strain;
@@ -12,9 +13,9 @@ pub use bound::StressBounds;
 pub(crate) use bound::{MARGIN, quadratic_modulus, tension_bound};
 pub(crate) use displacement::{BATCH, Lanes, STRIDE, lane};
 pub use displacement::{DisplacementBatch, ShapeWeights};
+pub(crate) use lanes::StressLanes;
 pub(crate) use principal::perpendicular_axes;
 pub use principal::{largest_eigenvalue, largest_eigenvalue_bound, principal_axes};
 pub use skin::{Flaw, Skin};
-pub(crate) use strain::StressLanes;
 pub use strain::{Elasticity, Law, StressState, Symmetric3};
 pub use wall::Wall;
