@@ -309,16 +309,30 @@ fn a_soft_hit_holds_and_a_harder_one_cracks_more() {
                 1e4 * strike(asset, seed, &[hit(v)], &config).report().crack_area
             }
         };
-        let rim = series(&of(glass(), |v| rim_hit(20.0, v)), &[2.0, 5.0, 10.0, 20.0]);
+        let rim = series(&of(glass(), |v| rim_hit(20.0, v)), &[2.0, 5.0, 10.0]);
         let corner = series(&of(block(), corner_hit), &[1.0, 4.0, 8.0, 16.0]);
         println!("{model}: crack area, cm²: glass {rim:.1?}, block {corner:.1?}");
         for areas in [rim, corner] {
-            // From 10 m/s on the glass scatters about one area (29.0 and 27.9 cm² in our model).
             assert!(
-                areas[..3].is_sorted() && areas[3] > 0.9 * areas[2] && areas[3] > areas[0],
+                areas.is_sorted() && areas[areas.len() - 1] > areas[0],
                 "{model}: {areas:?} cm²"
             );
         }
+    }
+}
+
+/// From 10 m/s on the areas of single glasses scatter more than they grow: twenty of them.
+#[test]
+fn a_hit_at_20_m_s_cracks_the_glass_more_than_one_at_10() {
+    for (model, config) in models() {
+        let [slow, fast] = [10.0, 20.0].map(|v| {
+            let hit = rim_hit(20.0, v);
+            1e4 * mean(20, |seed| {
+                strike(glass(), seed, &[hit], &config).report().crack_area
+            })
+        });
+        println!("{model}: glass at 10 and 20 m/s, crack area: {slow:.1}, {fast:.1} cm²");
+        assert!(fast > slow, "{model}: {slow:.1}, {fast:.1} cm²");
     }
 }
 
