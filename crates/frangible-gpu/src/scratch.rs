@@ -21,20 +21,22 @@ impl Growing {
     /// The buffer, with room for so many bytes; what it held is lost when it grows.
     pub(crate) fn room(&mut self, device: &Device, bytes: u64, usage: BufferUsages) -> &Buffer {
         let needed = bytes.max(16).next_multiple_of(16);
-        if self.buffer.as_ref().is_none_or(|b| b.size() < needed) {
-            // A quarter more, so that batches that grow slowly do not make a buffer each.
-            let size = (needed + needed / 4)
-                .next_multiple_of(16)
-                .min(MOST.max(needed));
-            self.buffer = None;
-            self.buffer = Some(device.create_buffer(&wgpu::BufferDescriptor {
-                label: None,
-                size,
-                usage,
-                mapped_at_creation: false,
-            }));
-        }
-        self.buffer.as_ref().expect("made above")
+        let buffer = match self.buffer.take() {
+            Some(buffer) if buffer.size() >= needed => buffer,
+            // The old one is gone before the new one is made.
+            old => {
+                drop(old);
+                // A quarter more, so that batches that grow slowly do not make a buffer each.
+                let size = (needed + needed / 4).next_multiple_of(16);
+                device.create_buffer(&wgpu::BufferDescriptor {
+                    label: None,
+                    size: size.min(MOST.max(needed)),
+                    usage,
+                    mapped_at_creation: false,
+                })
+            }
+        };
+        self.buffer.insert(buffer)
     }
 
     /// The buffer, holding these words.
