@@ -10,7 +10,7 @@ use crate::fem::{
     Cover, Elasticity, Elements, MID_EDGES, QuadraticMesh, System, assemble,
     assemble_supported_cover,
 };
-use crate::mesh::{BodyMesh, barycentric_gradients};
+use crate::mesh::BodyMesh;
 use crate::report::MeshReport;
 use crate::supports::Holder;
 
@@ -151,12 +151,6 @@ impl Analysis {
 
     /// As the asset stores it.
     pub(crate) fn stored(&self) -> AnalysisMesh {
-        let mesh = self.mesh();
-        let gradients = |e: usize| barycentric_gradients(mesh.corners(e)).map(|g| g.as_vec3());
-        AnalysisMesh {
-            nodes: mesh.positions.iter().map(|p| p.as_vec3()).collect(),
-            barycentric_gradients: (0..mesh.elements.len()).map(gradients).collect(),
-            elements: mesh.elements.clone(),
-        }
+        self.mesh().stored()
     }
 }

@@ -178,7 +178,7 @@ pub fn bake(
         name: spec.name.clone(),
         material: spec.material.clone(),
         analysis: analysis.stored(),
-        fracture,
+        fracture: fracture.into(),
         surface,
         embedding,
         modes: basis,
@@ -190,6 +190,7 @@ pub fn bake(
             .filter(|&v| held[v as usize] != [false; 3])
             .collect(),
         render: spec.render.as_ref().map(|r| moved(r, -centre)),
+        portion: None,
     }
     .restressed();
 

@@ -102,7 +102,8 @@ pub fn linear_asset(
         cell_of_tet: vec![0; mesh.tets.len()],
         supported: Vec::new(),
         render: None,
-        fracture,
+        portion: None,
+        fracture: fracture.into(),
     };
     asset.modes.peak_stress = peak_stress(&asset);
     Ok(asset)

@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, OnceLock};
 
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 
 use crate::asset::{Asset, EmbeddedPoint};
 use crate::config::FractureConfig;
@@ -12,6 +12,8 @@ use crate::fields::{Fields, Resistance, Toughness};
 use crate::fragment::{MeshIndex, RenderIndex};
 use crate::loads::PerNewton;
 use crate::mesh::TriangleTree;
+use crate::modal::ModalBasis;
+use crate::piece::Statics;
 use crate::rng::{Purpose, stream, uniform};
 use crate::state::BodyState;
 use crate::stress::{Law, ShapeWeights, Skin, StressBounds, quadratic_modulus};
@@ -28,18 +30,20 @@ pub struct Breakable {
 /// What follows from an asset and every impact needs.
 #[derive(Debug)]
 pub(crate) struct Prepared {
+    /// Of a piece: what was prepared for the body as it was baked.
+    pub(crate) root: Option<Arc<Prepared>>,
     /// What hangs together in the fracture mesh.
-    pub(crate) index: MeshIndex,
+    pub(crate) index: Arc<MeshIndex>,
     /// Over the triangles of the outer surface.
     pub(crate) surface: TriangleTree,
-    /// Over those of the render surface.
+    /// Over those of the render surface; none of a piece.
     pub(crate) render: Option<RenderIndex>,
     /// Free surfaces: flaws and walls.
     pub(crate) skin: Skin,
     /// Stress bounds of the clusters …
     pub(crate) bounds: StressBounds,
     /// … and of the whole body: stress and gradient, one number per mode.
-    pub(crate) root: (Vec<f32>, Vec<f32>),
+    pub(crate) whole: (Vec<f32>, Vec<f32>),
     /// 1/√λ_i of every mode, s.
     pub(crate) periods: Vec<f32>,
     /// Σ φ_i dm of every mode, √kg: what a held body's weight pushes; empty for a free one, where it is zero.
@@ -49,7 +53,7 @@ pub(crate) struct Prepared {
     /// What any newton does at most; made when it is asked for.
     pub(crate) per_newton: OnceLock<PerNewton>,
     /// Centroid of each fracture tetrahedron, m.
-    pub(crate) centroids: Vec<Vec3>,
+    pub(crate) centroids: Arc<[Vec3]>,
     /// Mean edge of the fracture mesh, m.
     pub(crate) edge: f32,
 }
@@ -76,21 +80,18 @@ impl Breakable {
         };
         let surface = TriangleTree::new(&asset.fracture.positions, &asset.surface.triangles);
         let prepared = Prepared {
-            index: MeshIndex::new(&asset),
+            root: None,
+            index: Arc::new(MeshIndex::new(&asset)),
             render: asset
                 .render
                 .as_ref()
                 .map(|render| RenderIndex::new(render, &surface)),
             surface,
-            root: bounds.root(modes.count()),
+            whole: bounds.root(modes.count()),
             bounds,
             skin,
             weight: weight(&asset),
-            periods: modes
-                .eigenvalues
-                .iter()
-                .map(|l| (1.0 / l.sqrt()) as f32)
-                .collect(),
+            periods: periods(modes),
             per_newton: OnceLock::new(),
             quadratic_modulus: quadratic_modulus(&asset.material),
             centroids: (0..asset.fracture.tets.len())
@@ -158,11 +159,7 @@ impl Breakable {
             &weak_tets,
             seed,
         );
-        let clusters = WeakClusters::new(
-            &weak_tets,
-            &self.prepared.bounds.cluster_of_tet,
-            &resistance,
-        );
+        let clusters = WeakClusters::new(asset, &weak_tets, &self.prepared.bounds, &resistance);
         Body {
             asset: Arc::clone(asset),
             prepared: Arc::clone(&self.prepared),
@@ -171,18 +168,31 @@ impl Breakable {
             seed,
             weak_tets,
             state: BodyState::default(),
+            statics: None,
         }
     }
 }
 
-fn weight(asset: &Asset) -> Vec<Vec3> {
+/// 1/√λ_i of every mode, s.
+pub(crate) fn periods(modes: &ModalBasis) -> Vec<f32> {
+    let eigenvalues = modes.eigenvalues.iter();
+    eigenvalues.map(|l| (1.0 / l.sqrt()) as f32).collect()
+}
+
+/// Σ φ_i dm of every mode of a held body. Of a piece the divided tetrahedra are left out and the sum scaled to its mass.
+pub(crate) fn weight(asset: &Asset) -> Vec<Vec3> {
     let modes = asset.modes.count();
     if !asset.is_supported() {
         return Vec::new();
     }
     let mut mass_of_node = vec![0.0_f32; asset.analysis.nodes.len()];
-    for (tet, point) in asset.embedding.tets.iter().enumerate() {
-        let mass = (asset.material.density * asset.fracture.volume(tet)) as f32;
+    let masses = asset.tets().map(|tet| asset.material.density * asset.fracture.volume(tet));
+    let scale = match asset.portion {
+        Some(_) => asset.mass.mass / masses.clone().sum::<f64>(),
+        None => 1.0,
+    };
+    for (mass, point) in masses.zip(&asset.embedding.tets) {
+        let mass = (mass * scale) as f32;
         let element = asset.analysis.elements[point.element as usize];
         for (&node, share) in element.iter().zip(ShapeWeights::values(point)) {
             mass_of_node[node as usize] += mass * share;
@@ -210,6 +220,8 @@ pub struct Body {
     seed: u64,
     weak_tets: Vec<u32>,
     state: BodyState,
+    /// Of a piece without modes: what finds its displacement.
+    pub(crate) statics: Option<Arc<dyn Statics>>,
 }
 
 impl Body {
@@ -231,6 +243,46 @@ impl Body {
     #[must_use]
     pub fn seed(&self) -> u64 {
         self.seed
+    }
+
+    /// How many breaks it comes from: 0 as it was made, 1 for a piece of it, 2 for a piece of that.
+    #[must_use]
+    pub fn generation(&self) -> u32 {
+        self.asset.portion.as_ref().map_or(0, |p| p.generation())
+    }
+
+    /// Its centre of mass in the frame of the fracture mesh, m: zero but for pieces.
+    #[must_use]
+    pub fn origin(&self) -> DVec3 {
+        match &self.asset.portion {
+            Some(portion) => portion.origin(),
+            None => DVec3::ZERO,
+        }
+    }
+
+    /// A part of this body.
+    pub(crate) fn part(
+        &self,
+        mut asset: Asset,
+        weak_tets: Vec<u32>,
+        state: BodyState,
+        statics: Option<Arc<dyn Statics>>,
+    ) -> Self {
+        let prepared = match asset.portion.clone() {
+            Some(portion) => Arc::new(Prepared::of_piece(&mut asset, &portion)),
+            None => Arc::clone(&self.prepared),
+        };
+        let resistance = self.resistance.of_part(&weak_tets);
+        Self {
+            clusters: WeakClusters::new(&asset, &weak_tets, &prepared.bounds, &resistance),
+            asset: Arc::new(asset),
+            prepared,
+            resistance,
+            statics,
+            seed: self.seed,
+            weak_tets,
+            state,
+        }
     }
 
     /// k of the stress bounds' quadratic term, Pa.
@@ -304,12 +356,18 @@ pub(crate) struct WeakClusters {
 }
 
 impl WeakClusters {
-    fn new(weak_tets: &[u32], cluster_of_tet: &[u32], resistance: &Resistance) -> Self {
+    fn new(
+        asset: &Asset,
+        weak_tets: &[u32],
+        bounds: &StressBounds,
+        resistance: &Resistance,
+    ) -> Self {
+        let cluster_of = |e: u32| bounds.cluster_of_tet[asset.place(e as usize)];
         let mut tets = weak_tets.to_vec();
-        tets.sort_by_key(|&e| (cluster_of_tet[e as usize], e));
+        tets.sort_by_cached_key(|&e| (cluster_of(e), e));
         let (mut clusters, mut starts) = (Vec::new(), Vec::new());
         for (i, &e) in tets.iter().enumerate() {
-            let cluster = cluster_of_tet[e as usize];
+            let cluster = cluster_of(e);
             if clusters.last() != Some(&cluster) {
                 clusters.push(cluster);
                 starts.push(i as u32);

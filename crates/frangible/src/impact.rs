@@ -1,5 +1,6 @@
 //! THE pipeline: contacts in, outcome out, one call per stage in the paper's order.
 
+use std::sync::Arc;
 use std::time::Instant;
 
 use crate::body::Body;
@@ -7,8 +8,9 @@ use crate::config::FractureConfig;
 use crate::contact::{self, Contact};
 use crate::crack::{CrackSystem, Culling, Peak, StressField, Suspects, crack, front_limit};
 use crate::error::InputError;
-use crate::fragment::{self, Labels};
+use crate::fragment::{self, Built, Labels};
 use crate::modal::Motion;
+use crate::piece::{Breakup, static_impact};
 use crate::outcome::{Fracture, ImpactReport, LookedAt, Outcome};
 use crate::stages::Vibration;
 use crate::state::BodyState;
@@ -28,6 +30,9 @@ pub fn impact(
     contacts: &[Contact],
     config: &FractureConfig,
 ) -> Result<Outcome, InputError> {
+    if let Some(statics) = &body.statics {
+        return static_impact(body, statics, contacts, config, &mut None);
+    }
     let cracked = cracks(body, contacts, config, &mut None)?;
     Ok(pieces(body, cracked))
 }
@@ -42,8 +47,11 @@ pub fn impact_traced(
     config: &FractureConfig,
 ) -> Result<(Outcome, CrackTrace), InputError> {
     let mut trace = Some(CrackTrace::default());
-    let cracked = cracks(body, contacts, config, &mut trace)?;
-    Ok((pieces(body, cracked), trace.unwrap_or_default()))
+    let outcome = match &body.statics {
+        Some(statics) => static_impact(body, statics, contacts, config, &mut trace)?,
+        None => pieces(body, cracks(body, contacts, config, &mut trace)?),
+    };
+    Ok((outcome, trace.unwrap_or_default()))
 }
 
 /// Whether an impact would break a body into pieces: [`impact`] without making them.
@@ -55,6 +63,10 @@ pub fn would_break(
     contacts: &[Contact],
     config: &FractureConfig,
 ) -> Result<bool, InputError> {
+    if body.statics.is_some() {
+        let outcome = impact(body, contacts, config)?;
+        return Ok(matches!(outcome, Outcome::Broke(_)));
+    }
     let cracked = cracks(body, contacts, config, &mut None)?;
     Ok(matches!(cracked, Cracked::Parted(..)))
 }
@@ -64,6 +76,7 @@ pub fn would_break(
 #[must_use]
 pub fn is_harmless(body: &Body, contacts: &[Contact], config: &FractureConfig) -> bool {
     config.culling
+        && body.statics.is_none()
         && contacts.iter().all(|c| c.validate().is_ok())
         && contact::first_bound(body, contacts, config).is_some_and(|bound| bound <= harmless(body))
 }
@@ -276,7 +289,7 @@ fn run_cracks_from<'a>(
     }
     if let Some(first) = system.cracks.get(system.old_cracks) {
         report.first_crack_time = first.elements.first().map(|cut| cut.time);
-        report.first_crack_point = Some(first.frame.origin);
+        report.first_crack_point = Some(first.frame.origin - body.origin().as_vec3());
     }
     if report.looked_at == LookedAt::Amplitudes && culling.asked_clusters {
         report.looked_at = LookedAt::Clusters;
@@ -318,15 +331,33 @@ pub(crate) fn pieces(body: &Body, cracked: Cracked<'_>) -> Outcome {
         }
     };
     let start = Instant::now();
-    let (mut fragments, undrawn) = fragment::build(&system, &labels, &body.prepared);
+    let root = &**body.prepared.root.as_ref().unwrap_or(&body.prepared);
+    let Built {
+        mut fragments,
+        undrawn,
+        traces,
+        fixed,
+    } = fragment::build(&system, &labels, root);
     let volume: f64 = fragments.iter().map(|f| f.mass.volume).sum();
-    report.volume_error = volume / body.prepared.index.total_volume - 1.0;
+    let whole = match body.asset.portion {
+        Some(_) => body.asset.mass.volume,
+        None => root.index.total_volume,
+    };
+    report.volume_error = volume / whole - 1.0;
     report.timings.fragments = start.elapsed().as_secs_f64();
     let start = Instant::now();
-    if let (Some(surface), Some(undrawn)) = (&body.asset.render, undrawn) {
-        let (mesh, prepared) = (&body.asset.fracture, &body.prepared);
-        fragment::draw(surface, mesh, prepared, &mut fragments, undrawn);
+    if let (Some(surface), Some(undrawn)) = (&body.asset.root().render, undrawn) {
+        let mesh = &body.asset.fracture;
+        fragment::draw(surface, mesh, root, &mut fragments, undrawn);
         report.timings.drawing = start.elapsed().as_secs_f64();
     }
-    Outcome::Broke(Box::new(Fracture { fragments, report }))
+    for fragment in &mut fragments {
+        fragment.mass.centre -= body.origin();
+    }
+    let breakup = Breakup::new(&system, labels, traces, fixed);
+    Outcome::Broke(Box::new(Fracture {
+        fragments,
+        report,
+        breakup: Some(Arc::new(breakup)),
+    }))
 }

@@ -1,8 +1,11 @@
 //! What an impact did.
 
+use std::sync::Arc;
+
 use glam::Vec3;
 
 use crate::mesh::{MassProperties, RenderMesh, TriMesh};
+use crate::piece::Breakup;
 use crate::state::BodyState;
 
 /// What an impact did to a body.
@@ -45,6 +48,20 @@ pub struct Fracture {
     pub fragments: Vec<Fragment>,
     /// How the break came about.
     pub report: ImpactReport,
+    /// What the pieces need that are to break again; none of pieces that came about elsewhere.
+    pub(crate) breakup: Option<Arc<Breakup>>,
+}
+
+impl Fracture {
+    /// Of pieces that came about elsewhere: they do not break again.
+    #[must_use]
+    pub fn new(fragments: Vec<Fragment>, report: ImpactReport) -> Self {
+        Self {
+            fragments,
+            report,
+            breakup: None,
+        }
+    }
 }
 
 /// One piece of a broken body.

@@ -4,14 +4,14 @@ use crate::body::Body;
 use crate::config::FractureConfig;
 use crate::contact::{Contact, Pulse};
 use crate::error::InputError;
-use crate::impact::{Begun, Cracked, begin, pieces, vibrate};
+use crate::impact::{Begun, Cracked, begin, impact, pieces, vibrate};
 use crate::modal::{self, Motion};
 use crate::outcome::{ImpactReport, Outcome};
 
 /// What the first stage of an impact leaves to do.
 #[derive(Clone, Debug)]
 pub enum Stage {
-    /// Nothing: its impulses are too weak for any crack.
+    /// Nothing: its impulses are too weak for any crack. Or the body is a piece without modes, and this is what came of it.
     Held(Outcome),
     /// Its modes have to be followed over time.
     Vibrates(Vibration),
@@ -41,6 +41,9 @@ impl Vibration {
         contacts: &[Contact],
         config: &FractureConfig,
     ) -> Result<Stage, InputError> {
+        if body.statics.is_some() {
+            return Ok(Stage::Held(impact(body, contacts, config)?));
+        }
         Ok(match begin(body, contacts, config)? {
             Begun::Held(margin, report) => Stage::Held(Outcome::Held {
                 margin,

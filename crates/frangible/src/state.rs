@@ -24,6 +24,8 @@ pub(crate) struct OldCrack {
     pub(crate) normal: Vec3,
     /// Tetrahedra it has cut, in their order.
     pub(crate) cuts: Vec<OldCut>,
+    /// How many of them, from the first, had cut a piece before it was one.
+    pub(crate) settled: u32,
     /// Where it met a crack: place in `cuts`, and whether the crack was itself.
     pub(crate) junctions: Vec<(u32, bool)>,
 }
@@ -47,16 +49,17 @@ impl OldCrack {
         };
         let junction = |j: &Junction| (j.from, j.own);
         Self {
-            start: crack.elements.first().map_or(0, |e| e.tet),
+            start: crack.start,
             normal: crack.frame.normal,
             cuts: crack.elements.iter().map(cut).collect(),
+            settled: crack.settled as u32,
             junctions: crack.junctions.iter().map(junction).collect(),
         }
     }
 }
 
 /// Starts a state in bytes; the digit is its version.
-const MAGIC: &[u8; 8] = b"FRCRACK1";
+const MAGIC: &[u8; 8] = b"FRCRACK2";
 
 impl BodyState {
     pub(crate) fn of(cracks: &[Crack]) -> Self {
@@ -83,7 +86,7 @@ impl BodyState {
         cuts.map(|cut| crossing_polygon(&asset.fracture.corners(cut.tet as usize), &cut.values))
     }
 
-    /// The state as bytes: little-endian, 12 bytes, 24 more per crack, 32 per tetrahedron cut and 4 per junction.
+    /// The state as bytes: little-endian, 12 bytes, 28 more per crack, 32 per tetrahedron cut and 4 per junction.
     #[must_use]
     pub fn to_bytes(&self) -> Vec<u8> {
         let mut bytes = MAGIC.to_vec();
@@ -97,6 +100,7 @@ impl BodyState {
                 .iter()
                 .for_each(|x| number(x.to_bits()));
             number(crack.cuts.len() as u32);
+            number(crack.settled);
             number(crack.junctions.len() as u32);
             for cut in &crack.cuts {
                 number(cut.tet);
@@ -127,12 +131,13 @@ impl BodyState {
         for _ in 0..count {
             let start = numbers.next()?;
             let normal = numbers.vector()?;
-            let (cuts, junctions) = (numbers.next()?, numbers.next()?);
+            let (cuts, settled, junctions) = (numbers.next()?, numbers.next()?, numbers.next()?);
             // Grown as they are read: no number in the file makes memory that the file does not fill.
             let mut crack = OldCrack {
                 start,
                 normal,
                 cuts: Vec::new(),
+                settled,
                 junctions: Vec::new(),
             };
             for _ in 0..cuts {
@@ -166,8 +171,26 @@ impl BodyState {
         let mut cut = vec![false; tets];
         for crack in &self.cracks {
             let first = crack.cuts.first();
-            if first.is_none_or(|c| c.tet != crack.start) || !crack.normal.is_normalized() {
+            // What a piece keeps of a crack need not hold its start.
+            let starts = crack.settled > 0 || first.is_some_and(|c| c.tet == crack.start);
+            let there = first.is_some() && (crack.start as usize) < tets;
+            if !(starts && there && crack.normal.is_normalized()) {
                 return Err(InputError::State("a crack has no start, or no direction"));
+            }
+            let settled = crack.settled as usize;
+            if settled > crack.cuts.len() || (settled > 0 && asset.portion.is_none()) {
+                return Err(InputError::State(
+                    "it is that of a piece: it belongs to another body",
+                ));
+            }
+            if let Some(portion) = &asset.portion {
+                let own = |c: &OldCut| portion.has_tet(&asset.fracture.tets[c.tet as usize]);
+                let known = |c: &&OldCut| (c.tet as usize) < tets;
+                if !crack.cuts.iter().filter(known).all(own) {
+                    return Err(InputError::State(
+                        "it cuts tetrahedra of other pieces: it belongs to another body",
+                    ));
+                }
             }
             for c in &crack.cuts {
                 let there = cut.get_mut(c.tet as usize);

@@ -1,8 +1,9 @@
 //! Quadratic tetrahedra with straight edges: nodes and shape functions.
 
+use frangible::asset::AnalysisMesh;
 use frangible::glam::DVec3;
 
-use crate::mesh::BodyMesh;
+use crate::mesh::{BodyMesh, barycentric_gradients};
 
 /// Corners of the six mid-edge nodes, in the order of the nodes 4..10.
 pub const MID_EDGES: [[usize; 2]; 6] = [[0, 1], [1, 2], [0, 2], [0, 3], [1, 3], [2, 3]];
@@ -47,6 +48,17 @@ impl QuadraticMesh {
         Self {
             elements: elements.collect(),
             positions,
+        }
+    }
+
+    /// As an asset stores it.
+    #[must_use]
+    pub fn stored(&self) -> AnalysisMesh {
+        let gradients = |e: usize| barycentric_gradients(self.corners(e)).map(|g| g.as_vec3());
+        AnalysisMesh {
+            nodes: self.positions.iter().map(|p| p.as_vec3()).collect(),
+            barycentric_gradients: (0..self.elements.len()).map(gradients).collect(),
+            elements: self.elements.clone(),
         }
     }
 

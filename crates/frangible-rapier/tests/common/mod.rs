@@ -83,7 +83,7 @@ pub fn box_asset(half: Vec3, cells: [usize; 3]) -> Arc<Asset> {
         name: "box".into(),
         material: Material::preset("glass").unwrap(),
         mass: block_mass(Vec3::ZERO, half),
-        fracture,
+        fracture: fracture.into(),
         surface,
         analysis,
         embedding,
@@ -93,6 +93,7 @@ pub fn box_asset(half: Vec3, cells: [usize; 3]) -> Arc<Asset> {
         cell_of_tet,
         supported: Vec::new(),
         render: None,
+        portion: None,
     })
 }
 
@@ -189,7 +190,7 @@ pub fn sliced(half: Vec3, slices: [usize; 3], overlap: f32, fracture_energy: f64
     fragments.sort_by(|a, b| b.mass.mass.total_cmp(&a.mass.mass));
     let mut report = ImpactReport::default();
     report.fracture_energy = fracture_energy;
-    Fracture { fragments, report }
+    Fracture::new(fragments, report)
 }
 
 pub type Judge =

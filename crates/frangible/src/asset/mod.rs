@@ -6,11 +6,14 @@ mod render;
 mod rescale;
 mod validate;
 
+use std::sync::Arc;
+
 use glam::Vec3;
 
 use crate::material::Material;
 use crate::mesh::{MassProperties, TetMesh};
 use crate::modal::ModalBasis;
+use crate::piece::Portion;
 use crate::stress::StressBounds;
 
 #[doc(hidden)]
@@ -22,6 +25,9 @@ pub use rescale::{RescaleError, SMALLEST_CURVATURE_RADIUS};
 /// Everything the run time needs of one kind of object. Share it (`Arc`) among all bodies of that kind.
 ///
 /// All positions are in the **body frame**: metres, origin at the centre of mass.
+///
+/// A piece that may break again has an asset of its own, which shares the fracture mesh of the body it came from: see
+/// [`Asset::portion`] for what differs.
 #[derive(Clone, Debug)]
 pub struct Asset {
     /// Name shown in reports.
@@ -29,7 +35,7 @@ pub struct Asset {
     /// What the modes were computed for.
     pub material: Material,
     /// Fine linear tetrahedra that carry cracks and fragments.
-    pub fracture: TetMesh,
+    pub fracture: Arc<TetMesh>,
     /// Outer faces of the fracture mesh with their smooth normals.
     pub surface: OuterSurface,
     /// Coarse quadratic tetrahedra that carry the modes.
@@ -52,6 +58,11 @@ pub struct Asset {
     /// The surface as its author drew it, kept for drawing and for clipping; physics never reads it.
     /// `None` where the fracture mesh's own surface is all there is.
     pub render: Option<RenderSurface>,
+    /// Of a piece that may break again, which part of the broken body it is; `None` for what was baked. The fracture mesh is
+    /// then the broken body's, in its frame; the surface has vertices of its own, in the piece's frame
+    /// ([`Asset::surface_positions`]); [`Embedding::tets`] and [`StressBounds::cluster_of_tet`] have an entry for each of
+    /// [`Portion::tets`], [`Embedding::nodes`] for each vertex of the surface; cells are empty.
+    pub portion: Option<Arc<Portion>>,
 }
 
 impl Asset {
@@ -59,6 +70,50 @@ impl Asset {
     #[must_use]
     pub fn is_supported(&self) -> bool {
         !self.supported.is_empty()
+    }
+
+    /// What was baked: itself, or of a piece the body that it came from.
+    #[must_use]
+    pub fn root(&self) -> &Self {
+        match &self.portion {
+            Some(portion) => portion.root(),
+            None => self,
+        }
+    }
+
+    /// Where the vertices of [`Asset::surface`] are, m, body frame.
+    #[must_use]
+    pub fn surface_positions(&self) -> &[Vec3] {
+        match &self.portion {
+            Some(portion) => portion.surface_positions(),
+            None => &self.fracture.positions,
+        }
+    }
+
+    /// Where a fracture tetrahedron stands in lists that have an entry for each one of the body: at its number, or of a piece
+    /// in [`Portion::tets`].
+    #[must_use]
+    pub fn place(&self, tet: usize) -> usize {
+        match &self.portion {
+            Some(portion) => portion.place(tet as u32),
+            None => tet,
+        }
+    }
+
+    /// Where the centroid of a fracture tetrahedron lies in the analysis mesh. Of a piece: of its [`Portion::tets`].
+    #[must_use]
+    pub fn embedded_tet(&self, tet: usize) -> &EmbeddedPoint {
+        &self.embedding.tets[self.place(tet)]
+    }
+
+    /// Fracture tetrahedra, by their [places](Self::place).
+    pub(crate) fn tets(&self) -> impl Iterator<Item = usize> + Clone {
+        let of_piece = self.portion.iter().flat_map(|p| p.tets()).copied();
+        let all = match self.portion {
+            Some(_) => 0,
+            None => self.fracture.tets.len(),
+        };
+        (0..all).chain(of_piece.map(|t| t as usize))
     }
 
     /// The asset with its stress bounds and the peak stress of its modes found anew, as the bake does: for one whose

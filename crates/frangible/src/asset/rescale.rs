@@ -8,6 +8,8 @@
 //! Factors are formed in f64 and each stored f32 is rounded once per call, 6e-8 of it; eigenvalues stay in f64. Rescale the
 //! asset as it was baked rather than the last result, where a slider asks for it a thousand times.
 
+use std::sync::Arc;
+
 use glam::{DVec3, Vec3};
 use thiserror::Error;
 
@@ -105,7 +107,8 @@ impl Asset {
         positive("the factor of the size", factor, "times")?;
         let mut asset = self.clone();
         let scale = |v: &mut Vec3| *v = (v.as_dvec3() * factor).as_vec3();
-        asset.fracture.positions.iter_mut().for_each(scale);
+        let fracture = Arc::make_mut(&mut asset.fracture);
+        fracture.positions.iter_mut().for_each(scale);
         asset.analysis.nodes.iter_mut().for_each(scale);
         for gradient in asset.analysis.barycentric_gradients.iter_mut().flatten() {
             *gradient = (gradient.as_dvec3() / factor).as_vec3();

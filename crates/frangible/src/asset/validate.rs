@@ -24,6 +24,13 @@ impl Asset {
     }
 
     fn check(&self) -> Check {
+        if self.portion.is_some() {
+            return Err(
+                "it is that of a piece, which lives as long as its body; keep the asset that the piece came from, \
+                 `Asset::root`, and replay its impacts"
+                    .into(),
+            );
+        }
         mass(&self.mass)?;
         tetrahedra(&self.fracture)?;
         neighbours(&self.fracture)?;

@@ -191,9 +191,9 @@ pub(crate) fn quick_bound(
         // The quadratic term needs the sum over all blocks first.
         let zero = [0.0; BLOCK];
         let zero = &zero[..block.len()];
-        stress += tension_bound(amplitudes, &prepared.root.0[block.clone()], zero, 0.0);
+        stress += tension_bound(amplitudes, &prepared.whole.0[block.clone()], zero, 0.0);
         if with_gradient {
-            gradient += tension_bound(amplitudes, &prepared.root.1[block], zero, 0.0);
+            gradient += tension_bound(amplitudes, &prepared.whole.1[block], zero, 0.0);
         }
     }
     Some(stress + 0.5 * quadratic_modulus * gradient * gradient)

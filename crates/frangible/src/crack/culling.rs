@@ -36,7 +36,7 @@ impl<'a> Culling<'a> {
     /// Bound of the whole body, Pa, when the modes have these amplitudes, m·√kg.
     pub(crate) fn root(&self, amplitudes: &[f32]) -> f32 {
         let prepared = &self.body.prepared;
-        let (stress, gradient) = &prepared.root;
+        let (stress, gradient) = &prepared.whole;
         tension_bound(amplitudes, stress, gradient, self.quadratic_modulus)
     }
 

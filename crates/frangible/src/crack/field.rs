@@ -22,7 +22,7 @@ pub(crate) struct StressField<'a> {
 impl StressField<'_> {
     /// Stress and strain energy density at the centroid of fracture tetrahedron `e`.
     pub(crate) fn at(&mut self, e: usize) -> StressState {
-        let gradient = self.gradient(&self.asset.embedding.tets[e]);
+        let gradient = self.gradient(self.asset.embedded_tet(e));
         match self.wall(e) {
             Some(wall) => self.elasticity.free_state(gradient, wall.normal),
             None => self.elasticity.state(gradient),
@@ -45,7 +45,7 @@ impl StressField<'_> {
         let Some(wall) = wall else {
             return state.stress;
         };
-        let centre = &self.asset.embedding.tets[e];
+        let centre = self.asset.embedded_tet(e);
         let distances = wall.distances(self.asset.fracture.centroid(e));
         let gradients = &self.asset.analysis.barycentric_gradients[centre.element as usize];
         let [front, back] = distances.map(|distance| {
@@ -95,7 +95,7 @@ pub(crate) fn weak_place<'a>(
     e: usize,
 ) -> (&'a EmbeddedPoint, Law) {
     let wall = wall(asset, skin, config, e);
-    let flaw = skin.flaw(e).filter(|_| config.surface_flaws);
+    let flaw = skin.flaw(asset.place(e)).filter(|_| config.surface_flaws);
     match flaw.filter(|flaw| !pressed.contains(&flaw.triangle)) {
         Some(flaw) => match wall.and_then(|wall| wall.edge(flaw.normal)) {
             Some(along) => (&flaw.point, Law::Edge(along)),
@@ -103,7 +103,7 @@ pub(crate) fn weak_place<'a>(
         },
         None => {
             let law = wall.map_or(Law::Solid, |wall| Law::Free(wall.normal));
-            (&asset.embedding.tets[e], law)
+            (asset.embedded_tet(e), law)
         }
     }
 }

@@ -164,7 +164,7 @@ fn try_start(system: &mut CrackSystem, field: &mut StressField, suspect: &Suspec
         return;
     }
     let id = system.cracks.len() as u32;
-    system.add(frame);
+    system.add(frame, e);
     let direction = gradient(&x, &values).unwrap_or(normal);
     system.fracture(
         id,

@@ -18,13 +18,21 @@ use crate::stress::MARGIN;
 /// No crack has fractured this tetrahedron.
 pub(crate) const UNCUT: u32 = u32::MAX;
 
+/// Of another piece than the one that cracks: no front goes there.
+pub(crate) const ELSEWHERE: u32 = u32::MAX - 1;
+
 /// One crack.
 pub(crate) struct Crack {
     pub(crate) frame: CrackFrame,
+    /// Tetrahedron where it started.
+    pub(crate) start: u32,
     /// s at the nodes it has met, m. Looked up only, never iterated.
     pub(crate) values: HashMap<u32, f32>,
     /// Fractured tetrahedra in the order they joined.
     pub(crate) elements: Vec<ElementCut>,
+    /// How many of them, from the first, had cut a piece before it was one: these cuts are settled
+    /// ([`Portion`](crate::piece::Portion)).
+    pub(crate) settled: usize,
     /// Fracture energy spent E_f, J `[G12 Eq. 11]`.
     pub(crate) spent: f64,
     /// Strain energy available E_s, J `[G12 Eq. 12]`.
@@ -41,11 +49,13 @@ pub(crate) struct Crack {
 
 impl Crack {
     /// Without tetrahedra yet.
-    pub(crate) fn new(frame: CrackFrame) -> Self {
+    pub(crate) fn new(frame: CrackFrame, start: u32) -> Self {
         Self {
             frame,
+            start,
             values: HashMap::new(),
             elements: Vec::new(),
+            settled: 0,
             spent: 0.0,
             available: 0.0,
             area: 0.0,
@@ -193,7 +203,15 @@ impl<'a> CrackSystem<'a> {
             budget,
             spent: 0.0,
             cracks: Vec::new(),
-            fractured_by: vec![UNCUT; asset.fracture.tets.len()],
+            fractured_by: match &asset.portion {
+                None => vec![UNCUT; asset.fracture.tets.len()],
+                Some(portion) => {
+                    let mut by = vec![ELSEWHERE; asset.fracture.tets.len()];
+                    let own = portion.tets().iter();
+                    own.for_each(|&tet| by[tet as usize] = UNCUT);
+                    by
+                }
+            },
             fronts: BinaryHeap::new(),
             stalled: Vec::new(),
             releases: Releases::default(),
@@ -223,7 +241,8 @@ impl<'a> CrackSystem<'a> {
             self.seed,
             old.start,
         );
-        self.add(frame);
+        self.add(frame, old.start);
+        self.cracks[id as usize].settled = old.settled as usize;
         for cut in &old.cuts {
             let cut = ElementCut {
                 tet: cut.tet,
@@ -234,23 +253,30 @@ impl<'a> CrackSystem<'a> {
             self.join(id, cut, 0.0);
         }
         for (from, cut) in old.cuts.iter().enumerate() {
-            self.dormant
-                .extend(self.open_faces(cut.tet, id).map(|tet| Front {
-                    arrival: 0.0,
-                    tet,
-                    crack: id,
-                    from: from as u32,
-                }));
+            let mut ahead: Vec<u32> = self.open_faces(cut.tet, id).collect();
+            if from < old.settled as usize {
+                // What it met before is settled, too.
+                ahead.retain(|&n| self.fractured_by[n as usize] == UNCUT);
+            }
+            self.dormant.extend(ahead.into_iter().map(|tet| Front {
+                arrival: 0.0,
+                tet,
+                crack: id,
+                from: from as u32,
+            }));
         }
         let junction = |&(from, own): &(u32, bool)| Junction { from, own };
         self.cracks[id as usize].junctions = old.junctions.iter().map(junction).collect();
     }
 
-    /// Neighbours of a tetrahedron that this crack has not cut.
+    /// Neighbours of a tetrahedron that this crack has not cut, in the same body.
     fn open_faces(&self, tet: u32, crack: u32) -> impl Iterator<Item = u32> + use<'a> {
         let neighbours = self.asset.fracture.neighbours[tet as usize];
-        let open = neighbours
-            .map(|n| n != crate::mesh::NO_NEIGHBOUR && self.fractured_by[n as usize] != crack);
+        let open = neighbours.map(|n| {
+            n != crate::mesh::NO_NEIGHBOUR
+                && self.fractured_by[n as usize] != crack
+                && self.fractured_by[n as usize] != ELSEWHERE
+        });
         neighbours
             .into_iter()
             .zip(open)
@@ -307,13 +333,13 @@ impl<'a> CrackSystem<'a> {
         }
     }
 
-    /// Adds a crack without tetrahedra.
-    pub(crate) fn add(&mut self, frame: CrackFrame) {
+    /// Adds a crack without tetrahedra yet, which starts in this one.
+    pub(crate) fn add(&mut self, frame: CrackFrame, start: u32) {
         self.extents.push(Extent {
             origin: frame.origin,
             size: 0.0,
         });
-        self.cracks.push(Crack::new(frame));
+        self.cracks.push(Crack::new(frame, start));
     }
 
     /// Adds a fractured tetrahedron to a crack.

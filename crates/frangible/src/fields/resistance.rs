@@ -46,7 +46,7 @@ pub(crate) struct Resistance {
     fields: Arc<Fields>,
     pub(crate) toughness: Toughness,
     /// R_c of each tetrahedron, Pa, with the scatter of the weak ones; empty where all have the material's.
-    of_tet: Vec<f32>,
+    of_tet: Arc<[f32]>,
     /// The smallest at a weak tetrahedron, Pa; the material's where there is none.
     pub(crate) weakest: f64,
 }
@@ -64,7 +64,7 @@ impl Resistance {
             material: material.strength,
             fields: Arc::clone(fields),
             toughness,
-            of_tet: Vec::new(),
+            of_tet: Arc::from([]),
             weakest: material.strength,
         };
         if **fields == Fields::default() {
@@ -81,8 +81,21 @@ impl Resistance {
         body.weakest = weakest
             .min_by(f32::total_cmp)
             .map_or(material.strength, f64::from);
-        body.of_tet = of_tet;
+        body.of_tet = of_tet.into();
         body
+    }
+
+    /// Of a part of the body, with these weak tetrahedra.
+    pub(crate) fn of_part(&self, weak_tets: &[u32]) -> Self {
+        let weakest = weak_tets.iter().map(|&e| self.strength(e));
+        let weakest = weakest.min_by(f32::total_cmp);
+        Self {
+            weakest: match weakest {
+                Some(weakest) if !self.of_tet.is_empty() => f64::from(weakest),
+                _ => self.material,
+            },
+            ..self.clone()
+        }
     }
 
     /// R_c that a crack must pass to start in a tetrahedron, Pa.

@@ -8,15 +8,24 @@ use super::render::{Parts, Undrawn};
 use crate::body::Prepared;
 use crate::crack::CrackSystem;
 use crate::outcome::Fragment;
+use crate::piece::{FixedPoints, Trace};
 
-/// Builds all fragments, largest first; not drawn yet, where there is something to draw.
-pub(crate) fn build(
-    system: &CrackSystem,
-    labels: &Labels,
-    prepared: &Prepared,
-) -> (Vec<Fragment>, Option<Undrawn>) {
-    let asset = system.asset;
-    let mut table = PointTable::new(&asset.fracture, &labels.cuts);
+/// Fragments, and what is known of them besides.
+pub(crate) struct Built {
+    /// Largest first.
+    pub(crate) fragments: Vec<Fragment>,
+    /// Not drawn yet, where there is something to draw.
+    pub(crate) undrawn: Option<Undrawn>,
+    /// Where each fragment comes from.
+    pub(crate) traces: Vec<Trace>,
+    /// Points that the pieces' later breaks keep.
+    pub(crate) fixed: FixedPoints,
+}
+
+/// Builds all fragments. `prepared`: of the body as it was baked.
+pub(crate) fn build(system: &CrackSystem, labels: &Labels, prepared: &Prepared) -> Built {
+    let (asset, portion) = (system.asset.root(), system.asset.portion.as_deref());
+    let mut table = PointTable::new(&asset.fracture, &labels.cuts, portion);
     let mut drafts = vec![Draft::default(); labels.count];
     inner_faces(asset, &prepared.index, labels, &mut table, &mut drafts);
     let mut parts = prepared.render.as_ref().map(|_| Parts::default());
@@ -28,16 +37,23 @@ pub(crate) fn build(
         None => Vec::new(),
     };
     let mut finisher = Finisher::new(&table, asset.material.density);
-    let finished = drafts.into_iter().map(|draft| finisher.finish(draft));
-    let mut fragments: Vec<(u32, Fragment)> = (0..).zip(finished).collect();
+    let numbered = (0..).zip(drafts);
+    let finished = numbered.map(|(label, draft)| finisher.finish(draft, labels, label));
+    let mut finished: Vec<(Fragment, Trace)> = finished.collect();
     // Stable: equal volumes stay in the order of their labels.
-    fragments.sort_by(|a, b| b.1.mass.volume.total_cmp(&a.1.mass.volume));
-    let (order, fragments): (Vec<u32>, _) = fragments.into_iter().unzip();
+    finished.sort_by(|a, b| b.0.mass.volume.total_cmp(&a.0.mass.volume));
+    let (fragments, traces): (Vec<_>, Vec<Trace>) = finished.into_iter().unzip();
+    let fixed = table.fixed();
     let undrawn = parts.map(|parts| Undrawn {
         parts,
-        labels: order,
+        labels: traces.iter().map(|trace| trace.label).collect(),
         faces,
         points: table.into_positions(),
     });
-    (fragments, undrawn)
+    Built {
+        fragments,
+        undrawn,
+        traces,
+        fixed,
+    }
 }

@@ -10,9 +10,13 @@ use std::collections::BinaryHeap;
 
 use super::cuts::Cuts;
 use super::index::MeshIndex;
+use crate::piece::{NOBODY, Portion};
 
 /// Nodes that a side looks at before it is asked again whether it has seen least.
 const TURN: u32 = 32;
+
+/// In place of a side: a node beside a cut that belongs to another piece.
+const OUTSIDE: u32 = u32::MAX;
 
 /// A connected component.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,13 +42,19 @@ pub(super) struct Components {
 }
 
 impl Components {
-    pub(super) fn of(cuts: &Cuts, index: &MeshIndex) -> Self {
-        let mut search = Search::new(cuts, index);
+    /// Of the whole body, or of a portion of it, which cuts part from the rest.
+    pub(super) fn of(cuts: &Cuts, index: &MeshIndex, portion: Option<&Portion>) -> Self {
+        let mut search = Search::new(cuts, index, portion);
         search.run();
         search.finish()
     }
 
-    /// Component of a node.
+    /// Whether a node beside a cut belongs to another piece.
+    pub(super) fn is_outside(&self, node: u32) -> bool {
+        self.side_of_node[node as usize] == OUTSIDE
+    }
+
+    /// Component of a node that is not outside.
     pub(super) fn of_node(&self, node: u32) -> u32 {
         match self.side_of_node[node as usize] {
             0 => self.rest,
@@ -58,10 +68,22 @@ impl Components {
         self.seen.len()
     }
 
-    /// A number for every node, given that of every component.
-    pub(super) fn spread(&self, number: &[u32]) -> Vec<u32> {
+    /// A number for every node, given that of every component; those of a portion's neighbours keep the portion's labels.
+    pub(super) fn spread(&self, number: &[u32], portion: Option<&Portion>) -> Vec<u32> {
         let rest = number[self.rest as usize];
-        let mut of_node = vec![rest; self.side_of_node.len()];
+        let mut of_node;
+        match portion {
+            None => of_node = vec![rest; self.side_of_node.len()],
+            Some(portion) => {
+                of_node = vec![NOBODY; self.side_of_node.len()];
+                for &v in portion.nodes() {
+                    of_node[v as usize] = rest;
+                }
+                for &(v, label) in portion.rim() {
+                    of_node[v as usize] = label;
+                }
+            }
+        }
         for &v in &self.seen {
             of_node[v as usize] = number[self.of_node(v) as usize];
         }
@@ -84,6 +106,7 @@ struct Side {
 struct Search<'a> {
     cuts: &'a Cuts,
     index: &'a MeshIndex,
+    portion: Option<&'a Portion>,
     side_of_node: Vec<u32>,
     seen: Vec<u32>,
     sides: Vec<Side>,
@@ -95,20 +118,31 @@ struct Search<'a> {
 
 impl<'a> Search<'a> {
     /// The sides: nodes with a cut edge, joined where an uncut edge joins them, and a node of each part of the mesh.
-    fn new(cuts: &'a Cuts, index: &'a MeshIndex) -> Self {
+    fn new(cuts: &'a Cuts, index: &'a MeshIndex, portion: Option<&'a Portion>) -> Self {
         let mut side_of_node = vec![0_u32; index.nodes()];
         let mut starts = cuts.nodes().to_vec();
-        if index.first_nodes.len() > 1 {
-            let untouched = index.first_nodes.iter().filter(|&&v| !cuts.touches(v));
+        if let Some(portion) = portion {
+            starts.retain(|&v| {
+                let within = portion.has_node(v);
+                if !within {
+                    side_of_node[v as usize] = OUTSIDE;
+                }
+                within
+            });
+        }
+        let first_nodes = portion.map_or(&index.first_nodes[..], |p| p.first_nodes());
+        if first_nodes.len() > 1 {
+            let untouched = first_nodes.iter().filter(|&&v| !cuts.touches(v));
             starts.extend(untouched);
         }
         for (place, &v) in (1..).zip(&starts) {
             side_of_node[v as usize] = place;
         }
         let mut sets = DisjointSets::new(starts.len());
-        for &v in cuts.nodes() {
+        for &v in starts.iter().filter(|&&v| cuts.touches(v)) {
             for &w in index.neighbours.of(v) {
-                if w < v && cuts.touches(w) && cuts.place(w, v).is_none() {
+                let within = cuts.touches(w) && side_of_node[w as usize] != OUTSIDE;
+                if w < v && within && cuts.place(w, v).is_none() {
                     sets.join(side_of_node[v as usize] - 1, side_of_node[w as usize] - 1);
                 }
             }
@@ -116,6 +150,7 @@ impl<'a> Search<'a> {
         let mut search = Self {
             cuts,
             index,
+            portion,
             side_of_node,
             sets: DisjointSets::new(0),
             sides: Vec::new(),
@@ -183,6 +218,7 @@ impl<'a> Search<'a> {
                         self.seen.push(w);
                         self.sides[side as usize].add(w, index);
                     }
+                    OUTSIDE => {}
                     // Between two starts an uncut edge has joined them already.
                     _ if v_is_cut && self.cuts.touches(w) => {}
                     other => side = self.meet(side, other - 1),
@@ -226,7 +262,7 @@ impl<'a> Search<'a> {
         if list.is_empty() {
             list.push(Component {
                 lowest: 0,
-                volume: self.index.whole,
+                volume: self.whole(),
             });
         }
         let mut component_of_end = vec![0; self.sides.len()];
@@ -250,15 +286,26 @@ impl<'a> Search<'a> {
     fn complete(&mut self, rest: u32, ends: &[u32]) {
         let others = ends.iter().filter(|&&side| side != rest);
         let elsewhere: u64 = others.map(|&s| self.sides[s as usize].volume).sum();
-        let mut own =
-            (0..self.index.nodes() as u32).filter(|&v| match self.side_of_node[v as usize] {
-                0 => true,
-                side => self.sets.find(side - 1) == rest,
-            });
-        let lowest = own.next().unwrap_or(0);
+        let sides = &self.side_of_node;
+        let sets = &mut self.sets;
+        let mut is_rest = |v: &u32| match sides[*v as usize] {
+            0 => true,
+            side => sets.find(side - 1) == rest,
+        };
+        let lowest = match self.portion {
+            Some(portion) => portion.nodes().iter().copied().find(is_rest),
+            None => (0..self.index.nodes() as u32).find(&mut is_rest),
+        };
+        let whole = self.whole();
         let side = &mut self.sides[rest as usize];
-        side.volume = self.index.whole - elsewhere;
-        side.lowest = lowest;
+        side.volume = whole - elsewhere;
+        side.lowest = lowest.unwrap_or(0);
+    }
+
+    /// Volume of all nodes that there are.
+    fn whole(&self) -> u64 {
+        self.portion
+            .map_or(self.index.whole, |portion| portion.whole())
     }
 }
 
@@ -294,18 +341,18 @@ impl Side {
 }
 
 /// Union-find with path halving; the lower number becomes the root.
-pub(super) struct DisjointSets {
+pub(crate) struct DisjointSets {
     parent: Vec<u32>,
 }
 
 impl DisjointSets {
-    pub(super) fn new(count: usize) -> Self {
+    pub(crate) fn new(count: usize) -> Self {
         Self {
             parent: (0..count as u32).collect(),
         }
     }
 
-    pub(super) fn find(&mut self, mut v: u32) -> u32 {
+    pub(crate) fn find(&mut self, mut v: u32) -> u32 {
         while self.parent[v as usize] != v {
             let above = self.parent[self.parent[v as usize] as usize];
             self.parent[v as usize] = above;
@@ -315,7 +362,7 @@ impl DisjointSets {
     }
 
     /// The root of both from now on.
-    pub(super) fn join(&mut self, a: u32, b: u32) -> u32 {
+    pub(crate) fn join(&mut self, a: u32, b: u32) -> u32 {
         let (a, b) = (self.find(a), self.find(b));
         self.parent[a.max(b) as usize] = a.min(b);
         a.min(b)

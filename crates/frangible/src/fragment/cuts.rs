@@ -40,12 +40,14 @@ impl Cuts {
         }
     }
 
-    /// Cuts of every fractured tetrahedron, cracks in order of their start; the first crack places the point.
+    /// Cuts that are settled, of a piece since it is one; then those of every fractured tetrahedron, cracks in order of
+    /// their start; the first crack places the point.
     pub(crate) fn of_fractured_elements(system: &CrackSystem) -> Self {
         let mesh = &system.asset.fracture;
-        let mut cuts = Self::none(mesh.positions.len());
+        let settled = system.asset.portion.as_ref().map_or(&[][..], |p| p.cuts());
+        let mut cuts = Self::of_list(settled, mesh.positions.len());
         for (id, crack) in system.cracks.iter().enumerate() {
-            for element in &crack.elements {
+            for element in &crack.elements[crack.settled..] {
                 let nodes = mesh.tets[element.tet as usize];
                 for [i, j] in EDGES {
                     cuts.cut(
@@ -77,14 +79,27 @@ impl Cuts {
         let (s, t) = (f64::from(s), f64::from(t));
         let at = (s / (s - t)).clamp(CUT_MARGIN, 1.0 - CUT_MARGIN);
         let ends = [low, high];
+        self.add(EdgeCut { ends, at, crack });
+        true
+    }
+
+    /// Adds the cut of an edge that has none.
+    fn add(&mut self, cut: EdgeCut) {
+        let [low, high] = cut.ends;
         self.places.add(low, high);
-        self.list.push(EdgeCut { ends, at, crack });
-        for end in ends {
+        self.list.push(cut);
+        for end in cut.ends {
             if !std::mem::replace(&mut self.touched[end as usize], true) {
                 self.nodes.push(end);
             }
         }
-        true
+    }
+
+    /// These cuts of edges, each of another.
+    pub(crate) fn of_list(list: &[EdgeCut], node_count: usize) -> Self {
+        let mut cuts = Self::none(node_count);
+        list.iter().for_each(|&cut| cuts.add(cut));
+        cuts
     }
 
     /// The cut of an edge, if any.
@@ -93,7 +108,7 @@ impl Cuts {
     }
 
     /// Place in [`Cuts::list`] of the cut of an edge, its lower node first.
-    pub(super) fn place(&self, low: u32, high: u32) -> Option<u32> {
+    pub(crate) fn place(&self, low: u32, high: u32) -> Option<u32> {
         if !(self.touched[low as usize] && self.touched[high as usize]) {
             return None;
         }

@@ -15,8 +15,12 @@ use crate::crack::{CrackSystem, crossing_polygon};
 #[derive(Clone, Default)]
 pub(super) struct Draft {
     pub(super) outer: Vec<[u32; 3]>,
+    /// Triangle of the body's surface that each of them lies on.
+    pub(super) outer_of: Vec<u32>,
     pub(super) outer_normals: Vec<[Vec3; 3]>,
     pub(super) inner: Vec<[u32; 3]>,
+    /// Tetrahedron in which each of them lies.
+    pub(super) inner_of: Vec<u32>,
     pub(super) cracks: Vec<[Vec3; 3]>,
     /// Convex cells and the mesh nodes in them, ascending.
     pub(super) cell_nodes: Vec<(u32, u32)>,
@@ -45,12 +49,18 @@ pub(super) fn inner_faces(
                  outside,
                  points,
              }| {
+                // Neighbours of a piece have none.
+                if inside.min(outside) as usize >= drafts.len() {
+                    return;
+                }
                 let [a, b, c] = points.map(|p| table.number(p));
-                drafts[inside as usize].inner.push([a, b, c]);
-                drafts[outside as usize].inner.push([a, c, b]);
-                for side in [inside, outside] {
-                    let points = [a, b, c].map(|p| u64::from(cell) << 32 | u64::from(p));
-                    drafts[side as usize].cell_points.extend(points);
+                for (side, face) in [(inside, [a, b, c]), (outside, [a, c, b])] {
+                    if let Some(draft) = drafts.get_mut(side as usize) {
+                        draft.inner.push(face);
+                        draft.inner_of.push(e);
+                        let points = face.map(|p| u64::from(cell) << 32 | u64::from(p));
+                        draft.cell_points.extend(points);
+                    }
                 }
             },
         );
@@ -64,6 +74,7 @@ fn divided_tets(
     labels: &Labels,
 ) -> impl Iterator<Item = u32> + use<> {
     let label = |v: u32| labels.of_node[v as usize];
+    let labels_count = labels.count;
     let mut done = vec![false; labels.of_node.len()];
     let mut divided = vec![0_u64; tets.len().div_ceil(64)];
     for cut in labels.cuts.list() {
@@ -72,7 +83,9 @@ fn divided_tets(
             continue;
         }
         for &e in index.tets.of(low) {
-            if tets[e as usize].iter().any(|&v| label(v) != label(low)) {
+            let labels = tets[e as usize].map(label);
+            let own = labels.iter().any(|&l| (l as usize) < labels_count);
+            if own && labels.iter().any(|&l| l != label(low)) {
                 divided[e as usize / 64] |= 1 << (e % 64);
             }
         }
@@ -96,16 +109,33 @@ pub(super) fn outer_faces(
 ) {
     let label = |v: u32| labels.of_node[v as usize];
     let surface = &asset.surface;
-    for (triangle, normals) in surface.triangles.iter().zip(&surface.normals) {
+    let others = drafts.len() as u32;
+    for (t, (triangle, normals)) in (0..).zip(surface.triangles.iter().zip(&surface.normals)) {
         if let Some(parts) = &mut parts {
             parts.begin();
         }
         let l = triangle.map(label);
         let whole = l == [l[0]; 3];
+        if l.iter().all(|&l| l >= others) {
+            if let Some(parts) = &mut parts {
+                let corners = triangle.map(|v| asset.fracture.positions[v as usize].as_dvec3());
+                let label = others;
+                parts.push(Part { corners, label });
+            }
+            continue;
+        }
         face_parts(triangle, &l, |l, points| {
-            let draft = &mut drafts[l as usize];
             let numbers = points.map(|p| table.number(p));
+            let Some(draft) = drafts.get_mut(l as usize) else {
+                if let Some(parts) = &mut parts {
+                    let corners = numbers.map(|v| table.place(v));
+                    let label = others;
+                    parts.push(Part { corners, label });
+                }
+                return;
+            };
             draft.outer.push(numbers);
+            draft.outer_of.push(t);
             draft.outer_normals.push(if whole {
                 normals.map(|n| n.normalize_or(normals[0]))
             } else {
@@ -149,11 +179,15 @@ pub(super) fn nodes(asset: &Asset, index: &MeshIndex, labels: &Labels, drafts: &
     let label = |v: u32| labels.of_node[v as usize] as usize;
     for cell in 0..index.nodes_of_cell.len() as u32 {
         for &v in index.nodes_of_cell.of(cell) {
-            drafts[label(v)].cell_nodes.push((cell, v));
+            if let Some(draft) = drafts.get_mut(label(v)) {
+                draft.cell_nodes.push((cell, v));
+            }
         }
     }
     for &v in &asset.supported {
-        drafts[label(v)].supported = true;
+        if let Some(draft) = drafts.get_mut(label(v)) {
+            draft.supported = true;
+        }
     }
 }
 
@@ -164,7 +198,7 @@ pub(super) fn partial_cracks(system: &CrackSystem, labels: &Labels, drafts: &mut
         for cut in &crack.elements {
             let nodes = mesh.tets[cut.tet as usize];
             let l = nodes.map(|v| labels.of_node[v as usize]);
-            if l.iter().any(|&x| x != l[0]) {
+            if l.iter().any(|&x| x != l[0]) || l[0] as usize >= drafts.len() {
                 continue;
             }
             let (p, corners) = crossing_polygon(&mesh.corners(cut.tet as usize), &cut.values);

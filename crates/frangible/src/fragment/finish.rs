@@ -3,9 +3,11 @@
 use glam::{DVec3, Vec3};
 
 use super::draft::Draft;
+use super::label::Labels;
 use super::points::PointTable;
 use crate::mesh::{MassProperties, TriMesh, smooth_normals};
 use crate::outcome::Fragment;
+use crate::piece::Trace;
 
 /// Makes fragments of drafts one after another.
 pub(super) struct Finisher<'a> {
@@ -24,18 +26,32 @@ impl<'a> Finisher<'a> {
         }
     }
 
-    pub(super) fn finish(&mut self, draft: Draft) -> Fragment {
+    /// `label`: of the draft's nodes.
+    pub(super) fn finish(&mut self, draft: Draft, labels: &Labels, label: u32) -> (Fragment, Trace) {
         let outer_triangles = draft.outer.len();
         let mut triangles = draft.outer;
         triangles.extend_from_slice(&draft.inner);
         let corners = |t: &[u32; 3]| t.map(|v| self.table.place(v));
         let mass = MassProperties::of_surface(self.density, triangles.iter().map(corners));
-        let positions = self.vertices(&mut triangles, mass.centre);
+        let used = self.vertices(&mut triangles);
+        let positions: Vec<Vec3> = (used.iter())
+            .map(|&v| self.in_fragment(v, mass.centre))
+            .collect();
+        let label_of = |v: u32| labels.of_node[v as usize];
+        let anchors = used.iter();
+        let trace = Trace {
+            label,
+            anchors: anchors
+                .map(|&v| self.table.anchor(v, label_of, label))
+                .collect(),
+            outer_of: draft.outer_of,
+            inner_of: draft.inner_of,
+        };
         let mut normals = draft.outer_normals;
         normals.extend(smooth_normals(&positions, &triangles[outer_triangles..]));
         let centre = mass.centre.as_vec3();
         let cracks = draft.cracks.into_iter();
-        Fragment {
+        let fragment = Fragment {
             cell_shares: self.shares(&draft.cell_nodes, draft.cell_points, mass.centre),
             mesh: TriMesh {
                 positions,
@@ -47,11 +63,12 @@ impl<'a> Finisher<'a> {
             render: None,
             mass,
             supported: draft.supported,
-        }
+        };
+        (fragment, trace)
     }
 
-    /// Numbers the vertices in order of first use; returns where they are in the fragment.
-    fn vertices(&mut self, triangles: &mut [[u32; 3]], centre: DVec3) -> Vec<Vec3> {
+    /// Numbers the vertices in order of first use; returns the point of each.
+    fn vertices(&mut self, triangles: &mut [[u32; 3]]) -> Vec<u32> {
         let mut used = Vec::new();
         for v in triangles.iter_mut().flatten() {
             let vertex = &mut self.vertex_of_point[*v as usize];
@@ -64,8 +81,7 @@ impl<'a> Finisher<'a> {
         for &v in &used {
             self.vertex_of_point[v as usize] = 0;
         }
-        let vertices = used.iter();
-        vertices.map(|&v| self.in_fragment(v, centre)).collect()
+        used
     }
 
     fn in_fragment(&self, point: u32, centre: DVec3) -> Vec3 {

@@ -46,6 +46,16 @@ impl MeshIndex {
         }
     }
 
+    /// Nodes joined to a node by an edge, rising.
+    pub(crate) fn neighbours(&self, node: u32) -> &[u32] {
+        self.neighbours.of(node)
+    }
+
+    /// Volume of some nodes, in whole numbers of which 2⁶⁰ make about the body.
+    pub(crate) fn volume_of(&self, nodes: &[u32]) -> u64 {
+        nodes.iter().map(|&v| self.volumes[v as usize]).sum()
+    }
+
     /// Number of nodes.
     pub(super) fn nodes(&self) -> usize {
         self.volumes.len()

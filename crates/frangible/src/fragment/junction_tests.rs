@@ -79,6 +79,7 @@ fn cracked(asset: &Asset, seed: u64) -> BodyState {
         let radius = 0.02 + 0.04 * random().x;
         let s = |p: Vec3| (p - centre).dot(normal) + 0.002 * (700.0 * p.x).sin();
         let mut crack = OldCrack {
+            settled: 0,
             start: 0,
             normal,
             cuts: Vec::new(),

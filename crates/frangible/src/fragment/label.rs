@@ -5,6 +5,7 @@ use super::cuts::Cuts;
 use super::index::MeshIndex;
 use super::junction::end_cracks;
 use crate::crack::CrackSystem;
+use crate::piece::Portion;
 
 /// A fragment number for every node.
 pub(crate) struct Labels {
@@ -16,23 +17,33 @@ pub(crate) struct Labels {
     pub(crate) cuts: Cuts,
 }
 
-/// Cuts, flood fill, crumbs: components smaller than `crumb_share` of the volume join the neighbour they share most with.
+/// Cuts, flood fill, crumbs: components smaller than `crumb_share` of the volume of the body as it was baked join the
+/// neighbour they share most with.
 pub(crate) fn label(system: &CrackSystem, index: &MeshIndex, crumb_share: f64) -> Labels {
     let mut cuts = Cuts::of_fractured_elements(system);
     if system.config.ends_inside {
         end_cracks(system, &mut cuts);
     }
-    of_cuts(cuts, &system.asset.fracture.tets, index, crumb_share)
+    let portion = system.asset.portion.as_deref();
+    of_cuts(
+        cuts,
+        &system.asset.fracture.tets,
+        index,
+        portion,
+        crumb_share,
+    )
 }
 
-/// The labels that these cuts leave.
+/// The labels that these cuts leave, of the whole body or of a portion of it. Nodes of other pieces have labels from
+/// [`FOREIGN`](crate::piece::FOREIGN) on.
 pub(super) fn of_cuts(
     cuts: Cuts,
     tets: &[[u32; 4]],
     index: &MeshIndex,
+    portion: Option<&Portion>,
     crumb_share: f64,
 ) -> Labels {
-    let components = Components::of(&cuts, index);
+    let components = Components::of(&cuts, index, portion);
     let (number, count) = if components.list.len() == 1 {
         (vec![0], 1)
     } else {
@@ -40,7 +51,7 @@ pub(super) fn of_cuts(
         number(&components.list, &joined)
     };
     Labels {
-        of_node: components.spread(&number),
+        of_node: components.spread(&number, portion),
         count,
         cuts,
     }
@@ -107,6 +118,9 @@ fn meetings(
     let mut meetings = Vec::new();
     for cut in cuts.list() {
         let [low, high] = cut.ends;
+        if components.is_outside(low) || components.is_outside(high) {
+            continue;
+        }
         let (a, b) = (components.of_node(low), components.of_node(high));
         if a != b && (is_crumb[a as usize] || is_crumb[b as usize]) {
             let around = index.tets.of(low).iter();

@@ -75,7 +75,7 @@ fn compare(asset: &Asset, cuts: impl Fn() -> Cuts) -> (usize, bool) {
     let tets = &asset.fracture.tets;
     let counts = [0.0, 2e-4, 0.01, 0.2].map(|share| {
         let (of_node, count) = plain(&cuts(), tets, &index.volumes, share);
-        let found: Labels = of_cuts(cuts(), tets, &index, share);
+        let found: Labels = of_cuts(cuts(), tets, &index, None, share);
         assert_eq!(found.count, count);
         assert_eq!(found.of_node, of_node);
         count
@@ -151,7 +151,7 @@ fn parts_that_no_edge_joins_are_pieces_whether_cracks_touch_them_or_not() {
     positions.extend(mesh.positions.iter().map(|p| p + 1.0));
     tets.extend(mesh.tets.iter().map(|t| t.map(|v| v + nodes)));
     asset.cell_of_tet = vec![0; tets.len()];
-    asset.fracture = TetMesh::new(positions, tets);
+    asset.fracture = TetMesh::new(positions, tets).into();
     let mesh = &asset.fracture;
     assert_eq!(compare(&asset, || Cuts::none(mesh.positions.len())).0, 2);
     let corner = (Vec3::ZERO, Vec3::ONE, 0.012);
@@ -176,7 +176,7 @@ fn a_crack_costs_what_it_crosses_not_what_the_body_has() {
             let asset = block(n);
             let mesh = &asset.fracture;
             let cuts = cut_where(mesh, |low, high| crosses(mesh, &discs, low, high));
-            let components = Components::of(&cuts, &MeshIndex::new(&asset));
+            let components = Components::of(&cuts, &MeshIndex::new(&asset), None);
             assert_eq!(components.list.len() > 1, parts);
             components.cost()
         });

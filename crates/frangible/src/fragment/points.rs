@@ -6,12 +6,17 @@ use super::by_node::ByNode;
 use super::cuts::Cuts;
 use super::partition::Point;
 use crate::mesh::{EDGES, TetMesh};
+use crate::piece::{FixedPoints, Portion};
 
 /// Points of the partition in f64, body frame, numbered in order of first use; mesh nodes come first.
-pub(super) struct PointTable<'a> {
+pub(crate) struct PointTable<'a> {
     mesh: &'a TetMesh,
     cuts: &'a Cuts,
-    /// Of all that are no mesh nodes.
+    /// Of a piece, where it may not move.
+    portion: Option<&'a Portion>,
+    /// All that are no mesh nodes …
+    points: Vec<Point>,
+    /// … and where they are, m.
     positions: Vec<DVec3>,
     /// Number of each cut edge's point, 0 for none yet; a mesh node's number is never asked for.
     of_cut: Vec<u32>,
@@ -24,10 +29,12 @@ pub(super) struct PointTable<'a> {
 }
 
 impl<'a> PointTable<'a> {
-    pub(super) fn new(mesh: &'a TetMesh, cuts: &'a Cuts) -> Self {
+    pub(crate) fn new(mesh: &'a TetMesh, cuts: &'a Cuts, portion: Option<&'a Portion>) -> Self {
         Self {
             mesh,
             cuts,
+            portion,
+            points: Vec::new(),
             positions: Vec::new(),
             of_cut: vec![0; cuts.list().len()],
             others: ByNode::new(mesh.positions.len()),
@@ -47,12 +54,41 @@ impl<'a> PointTable<'a> {
     }
 
     /// Where a point is, m, given its number.
-    pub(super) fn place(&self, number: u32) -> DVec3 {
+    pub(crate) fn place(&self, number: u32) -> DVec3 {
         let v = number as usize;
         match self.mesh.positions.get(v) {
             Some(node) => node.as_dvec3(),
             None => self.positions[v - self.mesh.positions.len()],
         }
+    }
+
+    /// A mesh node that a point lies beside, of the label given.
+    pub(super) fn anchor(&self, number: u32, label_of: impl Fn(u32) -> u32, label: u32) -> u32 {
+        let first = self.mesh.positions.len() as u32;
+        let beside = match number.checked_sub(first) {
+            None => [number; 4],
+            Some(place) => match self.points[place as usize] {
+                Point::Node(v) => [v; 4],
+                Point::Edge(a, b) => [a, b, b, b],
+                Point::Face(a, b, c) => [a, b, c, c],
+                Point::Centre(e) => self.mesh.tets[e as usize],
+            },
+        };
+        let own = beside.into_iter().find(|&v| label_of(v) == label);
+        own.unwrap_or(beside[0])
+    }
+
+    /// Points on faces and in tetrahedra: where later breaks of the pieces must leave them.
+    pub(super) fn fixed(&self) -> FixedPoints {
+        let mut fixed = FixedPoints::default();
+        for (point, &position) in self.points.iter().zip(&self.positions) {
+            match *point {
+                Point::Face(a, b, c) => fixed.faces.push(([a, b, c], position)),
+                Point::Centre(e) => fixed.centres.push((e, position)),
+                Point::Node(_) | Point::Edge(..) => {}
+            }
+        }
+        fixed.sorted()
     }
 
     /// Where the points are that are no mesh nodes, m.
@@ -61,7 +97,7 @@ impl<'a> PointTable<'a> {
     }
 
     /// Number of a point.
-    pub(super) fn number(&mut self, point: Point) -> u32 {
+    pub(crate) fn number(&mut self, point: Point) -> u32 {
         match point {
             Point::Node(v) => v,
             Point::Edge(a, b) => match self.cuts.place(a, b) {
@@ -98,6 +134,7 @@ impl<'a> PointTable<'a> {
     fn add(&mut self, point: Point) -> u32 {
         let number = self.len() as u32;
         let position = self.position(point);
+        self.points.push(point);
         self.positions.push(position);
         number
     }
@@ -111,14 +148,32 @@ impl<'a> PointTable<'a> {
                 self.place(a).lerp(self.place(b), at)
             }
             Point::Face(a, b, c) => {
+                if let Some(fixed) = self.portion.and_then(|p| p.fixed().face([a, b, c])) {
+                    return fixed;
+                }
                 let cut = |a, b| self.position(Point::Edge(a, b));
-                (cut(a, b) + cut(b, c) + cut(a, c)) / 3.0
+                match [a, b, c].map(|v| self.is_foreign(v)) {
+                    // On the segment that has been the piece's edge so far.
+                    [true, false, false] => (cut(a, b) + cut(a, c)) / 2.0,
+                    [false, true, false] => (cut(a, b) + cut(b, c)) / 2.0,
+                    [false, false, true] => (cut(a, c) + cut(b, c)) / 2.0,
+                    _ => (cut(a, b) + cut(b, c) + cut(a, c)) / 3.0,
+                }
             }
             Point::Centre(e) => {
+                if let Some(fixed) = self.portion.and_then(|p| p.fixed().centre(e)) {
+                    return fixed;
+                }
                 let nodes = self.mesh.tets[e as usize];
+                let foreign = nodes.map(|v| self.is_foreign(v));
+                let border = foreign.contains(&true);
                 let (mut sum, mut count) = (DVec3::ZERO, 0.0);
                 for [i, j] in EDGES {
                     let (a, b) = (nodes[i].min(nodes[j]), nodes[i].max(nodes[j]));
+                    // On the face that has been the piece's so far.
+                    if border && foreign[i] == foreign[j] {
+                        continue;
+                    }
                     if self.cuts.get(a, b).is_some() {
                         sum += self.position(Point::Edge(a, b));
                         count += 1.0;
@@ -127,5 +182,10 @@ impl<'a> PointTable<'a> {
                 sum / count
             }
         }
+    }
+
+    /// Whether a node belongs to another piece.
+    fn is_foreign(&self, node: u32) -> bool {
+        self.portion.is_some_and(|p| !p.has_node(node))
     }
 }

@@ -80,7 +80,7 @@ pub(super) fn block(n: usize) -> Asset {
         name: "block".into(),
         material: Material::preset("glass").unwrap(),
         cell_of_tet: vec![0; fracture.tets.len()],
-        fracture,
+        fracture: fracture.into(),
         surface,
         analysis: AnalysisMesh::default(),
         embedding: Embedding::default(),
@@ -90,6 +90,7 @@ pub(super) fn block(n: usize) -> Asset {
         bounds: Default::default(),
         supported: Vec::new(),
         render: None,
+        portion: None,
     }
 }
 
@@ -118,7 +119,7 @@ fn fragments_of_arbitrary_labels_tile_the_body_and_are_closed() {
             count: count as usize,
             cuts,
         };
-        let (fragments, _) = build(&system, &labels, &body.prepared);
+        let fragments = build(&system, &labels, &body.prepared).fragments;
         assert_eq!(fragments.len(), count as usize);
         let volume: f64 = fragments.iter().map(|f| f.mass.volume).sum();
         let whole = asset.fracture.total_volume();
@@ -170,11 +171,12 @@ fn the_fragment_that_holds_a_supported_node_is_supported() {
         asset.supported = vec![node];
         let config = FractureConfig::default();
         let body = Breakable::of_sound(asset.clone().into()).body(1);
-        let (fragments, _) = build(
+        let fragments = build(
             &CrackSystem::new(&body, &config, 0.0),
             &labels,
             &body.prepared,
-        );
+        )
+        .fragments;
         let place = asset.fracture.positions[node as usize];
         assert!(fragments.iter().any(|f| f.supported));
         for fragment in fragments {

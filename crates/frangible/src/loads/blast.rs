@@ -11,6 +11,7 @@ use crate::impact::{pieces, report_on, run_cracks};
 use crate::mesh::SurfacePoint;
 use crate::modal;
 use crate::outcome::{LookedAt, Outcome};
+use crate::piece::static_load;
 
 /// A pressure pulse that spreads from a point. Its impulse per area falls as 1/distance, as that of an explosion does
 /// at moderate distance; it acts along the normal of what faces the point, weakened by the cosine of its slant.
@@ -40,6 +41,26 @@ pub fn blast(body: &Body, blast: &Blast, config: &FractureConfig) -> Result<Outc
     )?;
     positive("a blast's duration", f64::from(blast.duration), "s")?;
     let asset = &*body.asset;
+    if let Some(statics) = &body.statics {
+        let peak = std::f32::consts::PI / (2.0 * blast.duration);
+        let pushes = nodal_impulse(asset, blast);
+        let forces: Vec<f64> = pushes
+            .iter()
+            .flat_map(|push| (*push * peak).as_dvec3().to_array())
+            .collect();
+        let (duration, report) = (f64::from(blast.duration), report_on(body));
+        let none = &mut None;
+        return Ok(static_load(
+            body,
+            statics,
+            &forces,
+            &[],
+            duration,
+            config,
+            report,
+            none,
+        ));
+    }
     let load = Load {
         touches: Vec::new(),
         modal_impulse: modal_impulse(asset, blast),
@@ -69,11 +90,12 @@ pub fn blast(body: &Body, blast: &Blast, config: &FractureConfig) -> Result<Outc
     Ok(pieces(body, cracked))
 }
 
-/// Σ over the lit triangles of φ_i · impulse: first on the nodes of the analysis mesh, then one product with the shapes.
-fn modal_impulse(asset: &Asset, blast: &Blast) -> Vec<f64> {
+/// Impulses of the lit triangles on the nodes of the analysis mesh, N·s.
+fn nodal_impulse(asset: &Asset, blast: &Blast) -> Vec<Vec3> {
+    let positions = asset.surface_positions();
     let mut nodal = vec![Vec3::ZERO; asset.analysis.nodes.len()];
     for (t, triangle) in asset.surface.triangles.iter().enumerate() {
-        let [a, b, c] = triangle.map(|v| asset.fracture.positions[v as usize]);
+        let [a, b, c] = triangle.map(|v| positions[v as usize]);
         let area = 0.5 * (b - a).cross(c - a);
         let away = (a + b + c) / 3.0 - blast.origin;
         let distance = away.length().max(NEAREST);
@@ -89,6 +111,12 @@ fn modal_impulse(asset: &Asset, blast: &Blast) -> Vec<f64> {
         };
         each_row(asset, &place, |node, weight| nodal[node] += push * weight);
     }
+    nodal
+}
+
+/// Σ over the lit triangles of φ_i · impulse: first on the nodes of the analysis mesh, then one product with the shapes.
+fn modal_impulse(asset: &Asset, blast: &Blast) -> Vec<f64> {
+    let nodal = nodal_impulse(asset, blast);
     let mut sums = vec![0.0; asset.modes.count()];
     for (node, push) in nodal.iter().enumerate().filter(|(_, p)| **p != Vec3::ZERO) {
         for axis in 0..3 {

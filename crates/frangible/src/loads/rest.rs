@@ -13,6 +13,7 @@ use crate::error::{InputError, finite};
 use crate::impact::{harmless, pieces, report_on, run_cracks};
 use crate::modal::Motion;
 use crate::outcome::{LookedAt, Outcome};
+use crate::piece::static_load;
 
 /// A force on the surface, body frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,6 +45,19 @@ pub fn rest(
     for force in forces {
         finite("a force's point", force.point)?;
         finite("a force", force.force)?;
+    }
+    if let Some(statics) = &body.statics {
+        let (mut on_nodes, pressed) = forces_on(body, forces);
+        if body.asset.is_supported() {
+            let weight = statics.weight(gravity);
+            on_nodes.iter_mut().zip(weight).for_each(|(f, w)| *f += w);
+        }
+        let (time_step, steps) = steps(body, config);
+        let duration = 2.0 * time_step * steps as f64;
+        let report = report_on(body);
+        return Ok(static_load(
+            body, statics, &on_nodes, &pressed, duration, config, report, &mut None,
+        ));
     }
     let (asset, prepared) = (&*body.asset, &*body.prepared);
     let weight = |mode: usize| prepared.weight.get(mode).map_or(0.0, |w| w.dot(gravity));
@@ -107,12 +121,16 @@ pub fn rest(
     Ok(pieces(body, cracked))
 }
 
+fn forces_on(body: &Body, forces: &[Force]) -> (Vec<f64>, Vec<u32>) {
+    crate::piece::forces(body, forces.iter().map(|f| (f.point, f.force)))
+}
+
 /// Time step, s, and number of steps in which a crack can cross the body: one mean edge per step.
 fn steps(body: &Body, config: &FractureConfig) -> (f64, usize) {
     let CrackTiming::TimeResolved { speed, .. } = config.timing else {
         return (1.0, 1);
     };
-    let positions = &body.asset.fracture.positions;
+    let positions = body.asset.surface_positions();
     let low = positions.iter().copied().fold(Vec3::INFINITY, Vec3::min);
     let high = positions
         .iter()

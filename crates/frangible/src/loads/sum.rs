@@ -25,7 +25,7 @@ impl PerNewton {
         let (asset, prepared) = (&*body.asset, &*body.prepared);
         let modes = asset.modes.count();
         let compliance = |i: usize| prepared.periods[i] * prepared.periods[i];
-        let (stress, gradient) = &prepared.root;
+        let (stress, gradient) = &prepared.whole;
         let sums = |length: &dyn Fn(usize) -> f32| {
             let mut sums = [0.0_f32; 2];
             for i in 0..modes {
@@ -67,6 +67,10 @@ impl PerNewton {
 /// handful of multiplications: above 1, nothing happens.
 #[must_use]
 pub fn rest_margin_at_least(body: &Body, total: f32, gravity: f32) -> f64 {
+    if body.statics.is_some() {
+        // Nothing is known without a solve.
+        return 0.0;
+    }
     let most = body.prepared.per_newton.get_or_init(|| PerNewton::of(body));
     let [stress, gradient] = [0, 1].map(|k| total * most.force[k] + gravity * most.gravity[k]);
     let bound = stress + 0.5 * body.prepared.quadratic_modulus * gradient * gradient;

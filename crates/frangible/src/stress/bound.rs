@@ -34,7 +34,7 @@ pub(crate) const MARGIN: f32 = 1e-4;
 /// Largest stress and gradient of each mode over clusters of neighbouring fracture tetrahedra.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct StressBounds {
-    /// Cluster of each fracture tetrahedron.
+    /// Cluster of each fracture tetrahedron, by its [place](Asset::place).
     pub cluster_of_tet: Vec<u32>,
     /// Largest linear stress, Pa per m·√kg: one row per cluster, one column per mode.
     pub stress: Vec<f32>,
@@ -51,14 +51,15 @@ impl StressBounds {
 
     /// Of an asset whose skin is known.
     pub(crate) fn with_skin(asset: &Asset, skin: &Skin) -> Self {
-        let (cluster_of_tet, clusters) = clusters(&asset.fracture);
+        let numbers: Vec<usize> = asset.tets().collect();
+        let (cluster_of_tet, clusters) = clusters(&asset.fracture, &numbers);
         let m = asset.modes.count();
         let mut stress = vec![0.0; clusters * m];
         let mut gradient = vec![0.0; clusters * m];
         let mut rows = Rows::new(m, &asset.material);
         let law = Elasticity::new(&asset.material);
-        for (tet, point) in asset.embedding.tets.iter().enumerate() {
-            let cluster = cluster_of_tet[tet] as usize;
+        for (place, (&tet, point)) in numbers.iter().zip(&asset.embedding.tets).enumerate() {
+            let cluster = cluster_of_tet[place] as usize;
             let row = cluster * m..(cluster + 1) * m;
             let (stress, gradient) = (&mut stress[row.clone()], &mut gradient[row]);
             rows.gradients(point, &asset.analysis, &asset.modes);
@@ -69,7 +70,7 @@ impl StressBounds {
                     law.free_hooke(strain, wall.normal)
                 });
             }
-            if let Some(flaw) = skin.flaw(tet) {
+            if let Some(flaw) = skin.flaw(place) {
                 rows.gradients(&flaw.point, &asset.analysis, &asset.modes);
                 rows.raise(stress, gradient, |strain| {
                     law.free_hooke(strain, flaw.normal)
@@ -242,10 +243,10 @@ fn spectral_norm([xx, yy, zz, yz, zx, xy]: [f64; 6]) -> f64 {
 
 /// Halves the tetrahedra along the longest side of their box until none has more than [`CLUSTER`]: number of the
 /// cluster of each, and how many there are.
-fn clusters(mesh: &TetMesh) -> (Vec<u32>, usize) {
-    let centroids: Vec<Vec3> = (0..mesh.tets.len()).map(|e| mesh.centroid(e)).collect();
-    let mut order: Vec<u32> = (0..mesh.tets.len() as u32).collect();
-    let mut of_tet = vec![0; mesh.tets.len()];
+fn clusters(mesh: &TetMesh, tets: &[usize]) -> (Vec<u32>, usize) {
+    let centroids: Vec<Vec3> = tets.iter().map(|&e| mesh.centroid(e)).collect();
+    let mut order: Vec<u32> = (0..tets.len() as u32).collect();
+    let mut of_tet = vec![0; tets.len()];
     let mut count = 0;
     let mut parts = Vec::new();
     parts.push(0..order.len());

@@ -16,6 +16,7 @@ pub use displacement::{DisplacementBatch, ShapeWeights};
 pub(crate) use lanes::StressLanes;
 pub(crate) use principal::perpendicular_axes;
 pub use principal::{largest_eigenvalue, largest_eigenvalue_bound, principal_axes};
+pub(crate) use skin::Search;
 pub use skin::{Flaw, Skin};
 pub use strain::{Elasticity, Law, StressState, Symmetric3};
 pub use wall::Wall;

@@ -16,6 +16,7 @@ use glam::Vec3;
 use super::wall::{Wall, Walls};
 use crate::asset::{AnalysisMesh, Asset, EmbeddedPoint};
 use crate::mesh::{NO_NEIGHBOUR, TetMesh};
+use crate::piece::Portion;
 
 /// No flaw.
 const NONE: u32 = u32::MAX;
@@ -55,6 +56,7 @@ impl Skin {
     pub fn of(asset: &Asset) -> Self {
         let free = FreeFaces::of(asset);
         let search = Search::new(&asset.analysis);
+        let positions = asset.surface_positions();
         let mut flaw_of_tet = vec![NONE; asset.fracture.tets.len()];
         let (mut flaws, mut places) = (Vec::new(), Vec::new());
         let centres = free.largest.iter().zip(&asset.embedding.tets);
@@ -64,7 +66,7 @@ impl Skin {
             }
             flaw_of_tet[tet] = flaws.len() as u32;
             let nodes = asset.surface.triangles[triangle as usize];
-            let corners = nodes.map(|v| asset.fracture.positions[v as usize]);
+            let corners = nodes.map(|v| positions[v as usize]);
             let place = (corners[0] + corners[1] + corners[2]) / 3.0;
             places.push(place);
             flaws.push(Flaw {
@@ -80,18 +82,47 @@ impl Skin {
         }
     }
 
-    /// The flaw of a fracture tetrahedron, if it has a free outer face.
+    /// Of a piece: the flaws that its body had, where it still has them, and walls of its own.
+    pub(crate) fn of_piece(asset: &Asset, portion: &Portion, root: &Self) -> Self {
+        let search = Search::new(&asset.analysis);
+        let mut flaw_of_tet = vec![NONE; portion.tets().len()];
+        let (mut flaws, mut places) = (Vec::new(), Vec::new());
+        let (mesh, surface) = (&asset.root().fracture, &asset.root().surface);
+        for (place, &tet) in portion.tets().iter().enumerate() {
+            let Some(flaw) = root.flaw(tet as usize) else {
+                continue;
+            };
+            let nodes = surface.triangles[flaw.triangle as usize];
+            let corners = nodes.map(|v| mesh.positions[v as usize]);
+            let at = (corners[0] + corners[1] + corners[2]) / 3.0;
+            flaw_of_tet[place] = flaws.len() as u32;
+            places.push(at);
+            flaws.push(Flaw {
+                triangle: portion.surface_triangle(flaw.triangle).unwrap_or(NONE),
+                point: search.embed(at, asset.embedding.tets[place].element),
+                normal: flaw.normal,
+            });
+        }
+        Self {
+            walls: Walls::new(&asset.analysis, &search.neighbours, &flaws, &places),
+            flaw_of_tet,
+            flaws,
+        }
+    }
+
+    /// The flaw of the fracture tetrahedron at a [place](Asset::place), if it has a free outer face.
     #[must_use]
-    pub fn flaw(&self, tet: usize) -> Option<&Flaw> {
-        self.flaws.get(self.flaw_of_tet[tet] as usize)
+    pub fn flaw(&self, place: usize) -> Option<&Flaw> {
+        self.flaws.get(self.flaw_of_tet[place] as usize)
     }
 
     /// The wall that a fracture tetrahedron of this asset is part of, if any. Its normal is that of the tetrahedron's own
     /// face, where that is one of the wall's.
     #[must_use]
     pub fn wall(&self, asset: &Asset, tet: usize) -> Option<Wall> {
-        let wall = self.walls.of_element[asset.embedding.tets[tet].element as usize]?;
-        let own = self.flaw(tet).map(|flaw| flaw.normal);
+        let place = asset.place(tet);
+        let wall = self.walls.of_element[asset.embedding.tets[place].element as usize]?;
+        let own = self.flaw(place).map(|flaw| flaw.normal);
         let along = own.filter(|n| n.dot(wall.normal).abs() > -OPPOSITE);
         Some(along.map_or(wall, |n| Wall {
             normal: n * n.dot(wall.normal).signum(),
@@ -141,14 +172,14 @@ impl FreeFaces {
 }
 
 /// Finds points in the analysis mesh by walking from element to element.
-struct Search<'a> {
+pub(crate) struct Search<'a> {
     mesh: &'a AnalysisMesh,
     /// Across the face opposite each corner.
     neighbours: Vec<[u32; 4]>,
 }
 
 impl<'a> Search<'a> {
-    fn new(mesh: &'a AnalysisMesh) -> Self {
+    pub(crate) fn new(mesh: &'a AnalysisMesh) -> Self {
         let corners = mesh.elements.iter().map(|e| [e[0], e[1], e[2], e[3]]);
         // Only the adjacency is wanted, and it needs no positions.
         let neighbours = TetMesh::new(Vec::new(), corners.collect()).neighbours;
@@ -156,7 +187,7 @@ impl<'a> Search<'a> {
     }
 
     /// The point in the element that holds it, found from `start`; a point outside is moved onto the face it lies beyond.
-    fn embed(&self, p: Vec3, start: u32) -> EmbeddedPoint {
+    pub(crate) fn embed(&self, p: Vec3, start: u32) -> EmbeddedPoint {
         let mut element = start;
         for _ in 0..MOST_STEPS {
             let l = self.barycentric(element, p);

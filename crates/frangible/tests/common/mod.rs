@@ -128,7 +128,7 @@ pub fn synthetic_asset(size: &Size) -> Asset {
     Asset {
         name: "Vase – größer".into(),
         material,
-        fracture,
+        fracture: fracture.into(),
         surface,
         analysis,
         embedding,
@@ -139,6 +139,7 @@ pub fn synthetic_asset(size: &Size) -> Asset {
         cell_of_tet,
         supported: Vec::new(),
         render: None,
+        portion: None,
     }
 }
 

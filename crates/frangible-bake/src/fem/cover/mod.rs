@@ -12,7 +12,7 @@ mod slivers;
 mod springs;
 mod topology;
 
-use frangible::asset::{EmbeddedPoint, Embedding};
+use frangible::asset::{AnalysisMesh, EmbeddedPoint, Embedding};
 use frangible::glam::{DVec3, Vec3};
 
 use crate::error::{BakeError, positive};
@@ -57,6 +57,19 @@ impl Cover {
     /// # Errors
     /// No tetrahedra, one without volume or with a node that is not there, or no elements wanted.
     pub fn new(body: &BodyMesh, elements_wanted: usize) -> Result<Self, BakeError> {
+        Self::of_joined(body, &face_pairs(body), elements_wanted)
+    }
+
+    /// The same for a body whose tetrahedra hang together as `faces` says, pairs of them: of two on both sides of a crack
+    /// nothing passes from one to the other.
+    ///
+    /// # Errors
+    /// As [`Cover::new`].
+    pub fn of_joined(
+        body: &BodyMesh,
+        faces: &[[u32; 2]],
+        elements_wanted: usize,
+    ) -> Result<Self, BakeError> {
         positive("the number of elements wanted", elements_wanted as f64)?;
         let mut volume = 0.0;
         for (tet, nodes) in body.tets.iter().enumerate() {
@@ -75,9 +88,8 @@ impl Cover {
             volume += of_tet;
         }
         positive("the volume of the body, in m³,", volume)?;
-        let faces = face_pairs(body);
-        let (lattice, topology) = choose_lattice(body, &faces, volume, elements_wanted);
-        let (elements, points) = topology.nodes(&faces);
+        let (lattice, topology) = choose_lattice(body, faces, volume, elements_wanted);
+        let (elements, points) = topology.nodes(faces);
         let mesh = QuadraticMesh {
             positions: points.into_iter().map(|q| lattice.position(q)).collect(),
             elements,
@@ -89,6 +101,12 @@ impl Cover {
             moments: integrate(body, &topology, &lattice),
             mesh,
         })
+    }
+
+    /// The elements as an asset stores them.
+    #[must_use]
+    pub fn analysis_mesh(&self) -> AnalysisMesh {
+        self.mesh.stored()
     }
 
     /// Barycentric coordinates of a point in an element.

@@ -1,5 +1,7 @@
 //! Bytes to asset.
 
+use std::sync::Arc;
+
 use glam::{DMat3, DVec3, Vec3};
 
 use super::reader::Reader;
@@ -30,11 +32,11 @@ impl Asset {
         let asset = Self {
             name: r.text(s::NAME)?.to_owned(),
             material: material(r.text(s::MATERIAL_NAME)?, r.one(s::MATERIAL)?),
-            fracture: TetMesh {
+            fracture: Arc::new(TetMesh {
                 positions: r.rows(s::POSITIONS)?,
                 tets: r.rows(s::TETS)?,
                 neighbours: r.rows(s::NEIGHBOURS)?,
-            },
+            }),
             surface: OuterSurface {
                 triangles: r.rows(s::SURFACE_TRIANGLES)?,
                 tets: r.rows(s::SURFACE_TETS)?,
@@ -61,6 +63,7 @@ impl Asset {
             cell_of_tet: r.rows(s::CELL_OF_TET)?,
             supported: supported(&r)?,
             render: render(&r)?,
+            portion: None,
         };
         asset.validate()?;
         Ok(asset)

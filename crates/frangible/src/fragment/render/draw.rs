@@ -38,7 +38,11 @@ pub(crate) fn draw(
         faces,
         mut points,
     } = undrawn;
-    let shares = index.shares(surface, &prepared.surface, &parts, faces.len(), reach);
+    let shares = {
+        // One more for what belongs to the neighbours of a piece.
+        let count = faces.len() + 1;
+        index.shares(surface, &prepared.surface, &parts, count, reach)
+    };
     let nodes = mesh.positions.len();
     let mut rim = parts.rim;
     rim.sort_unstable();

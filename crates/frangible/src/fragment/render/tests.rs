@@ -8,7 +8,7 @@ use crate::crack::CrackSystem;
 use crate::fragment::cuts::Cuts;
 use crate::fragment::label::Labels;
 use crate::fragment::tests::block;
-use crate::fragment::{build, draw};
+use crate::fragment::{Built, build, draw};
 use crate::mesh::EDGES;
 use crate::outcome::Fragment;
 use crate::rng::{Purpose, stream, uniform};
@@ -104,7 +104,11 @@ fn broken(surface: &RenderSurface, count: u32, random: bool, seed: u64) -> Vec<F
     let config = FractureConfig::default();
     let body = Breakable::of_sound(asset.into()).body(1);
     let system = CrackSystem::new(&body, &config, 0.0);
-    let (mut fragments, undrawn) = build(&system, &labels, &body.prepared);
+    let Built {
+        mut fragments,
+        undrawn,
+        ..
+    } = build(&system, &labels, &body.prepared);
     let mesh = &body.asset.fracture;
     draw(
         surface,

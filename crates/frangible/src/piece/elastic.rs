@@ -1,0 +1,133 @@
+//! How a piece vibrates, and the body that it makes.
+
+use std::sync::{Arc, OnceLock};
+
+use super::{Portion, Statics};
+use crate::asset::{AnalysisMesh, Asset, EmbeddedPoint, Embedding};
+use crate::body::{Body, Prepared};
+use crate::error::InputError;
+use crate::mesh::TriangleTree;
+use crate::modal::ModalBasis;
+use crate::stress::{Search, Skin, StressBounds};
+
+/// An elastic body for a [`Portion`]: elements that carry its motion, and how it answers a push.
+///
+/// Everything is in the frame of the fracture mesh.
+#[derive(Clone, Debug)]
+pub struct Elastic {
+    /// Quadratic elements.
+    pub analysis: AnalysisMesh,
+    /// Where the centroids of [`Portion::tets`] lie in them, one each.
+    pub tets: Vec<EmbeddedPoint>,
+    /// Where [`Portion::nodes`] lie in them, one each.
+    pub nodes: Vec<EmbeddedPoint>,
+    /// How it answers.
+    pub response: Response,
+}
+
+/// How an elastic body answers a push.
+#[derive(Clone, Debug)]
+pub enum Response {
+    /// By vibrating: modes of the piece, without its rigid motions. [`ModalBasis::peak_stress`] may be empty.
+    Modes(ModalBasis),
+    /// At once, without inertia but for that of the body as a whole.
+    Static(Arc<dyn Statics>),
+}
+
+/// Finds how pieces vibrate.
+pub trait PieceModel: Send + Sync {
+    /// What serves from the break on; `None` where the piece is not to break, or not yet. `parent`: the body that broke.
+    fn at_once(&self, portion: &Arc<Portion>, parent: &Body) -> Option<Elastic>;
+
+    /// What takes its place some steps later, made by a worker meanwhile; `None` where nothing does.
+    fn later(&self, portion: &Arc<Portion>) -> Option<Elastic>;
+}
+
+impl Body {
+    /// A piece of this body as a body of its own, or this body again with other modes: with its share of the weak points,
+    /// strengths and cracks, the same seed, and an [asset](Body::asset) of its own that shares the fracture mesh.
+    ///
+    /// # Errors
+    /// An elastic body that does not fit the portion.
+    pub fn piece(&self, portion: &Arc<Portion>, elastic: Elastic) -> Result<Self, InputError> {
+        let root = portion.root();
+        let (tets, nodes) = (portion.tets(), portion.nodes());
+        let misfit = |problem: &str| InputError::Asset {
+            asset: root.name.clone(),
+            problem: format!("the elastic body of a piece {problem}"),
+        };
+        if elastic.tets.len() != tets.len() || elastic.nodes.len() != nodes.len() {
+            return Err(misfit("does not have one point for each tetrahedron and node"));
+        }
+        let elements = elastic.analysis.elements.len();
+        let points = || elastic.tets.iter().chain(&elastic.nodes);
+        if points().any(|p| p.element as usize >= elements) {
+            return Err(misfit("names an element that is not there"));
+        }
+        let (modes, statics) = match elastic.response {
+            Response::Modes(modes) => (modes, None),
+            Response::Static(statics) => (ModalBasis::default(), Some(statics)),
+        };
+        if modes.shapes.len() != 3 * elastic.analysis.nodes.len() * modes.count() {
+            return Err(misfit("has mode shapes of another size"));
+        }
+        let search = Search::new(&elastic.analysis);
+        let origin = portion.origin();
+        let vertices = portion.positions.iter().zip(&portion.trace.anchors);
+        let on_surface = vertices.map(|(&p, anchor)| {
+            let beside = match nodes.binary_search(anchor) {
+                Ok(place) | Err(place) => &elastic.nodes[place.min(nodes.len() - 1)],
+            };
+            search.embed((p.as_dvec3() + origin).as_vec3(), beside.element)
+        });
+        let embedding = Embedding {
+            nodes: on_surface.collect(),
+            tets: elastic.tets,
+        };
+        let asset = Asset {
+            name: root.name.clone(),
+            material: root.material.clone(),
+            fracture: Arc::clone(&root.fracture),
+            surface: portion.surface.clone(),
+            analysis: elastic.analysis,
+            embedding,
+            modes,
+            bounds: StressBounds::default(),
+            mass: *portion.mass(),
+            cells: Vec::new(),
+            cell_of_tet: Vec::new(),
+            supported: portion.supported().to_vec(),
+            render: None,
+            portion: Some(Arc::clone(portion)),
+        };
+        let own = self.weak_tets().iter().copied();
+        let weak_tets = own.filter(|e| tets.binary_search(e).is_ok()).collect();
+        Ok(self.part(asset, weak_tets, portion.state.clone(), statics))
+    }
+}
+
+impl Prepared {
+    /// Of a piece, whose modes lack only the peak of their stress.
+    pub(crate) fn of_piece(asset: &mut Asset, portion: &Portion) -> Self {
+        let root = &portion.prepared;
+        let skin = Skin::of_piece(asset, portion, &root.skin);
+        let bounds = StressBounds::with_skin(asset, &skin);
+        let whole = bounds.root(asset.modes.count());
+        asset.modes.peak_stress.clone_from(&whole.0);
+        Self {
+            root: Some(Arc::clone(root)),
+            index: Arc::clone(&root.index),
+            surface: TriangleTree::new(asset.surface_positions(), &asset.surface.triangles),
+            render: None,
+            skin,
+            bounds,
+            whole,
+            periods: crate::body::periods(&asset.modes),
+            weight: crate::body::weight(asset),
+            quadratic_modulus: root.quadratic_modulus,
+            per_newton: OnceLock::new(),
+            centroids: Arc::clone(&root.centroids),
+            edge: root.edge,
+        }
+    }
+}

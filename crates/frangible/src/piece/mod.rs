@@ -1,0 +1,28 @@
+//! Pieces that break again (beyond the paper, which names ways on `[G12 §7.3.2]`).
+//!
+//! A piece is a body like any other. It shares the fracture mesh of the body it came from, and what it keeps for itself is
+//! a [`Portion`]: its nodes, its uncut tetrahedra, the cuts that part it from its neighbours. A later break cuts the same
+//! tetrahedra the same way, so pieces of pieces tile their parent, generation after generation.
+//!
+//! How it vibrates is another matter: its modes are not those of the whole. A [`PieceModel`] finds them
+//! (crate `frangible-pieces` has several), as an [`Elastic`] body; [`Body::piece`](crate::Body::piece) makes a body of both.
+//! A body that is cracked but whole can have new modes in the same way ([`Portion::of_cracked`]).
+
+mod breakup;
+mod elastic;
+mod portion;
+mod solid;
+mod statics;
+
+pub(crate) use breakup::{Breakup, FixedPoints, Trace};
+pub use elastic::{Elastic, PieceModel, Response};
+pub use portion::Portion;
+pub use solid::Solid;
+pub use statics::Statics;
+pub(crate) use statics::{forces, static_impact, static_load};
+
+/// Labels from here on are those of a piece's neighbours.
+pub(crate) const FOREIGN: u32 = 1 << 31;
+
+/// Label of nodes that lie in none of a piece's tetrahedra.
+pub(crate) const NOBODY: u32 = u32::MAX;

@@ -1,0 +1,449 @@
+//! Which part of a broken body a piece is.
+
+use std::sync::Arc;
+
+use glam::{DVec3, Vec3};
+
+use super::{Breakup, FOREIGN, FixedPoints, Trace};
+use crate::asset::{Asset, OuterSurface};
+use crate::body::{Body, Prepared};
+use crate::config::FractureConfig;
+use crate::crack::CrackSystem;
+use crate::fragment::{self, DisjointSets, EdgeCut};
+use crate::mesh::{EDGES, MassProperties};
+use crate::outcome::{Fracture, Fragment};
+use crate::state::{BodyState, OldCrack};
+
+/// A part of a body that has broken, or a whole body with its cracks: which nodes and tetrahedra of the fracture mesh are
+/// its own, and what parts it from the rest.
+#[derive(Debug)]
+pub struct Portion {
+    pub(super) root: Arc<Asset>,
+    pub(super) prepared: Arc<Prepared>,
+    generation: u32,
+    origin: DVec3,
+    mass: MassProperties,
+    supported: Vec<u32>,
+    nodes: Vec<u32>,
+    tets: Vec<u32>,
+    cracked: Vec<u32>,
+    divided: Vec<u32>,
+    rim: Vec<(u32, u32)>,
+    next_foreign: u32,
+    cuts: Vec<EdgeCut>,
+    fixed: Arc<FixedPoints>,
+    first_nodes: Vec<u32>,
+    whole: u64,
+    pub(super) state: BodyState,
+    /// Vertices of its surface, m, in its own frame.
+    pub(super) positions: Vec<Vec3>,
+    pub(super) surface: OuterSurface,
+    pub(super) trace: Trace,
+}
+
+impl Portion {
+    /// The whole of a body, with the cracks that it has so far: for modes that feel them.
+    ///
+    /// `crumb_share`: see [`FractureConfig::crumb_share`].
+    #[must_use]
+    pub fn of_cracked(body: &Body, crumb_share: f64) -> Self {
+        let config = FractureConfig {
+            crumb_share,
+            ..FractureConfig::default()
+        };
+        let system = CrackSystem::new(body, &config, 0.0);
+        let labels = fragment::label(&system, &body.prepared.index, crumb_share);
+        let asset = &*body.asset;
+        let trace = match &asset.portion {
+            Some(portion) => portion.trace.clone(),
+            None => Trace {
+                label: 0,
+                outer_of: (0..asset.surface.triangles.len() as u32).collect(),
+                inner_of: Vec::new(),
+                anchors: (0..asset.fracture.positions.len() as u32).collect(),
+            },
+        };
+        let fixed = match &asset.portion {
+            Some(portion) => FixedPoints::clone(&portion.fixed),
+            None => FixedPoints::default(),
+        };
+        let breakup = Breakup::new(&system, labels, Vec::new(), fixed);
+        let lists = Lists::of(body, &breakup, &[0]).pop().unwrap_or_default();
+        let mut portion = Self::new(body, &breakup, lists, trace, body.generation());
+        portion.origin = body.origin();
+        portion.mass = asset.mass;
+        portion.positions = asset.surface_positions().to_vec();
+        portion.surface = asset.surface.clone();
+        portion
+    }
+
+    fn new(
+        body: &Body,
+        breakup: &Breakup,
+        lists: Lists,
+        trace: Trace,
+        generation: u32,
+    ) -> Self {
+        let root = match &body.asset.portion {
+            Some(portion) => Arc::clone(&portion.root),
+            None => Arc::clone(&body.asset),
+        };
+        let prepared = body.prepared.root.as_ref().unwrap_or(&body.prepared);
+        let supported = root.supported.iter().copied();
+        let supported = supported.filter(|v| lists.nodes.binary_search(v).is_ok());
+        Self {
+            supported: supported.collect(),
+            whole: prepared.index.volume_of(&lists.nodes),
+            prepared: Arc::clone(prepared),
+            root,
+            generation,
+            origin: DVec3::ZERO,
+            mass: body.asset.mass,
+            nodes: lists.nodes,
+            tets: lists.tets,
+            cracked: lists.cracked,
+            divided: lists.divided,
+            rim: lists.rim,
+            next_foreign: lists.next_foreign,
+            cuts: lists.cuts,
+            first_nodes: lists.first_nodes,
+            fixed: Arc::new(breakup.fixed.clone()),
+            state: lists.state,
+            positions: Vec::new(),
+            surface: OuterSurface::default(),
+            trace,
+        }
+    }
+
+    /// The body as it was baked.
+    #[must_use]
+    pub fn root(&self) -> &Asset {
+        &self.root
+    }
+
+    /// How many breaks it comes from: 1 for a piece of a baked body.
+    #[must_use]
+    pub fn generation(&self) -> u32 {
+        self.generation
+    }
+
+    /// Its centre of mass in the frame of the fracture mesh, m: where its own frame has its origin.
+    #[must_use]
+    pub fn origin(&self) -> DVec3 {
+        self.origin
+    }
+
+    /// Mass properties about its own centre, in its own frame.
+    #[must_use]
+    pub fn mass(&self) -> &MassProperties {
+        &self.mass
+    }
+
+    /// Nodes of the fracture mesh that are its own, rising.
+    #[must_use]
+    pub fn nodes(&self) -> &[u32] {
+        &self.nodes
+    }
+
+    /// Fracture tetrahedra that are its own and that no crack has cut, rising: where cracks can start and run.
+    #[must_use]
+    pub fn tets(&self) -> &[u32] {
+        &self.tets
+    }
+
+    /// Nodes of its own that something outside holds, rising.
+    #[must_use]
+    pub fn supported(&self) -> &[u32] {
+        &self.supported
+    }
+
+    /// Where the vertices of its surface are, m, in its own frame.
+    #[must_use]
+    pub fn surface_positions(&self) -> &[Vec3] {
+        &self.positions
+    }
+
+    /// Place of a tetrahedron among [`Portion::tets`]; that of the next one where it is none of them.
+    pub(crate) fn place(&self, tet: u32) -> usize {
+        match self.tets.binary_search(&tet) {
+            Ok(place) | Err(place) => place,
+        }
+    }
+
+    /// Tetrahedra that are its own and have been cut, rising.
+    pub(crate) fn cracked(&self) -> &[u32] {
+        &self.cracked
+    }
+
+    /// Tetrahedra that it shares with its neighbours, rising.
+    pub(crate) fn divided(&self) -> &[u32] {
+        &self.divided
+    }
+
+    /// Cuts between its nodes and those of its neighbours, and among its own.
+    pub(crate) fn cuts(&self) -> &[EdgeCut] {
+        &self.cuts
+    }
+
+    /// Nodes of the tetrahedra that it shares which are not its own, rising, with labels that tell apart whose they are.
+    pub(crate) fn rim(&self) -> &[(u32, u32)] {
+        &self.rim
+    }
+
+    /// Points of its surface that stay.
+    pub(crate) fn fixed(&self) -> &FixedPoints {
+        &self.fixed
+    }
+
+    /// Lowest node of each part of it that its tetrahedra do not join to the others; one for a sound body.
+    pub(crate) fn first_nodes(&self) -> &[u32] {
+        &self.first_nodes
+    }
+
+    /// Sum of its nodes' volumes, in the unit of the mesh's index.
+    pub(crate) fn whole(&self) -> u64 {
+        self.whole
+    }
+
+    /// Whether a node is its own.
+    pub(crate) fn has_node(&self, node: u32) -> bool {
+        self.nodes.binary_search(&node).is_ok()
+    }
+
+    /// Whether any of these nodes of a tetrahedron is its own.
+    pub(crate) fn has_tet(&self, nodes: &[u32; 4]) -> bool {
+        nodes.iter().any(|&v| self.has_node(v))
+    }
+
+    /// The first triangle of its surface that lies on this one of the baked body's.
+    pub(crate) fn surface_triangle(&self, of_root: u32) -> Option<u32> {
+        let found = self.trace.outer_of.binary_search(&of_root).ok()?;
+        let before = self.trace.outer_of[..found].iter().rev();
+        let same = before.take_while(|&&t| t == of_root).count();
+        Some((found - same) as u32)
+    }
+}
+
+impl Fracture {
+    /// Which part of the body each wanted fragment is, for [`Body::piece`]. `body`: the one that broke. `None` for the others,
+    /// and for a fracture that was not computed here.
+    #[must_use]
+    pub fn portions(
+        &self,
+        body: &Body,
+        wanted: impl Fn(usize, &Fragment) -> bool,
+    ) -> Vec<Option<Arc<Portion>>> {
+        let mut portions: Vec<Option<Arc<Portion>>> = vec![None; self.fragments.len()];
+        let Some(breakup) = &self.breakup else {
+            return portions;
+        };
+        let all = self.fragments.iter().enumerate();
+        let wanted: Vec<usize> = all
+            .filter(|&(k, fragment)| wanted(k, fragment))
+            .map(|(k, _)| k)
+            .collect();
+        let labels: Vec<u32> = wanted.iter().map(|&k| breakup.traces[k].label).collect();
+        let lists = Lists::of(body, breakup, &labels);
+        let edge = body.prepared.edge;
+        for (k, lists) in wanted.into_iter().zip(lists) {
+            let (fragment, trace) = (&self.fragments[k], breakup.traces[k].clone());
+            let mut portion = Portion::new(body, breakup, lists, trace, body.generation() + 1);
+            portion.origin = body.origin() + fragment.mass.centre;
+            portion.mass = MassProperties {
+                centre: DVec3::ZERO,
+                ..fragment.mass
+            };
+            portion.positions = fragment.mesh.positions.clone();
+            portion.surface = surface(fragment, &portion.root.surface, &portion.trace, edge);
+            portions[k] = Some(Arc::new(portion));
+        }
+        portions
+    }
+}
+
+/// A fragment's surface as that of a body. Crack faces are rough: their radius of curvature is half an edge of the mesh.
+fn surface(fragment: &Fragment, root: &OuterSurface, trace: &Trace, edge: f32) -> OuterSurface {
+    let outer = trace.outer_of.iter().map(|&t| t as usize);
+    let tets = outer.clone().map(|t| root.tets[t]);
+    let radii = outer.map(|t| root.curvature_radius[t]);
+    let rough = std::iter::repeat_n(0.5 * edge, trace.inner_of.len());
+    OuterSurface {
+        triangles: fragment.mesh.triangles.clone(),
+        normals: fragment.mesh.normals.clone(),
+        tets: tets.chain(trace.inner_of.iter().copied()).collect(),
+        curvature_radius: radii.chain(rough).collect(),
+    }
+}
+
+/// What a portion lists.
+#[derive(Default)]
+struct Lists {
+    nodes: Vec<u32>,
+    tets: Vec<u32>,
+    cracked: Vec<u32>,
+    divided: Vec<u32>,
+    rim: Vec<(u32, u32)>,
+    next_foreign: u32,
+    cuts: Vec<EdgeCut>,
+    first_nodes: Vec<u32>,
+    state: BodyState,
+}
+
+impl Lists {
+    /// Of the pieces with these labels.
+    fn of(body: &Body, breakup: &Breakup, labels: &[u32]) -> Vec<Self> {
+        let mesh = &body.asset.fracture;
+        let count = breakup.of_node.iter().filter(|&&l| l < FOREIGN).max();
+        let count = count.map_or(0, |&l| l + 1);
+        let mut slots = vec![usize::MAX; count as usize];
+        for (slot, &label) in labels.iter().enumerate() {
+            slots[label as usize] = slot;
+        }
+        let slot_of = |label: u32| slots.get(label as usize).copied().unwrap_or(usize::MAX);
+        let mut lists: Vec<Self> = labels.iter().map(|_| Self::default()).collect();
+        // Place of each node among its piece's.
+        let mut places = vec![0; breakup.of_node.len()];
+        for (v, &label) in (0..).zip(&breakup.of_node) {
+            if let Some(list) = lists.get_mut(slot_of(label)) {
+                places[v as usize] = list.nodes.len() as u32;
+                list.nodes.push(v);
+            }
+        }
+        let mut fractured = vec![false; mesh.tets.len()];
+        let cracks = breakup.state.cracks.iter();
+        for cut in cracks.flat_map(|crack| &crack.cuts) {
+            fractured[cut.tet as usize] = true;
+        }
+        let label = |v: u32| breakup.of_node[v as usize];
+        for (e, tet) in mesh.tets.iter().enumerate() {
+            let l = tet.map(label);
+            let whole = l == [l[0]; 4];
+            for k in 0..if whole { 1 } else { 4 } {
+                if l[..k].contains(&l[k]) {
+                    continue;
+                }
+                if let Some(list) = lists.get_mut(slot_of(l[k])) {
+                    match (whole, fractured[e]) {
+                        (true, false) => list.tets.push(e as u32),
+                        (true, true) => list.cracked.push(e as u32),
+                        (false, _) => list.divided.push(e as u32),
+                    }
+                }
+            }
+        }
+        let base = body.asset.portion.as_ref().map_or(0, |p| p.next_foreign);
+        for (list, &own) in lists.iter_mut().zip(labels) {
+            list.next_foreign = base + count;
+            list.complete(body, breakup, &places, own, base);
+        }
+        lists
+    }
+
+    /// Fills in what follows from nodes and tetrahedra.
+    fn complete(
+        &mut self,
+        body: &Body,
+        breakup: &Breakup,
+        places: &[u32],
+        own: u32,
+        base: u32,
+    ) {
+        let mesh = &body.asset.fracture;
+        let label = |v: u32| breakup.of_node[v as usize];
+        let mut numbers: Vec<u32> = Vec::new();
+        for &e in &self.divided {
+            let tet = mesh.tets[e as usize];
+            for v in tet {
+                match label(v) {
+                    l if l == own => {}
+                    l if l < FOREIGN => self.rim.push((v, FOREIGN | (base + l))),
+                    l => self.rim.push((v, l)),
+                }
+            }
+            for [i, j] in EDGES {
+                let (a, b) = (tet[i].min(tet[j]), tet[i].max(tet[j]));
+                numbers.extend(breakup.cuts.place(a, b));
+            }
+        }
+        self.rim.sort_unstable();
+        self.rim.dedup();
+        for (number, cut) in (0..).zip(breakup.cuts.list()) {
+            if cut.ends.map(label) == [own; 2] {
+                numbers.push(number);
+            }
+        }
+        numbers.sort_unstable();
+        numbers.dedup();
+        let local = |v: u32| (label(v) == own).then(|| places[v as usize]);
+        let healed = self.heal(body, breakup, local);
+        let keep = |cut: &EdgeCut| {
+            cut.ends.map(label) != [own; 2] || !healed.iter().any(|ends| *ends == cut.ends)
+        };
+        let cuts = numbers.iter().map(|&n| breakup.cuts.list()[n as usize]);
+        self.cuts = cuts.filter(keep).collect();
+        self.remember(breakup, |tet| mesh.tets[tet as usize].map(label).contains(&own));
+    }
+
+    /// Crumbs that joined this piece are joined to it for good: the cuts between them and the rest, which are none any more.
+    /// Finds the parts that are still loose, too.
+    fn heal(
+        &mut self,
+        body: &Body,
+        breakup: &Breakup,
+        local: impl Fn(u32) -> Option<u32>,
+    ) -> Vec<[u32; 2]> {
+        let prepared = body.prepared.root.as_ref().unwrap_or(&body.prepared);
+        let mut sets = DisjointSets::new(self.nodes.len());
+        for (i, &v) in (0..).zip(&self.nodes) {
+            for &w in prepared.index.neighbours(v).iter().filter(|&&w| w < v) {
+                if let Some(j) = local(w)
+                    && breakup.cuts.place(w, v).is_none()
+                {
+                    sets.join(i, j);
+                }
+            }
+        }
+        let mut healed = Vec::new();
+        for cut in breakup.cuts.list() {
+            if let [Some(a), Some(b)] = cut.ends.map(&local)
+                && sets.find(a) != sets.find(b)
+            {
+                healed.push((cut.ends, [a, b]));
+            }
+        }
+        for &(_, [a, b]) in &healed {
+            sets.join(a, b);
+        }
+        let mut first = Vec::new();
+        for (i, &v) in (0..).zip(&self.nodes) {
+            if sets.find(i) == i {
+                first.push(v);
+            }
+        }
+        self.first_nodes = first;
+        healed.into_iter().map(|(ends, _)| ends).collect()
+    }
+
+    /// Keeps of each crack what cut this piece; cuts name their cracks by the new numbers.
+    fn remember(&mut self, breakup: &Breakup, own: impl Fn(u32) -> bool) {
+        let mut number = vec![u32::MAX; breakup.state.cracks.len()];
+        for (crack, number) in breakup.state.cracks.iter().zip(&mut number) {
+            let cuts: Vec<_> = crack.cuts.iter().filter(|c| own(c.tet)).copied().collect();
+            if cuts.is_empty() {
+                continue;
+            }
+            *number = self.state.cracks.len() as u32;
+            self.state.cracks.push(OldCrack {
+                start: crack.start,
+                normal: crack.normal,
+                settled: cuts.len() as u32,
+                cuts,
+                junctions: Vec::new(),
+            });
+        }
+        for cut in &mut self.cuts {
+            let crack = number.get(cut.crack as usize);
+            cut.crack = crack.copied().unwrap_or(u32::MAX);
+        }
+    }
+}
