@@ -167,6 +167,9 @@ impl<'a> PointTable<'a> {
                 let nodes = self.mesh.tets[e as usize];
                 let foreign = nodes.map(|v| self.is_foreign(v));
                 let border = foreign.contains(&true);
+                if let Some(middle) = self.middle_of_quad(&nodes, &foreign) {
+                    return middle;
+                }
                 let (mut sum, mut count) = (DVec3::ZERO, 0.0);
                 for [i, j] in EDGES {
                     let (a, b) = (nodes[i].min(nodes[j]), nodes[i].max(nodes[j]));
@@ -182,6 +185,23 @@ impl<'a> PointTable<'a> {
                 sum / count
             }
         }
+    }
+
+    /// Of a tetrahedron with two nodes of its own and two of a neighbour: the middle of the diagonal along which the quad
+    /// between them has been split so far, so that what is fanned from there is the same two triangles.
+    fn middle_of_quad(&self, nodes: &[u32; 4], foreign: &[bool; 4]) -> Option<DVec3> {
+        let pair = |side: bool| {
+            let mut of_side = (0..4).filter(|&k| foreign[k] == side).map(|k| nodes[k]);
+            match (of_side.next(), of_side.next(), of_side.next()) {
+                (Some(a), Some(b), None) => Some([a, b]),
+                _ => None,
+            }
+        };
+        let ([a, b], [c, d]) = (pair(false)?, pair(true)?);
+        let edge = |v: u32, w: u32| Point::Edge(v.min(w), v.max(w));
+        let diagonals = [[edge(a, c), edge(b, d)], [edge(a, d), edge(b, c)]];
+        let split = diagonals.into_iter().min_by_key(|ends| ends[0].min(ends[1]));
+        split.map(|ends| ends.map(|end| self.position(end)).iter().sum::<DVec3>() / 2.0)
     }
 
     /// Whether a node belongs to another piece.
