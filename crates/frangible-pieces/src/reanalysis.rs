@@ -1,11 +1,10 @@
 //! A small modal analysis of the piece itself.
 
-use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use frangible::modal::ModalBasis;
 use frangible::piece::{Elastic, Portion, Response};
-use frangible_bake::eigen::{Constraints, lowest_supported_modes};
+use frangible_bake::eigen::{Constraints, quick_modes};
 
 use crate::PieceError;
 use crate::lattice::Lattice;
@@ -31,9 +30,7 @@ pub fn reanalysis(
         nodes.map(|v| [supported.binary_search(v).is_ok(); 3]).collect()
     };
     let constraints = Constraints::of_places(&places, &held);
-    let found = lowest_supported_modes(&lattice.system, &constraints, modes, &mut |_| {
-        ControlFlow::Continue(())
-    })?;
+    let found = quick_modes(&lattice.system, &constraints, modes)?;
     let count = found.eigenvalues.len();
     let shapes = (0..unknowns)
         .flat_map(|row| (0..count).map(move |mode| (mode, row)))

@@ -11,18 +11,16 @@ use crate::eigen::panel::{Square, WIDTH, inner, subtract, transposed};
 use crate::eigen::watch::{Phase, Watch};
 use crate::error::BakeError;
 
-/// Relative residual at which a Ritz pair counts as found. The residual of A is as large after
-/// purification; this leaves a digit to the check in the plain norm, which weighs nodes differently.
-const TOLERANCE: f64 = 1e-9;
 /// Modes found per vector of the basis, once the first are: 0.3 to 0.5 on plates, vessels and solids.
 const FOUND_PER_VECTOR: f64 = 0.5;
 
 /// The `wanted` lowest eigenpairs of A x = λ B x: eigenvalues rising, B-orthonormal vectors. `basis` holds the rigid
-/// motions, and grows.
+/// motions, and grows. `tolerance`: relative residual at which a Ritz pair of the inverse counts as found.
 pub(crate) fn solve(
     shifted: &Shifted,
     mut basis: Krylov<'_>,
     wanted: usize,
+    tolerance: f64,
     watch: &mut Watch<'_>,
 ) -> Result<(Vec<f64>, Block), BakeError> {
     let rows = shifted.rows();
@@ -62,7 +60,7 @@ pub(crate) fn solve(
             // The wanted end of the inverse's spectrum is the top.
             let found = |i: &usize| {
                 let (tail, y) = (last_block(&triangle, vectors.column(*i)), values[*i]);
-                tail.iter().map(|x| x * x).sum::<f64>().sqrt() <= TOLERANCE * y
+                tail.iter().map(|x| x * x).sum::<f64>().sqrt() <= tolerance * y
             };
             converged = (0..size).rev().take(wanted).take_while(found).count();
             log::debug!("Lanczos: {size} vectors, {converged} of {wanted} modes");

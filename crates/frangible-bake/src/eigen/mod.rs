@@ -40,8 +40,37 @@ use metric::Metric;
 use reduce::Reduction;
 use watch::Watch;
 
-/// Unknowns up to which the dense solver is used.
-const DENSE: usize = 800;
+/// How exact modes must be.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Accuracy {
+    /// Unknowns up to which the dense solver is used, which is exact …
+    dense: usize,
+    /// … and wanted modes per unknown beyond which it is.
+    share: f64,
+    /// Relative residual at which a Ritz pair of the inverse counts as found.
+    tolerance: f64,
+    /// Relative residual that every mode must reach, where rounding allows it.
+    residual: f64,
+}
+
+impl Accuracy {
+    /// Of a bake. A residual of A is as large after purification as the tolerance; this leaves a digit to the check in the
+    /// plain norm, which weighs nodes differently.
+    const BAKED: Self = Self {
+        dense: 800,
+        share: 0.2,
+        tolerance: 1e-9,
+        residual: 1e-8,
+    };
+
+    /// Of a piece while others wait for it: frequencies to 1e-6 or so, since their error is the square of the residual.
+    const QUICK: Self = Self {
+        dense: 150,
+        share: 0.4,
+        tolerance: 1e-4,
+        residual: 0.1,
+    };
+}
 
 /// Mass-normalised modes Φᵀ M Φ = I, by rising frequency.
 #[derive(Clone, Debug)]
@@ -99,6 +128,30 @@ pub fn lowest_supported_modes(
     wanted: usize,
     progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Modes, BakeError> {
+    search(system, constraints, wanted, Accuracy::BAKED, progress)
+}
+
+/// The same at once and less exactly: frequencies are right to six digits, residuals of shapes may be a few per cent. For what is found
+/// while somebody waits.
+///
+/// # Errors
+/// As [`lowest_supported_modes`], where a residual stays above a tenth.
+pub fn quick_modes(
+    system: &System,
+    constraints: &Constraints,
+    wanted: usize,
+) -> Result<Modes, BakeError> {
+    let flow = &mut |_| ControlFlow::Continue(());
+    search(system, constraints, wanted, Accuracy::QUICK, flow)
+}
+
+fn search(
+    system: &System,
+    constraints: &Constraints,
+    wanted: usize,
+    accuracy: Accuracy,
+    progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
+) -> Result<Modes, BakeError> {
     let reduction = Reduction::new(system.unknowns(), constraints.unknowns());
     let reduction = reduction.as_ref();
     let n = reduction.map_or(system.unknowns(), Reduction::unknowns);
@@ -125,7 +178,7 @@ pub fn lowest_supported_modes(
         }
     });
     let rigid = rigid::deflation_basis(system, &remaining, reduction, &metric)?;
-    let small = n <= DENSE || wanted > n / 5;
+    let small = n <= accuracy.dense || wanted as f64 > n as f64 * accuracy.share;
     let node_of = reduction.map_or_else(|| (0..n).map(|i| i / 3).collect(), Reduction::nodes);
     let basis = Krylov::new(&metric, &rigid);
     let shifted = Shifted::near_zero(&scaled, &node_of, &metric, &basis, &mut watch)?;
@@ -136,7 +189,7 @@ pub fn lowest_supported_modes(
             dense::solve_shifted(&matrix, shifted.shift, &metric, &rigid, wanted)
         })?
     } else {
-        lanczos::solve(&shifted, basis, wanted, &mut watch)?
+        lanczos::solve(&shifted, basis, wanted, accuracy.tolerance, &mut watch)?
     };
     watch.tell(0.95)?;
     let found = |eigenvalues: &[f64], vectors: &Block| {
@@ -150,7 +203,7 @@ pub fn lowest_supported_modes(
     };
     let mut modes = found(&eigenvalues, &vectors);
     let mut checked = watch.time(Phase::ResidualCheck, || {
-        residual::check(system, reduction, &modes)
+        residual::check(system, reduction, &modes, accuracy.residual)
     });
     if matches!(checked, Err(BakeError::Residual { .. })) {
         watch.time(Phase::Solves, || {
@@ -165,7 +218,7 @@ pub fn lowest_supported_modes(
         });
         modes = found(&eigenvalues, &vectors);
         checked = watch.time(Phase::ResidualCheck, || {
-            residual::check(system, reduction, &modes)
+            residual::check(system, reduction, &modes, accuracy.residual)
         });
     }
     modes.max_residual = checked?;

@@ -8,14 +8,14 @@ use crate::eigen::reduce::Reduction;
 use crate::error::BakeError;
 use crate::fem::{Mass, System};
 
-/// What every mode must reach, where f64 rounding allows it.
+/// What every mode of a bake must reach, where f64 rounding allows it.
 const LIMIT: f64 = 1e-8;
 
 /// Relative residual ‖Kφ − λMφ‖ / ‖Kφ‖ of one mode, and the limit it must meet: 1e-8, or ten times
 /// the rounding of Kφ itself where that is more (on a thin plate it is 5e-8).
 #[must_use]
 pub fn residual(system: &System, eigenvalue: f64, shape: &[f64]) -> (f64, f64) {
-    residual_of(system, None, eigenvalue, shape)
+    residual_of(system, None, eigenvalue, shape, LIMIT)
 }
 
 /// The same over the unknowns that are left: what holds the others bears their forces.
@@ -24,6 +24,7 @@ fn residual_of(
     reduction: Option<&Reduction>,
     eigenvalue: f64,
     shape: &[f64],
+    wanted: f64,
 ) -> (f64, f64) {
     let left = |i: usize| reduction.is_none_or(|r| r.is_free(i));
     let norm = |v: &[f64]| {
@@ -43,10 +44,10 @@ fn residual_of(
         }
     };
     let relative = norm(&rest) / norm(&k);
-    let limit = if relative <= LIMIT {
-        LIMIT
+    let limit = if relative <= wanted {
+        wanted
     } else {
-        (10.0 * f64::EPSILON * norm(&system.multiply_magnitudes(shape)) / norm(&k)).max(LIMIT)
+        (10.0 * f64::EPSILON * norm(&system.multiply_magnitudes(shape)) / norm(&k)).max(wanted)
     };
     (relative, limit)
 }
@@ -56,6 +57,7 @@ pub(crate) fn check(
     system: &System,
     reduction: Option<&Reduction>,
     modes: &Modes,
+    wanted: f64,
 ) -> Result<f64, BakeError> {
     let unknowns = modes.unknowns;
     let mut largest = 0.0_f64;
@@ -65,10 +67,16 @@ pub(crate) fn check(
         let residuals = residuals(system, reduction, eigenvalues, shapes);
         for (i, &eigenvalue) in eigenvalues.iter().enumerate() {
             let mode = first + i;
-            let (mut residual, mut limit) = (residuals[i], LIMIT);
-            if residual.is_nan() || residual > LIMIT {
+            let (mut residual, mut limit) = (residuals[i], wanted);
+            if residual.is_nan() || residual > wanted {
                 // The limit that rounding allows, one mode at a time: rare but on thin plates.
-                (residual, limit) = residual_of(system, reduction, eigenvalue, modes.shape(mode));
+                (residual, limit) = residual_of(
+                    system,
+                    reduction,
+                    eigenvalue,
+                    modes.shape(mode),
+                    wanted,
+                );
             }
             if residual.is_nan() || residual > limit {
                 return Err(BakeError::Residual {
