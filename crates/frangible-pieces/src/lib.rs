@@ -2,13 +2,15 @@
 
 mod error;
 mod lattice;
+mod model;
 mod parent_modes;
-mod quasi_static;
 mod proxy;
+mod quasi_static;
 mod reanalysis;
 
 pub use error::PieceError;
+pub use model::{Method, Pieces};
 pub use parent_modes::parent_modes;
-pub use quasi_static::quasi_static;
 pub use proxy::ProxyLibrary;
+pub use quasi_static::quasi_static;
 pub use reanalysis::reanalysis;

@@ -56,7 +56,12 @@ pub fn parent_modes(portion: &Arc<Portion>, parent: &Body) -> Result<Elastic, Pi
 fn restricted(
     portion: &Portion,
     asset: &Asset,
-) -> (AnalysisMesh, Vec<EmbeddedPoint>, Vec<EmbeddedPoint>, Vec<u32>) {
+) -> (
+    AnalysisMesh,
+    Vec<EmbeddedPoint>,
+    Vec<EmbeddedPoint>,
+    Vec<u32>,
+) {
     let whole = &asset.analysis;
     let (mut element, mut node) = (
         vec![u32::MAX; whole.elements.len()],
@@ -77,7 +82,8 @@ fn restricted(
                 *new
             });
             mesh.elements.push(nodes);
-            mesh.barycentric_gradients.push(whole.barycentric_gradients[e]);
+            mesh.barycentric_gradients
+                .push(whole.barycentric_gradients[e]);
         }
         element[e]
     };
@@ -153,7 +159,11 @@ fn integrals(
     let m = trial.ncols();
     let (mut stiffness, mut mass) = (Mat::<f64>::zeros(m, m), Mat::<f64>::zeros(m, m));
     let mesh = &portion.root().fracture;
-    let volumes: Vec<f64> = portion.tets().iter().map(|&e| mesh.volume(e as usize)).collect();
+    let volumes: Vec<f64> = portion
+        .tets()
+        .iter()
+        .map(|&e| mesh.volume(e as usize))
+        .collect();
     // Cut tetrahedra count with the others.
     let scale = portion.mass().volume / volumes.iter().sum::<f64>();
     let (lambda, mu) = (asset.material.lame_lambda(), asset.material.shear_modulus());
@@ -215,14 +225,20 @@ fn ritz(
         .map(|i| 1.0 / mass[(i, i)].max(f64::MIN_POSITIVE).sqrt())
         .collect();
     let unit = Mat::from_fn(m, m, |i, j| mass[(i, j)] * scale[i] * scale[j]);
-    let eigen = unit.self_adjoint_eigen(Side::Lower).map_err(|e| refused(&e))?;
+    let eigen = unit
+        .self_adjoint_eigen(Side::Lower)
+        .map_err(|e| refused(&e))?;
     let (values, vectors) = (eigen.S().column_vector(), eigen.U());
-    let kept: Vec<usize> = (0..m).filter(|&i| values[i] > DEPENDENT * m as f64).collect();
+    let kept: Vec<usize> = (0..m)
+        .filter(|&i| values[i] > DEPENDENT * m as f64)
+        .collect();
     let white = Mat::from_fn(m, kept.len(), |i, j| {
         scale[i] * vectors[(i, kept[j])] / values[kept[j]].sqrt()
     });
     let reduced = white.transpose() * stiffness * &white;
-    let eigen = reduced.self_adjoint_eigen(Side::Lower).map_err(|e| refused(&e))?;
+    let eigen = reduced
+        .self_adjoint_eigen(Side::Lower)
+        .map_err(|e| refused(&e))?;
     let (values, vectors) = (eigen.S().column_vector(), eigen.U());
     let elastic: Vec<usize> = (rigid.min(kept.len())..kept.len())
         .filter(|&i| values[i] > 0.0)

@@ -21,13 +21,19 @@ pub fn reanalysis(
     let lattice = Lattice::new(portion, elements)?;
     let unknowns = lattice.system.unknowns();
     let modes = modes.min(unknowns.saturating_sub(6) / 6).max(1);
-    let places: Vec<_> = portion.nodes().iter().map(|&v| portion.root().fracture.positions[v as usize].as_dvec3()).collect();
+    let places: Vec<_> = portion
+        .nodes()
+        .iter()
+        .map(|&v| portion.root().fracture.positions[v as usize].as_dvec3())
+        .collect();
     let held: Vec<[bool; 3]> = if portion.supported().is_empty() {
         Vec::new()
     } else {
         let supported = portion.supported();
         let nodes = portion.nodes().iter();
-        nodes.map(|v| [supported.binary_search(v).is_ok(); 3]).collect()
+        nodes
+            .map(|v| [supported.binary_search(v).is_ok(); 3])
+            .collect()
     };
     let constraints = Constraints::of_places(&places, &held);
     let found = quick_modes(&lattice.system, &constraints, modes)?;

@@ -237,7 +237,7 @@ impl BreakableWorld {
         if cleared {
             0
         } else {
-            body.asset().fracture.tets.len().max(1)
+            body.asset().embedding.tets.len().max(1)
         }
     }
 
@@ -335,9 +335,6 @@ impl BreakableWorld {
         }
         let Some(state) = state else { return Ok(()) };
         self.weigh_anew_one(handle);
-        match self.breakables.get_mut(&key(handle)) {
-            Some(body) => Ok(body.set_state(state)?),
-            None => Ok(()),
-        }
+        self.crack(handle, &state)
     }
 }

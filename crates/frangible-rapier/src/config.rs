@@ -38,6 +38,43 @@ pub struct ColliderDetail {
     pub hull_points: usize,
 }
 
+/// Which fragments break again, and from when.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct PieceConfig {
+    /// A fragment breaks again if it comes from fewer breaks than this, itself included: 1, and the pieces of baked bodies
+    /// are the last that break. Default 3; 0 for none.
+    pub generations: u32,
+    /// Lighter fragments do not break again, kg. Default 2e-3, a shard of glass 20 mm wide.
+    pub least_mass: f32,
+    /// Fragments of fewer uncut tetrahedra do not. Default 60.
+    pub least_tets: usize,
+    /// From so long after its birth a fragment can break, s. Default 0.02: the blow that made it is over by then.
+    pub delay: f32,
+    /// From so long after its birth it has the modes that take longer to find, s. Default 0.15.
+    pub later: f32,
+    /// Find new modes for bodies that are cracked but whole, too. Default on.
+    pub cracked: bool,
+}
+
+impl PieceConfig {
+    /// Steps that a fragment is plain at least: it and its siblings part first.
+    pub(crate) const SOONEST: u64 = 3;
+}
+
+impl Default for PieceConfig {
+    fn default() -> Self {
+        Self {
+            generations: 3,
+            least_mass: 2e-3,
+            least_tets: 60,
+            delay: 0.02,
+            later: 0.15,
+            cracked: true,
+        }
+    }
+}
+
 /// How the world steps, what counts as an impact, and what becomes of fragments.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
@@ -91,6 +128,8 @@ pub struct WorldConfig {
     pub resting_loads: bool,
     /// When a body gives way to its fragments. Default inside the step.
     pub breaking: Breaking,
+    /// Which fragments break again, if the world has a [model of how they vibrate](crate::BreakableWorld::set_piece_model).
+    pub pieces: PieceConfig,
     /// Also record the impacts that broke nothing, see [`crate::BreakableWorld::held`]. Default off.
     pub record_held: bool,
     /// Switches and numbers of the fracture.
@@ -126,6 +165,7 @@ impl Default for WorldConfig {
             max_bodies: 4000,
             resting_loads: true,
             breaking: Breaking::default(),
+            pieces: PieceConfig::default(),
             record_held: false,
             fracture: FractureConfig::default(),
         }
@@ -154,6 +194,12 @@ impl WorldConfig {
             positive("number of parts of a collider", detail.parts as f32)?;
             positive("number of points of a hull", detail.hull_points as f32)?;
         }
+        not_negative(
+            "least mass of a piece that breaks again (kg)",
+            self.pieces.least_mass,
+        )?;
+        not_negative("delay until a piece breaks again (s)", self.pieces.delay)?;
+        not_negative("delay of a piece's own modes (s)", self.pieces.later)?;
         not_negative("dust mass (kg)", self.dust_mass)?;
         not_negative("debris mass (kg)", self.debris_mass)
     }

@@ -288,7 +288,7 @@ fn striker(
 /// Radius of curvature of a breakable's outer surface nearest to a point of its body frame, m.
 fn curvature_at(body: &Body, point: Vector) -> f32 {
     let surface = &body.asset().surface;
-    let positions = &body.asset().fracture.positions;
+    let positions = body.asset().surface_positions();
     let nearest = surface
         .triangles
         .iter()

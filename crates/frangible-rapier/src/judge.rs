@@ -134,7 +134,7 @@ impl BreakableWorld {
     }
 
     /// Threads that judge while the world's own goes on: one less than there are cores; none where none can be had.
-    fn jury(&mut self) -> Option<&ThreadPool> {
+    pub(crate) fn jury(&mut self) -> Option<&ThreadPool> {
         let cores = std::thread::available_parallelism().map_or(1, usize::from);
         let make = || {
             let builder = ThreadPoolBuilder::new().num_threads(cores.saturating_sub(1).max(1));

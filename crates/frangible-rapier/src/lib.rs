@@ -47,8 +47,13 @@
 //! A body whose asset has supports (a pane in its frame, a shelf in its wall) is fixed until it breaks; then the
 //! fragments with a supported node stay, the others fall.
 //!
+//! # Fragments that break again
+//! With a model of how they vibrate ([`BreakableWorld::set_piece_model`]; crate `frangible-pieces` has several) fragments
+//! become breakable bodies [`PieceConfig::delay`] after they were born, within limits of generation, mass and size; below
+//! them they are plain bodies. Bodies that are cracked but whole get new, lower modes the same way.
+//!
 //! # What it does not do yet
-//! Fragments are plain bodies: they do not break again. Multibody joints of a broken body are released,
+//! Without a model fragments are plain bodies: they do not break again. Multibody joints of a broken body are released,
 //! impulse joints move to the fragment that holds them; neither loads a body. A blow of less than
 //! [`WorldConfig::impact_speed`] breaks nothing: only what presses for four steps in a row counts as carried.
 //! Rapier's simplified friction keeps no friction impulse of a blow; with several partners at once it is estimated by
@@ -75,6 +80,7 @@ mod judge;
 mod mass;
 mod motion;
 mod motions;
+mod pieces;
 mod pushes;
 mod replace;
 mod rest;
@@ -91,7 +97,7 @@ mod toll;
 mod world;
 
 pub use collider::collision_shape;
-pub use config::{Breaking, ColliderDetail, WorldConfig};
+pub use config::{Breaking, ColliderDetail, PieceConfig, WorldConfig};
 pub use counts::LoadCounts;
 pub use error::WorldError;
 pub use event::{BreakCause, BreakEvent, HeldEvent};

@@ -145,7 +145,7 @@ impl BreakableWorld {
             if !(rigid.is_dynamic() || body.asset().is_supported()) {
                 continue;
             }
-            let (surface, positions) = (&body.asset().surface, &body.asset().fracture.positions);
+            let (surface, positions) = (&body.asset().surface, body.asset().surface_positions());
             let whole = kick_on(positions, &surface.triangles, &at(Vec3::ZERO));
             let outcome = frangible::blast(body, &at(Vec3::ZERO), &self.config.fracture);
             let done = outcome.map_err(WorldError::from).and_then(|outcome| {
@@ -229,8 +229,8 @@ impl BreakableWorld {
                 state,
             } => {
                 let state = state.map(|s| *s);
-                if let (Some(body), Some(state)) = (self.breakables.get_mut(&key(handle)), &state) {
-                    body.set_state(state.clone())?;
+                if let Some(state) = &state {
+                    self.crack(handle, state)?;
                 }
                 if self.config.record_held {
                     self.held.push(HeldEvent {

@@ -298,10 +298,7 @@ impl BreakableWorld {
                     if self.config.record_held {
                         self.held.push(event);
                     }
-                    if let Some(body) = self.breakables.get_mut(&key(handle)) {
-                        body.set_state(*state)?;
-                    }
-                    return Ok(());
+                    return self.crack(handle, &state);
                 }
             }
             Ok(outcome) => {

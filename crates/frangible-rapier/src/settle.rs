@@ -68,6 +68,7 @@ impl BreakableWorld {
                 self.dust.push_back((handle, now));
             }
         }
+        self.expect_pieces(&body, broken);
         Some(body)
     }
 

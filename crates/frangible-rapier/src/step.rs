@@ -4,12 +4,12 @@
 //! impact is put to the fracture. If a body broke: back to the copy, fragments in its place with the velocities
 //! from before the impact, and the step is taken again, so that the striker meets fragments instead of a body
 //! that is gone. Several bodies may break in a step; a body that is only hit in the repeated step is asked then,
-//! up to [`MAX_REPEATS`] times. Fragments are not asked: they do not break again yet. What bodies carry is asked after
+//! up to [`MAX_REPEATS`] times. Fragments are not asked in the step of their birth (`pieces.rs`). What bodies carry is asked after
 //! every step (`resting.rs`); blasts and scripted blows come before it (`pushes.rs`).
 
 use std::collections::BTreeMap;
 
-use frangible::{Fracture, Outcome};
+use frangible::{BodyState, Fracture, Outcome};
 use rapier3d::dynamics::{RigidBodyHandle, RigidBodySet};
 
 use crate::approach::candidates;
@@ -62,6 +62,7 @@ impl BreakableWorld {
         self.siblings.step = self.steps;
         self.siblings.relaxation =
             self.config.overlap_relaxation * self.physics.integration_parameters.dt;
+        self.join_pieces();
         let pushed = self.apply_pushes();
         self.timings.upkeep += watch.lap();
         let done = match self.config.breaking {
@@ -118,11 +119,11 @@ impl BreakableWorld {
 
     /// Bodies that held keep the cracks they got.
     fn keep_cracks(&mut self, mut asked: Asked) -> Result<(), WorldError> {
-        for (body, (_, event)) in &asked.held {
-            if let (Some(body), Some(state)) = (self.breakables.get_mut(body), &event.state)
-                && let Err(error) = body.set_state(state.clone())
+        for (_, event) in asked.held.values() {
+            if let Some(state) = &event.state
+                && let Err(error) = self.crack(event.body, state)
             {
-                asked.error.get_or_insert(error.into());
+                asked.error.get_or_insert(error);
             }
         }
         if asked.held.values().any(|(_, event)| event.state.is_some()) {
@@ -133,6 +134,19 @@ impl BreakableWorld {
                 .extend(asked.held.into_values().map(|(_, event)| event));
         }
         asked.error.map_or(Ok(()), Err)
+    }
+
+    /// Gives a body the cracks that a blow or load left.
+    pub(crate) fn crack(
+        &mut self,
+        handle: RigidBodyHandle,
+        state: &BodyState,
+    ) -> Result<(), WorldError> {
+        if let Some(body) = self.breakables.get_mut(&key(handle)) {
+            body.set_state(state.clone())?;
+            self.expect_weaker(handle);
+        }
+        Ok(())
     }
 
     /// Breakable bodies that may be hit in the coming step, or break under what they carry; in the order of handles.
@@ -163,7 +177,9 @@ impl BreakableWorld {
     pub(crate) fn guarded_centres(&self) -> Centres {
         centres(
             &self.physics,
-            self.siblings.fragments().chain(self.breakables()),
+            (self.siblings.fragments())
+                .filter(|&h| self.breakable(h).is_none())
+                .chain(self.breakables()),
         )
     }
 

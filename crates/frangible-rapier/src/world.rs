@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, VecDeque};
 
 use frangible::glam::Vec3;
+use frangible::piece::PieceModel;
 use frangible::{Asset, Body, Contact, Force, FractureConfig, InputError, Outcome};
 use rapier3d::dynamics::RigidBodyHandle;
 use rapier3d::geometry::{ColliderHandle, SharedShape};
@@ -18,6 +19,7 @@ use crate::event::{BreakEvent, HeldEvent};
 use crate::floor::FloorDispatcher;
 use crate::judge::Case;
 use crate::motions::Motions;
+use crate::pieces::Expected;
 use crate::pushes::Push;
 use crate::rest::Places;
 use crate::resting::Burden;
@@ -86,6 +88,9 @@ pub struct BreakableWorld {
     pub(crate) waiting: VecDeque<Waiting>,
     pub(crate) cases: VecDeque<Case>,
     pub(crate) jury: Option<Option<ThreadPool>>,
+    pub(crate) piece_model: Option<Arc<dyn PieceModel>>,
+    /// In the order in which they are due.
+    pub(crate) expected: VecDeque<Expected>,
     pub(crate) motions: Motions,
     /// Whether blows are judged by the fracture itself, whose quick bound then clears most of them.
     pub(crate) clears_quickly: bool,
@@ -141,6 +146,8 @@ impl BreakableWorld {
             waiting: VecDeque::new(),
             cases: VecDeque::new(),
             jury: None,
+            piece_model: None,
+            expected: VecDeque::new(),
             motions: Motions::default(),
             clears_quickly: true,
             weighs_quickly: true,

@@ -16,8 +16,7 @@ use frangible::{Asset, Body, Contact, FractureConfig, TetMesh, impact_traced};
 fn turned(asset: &Asset, q: Quat) -> Asset {
     let all = |points: &[Vec3]| -> Vec<Vec3> { points.iter().map(|&p| q * p).collect() };
     let mut new = asset.clone();
-    new.fracture =
-        TetMesh::new(all(&asset.fracture.positions), asset.fracture.tets.clone()).into();
+    new.fracture = TetMesh::new(all(&asset.fracture.positions), asset.fracture.tets.clone()).into();
     let gradients = asset.analysis.barycentric_gradients.iter();
     new.analysis = AnalysisMesh {
         nodes: all(&asset.analysis.nodes),

@@ -186,7 +186,9 @@ pub(crate) fn weight(asset: &Asset) -> Vec<Vec3> {
         return Vec::new();
     }
     let mut mass_of_node = vec![0.0_f32; asset.analysis.nodes.len()];
-    let masses = asset.tets().map(|tet| asset.material.density * asset.fracture.volume(tet));
+    let masses = asset
+        .tets()
+        .map(|tet| asset.material.density * asset.fracture.volume(tet));
     let scale = match asset.portion {
         Some(_) => asset.mass.mass / masses.clone().sum::<f64>(),
         None => 1.0,
@@ -249,6 +251,11 @@ impl Body {
     #[must_use]
     pub fn generation(&self) -> u32 {
         self.asset.portion.as_ref().map_or(0, |p| p.generation())
+    }
+
+    /// Works out what its first steady load would ask for, so that this does not have to wait for it.
+    pub fn prepare_for_loads(&self) {
+        crate::loads::prepare(self);
     }
 
     /// Its centre of mass in the frame of the fracture mesh, m: zero but for pieces.

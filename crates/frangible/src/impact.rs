@@ -10,8 +10,8 @@ use crate::crack::{CrackSystem, Culling, Peak, StressField, Suspects, crack, fro
 use crate::error::InputError;
 use crate::fragment::{self, Built, Labels};
 use crate::modal::Motion;
-use crate::piece::{Breakup, static_impact};
 use crate::outcome::{Fracture, ImpactReport, LookedAt, Outcome};
+use crate::piece::{Breakup, static_impact};
 use crate::stages::Vibration;
 use crate::state::BodyState;
 use crate::stress::{BATCH, DisplacementBatch, Elasticity, MARGIN, STRIDE, lane};

@@ -116,7 +116,10 @@ fn an_asset_comes_back_bit_for_bit() {
 #[test]
 fn a_rebuilt_adjacency_is_the_stored_one() {
     let asset = Asset::from_bytes(&tiny().to_bytes()).unwrap();
-    let rebuilt = frangible::TetMesh::new(asset.fracture.positions.clone(), asset.fracture.tets.clone());
+    let rebuilt = frangible::TetMesh::new(
+        asset.fracture.positions.clone(),
+        asset.fracture.tets.clone(),
+    );
     assert_eq!(rebuilt.neighbours, asset.fracture.neighbours);
 }
 
@@ -480,10 +483,7 @@ fn arrays_that_do_not_fit_are_refused() {
             "node 4 is not finite",
         ),
         (|a| mesh(a).neighbours.truncate(5), "neighbour row"),
-        (
-            |a| mesh(a).neighbours.swap(0, 1),
-            "do not name each other",
-        ),
+        (|a| mesh(a).neighbours.swap(0, 1), "do not name each other"),
         (
             |a| mesh(a).neighbours[0] = [0; 4],
             "tetrahedra 0 and 0 do not name each other",

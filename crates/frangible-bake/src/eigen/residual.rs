@@ -70,13 +70,8 @@ pub(crate) fn check(
             let (mut residual, mut limit) = (residuals[i], wanted);
             if residual.is_nan() || residual > wanted {
                 // The limit that rounding allows, one mode at a time: rare but on thin plates.
-                (residual, limit) = residual_of(
-                    system,
-                    reduction,
-                    eigenvalue,
-                    modes.shape(mode),
-                    wanted,
-                );
+                (residual, limit) =
+                    residual_of(system, reduction, eigenvalue, modes.shape(mode), wanted);
             }
             if residual.is_nan() || residual > limit {
                 return Err(BakeError::Residual {

@@ -89,11 +89,11 @@ impl Stature {
             second += squares * (v / (20.0 * volume));
         }
         let matrix = faer::Mat::from_fn(3, 3, |i, j| second.col(j)[i]);
-        let eigen = matrix
-            .self_adjoint_eigen(faer::Side::Lower)
-            .map_err(|e| PieceError::Factorization {
+        let eigen = matrix.self_adjoint_eigen(faer::Side::Lower).map_err(|e| {
+            PieceError::Factorization {
                 reason: format!("{e:?}"),
-            })?;
+            }
+        })?;
         let value = |k: usize| eigen.S().column_vector()[k].max(f64::MIN_POSITIVE);
         let vector = |k: usize| DVec3::from_array([0, 1, 2].map(|i| eigen.U()[(i, k)]));
         let (long, middle) = (vector(2), vector(1));

@@ -27,7 +27,12 @@ impl<'a> Finisher<'a> {
     }
 
     /// `label`: of the draft's nodes.
-    pub(super) fn finish(&mut self, draft: Draft, labels: &Labels, label: u32) -> (Fragment, Trace) {
+    pub(super) fn finish(
+        &mut self,
+        draft: Draft,
+        labels: &Labels,
+        label: u32,
+    ) -> (Fragment, Trace) {
         let outer_triangles = draft.outer.len();
         let mut triangles = draft.outer;
         triangles.extend_from_slice(&draft.inner);

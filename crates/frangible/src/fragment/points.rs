@@ -200,7 +200,9 @@ impl<'a> PointTable<'a> {
         let ([a, b], [c, d]) = (pair(false)?, pair(true)?);
         let edge = |v: u32, w: u32| Point::Edge(v.min(w), v.max(w));
         let diagonals = [[edge(a, c), edge(b, d)], [edge(a, d), edge(b, c)]];
-        let split = diagonals.into_iter().min_by_key(|ends| ends[0].min(ends[1]));
+        let split = diagonals
+            .into_iter()
+            .min_by_key(|ends| ends[0].min(ends[1]));
         split.map(|ends| ends.map(|end| self.position(end)).iter().sum::<DVec3>() / 2.0)
     }
 

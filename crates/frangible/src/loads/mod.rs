@@ -10,4 +10,5 @@ pub use blast::{Blast, blast};
 pub use rest::{Force, rest};
 pub use scripted::fracture_at;
 pub(crate) use sum::PerNewton;
+pub(crate) use sum::prepare;
 pub use sum::rest_margin_at_least;

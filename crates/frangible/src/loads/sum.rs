@@ -62,6 +62,13 @@ impl PerNewton {
     }
 }
 
+/// Makes the number that [`rest_margin_at_least`] multiplies with.
+pub(crate) fn prepare(body: &Body) {
+    if body.statics.is_none() {
+        body.prepared.per_newton.get_or_init(|| PerNewton::of(body));
+    }
+}
+
 /// How many times as much a body could carry, at least, of forces whose sizes (N) add up to `total`, wherever they act, and
 /// of `gravity` (m/s²) when it is held: strength over a bound of the stress. Far below what [`rest`](super::rest) finds, but for a
 /// handful of multiplications: above 1, nothing happens.

@@ -57,7 +57,9 @@ impl Body {
             problem: format!("the elastic body of a piece {problem}"),
         };
         if elastic.tets.len() != tets.len() || elastic.nodes.len() != nodes.len() {
-            return Err(misfit("does not have one point for each tetrahedron and node"));
+            return Err(misfit(
+                "does not have one point for each tetrahedron and node",
+            ));
         }
         let elements = elastic.analysis.elements.len();
         let points = || elastic.tets.iter().chain(&elastic.nodes);

@@ -77,13 +77,7 @@ impl Portion {
         portion
     }
 
-    fn new(
-        body: &Body,
-        breakup: &Breakup,
-        lists: Lists,
-        trace: Trace,
-        generation: u32,
-    ) -> Self {
+    fn new(body: &Body, breakup: &Breakup, lists: Lists, trace: Trace, generation: u32) -> Self {
         let root = match &body.asset.portion {
             Some(portion) => Arc::clone(&portion.root),
             None => Arc::clone(&body.asset),
@@ -340,14 +334,7 @@ impl Lists {
     }
 
     /// Fills in what follows from nodes and tetrahedra.
-    fn complete(
-        &mut self,
-        body: &Body,
-        breakup: &Breakup,
-        places: &[u32],
-        own: u32,
-        base: u32,
-    ) {
+    fn complete(&mut self, body: &Body, breakup: &Breakup, places: &[u32], own: u32, base: u32) {
         let mesh = &body.asset.fracture;
         let label = |v: u32| breakup.of_node[v as usize];
         let mut numbers: Vec<u32> = Vec::new();
@@ -381,7 +368,9 @@ impl Lists {
         };
         let cuts = numbers.iter().map(|&n| breakup.cuts.list()[n as usize]);
         self.cuts = cuts.filter(keep).collect();
-        self.remember(breakup, |tet| mesh.tets[tet as usize].map(label).contains(&own));
+        self.remember(breakup, |tet| {
+            mesh.tets[tet as usize].map(label).contains(&own)
+        });
     }
 
     /// Crumbs that joined this piece are joined to it for good: the cuts between them and the rest, which are none any more.

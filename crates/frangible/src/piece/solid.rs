@@ -53,7 +53,12 @@ impl Portion {
         let mesh = &self.root.fracture;
         let cuts = Cuts::of_list(self.cuts(), mesh.positions.len());
         let mut table = PointTable::new(mesh, &cuts, Some(self));
-        let mut cut: Vec<u32> = self.cracked().iter().chain(self.divided()).copied().collect();
+        let mut cut: Vec<u32> = self
+            .cracked()
+            .iter()
+            .chain(self.divided())
+            .copied()
+            .collect();
         cut.sort_unstable();
         let mut parts = Vec::new();
         for e in cut {
@@ -145,8 +150,7 @@ impl Portion {
                     continue;
                 }
                 let back = mesh.neighbours[n as usize].iter().position(|&m| m == e);
-                let (Some(back), tet, other) =
-                    (back, mesh.tets[e as usize], mesh.tets[n as usize])
+                let (Some(back), tet, other) = (back, mesh.tets[e as usize], mesh.tets[n as usize])
                 else {
                     continue;
                 };
@@ -154,9 +158,12 @@ impl Portion {
                 for (corners, here) in touching(e, side) {
                     for (corners_there, there) in &there {
                         let shared = (0..4).filter(|&k| k != side && corners >> k & 1 == 1);
-                        let mut shared = shared.filter_map(|k| other.iter().position(|&v| v == tet[k]));
+                        let mut shared =
+                            shared.filter_map(|k| other.iter().position(|&v| v == tet[k]));
                         if shared.any(|k| corners_there >> k & 1 == 1) {
-                            let pairs = here.iter().flat_map(|&a| there.iter().map(move |&b| [a, b]));
+                            let pairs = here
+                                .iter()
+                                .flat_map(|&a| there.iter().map(move |&b| [a, b]));
                             solid.joined.extend(pairs);
                         }
                     }

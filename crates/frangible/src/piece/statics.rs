@@ -74,7 +74,12 @@ pub(crate) fn static_load(
     trace: &mut Option<CrackTrace>,
 ) -> Outcome {
     let displacement = statics.displacement(forces);
-    let energy = 0.5 * forces.iter().zip(&displacement).map(|(f, u)| f * u).sum::<f64>();
+    let energy = 0.5
+        * forces
+            .iter()
+            .zip(&displacement)
+            .map(|(f, u)| f * u)
+            .sum::<f64>();
     report.looked_at = LookedAt::Amplitudes;
     report.peak_elastic_energy = energy;
     report.peak_strain_energy = energy;

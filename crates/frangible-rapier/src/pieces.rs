@@ -1,0 +1,153 @@
+//! Fragments that break again: how they vibrate is found on other threads, and joined at a fixed step.
+//!
+//! A newborn fragment is a plain body: the blow that runs through it is the one that has just made it. From
+//! [`PieceConfig::delay`] on it is breakable with what the model has at once, from [`PieceConfig::later`] on with what takes
+//! longer. What is not ready then is waited for, so that nothing hangs on the speed of the machine.
+
+use std::sync::mpsc::{Receiver, channel};
+use std::sync::{Arc, Mutex, PoisonError};
+
+use frangible::piece::{Elastic, PieceModel, Portion};
+use frangible::{Body, BodyState};
+use rapier3d::dynamics::RigidBodyHandle;
+
+use crate::config::PieceConfig;
+use crate::settle::Broken;
+use crate::world::{BreakableWorld, key};
+
+/// A body that is being made.
+pub(crate) struct Expected {
+    handle: RigidBodyHandle,
+    /// Step at whose beginning it joins the world.
+    due: u64,
+    /// Of a body that is there already and had these cracks: it is replaced only if it still has them.
+    cracks: Option<BodyState>,
+    body: Mutex<Receiver<Option<Body>>>,
+}
+
+impl BreakableWorld {
+    /// Lets fragments break again, as [`WorldConfig::pieces`](crate::WorldConfig::pieces) says: `model` finds how they
+    /// vibrate. `None`: they do not, which is how a world begins.
+    pub fn set_piece_model(&mut self, model: Option<Arc<dyn PieceModel>>) {
+        self.piece_model = model;
+    }
+
+    /// Bodies that are being made breakable, or better: fragments just born.
+    pub fn expected_pieces(&self) -> impl Iterator<Item = RigidBodyHandle> {
+        self.expected.iter().map(|expected| expected.handle)
+    }
+
+    /// Has the fragments of a body that broke made breakable.
+    pub(crate) fn expect_pieces(&mut self, body: &Body, broken: &Broken) {
+        let Some(model) = self.piece_model.clone() else {
+            return;
+        };
+        let limits = self.config.pieces.clone();
+        if body.generation() >= limits.generations {
+            return;
+        }
+        let heavy = |_: usize, fragment: &frangible::Fragment| {
+            fragment.mass.mass >= f64::from(limits.least_mass)
+        };
+        let portions = broken.fracture.portions(body, heavy);
+        for (&handle, portion) in broken.fragments.iter().zip(portions) {
+            let large = |p: &Arc<Portion>| p.tets().len() >= limits.least_tets;
+            let Some(portion) = portion.filter(large) else {
+                continue;
+            };
+            let (at_once, later) = (Arc::clone(&model), Arc::clone(&model));
+            let (parent, whole) = (body.clone(), Arc::clone(&portion));
+            self.expect(handle, limits.delay, None, move || {
+                made(&parent, &whole, at_once.at_once(&whole, &parent))
+            });
+            let parent = body.clone();
+            self.expect(handle, limits.later, None, move || {
+                made(&parent, &portion, later.later(&portion))
+            });
+        }
+    }
+
+    /// Has new modes found for a body that is cracked but whole.
+    pub(crate) fn expect_weaker(&mut self, handle: RigidBodyHandle) {
+        let (Some(model), Some(body)) = (
+            self.piece_model
+                .clone()
+                .filter(|_| self.config.pieces.cracked),
+            self.breakables.get(&key(handle)).cloned(),
+        ) else {
+            return;
+        };
+        let (cracks, crumbs) = (body.state().clone(), self.config.fracture.crumb_share);
+        self.expect(handle, self.config.pieces.later, Some(cracks), move || {
+            let portion = Arc::new(Portion::of_cracked(&body, crumbs));
+            let elastic = model.later(&portion);
+            let elastic = elastic.or_else(|| model.at_once(&portion, &body));
+            made(&body, &portion, elastic)
+        });
+    }
+
+    /// Has a body made on another thread; it joins the world `delay` seconds from now.
+    fn expect(
+        &mut self,
+        handle: RigidBodyHandle,
+        delay: f32,
+        cracks: Option<BodyState>,
+        make: impl FnOnce() -> Option<Body> + Send + 'static,
+    ) {
+        let (sender, body) = channel();
+        let work = move || {
+            // Nobody hears it when the world is gone.
+            let _ = sender.send(make());
+        };
+        let steps = (delay / self.physics.integration_parameters.dt).ceil();
+        let due = self.steps + (steps as u64).max(PieceConfig::SOONEST);
+        match self.jury() {
+            Some(pool) => pool.spawn_fifo(work),
+            None => work(),
+        }
+        let body = Mutex::new(body);
+        let after = self.expected.partition_point(|e| e.due <= due);
+        let expected = Expected {
+            handle,
+            due,
+            cracks,
+            body,
+        };
+        self.expected.insert(after, expected);
+    }
+
+    /// Lets those join that are due. Waits for those that are not ready.
+    pub(crate) fn join_pieces(&mut self) {
+        while let Some(expected) = self.expected.pop_front_if(|e| e.due <= self.steps) {
+            let handle = expected.handle;
+            if !self.physics.bodies.contains(handle) {
+                continue;
+            }
+            let made = expected.body.lock().unwrap_or_else(PoisonError::into_inner);
+            let Ok(Some(mut body)) = made.recv() else {
+                continue;
+            };
+            let now = self.breakables.get(&key(handle));
+            let joins = match (&expected.cracks, now) {
+                // Gone, or cracked further meanwhile: then another one is on its way.
+                (Some(cracks), now) => now.is_some_and(|now| now.state() == cracks),
+                (None, None) => true,
+                (None, Some(now)) => body.set_state(now.state().clone()).is_ok(),
+            };
+            if joins {
+                self.breakables.insert(key(handle), body);
+                self.weigh_anew();
+            }
+        }
+    }
+}
+
+/// A body of its own, with what its first steady load would have to find out.
+fn made(parent: &Body, portion: &Arc<Portion>, elastic: Option<Elastic>) -> Option<Body> {
+    let body = parent.piece(portion, elastic?);
+    let body = body
+        .inspect_err(|e| log::warn!("a piece does not break again: {e}"))
+        .ok()?;
+    body.prepare_for_loads();
+    Some(body)
+}
