@@ -112,6 +112,7 @@ impl BreakableWorld {
         if self.config.rest_drift > 0.0 {
             self.places.rest(&mut self.physics, self.config.rest_drift);
         }
+        self.part_mortar();
         self.limit_debris(self.config.max_debris);
         self.settle_dust();
         self.timings.upkeep += watch.lap();
@@ -160,6 +161,15 @@ impl BreakableWorld {
                 near.sort_by_key(|&h| key(h));
             }
         }
+        near
+    }
+
+    /// Whether a breakable body may be hit hard enough to be looked at, or gives way to what it carries, within so many
+    /// seconds: before that, steps may be coarse.
+    pub fn may_break_within(&mut self, seconds: f32) -> bool {
+        let dt = std::mem::replace(&mut self.physics.integration_parameters.dt, seconds);
+        let near = !self.near().is_empty();
+        self.physics.integration_parameters.dt = dt;
         near
     }
 

@@ -24,6 +24,9 @@ const MAX_SPEED: f64 = 300.0;
 /// Most bodies, and most projectiles, of a scene.
 const MOST_ITEMS: usize = 100;
 
+/// Most generations of pieces that break again.
+const MOST_GENERATIONS: u32 = 20;
+
 /// Most tetrahedra of a fracture mesh.
 pub(crate) const MOST_TETS: usize = 2_000_000;
 
@@ -119,6 +122,26 @@ impl Scene {
                 .map_err(|fault| fault.of("projectile", i))?;
         }
         check_fracture(&self.fracture)?;
+        if self.pieces.generations > MOST_GENERATIONS {
+            let (key, what) = ("pieces.generations", "the number of generations");
+            return Err(quantity(key, what, self.pieces.generations, "0 to 20"));
+        }
+        if !(self.pieces.least_mass.is_finite() && self.pieces.least_mass >= 0.0) {
+            let (key, what) = ("pieces.least_mass", "the least mass of a piece");
+            let must = "0 kg or above";
+            return Err(quantity(key, what, self.pieces.least_mass, must));
+        }
+        if let Some(strength) = self.mortar {
+            let must = "above 0 and at most 1e9 Pa";
+            range(
+                "mortar",
+                "the strength of the mortar",
+                strength,
+                0.0,
+                1e9,
+                must,
+            )?;
+        }
         check_output(&self.output, &self.name)
     }
 }

@@ -15,6 +15,7 @@
 mod appearance;
 mod bake;
 mod body;
+mod bonds;
 mod builtin;
 mod check;
 mod error;
@@ -44,7 +45,7 @@ pub use projectile::{Projectile, ProjectileKind};
 pub use rescale::{MaterialEdit, Rescale};
 pub use result::{BreakRecord, HeldRecord, Run};
 pub use run::play;
-pub use scene::Scene;
+pub use scene::{PieceSpec, Scene};
 pub use source::{
     Axis, BodySource, FileKind, Opened, axes_of, compacted, open_source, save_asset,
     save_compact_asset,

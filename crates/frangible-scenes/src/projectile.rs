@@ -21,6 +21,10 @@ pub struct Projectile {
     pub at: Vec3,
     /// Direction of flight, any length.
     pub toward: Vec3,
+    /// When it sets out, s after the beginning.
+    pub delay: f64,
+    /// How long it stays after that, s: a hammer is lifted again. `None`: to the end.
+    pub stays: Option<f64>,
 }
 
 /// Form of a projectile.
@@ -62,6 +66,8 @@ impl Projectile {
             target: 0,
             at: Vec3::ZERO,
             toward: Vec3::NEG_Z,
+            delay: 0.0,
+            stays: None,
         }
     }
 

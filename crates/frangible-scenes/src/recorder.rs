@@ -95,8 +95,14 @@ impl Recorder {
         });
     }
 
-    /// Puts the pieces in the place of their parent, the body of this name.
-    pub(crate) fn broke(&mut self, name: &str, event: &BreakEvent, surfaces: &BodySurfaces) {
+    /// Puts the pieces in the place of their parent, which has this name and comes from so many breaks.
+    pub(crate) fn broke(
+        &mut self,
+        name: &str,
+        generation: u32,
+        event: &BreakEvent,
+        surfaces: &BodySurfaces,
+    ) {
         self.break_frame.get_or_insert(self.recording.frame_count);
         for (i, (fragment, &body)) in event
             .fracture
@@ -105,7 +111,7 @@ impl Recorder {
             .zip(&event.fragments)
             .enumerate()
         {
-            let name = format!("{name} piece {}", i + 1);
+            let name = piece_name(name, generation, i);
             let mesh = piece(name.clone(), fragment, surfaces);
             let extras = vec![
                 ("mass_kg".into(), fragment.mass.mass),
@@ -155,6 +161,14 @@ impl Recorder {
         };
         (recording.camera, recording.rest_camera) = cameras(recording, &self.roles, look_from);
         self.recording
+    }
+}
+
+/// Name of a piece of what has this name and comes from so many breaks: `plate piece 3`, and of that `plate piece 3.1`.
+pub(crate) fn piece_name(parent: &str, generation: u32, i: usize) -> String {
+    match generation {
+        0 => format!("{parent} piece {}", i + 1),
+        _ => format!("{parent}.{}", i + 1),
     }
 }
 

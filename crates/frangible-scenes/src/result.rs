@@ -37,6 +37,8 @@ pub struct HeldRecord {
 pub struct BreakRecord {
     /// Number of the body, from 0.
     pub body: usize,
+    /// 0 where it was the body itself that broke, 1 for a piece of it, 2 for a piece of that.
+    pub generation: u32,
     /// Simulated time, s.
     pub time: f64,
     /// The contacts, body frame.

@@ -1,17 +1,17 @@
 //! Lets a scene happen, and records it.
 
+use std::collections::BTreeMap;
 use std::time::Instant;
 
 use frangible_export::{Floor, Recording};
-use frangible_rapier::rapier3d::dynamics::RigidBodyHandle;
 use frangible_rapier::{BreakableWorld, HeldEvent};
 
 use crate::bake::BakedBody;
 use crate::error::SceneError;
-use crate::recorder::FRAME_RATE;
+use crate::recorder::{FRAME_RATE, piece_name};
 use crate::result::{BreakRecord, HeldRecord, Run};
 use crate::scene::Scene;
-use crate::stage::{Stage, set_up};
+use crate::stage::{Placed, Stage, Thrown, set_up};
 
 /// Physics steps per recorded frame while nothing is about to break.
 const STEPS_PER_FRAME: usize = 4;
@@ -40,13 +40,12 @@ pub fn play(
 ) -> Result<Run, SceneError> {
     scene.validate()?;
     let clock = Instant::now();
-    let Stage {
-        mut world,
-        mut recorder,
-        bodies,
-        projectiles,
-    } = set_up(scene, baked)?;
-    let number = |handle| bodies.iter().position(|body| body.handle == handle);
+    let mut stage = set_up(scene, baked)?;
+    // Number and name of every breakable body, and of the pieces that broke off it.
+    let mut known: BTreeMap<(u32, u32), (usize, String)> = BTreeMap::new();
+    for (i, body) in stage.bodies.iter().enumerate() {
+        known.insert(body.handle.into_raw_parts(), (i, body.spec.name.clone()));
+    }
     let mut run = Run {
         recording: Recording::default(),
         breaks: Vec::new(),
@@ -57,34 +56,48 @@ pub fn play(
     };
     let frames = (scene.duration * f64::from(FRAME_RATE)).ceil() as usize;
     let mut rest_frames = 0;
-    recorder.frame(&world);
+    stage.recorder.frame(&stage.world);
     let mut fine_until = 0;
     for frame in 1..=frames {
-        let whole_ones = world.breakables().next().is_some();
-        let steps = if whole_ones || frame <= fine_until {
+        stage.throw(scene, run.simulated)?;
+        let steps = if is_fine(&mut stage) || frame <= fine_until {
             FINE_STEPS_PER_FRAME
         } else {
             STEPS_PER_FRAME
         };
+        let Stage {
+            world,
+            recorder,
+            bodies,
+            projectiles,
+        } = &mut stage;
         let dt = 1.0 / (FRAME_RATE * steps as f32);
         world.physics.integration_parameters.dt = dt;
         for _ in 0..steps {
             run.simulated += f64::from(dt);
             world.step()?;
             for held in world.held() {
-                if let Some(body) = number(held.body) {
-                    keep_hardest(&mut run.held, body, held);
+                if let Some((body, _)) = known.get(&held.body.into_raw_parts())
+                    && bodies[*body].handle == held.body
+                {
+                    keep_hardest(&mut run.held, *body, held);
                 }
             }
             for event in world.breaks() {
                 fine_until = frame + FINE_FRAMES;
-                let Some(body) = number(event.parent) else {
+                let Some((body, name)) = known.remove(&event.parent.into_raw_parts()) else {
                     continue;
                 };
-                recorder.broke(&bodies[body].spec.name, event, &bodies[body].surfaces);
+                let generation = event.asset.portion.as_ref().map_or(0, |p| p.generation());
+                recorder.broke(&name, generation, event, &bodies[body].surfaces);
+                for (i, handle) in event.fragments.iter().enumerate() {
+                    let name = piece_name(&name, generation, i);
+                    known.insert(handle.into_raw_parts(), (body, name));
+                }
                 let fragments = &event.fracture.fragments;
                 run.breaks.push(BreakRecord {
                     body,
+                    generation,
                     time: run.simulated,
                     contacts: event.contacts.clone(),
                     report: event.fracture.report.clone(),
@@ -101,21 +114,21 @@ pub fn play(
         for (_, body) in world.physics.bodies.iter_mut() {
             body.set_angular_damping(ROLLING);
         }
-        recorder.frame(&world);
+        recorder.frame(world);
         progress(frame as f64 / frames as f64);
-        rest_frames = if at_rest(&world, &projectiles) {
+        rest_frames = if at_rest(world, projectiles) {
             rest_frames + 1
         } else {
             0
         };
-        if rest_frames as f32 > REST * FRAME_RATE {
+        if rest_frames as f32 > REST * FRAME_RATE && stage.all_thrown() {
             break;
         }
     }
     run.held.sort_by_key(|held| held.body);
-    run.at_rest = at_rest(&world, &projectiles);
+    run.at_rest = at_rest(&stage.world, &stage.projectiles);
     let floor = scene.floor.as_ref().map(|_| Floor::default());
-    run.recording = recorder.finish(scene.look_from, floor);
+    run.recording = stage.recorder.finish(scene.look_from, floor);
     let reports = run.breaks.iter().map(|b| &b.report);
     let fractured: f64 = reports.map(|r| r.timings.total()).sum();
     run.rigid_seconds = clock.elapsed().as_secs_f64() - fractured;
@@ -137,8 +150,21 @@ fn keep_hardest(all: &mut Vec<HeldRecord>, body: usize, event: &HeldEvent) {
 }
 
 /// Whether all but projectiles sleep: a ball on a level floor rolls for tens of seconds.
-fn at_rest(world: &BreakableWorld, projectiles: &[RigidBodyHandle]) -> bool {
+fn at_rest(world: &BreakableWorld, projectiles: &[Thrown]) -> bool {
     world.physics.bodies.iter().all(|(handle, body)| {
-        projectiles.contains(&handle) || !body.is_dynamic() || body.is_sleeping()
+        let thrown = projectiles.iter().any(|t| t.handle == Some(handle));
+        thrown || !body.is_dynamic() || body.is_sleeping()
     })
+}
+
+/// Whether the coming frame wants fine steps: a body that has not broken yet is there, or a piece may break.
+fn is_fine(stage: &mut Stage<'_>) -> bool {
+    let world = &mut stage.world;
+    let whole = |body: &Placed<'_>| world.breakable(body.handle).is_some();
+    let waits = stage.bodies.len() == 1 && stage.bodies.iter().any(whole);
+    waits || {
+        // Of many bodies some may stay whole to the end.
+        world.physics.integration_parameters.dt = 1.0 / (FRAME_RATE * STEPS_PER_FRAME as f32);
+        world.may_break_within(1.0 / FRAME_RATE)
+    }
 }

@@ -2,6 +2,7 @@
 
 use frangible::FractureConfig;
 use frangible::glam::Vec3;
+use frangible_pieces::Method;
 
 use crate::body::BodySpec;
 use crate::output::Output;
@@ -24,12 +25,37 @@ pub struct Scene {
     pub seed: u64,
     /// Switches and numbers of the fracture.
     pub fracture: FractureConfig,
+    /// Which pieces break again.
+    pub pieces: PieceSpec,
+    /// What bonds bodies whose faces touch, if anything does: tensile strength of the mortar, Pa.
+    pub mortar: Option<f64>,
     /// Longest simulated time, s; the scene ends sooner when everything rests.
     pub duration: f64,
     /// Direction from what is looked at towards the camera.
     pub look_from: Vec3,
     /// Files it asks for.
     pub output: Output,
+}
+
+/// Which pieces break again, and how they are found to vibrate.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PieceSpec {
+    /// Pieces of pieces up to so many breaks can break again; 0: none.
+    pub generations: u32,
+    /// Lighter ones cannot, kg.
+    pub least_mass: f64,
+    /// How they are found to vibrate.
+    pub method: Method,
+}
+
+impl Default for PieceSpec {
+    fn default() -> Self {
+        Self {
+            generations: 0,
+            least_mass: 2e-3,
+            method: Method::Auto,
+        }
+    }
 }
 
 impl Scene {
@@ -44,6 +70,8 @@ impl Scene {
             floor: Some("stone".into()),
             seed: 1,
             fracture: FractureConfig::default(),
+            pieces: PieceSpec::default(),
+            mortar: None,
             duration: 8.0,
             look_from: Vec3::new(0.55, 0.5, 1.0),
             output: Output::default(),

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use frangible::glam::{Quat, Vec3};
 use frangible::{Asset, Breakable, Fields, Material};
+use frangible_pieces::Pieces;
 use frangible_rapier::rapier3d::dynamics::RigidBodyHandle;
 use frangible_rapier::rapier3d::math::{Pose, Rotation, Vector};
 use frangible_rapier::{BreakableWorld, SurfaceProperties, WorldConfig};
@@ -11,6 +12,7 @@ use frangible_rapier::{BreakableWorld, SurfaceProperties, WorldConfig};
 use crate::appearance::{authored_surface, body_surfaces, projectile_surface};
 use crate::bake::BakedBody;
 use crate::body::{BodySpec, Place};
+use crate::bonds::bond;
 use crate::error::SceneError;
 use crate::launch::{Target, launch, vector};
 use crate::meshes::{BodySurfaces, whole};
@@ -26,6 +28,8 @@ pub(crate) struct Placed<'a> {
     pub(crate) handle: RigidBodyHandle,
     pub(crate) target: Target,
     pub(crate) surfaces: BodySurfaces,
+    /// Lowest and highest corner of its box, m, world.
+    pub(crate) bounds: [Vec3; 2],
 }
 
 /// A scene as it stands before the first step.
@@ -33,7 +37,17 @@ pub(crate) struct Stage<'a> {
     pub(crate) world: BreakableWorld,
     pub(crate) recorder: Recorder,
     pub(crate) bodies: Vec<Placed<'a>>,
-    pub(crate) projectiles: Vec<RigidBodyHandle>,
+    pub(crate) projectiles: Vec<Thrown>,
+}
+
+/// A projectile, on its way or not yet.
+pub(crate) struct Thrown {
+    /// Its number in the scene.
+    pub(crate) number: usize,
+    /// None before it sets out.
+    pub(crate) handle: Option<RigidBodyHandle>,
+    /// When it is taken away, s; infinite for never.
+    pub(crate) until: f64,
 }
 
 /// Puts floor, bodies and projectiles in a world, in this order.
@@ -47,6 +61,8 @@ pub(crate) fn set_up<'a>(scene: &'a Scene, baked: &[BakedBody]) -> Result<Stage<
     let mut config = WorldConfig::default();
     config.fracture = scene.fracture.clone();
     config.record_held = true;
+    config.pieces.generations = scene.pieces.generations;
+    config.pieces.least_mass = scene.pieces.least_mass as f32;
     let mut world = BreakableWorld::new(config)?;
     if let Some(floor) = &scene.floor {
         let floor = SurfaceProperties::of(&Material::preset(floor)?, f32::INFINITY);
@@ -66,36 +82,69 @@ pub(crate) fn set_up<'a>(scene: &'a Scene, baked: &[BakedBody]) -> Result<Stage<
             floor,
         )?);
     }
-    let mut projectiles = Vec::with_capacity(scene.projectiles.len());
-    for (i, projectile) in scene.projectiles.iter().enumerate() {
-        let kind = projectile.kind.name();
-        let [surface] = recorder.surfaces([projectile_surface(kind, &projectile.material)]);
-        // Checked by `Scene::validate`.
-        let Some(target) = bodies.get(projectile.target).map(|body| body.target) else {
-            continue;
-        };
-        let (handle, mesh) = launch(
-            &mut world,
-            projectile,
-            target,
-            scene.floor.is_some(),
-            surface,
-        )?;
-        let name = if scene.projectiles.len() == 1 {
-            kind.to_string()
-        } else {
-            format!("{kind} {}", i + 1)
-        };
-        let extras = vec![("mass_kg".into(), projectile.mass)];
-        recorder.track(name, mesh, handle, extras, Role::Projectile);
-        projectiles.push(handle);
+    if let Some(strength) = scene.mortar {
+        bond(&mut world, &bodies, strength)?;
     }
-    Ok(Stage {
+    if scene.pieces.generations > 0 {
+        world.set_piece_model(Some(Arc::new(Pieces::new(scene.pieces.method))));
+    }
+    let numbers = 0..scene.projectiles.len();
+    let mut stage = Stage {
         world,
         recorder,
         bodies,
-        projectiles,
-    })
+        projectiles: numbers
+            .map(|number| Thrown {
+                number,
+                handle: None,
+                until: f64::INFINITY,
+            })
+            .collect(),
+    };
+    stage.throw(scene, 0.0)?;
+    Ok(stage)
+}
+
+impl Stage<'_> {
+    /// Throws the projectiles whose time has come, s, and takes away those whose time is over.
+    pub(crate) fn throw(&mut self, scene: &Scene, now: f64) -> Result<(), SceneError> {
+        for thrown in &mut self.projectiles {
+            let projectile = &scene.projectiles[thrown.number];
+            if let Some(handle) = thrown.handle {
+                if now >= thrown.until {
+                    self.world.physics.remove_body(handle);
+                }
+                continue;
+            }
+            // The target is checked by `Scene::validate`.
+            let (true, Some(body)) = (projectile.delay <= now, self.bodies.get(projectile.target))
+            else {
+                continue;
+            };
+            let kind = projectile.kind.name();
+            let look = projectile_surface(kind, &projectile.material);
+            let [surface] = self.recorder.surfaces([look]);
+            let floor = scene.floor.is_some();
+            let (handle, mesh) =
+                launch(&mut self.world, projectile, body.target, floor, surface)?;
+            let name = if scene.projectiles.len() == 1 {
+                kind.to_string()
+            } else {
+                format!("{kind} {}", thrown.number + 1)
+            };
+            let extras = vec![("mass_kg".into(), projectile.mass)];
+            self.recorder
+                .track(name, mesh, handle, extras, Role::Projectile);
+            thrown.handle = Some(handle);
+            thrown.until = projectile.stays.map_or(f64::INFINITY, |stays| now + stays);
+        }
+        Ok(())
+    }
+
+    /// Whether all projectiles have been thrown.
+    pub(crate) fn all_thrown(&self) -> bool {
+        self.projectiles.iter().all(|t| t.handle.is_some())
+    }
 }
 
 /// Puts a body in the world.
@@ -151,11 +200,16 @@ fn put<'a>(
     let mesh = whole(&spec.name, asset, &surfaces);
     let role = Role::Body(target.reach);
     recorder.track(spec.name.clone(), mesh, handle, extras, role);
+    let corners = asset.fracture.positions.iter().map(|&p| centre + q * p);
+    let (low, high) = corners.fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(low, high), p| {
+        (low.min(p), high.max(p))
+    });
     Ok(Placed {
         spec,
         handle,
         target,
         surfaces,
+        bounds: [low, high],
     })
 }
 

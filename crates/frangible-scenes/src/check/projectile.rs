@@ -53,5 +53,18 @@ pub(super) fn check_projectile(projectile: &Projectile, bodies: usize) -> Result
             "three finite numbers, m",
         ));
     }
+    let within = |key, what, seconds: f64| {
+        if (0.0..=60.0).contains(&seconds) {
+            Ok(())
+        } else {
+            Err(quantity(key, what, seconds, "0 to 60 s"))
+        }
+    };
+    within("delay", "the projectile's delay", projectile.delay)?;
+    within(
+        "stays",
+        "the time the projectile stays",
+        projectile.stays.unwrap_or(0.0),
+    )?;
     direction("toward", "--toward", projectile.toward)
 }

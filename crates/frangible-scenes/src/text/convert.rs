@@ -8,15 +8,16 @@ use frangible::{CrackPath, CrackTiming, DurationModel, FractureConfig, Material,
 use super::body::body;
 use super::either::SwitchOrName;
 use super::schema::{
-    DurationTable, FractureTable, KindName, OutputTable, PathTable, ProjectileTable, SceneTable,
-    TimingTable,
+    DurationTable, FractureTable, KindName, MethodName, OutputTable, PathTable, PiecesTable,
+    ProjectileTable, SceneTable, TimingTable,
 };
 use crate::body::BodySpec;
 use crate::check::Fault;
 use crate::error::SceneError;
 use crate::output::{FileWish, Output};
 use crate::projectile::{Projectile, ProjectileKind};
-use crate::scene::Scene;
+use crate::scene::{PieceSpec, Scene};
+use frangible_pieces::Method;
 
 pub(super) fn scene(table: SceneTable, folder: &Path, name: &str) -> Result<Scene, Fault> {
     let name = table.name.unwrap_or_else(|| name.into());
@@ -56,6 +57,8 @@ pub(super) fn scene(table: SceneTable, folder: &Path, name: &str) -> Result<Scen
         fracture: table
             .fracture
             .map_or_else(FractureConfig::default, fracture),
+        pieces: table.pieces.map_or_else(PieceSpec::default, pieces),
+        mortar: table.mortar,
         duration: table.duration.unwrap_or(8.0),
         look_from: table.look_from.map_or(Vec3::new(0.55, 0.5, 1.0), vector),
         output: table.output.map_or_else(Output::default, output),
@@ -93,7 +96,24 @@ fn projectile(table: ProjectileTable, bodies: &[BodySpec]) -> Result<Projectile,
         target,
         at: table.at.map_or(Vec3::ZERO, vector),
         toward: table.toward.map_or(Vec3::NEG_Z, vector),
+        delay: table.delay.unwrap_or(0.0),
+        stays: table.stays,
     })
+}
+
+fn pieces(table: PiecesTable) -> PieceSpec {
+    let mut spec = PieceSpec::default();
+    set(&mut spec.generations, table.generations);
+    set(&mut spec.least_mass, table.least_mass);
+    let method = table.method.map(|name| match name {
+        MethodName::Auto => Method::Auto,
+        MethodName::ModalProxy => Method::ModalProxy,
+        MethodName::ParentModes => Method::ParentModes,
+        MethodName::QuasiStatic => Method::QuasiStatic,
+        MethodName::Reanalysis => Method::Reanalysis,
+    });
+    set(&mut spec.method, method);
+    spec
 }
 
 fn fracture(table: FractureTable) -> FractureConfig {

@@ -20,6 +20,8 @@ pub(super) struct SceneTable {
     #[serde(default)]
     pub(super) projectile: Vec<ProjectileTable>,
     pub(super) fracture: Option<FractureTable>,
+    pub(super) pieces: Option<PiecesTable>,
+    pub(super) mortar: Option<f64>,
     pub(super) output: Option<OutputTable>,
 }
 
@@ -152,6 +154,28 @@ pub(super) struct ProjectileTable {
     pub(super) target: Option<String>,
     pub(super) at: Option<[f64; 3]>,
     pub(super) toward: Option<[f64; 3]>,
+    pub(super) delay: Option<f64>,
+    pub(super) stays: Option<f64>,
+}
+
+/// `[pieces]`.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct PiecesTable {
+    pub(super) generations: Option<u32>,
+    pub(super) least_mass: Option<f64>,
+    pub(super) method: Option<MethodName>,
+}
+
+/// How pieces are found to vibrate.
+#[derive(Clone, Copy, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum MethodName {
+    Auto,
+    ModalProxy,
+    ParentModes,
+    QuasiStatic,
+    Reanalysis,
 }
 
 /// Form of a projectile.

@@ -11,7 +11,8 @@ use super::weakness::{paint_text, patch_text};
 use crate::body::{BodySpec, Place};
 use crate::output::{FileWish, Output};
 use crate::projectile::{Projectile, ProjectileKind};
-use crate::scene::Scene;
+use crate::scene::{PieceSpec, Scene};
+use frangible_pieces::Method;
 use crate::source::BodySource;
 
 /// The scene as TOML text; reading it gives the same scene, bit for bit.
@@ -25,6 +26,9 @@ pub fn scene_to_toml(scene: &Scene) -> String {
     match &scene.floor {
         Some(material) => t.line("floor", quoted(material)),
         None => t.line("floor", false),
+    }
+    if let Some(strength) = scene.mortar {
+        t.noted("mortar", number(strength), "Pa, bonds bodies that touch");
     }
     t.noted(
         "look_from",
@@ -40,6 +44,7 @@ pub fn scene_to_toml(scene: &Scene) -> String {
         write_projectile(&mut t, projectile, &scene.bodies);
     }
     write_fracture(&mut t, &scene.fracture);
+    write_pieces(&mut t, &scene.pieces);
     write_output(&mut t, &scene.output);
     t.0
 }
@@ -60,6 +65,23 @@ impl Text {
     fn table(&mut self, header: &str) {
         let _ = writeln!(self.0, "\n{header}");
     }
+}
+
+fn write_pieces(t: &mut Text, pieces: &PieceSpec) {
+    if *pieces == PieceSpec::default() {
+        return;
+    }
+    t.table("[pieces]");
+    t.noted("generations", pieces.generations, "of pieces that break again");
+    t.noted("least_mass", number(pieces.least_mass), "kg");
+    let method = match pieces.method {
+        Method::ModalProxy => "modal_proxy",
+        Method::ParentModes => "parent_modes",
+        Method::QuasiStatic => "quasi_static",
+        Method::Reanalysis => "reanalysis",
+        _ => "auto",
+    };
+    t.line("method", quoted(method));
 }
 
 fn write_body(t: &mut Text, body: &BodySpec) {
@@ -163,6 +185,12 @@ fn write_projectile(t: &mut Text, projectile: &Projectile, bodies: &[BodySpec]) 
     }
     t.noted("at", vector(projectile.at), "m from the centre of mass");
     t.line("toward", vector(projectile.toward));
+    if projectile.delay > 0.0 {
+        t.noted("delay", number(projectile.delay), "s until it sets out");
+    }
+    if let Some(stays) = projectile.stays {
+        t.noted("stays", number(stays), "s until it is taken away");
+    }
 }
 
 fn write_fracture(t: &mut Text, config: &FractureConfig) {
