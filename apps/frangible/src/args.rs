@@ -287,6 +287,10 @@ pub(crate) struct BreakArgs {
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub(crate) modes: Option<i64>,
 
+    /// Let pieces break again, and their pieces, up to N breaks; 0: pieces stay as they are [default: the scene's own]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=20))]
+    pub(crate) generations: Option<u32>,
+
     /// Hold a part of the body, which stays where it is, also after the break: below:z:0.01, above:x:0.3 (m, in the
     /// frame of its shape), box:x,y,z,x,y,z, sphere:x,y,z,r or group:NAME; @xy holds it along x and y only. Repeat it for
     /// several, for example --support below:x:0.01 --support group:frame@z

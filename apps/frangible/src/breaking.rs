@@ -11,7 +11,7 @@ use crate::args::BreakArgs;
 use crate::pictures;
 use crate::place::make_folder;
 use crate::progress::Bar;
-use crate::report::{BodyReport, Report};
+use crate::report::{BodyReport, Report, frames_ms};
 use crate::request::{Request, scene_of};
 use crate::say::say;
 
@@ -86,6 +86,7 @@ pub(crate) fn run(file: Option<&Path>, args: &BreakArgs) -> Result<(), Box<dyn E
         bodies,
         at_rest: run.at_rest,
         simulated_s: run.simulated,
+        frames_ms: frames_ms(run),
         stages_ms: stages,
         files,
         notes,

@@ -17,6 +17,8 @@ pub(crate) struct Report {
     pub(crate) bodies: Vec<BodyReport>,
     pub(crate) at_rest: bool,
     pub(crate) simulated_s: f64,
+    /// Wall-clock times of frames of 1/60 s: median, 99th percentile, longest.
+    pub(crate) frames_ms: [f64; 3],
     pub(crate) stages_ms: Vec<(String, f64)>,
     pub(crate) files: Vec<String>,
     pub(crate) notes: Vec<String>,
@@ -43,6 +45,10 @@ pub(crate) struct BodyReport {
     pub(crate) volume_m3: f64,
     pub(crate) fragment_volume_sum_m3: f64,
     pub(crate) largest_fragments_kg: Vec<f64>,
+    /// Pieces that broke again.
+    pub(crate) breaks_again: usize,
+    /// Pieces at the end.
+    pub(crate) pieces_at_end: usize,
 }
 
 /// Numbers of the impact that broke the body, or of the hardest that did not.
@@ -99,6 +105,17 @@ impl Impact {
     }
 }
 
+/// Median, 99th percentile and longest, ms.
+pub(crate) fn frames_ms(run: &Run) -> [f64; 3] {
+    let mut sorted = run.frame_seconds.clone();
+    sorted.sort_by(f64::total_cmp);
+    let at = |share: f64| {
+        let place = (share * (sorted.len().saturating_sub(1)) as f64).round();
+        1e3 * sorted.get(place as usize).copied().unwrap_or(0.0)
+    };
+    [at(0.5), at(0.99), at(1.0)]
+}
+
 impl BodyReport {
     /// Of the body of this number, from 0.
     pub(crate) fn new(name: &str, baked: &BakedBody, run: &Run, number: usize) -> Self {
@@ -109,6 +126,7 @@ impl BodyReport {
             .map(|b| Impact::new(&b.report, &b.contacts))
             .or_else(|| held.map(|h| Impact::new(&h.report, &h.contacts)));
         let modes = asset.modes.count();
+        let breaks = || run.breaks.iter().filter(|b| b.body == number);
         Self {
             body: name.into(),
             material: asset.material.name.clone(),
@@ -128,6 +146,8 @@ impl BodyReport {
             fragment_mass_sum_kg: broken.map_or(asset.mass.mass, |b| b.masses.iter().sum()),
             volume_m3: asset.mass.volume,
             fragment_volume_sum_m3: broken.map_or(asset.mass.volume, |b| b.volume),
+            breaks_again: breaks().filter(|b| b.generation > 0).count(),
+            pieces_at_end: 1 + breaks().map(|b| b.masses.len() - 1).sum::<usize>(),
             largest_fragments_kg: broken
                 .map_or(Vec::new(), |b| b.masses.iter().copied().take(5).collect()),
         }
@@ -205,6 +225,13 @@ impl BodyReport {
                 "fragments",
                 format!("{} (largest {} … g)", self.fragments, masses.join(", ")),
             );
+            if self.breaks_again > 0 {
+                let (again, end) = (self.breaks_again, self.pieces_at_end);
+                row(
+                    "again",
+                    format!("{again} pieces broke again, {end} at the end"),
+                );
+            }
             let check = |sum: f64, whole: f64| (sum / whole - 1.0).abs();
             row(
                 "check",
@@ -256,6 +283,11 @@ impl Report {
                 },
                 self.simulated_s
             ),
+        );
+        let [median, high, longest] = self.frames_ms;
+        row(
+            "frames",
+            format!("{median:.1} ms, 99 of 100 within {high:.1} ms, longest {longest:.0} ms"),
         );
         let stages: Vec<String> = self
             .stages_ms

@@ -38,6 +38,9 @@ pub(crate) fn scene_of(file: Option<&Path>, args: &BreakArgs) -> Result<Request,
     }
     set_material(&mut wanted, args.material.as_deref())?;
     set_modes(&mut wanted, args.modes)?;
+    if let Some(generations) = args.generations {
+        wanted.pieces.generations = generations;
+    }
     set_mesh(&mut wanted, &args.mesh)?;
     set_supports(&mut wanted, &args.supports)?;
     if let Some(height) = args.drop {

@@ -3,7 +3,9 @@
 //! A fixed impulse joint over the face where they meet. Bodies that are bonded do not collide with each other; when the bond is
 //! gone they do.
 
-use rapier3d::dynamics::{FixedJointBuilder, GenericJoint, ImpulseJoint, ImpulseJointHandle, RigidBodyHandle};
+use rapier3d::dynamics::{
+    FixedJointBuilder, GenericJoint, ImpulseJoint, ImpulseJointHandle, RigidBodyHandle,
+};
 use rapier3d::math::{Pose, Rotation, Vector};
 
 use crate::error::{WorldError, finite, positive};
@@ -59,9 +61,8 @@ impl BreakableWorld {
             .local_frame2(second);
         let mut joint = GenericJoint::from(joint);
         joint.contacts_enabled = false;
-        joint.user_data = MARK
-            | u128::from(mortar.area.to_bits()) << 32
-            | u128::from(mortar.strength.to_bits());
+        joint.user_data =
+            MARK | u128::from(mortar.area.to_bits()) << 32 | u128::from(mortar.strength.to_bits());
         Ok(self.physics.impulse_joints.insert(one, two, joint, true))
     }
 

@@ -164,11 +164,11 @@ impl BreakableWorld {
         near
     }
 
-    /// Whether a breakable body may be hit hard enough to be looked at, or gives way to what it carries, within so many
-    /// seconds: before that, steps may be coarse.
-    pub fn may_break_within(&mut self, seconds: f32) -> bool {
+    /// Breakable bodies that may be hit hard enough to be looked at, or give way to what they carry, within so many seconds:
+    /// as long as there are none, steps may be coarse.
+    pub fn near_within(&mut self, seconds: f32) -> Vec<RigidBodyHandle> {
         let dt = std::mem::replace(&mut self.physics.integration_parameters.dt, seconds);
-        let near = !self.near().is_empty();
+        let near = self.near();
         self.physics.integration_parameters.dt = dt;
         near
     }

@@ -6,6 +6,7 @@ use frangible::glam::{Quat, Vec3};
 use frangible::{Material, Patch, Zone, nearest_name};
 use frangible_bake::{Region, Shape, Support};
 
+use crate::again;
 use crate::body::{BodySpec, Place};
 use crate::error::SceneError;
 use crate::projectile::Projectile;
@@ -19,7 +20,7 @@ enum Action {
 }
 
 /// Names of the built-in scenes; the first is the default.
-pub const SCENE_NAMES: [&str; 13] = [
+pub const SCENE_NAMES: [&str; 17] = [
     "glass",
     "pane",
     "plate",
@@ -33,6 +34,10 @@ pub const SCENE_NAMES: [&str; 13] = [
     "window",
     "shelf",
     "cantilever",
+    "shards",
+    "five-blows",
+    "wall",
+    "crockery",
 ];
 
 /// Length, width and thickness of the bar of chocolate, m.
@@ -213,6 +218,10 @@ pub fn scene(name: &str) -> Result<Scene, SceneError> {
             0.2,
             [Region::below(0, 0.03)],
         )),
+        "shards" => again::shards(),
+        "five-blows" => again::five_blows(),
+        "wall" => again::wall(),
+        "crockery" => again::crockery(),
         _ => {
             let hint = nearest_name(name, SCENE_NAMES)
                 .map_or(String::new(), |n| format!(", did you mean `{n}`?"));

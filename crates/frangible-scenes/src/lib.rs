@@ -12,6 +12,7 @@
 //! [`scene()`] gives a built-in scene, [`scene_of_file`] one from a scene file, a mesh or a baked body, and
 //! [`parse_scene`] one from TOML text; [`scene_to_toml`] goes back.
 
+mod again;
 mod appearance;
 mod bake;
 mod body;

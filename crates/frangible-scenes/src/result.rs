@@ -19,6 +19,8 @@ pub struct Run {
     pub simulated: f64,
     /// Wall-clock time of the rigid bodies, without the fracture, s.
     pub rigid_seconds: f64,
+    /// Wall-clock time of each frame of 1/60 s with all its steps, breaks included, s.
+    pub frame_seconds: Vec<f64>,
 }
 
 /// An impact that did not break the body.

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::time::Instant;
 
 use frangible_export::{Floor, Recording};
+use frangible_rapier::rapier3d::dynamics::RigidBodyHandle;
 use frangible_rapier::{BreakableWorld, HeldEvent};
 
 use crate::bake::BakedBody;
@@ -11,7 +12,7 @@ use crate::error::SceneError;
 use crate::recorder::{FRAME_RATE, piece_name};
 use crate::result::{BreakRecord, HeldRecord, Run};
 use crate::scene::Scene;
-use crate::stage::{Placed, Stage, Thrown, set_up};
+use crate::stage::{FEW, Stage, Thrown, set_up};
 
 /// Physics steps per recorded frame while nothing is about to break.
 const STEPS_PER_FRAME: usize = 4;
@@ -19,6 +20,9 @@ const STEPS_PER_FRAME: usize = 4;
 /// Physics steps per recorded frame until the break and just after it. A body that falls at 4 m/s moves 1 mm in such
 /// a step; in a coarser one Rapier shares the blow among contact points that are not there yet.
 const FINE_STEPS_PER_FRAME: usize = 64;
+
+/// Physics steps per recorded frame while pieces may break, or some of many bodies: slower than what broke them, and dear.
+const PIECE_STEPS_PER_FRAME: usize = 16;
 
 /// Frames after a break that are still stepped finely.
 const FINE_FRAMES: usize = 2;
@@ -53,6 +57,7 @@ pub fn play(
         at_rest: false,
         simulated: 0.0,
         rigid_seconds: 0.0,
+        frame_seconds: Vec::new(),
     };
     let frames = (scene.duration * f64::from(FRAME_RATE)).ceil() as usize;
     let mut rest_frames = 0;
@@ -60,11 +65,8 @@ pub fn play(
     let mut fine_until = 0;
     for frame in 1..=frames {
         stage.throw(scene, run.simulated)?;
-        let steps = if is_fine(&mut stage) || frame <= fine_until {
-            FINE_STEPS_PER_FRAME
-        } else {
-            STEPS_PER_FRAME
-        };
+        let clock = Instant::now();
+        let steps = steps_of_frame(&mut stage, frame <= fine_until);
         let Stage {
             world,
             recorder,
@@ -114,6 +116,7 @@ pub fn play(
         for (_, body) in world.physics.bodies.iter_mut() {
             body.set_angular_damping(ROLLING);
         }
+        run.frame_seconds.push(clock.elapsed().as_secs_f64());
         recorder.frame(world);
         progress(frame as f64 / frames as f64);
         rest_frames = if at_rest(world, projectiles) {
@@ -157,14 +160,28 @@ fn at_rest(world: &BreakableWorld, projectiles: &[Thrown]) -> bool {
     })
 }
 
-/// Whether the coming frame wants fine steps: a body that has not broken yet is there, or a piece may break.
-fn is_fine(stage: &mut Stage<'_>) -> bool {
+/// Physics steps of the coming frame: finer where a body that has not broken yet may be hit, or a piece may.
+fn steps_of_frame(stage: &mut Stage<'_>, just_broken: bool) -> usize {
     let world = &mut stage.world;
-    let whole = |body: &Placed<'_>| world.breakable(body.handle).is_some();
-    let waits = stage.bodies.len() == 1 && stage.bodies.iter().any(whole);
-    waits || {
-        // Of many bodies some may stay whole to the end.
-        world.physics.integration_parameters.dt = 1.0 / (FRAME_RATE * STEPS_PER_FRAME as f32);
-        world.may_break_within(1.0 / FRAME_RATE)
+    let mut whole = stage
+        .bodies
+        .iter()
+        .filter(|body| world.breakable(body.handle).is_some());
+    let first = whole.next().is_some();
+    // Of many bodies some may stay whole to the end.
+    if (just_broken && stage.bodies.len() <= FEW) || (first && stage.bodies.len() == 1) {
+        return FINE_STEPS_PER_FRAME;
+    }
+    if world.breakables().next().is_none() {
+        return STEPS_PER_FRAME;
+    }
+    let near = world.near_within(1.0 / FRAME_RATE);
+    let whole = |handle: &RigidBodyHandle| stage.bodies.iter().any(|b| b.handle == *handle);
+    if near.iter().any(whole) && stage.bodies.len() <= FEW {
+        FINE_STEPS_PER_FRAME
+    } else if near.is_empty() {
+        STEPS_PER_FRAME
+    } else {
+        PIECE_STEPS_PER_FRAME
     }
 }

@@ -7,7 +7,7 @@ use frangible::{Asset, Breakable, Fields, Material};
 use frangible_pieces::Pieces;
 use frangible_rapier::rapier3d::dynamics::RigidBodyHandle;
 use frangible_rapier::rapier3d::math::{Pose, Rotation, Vector};
-use frangible_rapier::{BreakableWorld, SurfaceProperties, WorldConfig};
+use frangible_rapier::{BreakableWorld, ColliderDetail, SurfaceProperties, WorldConfig};
 
 use crate::appearance::{authored_surface, body_surfaces, projectile_surface};
 use crate::bake::BakedBody;
@@ -21,6 +21,9 @@ use crate::scene::Scene;
 
 /// Gap between a standing body and the floor, m.
 const STANDING_GAP: f32 = 1e-4;
+
+/// Of more bodies than this the colliders are light.
+pub(crate) const FEW: usize = 8;
 
 /// A body in the world.
 pub(crate) struct Placed<'a> {
@@ -61,6 +64,18 @@ pub(crate) fn set_up<'a>(scene: &'a Scene, baked: &[BakedBody]) -> Result<Stage<
     let mut config = WorldConfig::default();
     config.fracture = scene.fracture.clone();
     config.record_held = true;
+    if scene.bodies.len() > FEW {
+        config.whole_collider = ColliderDetail {
+            parts: 32,
+            hull_points: 64,
+        };
+        config.fragment_collider = ColliderDetail {
+            parts: 4,
+            hull_points: 24,
+        };
+        config.hull_volume_ratio = 2.0;
+        config.dust_mass = scene.pieces.least_mass as f32;
+    }
     config.pieces.generations = scene.pieces.generations;
     config.pieces.least_mass = scene.pieces.least_mass as f32;
     let mut world = BreakableWorld::new(config)?;
@@ -125,8 +140,7 @@ impl Stage<'_> {
             let look = projectile_surface(kind, &projectile.material);
             let [surface] = self.recorder.surfaces([look]);
             let floor = scene.floor.is_some();
-            let (handle, mesh) =
-                launch(&mut self.world, projectile, body.target, floor, surface)?;
+            let (handle, mesh) = launch(&mut self.world, projectile, body.target, floor, surface)?;
             let name = if scene.projectiles.len() == 1 {
                 kind.to_string()
             } else {

@@ -12,8 +12,8 @@ use crate::body::{BodySpec, Place};
 use crate::output::{FileWish, Output};
 use crate::projectile::{Projectile, ProjectileKind};
 use crate::scene::{PieceSpec, Scene};
-use frangible_pieces::Method;
 use crate::source::BodySource;
+use frangible_pieces::Method;
 
 /// The scene as TOML text; reading it gives the same scene, bit for bit.
 #[must_use]
@@ -72,7 +72,11 @@ fn write_pieces(t: &mut Text, pieces: &PieceSpec) {
         return;
     }
     t.table("[pieces]");
-    t.noted("generations", pieces.generations, "of pieces that break again");
+    t.noted(
+        "generations",
+        pieces.generations,
+        "of pieces that break again",
+    );
     t.noted("least_mass", number(pieces.least_mass), "kg");
     let method = match pieces.method {
         Method::ModalProxy => "modal_proxy",
