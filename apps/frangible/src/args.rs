@@ -61,6 +61,8 @@ pub(crate) enum Measured {
     Contacts,
     /// Both
     All,
+    /// How near the initiation comes to the machine's peaks of arithmetic and memory; written as roofline.md
+    Roofline,
 }
 
 #[derive(Args, Clone, Debug)]
