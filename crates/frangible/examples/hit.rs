@@ -3,9 +3,10 @@
 //! - `hit surface BODY.frangible OUT.obj`: its outer surface;
 //! - `hit pieces BODY.frangible FOLDER RUNS PIECES…`: for each number of pieces the blow that comes nearest to it, timed; a line of
 //!   JSON, and the pieces as FOLDER/PIECES.obj, one object each (FOLDER/PIECES-drawn.obj: as its author drew it);
-//! - `hit again BODY.frangible SPEED SECONDS`: the same blow at this speed, m/s, over and over.
+//! - `hit again BODY.frangible SIDE SPEED SECONDS`: the same blow from this side at this speed, m/s, over and over.
 //!
-//! A blow is a flat stone that does not give way, at one of the six outermost points of the body. Our model throughout.
+//! A blow is a flat stone that does not give way, at one of the six outermost points of the body: side -z, z, -y, y, -x or x. Our model
+//! throughout.
 
 use std::error::Error;
 use std::fs::{self, File};
@@ -18,19 +19,19 @@ use frangible::{
     Asset, Body, Breakable, Contact, Fracture, FractureConfig, Material, Outcome, Striker, impact,
 };
 
-const USAGE: &str = "usage: hit surface BODY OUT.obj | hit pieces BODY FOLDER RUNS PIECES… | hit again BODY SPEED SECONDS";
+const USAGE: &str = "usage: hit surface BODY OUT.obj | hit pieces BODY FOLDER RUNS PIECES… | hit again BODY SIDE SPEED SECONDS";
 
 /// Speeds that are tried, m/s: from the first, each so much faster, up to the last.
-const SPEEDS: (f64, f64, f64) = (1.0, 1.15, 3000.0);
+const SPEEDS: (f64, f64, f64) = (1.0, 1.08, 3000.0);
 
 /// The stone comes from these sides.
-const SIDES: [Vec3; 6] = [
-    Vec3::NEG_Z,
-    Vec3::Z,
-    Vec3::NEG_Y,
-    Vec3::Y,
-    Vec3::NEG_X,
-    Vec3::X,
+const SIDES: [(&str, Vec3); 6] = [
+    ("-z", Vec3::NEG_Z),
+    ("z", Vec3::Z),
+    ("-y", Vec3::NEG_Y),
+    ("y", Vec3::Y),
+    ("-x", Vec3::NEG_X),
+    ("x", Vec3::X),
 ];
 
 /// A blow is repeated for so long in each run: the system counts processor time in steps of some milliseconds.
@@ -49,7 +50,10 @@ fn main() -> Result<(), Box<dyn Error>> {
             fs::create_dir_all(folder)?;
             pieces(body, Path::new(folder), runs.parse()?, &wanted)
         }
-        ["again", body, speed, seconds] => again(body, speed.parse()?, seconds.parse()?),
+        ["again", body, side, speed, seconds] => {
+            let side = SIDES.iter().find(|known| known.0 == side).ok_or(USAGE)?;
+            again(body, side.1, speed.parse()?, seconds.parse()?)
+        }
         _ => Err(USAGE.into()),
     }
 }
@@ -67,9 +71,9 @@ fn surface(asset: &Asset, path: &Path) -> Result<(), Box<dyn Error>> {
     Ok(to.flush()?)
 }
 
-fn again(path: &str, speed: f64, seconds: f64) -> Result<(), Box<dyn Error>> {
+fn again(path: &str, side: Vec3, speed: f64, seconds: f64) -> Result<(), Box<dyn Error>> {
     let body = ready(path)?;
-    let contact = blow(&body, SIDES[0], speed)?;
+    let contact = blow(&body, side, speed)?;
     let (clock, mut times) = (Instant::now(), 0_u32);
     let mut pieces = 0;
     while clock.elapsed().as_secs_f64() < seconds {
@@ -133,6 +137,7 @@ fn processor_seconds() -> Option<f64> {
 
 /// A blow and what came of it.
 struct Tried {
+    name: &'static str,
     side: Vec3,
     speed: f64,
     pieces: usize,
@@ -142,13 +147,14 @@ struct Tried {
 fn try_all(body: &Body, most: usize) -> Result<Vec<Tried>, Box<dyn Error>> {
     let mut tried = Vec::new();
     let (first, factor, last) = SPEEDS;
-    for side in SIDES {
+    for (name, side) in SIDES {
         let mut speed = first;
         while speed <= last {
             let contact = blow(body, side, speed)?;
             let pieces = count(&impact(body, &[contact], &FractureConfig::default())?);
             if pieces > 1 {
                 tried.push(Tried {
+                    name,
                     side,
                     speed,
                     pieces,
@@ -214,11 +220,11 @@ fn measure(
     }
     let report = &fracture.report;
     Ok(format!(
-        "{{\"wanted\": {wanted}, \"pieces\": {}, \"speed\": {:.3}, \"side\": {:?}, \"seconds\": {all:?}, \"drawing\": {:e}, \
+        "{{\"wanted\": {wanted}, \"pieces\": {}, \"speed\": {:.3}, \"side\": \"{}\", \"seconds\": {all:?}, \"drawing\": {:e}, \
          \"drawn\": {drawn}, \"tets\": {}, \"modes\": {}, \"steps\": {}, \"cracks\": {}, \"crack_area\": {:e}, \"volume\": {:e}}}",
         fracture.fragments.len(),
         blow_of.speed,
-        blow_of.side.to_array(),
+        blow_of.name,
         report.timings.drawing,
         body.asset().fracture.tets.len(),
         body.asset().modes.count(),
