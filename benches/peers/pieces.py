@@ -21,6 +21,29 @@ TETRAHEDRA, MODES, MATERIAL = 20_000, 100, "porcelain"
 PEER_SIZES = {"three-pinata": 2.0, "Cell Fracture": 20.0}
 BODIES = ["rabbit", "bunny", "icosphere"]
 
+PAGE = """# Breaks beside others
+
+Written by `benches/peers/pieces.sh --page docs/peers.md`, which installs what it needs; `benches/peers/README.md` says how it works.
+
+Three programs break the same closed bodies: ours, [three-pinata](https://www.npmjs.com/package/@dgreenheck/three-pinata) (npm), and Cell
+Fracture, the add-on that comes with Debian's Blender. They answer different questions. Ours computes whether, where and into how many
+pieces a blow breaks a body of a material; the others cut it into as many Voronoi cells as they are told. What can be compared is what
+comes out: how long it takes, whether the pieces are closed, whether they fill the body.
+
+- Break: processor time on one thread, of the break alone. Ours: the whole impact, from the contact to pieces with surfaces and masses; it
+  works on tetrahedra and modes that were baked before, once per kind of body (second table). Theirs: from the loaded surface and the seeds
+  of the cells to the pieces, no physics.
+- Wanted: theirs get as many seeds, the same ones for both, spread evenly within the body; a cell of a body that is not convex may be two
+  pieces. Ours takes no number: of blows by a flat stone from six sides, at speeds 8 % apart, the one counts that comes nearest. Many
+  pieces of a small solid body take speeds that nothing is thrown with.
+- Closed: every edge of a piece has exactly two triangles, in opposite directions, after corners at the same place, or within a millionth
+  of the body, became one. *As drawn*: bodies from files are drawn with their author's surface, cut by the cracks; that lies a little
+  off the tetrahedra's, so that its pieces need not close where it meets a crack.
+- Volumes: those of all pieces over the volume of the surface that peers break. Where that is the file's own, ours differs by what the
+  tetrahedra do not follow.
+
+"""
+
 
 def main():
     options = parse()
@@ -40,11 +63,14 @@ def main():
     print(text, end="")
     if options.out:
         options.out.write_text(text, encoding="utf-8")
+    if options.page:
+        options.page.write_text(PAGE + text, encoding="utf-8")
 
 
 def parse():
     parser = argparse.ArgumentParser(prog="pieces.sh", description="Compares our breaks with three-pinata and Cell Fracture.")
     parser.add_argument("--out", type=Path, help="also write the table to this file")
+    parser.add_argument("--page", type=Path, help="also write the table with what it means to this file, such as docs/peers.md")
     parser.add_argument("--only", nargs="+", choices=BODIES, help="bodies; by default all")
     parser.add_argument("--pieces", nargs="+", type=int, default=[16, 50, 100], help="numbers of pieces (default 16 50 100)")
     parser.add_argument("--runs", type=int, default=5, help="runs of each, the median counts (default %(default)s)")
@@ -72,7 +98,7 @@ def prepare(name, options):
             meshes = Path(os.environ.get("FRANGIBLE_MESHES") or Path(__file__).resolve().parents[3] / "shared" / "meshes")
             file = meshes / "stanford-bunny.obj"
             if not file.is_file():
-                return f"no stanford-bunny.obj in the folder named by FRANGIBLE_MESHES, by default ../shared/meshes"
+                return "no stanford-bunny.obj in the folder named by FRANGIBLE_MESHES, by default ../shared/meshes"
             vertices, triangles = read_obj(file)
         else:
             vertices, polygons = sphere()

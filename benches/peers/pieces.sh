@@ -27,7 +27,7 @@ if command -v npm >/dev/null; then
 fi
 export CARGO_TARGET_DIR="$target"
 cargo build --quiet --release --manifest-path "$root/Cargo.toml" --workspace --bins
-cargo build --quiet --release --manifest-path "$root/Cargo.toml" --workspace --example hit
+cargo build --quiet --release --manifest-path "$root/Cargo.toml" -p frangible --example hit
 export PYTHONDONTWRITEBYTECODE=1
 exec "$work/venv-pieces/bin/python" "$here/pieces.py" --frangible "$target/release/frangible" \
     --hit "$target/release/examples/hit" --work "$work/pieces" --pinata "$work/pinata" "$@"

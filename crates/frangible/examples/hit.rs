@@ -231,7 +231,11 @@ fn measure(
         report.time_steps,
         report.cracks,
         report.crack_area,
-        fracture.fragments.iter().map(|f| f.mass.volume).sum::<f64>(),
+        fracture
+            .fragments
+            .iter()
+            .map(|f| f.mass.volume)
+            .sum::<f64>(),
     ))
 }
 
