@@ -34,8 +34,8 @@ comes out: how long it takes, whether the pieces are closed, whether they fill t
   works on tetrahedra and modes that were baked before, once per kind of body (second table). Theirs: from the loaded surface and the seeds
   of the cells to the pieces, no physics.
 - Wanted: theirs get as many seeds, the same ones for both, spread evenly within the body; a cell of a body that is not convex may be two
-  pieces. Ours takes no number: of blows by a flat stone from six sides, at speeds 8 % apart, the one counts that comes nearest. Many
-  pieces of a small solid body take speeds that nothing is thrown with.
+  pieces. Ours takes no number: of blows by a flat stone from six sides, at speeds 8 % apart, the slowest counts that comes within a tenth
+  of it, or else the one that comes nearest. Many pieces of a small solid body take speeds that nothing is thrown with.
 - Closed: every edge of a piece has exactly two triangles, in opposite directions, after corners at the same place, or within a millionth
   of the body, became one. *As drawn*: bodies from files are drawn with their author's surface, cut by the cracks; that lies a little
   off the tetrahedra's, so that its pieces need not close where it meets a crack.
