@@ -149,14 +149,20 @@ fn of_body(
     config.culling = false;
     let whole = vibration(&body, &contact, &config)?;
     let mut vibration = whole.clone();
-    vibration.pulse.total_steps = whole.pulse.total_steps.min(BATCHES * counts::STRIDE);
+    vibration.pulse.total_steps = whole
+        .pulse
+        .total_steps
+        .min(BATCHES * DisplacementBatch::STRIDE);
     let work = Work::of(&body, &vibration, &config);
     let product = displacement_time(&body, &vibration);
     // Some nodes belong to no weak point's element, and the stage leaves them out.
     let needed = product * work.nodes[0] as f64 / work.nodes[1] as f64;
     let stresses = stress_time(&body, &vibration, &config) - needed;
     let (modes, steps) = (work.modes, whole.pulse.total_steps);
-    let batches = vibration.pulse.total_steps.div_ceil(counts::STRIDE) as f64;
+    let batches = vibration
+        .pulse
+        .total_steps
+        .div_ceil(DisplacementBatch::STRIDE) as f64;
     let all = work.nodes[1];
     let shapes = 12 * modes * all;
     let fields = counts::NODE * all + 10 * 8 * body.asset().analysis.elements.len();
@@ -257,7 +263,7 @@ fn displacement_time(body: &Body, vibration: &Vibration) -> f64 {
     let motion = vibration.motion(body);
     shortest(|| {
         let mut batch = DisplacementBatch::new(asset);
-        for step in (0..motion.steps()).step_by(counts::STRIDE) {
+        for step in (0..motion.steps()).step_by(DisplacementBatch::STRIDE) {
             batch.seek(&motion, step);
             batch.fill(asset);
             std::hint::black_box(&batch);

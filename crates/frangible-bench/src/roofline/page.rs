@@ -2,6 +2,8 @@
 
 use std::fmt::Write;
 
+use frangible::stress::DisplacementBatch;
+
 use super::{Findings, OfBody, Reached, SIZES};
 use crate::machine::Machine;
 use crate::page::{digits, ms, table};
@@ -137,7 +139,7 @@ read. Reached is the longer of these two times over the time it takes. Operation
   apart, never fused, so that its bits do not hang on the processor: the peak without fusing counts.
 - Displacements are timed alone, at all nodes; gradients and stresses are the rest of what the impact itself counts as stress, less the
   displacements of the nodes that it needs.
-- One step in eight of a batch is the last of the batch before: that share of the operations is done twice.
+- One step in {} of a batch is the last of the batch before: that share of the operations is done twice.
 
 {}
 ## What limits each stage
@@ -151,19 +153,19 @@ read. Reached is the longer of these two times over the time it takes. Operation
         machine.cores,
         machine.system,
         found.arithmetic.lanes,
+        DisplacementBatch::LANES,
         tables(found),
     )
 }
 
 /// Read off the tables and the picture.
 const LIMITS: &str = "\
-- Response: each mode is a recurrence in f64, so that a step waits for the one before, and the modes go one after another without vector
-  instructions. Before its first step each mode has two matrix exponentials, as much arithmetic as ninety steps. Latency limits it; it is
-  the smallest part of a break.
-- Displacements: Φ comes from the third-level cache at about a sixth of the rate at which that can be read, and the same loop over as
-  few shapes as the second-level cache holds is no faster: memory does not limit it. Each number of Φ is loaded and spread over a vector
-  for one multiplication and one addition only, and that loading limits it, before arithmetic does. Batches of 24 steps would use each
-  load three times: in a loop of its own that takes a third more operations a second.
+- Response: each mode is a recurrence in f64, whose step waits for the one before, after a matrix exponential of its own. Latency limits
+  it, not memory; it is the smallest part of a break.
+- Displacements: Φ comes from the third-level cache at a fraction of the rate at which that can be read, and the same loop over as few
+  shapes as the second-level cache holds is no faster: memory does not limit it. Each number of Φ is loaded and spread over a vector for
+  one multiplication and one addition per vector of steps, and that loading limits it, before arithmetic does. Batches of more steps use
+  each load more often: in a loop of its own 16 steps side by side did a sixth more operations a second than 8, and 24 a third more.
 - Gradients, stresses, bounds: a weak point gathers ten nodes, works out thirty weights one by one, looks up its wall and its law, and
   copies its stresses where they may matter: most instructions are no arithmetic on vectors, so it stays far below both roofs. It also
   asks for its nodes in its own order, and rows of Φ out of order take a fifth longer, which this row pays. Fewer points to look at, or

@@ -71,6 +71,11 @@ pub struct DisplacementBatch {
 }
 
 impl DisplacementBatch {
+    /// Steps that it holds …
+    pub const LANES: usize = BATCH;
+    /// … and how many of them the next one does not: the first is the last of the batch before.
+    pub const STRIDE: usize = STRIDE;
+
     /// Empty, for an asset.
     #[must_use]
     pub fn new(asset: &Asset) -> Self {
