@@ -68,7 +68,7 @@ fn the_roofline_of_a_body_is_measured_and_written() {
         .iter()
         .filter_map(|n| n.as_u64())
         .sum();
-    assert!(points > 1000 && number(&body["in_a_break"]) > 0.0, "{body}");
+    assert!(points > 1000, "{body}");
     let stages = body["stages"].as_array().expect("a list");
     assert_eq!(stages.len(), 3);
     for stage in stages {
