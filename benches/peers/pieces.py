@@ -31,7 +31,8 @@ pieces a blow breaks a body of a material; the others cut it into as many Vorono
 comes out: how long it takes, whether the pieces are closed, whether they fill the body.
 
 - Break: processor time on one thread, of the break alone. Ours: the whole impact, from the contact to pieces with surfaces and masses; it
-  works on tetrahedra and modes that were baked before, once per kind of body (second table). Theirs: from the loaded surface and the seeds
+  works on tetrahedra and modes that were baked before, once per kind of body (second table, in processor time of the whole program; of
+  the rabbit in wall-clock time). Theirs: from the loaded surface and the seeds
   of the cells to the pieces, no physics.
 - Wanted: theirs get as many seeds, the same ones for both, spread evenly within the body; a cell of a body that is not convex may be two
   pieces. Ours takes no number: of blows by a flat stone from six sides, at speeds 8 % apart, the slowest counts that comes within a tenth

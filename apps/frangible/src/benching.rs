@@ -32,6 +32,9 @@ pub(crate) fn run(args: &BenchArgs) -> Result<(), Box<dyn Error>> {
                     .into(),
             );
         }
+        if !args.bodies.is_empty() {
+            return Err("--write writes a page of all bodies: leave out --body".into());
+        }
         let wrong = |e: String| e.replace("--out DIR", "--write DIR");
         make_folder(folder, &[PAGE.into()]).map_err(wrong)?;
     }

@@ -93,6 +93,10 @@ fn what_cannot_be_measured_is_refused() {
     };
     refused(&["bench", "table1", "--body", "cow"], "slab-low");
     refused(&["bench", "table1", "--write", "."], "bench all --write");
+    refused(
+        &["bench", "all", "--body", "slab-low", "--write", "."],
+        "leave out --body",
+    );
     refused(&["bench", "--runs", "0"], "1..=10000");
     refused(&["bench", "--body", "glass", "--write", "."], "--write");
 }
