@@ -61,6 +61,8 @@ pub(crate) enum Measured {
     Contacts,
     /// Both
     All,
+    /// How near the initiation comes to the machine's peaks of arithmetic and memory; written as roofline.md
+    Roofline,
 }
 
 #[derive(Args, Clone, Debug)]
@@ -93,8 +95,8 @@ pub(crate) struct BenchArgs {
     #[arg(long)]
     pub(crate) json: bool,
 
-    /// Also write performance.md into this folder, made when it is missing; needs all of both, and bakes anew
-    #[arg(long, value_name = "DIR", conflicts_with = "bodies")]
+    /// Also write performance.md into this folder, made when it is missing, which needs all bodies and bakes anew; or roofline.md
+    #[arg(long, value_name = "DIR")]
     pub(crate) write: Option<PathBuf>,
 }
 

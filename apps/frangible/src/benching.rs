@@ -5,7 +5,7 @@ use std::error::Error;
 use frangible_bench::cache::Cache;
 use frangible_bench::machine::Machine;
 use frangible_bench::subjects::chosen;
-use frangible_bench::{contacts, page, table1};
+use frangible_bench::{contacts, page, roofline, table1};
 use frangible_export::write_atomically;
 use serde_json::json;
 
@@ -17,7 +17,13 @@ use crate::say::say;
 /// The page that `--write` writes.
 const PAGE: &str = "performance.md";
 
+/// The one that `roofline --write` writes.
+const ROOFLINE_PAGE: &str = "roofline.md";
+
 pub(crate) fn run(args: &BenchArgs) -> Result<(), Box<dyn Error>> {
+    if args.what == Measured::Roofline {
+        return run_roofline(args);
+    }
     let subjects = chosen(&args.bodies)?;
     if let Some(folder) = &args.write {
         if args.what != Measured::All {
@@ -25,6 +31,9 @@ pub(crate) fn run(args: &BenchArgs) -> Result<(), Box<dyn Error>> {
                 "--write writes one page of both measurements: frangible bench all --write DIR"
                     .into(),
             );
+        }
+        if !args.bodies.is_empty() {
+            return Err("--write writes a page of all bodies: leave out --body".into());
         }
         let wrong = |e: String| e.replace("--out DIR", "--write DIR");
         make_folder(folder, &[PAGE.into()]).map_err(wrong)?;
@@ -70,6 +79,39 @@ pub(crate) fn run(args: &BenchArgs) -> Result<(), Box<dyn Error>> {
     }
     if let Some(folder) = &args.write {
         text += &format!("\nwrote {}\n", folder.join(PAGE).display());
+    }
+    Ok(say(&text)?)
+}
+
+fn run_roofline(args: &BenchArgs) -> Result<(), Box<dyn Error>> {
+    let subjects = if args.bodies.is_empty() {
+        chosen(&roofline::BODIES.map(String::from))?
+    } else {
+        chosen(&args.bodies)?
+    };
+    if let Some(folder) = &args.write {
+        let wrong = |e: String| e.replace("--out DIR", "--write DIR");
+        make_folder(folder, &[ROOFLINE_PAGE.into()]).map_err(wrong)?;
+    }
+    let cache = Cache {
+        folder: args.cache.clone(),
+        rebake: args.rebake,
+    };
+    let bar = Bar::new(args.json);
+    let found = roofline::measure(&subjects, &cache, &mut |what, share| bar.show(what, share))?;
+    drop(bar);
+    let machine = Machine::this();
+    if let Some(folder) = &args.write {
+        let text = roofline::page(&machine, &found);
+        write_atomically(&folder.join(ROOFLINE_PAGE), text.as_bytes())?;
+    }
+    if args.json {
+        let all = json!({ "machine": machine, "roofline": found });
+        return Ok(say(&format!("{all:#}\n"))?);
+    }
+    let mut text = roofline::tables(&found);
+    if let Some(folder) = &args.write {
+        text += &format!("\nwrote {}\n", folder.join(ROOFLINE_PAGE).display());
     }
     Ok(say(&text)?)
 }

@@ -48,6 +48,42 @@ fn a_body_of_table_1_is_baked_once_and_measured() {
 }
 
 #[test]
+fn the_roofline_of_a_body_is_measured_and_written() {
+    let folder = std::env::temp_dir().join(format!("frangible-roofline-{}", std::process::id()));
+    let cache = folder.to_str().expect("a plain path");
+    let output = frangible(&[
+        "bench", "roofline", "--body", "slab-low", "--json", "--cache", cache, "--write", cache,
+    ]);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let found: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    let number = |value: &serde_json::Value| value.as_f64().expect("a number");
+    let arithmetic = &found["roofline"]["arithmetic"];
+    // f64 vectors are half as long; a wide margin, since others may use the machine.
+    let halves = number(&arithmetic["separate"]) / number(&arithmetic["double"]);
+    assert!((1.0..4.0).contains(&halves), "{arithmetic}");
+    let body = &found["roofline"]["bodies"][0];
+    let points: u64 = body["points"]
+        .as_array()
+        .expect("a list")
+        .iter()
+        .filter_map(|n| n.as_u64())
+        .sum();
+    assert!(points > 1000, "{body}");
+    let stages = body["stages"].as_array().expect("a list");
+    assert_eq!(stages.len(), 3);
+    for stage in stages {
+        let [operations, bytes, seconds] =
+            ["operations", "bytes", "seconds"].map(|key| number(&stage[key]));
+        assert!(operations > bytes && seconds > 0.0, "{stage}");
+        // Nothing is faster than the peak.
+        assert!(operations / seconds < number(&stage["peak"]), "{stage}");
+    }
+    let page = std::fs::read_to_string(folder.join("roofline.md")).expect("the page is written");
+    assert!(page.contains("| slab-low: displacements u = Φ q"), "{page}");
+    let _ = std::fs::remove_dir_all(folder);
+}
+
+#[test]
 fn what_cannot_be_measured_is_refused() {
     let refused = |words: &[&str], part: &str| {
         let output = frangible(words);
@@ -57,6 +93,10 @@ fn what_cannot_be_measured_is_refused() {
     };
     refused(&["bench", "table1", "--body", "cow"], "slab-low");
     refused(&["bench", "table1", "--write", "."], "bench all --write");
+    refused(
+        &["bench", "all", "--body", "slab-low", "--write", "."],
+        "leave out --body",
+    );
     refused(&["bench", "--runs", "0"], "1..=10000");
     refused(&["bench", "--body", "glass", "--write", "."], "--write");
 }

@@ -7,7 +7,7 @@ use crate::machine::Machine;
 use crate::table1::{InModel, Row, Stages};
 
 /// A Markdown table whose columns are as wide as their cells.
-fn table(header: &[&str], rows: &[Vec<String>]) -> String {
+pub(crate) fn table(header: &[&str], rows: &[Vec<String>]) -> String {
     let width = |column: usize| {
         let cells = rows.iter().filter_map(|row| row.get(column));
         let widest = cells.map(|c| c.chars().count()).max().unwrap_or(0);
@@ -35,7 +35,7 @@ fn table(header: &[&str], rows: &[Vec<String>]) -> String {
 }
 
 /// Milliseconds to three digits.
-fn ms(seconds: f64) -> String {
+pub(crate) fn ms(seconds: f64) -> String {
     digits(1e3 * seconds)
 }
 
@@ -45,7 +45,7 @@ fn us(seconds: f64) -> String {
 }
 
 /// Three digits, none of them lost before the point.
-fn digits(x: f64) -> String {
+pub(crate) fn digits(x: f64) -> String {
     let places = match x.abs() {
         a if a >= 100.0 => 0,
         a if a >= 10.0 => 1,

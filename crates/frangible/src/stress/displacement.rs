@@ -71,6 +71,11 @@ pub struct DisplacementBatch {
 }
 
 impl DisplacementBatch {
+    /// Steps that it holds …
+    pub const LANES: usize = BATCH;
+    /// … and how many of them the next one does not: the first is the last of the batch before.
+    pub const STRIDE: usize = STRIDE;
+
     /// Empty, for an asset.
     #[must_use]
     pub fn new(asset: &Asset) -> Self {
@@ -106,9 +111,8 @@ impl DisplacementBatch {
 
     /// Computes the batch at every node, as if all were asked for.
     pub fn fill(&mut self, asset: &Asset) {
-        for node in 0..self.displacements.len() {
-            self.at_node(asset, node);
-        }
+        // With the widest vectors that this processor has, as where they are asked for.
+        pulp::Arch::new().dispatch(Fill { batch: self, asset });
     }
 
     /// u = Φ q at a node, at all steps of the batch.
@@ -160,6 +164,23 @@ impl DisplacementBatch {
             sum.z_axis += u * g.z;
         }
         sum
+    }
+}
+
+/// The displacements of all nodes.
+struct Fill<'a> {
+    batch: &'a mut DisplacementBatch,
+    asset: &'a Asset,
+}
+
+impl pulp::NullaryFnOnce for Fill<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        for node in 0..self.batch.displacements.len() {
+            self.batch.at_node(self.asset, node);
+        }
     }
 }
 
