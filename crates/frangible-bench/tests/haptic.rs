@@ -41,6 +41,7 @@ fn fall(touch: &mut Touch, speed: f32, ticks: usize) -> Vec<Felt> {
     (0..ticks)
         .map(|_| {
             let felt = touch.tick(position, velocity).unwrap();
+            touch.judge().hand_over();
             velocity += felt.force * (1e-3 / 0.13);
             position += velocity * 1e-3;
             felt

@@ -20,6 +20,8 @@ pub struct Judge {
     cases: Option<Sender<(Arc<Body>, Case)>>,
     verdicts: Receiver<Result<Outcome, InputError>>,
     thread: Option<JoinHandle<()>>,
+    /// Given, not handed over yet.
+    given: Option<(Arc<Body>, Case)>,
     /// What has come already.
     ready: Option<Result<Outcome, InputError>>,
     /// Tick at which the verdict on the case at hand is taken.
@@ -51,6 +53,7 @@ impl Judge {
             cases: Some(cases),
             verdicts,
             thread: Some(thread),
+            given: None,
             ready: None,
             due: None,
             delay,
@@ -63,12 +66,20 @@ impl Judge {
         self.due.is_some()
     }
 
-    /// Gives it a case at a tick.
+    /// Gives it a case at a tick; the work begins with [`Judge::hand_over`].
     pub fn ask(&mut self, tick: u64, body: &Arc<Body>, case: Case) {
-        if let Some(cases) = self.cases.as_ref().filter(|_| self.due.is_none()) {
-            // The thread ends only with this value.
-            let _ = cases.send((Arc::clone(body), case));
+        if self.due.is_none() {
+            self.given = Some((Arc::clone(body), case));
             self.due = Some(tick + self.delay);
+        }
+    }
+
+    /// Wakes the other thread, where there is something to do for it. After the tick's answer is out: on a machine whose cores
+    /// are all taken the thread that wakes another may have to wait for it.
+    pub fn hand_over(&mut self) {
+        if let (Some(cases), Some(case)) = (&self.cases, self.given.take()) {
+            // The thread ends only with this value.
+            let _ = cases.send(case);
         }
     }
 
@@ -88,6 +99,7 @@ impl Judge {
 
     /// Waits until the verdict has come: for loops that do not keep time with the clock.
     pub fn wait(&mut self) {
+        self.hand_over();
         if self.is_busy() && self.ready.is_none() {
             self.ready = self.verdicts.recv().ok();
         }

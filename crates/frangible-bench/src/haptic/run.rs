@@ -199,6 +199,7 @@ fn play(kind: &Breakable, ticks: u64, paced: bool) -> Result<Log, BenchError> {
         let start = Instant::now();
         let felt = touch.tick(hand.position, hand.velocity)?;
         let time = start.elapsed();
+        touch.judge().hand_over();
         log.kept.waited += usize::from(waits);
         log.add(&felt, time);
         hand.step(felt.force);

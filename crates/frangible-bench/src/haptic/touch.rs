@@ -148,7 +148,8 @@ impl Touch {
         &mut self.judge
     }
 
-    /// A tick: the centre of the probe's tip, m, and its velocity, m/s, in the body frame.
+    /// A tick: the centre of the probe's tip, m, and its velocity, m/s, in the body frame. When its force is given out, let
+    /// [`Judge::hand_over`] follow.
     ///
     /// # Errors
     /// A position or velocity that is not finite.

@@ -60,11 +60,15 @@ impl Section {
             processor,
             cores,
             system,
+            busy,
         } = machine;
+        let busy = busy.as_ref().map_or(String::new(), |load| {
+            format!(" **It had other things to do, load {load}: the times are too long.**")
+        });
         Self {
             title: title.into(),
             text: format!(
-                "Measured on: {processor}, {cores} threads, {system}.\n\n{}\n",
+                "Measured on: {processor}, {cores} threads, {system}.{busy}\n\n{}\n",
                 text.trim_end()
             ),
         }
@@ -136,6 +140,7 @@ mod tests {
             processor: "P".into(),
             cores: 2,
             system: "S".into(),
+            busy: None,
         };
         Section::new(title, &machine, text)
     }
