@@ -15,6 +15,8 @@ use crate::subjects::{MODES, steel_ball};
 const RUNS: usize = 3;
 /// Most impacts of a batch with an adapter in software: they take a second each where it is busy.
 const MOST_IN_SOFTWARE: usize = 16;
+/// CPU time of a batch that hundredths of a second tell, s.
+const LEAST_CPU: f64 = 0.05;
 /// Speeds of the blows, m/s: they come near the strength; most hold, some crack.
 const SPEEDS: [(&str, f64); 2] = [("pane", 1.0), ("glass", 1.5)];
 
@@ -32,7 +34,7 @@ pub struct Adapter {
 pub struct Cost {
     /// Wall-clock time per impact, s.
     pub wall: f64,
-    /// CPU time of the whole process per impact, s, where the system tells (in hundredths of a second per batch).
+    /// CPU time of the whole process per impact, s, where the system tells, and the batch takes long enough.
     pub cpu: Option<f64>,
 }
 
@@ -216,7 +218,11 @@ fn time(
         solver.impacts(&impacts, config)?;
         let cost = Cost {
             wall: wall.elapsed().as_secs_f64() * each,
-            cpu: cpu_seconds().zip(cpu).map(|(b, a)| (b - a) * each),
+            cpu: cpu_seconds()
+                .zip(cpu)
+                .map(|(b, a)| b - a)
+                .filter(|&spent| spent >= LEAST_CPU)
+                .map(|spent| spent * each),
         };
         best = Some(match best {
             Some(best) if best.wall <= cost.wall => best,
