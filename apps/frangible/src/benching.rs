@@ -1,21 +1,38 @@
 //! `frangible bench`: how fast it is.
 
 use std::error::Error;
+use std::path::Path;
 
 use frangible_bench::cache::Cache;
 use frangible_bench::machine::Machine;
+use frangible_bench::page::sections::{self, Section, with_sections};
 use frangible_bench::subjects::chosen;
-use frangible_bench::{contacts, page, roofline, table1};
+use frangible_bench::{contacts, haptic, page, roofline, shop, table1};
 use frangible_export::write_atomically;
-use serde_json::json;
+use serde_json::{Map, Value, json};
 
 use crate::args::{BenchArgs, Measured};
 use crate::place::make_folder;
 use crate::progress::Bar;
 use crate::say::say;
 
-/// The page that `--write` writes.
+/// The page that `--write` writes into.
 const PAGE: &str = "performance.md";
+/// Warm runs of each body of Table 1.
+const WARM: usize = 30;
+/// The body that is felt.
+const FELT: &str = "slab-moderate";
+/// Most impacts of a batch on a GPU.
+#[cfg(feature = "gpu")]
+const BATCH: usize = 64;
+
+/// What was measured: for the page, and for scripts.
+struct Part {
+    key: &'static str,
+    title: &'static str,
+    text: String,
+    json: Value,
+}
 
 /// The one that `roofline --write` writes.
 const ROOFLINE_PAGE: &str = "roofline.md";
@@ -24,63 +41,141 @@ pub(crate) fn run(args: &BenchArgs) -> Result<(), Box<dyn Error>> {
     if args.what == Measured::Roofline {
         return run_roofline(args);
     }
-    let subjects = chosen(&args.bodies)?;
     if let Some(folder) = &args.write {
-        if args.what != Measured::All {
-            return Err(
-                "--write writes one page of both measurements: frangible bench all --write DIR"
-                    .into(),
-            );
-        }
         if !args.bodies.is_empty() {
             return Err("--write writes a page of all bodies: leave out --body".into());
         }
         let wrong = |e: String| e.replace("--out DIR", "--write DIR");
         make_folder(folder, &[PAGE.into()]).map_err(wrong)?;
     }
+    // Names are checked before anything takes minutes.
+    chosen(&args.bodies)?;
+    if !(args.bodies.is_empty() || matches!(args.what, Measured::Table1 | Measured::All)) {
+        let problem =
+            "--body chooses among the bodies of Table 1: frangible bench table1 --body NAME";
+        return Err(problem.into());
+    }
+    let bar = Bar::new(args.json);
+    let mut parts = Vec::new();
+    let mut show = |what: &str, share: f64| bar.show(what, share);
+    for what in measured(args.what) {
+        parts.push(measure(what, args, &mut show)?);
+    }
+    drop(bar);
+    let machine = Machine::this();
+    if let Some(folder) = &args.write {
+        write(folder, &machine, &parts)?;
+    }
+    if args.json {
+        let mut all = Map::new();
+        all.insert("machine".into(), json!(machine));
+        for part in parts {
+            all.insert(part.key.into(), part.json);
+        }
+        return Ok(say(&format!("{:#}\n", Value::Object(all)))?);
+    }
+    let mut text = String::new();
+    for part in &parts {
+        text += &format!("\n## {}\n\n{}", part.title, part.text);
+    }
+    if let Some(folder) = &args.write {
+        text += &format!("\nwrote {}\n", folder.join(PAGE).display());
+    }
+    Ok(say(text.trim_start())?)
+}
+
+fn measured(what: Measured) -> Vec<Measured> {
+    match what {
+        Measured::All => vec![
+            Measured::Table1,
+            Measured::Contacts,
+            Measured::Haptic,
+            Measured::Shop,
+            #[cfg(feature = "gpu")]
+            Measured::Gpu,
+        ],
+        one => vec![one],
+    }
+}
+
+fn measure(
+    what: Measured,
+    args: &BenchArgs,
+    show: &mut dyn FnMut(&str, f64),
+) -> Result<Part, Box<dyn Error>> {
     let cache = Cache {
         folder: args.cache.clone(),
         // A page that stays must not show a body, or a bake time, of another day.
         rebake: args.rebake || args.write.is_some(),
     };
-    let options = table1::Options {
-        runs: args.runs as usize,
-        reference: !args.no_reference,
-    };
-    let bar = Bar::new(args.json);
-    let mut show = |what: &str, share: f64| bar.show(what, share);
-    let mut rows = Vec::new();
-    if args.what != Measured::Contacts {
-        for subject in subjects {
-            rows.push(table1::measure(subject, &cache, &options, &mut show)?);
+    let (key, title, text, json) = match what {
+        // The others are dealt with before.
+        Measured::Table1 | Measured::All | Measured::Roofline => {
+            let options = table1::Options {
+                runs: args.runs.map_or(WARM, |n| n as usize),
+                reference: !args.no_reference,
+            };
+            let mut rows = Vec::new();
+            for subject in chosen(&args.bodies)? {
+                rows.push(table1::measure(subject, &cache, &options, show)?);
+            }
+            let text = page::table1_section(&rows);
+            ("table1", sections::TABLE1, text, json!(rows))
         }
-    }
-    let found = match args.what {
-        Measured::Table1 => None,
-        _ => Some(contacts::measure(&cache, &mut show)?),
+        Measured::Contacts => {
+            let found = contacts::measure(&cache, show)?;
+            let text = page::contacts(&found);
+            ("contacts", sections::CONTACTS, text, json!(found))
+        }
+        Measured::Haptic => {
+            let plate = chosen(&[FELT.into()])?[0];
+            let known = haptic::Options::default();
+            let options = haptic::Options {
+                ticks: u64::from(args.ticks),
+                runs: args.runs.map_or(known.runs, |n| n as usize),
+                ..known
+            };
+            let found = haptic::measure(plate, &cache, &options, show)?;
+            let text = page::haptic(&found);
+            ("haptic", sections::HAPTIC, text, json!(found))
+        }
+        Measured::Shop => {
+            let known = shop::Options::default();
+            let options = shop::Options {
+                runs: args.runs.map_or(known.runs, |n| n as usize),
+                ..known
+            };
+            let found = shop::measure(&options, show)?;
+            ("shop", sections::SHOP, page::shop(&found), json!(found))
+        }
+        #[cfg(feature = "gpu")]
+        Measured::Gpu => {
+            let found = frangible_bench::gpu::measure(BATCH, show)?;
+            // Where a GPU was asked for by name, to have none is a failure.
+            if let (Err(problem), Measured::Gpu) = (&found.adapter, args.what) {
+                return Err(problem.clone().into());
+            }
+            ("gpu", sections::GPU, page::gpu(&found), json!(found))
+        }
     };
-    drop(bar);
-    let machine = Machine::this();
-    if let (Some(folder), Some(found)) = (&args.write, &found) {
-        let text = page::page(&machine, &rows, found);
-        write_atomically(&folder.join(PAGE), text.as_bytes())?;
-    }
-    if args.json {
-        let all = json!({ "machine": machine, "table1": rows, "contacts": found });
-        return Ok(say(&format!("{all:#}\n"))?);
-    }
-    let mut text = String::new();
-    if !rows.is_empty() {
-        text += &page::table1(&rows);
-    }
-    if let Some(found) = &found {
-        text += "\n### Refused contacts\n\n";
-        text += &page::contacts(found);
-    }
-    if let Some(folder) = &args.write {
-        text += &format!("\nwrote {}\n", folder.join(PAGE).display());
-    }
-    Ok(say(&text)?)
+    Ok(Part {
+        key,
+        title,
+        text,
+        json,
+    })
+}
+
+/// Puts what was measured into its sections of the page.
+fn write(folder: &Path, machine: &Machine, parts: &[Part]) -> Result<(), Box<dyn Error>> {
+    let path = folder.join(PAGE);
+    let known = std::fs::read_to_string(&path).ok();
+    let new: Vec<Section> = parts
+        .iter()
+        .map(|part| Section::new(part.title, machine, &part.text))
+        .collect();
+    let page = with_sections(known.as_deref(), &new);
+    Ok(write_atomically(&path, page.as_bytes())?)
 }
 
 fn run_roofline(args: &BenchArgs) -> Result<(), Box<dyn Error>> {

@@ -84,6 +84,41 @@ fn the_roofline_of_a_body_is_measured_and_written() {
 }
 
 #[test]
+fn a_section_is_written_and_the_others_stay() {
+    let folder = std::env::temp_dir().join(format!("frangible-page-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).expect("a folder");
+    let page = folder.join("performance.md");
+    std::fs::write(&page, "# Performance\n\n## Refused contacts\n\nas it was\n").expect("a page");
+    let cache = folder.join("cache");
+    let output = frangible(&[
+        "bench",
+        "haptic",
+        "--ticks",
+        "600",
+        "--runs",
+        "1",
+        "--cache",
+        cache.to_str().expect("a plain path"),
+        "--write",
+        folder.to_str().expect("a plain path"),
+    ]);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let page = std::fs::read_to_string(&page).expect("the page");
+    let headings: Vec<&str> = page.lines().filter_map(|l| l.strip_prefix("## ")).collect();
+    let expected = [
+        "Refused contacts",
+        "A plate under a hand, a thousand times a second",
+        "How to measure it again",
+    ];
+    assert_eq!(headings, expected);
+    assert!(
+        page.contains("as it was") && page.contains("| no contact "),
+        "{page}"
+    );
+    let _ = std::fs::remove_dir_all(folder);
+}
+
+#[test]
 fn what_cannot_be_measured_is_refused() {
     let refused = |words: &[&str], part: &str| {
         let output = frangible(words);
@@ -92,11 +127,12 @@ fn what_cannot_be_measured_is_refused() {
         assert!(message.contains(part), "{message}");
     };
     refused(&["bench", "table1", "--body", "cow"], "slab-low");
-    refused(&["bench", "table1", "--write", "."], "bench all --write");
     refused(
-        &["bench", "all", "--body", "slab-low", "--write", "."],
+        &["bench", "table1", "--body", "slab-low", "--write", "."],
         "leave out --body",
     );
+    refused(&["bench", "shop", "--body", "glass"], "bench table1");
     refused(&["bench", "--runs", "0"], "1..=10000");
+    refused(&["bench", "haptic", "--ticks", "1"], "100..=10000000");
     refused(&["bench", "--body", "glass", "--write", "."], "--write");
 }

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use frangible::{AssetFileError, InputError, UnknownMaterial};
 use frangible_bake::BakeError;
+use frangible_rapier::WorldError;
 use frangible_reference::ReferenceError;
 use thiserror::Error;
 
@@ -26,6 +27,13 @@ pub enum BenchError {
     /// The word-for-word program does not take the body.
     #[error(transparent)]
     Reference(#[from] ReferenceError),
+    /// A world that cannot be stepped.
+    #[error(transparent)]
+    World(#[from] WorldError),
+    /// A GPU that fails.
+    #[cfg(feature = "gpu")]
+    #[error(transparent)]
+    Gpu(#[from] frangible_gpu::GpuError),
     /// The folder of the baked bodies.
     #[error("`{}` cannot be used for the baked bodies: {problem}; choose another folder with --cache DIR", path.display())]
     Cache {

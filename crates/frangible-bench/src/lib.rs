@@ -4,20 +4,31 @@
 //!   paper's times and those of the paper's algorithms word for word;
 //! - [`contacts`]: how many contacts a second are refused, and how long one takes at worst;
 //! - [`roofline`]: operations and bytes of the initiation against the machine's measured peaks;
+//! - [`haptic`]: a loop of 1 kHz that feels a body, and how long its ticks take;
+//! - [`shop`]: a thousand breakable things and a bull, and how long frames take;
+//! - `gpu` (feature `gpu`): batches of impacts on the CPU and on a GPU;
+//! - [`memory`]: what a body takes in a file and in memory;
 //! - [`stages`]: single stages on a small body, for `cargo bench` and for counting instructions.
 //!
-//! [`page`] makes `docs/performance.md` of the first two.
+//! [`page`] makes the sections of `docs/performance.md` of them.
 
 pub mod cache;
 pub mod contacts;
 mod error;
+mod fingerprint;
+#[cfg(feature = "gpu")]
+pub mod gpu;
 mod grid;
+pub mod haptic;
 pub mod machine;
+pub mod memory;
 pub mod page;
 pub mod roofline;
+pub mod shop;
 pub mod stages;
 pub mod stats;
 pub mod subjects;
 pub mod table1;
 
 pub use error::BenchError;
+pub use fingerprint::Fingerprint;

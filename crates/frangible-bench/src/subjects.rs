@@ -295,7 +295,10 @@ pub(crate) fn solid(name: &str, grown: f64, tets: usize) -> Result<Shape, BenchE
 }
 
 /// A steel ball of this mass, kg.
-pub(crate) fn steel_ball(mass: f64) -> Result<Striker, BenchError> {
+///
+/// # Errors
+/// None but a preset that is missing.
+pub fn steel_ball(mass: f64) -> Result<Striker, BenchError> {
     let steel = Material::preset("steel")?;
     let radius = (0.75 * mass / steel.density / std::f64::consts::PI).cbrt();
     Ok(Striker {

@@ -4,7 +4,8 @@
 //! questions, and no answer hangs on another: any number of threads gives the same bits.
 
 use std::collections::BTreeMap;
-use std::sync::mpsc::{Receiver, channel};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use frangible::outcome::LookedAt;
@@ -69,10 +70,34 @@ pub(crate) struct Case {
     pub(crate) impact: Impact,
     /// When the world asks for the verdict: number of the step.
     pub(crate) due: u64,
+    work: Arc<Work>,
     verdict: Mutex<Receiver<Result<Verdict, WorldError>>>,
 }
 
+/// What has to be done for a verdict, once, by whoever comes first.
+struct Work {
+    judge: Judge,
+    body: Body,
+    impact: Impact,
+    taken: AtomicBool,
+    /// Nobody hears it when the world is gone.
+    sender: Sender<Result<Verdict, WorldError>>,
+}
+
+impl Work {
+    fn do_unless_taken(&self) {
+        if !self.taken.swap(true, Ordering::Relaxed) {
+            let _ = self.sender.send(self.judge.judge(&self.body, &self.impact));
+        }
+    }
+}
+
 impl Case {
+    /// Does the work on this thread, if no other has begun with it.
+    pub(crate) fn help(&self) {
+        self.work.do_unless_taken();
+    }
+
     /// Waits for the verdict.
     pub(crate) fn verdict(&self) -> Result<Verdict, WorldError> {
         let verdict = self.verdict.lock().unwrap_or_else(PoisonError::into_inner);
@@ -106,22 +131,24 @@ impl BreakableWorld {
         impact: Impact,
         due: u64,
     ) -> Result<Case, WorldError> {
-        let judge = self.judge_of_now();
-        let whole = breakable(&self.breakables, body)?.clone();
         let (sender, verdict) = channel();
-        let blow = impact.clone();
-        let work = move || {
-            // Nobody hears it when the world is gone.
-            let _ = sender.send(judge.judge(&whole, &blow));
-        };
+        let work = Arc::new(Work {
+            judge: self.judge_of_now(),
+            body: breakable(&self.breakables, body)?.clone(),
+            impact: impact.clone(),
+            taken: AtomicBool::new(false),
+            sender,
+        });
+        let elsewhere = Arc::clone(&work);
         match self.jury() {
-            Some(pool) => pool.spawn_fifo(work),
-            None => work(),
+            Some(pool) => pool.spawn_fifo(move || elsewhere.do_unless_taken()),
+            None => work.do_unless_taken(),
         }
         Ok(Case {
             body,
             impact,
             due,
+            work,
             verdict: Mutex::new(verdict),
         })
     }

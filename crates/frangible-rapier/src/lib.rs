@@ -41,7 +41,7 @@
 //! For scenes of hundreds of bodies take [`Breaking::AfterStep`]: no copy, no second step, work spread over steps by a
 //! budget and over threads; [`ColliderDetail`] for light colliders; [`WorldConfig::dust_mass`] and
 //! [`WorldConfig::debris_mass`] for what is too small to matter; the feature `parallel` for Rapier's own threads. All of it
-//! gives the same bits on any number of threads. The example `china_shop` does it for a thousand.
+//! gives the same bits on any number of threads. The china shop of `frangible-bench` does it for a thousand.
 //!
 //! # What is held
 //! A body whose asset has supports (a pane in its frame, a shelf in its wall) is fixed until it breaks; then the

@@ -3,7 +3,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use frangible::asset::{FORMAT_VERSION, RenderSurface, SaveOptions, seal};
+use frangible::asset::{Embedding, FORMAT_VERSION, RenderSurface, SaveOptions, seal};
+use frangible::glam::Vec3;
 use frangible::{Asset, AssetFileError, InputError};
 
 mod common;
@@ -331,6 +332,30 @@ fn a_compact_asset_comes_back_rounded_to_half_precision_and_otherwise_bit_for_bi
             }
         }
     }
+}
+
+#[test]
+fn a_compact_asset_leaves_out_offsets_that_are_all_zero() {
+    let mut unmoved = tiny();
+    let Embedding { tets, nodes } = &mut unmoved.embedding;
+    for point in tets.iter_mut().chain(nodes) {
+        point.offset = Vec3::ZERO;
+    }
+    let mut nearly = unmoved.clone();
+    nearly.embedding.nodes[1].offset.y = -0.0;
+    let written = |asset: &Asset| asset.to_bytes_with(&SaveOptions::compact());
+    let (bytes, with_offsets) = (written(&unmoved), written(&nearly));
+    assert_eq!([u32_at(&bytes, 16), u32_at(&with_offsets, 16)], [4, 3]);
+    let points = unmoved.embedding.tets.len() + unmoved.embedding.nodes.len();
+    assert!(bytes.len() <= with_offsets.len() - 12 * points);
+    for (bytes, asset) in [(&bytes, unmoved), (&with_offsets, nearly)] {
+        let back = Asset::from_bytes(bytes).unwrap();
+        assert!(same(&back, &asset.with_compact_shapes()));
+    }
+    // The version before does not do without them.
+    let mut older = bytes;
+    put(&mut older, 16, &3_u32.to_le_bytes());
+    assert!(section_problem(&older).contains("offsets of tetrahedra: is missing"));
 }
 
 #[test]

@@ -4,12 +4,13 @@ use std::fs;
 use std::path::Path;
 
 use frangible::Asset;
-use frangible::asset::SaveOptions;
+use frangible::asset::{Embedding, SaveOptions};
+use frangible::glam::Vec3;
 
 mod common;
 use common::{Size, drawn_surface, synthetic_asset};
 
-fn seeds() -> [(&'static str, Asset, SaveOptions); 4] {
+fn seeds() -> [(&'static str, Asset, SaveOptions); 5] {
     let asset = |cubes, analysis_nodes, elements, modes| {
         synthetic_asset(&Size {
             cubes,
@@ -22,7 +23,13 @@ fn seeds() -> [(&'static str, Asset, SaveOptions); 4] {
         render: Some(drawn_surface()),
         ..asset(1, 10, 1, 2)
     };
+    // Where no point has an offset, a compact file has none either.
+    let mut unmoved = asset(1, 10, 1, 1).with_compact_shapes();
+    let Embedding { tets, nodes } = &mut unmoved.embedding;
+    let points = tets.iter_mut().chain(nodes);
+    points.for_each(|point| point.offset = Vec3::ZERO);
     [
+        ("unmoved", unmoved, SaveOptions::compact()),
         ("least", asset(1, 10, 1, 1), SaveOptions::default()),
         ("drawn", drawn, SaveOptions::default()),
         ("cubes", asset(2, 12, 3, 2), SaveOptions::default()),

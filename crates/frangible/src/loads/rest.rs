@@ -10,7 +10,7 @@ use crate::body::Body;
 use crate::config::{CrackTiming, FractureConfig};
 use crate::contact::{each_row, quick_bound};
 use crate::error::{InputError, finite};
-use crate::impact::{harmless, pieces, report_on, run_cracks};
+use crate::impact::{Cracked, harmless, pieces, report_on, run_cracks};
 use crate::modal::Motion;
 use crate::outcome::{LookedAt, Outcome};
 use crate::piece::static_load;
@@ -102,23 +102,33 @@ pub fn rest(
     let (time_step, steps) = steps(body, config);
     report.time_step = time_step;
     report.time_steps = steps;
-    let motion = Motion {
-        modes: amplitudes.len(),
-        amplitudes: amplitudes.repeat(steps),
-        peak_energy: report.peak_strain_energy,
-        peak_strain_energy: report.peak_strain_energy,
+    let energy = report.peak_strain_energy;
+    let run = |steps, report| {
+        let motion = Motion {
+            modes: amplitudes.len(),
+            amplitudes: amplitudes.repeat(steps),
+            peak_energy: energy,
+            peak_strain_energy: energy,
+        };
+        run_cracks(
+            body,
+            config,
+            &motion,
+            &pressed,
+            time_step,
+            f64::INFINITY,
+            report,
+            &mut None,
+        )
     };
-    let cracked = run_cracks(
-        body,
-        config,
-        &motion,
-        &pressed,
-        time_step,
-        f64::INFINITY,
-        report,
-        &mut None,
-    );
-    Ok(pieces(body, cracked))
+    if body.state().is_intact() {
+        // The load does not change: where nothing starts at once, nothing ever does.
+        let at_once = run(1, report.clone());
+        if matches!(at_once, Cracked::Held(_, _, None)) {
+            return Ok(pieces(body, at_once));
+        }
+    }
+    Ok(pieces(body, run(steps, report)))
 }
 
 fn forces_on(body: &Body, forces: &[Force]) -> (Vec<f64>, Vec<u32>) {

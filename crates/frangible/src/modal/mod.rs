@@ -2,8 +2,10 @@
 
 mod basis;
 mod field;
+mod live;
 mod response;
 
 pub use basis::ModalBasis;
 pub use field::ModeField;
+pub use live::{LiveModes, SurfacePlace};
 pub use response::{Motion, Oscillator, contact_energy_within, respond};

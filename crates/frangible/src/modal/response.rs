@@ -86,7 +86,7 @@ fn product(a: &Matrix4, b: &Matrix4) -> Matrix4 {
 }
 
 /// Matrix exponential by scaling, a Taylor series of order 13 (remainder below 1e-15 at norm ½), squaring.
-fn exponential(a: &Matrix4) -> Matrix4 {
+pub(super) fn exponential(a: &Matrix4) -> Matrix4 {
     let norm = a
         .iter()
         .map(|row| row.iter().map(|x| x.abs()).sum::<f64>())

@@ -6,7 +6,7 @@ use glam::{DMat3, DVec3, Vec3};
 
 use super::reader::Reader;
 use super::sections::{self as s, Section};
-use super::{AssetFileError, COMPACT, SUPPORTED};
+use super::{AssetFileError, COMPACT, SUPPORTED, WITHOUT_ZEROS};
 use crate::asset::half::Half;
 use crate::asset::{
     AnalysisMesh, Asset, ConvexCell, EmbeddedPoint, Embedding, OuterSurface, RenderMaterial,
@@ -117,24 +117,33 @@ fn embedded(r: &Reader<'_>, sections: [Section; 3]) -> Result<Vec<EmbeddedPoint>
     let [of_elements, of_barycentric, of_offsets] = sections;
     let elements = r.each::<u32>(of_elements)?;
     let barycentric = r.each::<[f32; 4]>(of_barycentric)?;
-    let offsets = r.each::<Vec3>(of_offsets)?;
-    for (section, rows) in [
-        (of_barycentric, barycentric.len()),
-        (of_offsets, offsets.len()),
-    ] {
-        if rows != elements.len() {
-            let problem = format!("has {rows} rows, not {}", elements.len());
-            return Err(AssetFileError::section(section.name, problem));
+    let check = |section: Section, rows: usize| {
+        if rows == elements.len() {
+            return Ok(());
         }
-    }
-    let points = elements.zip(barycentric).zip(offsets);
-    Ok(points
-        .map(|((element, barycentric), offset)| EmbeddedPoint {
+        let problem = format!("has {rows} rows, not {}", elements.len());
+        Err(AssetFileError::section(section.name, problem))
+    };
+    check(of_barycentric, barycentric.len())?;
+    let offsets = if r.version < WITHOUT_ZEROS || r.has(of_offsets) {
+        let offsets = r.each::<Vec3>(of_offsets)?;
+        check(of_offsets, offsets.len())?;
+        Some(offsets)
+    } else {
+        None
+    };
+    let points = elements.zip(barycentric);
+    let mut points: Vec<EmbeddedPoint> = points
+        .map(|(element, barycentric)| EmbeddedPoint {
             element,
             barycentric,
-            offset,
+            offset: Vec3::ZERO,
         })
-        .collect())
+        .collect();
+    for (point, offset) in points.iter_mut().zip(offsets.into_iter().flatten()) {
+        point.offset = offset;
+    }
+    Ok(points)
 }
 
 fn cells(r: &Reader<'_>) -> Result<Vec<ConvexCell>, AssetFileError> {

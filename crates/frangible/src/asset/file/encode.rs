@@ -2,9 +2,9 @@
 
 use super::sections::{self as s, Section};
 use super::writer::Writer;
-use super::{COMPACT, FREE, SUPPORTED, SaveOptions};
+use super::{COMPACT, FREE, SUPPORTED, SaveOptions, WITHOUT_ZEROS};
 use crate::asset::half::{Half, half_scales};
-use crate::asset::{Asset, EmbeddedPoint, RenderSurface};
+use crate::asset::{Asset, EmbeddedPoint, Embedding, RenderSurface};
 use crate::material::Material;
 use crate::mesh::MassProperties;
 
@@ -33,10 +33,12 @@ impl Asset {
         w.rows(s::ANALYSIS_NODES, &self.analysis.nodes);
         w.rows(s::ANALYSIS_ELEMENTS, &self.analysis.elements);
         w.rows(s::ANALYSIS_GRADIENTS, &self.analysis.barycentric_gradients);
+        let Embedding { tets, nodes } = &self.embedding;
+        let unmoved = options.compact && [tets, nodes].iter().all(|points| are_unmoved(points));
         let of_tets = [s::TET_ELEMENTS, s::TET_BARYCENTRIC, s::TET_OFFSETS];
-        embedded(&mut w, of_tets, &self.embedding.tets);
+        embedded(&mut w, of_tets, tets, !unmoved);
         let of_nodes = [s::NODE_ELEMENTS, s::NODE_BARYCENTRIC, s::NODE_OFFSETS];
-        embedded(&mut w, of_nodes, &self.embedding.nodes);
+        embedded(&mut w, of_nodes, nodes, !unmoved);
         w.rows(s::EIGENVALUES, &self.modes.eigenvalues);
         if options.compact {
             let scales = half_scales(&self.modes);
@@ -71,6 +73,7 @@ impl Asset {
             render(&mut w, surface);
         }
         w.finish(match (options.compact, self.is_supported()) {
+            (true, _) if unmoved => WITHOUT_ZEROS,
             (true, _) => COMPACT,
             (false, true) => SUPPORTED,
             (false, false) => FREE,
@@ -102,14 +105,23 @@ fn mass_numbers(m: &MassProperties) -> [f64; 14] {
     [m.mass, m.volume, x, y, z, a, b, c, d, e, f, g, h, i]
 }
 
+/// Whether all offsets are zero, to the bit.
+fn are_unmoved(points: &[EmbeddedPoint]) -> bool {
+    let bits = |p: &EmbeddedPoint| p.offset.to_array().map(f32::to_bits);
+    points.iter().all(|p| bits(p) == [0; 3])
+}
+
 fn embedded(
     w: &mut Writer,
     [elements, barycentric, offsets]: [Section; 3],
     points: &[EmbeddedPoint],
+    with_offsets: bool,
 ) {
     w.each(elements, points.iter().map(|p| p.element));
     w.each(barycentric, points.iter().map(|p| p.barycentric));
-    w.each(offsets, points.iter().map(|p| p.offset));
+    if with_offsets {
+        w.each(offsets, points.iter().map(|p| p.offset));
+    }
 }
 
 fn render(w: &mut Writer, surface: &RenderSurface) {

@@ -5,6 +5,8 @@ use std::sync::Arc;
 use frangible::{Breakable, Material};
 use frangible_bake::{BakeSpec, Shape, Station, bake};
 
+use crate::error::BenchError;
+
 /// Tetrahedra of a fracture mesh, at least, and quadratic ones of the analysis mesh.
 const TETS: [f64; 2] = [1500.0, 1500.0];
 const MODES: usize = 40;
@@ -16,7 +18,7 @@ pub(crate) struct Kind {
 }
 
 /// Bakes all kinds; some seconds each.
-pub(crate) fn bake_all() -> Result<Vec<Kind>, Box<dyn std::error::Error>> {
+pub(crate) fn bake_all() -> Result<Vec<Kind>, BenchError> {
     let shapes = [
         ("cup", cup(), "porcelain"),
         ("plate", scaled(&Shape::dinner_plate(), 0.6), "porcelain"),
@@ -89,9 +91,4 @@ fn scaled(shape: &Shape, scale: f64) -> Shape {
     Shape::Revolution {
         profile: profile.iter().map(station).collect(),
     }
-}
-
-/// Bytes of what bodies of a kind share, and of one body's own.
-pub(crate) fn bytes(kind: &Kind) -> usize {
-    kind.breakable.asset().to_bytes().len()
 }

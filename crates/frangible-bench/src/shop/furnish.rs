@@ -7,7 +7,7 @@ use frangible_rapier::rapier3d::geometry::{
 use frangible_rapier::rapier3d::math::{Pose, Rotation, Vector};
 use frangible_rapier::{Ball, BreakableWorld, SurfaceProperties, WorldConfig, WorldError};
 
-use crate::crockery::Kind;
+use super::crockery::Kind;
 
 const RACKS: usize = 5;
 const BOARDS: usize = 5;

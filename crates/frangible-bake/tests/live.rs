@@ -1,0 +1,222 @@
+//! Bodies that vibrate from tick to tick, and impacts whose beginning of cracks is looked for ahead.
+
+use frangible::glam::Vec3;
+use frangible::modal::{LiveModes, SurfacePlace};
+use frangible::stress::{DisplacementBatch, Elasticity, largest_eigenvalue};
+use frangible::{
+    Body, Breakable, Contact, FractureConfig, Material, Onset, OnsetSearch, Outcome, Stage,
+    Striker, Vibration, impact,
+};
+use frangible_bake::{BakeSpec, MeshSize, Shape, bake};
+
+/// A pane of glass 300 × 200 × 6 mm, 40 modes.
+fn pane() -> Body {
+    let spec = BakeSpec {
+        modes: 40,
+        analysis: Some(MeshSize {
+            edge: 0.025,
+            layers: 1,
+        }),
+        fracture: Some(MeshSize {
+            edge: 0.012,
+            layers: 1,
+        }),
+        ..BakeSpec::new(
+            "pane",
+            Shape::plate(0.3, 0.2, 0.006),
+            Material::preset("glass").unwrap(),
+        )
+    };
+    let asset = bake(&spec, &mut |_| {}).unwrap().0;
+    Breakable::new(asset).unwrap().body(1)
+}
+
+/// A steel ball of 50 g on the pane, from above.
+fn blow(body: &Body, speed: f64) -> Contact {
+    let steel = Material::preset("steel").unwrap();
+    Contact::collision(
+        body.asset(),
+        Vec3::new(0.04, 0.02, 0.003),
+        Vec3::NEG_Z,
+        speed,
+        Striker::ball(&steel, 0.05, 0.0115),
+    )
+}
+
+fn begun(body: &Body, contact: Contact, config: &FractureConfig) -> Vibration {
+    match Vibration::begin(body, &[contact], config).unwrap() {
+        Stage::Vibrates(vibration) => vibration,
+        Stage::Held(_) => panic!("refused at once"),
+    }
+}
+
+#[test]
+fn a_steady_push_ends_at_the_static_displacement() {
+    let body = pane();
+    let place = SurfacePlace::nearest(&body, Vec3::new(0.05, 0.03, 0.01)).unwrap();
+    assert!((place.normal - Vec3::Z).length() < 1e-5);
+    assert!((place.position - Vec3::new(0.05, 0.03, 0.003)).length() < 1e-5);
+    let mut live = LiveModes::new(&body, 1e-3).unwrap();
+    for _ in 0..20_000 {
+        live.push(&place, Vec3::NEG_Z);
+        live.step();
+    }
+    let (now, rest) = (live.displacement(&place), live.static_displacement(&place));
+    // A force never moves the place it acts on against itself.
+    assert!(rest.z < 0.0);
+    assert!((now - rest).length() < 1e-4 * rest.length(), "{now} {rest}");
+    // Σ φ φᵀ f / λ once more, from the modes as they are drawn.
+    let node = |p: &Vec3| (*p - place.position).length_squared();
+    let positions = &body.asset().fracture.positions;
+    let corner = (0..positions.len())
+        .min_by(|&a, &b| node(&positions[a]).total_cmp(&node(&positions[b])))
+        .unwrap();
+    let there = SurfacePlace::nearest(&body, positions[corner]).unwrap();
+    let mut live = LiveModes::new(&body, 1e-3).unwrap();
+    live.push(&there, Vec3::NEG_Z);
+    live.step();
+    let modes = &body.asset().modes;
+    let expected: Vec3 = (0..modes.count())
+        .map(|i| {
+            let phi = body.asset().mode_on_fracture_mesh(i).displacements[corner];
+            phi * (-phi.z / modes.eigenvalues[i] as f32)
+        })
+        .sum();
+    let found = live.static_displacement(&there);
+    assert!(
+        (found - expected).length() < 1e-3 * expected.length(),
+        "{found} {expected}"
+    );
+}
+
+#[test]
+fn vibration_holds_the_work_that_was_done_on_it() {
+    let mut material = Material::preset("glass").unwrap();
+    material.stiffness_damping = 0.0;
+    material.mass_damping = 0.0;
+    let asset = (**pane().asset()).clone();
+    let body = Breakable::new(frangible::Asset { material, ..asset })
+        .unwrap()
+        .body(1);
+    let place = SurfacePlace::nearest(&body, Vec3::new(0.1, 0.06, 0.003)).unwrap();
+    // A tick of a twentieth of the highest mode's period, so that the trapezoidal rule serves for the work.
+    let highest = body.asset().modes.frequency(39);
+    let tick = 0.05 / highest;
+    let mut live = LiveModes::new(&body, tick).unwrap();
+    let (mut work, mut before) = (0.0, 0.0);
+    for k in 1..=400 {
+        let force = if k < 200 {
+            Vec3::new(1.0, 0.5, -10.0) * (k as f32 * 0.05).sin()
+        } else {
+            Vec3::ZERO
+        };
+        live.push(&place, force);
+        live.step();
+        let power = f64::from(force.dot(live.velocity(&place)));
+        work += 0.5 * (before + power) * tick;
+        before = power;
+    }
+    let energy = live.energy();
+    assert!(
+        energy > 0.0 && (work / energy - 1.0).abs() < 0.02,
+        "{work} {energy}"
+    );
+}
+
+#[test]
+fn ticks_and_places_that_mean_nothing_are_refused() {
+    let body = pane();
+    for tick in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        assert!(LiveModes::new(&body, tick).is_err(), "{tick}");
+    }
+    assert!(SurfacePlace::nearest(&body, Vec3::new(0.0, f32::NAN, 0.0)).is_err());
+}
+
+/// The first step at which any weak point's stress passes its strength, by looking at all of them at all steps.
+fn first_by_looking_at_all(
+    body: &Body,
+    vibration: &Vibration,
+    config: &FractureConfig,
+) -> Option<usize> {
+    let asset = &**body.asset();
+    let motion = vibration.motion(body);
+    let elasticity = Elasticity::new(&asset.material).with_green_lagrange(config.green_lagrange);
+    let mut displacement = DisplacementBatch::new(asset);
+    (0..motion.steps()).find(|&step| {
+        displacement.seek(&motion, step);
+        body.weak_tets().iter().any(|&tet| {
+            let (point, law) = body.weak_place(tet, config, &vibration.pressed);
+            let gradient = displacement.gradient(asset, point, step);
+            largest_eigenvalue(&elasticity.state_by(gradient, law).stress) > body.strength(tet)
+        })
+    })
+}
+
+#[test]
+fn the_onset_is_the_first_step_at_which_any_weak_point_passes_its_strength() {
+    let body = pane();
+    let config = FractureConfig::default();
+    let (mut never, mut at) = (0, 0);
+    for speed in [0.8, 1.6, 2.4, 3.2, 4.0, 6.0, 12.0] {
+        let vibration = begun(&body, blow(&body, speed), &config);
+        let expected = first_by_looking_at_all(&body, &vibration, &config);
+        let mut at_once = OnsetSearch::new(&body, vibration.clone());
+        match (at_once.look(&body, &config, usize::MAX), expected) {
+            (Onset::Never, None) => never += 1,
+            (Onset::At(found), Some(step)) if found == step => at += 1,
+            other => panic!("{speed} m/s: {other:?}"),
+        }
+        let mut by_and_by = OnsetSearch::new(&body, vibration);
+        let mut before = 0;
+        while let Onset::NotBefore(step) = by_and_by.look(&body, &config, 1) {
+            assert!(step >= before, "{step} after {before}");
+            before = step;
+        }
+        assert_eq!(by_and_by.onset(), at_once.onset(), "{speed} m/s");
+    }
+    assert!(never > 1 && at > 1, "{never} {at}");
+}
+
+#[test]
+fn from_its_onset_on_an_impact_ends_as_a_whole_one_does() {
+    let body = pane();
+    let config = FractureConfig::default();
+    let contact = blow(&body, 12.0);
+    let Outcome::Broke(whole) = impact(&body, &[contact], &config).unwrap() else {
+        panic!("it held");
+    };
+    for looks in [0, 1, usize::MAX] {
+        let mut search = OnsetSearch::new(&body, begun(&body, contact, &config));
+        search.look(&body, &config, looks);
+        let (vibration, first_step) = search.into_impact();
+        let Outcome::Broke(parts) = vibration.end(&body, &config, first_step) else {
+            panic!("it held from step {first_step} on");
+        };
+        assert_eq!(parts.fragments.len(), whole.fragments.len());
+        for (a, b) in parts.fragments.iter().zip(&whole.fragments) {
+            assert_eq!(a.mesh.positions, b.mesh.positions);
+            assert_eq!(a.mesh.triangles, b.mesh.triangles);
+        }
+    }
+}
+
+#[test]
+fn old_cracks_leave_the_question_open() {
+    let mut body = pane();
+    let config = FractureConfig::default();
+    // A blow that cracks without parting, among rising ones.
+    let state = (10..80).find_map(|k| {
+        let outcome = impact(&body, &[blow(&body, 0.1 * f64::from(k))], &config).unwrap();
+        match outcome {
+            Outcome::Held { state, .. } => state,
+            _ => None,
+        }
+    });
+    let state = state.expect("some blow cracks the pane without parting it");
+    let answer = |body: &Body| {
+        OnsetSearch::new(body, begun(body, blow(body, 1.6), &config)).look(body, &config, 9)
+    };
+    assert_eq!(answer(&body), Onset::Never);
+    body.set_state(*state).unwrap();
+    assert_eq!(answer(&body), Onset::NotBefore(0));
+}
