@@ -3,6 +3,7 @@
 mod culling;
 mod field;
 mod initiation;
+mod node_values;
 mod propagation;
 mod release;
 mod surface;

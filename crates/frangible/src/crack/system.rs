@@ -1,15 +1,16 @@
 //! All cracks of one impact and what they have cut.
 
 use std::cmp::Ordering;
-use std::collections::{BinaryHeap, HashMap};
+use std::collections::BinaryHeap;
 
 use glam::Vec3;
 
+use super::node_values::NodeValues;
 use super::release::Releases;
 use super::surface::CrackFrame;
 use crate::asset::Asset;
 use crate::body::Body;
-use crate::config::{CrackTiming, FractureConfig};
+use crate::config::{CrackPath, CrackTiming, FractureConfig};
 use crate::fields::Resistance;
 use crate::material::Material;
 use crate::state::OldCrack;
@@ -21,8 +22,6 @@ pub(crate) const UNCUT: u32 = u32::MAX;
 /// One crack.
 pub(crate) struct Crack {
     pub(crate) frame: CrackFrame,
-    /// s at the nodes it has met, m. Looked up only, never iterated.
-    pub(crate) values: HashMap<u32, f32>,
     /// Fractured tetrahedra in the order they joined.
     pub(crate) elements: Vec<ElementCut>,
     /// Fracture energy spent E_f, J `[G12 Eq. 11]`.
@@ -44,7 +43,6 @@ impl Crack {
     pub(crate) fn new(frame: CrackFrame) -> Self {
         Self {
             frame,
-            values: HashMap::new(),
             elements: Vec::new(),
             spent: 0.0,
             available: 0.0,
@@ -148,6 +146,8 @@ pub(crate) struct CrackSystem<'a> {
     pub(crate) resistance: &'a Resistance,
     pub(crate) seed: u64,
     pub(crate) cracks: Vec<Crack>,
+    /// s of steered cracks at the nodes that they have met.
+    pub(crate) values: NodeValues,
     /// Crack that fractured each tetrahedron, or [`UNCUT`].
     pub(crate) fractured_by: Vec<u32>,
     /// Fronts on their way.
@@ -193,6 +193,7 @@ impl<'a> CrackSystem<'a> {
             budget,
             spent: 0.0,
             cracks: Vec::new(),
+            values: NodeValues::new(asset.fracture.positions.len()),
             fractured_by: vec![UNCUT; asset.fracture.tets.len()],
             fronts: BinaryHeap::new(),
             stalled: Vec::new(),
@@ -328,8 +329,11 @@ impl<'a> CrackSystem<'a> {
         let mut grown = size > extent.size;
         extent.size = size;
         let sites = c.sites.len() as u32;
-        for (&node, &s) in self.asset.fracture.tets[tet].iter().zip(&cut.values) {
-            c.values.entry(node).or_insert(s);
+        // The surface of a planar crack is the same everywhere.
+        if self.config.path != CrackPath::Planar {
+            for (&node, &s) in self.asset.fracture.tets[tet].iter().zip(&cut.values) {
+                self.values.keep(crack, node, s);
+            }
         }
         // Latest first: a new place is next to the latest ones.
         let apart = self.edge * self.edge;
