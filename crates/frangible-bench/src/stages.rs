@@ -125,7 +125,7 @@ impl Bench {
             let outcome = impact(&self.body, &[self.blow(depth)], &self.ours)?;
             let came_to = match (&outcome, outcome.report().looked_at) {
                 (Outcome::Broke(_), _) => Break,
-                (_, LookedAt::Impulses) => Impulse,
+                (_, LookedAt::Sizes | LookedAt::Impulses) => Impulse,
                 (_, LookedAt::Amplitudes) => Amplitudes,
                 _ => Stresses,
             };

@@ -1,11 +1,14 @@
 //! THE pipeline: contacts in, outcome out, one call per stage in the paper's order.
 
+use std::f64::consts::PI;
 use std::time::Instant;
 
 use crate::body::Body;
 use crate::config::FractureConfig;
-use crate::contact::{self, Contact};
-use crate::crack::{CrackSystem, Culling, Peak, StressField, Suspects, crack, front_limit};
+use crate::contact::{self, Contact, Refusal};
+use crate::crack::{
+    CrackSystem, Culling, Peak, StressField, Suspects, crack, front_limit, refused_following,
+};
 use crate::error::InputError;
 use crate::fragment::{self, Labels};
 use crate::modal::Motion;
@@ -65,7 +68,7 @@ pub fn would_break(
 pub fn is_harmless(body: &Body, contacts: &[Contact], config: &FractureConfig) -> bool {
     config.culling
         && contacts.iter().all(|c| c.validate().is_ok())
-        && contact::first_bound(body, contacts, config).is_some_and(|bound| bound <= harmless(body))
+        && contact::refused(body, contacts, config).is_some()
 }
 
 /// What the cracks of an impact did to a body.
@@ -111,13 +114,9 @@ pub(crate) fn begin(
 
     // Most contacts end here (beyond the paper: stress/bound.rs).
     if config.culling
-        && let Some(bound) = contact::first_bound(body, contacts, config)
-        && bound <= harmless(body)
+        && let Some(refusal) = contact::refused(body, contacts, config)
     {
-        report.stress_bound = f64::from(bound);
-        report.timings.response = clock.elapsed().as_secs_f64();
-        let margin = report.strength / f64::from(bound);
-        return Ok(Begun::Held(margin, report));
+        return Ok(held(refusal, report, clock));
     }
 
     // Contact → force pulse → modal response [G12 §4.1-4.3].
@@ -132,6 +131,14 @@ pub(crate) fn begin(
     } else {
         report.unadjusted_duration
     };
+    let pressed = load.pressed();
+    if config.culling && body.state().is_intact() {
+        let pulse_frequency = (PI / report.contact_duration) as f32;
+        let (impulse, pressed) = (&load.modal_impulse, &pressed);
+        if let Some(refusal) = refused_following(body, impulse, pressed, pulse_frequency, config) {
+            return Ok(held(refusal, report, clock));
+        }
+    }
     let pulse = contact::pulse(asset, &load, report.contact_duration, config);
     report.looked_at = LookedAt::Amplitudes;
     report.time_step = pulse.time_step;
@@ -139,7 +146,6 @@ pub(crate) fn begin(
     report.most_excited_frequency = contact::most_excited_mode(asset, &load.modal_impulse)
         .map_or(0.0, |i| asset.modes.frequency(i));
     report.timings.response = clock.elapsed().as_secs_f64();
-    let pressed = load.pressed();
     let modal_impulse = load.modal_impulse;
     Ok(Begun::Vibrates(Vibration {
         modal_impulse,
@@ -147,6 +153,15 @@ pub(crate) fn begin(
         pulse,
         report,
     }))
+}
+
+/// Of an impact that a bound refused.
+fn held(refusal: Refusal, mut report: ImpactReport, clock: Instant) -> Begun {
+    report.looked_at = refusal.looked_at;
+    report.stress_bound = f64::from(refusal.bound);
+    report.timings.response = clock.elapsed().as_secs_f64();
+    let margin = report.strength / f64::from(refusal.as_weakest);
+    Begun::Held(margin, report)
 }
 
 /// Second stage: the motion of the modes, and what it does from time step `first_step` on.

@@ -2,8 +2,10 @@
 
 mod culling;
 mod field;
+mod following;
 mod initiation;
 mod node_values;
+mod parts;
 mod propagation;
 mod release;
 mod surface;
@@ -12,7 +14,9 @@ mod system;
 
 pub(crate) use culling::Culling;
 pub(crate) use field::{StressField, weak_place};
+pub(crate) use following::refused_following;
 pub(crate) use initiation::{Peak, crack};
+pub(crate) use parts::refused_by_parts;
 use propagation::{advance, retry};
 pub(crate) use surface::crossing_polygon;
 pub(crate) use suspects::Suspects;
