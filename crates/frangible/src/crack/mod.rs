@@ -1,5 +1,6 @@
 //! Cracks: where they start, how they run, when they stop `[G12 §4.4, §5]`.
 
+mod arrivals;
 mod culling;
 mod field;
 mod following;

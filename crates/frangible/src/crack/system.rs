@@ -81,14 +81,8 @@ pub(crate) struct Extent {
     pub(crate) origin: Vec3,
     /// Largest distance of a fractured tetrahedron from the start, m.
     pub(crate) size: f32,
-}
-
-/// A crack that grew.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Growth {
-    pub(crate) crack: u32,
-    /// How many sites it had before.
-    pub(crate) sites: u32,
+    /// Where the crack comes last in [`CrackSystem::growth`].
+    pub(crate) latest_growth: u32,
 }
 
 /// A place on a crack.
@@ -163,7 +157,7 @@ pub(crate) struct CrackSystem<'a> {
     /// What has released the weak points so far.
     pub(crate) releases: Releases,
     /// The crack that grew, got a site or a longer reach, once for each time between two questions about releases.
-    pub(crate) growth: Vec<Growth>,
+    pub(crate) growth: Vec<u32>,
     /// Start and size of each crack.
     pub(crate) extents: Vec<Extent>,
     /// Number of questions so far.
@@ -313,6 +307,7 @@ impl<'a> CrackSystem<'a> {
         self.extents.push(Extent {
             origin: frame.origin,
             size: 0.0,
+            latest_growth: 0,
         });
         self.cracks.push(Crack::new(frame));
     }
@@ -328,7 +323,6 @@ impl<'a> CrackSystem<'a> {
         let size = extent.size.max(centre.distance(extent.origin));
         let mut grown = size > extent.size;
         extent.size = size;
-        let sites = c.sites.len() as u32;
         // The surface of a planar crack is the same everywhere.
         if self.config.path != CrackPath::Planar {
             for (&node, &s) in self.asset.fracture.tets[tet].iter().zip(&cut.values) {
@@ -352,7 +346,8 @@ impl<'a> CrackSystem<'a> {
         c.elements.push(cut);
         if grown && c.grown_before != self.questions {
             c.grown_before = self.questions;
-            self.growth.push(Growth { crack, sites });
+            extent.latest_growth = self.growth.len() as u32;
+            self.growth.push(crack);
         }
     }
 }
