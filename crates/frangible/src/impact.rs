@@ -22,7 +22,8 @@ use crate::trace::CrackTrace;
 ///
 /// `contacts` are all contacts of this impact on this body, in its body frame (origin at the centre of mass).
 /// The modes of the unbroken body serve during the whole break (the single-basis assumption of `[G12]`).
-/// A contact far below the strength, which is nearly every one, costs O(modes) and no allocation.
+/// A contact far below the strength, which is nearly every one, costs a look at the closest surface triangle, seldom O(modes), and no
+/// allocation.
 ///
 /// # Errors
 /// A contact with a NaN, a negative impulse or no direction.
@@ -35,7 +36,8 @@ pub fn impact(
     Ok(pieces(body, cracked))
 }
 
-/// [`impact()`], and what its cracks did element by element: for tests and for the comparison with the paper.
+/// [`impact()`], and what its cracks did element by element: for tests and for the comparison with the paper. No bound free of time
+/// refuses it: its motion is followed, and the report has the steps.
 ///
 /// # Errors
 /// As [`impact()`].
@@ -86,10 +88,12 @@ fn cracks<'a>(
     config: &'a FractureConfig,
     trace: &mut Option<CrackTrace>,
 ) -> Result<Cracked<'a>, InputError> {
-    Ok(match begin(body, contacts, config)? {
-        Begun::Held(margin, report) => Cracked::Held(margin, report, None),
-        Begun::Vibrates(vibration) => vibrate(body, config, vibration, 0, trace),
-    })
+    Ok(
+        match begin(body, contacts, config, config.culling && trace.is_none())? {
+            Begun::Held(margin, report) => Cracked::Held(margin, report, None),
+            Begun::Vibrates(vibration) => vibrate(body, config, vibration, 0, trace),
+        },
+    )
 }
 
 /// What is known of an impact before the motion of the modes is.
@@ -100,11 +104,12 @@ pub(crate) enum Begun {
     Vibrates(Vibration),
 }
 
-/// First stage: bound, force pulse and time steps.
+/// First stage: bounds free of time, if they may `refuse` it, force pulse and time steps.
 pub(crate) fn begin(
     body: &Body,
     contacts: &[Contact],
     config: &FractureConfig,
+    refuse: bool,
 ) -> Result<Begun, InputError> {
     contacts.iter().try_for_each(Contact::validate)?;
     let asset = &*body.asset;
@@ -112,10 +117,8 @@ pub(crate) fn begin(
     report.approach_energy = contact::approach_energy(contacts);
     let clock = Instant::now();
 
-    // Most contacts end here (beyond the paper: stress/bound.rs).
-    if config.culling
-        && let Some(refusal) = contact::refused(body, contacts, config)
-    {
+    // Most contacts end here (beyond the paper: contact/refusal.rs).
+    if refuse && let Some(refusal) = contact::refused(body, contacts, config) {
         return Ok(held(refusal, report, clock));
     }
 
@@ -132,7 +135,7 @@ pub(crate) fn begin(
         report.unadjusted_duration
     };
     let pressed = load.pressed();
-    if config.culling && body.state().is_intact() {
+    if refuse && body.state().is_intact() {
         let pulse_frequency = (PI / report.contact_duration) as f32;
         let (impulse, pressed) = (&load.modal_impulse, &pressed);
         if let Some(refusal) = refused_following(body, impulse, pressed, pulse_frequency, config) {

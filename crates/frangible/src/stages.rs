@@ -41,7 +41,7 @@ impl Vibration {
         contacts: &[Contact],
         config: &FractureConfig,
     ) -> Result<Stage, InputError> {
-        Ok(match begin(body, contacts, config)? {
+        Ok(match begin(body, contacts, config, config.culling)? {
             Begun::Held(margin, report) => Stage::Held(Outcome::Held {
                 margin,
                 report,
