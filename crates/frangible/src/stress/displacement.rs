@@ -116,12 +116,12 @@ impl DisplacementBatch {
     fn at_node(&mut self, asset: &Asset, node: usize) -> &[Lanes; 3] {
         if self.computed[node] != self.batch {
             self.computed[node] = self.batch;
-            [self.displacements[node]] = products(asset, [node], &self.amplitudes);
+            self.displacements[node] = product(asset, node, &self.amplitudes);
         }
         &self.displacements[node]
     }
 
-    /// The same at all nodes of an element, a few side by side: each is a chain of sums that waits for itself.
+    /// The same at all nodes of an element, two side by side: each is a chain of sums that waits for itself.
     #[inline(always)]
     fn at_nodes(&mut self, asset: &Asset, nodes: &[u32; 10]) {
         let mut waiting = [0; 10];
@@ -133,7 +133,7 @@ impl DisplacementBatch {
                 count += 1;
             }
         }
-        let (some, rest) = waiting[..count].as_chunks::<ABREAST>();
+        let (some, rest) = waiting[..count].as_chunks::<2>();
         for &some in some {
             let products = products(asset, some, &self.amplitudes);
             for (node, product) in some.into_iter().zip(products) {
@@ -141,7 +141,7 @@ impl DisplacementBatch {
             }
         }
         for &node in rest {
-            [self.displacements[node]] = products(asset, [node], &self.amplitudes);
+            self.displacements[node] = product(asset, node, &self.amplitudes);
         }
     }
 
@@ -188,33 +188,38 @@ impl DisplacementBatch {
     }
 }
 
-/// Nodes whose displacements are summed side by side.
-const ABREAST: usize = 2;
-
-/// Rows of Φ of a few nodes times the amplitudes.
+/// One node's rows of Φ times the amplitudes.
 #[inline(always)]
-fn products<const N: usize>(
-    asset: &Asset,
-    nodes: [usize; N],
-    amplitudes: &[Lanes],
-) -> [[Lanes; 3]; N] {
-    let mut sums = [[[0.0_f32; BATCH]; 3]; N];
-    let modes = amplitudes.len();
-    let mut rows: [[&[f32]; 3]; N] = [[&[]; 3]; N];
-    for (rows, node) in rows.iter_mut().zip(nodes) {
-        for (axis, row) in rows.iter_mut().enumerate() {
-            *row = &asset.modes.row(3 * node + axis)[..modes];
+fn product(asset: &Asset, node: usize, amplitudes: &[Lanes]) -> [Lanes; 3] {
+    let mut sums = [[0.0_f32; BATCH]; 3];
+    let [x, y, z] = [0, 1, 2].map(|axis| asset.modes.row(3 * node + axis));
+    // High modes first: they move little, so that the sum is large, and rounds, only at the end.
+    for (((q, x), y), z) in amplitudes.iter().zip(x).zip(y).zip(z).rev() {
+        for k in 0..BATCH {
+            sums[0][k] += x * q[k];
+            sums[1][k] += y * q[k];
+            sums[2][k] += z * q[k];
         }
     }
-    // High modes first: they move little, so that the sum is large, and rounds, only at the end.
-    for (mode, q) in amplitudes.iter().enumerate().rev() {
-        for n in 0..N {
-            for axis in 0..3 {
-                let phi = rows[n][axis][mode];
-                for k in 0..BATCH {
-                    sums[n][axis][k] += phi * q[k];
-                }
-            }
+    sums
+}
+
+/// The same of two nodes.
+#[inline(always)]
+fn products(asset: &Asset, nodes: [usize; 2], amplitudes: &[Lanes]) -> [[Lanes; 3]; 2] {
+    let mut sums = [[[0.0_f32; BATCH]; 3]; 2];
+    let [one, other] = nodes.map(|node| {
+        let [x, y, z] = [0, 1, 2].map(|axis| asset.modes.row(3 * node + axis));
+        x.iter().zip(y).zip(z)
+    });
+    for ((q, ((a, b), c)), ((d, e), f)) in amplitudes.iter().zip(one).zip(other).rev() {
+        for k in 0..BATCH {
+            sums[0][0][k] += a * q[k];
+            sums[0][1][k] += b * q[k];
+            sums[0][2][k] += c * q[k];
+            sums[1][0][k] += d * q[k];
+            sums[1][1][k] += e * q[k];
+            sums[1][2][k] += f * q[k];
         }
     }
     sums
