@@ -42,8 +42,12 @@ const MARGIN: f32 = 1e-4;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Class {
-    /// By its impulse alone, whatever its duration.
+    /// By the size of its impulse, its place and its duration: one number.
+    Size,
+    /// By how far its impulse moves each mode at most.
     Impulse,
+    /// By the motion that follows the force, weak point by weak point, and the most of the rest.
+    Following,
     /// By the amplitudes of the modes: at every step the bound of the whole body stays below the strength.
     Amplitudes,
     /// By clusters: at some step the bound of the whole body passes the strength, that of no cluster does.
@@ -58,8 +62,10 @@ pub enum Class {
 
 impl Class {
     /// From the cheapest.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 8] = [
+        Self::Size,
         Self::Impulse,
+        Self::Following,
         Self::Amplitudes,
         Self::Clusters,
         Self::LookedAt,
@@ -71,7 +77,9 @@ impl Class {
     #[must_use]
     pub const fn title(self) -> &'static str {
         match self {
+            Self::Size => "refused by its size",
             Self::Impulse => "refused by its impulse",
+            Self::Following => "refused by what follows it",
             Self::Amplitudes => "refused by the amplitudes",
             Self::Clusters => "refused by clusters",
             Self::LookedAt => "looked at, holds",
@@ -232,7 +240,9 @@ fn class(body: &Body, contact: &Contact, config: &FractureConfig) -> Result<Clas
     let report = outcome.report();
     Ok(match (&outcome, report.looked_at) {
         (Outcome::Broke(_), _) => Class::Breaks,
+        (_, LookedAt::Sizes) => Class::Size,
         (_, LookedAt::Impulses) => Class::Impulse,
+        (_, LookedAt::Following) => Class::Following,
         (_, LookedAt::Amplitudes) => {
             if root_passes(body, contact, report.contact_duration, config) {
                 Class::Clusters

@@ -39,7 +39,7 @@ impl Response {
             let (eigenvalue, damping) = (basis.eigenvalues[i], basis.damping(i, material));
             let oscillator =
                 Oscillator::new(eigenvalue, damping, pulse.frequency(), pulse.time_step);
-            let step = *oscillator.step_matrix();
+            let step = oscillator.step_matrix();
             let scale = modal_impulse[i] * pulse.amplitude / eigenvalue.sqrt();
             let numbers = [step[0], step[1], [step[2][2], step[2][3], scale, 0.0]];
             matrices.extend(numbers.as_flattened().iter().map(|&x| x as f32));

@@ -12,8 +12,11 @@ pub struct LoadCounts {
     pub asked: u64,
     /// Contacts in them.
     pub contacts: u64,
-    /// Refused by their impulses alone, free of time ([`LookedAt::Impulses`]); steady loads by the size of their forces.
+    /// Refused by their impulses and how long they act, free of time ([`LookedAt::Sizes`], [`LookedAt::Impulses`]); steady
+    /// loads by the size of their forces.
     pub by_impulses: u64,
+    /// Refused by the motion that follows the force ([`LookedAt::Following`]).
+    pub by_following: u64,
     /// Refused by the amplitudes of the modes and bounds of the whole body, at every time step ([`LookedAt::Amplitudes`]).
     pub by_amplitudes: u64,
     /// Refused by bounds of parts of the body ([`LookedAt::Clusters`]).
@@ -31,7 +34,8 @@ impl LoadCounts {
         self.contacts += contacts as u64;
         let of = match held {
             None => &mut self.broke,
-            Some(LookedAt::Impulses) => &mut self.by_impulses,
+            Some(LookedAt::Sizes | LookedAt::Impulses) => &mut self.by_impulses,
+            Some(LookedAt::Following) => &mut self.by_following,
             Some(LookedAt::Amplitudes) => &mut self.by_amplitudes,
             Some(LookedAt::Clusters) => &mut self.by_clusters,
             Some(LookedAt::Stresses) => &mut self.by_stresses,

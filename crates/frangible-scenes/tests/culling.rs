@@ -62,6 +62,21 @@ fn cracks_and_pieces(outcome: &Outcome) -> Vec<u64> {
     bits
 }
 
+/// What refuses a blow, in the order of [`LookedAt`].
+const LEVELS: [&str; 6] = [
+    "by sizes",
+    "by impulses",
+    "by what follows the force",
+    "by time steps",
+    "by parts",
+    "looked at",
+];
+
+/// Whether blows of every kind were met.
+fn enough([sizes, impulses, following, amplitudes, clusters, stresses]: [usize; 6]) -> bool {
+    sizes + impulses > 3 && following + amplitudes + clusters > 3 && stresses > 3
+}
+
 fn models() -> [FractureConfig; 2] {
     [FractureConfig::default(), FractureConfig::as_in_the_paper()]
 }
@@ -69,12 +84,12 @@ fn models() -> [FractureConfig; 2] {
 #[test]
 fn culling_changes_no_bit_of_what_breaks() {
     let mut numbers = Numbers(1);
-    let mut looked = [0; 4];
-    let mut ratios = [const { Vec::new() }; 4];
+    let mut looked = [0; LEVELS.len()];
+    let mut ratios = [const { Vec::new() }; LEVELS.len()];
     for (name, asset) in [("glass", glass()), ("pane", pane()), ("block", block())] {
         let kind = Breakable::new(Arc::clone(asset)).unwrap();
         let mut broke = 0;
-        for k in 0..16 {
+        for k in 0..20 {
             let body = kind.body(k);
             let contacts: Vec<Contact> = (0..1 + k % 3).map(|_| numbers.blow(asset)).collect();
             for config in models() {
@@ -108,13 +123,10 @@ fn culling_changes_no_bit_of_what_breaks() {
                 broke += usize::from(breaks);
             }
         }
-        println!("{name}: {broke} of 32 broke");
+        println!("{name}: {broke} of 40 broke");
         assert!(broke > 2, "{name}");
     }
-    for (what, ratios) in ["free of time", "by time steps", "by parts"]
-        .iter()
-        .zip(&mut ratios)
-    {
+    for (what, ratios) in LEVELS.iter().zip(&mut ratios[..LEVELS.len() - 1]) {
         if ratios.is_empty() {
             println!("bound over stress, {what}: no blow");
             continue;
@@ -128,8 +140,57 @@ fn culling_changes_no_bit_of_what_breaks() {
             at(1.0)
         );
     }
-    println!("refused free of time, by time steps, by parts, looked at: {looked:?}");
-    assert!(looked[0] > 3 && looked[1] + looked[2] > 3 && looked[3] > 3);
+    println!("{LEVELS:?}: {looked:?}");
+    assert!(enough(looked));
+}
+
+#[test]
+fn the_hardest_blow_that_is_refused_free_of_time_leaves_the_strength_unreached() {
+    let mut numbers = Numbers(3);
+    let mut met = [0; LEVELS.len()];
+    let config = FractureConfig::default();
+    let without = {
+        let mut without = config.clone();
+        without.culling = false;
+        without
+    };
+    for (name, asset) in [("glass", glass()), ("pane", pane()), ("block", block())] {
+        let kind = Breakable::new(Arc::clone(asset)).unwrap();
+        for seed in 0..4 {
+            let body = kind.body(seed);
+            let some = numbers.blow(asset);
+            let mut hardest: [Option<Outcome>; 3] = [None, None, None];
+            let mut blows = [some; 3];
+            for k in 0..60 {
+                let speed = 1e-3 * 1.15_f64.powi(k);
+                let blow = Contact::collision(asset, some.point, some.normal, speed, some.striker);
+                let outcome = impact(&body, &[blow], &config).unwrap();
+                let level = outcome.report().looked_at as usize;
+                if level > LookedAt::Following as usize {
+                    break;
+                }
+                hardest[level] = Some(outcome);
+                blows[level] = blow;
+            }
+            for (level, (fast, blow)) in hardest.into_iter().zip(blows).enumerate() {
+                let Some(fast) = fast else { continue };
+                let slow = impact(&body, &[blow], &without).unwrap();
+                assert!(cracks_and_pieces(&fast) == cracks_and_pieces(&slow));
+                let (bound, stress) = (fast.report().stress_bound, slow.report().peak_stress);
+                println!(
+                    "{name} {seed}, {}: bound over stress {:.2}",
+                    LEVELS[level],
+                    bound / stress
+                );
+                assert!(
+                    bound >= stress && bound <= slow.report().strength,
+                    "{name} {seed}"
+                );
+                met[level] += 1;
+            }
+        }
+    }
+    assert!(met[0] > 3 && met[1] > 3 && met[2] > 1, "{met:?}");
 }
 
 #[test]
@@ -150,7 +211,7 @@ fn a_refused_contact_allocates_nothing() {
     };
     let refused = |outcome: Outcome| {
         matches!(outcome, Outcome::Held { margin, report, .. }
-            if margin > 1.0 && report.looked_at == LookedAt::Impulses)
+            if margin > 1.0 && report.looked_at <= LookedAt::Impulses)
     };
     let mut all = true;
     let counted = allocation_counter::measure(|| {
@@ -165,7 +226,7 @@ fn a_refused_contact_allocates_nothing() {
 #[test]
 fn culling_changes_no_bit_where_the_strength_varies() {
     let mut numbers = Numbers(2);
-    let mut looked = [0; 4];
+    let mut looked = [0; LEVELS.len()];
     let mut broke = 0;
     for (name, asset) in [("glass", glass()), ("pane", pane()), ("block", block())] {
         let waves = Fields::from_function(asset, |p| Factors {
@@ -189,7 +250,7 @@ fn culling_changes_no_bit_where_the_strength_varies() {
         {
             let kind = Breakable::new(Arc::clone(asset)).unwrap();
             let kind = kind.with_fields(fields).unwrap();
-            for blow in 0..3 {
+            for blow in 0..5 {
                 let body = kind.body(blow);
                 let contact = [numbers.blow(asset)];
                 for config in models() {
@@ -216,6 +277,6 @@ fn culling_changes_no_bit_where_the_strength_varies() {
             }
         }
     }
-    println!("{broke} broke; refused free of time, by time steps, by parts, looked at: {looked:?}");
-    assert!(broke > 5 && looked[0] > 3 && looked[1] + looked[2] > 3 && looked[3] > 3);
+    println!("{broke} broke; {LEVELS:?}: {looked:?}");
+    assert!(broke > 5 && enough(looked));
 }

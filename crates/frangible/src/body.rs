@@ -6,13 +6,14 @@ use glam::{DVec3, Vec3};
 
 use crate::asset::{Asset, EmbeddedPoint};
 use crate::config::FractureConfig;
+use crate::contact::PerImpulse;
 use crate::crack::weak_place;
 use crate::error::InputError;
 use crate::fields::{Fields, Resistance, Toughness};
 use crate::fragment::{MeshIndex, RenderIndex};
 use crate::loads::PerNewton;
 use crate::mesh::TriangleTree;
-use crate::modal::ModalBasis;
+use crate::modal::{ModalBasis, Reaches};
 use crate::piece::Statics;
 use crate::rng::{Purpose, stream, uniform};
 use crate::state::BodyState;
@@ -46,6 +47,12 @@ pub(crate) struct Prepared {
     pub(crate) whole: (Vec<f32>, Vec<f32>),
     /// 1/√λ_i of every mode, s.
     pub(crate) periods: Vec<f32>,
+    /// How far an impulse moves each mode.
+    pub(crate) reaches: Reaches,
+    /// What an impulse does at most, by place and duration.
+    pub(crate) per_impulse: PerImpulse,
+    /// Largest entry of each mode's shape, 1/√kg.
+    pub(crate) largest_shapes: Vec<f32>,
     /// Σ φ_i dm of every mode, √kg: what a held body's weight pushes; empty for a free one, where it is zero.
     pub(crate) weight: Vec<Vec3>,
     /// k of the bounds' quadratic term, Pa.
@@ -78,6 +85,8 @@ impl Breakable {
         } else {
             asset.bounds.clone()
         };
+        let whole = bounds.root(modes.count());
+        let reaches = Reaches::new(modes, &asset.material);
         let surface = TriangleTree::new(&asset.fracture.positions, &asset.surface.triangles);
         let prepared = Prepared {
             root: None,
@@ -87,7 +96,10 @@ impl Breakable {
                 .as_ref()
                 .map(|render| RenderIndex::new(render, &surface)),
             surface,
-            whole: bounds.root(modes.count()),
+            per_impulse: PerImpulse::new(&asset, &whole.0, &reaches),
+            reaches,
+            largest_shapes: modes.largest_shapes(),
+            whole,
             bounds,
             skin,
             weight: weight(&asset),

@@ -1,12 +1,15 @@
 //! THE pipeline: contacts in, outcome out, one call per stage in the paper's order.
 
+use std::f64::consts::PI;
 use std::sync::Arc;
 use std::time::Instant;
 
 use crate::body::Body;
 use crate::config::FractureConfig;
-use crate::contact::{self, Contact};
-use crate::crack::{CrackSystem, Culling, Peak, StressField, Suspects, crack, front_limit};
+use crate::contact::{self, Contact, Refusal};
+use crate::crack::{
+    CrackSystem, Culling, Peak, StressField, Suspects, crack, front_limit, refused_following,
+};
 use crate::error::InputError;
 use crate::fragment::{self, Built, Labels};
 use crate::modal::Motion;
@@ -21,7 +24,8 @@ use crate::trace::CrackTrace;
 ///
 /// `contacts` are all contacts of this impact on this body, in its body frame (origin at the centre of mass).
 /// The modes of the unbroken body serve during the whole break (the single-basis assumption of `[G12]`).
-/// A contact far below the strength, which is nearly every one, costs O(modes) and no allocation.
+/// A contact far below the strength, which is nearly every one, costs a look at the closest surface triangle, seldom O(modes), and no
+/// allocation.
 ///
 /// # Errors
 /// A contact with a NaN, a negative impulse or no direction.
@@ -37,7 +41,8 @@ pub fn impact(
     Ok(pieces(body, cracked))
 }
 
-/// [`impact()`], and what its cracks did element by element: for tests and for the comparison with the paper.
+/// [`impact()`], and what its cracks did element by element: for tests and for the comparison with the paper. No bound free of time
+/// refuses it: its motion is followed, and the report has the steps.
 ///
 /// # Errors
 /// As [`impact()`].
@@ -78,7 +83,7 @@ pub fn is_harmless(body: &Body, contacts: &[Contact], config: &FractureConfig) -
     config.culling
         && body.statics.is_none()
         && contacts.iter().all(|c| c.validate().is_ok())
-        && contact::first_bound(body, contacts, config).is_some_and(|bound| bound <= harmless(body))
+        && contact::refused(body, contacts, config).is_some()
 }
 
 /// What the cracks of an impact did to a body.
@@ -96,10 +101,12 @@ fn cracks<'a>(
     config: &'a FractureConfig,
     trace: &mut Option<CrackTrace>,
 ) -> Result<Cracked<'a>, InputError> {
-    Ok(match begin(body, contacts, config)? {
-        Begun::Held(margin, report) => Cracked::Held(margin, report, None),
-        Begun::Vibrates(vibration) => vibrate(body, config, vibration, 0, trace),
-    })
+    Ok(
+        match begin(body, contacts, config, config.culling && trace.is_none())? {
+            Begun::Held(margin, report) => Cracked::Held(margin, report, None),
+            Begun::Vibrates(vibration) => vibrate(body, config, vibration, 0, trace),
+        },
+    )
 }
 
 /// What is known of an impact before the motion of the modes is.
@@ -110,11 +117,12 @@ pub(crate) enum Begun {
     Vibrates(Vibration),
 }
 
-/// First stage: bound, force pulse and time steps.
+/// First stage: bounds free of time, if they may `refuse` it, force pulse and time steps.
 pub(crate) fn begin(
     body: &Body,
     contacts: &[Contact],
     config: &FractureConfig,
+    refuse: bool,
 ) -> Result<Begun, InputError> {
     contacts.iter().try_for_each(Contact::validate)?;
     let asset = &*body.asset;
@@ -122,15 +130,9 @@ pub(crate) fn begin(
     report.approach_energy = contact::approach_energy(contacts);
     let clock = Instant::now();
 
-    // Most contacts end here (beyond the paper: stress/bound.rs).
-    if config.culling
-        && let Some(bound) = contact::first_bound(body, contacts, config)
-        && bound <= harmless(body)
-    {
-        report.stress_bound = f64::from(bound);
-        report.timings.response = clock.elapsed().as_secs_f64();
-        let margin = report.strength / f64::from(bound);
-        return Ok(Begun::Held(margin, report));
+    // Most contacts end here (beyond the paper: contact/refusal.rs).
+    if refuse && let Some(refusal) = contact::refused(body, contacts, config) {
+        return Ok(held(refusal, report, clock));
     }
 
     // Contact → force pulse → modal response [G12 §4.1-4.3].
@@ -145,6 +147,14 @@ pub(crate) fn begin(
     } else {
         report.unadjusted_duration
     };
+    let pressed = load.pressed();
+    if refuse && body.state().is_intact() {
+        let pulse_frequency = (PI / report.contact_duration) as f32;
+        let (impulse, pressed) = (&load.modal_impulse, &pressed);
+        if let Some(refusal) = refused_following(body, impulse, pressed, pulse_frequency, config) {
+            return Ok(held(refusal, report, clock));
+        }
+    }
     let pulse = contact::pulse(asset, &load, report.contact_duration, config);
     report.looked_at = LookedAt::Amplitudes;
     report.time_step = pulse.time_step;
@@ -152,7 +162,6 @@ pub(crate) fn begin(
     report.most_excited_frequency = contact::most_excited_mode(asset, &load.modal_impulse)
         .map_or(0.0, |i| asset.modes.frequency(i));
     report.timings.response = clock.elapsed().as_secs_f64();
-    let pressed = load.pressed();
     let modal_impulse = load.modal_impulse;
     Ok(Begun::Vibrates(Vibration {
         modal_impulse,
@@ -160,6 +169,15 @@ pub(crate) fn begin(
         pulse,
         report,
     }))
+}
+
+/// Of an impact that a bound refused.
+fn held(refusal: Refusal, mut report: ImpactReport, clock: Instant) -> Begun {
+    report.looked_at = refusal.looked_at;
+    report.stress_bound = f64::from(refusal.bound);
+    report.timings.response = clock.elapsed().as_secs_f64();
+    let margin = report.strength / f64::from(refusal.as_weakest);
+    Begun::Held(margin, report)
 }
 
 /// Second stage: the motion of the modes, and what it does from time step `first_step` on.

@@ -80,11 +80,16 @@ pub struct Fragment {
 }
 
 /// What of an impact had to be looked at, from the cheapest.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum LookedAt {
-    /// Its impulses alone: a bound free of time refused it.
+    /// The sizes of its impulses, where they act and how long: one number of each place refused it.
+    Sizes,
+    /// What its impulses, and how long they act, can do to each mode at most: a bound free of time refused it, of the whole body or
+    /// of all its parts.
     #[default]
     Impulses,
+    /// The motion that follows the force, weak point by weak point, and the most of the rest: they refused it, free of time.
+    Following,
     /// The amplitudes of the modes over time: a bound of the whole body refused every time step.
     Amplitudes,
     /// The amplitudes, and bounds of parts of the body: they refused every time step.

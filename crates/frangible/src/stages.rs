@@ -44,7 +44,7 @@ impl Vibration {
         if body.statics.is_some() {
             return Ok(Stage::Held(impact(body, contacts, config)?));
         }
-        Ok(match begin(body, contacts, config)? {
+        Ok(match begin(body, contacts, config, config.culling)? {
             Begun::Held(margin, report) => Stage::Held(Outcome::Held {
                 margin,
                 report,

@@ -6,7 +6,7 @@
 
 use super::{Contact, Load};
 use crate::asset::Asset;
-use crate::modal::contact_energy_within;
+use crate::modal::ContactEnergy;
 
 /// Growth of the duration per try.
 const GROWTH: f64 = 1.05;
@@ -29,10 +29,10 @@ pub fn approach_energy(contacts: &[Contact]) -> f64 {
 /// The duration, s, lengthened until the body's vibration holds no more energy than `budget`, J, what the impact brought.
 #[must_use]
 pub fn admissible_duration(asset: &Asset, load: &Load, budget: f64, duration: f64) -> f64 {
+    let energy = ContactEnergy::new(&asset.modes, &asset.material, &load.modal_impulse);
     let mut t = duration;
     for _ in 0..TRIES {
-        let impulse = &load.modal_impulse;
-        if contact_energy_within(&asset.modes, &asset.material, impulse, t, budget) {
+        if energy.is_within(t, budget) {
             break;
         }
         t *= GROWTH;

@@ -73,7 +73,8 @@ pub fn contact_duration(asset: &Asset, load: &Load, model: DurationModel) -> f64
 }
 
 fn touch_duration(asset: &Asset, touch: &Touch, model: DurationModel) -> f64 {
-    let hertz = touch_hertz(asset, touch);
+    let (radius, give) = (touch.curvature_radius, touch.inverse_effective_mass);
+    let hertz = hertz_at(asset, &touch.contact, radius, give);
     let speed = f64::from(touch.contact.approach_speed).max(SLOWEST_APPROACH);
     let Some(mode) = most_excited_mode(asset, &touch.modal_shape) else {
         return hertz;
@@ -105,9 +106,15 @@ fn touch_duration(asset: &Asset, touch: &Touch, model: DurationModel) -> f64 {
     }
 }
 
-fn touch_hertz(asset: &Asset, touch: &Touch) -> f64 {
-    let striker = &touch.contact.striker;
-    let inverse = touch.inverse_effective_mass + f64::from(striker.inverse_effective_mass);
+/// Hertz' duration of a contact, s, where the body has this radius of curvature, m, and nᵀ K n, 1/kg.
+pub(super) fn hertz_at(
+    asset: &Asset,
+    contact: &Contact,
+    curvature_radius: f64,
+    inverse_effective_mass: f64,
+) -> f64 {
+    let striker = &contact.striker;
+    let inverse = inverse_effective_mass + f64::from(striker.inverse_effective_mass);
     // Neither gives way when a held body is hit by an immovable one; the body's own mass stands in.
     let mass = if inverse > 0.0 {
         1.0 / inverse
@@ -116,7 +123,7 @@ fn touch_hertz(asset: &Asset, touch: &Touch) -> f64 {
     };
     let modulus =
         1.0 / (1.0 / asset.material.contact_modulus() + 1.0 / f64::from(striker.contact_modulus));
-    let own = touch.curvature_radius.max(SHARPEST_RADIUS);
+    let own = curvature_radius.max(SHARPEST_RADIUS);
     let other = f64::from(striker.curvature_radius).max(1e-4);
     let curvature = 1.0 / own + 1.0 / other;
     // Flat on flat has no Hertz contact; the ball of the body's volume stands in.
@@ -126,6 +133,6 @@ fn touch_hertz(asset: &Asset, touch: &Touch) -> f64 {
     } else {
         ball
     };
-    let speed = f64::from(touch.contact.approach_speed).max(SLOWEST_APPROACH);
+    let speed = f64::from(contact.approach_speed).max(SLOWEST_APPROACH);
     hertz_duration(mass, modulus, radius, speed)
 }

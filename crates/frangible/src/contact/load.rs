@@ -5,9 +5,8 @@ use glam::Vec3;
 use super::Contact;
 use crate::asset::Asset;
 use crate::body::Body;
-use crate::config::FractureConfig;
 use crate::mesh::SurfacePoint;
-use crate::stress::{ShapeWeights, tension_bound};
+use crate::stress::ShapeWeights;
 
 /// A contact on the body's surface, with what its modes see of it.
 #[derive(Clone, Debug)]
@@ -70,19 +69,22 @@ pub fn modal_load(body: &Body, contacts: &[Contact]) -> Load {
             triangle: at.triangle,
             modal_shape,
             curvature_radius: f64::from(asset.surface.curvature_radius[at.triangle as usize]),
-            inverse_effective_mass: if asset.is_supported() {
-                0.0
-            } else {
-                asset
-                    .mass
-                    .inverse_effective_mass(at.position.as_dvec3(), normal.as_dvec3())
-            },
+            inverse_effective_mass: give(asset, &at, normal),
         });
     }
     Load {
         touches,
         modal_impulse,
     }
+}
+
+/// nᵀ K n of a body there, 1/kg; zero where it is held, since it does not give way as a whole.
+pub(super) fn give(asset: &Asset, at: &SurfacePoint, normal: Vec3) -> f64 {
+    if asset.is_supported() {
+        return 0.0;
+    }
+    let (point, normal) = (at.position.as_dvec3(), normal.as_dvec3());
+    asset.mass.inverse_effective_mass(point, normal)
 }
 
 /// φ_i(b) · v of every mode.
@@ -103,6 +105,14 @@ fn projected(asset: &Asset, at: &SurfacePoint, v: Vec3) -> Vec<f64> {
 /// The analysis nodes that carry a point of the surface, each once, with their weights: ten for each corner of its triangle,
 /// which mostly share an element.
 pub(crate) fn each_row(asset: &Asset, at: &SurfacePoint, mut visit: impl FnMut(usize, f32)) {
+    let (carriers, count) = carriers(asset, at);
+    for &(carrier, weight) in &carriers[..count] {
+        visit(carrier as usize, weight);
+    }
+}
+
+/// [`each_row`] as a list, and how long it is.
+pub(super) fn carriers(asset: &Asset, at: &SurfacePoint) -> ([(u32, f32); 30], usize) {
     let triangle = asset.surface.triangles[at.triangle as usize];
     let mut carriers = [(0_u32, 0.0_f32); 30];
     let mut count = 0;
@@ -120,81 +130,5 @@ pub(crate) fn each_row(asset: &Asset, at: &SurfacePoint, mut visit: impl FnMut(u
             }
         }
     }
-    for &(carrier, weight) in &carriers[..count] {
-        visit(carrier as usize, weight);
-    }
-}
-
-/// Most pushes that a quick bound looks at; more are rare, and go on to the full computation.
-const MOST_CONTACTS: usize = 16;
-
-/// Modes looked at together: their sums stay on the stack.
-const BLOCK: usize = 64;
-
-/// No stress of this impact exceeds this, Pa, at any place and time, whatever the duration of its contacts: an impulse
-/// J moves a mode at most |J_i|/√λ_i, damped or not. Costs a few rows of the mode shapes, allocates nothing.
-///
-/// `None` when there are too many contacts.
-pub(crate) fn first_bound(
-    body: &Body,
-    contacts: &[Contact],
-    config: &FractureConfig,
-) -> Option<f32> {
-    let hit = contacts.iter().filter(|c| c.impulse > 0.0);
-    let pushes = hit.map(|c| (c.point, c.push()));
-    let periods = &body.prepared.periods;
-    let k = body.quadratic_modulus(config);
-    quick_bound(body, pushes, k, |mode, push| push * periods[mode])
-}
-
-/// The stress bound of amplitudes that follow, mode by mode, from what pushes on the surface: places, m, with an impulse
-/// or a force. `amplitude` turns a mode's number and its Σ φ_i(b) · push into its amplitude, m·√kg.
-///
-/// `None` when there are too many pushes.
-pub(crate) fn quick_bound(
-    body: &Body,
-    pushes: impl Iterator<Item = (Vec3, Vec3)>,
-    quadratic_modulus: f32,
-    amplitude: impl Fn(usize, f32) -> f32,
-) -> Option<f32> {
-    let (asset, prepared) = (&*body.asset, &*body.prepared);
-    let nowhere = SurfacePoint {
-        triangle: 0,
-        weights: [0.0; 3],
-        position: Vec3::ZERO,
-    };
-    let mut places = [(nowhere, Vec3::ZERO); MOST_CONTACTS];
-    let mut count = 0;
-    for (point, push) in pushes {
-        *places.get_mut(count)? = (prepared.surface.closest(point), push);
-        count += 1;
-    }
-    let modes = asset.modes.count();
-    let with_gradient = quadratic_modulus > 0.0;
-    let (mut stress, mut gradient) = (0.0, 0.0);
-    for first in (0..modes).step_by(BLOCK) {
-        let block = first..(first + BLOCK).min(modes);
-        let mut amplitudes = [0.0_f32; BLOCK];
-        let amplitudes = &mut amplitudes[..block.len()];
-        for (place, push) in &places[..count] {
-            each_row(asset, place, |node, weight| {
-                let w = *push * weight;
-                let [x, y, z] = [0, 1, 2].map(|k| &asset.modes.row(3 * node + k)[block.clone()]);
-                for (((sum, x), y), z) in amplitudes.iter_mut().zip(x).zip(y).zip(z) {
-                    *sum += w.x * x + w.y * y + w.z * z;
-                }
-            });
-        }
-        for (q, mode) in amplitudes.iter_mut().zip(block.clone()) {
-            *q = amplitude(mode, *q);
-        }
-        // The quadratic term needs the sum over all blocks first.
-        let zero = [0.0; BLOCK];
-        let zero = &zero[..block.len()];
-        stress += tension_bound(amplitudes, &prepared.whole.0[block.clone()], zero, 0.0);
-        if with_gradient {
-            gradient += tension_bound(amplitudes, &prepared.whole.1[block], zero, 0.0);
-        }
-    }
-    Some(stress + 0.5 * quadratic_modulus * gradient * gradient)
+    (carriers, count)
 }

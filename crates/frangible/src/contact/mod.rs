@@ -5,13 +5,17 @@ mod bytes;
 mod duration;
 mod kinds;
 mod load;
+mod per_impulse;
 mod pulse;
+mod refusal;
 
 pub use admissible::{admissible_duration, approach_energy};
 pub use duration::{
     answer_duration, contact_duration, hertz_duration, modal_hertz_duration, most_excited_mode,
 };
 pub use kinds::{Contact, Striker};
+pub(crate) use load::each_row;
 pub use load::{Load, Touch, modal_load};
-pub(crate) use load::{each_row, first_bound, quick_bound};
+pub(crate) use per_impulse::PerImpulse;
 pub use pulse::{Pulse, pulse};
+pub(crate) use refusal::{Pushes, Refusal, refused};

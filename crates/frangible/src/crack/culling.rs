@@ -1,5 +1,6 @@
 //! Which weak points need a look at a time step: those of clusters whose stress bound passes the strength.
 
+use super::parts::Parts;
 use crate::body::Body;
 use crate::config::FractureConfig;
 use crate::stress::{MARGIN, tension_bound};
@@ -17,6 +18,8 @@ pub(crate) struct Culling<'a> {
     pub(crate) asked_clusters: bool,
     /// Of each cluster, a bit for each step of the batch that needs a look.
     survivors: Vec<u8>,
+    /// Bounds of the clusters at the step looked at last, Pa.
+    bounds: Vec<f32>,
 }
 
 impl<'a> Culling<'a> {
@@ -30,6 +33,7 @@ impl<'a> Culling<'a> {
             as_weakest: 0.0,
             asked_clusters: false,
             survivors: vec![0; body.clusters.clusters.len()],
+            bounds: Vec::new(),
         }
     }
 
@@ -43,32 +47,22 @@ impl<'a> Culling<'a> {
     /// Clusters to look at when the modes have these amplitudes at step `k` of a batch, added to the batch's list;
     /// `root`: the bound of the whole body.
     pub(crate) fn survive(&mut self, amplitudes: &[f32], root: f32, k: usize) {
-        let (prepared, clusters) = (&self.body.prepared, &self.body.clusters.clusters);
         if !self.on {
             self.survivors.iter_mut().for_each(|steps| *steps |= 1 << k);
             return;
         }
-        let resistance = &self.body.resistance;
-        if root <= limit(resistance.weakest as f32) {
+        if root <= limit(self.body.resistance.weakest as f32) {
             self.passed_over = self.passed_over.max(root);
             self.as_weakest = self.as_weakest.max(root);
             return;
         }
         self.asked_clusters = true;
-        let modes = amplitudes.len();
-        for (i, &cluster) in clusters.iter().enumerate() {
-            let row = cluster as usize * modes..(cluster as usize + 1) * modes;
-            let of_cluster = tension_bound(
-                amplitudes,
-                &prepared.bounds.stress[row.clone()],
-                &prepared.bounds.gradient[row],
-                self.quadratic_modulus,
-            );
-            let weakest = self.body.clusters.weakest[i];
-            if of_cluster <= limit(weakest) {
-                self.passed_over = self.passed_over.max(of_cluster);
-                let felt = resistance.as_weakest(of_cluster, weakest);
-                self.as_weakest = self.as_weakest.max(felt);
+        let parts = Parts::new(self.body, self.quadratic_modulus);
+        parts.bounds(amplitudes, &mut self.bounds);
+        for (i, &of_part) in self.bounds.iter().enumerate() {
+            if of_part <= parts.limit(i) {
+                self.passed_over = self.passed_over.max(of_part);
+                self.as_weakest = self.as_weakest.max(parts.as_weakest(i, of_part));
             } else {
                 self.survivors[i] |= 1 << k;
             }
@@ -93,6 +87,6 @@ impl<'a> Culling<'a> {
 }
 
 /// Below this bound no point reaches its strength where the smallest is this one, Pa.
-fn limit(strength: f32) -> f32 {
+pub(super) fn limit(strength: f32) -> f32 {
     strength * (1.0 - MARGIN)
 }

@@ -1,8 +1,12 @@
 //! Cracks: where they start, how they run, when they stop `[G12 §4.4, §5]`.
 
+mod arrivals;
 mod culling;
 mod field;
+mod following;
 mod initiation;
+mod node_values;
+mod parts;
 mod propagation;
 mod release;
 mod surface;
@@ -11,7 +15,9 @@ mod system;
 
 pub(crate) use culling::Culling;
 pub(crate) use field::{StressField, weak_place};
+pub(crate) use following::refused_following;
 pub(crate) use initiation::{Peak, crack};
+pub(crate) use parts::refused_by_parts;
 use propagation::{advance, retry};
 pub(crate) use surface::crossing_polygon;
 pub(crate) use suspects::Suspects;

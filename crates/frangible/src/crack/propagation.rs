@@ -123,9 +123,9 @@ fn enter(system: &mut CrackSystem, field: &mut StressField, front: Front) {
             };
             let toward = system.resistance.toughness.kinked(mesh, tip);
             let predicted = extrapolated(crack, &x, &values, fourth, toward);
-            match crack.values.get(&nodes[fourth]) {
+            match system.values.get(front.crack, nodes[fourth]) {
                 None => values[fourth] = predicted,
-                Some(&known) => {
+                Some(known) => {
                     let difference = (known - predicted).abs();
                     let opposite = (known < 0.0) != (predicted < 0.0);
                     if difference > SELF_MEETING * system.edge

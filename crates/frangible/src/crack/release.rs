@@ -11,12 +11,11 @@
 //! each fractured tetrahedron once: it keeps the nearest one that has released it and, of those still to come, only
 //! the ones that no nearer one will precede. The product of all its projections is kept until something arrives.
 
-use std::ops::Range;
-
 use glam::{Mat3, Vec3};
 
+use super::arrivals::{Arrivals, Queue};
 use super::suspects::Suspect;
-use super::system::{CrackSystem, Growth};
+use super::system::CrackSystem;
 use crate::config::CrackTiming;
 use crate::stress::{MARGIN, STRIDE, Symmetric3, lane};
 
@@ -26,35 +25,28 @@ const ROUNDING: f32 = 1e-5;
 /// What has released a point of one crack near it.
 #[derive(Clone, Copy, Debug)]
 struct Seen {
-    crack: u32,
     /// Nearest site that has, or [`NONE`].
     site: u32,
     /// Its distance, m; infinite without one.
     distance: f32,
-    /// How many of its sites are pending.
-    pending: u32,
+    /// How many of its sites were looked at.
+    looked_at: u32,
+    /// Those still to come.
+    pending: Queue,
 }
 
 /// No site.
 const NONE: u32 = u32::MAX;
 
-/// A site whose wave is on its way, or that lies beyond its crack's reach; of one crack, nearer means later.
-#[derive(Clone, Copy, Debug)]
-struct Pending {
-    crack: u32,
-    site: u32,
-    /// m.
-    distance: f32,
-    /// s.
-    arrival: f64,
-}
-
 /// What a point knows of all cracks.
 #[derive(Clone, Debug)]
 struct Point {
-    /// Cracks near it, by number.
+    /// Cracks near it, rising …
+    cracks: Vec<u32>,
+    /// … and what is known of each.
     seen: Vec<Seen>,
-    pending: Vec<Pending>,
+    /// Sites whose wave is on its way, or that lie beyond their crack's reach.
+    pending: Arrivals,
     /// P₁ P₂ … of the cracks that have released it, if any has.
     projection: Option<Mat3>,
     /// Nothing arrives before this time, s …
@@ -127,8 +119,9 @@ impl Releases {
         let place = suspect.place as usize;
         if place >= self.points.len() {
             let untouched = Point {
+                cracks: Vec::new(),
                 seen: Vec::new(),
-                pending: Vec::new(),
+                pending: Arrivals::default(),
                 projection: None,
                 next: f64::INFINITY,
                 growths: 0,
@@ -147,31 +140,36 @@ impl Releases {
 
 fn update(point: &mut Point, system: &CrackSystem, e: u32, now: f64, release_reach: f32) {
     let centre = system.centroids[e as usize];
-    let grown = &system.growth[point.growths..];
+    let known = point.growths;
+    let grown = &system.growth[known..];
     point.growths = system.growth.len();
     let mut changed = false;
     if grown.len() < 4 * system.cracks.len() {
-        for growth in grown {
-            changed |= look(point, system, growth, centre, now, release_reach);
+        for (growth, &crack) in (known..).zip(grown) {
+            // A look at a crack that grew several times is a look at all of it.
+            if system.extents[crack as usize].latest_growth == growth as u32 {
+                changed |= look(point, system, crack, centre, now, release_reach);
+            }
         }
     } else {
         for crack in 0..system.cracks.len() as u32 {
-            let growth = Growth { crack, sites: 0 };
-            changed |= look(point, system, &growth, centre, now, release_reach);
+            changed |= look(point, system, crack, centre, now, release_reach);
         }
     }
     if now > point.next {
         for i in 0..point.seen.len() {
-            if point.seen[i].pending > 0 {
-                let reach = reach(system, point.seen[i].crack, release_reach);
+            if !point.seen[i].pending.is_empty() {
+                let reach = reach(system, point.cracks[i], release_reach);
                 changed |= arrive(point, i, now, reach);
             }
         }
-        let arrivals = point.pending.iter().map(|p| p.arrival);
-        point.next = arrivals.filter(|&t| t >= now).fold(f64::INFINITY, f64::min);
+        let queues = point.seen.iter().map(|seen| seen.pending);
+        point.next = queues
+            .map(|queue| point.pending.next(queue, now))
+            .fold(f64::INFINITY, f64::min);
     }
     if changed {
-        point.projection = projection(system, &point.seen);
+        point.projection = projection(system, point);
         point.held_in = None;
     }
 }
@@ -185,57 +183,45 @@ fn reach(system: &CrackSystem, crack: u32, release_reach: f32) -> f32 {
 fn look(
     point: &mut Point,
     system: &CrackSystem,
-    growth: &Growth,
+    crack: u32,
     centre: Vec3,
     now: f64,
     release_reach: f32,
 ) -> bool {
-    let crack = growth.crack;
     let reach = reach(system, crack, release_reach);
-    let (i, first) = match point.seen.binary_search_by_key(&crack, |s| s.crack) {
-        Ok(i) => (i, growth.sites as usize),
+    let extent = &system.extents[crack as usize];
+    // Out of reach of the whole crack: nothing to look at until it grows. Of one that was seen this is never so.
+    if centre.distance_squared(extent.origin) > (extent.size + reach).powi(2) {
+        return false;
+    }
+    let i = match point.cracks.binary_search(&crack) {
+        Ok(i) => i,
         Err(i) => {
-            let extent = &system.extents[crack as usize];
-            // Out of reach of the whole crack: nothing to look at until it grows.
-            if centre.distance_squared(extent.origin) > (extent.size + reach).powi(2) {
-                return false;
-            }
             let new = Seen {
-                crack,
                 site: NONE,
                 distance: f32::INFINITY,
-                pending: 0,
+                looked_at: 0,
+                pending: Queue::default(),
             };
+            point.cracks.insert(i, crack);
             point.seen.insert(i, new);
-            (i, 0)
+            i
         }
     };
-    let nearest = point.seen[i].distance;
+    let seen = &mut point.seen[i];
     let wave = system.asset.material.rayleigh_speed();
     let sites = &system.cracks[crack as usize].sites;
-    for (site, place) in sites.iter().enumerate().skip(first) {
+    let first = std::mem::replace(&mut seen.looked_at, sites.len() as u32);
+    for (site, place) in (first..).zip(&sites[first as usize..]) {
         let distance = place.position.distance(centre);
-        if nearest <= distance {
+        if seen.distance <= distance {
             continue;
         }
         let arrival = place.time + f64::from(distance) / wave;
-        let own = of_crack(&point.pending, &point.seen[i]);
-        let precedes = |p: &Pending| p.distance <= distance && p.arrival <= arrival;
-        if point.pending[own.clone()].iter().any(precedes) {
-            continue;
-        }
-        let own = keep(&mut point.pending, own, |p| {
-            p.distance < distance || p.arrival < arrival
-        });
-        let new = Pending {
-            crack,
-            site: site as u32,
-            distance,
-            arrival,
-        };
-        point.pending.insert(own.end, new);
-        point.seen[i].pending = own.len() as u32 + 1;
-        if arrival >= now {
+        let added = point
+            .pending
+            .add(&mut seen.pending, site, distance, arrival);
+        if added && arrival >= now {
             point.next = point.next.min(arrival);
         }
     }
@@ -246,56 +232,19 @@ fn look(
 /// nearer than what was.
 fn arrive(point: &mut Point, i: usize, now: f64, reach: f32) -> bool {
     let seen = &mut point.seen[i];
-    if seen.pending == 0 {
-        return false;
-    }
-    let own = of_crack(&point.pending, seen);
-    let waiting = point.pending[own.clone()].iter();
-    let here = waiting.filter(|p| p.arrival < now && p.distance < reach);
-    let Some(nearest) = here
-        .min_by(|a, b| a.distance.total_cmp(&b.distance))
-        .copied()
-    else {
+    let Some((site, distance)) = point.pending.arrive(&mut seen.pending, now, reach) else {
         return false;
     };
-    if nearest.distance >= seen.distance {
-        return false;
-    }
-    seen.site = nearest.site;
-    seen.distance = nearest.distance;
-    let left = keep(&mut point.pending, own, |p| p.distance < nearest.distance);
-    seen.pending = left.len() as u32;
+    (seen.site, seen.distance) = (site, distance);
     true
 }
 
-/// Where a crack's sites stand among those pending, which are in crack order.
-fn of_crack(pending: &[Pending], seen: &Seen) -> Range<usize> {
-    let start = pending.partition_point(|p| p.crack < seen.crack);
-    start..start + seen.pending as usize
-}
-
-/// Keeps those of a range that pass; returns what is left of the range.
-fn keep(
-    pending: &mut Vec<Pending>,
-    range: Range<usize>,
-    passes: impl Fn(&Pending) -> bool,
-) -> Range<usize> {
-    let mut end = range.start;
-    for i in range.clone() {
-        if passes(&pending[i]) {
-            pending[end] = pending[i];
-            end += 1;
-        }
-    }
-    pending.drain(end..range.end);
-    range.start..end
-}
-
 /// In crack order: projections do not commute.
-fn projection(system: &CrackSystem, seen: &[Seen]) -> Option<Mat3> {
-    let released = seen.iter().filter(|s| s.site != NONE);
-    let across = released.map(|s| {
-        let n = system.cracks[s.crack as usize].sites[s.site as usize].direction;
+fn projection(system: &CrackSystem, point: &Point) -> Option<Mat3> {
+    let seen = point.cracks.iter().zip(&point.seen);
+    let released = seen.filter(|(_, s)| s.site != NONE);
+    let across = released.map(|(&crack, s)| {
+        let n = system.cracks[crack as usize].sites[s.site as usize].direction;
         Mat3::IDENTITY - Mat3::from_cols(n * n.x, n * n.y, n * n.z)
     });
     across.reduce(|product, next| product * next)

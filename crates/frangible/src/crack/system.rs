@@ -1,15 +1,16 @@
 //! All cracks of one impact and what they have cut.
 
 use std::cmp::Ordering;
-use std::collections::{BinaryHeap, HashMap};
+use std::collections::BinaryHeap;
 
 use glam::Vec3;
 
+use super::node_values::NodeValues;
 use super::release::Releases;
 use super::surface::CrackFrame;
 use crate::asset::Asset;
 use crate::body::Body;
-use crate::config::{CrackTiming, FractureConfig};
+use crate::config::{CrackPath, CrackTiming, FractureConfig};
 use crate::fields::Resistance;
 use crate::material::Material;
 use crate::state::OldCrack;
@@ -26,8 +27,6 @@ pub(crate) struct Crack {
     pub(crate) frame: CrackFrame,
     /// Tetrahedron where it started.
     pub(crate) start: u32,
-    /// s at the nodes it has met, m. Looked up only, never iterated.
-    pub(crate) values: HashMap<u32, f32>,
     /// Fractured tetrahedra in the order they joined.
     pub(crate) elements: Vec<ElementCut>,
     /// How many of them, from the first, had cut a piece before it was one: these cuts are settled
@@ -53,7 +52,6 @@ impl Crack {
         Self {
             frame,
             start,
-            values: HashMap::new(),
             elements: Vec::new(),
             settled: 0,
             spent: 0.0,
@@ -93,14 +91,8 @@ pub(crate) struct Extent {
     pub(crate) origin: Vec3,
     /// Largest distance of a fractured tetrahedron from the start, m.
     pub(crate) size: f32,
-}
-
-/// A crack that grew.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Growth {
-    pub(crate) crack: u32,
-    /// How many sites it had before.
-    pub(crate) sites: u32,
+    /// Where the crack comes last in [`CrackSystem::growth`].
+    pub(crate) latest_growth: u32,
 }
 
 /// A place on a crack.
@@ -158,6 +150,8 @@ pub(crate) struct CrackSystem<'a> {
     pub(crate) resistance: &'a Resistance,
     pub(crate) seed: u64,
     pub(crate) cracks: Vec<Crack>,
+    /// s of steered cracks at the nodes that they have met.
+    pub(crate) values: NodeValues,
     /// Crack that fractured each tetrahedron, or [`UNCUT`].
     pub(crate) fractured_by: Vec<u32>,
     /// Fronts on their way.
@@ -173,7 +167,7 @@ pub(crate) struct CrackSystem<'a> {
     /// What has released the weak points so far.
     pub(crate) releases: Releases,
     /// The crack that grew, got a site or a longer reach, once for each time between two questions about releases.
-    pub(crate) growth: Vec<Growth>,
+    pub(crate) growth: Vec<u32>,
     /// Start and size of each crack.
     pub(crate) extents: Vec<Extent>,
     /// Number of questions so far.
@@ -203,6 +197,7 @@ impl<'a> CrackSystem<'a> {
             budget,
             spent: 0.0,
             cracks: Vec::new(),
+            values: NodeValues::new(asset.fracture.positions.len()),
             fractured_by: match &asset.portion {
                 None => vec![UNCUT; asset.fracture.tets.len()],
                 Some(portion) => {
@@ -338,6 +333,7 @@ impl<'a> CrackSystem<'a> {
         self.extents.push(Extent {
             origin: frame.origin,
             size: 0.0,
+            latest_growth: 0,
         });
         self.cracks.push(Crack::new(frame, start));
     }
@@ -353,9 +349,11 @@ impl<'a> CrackSystem<'a> {
         let size = extent.size.max(centre.distance(extent.origin));
         let mut grown = size > extent.size;
         extent.size = size;
-        let sites = c.sites.len() as u32;
-        for (&node, &s) in self.asset.fracture.tets[tet].iter().zip(&cut.values) {
-            c.values.entry(node).or_insert(s);
+        // The surface of a planar crack is the same everywhere.
+        if self.config.path != CrackPath::Planar {
+            for (&node, &s) in self.asset.fracture.tets[tet].iter().zip(&cut.values) {
+                self.values.keep(crack, node, s);
+            }
         }
         // Latest first: a new place is next to the latest ones.
         let apart = self.edge * self.edge;
@@ -374,7 +372,8 @@ impl<'a> CrackSystem<'a> {
         c.elements.push(cut);
         if grown && c.grown_before != self.questions {
             c.grown_before = self.questions;
-            self.growth.push(Growth { crack, sites });
+            extent.latest_growth = self.growth.len() as u32;
+            self.growth.push(crack);
         }
     }
 }

@@ -8,7 +8,7 @@ use glam::Vec3;
 
 use crate::body::Body;
 use crate::config::{CrackTiming, FractureConfig};
-use crate::contact::{each_row, quick_bound};
+use crate::contact::{Pushes, each_row};
 use crate::error::{InputError, finite};
 use crate::impact::{Cracked, harmless, pieces, report_on, run_cracks};
 use crate::modal::Motion;
@@ -66,7 +66,8 @@ pub fn rest(
     if config.culling {
         let pushes = forces.iter().map(|f| (f.point, f.force));
         let k = body.quadratic_modulus(config);
-        let bound = quick_bound(body, pushes, k, |i, f| (f + weight(i)) * compliance(i));
+        let bound = Pushes::new(body, pushes)
+            .map(|pushes| pushes.bound(body, k, |i, f| (f + weight(i)) * compliance(i)));
         if let Some(bound) = bound.filter(|b| *b <= harmless(body)) {
             report.stress_bound = f64::from(bound);
             let margin = report.strength / f64::from(bound);

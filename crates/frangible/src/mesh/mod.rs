@@ -1,5 +1,6 @@
 //! Meshes: tetrahedra of the body, triangles of the pieces, and exact mass properties.
 
+mod boxes;
 mod closest;
 mod mass;
 mod render;

@@ -1,20 +1,25 @@
 //! Closest point of a surface, by a tree of boxes.
 
+use std::ops::Range;
+
 use glam::Vec3;
 
+use super::boxes::{Boxes, WIDE};
 use super::closest_on_triangle;
 
 /// Most triangles of a leaf.
-const LEAF: usize = 8;
+const LEAF: usize = WIDE;
 
-/// A box: triangles `first..first + count` of the tree's order, or two children, `first` and the box after this one.
+/// Halvings from a box to its children: eight of them.
+const LEVELS: u32 = WIDE.ilog2();
+
+/// Up to eight children, `first..first + count` of the tree's boxes, or of its triangles.
 #[derive(Clone, Copy, Debug)]
 struct Node {
-    low: Vec3,
-    high: Vec3,
+    children: Boxes,
     first: u32,
-    /// 0 for a box with children.
     count: u32,
+    is_leaf: bool,
 }
 
 /// Boxes over the triangles of a surface.
@@ -43,66 +48,81 @@ impl TriangleTree {
             .iter()
             .map(|t| t.map(|v| positions[v as usize]))
             .collect();
-        let mut tree = Self {
-            nodes: Vec::with_capacity(triangles.len() / 2),
-            order: (0..triangles.len() as u32).collect(),
-            corners: Vec::new(),
-        };
-        if !triangles.is_empty() {
-            tree.build(&corners, 0, triangles.len());
+        let mut order: Vec<u32> = (0..triangles.len() as u32).collect();
+        let mut halves = Vec::new();
+        if !order.is_empty() {
+            halve(&corners, &mut order, 0..triangles.len(), &mut halves);
         }
-        tree.corners = tree.order.iter().map(|&t| corners[t as usize]).collect();
+        let mut tree = Self {
+            nodes: Vec::with_capacity(triangles.len() / 4),
+            corners: order.iter().map(|&t| corners[t as usize]).collect(),
+            order,
+        };
+        if let Some(root) = halves.first() {
+            // The root takes the odd levels, so that the boxes below it are full.
+            let levels = match depth(triangles.len()) % LEVELS {
+                0 => LEVELS,
+                odd => odd,
+            };
+            tree.add(root, &halves, levels);
+        }
         tree
     }
 
-    fn build(&mut self, corners: &[[Vec3; 3]], first: usize, count: usize) {
-        let part = &mut self.order[first..first + count];
-        let points = || part.iter().flat_map(|&t| corners[t as usize]);
-        let low = points().fold(Vec3::INFINITY, Vec3::min);
-        let high = points().fold(Vec3::NEG_INFINITY, Vec3::max);
-        let node = self.nodes.len();
-        self.nodes.push(Node {
-            low,
-            high,
-            first: first as u32,
-            count: count as u32,
-        });
-        if count <= LEAF {
-            return;
+    /// Adds a box and all that is in it; children stand side by side.
+    fn add(&mut self, root: &Half, halves: &[Half], levels: u32) {
+        let mut waiting = vec![(0, *root, levels)];
+        self.nodes.push(Node::EMPTY);
+        let mut next = 0;
+        while let Some(&(at, half, levels)) = waiting.get(next) {
+            next += 1;
+            if half.second.is_none() {
+                self.nodes[at] = self.leaf(&half);
+                continue;
+            }
+            let mut children = Vec::with_capacity(WIDE);
+            half.below(halves, levels, &mut children);
+            let first = self.nodes.len();
+            self.nodes[at] = Node {
+                children: Boxes::new(children.iter().map(|c| (c.low, c.high))),
+                first: first as u32,
+                count: children.len() as u32,
+                is_leaf: false,
+            };
+            self.nodes.resize(first + children.len(), Node::EMPTY);
+            let places = (first..).zip(children);
+            waiting.extend(places.map(|(at, child)| (at, child, LEVELS)));
         }
-        let axis = (high - low).max_position();
-        let at = |t: u32| corners[t as usize].iter().map(|p| p[axis]).sum::<f32>();
-        let middle = count / 2;
-        part.select_nth_unstable_by(middle, |&a, &b| at(a).total_cmp(&at(b)).then(a.cmp(&b)));
-        self.build(corners, first, middle);
-        let second = self.nodes.len() as u32;
-        self.build(corners, first + middle, count - middle);
-        self.nodes[node].count = 0;
-        self.nodes[node].first = second;
+    }
+
+    fn leaf(&self, half: &Half) -> Node {
+        let triangles = self.corners[half.first..half.first + half.count].iter();
+        let boxes = triangles.map(|x| (x[0].min(x[1]).min(x[2]), x[0].max(x[1]).max(x[2])));
+        Node {
+            children: Boxes::new(boxes),
+            first: half.first as u32,
+            count: half.count as u32,
+            is_leaf: true,
+        }
     }
 
     /// Calls for every triangle whose own box meets this one, in the tree's order.
     pub(crate) fn in_box(&self, low: Vec3, high: Vec3, mut found: impl FnMut(u32)) {
-        let meets = |l: Vec3, h: Vec3| l.cmple(high).all() && h.cmpge(low).all();
-        let mut stack = [0_u32; 64];
+        let mut stack = [0_u32; STACK];
         let mut waiting = usize::from(!self.nodes.is_empty());
         while waiting > 0 {
             waiting -= 1;
-            let at = stack[waiting];
-            let node = &self.nodes[at as usize];
-            if !meets(node.low, node.high) {
-                continue;
-            }
-            if node.count == 0 {
-                stack[waiting] = node.first;
-                stack[waiting + 1] = at + 1;
-                waiting += 2;
-                continue;
-            }
-            let leaf = node.first as usize..(node.first + node.count) as usize;
-            for (x, &triangle) in self.corners[leaf.clone()].iter().zip(&self.order[leaf]) {
-                if meets(x[0].min(x[1]).min(x[2]), x[0].max(x[1]).max(x[2])) {
-                    found(triangle);
+            let node = &self.nodes[stack[waiting] as usize];
+            let meet = node.children.meet(low, high);
+            let those_that_meet = node.places().filter(|&k| meet[k]);
+            if node.is_leaf {
+                for k in those_that_meet {
+                    found(self.order[node.first as usize + k]);
+                }
+            } else {
+                for k in those_that_meet.rev() {
+                    stack[waiting] = node.first + k as u32;
+                    waiting += 1;
                 }
             }
         }
@@ -116,35 +136,38 @@ impl TriangleTree {
             position: point,
         };
         let mut nearest = f32::INFINITY;
-        // Depth is the logarithm of the number of triangles, at most 32.
-        let mut stack = [0_u32; 64];
+        let mut stack = [(0.0_f32, 0_u32); STACK];
         let mut waiting = usize::from(!self.nodes.is_empty());
         while waiting > 0 {
             waiting -= 1;
-            let at = stack[waiting];
+            let (gap, at) = stack[waiting];
+            if gap > nearest {
+                continue;
+            }
             let node = &self.nodes[at as usize];
-            if gap(node.low, node.high, point) > nearest {
+            let gaps = node.children.gaps(point);
+            if !node.is_leaf {
+                let bottom = waiting;
+                for k in node.places().filter(|&k| gaps[k] <= nearest) {
+                    // The nearest on top.
+                    let mut place = waiting;
+                    while place > bottom && stack[place - 1].0 < gaps[k] {
+                        stack[place] = stack[place - 1];
+                        place -= 1;
+                    }
+                    stack[place] = (gaps[k], node.first + k as u32);
+                    waiting += 1;
+                }
                 continue;
             }
-            if node.count == 0 {
-                let (a, b) = (at + 1, node.first);
-                let [gap_a, gap_b] = [a, b].map(|child| {
-                    let child = &self.nodes[child as usize];
-                    gap(child.low, child.high, point)
-                });
-                let nearer_first = gap_a <= gap_b;
-                let (near, far) = if nearer_first { (a, b) } else { (b, a) };
-                stack[waiting] = far;
-                stack[waiting + 1] = near;
-                waiting += 2;
-                continue;
-            }
-            let leaf = node.first as usize..(node.first + node.count) as usize;
-            for (x, &triangle) in self.corners[leaf.clone()].iter().zip(&self.order[leaf]) {
-                let (low, high) = (x[0].min(x[1]).min(x[2]), x[0].max(x[1]).max(x[2]));
-                if gap(low, high, point) > nearest {
+            for k in node.places() {
+                if gaps[k] > nearest {
                     continue;
                 }
+                let (x, triangle) = {
+                    let place = node.first as usize + k;
+                    (&self.corners[place], self.order[place])
+                };
                 let weights =
                     closest_on_triangle(x.map(Vec3::as_dvec3), point.as_dvec3()).map(|w| w as f32);
                 let position = x[0] * weights[0] + x[1] * weights[1] + x[2] * weights[2];
@@ -163,10 +186,88 @@ impl TriangleTree {
     }
 }
 
-/// Squared distance of a point from a box, m², a little less than it is: rounding must not hide a triangle.
-fn gap(low: Vec3, high: Vec3, point: Vec3) -> f32 {
-    let outside = (low - point).max(point - high).max(Vec3::ZERO);
-    outside.length_squared() * (1.0 - 1e-5) - 1e-7 * (point - low).length_squared()
+/// Boxes that can wait: seven of each level, and there are no more than 32 / 3 levels.
+const STACK: usize = 128;
+
+impl Node {
+    const EMPTY: Self = Self {
+        children: Boxes::EMPTY,
+        first: 0,
+        count: 0,
+        is_leaf: true,
+    };
+
+    /// Places of its children among those side by side.
+    fn places(&self) -> Range<usize> {
+        0..self.count as usize
+    }
+}
+
+/// A box halved again and again, `first..first + count` of the tree's triangles.
+#[derive(Clone, Copy, Debug)]
+struct Half {
+    low: Vec3,
+    high: Vec3,
+    first: usize,
+    count: usize,
+    /// Place of its second half; the first one follows it.
+    second: Option<usize>,
+    /// Its own place.
+    at: usize,
+}
+
+impl Half {
+    /// Boxes so many levels below, or leaves, in the tree's order.
+    fn below(&self, halves: &[Self], levels: u32, found: &mut Vec<Self>) {
+        match self.second {
+            Some(second) if levels > 0 => {
+                halves[self.at + 1].below(halves, levels - 1, found);
+                halves[second].below(halves, levels - 1, found);
+            }
+            _ => found.push(*self),
+        }
+    }
+}
+
+/// Halvings until no part has more triangles than a leaf.
+fn depth(count: usize) -> u32 {
+    let mut depth = 0;
+    let mut largest = count;
+    while largest > LEAF {
+        largest -= largest / 2;
+        depth += 1;
+    }
+    depth
+}
+
+/// Halves triangles along the longest side of their box until none of the parts has more than a leaf.
+fn halve(corners: &[[Vec3; 3]], order: &mut [u32], part: Range<usize>, halves: &mut Vec<Half>) {
+    let (first, count) = (part.start, part.len());
+    let triangles = &mut order[part];
+    let points = || triangles.iter().flat_map(|&t| corners[t as usize]);
+    let low = points().fold(Vec3::INFINITY, Vec3::min);
+    let high = points().fold(Vec3::NEG_INFINITY, Vec3::max);
+    let at = halves.len();
+    halves.push(Half {
+        low,
+        high,
+        first,
+        count,
+        second: None,
+        at,
+    });
+    if count <= LEAF {
+        return;
+    }
+    let axis = (high - low).max_position();
+    let centre = |t: u32| corners[t as usize].iter().map(|p| p[axis]).sum::<f32>();
+    let middle = count / 2;
+    triangles.select_nth_unstable_by(middle, |&a, &b| {
+        centre(a).total_cmp(&centre(b)).then(a.cmp(&b))
+    });
+    halve(corners, order, first..first + middle, halves);
+    halves[at].second = Some(halves.len());
+    halve(corners, order, first + middle..first + count, halves);
 }
 
 #[cfg(test)]

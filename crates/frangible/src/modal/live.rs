@@ -12,7 +12,7 @@
 
 use glam::Vec3;
 
-use super::response::exponential;
+use super::step::Step;
 use crate::body::Body;
 use crate::contact::each_row;
 use crate::error::{InputError, finite, positive};
@@ -97,15 +97,15 @@ impl LiveMode {
     fn new(frequency: f64, damping: f64, tick: f64) -> Self {
         let (w, d) = (frequency * tick, damping * tick);
         // (ω q)' = ω q̇, q̈ = −ω (ω q) − d q̇ + f, f' = Δf / tick, Δf' = 0; all times the tick.
-        let [m0, m1, ..] = exponential(&[
-            [0.0, w, 0.0, 0.0],
-            [-w, -d, tick, 0.0],
-            [0.0, 0.0, 0.0, 1.0],
-            [0.0; 4],
-        ]);
+        let Step { own, force, .. } = Step {
+            own: [[0.0, w], [-w, -d]],
+            force: [[0.0, 0.0], [tick, 0.0]],
+            turn: [[0.0, 1.0], [0.0, 0.0]],
+        }
+        .exponential();
         Self {
             frequency,
-            step: [m0, m1],
+            step: [0, 1].map(|i| [own[i][0], own[i][1], force[i][0], force[i][1]]),
             state: [0.0; 2],
             force: 0.0,
             next: 0.0,

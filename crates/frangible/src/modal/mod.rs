@@ -1,11 +1,17 @@
 //! Vibration modes and their exact response to a force pulse.
 
 mod basis;
+mod energy;
 mod field;
 mod live;
+mod reach;
 mod response;
+mod step;
 
 pub use basis::ModalBasis;
+pub(crate) use energy::ContactEnergy;
+pub use energy::contact_energy_within;
 pub use field::ModeField;
 pub use live::{LiveModes, SurfacePlace};
-pub use response::{Motion, Oscillator, contact_energy_within, respond};
+pub(crate) use reach::{Reaches, Split};
+pub use response::{Motion, Oscillator, respond};

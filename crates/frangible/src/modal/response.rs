@@ -7,17 +7,16 @@
 //! Changes versus `[G12 §4.3]`: the motion goes on after the contact, where the stress often peaks.
 
 use super::ModalBasis;
+use super::step::Step;
 use crate::contact::Pulse;
 use crate::material::Material;
-
-type Matrix4 = [[f64; 4]; 4];
 
 /// Steps the unit response (ξ a = 1) of one mode; multiply by ξ a.
 #[derive(Clone, Copy, Debug)]
 pub struct Oscillator {
     frequency: f64,
-    forced: Matrix4,
-    free: Matrix4,
+    forced: Step,
+    free: Step,
     state: [f64; 4],
 }
 
@@ -27,33 +26,38 @@ impl Oscillator {
     pub fn new(eigenvalue: f64, damping: f64, pulse_frequency: f64, time_step: f64) -> Self {
         let (w, d, u) = (eigenvalue.sqrt(), damping, pulse_frequency);
         let scale = |a: f64| a * time_step;
-        let forced = [
-            [0.0, scale(w), 0.0, 0.0],
-            [scale(-w), scale(-d), scale(1.0), 0.0],
-            [0.0, 0.0, 0.0, scale(u)],
-            [0.0, 0.0, scale(-u), 0.0],
-        ];
-        let mut free = forced;
-        free[1][2] = 0.0;
+        let forced = Step {
+            own: [[0.0, scale(w)], [scale(-w), scale(-d)]],
+            force: [[0.0, 0.0], [scale(1.0), 0.0]],
+            turn: [[0.0, scale(u)], [scale(-u), 0.0]],
+        };
         Self {
             frequency: w,
-            forced: exponential(&forced),
-            free: exponential(&free),
+            forced: forced.exponential(),
+            free: Step {
+                force: [[0.0; 2]; 2],
+                ..forced
+            }
+            .exponential(),
             state: [0.0, 0.0, 0.0, 1.0],
         }
     }
 
     /// One step Δt further, under the pulse or free of it.
     pub fn step(&mut self, forced: bool) {
-        let a = if forced { &self.forced } else { &self.free };
-        self.state = std::array::from_fn(|i| (0..4).map(|j| a[i][j] * self.state[j]).sum());
+        let step = if forced { &self.forced } else { &self.free };
+        self.state = step.times(self.state);
     }
 
     /// What a step multiplies the state with, under the pulse; free of it the entries `[1][2]` and those that follow
     /// from it, the upper right quarter, are zero. Row-major.
     #[must_use]
-    pub fn step_matrix(&self) -> &[[f64; 4]; 4] {
-        &self.forced
+    pub fn step_matrix(&self) -> [[f64; 4]; 4] {
+        let Step { own, force, turn } = self.forced;
+        std::array::from_fn(|i| match i {
+            0 | 1 => [own[i][0], own[i][1], force[i][0], force[i][1]],
+            _ => [0.0, 0.0, turn[i - 2][0], turn[i - 2][1]],
+        })
     }
 
     /// Displacement q, in m·√kg per N/√kg of modal force.
@@ -79,39 +83,6 @@ impl Oscillator {
     pub fn energy(&self) -> f64 {
         0.5 * (self.state[0] * self.state[0] + self.state[1] * self.state[1])
     }
-}
-
-fn product(a: &Matrix4, b: &Matrix4) -> Matrix4 {
-    std::array::from_fn(|i| std::array::from_fn(|j| (0..4).map(|k| a[i][k] * b[k][j]).sum()))
-}
-
-/// Matrix exponential by scaling, a Taylor series of order 13 (remainder below 1e-15 at norm ½), squaring.
-pub(super) fn exponential(a: &Matrix4) -> Matrix4 {
-    let norm = a
-        .iter()
-        .map(|row| row.iter().map(|x| x.abs()).sum::<f64>())
-        .fold(0.0, f64::max);
-    let squarings = if norm > 0.5 {
-        (norm / 0.5).log2().ceil() as i32
-    } else {
-        0
-    };
-    let scaled = a.map(|row| row.map(|x| x * 0.5_f64.powi(squarings)));
-    let mut sum: Matrix4 =
-        std::array::from_fn(|i| std::array::from_fn(|j| f64::from(u8::from(i == j))));
-    let mut term = sum;
-    for k in 1..=13 {
-        term = product(&term, &scaled).map(|row| row.map(|x| x / f64::from(k)));
-        for (row, t) in sum.iter_mut().zip(&term) {
-            for (x, y) in row.iter_mut().zip(t) {
-                *x += y;
-            }
-        }
-    }
-    for _ in 0..squarings {
-        sum = product(&sum, &sum);
-    }
-    sum
 }
 
 /// Modal amplitudes over time, time-major: `amplitudes[step * modes + mode]`, m·√kg.
@@ -144,71 +115,169 @@ impl Motion {
 /// Response of all modes to `pulse` with load shape ξ, computed in f64, stored in f32 `[G12 §4.3]`.
 #[must_use]
 pub fn respond(basis: &ModalBasis, material: &Material, load: &[f64], pulse: &Pulse) -> Motion {
-    let modes = basis.count();
-    let steps = pulse.total_steps;
+    let (modes, steps) = (basis.count(), pulse.total_steps);
     let mut amplitudes = vec![0.0_f32; steps * modes];
-    let mut energy = vec![0.0_f64; steps];
-    let mut strain_energy = vec![0.0_f64; steps];
-    for i in 0..modes {
-        let force = load[i] * pulse.amplitude;
-        let mut mode = Oscillator::new(
-            basis.eigenvalues[i],
-            basis.damping(i, material),
-            pulse.frequency(),
-            pulse.time_step,
-        );
-        for k in 0..steps {
-            mode.step(k < pulse.contact_steps);
-            amplitudes[k * modes + i] = (mode.displacement() * force) as f32;
-            energy[k] += mode.energy() * force * force;
-            strain_energy[k] += mode.strain_energy() * force * force;
-        }
+    let mut energy = vec![[0.0_f64; 2]; steps];
+    for first in (0..modes).step_by(WIDTH) {
+        let some: Vec<(Oscillator, f64)> = (first..(first + WIDTH).min(modes))
+            .map(|i| {
+                let damping = basis.damping(i, material);
+                let (u, step) = (pulse.frequency(), pulse.time_step);
+                let mode = Oscillator::new(basis.eigenvalues[i], damping, u, step);
+                (mode, load[i] * pulse.amplitude)
+            })
+            .collect();
+        // With the widest vectors that this processor has; the same operations in the same order, so the same bits.
+        pulp::Arch::new().dispatch(Respond {
+            some: &some,
+            first,
+            modes,
+            forced_steps: pulse.contact_steps,
+            amplitudes: &mut amplitudes,
+            energy: &mut energy,
+        });
     }
+    let peak = |k: usize| energy.iter().map(|e| e[k]).fold(0.0, f64::max);
     Motion {
         amplitudes,
         modes,
-        peak_energy: energy.into_iter().fold(0.0, f64::max),
-        peak_strain_energy: strain_energy.into_iter().fold(0.0, f64::max),
+        peak_energy: peak(0),
+        peak_strain_energy: peak(1),
     }
 }
 
-/// Whether the modal energy Σ ½ (q̇² + λ q²) stays at or below `budget`, J, over a contact of this duration, s, with modal
-/// impulses `load`, N·s/√kg.
-#[must_use]
-pub fn contact_energy_within(
-    basis: &ModalBasis,
-    material: &Material,
-    load: &[f64],
-    duration: f64,
-    budget: f64,
-) -> bool {
-    // The energy is evaluated exactly at the samples; 40 of them find its peak to a few per mille.
-    const SAMPLES: usize = 40;
-    let u = std::f64::consts::PI / duration;
-    let amplitude = u / 2.0;
-    // Modes that hold most come first, so that most durations that bring in too much are known by a few of them.
-    let most = |i: usize| {
-        let lambda = basis.eigenvalues[i];
-        load[i].abs() * (1.0 / lambda.sqrt()).min(1.77 * amplitude / lambda) * lambda.sqrt()
-    };
-    let mut order: Vec<(f64, usize)> = (0..basis.count()).map(|i| (most(i), i)).collect();
-    order.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
-    let mut energy = [0.0; SAMPLES];
-    for (_, i) in order {
-        let force = load[i] * amplitude;
-        let mut mode = Oscillator::new(
-            basis.eigenvalues[i],
-            basis.damping(i, material),
-            u,
-            duration / SAMPLES as f64,
-        );
-        for e in &mut energy {
-            mode.step(true);
-            *e += mode.energy() * force * force;
+/// Modes that are stepped side by side.
+const WIDTH: usize = 8;
+
+/// A number of each of them.
+type Lanes = [f64; WIDTH];
+
+/// Steps a few modes side by side.
+struct Respond<'a> {
+    /// The modes, at most [`WIDTH`], and the force on each.
+    some: &'a [(Oscillator, f64)],
+    /// Number of the first.
+    first: usize,
+    /// How many modes there are in all.
+    modes: usize,
+    forced_steps: usize,
+    amplitudes: &'a mut [f32],
+    /// Energy and strain energy of all modes at each step, J: these are added.
+    energy: &'a mut [[f64; 2]],
+}
+
+impl Respond<'_> {
+    /// A number of each mode; of places without a mode, the first one's.
+    #[inline(always)]
+    fn lanes(&self, of: impl Fn(&Oscillator) -> f64) -> Lanes {
+        let mut lanes = [of(&self.some[0].0); WIDTH];
+        for (lane, (mode, _)) in lanes.iter_mut().zip(self.some) {
+            *lane = of(mode);
         }
-        if energy.iter().any(|&e| e > budget) {
-            return false;
+        lanes
+    }
+
+    #[inline(always)]
+    fn block(&self, of: impl Fn(&Oscillator) -> [[f64; 2]; 2]) -> [Lanes; 4] {
+        [
+            self.lanes(|m| of(m)[0][0]),
+            self.lanes(|m| of(m)[0][1]),
+            self.lanes(|m| of(m)[1][0]),
+            self.lanes(|m| of(m)[1][1]),
+        ]
+    }
+}
+
+impl pulp::NullaryFnOnce for Respond<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let blocks = [
+            [
+                self.block(|m| m.forced.own),
+                self.block(|m| m.forced.force),
+                self.block(|m| m.forced.turn),
+            ],
+            [
+                self.block(|m| m.free.own),
+                self.block(|m| m.free.force),
+                self.block(|m| m.free.turn),
+            ],
+        ];
+        let frequency = self.lanes(|m| m.frequency);
+        let mut force = [0.0; WIDTH];
+        for (force, (_, f)) in force.iter_mut().zip(self.some) {
+            *force = *f;
+        }
+        let (mut q, mut v, mut s, mut c) = ([0.0; WIDTH], [0.0; WIDTH], [0.0; WIDTH], [1.0; WIDTH]);
+        let rows = self.amplitudes.chunks_exact_mut(self.modes);
+        for ((k, row), energy) in rows.enumerate().zip(self.energy) {
+            let [own, by, turn] = &blocks[usize::from(k >= self.forced_steps)];
+            let (mut amplitude, mut whole, mut strain) =
+                ([0.0_f32; WIDTH], [0.0; WIDTH], [0.0; WIDTH]);
+            for i in 0..WIDTH {
+                // As in `Step::times`.
+                let [new_q, new_v, new_s, new_c] = [
+                    own[0][i] * q[i] + own[1][i] * v[i] + by[0][i] * s[i] + by[1][i] * c[i],
+                    own[2][i] * q[i] + own[3][i] * v[i] + by[2][i] * s[i] + by[3][i] * c[i],
+                    turn[0][i] * s[i] + turn[1][i] * c[i],
+                    turn[2][i] * s[i] + turn[3][i] * c[i],
+                ];
+                (q[i], v[i], s[i], c[i]) = (new_q, new_v, new_s, new_c);
+                // As in `Oscillator`.
+                amplitude[i] = (q[i] / frequency[i] * force[i]) as f32;
+                whole[i] = 0.5 * (q[i] * q[i] + v[i] * v[i]) * force[i] * force[i];
+                strain[i] = 0.5 * q[i] * q[i] * force[i] * force[i];
+            }
+            for i in 0..self.some.len() {
+                row[self.first + i] = amplitude[i];
+                energy[0] += whole[i];
+                energy[1] += strain[i];
+            }
         }
     }
-    true
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn modes_side_by_side_move_as_each_does_alone() {
+        let material = Material::preset("glass").unwrap();
+        for modes in [0, 1, 7, 8, 9, 21] {
+            let basis = ModalBasis {
+                eigenvalues: (0..modes)
+                    .map(|i| (4e3 * 1.3_f64.powi(i)).powi(2))
+                    .collect(),
+                ..ModalBasis::default()
+            };
+            let load: Vec<f64> = (0..modes).map(|i| f64::from(i * 7 % 5) - 1.7).collect();
+            let pulse = Pulse {
+                duration: 1e-3,
+                amplitude: std::f64::consts::FRAC_PI_2 / 1e-3,
+                time_step: 1e-3 / 40.0,
+                contact_steps: 40,
+                total_steps: 90,
+            };
+            let motion = respond(&basis, &material, &load, &pulse);
+            let (mut energy, mut strain_energy) = ([0.0; 90], [0.0; 90]);
+            for (i, &load) in load.iter().enumerate() {
+                let force = load * pulse.amplitude;
+                let damping = basis.damping(i, &material);
+                let (u, step) = (pulse.frequency(), pulse.time_step);
+                let mut mode = Oscillator::new(basis.eigenvalues[i], damping, u, step);
+                for k in 0..90 {
+                    mode.step(k < 40);
+                    assert_eq!(motion.at(k)[i], (mode.displacement() * force) as f32);
+                    energy[k] += mode.energy() * force * force;
+                    strain_energy[k] += mode.strain_energy() * force * force;
+                }
+            }
+            let peak = |e: &[f64]| e.iter().copied().fold(0.0, f64::max);
+            assert_eq!(motion.peak_energy, peak(&energy));
+            assert_eq!(motion.peak_strain_energy, peak(&strain_energy));
+        }
+    }
 }

@@ -5,9 +5,10 @@ use std::sync::{Arc, OnceLock};
 use super::{Portion, Statics};
 use crate::asset::{AnalysisMesh, Asset, EmbeddedPoint, Embedding};
 use crate::body::{Body, Prepared};
+use crate::contact::PerImpulse;
 use crate::error::InputError;
 use crate::mesh::TriangleTree;
-use crate::modal::ModalBasis;
+use crate::modal::{ModalBasis, Reaches};
 use crate::stress::{Search, Skin, StressBounds};
 
 /// An elastic body for a [`Portion`]: elements that carry its motion, and how it answers a push.
@@ -116,6 +117,7 @@ impl Prepared {
         let bounds = StressBounds::with_skin(asset, &skin);
         let whole = bounds.root(asset.modes.count());
         asset.modes.peak_stress.clone_from(&whole.0);
+        let reaches = Reaches::new(&asset.modes, &asset.material);
         Self {
             root: Some(Arc::clone(root)),
             index: Arc::clone(&root.index),
@@ -123,6 +125,9 @@ impl Prepared {
             render: None,
             skin,
             bounds,
+            per_impulse: PerImpulse::new(asset, &whole.0, &reaches),
+            reaches,
+            largest_shapes: asset.modes.largest_shapes(),
             whole,
             periods: crate::body::periods(&asset.modes),
             weight: crate::body::weight(asset),

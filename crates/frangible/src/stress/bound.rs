@@ -26,7 +26,7 @@ const CLUSTER: usize = 256;
 
 /// Rounding of u = Φ q and of its gradient in f32, relative to the sum of the absolute values of all terms: twenty
 /// times ε/2 = 6e-8, since the errors of a sum of n terms grow as √n, and n is about a hundred.
-const ROUNDING: f32 = 1.2e-6;
+pub(crate) const ROUNDING: f32 = 1.2e-6;
 
 /// Bounds are compared with the strength less this: the rounding of the bound itself.
 pub(crate) const MARGIN: f32 = 1e-4;
@@ -114,27 +114,34 @@ pub(crate) fn quadratic_modulus(material: &Material) -> f32 {
     ((3.0 * material.lame_lambda()).max(0.0) + 2.0 * material.shear_modulus()) as f32
 }
 
-/// Σ|q_i| s_i + ½ k (Σ|q_i| g_i)², Pa, summed in a fixed order over eight lanes.
+/// Σ|q_i| s_i + ½ k (Σ|q_i| g_i)², Pa, summed in a fixed order over eight lanes: call it from a place that `pulp` dispatches
+/// where many are wanted.
+#[inline(always)]
 pub(crate) fn tension_bound(amplitudes: &[f32], stress: &[f32], gradient: &[f32], k: f32) -> f32 {
+    let s = sum_of_sizes(amplitudes, stress);
+    if k == 0.0 {
+        return s;
+    }
+    let g = sum_of_sizes(amplitudes, gradient);
+    s + 0.5 * k * g * g
+}
+
+/// Σ|q_i| r_i.
+#[inline(always)]
+fn sum_of_sizes(amplitudes: &[f32], row: &[f32]) -> f32 {
     const LANES: usize = 8;
-    let (mut s, mut g) = ([0.0_f32; LANES], [0.0_f32; LANES]);
-    let tail = amplitudes.len() / LANES * LANES;
-    for ((q, a), b) in amplitudes
-        .chunks_exact(LANES)
-        .zip(stress.chunks_exact(LANES))
-        .zip(gradient.chunks_exact(LANES))
-    {
+    let ((amplitudes, tail), (row, row_tail)) =
+        (amplitudes.as_chunks::<LANES>(), row.as_chunks::<LANES>());
+    let mut sums = [0.0_f32; LANES];
+    for (q, r) in amplitudes.iter().zip(row) {
         for i in 0..LANES {
-            s[i] += q[i].abs() * a[i];
-            g[i] += q[i].abs() * b[i];
+            sums[i] += q[i].abs() * r[i];
         }
     }
-    for i in tail..amplitudes.len() {
-        s[i - tail] += amplitudes[i].abs() * stress[i];
-        g[i - tail] += amplitudes[i].abs() * gradient[i];
+    for ((sum, q), r) in sums.iter_mut().zip(tail).zip(row_tail) {
+        *sum += q.abs() * r;
     }
-    let (s, g) = (s.iter().sum::<f32>(), g.iter().sum::<f32>());
-    s + 0.5 * k * g * g
+    sums.iter().sum()
 }
 
 /// Gradients of all modes at one tetrahedron, struct of arrays.

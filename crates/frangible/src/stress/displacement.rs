@@ -125,6 +125,30 @@ impl DisplacementBatch {
         &self.displacements[node]
     }
 
+    /// The same at all nodes of an element, two side by side: each is a chain of sums that waits for itself.
+    #[inline(always)]
+    fn at_nodes(&mut self, asset: &Asset, nodes: &[u32; 10]) {
+        let mut waiting = [0; 10];
+        let mut count = 0;
+        for &node in nodes {
+            if self.computed[node as usize] != self.batch {
+                self.computed[node as usize] = self.batch;
+                waiting[count] = node as usize;
+                count += 1;
+            }
+        }
+        let (some, rest) = waiting[..count].as_chunks::<2>();
+        for &some in some {
+            let products = products(asset, some, &self.amplitudes);
+            for (node, product) in some.into_iter().zip(products) {
+                self.displacements[node] = product;
+            }
+        }
+        for &node in rest {
+            self.displacements[node] = product(asset, node, &self.amplitudes);
+        }
+    }
+
     /// ∇u at an embedded point at all steps of the batch: `[column j][row i]` = ∂u_i/∂x_j.
     #[inline(always)]
     pub(crate) fn gradients(&mut self, asset: &Asset, point: &EmbeddedPoint) -> [[Wide; 3]; 3] {
@@ -132,11 +156,12 @@ impl DisplacementBatch {
         let weights =
             ShapeWeights::gradients(point, &asset.analysis.barycentric_gradients[element]);
         let nodes = &asset.analysis.elements[element];
+        self.at_nodes(asset, nodes);
         // The gradients of the shape functions add up to nothing: what all nodes share only costs digits.
-        let shared = *self.at_node(asset, nodes[0] as usize);
+        let shared = self.displacements[nodes[0] as usize];
         let mut sum = [[Wide::default(); 3]; 3];
         for (&node, g) in nodes.iter().zip(weights).skip(1) {
-            let u = self.at_node(asset, node as usize);
+            let u = &self.displacements[node as usize];
             for (column, weight) in sum.iter_mut().zip(g.to_array()) {
                 for ((row, &u), &shared) in column.iter_mut().zip(u).zip(&shared) {
                     *row = *row + (Wide(u) - Wide(shared)) * weight;
@@ -195,6 +220,30 @@ fn product(asset: &Asset, node: usize, amplitudes: &[Lanes]) -> [Lanes; 3] {
             sums[0][k] += x * q[k];
             sums[1][k] += y * q[k];
             sums[2][k] += z * q[k];
+        }
+    }
+    sums
+}
+
+/// The same of two nodes. By index: a reversed zip of seven costs more than it multiplies.
+#[inline(always)]
+fn products(asset: &Asset, nodes: [usize; 2], amplitudes: &[Lanes]) -> [[Lanes; 3]; 2] {
+    let mut sums = [[[0.0_f32; BATCH]; 3]; 2];
+    let modes = amplitudes.len();
+    let mut rows: [[&[f32]; 3]; 2] = [[&[]; 3]; 2];
+    for (rows, node) in rows.iter_mut().zip(nodes) {
+        for (axis, row) in rows.iter_mut().enumerate() {
+            *row = &asset.modes.row(3 * node + axis)[..modes];
+        }
+    }
+    for (mode, q) in amplitudes.iter().enumerate().rev() {
+        for n in 0..2 {
+            for axis in 0..3 {
+                let phi = rows[n][axis][mode];
+                for k in 0..BATCH {
+                    sums[n][axis][k] += phi * q[k];
+                }
+            }
         }
     }
     sums

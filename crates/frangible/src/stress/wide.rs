@@ -4,6 +4,29 @@ use std::ops::{Add, Mul, Sub};
 
 use super::displacement::{BATCH, Lanes};
 
+/// Numbers that [`dot`] multiplies side by side.
+const WIDTH: usize = 16;
+
+/// Σ a_i b_i, in lanes that a compiler turns into vector instructions: call it from a place that `pulp` dispatches.
+#[inline(always)]
+pub(crate) fn dot(a: &[f32], b: &[f32]) -> f32 {
+    let ((a, a_tail), (b, b_tail)) = (a.as_chunks::<WIDTH>(), b.as_chunks::<WIDTH>());
+    let mut sums = [0.0_f32; WIDTH];
+    for (a, b) in a.iter().zip(b) {
+        for k in 0..WIDTH {
+            sums[k] += a[k] * b[k];
+        }
+    }
+    let mut sum = 0.0;
+    for (a, b) in a_tail.iter().zip(b_tail) {
+        sum += a * b;
+    }
+    for lane in sums {
+        sum += lane;
+    }
+    sum
+}
+
 /// A value at each of a batch's steps.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Wide(pub(crate) Lanes);

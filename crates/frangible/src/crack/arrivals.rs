@@ -1,0 +1,191 @@
+//! Release waves on their way to a point: of each crack the sites that no nearer one precedes.
+
+/// No more.
+const END: u32 = u32::MAX;
+
+/// A site whose wave is on its way, or that lies beyond its crack's reach.
+#[derive(Clone, Copy, Debug)]
+struct Arrival {
+    site: u32,
+    /// m.
+    distance: f32,
+    /// s.
+    time: f64,
+    /// The crack's next one: sooner, and farther.
+    next: u32,
+}
+
+/// Those of one crack, the last first: of two that are left the later is the nearer.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Queue {
+    first: u32,
+}
+
+impl Default for Queue {
+    fn default() -> Self {
+        Self { first: END }
+    }
+}
+
+impl Queue {
+    pub(super) fn is_empty(self) -> bool {
+        self.first == END
+    }
+}
+
+/// Those of all cracks.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Arrivals {
+    all: Vec<Arrival>,
+    /// Places in `all` that are free again.
+    free: Vec<u32>,
+}
+
+impl Arrivals {
+    /// Adds a site to its crack's queue unless one there is no farther and no later, and drops those that it precedes; whether it was
+    /// added.
+    pub(super) fn add(&mut self, queue: &mut Queue, site: u32, distance: f32, time: f64) -> bool {
+        let mut before = END;
+        let mut at = queue.first;
+        while let Some(later) = self.get(at).filter(|a| a.time > time) {
+            if later.distance < distance {
+                before = at;
+            } else {
+                self.free.push(at);
+            }
+            at = later.next;
+        }
+        if let Some(sooner) = self.get(at) {
+            if sooner.distance <= distance {
+                return false;
+            }
+            if sooner.time == time {
+                self.free.push(at);
+                at = sooner.next;
+            }
+        }
+        let new = Arrival {
+            site,
+            distance,
+            time,
+            next: at,
+        };
+        let place = match self.free.pop() {
+            Some(place) => {
+                self.all[place as usize] = new;
+                place
+            }
+            None => {
+                self.all.push(new);
+                self.all.len() as u32 - 1
+            }
+        };
+        self.link(queue, before, place);
+        true
+    }
+
+    /// Takes the nearest site that arrives before `now`, s, and lies within `reach`, m, and all that are farther; site and distance.
+    pub(super) fn arrive(&mut self, queue: &mut Queue, now: f64, reach: f32) -> Option<(u32, f32)> {
+        let mut before = END;
+        let mut at = queue.first;
+        while let Some(later) = self.get(at).filter(|a| a.time >= now) {
+            before = at;
+            at = later.next;
+        }
+        let nearest = self.get(at).filter(|a| a.distance < reach)?;
+        while let Some(farther) = self.get(at) {
+            self.free.push(at);
+            at = farther.next;
+        }
+        self.link(queue, before, END);
+        Some((nearest.site, nearest.distance))
+    }
+
+    /// When the first of a queue arrives that does not arrive before `now`, s; infinite where none does.
+    pub(super) fn next(&self, queue: Queue, now: f64) -> f64 {
+        let mut next = f64::INFINITY;
+        let mut at = queue.first;
+        while let Some(later) = self.get(at).filter(|a| a.time >= now) {
+            next = later.time;
+            at = later.next;
+        }
+        next
+    }
+
+    /// None at the end of a queue.
+    fn get(&self, at: u32) -> Option<Arrival> {
+        self.all.get(at as usize).copied()
+    }
+
+    fn link(&mut self, queue: &mut Queue, before: u32, place: u32) {
+        match before {
+            END => queue.first = place,
+            before => self.all[before as usize].next = place,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::rng::{Purpose, stream, uniform};
+
+    /// The same without an order.
+    #[derive(Default)]
+    struct Plain(Vec<(u32, f32, f64)>);
+
+    impl Plain {
+        fn add(&mut self, site: u32, distance: f32, time: f64) -> bool {
+            if self.0.iter().any(|p| p.1 <= distance && p.2 <= time) {
+                return false;
+            }
+            self.0.retain(|p| p.1 < distance || p.2 < time);
+            self.0.push((site, distance, time));
+            true
+        }
+
+        fn arrive(&mut self, now: f64, reach: f32) -> Option<(u32, f32)> {
+            let here = self.0.iter().filter(|p| p.2 < now && p.1 < reach);
+            let nearest = *here.min_by(|a, b| a.1.total_cmp(&b.1))?;
+            self.0.retain(|p| p.1 < nearest.1);
+            Some((nearest.0, nearest.1))
+        }
+    }
+
+    #[test]
+    fn queues_hold_what_plain_lists_hold() {
+        let mut rng = stream(1, Purpose::WeakPoints, 0);
+        let mut number = |count: f64| (uniform(&mut rng) * count).floor();
+        let mut arrivals = Arrivals::default();
+        let mut queues = [Queue::default(); 3];
+        let mut plain: [Plain; 3] = Default::default();
+        let (mut added, mut arrived) = (0, 0);
+        for k in 0..4000_u32 {
+            let i = number(3.0) as usize;
+            // Few different numbers, so that many are equal.
+            let (distance, mut time) = (number(12.0) as f32, number(12.0));
+            if time == 0.0 {
+                time = f64::NEG_INFINITY;
+            }
+            let (queue, plain) = (&mut queues[i], &mut plain[i]);
+            let expected = plain.add(k, distance, time);
+            assert_eq!(arrivals.add(queue, k, distance, time), expected);
+            added += u32::from(expected);
+            let now = number(14.0);
+            if k % 4 == 0 {
+                let reach = number(12.0) as f32;
+                let expected = plain.arrive(now, reach);
+                assert_eq!(arrivals.arrive(queue, now, reach), expected);
+                arrived += u32::from(expected.is_some());
+            }
+            let times = plain.0.iter().map(|p| p.2).filter(|&t| t >= now);
+            assert_eq!(
+                arrivals.next(*queue, now),
+                times.fold(f64::INFINITY, f64::min)
+            );
+            assert_eq!(queue.is_empty(), plain.0.is_empty());
+        }
+        assert!(added > 500 && arrived > 200, "{added} {arrived}");
+        assert!(arrivals.all.len() < 40);
+    }
+}

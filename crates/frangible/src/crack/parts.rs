@@ -1,0 +1,106 @@
+//! Bounds of parts of a body from the farthest that each mode moves, at any time.
+
+use super::culling::limit;
+use crate::body::Body;
+use crate::contact::Refusal;
+use crate::outcome::LookedAt;
+use crate::stress::tension_bound;
+
+/// Bounds of all parts that hold weak points, asked one after another.
+pub(crate) struct Parts<'a> {
+    body: &'a Body,
+    quadratic_modulus: f32,
+}
+
+impl<'a> Parts<'a> {
+    pub(crate) fn new(body: &'a Body, quadratic_modulus: f32) -> Self {
+        Self {
+            body,
+            quadratic_modulus,
+        }
+    }
+
+    /// How many there are.
+    pub(crate) fn count(&self) -> usize {
+        self.body.clusters.clusters.len()
+    }
+
+    /// Rows of the largest stress of each mode in a part, Pa per m·√kg, and of its gradient.
+    #[inline(always)]
+    fn rows(&self, part: usize) -> (&'a [f32], &'a [f32]) {
+        let bounds = &self.body.prepared.bounds;
+        let modes = self.body.asset.modes.count();
+        let cluster = self.body.clusters.clusters[part] as usize;
+        let row = cluster * modes..(cluster + 1) * modes;
+        (&bounds.stress[row.clone()], &bounds.gradient[row])
+    }
+
+    /// No stress in a part exceeds this, Pa, when the modes move no farther than `amplitudes`, m·√kg.
+    #[inline(always)]
+    pub(crate) fn bound(&self, part: usize, amplitudes: &[f32]) -> f32 {
+        let (stress, gradient) = self.rows(part);
+        tension_bound(amplitudes, stress, gradient, self.quadratic_modulus)
+    }
+
+    /// [`Self::bound`] of all parts, Pa, into `bounds`.
+    pub(crate) fn bounds(&self, amplitudes: &[f32], bounds: &mut Vec<f32>) {
+        bounds.resize(self.count(), 0.0);
+        pulp::Arch::new().dispatch(AllParts {
+            parts: self,
+            amplitudes,
+            bounds,
+        });
+    }
+
+    /// Below this bound no point of the part reaches its strength, Pa.
+    pub(crate) fn limit(&self, part: usize) -> f32 {
+        limit(self.body.clusters.weakest[part])
+    }
+
+    /// The bound as the body's weakest point would feel it, Pa.
+    pub(crate) fn as_weakest(&self, part: usize, bound: f32) -> f32 {
+        let weakest = self.body.clusters.weakest[part];
+        self.body.resistance.as_weakest(bound, weakest)
+    }
+}
+
+/// The bounds of all parts, with the widest vectors that this processor has.
+struct AllParts<'p, 'a> {
+    parts: &'p Parts<'a>,
+    amplitudes: &'p [f32],
+    bounds: &'p mut [f32],
+}
+
+impl pulp::NullaryFnOnce for AllParts<'_, '_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        for (part, bound) in self.bounds.iter_mut().enumerate() {
+            *bound = self.parts.bound(part, self.amplitudes);
+        }
+    }
+}
+
+/// Whether no weak point cracks when the modes move no farther than `amplitudes`, m·√kg: by the bounds of all parts.
+pub(crate) fn refused_by_parts(
+    body: &Body,
+    amplitudes: &[f32],
+    quadratic_modulus: f32,
+) -> Option<Refusal> {
+    let parts = Parts::new(body, quadratic_modulus);
+    let mut refusal = Refusal {
+        looked_at: LookedAt::Impulses,
+        bound: 0.0,
+        as_weakest: 0.0,
+    };
+    let mut bounds = Vec::new();
+    parts.bounds(amplitudes, &mut bounds);
+    for (part, bound) in bounds.into_iter().enumerate() {
+        if bound > parts.limit(part) {
+            return None;
+        }
+        refusal.raise(bound, parts.as_weakest(part, bound));
+    }
+    Some(refusal)
+}
