@@ -23,19 +23,8 @@ pub fn collision_shape(fragment: &Fragment, config: &WorldConfig) -> SharedShape
     }
 }
 
-/// A body is convex when its hull has no more than this times its volume.
-const CONVEX: f64 = 1.01;
-
 /// Compound of the asset's cells, in the body frame.
-///
-/// Where fewer parts are asked for, a convex body is one.
 pub(crate) fn whole_shape(asset: &Asset, detail: ColliderDetail) -> SharedShape {
-    if detail.parts < usize::MAX
-        && let Some((shape, volume)) = hull(&asset.fracture.positions, detail)
-        && volume <= CONVEX * asset.mass.volume
-    {
-        return shape;
-    }
     let cells = asset.cells.iter().map(|cell| &*cell.points).collect();
     let parts = merged(cells, detail.parts);
     let hulls = parts.iter().filter_map(|points| hull(points, detail));

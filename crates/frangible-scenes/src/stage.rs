@@ -6,6 +6,7 @@ use frangible::glam::{Quat, Vec3};
 use frangible::{Asset, Breakable, Fields, Material};
 use frangible_pieces::Pieces;
 use frangible_rapier::rapier3d::dynamics::RigidBodyHandle;
+use frangible_rapier::rapier3d::geometry::SharedShape;
 use frangible_rapier::rapier3d::math::{Pose, Rotation, Vector};
 use frangible_rapier::{BreakableWorld, ColliderDetail, SurfaceProperties, WorldConfig};
 
@@ -65,8 +66,9 @@ pub(crate) fn set_up<'a>(scene: &'a Scene, baked: &[BakedBody]) -> Result<Stage<
     config.fracture = scene.fracture.clone();
     config.record_held = true;
     if scene.bodies.len() > FEW {
+        let convex = baked.iter().all(|body| is_convex(&body.asset));
         config.whole_collider = ColliderDetail {
-            parts: 32,
+            parts: if convex { 1 } else { 32 },
             hull_points: 64,
         };
         config.fragment_collider = ColliderDetail {
@@ -225,6 +227,18 @@ fn put<'a>(
         surfaces,
         bounds: [low, high],
     })
+}
+
+/// Whether a body's hull has hardly more volume than the body.
+fn is_convex(asset: &Asset) -> bool {
+    let points: Vec<Vector> = asset
+        .fracture
+        .positions
+        .iter()
+        .map(|&p| vector(p))
+        .collect();
+    let hull = SharedShape::convex_hull(&points).map(|hull| hull.mass_properties(1.0).mass());
+    hull.is_some_and(|volume| f64::from(volume) <= 1.01 * asset.mass.volume)
 }
 
 /// Seed of the i-th body: equal bodies must not break alike, and the first one's is the scene's.
