@@ -131,6 +131,12 @@ impl Viewer {
     }
 
     async fn live(&mut self, window: &mut Window) -> Result<(), ViewError> {
+        // A window that never drew panics when it is dropped, and a script may end before the first frame.
+        self.set_stage(window, &self.worker.latest());
+        let mut camera = self.camera(window);
+        if let Some(stage) = &mut self.stage {
+            window.render_3d(stage.scene(), &mut camera).await;
+        }
         while !self.quit {
             let began = Instant::now();
             let shown = self.worker.latest();
@@ -186,7 +192,7 @@ impl Viewer {
             self.still + 1
         };
         // Panels settle in a few frames; now and then one more, should anything have been missed.
-        self.still > STILL_FRAMES && self.still % SELDOM != 0
+        self.still > STILL_FRAMES && !self.still.is_multiple_of(SELDOM)
     }
 
     /// Whether all there is to see is on the stage, with its shadow.

@@ -1,7 +1,5 @@
 //! Mouse and keys into commands.
 
-use std::path::PathBuf;
-
 use frangible::glam::Vec2;
 use frangible_draw::kiss3d::event::{Action, Key, Modifiers, MouseButton, WindowEvent};
 use frangible_draw::kiss3d::window::Window;
@@ -174,7 +172,7 @@ impl Hands {
             }
         }
         for path in window.dropped_files() {
-            said.commands.push(Command::Open(PathBuf::from(path)));
+            said.commands.push(Command::Open(path));
         }
         said
     }

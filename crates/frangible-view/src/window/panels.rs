@@ -26,6 +26,9 @@ const RIGHT: f32 = 330.0;
 /// Distance from the window's edges, points.
 const EDGE: f32 = 6.0;
 
+/// A window in which both panels would leave too little to see, points.
+const NARROW: f32 = 820.0;
+
 /// How far a key draws pieces apart.
 const APART: f64 = 0.6;
 
@@ -112,22 +115,31 @@ impl Panels {
     /// By how much the picture's middle is moved out of the panels' way, shares of half the window.
     pub(super) fn shift(&self, window: &Window) -> [f32; 2] {
         let points = window.width() as f32 / window.scale_factor() as f32;
-        let [left, right] = self.margins();
+        let [left, right] = self.margins(points);
         [(left - right) / points.max(1.0), 0.0]
     }
 
     /// Width over height of what the panels leave free.
     pub(super) fn free_aspect(&self, window: &Window) -> f32 {
         let scale = window.scale_factor() as f32;
-        let [left, right] = self.margins();
-        let free = window.width() as f32 / scale - left - right;
+        let points = window.width() as f32 / scale;
+        let [left, right] = self.margins(points);
+        let free = points - left - right;
         free.max(1.0) * scale / window.height().max(1) as f32
     }
 
+    /// Whether the panel on the left is there: in a narrow window it makes room for the other.
+    fn shows_play(&self, window_points: f32) -> bool {
+        self.play && (self.tab.is_none() || window_points >= NARROW)
+    }
+
     /// Width that panels take at the left and the right, points.
-    fn margins(&self) -> [f32; 2] {
+    fn margins(&self, window_points: f32) -> [f32; 2] {
         let width = |there: bool, width: f32| if there { width + 2.0 * EDGE } else { 0.0 };
-        [width(self.play, LEFT), width(self.tab.is_some(), RIGHT)]
+        [
+            width(self.shows_play(window_points), LEFT),
+            width(self.tab.is_some(), RIGHT),
+        ]
     }
 
     /// Draws the panels over the next frame; what was said with mouse, keys and panels comes back.
@@ -141,7 +153,7 @@ impl Panels {
         }
         window.draw_ui(|ctx| {
             self.style(ctx);
-            if self.play {
+            if self.shows_play(ctx.content_rect().width()) {
                 side(ctx, "play", Align2::LEFT_TOP, LEFT, |ui| {
                     self.play_panel(ui, shown, &mut commands);
                 });

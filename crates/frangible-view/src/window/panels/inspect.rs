@@ -302,6 +302,9 @@ fn energy(ui: &mut Ui, blow: &Blow) {
     }
 }
 
+/// Label, value and decimals of a row.
+type Row = (&'static str, fn(&Blow) -> f64, usize);
+
 fn compare(ui: &mut Ui, compared: &Compared) {
     ui.strong("The same impact");
     if compared.differences.is_empty() {
@@ -311,7 +314,7 @@ fn compare(ui: &mut Ui, compared: &Compared) {
         ui.label(format!("{label}: {old:.4} → {new:.4} {unit}"));
     }
     let [old, new] = &compared.blows;
-    let rows: [(&str, fn(&Blow) -> f64, usize); 7] = [
+    let rows: [Row; 7] = [
         ("pieces", |b| b.pieces() as f64, 0),
         ("cracks", |b| b.report.cracks as f64, 0),
         ("crack area, cm²", |b| 1e4 * b.report.crack_area, 1),

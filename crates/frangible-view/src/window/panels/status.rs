@@ -8,7 +8,7 @@ use crate::shown::Shown;
 
 impl Panels {
     pub(super) fn status(&self, ctx: &egui::Context, shown: &Shown, commands: &mut Vec<Command>) {
-        let [left, right] = self.margins();
+        let [left, right] = self.margins(ctx.content_rect().width());
         let shift = 0.5 * (left - right);
         egui::Window::new("status")
             .title_bar(false)
