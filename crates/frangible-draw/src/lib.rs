@@ -28,7 +28,7 @@ mod sheet;
 mod stage;
 mod studio;
 
-pub use adapter::has_adapter;
+pub use adapter::{has_adapter, is_software};
 pub use camera::StillCamera;
 pub use encode::{encode_png, encode_png_within};
 pub use error::DrawError;

@@ -57,6 +57,8 @@ pub struct LiveStage {
     actors: Vec<Actor>,
     floor: Option<SceneNode3d>,
     palette: Arc<Texture>,
+    /// Whether everything on the stage is opaque, and lit as in life.
+    solid: bool,
 }
 
 /// From the world to the stage, for those who have no stage at hand.
@@ -93,6 +95,7 @@ impl LiveStage {
             actors: Vec::new(),
             floor: None,
             palette: palette_texture(),
+            solid: true,
         }
     }
 
@@ -101,8 +104,10 @@ impl LiveStage {
         &mut self.scene
     }
 
-    /// The view in stage units; the haze keeps its distance from what is looked at.
+    /// The view in stage units, the window set for what is on the stage; the haze keeps its distance from what is looked at.
     pub fn look(&self, window: &mut Window, view: &View) -> View {
+        // As in the pictures: a map gives glass the shadow of clay, and colours that stand for numbers want none.
+        window.set_shadows_enabled(self.solid);
         let view = self.units.view(view);
         // The usual distance, where half the picture's height is 1 at the field of view of the scenes.
         let usual = (0.5 * view.vertical_fov).tan().recip();
@@ -121,8 +126,13 @@ impl LiveStage {
     /// only move, which is cheap.
     pub fn show<'a>(&mut self, meshes: impl Iterator<Item = LiveMesh<'a>>, wireframe: bool) {
         let mut count = 0;
+        self.solid = true;
         for (i, mesh) in meshes.enumerate() {
             count = i + 1;
+            self.solid &= match mesh.looks {
+                Looks::Surface(surface) => clarity(surface) <= 0.0,
+                Looks::Values => false,
+            };
             let same = self.actors.get(i).is_some_and(|actor| {
                 Arc::ptr_eq(&actor.faces, mesh.faces)
                     && actor.looks == *mesh.looks

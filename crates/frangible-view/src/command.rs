@@ -32,6 +32,22 @@ pub enum Command {
         /// Where its centre is aimed.
         through: Vec3,
     },
+    /// Take hold of the thing that a ray meets.
+    Grab {
+        /// Where the ray starts, m.
+        from: Vec3,
+        /// A point it goes through.
+        through: Vec3,
+    },
+    /// Pull what is held to where this ray is as far off as it was taken.
+    Pull {
+        /// Where the ray starts, m.
+        from: Vec3,
+        /// A point it goes through.
+        through: Vec3,
+    },
+    /// Let go what is held; it flies on.
+    LetGo,
     /// The scene again, its bodies dropped from this height, m.
     Drop(f64),
     /// Back to just before the last break.
@@ -81,6 +97,10 @@ pub enum Command {
     Click(f32, f32),
     /// Select what is at this place of the window.
     Pick(f32, f32),
+    /// Take hold of what is at this place of the window.
+    GrabAt(f32, f32),
+    /// Pull what is held to this place of the window.
+    PullTo(f32, f32),
     /// Open or close a panel.
     Panel(String, bool),
     /// Dark or light.
@@ -169,6 +189,8 @@ impl Command {
                 | Self::Home
                 | Self::Click(..)
                 | Self::Pick(..)
+                | Self::GrabAt(..)
+                | Self::PullTo(..)
                 | Self::Panel(..)
                 | Self::Dark(_)
                 | Self::Quit
@@ -185,6 +207,9 @@ impl Command {
                 | Self::Step(_)
                 | Self::Ball(_)
                 | Self::Throw { .. }
+                | Self::Grab { .. }
+                | Self::Pull { .. }
+                | Self::LetGo
                 | Self::Drop(_)
                 | Self::Undo
                 | Self::Knob(..)

@@ -234,7 +234,7 @@ pub static KNOBS: [Knob; 20] = [
         "Poisson's ratio ν",
         "",
         1.0,
-        [0.0, 0.48],
+        [0.0, 0.495],
         Kind::Even,
         poisson_ratio,
         true,

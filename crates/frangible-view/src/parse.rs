@@ -11,7 +11,7 @@ use crate::command::{BallSpec, Command, Mark, Subject, Target};
 use crate::error::ViewError;
 
 /// Each command's first word, and what comes after it.
-const FORMS: [(&str, &str); 32] = [
+const FORMS: [(&str, &str); 37] = [
     ("scene", "NAME"),
     ("open", "FILE"),
     ("cancel-bake", ""),
@@ -22,6 +22,9 @@ const FORMS: [(&str, &str); 32] = [
     ("slow-motion", "FACTOR"),
     ("ball", "KG METRES METRES/SECOND MATERIAL"),
     ("throw", "FROM-X,Y,Z THROUGH-X,Y,Z"),
+    ("grab", "FROM-X,Y,Z THROUGH-X,Y,Z"),
+    ("pull", "FROM-X,Y,Z THROUGH-X,Y,Z"),
+    ("let-go", ""),
     ("drop", "METRES"),
     ("undo", ""),
     ("look", "world|stress|cracks|modes|compare"),
@@ -44,6 +47,8 @@ const FORMS: [(&str, &str); 32] = [
     ("home", ""),
     ("click", "X Y"),
     ("pick", "X Y"),
+    ("grab-at", "X Y"),
+    ("pull-to", "X Y"),
 ];
 
 /// Words of commands that are not in the table above for want of a person who would write them by hand often.
@@ -114,6 +119,15 @@ fn read(first: &str, rest: &[&str], tail: &str) -> Result<Command, String> {
             from: vector(rest[0])?,
             through: vector(rest[1])?,
         },
+        "grab" => Command::Grab {
+            from: vector(rest[0])?,
+            through: vector(rest[1])?,
+        },
+        "pull" => Command::Pull {
+            from: vector(rest[0])?,
+            through: vector(rest[1])?,
+        },
+        "let-go" => Command::LetGo,
         "drop" => Command::Drop(number(0)?),
         "undo" => Command::Undo,
         "look" => Command::Look(one_of(rest[0], &SUBJECTS)?),
@@ -139,6 +153,8 @@ fn read(first: &str, rest: &[&str], tail: &str) -> Result<Command, String> {
         "home" => Command::Home,
         "click" => Command::Click(number(0)? as f32, number(1)? as f32),
         "pick" => Command::Pick(number(0)? as f32, number(1)? as f32),
+        "grab-at" => Command::GrabAt(number(0)? as f32, number(1)? as f32),
+        "pull-to" => Command::PullTo(number(0)? as f32, number(1)? as f32),
         "panel" => Command::Panel(
             rest[0].into(),
             one_of(rest[1], &[("open", true), ("closed", false)])?,
@@ -222,6 +238,9 @@ impl fmt::Display for Command {
             Self::SlowMotion(x) => write!(f, "slow-motion {x}"),
             Self::Ball(b) => write!(f, "ball {} {} {} {}", b.mass, b.radius, b.speed, b.material),
             Self::Throw { from, through } => write!(f, "throw {} {}", v(from), v(through)),
+            Self::Grab { from, through } => write!(f, "grab {} {}", v(from), v(through)),
+            Self::Pull { from, through } => write!(f, "pull {} {}", v(from), v(through)),
+            Self::LetGo => write!(f, "let-go"),
             Self::Drop(height) => write!(f, "drop {height}"),
             Self::Undo => write!(f, "undo"),
             Self::Look(subject) => write!(f, "look {}", name_of(*subject, &SUBJECTS)),
@@ -247,6 +266,8 @@ impl fmt::Display for Command {
             Self::Home => write!(f, "home"),
             Self::Click(x, y) => write!(f, "click {x} {y}"),
             Self::Pick(x, y) => write!(f, "pick {x} {y}"),
+            Self::GrabAt(x, y) => write!(f, "grab-at {x} {y}"),
+            Self::PullTo(x, y) => write!(f, "pull-to {x} {y}"),
             Self::Panel(name, open) => {
                 write!(f, "panel {name} {}", if *open { "open" } else { "closed" })
             }

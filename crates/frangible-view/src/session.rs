@@ -1,5 +1,6 @@
 //! The view model: a scene, what is done with it, and what there is to see. It has no window and no clock.
 
+mod grab;
 mod look;
 mod play;
 mod start;
@@ -59,6 +60,7 @@ pub struct Session {
     marks: Vec<Mark>,
     mode: usize,
     selection: Option<usize>,
+    grip: Option<grab::Grip>,
     home: View,
     focus: Focus,
     log: Vec<Command>,
@@ -108,6 +110,7 @@ impl Session {
             marks: vec![Mark::Impulse],
             mode: 1,
             selection: None,
+            grip: None,
             home: View::default(),
             focus: Focus::default(),
             log: Vec::new(),
@@ -167,6 +170,9 @@ impl Session {
             }
             Command::Ball(ball) => self.choose_ball(ball)?,
             Command::Throw { from, through } => self.throw(from, through)?,
+            Command::Grab { from, through } => self.grab(from, through)?,
+            Command::Pull { from, through } => self.pull(from, through),
+            Command::LetGo => self.grip = None,
             Command::Undo => self.undo_break()?,
             Command::Look(subject) => self.look(subject)?,
             Command::Scrub(share) => self.scrub = share.clamp(0.0, 1.0),
@@ -217,7 +223,12 @@ impl Session {
             Command::Reset | Command::Drop(_) => self.log.retain(|known| {
                 !matches!(
                     known,
-                    Command::Step(_) | Command::Throw { .. } | Command::Undo
+                    Command::Step(_)
+                        | Command::Throw { .. }
+                        | Command::Grab { .. }
+                        | Command::Pull { .. }
+                        | Command::LetGo
+                        | Command::Undo
                 )
             }),
             // Steps are written down as they are taken.

@@ -13,7 +13,7 @@ use std::time::{Duration, Instant};
 
 use frangible::glam::Vec2;
 use frangible_draw::kiss3d::window::{CanvasSetup, NumSamples, Window};
-use frangible_draw::{DrawError, LiveStage, Place, StillCamera, has_adapter};
+use frangible_draw::{DrawError, LiveStage, Place, StillCamera, has_adapter, is_software};
 use frangible_export::View;
 
 use crate::camera::Orbit;
@@ -66,7 +66,11 @@ pub fn run(options: WindowOptions) -> Result<(), ViewError> {
 /// The window system's refusals are panics.
 fn open([width, height]: [u32; 2]) -> Result<Window, ViewError> {
     let setup = CanvasSetup {
-        samples: NumSamples::Four,
+        // Smooth edges take a software driver most of the time.
+        samples: match is_software() {
+            true => NumSamples::One,
+            false => NumSamples::Four,
+        },
         ..CanvasSetup::default()
     };
     let open = || pollster::block_on(Window::new_with_setup("Frangible", width, height, setup));
@@ -253,6 +257,20 @@ impl Viewer {
             Command::Pick(x, y) => {
                 let ray = self.ray(window, x, y);
                 self.pass_on(Command::Select {
+                    from: ray.origin,
+                    through: ray.origin + ray.direction,
+                });
+            }
+            Command::GrabAt(x, y) => {
+                let ray = self.ray(window, x, y);
+                self.pass_on(Command::Grab {
+                    from: ray.origin,
+                    through: ray.origin + ray.direction,
+                });
+            }
+            Command::PullTo(x, y) => {
+                let ray = self.ray(window, x, y);
+                self.pass_on(Command::Pull {
                     from: ray.origin,
                     through: ray.origin + ray.direction,
                 });

@@ -70,6 +70,35 @@ fn a_thrown_ball_flies_to_what_it_was_aimed_at() {
 }
 
 #[test]
+fn a_thing_in_the_hand_goes_where_it_is_pulled_and_flies_on_when_it_is_let_go() {
+    let mut session = pane("grab");
+    let centre = |session: &Session| {
+        let live = session.live().unwrap();
+        live.pose(&live.things()[0]).unwrap().translation
+    };
+    // A ball of the scene is on its way; the pane is lifted over it.
+    give(&mut session, "grab 0,0.15,1 0,0.15,0");
+    give(&mut session, "pull 0,0.15,1 0.1,0.6,0");
+    give(&mut session, "step 1000");
+    let held = centre(&session);
+    // The ray at the distance at which it was taken, and the centre 5 cm below that.
+    let way = frangible::glam::Vec3::new(0.1, 0.45, -1.0).normalize() * 0.997;
+    let there = frangible::glam::Vec3::new(0.0, 0.15, 1.0) + way - frangible::glam::Vec3::Y * 0.05;
+    assert!(held.distance(there) < 0.02, "{held}, not {there}");
+    assert_eq!(session.shown().pieces, 0);
+    give(&mut session, "let-go");
+    give(&mut session, "step 2000");
+    assert!(
+        centre(&session).y < held.y - 0.1 || session.shown().pieces > 0,
+        "it falls"
+    );
+    // The floor cannot be taken away.
+    give(&mut session, "grab 0.9,1,0.9 0.9,0,0.9");
+    give(&mut session, "pull 0.9,1,0.9 0.9,1,0");
+    give(&mut session, "step 10");
+}
+
+#[test]
 fn the_same_impact_with_the_same_knobs_gives_the_same_pieces() {
     let mut session = broken("again");
     let before = masses(&session.shown());

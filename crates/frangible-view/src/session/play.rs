@@ -35,6 +35,7 @@ impl Session {
     /// A break that the fracture model refused; the scene may go on.
     pub fn step(&mut self) -> Result<(), ViewError> {
         self.put_aside();
+        self.pull_along();
         let Some(live) = self.live.as_mut() else {
             return Ok(());
         };
@@ -161,6 +162,7 @@ impl Session {
         };
         let live = self.running()?;
         live.restore(&saved);
+        self.grip = None;
         self.blow = blow;
         self.recent = None;
         self.forget_analysis();

@@ -109,6 +109,7 @@ impl Session {
         self.analysis_job = None;
         self.again_job = None;
         self.selection = None;
+        self.grip = None;
         self.set_subject(Subject::World);
         self.owed = 0;
         self.mesher = crate::mesher::Mesher::default();

@@ -126,6 +126,8 @@ pub(super) struct Hands {
     /// The button that is down, and where it went down.
     held: Option<(MouseButton, Vec2)>,
     dragged: bool,
+    /// Whether the drag holds a thing of the scene.
+    holds: bool,
 }
 
 impl Hands {
@@ -143,15 +145,22 @@ impl Hands {
                     self.drag(to, size, modifiers, &mut said.commands);
                     self.at = to;
                 }
-                WindowEvent::MouseButton(button, Action::Press, _) if !over_panel => {
+                WindowEvent::MouseButton(button, Action::Press, modifiers) if !over_panel => {
                     self.held = Some((button, self.at));
                     self.dragged = false;
+                    self.holds = modifiers.contains(Modifiers::Control);
+                    if self.holds {
+                        let at = self.at / size;
+                        said.commands.push(Command::GrabAt(at.x, at.y));
+                    }
                 }
                 WindowEvent::MouseButton(button, Action::Release, modifiers) => {
-                    if let Some((held, _)) = self.held.take_if(|(held, _)| *held == button)
-                        && held == MouseButton::Button1
-                        && !self.dragged
-                    {
+                    let Some((held, _)) = self.held.take_if(|(held, _)| *held == button) else {
+                        continue;
+                    };
+                    if std::mem::take(&mut self.holds) {
+                        said.commands.push(Command::LetGo);
+                    } else if held == MouseButton::Button1 && !self.dragged {
                         let at = self.at / size;
                         said.commands
                             .push(match modifiers.contains(Modifiers::Shift) {
@@ -183,6 +192,11 @@ impl Hands {
         };
         if to.distance(from) > STILL {
             self.dragged = true;
+        }
+        if self.holds {
+            let at = to / size;
+            commands.push(Command::PullTo(at.x, at.y));
+            return;
         }
         if !self.dragged {
             return;

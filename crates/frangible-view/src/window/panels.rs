@@ -59,12 +59,12 @@ impl Panels {
         Self {
             tab: None,
             play: true,
-            // Whoever opens it for the first time sees what can be done.
-            help: !script,
+            help: false,
             dark: true,
             folder,
             saved: 0,
-            note: None,
+            // Whoever opens it for the first time must know what to do.
+            note: (!script).then(|| "click to throw the ball; ? lists keys and mouse".into()),
             drop_height: 1.2,
             times: FrameTimes::default(),
             styled: None,

@@ -22,6 +22,7 @@ pub(super) fn show(ctx: &egui::Context, open: &mut bool) {
                             for (hand, does) in [
                                 ("click", "throw the ball there"),
                                 ("shift + click", "select a piece: mass, volume, size, speed"),
+                                ("ctrl + drag", "take hold of a thing, and fling it"),
                                 ("drag", "turn the camera"),
                                 ("shift + drag", "move it (or drag with the wheel pressed)"),
                                 ("wheel", "nearer or farther"),

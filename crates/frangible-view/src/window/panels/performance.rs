@@ -15,8 +15,8 @@ const KEPT: usize = 180;
 /// Times of the last frames.
 #[derive(Default)]
 pub(super) struct FrameTimes {
-    /// From frame to frame, and what the processor did of it, ms.
-    frames: VecDeque<[f64; 2]>,
+    /// From frame to frame, what the processor did of it, and what of that was not the renderer's, ms.
+    frames: VecDeque<[f64; 3]>,
     draw_calls: usize,
 }
 
@@ -32,6 +32,7 @@ impl FrameTimes {
         self.frames.push_back([
             milliseconds(timings.frame_wall),
             milliseconds(own + drawing),
+            milliseconds(own),
         ]);
         if self.frames.len() > KEPT {
             self.frames.pop_front();
@@ -46,9 +47,11 @@ pub(super) fn panel(ui: &mut Ui, shown: &Shown, times: &FrameTimes) {
     };
     ui.strong("Frames");
     ui.label(format!(
-        "{:.1} ms a frame, {:.1} ms of it on the processor",
+        "{:.1} ms a frame, {:.1} ms of it on the processor: ours {:.2}, the renderer {:.2}",
         mean(0),
-        mean(1)
+        mean(1),
+        mean(2),
+        mean(1) - mean(2)
     ));
     Plot::new("frames")
         .height(90.0)
