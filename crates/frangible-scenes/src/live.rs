@@ -34,6 +34,9 @@ const FRAME: u64 = 64;
 /// Ticks after a break that are still taken one by one.
 const FINE_AFTER_BREAK: u64 = 2 * FRAME;
 
+/// Centre of the highest body that is in view from the beginning, above the floor, in units of how far the body reaches.
+const HIGHEST: f32 = 2.2;
+
 /// Damping of rotation, 1/s, as in [`play`](crate::play()).
 const ROLLING: f32 = 0.8;
 
@@ -324,7 +327,8 @@ impl LiveScene {
         recording
     }
 
-    /// A camera that has the scene's bodies in view, and what is below them as far as they fall.
+    /// A camera that has the scene's bodies in view, and the floor below them. Bodies high above the floor come into view as
+    /// they fall: a glass that falls 1.2 m would be a speck in a picture of all of its way.
     #[must_use]
     pub fn view(&self, look_from: Vec3) -> View {
         let mut seen = Vec::new();
@@ -333,9 +337,17 @@ impl LiveScene {
             let (ThingKind::Body(_), Some(pose)) = (thing.kind, self.pose(thing)) else {
                 continue;
             };
-            for &point in &thing.mesh.positions {
-                largest = largest.max(point.length());
-                seen.push(pose.rotation * point + pose.translation);
+            let positions = &thing.mesh.positions;
+            let reach = positions.iter().map(|p| p.length()).fold(0.0, f32::max);
+            largest = largest.max(reach);
+            let falls = self.floor.is_some()
+                && (self.world.physics.bodies.get(thing.handle)).is_some_and(|b| b.is_dynamic());
+            let mut at = pose.translation;
+            if falls {
+                at.y = at.y.min(HIGHEST * reach);
+            }
+            for &point in positions {
+                seen.push(pose.rotation * point + at);
             }
         }
         if self.floor.is_some() {

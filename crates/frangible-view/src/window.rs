@@ -291,6 +291,7 @@ impl Viewer {
     }
 
     fn pass_on(&mut self, command: Command) {
+        self.panels.hush();
         // A thread that is gone is noticed in the loop.
         self.worker.send(command);
     }

@@ -102,6 +102,11 @@ impl Panels {
         self.dark = dark;
     }
 
+    /// What was said last is no longer news.
+    pub(super) fn hush(&mut self) {
+        self.note = None;
+    }
+
     /// Says something to the person.
     pub(super) fn tell(&mut self, note: String) {
         self.note = Some(note);
