@@ -1,5 +1,6 @@
 //! A scene that runs step by step, for those who look on and throw things: what there is at the moment, with its shapes.
 
+mod looks;
 mod state;
 mod throw;
 
@@ -8,14 +9,14 @@ use std::sync::Arc;
 
 use frangible::glam::{Quat, Vec3};
 use frangible::{Body, Fracture, Fragment, Material};
-use frangible_export::{Floor, Pose, RecordedMesh, RecordedNode, Recording, SurfaceMaterial, View};
+use frangible_export::{Floor, Pose, RecordedMesh, SurfaceMaterial};
 use frangible_rapier::rapier3d::dynamics::RigidBodyHandle;
 use frangible_rapier::{BreakEvent, BreakableWorld, SurfaceProperties};
 
 use crate::bake::BakedBody;
 use crate::error::SceneError;
 use crate::meshes::{BodySurfaces, piece};
-use crate::recorder::{FRAME_RATE, Role, view};
+use crate::recorder::Role;
 use crate::scene::Scene;
 use crate::stage::{Stage, set_up};
 
@@ -33,9 +34,6 @@ const FRAME: u64 = 64;
 
 /// Ticks after a break that are still taken one by one.
 const FINE_AFTER_BREAK: u64 = 2 * FRAME;
-
-/// Centre of the highest body that is in view from the beginning, above the floor, in units of how far the body reaches.
-const HIGHEST: f32 = 2.2;
 
 /// Damping of rotation, 1/s, as in [`play`](crate::play()).
 const ROLLING: f32 = 0.8;
@@ -294,67 +292,6 @@ impl LiveScene {
     #[must_use]
     pub fn time(&self) -> f64 {
         self.ticks as f64 / TICKS_PER_SECOND as f64
-    }
-
-    /// What is there now as a recording of one frame, seen from `camera`: for a file or a picture.
-    #[must_use]
-    pub fn recording(&self, camera: View) -> Recording {
-        let mut recording = Recording {
-            name: self.name.clone(),
-            frame_rate: FRAME_RATE,
-            frame_count: 1,
-            surfaces: self.surfaces.clone(),
-            floor: self.floor,
-            camera,
-            ..Recording::default()
-        };
-        for thing in &self.things {
-            let Some(pose) = self.pose(thing) else {
-                continue;
-            };
-            recording.meshes.push(thing.mesh.clone());
-            recording.nodes.push(RecordedNode {
-                name: thing.name.clone(),
-                mesh: recording.meshes.len() - 1,
-                poses: vec![pose],
-                visible: 0..1,
-                keep_extras: vec![
-                    ("mass_kg".into(), thing.mass),
-                    ("volume_m3".into(), thing.volume),
-                ],
-            });
-        }
-        recording
-    }
-
-    /// A camera that has the scene's bodies in view, and the floor below them. Bodies high above the floor come into view as
-    /// they fall: a glass that falls 1.2 m would be a speck in a picture of all of its way.
-    #[must_use]
-    pub fn view(&self, look_from: Vec3) -> View {
-        let mut seen = Vec::new();
-        let mut largest = 0.05_f32;
-        for thing in &self.things {
-            let (ThingKind::Body(_), Some(pose)) = (thing.kind, self.pose(thing)) else {
-                continue;
-            };
-            let positions = &thing.mesh.positions;
-            let reach = positions.iter().map(|p| p.length()).fold(0.0, f32::max);
-            largest = largest.max(reach);
-            let falls = self.floor.is_some()
-                && (self.world.physics.bodies.get(thing.handle)).is_some_and(|b| b.is_dynamic());
-            let mut at = pose.translation;
-            if falls {
-                at.y = at.y.min(HIGHEST * reach);
-            }
-            for &point in positions {
-                seen.push(pose.rotation * point + at);
-            }
-        }
-        if self.floor.is_some() {
-            let feet: Vec<Vec3> = seen.iter().map(|p| p.with_y(0.0)).collect();
-            seen.extend(feet);
-        }
-        view(&seen, f32::MIN, look_from, 2.2 * largest)
     }
 }
 

@@ -80,8 +80,8 @@ fn open([width, height]: [u32; 2]) -> Result<Window, ViewError> {
 /// How long to wait where there is nothing new to draw.
 const REST: Duration = Duration::from_millis(12);
 
-/// Frames drawn after the last news.
-const STILL_FRAMES: u32 = 20;
+/// How long frames are drawn after the last news: panels fade, and hints come after half a second.
+const LIVELY: Duration = Duration::from_millis(1200);
 
 /// Of frames with nothing new one in so many is drawn.
 const SELDOM: u32 = 40;
@@ -103,8 +103,8 @@ struct Viewer {
     starts: u64,
     /// Number of what the camera was turned to.
     focus: u64,
-    /// Frames drawn since anything changed.
-    still: u32,
+    /// When anything changed last, and how often nothing new was drawn since.
+    still: (Instant, u32),
     /// Commands, picture and shadow of the last frame.
     news: (u64, u64, u64),
     quit: bool,
@@ -128,7 +128,7 @@ impl Viewer {
             shaded: 0,
             starts: u64::MAX,
             focus: 0,
-            still: 0,
+            still: (Instant::now(), 0),
             news: (0, 0, 0),
             quit: false,
         }
@@ -190,13 +190,11 @@ impl Viewer {
         if self.director.has_script() && !done {
             return true;
         }
-        self.still = if news || !quiet || !done {
-            0
-        } else {
-            self.still + 1
-        };
-        // Panels settle in a few frames; now and then one more, should anything have been missed.
-        self.still > STILL_FRAMES && !self.still.is_multiple_of(SELDOM)
+        if news || !quiet || !done || self.panels.plays() {
+            self.still = (Instant::now(), 0);
+        }
+        self.still.1 += 1;
+        self.still.0.elapsed() > LIVELY && !self.still.1.is_multiple_of(SELDOM)
     }
 
     /// Whether all there is to see is on the stage, with its shadow.

@@ -8,7 +8,7 @@ mod play;
 mod status;
 
 use std::path::PathBuf;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use egui::{Align2, Context, Visuals};
 use frangible_draw::kiss3d::window::Window;
@@ -52,7 +52,12 @@ pub(super) struct Panels {
     drop_height: f64,
     times: FrameTimes,
     styled: Option<bool>,
+    /// When the motion that plays was moved on last.
+    playing: Option<Instant>,
 }
+
+/// How long one play of a motion takes, s.
+const PLAY_TIME: f64 = 4.0;
 
 impl Panels {
     pub(super) fn new(folder: PathBuf, script: bool) -> Self {
@@ -68,6 +73,7 @@ impl Panels {
             drop_height: 1.2,
             times: FrameTimes::default(),
             styled: None,
+            playing: None,
         }
     }
 
@@ -147,6 +153,24 @@ impl Panels {
         ]
     }
 
+    /// Whether a motion plays.
+    pub(super) fn plays(&self) -> bool {
+        self.playing.is_some()
+    }
+
+    /// Moves the motion that plays on.
+    fn play_on(&mut self, shown: &Shown, commands: &mut Vec<Command>) {
+        let moves = matches!(shown.subject, Subject::Stress | Subject::Modes);
+        let Some(last) = self.playing.filter(|_| moves && shown.analysis.is_some()) else {
+            self.playing = None;
+            return;
+        };
+        let now = Instant::now();
+        self.playing = Some(now);
+        let passed = now.duration_since(last).as_secs_f64() / PLAY_TIME;
+        commands.push(Command::Scrub((shown.scrub + passed).fract()));
+    }
+
     /// Draws the panels over the next frame; what was said with mouse, keys and panels comes back.
     pub(super) fn draw(&mut self, window: &mut Window, shown: &Shown, said: Said) -> Vec<Command> {
         let mut commands = said.commands;
@@ -156,6 +180,7 @@ impl Panels {
         if shown.message.is_some() {
             self.note = None;
         }
+        self.play_on(shown, &mut commands);
         window.draw_ui(|ctx| {
             self.style(ctx);
             if self.shows_play(ctx.content_rect().width()) {
@@ -168,7 +193,7 @@ impl Panels {
                     self.tabs(ui);
                     ui.separator();
                     match tab {
-                        Tab::Inspect => inspect::panel(ui, shown, &mut commands),
+                        Tab::Inspect => inspect::panel(ui, shown, &mut self.playing, &mut commands),
                         Tab::Knobs => knobs::panel(ui, shown, &mut commands),
                         Tab::Performance => performance::panel(ui, shown, &self.times),
                     }

@@ -1,5 +1,7 @@
 //! Why it broke: the last contact over time, its cracks, its energy.
 
+use std::time::Instant;
+
 use egui::{Color32, Grid, RichText, Slider, Ui};
 use egui_plot::{HLine, Line, Plot, PlotPoints, VLine};
 use frangible_draw::value_color;
@@ -9,7 +11,12 @@ use crate::blow::Blow;
 use crate::command::{Command, Mark, Subject};
 use crate::shown::{Compared, Shown};
 
-pub(super) fn panel(ui: &mut Ui, shown: &Shown, commands: &mut Vec<Command>) {
+pub(super) fn panel(
+    ui: &mut Ui,
+    shown: &Shown,
+    playing: &mut Option<Instant>,
+    commands: &mut Vec<Command>,
+) {
     subjects(ui, shown, commands);
     marks(ui, shown, commands);
     if let Some(selection) = &shown.selection {
@@ -45,6 +52,12 @@ pub(super) fn panel(ui: &mut Ui, shown: &Shown, commands: &mut Vec<Command>) {
     };
     color_bar(ui, shown, analysis);
     scrubber(ui, shown, analysis, commands);
+    if matches!(shown.subject, Subject::Stress | Subject::Modes) {
+        let mut plays = playing.is_some();
+        if ui.checkbox(&mut plays, "play").changed() {
+            *playing = plays.then(Instant::now);
+        }
+    }
     force(ui, shown, analysis);
     stresses(ui, shown, analysis);
     ui.separator();
