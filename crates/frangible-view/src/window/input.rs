@@ -135,7 +135,13 @@ impl Hands {
     pub(super) fn read(&mut self, window: &mut Window) -> Said {
         let mut said = Said::default();
         let size = Vec2::new(window.width() as f32, window.height() as f32).max(Vec2::ONE);
-        let over_panel = window.is_egui_capturing_mouse();
+        // Asked of the place of each event: what egui itself says is as old as the last frame.
+        let (panels, scale) = (window.egui_context().clone(), window.scale_factor() as f32);
+        let over_panel = |at: Vec2| {
+            let place = egui::pos2(at.x / scale, at.y / scale);
+            let layer = panels.layer_id_at(place);
+            layer.is_some_and(|layer| layer.order != egui::Order::Background)
+        };
         let typing = window.is_egui_capturing_keyboard();
         for event in window.events().iter() {
             said.anything = true;
@@ -145,7 +151,9 @@ impl Hands {
                     self.drag(to, size, modifiers, &mut said.commands);
                     self.at = to;
                 }
-                WindowEvent::MouseButton(button, Action::Press, modifiers) if !over_panel => {
+                WindowEvent::MouseButton(button, Action::Press, modifiers)
+                    if !over_panel(self.at) =>
+                {
                     self.held = Some((button, self.at));
                     self.dragged = false;
                     self.holds = modifiers.contains(Modifiers::Control);
@@ -169,7 +177,7 @@ impl Hands {
                             });
                     }
                 }
-                WindowEvent::Scroll(_, y, _) if !over_panel => {
+                WindowEvent::Scroll(_, y, _) if !over_panel(self.at) => {
                     said.commands
                         .push(Command::Zoom((0.01 * y as f32).clamp(-0.5, 0.5).exp()));
                 }

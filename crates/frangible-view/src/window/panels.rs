@@ -1,5 +1,6 @@
 //! The panels, and what keys mean beside what they show.
 
+mod gallery;
 mod help;
 mod inspect;
 mod knobs;
@@ -54,6 +55,7 @@ pub(super) struct Panels {
     styled: Option<bool>,
     /// When the motion that plays was moved on last.
     playing: Option<Instant>,
+    gallery: gallery::Gallery,
 }
 
 /// How long one play of a motion takes, s.
@@ -74,6 +76,7 @@ impl Panels {
             times: FrameTimes::default(),
             styled: None,
             playing: None,
+            gallery: gallery::Gallery::default(),
         }
     }
 

@@ -4,9 +4,13 @@ use egui::{ComboBox, Slider, Ui};
 use frangible::Material;
 use frangible_scenes::SCENE_NAMES;
 
+use super::gallery::Gallery;
 use super::{Panels, Tab};
 use crate::command::{Command, Target};
 use crate::shown::Shown;
+
+/// Size of a scene's picture, points.
+const PICTURE: egui::Vec2 = egui::vec2(58.0, 36.0);
 
 /// What balls are made of.
 const BALLS: [&str; 6] = ["steel", "stone", "glass", "wood", "rubber", "porcelain"];
@@ -25,7 +29,7 @@ impl Panels {
                 }
             });
         });
-        scenes(ui, shown, commands);
+        scenes(ui, shown, &mut self.gallery, commands);
         if let Some(bake) = &shown.bake {
             ui.add(egui::ProgressBar::new(bake.share as f32).text(bake.what.clone()));
             if ui.button("Cancel the bake").clicked() {
@@ -112,7 +116,7 @@ impl Panels {
     }
 }
 
-fn scenes(ui: &mut Ui, shown: &Shown, commands: &mut Vec<Command>) {
+fn scenes(ui: &mut Ui, shown: &Shown, gallery: &mut Gallery, commands: &mut Vec<Command>) {
     let chosen = match shown.scene.as_str() {
         "" => "choose a scene",
         name => name,
@@ -123,8 +127,17 @@ fn scenes(ui: &mut Ui, shown: &Shown, commands: &mut Vec<Command>) {
         .height(400.0)
         .show_ui(ui, |ui| {
             for name in SCENE_NAMES {
-                if ui.selectable_label(shown.scene == name, name).clicked() {
+                let chosen = shown.scene == name;
+                let button = match gallery.picture(ui.ctx(), name) {
+                    Some(picture) => {
+                        let image = egui::Image::new(picture).fit_to_exact_size(PICTURE);
+                        egui::Button::image_and_text(image, name)
+                    }
+                    None => egui::Button::new(name),
+                };
+                if ui.add(button.selected(chosen).frame(chosen)).clicked() {
                     commands.push(Command::Scene(name.into()));
+                    ui.close();
                 }
             }
         });
