@@ -67,7 +67,7 @@ impl Display {
         let name = format!(":{number}");
         let mut server = Command::new("Xvfb")
             .args([&name, "-displayfd", "1", "-screen", "0", "1024x768x24"])
-            .args(["-nolisten", "tcp"])
+            .args(["-nolisten", "tcp", "-noreset"])
             .stdout(Stdio::piped())
             .stderr(Stdio::null())
             .spawn()

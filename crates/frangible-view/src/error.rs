@@ -65,9 +65,9 @@ pub enum ViewError {
     Draw(#[from] frangible_draw::DrawError),
     /// The window system refused.
     #[error(
-        "the window could not be opened; the window system's message is on the error output. Is the display right (DISPLAY), and are the X11 or Wayland libraries there? On Debian: apt-get install libxkbcommon-x11-0 libxcursor1 libxi6 libxrandr2"
+        "the window could not be opened: {0}. Is the display right (DISPLAY), and are the X11 or Wayland libraries there? On Debian: apt-get install libxkbcommon-x11-0 libxcursor1 libxi6 libxrandr2"
     )]
-    Window,
+    Window(String),
     /// The thread of the session died.
     #[error("the simulation's thread ended without a word; its message is on the error output")]
     Worker,

@@ -6,7 +6,7 @@ mod panels;
 mod pictures;
 mod shade;
 
-use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::panic::{self, AssertUnwindSafe};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -50,11 +50,17 @@ pub fn run(options: WindowOptions) -> Result<(), ViewError> {
     if cfg!(target_os = "linux") && !display("DISPLAY") && !display("WAYLAND_DISPLAY") {
         return Err(ViewError::NoDisplay);
     }
-    if !has_adapter() {
-        return Err(DrawError::NoAdapter.into());
+    // The adapter is asked for afterwards: on the way to it some drivers visit the display, and one without other guests
+    // may be shut for a moment when they leave.
+    let mut window = match open(options.size) {
+        Ok(window) => window,
+        Err(_) if !has_adapter() => return Err(DrawError::NoAdapter.into()),
+        Err(error) => return Err(error),
+    };
+    if is_software() {
+        // Smooth edges take such a driver most of the time.
+        window.set_samples(NumSamples::One);
     }
-    // Not before the window is there, in case it cannot be.
-    let mut window = open(options.size)?;
     let mut viewer = Viewer::new(options);
     let result = pollster::block_on(viewer.live(&mut window));
     // What is on the stage belongs to the window.
@@ -63,18 +69,22 @@ pub fn run(options: WindowOptions) -> Result<(), ViewError> {
     result
 }
 
-/// The window system's refusals are panics.
+/// The window system's refusals are panics; they are turned into an error, and not printed as well.
 fn open([width, height]: [u32; 2]) -> Result<Window, ViewError> {
     let setup = CanvasSetup {
-        // Smooth edges take a software driver most of the time.
-        samples: match is_software() {
-            true => NumSamples::One,
-            false => NumSamples::Four,
-        },
+        samples: NumSamples::Four,
         ..CanvasSetup::default()
     };
     let open = || pollster::block_on(Window::new_with_setup("Frangible", width, height, setup));
-    catch_unwind(AssertUnwindSafe(open)).map_err(|_| ViewError::Window)
+    let hook = panic::take_hook();
+    panic::set_hook(Box::new(|_| {}));
+    let opened = panic::catch_unwind(AssertUnwindSafe(open));
+    panic::set_hook(hook);
+    opened.map_err(|payload| {
+        let text = payload.downcast_ref::<String>().cloned();
+        let text = text.or_else(|| payload.downcast_ref::<&str>().map(ToString::to_string));
+        ViewError::Window(text.unwrap_or_default())
+    })
 }
 
 /// How long to wait where there is nothing new to draw.
