@@ -41,17 +41,19 @@ impl FrameTimes {
 }
 
 pub(super) fn panel(ui: &mut Ui, shown: &Shown, times: &FrameTimes) {
-    let mean = |of: usize| {
-        let sum: f64 = times.frames.iter().map(|frame| frame[of]).sum();
-        sum / times.frames.len().max(1) as f64
+    // Not the mean: a break or a new scene costs one frame much, and says nothing of the others.
+    let median = |of: usize| {
+        let mut sorted: Vec<f64> = times.frames.iter().map(|frame| frame[of]).collect();
+        sorted.sort_by(f64::total_cmp);
+        sorted.get(sorted.len() / 2).copied().unwrap_or_default()
     };
     ui.strong("Frames");
     ui.label(format!(
         "{:.1} ms a frame, {:.1} ms of it on the processor: ours {:.2}, the renderer {:.2}",
-        mean(0),
-        mean(1),
-        mean(2),
-        mean(1) - mean(2)
+        median(0),
+        median(1),
+        median(2),
+        (median(1) - median(2)).max(0.0)
     ));
     Plot::new("frames")
         .height(90.0)
