@@ -1,4 +1,4 @@
-//! System packages: the pictures need a Vulkan driver, fuzzing a C++ compiler and counting instructions valgrind; nothing else
+//! System packages: the pictures need a Vulkan driver, the viewer's test a display, fuzzing a C++ compiler and counting instructions valgrind; nothing else
 //! is needed beyond a C linker.
 
 use std::path::Path;
@@ -8,6 +8,16 @@ use crate::command::{run, succeeds};
 
 /// Software Vulkan: draws the pictures on machines without a graphics card.
 const DRIVER: &str = "mesa-vulkan-drivers";
+/// A display without a screen, and what a window needs of X: the viewer is tested on it.
+const DISPLAY: [&str; 7] = [
+    "xvfb",
+    "libx11-6",
+    "libx11-xcb1",
+    "libxcursor1",
+    "libxi6",
+    "libxkbcommon0",
+    "libxkbcommon-x11-0",
+];
 /// Compiles libFuzzer, which comes as C++.
 const COMPILER: &str = "g++";
 /// Counts instructions.
@@ -27,13 +37,22 @@ pub(crate) fn setup() {
             "note: cargo-nextest is missing, `cargo test` stands in; `cargo install cargo-nextest --locked` gets it"
         );
     }
-    if !cfg!(target_os = "linux") || has_vulkan_driver() {
+    if !cfg!(target_os = "linux") {
         return;
     }
-    let advice = format!(
-        "no Vulkan driver was found, pictures cannot be drawn: install `{DRIVER}` (Debian, Ubuntu: `sudo apt-get install {DRIVER}`)"
-    );
-    install(DRIVER, &advice);
+    if !has_vulkan_driver() {
+        let advice = format!(
+            "no Vulkan driver was found, pictures cannot be drawn: install `{DRIVER}` (Debian, Ubuntu: `sudo apt-get install {DRIVER}`)"
+        );
+        install(&[DRIVER], &advice);
+    }
+    if !succeeds("Xvfb", &["-help"]) {
+        let packages = DISPLAY.join(" ");
+        let advice = format!(
+            "Xvfb is missing, the viewer's window is not tested: install `xvfb` (Debian, Ubuntu: `sudo apt-get install {packages}`)"
+        );
+        install(&DISPLAY, &advice);
+    }
 }
 
 /// True if there is a C++ compiler, which is installed where it is missing and that is possible.
@@ -41,7 +60,7 @@ pub(crate) fn cpp_compiler() -> bool {
     let there = || std::env::var_os("CXX").is_some() || succeeds("c++", &["--version"]);
     if !there() && cfg!(target_os = "linux") {
         install(
-            COMPILER,
+            &[COMPILER],
             &format!("fuzzing needs a C++ compiler: install `{COMPILER}`"),
         );
     }
@@ -53,15 +72,15 @@ pub(crate) fn valgrind() -> bool {
     let there = || succeeds(COUNTER, &["--version"]);
     if !there() && cfg!(target_os = "linux") {
         install(
-            COUNTER,
+            &[COUNTER],
             &format!("counting instructions needs `{COUNTER}`: install it"),
         );
     }
     there()
 }
 
-/// Installs a Debian package; where that cannot be, prints the advice.
-fn install(package: &str, advice: &str) {
+/// Installs Debian packages; where that cannot be, prints the advice.
+fn install(packages: &[&str], advice: &str) {
     if !succeeds("apt-get", &["--version"]) {
         println!("note: {advice}, or your distribution's counterpart");
         return;
@@ -70,8 +89,8 @@ fn install(package: &str, advice: &str) {
         println!("note: {advice}");
         return;
     };
-    println!("installing {package}");
-    let words = ["install", "--yes", "--no-install-recommends", package];
+    println!("installing {}", packages.join(" "));
+    let words = [&["install", "--yes", "--no-install-recommends"], packages].concat();
     if !(apt(prefix, &words) || apt(prefix, &["update"]) && apt(prefix, &words)) {
         println!("note: the installation failed; {advice}");
     }

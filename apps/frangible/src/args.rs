@@ -25,6 +25,9 @@ pub(crate) enum Command {
     Bake(BakeArgs),
     /// Show how a body vibrates: table of its modes, picture of their shapes coloured by stress (PNG), files for ParaView (VTU)
     Modes(ModesArgs),
+    /// Open a window: throw things, turn the model's knobs, look into the last contact
+    #[cfg(feature = "draw")]
+    View(ViewArgs),
     /// List the built-in scenes and materials, or print one scene as a file to start from
     Scenes {
         /// Scene to print as TOML; saved, and given to `break`, it does the same
@@ -38,6 +41,37 @@ pub(crate) enum Command {
     /// Compute the figures of the paper this model is taken from, and what they show in numbers (PNG, Markdown)
     #[cfg(feature = "draw")]
     Figures(FiguresArgs),
+}
+
+#[cfg(feature = "draw")]
+#[derive(Args, Clone, Debug)]
+pub(crate) struct ViewArgs {
+    /// Built-in scene, or a file: scene (.toml), mesh or baked body [default: glass]
+    #[arg(value_name = "SCENE|FILE")]
+    pub(crate) what: Option<String>,
+
+    /// Give the commands of this file, one per line, instead of a person's; the clock stands, and the window closes at the end
+    #[arg(long, value_name = "FILE", conflicts_with = "what")]
+    pub(crate) script: Option<PathBuf>,
+
+    /// Folder for what is saved: files of keys and buttons, and relative names in scripts
+    #[arg(long, value_name = "DIR", default_value = "out")]
+    pub(crate) shots: PathBuf,
+
+    /// Size of the window, pixels
+    #[arg(long, value_name = "WIDTHxHEIGHT", default_value = "1280x800", value_parser = parse_size)]
+    pub(crate) size: [u32; 2],
+}
+
+/// Width and height.
+#[cfg(feature = "draw")]
+fn parse_size(text: &str) -> Result<[u32; 2], String> {
+    let sides = text.split_once('x').and_then(|(width, height)| {
+        Some([width.parse::<u32>().ok()?, height.parse::<u32>().ok()?])
+    });
+    sides
+        .filter(|sides| sides.iter().all(|side| (320..=8192).contains(side)))
+        .ok_or_else(|| "give width and height in pixels, 320 to 8192, such as 1280x800".into())
 }
 
 #[cfg(feature = "draw")]

@@ -19,6 +19,8 @@ mod request;
 mod say;
 mod support;
 mod verifying;
+#[cfg(feature = "draw")]
+mod viewing;
 
 use std::path::Path;
 use std::process::ExitCode;
@@ -62,6 +64,8 @@ fn main() -> ExitCode {
         Some(Command::Bench(args)) => benching::run(&args),
         #[cfg(feature = "draw")]
         Some(Command::Figures(args)) => drawing::run(&args),
+        #[cfg(feature = "draw")]
+        Some(Command::View(args)) => viewing::run(&args),
         Some(Command::Scenes { name: None }) => list::print(),
         Some(Command::Scenes { name: Some(name) }) => list::print_scene(&name),
     };

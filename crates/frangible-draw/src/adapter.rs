@@ -10,17 +10,36 @@ pub fn has_adapter() -> bool {
     texture_limit().is_ok()
 }
 
+/// Whether the adapter is a program that draws with the processor.
+#[must_use]
+pub fn is_software() -> bool {
+    adapter().is_some_and(|adapter| adapter.software)
+}
+
 /// The longest side of a picture that the adapter can hold, pixels.
 ///
 /// The renderer panics where it finds no adapter; asking in the same words
 /// beforehand turns that into an error. Asked once: adapters do not come and go,
 /// and drivers like to chat on each question.
 pub(crate) fn texture_limit() -> Result<u32, DrawError> {
-    static LIMIT: OnceLock<Option<u32>> = OnceLock::new();
-    LIMIT.get_or_init(probe).ok_or(DrawError::NoAdapter)
+    adapter()
+        .map(|adapter| adapter.texture_limit)
+        .ok_or(DrawError::NoAdapter)
 }
 
-fn probe() -> Option<u32> {
+/// What we need to know of the adapter.
+#[derive(Clone, Copy)]
+struct Adapter {
+    texture_limit: u32,
+    software: bool,
+}
+
+fn adapter() -> Option<Adapter> {
+    static ADAPTER: OnceLock<Option<Adapter>> = OnceLock::new();
+    *ADAPTER.get_or_init(probe)
+}
+
+fn probe() -> Option<Adapter> {
     // Through OpenGL the renderer draws nothing but the sky, and says nothing of it.
     let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
         backends: wgpu::Backends::all() - wgpu::Backends::GL,
@@ -30,6 +49,10 @@ fn probe() -> Option<u32> {
     let adapter = pollster::block_on(request)
         .inspect_err(|error| log::debug!("no graphics adapter: {error}"))
         .ok()?;
-    log::debug!("drawing with {}", adapter.get_info().name);
-    Some(adapter.limits().max_texture_dimension_2d)
+    let info = adapter.get_info();
+    log::debug!("drawing with {}", info.name);
+    Some(Adapter {
+        texture_limit: adapter.limits().max_texture_dimension_2d,
+        software: info.device_type == wgpu::DeviceType::Cpu,
+    })
 }

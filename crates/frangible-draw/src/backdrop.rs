@@ -3,21 +3,19 @@
 use image::{DynamicImage, Rgb32FImage};
 use kiss3d::color::Color;
 use kiss3d::light::Fog;
-use kiss3d::window::{OffscreenSurface, Window};
+use kiss3d::window::Window;
 
 /// The backdrop, linear; the floor fades into it.
 const BACKDROP: [f32; 3] = [0.49; 3];
 
-/// Sets up a fresh surface, once.
-pub(crate) fn furnish(surface: &mut OffscreenSurface) {
+/// Sets up a fresh window, seen or not, once.
+pub(crate) fn furnish(window: &mut Window) {
     let [red, green, blue] = BACKDROP;
-    let backdrop = Color::new(red, green, blue, 1.0);
-    surface.set_background_color(backdrop);
-    surface.set_shadow_resolution(1024);
-    surface.set_shadow_atlas_layers(1);
-    surface.set_shadow_softness(1.6);
-    surface.set_bloom_enabled(false);
-    let window = surface.window_mut();
+    window.set_background_color(Color::new(red, green, blue, 1.0));
+    window.set_shadow_resolution(1024);
+    window.set_shadow_atlas_layers(1);
+    window.set_shadow_softness(1.6);
+    window.set_bloom_enabled(false);
     // Glass behind glass, one layer deep; a third step changes little.
     window.transmission_settings_mut().steps = 2;
 }
@@ -29,9 +27,16 @@ pub(crate) fn surround(window: &mut Window, wanted: bool) {
     } else if !wanted && window.has_skybox() {
         window.clear_skybox();
     }
-    let [red, green, blue] = BACKDROP;
     // Beyond everything, where there is no floor.
-    let [near, far] = if wanted { [4.5, 13.0] } else { [1e3, 1e4] };
+    haze(window, if wanted { HAZE } else { [1e3, 1e4] });
+}
+
+/// Where the haze begins and where it hides all, stage units from the camera.
+pub(crate) const HAZE: [f32; 2] = [4.5, 13.0];
+
+/// Sets where the haze begins and where it hides all, stage units from the camera.
+pub(crate) fn haze(window: &mut Window, [near, far]: [f32; 2]) {
+    let [red, green, blue] = BACKDROP;
     window.set_fog(Fog::linear(Color::new(red, green, blue, 1.0), near, far));
 }
 

@@ -9,7 +9,7 @@ use kiss3d::glamx::glam::camera::rh::proj::directx;
 use kiss3d::window::Canvas;
 
 /// A [`View`], in the units of the stage.
-pub(crate) struct StillCamera {
+pub struct StillCamera {
     eye: Vec3,
     view: Pose3,
     projection: Mat4,
@@ -19,7 +19,8 @@ pub(crate) struct StillCamera {
 
 impl StillCamera {
     /// `aspect` is the width of the picture over its height.
-    pub(crate) fn new(view: &View, aspect: f32) -> Self {
+    #[must_use]
+    pub fn new(view: &View, aspect: f32) -> Self {
         let distance = view.eye.distance(view.target);
         let (near, far) = (0.05 * distance, 40.0 * distance);
         Self {
@@ -30,6 +31,13 @@ impl StillCamera {
             near,
             far,
         }
+    }
+
+    /// Moves the picture by this share of half its width to the right and of half its height up.
+    #[must_use]
+    pub fn shifted(mut self, [right, up]: [f32; 2]) -> Self {
+        self.projection = Mat4::from_translation(Vec3::new(right, up, 0.0)) * self.projection;
+        self
     }
 }
 

@@ -2,6 +2,7 @@
 
 use std::cell::RefCell;
 use std::rc::Rc;
+use std::sync::Arc;
 
 use frangible_export::View;
 use frangible_export::glam::{Vec2, Vec3};
@@ -57,25 +58,24 @@ pub(crate) fn field_scene(field: &Field, view: &View) -> SceneNode3d {
         faces.push([first, first + 1, first + 2]);
         for &vertex in triangle {
             corners.push(units.point(field.positions[vertex as usize]));
-            // Middle of the first texel to middle of the last.
-            let value = field.values[vertex as usize].clamp(0.0, 1.0);
-            let along = (0.5 + value * (SHADES - 1) as f32) / SHADES as f32;
-            texels.push(Vec2::new(along, 0.5));
+            texels.push(texel(field.values[vertex as usize]));
         }
     }
     let normals = creased_normals(&field.positions, &field.triangles);
     let mesh = GpuMesh3d::new(corners, faces, Some(normals), Some(texels), false);
     let mut node = scene.add_mesh(Rc::new(RefCell::new(mesh)), Vec3::ONE);
-    let palette = Texture::new(
-        SHADES as u32,
-        1,
-        &palette(),
-        TextureFormat::Rgba8UnormSrgb,
-        AddressMode::ClampToEdge,
-        FilterMode::Linear,
-        false,
-        1,
-    );
+    dress_in_values(&mut node, palette_texture());
+    scene
+}
+
+/// Where the palette has a value of 0..=1: from the middle of the first texel to that of the last.
+pub(crate) fn texel(value: f32) -> Vec2 {
+    let along = (0.5 + value.clamp(0.0, 1.0) * (SHADES - 1) as f32) / SHADES as f32;
+    Vec2::new(along, 0.5)
+}
+
+/// Colours a thing whose texture coordinates are those of [`texel`].
+pub(crate) fn dress_in_values(node: &mut SceneNode3d, palette: Arc<Texture>) {
     node.set_texture(palette.clone());
     node.set_emissive_map(palette);
     node.set_emissive(Color::new(GLOW, GLOW, GLOW, 1.0));
@@ -85,7 +85,19 @@ pub(crate) fn field_scene(field: &Field, view: &View) -> SceneNode3d {
     node.set_roughness(1.0);
     node.set_reflectance(0.0);
     node.enable_backface_culling(false);
-    scene
+}
+
+pub(crate) fn palette_texture() -> Arc<Texture> {
+    Texture::new(
+        SHADES as u32,
+        1,
+        &palette(),
+        TextureFormat::Rgba8UnormSrgb,
+        AddressMode::ClampToEdge,
+        FilterMode::Linear,
+        false,
+        1,
+    )
 }
 
 fn palette() -> Vec<u8> {
@@ -97,7 +109,7 @@ fn palette() -> Vec<u8> {
 }
 
 /// Unit normals of each triangle's corners, three per triangle: means over the faces around, but for creases.
-fn creased_normals(positions: &[Vec3], triangles: &[[u32; 3]]) -> Vec<Vec3> {
+pub(crate) fn creased_normals(positions: &[Vec3], triangles: &[[u32; 3]]) -> Vec<Vec3> {
     let mut around: Vec<Vec<u32>> = vec![Vec::new(); positions.len()];
     let mut areas = Vec::with_capacity(triangles.len());
     for (number, triangle) in (0..).zip(triangles) {

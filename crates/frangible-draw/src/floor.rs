@@ -9,7 +9,7 @@ use kiss3d::resource::{GpuMesh3d, Texture};
 use kiss3d::scene::SceneNode3d;
 use wgpu::{AddressMode, FilterMode, TextureFormat};
 
-use crate::floor_shadow::{FloorShadow, SIDE};
+use crate::floor_shadow::FloorShadow;
 use crate::stage::FLOOR;
 
 /// How far the floor goes on past what the haze hides, stage units.
@@ -21,7 +21,7 @@ pub(crate) fn add_floor(
     height: f32,
     [red, green, blue]: [f32; 3],
     shadow: &FloorShadow,
-) {
+) -> SceneNode3d {
     // What stands on the floor must not flicker with it.
     let height = height - 0.003;
     // Nine fields, the shadow's square in the middle; around it the texture's
@@ -43,8 +43,8 @@ pub(crate) fn add_floor(
     let mesh = GpuMesh3d::new(corners, faces, Some(normals), Some(texels), false);
     let mut node = scene.add_mesh(Rc::new(RefCell::new(mesh)), Vec3::ONE);
     node.set_texture(Texture::new(
-        SIDE as u32,
-        SIDE as u32,
+        shadow.side as u32,
+        shadow.side as u32,
         &pixels(&shadow.brightness),
         TextureFormat::Rgba8UnormSrgb,
         AddressMode::ClampToEdge,
@@ -58,6 +58,7 @@ pub(crate) fn add_floor(
     node.set_metallic(0.0);
     node.set_light_layers(FLOOR);
     node.set_casts_shadows(false);
+    node
 }
 
 fn pixels(brightness: &[f32]) -> Vec<u8> {

@@ -10,12 +10,36 @@ use std::f32::consts::PI;
 
 use frangible_export::glam::{Vec2, Vec3};
 
-/// Points of the key light; fewer leave steps in its shadow's edge.
-const KEY_POINTS: usize = 36;
+/// How finely a shadow is computed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Fineness {
+    /// Points of the key light; fewer leave steps in its shadow's edge.
+    key_points: usize,
+    /// Points of the room's light. Its shadows reach far and are faint; with half as
+    /// many, single ones show.
+    room_points: usize,
+    /// Texels along each side.
+    side: usize,
+    /// Rounds of smoothing, which hide what is left of the single points' edges.
+    smoothings: usize,
+}
 
-/// Points of the room's light. Its shadows reach far and are faint; with half as
-/// many, single ones show.
-const ROOM_POINTS: usize = 72;
+impl Fineness {
+    /// For pictures.
+    pub(crate) const STILL: Self = Self {
+        key_points: 36,
+        room_points: 72,
+        side: 640,
+        smoothings: 3,
+    };
+    /// For what moves: a twentieth of the work.
+    pub(crate) const MOVING: Self = Self {
+        key_points: 8,
+        room_points: 12,
+        side: 256,
+        smoothings: 5,
+    };
+}
 
 /// What the key light and the room give of the light on the floor, of 1; the
 /// rest gets everywhere.
@@ -24,9 +48,6 @@ const ROOM_SHARE: f32 = 0.42;
 
 /// The turn from one point to the next that spreads points evenly over a disc.
 const GOLDEN_TURN: f32 = 2.399_963;
-
-/// Texels along each side.
-pub(crate) const SIDE: usize = 640;
 
 /// A triangle that keeps light from the floor, stage units.
 #[derive(Clone, Copy)]
@@ -45,26 +66,35 @@ pub(crate) struct FloorShadow {
     pub(crate) center: Vec2,
     /// Half the square's side, stage units.
     pub(crate) half_side: f32,
-    /// Row by row along z, [`SIDE`] squared: 1 where nothing takes light away.
+    /// Texels along each side.
+    pub(crate) side: usize,
+    /// Row by row along z, `side` squared: 1 where nothing takes light away.
     pub(crate) brightness: Vec<f32>,
 }
 
 impl FloorShadow {
     /// `key` is a direction towards the key light, its length the distance at
     /// which the lamp has the radius 1.
-    pub(crate) fn cast(casters: &[Caster], floor_height: f32, key: Vec3) -> Self {
+    pub(crate) fn cast(
+        casters: &[Caster],
+        floor_height: f32,
+        key: Vec3,
+        fineness: Fineness,
+    ) -> Self {
         let (center, half_side) = extent(casters, floor_height);
+        let side = fineness.side;
         let mut shadow = Self {
             center,
             half_side,
-            brightness: vec![1.0; SIDE * SIDE],
+            side,
+            brightness: vec![1.0; side * side],
         };
         let outlines: Vec<Outline> = casters
             .iter()
             .filter_map(|caster| Outline::above(caster, floor_height))
             .collect();
-        let mut layer = vec![1.0; SIDE * SIDE];
-        for (toward, share) in lamps(key) {
+        let mut layer = vec![1.0; side * side];
+        for (toward, share) in lamps(key, fineness) {
             layer.fill(1.0);
             for outline in &outlines {
                 shadow.project(outline, toward, &mut layer);
@@ -73,11 +103,10 @@ impl FloorShadow {
                 *sum -= share * (1.0 - light);
             }
         }
-        // What is left of the single points' edges.
-        for _ in 0..3 {
-            smooth(&mut shadow.brightness);
+        for _ in 0..fineness.smoothings {
+            smooth(&mut shadow.brightness, side);
         }
-        fade_out(&mut shadow.brightness);
+        fade_out(&mut shadow.brightness, side);
         shadow
     }
 
@@ -87,13 +116,13 @@ impl FloorShadow {
             return;
         }
         let passes = light_through(outline.clarity, cosine.abs());
-        let texels = SIDE as f32 / (2.0 * self.half_side);
+        let texels = self.side as f32 / (2.0 * self.half_side);
         let corner = self.center - self.half_side;
         let slope = Vec2::new(toward.x, toward.z) / toward.y;
         let shadow = outline
             .corners
             .map(|(at, height)| (at - slope * height - corner) * texels);
-        darken(layer, &shadow[..outline.count], passes);
+        darken(layer, self.side, &shadow[..outline.count], passes);
     }
 }
 
@@ -155,7 +184,8 @@ fn light_through(clarity: f32, cosine: f32) -> f32 {
 }
 
 /// Directions towards points of all light sources, each with its share of the light.
-fn lamps(key: Vec3) -> impl Iterator<Item = (Vec3, f32)> {
+fn lamps(key: Vec3, fineness: Fineness) -> impl Iterator<Item = (Vec3, f32)> {
+    let (key_points, room_points) = (fineness.key_points, fineness.room_points);
     let distance = key.length();
     let across = key.cross(Vec3::Y).normalize_or(Vec3::X);
     let along = across.cross(key).normalize_or(Vec3::Z);
@@ -163,17 +193,17 @@ fn lamps(key: Vec3) -> impl Iterator<Item = (Vec3, f32)> {
         let radius = ((index as f32 + 0.5) / count as f32).sqrt();
         Vec2::from_angle(index as f32 * GOLDEN_TURN) * radius
     };
-    let bulbs = (0..KEY_POINTS).map(move |index| {
-        let at = disc(index, KEY_POINTS);
+    let bulbs = (0..key_points).map(move |index| {
+        let at = disc(index, key_points);
         let toward = key / distance.max(1e-3) + (across * at.x + along * at.y) / distance.max(1.0);
-        (toward.normalize(), KEY_SHARE / KEY_POINTS as f32)
+        (toward.normalize(), KEY_SHARE / key_points as f32)
     });
     // Points of the disc lifted to the dome: as dense as the floor sees them.
     // The lowest would throw shadows of any length; the dome ends at 23°.
-    let room = (0..ROOM_POINTS).map(move |index| {
-        let at = disc(index, ROOM_POINTS) * 0.92;
+    let room = (0..room_points).map(move |index| {
+        let at = disc(index, room_points) * 0.92;
         let toward = Vec3::new(at.x, (1.0 - at.length_squared()).max(0.0).sqrt(), at.y);
-        (toward, ROOM_SHARE / ROOM_POINTS as f32)
+        (toward, ROOM_SHARE / room_points as f32)
     });
     bulbs.chain(room)
 }
@@ -196,9 +226,9 @@ fn extent(casters: &[Caster], floor_height: f32) -> (Vec2, f32) {
 
 /// Multiplies the texels whose centres lie in a convex outline. Faces that share an
 /// edge share no texel and leave none out, else glass would show its mesh.
-fn darken(layer: &mut [f32], outline: &[Vec2], passes: f32) {
+fn darken(layer: &mut [f32], side: usize, outline: &[Vec2], passes: f32) {
     // The first texel whose centre lies beyond; negative places become 0.
-    let first = |edge: f32| ((edge + 0.5) as usize).min(SIDE);
+    let first = |edge: f32| ((edge + 0.5) as usize).min(side);
     let heights = outline.iter().map(|corner| corner.y);
     let top = heights.clone().fold(f32::INFINITY, f32::min);
     let bottom = heights.fold(f32::NEG_INFINITY, f32::max);
@@ -217,7 +247,7 @@ fn darken(layer: &mut [f32], outline: &[Vec2], passes: f32) {
             p = q;
         }
         if left < right {
-            let row = &mut layer[row * SIDE..][..SIDE];
+            let row = &mut layer[row * side..][..side];
             for texel in &mut row[first(left)..first(right)] {
                 *texel *= passes;
             }
@@ -226,8 +256,8 @@ fn darken(layer: &mut [f32], outline: &[Vec2], passes: f32) {
 }
 
 /// A tent of three texels each way.
-fn smooth(picture: &mut [f32]) {
-    for stride in [1, SIDE] {
+fn smooth(picture: &mut [f32], side: usize) {
+    for stride in [1, side] {
         let source = picture.to_vec();
         for index in stride..source.len() - stride {
             let sides = source[index - stride] + source[index + stride];
@@ -237,13 +267,13 @@ fn smooth(picture: &mut [f32]) {
 }
 
 /// Shadows that leave the square end softly, and its border is plain floor.
-fn fade_out(picture: &mut [f32]) {
+fn fade_out(picture: &mut [f32], side: usize) {
     let ramp = |index: usize| {
-        let from_border = index.min(SIDE - 1 - index) as f32 / (0.06 * SIDE as f32);
+        let from_border = index.min(side - 1 - index) as f32 / (0.06 * side as f32);
         0.5 - 0.5 * (PI * from_border.min(1.0)).cos()
     };
-    let ramps: Vec<f32> = (0..SIDE).map(ramp).collect();
-    for (row, across) in picture.chunks_exact_mut(SIDE).zip(&ramps) {
+    let ramps: Vec<f32> = (0..side).map(ramp).collect();
+    for (row, across) in picture.chunks_exact_mut(side).zip(&ramps) {
         for (texel, along) in row.iter_mut().zip(&ramps) {
             *texel = 1.0 - (1.0 - *texel) * across * along;
         }
@@ -256,6 +286,8 @@ mod tests {
 
     use super::*;
 
+    const SIDE: usize = Fineness::STILL.side;
+
     #[test]
     fn neighbours_share_no_texel_and_leave_none_out() {
         let mut layer = vec![1.0; SIDE * SIDE];
@@ -264,7 +296,7 @@ mod tests {
             .collect();
         for k in 0..9 {
             let middle = Vec2::new(203.7, 198.2);
-            darken(&mut layer, &[middle, rim[k], rim[(k + 1) % 9]], 0.5);
+            darken(&mut layer, SIDE, &[middle, rim[k], rim[(k + 1) % 9]], 0.5);
         }
         assert!(layer.iter().all(|&texel| texel == 1.0 || texel == 0.5));
         let inside = |x: usize, y: usize| layer[y * SIDE + x] == 0.5;
@@ -282,7 +314,7 @@ mod tests {
                 clarity,
                 one_sided: false,
             }];
-            FloorShadow::cast(&casters, 0.0, Vec3::new(-3.0, 5.0, 2.0)).brightness
+            FloorShadow::cast(&casters, 0.0, Vec3::new(-3.0, 5.0, 2.0), Fineness::STILL).brightness
         };
         let (glass, clay) = (cast(1.0), cast(0.0));
         let middle = SIDE * SIDE / 2 + SIDE / 2;
@@ -292,7 +324,7 @@ mod tests {
 
     #[test]
     fn nothing_casts_nothing() {
-        let shadow = FloorShadow::cast(&[], 0.0, Vec3::Y);
+        let shadow = FloorShadow::cast(&[], 0.0, Vec3::Y, Fineness::MOVING);
         assert!(shadow.half_side > 0.0 && shadow.brightness.iter().all(|&b| b == 1.0));
     }
 }

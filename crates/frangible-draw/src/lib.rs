@@ -4,7 +4,7 @@
 //! [`sheet_of_frames`] puts frames of any recordings side by side, and
 //! [`render_frame`] draws a single one; all light the scene like a product
 //! photograph. [`mode_sheet`] shows shapes of vibration, coloured by a number.
-//! [`encode_png`] makes a small file of the result.
+//! [`encode_png`] makes a small file of the result. [`LiveStage`] draws the same stage into a window, over and over.
 //!
 //! Drawing takes a graphics driver but no display: a software driver such as
 //! Mesa's lavapipe will do. [`has_adapter`] tells whether there is one; without
@@ -20,6 +20,7 @@ mod error;
 mod field;
 mod floor;
 mod floor_shadow;
+mod live;
 mod mode_sheet;
 mod renderer;
 mod scale;
@@ -27,10 +28,13 @@ mod sheet;
 mod stage;
 mod studio;
 
-pub use adapter::has_adapter;
+pub use adapter::{has_adapter, is_software};
+pub use camera::StillCamera;
 pub use encode::{encode_png, encode_png_within};
 pub use error::DrawError;
 pub use image::RgbImage;
+pub use kiss3d;
+pub use live::{LiveMesh, LiveShadow, LiveStage, Looks, Place, ShadowCaster, value_color};
 pub use mode_sheet::{ModeCell, ModeSheetOptions, mode_sheet};
 pub use sheet::{SheetOptions, contact_sheet, sheet_of_frames};
 pub use studio::{Studio, render_frame};

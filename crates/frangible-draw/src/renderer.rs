@@ -94,7 +94,7 @@ fn sampling(shot: &Shot) -> (u32, NumSamples) {
 
 fn open(shot: &Shot) -> OffscreenSurface {
     let mut surface = pollster::block_on(OffscreenSurface::new(shot.width, shot.height));
-    furnish(&mut surface);
+    furnish(surface.window_mut());
     surface
 }
 

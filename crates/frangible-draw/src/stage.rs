@@ -15,7 +15,7 @@ use kiss3d::resource::GpuMesh3d;
 use kiss3d::scene::SceneNode3d;
 
 use crate::floor::add_floor;
-use crate::floor_shadow::{Caster, FloorShadow};
+use crate::floor_shadow::{Caster, Fineness, FloorShadow};
 
 /// Light layers: what breaks, and what it lies on.
 const THINGS: u32 = 1;
@@ -24,7 +24,7 @@ pub(crate) const FLOOR: u32 = 2;
 /// The change from world to stage units.
 #[derive(Clone, Copy)]
 pub(crate) struct StageUnits {
-    origin: Vec3,
+    pub(crate) origin: Vec3,
     /// Stage units per metre.
     pub(crate) scale: f32,
 }
@@ -38,6 +38,7 @@ impl StageUnits {
         }
     }
 
+    /// A point of the world, m, on the stage.
     pub(crate) fn point(self, world: Vec3) -> Vec3 {
         (world - self.origin) * self.scale
     }
@@ -59,7 +60,12 @@ pub(crate) fn stage(recording: &Recording, view: &View) -> SceneNode3d {
     add_lights(&mut scene, view);
     if let Some(floor) = &recording.floor {
         let height = (floor.height - units.origin.y) * units.scale;
-        let shadow = FloorShadow::cast(&casters(recording, units), height, key_light(view));
+        let shadow = FloorShadow::cast(
+            &casters(recording, units),
+            height,
+            key_light(view),
+            Fineness::STILL,
+        );
         add_floor(&mut scene, height, floor.base_color, &shadow);
     }
     for bunch in bunches(recording, units) {
@@ -122,6 +128,11 @@ fn add_bunch(scene: &mut SceneNode3d, bunch: Bunch, surfaces: &[SurfaceMaterial]
         false,
     );
     let mut node = scene.add_mesh(Rc::new(RefCell::new(mesh)), Vec3::ONE);
+    dress(&mut node, surface);
+}
+
+/// Gives a thing the looks of a surface.
+pub(crate) fn dress(node: &mut SceneNode3d, surface: &SurfaceMaterial) {
     node.set_light_layers(THINGS);
     node.enable_backface_culling(!surface.double_sided);
     let [red, green, blue, opacity] = surface.base_color;
@@ -145,7 +156,7 @@ const GLASS_DEPTH: f32 = 0.12;
 /// A large key light from the upper left of the camera, a weak fill from the
 /// right and a rim from behind that parts edges from the background. The floor
 /// has a lamp of its own, even all over: its shadows come with its texture.
-fn add_lights(scene: &mut SceneNode3d, view: &View) {
+pub(crate) fn add_lights(scene: &mut SceneNode3d, view: &View) {
     let [backward, right] = directions(view);
     let key = key_light(view);
     // A spot takes one shadow map, a directional light four.
@@ -184,7 +195,7 @@ fn directions(view: &View) -> [Vec3; 2] {
 }
 
 /// Towards the key light, stage units.
-fn key_light(view: &View) -> Vec3 {
+pub(crate) fn key_light(view: &View) -> Vec3 {
     let [backward, right] = directions(view);
     -3.4 * right + 4.6 * Vec3::Y + 2.4 * backward
 }
@@ -197,7 +208,7 @@ pub(crate) fn has_glass(recording: &Recording) -> bool {
 }
 
 /// How clear a surface is, for its shadow.
-fn clarity(surface: &SurfaceMaterial) -> f32 {
+pub(crate) fn clarity(surface: &SurfaceMaterial) -> f32 {
     surface.transmission.max(1.0 - surface.base_color[3])
 }
 

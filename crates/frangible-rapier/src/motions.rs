@@ -36,7 +36,7 @@ struct Motion {
 }
 
 /// Pose and velocity of every body that is not fixed, by index.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Motions(Vec<Option<Motion>>);
 
 impl Motions {

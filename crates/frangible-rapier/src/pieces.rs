@@ -16,13 +16,35 @@ use crate::settle::Broken;
 use crate::world::{BreakableWorld, key};
 
 /// A body that is being made.
+#[derive(Clone)]
 pub(crate) struct Expected {
     handle: RigidBodyHandle,
     /// Step at whose beginning it joins the world.
     due: u64,
     /// Of a body that is there already and had these cracks: it is replaced only if it still has them.
     cracks: Option<BodyState>,
-    body: Mutex<Receiver<Option<Body>>>,
+    body: Arc<Mutex<Made>>,
+}
+
+/// What comes of it: asked for once, and known to all that share it from then on.
+enum Made {
+    Soon(Receiver<Option<Body>>),
+    Known(Option<Box<Body>>),
+}
+
+impl Expected {
+    /// Waits for the body.
+    fn body(&self) -> Option<Body> {
+        let mut made = self.body.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Made::Soon(receiver) = &*made {
+            let body = receiver.recv().ok().flatten();
+            *made = Made::Known(body.map(Box::new));
+        }
+        match &*made {
+            Made::Known(body) => body.as_deref().cloned(),
+            Made::Soon(_) => None,
+        }
+    }
 }
 
 impl BreakableWorld {
@@ -105,7 +127,7 @@ impl BreakableWorld {
             Some(pool) => pool.spawn_fifo(work),
             None => work(),
         }
-        let body = Mutex::new(body);
+        let body = Arc::new(Mutex::new(Made::Soon(body)));
         let after = self.expected.partition_point(|e| e.due <= due);
         let expected = Expected {
             handle,
@@ -123,8 +145,7 @@ impl BreakableWorld {
             if !self.physics.bodies.contains(handle) {
                 continue;
             }
-            let made = expected.body.lock().unwrap_or_else(PoisonError::into_inner);
-            let Ok(Some(mut body)) = made.recv() else {
+            let Some(mut body) = expected.body() else {
                 continue;
             };
             let now = self.breakables.get(&key(handle));

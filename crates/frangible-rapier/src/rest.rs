@@ -30,7 +30,7 @@ struct Place {
 }
 
 /// Where bodies have been of late.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Places {
     places: BTreeMap<Key, Place>,
 }

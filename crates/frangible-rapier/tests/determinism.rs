@@ -5,11 +5,11 @@ mod common;
 use common::{at, body, box_asset, slicer, world};
 use frangible::glam::Vec3;
 use frangible_rapier::rapier3d::math::{Pose, Vector};
-use frangible_rapier::{Ball, SurfaceProperties};
+use frangible_rapier::{Ball, BreakableWorld, SurfaceProperties};
 
 const HALF: Vec3 = Vec3::new(0.1, 0.004, 0.1);
 
-fn run() -> (Vec<[u32; 13]>, usize) {
+fn four_panes_and_a_ball() -> BreakableWorld {
     let mut world = world(true);
     world
         .insert_fixed_box(
@@ -41,8 +41,13 @@ fn run() -> (Vec<[u32; 13]>, usize) {
         )
         .unwrap();
     world.set_break_function(slicer(HALF, [4, 1, 4], 0.001, 0.02));
+    world
+}
+
+/// Breaks in these steps, and every bit of what lies there then.
+fn run(world: &mut BreakableWorld, steps: usize) -> (Vec<[u32; 13]>, usize) {
     let mut breaks = 0;
-    for _ in 0..300 {
+    for _ in 0..steps {
         breaks += world.step().unwrap().len();
     }
     let bits = world.physics.bodies.iter().map(|(_, b)| {
@@ -57,7 +62,23 @@ fn run() -> (Vec<[u32; 13]>, usize) {
 
 #[test]
 fn two_runs_give_the_same_bits() {
-    let (first, breaks) = run();
+    let (first, breaks) = run(&mut four_panes_and_a_ball(), 300);
     assert_eq!(breaks, 4, "all panes break");
-    assert_eq!((first, breaks), run());
+    assert_eq!((first, breaks), run(&mut four_panes_and_a_ball(), 300));
+}
+
+#[test]
+fn a_world_put_back_goes_on_as_it_did() {
+    let mut world = four_panes_and_a_ball();
+    let (mut saves, mut ends) = (Vec::new(), Vec::new());
+    for _ in 0..5 {
+        saves.push(world.save());
+        ends.push(run(&mut world, 60));
+    }
+    assert_eq!(ends.iter().map(|(_, breaks)| breaks).sum::<usize>(), 4);
+    // Backwards, so that each state is put back over a later one.
+    for (saved, end) in saves.iter().zip(&ends).rev() {
+        world.restore(saved);
+        assert_eq!(run(&mut world, 60), *end);
+    }
 }

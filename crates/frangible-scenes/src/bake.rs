@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use frangible::Asset;
-use frangible_bake::{BakeError, BakeReport, BakeSpec, Progress, check_groups};
+use frangible_bake::{BakeError, BakeReport, BakeSpec, CancelToken, Progress, check_groups};
 use frangible_mesh::TetError;
 
 use crate::body::BodySpec;
@@ -100,6 +100,19 @@ pub fn bake_opened(
     opened: Vec<Opened>,
     progress: &mut dyn FnMut(Progress),
 ) -> Result<Vec<BakedBody>, SceneError> {
+    bake_until(scene, opened, &CancelToken::default(), progress)
+}
+
+/// Bakes sources read by [`open_sources`], until somebody else calls [`CancelToken::cancel`].
+///
+/// # Errors
+/// What cannot be baked; that it was cancelled.
+pub fn bake_until(
+    scene: &Scene,
+    opened: Vec<Opened>,
+    cancel: &CancelToken,
+    progress: &mut dyn FnMut(Progress),
+) -> Result<Vec<BakedBody>, SceneError> {
     let mut baked: Vec<BakedBody> = Vec::with_capacity(scene.bodies.len());
     for (i, (body, source)) in scene.bodies.iter().zip(opened).enumerate() {
         let same = |other: &BodySpec| {
@@ -129,6 +142,7 @@ pub fn bake_opened(
                     fracture: size.transpose()?,
                     supports: body.supports.clone(),
                     groups,
+                    cancel: cancel.clone(),
                     ..BakeSpec::new(&body.name, shape, body.material.clone())
                 };
                 let (asset, report) =

@@ -23,6 +23,7 @@ mod error;
 mod files;
 mod hammer;
 mod launch;
+mod live;
 mod meshes;
 mod output;
 mod projectile;
@@ -35,12 +36,13 @@ mod source;
 mod stage;
 mod text;
 
-pub use bake::{BakedBody, bake, bake_opened, open_sources};
+pub use bake::{BakedBody, bake, bake_opened, bake_until, open_sources};
 pub use body::{BodySpec, Place};
 pub use builtin::{SCENE_NAMES, scene};
 pub use error::SceneError;
 pub use files::{read_scene, scene_of_file};
-pub use frangible_bake::{Region, Support};
+pub use frangible_bake::{CancelToken, Region, Support};
+pub use live::{LiveScene, SavedScene, Thing, ThingKind, Throw};
 pub use output::{FileWish, Output};
 pub use projectile::{Projectile, ProjectileKind};
 pub use rescale::{MaterialEdit, Rescale};
@@ -51,4 +53,5 @@ pub use source::{
     Axis, BodySource, FileKind, Opened, axes_of, compacted, open_source, save_asset,
     save_compact_asset,
 };
+pub use stage::intact_body;
 pub use text::{parse_scene, scene_to_toml};

@@ -59,6 +59,12 @@ impl Recorder {
         looks.map(|look| self.surface(look))
     }
 
+    /// What was tracked so far, as plain data, and what each node follows, in the order of the nodes.
+    pub(crate) fn into_parts(self) -> (Recording, Vec<RigidBodyHandle>, Vec<Role>) {
+        let bodies = self.tracked.iter().map(|tracked| tracked.body).collect();
+        (self.recording, bodies, self.roles)
+    }
+
     /// Number of a surface in the recording.
     pub(crate) fn surface(&mut self, look: SurfaceMaterial) -> usize {
         let known = &mut self.recording.surfaces;
@@ -268,7 +274,7 @@ fn cameras(recording: &Recording, roles: &[Role], look_from: Vec3) -> (View, Opt
 }
 
 /// Looks so that these points fill the picture (4:3), from at least `nearest`, m.
-fn view(seen: &[Vec3], ground: f32, look_from: Vec3, nearest: f32) -> View {
+pub(crate) fn view(seen: &[Vec3], ground: f32, look_from: Vec3, nearest: f32) -> View {
     let low = seen
         .iter()
         .copied()

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use frangible::glam::{Quat, Vec3};
-use frangible::{Asset, Breakable, Fields, Material};
+use frangible::{Asset, Body, Breakable, Fields, Material};
 use frangible_pieces::Pieces;
 use frangible_rapier::rapier3d::dynamics::RigidBodyHandle;
 use frangible_rapier::rapier3d::geometry::SharedShape;
@@ -188,11 +188,7 @@ fn put<'a>(
             depth_mm: 1e3 * depth,
         });
     }
-    let fields = Fields::from_paint(asset, &spec.paint)?
-        .patched(asset, &spec.weakness)?
-        .with_weibull_modulus(spec.weibull_modulus);
-    let kind = Breakable::new(Arc::clone(asset))?.with_fields(fields)?;
-    let body = kind.body(seed);
+    let body = breakable(spec, asset)?.body(seed);
     let q = spec.rotation;
     let pose = Pose::from_parts(vector(centre), Rotation::from_xyzw(q.x, q.y, q.z, q.w));
     let handle = world.insert_breakable(body, pose, vector(spec.velocity), vector(spec.spin))?;
@@ -239,6 +235,26 @@ fn is_convex(asset: &Asset) -> bool {
         .collect();
     let hull = SharedShape::convex_hull(&points).map(|hull| hull.mass_properties(1.0).mass());
     hull.is_some_and(|volume| f64::from(volume) <= 1.01 * asset.mass.volume)
+}
+
+/// What bodies of this description and asset are made of, with what the description says of their weakness.
+fn breakable(spec: &BodySpec, asset: &Arc<Asset>) -> Result<Breakable, SceneError> {
+    let fields = Fields::from_paint(asset, &spec.paint)?
+        .patched(asset, &spec.weakness)?
+        .with_weibull_modulus(spec.weibull_modulus);
+    Ok(Breakable::new(Arc::clone(asset))?.with_fields(fields)?)
+}
+
+/// The intact body of this number, from 0, of a scene, as [`play`](crate::play()) puts it into its world.
+///
+/// # Errors
+/// No body of this number; an asset or a weakness that cannot be used.
+pub fn intact_body(scene: &Scene, number: usize, asset: &Arc<Asset>) -> Result<Body, SceneError> {
+    let spec = scene.bodies.get(number).ok_or(SceneError::BakedBodies {
+        wanted: number + 1,
+        given: scene.bodies.len(),
+    })?;
+    Ok(breakable(spec, asset)?.body(seed_of(scene.seed, number)))
 }
 
 /// Seed of the i-th body: equal bodies must not break alike, and the first one's is the scene's.

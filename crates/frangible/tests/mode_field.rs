@@ -187,6 +187,45 @@ fn the_equivalent_stress_is_that_of_the_principal_stresses_and_blind_to_pressure
 }
 
 #[test]
+fn a_motion_is_the_sum_of_its_modes_and_modes_not_named_stand_still() {
+    let asset = two_elements(&[stretch, bending]);
+    for amplitudes in [&[2.0, -0.5][..], &[2.0], &[]] {
+        let of = |mode: usize| amplitudes.get(mode).copied().unwrap_or(0.0);
+        for (motion, modes) in [
+            (
+                asset.motion_on_analysis_mesh(amplitudes),
+                [0, 1].map(|mode| asset.mode_on_analysis_mesh(mode)),
+            ),
+            (
+                asset.motion_on_fracture_mesh(amplitudes),
+                [0, 1].map(|mode| asset.mode_on_fracture_mesh(mode)),
+            ),
+        ] {
+            let largest = modes[0].stresses.iter().map(|s| s.von_mises());
+            let largest = largest.fold(0.0, f32::max);
+            for (i, (u, s)) in motion
+                .displacements
+                .iter()
+                .zip(&motion.stresses)
+                .enumerate()
+            {
+                let expected: Vec3 = (0..2).map(|m| of(m) * modes[m].displacements[i]).sum();
+                assert!(u.abs_diff_eq(expected, 1e-4), "{u}, not {expected}");
+                let sum = |part: fn(&Symmetric3) -> [f32; 3]| {
+                    let [a, b] = [0, 1].map(|m| part(&modes[m].stresses[i]).map(|x| of(m) * x));
+                    [0, 1, 2].map(|k| a[k] + b[k])
+                };
+                let expected = Symmetric3 {
+                    diagonal: sum(|s| s.diagonal),
+                    off: sum(|s| s.off),
+                };
+                assert!(near(*s, expected, largest), "{s:?}, not {expected:?}");
+            }
+        }
+    }
+}
+
+#[test]
 #[should_panic(expected = "mode 2 of 2")]
 fn a_mode_that_does_not_exist_is_a_bug_of_the_caller() {
     let _ = two_elements(&[stretch, bending]).mode_on_fracture_mesh(2);

@@ -34,7 +34,17 @@ impl Asset {
     /// If the asset has no such mode.
     #[must_use]
     pub fn mode_on_fracture_mesh(&self, mode: usize) -> ModeField {
-        let coarse = self.mode_on_analysis_mesh(mode);
+        self.onto_fracture_mesh(&self.mode_on_analysis_mesh(mode))
+    }
+
+    /// The body with these amplitudes of its modes, m·√kg, at the nodes of the fracture mesh: displacements in m, stresses in
+    /// Pa. Modes beyond the list stand still.
+    #[must_use]
+    pub fn motion_on_fracture_mesh(&self, amplitudes: &[f32]) -> ModeField {
+        self.onto_fracture_mesh(&self.motion_on_analysis_mesh(amplitudes))
+    }
+
+    fn onto_fracture_mesh(&self, coarse: &ModeField) -> ModeField {
         let mut field = ModeField::default();
         for point in &self.embedding.nodes {
             let (value, gradient) = self.value_and_gradient(&coarse.displacements, point);
@@ -56,7 +66,26 @@ impl Asset {
     /// If the asset has no such mode.
     #[must_use]
     pub fn mode_on_analysis_mesh(&self, mode: usize) -> ModeField {
-        let displacements = self.mode_displacements(mode);
+        self.with_stresses(self.mode_displacements(mode))
+    }
+
+    /// The body with these amplitudes of its modes, m·√kg, at the nodes of the analysis mesh: displacements in m, stresses in
+    /// Pa, means as in [`Asset::mode_on_analysis_mesh`]. Modes beyond the list stand still.
+    #[must_use]
+    pub fn motion_on_analysis_mesh(&self, amplitudes: &[f32]) -> ModeField {
+        let count = self.modes.count();
+        let along = |row: &[f32]| row.iter().zip(amplitudes).map(|(phi, q)| phi * q).sum();
+        let rows = self.modes.shapes.chunks_exact(3 * count);
+        let displacements = rows
+            .map(|row| {
+                let [x, y, z] = [0, 1, 2].map(|axis| along(&row[axis * count..][..count]));
+                Vec3::new(x, y, z)
+            })
+            .collect();
+        self.with_stresses(displacements)
+    }
+
+    fn with_stresses(&self, displacements: Vec<Vec3>) -> ModeField {
         let mut stresses = vec![Symmetric3::default(); displacements.len()];
         let mut counts = vec![0.0_f32; displacements.len()];
         for (element, nodes) in (0..).zip(&self.analysis.elements) {

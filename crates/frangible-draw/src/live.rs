@@ -1,0 +1,285 @@
+//! The stage in a window: the lights, looks and floor of the pictures, drawn over and over while things move.
+
+use std::cell::RefCell;
+use std::rc::Rc;
+use std::sync::Arc;
+
+use frangible_export::glam::Vec3;
+use frangible_export::{Floor, SurfaceMaterial, View};
+use kiss3d::color::Color;
+use kiss3d::resource::{GpuMesh3d, Texture};
+use kiss3d::scene::SceneNode3d;
+use kiss3d::window::Window;
+
+use crate::backdrop::{HAZE, furnish, haze, surround};
+use crate::color_map::color_of;
+use crate::field::{dress_in_values, palette_texture, texel};
+use crate::floor::add_floor;
+use crate::floor_shadow::{Caster, Fineness, FloorShadow};
+use crate::stage::{StageUnits, add_lights, clarity, dress, key_light};
+
+/// How a [`LiveMesh`] looks.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Looks {
+    /// A surface as in the pictures.
+    Surface(SurfaceMaterial),
+    /// Coloured by its values.
+    Values,
+}
+
+/// Triangles of one look.
+pub struct LiveMesh<'a> {
+    /// How they look.
+    pub looks: &'a Looks,
+    /// Vertices, m.
+    pub positions: &'a [Vec3],
+    /// Unit normals, one per vertex.
+    pub normals: &'a [Vec3],
+    /// For [`Looks::Values`]: a number of 0..=1 per vertex.
+    pub values: &'a [f32],
+    /// Vertices of each triangle.
+    pub faces: &'a Arc<Vec<[u32; 3]>>,
+}
+
+/// A mesh on the stage.
+struct Actor {
+    looks: Looks,
+    wireframe: bool,
+    faces: Arc<Vec<[u32; 3]>>,
+    mesh: Rc<RefCell<GpuMesh3d>>,
+    node: SceneNode3d,
+}
+
+/// A lit stage in a window, its lights and units chosen for one view.
+pub struct LiveStage {
+    units: StageUnits,
+    scene: SceneNode3d,
+    actors: Vec<Actor>,
+    floor: Option<SceneNode3d>,
+    palette: Arc<Texture>,
+    /// Whether everything on the stage is opaque, and lit as in life.
+    solid: bool,
+}
+
+/// From the world to the stage, for those who have no stage at hand.
+#[derive(Clone, Copy)]
+pub struct Place {
+    units: StageUnits,
+    key: Vec3,
+}
+
+impl Place {
+    /// Of a stage lit for this view.
+    #[must_use]
+    pub fn of(view: &View) -> Self {
+        let units = StageUnits::of(view);
+        Self {
+            units,
+            key: key_light(&units.view(view)),
+        }
+    }
+}
+
+impl LiveStage {
+    /// An empty stage, lit for this view; furnishes the window.
+    #[must_use]
+    pub fn new(window: &mut Window, view: &View) -> Self {
+        furnish(window);
+        surround(window, true);
+        let units = StageUnits::of(view);
+        let mut scene = SceneNode3d::empty();
+        add_lights(&mut scene, &units.view(view));
+        Self {
+            units,
+            scene,
+            actors: Vec::new(),
+            floor: None,
+            palette: palette_texture(),
+            solid: true,
+        }
+    }
+
+    /// What to draw.
+    pub fn scene(&mut self) -> &mut SceneNode3d {
+        &mut self.scene
+    }
+
+    /// The view in stage units, the window set for what is on the stage; the haze keeps its distance from what is looked at.
+    pub fn look(&self, window: &mut Window, view: &View) -> View {
+        // As in the pictures: a map gives glass the shadow of clay, and colours that stand for numbers want none.
+        window.set_shadows_enabled(self.solid);
+        let view = self.units.view(view);
+        // The usual distance, where half the picture's height is 1 at the field of view of the scenes.
+        let usual = (0.5 * view.vertical_fov).tan().recip();
+        let farther = (view.eye.distance(view.target) - usual).max(0.0);
+        haze(window, HAZE.map(|at| at + farther));
+        view
+    }
+
+    /// A point of the world, m, on the stage.
+    #[must_use]
+    pub fn point(&self, world: Vec3) -> Vec3 {
+        self.units.point(world)
+    }
+
+    /// Shows these meshes and no others. Those whose faces and looks are those of the last call at the same place of the list
+    /// only move, which is cheap.
+    pub fn show<'a>(&mut self, meshes: impl Iterator<Item = LiveMesh<'a>>, wireframe: bool) {
+        let mut count = 0;
+        self.solid = true;
+        for (i, mesh) in meshes.enumerate() {
+            count = i + 1;
+            self.solid &= match mesh.looks {
+                Looks::Surface(surface) => clarity(surface) <= 0.0,
+                Looks::Values => false,
+            };
+            let same = self.actors.get(i).is_some_and(|actor| {
+                Arc::ptr_eq(&actor.faces, mesh.faces)
+                    && actor.looks == *mesh.looks
+                    && actor.wireframe == wireframe
+            });
+            if same {
+                self.actors[i].move_to(self.units, &mesh);
+                continue;
+            }
+            let actor = self.enter(&mesh, wireframe);
+            match self.actors.get_mut(i) {
+                Some(old) => std::mem::replace(old, actor).node.remove(),
+                None => self.actors.push(actor),
+            }
+        }
+        for mut actor in self.actors.drain(count..) {
+            actor.node.remove();
+        }
+    }
+
+    fn enter(&mut self, mesh: &LiveMesh<'_>, wireframe: bool) -> Actor {
+        let place = |&at: &Vec3| self.units.point(at);
+        let valued = *mesh.looks == Looks::Values;
+        let texels = valued.then(|| mesh.values.iter().map(|&v| texel(v)).collect());
+        let gpu = GpuMesh3d::new(
+            mesh.positions.iter().map(place).collect(),
+            mesh.faces.to_vec(),
+            Some(mesh.normals.to_vec()),
+            texels,
+            true,
+        );
+        let gpu = Rc::new(RefCell::new(gpu));
+        let mut node = self.scene.add_mesh(Rc::clone(&gpu), Vec3::ONE);
+        match mesh.looks {
+            Looks::Surface(surface) => dress(&mut node, surface),
+            Looks::Values => dress_in_values(&mut node, Arc::clone(&self.palette)),
+        }
+        if wireframe {
+            node.set_surface_rendering_activation(false);
+            node.set_lines_width(1.0, false);
+            node.set_lines_color(Some(Color::new(0.05, 0.06, 0.07, 1.0)));
+        }
+        Actor {
+            looks: mesh.looks.clone(),
+            wireframe,
+            faces: Arc::clone(mesh.faces),
+            mesh: gpu,
+            node,
+        }
+    }
+
+    /// Lays the floor with its shadow, in the place of the one there was.
+    pub fn lay_floor(&mut self, shadow: Option<&LiveShadow>) {
+        if let Some(mut old) = self.floor.take() {
+            old.remove();
+        }
+        if let Some(LiveShadow {
+            shadow,
+            height,
+            color,
+        }) = shadow
+        {
+            self.floor = Some(add_floor(&mut self.scene, *height, *color, shadow));
+        }
+    }
+
+    /// How often a frame asks the driver to draw: things and floor, without what is written over them.
+    #[must_use]
+    pub fn draw_calls(&self) -> usize {
+        self.actors.len() + usize::from(self.floor.is_some())
+    }
+}
+
+impl Actor {
+    fn move_to(&mut self, units: StageUnits, mesh: &LiveMesh<'_>) {
+        fn fill<T, U: Copy>(buffer: Option<&mut Vec<T>>, from: &[U], change: impl Fn(U) -> T) {
+            if let Some(buffer) = buffer {
+                buffer.clear();
+                buffer.extend(from.iter().map(|&x| change(x)));
+            }
+        }
+        let gpu = self.mesh.borrow();
+        let write = |vector: &Arc<_>| Arc::clone(vector);
+        if let Ok(mut coords) = write(gpu.coords()).write() {
+            fill(coords.data_mut().as_mut(), mesh.positions, |p| {
+                units.point(p)
+            });
+        }
+        if let Ok(mut normals) = gpu.normals().write() {
+            fill(normals.data_mut().as_mut(), mesh.normals, |n| n);
+        }
+        if self.looks == Looks::Values
+            && let Ok(mut uvs) = gpu.uvs().write()
+        {
+            fill(uvs.data_mut().as_mut(), mesh.values, texel);
+        }
+    }
+}
+
+/// Something that shades the floor: triangles of one surface.
+pub struct ShadowCaster<'a> {
+    /// Its surface.
+    pub surface: &'a SurfaceMaterial,
+    /// Vertices, m.
+    pub positions: &'a [Vec3],
+    /// Vertices of each triangle.
+    pub faces: &'a [[u32; 3]],
+}
+
+/// The floor's shadow, computed: it may come from another thread.
+pub struct LiveShadow {
+    shadow: FloorShadow,
+    height: f32,
+    color: [f32; 3],
+}
+
+impl LiveShadow {
+    /// Casts the shadow of these on a floor; a fine one takes a twentieth of a second to a second, one for things on the move a
+    /// twentieth of that.
+    #[must_use]
+    pub fn cast(place: Place, casters: &[ShadowCaster<'_>], floor: &Floor, fine: bool) -> Self {
+        let Place { units, key } = place;
+        let height = (floor.height - units.origin.y) * units.scale;
+        let mut all = Vec::new();
+        for caster in casters {
+            let clarity = clarity(caster.surface);
+            let one_sided = clarity <= 0.0 && !caster.surface.double_sided;
+            all.extend(caster.faces.iter().map(|face| Caster {
+                corners: face.map(|corner| units.point(caster.positions[corner as usize])),
+                clarity,
+                one_sided,
+            }));
+        }
+        let fineness = match fine {
+            true => Fineness::STILL,
+            false => Fineness::MOVING,
+        };
+        Self {
+            shadow: FloorShadow::cast(&all, height, key, fineness),
+            height,
+            color: floor.base_color,
+        }
+    }
+}
+
+/// The colour of a value of 0..=1 on things drawn with [`Looks::Values`], sRGB.
+#[must_use]
+pub fn value_color(value: f32) -> [u8; 3] {
+    color_of(value)
+}

@@ -1,0 +1,308 @@
+//! A scene that runs step by step, for those who look on and throw things: what there is at the moment, with its shapes.
+
+mod looks;
+mod state;
+mod throw;
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use frangible::glam::{Quat, Vec3};
+use frangible::{Body, Fracture, Fragment, Material};
+use frangible_export::{Floor, Pose, RecordedMesh, SurfaceMaterial};
+use frangible_rapier::rapier3d::dynamics::RigidBodyHandle;
+use frangible_rapier::{BreakEvent, BreakableWorld, SurfaceProperties};
+
+use crate::bake::BakedBody;
+use crate::error::SceneError;
+use crate::meshes::{BodySurfaces, piece};
+use crate::recorder::Role;
+use crate::scene::Scene;
+use crate::stage::{Stage, set_up};
+
+pub use state::SavedScene;
+pub use throw::Throw;
+
+/// Shortest steps per second, 1/s: what is taken while something may break, as in [`play`](crate::play()).
+const TICKS_PER_SECOND: u64 = 3840;
+
+/// Ticks of a step when nothing is about to break.
+const COARSE: u64 = 16;
+
+/// Ticks of a picture.
+const FRAME: u64 = 64;
+
+/// Ticks after a break that are still taken one by one.
+const FINE_AFTER_BREAK: u64 = 2 * FRAME;
+
+/// Damping of rotation, 1/s, as in [`play`](crate::play()).
+const ROLLING: f32 = 0.8;
+
+/// What a thing in a scene is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ThingKind {
+    /// A breakable body of the scene: its number, from 0.
+    Body(usize),
+    /// A piece of another thing.
+    Piece {
+        /// Number of the thing that broke.
+        of: usize,
+        /// Where its centre of mass lay in that thing, m, along the thing's axes.
+        birth: Vec3,
+    },
+    /// Something that was thrown.
+    Projectile,
+}
+
+/// A rigid thing, with its shape.
+#[derive(Clone, Debug)]
+pub struct Thing {
+    /// What it is called.
+    pub name: String,
+    /// What it is.
+    pub kind: ThingKind,
+    /// Its shape in its own frame, m; surfaces are those of [`LiveScene::surfaces`].
+    pub mesh: RecordedMesh,
+    /// Mass, kg.
+    pub mass: f64,
+    /// Volume, m³.
+    pub volume: f64,
+    /// Where it is in [`LiveScene::world`].
+    pub handle: RigidBodyHandle,
+    surfaces: Option<BodySurfaces>,
+}
+
+/// A scene on the move. The same scene, throws and number of steps give the same bits.
+pub struct LiveScene {
+    name: String,
+    world: BreakableWorld,
+    surfaces: Vec<SurfaceMaterial>,
+    things: Vec<Arc<Thing>>,
+    /// Whole bodies as they are before the next step, with the cracks they have.
+    whole: BTreeMap<(u32, u32), Body>,
+    floor: Option<Floor>,
+    ticks: u64,
+    fine_until: u64,
+    throws: usize,
+}
+
+impl LiveScene {
+    /// The scene as it stands before its first step.
+    ///
+    /// # Errors
+    /// A quantity of the scene that cannot be used, or not as many baked bodies as the scene has.
+    pub fn new(scene: &Scene, baked: &[BakedBody]) -> Result<Self, SceneError> {
+        scene.validate()?;
+        let Stage {
+            world,
+            recorder,
+            bodies,
+            ..
+        } = set_up(scene, baked)?;
+        let (recording, handles, roles) = recorder.into_parts();
+        let nodes = recording.nodes.into_iter().zip(recording.meshes);
+        let mut things = Vec::new();
+        for (((node, mesh), handle), role) in nodes.zip(handles).zip(roles) {
+            let extra = |key: &str| {
+                let found = node.keep_extras.iter().find(|(name, _)| name == key);
+                found.map_or(0.0, |(_, value)| *value)
+            };
+            let placed = bodies.iter().position(|placed| placed.handle == handle);
+            let (kind, surfaces) = match (role, placed) {
+                (Role::Body(_), Some(i)) => (ThingKind::Body(i), Some(bodies[i].surfaces.clone())),
+                _ => (ThingKind::Projectile, None),
+            };
+            things.push(Arc::new(Thing {
+                mass: extra("mass_kg"),
+                volume: extra("volume_m3"),
+                name: node.name,
+                kind,
+                mesh,
+                handle,
+                surfaces,
+            }));
+        }
+        let mut live = Self {
+            name: scene.name.clone(),
+            world,
+            surfaces: recording.surfaces,
+            things,
+            whole: BTreeMap::new(),
+            floor: scene.floor.as_ref().map(|_| Floor::default()),
+            ticks: 0,
+            fine_until: 0,
+            throws: 0,
+        };
+        live.note_whole(live.things.clone().iter().map(|thing| thing.handle));
+        Ok(live)
+    }
+
+    /// Takes one step: 1/3840 s while something may break and just after, else 1/240 s. What broke is in the world's
+    /// [`breaks`](BreakableWorld::breaks), what held in [`held`](BreakableWorld::held).
+    ///
+    /// # Errors
+    /// A break that the fracture model refused; the body stays whole, and the scene may go on.
+    pub fn step(&mut self) -> Result<(), SceneError> {
+        let ticks = self.ticks_of_step();
+        self.world.physics.integration_parameters.dt = ticks as f32 / TICKS_PER_SECOND as f32;
+        let stepped = self.world.step().map(|_| ());
+        let before = self.ticks;
+        self.ticks += ticks;
+        let events: Vec<BreakEvent> = self.world.breaks().to_vec();
+        for event in &events {
+            self.fine_until = self.ticks + FINE_AFTER_BREAK;
+            self.broke(event);
+        }
+        let cracked = self.world.held().iter().filter(|held| held.state.is_some());
+        let cracked: Vec<RigidBodyHandle> = cracked.map(|held| held.body).collect();
+        self.note_whole(cracked.into_iter());
+        if before / FRAME != self.ticks / FRAME {
+            for (_, body) in self.world.physics.bodies.iter_mut() {
+                body.set_angular_damping(ROLLING);
+            }
+        }
+        Ok(stepped?)
+    }
+
+    fn ticks_of_step(&mut self) -> u64 {
+        let coarse = COARSE as f32 / TICKS_PER_SECOND as f32;
+        let whole = |body: Option<&Body>| body.is_some_and(|body| body.generation() == 0);
+        let world = &mut self.world;
+        let fine = self.ticks < self.fine_until
+            || world
+                .breakables()
+                .any(|handle| whole(world.breakable(handle)))
+            || !world.near_within(coarse).is_empty();
+        match fine {
+            true => 1,
+            // Up to where coarse steps begin again, so that frames are whole.
+            false => COARSE - self.ticks % COARSE,
+        }
+    }
+
+    /// Puts pieces in the place of what broke.
+    fn broke(&mut self, event: &BreakEvent) {
+        let parent = self.things.iter().rposition(|t| t.handle == event.parent);
+        let Some(parent) = parent else { return };
+        let of = Arc::clone(&self.things[parent]);
+        let Some(surfaces) = &of.surfaces else { return };
+        for (i, (fragment, &handle)) in event
+            .fracture
+            .fragments
+            .iter()
+            .zip(&event.fragments)
+            .enumerate()
+        {
+            let name = format!("{} piece {}", of.name, i + 1);
+            let mesh = piece(name.clone(), fragment, surfaces);
+            self.things.push(Arc::new(Thing {
+                name,
+                kind: ThingKind::Piece {
+                    of: parent,
+                    birth: fragment.mass.centre.as_vec3(),
+                },
+                mesh,
+                mass: fragment.mass.mass,
+                volume: fragment.mass.volume,
+                handle,
+                surfaces: Some(surfaces.clone()),
+            }));
+        }
+        self.note_whole(event.fragments.iter().copied());
+    }
+
+    /// The shapes of the pieces of a thing, in its own frame, with where their centres of mass lay in it, m; for a break that
+    /// did not happen here. None for what cannot break.
+    #[must_use]
+    pub fn shapes(&self, thing: &Thing, fracture: &Fracture) -> Vec<(Vec3, RecordedMesh)> {
+        let Some(surfaces) = &thing.surfaces else {
+            return Vec::new();
+        };
+        let shape = |fragment: &Fragment| {
+            let mesh = piece(String::new(), fragment, surfaces);
+            (fragment.mass.centre.as_vec3(), mesh)
+        };
+        fracture.fragments.iter().map(shape).collect()
+    }
+
+    /// Remembers these bodies as they are before the next step.
+    fn note_whole(&mut self, handles: impl Iterator<Item = RigidBodyHandle>) {
+        for handle in handles {
+            if let Some(body) = self.world.breakable(handle) {
+                self.whole.insert(handle.into_raw_parts(), body.clone());
+            }
+        }
+    }
+
+    /// The breakable body behind a handle as it was before the last step, also when it broke in it: with its cracks so far.
+    #[must_use]
+    pub fn body_before(&self, handle: RigidBodyHandle) -> Option<&Body> {
+        self.whole.get(&handle.into_raw_parts())
+    }
+
+    /// The world it runs in.
+    #[must_use]
+    pub fn world(&self) -> &BreakableWorld {
+        &self.world
+    }
+
+    /// The world it runs in, to change between steps.
+    pub fn world_mut(&mut self) -> &mut BreakableWorld {
+        &mut self.world
+    }
+
+    /// Surfaces that meshes refer to.
+    #[must_use]
+    pub fn surfaces(&self) -> &[SurfaceMaterial] {
+        &self.surfaces
+    }
+
+    /// The floor, y = 0, if there is one.
+    #[must_use]
+    pub fn floor(&self) -> Option<&Floor> {
+        self.floor.as_ref()
+    }
+
+    /// All things there were so far, what is gone included; they keep their numbers.
+    #[must_use]
+    pub fn things(&self) -> &[Arc<Thing>] {
+        &self.things
+    }
+
+    /// Where a thing is now; `None` when it is gone: broken, or removed as debris.
+    #[must_use]
+    pub fn pose(&self, thing: &Thing) -> Option<Pose> {
+        let pose = self.world.physics.bodies.get(thing.handle)?.position();
+        Some(Pose {
+            translation: Vec3::from(pose.translation.to_array()),
+            rotation: Quat::from_array(pose.rotation.to_array()),
+        })
+    }
+
+    /// Speed of a thing's centre of mass, m/s.
+    #[must_use]
+    pub fn speed(&self, thing: &Thing) -> Option<f32> {
+        let body = self.world.physics.bodies.get(thing.handle)?;
+        Some(body.linvel().length())
+    }
+
+    /// Number of a surface; equal ones are kept once.
+    fn surface(&mut self, look: SurfaceMaterial) -> usize {
+        let known = &mut self.surfaces;
+        known.iter().position(|k| *k == look).unwrap_or_else(|| {
+            known.push(look);
+            known.len() - 1
+        })
+    }
+
+    /// Simulated time, s.
+    #[must_use]
+    pub fn time(&self) -> f64 {
+        self.ticks as f64 / TICKS_PER_SECOND as f64
+    }
+}
+
+/// The surface properties of a ball of a preset.
+fn ball_properties(material: &str, radius: f32) -> Result<SurfaceProperties, SceneError> {
+    Ok(SurfaceProperties::of(&Material::preset(material)?, radius))
+}

@@ -1,0 +1,293 @@
+//! Why it broke: the motion of a contact over time, its stresses, and its cracks one by one.
+
+use std::f64::consts::PI;
+use std::sync::Arc;
+
+use frangible::glam::Vec3;
+use frangible::mesh::TetMesh;
+use frangible::modal::Motion;
+use frangible::stress::largest_eigenvalue;
+use frangible::{
+    Asset, Body, Contact, FractureConfig, InputError, Stage, Vibration, impact_traced,
+};
+
+use crate::blow::Blow;
+
+/// Modes that are plotted: those that strain the body most.
+const PLOTTED_MODES: usize = 6;
+
+/// Moments at which the body's largest tension is looked for.
+const TENSIONS: usize = 100;
+
+/// A number over time.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Series {
+    /// What it is.
+    pub name: String,
+    /// Time, s, and value.
+    pub points: Vec<[f64; 2]>,
+}
+
+/// A crack.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct CrackShape {
+    /// The triangles of its surface, m, body frame.
+    pub triangles: Vec<[Vec3; 3]>,
+    /// The middle of the tetrahedron where it started, m, body frame.
+    pub start: Vec3,
+    /// When it started, s after the contact began.
+    pub time: f64,
+    /// Tetrahedra it went through.
+    pub tetrahedra: usize,
+}
+
+/// What a contact did, moment by moment.
+#[derive(Clone, Debug)]
+pub struct Analysis {
+    /// The body that was hit.
+    pub asset: Arc<Asset>,
+    /// The contact's force, N.
+    pub force: Series,
+    /// The modes that strain the body most: amplitude × the largest stress of a unit of it, Pa.
+    pub modes: Vec<Series>,
+    /// Largest principal tension anywhere in the body, Pa.
+    pub tension: Series,
+    /// R_c of the weakest weak point, Pa.
+    pub strength: f64,
+    /// Largest of [`Analysis::tension`], Pa.
+    pub peak_tension: f64,
+    /// Cracks in the order in which they started.
+    pub cracks: Vec<CrackShape>,
+    /// Middles of the weak tetrahedra, m, body frame.
+    pub weak_points: Vec<Vec3>,
+    /// Length of the motion, s.
+    pub duration: f64,
+    /// Length of the contact, s.
+    pub contact: f64,
+    motion: Motion,
+    time_step: f64,
+}
+
+impl Analysis {
+    /// Analyses a blow: about as much work as the blow itself.
+    ///
+    /// # Errors
+    /// Contacts that the fracture model refuses.
+    pub fn of(blow: &Blow) -> Result<Self, InputError> {
+        Self::of_contacts(&blow.body, &blow.contacts, &blow.config)
+    }
+
+    fn of_contacts(
+        body: &Body,
+        contacts: &[Contact],
+        config: &FractureConfig,
+    ) -> Result<Self, InputError> {
+        let asset = Arc::clone(body.asset());
+        // Also of a contact that a bound would refuse there is something to see.
+        let mut unculled = config.clone();
+        unculled.culling = false;
+        let mut analysis = Self {
+            force: Series::default(),
+            modes: Vec::new(),
+            tension: Series::default(),
+            strength: body.weakest(),
+            peak_tension: 0.0,
+            cracks: cracks(body, contacts, config)?,
+            weak_points: middles(&asset.fracture, body.weak_tets()),
+            duration: 0.0,
+            contact: 0.0,
+            motion: Motion::default(),
+            time_step: 0.0,
+            asset,
+        };
+        if let Stage::Vibrates(vibration) = Vibration::begin(body, contacts, &unculled)? {
+            let pulse = vibration.pulse;
+            analysis.motion = vibration.motion(body);
+            analysis.time_step = pulse.time_step;
+            analysis.duration = pulse.time_step * analysis.motion.steps() as f64;
+            analysis.contact = pulse.duration;
+            let impulse: f32 = contacts.iter().map(|contact| contact.impulse).sum();
+            analysis.force = force(f64::from(impulse) * pulse.amplitude, pulse.duration);
+            analysis.modes = analysis.plotted_modes();
+            analysis.find_tensions();
+        }
+        Ok(analysis)
+    }
+
+    /// Amplitudes of all modes at this share of the motion's time, m·√kg; all at rest without a motion.
+    #[must_use]
+    pub fn amplitudes(&self, share: f64) -> &[f32] {
+        match self.motion.steps() {
+            0 => &[],
+            steps => {
+                let step = (share.clamp(0.0, 1.0) * (steps - 1) as f64).round();
+                self.motion.at(step as usize)
+            }
+        }
+    }
+
+    /// Time of a share of the motion, s.
+    #[must_use]
+    pub fn time(&self, share: f64) -> f64 {
+        share.clamp(0.0, 1.0) * self.duration
+    }
+
+    /// The share of the motion's time at which the tension is largest.
+    #[must_use]
+    pub fn worst_moment(&self) -> f64 {
+        let points = &self.tension.points;
+        let worst = points.iter().max_by(|a, b| a[1].total_cmp(&b[1]));
+        worst.map_or(0.0, |point| point[0] / self.duration.max(f64::MIN_POSITIVE))
+    }
+
+    fn plotted_modes(&self) -> Vec<Series> {
+        let motion = &self.motion;
+        let basis = &self.asset.modes;
+        let stress = |step: usize, mode: usize| motion.at(step)[mode] * basis.peak_stress[mode];
+        let peak = |mode: usize| {
+            let steps = 0..motion.steps();
+            steps.map(|k| stress(k, mode).abs()).fold(0.0, f32::max)
+        };
+        let mut order: Vec<(f32, usize)> = (0..motion.modes).map(|i| (peak(i), i)).collect();
+        order.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+        order.truncate(PLOTTED_MODES);
+        let every = motion.steps().div_ceil(400).max(1);
+        let series = order.into_iter().map(|(_, mode)| Series {
+            name: format!("{}: {:.0} Hz", mode + 1, basis.frequency(mode)),
+            points: (0..motion.steps())
+                .step_by(every)
+                .map(|k| [self.time_step * (k + 1) as f64, f64::from(stress(k, mode))])
+                .collect(),
+        });
+        series.collect()
+    }
+
+    fn find_tensions(&mut self) {
+        let steps = self.motion.steps();
+        let mut points = vec![[0.0, 0.0]];
+        for k in (0..steps).step_by(steps.div_ceil(TENSIONS).max(1)) {
+            let field = self.asset.motion_on_analysis_mesh(self.motion.at(k));
+            let tensions = field.stresses.iter().map(largest_eigenvalue);
+            let largest = tensions.fold(0.0, f32::max);
+            points.push([self.time_step * (k + 1) as f64, f64::from(largest)]);
+        }
+        self.peak_tension = points.iter().map(|p| p[1]).fold(0.0, f64::max);
+        self.tension = Series {
+            name: "largest tension".into(),
+            points,
+        };
+    }
+}
+
+/// `a sin(π t / t_d)` of this peak, N, and duration, s.
+fn force(peak: f64, duration: f64) -> Series {
+    const SAMPLES: u32 = 48;
+    let point = |i: u32| {
+        let share = f64::from(i) / f64::from(SAMPLES);
+        [share * duration, peak * (PI * share).sin()]
+    };
+    Series {
+        name: "force".into(),
+        points: (0..=SAMPLES).map(point).collect(),
+    }
+}
+
+fn middles(mesh: &TetMesh, tets: &[u32]) -> Vec<Vec3> {
+    tets.iter().map(|&e| mesh.centroid(e as usize)).collect()
+}
+
+fn cracks(
+    body: &Body,
+    contacts: &[Contact],
+    config: &FractureConfig,
+) -> Result<Vec<CrackShape>, InputError> {
+    let mesh = &body.asset().fracture;
+    let (_, trace) = impact_traced(body, contacts, config)?;
+    let mut cracks: Vec<CrackShape> = Vec::new();
+    for elements in &trace.cracks {
+        let Some(first) = elements.first() else {
+            continue;
+        };
+        let mut crack = CrackShape {
+            start: mesh.centroid(first.tet as usize),
+            time: first.time,
+            tetrahedra: elements.len(),
+            ..CrackShape::default()
+        };
+        for element in elements {
+            let nodes = mesh.tets[element.tet as usize];
+            let corners = nodes.map(|node| mesh.positions[node as usize]);
+            cut(corners, element.values, &mut crack.triangles);
+        }
+        cracks.push(crack);
+    }
+    cracks.sort_by(|a, b| a.time.total_cmp(&b.time));
+    Ok(cracks)
+}
+
+/// The part of s = 0 within a tetrahedron, one or two triangles; zero counts as positive.
+fn cut(corners: [Vec3; 4], values: [f32; 4], triangles: &mut Vec<[Vec3; 3]>) {
+    let (mut above, mut below) = (Vec::new(), Vec::new());
+    for (corner, value) in corners.into_iter().zip(values) {
+        match value >= 0.0 {
+            true => above.push((corner, value)),
+            false => below.push((corner, value)),
+        }
+    }
+    let between = |a: (Vec3, f32), b: (Vec3, f32)| a.0.lerp(b.0, a.1 / (a.1 - b.1));
+    match (&above[..], &below[..]) {
+        ([one], [a, b, c]) | ([a, b, c], [one]) => {
+            triangles.push([between(*one, *a), between(*one, *b), between(*one, *c)]);
+        }
+        ([a, b], [c, d]) => {
+            let square = [
+                between(*a, *c),
+                between(*a, *d),
+                between(*b, *d),
+                between(*b, *c),
+            ];
+            triangles.push([square[0], square[1], square[2]]);
+            triangles.push([square[0], square[2], square[3]]);
+        }
+        _ => {}
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_plane_through_a_tetrahedron_has_the_area_it_must() {
+        let corners = [Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z];
+        let area = |level: f32| {
+            let mut triangles = Vec::new();
+            cut(corners, corners.map(|p| p.z - level), &mut triangles);
+            triangles
+                .iter()
+                .map(|[a, b, c]| 0.5 * (*b - *a).cross(*c - *a).length())
+                .sum::<f32>()
+        };
+        // Parallel to a face: its area times the square of what is left of the height.
+        for level in [0.25, 0.5, 0.9] {
+            let expected = 0.5 * (1.0 - level) * (1.0 - level);
+            assert!((area(level) - expected).abs() < 1e-6);
+        }
+        assert_eq!(area(2.0), 0.0);
+        let mut square = Vec::new();
+        cut(corners, corners.map(|p| p.x + p.y - 0.5), &mut square);
+        assert_eq!(square.len(), 2);
+    }
+
+    #[test]
+    fn the_pulse_carries_its_impulse() {
+        let (impulse, duration) = (0.3, 2e-4);
+        let series = force(impulse * PI / (2.0 * duration), duration);
+        let sum: f64 = series
+            .points
+            .windows(2)
+            .map(|w| 0.5 * (w[1][0] - w[0][0]) * (w[0][1] + w[1][1]))
+            .sum();
+        assert!((sum / impulse - 1.0).abs() < 1e-3, "{sum}");
+    }
+}

@@ -1,0 +1,56 @@
+//! The last contact that mattered, with all it takes to let it happen again.
+
+use std::sync::Arc;
+
+use frangible::{Body, Contact, Fracture, FractureConfig, ImpactReport};
+use frangible_export::Pose;
+use frangible_rapier::BreakCause;
+
+/// An impact on a body, and what came of it.
+#[derive(Clone, Debug)]
+pub struct Blow {
+    /// What was hit.
+    pub name: String,
+    /// Its number among the things of the scene.
+    pub thing: usize,
+    /// Its number among the scene's bodies; none for a piece.
+    pub number: Option<usize>,
+    /// The body before it, with the cracks it had.
+    pub body: Body,
+    /// Where it was then.
+    pub pose: Pose,
+    /// Contacts, in the body's frame.
+    pub contacts: Vec<Contact>,
+    /// What brought it about.
+    pub cause: BreakCause,
+    /// Switches and numbers of the fracture then.
+    pub config: FractureConfig,
+    /// Numbers of the impact.
+    pub report: ImpactReport,
+    /// The pieces; none where it held.
+    pub fracture: Option<Arc<Fracture>>,
+    /// Energy taken from the motion for the cracks, J.
+    pub energy_paid: f64,
+    /// Simulated time, s.
+    pub time: f64,
+}
+
+impl Blow {
+    /// Impulse of all contacts, N·s.
+    #[must_use]
+    pub fn impulse(&self) -> f32 {
+        self.contacts.iter().map(|contact| contact.impulse).sum()
+    }
+
+    /// Pieces it left.
+    #[must_use]
+    pub fn pieces(&self) -> usize {
+        self.fracture.as_ref().map_or(1, |f| f.fragments.len())
+    }
+
+    /// Whether it can be put to the fracture again: it is an impact with contacts.
+    #[must_use]
+    pub fn is_repeatable(&self) -> bool {
+        self.cause == BreakCause::Impact && self.impulse() > 0.0
+    }
+}

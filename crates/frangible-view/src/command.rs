@@ -1,0 +1,221 @@
+//! What a person can do, or a script.
+
+use std::path::PathBuf;
+
+use frangible::glam::Vec3;
+
+/// One thing to do. Mouse, keys, panels and scripts all give these; [`Command::parse`] reads one, `to_string` writes it.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Command {
+    /// Load a built-in scene.
+    Scene(String),
+    /// Load a scene file, a mesh or a baked body.
+    Open(PathBuf),
+    /// Give up the bake that runs.
+    CancelBake,
+    /// The scene from its beginning, with the knobs as they are.
+    Reset,
+    /// Stop the clock.
+    Pause,
+    /// Let the clock run.
+    Run,
+    /// Take this many steps.
+    Step(u32),
+    /// How fast simulated time runs: 1 is as in life, 0.001 a thousandth of it.
+    SlowMotion(f64),
+    /// What is thrown from now on.
+    Ball(BallSpec),
+    /// Throw a ball from a point through another, m.
+    Throw {
+        /// Where it starts.
+        from: Vec3,
+        /// Where its centre is aimed.
+        through: Vec3,
+    },
+    /// Take hold of the thing that a ray meets.
+    Grab {
+        /// Where the ray starts, m.
+        from: Vec3,
+        /// A point it goes through.
+        through: Vec3,
+    },
+    /// Pull what is held to where this ray is as far off as it was taken.
+    Pull {
+        /// Where the ray starts, m.
+        from: Vec3,
+        /// A point it goes through.
+        through: Vec3,
+    },
+    /// Let go what is held; it flies on.
+    LetGo,
+    /// The scene again, its bodies dropped from this height, m.
+    Drop(f64),
+    /// Back to just before the last break.
+    Undo,
+    /// What to look at.
+    Look(Subject),
+    /// The moment of the contact that is looked at: its share of the motion's time, 0..=1.
+    Scrub(f64),
+    /// How many times as large the deformation is drawn.
+    Exaggerate(f64),
+    /// How far pieces are drawn apart: 0 where they are.
+    Explode(f64),
+    /// Show a mark, or hide it.
+    Show(Mark, bool),
+    /// Which vibration mode is looked at, from 1.
+    Mode(usize),
+    /// Select the thing that a ray meets, or nothing.
+    Select {
+        /// Where the ray starts, m.
+        from: Vec3,
+        /// A point it goes through.
+        through: Vec3,
+    },
+    /// Turn a knob; the number in the knob's own unit.
+    Knob(String, f64),
+    /// Turn a knob back.
+    ResetKnob(String),
+    /// Turn all knobs back.
+    ResetKnobs,
+    /// Another material for all bodies.
+    Material(String),
+    /// The last impact again on the intact body, with the knobs as they are; both are shown side by side.
+    HitAgain,
+    /// Write a file.
+    Save(Target, PathBuf),
+    /// Write a picture of the window.
+    Screenshot(PathBuf),
+    /// Turn the camera, degrees to the right and up.
+    Orbit(f32, f32),
+    /// Move what the camera looks at, shares of the picture's height to the right and up.
+    Pan(f32, f32),
+    /// Go nearer by this factor, or farther below 1.
+    Zoom(f32),
+    /// Look at the scene as in the beginning.
+    Home,
+    /// Throw through this place of the window, shares of its width and height from the upper left.
+    Click(f32, f32),
+    /// Select what is at this place of the window.
+    Pick(f32, f32),
+    /// Take hold of what is at this place of the window.
+    GrabAt(f32, f32),
+    /// Pull what is held to this place of the window.
+    PullTo(f32, f32),
+    /// Open or close a panel.
+    Panel(String, bool),
+    /// Dark or light.
+    Dark(bool),
+    /// Close the window.
+    Quit,
+}
+
+/// What to look at.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Subject {
+    /// The scene.
+    #[default]
+    World,
+    /// The body during the last contact, deformed and coloured by stress.
+    Stress,
+    /// The cracks of the last contact in the order in which they started.
+    Cracks,
+    /// A vibration mode of the body that was hit last.
+    Modes,
+    /// What the last impact did, and what it does with the knobs as they are.
+    Compare,
+}
+
+/// Marks over the picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mark {
+    /// Edges instead of faces.
+    Wireframe,
+    /// Weak points, where cracks may start.
+    WeakPoints,
+    /// Where cracks started.
+    Starts,
+    /// Contact points and impulses.
+    Impulse,
+}
+
+/// Files that can be written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Target {
+    /// The scene with the knobs as they are, TOML.
+    Scene,
+    /// What is there now, GLB.
+    Glb,
+    /// All that was done since the scene was loaded, as a script that does it again.
+    Script,
+    /// The numbers of the last contact, JSON.
+    Report,
+}
+
+/// A ball to throw.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BallSpec {
+    /// Mass, kg.
+    pub mass: f64,
+    /// Radius, m.
+    pub radius: f64,
+    /// Speed, m/s.
+    pub speed: f64,
+    /// Material preset.
+    pub material: String,
+}
+
+impl Default for BallSpec {
+    /// The ball of the scene `pane`: steel, 250 g, 20 m/s.
+    fn default() -> Self {
+        Self {
+            mass: 0.25,
+            radius: 0.02,
+            speed: 20.0,
+            material: "steel".into(),
+        }
+    }
+}
+
+impl Command {
+    /// Whether the window carries it out by itself.
+    #[must_use]
+    pub fn is_for_window(&self) -> bool {
+        matches!(
+            self,
+            Self::Screenshot(_)
+                | Self::Orbit(..)
+                | Self::Pan(..)
+                | Self::Zoom(_)
+                | Self::Home
+                | Self::Click(..)
+                | Self::Pick(..)
+                | Self::GrabAt(..)
+                | Self::PullTo(..)
+                | Self::Panel(..)
+                | Self::Dark(_)
+                | Self::Quit
+        )
+    }
+
+    /// Whether it changes what happens, so that a script must have it to do the same again.
+    pub(crate) fn is_deed(&self) -> bool {
+        matches!(
+            self,
+            Self::Scene(_)
+                | Self::Open(_)
+                | Self::Reset
+                | Self::Step(_)
+                | Self::Ball(_)
+                | Self::Throw { .. }
+                | Self::Grab { .. }
+                | Self::Pull { .. }
+                | Self::LetGo
+                | Self::Drop(_)
+                | Self::Undo
+                | Self::Knob(..)
+                | Self::ResetKnob(_)
+                | Self::ResetKnobs
+                | Self::Material(_)
+        )
+    }
+}

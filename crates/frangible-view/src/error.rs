@@ -1,0 +1,74 @@
+//! What may go wrong in the viewer; each message says how to mend it.
+
+use std::path::PathBuf;
+
+use thiserror::Error;
+
+/// Why a command or the window failed.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum ViewError {
+    /// A line that is no command.
+    #[error("`{line}`: {problem}")]
+    Command {
+        /// The line.
+        line: String,
+        /// What is wrong with it, and what would do.
+        problem: String,
+    },
+    /// A line of a script.
+    #[error("{} line {line}: {problem}", path.display())]
+    Script {
+        /// The script.
+        path: PathBuf,
+        /// Line, from 1.
+        line: usize,
+        /// What is wrong with it, and what would do.
+        problem: String,
+    },
+    /// A command that makes no sense now.
+    #[error("{0}")]
+    NotNow(String),
+    /// The scene, or what was thrown.
+    #[error(transparent)]
+    Scene(#[from] frangible_scenes::SceneError),
+    /// The fracture model.
+    #[error(transparent)]
+    Fracture(#[from] frangible::InputError),
+    /// No such material.
+    #[error(transparent)]
+    Material(#[from] frangible::UnknownMaterial),
+    /// A body that cannot be of the material asked for.
+    #[error(transparent)]
+    Rescale(#[from] frangible::asset::RescaleError),
+    /// A file that cannot be written.
+    #[error(transparent)]
+    Export(#[from] frangible_export::ExportError),
+    /// A file that cannot be read or written.
+    #[error("`{}` cannot be {doing}: {source}", path.display())]
+    File {
+        /// The file.
+        path: PathBuf,
+        /// Read, written.
+        doing: &'static str,
+        /// Why not.
+        source: std::io::Error,
+    },
+    /// No display to open a window on.
+    #[error(
+        "there is no display to open a window on (DISPLAY and WAYLAND_DISPLAY are not set); run this on a desktop, or under `xvfb-run -a`"
+    )]
+    NoDisplay,
+    /// No graphics driver, or a picture that could not be made.
+    #[cfg(feature = "window")]
+    #[error(transparent)]
+    Draw(#[from] frangible_draw::DrawError),
+    /// The window system refused.
+    #[error(
+        "the window could not be opened: {0}. Is the display right (DISPLAY), and are the X11 or Wayland libraries there? On Debian: apt-get install libxkbcommon-x11-0 libxcursor1 libxi6 libxrandr2"
+    )]
+    Window(String),
+    /// The thread of the session died.
+    #[error("the simulation's thread ended without a word; its message is on the error output")]
+    Worker,
+}

@@ -1,0 +1,181 @@
+//! The numbers of the model that may be turned, each with its unit, its range and the equation it enters.
+
+mod table;
+
+use frangible::{FractureConfig, Material};
+
+pub use table::KNOBS;
+
+/// What the knobs turn.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Settings {
+    /// Material of the body.
+    pub material: Material,
+    /// Switches and numbers of the fracture.
+    pub fracture: FractureConfig,
+    /// Number of vibration modes.
+    pub modes: usize,
+    /// Seed of the weak points and of the cracks' roughness.
+    pub seed: u64,
+    /// c of the duration `[G12 Eq. 2]` as printed, m^(1/5) s^(2/5); kept while another model is chosen.
+    pub printed_coefficient: f64,
+}
+
+/// How a knob is turned.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// A number; equal turns are equal factors.
+    Factor,
+    /// A number; equal turns are equal differences.
+    Even,
+    /// A whole number.
+    Whole,
+    /// On (1) or off (0).
+    Switch,
+    /// One of these, by number from 0.
+    Choice(&'static [&'static str]),
+}
+
+/// A knob.
+#[derive(Debug)]
+pub struct Knob {
+    /// What scripts call it.
+    pub name: &'static str,
+    /// What the panel calls it.
+    pub label: &'static str,
+    /// Its unit.
+    pub unit: &'static str,
+    /// SI units per unit.
+    factor: f64,
+    /// Smallest and largest value, in its unit.
+    pub range: [f64; 2],
+    /// How it is turned.
+    pub kind: Kind,
+    /// What it does, with the equation it enters.
+    pub help: &'static str,
+    /// Whether the body has to be baked again.
+    pub rebakes: bool,
+    get: fn(&Settings) -> f64,
+    set: fn(&mut Settings, f64),
+}
+
+impl Knob {
+    /// The knob of a name.
+    #[must_use]
+    pub fn named(name: &str) -> Option<&'static Self> {
+        KNOBS.iter().find(|knob| knob.name == name)
+    }
+
+    /// Its value, in its unit.
+    #[must_use]
+    pub fn value(&self, settings: &Settings) -> f64 {
+        (self.get)(settings) / self.factor
+    }
+
+    /// Turns it, to a value in its unit; what is out of range goes to the nearer end, NaN changes nothing.
+    pub fn turn(&self, settings: &mut Settings, value: f64) {
+        if value.is_nan() {
+            return;
+        }
+        let value = value.clamp(self.range[0], self.range[1]);
+        let value = match self.kind {
+            Kind::Factor | Kind::Even => value,
+            Kind::Whole | Kind::Switch | Kind::Choice(_) => value.round(),
+        };
+        (self.set)(settings, value * self.factor);
+    }
+}
+
+/// Turns a material's numbers as the knobs are turned from the scene's `own` to `now`; of another preset it has all numbers.
+pub(crate) fn turn_material(material: &mut Material, now: &Settings, own: &Settings) {
+    if now.material.name != own.material.name {
+        *material = now.material.clone();
+        return;
+    }
+    let mut settings = Settings {
+        material: material.clone(),
+        ..own.clone()
+    };
+    for knob in &KNOBS {
+        if knob.value(now) != knob.value(own) {
+            knob.turn(&mut settings, knob.value(now));
+        }
+    }
+    *material = settings.material;
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn settings() -> Settings {
+        Settings {
+            material: Material::preset("glass").unwrap(),
+            fracture: FractureConfig::default(),
+            modes: 60,
+            seed: 1,
+            printed_coefficient: 0.01,
+        }
+    }
+
+    #[test]
+    fn every_knob_turns_its_own_number_and_back() {
+        for knob in &KNOBS {
+            let mut turned = settings();
+            let old = knob.value(&turned);
+            for end in knob.range {
+                knob.turn(&mut turned, end);
+                let value = knob.value(&turned);
+                assert!(
+                    (value - end).abs() <= 1e-12 * end.abs(),
+                    "{}: {value}",
+                    knob.name
+                );
+            }
+            let others = KNOBS.iter().filter(|other| other.name != knob.name);
+            for other in others {
+                assert_eq!(
+                    other.value(&turned),
+                    other.value(&settings()),
+                    "{} by {}",
+                    other.name,
+                    knob.name
+                );
+            }
+            knob.turn(&mut turned, old);
+            assert!(
+                (knob.value(&turned) - old).abs() <= 1e-12 * old.abs(),
+                "{}",
+                knob.name
+            );
+        }
+    }
+
+    #[test]
+    fn presets_are_within_the_ranges() {
+        for preset in Material::presets() {
+            let mut settings = settings();
+            settings.material = preset.material().clone();
+            for knob in &KNOBS {
+                let value = knob.value(&settings);
+                assert!(
+                    (knob.range[0]..=knob.range[1]).contains(&value),
+                    "{} of {}: {value}",
+                    knob.name,
+                    preset.name
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn nan_turns_nothing_and_too_much_stops_at_the_end() {
+        let knob = Knob::named("strength").unwrap();
+        let mut turned = settings();
+        knob.turn(&mut turned, f64::NAN);
+        assert_eq!(turned, settings());
+        knob.turn(&mut turned, 1e30);
+        assert_eq!(knob.value(&turned), knob.range[1]);
+        assert!(Knob::named("strenth").is_none());
+    }
+}

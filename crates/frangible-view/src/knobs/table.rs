@@ -1,0 +1,270 @@
+//! The knobs one by one.
+
+use frangible::DurationModel;
+
+use super::{Kind, Knob};
+
+/// In a material, by a field; numbers of the knob's own unit.
+macro_rules! of_material {
+    ($name:literal, $label:literal, $unit:literal, $factor:expr, $range:expr, $kind:expr, $field:ident, $rebakes:expr, $help:literal) => {
+        Knob {
+            name: $name,
+            label: $label,
+            unit: $unit,
+            factor: $factor,
+            range: $range,
+            kind: $kind,
+            help: $help,
+            rebakes: $rebakes,
+            get: |s| s.material.$field,
+            set: |s, x| s.material.$field = x,
+        }
+    };
+}
+
+/// A switch of the fracture.
+macro_rules! switch {
+    ($name:literal, $label:literal, $field:ident, $help:literal) => {
+        Knob {
+            name: $name,
+            label: $label,
+            unit: "",
+            factor: 1.0,
+            range: [0.0, 1.0],
+            kind: Kind::Switch,
+            help: $help,
+            rebakes: false,
+            get: |s| f64::from(u8::from(s.fracture.$field)),
+            set: |s, x| s.fracture.$field = x > 0.5,
+        }
+    };
+}
+
+/// Names of the duration models, in the order of their numbers.
+const DURATIONS: [&str; 3] = ["Hertz", "modal Hertz", "as printed"];
+
+/// All knobs, in the order of the panel.
+pub static KNOBS: [Knob; 20] = [
+    of_material!(
+        "strength",
+        "strength R_c",
+        "MPa",
+        1e6,
+        [0.01, 10_000.0],
+        Kind::Factor,
+        strength,
+        false,
+        "a crack starts at a weak point where the principal tension σ₁ > R_c"
+    ),
+    of_material!(
+        "toughness",
+        "fracture energy G_c",
+        "J/m²",
+        1.0,
+        [0.1, 1e6],
+        Kind::Factor,
+        fracture_energy,
+        false,
+        "what crack area costs: E = A G_c [Eq. 11]; a crack runs while the strain energy pays"
+    ),
+    of_material!(
+        "gamma",
+        "energy depth γ",
+        "mm",
+        1e-3,
+        [0.01, 1000.0],
+        Kind::Factor,
+        energy_depth,
+        false,
+        "depth of the material whose strain energy feeds a crack: W = γ A ½ σ:ε [Eq. 12]"
+    ),
+    of_material!(
+        "weak-points",
+        "weak points",
+        "1/cm³",
+        1e6,
+        [0.001, 10_000.0],
+        Kind::Factor,
+        weak_point_density,
+        false,
+        "a tetrahedron of volume V is weak with probability 1 − exp(−density V)"
+    ),
+    of_material!(
+        "noise",
+        "roughness",
+        "mm",
+        1e-3,
+        [0.0, 10.0],
+        Kind::Even,
+        roughness_amplitude,
+        false,
+        "amplitude of the noise on a crack's plane: s(x) = n·(x − x₀) + a N(x / wavelength) [Eq. 6-10]"
+    ),
+    of_material!(
+        "wavelength",
+        "roughness wavelength",
+        "mm",
+        1e-3,
+        [0.1, 200.0],
+        Kind::Factor,
+        roughness_wavelength,
+        false,
+        "wavelength of the noise on a crack's plane: s(x) = n·(x − x₀) + a N(x / wavelength)"
+    ),
+    of_material!(
+        "youngs-modulus",
+        "Young's modulus E",
+        "GPa",
+        1e9,
+        [0.001, 1000.0],
+        Kind::Factor,
+        youngs_modulus,
+        false,
+        "K ~ E: every frequency goes with √(E/ρ), stress at the same strain with E; the modes are rescaled, not baked again"
+    ),
+    of_material!(
+        "density",
+        "density ρ",
+        "kg/m³",
+        1.0,
+        [50.0, 25_000.0],
+        Kind::Factor,
+        density,
+        false,
+        "M ~ ρ: every frequency goes with √(E/ρ), the mass with ρ; the modes are rescaled, not baked again"
+    ),
+    of_material!(
+        "poisson",
+        "Poisson's ratio ν",
+        "",
+        1.0,
+        [0.0, 0.495],
+        Kind::Even,
+        poisson_ratio,
+        true,
+        "λ = E ν / ((1 + ν)(1 − 2ν)); other modes, so the body is baked again in the background"
+    ),
+    of_material!(
+        "alpha",
+        "stiffness damping α",
+        "µs",
+        1e-6,
+        [0.0, 1000.0],
+        Kind::Even,
+        stiffness_damping,
+        false,
+        "D = α K + β M: d_i = α λ_i + β, kills high frequencies [Table 1]"
+    ),
+    of_material!(
+        "beta",
+        "mass damping β",
+        "1/s",
+        1.0,
+        [0.0, 10_000.0],
+        Kind::Even,
+        mass_damping,
+        false,
+        "D = α K + β M: d_i = α λ_i + β, the same for all modes [Table 1]"
+    ),
+    Knob {
+        name: "modes",
+        label: "modes",
+        unit: "",
+        factor: 1.0,
+        range: [1.0, 400.0],
+        kind: Kind::Whole,
+        rebakes: true,
+        help: "u = Φ q with so many columns of Φ, the lowest frequencies; baked again in the background",
+        get: |s| s.modes as f64,
+        set: |s, x| s.modes = x as usize,
+    },
+    Knob {
+        name: "duration",
+        label: "contact duration",
+        unit: "",
+        factor: 1.0,
+        range: [0.0, 2.0],
+        kind: Kind::Choice(&DURATIONS),
+        rebakes: false,
+        help: "t_d = 2.868 (m² / (E² R v))^⅕ of the two bodies [Eq. 1]; modal: of the most excited mode; or Eq. 2 as printed",
+        get: |s| match s.fracture.duration {
+            DurationModel::Hertz => 0.0,
+            DurationModel::ModalHertz => 1.0,
+            _ => 2.0,
+        },
+        set: |s, x| {
+            s.fracture.duration = match x as usize {
+                0 => DurationModel::Hertz,
+                1 => DurationModel::ModalHertz,
+                _ => DurationModel::AsPrinted {
+                    c: s.printed_coefficient,
+                },
+            }
+        },
+    },
+    Knob {
+        name: "duration-coefficient",
+        label: "its coefficient c",
+        unit: "m^⅕ s^⅖",
+        factor: 1.0,
+        range: [1e-6, 10.0],
+        kind: Kind::Factor,
+        rebakes: false,
+        help: "c of Eq. 2 as printed; the other models have none",
+        get: |s| s.printed_coefficient,
+        set: |s, x| {
+            s.printed_coefficient = x;
+            if let DurationModel::AsPrinted { c } = &mut s.fracture.duration {
+                *c = x;
+            }
+        },
+    },
+    switch!(
+        "admissible",
+        "admissible duration",
+        admissible_duration,
+        "t_d grows until the modes hold no more than the energy of approach: Σ ½(q̇² + λ q²) ≤ ½ m v²"
+    ),
+    Knob {
+        name: "samples",
+        label: "samples per period",
+        unit: "",
+        factor: 1.0,
+        range: [2.0, 128.0],
+        kind: Kind::Even,
+        rebakes: false,
+        help: "Δt = 2π / (ω_high samples), ω_high the highest mode that matters [Eq. 3]",
+        get: |s| s.fracture.samples_per_period,
+        set: |s, x| s.fracture.samples_per_period = x,
+    },
+    switch!(
+        "culling",
+        "culling",
+        culling,
+        "bounds σ₁ ≤ Σ |q_i| max|σ_i| refuse what cannot break; the same pieces without, only later"
+    ),
+    switch!(
+        "ledger",
+        "energy ledger",
+        energy_ledger,
+        "all cracks together spend no more than the peak strain energy: Σ A G_c ≤ max ½ Σ λ q²"
+    ),
+    switch!(
+        "green-lagrange",
+        "quadratic strain",
+        green_lagrange,
+        "ε = ½(∇u + ∇uᵀ + ∇uᵀ∇u) as in the paper, instead of its linear part"
+    ),
+    Knob {
+        name: "seed",
+        label: "seed",
+        unit: "",
+        factor: 1.0,
+        range: [0.0, 1e6],
+        kind: Kind::Whole,
+        rebakes: false,
+        help: "another seed, other weak points and other noise; everything else is the same",
+        get: |s| s.seed as f64,
+        set: |s, x| s.seed = x as u64,
+    },
+];

@@ -1,0 +1,50 @@
+//! Throw things, turn the knobs, see why it broke.
+//!
+//! Two halves. The **view model** has no window: a [`Session`] runs a scene step by step, takes [`Command`]s and tells
+//! what there is to see ([`Shown`]); [`Worker`] runs one on a thread of its own, so that neither a bake nor a break makes
+//! anybody wait; a [`Script`] is a list of commands. The **window** (feature `window`) draws what the session shows and
+//! turns mouse, keys and panels into the same commands that scripts give.
+//!
+//! ```no_run
+//! use frangible_view::{Command, Session};
+//! let mut session = Session::new();
+//! session.apply(Command::parse("scene pane")?)?;
+//! session.finish_jobs(); // the bake
+//! session.apply(Command::parse("step 600")?)?;
+//! println!("{} pieces", session.shown().pieces);
+//! # Ok::<(), frangible_view::ViewError>(())
+//! ```
+
+pub mod analysis;
+mod baking;
+mod blow;
+mod camera;
+mod command;
+mod compare;
+mod error;
+mod jobs;
+pub mod knobs;
+mod marks;
+mod mesher;
+mod parse;
+mod picking;
+mod picture;
+mod save;
+mod script;
+mod session;
+mod shown;
+#[cfg(feature = "window")]
+mod window;
+mod worker;
+
+pub use blow::Blow;
+pub use camera::{Orbit, Ray};
+pub use command::{BallSpec, Command, Mark, Subject, Target};
+pub use error::ViewError;
+pub use picture::{Batch, BatchLooks, Dot, Line, Picture};
+pub use script::Script;
+pub use session::Session;
+pub use shown::{BakeShown, Compared, Focus, Selection, Shown};
+#[cfg(feature = "window")]
+pub use window::{WindowOptions, run};
+pub use worker::Worker;

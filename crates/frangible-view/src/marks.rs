@@ -1,0 +1,242 @@
+//! The inside of a contact as pictures: the strained body, its cracks, its weak points, the blow.
+
+use std::sync::Arc;
+
+use frangible::Asset;
+use frangible::glam::Vec3;
+use frangible::modal::ModeField;
+use frangible::stress::largest_eigenvalue;
+use frangible_export::{Pose, SurfaceMaterial};
+use frangible_scenes::Thing;
+
+use crate::analysis::Analysis;
+use crate::blow::Blow;
+use crate::mesher::{apart, numbered};
+use crate::picture::{Batch, BatchLooks, Dot, Line, Picture};
+
+/// Deformations are drawn so large at first that the largest displacement is this share of the body.
+const TELLING: f32 = 0.06;
+
+/// Colours, linear.
+const ARROW: [f32; 3] = [0.9, 0.12, 0.05];
+const WEAK: [f32; 3] = [0.05, 0.2, 0.75];
+const START: [f32; 3] = [0.95, 0.35, 0.0];
+const CHOSEN: [f32; 3] = [1.0, 0.55, 0.0];
+
+fn out(pose: Pose, point: Vec3) -> Vec3 {
+    pose.rotation.normalize() * point + pose.translation
+}
+
+/// Distance of a body's farthest point from its centre of mass, m.
+pub(crate) fn reach(asset: &Asset) -> f32 {
+    let positions = asset.fracture.positions.iter();
+    positions.map(|p| p.length()).fold(1e-6, f32::max)
+}
+
+/// An exaggeration in round numbers that shows the deformation at this moment well.
+pub(crate) fn telling_exaggeration(analysis: &Analysis, share: f64) -> f64 {
+    let field = analysis
+        .asset
+        .motion_on_analysis_mesh(analysis.amplitudes(share));
+    let largest = field.largest_displacement();
+    if largest <= 0.0 {
+        return 1.0;
+    }
+    let wanted = f64::from(TELLING * reach(&analysis.asset) / largest);
+    10_f64.powf(wanted.log10().floor()).max(1.0)
+}
+
+/// The body at a moment of the contact, coloured by the largest principal tension from 0 to the second number, Pa.
+pub(crate) fn strained(
+    analysis: &Analysis,
+    pose: Pose,
+    share: f64,
+    exaggeration: f64,
+) -> (Batch, f64) {
+    let asset = &analysis.asset;
+    let field = asset.motion_on_fracture_mesh(analysis.amplitudes(share));
+    let largest = analysis.peak_tension.max(1.0);
+    let batch = surface(asset, &field, exaggeration as f32, pose, |node| {
+        largest_eigenvalue(&field.stresses[node]) / largest as f32
+    });
+    (batch, largest)
+}
+
+/// A vibration mode, one swing over shares of 0..=1, coloured by tension; the second number is the largest stress at the
+/// drawn amplitude, Pa.
+pub(crate) fn mode(analysis: &Analysis, pose: Pose, mode: usize, share: f64) -> (Batch, f64) {
+    let asset = &analysis.asset;
+    let field = asset.mode_on_fracture_mesh(mode);
+    let amplitude = TELLING * reach(asset) / field.largest_displacement().max(f32::MIN_POSITIVE);
+    let swing = (std::f64::consts::TAU * share).sin() as f32;
+    let stress = |node: usize| {
+        let [low, high] = ends(&field, node);
+        // Half a swing later what was pressed is pulled.
+        if swing < 0.0 { -low } else { high }
+    };
+    let tensions = (0..field.stresses.len()).map(|node| {
+        let [low, high] = ends(&field, node);
+        high.max(-low)
+    });
+    let largest = tensions.fold(f32::MIN_POSITIVE, f32::max);
+    let batch = surface(asset, &field, amplitude * swing, pose, |node| {
+        swing.abs() * stress(node) / largest
+    });
+    (batch, f64::from(largest * amplitude))
+}
+
+/// Smallest and largest principal stress.
+fn ends(field: &ModeField, node: usize) -> [f32; 2] {
+    let stress = field.stresses[node];
+    let mut turned = stress;
+    turned.diagonal = turned.diagonal.map(|s| -s);
+    turned.off = turned.off.map(|s| -s);
+    [-largest_eigenvalue(&turned), largest_eigenvalue(&stress)]
+}
+
+/// The outer surface, displaced, with a value of 0..=1 at each node.
+fn surface(
+    asset: &Asset,
+    field: &ModeField,
+    factor: f32,
+    pose: Pose,
+    value: impl Fn(usize) -> f32,
+) -> Batch {
+    let triangles = &asset.surface.triangles;
+    let rotation = pose.rotation.normalize();
+    let mut batch = Batch {
+        looks: BatchLooks::Values,
+        positions: Vec::with_capacity(3 * triangles.len()),
+        normals: Vec::with_capacity(3 * triangles.len()),
+        values: Vec::with_capacity(3 * triangles.len()),
+        faces: Arc::new(numbered(3 * triangles.len())),
+    };
+    for (triangle, normals) in triangles.iter().zip(&asset.surface.normals) {
+        for (&node, &normal) in triangle.iter().zip(normals) {
+            let node = node as usize;
+            let at = asset.fracture.positions[node] + factor * field.displacements[node];
+            batch.positions.push(out(pose, at));
+            batch.normals.push(rotation * normal);
+            batch.values.push(value(node).clamp(0.0, 1.0));
+        }
+    }
+    batch
+}
+
+/// The body as a ghost, and its cracks coloured from the first to the last.
+pub(crate) fn cracks(analysis: &Analysis, pose: Pose) -> Vec<Batch> {
+    let still = ModeField {
+        displacements: vec![Vec3::ZERO; analysis.asset.fracture.positions.len()],
+        stresses: Vec::new(),
+    };
+    let mut ghost = surface(&analysis.asset, &still, 0.0, pose, |_| 0.0);
+    ghost.values.clear();
+    ghost.looks = BatchLooks::Surface(SurfaceMaterial {
+        name: "ghost".into(),
+        base_color: [0.7, 0.75, 0.8, 0.16],
+        roughness: 0.4,
+        double_sided: true,
+        ..SurfaceMaterial::default()
+    });
+    let mut colored = Batch {
+        looks: BatchLooks::Values,
+        positions: Vec::new(),
+        normals: Vec::new(),
+        values: Vec::new(),
+        faces: Arc::default(),
+    };
+    let last = analysis.cracks.len().saturating_sub(1).max(1) as f32;
+    let rotation = pose.rotation.normalize();
+    for (order, crack) in analysis.cracks.iter().enumerate() {
+        for &[a, b, c] in &crack.triangles {
+            let normal = (b - a).cross(c - a).normalize_or(Vec3::Y);
+            for corner in [a, b, c] {
+                colored.positions.push(out(pose, corner));
+                colored.normals.push(rotation * normal);
+                colored.values.push(order as f32 / last);
+            }
+        }
+    }
+    colored.faces = Arc::new(numbered(colored.positions.len()));
+    let mut batches = vec![ghost];
+    if !colored.positions.is_empty() {
+        batches.insert(0, colored);
+    }
+    batches
+}
+
+/// Arrows along the impulses on the body, the longest half as long as the body reaches.
+pub(crate) fn impulse(blow: &Blow, picture: &mut Picture) {
+    let largest = blow.contacts.iter().map(|c| c.push().length());
+    let largest = largest.fold(f32::MIN_POSITIVE, f32::max);
+    let longest = 0.6 * reach(blow.body.asset());
+    for contact in &blow.contacts {
+        let push = contact.push() / largest * longest;
+        let tip = out(blow.pose, contact.point);
+        let tail = out(blow.pose, contact.point - push);
+        picture.dots.push(Dot {
+            at: tip,
+            color: ARROW,
+            size: 7.0,
+        });
+        let along = tip - tail;
+        let side = along.cross(Vec3::Y).try_normalize().unwrap_or(Vec3::X);
+        let side = 0.12 * along.length() * side;
+        let barb = tip - 0.25 * along;
+        for ends in [[tail, tip], [barb + side, tip], [barb - side, tip]] {
+            picture.lines.push(Line {
+                ends,
+                color: ARROW,
+                width: 3.0,
+            });
+        }
+    }
+}
+
+pub(crate) fn weak_points(analysis: &Analysis, pose: Pose, picture: &mut Picture) {
+    picture
+        .dots
+        .extend(analysis.weak_points.iter().map(|&at| Dot {
+            at: out(pose, at),
+            color: WEAK,
+            size: 2.0,
+        }));
+}
+
+pub(crate) fn starts(analysis: &Analysis, pose: Pose, picture: &mut Picture) {
+    picture.dots.extend(analysis.cracks.iter().map(|crack| Dot {
+        at: out(pose, crack.start),
+        color: START,
+        size: 7.0,
+    }));
+}
+
+/// The edges of the box around a thing.
+pub(crate) fn outline(thing: &Thing, pose: Pose, explode: f32, picture: &mut Picture) {
+    let pose = apart(thing, pose, explode);
+    let positions = &thing.mesh.positions;
+    let low = positions.iter().fold(Vec3::INFINITY, |l, &p| l.min(p));
+    let high = positions.iter().fold(Vec3::NEG_INFINITY, |h, &p| h.max(p));
+    let corner = |i: usize| {
+        let pick = |axis: usize| {
+            if i >> axis & 1 == 0 {
+                low[axis]
+            } else {
+                high[axis]
+            }
+        };
+        out(pose, Vec3::new(pick(0), pick(1), pick(2)))
+    };
+    for i in 0..8 {
+        for axis in 0..3 {
+            let j = i | 1 << axis;
+            if j != i {
+                picture.lines.push(Line {
+                    ends: [corner(i), corner(j)],
+                    color: CHOSEN,
+                    width: 2.0,
+                });
+            }
+        }
+    }
+}

@@ -1,0 +1,77 @@
+//! What is to be drawn, as plain data.
+
+use std::sync::Arc;
+
+use frangible::glam::Vec3;
+use frangible_export::{Floor, SurfaceMaterial};
+
+/// Triangles of one look, in the world.
+#[derive(Clone, Debug)]
+pub struct Batch {
+    /// How they look.
+    pub looks: BatchLooks,
+    /// Vertices, m.
+    pub positions: Vec<Vec3>,
+    /// Unit normals, one per vertex.
+    pub normals: Vec<Vec3>,
+    /// A number of 0..=1 per vertex with [`BatchLooks::Values`], else empty.
+    pub values: Vec<f32>,
+    /// Vertices of each triangle; the same allocation as long as they are the same.
+    pub faces: Arc<Vec<[u32; 3]>>,
+}
+
+/// How a batch looks.
+#[derive(Clone, Debug, PartialEq)]
+pub enum BatchLooks {
+    /// A surface.
+    Surface(SurfaceMaterial),
+    /// Coloured by its values.
+    Values,
+}
+
+/// A stroke over the picture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Line {
+    /// Its ends, m.
+    pub ends: [Vec3; 2],
+    /// Linear red, green, blue.
+    pub color: [f32; 3],
+    /// Pixels.
+    pub width: f32,
+}
+
+/// A dot over the picture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Dot {
+    /// Where, m.
+    pub at: Vec3,
+    /// Linear red, green, blue.
+    pub color: [f32; 3],
+    /// Pixels.
+    pub size: f32,
+}
+
+/// A moment, ready to be drawn.
+#[derive(Clone, Debug, Default)]
+pub struct Picture {
+    /// Another number for another picture.
+    pub version: u64,
+    /// Triangles.
+    pub batches: Vec<Batch>,
+    /// Strokes.
+    pub lines: Vec<Line>,
+    /// Dots.
+    pub dots: Vec<Dot>,
+    /// The floor, if there is one.
+    pub floor: Option<Floor>,
+    /// Whether edges are drawn instead of faces.
+    pub wireframe: bool,
+}
+
+impl Picture {
+    /// How many triangles there are.
+    #[must_use]
+    pub fn triangles(&self) -> usize {
+        self.batches.iter().map(|batch| batch.faces.len()).sum()
+    }
+}

@@ -1,0 +1,95 @@
+//! Files of a session.
+
+use std::path::Path;
+
+use frangible::ImpactReport;
+use frangible_export::{write_atomically, write_glb};
+use frangible_scenes::scene_to_toml;
+use serde::Serialize;
+
+use crate::blow::Blow;
+use crate::command::Target;
+use crate::error::ViewError;
+use crate::session::Session;
+
+impl Session {
+    pub(crate) fn write(&mut self, target: Target, path: &Path) -> Result<(), ViewError> {
+        match target {
+            Target::Scene => {
+                let scene = self.scene_now().ok_or_else(no_scene)?;
+                write_text(path, &scene_to_toml(&scene))
+            }
+            Target::Glb => {
+                let camera = self.shown().home;
+                let live = self.live().ok_or_else(no_scene)?;
+                Ok(write_atomically(
+                    path,
+                    &write_glb(&live.recording(camera))?,
+                )?)
+            }
+            Target::Script => {
+                let lines: Vec<String> = self.log().iter().map(ToString::to_string).collect();
+                let head = "# Does again what was done: frangible view --script FILE\n";
+                write_text(path, &format!("{head}{}\n", lines.join("\n")))
+            }
+            Target::Report => {
+                let blow = self.blow().ok_or_else(|| {
+                    ViewError::NotNow("nothing was hit yet, so there is nothing to report".into())
+                })?;
+                let report = Report::of(blow);
+                let text = serde_json::to_string_pretty(&report).unwrap_or_default();
+                write_text(path, &(text + "\n"))
+            }
+        }
+    }
+}
+
+fn no_scene() -> ViewError {
+    ViewError::NotNow("there is no scene to save; load one, and wait for its bake".into())
+}
+
+fn write_text(path: &Path, text: &str) -> Result<(), ViewError> {
+    Ok(write_atomically(path, text.as_bytes())?)
+}
+
+/// Numbers of a contact.
+#[derive(Serialize)]
+struct Report<'a> {
+    body: &'a str,
+    time_s: f64,
+    impulse_n_s: f32,
+    contact_duration_s: f64,
+    pieces: usize,
+    masses_kg: Vec<f64>,
+    cracks: usize,
+    crack_area_m2: f64,
+    approach_energy_j: f64,
+    peak_strain_energy_j: f64,
+    fracture_energy_j: f64,
+    peak_stress_pa: f64,
+    strength_pa: f64,
+    weak_points: usize,
+}
+
+impl<'a> Report<'a> {
+    fn of(blow: &'a Blow) -> Self {
+        let report: &ImpactReport = &blow.report;
+        let fragments = blow.fracture.iter().flat_map(|f| &f.fragments);
+        Self {
+            body: &blow.name,
+            time_s: blow.time,
+            impulse_n_s: blow.impulse(),
+            contact_duration_s: report.contact_duration,
+            pieces: blow.pieces(),
+            masses_kg: fragments.map(|fragment| fragment.mass.mass).collect(),
+            cracks: report.cracks,
+            crack_area_m2: report.crack_area,
+            approach_energy_j: report.approach_energy,
+            peak_strain_energy_j: report.peak_strain_energy,
+            fracture_energy_j: report.fracture_energy,
+            peak_stress_pa: report.peak_stress,
+            strength_pa: report.strength,
+            weak_points: report.weak_points,
+        }
+    }
+}

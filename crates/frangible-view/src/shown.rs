@@ -1,0 +1,136 @@
+//! What there is to see of a session.
+
+use std::sync::Arc;
+
+use frangible::glam::Vec3;
+use frangible_export::View;
+use frangible_rapier::{LoadCounts, StepTimings};
+
+use crate::analysis::Analysis;
+use crate::blow::Blow;
+use crate::command::{BallSpec, Mark, Subject};
+use crate::knobs::Settings;
+use crate::picture::Picture;
+
+/// A session at one moment, to be drawn: whoever has it holds up nobody.
+#[derive(Clone, Debug, Default)]
+pub struct Shown {
+    /// Commands carried out or refused so far.
+    pub commands: u64,
+    /// Whether a command's work is still going on elsewhere.
+    pub busy: bool,
+    /// Name of the scene; empty before the first.
+    pub scene: String,
+    /// What it shows, in a line.
+    pub summary: String,
+    /// How often a scene was set up: with another number the camera may be elsewhere.
+    pub starts: u64,
+    /// From where the scene is to be looked at.
+    pub home: View,
+    /// What the camera should have in view now.
+    pub focus: Focus,
+    /// Simulated time, s.
+    pub time: f64,
+    /// Steps taken.
+    pub steps: u64,
+    /// Whether the clock stands.
+    pub paused: bool,
+    /// Simulated seconds per second.
+    pub slow_motion: f64,
+    /// Bodies that have not broken.
+    pub whole: usize,
+    /// Pieces there are.
+    pub pieces: usize,
+    /// Breaks that can be undone.
+    pub undoable: usize,
+    /// What is thrown.
+    pub ball: BallSpec,
+    /// The bake that runs.
+    pub bake: Option<BakeShown>,
+    /// Whether a contact is being analysed.
+    pub analysing: bool,
+    /// The last thing worth saying, and whether it is a complaint.
+    pub message: Option<(String, bool)>,
+    /// What is to be drawn.
+    pub picture: Arc<Picture>,
+    /// What is looked at.
+    pub subject: Subject,
+    /// The moment of the contact that is looked at, 0..=1.
+    pub scrub: f64,
+    /// How many times as large deformations are drawn.
+    pub exaggeration: f64,
+    /// How far pieces are drawn apart.
+    pub explode: f64,
+    /// Marks that are shown.
+    pub marks: Vec<Mark>,
+    /// The mode that is looked at, from 1.
+    pub mode: usize,
+    /// The last contact that mattered.
+    pub blow: Option<Arc<Blow>>,
+    /// What it did, once that was asked for.
+    pub analysis: Option<Arc<Analysis>>,
+    /// Stress at the end of the colour bar, Pa; it begins at 0.
+    pub largest_color: Option<f64>,
+    /// What is selected.
+    pub selection: Option<Selection>,
+    /// Two outcomes of one impact.
+    pub compared: Option<Arc<Compared>>,
+    /// The knobs as they are, and as the scene has them.
+    pub settings: Option<[Settings; 2]>,
+    /// Whether the knobs were turned since the scene was set up.
+    pub turned: bool,
+    /// What became of the contacts so far.
+    pub contacts: LoadCounts,
+    /// Where the time of the last break's step went.
+    pub break_step: StepTimings,
+}
+
+/// Something to have in view: the camera turns to it when the number is another.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Focus {
+    /// Counts the changes.
+    pub number: u64,
+    /// Its middle and half its width and height, m; `None`: the scene, from where it was seen in the beginning.
+    pub on: Option<(Vec3, [f32; 2])>,
+}
+
+impl Shown {
+    /// Whether a mark is shown.
+    #[must_use]
+    pub fn shows(&self, mark: Mark) -> bool {
+        self.marks.contains(&mark)
+    }
+}
+
+/// A bake that runs.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct BakeShown {
+    /// Its stage.
+    pub what: String,
+    /// Share of the stage that is done, 0..=1.
+    pub share: f64,
+}
+
+/// A thing that was clicked.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Selection {
+    /// What it is called.
+    pub name: String,
+    /// Mass, kg.
+    pub mass: f64,
+    /// Volume, m³.
+    pub volume: f64,
+    /// Sides of the box around it along its own axes, m, falling.
+    pub size: [f32; 3],
+    /// Speed, m/s.
+    pub speed: f32,
+}
+
+/// Two outcomes of one impact.
+#[derive(Clone, Debug)]
+pub struct Compared {
+    /// What it did, and what it does with the knobs as they are.
+    pub blows: [Arc<Blow>; 2],
+    /// Knobs that differ: label, both values, unit.
+    pub differences: Vec<(String, [f64; 2], String)>,
+}

@@ -1,0 +1,68 @@
+//! Small pictures of the built-in scenes.
+
+use egui::{ColorImage, Context, TextureHandle, TextureOptions};
+
+macro_rules! picture {
+    ($name:literal) => {
+        ($name, include_bytes!(concat!("../thumbs/", $name, ".png")))
+    };
+}
+
+/// Scene and PNG; just after the break, from the pictures of the gallery.
+const PICTURES: [(&str, &[u8]); 13] = [
+    picture!("bowl"),
+    picture!("brick"),
+    picture!("cantilever"),
+    picture!("chocolate"),
+    picture!("glass"),
+    picture!("hammer"),
+    picture!("pane"),
+    picture!("piggy-bank"),
+    picture!("plate"),
+    picture!("rabbit"),
+    picture!("shelf"),
+    picture!("vase"),
+    picture!("window"),
+];
+
+/// The pictures, on the graphics card from the first time they are asked for.
+#[derive(Default)]
+pub(super) struct Gallery(Vec<(&'static str, TextureHandle)>);
+
+impl Gallery {
+    /// The picture of a scene, if there is one.
+    pub(super) fn picture(&mut self, ctx: &Context, scene: &str) -> Option<&TextureHandle> {
+        if self.0.is_empty() {
+            self.0 = PICTURES
+                .into_iter()
+                .filter_map(|(name, png)| Some((name, load(ctx, name, png)?)))
+                .collect();
+        }
+        let found = self.0.iter().find(|(name, _)| *name == scene);
+        found.map(|(_, texture)| texture)
+    }
+}
+
+fn load(ctx: &Context, name: &str, png: &[u8]) -> Option<TextureHandle> {
+    let picture = image::load_from_memory(png).ok()?.to_rgb8();
+    let size = [picture.width() as usize, picture.height() as usize];
+    let pixels = ColorImage::from_rgb(size, &picture);
+    Some(ctx.load_texture(name, pixels, TextureOptions::LINEAR))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_scene_has_a_picture_that_can_be_read() {
+        for scene in frangible_scenes::SCENE_NAMES {
+            let (_, png) = PICTURES
+                .iter()
+                .find(|(name, _)| *name == scene)
+                .expect(scene);
+            let picture = image::load_from_memory(png).expect(scene);
+            assert_eq!((picture.width(), picture.height()), (96, 60));
+        }
+    }
+}

@@ -1,0 +1,221 @@
+//! Scenes, the clock, the ball.
+
+use egui::{ComboBox, Slider, Ui};
+use frangible::Material;
+use frangible_scenes::SCENE_NAMES;
+
+use super::gallery::Gallery;
+use super::{Panels, Tab};
+use crate::command::{Command, Target};
+use crate::shown::Shown;
+
+/// Size of a scene's picture, points.
+const PICTURE: egui::Vec2 = egui::vec2(58.0, 36.0);
+
+/// What balls are made of.
+const BALLS: [&str; 6] = ["steel", "stone", "glass", "wood", "rubber", "porcelain"];
+
+impl Panels {
+    pub(super) fn play_panel(&mut self, ui: &mut Ui, shown: &Shown, commands: &mut Vec<Command>) {
+        ui.horizontal(|ui| {
+            ui.heading("Frangible");
+            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+                if ui
+                    .small_button("?")
+                    .on_hover_text("keys and mouse")
+                    .clicked()
+                {
+                    self.help = !self.help;
+                }
+            });
+        });
+        scenes(ui, shown, &mut self.gallery, commands);
+        if let Some(bake) = &shown.bake {
+            ui.add(egui::ProgressBar::new(bake.share as f32).text(bake.what.clone()));
+            if ui.button("Cancel the bake").clicked() {
+                commands.push(Command::CancelBake);
+            }
+        }
+        ui.separator();
+        clock(ui, shown, commands);
+        ui.separator();
+        ball(ui, shown, commands);
+        ui.separator();
+        ui.horizontal(|ui| {
+            if ui
+                .button("Drop")
+                .on_hover_text("the bodies from this height")
+                .clicked()
+            {
+                commands.push(Command::Drop(self.drop_height));
+            }
+            ui.add(
+                Slider::new(&mut self.drop_height, 0.05..=5.0)
+                    .logarithmic(true)
+                    .suffix(" m"),
+            );
+        });
+        ui.separator();
+        self.files(ui, shown, commands);
+        ui.separator();
+        ui.horizontal(|ui| {
+            for (tab, label) in [
+                (Tab::Inspect, "Inspect"),
+                (Tab::Knobs, "Knobs"),
+                (Tab::Performance, "Times"),
+            ] {
+                if ui.selectable_label(self.tab == Some(tab), label).clicked() {
+                    self.flip(tab);
+                }
+            }
+        });
+    }
+
+    fn files(&mut self, ui: &mut Ui, shown: &Shown, commands: &mut Vec<Command>) {
+        ui.label("Save")
+            .on_hover_text(format!("into the folder {}", self.folder.display()));
+        ui.horizontal_wrapped(|ui| {
+            for (label, target, ending, hint) in [
+                (
+                    "scene",
+                    Target::Scene,
+                    "toml",
+                    "the scene with the knobs as they are",
+                ),
+                (
+                    "GLB",
+                    Target::Glb,
+                    "glb",
+                    "what is there now, for Blender and viewers",
+                ),
+                (
+                    "script",
+                    Target::Script,
+                    "txt",
+                    "all that was done, as a script that does it again",
+                ),
+                (
+                    "numbers",
+                    Target::Report,
+                    "json",
+                    "the numbers of the last contact",
+                ),
+            ] {
+                if ui.small_button(label).on_hover_text(hint).clicked() {
+                    commands.push(Command::Save(target, self.file(shown, ending)));
+                }
+            }
+            if ui
+                .small_button("picture")
+                .on_hover_text("of the window")
+                .clicked()
+            {
+                commands.push(Command::Screenshot(self.file(shown, "png")));
+            }
+        });
+    }
+}
+
+fn scenes(ui: &mut Ui, shown: &Shown, gallery: &mut Gallery, commands: &mut Vec<Command>) {
+    let chosen = match shown.scene.as_str() {
+        "" => "choose a scene",
+        name => name,
+    };
+    ComboBox::from_id_salt("scenes")
+        .selected_text(chosen)
+        .width(ui.available_width() - 8.0)
+        .height(400.0)
+        .show_ui(ui, |ui| {
+            for name in SCENE_NAMES {
+                let chosen = shown.scene == name;
+                let button = match gallery.picture(ui.ctx(), name) {
+                    Some(picture) => {
+                        let image = egui::Image::new(picture).fit_to_exact_size(PICTURE);
+                        egui::Button::image_and_text(image, name)
+                    }
+                    None => egui::Button::new(name),
+                };
+                if ui.add(button.selected(chosen).frame(chosen)).clicked() {
+                    commands.push(Command::Scene(name.into()));
+                    ui.close();
+                }
+            }
+        });
+    if !shown.summary.is_empty() {
+        ui.small(&shown.summary);
+    }
+    ui.small("or drop a file onto the window: a mesh, a baked body, a scene");
+}
+
+fn clock(ui: &mut Ui, shown: &Shown, commands: &mut Vec<Command>) {
+    ui.horizontal_wrapped(|ui| {
+        let run = if shown.paused { "▶ run" } else { "⏸ stop" };
+        if ui.button(run).on_hover_text("space").clicked() {
+            commands.push(if shown.paused {
+                Command::Run
+            } else {
+                Command::Pause
+            });
+        }
+        if ui.button("step").on_hover_text(".").clicked() {
+            commands.push(Command::Step(1));
+        }
+        if ui.button("reset").on_hover_text("R").clicked() {
+            commands.push(Command::Reset);
+        }
+        let undo = ui.add_enabled(shown.undoable > 0, egui::Button::new("undo"));
+        if undo
+            .on_hover_text("Z: back to just before the last break")
+            .clicked()
+        {
+            commands.push(Command::Undo);
+        }
+    });
+    let mut speed = shown.slow_motion;
+    let slider = Slider::new(&mut speed, 0.001..=1.0)
+        .logarithmic(true)
+        .text("× time");
+    if ui
+        .add(slider)
+        .on_hover_text("simulated seconds per second")
+        .changed()
+    {
+        commands.push(Command::SlowMotion(speed));
+    }
+}
+
+fn ball(ui: &mut Ui, shown: &Shown, commands: &mut Vec<Command>) {
+    let mut ball = shown.ball.clone();
+    ui.label("Ball")
+        .on_hover_text("click into the scene to throw it");
+    ComboBox::from_id_salt("ball")
+        .selected_text(ball.material.clone())
+        .show_ui(ui, |ui| {
+            for name in BALLS {
+                if Material::preset(name).is_ok() {
+                    ui.selectable_value(&mut ball.material, name.to_string(), name);
+                }
+            }
+        });
+    let (mut grams, mut millimetres) = (1e3 * ball.mass, 1e3 * ball.radius);
+    let sliders = [
+        (&mut grams, 1.0..=5000.0, " g", "mass"),
+        (&mut millimetres, 2.0..=100.0, " mm", "radius"),
+        (&mut ball.speed, 0.5..=100.0, " m/s", "speed"),
+    ];
+    let mut turned = false;
+    for (value, range, unit, label) in sliders {
+        let slider = Slider::new(value, range)
+            .logarithmic(true)
+            .suffix(unit)
+            .text(label);
+        turned |= ui.add(slider.max_decimals(1)).changed();
+    }
+    if turned {
+        // Only then, as kilograms and back is not exact.
+        (ball.mass, ball.radius) = (1e-3 * grams, 1e-3 * millimetres);
+    }
+    if ball != shown.ball {
+        commands.push(Command::Ball(ball));
+    }
+}
