@@ -34,7 +34,7 @@ pub(crate) enum Command {
         name: Option<String>,
     },
     /// Check modes, responses and contacts against closed forms; fails when one is off. `verify experiments` compares cracks and
-    /// pieces with published experiments, which takes minutes
+    /// pieces with published experiments, `verify pieces` the ways to find how fragments vibrate; both take minutes
     Verify(VerifyArgs),
     /// Measure how fast the bodies of the paper's Table 1 break, and how fast harmless contacts are refused
     Bench(BenchArgs),
@@ -153,6 +153,8 @@ pub(crate) enum Verification {
     Forms,
     /// Cracks and pieces beside published experiments: minutes
     Experiments,
+    /// Ways to find how fragments vibrate, beside a full analysis of each: minutes
+    Pieces,
 }
 
 #[derive(Args, Clone, Debug)]
@@ -165,9 +167,13 @@ pub(crate) struct VerifyArgs {
     #[arg(long)]
     pub(crate) json: bool,
 
-    /// Also write verification.md (or experiments.md) and its plots into this folder, made when it is missing
+    /// Also write verification.md (or experiments.md, recursive.md) and its plots into this folder, made when it is missing
     #[arg(long, value_name = "DIR")]
     pub(crate) write: Option<PathBuf>,
+
+    /// Of `verify pieces`: so many fragments, 1 to 10000 [default: 208]
+    #[arg(long, value_name = "N", value_parser = clap::builder::RangedU64ValueParser::<usize>::new().range(1..=10_000))]
+    pub(crate) count: Option<usize>,
 }
 
 #[derive(Args, Clone, Debug)]

@@ -18,6 +18,7 @@ mod report;
 mod request;
 mod say;
 mod support;
+mod truth;
 mod verifying;
 #[cfg(feature = "draw")]
 mod viewing;
@@ -60,6 +61,7 @@ fn main() -> ExitCode {
         Some(Command::Verify(args)) if args.what == Some(Verification::Experiments) => {
             experimenting::run(&args)
         }
+        Some(Command::Verify(args)) if args.what == Some(Verification::Pieces) => truth::run(&args),
         Some(Command::Verify(args)) => verifying::run(&args),
         Some(Command::Bench(args)) => benching::run(&args),
         #[cfg(feature = "draw")]

@@ -1,5 +1,6 @@
 //! How pieces of broken bodies vibrate, so that they break again.
 
+mod dense;
 mod error;
 mod lattice;
 mod model;

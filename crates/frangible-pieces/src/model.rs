@@ -1,6 +1,6 @@
 //! Which method serves which piece, and when.
 
-use std::sync::{Arc, OnceLock};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use frangible::Body;
 use frangible::piece::{Elastic, PieceModel, Portion};
@@ -34,7 +34,7 @@ pub struct Pieces {
     pub elements: usize,
     /// Modes of a piece at most. Default 30.
     pub modes: usize,
-    library: OnceLock<Option<Arc<ProxyLibrary>>>,
+    libraries: Mutex<Vec<Arc<ProxyLibrary>>>,
 }
 
 impl Default for Pieces {
@@ -51,7 +51,7 @@ impl Pieces {
             method,
             elements: 300,
             modes: 30,
-            library: OnceLock::new(),
+            libraries: Mutex::default(),
         }
     }
 
@@ -85,17 +85,21 @@ impl Pieces {
         }
     }
 
-    /// The stored shapes, baked for the Poisson's ratio of the first piece that asks. Another ratio has its own.
+    /// The stored shapes for the piece's Poisson's ratio, baked when the first piece of that ratio asks; others wait for it.
     fn library(&self, portion: &Portion) -> Result<Arc<ProxyLibrary>, PieceError> {
         let ratio = portion.root().material.poisson_ratio;
-        let bake = || ProxyLibrary::new(ratio, self.modes).map(Arc::new);
-        let first = self.library.get_or_init(|| bake().ok());
-        match first {
-            Some(library) if (library.poisson_ratio() - ratio).abs() < 1e-9 => {
-                Ok(Arc::clone(library))
-            }
-            _ => bake(),
+        let known = self.libraries.lock();
+        // What a panic may have left behind is whole: libraries are pushed when they are done.
+        let mut known = known.unwrap_or_else(PoisonError::into_inner);
+        if let Some(library) = known
+            .iter()
+            .find(|l| (l.poisson_ratio() - ratio).abs() < 1e-9)
+        {
+            return Ok(Arc::clone(library));
         }
+        let library = Arc::new(ProxyLibrary::new(ratio, self.modes)?);
+        known.push(Arc::clone(&library));
+        Ok(library)
     }
 }
 

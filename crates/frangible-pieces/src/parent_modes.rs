@@ -6,7 +6,7 @@
 
 use std::sync::Arc;
 
-use faer::{Mat, Side};
+use faer::Mat;
 use frangible::asset::{AnalysisMesh, EmbeddedPoint};
 use frangible::glam::{DVec3, Vec3};
 use frangible::modal::ModalBasis;
@@ -15,6 +15,7 @@ use frangible::stress::ShapeWeights;
 use frangible::{Asset, Body};
 
 use crate::PieceError;
+use crate::dense::{add_product, eigen, product, refused};
 
 /// Shapes that depend on the others to within this share of their mass are left out.
 const DEPENDENT: f64 = 1e-7;
@@ -35,7 +36,7 @@ pub fn parent_modes(portion: &Arc<Portion>, parent: &Body) -> Result<Elastic, Pi
     let (eigenvalues, combinations) = ritz(&stiffness, &mass, if held { 0 } else { 6 })?;
     let rows = 3 * analysis.nodes.len();
     let count = eigenvalues.len();
-    let shapes = &trial * &combinations;
+    let shapes = product(trial.as_ref(), combinations.as_ref());
     let shapes = (0..rows)
         .flat_map(|row| (0..count).map(move |mode| (row, mode)))
         .map(|at| shapes[at] as f32)
@@ -207,8 +208,8 @@ fn integrals(
         let signed = Mat::from_fn(strains.nrows(), m, |i, j| {
             strains[(i, j)] * if i % 7 == 6 { sign } else { 1.0 }
         });
-        stiffness += strains.transpose() * &signed;
-        mass += places.transpose() * &places;
+        add_product(&mut stiffness, strains.transpose(), signed.as_ref());
+        add_product(&mut mass, places.transpose(), places.as_ref());
     }
     (stiffness, mass)
 }
@@ -219,36 +220,28 @@ fn ritz(
     mass: &Mat<f64>,
     rigid: usize,
 ) -> Result<(Vec<f64>, Mat<f64>), PieceError> {
-    let refused = |reason: &dyn std::fmt::Debug| PieceError::Factorization {
-        reason: format!("{reason:?}"),
-    };
     let m = mass.nrows();
     let scale: Vec<f64> = (0..m)
         .map(|i| 1.0 / mass[(i, i)].max(f64::MIN_POSITIVE).sqrt())
         .collect();
     let unit = Mat::from_fn(m, m, |i, j| mass[(i, j)] * scale[i] * scale[j]);
-    let eigen = unit
-        .self_adjoint_eigen(Side::Lower)
-        .map_err(|e| refused(&e))?;
-    let (values, vectors) = (eigen.S().column_vector(), eigen.U());
+    let (values, vectors) = eigen(unit.as_ref())?;
     let kept: Vec<usize> = (0..m)
         .filter(|&i| values[i] > DEPENDENT * m as f64)
         .collect();
     let white = Mat::from_fn(m, kept.len(), |i, j| {
         scale[i] * vectors[(i, kept[j])] / values[kept[j]].sqrt()
     });
-    let reduced = white.transpose() * stiffness * &white;
-    let eigen = reduced
-        .self_adjoint_eigen(Side::Lower)
-        .map_err(|e| refused(&e))?;
-    let (values, vectors) = (eigen.S().column_vector(), eigen.U());
+    let half = product(stiffness.as_ref(), white.as_ref());
+    let reduced = product(white.transpose(), half.as_ref());
+    let (values, vectors) = eigen(reduced.as_ref())?;
     let elastic: Vec<usize> = (rigid.min(kept.len())..kept.len())
         .filter(|&i| values[i] > 0.0)
         .collect();
     if elastic.is_empty() {
-        return Err(refused(&"the parent's modes do not tell how it bends"));
+        return Err(refused("the parent's modes do not tell how it bends"));
     }
     let chosen = Mat::from_fn(kept.len(), elastic.len(), |i, j| vectors[(i, elastic[j])]);
     let eigenvalues = elastic.iter().map(|&i| values[i]).collect();
-    Ok((eigenvalues, white * chosen))
+    Ok((eigenvalues, product(white.as_ref(), chosen.as_ref())))
 }

@@ -7,22 +7,29 @@
 
 use std::sync::Arc;
 
+use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::solvers::Solve as _;
-use faer::sparse::linalg::solvers::{Llt, SymbolicLlt};
+use faer::sparse::linalg::cholesky::{
+    CholeskySymbolicParams, LltRef, SymbolicCholesky, SymmetricOrdering,
+    factorize_symbolic_cholesky,
+};
 use faer::sparse::{SparseColMat, Triplet};
-use faer::{Mat, Side};
+use faer::{Conj, Mat, Par, Side, Spec};
 use frangible::glam::{DVec3, Vec3};
 use frangible::piece::{Elastic, Portion, Response, Statics};
 use frangible_bake::eigen::rigid_motions;
 use frangible_bake::fem::System;
 
 use crate::PieceError;
+use crate::dense::refused;
 use crate::lattice::Lattice;
 
 /// A factored piece.
 struct Factored {
-    factor: Llt<usize, f64>,
-    system: System,
+    /// L of the stiffness: its pattern and its values.
+    symbolic: SymbolicCholesky<usize>,
+    values: Vec<f64>,
+    unknowns: usize,
     /// R, one column per rigid motion, and (Rᵀ M R)⁻¹ Rᵀ of the forces' balance; empty of a held piece.
     rigid: Vec<Vec<f64>>,
     /// M R.
@@ -35,7 +42,7 @@ struct Factored {
 
 impl std::fmt::Debug for Factored {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "Factored({} unknowns)", self.system.unknowns())
+        write!(f, "Factored({} unknowns)", self.unknowns)
     }
 }
 
@@ -53,12 +60,6 @@ pub fn quasi_static(portion: &Arc<Portion>, elements: usize) -> Result<Elastic, 
         nodes: lattice.nodes,
         response: Response::Static(Arc::new(statics)),
     })
-}
-
-fn refused(reason: impl std::fmt::Debug) -> PieceError {
-    PieceError::Factorization {
-        reason: format!("{reason:?}"),
-    }
 }
 
 impl Factored {
@@ -82,9 +83,27 @@ impl Factored {
         }
         entries.extend(springs.iter().map(|&i| Triplet::new(i, i, diagonal[i])));
         let matrix = SparseColMat::try_new_from_triplets(n, n, &entries).map_err(refused)?;
-        let symbolic = SymbolicLlt::try_new(matrix.symbolic(), Side::Lower).map_err(refused)?;
-        let factor =
-            Llt::try_new_with_symbolic(symbolic, matrix.as_ref(), Side::Lower).map_err(refused)?;
+        // One thread: pieces are factored side by side, and the bits must not depend on how many there are.
+        let ordering = SymmetricOrdering::Amd;
+        let params = CholeskySymbolicParams::default();
+        let symbolic =
+            factorize_symbolic_cholesky(matrix.symbolic(), Side::Lower, ordering, params)
+                .map_err(refused)?;
+        let mut values = vec![0.0; symbolic.len_val()];
+        let params = Spec::default();
+        let mut memory =
+            MemBuffer::new(symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, params));
+        symbolic
+            .factorize_numeric_llt(
+                &mut values,
+                matrix.as_ref(),
+                Side::Lower,
+                Default::default(),
+                Par::Seq,
+                MemStack::new(&mut memory),
+                params,
+            )
+            .map_err(refused)?;
         let all = rigid_motions(&system);
         let mass = |x: &Vec<f64>| system.mass.multiply(x);
         let translations = [0, 1, 2].map(|k| mass(&all[k]));
@@ -99,12 +118,13 @@ impl Factored {
             (0..36).map(|i| inverse[(i / 6, i % 6)]).collect()
         };
         Ok(Self {
-            factor,
+            symbolic,
+            values,
+            unknowns: n,
             rigid,
             inertia,
             inverse,
             translations,
-            system,
         })
     }
 }
@@ -119,14 +139,22 @@ impl Statics for Factored {
                 *f -= a * m;
             }
         }
-        let right = Mat::from_fn(balanced.len(), 1, |i, _| balanced[i]);
-        let u = self.factor.solve(right);
+        let mut u = Mat::from_fn(balanced.len(), 1, |i, _| balanced[i]);
+        let factor = LltRef::new(&self.symbolic, &self.values);
+        let mut memory = MemBuffer::new(self.symbolic.solve_in_place_scratch::<f64>(1, Par::Seq));
+        let stack = MemStack::new(&mut memory);
+        factor.solve_in_place_with_conj(Conj::No, u.as_mut(), Par::Seq, stack);
         (0..balanced.len()).map(|i| u[(i, 0)]).collect()
+    }
+
+    fn bytes(&self) -> usize {
+        let vectors = self.rigid.len() + self.inertia.len() + self.translations.len();
+        8 * (self.values.len() + vectors * self.unknowns + self.inverse.len())
     }
 
     fn weight(&self, gravity: Vec3) -> Vec<f64> {
         let g = gravity.as_dvec3().to_array();
-        (0..self.system.unknowns())
+        (0..self.unknowns)
             .map(|i| (0..3).map(|k| g[k] * self.translations[k][i]).sum())
             .collect()
     }

@@ -3,7 +3,7 @@
 //! A [`Case`] computes something with the code that bakes and breaks, and compares it with a reference found by other
 //! means: a closed form, a published number, an integrator or a Ritz series of our own that shares no code with it.
 //! [`CASES`] lists them all; [`report`] makes text of what they found, [`plot`] pictures. [`experiments`] compares cracks
-//! and pieces with published experiments, which takes minutes.
+//! and pieces with published experiments, which takes minutes; [`pieces`] the ways to find how a fragment vibrates.
 
 mod case;
 mod cases;
@@ -11,6 +11,7 @@ mod check;
 pub mod experiments;
 mod models;
 mod ode;
+pub mod pieces;
 pub mod plot;
 pub mod report;
 mod ritz;
@@ -50,6 +51,12 @@ pub enum VerifyError {
         case: &'static str,
         /// What was said.
         source: InputError,
+    },
+    /// Work that was to go on beside other work did not.
+    #[error("the pieces could not be compared: {reason}")]
+    Thread {
+        /// What stood in the way.
+        reason: String,
     },
     /// A chart could not be drawn or written as PNG.
     #[error("the plot `{name}` could not be made: {reason}")]

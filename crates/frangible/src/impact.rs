@@ -313,6 +313,10 @@ fn run_cracks_from<'a>(
         report.looked_at = LookedAt::Clusters;
     }
     report.peak_stress = f64::from(peak.tension);
+    if peak.tension > 0.0 {
+        let place = body.prepared.centroids[peak.tet as usize].as_dvec3();
+        report.peak_point = Some((place - body.origin()).as_vec3());
+    }
     report.stress_bound = f64::from(peak.tension.max(culling.passed_over));
     report.cracks = system.cracks.len() - system.old_cracks;
     report.crack_area = system.area;

@@ -115,6 +115,8 @@ pub struct ImpactReport {
     /// Largest principal tension met at a weak point, Pa. Points whose bound stays below the strength are not looked
     /// at: 0 when that is all of them; see `stress_bound`.
     pub peak_stress: f64,
+    /// Where that was, m, body frame: the centre of the weak point's tetrahedron.
+    pub peak_point: Option<Vec3>,
     /// No weak point had more tension than this, Pa.
     pub stress_bound: f64,
     /// What had to be looked at.

@@ -5,6 +5,7 @@ use frangible_bake::eigen::{Constraints, quick_modes};
 use frangible_bake::fem::{Elasticity, Elements, QuadraticMesh, assemble};
 
 use crate::PieceError;
+use crate::dense::eigen;
 use crate::proxy::shape::ProxyShape;
 
 /// Second and third side over the first: from a rod to a cube to a thin plate.
@@ -89,13 +90,9 @@ impl Stature {
             second += squares * (v / (20.0 * volume));
         }
         let matrix = faer::Mat::from_fn(3, 3, |i, j| second.col(j)[i]);
-        let eigen = matrix.self_adjoint_eigen(faer::Side::Lower).map_err(|e| {
-            PieceError::Factorization {
-                reason: format!("{e:?}"),
-            }
-        })?;
-        let value = |k: usize| eigen.S().column_vector()[k].max(f64::MIN_POSITIVE);
-        let vector = |k: usize| DVec3::from_array([0, 1, 2].map(|i| eigen.U()[(i, k)]));
+        let (values, vectors) = eigen(matrix.as_ref())?;
+        let value = |k: usize| values[k].max(f64::MIN_POSITIVE);
+        let vector = |k: usize| DVec3::from_array([0, 1, 2].map(|i| vectors[(i, k)]));
         let (long, middle) = (vector(2), vector(1));
         let axes = DMat3::from_cols(long, middle, long.cross(middle));
         // Of a box of side a: ∫ x² / V = a²/12.

@@ -15,9 +15,11 @@ mod star_page;
 
 pub use fit::{CutOffLaw, PowerLaw};
 pub use masses::{MassPlan, MassRun, Masses, Published};
+pub(crate) use page::table;
 pub use page::{Figure, Page};
 pub use pattern::CrackPattern;
 pub use progress::Hear;
+pub(crate) use star::preset;
 pub use star::{Count, StarImpact, StarPlan, StarRun, Stars};
 
 use crate::VerifyError;

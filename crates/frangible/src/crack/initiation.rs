@@ -24,7 +24,9 @@ const ISOTROPIC: f64 = 1e-3;
 pub(crate) struct Peak {
     /// The tension …
     pub(crate) tension: f32,
-    /// … and that of the largest share of its point's strength, as the weakest point would feel it.
+    /// … and the tetrahedron of the point, where there is any tension.
+    pub(crate) tet: u32,
+    /// That of the largest share of its point's strength, as the weakest point would feel it.
     pub(crate) as_weakest: f32,
 }
 
@@ -109,7 +111,9 @@ fn candidates<'a>(
             continue;
         }
         let tension = largest_eigenvalue(&suspect.state.stress(k));
-        peak.tension = peak.tension.max(tension);
+        if tension > peak.tension {
+            (peak.tension, peak.tet) = (tension, e);
+        }
         let felt = resistance.as_weakest(tension, strength);
         peak.as_weakest = peak.as_weakest.max(felt);
         if may_start && tension > strength {

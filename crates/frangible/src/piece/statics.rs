@@ -23,6 +23,9 @@ pub trait Statics: fmt::Debug + Send + Sync {
 
     /// Forces on the nodes, N, that its weight puts on a held piece; gravity in m/s².
     fn weight(&self, gravity: Vec3) -> Vec<f64>;
+
+    /// Memory of what it keeps, bytes.
+    fn bytes(&self) -> usize;
 }
 
 /// Steps over half the pulse: the load grows, and cracks that it starts have time to run.

@@ -57,11 +57,11 @@ impl Cover {
     /// # Errors
     /// No tetrahedra, one without volume or with a node that is not there, or no elements wanted.
     pub fn new(body: &BodyMesh, elements_wanted: usize) -> Result<Self, BakeError> {
-        Self::of_joined(body, &face_pairs(body), elements_wanted)
+        Self::on_threads(body, &face_pairs(body), elements_wanted, true)
     }
 
     /// The same for a body whose tetrahedra hang together as `faces` says, pairs of them: of two on both sides of a crack
-    /// nothing passes from one to the other.
+    /// nothing passes from one to the other. On the calling thread alone: pieces are covered side by side.
     ///
     /// # Errors
     /// As [`Cover::new`].
@@ -69,6 +69,15 @@ impl Cover {
         body: &BodyMesh,
         faces: &[[u32; 2]],
         elements_wanted: usize,
+    ) -> Result<Self, BakeError> {
+        Self::on_threads(body, faces, elements_wanted, false)
+    }
+
+    fn on_threads(
+        body: &BodyMesh,
+        faces: &[[u32; 2]],
+        elements_wanted: usize,
+        threads: bool,
     ) -> Result<Self, BakeError> {
         positive("the number of elements wanted", elements_wanted as f64)?;
         let mut volume = 0.0;
@@ -98,7 +107,7 @@ impl Cover {
             element_of_tet: elements_of_tets(body, &topology, &lattice),
             element_of_node: elements_of_nodes(body, &topology, &lattice),
             side: lattice.side,
-            moments: integrate(body, &topology, &lattice),
+            moments: integrate(body, &topology, &lattice, threads),
             mesh,
         })
     }
@@ -233,8 +242,13 @@ fn full_elements(topology: &Topology) -> Vec<bool> {
     volumes.into_iter().map(full).collect()
 }
 
-/// Moments of the body in each element, m³.
-fn integrate(body: &BodyMesh, topology: &Topology, lattice: &Lattice) -> Vec<Moments> {
+/// Moments of the body in each element, m³; the same on one thread and on several.
+fn integrate(
+    body: &BodyMesh,
+    topology: &Topology,
+    lattice: &Lattice,
+    threads: bool,
+) -> Vec<Moments> {
     /// Shares of the work: fixed, and summed in order, so that the bits do not depend on the number of threads.
     const SHARES: usize = 8;
     let cube = lattice.side.powi(3);
@@ -269,13 +283,18 @@ fn integrate(body: &BodyMesh, topology: &Topology, lattice: &Lattice) -> Vec<Mom
         let filled = if full[e] { 1.0 } else { 0.0 };
         moments.add(corners, (filled + FICTITIOUS) * CELL_VOLUME * cube);
     }
+    let mut merge = |share: &[Moments]| moments.iter_mut().zip(share).for_each(|(a, b)| a.merge(b));
+    if !threads {
+        (0..SHARES).for_each(|number| merge(&share(number)));
+        return moments;
+    }
     std::thread::scope(|scope| {
         let shares: Vec<_> = (0..SHARES)
             .map(|number| scope.spawn(move || share(number)))
             .collect();
         for share in shares {
             match share.join() {
-                Ok(share) => moments.iter_mut().zip(&share).for_each(|(a, b)| a.merge(b)),
+                Ok(share) => merge(&share),
                 Err(panic) => std::panic::resume_unwind(panic),
             }
         }

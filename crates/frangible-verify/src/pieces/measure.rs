@@ -1,0 +1,259 @@
+//! One piece by all ways.
+
+use std::sync::Arc;
+
+use frangible::glam::Vec3;
+use frangible::piece::Response;
+use frangible::{
+    Asset, Body, Contact, Elastic, FractureConfig, Outcome, Portion, impact, would_break,
+};
+use frangible_pieces::{PieceError, reanalysis};
+
+use super::choose::{Broken, Chosen};
+use super::impacts::{LEVELS, Stress, contact, place, speed_for, stress};
+use super::way::{WAYS, Ways};
+use super::{TruthPlan, clock};
+use crate::VerifyError;
+use crate::experiments::preset;
+
+/// Frequencies that are compared.
+pub(crate) const FREQUENCIES: usize = 5;
+
+/// A piece, its truth and what every way makes of it.
+#[derive(Clone, Debug)]
+pub struct PieceSample {
+    /// Name of the body that it comes from.
+    pub name: String,
+    /// Its uncut tetrahedra.
+    pub tets: usize,
+    /// Its mass, kg.
+    pub mass: f64,
+    /// Diagonal of the box around it, m.
+    pub size: f64,
+    /// Whether something still holds it.
+    pub held: bool,
+    /// The full analysis.
+    pub truth: Reading,
+    /// The blows, and what the full analysis says of each.
+    pub blows: Vec<Blow>,
+    /// Of each of [`WAYS`]; none where it refused the piece.
+    pub ways: Vec<Option<Sample>>,
+}
+
+/// What is read off an elastic body.
+#[derive(Clone, Debug)]
+pub struct Reading {
+    /// Quadratic elements.
+    pub elements: usize,
+    /// First frequencies, Hz; none without modes.
+    pub frequencies: Vec<f64>,
+    /// Time of one thread until the piece can be hit, s.
+    pub ready: f64,
+    /// Memory of the piece's own arrays, bytes.
+    pub bytes: usize,
+}
+
+/// A blow on a piece.
+#[derive(Clone, Copy, Debug)]
+pub struct Blow {
+    /// Speed, m/s.
+    pub speed: f64,
+    /// Largest share of a weak point's strength that the tension before any crack has.
+    pub level: f64,
+    /// Whether it breaks the piece.
+    pub breaks: bool,
+    /// Of a piece that it cracks and does not break: first frequency with these cracks over that without.
+    pub softened: Option<f64>,
+}
+
+/// What a way makes of a piece, beside the truth.
+#[derive(Clone, Debug)]
+pub struct Sample {
+    /// Read off its elastic body.
+    pub reading: Reading,
+    /// Of each blow.
+    pub blows: Vec<BlowSample>,
+}
+
+/// What a way makes of a blow.
+#[derive(Clone, Copy, Debug)]
+pub struct BlowSample {
+    /// Largest tension over the truth's; none where one of them has none.
+    pub stress: Option<f64>,
+    /// Distance of the place of the largest tension from the truth's, in sizes of the piece.
+    pub apart: Option<f64>,
+    /// Whether it breaks the piece.
+    pub breaks: bool,
+}
+
+/// A piece with an elastic body, brittle and too strong to crack.
+struct Bodies {
+    brittle: Body,
+    strong: Body,
+    reading: Reading,
+}
+
+impl Bodies {
+    fn new(
+        broken: &Broken,
+        portion: &Arc<Portion>,
+        find: impl FnOnce() -> Result<Elastic, PieceError>,
+    ) -> Result<Self, PieceError> {
+        let start = clock::now();
+        let elastic = find()?;
+        let copy = clock::now();
+        let kept = elastic.clone();
+        let copied = clock::now() - copy;
+        let statics = match &elastic.response {
+            Response::Static(statics) => statics.bytes(),
+            Response::Modes(_) => 0,
+        };
+        let brittle = broken.body.piece(portion, elastic)?;
+        let ready = clock::now() - start - copied;
+        let asset = brittle.asset();
+        let count = asset.modes.count().min(FREQUENCIES);
+        let reading = Reading {
+            elements: asset.analysis.elements.len(),
+            frequencies: (0..count).map(|i| asset.modes.frequency(i)).collect(),
+            ready,
+            bytes: bytes(asset) + statics,
+        };
+        Ok(Self {
+            strong: broken.strong.piece(portion, kept)?,
+            brittle,
+            reading,
+        })
+    }
+}
+
+/// Memory of a piece's own arrays, bytes: elements, modes, embedding, surface.
+fn bytes(asset: &Asset) -> usize {
+    let (analysis, surface) = (&asset.analysis, &asset.surface);
+    size_of_val(&*analysis.nodes)
+        + size_of_val(&*analysis.elements)
+        + size_of_val(&*analysis.barycentric_gradients)
+        + size_of_val(&*asset.modes.eigenvalues)
+        + size_of_val(&*asset.modes.shapes)
+        + size_of_val(&*asset.embedding.nodes)
+        + size_of_val(&*asset.embedding.tets)
+        + size_of_val(&*surface.triangles)
+        + size_of_val(&*surface.normals)
+        + size_of_val(&*surface.tets)
+        + size_of_val(&*surface.curvature_radius)
+}
+
+fn diagonal(positions: &[Vec3]) -> f64 {
+    let low = positions.iter().fold(Vec3::INFINITY, |a, &p| a.min(p));
+    let high = positions.iter().fold(Vec3::NEG_INFINITY, |a, &p| a.max(p));
+    f64::from(low.distance(high))
+}
+
+/// All of one piece, or why its full analysis was refused.
+pub(crate) fn measure(
+    plan: &TruthPlan,
+    ways: &Ways,
+    broken: &Broken,
+    chosen: &Chosen,
+    number: usize,
+) -> Result<Result<PieceSample, String>, VerifyError> {
+    let failed = |source| VerifyError::Impact {
+        case: "pieces",
+        source,
+    };
+    let portion = &chosen.portion;
+    let full = || reanalysis(portion, plan.elements, plan.modes);
+    let truth = match Bodies::new(broken, portion, full) {
+        Ok(truth) => truth,
+        Err(error) => return Ok(Err(format!("{}: {error}", broken.name))),
+    };
+    let materials = [preset("stone")?, preset("steel")?];
+    let size = diagonal(portion.surface_positions());
+    let mut blows: Vec<(Contact, Option<Stress>, Blow)> = Vec::new();
+    for (k, level) in LEVELS.into_iter().enumerate() {
+        let at = place(&truth.brittle, number, k);
+        let speed = speed_for(&truth.strong, at, level, &materials).map_err(failed)?;
+        let contact = contact(&truth.brittle, at, speed, &materials);
+        let found = stress(&truth.strong, contact).map_err(failed)?;
+        let (breaks, softened) = blow(&truth.brittle, contact).map_err(failed)?;
+        let level = found.map_or(0.0, |s| s.level);
+        blows.push((
+            contact,
+            found,
+            Blow {
+                speed,
+                level,
+                breaks,
+                softened,
+            },
+        ));
+    }
+    let sample = |way: usize| -> Result<Option<Sample>, VerifyError> {
+        let find = || ways.elastic(way, portion, &broken.body);
+        let Ok(bodies) = Bodies::new(broken, portion, find) else {
+            return Ok(None);
+        };
+        let config = FractureConfig::default();
+        let blows = blows.iter().map(|&(contact, truth, _)| {
+            let own = stress(&bodies.strong, contact)?;
+            let both = truth.zip(own);
+            Ok(BlowSample {
+                stress: both.map(|(t, o)| o.peak / t.peak),
+                apart: both.map(|(t, o)| f64::from(t.place.distance(o.place)) / size),
+                breaks: would_break(&bodies.brittle, &[contact], &config)?,
+            })
+        });
+        let blows = blows.collect::<Result<_, _>>().map_err(failed)?;
+        Ok(Some(Sample {
+            reading: bodies.reading,
+            blows,
+        }))
+    };
+    let mut samples: Vec<Option<Sample>> = Vec::with_capacity(WAYS.len());
+    for way in 0..WAYS.len() {
+        let same = ways.same_as(way, portion.tets().len());
+        samples.push(match same {
+            Some(same) => samples[same].clone(),
+            None => sample(way)?,
+        });
+    }
+    Ok(Ok(PieceSample {
+        name: broken.name.clone(),
+        tets: portion.tets().len(),
+        mass: portion.mass().mass,
+        size,
+        held: !portion.supported().is_empty(),
+        ways: samples,
+        blows: blows.into_iter().map(|b| b.2).collect(),
+        truth: truth.reading,
+    }))
+}
+
+/// Whether a blow breaks a piece; of one that only cracks, first frequency with the cracks over that without, both on the
+/// elements of the default.
+fn blow(piece: &Body, contact: Contact) -> Result<(bool, Option<f64>), frangible::InputError> {
+    let config = FractureConfig::default();
+    let state = match impact(piece, &[contact], &config)? {
+        Outcome::Broke(_) => return Ok((true, None)),
+        Outcome::Held { state, .. } => state,
+        _ => None,
+    };
+    let Some(state) = state else {
+        return Ok((false, None));
+    };
+    let mut cracked = piece.clone();
+    let first = |body: &Body| {
+        let portion = Arc::new(Portion::of_cracked(body, config.crumb_share));
+        let pieces = frangible_pieces::Pieces::default();
+        let elastic = reanalysis(&portion, pieces.elements, pieces.modes).ok()?;
+        match elastic.response {
+            Response::Modes(modes) => Some(modes.frequency(0)),
+            Response::Static(_) => None,
+        }
+    };
+    let before = first(piece);
+    cracked.set_state(*state)?;
+    let softened = first(&cracked)
+        .zip(before)
+        .map(|(after, before)| after / before);
+    Ok((false, softened))
+}

@@ -1,0 +1,121 @@
+//! The ways that are compared.
+
+use std::sync::Arc;
+
+use frangible::{Body, Elastic, Portion};
+use frangible_pieces::{Method, PieceError, Pieces};
+
+use super::Broken;
+use crate::VerifyError;
+
+/// A way to find how a piece vibrates.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Way {
+    /// What the tables call it.
+    pub name: &'static str,
+    /// The method; [`Method::Auto`]: what [`Pieces::method_for`] says of the piece's size.
+    pub method: Method,
+    /// Quadratic elements and modes; none: those of [`Pieces::default`].
+    pub size: Option<(usize, usize)>,
+}
+
+/// All ways, in the order of the tables.
+pub const WAYS: [Way; 8] = [
+    Way {
+        name: "modal proxy",
+        method: Method::ModalProxy,
+        size: None,
+    },
+    Way {
+        name: "parent's modes",
+        method: Method::ParentModes,
+        size: None,
+    },
+    Way {
+        name: "quasi-static",
+        method: Method::QuasiStatic,
+        size: None,
+    },
+    Way {
+        name: "reanalysis, 150 elements, 20 modes",
+        method: Method::Reanalysis,
+        size: Some((150, 20)),
+    },
+    Way {
+        name: "reanalysis, 300 elements, 30 modes",
+        method: Method::Reanalysis,
+        size: Some((300, 30)),
+    },
+    Way {
+        name: "reanalysis, 600 elements, 40 modes",
+        method: Method::Reanalysis,
+        size: Some((600, 40)),
+    },
+    Way {
+        name: "reanalysis, 1200 elements, 60 modes",
+        method: Method::Reanalysis,
+        size: Some((1200, 60)),
+    },
+    Way {
+        name: "auto",
+        method: Method::Auto,
+        size: None,
+    },
+];
+
+/// Places of the ways that the page speaks of.
+pub(crate) const PARENT_MODES: usize = 1;
+pub(crate) const REANALYSIS: usize = 4;
+pub(crate) const FINE: usize = 6;
+pub(crate) const AUTO: usize = 7;
+
+/// The ways with what they need.
+pub(crate) struct Ways(Vec<Pieces>);
+
+impl Ways {
+    /// With the stored shapes of all these bodies' materials: what they cost is no piece's.
+    pub(crate) fn ready(broken: &[Broken]) -> Result<Self, VerifyError> {
+        let ways = WAYS.map(|way| {
+            let mut pieces = Pieces::new(way.method);
+            if let Some((elements, modes)) = way.size {
+                (pieces.elements, pieces.modes) = (elements, modes);
+            }
+            pieces
+        });
+        for (way, pieces) in WAYS.iter().zip(&ways) {
+            if way.method != Method::ModalProxy {
+                continue;
+            }
+            for broken in broken {
+                let first = broken.portions().next();
+                if let Some((_, portion)) = first {
+                    pieces
+                        .elastic(way.method, &portion, &broken.body)
+                        .map_err(|e| VerifyError::Thread {
+                            reason: e.to_string(),
+                        })?;
+                }
+            }
+        }
+        Ok(Self(ways.into()))
+    }
+
+    /// An earlier way that makes the same of a piece of so many tetrahedra.
+    pub(crate) fn same_as(&self, way: usize, tets: usize) -> Option<usize> {
+        let what = |i: usize| {
+            let pieces = &self.0[i];
+            (pieces.method_for(tets), pieces.elements, pieces.modes)
+        };
+        (0..way).find(|&i| what(i) == what(way))
+    }
+
+    /// What a way makes of a piece.
+    pub(crate) fn elastic(
+        &self,
+        way: usize,
+        portion: &Arc<Portion>,
+        parent: &Body,
+    ) -> Result<Elastic, PieceError> {
+        self.0[way].elastic(WAYS[way].method, portion, parent)
+    }
+}
