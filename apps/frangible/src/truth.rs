@@ -112,7 +112,7 @@ fn of_scene(name: &str) -> Result<Vec<Broken>, Box<dyn Error>> {
             let body = kind.body(seed);
             let outcome = impact(&body, &record.contacts, &scene.fracture)?;
             if let Outcome::Broke(fracture) = outcome {
-                all.push(Broken::new(name, body, *fracture)?);
+                all.push(Broken::new(name, body, *fracture));
             }
         }
     }

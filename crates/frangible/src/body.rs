@@ -304,6 +304,19 @@ impl Body {
         }
     }
 
+    /// The same body, so many times as strong (above 0) and as tough as it was: the stress that a blow would bring is seen
+    /// on one that does not crack.
+    #[must_use]
+    pub fn strengthened(&self, factor: f32) -> Self {
+        let resistance = self.resistance.strengthened(factor);
+        let bounds = &self.prepared.bounds;
+        Self {
+            clusters: WeakClusters::new(&self.asset, &self.weak_tets, bounds, &resistance),
+            resistance,
+            ..self.clone()
+        }
+    }
+
     /// k of the stress bounds' quadratic term, Pa.
     pub(crate) fn quadratic_modulus(&self, config: &FractureConfig) -> f32 {
         if config.green_lagrange {

@@ -20,9 +20,7 @@ impl Truth {
     pub(crate) fn errors_chart(&self) -> Chart {
         let series = WAYS.iter().enumerate().map(|(way, named)| {
             let blows = of_way(&self.pieces, way).flat_map(|(_, s)| s.blows.iter());
-            let errors: Vec<f64> = blows
-                .filter_map(|b| b.stress.map(|s| 100.0 * (s - 1.0).abs()))
-                .collect();
+            let errors: Vec<f64> = blows.map(|b| 100.0 * (b.stress - 1.0).abs()).collect();
             let points = (1..=POINTS).filter_map(|k| {
                 let share = k as f64 / POINTS as f64;
                 Some((quantile(&errors, share)?.max(0.1), 100.0 * share))

@@ -2,16 +2,11 @@
 
 use std::sync::Arc;
 
-use frangible::{Body, Breakable, Factors, Fields, Fracture, Portion};
-
-use crate::VerifyError;
+use frangible::{Body, Fracture, Portion};
 
 /// Fewest uncut tetrahedra and least mass, kg, of a piece that breaks again: those of the world's default.
 pub(crate) const LEAST_TETS: usize = 60;
 pub(crate) const LEAST_MASS: f64 = 2e-3;
-
-/// How much stronger the body is on which stresses are measured before any crack.
-pub(crate) const STRONGER: f32 = 1e3;
 
 /// A body that broke, and its pieces.
 #[derive(Clone, Debug)]
@@ -22,45 +17,17 @@ pub struct Broken {
     pub body: Body,
     /// What came of it.
     pub fracture: Fracture,
-    /// The same body, too strong to crack: its pieces show the stress that there would be.
-    pub(crate) strong: Body,
 }
 
 impl Broken {
-    /// # Errors
-    /// A body whose weak points are not those of its asset and seed alone (fields that make them denser somewhere).
-    pub fn new(
-        name: impl Into<String>,
-        body: Body,
-        fracture: Fracture,
-    ) -> Result<Self, VerifyError> {
-        let failed = |source| VerifyError::Impact {
-            case: "pieces",
-            source,
-        };
-        let asset = Arc::clone(body.asset());
-        let material = asset.material.strength as f32;
-        let mut fields = Fields::default();
-        let of_tet = (0..asset.fracture.tets.len() as u32).map(|e| Factors {
-            strength: STRONGER * body.strength(e) / material,
-            ..Factors::ONE
-        });
-        fields.of_tet = of_tet.collect();
-        let strong = Breakable::new(asset)
-            .and_then(|kind| kind.with_fields(fields))
-            .map_err(failed)?
-            .body(body.seed());
-        if strong.weak_tets() != body.weak_tets() {
-            return Err(VerifyError::Thread {
-                reason: "a body with painted weak points cannot be measured".into(),
-            });
-        }
-        Ok(Self {
+    /// A body, and what came of it.
+    #[must_use]
+    pub fn new(name: impl Into<String>, body: Body, fracture: Fracture) -> Self {
+        Self {
             name: name.into(),
             body,
             fracture,
-            strong,
-        })
+        }
     }
 
     /// The fragments that may break again, with their numbers.

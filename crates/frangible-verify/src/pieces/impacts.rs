@@ -3,7 +3,8 @@
 use frangible::glam::Vec3;
 use frangible::{Body, Contact, FractureConfig, InputError, Material, Outcome, Striker, impact};
 
-use super::choose::STRONGER;
+/// How much stronger the body is on which stresses are measured before any crack.
+pub(crate) const STRONGER: f32 = 1e3;
 
 /// What the stress is to be at most, in strengths: far below, just above, well above.
 pub(crate) const LEVELS: [f64; 3] = [0.5, 1.2, 3.0];

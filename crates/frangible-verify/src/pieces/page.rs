@@ -269,21 +269,24 @@ impl Truth {
                 .map_or("", |w| w.name)
         );
         let pieces = frangible_pieces::Pieces::default();
-        let smallest = (1..100_000).find(|&t| pieces.method_for(t) == Method::Reanalysis);
-        match smallest {
-            Some(1) => text.push_str("a reanalysis for every piece"),
-            Some(tets) => {
-                let _ = write!(
-                    text,
-                    "statics below {tets} uncut tetrahedra and a reanalysis from there on"
-                );
-            }
-            None => text.push_str("no reanalysis at all"),
-        }
+        let sizes = [100, 2000, 8000, 20_000];
+        let of_sizes: Vec<String> = sizes
+            .iter()
+            .map(|&tets| format!("{} of {tets}", pieces.elements_for(tets)))
+            .collect();
+        let same = sizes
+            .iter()
+            .all(|&t| pieces.method_for(t) == Method::Reanalysis);
         let _ = write!(
             text,
-            ", on about {} elements with {} modes. ",
-            pieces.elements, pieces.modes
+            "{}, {} modes, on about as many elements as the size asks for ({} uncut tetrahedra). ",
+            if same {
+                "a reanalysis of every piece"
+            } else {
+                "a method by size"
+            },
+            pieces.modes,
+            of_sizes.join(", ")
         );
         let error = |w: usize| worth[w].stress.map_or(f64::INFINITY, |s| s[0]);
         let in_time = |w: &usize| worth[*w].ready.is_some_and(|r| r <= TARGETS[3]);

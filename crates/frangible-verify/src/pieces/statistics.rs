@@ -37,7 +37,7 @@ impl Worth {
             .flat_map(|(p, w)| frequency_errors(p, w))
             .collect();
         let blows = served.clone().flat_map(|(_, w)| &w.blows);
-        let ratios: Vec<f64> = blows.clone().filter_map(|b| b.stress).collect();
+        let ratios: Vec<f64> = blows.clone().map(|b| b.stress).collect();
         let errors: Vec<f64> = ratios.iter().map(|r| (r - 1.0).abs()).collect();
         let apart: Vec<f64> = blows.filter_map(|b| b.apart).collect();
         let decided: Vec<bool> = served.clone().flat_map(|(p, w)| decisions(p, w)).collect();

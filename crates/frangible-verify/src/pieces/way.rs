@@ -15,7 +15,7 @@ pub struct Way {
     pub name: &'static str,
     /// The method; [`Method::Auto`]: what [`Pieces::method_for`] says of the piece's size.
     pub method: Method,
-    /// Quadratic elements and modes; none: those of [`Pieces::default`].
+    /// Quadratic elements and modes; none: those of [`Pieces::default`], by the piece's size.
     pub size: Option<(usize, usize)>,
 }
 
@@ -78,7 +78,7 @@ impl Ways {
         let ways = WAYS.map(|way| {
             let mut pieces = Pieces::new(way.method);
             if let Some((elements, modes)) = way.size {
-                (pieces.elements, pieces.modes) = (elements, modes);
+                (pieces.elements, pieces.modes) = (Some(elements), modes);
             }
             pieces
         });
@@ -86,9 +86,15 @@ impl Ways {
             if way.method != Method::ModalProxy {
                 continue;
             }
+            let mut known: Vec<f64> = Vec::new();
             for broken in broken {
+                let ratio = broken.body.asset().material.poisson_ratio;
+                if known.contains(&ratio) {
+                    continue;
+                }
                 let first = broken.portions().next();
                 if let Some((_, portion)) = first {
+                    known.push(ratio);
                     pieces
                         .elastic(way.method, &portion, &broken.body)
                         .map_err(|e| VerifyError::Thread {
@@ -104,7 +110,8 @@ impl Ways {
     pub(crate) fn same_as(&self, way: usize, tets: usize) -> Option<usize> {
         let what = |i: usize| {
             let pieces = &self.0[i];
-            (pieces.method_for(tets), pieces.elements, pieces.modes)
+            let elements = pieces.elements_for(tets);
+            (pieces.method_for(tets), elements, pieces.modes)
         };
         (0..way).find(|&i| what(i) == what(way))
     }

@@ -85,6 +85,17 @@ impl Resistance {
         body
     }
 
+    /// So many times as strong, as tough as before.
+    pub(crate) fn strengthened(&self, factor: f32) -> Self {
+        let factor = factor.max(f32::MIN_POSITIVE);
+        Self {
+            material: self.material * f64::from(factor),
+            of_tet: self.of_tet.iter().map(|r| r * factor).collect(),
+            weakest: self.weakest * f64::from(factor),
+            ..self.clone()
+        }
+    }
+
     /// Of a part of the body, with these weak tetrahedra.
     pub(crate) fn of_part(&self, weak_tets: &[u32]) -> Self {
         let weakest = weak_tets.iter().map(|&e| self.strength(e));

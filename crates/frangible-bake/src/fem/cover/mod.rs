@@ -36,6 +36,15 @@ const FICTITIOUS: f64 = 1e-8;
 /// A cell whose volume is off by no more than this share is full: rounding of the cuts.
 const FULL: f64 = 1e-9;
 
+/// Relative error in the number of elements that will do …
+const NEAR: f64 = 0.02;
+/// … and of a piece, where each attempt costs as much as a tenth of its modes.
+const NEAR_OF_PIECE: f64 = 0.2;
+
+/// A part of a piece's tetrahedron below this share of its element is integrated as if products of strains were quadratic in
+/// it: the error goes with the fourth power of its size over the element's.
+const SMALL: f64 = 1.0 / 24.0;
+
 /// A lattice of quadratic elements that covers a body.
 #[derive(Clone, Debug)]
 pub struct Cover {
@@ -57,11 +66,12 @@ impl Cover {
     /// # Errors
     /// No tetrahedra, one without volume or with a node that is not there, or no elements wanted.
     pub fn new(body: &BodyMesh, elements_wanted: usize) -> Result<Self, BakeError> {
-        Self::on_threads(body, &face_pairs(body), elements_wanted, true)
+        Self::of(body, &face_pairs(body), elements_wanted, false)
     }
 
     /// The same for a body whose tetrahedra hang together as `faces` says, pairs of them: of two on both sides of a crack
-    /// nothing passes from one to the other. On the calling thread alone: pieces are covered side by side.
+    /// nothing passes from one to the other. While somebody waits: the number of elements within a fifth, and on the calling
+    /// thread alone, since pieces are covered side by side.
     ///
     /// # Errors
     /// As [`Cover::new`].
@@ -70,14 +80,14 @@ impl Cover {
         faces: &[[u32; 2]],
         elements_wanted: usize,
     ) -> Result<Self, BakeError> {
-        Self::on_threads(body, faces, elements_wanted, false)
+        Self::of(body, faces, elements_wanted, true)
     }
 
-    fn on_threads(
+    fn of(
         body: &BodyMesh,
         faces: &[[u32; 2]],
         elements_wanted: usize,
-        threads: bool,
+        piece: bool,
     ) -> Result<Self, BakeError> {
         positive("the number of elements wanted", elements_wanted as f64)?;
         let mut volume = 0.0;
@@ -97,7 +107,8 @@ impl Cover {
             volume += of_tet;
         }
         positive("the volume of the body, in m³,", volume)?;
-        let (lattice, topology) = choose_lattice(body, faces, volume, elements_wanted);
+        let near = if piece { NEAR_OF_PIECE } else { NEAR };
+        let (lattice, topology) = choose_lattice(body, faces, volume, elements_wanted, near);
         let (elements, points) = topology.nodes(faces);
         let mesh = QuadraticMesh {
             positions: points.into_iter().map(|q| lattice.position(q)).collect(),
@@ -107,7 +118,7 @@ impl Cover {
             element_of_tet: elements_of_tets(body, &topology, &lattice),
             element_of_node: elements_of_nodes(body, &topology, &lattice),
             side: lattice.side,
-            moments: integrate(body, &topology, &lattice, threads),
+            moments: integrate(body, &topology, &lattice, piece),
             mesh,
         })
     }
@@ -242,13 +253,8 @@ fn full_elements(topology: &Topology) -> Vec<bool> {
     volumes.into_iter().map(full).collect()
 }
 
-/// Moments of the body in each element, m³; the same on one thread and on several.
-fn integrate(
-    body: &BodyMesh,
-    topology: &Topology,
-    lattice: &Lattice,
-    threads: bool,
-) -> Vec<Moments> {
+/// Moments of the body in each element, m³; the same on one thread and on several. Of a piece at once and a little less exactly.
+fn integrate(body: &BodyMesh, topology: &Topology, lattice: &Lattice, piece: bool) -> Vec<Moments> {
     /// Shares of the work: fixed, and summed in order, so that the bits do not depend on the number of threads.
     const SHARES: usize = 8;
     let cube = lattice.side.powi(3);
@@ -270,7 +276,12 @@ fn integrate(
                 let mut with_cell = fragments.iter().filter(|f| f.cell == cell);
                 if let Some(fragment) = with_cell.next().filter(|f| !done(f)) {
                     let e = fragment.element as usize;
-                    moments[e].add(part.map(|p| frames[e].barycentric(p)), volume * cube);
+                    let corners = part.map(|p| frames[e].barycentric(p));
+                    if piece && volume < SMALL * CELL_VOLUME {
+                        moments[e].add_small(corners, volume * cube);
+                    } else {
+                        moments[e].add(corners, volume * cube);
+                    }
                 }
             });
         }
@@ -284,7 +295,7 @@ fn integrate(
         moments.add(corners, (filled + FICTITIOUS) * CELL_VOLUME * cube);
     }
     let mut merge = |share: &[Moments]| moments.iter_mut().zip(share).for_each(|(a, b)| a.merge(b));
-    if !threads {
+    if piece {
         (0..SHARES).for_each(|number| merge(&share(number)));
         return moments;
     }

@@ -23,6 +23,9 @@ const VERTEX_POINTS: [(f64, f64); 2] = [
 ];
 const EDGE_POINTS: (f64, f64) = (0.042_546_020_777_081_466, 0.045_503_704_125_649_65);
 
+/// The rule of second order: the three equal coordinates of its points, (5 − √5)/20.
+const FOUR_POINTS: f64 = 0.138_196_601_125_010_5;
+
 /// Where the monomials start whose lowest factor is L_i: of second, third and fourth order.
 const PAIR: [usize; 4] = [0, 4, 7, 9];
 const TRIPLE: [usize; 4] = [0, 10, 16, 19];
@@ -49,6 +52,15 @@ impl Moments {
                 };
                 self.add_point(std::array::from_fn(place), weight * volume);
             }
+        }
+    }
+
+    /// The same of a tetrahedron much smaller than the element, by the four points that integrate quadratic functions.
+    pub(crate) fn add_small(&mut self, corners: [[f64; 4]; 4], volume: f64) {
+        let sum: [f64; 4] = std::array::from_fn(|i| (0..4).map(|c| corners[c][i]).sum());
+        for corner in &corners {
+            let place = |i: usize| FOUR_POINTS * sum[i] + (1.0 - 4.0 * FOUR_POINTS) * corner[i];
+            self.add_point(std::array::from_fn(place), 0.25 * volume);
         }
     }
 

@@ -6,8 +6,8 @@ use crate::fem::cover::lattice::{CELL_VOLUME, Cell, Lattice};
 use crate::fem::cover::topology::Topology;
 use crate::mesh::BodyMesh;
 
-/// Relative error in the number of elements that will do.
-const NEAR_ENOUGH: f64 = 0.02;
+/// Relative error that will do in what is counted in no time.
+const SAMPLED: f64 = 0.02;
 /// Attempts at it: full ones, and counts before each.
 const ATTEMPTS: usize = 4;
 const COUNTS: usize = 12;
@@ -16,12 +16,13 @@ const ENOUGH: usize = 8;
 /// Most cubes along an edge of the body: bounds the parts that one tetrahedron is cut into.
 const CUBES_PER_EDGE: f64 = 16.0;
 
-/// Finds the side of the cubes that gives about the wanted number of elements.
+/// Finds the side of the cubes that gives about the wanted number of elements; `near`: relative error in it that will do.
 pub(crate) fn choose_lattice(
     body: &BodyMesh,
     faces: &[[u32; 2]],
     volume: f64,
     wanted: usize,
+    near: f64,
 ) -> (Lattice, Topology) {
     let low = body
         .positions
@@ -50,19 +51,19 @@ pub(crate) fn choose_lattice(
     // Elements that fill a solid body; a thin one takes more of them.
     let mut side = (volume / (CELL_VOLUME * wanted as f64)).cbrt();
     if points.len() < ENOUGH * wanted {
-        side = side_for(&counted, side, wanted as f64);
+        side = side_for(&counted, side, wanted as f64, near);
         return attempt(side);
     }
     let mut target = wanted as f64;
-    side = side_for(&sampled, side, target);
+    side = side_for(&sampled, side, target, near.min(SAMPLED));
     let mut best = attempt(side);
     for _ in 1..ATTEMPTS {
         let excess = best.1.cells.len() as f64 / wanted as f64;
-        if (excess - 1.0).abs() <= NEAR_ENOUGH {
+        if (excess - 1.0).abs() <= near {
             break;
         }
         target /= excess;
-        side = side_for(&sampled, side, target);
+        side = side_for(&sampled, side, target, near.min(SAMPLED));
         let next = attempt(side);
         let better = next.1.cells.len().abs_diff(wanted) < best.1.cells.len().abs_diff(wanted);
         if !better {
@@ -74,12 +75,12 @@ pub(crate) fn choose_lattice(
 }
 
 /// Side at which `count` is near `target`, starting from `side`.
-fn side_for(count: &dyn Fn(f64) -> f64, side: f64, target: f64) -> f64 {
+fn side_for(count: &dyn Fn(f64) -> f64, side: f64, target: f64, near: f64) -> f64 {
     let excess = |side: f64| (count(side) / target).ln();
     let (mut best, mut power) = ((side, excess(side)), 2.0);
     let mut last = best;
     for _ in 0..COUNTS {
-        if best.1.abs() <= NEAR_ENOUGH / 4.0 {
+        if best.1.abs() <= near / 4.0 {
             break;
         }
         // The count falls with a power of the side: about 3 for a solid, 2 for a sheet.
