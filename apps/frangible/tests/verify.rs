@@ -62,7 +62,7 @@ fn a_folder_that_cannot_be_made_is_refused_before_anything_is_computed() {
     let folder = folder("file");
     let file = folder.join("taken");
     fs::write(&file, "a file").expect("a file");
-    for what in [&[][..], &["experiments"]] {
+    for what in [&[][..], &["experiments"], &["pieces"]] {
         let output = verify(what, &file);
         assert!(!output.status.success());
         let message = text(&output.stderr);
