@@ -171,7 +171,7 @@ pub(crate) struct VerifyArgs {
     #[arg(long, value_name = "DIR")]
     pub(crate) write: Option<PathBuf>,
 
-    /// Of `verify pieces`: so many fragments, 1 to 10000 [default: 208]
+    /// Of `verify pieces`: so many fragments, 1 to 10000 [default: 200]
     #[arg(long, value_name = "N", value_parser = clap::builder::RangedU64ValueParser::<usize>::new().range(1..=10_000))]
     pub(crate) count: Option<usize>,
 }

@@ -9,7 +9,7 @@ use super::choose::{Broken, Chosen};
 use super::measure::{FREQUENCIES, PieceSample};
 
 /// Tetrahedra and elements of the new meshes.
-const TETS: usize = 30_000;
+const TETS: usize = 20_000;
 
 /// A fragment baked from its surface.
 #[derive(Clone, Debug)]

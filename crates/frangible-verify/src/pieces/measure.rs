@@ -24,7 +24,7 @@ const DRAWS: usize = 4;
 const ENOUGH: f64 = 0.4;
 
 /// Elements and modes of the analyses of a piece without its cracks and with them: many, since both lattices differ.
-const SOFTENED: (usize, usize) = (1500, 4);
+const SOFTENED: (usize, usize) = (900, 4);
 
 /// A piece, its truth and what every way makes of it.
 #[derive(Clone, Debug)]

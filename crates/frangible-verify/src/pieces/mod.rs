@@ -47,7 +47,7 @@ impl TruthPlan {
     #[must_use]
     pub const fn full() -> Self {
         Self {
-            fragments: 208,
+            fragments: 200,
             baked: 10,
             elements: 3000,
             modes: 100,

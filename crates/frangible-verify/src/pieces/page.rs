@@ -5,7 +5,7 @@ use std::fmt::Write;
 use frangible_pieces::Method;
 
 use super::statistics::{Worth, decisions, quantile};
-use super::way::{AUTO, FINE, PARENT_MODES, REANALYSIS, WAYS};
+use super::way::{AUTO, FINE, PARENT_MODES, WAYS};
 use super::{PieceSample, Truth};
 use crate::VerifyError;
 use crate::experiments::{Page, table};
@@ -144,7 +144,7 @@ impl Truth {
         let mut rows = Vec::new();
         for bounds in CLASSES.windows(2) {
             let class = |p: &&PieceSample| (bounds[0]..bounds[1]).contains(&p.tets);
-            for way in 0..WAYS.len() - 1 {
+            for way in 0..WAYS.len() {
                 let worth = Worth::of(self.pieces.iter().filter(class), way);
                 if worth.served == 0 {
                     continue;
@@ -210,9 +210,9 @@ impl Truth {
     }
 
     fn targets(&self, text: &mut String) {
-        let worth = Worth::of(self.pieces.iter(), REANALYSIS);
+        let worth = Worth::of(self.pieces.iter(), AUTO);
         let class = |p: &&PieceSample| TARGET_TETS.contains(&p.tets);
-        let near = Worth::of(self.pieces.iter().filter(class), REANALYSIS);
+        let near = Worth::of(self.pieces.iter().filter(class), AUTO);
         let line = |met: Option<bool>, what: String| {
             let verdict = match met {
                 Some(true) => "met",
@@ -223,8 +223,8 @@ impl Truth {
         };
         let _ = writeln!(
             text,
-            "## What a reanalysis is to reach\n\n*{}*:\n\n{}{}{}{}",
-            WAYS[REANALYSIS].name,
+            "## What a reanalysis is to reach\n\n*{}*, a reanalysis on as many elements as the size asks for:\n\n{}{}{}{}",
+            WAYS[AUTO].name,
             line(
                 worth.frequency.map(|f| f[0] <= TARGETS[0]),
                 format!(
@@ -375,7 +375,8 @@ impl Truth {
         let _ = writeln!(
             text,
             "## Is the truth true?\n\n{} of the free pieces were also meshed anew from their closed surface, whose rough crack faces the new \
-             mesh rounds a little, and baked. Frequencies of the full analysis against that bake: {} in the median, {} at most.\n\n{}",
+             mesh rounds a little, and baked; what cracks a piece keeps inside, its surface does not show, so that such a piece is softer than its \
+             bake. Frequencies of the full analysis against that bake: {} in the median, {} at most.\n\n{}",
             self.baked.len(),
             per_cent(quantile(&errors, 0.5)),
             per_cent(quantile(&errors, 1.0)),

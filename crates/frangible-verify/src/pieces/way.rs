@@ -20,7 +20,7 @@ pub struct Way {
 }
 
 /// All ways, in the order of the tables.
-pub const WAYS: [Way; 8] = [
+pub const WAYS: [Way; 7] = [
     Way {
         name: "modal proxy",
         method: Method::ModalProxy,
@@ -52,11 +52,6 @@ pub const WAYS: [Way; 8] = [
         size: Some((600, 40)),
     },
     Way {
-        name: "reanalysis, 1200 elements, 60 modes",
-        method: Method::Reanalysis,
-        size: Some((1200, 60)),
-    },
-    Way {
         name: "auto",
         method: Method::Auto,
         size: None,
@@ -66,8 +61,8 @@ pub const WAYS: [Way; 8] = [
 /// Places of the ways that the page speaks of.
 pub(crate) const PARENT_MODES: usize = 1;
 pub(crate) const REANALYSIS: usize = 4;
-pub(crate) const FINE: usize = 6;
-pub(crate) const AUTO: usize = 7;
+pub(crate) const FINE: usize = 5;
+pub(crate) const AUTO: usize = 6;
 
 /// The ways with what they need.
 pub(crate) struct Ways(Vec<Pieces>);
