@@ -363,9 +363,7 @@ impl Lists {
         numbers.dedup();
         let local = |v: u32| (label(v) == own).then(|| places[v as usize]);
         let healed = self.heal(body, breakup, local);
-        let keep = |cut: &EdgeCut| {
-            cut.ends.map(label) != [own; 2] || !healed.iter().any(|ends| *ends == cut.ends)
-        };
+        let keep = |cut: &EdgeCut| cut.ends.map(label) != [own; 2] || !healed.contains(&cut.ends);
         let cuts = numbers.iter().map(|&n| breakup.cuts.list()[n as usize]);
         self.cuts = cuts.filter(keep).collect();
         self.remember(breakup, |tet| {
