@@ -131,6 +131,7 @@ fn passes(body: &Body, suspects: &Suspects, step: usize) -> bool {
 fn at_strength(body: &Body) -> Peak {
     Peak {
         tension: f32::INFINITY,
+        tet: 0,
         as_weakest: body.weakest() as f32,
     }
 }
