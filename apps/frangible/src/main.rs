@@ -58,6 +58,11 @@ fn main() -> ExitCode {
         Some(Command::Break(command)) => breaking::run(command.file.as_deref(), &command.args),
         Some(Command::Bake(args)) => baking::run(&args),
         Some(Command::Modes(args)) => modes::run(&args),
+        Some(Command::Verify(args))
+            if args.count.is_some() && args.what != Some(Verification::Pieces) =>
+        {
+            Err("--count goes with `frangible verify pieces`".into())
+        }
         Some(Command::Verify(args)) if args.what == Some(Verification::Experiments) => {
             experimenting::run(&args)
         }

@@ -1,4 +1,6 @@
-//! How pieces of broken bodies vibrate, so that they break again.
+//! How pieces of broken bodies vibrate, so that they break again: four ways, and [`Pieces`], which chooses.
+//!
+//! How right each way is, and what it costs, is measured by `frangible verify pieces` (`docs/recursive.md`).
 
 mod dense;
 mod error;

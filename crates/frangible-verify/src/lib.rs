@@ -52,9 +52,9 @@ pub enum VerifyError {
         /// What was said.
         source: InputError,
     },
-    /// Work that was to go on beside other work did not.
+    /// The ways to find how pieces vibrate could not be compared.
     #[error("the pieces could not be compared: {reason}")]
-    Thread {
+    Pieces {
         /// What stood in the way.
         reason: String,
     },

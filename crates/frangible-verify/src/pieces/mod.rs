@@ -131,7 +131,7 @@ fn side_by_side<T: Sync, R: Send>(
 ) -> Result<Vec<R>, VerifyError> {
     let (next, done) = (AtomicUsize::new(0), AtomicUsize::new(0));
     let results: Mutex<Vec<(usize, Result<R, VerifyError>)>> = Mutex::default();
-    let failed = |reason: String| VerifyError::Thread { reason };
+    let failed = |reason: String| VerifyError::Pieces { reason };
     hear(0.0);
     let one = || {
         loop {

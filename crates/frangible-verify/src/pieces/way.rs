@@ -92,7 +92,7 @@ impl Ways {
                     known.push(ratio);
                     pieces
                         .elastic(way.method, &portion, &broken.body)
-                        .map_err(|e| VerifyError::Thread {
+                        .map_err(|e| VerifyError::Pieces {
                             reason: e.to_string(),
                         })?;
                 }
