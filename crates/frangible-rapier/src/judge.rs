@@ -22,6 +22,7 @@ use crate::replace::Parts;
 use crate::world::{BreakFn, BreakableWorld, Key, key};
 
 /// What an impact does to a body.
+#[expect(clippy::large_enum_variant, reason = "one per impact, soon gone")]
 pub(crate) enum Verdict {
     /// It stays whole.
     Held(Outcome),
