@@ -61,10 +61,13 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
+/// Number of a scene, and its broken bodies.
+type OfScene = (usize, Result<Vec<Broken>, String>);
+
 /// The bodies of all built-in scenes, broken as the scenes break them, each with several seeds.
 fn broken(threads: usize, hear: &(dyn Fn(f64) + Sync)) -> Result<Vec<Broken>, Box<dyn Error>> {
     let (next, done) = (AtomicUsize::new(0), AtomicUsize::new(0));
-    let found: Mutex<Vec<(usize, Result<Vec<Broken>, String>)>> = Mutex::default();
+    let found: Mutex<Vec<OfScene>> = Mutex::default();
     let work = || {
         loop {
             let i = next.fetch_add(1, Ordering::Relaxed);
