@@ -67,7 +67,7 @@ fn check(body: &Body, fracture: &Fracture, seen: &mut Seen) {
         }
         let elastic = reanalysis(portion, 150, 20).expect("modes");
         let piece = body.piece(portion, elastic).expect("a piece");
-        let own: Vec<u32> = body.weak_tets().iter().copied().collect();
+        let own = body.weak_tets();
         assert!(
             piece
                 .weak_tets()

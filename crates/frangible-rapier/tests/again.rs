@@ -40,7 +40,7 @@ fn fall(method: Option<Method>, change: impl Fn(&mut WorldConfig)) -> (Vec<Break
         .unwrap();
     if let Some(method) = method {
         let mut pieces = Pieces::new(method);
-        (pieces.elements, pieces.modes) = (150, 20);
+        (pieces.elements, pieces.modes) = (Some(150), 20);
         world.set_piece_model(Some(Arc::new(pieces)));
     }
     let body = Breakable::new(Arc::clone(pane()))
