@@ -22,7 +22,7 @@ const PICTURES: &str = "recursive";
 /// By then every body of a scene has met what breaks it, s.
 const DURATION: f64 = 1.0;
 /// Bodies that take the blow of each scene, each with weak points of its own.
-const SEEDS: u64 = 3;
+const SEEDS: u64 = 4;
 /// Share of the work that goes into breaking the scenes.
 const BREAKING: f64 = 0.3;
 

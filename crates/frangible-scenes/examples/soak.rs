@@ -47,7 +47,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     config.pieces.least_mass = 2e-3;
     let mut world = BreakableWorld::new(config)?;
     let mut pieces = Pieces::new(Method::Auto);
-    (pieces.elements, pieces.modes) = (100, 15);
+    (pieces.elements, pieces.modes) = (Some(100), 15);
     world.set_piece_model(Some(Arc::new(pieces)));
     world.insert_fixed_half_space(Vector::ZERO, Vector::Y, SurfaceProperties::STONE)?;
     let (mut breaks, mut again, mut told) = (0, 0, 0);
