@@ -163,10 +163,15 @@ fn integrals(
     let (mut stiffness, mut mass) = (Mat::<f64>::zeros(m, m), Mat::<f64>::zeros(m, m));
     let mesh = &portion.root().fracture;
     // Of many tetrahedra some: the shapes vary over the coarse elements only.
+    // One of each run, but not always the same: meshes repeat themselves every few tetrahedra.
     let stride = tets.len().div_ceil(SAMPLES).max(1);
-    let own = portion.tets().iter().step_by(stride);
-    let volumes: Vec<f64> = own.map(|&e| mesh.volume(e as usize)).collect();
-    let tets: Vec<EmbeddedPoint> = tets.iter().step_by(stride).copied().collect();
+    let scattered = |first: usize| (first / stride).wrapping_mul(0x9e37_79b9) >> 7;
+    let chosen = (0..tets.len()).step_by(stride);
+    let chosen = chosen.map(|first| (first + scattered(first) % stride).min(tets.len() - 1));
+    let chosen: Vec<usize> = chosen.collect();
+    let own = chosen.iter().map(|&i| portion.tets()[i]);
+    let volumes: Vec<f64> = own.map(|e| mesh.volume(e as usize)).collect();
+    let tets: Vec<EmbeddedPoint> = chosen.iter().map(|&i| tets[i]).collect();
     // Those left out, and those that are cut, count with the others.
     let scale = portion.mass().volume / volumes.iter().sum::<f64>();
     let (lambda, mu) = (asset.material.lame_lambda(), asset.material.shear_modulus());
