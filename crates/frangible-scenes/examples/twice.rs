@@ -82,12 +82,15 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
+/// Speed, m/s, blow, and what it left.
+type Cracked = (f64, Contact, Body);
+
 /// The lowest speed that cracks the cup there and leaves it whole, the blow, and the cracked cup.
 fn first_crack(
     body: &Body,
     side: usize,
     config: &FractureConfig,
-) -> Result<Option<(f64, Contact, Body)>, Box<dyn Error>> {
+) -> Result<Option<Cracked>, Box<dyn Error>> {
     let steel = Material::preset("steel")?;
     let striker = Striker::ball(&steel, 0.06, 0.0122);
     let angle = std::f32::consts::TAU * side as f32 / PLACES as f32;
