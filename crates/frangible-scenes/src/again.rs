@@ -25,17 +25,16 @@ const BOARD: [f64; 3] = [0.6, 0.2, 0.006];
 /// A dinner plate that breaks on the floor, and whose shards break as they land.
 pub(crate) fn shards() -> Result<Scene, SceneError> {
     let plate = BodySpec {
-        rotation: Quat::from_rotation_z(0.35) * upright(),
+        rotation: Quat::from_rotation_z(85.0_f32.to_radians()) * upright(),
         ..body("plate", Shape::dinner_plate(), "porcelain", 100)?
     };
     let mut scene = Scene {
         name: "shards".into(),
-        summary: "a porcelain plate dropped from 2.5 m, whose shards break again as they land"
+        summary: "a porcelain plate dropped on its edge, whose shards break again as they land"
             .into(),
-        seed: 2,
         ..again(plate)
     };
-    scene.drop_all(2.5);
+    scene.drop_all(1.5);
     Ok(scene)
 }
 
@@ -50,7 +49,7 @@ pub(crate) fn five_blows() -> Result<Scene, SceneError> {
         at: Quat::from_rotation_y(0.3) * Vec3::new(x, 0.0, 0.0),
         delay: 0.45 * i as f64,
         stays: Some(0.25),
-        ..Projectile::hammer(0.5, 0.018, 6.0)
+        ..Projectile::hammer(0.8, 0.018, 9.0)
     });
     Ok(Scene {
         name: "five-blows".into(),
