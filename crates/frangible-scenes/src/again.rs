@@ -32,6 +32,7 @@ pub(crate) fn shards() -> Result<Scene, SceneError> {
         name: "shards".into(),
         summary: "a porcelain plate dropped on its edge, whose shards break again as they land"
             .into(),
+        seed: 3,
         ..again(plate)
     };
     scene.drop_all(1.5);
@@ -49,7 +50,7 @@ pub(crate) fn five_blows() -> Result<Scene, SceneError> {
         at: Quat::from_rotation_y(0.3) * Vec3::new(x, 0.0, 0.0),
         delay: 0.45 * i as f64,
         stays: Some(0.25),
-        ..Projectile::hammer(0.8, 0.018, 9.0)
+        ..Projectile::hammer(0.5, 0.018, 7.5)
     });
     Ok(Scene {
         name: "five-blows".into(),
