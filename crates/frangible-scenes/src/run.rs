@@ -66,7 +66,7 @@ pub fn play(
     for frame in 1..=frames {
         stage.throw(scene, run.simulated)?;
         let clock = Instant::now();
-        let steps = steps_of_frame(&mut stage, frame <= fine_until);
+        let steps = steps_of_frame(&mut stage, scene, frame <= fine_until);
         let Stage {
             world,
             recorder,
@@ -161,15 +161,16 @@ fn at_rest(world: &BreakableWorld, projectiles: &[Thrown]) -> bool {
 }
 
 /// Physics steps of the coming frame: finer where a body that has not broken yet may be hit, or a piece may.
-fn steps_of_frame(stage: &mut Stage<'_>, just_broken: bool) -> usize {
+fn steps_of_frame(stage: &mut Stage<'_>, scene: &Scene, just_broken: bool) -> usize {
     let world = &mut stage.world;
     let mut whole = stage
         .bodies
         .iter()
         .filter(|body| world.breakable(body.handle).is_some());
     let first = whole.next().is_some();
-    // Of many bodies some may stay whole to the end.
-    if (just_broken && stage.bodies.len() <= FEW) || (first && stage.bodies.len() == 1) {
+    // Where pieces break again some bodies may stay whole to the end.
+    let waits = first && (stage.bodies.len() == 1 || scene.pieces.generations == 0);
+    if (just_broken && stage.bodies.len() <= FEW) || waits {
         return FINE_STEPS_PER_FRAME;
     }
     if world.breakables().next().is_none() {
