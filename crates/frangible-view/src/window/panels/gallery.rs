@@ -9,19 +9,23 @@ macro_rules! picture {
 }
 
 /// Scene and PNG; just after the break, from the pictures of the gallery.
-const PICTURES: [(&str, &[u8]); 13] = [
+const PICTURES: [(&str, &[u8]); 17] = [
     picture!("bowl"),
     picture!("brick"),
     picture!("cantilever"),
     picture!("chocolate"),
+    picture!("crockery"),
+    picture!("five-blows"),
     picture!("glass"),
     picture!("hammer"),
     picture!("pane"),
     picture!("piggy-bank"),
     picture!("plate"),
     picture!("rabbit"),
+    picture!("shards"),
     picture!("shelf"),
     picture!("vase"),
+    picture!("wall"),
     picture!("window"),
 ];
 
