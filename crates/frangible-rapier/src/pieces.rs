@@ -79,11 +79,11 @@ impl BreakableWorld {
             };
             let (at_once, later) = (Arc::clone(&model), Arc::clone(&model));
             let (parent, whole) = (body.clone(), Arc::clone(&portion));
-            self.expect(handle, limits.delay, None, move || {
+            self.promise(handle, limits.delay, None, move || {
                 made(&parent, &whole, at_once.at_once(&whole, &parent))
             });
             let parent = body.clone();
-            self.expect(handle, limits.later, None, move || {
+            self.promise(handle, limits.later, None, move || {
                 made(&parent, &portion, later.later(&portion))
             });
         }
@@ -100,7 +100,7 @@ impl BreakableWorld {
             return;
         };
         let (cracks, crumbs) = (body.state().clone(), self.config.fracture.crumb_share);
-        self.expect(handle, self.config.pieces.later, Some(cracks), move || {
+        self.promise(handle, self.config.pieces.later, Some(cracks), move || {
             let portion = Arc::new(Portion::of_cracked(&body, crumbs));
             let elastic = model.later(&portion);
             let elastic = elastic.or_else(|| model.at_once(&portion, &body));
@@ -109,7 +109,7 @@ impl BreakableWorld {
     }
 
     /// Has a body made on another thread; it joins the world `delay` seconds from now.
-    fn expect(
+    fn promise(
         &mut self,
         handle: RigidBodyHandle,
         delay: f32,
