@@ -44,7 +44,13 @@ impl BreakableWorld {
         positive("strength of the mortar (Pa)", mortar.strength)?;
         let normal = mortar.normal.try_normalize();
         let normal = normal.ok_or(WorldError::NoNormal(mortar.normal))?;
-        // Axis x of the joint's frame along the normal.
+        let place = |handle: RigidBodyHandle| {
+            let body = self.physics.bodies.get(handle);
+            body.map_or(mortar.centre, |body| body.translation())
+        };
+        // Axis x of the joint's frame from the first body to the second, so that a pull has one sign.
+        let ahead = (place(two) - place(one)).dot(normal) >= 0.0;
+        let normal = if ahead { normal } else { -normal };
         let face = Pose::from_parts(
             mortar.centre,
             Rotation::from_rotation_arc(Vector::X, normal),
@@ -105,8 +111,7 @@ fn is_overloaded(joint: &ImpulseJoint, substep: f32) -> bool {
     // Section modulus of a square face.
     let bending = 6.0 * moment / (area * area.sqrt());
     let shear = Vector::new(0.0, shear[0], shear[1]).length() / area;
-    // The sign of a pull hangs on the order of the bodies, and a press parts nothing; but what presses bends or shears, too,
-    // and masonry under a press is stronger than the loads of a scene.
+    // A press parts nothing.
     let tension = bending + (pull / area).max(0.0);
     tension.max(shear) > strength
 }
