@@ -376,7 +376,7 @@ pub(crate) fn pieces(body: &Body, cracked: Cracked<'_>) -> Outcome {
     for fragment in &mut fragments {
         fragment.mass.centre -= body.origin();
     }
-    let breakup = Breakup::new(&system, labels, traces, fixed);
+    let breakup = Breakup::new(&system, labels, traces, Arc::new(fixed));
     Outcome::Broke(Box::new(Fracture {
         fragments,
         report,

@@ -1,5 +1,7 @@
 //! What a break leaves behind for its pieces.
 
+use std::sync::Arc;
+
 use glam::DVec3;
 
 use crate::crack::CrackSystem;
@@ -16,7 +18,7 @@ pub(crate) struct Breakup {
     /// All cracks.
     pub(crate) state: BodyState,
     /// Points that stay where they are.
-    pub(crate) fixed: FixedPoints,
+    pub(crate) fixed: Arc<FixedPoints>,
     /// One per piece, in the order of the fragments.
     pub(crate) traces: Vec<Trace>,
 }
@@ -39,7 +41,7 @@ impl Breakup {
         system: &CrackSystem,
         labels: Labels,
         traces: Vec<Trace>,
-        fixed: FixedPoints,
+        fixed: Arc<FixedPoints>,
     ) -> Self {
         Self {
             of_node: labels.of_node,

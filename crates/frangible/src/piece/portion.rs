@@ -64,8 +64,8 @@ impl Portion {
             },
         };
         let fixed = match &asset.portion {
-            Some(portion) => FixedPoints::clone(&portion.fixed),
-            None => FixedPoints::default(),
+            Some(portion) => Arc::clone(&portion.fixed),
+            None => Arc::default(),
         };
         let breakup = Breakup::new(&system, labels, Vec::new(), fixed);
         let lists = Lists::of(body, &breakup, &[0]).pop().unwrap_or_default();
@@ -101,7 +101,7 @@ impl Portion {
             next_foreign: lists.next_foreign,
             cuts: lists.cuts,
             first_nodes: lists.first_nodes,
-            fixed: Arc::new(breakup.fixed.clone()),
+            fixed: Arc::clone(&breakup.fixed),
             state: lists.state,
             positions: Vec::new(),
             surface: OuterSurface::default(),
