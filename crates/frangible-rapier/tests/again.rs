@@ -136,8 +136,12 @@ fn limits_hold() {
     assert_eq!(none.0.len(), 1);
     let heavy = fall(Some(Method::ParentModes), |c| c.pieces.least_mass = 10.0);
     assert_eq!(heavy.0.len(), 1);
+    // What the limits keep out is there without them.
+    let deepest = |breaks: &[Break]| breaks.iter().map(|b| b.generation).max();
+    let free = fall(Some(Method::ParentModes), |_| {});
+    assert!(deepest(&free.0) >= Some(2), "{:?}", free.0);
     let once = fall(Some(Method::ParentModes), |c| c.pieces.generations = 1);
-    assert!(once.0.iter().all(|b| b.generation <= 1), "{:?}", once.0);
+    assert_eq!(deepest(&once.0), Some(1), "{:?}", once.0);
 }
 
 #[test]

@@ -7,7 +7,7 @@ use glam::{DVec3, Vec3};
 use crate::asset::{Asset, EmbeddedPoint};
 use crate::config::FractureConfig;
 use crate::contact::PerImpulse;
-use crate::crack::weak_place;
+use crate::crack::{CrackFront, Tip, fronts, tips, weak_place};
 use crate::error::InputError;
 use crate::fields::{Fields, Resistance, Toughness};
 use crate::fragment::{MeshIndex, RenderIndex};
@@ -180,6 +180,7 @@ impl Breakable {
             seed,
             weak_tets,
             state: BodyState::default(),
+            tips: Vec::new(),
             statics: None,
         }
     }
@@ -234,6 +235,8 @@ pub struct Body {
     seed: u64,
     weak_tets: Vec<u32>,
     state: BodyState,
+    /// Of the cracks of its state.
+    pub(crate) tips: Vec<Tip>,
     /// Of a piece without modes: what finds its displacement.
     pub(crate) statics: Option<Arc<dyn Statics>>,
 }
@@ -292,6 +295,7 @@ impl Body {
             None => Arc::clone(&self.prepared),
         };
         let resistance = self.resistance.of_part(&weak_tets);
+        let tips = tips(&asset, &state);
         Self {
             clusters: WeakClusters::new(&asset, &weak_tets, &prepared.bounds, &resistance),
             asset: Arc::new(asset),
@@ -300,6 +304,7 @@ impl Body {
             statics,
             seed: self.seed,
             weak_tets,
+            tips,
             state,
         }
     }
@@ -332,6 +337,12 @@ impl Body {
         &self.state
     }
 
+    /// The fronts of the cracks it has so far, in the order of its state; cracks that run out everywhere have none.
+    #[must_use]
+    pub fn crack_fronts(&self) -> Vec<CrackFront> {
+        fronts(&self.asset, &self.state, &self.tips)
+    }
+
     /// Gives it the cracks that an impact left ([`Outcome::Held`](crate::Outcome::Held)), or that were saved: the next impact
     /// finds them.
     ///
@@ -339,6 +350,7 @@ impl Body {
     /// A state that is not of a body of this asset.
     pub fn set_state(&mut self, state: BodyState) -> Result<(), InputError> {
         state.check(&self.asset)?;
+        self.tips = tips(&self.asset, &state);
         self.state = state;
         Ok(())
     }

@@ -31,6 +31,9 @@ pub struct FractureConfig {
     pub plane_stress_walls: bool,
     /// The tetrahedron where a crack starts must pay for its own area. Default: on; `[G12 Algorithm 2]` does not ask.
     pub first_element_pays: bool,
+    /// The front of a crack that was there before needs no more tension than Griffith asks for a crack of its length: a
+    /// cracked body is weaker. Default: on; in the paper it needs the strain energy that a new crack's front needs.
+    pub griffith_fronts: bool,
     /// A crack also ends inside what it meets, so that no bridge of one tetrahedron holds pieces together. Default: on;
     /// in the paper it stops at the face `[G12 §5.2.4]`.
     pub ends_inside: bool,
@@ -102,6 +105,7 @@ impl Default for FractureConfig {
             surface_flaws: true,
             plane_stress_walls: true,
             first_element_pays: true,
+            griffith_fronts: true,
             ends_inside: true,
             crumb_share: 2e-4,
         }
@@ -123,6 +127,7 @@ impl FractureConfig {
             surface_flaws: false,
             plane_stress_walls: false,
             first_element_pays: false,
+            griffith_fronts: false,
             ends_inside: false,
             ..Self::default()
         }

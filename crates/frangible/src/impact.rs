@@ -214,8 +214,7 @@ pub(crate) fn harmless(body: &Body) -> f32 {
     if body.state().is_intact() {
         strength
     } else {
-        let least = body.resistance.toughness.least;
-        strength.min(front_limit(&body.asset.material, least))
+        strength.min(front_limit(body))
     }
 }
 

@@ -41,6 +41,7 @@ pub use asset::{Asset, AssetFileError};
 pub use body::{Body, Breakable};
 pub use config::{CrackPath, CrackTiming, DurationModel, FractureConfig};
 pub use contact::{Contact, Striker};
+pub use crack::CrackFront;
 pub use error::InputError;
 pub use fields::{Channel, Factors, Fields, Paint, Patch, Zone};
 pub use glam;

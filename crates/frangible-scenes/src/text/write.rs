@@ -244,6 +244,7 @@ fn write_fracture(t: &mut Text, config: &FractureConfig) {
     t.line("surface_flaws", config.surface_flaws);
     t.line("plane_stress_walls", config.plane_stress_walls);
     t.line("first_element_pays", config.first_element_pays);
+    t.line("griffith_fronts", config.griffith_fronts);
     t.line("ends_inside", config.ends_inside);
 }
 

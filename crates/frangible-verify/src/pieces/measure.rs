@@ -5,14 +5,15 @@ use std::sync::Arc;
 use frangible::glam::Vec3;
 use frangible::piece::Response;
 use frangible::{
-    Asset, Body, Contact, Elastic, FractureConfig, Outcome, Portion, impact, would_break,
+    Asset, Body, Contact, Elastic, FractureConfig, InputError, Material, Outcome, Portion, impact,
+    would_break,
 };
 use frangible_pieces::{PieceError, reanalysis};
 
 use super::choose::{Broken, Chosen};
-use super::impacts::{LEVELS, STRONGER, Stress, contact, place, speed_for, stress};
+use super::impacts::{LEVELS, STRONGER, Stress, place, speed_for, stress};
 use super::way::{REANALYSIS, WAYS, Ways};
-use super::{TruthPlan, clock};
+use super::{TruthPlan, clock, impacts};
 use crate::VerifyError;
 use crate::experiments::preset;
 
@@ -22,6 +23,9 @@ pub(crate) const FREQUENCIES: usize = 5;
 /// Places that are tried for each blow, and the share of the wanted stress that will do.
 const DRAWS: usize = 4;
 const ENOUGH: f64 = 0.4;
+
+/// Share of the speed by which a blow is changed to see how sure its outcome is.
+pub(crate) const NUDGE: f64 = 0.05;
 
 /// Elements and modes of the analyses of a piece without its cracks and with them: many, since both lattices differ.
 const SOFTENED: (usize, usize) = (900, 4);
@@ -69,6 +73,8 @@ pub struct Blow {
     pub level: f64,
     /// Whether it breaks the piece.
     pub breaks: bool,
+    /// Whether the piece breaks if it is hit slower and faster by [`NUDGE`].
+    pub nudged: [bool; 2],
     /// Of a piece that it cracks and does not break: first frequency with these cracks over that without.
     pub softened: Option<f64>,
 }
@@ -183,12 +189,13 @@ pub(crate) fn measure(
         for draw in 0..DRAWS {
             let at = place(&truth.brittle, number, k + LEVELS.len() * draw);
             let speed = speed_for(&trial.strong, at, level, &materials).map_err(failed)?;
-            let contact = contact(&truth.brittle, at, speed, &materials);
+            let contact = impacts::contact(&truth.brittle, at, speed, &materials);
             let found = stress(&truth.strong, contact).map_err(failed)?;
             let Some(found) = found.filter(|s| s.level > ENOUGH * level) else {
                 continue;
             };
             let (breaks, softened) = blow(&truth.brittle, contact).map_err(failed)?;
+            let nudged = nudged(&truth.brittle, at, speed, &materials).map_err(failed)?;
             let level = found.level;
             blows.push((
                 contact,
@@ -197,6 +204,7 @@ pub(crate) fn measure(
                     speed,
                     level,
                     breaks,
+                    nudged,
                     softened,
                 },
             ));
@@ -243,8 +251,23 @@ pub(crate) fn measure(
     }))
 }
 
+/// Whether a piece breaks if it is hit a little slower, and a little faster.
+fn nudged(
+    piece: &Body,
+    at: (Vec3, Vec3),
+    speed: f64,
+    materials: &[Material; 2],
+) -> Result<[bool; 2], InputError> {
+    let config = FractureConfig::default();
+    let hit = |factor: f64| {
+        let contact = impacts::contact(piece, at, factor * speed, materials);
+        would_break(piece, &[contact], &config)
+    };
+    Ok([hit(1.0 - NUDGE)?, hit(1.0 + NUDGE)?])
+}
+
 /// Whether a blow breaks a piece; of one that only cracks, first frequency with the cracks over that without.
-fn blow(piece: &Body, contact: Contact) -> Result<(bool, Option<f64>), frangible::InputError> {
+fn blow(piece: &Body, contact: Contact) -> Result<(bool, Option<f64>), InputError> {
     let config = FractureConfig::default();
     let state = match impact(piece, &[contact], &config)? {
         Outcome::Broke(_) => return Ok((true, None)),

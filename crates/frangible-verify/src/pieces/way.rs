@@ -20,7 +20,7 @@ pub struct Way {
 }
 
 /// All ways, in the order of the tables.
-pub const WAYS: [Way; 7] = [
+pub const WAYS: [Way; 8] = [
     Way {
         name: "modal proxy",
         method: Method::ModalProxy,
@@ -52,6 +52,11 @@ pub const WAYS: [Way; 7] = [
         size: Some((600, 40)),
     },
     Way {
+        name: "reanalysis, 1500 elements, 80 modes",
+        method: Method::Reanalysis,
+        size: Some((1500, 80)),
+    },
+    Way {
         name: "auto",
         method: Method::Auto,
         size: None,
@@ -62,7 +67,8 @@ pub const WAYS: [Way; 7] = [
 pub(crate) const PARENT_MODES: usize = 1;
 pub(crate) const REANALYSIS: usize = 4;
 pub(crate) const FINE: usize = 5;
-pub(crate) const AUTO: usize = 6;
+pub(crate) const FINEST: usize = 6;
+pub(crate) const AUTO: usize = 7;
 
 /// The ways with what they need.
 pub(crate) struct Ways(Vec<Pieces>);

@@ -1,5 +1,7 @@
 //! The body's stress at one time step, evaluated where it is asked for.
 
+use glam::Vec3;
+
 use crate::asset::{Asset, EmbeddedPoint};
 use crate::config::FractureConfig;
 use crate::stress::{
@@ -45,20 +47,43 @@ impl StressField<'_> {
         let Some(wall) = wall else {
             return state.stress;
         };
+        let [front, back] = self.on_faces(e, wall);
+        if largest_eigenvalue(&front) >= largest_eigenvalue(&back) {
+            front
+        } else {
+            back
+        }
+    }
+
+    /// Tension across a crack of this unit normal in fracture tetrahedron `e` that opens its front, Pa: of a wall that of its middle and
+    /// the part of its bending that counts (`tip.rs`), at most the larger one of its faces. `state`: that at the centroid.
+    pub(crate) fn opening(&mut self, e: usize, normal: Vec3, state: &StressState) -> f64 {
+        let across = |stress: &Symmetric3| f64::from(normal.dot(stress.to_mat3() * normal));
+        let Some(wall) = self.wall(e) else {
+            return across(&state.stress).max(0.0);
+        };
+        let [front, back] = self.on_faces(e, &wall).map(|stress| across(&stress));
+        let largest = front.max(back).max(0.0);
+        let middle = (0.5 * (front + back)).clamp(0.0, largest);
+        let nu = self.asset.material.poisson_ratio;
+        let share = (1.0 + nu) / (3.0 * (3.0 + nu));
+        (middle.powi(2) + share * (largest - middle).powi(2)).sqrt()
+    }
+
+    /// Stress on the two faces of a wall beside the centroid of fracture tetrahedron `e`.
+    fn on_faces(&mut self, e: usize, wall: &Wall) -> [Symmetric3; 2] {
         let centre = self.asset.embedded_tet(e);
         let distances = wall.distances(self.asset.fracture.centroid(e));
         let gradients = &self.asset.analysis.barycentric_gradients[centre.element as usize];
-        let [front, back] = distances.map(|distance| {
+        distances.map(|distance| {
             let up = wall.normal * distance;
             let point = EmbeddedPoint {
                 barycentric: std::array::from_fn(|k| centre.barycentric[k] + gradients[k].dot(up)),
                 ..*centre
             };
             let gradient = self.gradient(&point);
-            let state = self.elasticity.free_state(gradient, wall.normal);
-            (largest_eigenvalue(&state.stress), state.stress)
-        });
-        if front.0 >= back.0 { front.1 } else { back.1 }
+            self.elasticity.free_state(gradient, wall.normal).stress
+        })
     }
 
     /// The same where a crack may start in it, at all steps of the batch: at its [`weak_place`].

@@ -179,7 +179,7 @@ fn try_start(system: &mut CrackSystem, field: &mut StressField, suspect: &Suspec
             time: now,
         },
         area,
-        suspect.state.energy_density[k],
+        f64::from(area) * material.energy_depth * f64::from(suspect.state.energy_density[k]),
     );
     if system.config.timing == CrackTiming::Instant {
         advance(system, field, f64::INFINITY);

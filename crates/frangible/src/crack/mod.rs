@@ -12,6 +12,7 @@ mod release;
 mod surface;
 mod suspects;
 mod system;
+mod tip;
 
 pub(crate) use culling::Culling;
 pub(crate) use field::{StressField, weak_place};
@@ -21,5 +22,6 @@ pub(crate) use parts::refused_by_parts;
 use propagation::{advance, retry};
 pub(crate) use surface::crossing_polygon;
 pub(crate) use suspects::Suspects;
-pub(crate) use system::front_limit;
-pub(crate) use system::{Crack, CrackSystem, ElementCut, Junction};
+pub(crate) use system::{Crack, CrackSystem, ElementCut, Junction, front_limit};
+pub use tip::CrackFront;
+pub(crate) use tip::{Tip, fronts, tips};

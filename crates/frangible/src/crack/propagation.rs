@@ -5,6 +5,7 @@
 //! leaves the candidate out).
 //!
 //! Beyond the paper, each a switch:
+//! - *Griffith's fronts*: what a crack that was there before gains by growing follows from its length (`tip.rs`);
 //! - *finite speed*: fronts arrive along the crack's own path at a share of the Rayleigh speed; a front that lacks
 //!   energy waits and is tried again with the stress of the next step, so cracks follow the wave outwards;
 //! - *steering*: s is kept at the nodes. The fourth node of n gets the mean over the three shared ones of
@@ -147,7 +148,12 @@ fn enter(system: &mut CrackSystem, field: &mut StressField, front: Front) {
     let area = crossing_area(&x, &values);
     let material = &system.asset.material;
     let cost = f64::from(area) * system.resistance.toughness.of(front.tet);
-    let gain = f64::from(area) * material.energy_depth * f64::from(state.energy_density);
+    let mut gain = f64::from(area) * material.energy_depth * f64::from(state.energy_density);
+    if let Some(depth) = system.tip_depth(&front) {
+        let opening = field.opening(n, direction, &state);
+        let density = 0.5 * opening * opening / material.contact_modulus();
+        gain = gain.max(f64::from(area) * depth * density);
+    }
     if !system.affords(front.tet, area) {
         return;
     }
@@ -161,7 +167,7 @@ fn enter(system: &mut CrackSystem, field: &mut StressField, front: Front) {
                 CrackTiming::Instant => from.time,
             },
         };
-        system.fracture(front.crack, cut, area, state.energy_density);
+        system.fracture(front.crack, cut, area, gain);
     } else {
         system.stalled.push(front);
     }

@@ -8,11 +8,11 @@ use glam::Vec3;
 use super::node_values::NodeValues;
 use super::release::Releases;
 use super::surface::CrackFrame;
+use super::tip::{Tip, is_inside, tip_limit};
 use crate::asset::Asset;
 use crate::body::Body;
 use crate::config::{CrackPath, CrackTiming, FractureConfig};
 use crate::fields::Resistance;
-use crate::material::Material;
 use crate::state::OldCrack;
 use crate::stress::MARGIN;
 
@@ -44,6 +44,9 @@ pub(crate) struct Crack {
     grown_before: u64,
     /// Where it ran into another crack (or into itself).
     pub(crate) junctions: Vec<Junction>,
+    /// What feeds its front, if it was there before; and how many of its tetrahedra, from the first, were.
+    pub(crate) tip: Option<Tip>,
+    restored: usize,
 }
 
 impl Crack {
@@ -60,17 +63,22 @@ impl Crack {
             sites: Vec::new(),
             grown_before: 0,
             junctions: Vec::new(),
+            tip: None,
+            restored: 0,
         }
     }
 }
 
-/// No front of an old crack moves at a stress whose every principal value is below this, Pa, where G_c (J/m²) is nowhere below
-/// the one given: of the strain energy
-/// density η ≤ (3 + 6|ν|) σ² / 2E it needs γ η > G_c.
-pub(crate) fn front_limit(material: &Material, least_fracture_energy: f64) -> f32 {
+/// No front of an old crack of this body moves at a stress whose every principal value is below this, Pa: of the strain energy
+/// density η ≤ (3 + 6|ν|) σ² / 2E it needs γ η > G_c, or what its [`Tip`] asks for.
+pub(crate) fn front_limit(body: &Body) -> f32 {
+    let (material, least) = (&body.asset.material, body.resistance.toughness.least);
     let share = 3.0 + 6.0 * material.poisson_ratio.abs();
-    let energy_density = least_fracture_energy / material.energy_depth;
-    (2.0 * material.youngs_modulus * energy_density / share).sqrt() as f32 * (1.0 - MARGIN)
+    let energy_density = least / material.energy_depth;
+    let layer = (2.0 * material.youngs_modulus * energy_density / share).sqrt();
+    let depths = body.tips.iter().map(|tip| tip.depth(0.0));
+    let tips = depths.map(|depth| tip_limit(material, least, depth));
+    tips.fold(layer, f64::min) as f32 * (1.0 - MARGIN)
 }
 
 /// A tetrahedron fractured by a crack.
@@ -160,6 +168,8 @@ pub(crate) struct CrackSystem<'a> {
     pub(crate) stalled: Vec<Front>,
     /// Fronts of the cracks from earlier impacts, asleep until the stress can move them.
     pub(crate) dormant: Vec<Front>,
+    /// Below this stress none of them moves, Pa.
+    front_limit: f32,
     /// Number of cracks from earlier impacts; they come first.
     pub(crate) old_cracks: usize,
     /// Area of all cracks that this impact added, m².
@@ -188,6 +198,7 @@ impl<'a> CrackSystem<'a> {
         let asset = &*body.asset;
         let mut system = Self {
             dormant: Vec::new(),
+            front_limit: front_limit(body),
             old_cracks: 0,
             area: 0.0,
             asset,
@@ -216,15 +227,14 @@ impl<'a> CrackSystem<'a> {
             centroids: &body.prepared.centroids,
             edge: body.prepared.edge,
         };
-        body.state()
-            .cracks
-            .iter()
-            .for_each(|old| system.restore(old));
+        for (old, &tip) in body.state().cracks.iter().zip(&body.tips) {
+            system.restore(old, config.griffith_fronts.then_some(tip));
+        }
         system
     }
 
     /// A crack from an earlier impact: its energy is spent, its fronts sleep.
-    fn restore(&mut self, old: &OldCrack) {
+    fn restore(&mut self, old: &OldCrack, tip: Option<Tip>) {
         let material = &self.asset.material;
         let id = self.cracks.len() as u32;
         self.old_cracks += 1;
@@ -260,6 +270,8 @@ impl<'a> CrackSystem<'a> {
                 from: from as u32,
             }));
         }
+        let crack = &mut self.cracks[id as usize];
+        (crack.tip, crack.restored) = (tip, old.cuts.len());
         let junction = |&(from, own): &(u32, bool)| Junction { from, own };
         self.cracks[id as usize].junctions = old.junctions.iter().map(junction).collect();
     }
@@ -280,9 +292,7 @@ impl<'a> CrackSystem<'a> {
 
     /// Wakes the old fronts when there can be stress enough to move them.
     pub(crate) fn wake(&mut self, stress_bound: f32) {
-        if !self.dormant.is_empty()
-            && stress_bound > front_limit(&self.asset.material, self.resistance.toughness.least)
-        {
+        if !self.dormant.is_empty() && stress_bound > self.front_limit {
             self.stalled.append(&mut self.dormant);
         }
     }
@@ -297,15 +307,27 @@ impl<'a> CrackSystem<'a> {
         self.spent + f64::from(area) * self.resistance.toughness.of(tet) <= self.budget
     }
 
-    /// Adds a fractured tetrahedron to a crack and sends the crack's front to its neighbours.
-    pub(crate) fn fracture(&mut self, crack: u32, cut: ElementCut, area: f32, energy_density: f32) {
+    /// Depth of the layer that feeds an old crack's front with the strain energy of the tension across it, m; none where the
+    /// front is fed as that of a new crack.
+    pub(crate) fn tip_depth(&self, front: &Front) -> Option<f64> {
+        let crack = &self.cracks[front.crack as usize];
+        let tip = crack.tip?;
+        // A face of the piece that the crack parted is no front.
+        let from = front.from as usize;
+        let sharp = from >= crack.restored || is_inside(self.asset, crack.elements[from].tet);
+        sharp.then(|| tip.depth(crack.area))
+    }
+
+    /// Adds a fractured tetrahedron to a crack, whose area sets so much energy free, J, and sends the crack's front to its
+    /// neighbours.
+    pub(crate) fn fracture(&mut self, crack: u32, cut: ElementCut, area: f32, gain: f64) {
         let material = &self.asset.material;
         let tet = cut.tet as usize;
         let c = &mut self.cracks[crack as usize];
         let cost = f64::from(area) * self.resistance.toughness.of(cut.tet);
         c.spent += cost;
         self.spent += cost;
-        c.available += f64::from(area) * material.energy_depth * f64::from(energy_density);
+        c.available += gain;
         self.area += f64::from(area);
         self.join(crack, cut, area);
         let from = self.cracks[crack as usize].elements.len() as u32 - 1;
@@ -355,12 +377,13 @@ impl<'a> CrackSystem<'a> {
                 self.values.keep(crack, node, s);
             }
         }
-        // Latest first: a new place is next to the latest ones.
+        // Latest first: a new place is next to the latest ones. The modes know what is settled: it releases nothing more.
         let apart = self.edge * self.edge;
-        if c.sites
-            .iter()
-            .rev()
-            .all(|s| s.position.distance_squared(centre) > apart)
+        if c.elements.len() >= c.settled
+            && c.sites
+                .iter()
+                .rev()
+                .all(|s| s.position.distance_squared(centre) > apart)
         {
             c.sites.push(Site {
                 position: centre,

@@ -1,0 +1,203 @@
+//! Fronts of old cracks (beyond the paper): a body that is cracked is weaker at its cracks' fronts.
+//!
+//! Where a crack of length a is there already, what feeds its front is not the strain energy of a layer γ (Eq. 12) but the energy
+//! that its opening sets free, Griffith's `G = π a σ² / E'` per area (1921), σ the tension across it as if it were not there:
+//! a layer of depth 2πa. The length is the crack's area over that of its front, which serves all shapes: an edge crack and one
+//! across a plate have `K = 1.12` and `1.00 σ√(πa)`, a penny of radius R has `a = R/2` and `K = 0.90 σ√(πa)`.
+//!
+//! Modes that know the crack (those of a piece, or of a body analysed anew with its cracks) show part of its stress
+//! concentration: ahead of the front the mean over a distance H is `σ√(1 + 2a/H)` (Novozhilov 1969), H what their elements
+//! resolve. Hence the depth `2πa / (1 + 2a/H)`.
+//!
+//! In a wall the tension's mean across it acts in full, its bending with `(1+ν) / 3(3+ν)` of it (Kirchhoff's plate; Zehnder and
+//! Viz 2005).
+
+use glam::Vec3;
+
+use super::surface::crossing_area;
+use crate::asset::Asset;
+use crate::fragment::Cuts;
+use crate::material::Material;
+use crate::mesh::{EDGES, FACES, NO_NEIGHBOUR};
+use crate::state::{BodyState, OldCrack, OldCut};
+
+/// H over the edge of the analysis' cells: a quadratic element shows a stress that varies once along it.
+const RESOLVED: f64 = 2.0;
+
+/// An old crack, as its front feels it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Tip {
+    /// Area, m².
+    area: f64,
+    /// Length of the front, m; 0 where it has none.
+    front: f64,
+    /// H, m; infinite where the modes do not know the crack.
+    resolution: f64,
+}
+
+impl Tip {
+    /// No front.
+    pub(crate) const NONE: Self = Self {
+        area: 0.0,
+        front: 0.0,
+        resolution: f64::INFINITY,
+    };
+
+    /// Depth of the layer whose strain energy, of the tension across the crack, its front is fed with when it has grown by so
+    /// much area, m².
+    pub(crate) fn depth(&self, grown: f64) -> f64 {
+        if self.front <= 0.0 {
+            return 0.0;
+        }
+        let length = (self.area + grown) / self.front;
+        std::f64::consts::TAU * length / (1.0 + 2.0 * length / self.resolution)
+    }
+}
+
+/// The front of a crack that a body has already ([`Body::crack_fronts`](crate::Body::crack_fronts)).
+#[derive(Clone, Debug, PartialEq)]
+pub struct CrackFront {
+    /// Length a of the crack: its area over that of its front, m.
+    pub length: f64,
+    /// Tension across it that moves the front where toughness is the material's, as the body's modes show it, Pa: Griffith's, or
+    /// more where the modes know the crack and show some of its stress concentration.
+    pub strength: f64,
+    /// Fracture tetrahedra ahead, with the crack's normal there.
+    pub ahead: Vec<(u32, Vec3)>,
+}
+
+/// The old cracks of a body, in the order of its state.
+pub(crate) fn tips(asset: &Asset, state: &BodyState) -> Vec<Tip> {
+    if state.cracks.is_empty() {
+        return Vec::new();
+    }
+    let uncut = Uncut::new(asset, state);
+    let resolution = RESOLVED * cell_edge(asset);
+    let tip = |crack: &OldCrack| {
+        let mut tip = Tip::NONE;
+        if crack.settled > 0 {
+            tip.resolution = resolution;
+        }
+        for cut in uncut.inside(crack) {
+            let x = asset.fracture.corners(cut.tet as usize);
+            tip.area += f64::from(crossing_area(&x, &cut.values));
+            tip.front += uncut.ahead(cut).map(|(_, length)| length).sum::<f64>();
+        }
+        tip
+    };
+    state.cracks.iter().map(tip).collect()
+}
+
+/// The fronts of a body's cracks, in the order of its state; cracks without one are left out.
+pub(crate) fn fronts(asset: &Asset, state: &BodyState, tips: &[Tip]) -> Vec<CrackFront> {
+    let uncut = Uncut::new(asset, state);
+    let material = &asset.material;
+    let mut fronts = Vec::new();
+    for (crack, tip) in state.cracks.iter().zip(tips) {
+        if tip.front <= 0.0 {
+            continue;
+        }
+        let cuts = uncut.inside(crack);
+        let ahead = cuts.flat_map(|cut| uncut.ahead(cut).map(|(n, _)| (n, cut.direction)));
+        fronts.push(CrackFront {
+            length: tip.area / tip.front,
+            strength: tip_limit(material, material.fracture_energy, tip.depth(0.0)),
+            ahead: ahead.collect(),
+        });
+    }
+    fronts
+}
+
+/// What no crack of a body has cut yet.
+struct Uncut<'a> {
+    asset: &'a Asset,
+    /// Of each fracture tetrahedron: whether it is the body's own, and whole.
+    tets: Vec<bool>,
+    /// Cuts of a piece since it is one.
+    settled: Cuts,
+}
+
+impl<'a> Uncut<'a> {
+    fn new(asset: &'a Asset, state: &BodyState) -> Self {
+        let mesh = &asset.fracture;
+        let mut tets = vec![asset.portion.is_none(); mesh.tets.len()];
+        let own = asset.portion.iter().flat_map(|p| p.tets());
+        own.for_each(|&e| tets[e as usize] = true);
+        for cut in state.cracks.iter().flat_map(|crack| &crack.cuts) {
+            tets[cut.tet as usize] = false;
+        }
+        let settled = asset.portion.as_ref().map_or(&[][..], |p| p.cuts());
+        Self {
+            asset,
+            tets,
+            settled: Cuts::of_list(settled, mesh.positions.len()),
+        }
+    }
+
+    /// Cuts of a crack within the body: a face of a piece is no crack in it, and what a crumb healed is none any more.
+    fn inside<'b>(&'b self, crack: &'b OldCrack) -> impl Iterator<Item = &'b OldCut> {
+        let is_cut = |tet: u32| {
+            let nodes = self.asset.fracture.tets[tet as usize];
+            let mut edges = EDGES.iter();
+            edges.any(|&[i, j]| self.settled.get(nodes[i], nodes[j]).is_some())
+        };
+        let inside = move |tet: u32| is_inside(self.asset, tet) && is_cut(tet);
+        let cuts = crack.cuts.iter().enumerate();
+        cuts.filter_map(move |(i, cut)| {
+            (i >= crack.settled as usize || inside(cut.tet)).then_some(cut)
+        })
+    }
+
+    /// Whole tetrahedra that the crack would enter from one that it has cut, and the length of its front there, m.
+    fn ahead(&self, cut: &OldCut) -> impl Iterator<Item = (u32, f64)> {
+        let mesh = &self.asset.fracture;
+        let x = mesh.corners(cut.tet as usize);
+        let faces = FACES.iter().zip(mesh.neighbours[cut.tet as usize]);
+        faces.filter_map(move |(face, n)| {
+            if n == NO_NEIGHBOUR || !self.tets[n as usize] {
+                return None;
+            }
+            let (x, s) = (face.map(|i| x[i]), face.map(|i| cut.values[i]));
+            let length = f64::from(crossing_length(&x, &s));
+            (length > 0.0).then_some((n, length))
+        })
+    }
+}
+
+/// Whether all nodes of a tetrahedron belong to the body.
+pub(crate) fn is_inside(asset: &Asset, tet: u32) -> bool {
+    let nodes = &asset.fracture.tets[tet as usize];
+    asset
+        .portion
+        .as_ref()
+        .is_none_or(|portion| nodes.iter().all(|&v| portion.has_node(v)))
+}
+
+/// Length of the line on which s changes sign in a triangle, m.
+fn crossing_length(x: &[Vec3; 3], s: &[f32; 3]) -> f32 {
+    let mut ends = [Vec3::ZERO; 2];
+    let mut count = 0;
+    for [i, j] in [[0, 1], [1, 2], [2, 0]] {
+        if (s[i] < 0.0) != (s[j] < 0.0) && count < 2 {
+            ends[count] = x[i] + (x[j] - x[i]) * (s[i] / (s[i] - s[j]));
+            count += 1;
+        }
+    }
+    ends[0].distance(ends[1])
+}
+
+/// Edge of a cube that six of the analysis' elements fill, m.
+fn cell_edge(asset: &Asset) -> f64 {
+    let analysis = &asset.analysis;
+    let volume = |element: &[u32; 10]| {
+        let [a, b, c, d] = [0, 1, 2, 3].map(|k| analysis.nodes[element[k] as usize].as_dvec3());
+        (b - a).cross(c - a).dot(d - a).abs() / 6.0
+    };
+    let whole: f64 = analysis.elements.iter().map(volume).sum();
+    (6.0 * whole / analysis.elements.len().max(1) as f64).cbrt()
+}
+
+/// Least tension that moves a front fed from this depth, m, Pa.
+pub(crate) fn tip_limit(material: &Material, least_fracture_energy: f64, depth: f64) -> f64 {
+    (2.0 * material.contact_modulus() * least_fracture_energy / depth).sqrt()
+}
