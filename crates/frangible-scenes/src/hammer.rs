@@ -45,6 +45,11 @@ impl Head {
         }
     }
 
+    /// How far the apex of the striking face lies before the origin, m.
+    pub(crate) fn front(&self) -> f32 {
+        self.profile[0][1]
+    }
+
     /// Radius of the sphere about the origin that holds it, m.
     pub(crate) fn reach(&self) -> f32 {
         let lengths = self.profile.iter().map(|[r, z]| r.hypot(*z));
@@ -100,6 +105,34 @@ impl Head {
         mesh.parts.push(MeshPart { surface, indices });
         mesh
     }
+}
+
+/// Adds a handle to the mesh of a head: a rod of this radius from the origin along +y, m. It is only to be looked at.
+pub(crate) fn add_handle(mesh: &mut RecordedMesh, radius: f32, length: f32, surface: usize) {
+    let first = mesh.positions.len() as u32;
+    for sector in 0..=SECTORS {
+        let side = around(1.0, 0.0, sector);
+        let out = Vec3::new(side.x, 0.0, side.y);
+        for y in [0.0, length] {
+            mesh.positions.push(radius * out + y * Vec3::Y);
+            mesh.normals.push(out);
+        }
+    }
+    let cap = mesh.positions.len() as u32;
+    for sector in 0..SECTORS {
+        let side = around(radius, 0.0, sector);
+        mesh.positions.push(Vec3::new(side.x, length, side.y));
+        mesh.normals.push(Vec3::Y);
+    }
+    let mut indices = Vec::new();
+    for sector in 0..u32::from(SECTORS) {
+        let a = first + 2 * sector;
+        indices.extend([a, a + 1, a + 2, a + 1, a + 3, a + 2]);
+    }
+    for sector in 1..u32::from(SECTORS) - 1 {
+        indices.extend([cap, cap + sector + 1, cap + sector]);
+    }
+    mesh.parts.push(MeshPart { surface, indices });
 }
 
 fn around(r: f32, z: f32, sector: u16) -> Vec3 {

@@ -59,7 +59,7 @@ pub(crate) fn launch(
     }
 }
 
-fn hull(head: &Head, radius: f64) -> Result<SharedShape, SceneError> {
+pub(crate) fn hull(head: &Head, radius: f64) -> Result<SharedShape, SceneError> {
     let points: Vec<Vector> = head.points().into_iter().map(vector).collect();
     SharedShape::convex_hull(&points).ok_or_else(|| SceneError::Quantity {
         what: "the hammer's radius",

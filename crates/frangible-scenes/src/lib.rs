@@ -42,7 +42,7 @@ pub use builtin::{SCENE_NAMES, scene};
 pub use error::SceneError;
 pub use files::{read_scene, scene_of_file};
 pub use frangible_bake::{CancelToken, Region, Support};
-pub use live::{LiveScene, SavedScene, Thing, ThingKind, Throw};
+pub use live::{LiveScene, SavedScene, Swing, Thing, ThingKind, Throw};
 pub use output::{FileWish, Output};
 pub use projectile::{Projectile, ProjectileKind};
 pub use rescale::{MaterialEdit, Rescale};

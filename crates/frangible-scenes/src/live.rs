@@ -1,7 +1,9 @@
 //! A scene that runs step by step, for those who look on and throw things: what there is at the moment, with its shapes.
 
 mod looks;
+mod schedule;
 mod state;
+mod swing;
 mod throw;
 
 use std::collections::BTreeMap;
@@ -20,7 +22,11 @@ use crate::recorder::Role;
 use crate::scene::Scene;
 use crate::stage::{Stage, set_up};
 
+use schedule::Schedule;
+use swing::Swung;
+
 pub use state::SavedScene;
+pub use swing::Swing;
 pub use throw::Throw;
 
 /// Shortest steps per second, 1/s: what is taken while something may break, as in [`play`](crate::play()).
@@ -84,6 +90,8 @@ pub struct LiveScene {
     ticks: u64,
     fine_until: u64,
     throws: usize,
+    schedule: Schedule,
+    swings: Vec<Swung>,
 }
 
 impl LiveScene {
@@ -97,8 +105,9 @@ impl LiveScene {
             world,
             recorder,
             bodies,
-            ..
+            projectiles,
         } = set_up(scene, baked)?;
+        let targets = bodies.iter().map(|placed| placed.target).collect();
         let (recording, handles, roles) = recorder.into_parts();
         let nodes = recording.nodes.into_iter().zip(recording.meshes);
         let mut things = Vec::new();
@@ -132,22 +141,32 @@ impl LiveScene {
             ticks: 0,
             fine_until: 0,
             throws: 0,
+            schedule: Schedule::new(scene, targets, projectiles),
+            swings: Vec::new(),
         };
         live.note_whole(live.things.clone().iter().map(|thing| thing.handle));
         Ok(live)
     }
 
     /// Takes one step: 1/3840 s while something may break and just after, else 1/240 s. What broke is in the world's
-    /// [`breaks`](BreakableWorld::breaks), what held in [`held`](BreakableWorld::held).
+    /// [`breaks`](BreakableWorld::breaks), what held in [`held`](BreakableWorld::held). The scene's own projectiles come and
+    /// go with the pictures of 1/60 s, as in [`play`](crate::play()).
     ///
     /// # Errors
-    /// A break that the fracture model refused; the body stays whole, and the scene may go on.
+    /// A break that the fracture model refused; the body stays whole, and the scene may go on. A projectile that cannot be
+    /// thrown now.
     pub fn step(&mut self) -> Result<(), SceneError> {
+        if self.ticks.is_multiple_of(FRAME) {
+            self.throw_due()?;
+        }
         let ticks = self.ticks_of_step();
-        self.world.physics.integration_parameters.dt = ticks as f32 / TICKS_PER_SECOND as f32;
+        let dt = ticks as f32 / TICKS_PER_SECOND as f32;
+        self.world.physics.integration_parameters.dt = dt;
+        self.drive_swings(dt);
         let stepped = self.world.step().map(|_| ());
         let before = self.ticks;
         self.ticks += ticks;
+        self.follow_swings();
         let events: Vec<BreakEvent> = self.world.breaks().to_vec();
         for event in &events {
             self.fine_until = self.ticks + FINE_AFTER_BREAK;

@@ -17,6 +17,7 @@ use crate::bonds::bond;
 use crate::error::SceneError;
 use crate::launch::{Target, launch, vector};
 use crate::meshes::{BodySurfaces, whole};
+use crate::projectile::Projectile;
 use crate::recorder::{Recorder, Role};
 use crate::scene::Scene;
 
@@ -45,6 +46,7 @@ pub(crate) struct Stage<'a> {
 }
 
 /// A projectile, on its way or not yet.
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Thrown {
     /// Its number in the scene.
     pub(crate) number: usize,
@@ -138,16 +140,11 @@ impl Stage<'_> {
             else {
                 continue;
             };
-            let kind = projectile.kind.name();
-            let look = projectile_surface(kind, &projectile.material);
+            let look = projectile_surface(projectile.kind.name(), &projectile.material);
             let [surface] = self.recorder.surfaces([look]);
             let floor = scene.floor.is_some();
             let (handle, mesh) = launch(&mut self.world, projectile, body.target, floor, surface)?;
-            let name = if scene.projectiles.len() == 1 {
-                kind.to_string()
-            } else {
-                format!("{kind} {}", thrown.number + 1)
-            };
+            let name = projectile_name(&scene.projectiles, thrown.number);
             let extras = vec![("mass_kg".into(), projectile.mass)];
             self.recorder
                 .track(name, mesh, handle, extras, Role::Projectile);
@@ -160,6 +157,15 @@ impl Stage<'_> {
     /// Whether all projectiles have been thrown.
     pub(crate) fn all_thrown(&self) -> bool {
         self.projectiles.iter().all(|t| t.handle.is_some())
+    }
+}
+
+/// What the projectile of this number is called: `ball`, or `hammer 2` of several.
+pub(crate) fn projectile_name(all: &[Projectile], number: usize) -> String {
+    let kind = all[number].kind.name();
+    match all.len() {
+        1 => kind.to_string(),
+        _ => format!("{kind} {}", number + 1),
     }
 }
 

@@ -23,13 +23,24 @@ pub enum Command {
     Step(u32),
     /// How fast simulated time runs: 1 is as in life, 0.001 a thousandth of it.
     SlowMotion(f64),
-    /// What is thrown from now on.
+    /// What is thrown from now on; a click throws it.
     Ball(BallSpec),
+    /// What is swung from now on; a click swings it.
+    Hammer(HammerSpec),
+    /// What a click does.
+    Tool(Tool),
     /// Throw a ball from a point through another, m.
     Throw {
         /// Where it starts.
         from: Vec3,
         /// Where its centre is aimed.
+        through: Vec3,
+    },
+    /// Swing the hammer onto what a ray meets.
+    Swing {
+        /// Where the ray starts, m.
+        from: Vec3,
+        /// A point it goes through.
         through: Vec3,
     },
     /// Take hold of the thing that a ray meets.
@@ -93,7 +104,7 @@ pub enum Command {
     Zoom(f32),
     /// Look at the scene as in the beginning.
     Home,
-    /// Throw through this place of the window, shares of its width and height from the upper left.
+    /// Throw, or swing, through this place of the window, shares of its width and height from the upper left.
     Click(f32, f32),
     /// Select what is at this place of the window.
     Pick(f32, f32),
@@ -176,6 +187,38 @@ impl Default for BallSpec {
     }
 }
 
+/// A hammer to swing.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HammerSpec {
+    /// Mass of its head, kg.
+    pub mass: f64,
+    /// Speed of its head where it strikes, m/s.
+    pub speed: f64,
+    /// Material preset.
+    pub material: String,
+}
+
+impl Default for HammerSpec {
+    /// That of the scene `five-blows`: steel, 500 g, 7.5 m/s.
+    fn default() -> Self {
+        Self {
+            mass: 0.5,
+            speed: 7.5,
+            material: "steel".into(),
+        }
+    }
+}
+
+/// What a click does.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Tool {
+    /// Throws the ball.
+    #[default]
+    Ball,
+    /// Swings the hammer.
+    Hammer,
+}
+
 impl Command {
     /// Whether the window carries it out by itself.
     #[must_use]
@@ -206,7 +249,9 @@ impl Command {
                 | Self::Reset
                 | Self::Step(_)
                 | Self::Ball(_)
+                | Self::Hammer(_)
                 | Self::Throw { .. }
+                | Self::Swing { .. }
                 | Self::Grab { .. }
                 | Self::Pull { .. }
                 | Self::LetGo

@@ -39,7 +39,7 @@ mod worker;
 
 pub use blow::Blow;
 pub use camera::{Orbit, Ray};
-pub use command::{BallSpec, Command, Mark, Subject, Target};
+pub use command::{BallSpec, Command, HammerSpec, Mark, Subject, Target, Tool};
 pub use error::ViewError;
 pub use picture::{Batch, BatchLooks, Dot, Line, Picture};
 pub use script::Script;

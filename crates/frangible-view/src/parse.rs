@@ -7,11 +7,11 @@ use std::str::FromStr;
 use frangible::glam::Vec3;
 use frangible::nearest_name;
 
-use crate::command::{BallSpec, Command, Mark, Subject, Target};
+use crate::command::{BallSpec, Command, HammerSpec, Mark, Subject, Target, Tool};
 use crate::error::ViewError;
 
 /// Each command's first word, and what comes after it.
-const FORMS: [(&str, &str); 37] = [
+const FORMS: [(&str, &str); 40] = [
     ("scene", "NAME"),
     ("open", "FILE"),
     ("cancel-bake", ""),
@@ -21,7 +21,10 @@ const FORMS: [(&str, &str); 37] = [
     ("step", "N"),
     ("slow-motion", "FACTOR"),
     ("ball", "KG METRES METRES/SECOND MATERIAL"),
+    ("hammer", "KG METRES/SECOND MATERIAL"),
+    ("tool", "ball|hammer"),
     ("throw", "FROM-X,Y,Z THROUGH-X,Y,Z"),
+    ("swing", "FROM-X,Y,Z THROUGH-X,Y,Z"),
     ("grab", "FROM-X,Y,Z THROUGH-X,Y,Z"),
     ("pull", "FROM-X,Y,Z THROUGH-X,Y,Z"),
     ("let-go", ""),
@@ -115,6 +118,16 @@ fn read(first: &str, rest: &[&str], tail: &str) -> Result<Command, String> {
             speed: number(2)?,
             material: rest[3].into(),
         }),
+        "hammer" => Command::Hammer(HammerSpec {
+            mass: number(0)?,
+            speed: number(1)?,
+            material: rest[2].into(),
+        }),
+        "tool" => Command::Tool(one_of(rest[0], &TOOLS)?),
+        "swing" => Command::Swing {
+            from: vector(rest[0])?,
+            through: vector(rest[1])?,
+        },
         "throw" => Command::Throw {
             from: vector(rest[0])?,
             through: vector(rest[1])?,
@@ -172,6 +185,8 @@ const SUBJECTS: [(&str, Subject); 5] = [
     ("modes", Subject::Modes),
     ("compare", Subject::Compare),
 ];
+
+const TOOLS: [(&str, Tool); 2] = [("ball", Tool::Ball), ("hammer", Tool::Hammer)];
 
 const MARKS: [(&str, Mark); 4] = [
     ("wireframe", Mark::Wireframe),
@@ -237,6 +252,9 @@ impl fmt::Display for Command {
             Self::Step(n) => write!(f, "step {n}"),
             Self::SlowMotion(x) => write!(f, "slow-motion {x}"),
             Self::Ball(b) => write!(f, "ball {} {} {} {}", b.mass, b.radius, b.speed, b.material),
+            Self::Hammer(h) => write!(f, "hammer {} {} {}", h.mass, h.speed, h.material),
+            Self::Tool(tool) => write!(f, "tool {}", name_of(*tool, &TOOLS)),
+            Self::Swing { from, through } => write!(f, "swing {} {}", v(from), v(through)),
             Self::Throw { from, through } => write!(f, "throw {} {}", v(from), v(through)),
             Self::Grab { from, through } => write!(f, "grab {} {}", v(from), v(through)),
             Self::Pull { from, through } => write!(f, "pull {} {}", v(from), v(through)),

@@ -4,6 +4,7 @@ mod grab;
 mod look;
 mod play;
 mod start;
+mod swing;
 mod turn;
 
 use std::sync::Arc;
@@ -17,7 +18,7 @@ use frangible_scenes::{BakedBody, LiveScene, SavedScene, Scene, SceneError, scen
 use crate::analysis::Analysis;
 use crate::baking::Shelf;
 use crate::blow::Blow;
-use crate::command::{BallSpec, Command, Mark, Subject};
+use crate::command::{BallSpec, Command, HammerSpec, Mark, Subject, Tool};
 use crate::error::ViewError;
 use crate::jobs::Job;
 use crate::knobs::Settings;
@@ -38,6 +39,8 @@ pub struct Session {
     /// Knobs when the scene was set up.
     built: Option<Settings>,
     ball: BallSpec,
+    hammer: HammerSpec,
+    tool: Tool,
     paused: bool,
     slow_motion: f64,
     steps: u64,
@@ -89,6 +92,8 @@ impl Session {
             settings: None,
             built: None,
             ball: BallSpec::default(),
+            hammer: HammerSpec::default(),
+            tool: Tool::default(),
             paused: false,
             slow_motion: 1.0,
             steps: 0,
@@ -169,7 +174,10 @@ impl Session {
                 self.slow_motion = speed.clamp(SLOW_MOTION[0], SLOW_MOTION[1]);
             }
             Command::Ball(ball) => self.choose_ball(ball)?,
+            Command::Hammer(hammer) => self.choose_hammer(hammer)?,
+            Command::Tool(tool) => self.tool = tool,
             Command::Throw { from, through } => self.throw(from, through)?,
+            Command::Swing { from, through } => self.swing(from, through)?,
             Command::Grab { from, through } => self.grab(from, through)?,
             Command::Pull { from, through } => self.pull(from, through),
             Command::LetGo => self.grip = None,
@@ -225,6 +233,7 @@ impl Session {
                     known,
                     Command::Step(_)
                         | Command::Throw { .. }
+                        | Command::Swing { .. }
                         | Command::Grab { .. }
                         | Command::Pull { .. }
                         | Command::LetGo

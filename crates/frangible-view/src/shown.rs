@@ -8,7 +8,7 @@ use frangible_rapier::{LoadCounts, StepTimings};
 
 use crate::analysis::Analysis;
 use crate::blow::Blow;
-use crate::command::{BallSpec, Mark, Subject};
+use crate::command::{BallSpec, HammerSpec, Mark, Subject, Tool};
 use crate::knobs::Settings;
 use crate::picture::Picture;
 
@@ -45,6 +45,10 @@ pub struct Shown {
     pub undoable: usize,
     /// What is thrown.
     pub ball: BallSpec,
+    /// What is swung.
+    pub hammer: HammerSpec,
+    /// What a click does.
+    pub tool: Tool,
     /// The bake that runs.
     pub bake: Option<BakeShown>,
     /// Whether a contact is being analysed.

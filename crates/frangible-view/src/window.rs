@@ -17,7 +17,7 @@ use frangible_draw::{DrawError, LiveStage, Place, StillCamera, has_adapter, is_s
 use frangible_export::View;
 
 use crate::camera::Orbit;
-use crate::command::Command;
+use crate::command::{Command, Tool};
 use crate::error::ViewError;
 use crate::script::Script;
 use crate::shown::Shown;
@@ -257,9 +257,11 @@ impl Viewer {
             Command::Home => self.orbit.go_home(),
             Command::Click(x, y) => {
                 let ray = self.ray(window, x, y);
-                self.pass_on(Command::Throw {
-                    from: ray.origin,
-                    through: ray.origin + ray.direction,
+                let (from, through) = (ray.origin, ray.origin + ray.direction);
+                // A script's `tool` may not be in what was shown yet: the director waits for it.
+                self.pass_on(match self.worker.latest().tool {
+                    Tool::Ball => Command::Throw { from, through },
+                    Tool::Hammer => Command::Swing { from, through },
                 });
             }
             Command::Pick(x, y) => {

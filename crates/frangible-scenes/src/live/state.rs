@@ -6,7 +6,9 @@ use std::sync::Arc;
 use frangible::Body;
 use frangible_rapier::SavedWorld;
 
+use super::swing::Swung;
 use super::{LiveScene, Thing};
+use crate::stage::Thrown;
 
 /// The state of a [`LiveScene`] at one moment; shapes are shared with it.
 pub struct SavedScene {
@@ -16,6 +18,8 @@ pub struct SavedScene {
     ticks: u64,
     fine_until: u64,
     throws: usize,
+    thrown: Vec<Thrown>,
+    swings: Vec<Swung>,
 }
 
 impl SavedScene {
@@ -37,6 +41,8 @@ impl LiveScene {
             ticks: self.ticks,
             fine_until: self.fine_until,
             throws: self.throws,
+            thrown: self.schedule.thrown.clone(),
+            swings: self.swings.clone(),
         }
     }
 
@@ -48,5 +54,7 @@ impl LiveScene {
         self.ticks = saved.ticks;
         self.fine_until = saved.fine_until;
         self.throws = saved.throws;
+        self.schedule.thrown.clone_from(&saved.thrown);
+        self.swings.clone_from(&saved.swings);
     }
 }

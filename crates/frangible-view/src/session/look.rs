@@ -116,6 +116,8 @@ impl Session {
             pieces: count(|kind| matches!(kind, ThingKind::Piece { .. })),
             undoable: self.undo.len(),
             ball: self.ball.clone(),
+            hammer: self.hammer.clone(),
+            tool: self.tool,
             bake: progress.map(|progress| BakeShown {
                 what: progress.what,
                 share: progress.share,

@@ -12,7 +12,7 @@ use frangible_scenes::{LiveScene, ThingKind, Throw};
 use super::Session;
 use crate::blow::Blow;
 use crate::camera::Ray;
-use crate::command::{BallSpec, Command, Subject};
+use crate::command::{BallSpec, Command, Subject, Tool};
 use crate::error::ViewError;
 use crate::picking::pick;
 
@@ -118,19 +118,11 @@ impl Session {
 
     pub(super) fn choose_ball(&mut self, ball: BallSpec) -> Result<(), ViewError> {
         Material::preset(&ball.material)?;
-        let limits = [
-            ("mass", ball.mass, [1e-6, 1e4], "kg"),
-            ("radius", ball.radius, [5e-4, 1.0], "m"),
-            ("speed", ball.speed, [0.01, 400.0], "m/s"),
-        ];
-        for (what, value, [least, most], unit) in limits {
-            if !(least..=most).contains(&value) {
-                return Err(ViewError::NotNow(format!(
-                    "the ball's {what} is {value} {unit}; it must be {least} to {most} {unit}"
-                )));
-            }
-        }
+        within("the ball's mass", ball.mass, [1e-6, 1e4], "kg")?;
+        within("the ball's radius", ball.radius, [5e-4, 1.0], "m")?;
+        within("the ball's speed", ball.speed, [0.01, 400.0], "m/s")?;
         self.ball = ball;
+        self.tool = Tool::Ball;
         Ok(())
     }
 
@@ -175,6 +167,21 @@ impl Session {
         ));
         Ok(())
     }
+}
+
+/// Refuses a number outside of its range.
+pub(super) fn within(
+    what: &str,
+    value: f64,
+    [least, most]: [f64; 2],
+    unit: &str,
+) -> Result<(), ViewError> {
+    if (least..=most).contains(&value) {
+        return Ok(());
+    }
+    Err(ViewError::NotNow(format!(
+        "{what} is {value} {unit}; it must be {least} to {most} {unit}"
+    )))
 }
 
 fn pose_of(pose: &RapierPose) -> Pose {

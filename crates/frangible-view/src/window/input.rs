@@ -36,11 +36,12 @@ pub(super) enum Stroke {
     Performance,
     Screenshot,
     Glb,
+    Tool,
     Theme,
 }
 
 /// Keys, what they are called, and what they do, in the order of the help.
-pub(super) const KEYS: [(Key, &str, Stroke, &str); 22] = [
+pub(super) const KEYS: [(Key, &str, Stroke, &str); 23] = [
     (
         Key::Space,
         "space",
@@ -65,6 +66,12 @@ pub(super) const KEYS: [(Key, &str, Stroke, &str); 22] = [
         "H",
         Stroke::HitAgain,
         "the last impact again with the knobs as they are, beside the old one",
+    ),
+    (
+        Key::B,
+        "B",
+        Stroke::Tool,
+        "a click throws the ball, or swings the hammer",
     ),
     (Key::LBracket, "[", Stroke::Slower, "slower"),
     (Key::RBracket, "]", Stroke::Faster, "faster"),

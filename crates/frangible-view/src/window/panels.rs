@@ -14,7 +14,7 @@ use std::time::{Duration, Instant};
 use egui::{Align2, Context, Visuals};
 use frangible_draw::kiss3d::window::Window;
 
-use crate::command::{Command, Mark, Subject, Target};
+use crate::command::{Command, Mark, Subject, Target, Tool};
 use crate::shown::Shown;
 use crate::window::input::{Said, Stroke};
 
@@ -283,6 +283,10 @@ impl Panels {
             Stroke::Home => Command::Home,
             Stroke::Screenshot => Command::Screenshot(self.file(shown, "png")),
             Stroke::Glb => Command::Save(Target::Glb, self.file(shown, "glb")),
+            Stroke::Tool => Command::Tool(match shown.tool {
+                Tool::Ball => Tool::Hammer,
+                Tool::Hammer => Tool::Ball,
+            }),
             Stroke::Help => return self.help = !self.help,
             Stroke::Theme => return self.dark = !self.dark,
             Stroke::Inspect => return self.flip(Tab::Inspect),

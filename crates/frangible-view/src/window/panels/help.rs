@@ -20,7 +20,7 @@ pub(super) fn show(ctx: &egui::Context, open: &mut bool) {
                         .striped(true)
                         .show(ui, |ui| {
                             for (hand, does) in [
-                                ("click", "throw the ball there"),
+                                ("click", "throw the ball there, or swing the hammer"),
                                 ("shift + click", "select a piece: mass, volume, size, speed"),
                                 ("ctrl + drag", "take hold of a thing, and fling it"),
                                 ("drag", "turn the camera"),

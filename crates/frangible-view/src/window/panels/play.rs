@@ -1,4 +1,4 @@
-//! Scenes, the clock, the ball.
+//! Scenes, the clock, ball and hammer.
 
 use egui::{ComboBox, Slider, Ui};
 use frangible::Material;
@@ -6,14 +6,14 @@ use frangible_scenes::SCENE_NAMES;
 
 use super::gallery::Gallery;
 use super::{Panels, Tab};
-use crate::command::{Command, Target};
+use crate::command::{Command, Target, Tool};
 use crate::shown::Shown;
 
 /// Size of a scene's picture, points.
 const PICTURE: egui::Vec2 = egui::vec2(58.0, 36.0);
 
-/// What balls are made of.
-const BALLS: [&str; 6] = ["steel", "stone", "glass", "wood", "rubber", "porcelain"];
+/// What balls and hammers are made of.
+const MATERIALS: [&str; 6] = ["steel", "stone", "glass", "wood", "rubber", "porcelain"];
 
 impl Panels {
     pub(super) fn play_panel(&mut self, ui: &mut Ui, shown: &Shown, commands: &mut Vec<Command>) {
@@ -39,7 +39,7 @@ impl Panels {
         ui.separator();
         clock(ui, shown, commands);
         ui.separator();
-        ball(ui, shown, commands);
+        tool(ui, shown, commands);
         ui.separator();
         ui.horizontal(|ui| {
             if ui
@@ -184,33 +184,37 @@ fn clock(ui: &mut Ui, shown: &Shown, commands: &mut Vec<Command>) {
     }
 }
 
+/// What a click does, and the numbers of it.
+fn tool(ui: &mut Ui, shown: &Shown, commands: &mut Vec<Command>) {
+    ui.horizontal(|ui| {
+        for (tool, label, hint) in [
+            (Tool::Ball, "Ball", "click into the scene to throw it (B)"),
+            (Tool::Hammer, "Hammer", "click a thing to strike it (B)"),
+        ] {
+            let button = ui.selectable_label(shown.tool == tool, label);
+            if button.on_hover_text(hint).clicked() && shown.tool != tool {
+                commands.push(Command::Tool(tool));
+            }
+        }
+    });
+    match shown.tool {
+        Tool::Ball => ball(ui, shown, commands),
+        Tool::Hammer => hammer(ui, shown, commands),
+    }
+}
+
 fn ball(ui: &mut Ui, shown: &Shown, commands: &mut Vec<Command>) {
     let mut ball = shown.ball.clone();
-    ui.label("Ball")
-        .on_hover_text("click into the scene to throw it");
-    ComboBox::from_id_salt("ball")
-        .selected_text(ball.material.clone())
-        .show_ui(ui, |ui| {
-            for name in BALLS {
-                if Material::preset(name).is_ok() {
-                    ui.selectable_value(&mut ball.material, name.to_string(), name);
-                }
-            }
-        });
+    material(ui, &mut ball.material);
     let (mut grams, mut millimetres) = (1e3 * ball.mass, 1e3 * ball.radius);
-    let sliders = [
-        (&mut grams, 1.0..=5000.0, " g", "mass"),
-        (&mut millimetres, 2.0..=100.0, " mm", "radius"),
-        (&mut ball.speed, 0.5..=100.0, " m/s", "speed"),
-    ];
-    let mut turned = false;
-    for (value, range, unit, label) in sliders {
-        let slider = Slider::new(value, range)
-            .logarithmic(true)
-            .suffix(unit)
-            .text(label);
-        turned |= ui.add(slider.max_decimals(1)).changed();
-    }
+    let turned = sliders(
+        ui,
+        [
+            (&mut grams, 1.0..=5000.0, " g", "mass"),
+            (&mut millimetres, 2.0..=100.0, " mm", "radius"),
+            (&mut ball.speed, 0.5..=100.0, " m/s", "speed"),
+        ],
+    );
     if turned {
         // Only then, as kilograms and back is not exact.
         (ball.mass, ball.radius) = (1e-3 * grams, 1e-3 * millimetres);
@@ -218,4 +222,51 @@ fn ball(ui: &mut Ui, shown: &Shown, commands: &mut Vec<Command>) {
     if ball != shown.ball {
         commands.push(Command::Ball(ball));
     }
+}
+
+fn hammer(ui: &mut Ui, shown: &Shown, commands: &mut Vec<Command>) {
+    let mut hammer = shown.hammer.clone();
+    material(ui, &mut hammer.material);
+    let mut grams = 1e3 * hammer.mass;
+    let turned = sliders(
+        ui,
+        [
+            (&mut grams, 20.0..=10_000.0, " g", "mass"),
+            (&mut hammer.speed, 0.5..=20.0, " m/s", "speed"),
+        ],
+    );
+    if turned {
+        hammer.mass = 1e-3 * grams;
+    }
+    if hammer != shown.hammer {
+        commands.push(Command::Hammer(hammer));
+    }
+}
+
+fn material(ui: &mut Ui, chosen: &mut String) {
+    ComboBox::from_id_salt("tool material")
+        .selected_text(chosen.clone())
+        .show_ui(ui, |ui| {
+            for name in MATERIALS {
+                if Material::preset(name).is_ok() {
+                    ui.selectable_value(chosen, name.to_string(), name);
+                }
+            }
+        });
+}
+
+/// Sliders of a logarithmic scale: value, range, unit, label. Whether one was turned.
+fn sliders<const N: usize>(
+    ui: &mut Ui,
+    all: [(&mut f64, std::ops::RangeInclusive<f64>, &str, &str); N],
+) -> bool {
+    let mut turned = false;
+    for (value, range, unit, label) in all {
+        let slider = Slider::new(value, range)
+            .logarithmic(true)
+            .suffix(unit)
+            .text(label);
+        turned |= ui.add(slider.max_decimals(1)).changed();
+    }
+    turned
 }
