@@ -21,6 +21,9 @@ pub(crate) struct Cli {
 pub(crate) enum Command {
     /// Break a scene, a mesh or a baked body; write the animation (GLB) and a contact sheet (PNG)
     Break(Box<BreakCommand>),
+    /// Break the same impact by several methods, side by side: ours, quasi-static, along element faces, Voronoi cells by strain
+    /// energy, Voronoi cells around the impact; write a picture (PNG) and a table (Markdown, JSON)
+    Compare(CompareArgs),
     /// Bake a mesh, or the body of a scene, into a file that breaks without waiting
     Bake(BakeArgs),
     /// Show how a body vibrates: table of its modes, picture of their shapes coloured by stress (PNG), files for ParaView (VTU)
@@ -41,6 +44,53 @@ pub(crate) enum Command {
     /// Compute the figures of the paper this model is taken from, and what they show in numbers (PNG, Markdown)
     #[cfg(feature = "draw")]
     Figures(FiguresArgs),
+}
+
+#[derive(Args, Clone, Debug)]
+pub(crate) struct CompareArgs {
+    /// Scene (.toml), mesh or baked body instead of a built-in scene
+    #[arg(value_name = "FILE", conflicts_with = "scene")]
+    pub(crate) file: Option<PathBuf>,
+
+    /// Built-in scene, played up to its first break [default: glass]
+    #[arg(long, value_name = "NAME")]
+    pub(crate) scene: Option<String>,
+
+    /// Seed of the weak points, of the cracks' roughness and of Voronoi sites [default: the scene's own]
+    #[arg(long, value_name = "N")]
+    pub(crate) seed: Option<u64>,
+
+    /// Only these methods: ours, quasi-static, elements, energy-voronoi, voronoi
+    #[arg(long, value_name = "NAME,NAME", value_delimiter = ',')]
+    pub(crate) methods: Vec<String>,
+
+    /// Time over which the quasi-static method spreads the impulse, ms [default: 0.26, a step of the rigid bodies]
+    #[arg(long, value_name = "MS", allow_negative_numbers = true)]
+    pub(crate) step: Option<f64>,
+
+    /// Voronoi sites drawn by strain energy [default: 100]
+    #[arg(long, value_name = "N")]
+    pub(crate) sites: Option<usize>,
+
+    /// Voronoi sites around the impact point [default: as many as ours has pieces, 2 at least]
+    #[arg(long, value_name = "N")]
+    pub(crate) cells: Option<usize>,
+
+    /// Folder for the results, made when it is missing
+    #[arg(long, default_value = "out", value_name = "DIR")]
+    pub(crate) out: PathBuf,
+
+    /// Print the report as JSON instead of a table
+    #[arg(long)]
+    pub(crate) json: bool,
+
+    /// No picture
+    #[arg(long)]
+    pub(crate) no_pictures: bool,
+
+    /// Write compare.md, about four built-in scenes, and its pictures into this folder instead
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["file", "scene", "seed", "methods", "json", "no_pictures"])]
+    pub(crate) write: Option<PathBuf>,
 }
 
 #[cfg(feature = "draw")]

@@ -4,6 +4,9 @@ mod args;
 mod baking;
 mod benching;
 mod breaking;
+mod compare_page;
+mod compare_report;
+mod comparing;
 #[cfg(feature = "draw")]
 mod drawing;
 mod experimenting;
@@ -56,6 +59,7 @@ fn main() -> ExitCode {
     let result = match cli.command {
         None => breaking::run(None, &cli.break_args),
         Some(Command::Break(command)) => breaking::run(command.file.as_deref(), &command.args),
+        Some(Command::Compare(args)) => comparing::run(&args),
         Some(Command::Bake(args)) => baking::run(&args),
         Some(Command::Modes(args)) => modes::run(&args),
         Some(Command::Verify(args))

@@ -127,7 +127,7 @@ pub(crate) fn body_with_modes(args: &ModesArgs) -> Result<Scene, Box<dyn Error>>
     Ok(wanted)
 }
 
-fn named(file: Option<&Path>, name: Option<&str>) -> Result<Scene, Box<dyn Error>> {
+pub(crate) fn named(file: Option<&Path>, name: Option<&str>) -> Result<Scene, Box<dyn Error>> {
     Ok(match file {
         Some(file) => scene_of_file(file)?,
         None => scene(name.unwrap_or(SCENE_NAMES[0]))?,

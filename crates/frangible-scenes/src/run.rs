@@ -161,7 +161,7 @@ fn at_rest(world: &BreakableWorld, projectiles: &[Thrown]) -> bool {
 }
 
 /// Physics steps of the coming frame: finer where a body that has not broken yet may be hit, or a piece may.
-fn steps_of_frame(stage: &mut Stage<'_>, scene: &Scene, just_broken: bool) -> usize {
+pub(crate) fn steps_of_frame(stage: &mut Stage<'_>, scene: &Scene, just_broken: bool) -> usize {
     let world = &mut stage.world;
     let mut whole = stage
         .bodies

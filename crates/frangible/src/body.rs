@@ -367,6 +367,12 @@ impl Body {
         self.resistance.strength(tet)
     }
 
+    /// G_c that a crack must pay in a fracture tetrahedron, J/m².
+    #[must_use]
+    pub fn toughness(&self, tet: u32) -> f64 {
+        self.resistance.toughness.of(tet)
+    }
+
     /// Where the stress of a weak tetrahedron is taken, and by which law: at its flaw on the free surface, else at its
     /// centroid. `pressed`: surface triangles that something presses on, whose flaws do not count.
     #[must_use]

@@ -55,6 +55,12 @@ pub enum InputError {
     /// Fields of strength, toughness or weak points that cannot be used.
     #[error("fields of a body cannot be used: {0}")]
     Field(String),
+    /// Labels by which a body cannot be divided.
+    #[error("a body cannot be divided: {0}")]
+    Labels(String),
+    /// A motion that is not one of the body's modes.
+    #[error("a motion cannot be followed: {0}")]
+    Motion(&'static str),
     /// Arrays of an asset that do not fit together.
     #[error("asset `{asset}`: {problem}; bake it again")]
     Asset {

@@ -1,12 +1,13 @@
-//! An impact in two stages, for those who find elsewhere, on a GPU, when its stress first nears the strength.
+//! An impact in two stages, for those who find elsewhere, on a GPU, when its stress first nears the strength; and its second
+//! half alone, for motions that come from elsewhere.
 
 use crate::body::Body;
 use crate::config::FractureConfig;
 use crate::contact::{Contact, Pulse};
-use crate::error::InputError;
-use crate::impact::{Begun, Cracked, begin, impact, pieces, vibrate};
+use crate::error::{InputError, positive};
+use crate::impact::{Begun, Cracked, begin, impact, pieces, report_on, run_cracks, vibrate};
 use crate::modal::{self, Motion};
-use crate::outcome::{ImpactReport, Outcome};
+use crate::outcome::{ImpactReport, LookedAt, Outcome};
 
 /// What the first stage of an impact leaves to do.
 #[derive(Clone, Debug)]
@@ -81,4 +82,51 @@ impl Vibration {
         let cracked = vibrate(body, config, self, first_step, &mut None);
         matches!(cracked, Cracked::Parted(..))
     }
+}
+
+/// What cracks do under any motion of a body's modes, wherever it comes from: [`impact()`](crate::impact()) from its stress wave
+/// on. `pressed`: surface triangles that something presses on; `time_step`: of the motion, s. With the energy ledger all
+/// cracks together spend no more than the motion's [peak strain energy](Motion::peak_strain_energy).
+///
+/// A motion whose rows are all the same is a steady state: what methods without a vibration make of an impact.
+///
+/// # Errors
+/// A body without modes, or a motion, time step or energy that is not one of this body.
+pub fn follow(
+    body: &Body,
+    motion: &Motion,
+    pressed: &[u32],
+    time_step: f64,
+    config: &FractureConfig,
+) -> Result<Outcome, InputError> {
+    if body.statics.is_some() {
+        return Err(InputError::Motion("the body is a piece without modes"));
+    }
+    if motion.modes != body.asset.modes.count() || motion.steps() == 0 {
+        return Err(InputError::Motion(
+            "it must have an amplitude for each of the body's modes and one time step or more",
+        ));
+    }
+    if !motion.amplitudes.iter().all(|q| q.is_finite()) {
+        return Err(InputError::Motion(
+            "every amplitude must be a finite number",
+        ));
+    }
+    positive("time step", time_step, "s")?;
+    let energy = motion.peak_strain_energy;
+    if !energy.is_finite() || energy < 0.0 {
+        return Err(InputError::Motion(
+            "its strain energy must be a finite number, zero or above",
+        ));
+    }
+    let mut report = report_on(body);
+    report.time_step = time_step;
+    report.time_steps = motion.steps();
+    report.looked_at = LookedAt::Amplitudes;
+    report.peak_elastic_energy = motion.peak_energy;
+    report.peak_strain_energy = energy;
+    let cracked = run_cracks(
+        body, config, motion, pressed, time_step, energy, report, &mut None,
+    );
+    Ok(pieces(body, cracked))
 }

@@ -5,8 +5,9 @@ use super::finish::Finisher;
 use super::label::Labels;
 use super::points::PointTable;
 use super::render::{Parts, Undrawn};
+use crate::asset::Asset;
 use crate::body::Prepared;
-use crate::crack::CrackSystem;
+use crate::crack::{Crack, CrackSystem};
 use crate::outcome::Fragment;
 use crate::piece::{FixedPoints, Trace};
 
@@ -24,14 +25,24 @@ pub(crate) struct Built {
 
 /// Builds all fragments. `prepared`: of the body as it was baked.
 pub(crate) fn build(system: &CrackSystem, labels: &Labels, prepared: &Prepared) -> Built {
-    let (asset, portion) = (system.asset.root(), system.asset.portion.as_deref());
+    build_cracked(system.asset, &system.cracks, labels, prepared)
+}
+
+/// Builds all fragments of a body with these cracks.
+pub(crate) fn build_cracked(
+    body: &Asset,
+    cracks: &[Crack],
+    labels: &Labels,
+    prepared: &Prepared,
+) -> Built {
+    let (asset, portion) = (body.root(), body.portion.as_deref());
     let mut table = PointTable::new(&asset.fracture, &labels.cuts, portion);
     let mut drafts = vec![Draft::default(); labels.count];
     inner_faces(asset, &prepared.index, labels, &mut table, &mut drafts);
     let mut parts = prepared.render.as_ref().map(|_| Parts::default());
     outer_faces(asset, labels, &mut table, &mut drafts, parts.as_mut());
     nodes(asset, &prepared.index, labels, &mut drafts);
-    partial_cracks(system, labels, &mut drafts);
+    partial_cracks(&asset.fracture, cracks, labels, &mut drafts);
     let faces: Vec<_> = match parts {
         Some(_) => drafts.iter().map(|draft| draft.inner.clone()).collect(),
         None => Vec::new(),

@@ -83,6 +83,15 @@ impl Cuts {
         true
     }
 
+    /// Cuts an edge, its lower node first, at this place along it; one that is cut stays as it is.
+    pub(crate) fn cut_at(&mut self, [low, high]: [u32; 2], at: f64) {
+        if self.place(low, high).is_none() {
+            let at = at.clamp(CUT_MARGIN, 1.0 - CUT_MARGIN);
+            let (ends, crack) = ([low, high], 0);
+            self.add(EdgeCut { ends, at, crack });
+        }
+    }
+
     /// Adds the cut of an edge that has none.
     fn add(&mut self, cut: EdgeCut) {
         let [low, high] = cut.ends;

@@ -9,7 +9,8 @@ use super::partition::{Interface, Point, face_parts, interfaces};
 use super::points::PointTable;
 use super::render::{Part, Parts};
 use crate::asset::Asset;
-use crate::crack::{CrackSystem, crossing_polygon};
+use crate::crack::{Crack, crossing_polygon};
+use crate::mesh::TetMesh;
 
 /// One fragment under construction, in numbers of the point table.
 #[derive(Clone, Default)]
@@ -68,7 +69,7 @@ pub(super) fn inner_faces(
 }
 
 /// Tetrahedra whose nodes have several labels, ascending: those around the cut edges between two labels.
-fn divided_tets(
+pub(crate) fn divided_tets(
     tets: &[[u32; 4]],
     index: &MeshIndex,
     labels: &Labels,
@@ -192,9 +193,13 @@ pub(super) fn nodes(asset: &Asset, index: &MeshIndex, labels: &Labels, drafts: &
 }
 
 /// Cracks inside a piece: fractured tetrahedra whose four nodes stayed together.
-pub(super) fn partial_cracks(system: &CrackSystem, labels: &Labels, drafts: &mut [Draft]) {
-    let mesh = &system.asset.fracture;
-    for crack in &system.cracks {
+pub(super) fn partial_cracks(
+    mesh: &TetMesh,
+    cracks: &[Crack],
+    labels: &Labels,
+    drafts: &mut [Draft],
+) {
+    for crack in cracks {
         for cut in &crack.elements {
             let nodes = mesh.tets[cut.tet as usize];
             let l = nodes.map(|v| labels.of_node[v as usize]);

@@ -8,6 +8,7 @@ use crate::crack::CrackSystem;
 use crate::piece::Portion;
 
 /// A fragment number for every node.
+#[derive(Debug)]
 pub(crate) struct Labels {
     /// Fragment of each node, 0 the largest.
     pub(crate) of_node: Vec<u32>,
@@ -36,7 +37,7 @@ pub(crate) fn label(system: &CrackSystem, index: &MeshIndex, crumb_share: f64) -
 
 /// The labels that these cuts leave, of the whole body or of a portion of it. Nodes of other pieces have labels from
 /// [`FOREIGN`](crate::piece::FOREIGN) on.
-pub(super) fn of_cuts(
+pub(crate) fn of_cuts(
     cuts: Cuts,
     tets: &[[u32; 4]],
     index: &MeshIndex,

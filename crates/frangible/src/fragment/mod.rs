@@ -20,11 +20,12 @@ mod label_tests;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use build::{Built, build};
+pub(crate) use build::{Built, build, build_cracked};
 pub(crate) use components::DisjointSets;
 pub(crate) use cuts::{Cuts, EdgeCut};
+pub(crate) use draft::divided_tets;
 pub(crate) use index::MeshIndex;
-pub(crate) use label::{Labels, label};
-pub(crate) use partition::{Point, face_parts, interfaces};
+pub(crate) use label::{Labels, label, of_cuts};
+pub(crate) use partition::{Interface, Point, face_parts, interfaces};
 pub(crate) use points::PointTable;
 pub(crate) use render::{RenderIndex, draw};

@@ -1,0 +1,29 @@
+//! What stands in the way of a comparison.
+
+use frangible::InputError;
+use thiserror::Error;
+
+/// Why an impact cannot be compared.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[non_exhaustive]
+pub enum CompareError {
+    /// The fracture model refused the body or its contacts.
+    #[error(transparent)]
+    Input(#[from] InputError),
+    /// No contact with an impulse.
+    #[error("nothing pushes the body: none of its contacts has an impulse; give one above 0 N·s")]
+    NoImpulse,
+    /// A piece of a broken body.
+    #[error("`{0}` is a piece of a broken body; methods are compared on whole bodies only")]
+    Piece(String),
+    /// An option that cannot be used.
+    #[error("{what} is {value}; it must be {wanted}")]
+    Option {
+        /// The option.
+        what: &'static str,
+        /// What was given.
+        value: String,
+        /// What it may be.
+        wanted: &'static str,
+    },
+}

@@ -1,0 +1,42 @@
+//! The impact that all methods take.
+
+use frangible::glam::{DVec3, Vec3};
+use frangible::{Body, Contact, FractureConfig};
+
+use crate::error::CompareError;
+
+/// A whole body and what hits it.
+#[derive(Clone, Copy, Debug)]
+pub struct Hit<'a> {
+    /// The body before it. Cracks that it has already are felt by [`Method::Ours`](crate::Method::Ours) and
+    /// [`Method::QuasiStatic`](crate::Method::QuasiStatic); the others take it as intact.
+    pub body: &'a Body,
+    /// Its contacts, body frame.
+    pub contacts: &'a [Contact],
+    /// Switches and numbers of the fracture.
+    pub config: &'a FractureConfig,
+}
+
+impl Hit<'_> {
+    pub(crate) fn check(&self) -> Result<(), CompareError> {
+        let asset = self.body.asset();
+        if asset.portion.is_some() {
+            return Err(CompareError::Piece(asset.name.clone()));
+        }
+        self.contacts.iter().try_for_each(Contact::validate)?;
+        match self.contacts.iter().any(|contact| contact.impulse > 0.0) {
+            true => Ok(()),
+            false => Err(CompareError::NoImpulse),
+        }
+    }
+
+    /// Mean of the contact points, weighted by their impulses, m.
+    pub(crate) fn point(&self) -> DVec3 {
+        let impulses = self.contacts.iter();
+        let (sum, weight) = impulses.fold((Vec3::ZERO, 0.0_f32), |(sum, weight), contact| {
+            let impulse = contact.impulse;
+            (sum + contact.point * impulse, weight + impulse)
+        });
+        (sum / weight).as_dvec3()
+    }
+}

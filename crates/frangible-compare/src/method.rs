@@ -1,0 +1,65 @@
+//! The methods, by name.
+
+use std::fmt;
+
+/// A way to break a body.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Method {
+    /// Frangible's own: [`frangible::impact()`].
+    Ours,
+    /// A steady state in place of the vibration, after Müller, McMillan, Dorsey and Jagnow 2001.
+    QuasiStatic,
+    /// Cracks along the faces of the mesh's elements, as in Müller et al. 2001 and Smith, Witkin and Baraff 2001.
+    Elements,
+    /// Voronoi cells drawn by strain energy, kept apart by an energy criterion, after Zheng and James 2010.
+    EnergyVoronoi,
+    /// Voronoi cells around the impact point.
+    Voronoi,
+}
+
+impl Method {
+    /// All of them, in the order in which they are shown.
+    pub const ALL: [Self; 5] = [
+        Self::Ours,
+        Self::QuasiStatic,
+        Self::Elements,
+        Self::EnergyVoronoi,
+        Self::Voronoi,
+    ];
+
+    /// Its name in commands and files.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Ours => "ours",
+            Self::QuasiStatic => "quasi-static",
+            Self::Elements => "elements",
+            Self::EnergyVoronoi => "energy-voronoi",
+            Self::Voronoi => "voronoi",
+        }
+    }
+
+    /// What it does, in a few words for a heading.
+    #[must_use]
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Ours => "ours",
+            Self::QuasiStatic => "quasi-static",
+            Self::Elements => "element faces",
+            Self::EnergyVoronoi => "Voronoi by energy",
+            Self::Voronoi => "Voronoi at impact",
+        }
+    }
+
+    /// The method of this [name](Self::name).
+    #[must_use]
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|method| method.name() == name)
+    }
+}
+
+impl fmt::Display for Method {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}

@@ -1,0 +1,139 @@
+//! The body's stress at one moment of the vibration that ours follows.
+
+use frangible::modal::Motion;
+use frangible::stress::{DisplacementBatch, Elasticity, StressState, largest_eigenvalue};
+use frangible::{FractureConfig, Stage, Vibration};
+
+use crate::error::CompareError;
+use crate::hit::Hit;
+
+/// Moments at which the largest tension is looked for.
+const LOOKS: usize = 100;
+
+/// The motion of an impact.
+pub(crate) struct Wave<'a> {
+    hit: Hit<'a>,
+    motion: Motion,
+    /// Surface triangles under the contacts.
+    pressed: Vec<u32>,
+    /// For stress at the middles of tetrahedra rather than at the flaws on their faces.
+    inside: FractureConfig,
+}
+
+/// One time step of it.
+pub(crate) struct Moment<'w> {
+    wave: &'w Wave<'w>,
+    batch: DisplacementBatch,
+    elasticity: Elasticity,
+}
+
+impl<'a> Wave<'a> {
+    /// The modes' answer to the contacts, as [`frangible::impact()`] has it.
+    pub(crate) fn new(hit: Hit<'a>) -> Result<Self, CompareError> {
+        // Also of a contact that a bound would refuse.
+        let mut unculled = hit.config.clone();
+        unculled.culling = false;
+        let Stage::Vibrates(vibration) = Vibration::begin(hit.body, hit.contacts, &unculled)?
+        else {
+            return Err(CompareError::NoImpulse);
+        };
+        let mut inside = hit.config.clone();
+        inside.surface_flaws = false;
+        Ok(Self {
+            motion: vibration.motion(hit.body),
+            pressed: vibration.pressed,
+            inside,
+            hit,
+        })
+    }
+
+    /// Largest strain energy at a step, J.
+    pub(crate) fn strain_energy(&self) -> f64 {
+        self.motion.peak_strain_energy
+    }
+
+    /// The step at which the strain energy Σ ½ λ q² is largest; the first of several.
+    pub(crate) fn most_strained(&self) -> usize {
+        let eigenvalues = &self.hit.body.asset().modes.eigenvalues;
+        let energy = |step: usize| -> f64 {
+            let modes = self.motion.at(step).iter().zip(eigenvalues);
+            modes.map(|(&q, l)| l * f64::from(q) * f64::from(q)).sum()
+        };
+        first_largest((0..self.motion.steps()).map(energy))
+    }
+
+    /// The step, of [`LOOKS`] or somewhat more that are spread over the motion, at which the tension of a weak point is the largest
+    /// multiple of its strength; the first of several.
+    pub(crate) fn most_stressed(&self) -> usize {
+        let Hit { body, config, .. } = self.hit;
+        let asset = body.asset();
+        let mut batch = DisplacementBatch::new(asset);
+        let elasticity = elasticity(self.hit);
+        let places: Vec<_> = (body.weak_tets().iter())
+            .map(|&e| (body.weak_place(e, config, &self.pressed), body.strength(e)))
+            .collect();
+        let every = (self.motion.steps() / LOOKS).max(1);
+        let looks = (0..self.motion.steps()).step_by(every);
+        every
+            * first_largest(looks.map(|step| {
+                batch.seek(&self.motion, step);
+                let tension = |&((point, law), strength): &((_, _), f32)| {
+                    let gradient = batch.gradient(asset, point, step);
+                    let state = elasticity.state_by(gradient, law);
+                    f64::from(largest_eigenvalue(&state.stress) / strength)
+                };
+                places.iter().map(tension).fold(0.0, f64::max)
+            }))
+    }
+
+    /// The body at a step.
+    pub(crate) fn at(&self, step: usize) -> Moment<'_> {
+        let motion = Motion {
+            amplitudes: self.motion.at(step).to_vec(),
+            modes: self.motion.modes,
+            ..Motion::default()
+        };
+        let mut batch = DisplacementBatch::new(self.hit.body.asset());
+        batch.seek(&motion, 0);
+        Moment {
+            wave: self,
+            batch,
+            elasticity: elasticity(self.hit),
+        }
+    }
+}
+
+impl Moment<'_> {
+    /// At the middle of a tetrahedron.
+    pub(crate) fn inside(&mut self, tet: u32) -> StressState {
+        let inside = &self.wave.inside;
+        self.state(tet, inside)
+    }
+
+    /// Where a crack may start in a tetrahedron.
+    pub(crate) fn at_weak_point(&mut self, tet: u32) -> StressState {
+        let config = self.wave.hit.config;
+        self.state(tet, config)
+    }
+
+    fn state(&mut self, tet: u32, config: &FractureConfig) -> StressState {
+        let body = self.wave.hit.body;
+        let (point, law) = body.weak_place(tet, config, &self.wave.pressed);
+        let gradient = self.batch.gradient(body.asset(), point, 0);
+        self.elasticity.state_by(gradient, law)
+    }
+}
+
+fn elasticity(hit: Hit<'_>) -> Elasticity {
+    Elasticity::new(&hit.body.asset().material).with_green_lagrange(hit.config.green_lagrange)
+}
+
+/// Place of the largest number, the first of equals.
+fn first_largest(numbers: impl Iterator<Item = f64>) -> usize {
+    let best = numbers
+        .enumerate()
+        .fold((0, f64::NEG_INFINITY), |best, new| {
+            if new.1 > best.1 { new } else { best }
+        });
+    best.0
+}
