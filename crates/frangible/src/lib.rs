@@ -37,6 +37,7 @@ pub mod stages;
 pub mod state;
 pub mod stress;
 mod trace;
+mod weak_clusters;
 
 pub use asset::{Asset, AssetFileError};
 pub use body::{Body, Breakable};

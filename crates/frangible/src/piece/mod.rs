@@ -10,6 +10,7 @@
 
 mod breakup;
 mod elastic;
+mod lists;
 mod portion;
 mod solid;
 mod statics;
