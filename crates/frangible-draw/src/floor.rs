@@ -15,13 +15,27 @@ use crate::stage::FLOOR;
 /// How far the floor goes on past what the haze hides, stage units.
 const FAR: f32 = 60.0;
 
-/// Adds the floor at this height, stage units.
-pub(crate) fn add_floor(
-    scene: &mut SceneNode3d,
-    height: f32,
-    [red, green, blue]: [f32; 3],
-    shadow: &FloorShadow,
-) -> SceneNode3d {
+/// A floor to be laid.
+pub(crate) struct Laid<'a> {
+    /// Stage units.
+    pub(crate) height: f32,
+    /// Linear red, green, blue.
+    pub(crate) color: [f32; 3],
+    pub(crate) shadow: &'a FloorShadow,
+    /// What [`texels`] makes of the shadow.
+    pub(crate) texels: &'a [u8],
+    /// Whether smaller copies of the texture are made for what is far off.
+    pub(crate) mipmaps: bool,
+}
+
+/// Adds the floor.
+pub(crate) fn add_floor(scene: &mut SceneNode3d, floor: Laid<'_>) -> SceneNode3d {
+    let Laid {
+        height,
+        color: [red, green, blue],
+        shadow,
+        ..
+    } = floor;
     // What stands on the floor must not flicker with it.
     let height = height - 0.003;
     // Nine fields, the shadow's square in the middle; around it the texture's
@@ -45,11 +59,11 @@ pub(crate) fn add_floor(
     node.set_texture(Texture::new(
         shadow.side as u32,
         shadow.side as u32,
-        &pixels(&shadow.brightness),
+        floor.texels,
         TextureFormat::Rgba8UnormSrgb,
         AddressMode::ClampToEdge,
         FilterMode::Linear,
-        true,
+        floor.mipmaps,
         1,
     ));
     node.set_color(Color::new(red, green, blue, 1.0));
@@ -61,8 +75,9 @@ pub(crate) fn add_floor(
     node
 }
 
-fn pixels(brightness: &[f32]) -> Vec<u8> {
+/// The shadow as sRGB pixels.
+pub(crate) fn texels(shadow: &FloorShadow) -> Vec<u8> {
     let code = |light: f32| (light.clamp(0.0, 1.0).powf(1.0 / 2.2) * 255.0 + 0.5) as u8;
     let pixel = |&light: &f32| [code(light), code(light), code(light), 255];
-    brightness.iter().flat_map(pixel).collect()
+    shadow.brightness.iter().flat_map(pixel).collect()
 }

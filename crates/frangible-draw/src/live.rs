@@ -14,7 +14,7 @@ use kiss3d::window::Window;
 use crate::backdrop::{HAZE, furnish, haze, surround};
 use crate::color_map::color_of;
 use crate::field::{dress_in_values, palette_texture, texel};
-use crate::floor::add_floor;
+use crate::floor::{Laid, add_floor, texels};
 use crate::floor_shadow::{Caster, Fineness, FloorShadow};
 use crate::stage::{StageUnits, add_lights, clarity, dress, key_light};
 
@@ -39,12 +39,15 @@ pub struct LiveMesh<'a> {
     pub values: &'a [f32],
     /// Vertices of each triangle.
     pub faces: &'a Arc<Vec<[u32; 3]>>,
+    /// Another number for other vertices of the same triangles; 0 where nobody counts.
+    pub stamp: u64,
 }
 
 /// A mesh on the stage.
 struct Actor {
     looks: Looks,
     wireframe: bool,
+    stamp: u64,
     faces: Arc<Vec<[u32; 3]>>,
     mesh: Rc<RefCell<GpuMesh3d>>,
     node: SceneNode3d,
@@ -122,50 +125,51 @@ impl LiveStage {
         self.units.point(world)
     }
 
-    /// Shows these meshes and no others. Those whose faces and looks are those of the last call at the same place of the list
-    /// only move, which is cheap.
+    /// Shows these meshes and no others. Of those that were there at the last call with the same faces and looks only the
+    /// vertices are uploaded, and nothing where the stamp is the same.
     pub fn show<'a>(&mut self, meshes: impl Iterator<Item = LiveMesh<'a>>, wireframe: bool) {
-        let mut count = 0;
         self.solid = true;
-        for (i, mesh) in meshes.enumerate() {
-            count = i + 1;
+        let mut before = std::mem::take(&mut self.actors);
+        for mesh in meshes {
             self.solid &= match mesh.looks {
                 Looks::Surface(surface) => clarity(surface) <= 0.0,
                 Looks::Values => false,
             };
-            let same = self.actors.get(i).is_some_and(|actor| {
+            let same = before.iter().position(|actor| {
                 Arc::ptr_eq(&actor.faces, mesh.faces)
                     && actor.looks == *mesh.looks
                     && actor.wireframe == wireframe
             });
-            if same {
-                self.actors[i].move_to(self.units, &mesh);
-                continue;
-            }
-            let actor = self.enter(&mesh, wireframe);
-            match self.actors.get_mut(i) {
-                Some(old) => std::mem::replace(old, actor).node.remove(),
-                None => self.actors.push(actor),
-            }
+            let actor = match same {
+                Some(same) => {
+                    let mut actor = before.swap_remove(same);
+                    actor.move_to(&mesh);
+                    actor
+                }
+                None => self.enter(&mesh, wireframe),
+            };
+            self.actors.push(actor);
         }
-        for mut actor in self.actors.drain(count..) {
+        for mut actor in before {
             actor.node.remove();
         }
     }
 
     fn enter(&mut self, mesh: &LiveMesh<'_>, wireframe: bool) -> Actor {
-        let place = |&at: &Vec3| self.units.point(at);
         let valued = *mesh.looks == Looks::Values;
         let texels = valued.then(|| mesh.values.iter().map(|&v| texel(v)).collect());
         let gpu = GpuMesh3d::new(
-            mesh.positions.iter().map(place).collect(),
+            mesh.positions.to_vec(),
             mesh.faces.to_vec(),
             Some(mesh.normals.to_vec()),
             texels,
             true,
         );
         let gpu = Rc::new(RefCell::new(gpu));
-        let mut node = self.scene.add_mesh(Rc::clone(&gpu), Vec3::ONE);
+        // The graphics card does the change of units: vertices are uploaded as they are.
+        let StageUnits { origin, scale } = self.units;
+        let mut node = self.scene.add_mesh(Rc::clone(&gpu), Vec3::splat(scale));
+        node.set_position(-scale * origin);
         match mesh.looks {
             Looks::Surface(surface) => dress(&mut node, surface),
             Looks::Values => dress_in_values(&mut node, Arc::clone(&self.palette)),
@@ -178,6 +182,7 @@ impl LiveStage {
         Actor {
             looks: mesh.looks.clone(),
             wireframe,
+            stamp: mesh.stamp,
             faces: Arc::clone(mesh.faces),
             mesh: gpu,
             node,
@@ -191,11 +196,20 @@ impl LiveStage {
         }
         if let Some(LiveShadow {
             shadow,
+            texels,
             height,
             color,
         }) = shadow
         {
-            self.floor = Some(add_floor(&mut self.scene, *height, *color, shadow));
+            let lay = Laid {
+                height: *height,
+                color: *color,
+                shadow,
+                texels,
+                // They would be made on this thread, in tens of milliseconds, and the shadow is soft anyway.
+                mipmaps: false,
+            };
+            self.floor = Some(add_floor(&mut self.scene, lay));
         }
     }
 
@@ -207,27 +221,29 @@ impl LiveStage {
 }
 
 impl Actor {
-    fn move_to(&mut self, units: StageUnits, mesh: &LiveMesh<'_>) {
-        fn fill<T, U: Copy>(buffer: Option<&mut Vec<T>>, from: &[U], change: impl Fn(U) -> T) {
-            if let Some(buffer) = buffer {
-                buffer.clear();
-                buffer.extend(from.iter().map(|&x| change(x)));
-            }
+    fn move_to(&mut self, mesh: &LiveMesh<'_>) {
+        if mesh.stamp != 0 && mesh.stamp == self.stamp {
+            return;
         }
+        self.stamp = mesh.stamp;
         let gpu = self.mesh.borrow();
-        let write = |vector: &Arc<_>| Arc::clone(vector);
-        if let Ok(mut coords) = write(gpu.coords()).write() {
-            fill(coords.data_mut().as_mut(), mesh.positions, |p| {
-                units.point(p)
-            });
-        }
-        if let Ok(mut normals) = gpu.normals().write() {
-            fill(normals.data_mut().as_mut(), mesh.normals, |n| n);
+        for (buffer, from) in [
+            (gpu.coords(), mesh.positions),
+            (gpu.normals(), mesh.normals),
+        ] {
+            if let Ok(mut buffer) = buffer.write()
+                && let Some(vertices) = buffer.data_mut()
+            {
+                vertices.clear();
+                vertices.extend_from_slice(from);
+            }
         }
         if self.looks == Looks::Values
             && let Ok(mut uvs) = gpu.uvs().write()
+            && let Some(texels) = uvs.data_mut()
         {
-            fill(uvs.data_mut().as_mut(), mesh.values, texel);
+            texels.clear();
+            texels.extend(mesh.values.iter().map(|&value| texel(value)));
         }
     }
 }
@@ -245,6 +261,7 @@ pub struct ShadowCaster<'a> {
 /// The floor's shadow, computed: it may come from another thread.
 pub struct LiveShadow {
     shadow: FloorShadow,
+    texels: Vec<u8>,
     height: f32,
     color: [f32; 3],
 }
@@ -270,8 +287,10 @@ impl LiveShadow {
             true => Fineness::STILL,
             false => Fineness::MOVING,
         };
+        let shadow = FloorShadow::cast(&all, height, key, fineness);
         Self {
-            shadow: FloorShadow::cast(&all, height, key, fineness),
+            texels: texels(&shadow),
+            shadow,
             height,
             color: floor.base_color,
         }

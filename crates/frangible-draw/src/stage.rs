@@ -14,7 +14,7 @@ use kiss3d::light::Light;
 use kiss3d::resource::GpuMesh3d;
 use kiss3d::scene::SceneNode3d;
 
-use crate::floor::add_floor;
+use crate::floor::{Laid, add_floor, texels};
 use crate::floor_shadow::{Caster, Fineness, FloorShadow};
 
 /// Light layers: what breaks, and what it lies on.
@@ -66,7 +66,14 @@ pub(crate) fn stage(recording: &Recording, view: &View) -> SceneNode3d {
             key_light(view),
             Fineness::STILL,
         );
-        add_floor(&mut scene, height, floor.base_color, &shadow);
+        let laid = Laid {
+            height,
+            color: floor.base_color,
+            texels: &texels(&shadow),
+            shadow: &shadow,
+            mipmaps: true,
+        };
+        add_floor(&mut scene, laid);
     }
     for bunch in bunches(recording, units) {
         add_bunch(&mut scene, bunch, &recording.surfaces);

@@ -21,6 +21,8 @@ pub enum Command {
     Run,
     /// Take this many steps.
     Step(u32),
+    /// Take the steps of this many pictures of 1/60 s; a window draws each.
+    Frames(u32),
     /// How fast simulated time runs: 1 is as in life, 0.001 a thousandth of it.
     SlowMotion(f64),
     /// What is thrown from now on; a click throws it.
@@ -160,6 +162,8 @@ pub enum Target {
     Script,
     /// The numbers of the last contact, JSON.
     Report,
+    /// Where the time of the last pictures went, JSON.
+    Times,
 }
 
 /// A ball to throw.

@@ -72,6 +72,7 @@ fn place(
             normals: Vec::new(),
             values: Vec::new(),
             faces: Arc::default(),
+            stamp: 0,
         });
         for &corner in &part.indices {
             let corner = corner as usize;

@@ -33,6 +33,7 @@ mod save;
 mod script;
 mod session;
 mod shown;
+mod times;
 #[cfg(feature = "window")]
 mod window;
 mod worker;
@@ -45,6 +46,7 @@ pub use picture::{Batch, BatchLooks, Dot, Line, Picture};
 pub use script::Script;
 pub use session::Session;
 pub use shown::{BakeShown, Compared, Focus, Selection, Shown};
+pub use times::Spread;
 #[cfg(feature = "window")]
 pub use window::{WindowOptions, run};
 pub use worker::Worker;

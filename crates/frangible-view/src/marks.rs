@@ -110,6 +110,7 @@ fn surface(
         normals: Vec::with_capacity(3 * triangles.len()),
         values: Vec::with_capacity(3 * triangles.len()),
         faces: Arc::new(numbered(3 * triangles.len())),
+        stamp: 0,
     };
     for (triangle, normals) in triangles.iter().zip(&asset.surface.normals) {
         for (&node, &normal) in triangle.iter().zip(normals) {
@@ -144,6 +145,7 @@ pub(crate) fn cracks(analysis: &Analysis, pose: Pose) -> Vec<Batch> {
         normals: Vec::new(),
         values: Vec::new(),
         faces: Arc::default(),
+        stamp: 0,
     };
     let last = analysis.cracks.len().saturating_sub(1).max(1) as f32;
     let rotation = pose.rotation.normalize();

@@ -11,7 +11,7 @@ use crate::command::{BallSpec, Command, HammerSpec, Mark, Subject, Target, Tool}
 use crate::error::ViewError;
 
 /// Each command's first word, and what comes after it.
-const FORMS: [(&str, &str); 40] = [
+const FORMS: [(&str, &str); 41] = [
     ("scene", "NAME"),
     ("open", "FILE"),
     ("cancel-bake", ""),
@@ -19,6 +19,7 @@ const FORMS: [(&str, &str); 40] = [
     ("pause", ""),
     ("run", ""),
     ("step", "N"),
+    ("frames", "N"),
     ("slow-motion", "FACTOR"),
     ("ball", "KG METRES METRES/SECOND MATERIAL"),
     ("hammer", "KG METRES/SECOND MATERIAL"),
@@ -42,7 +43,7 @@ const FORMS: [(&str, &str); 40] = [
     ("reset-knob", "NAME|all"),
     ("material", "NAME"),
     ("hit-again", ""),
-    ("save", "scene|glb|script|report FILE"),
+    ("save", "scene|glb|script|report|times FILE"),
     ("screenshot", "FILE.png"),
     ("orbit", "DEGREES-RIGHT DEGREES-UP"),
     ("pan", "RIGHT UP"),
@@ -111,6 +112,7 @@ fn read(first: &str, rest: &[&str], tail: &str) -> Result<Command, String> {
         "pause" => Command::Pause,
         "run" => Command::Run,
         "step" => Command::Step(whole(rest[0])?),
+        "frames" => Command::Frames(whole(rest[0])?),
         "slow-motion" => Command::SlowMotion(number(0)?),
         "ball" => Command::Ball(BallSpec {
             mass: number(0)?,
@@ -195,11 +197,12 @@ const MARKS: [(&str, Mark); 4] = [
     ("impulse", Mark::Impulse),
 ];
 
-const TARGETS: [(&str, Target); 4] = [
+const TARGETS: [(&str, Target); 5] = [
     ("scene", Target::Scene),
     ("glb", Target::Glb),
     ("script", Target::Script),
     ("report", Target::Report),
+    ("times", Target::Times),
 ];
 
 /// What follows the first word.
@@ -250,6 +253,7 @@ impl fmt::Display for Command {
             Self::Pause => write!(f, "pause"),
             Self::Run => write!(f, "run"),
             Self::Step(n) => write!(f, "step {n}"),
+            Self::Frames(n) => write!(f, "frames {n}"),
             Self::SlowMotion(x) => write!(f, "slow-motion {x}"),
             Self::Ball(b) => write!(f, "ball {} {} {} {}", b.mass, b.radius, b.speed, b.material),
             Self::Hammer(h) => write!(f, "hammer {} {} {}", h.mass, h.speed, h.material),

@@ -18,6 +18,8 @@ pub struct Batch {
     pub values: Vec<f32>,
     /// Vertices of each triangle; the same allocation as long as they are the same.
     pub faces: Arc<Vec<[u32; 3]>>,
+    /// Another number for other vertices of the same triangles; 0 where nobody counts.
+    pub stamp: u64,
 }
 
 /// How a batch looks.
@@ -57,7 +59,7 @@ pub struct Picture {
     /// Another number for another picture.
     pub version: u64,
     /// Triangles.
-    pub batches: Vec<Batch>,
+    pub batches: Vec<Arc<Batch>>,
     /// Strokes.
     pub lines: Vec<Line>,
     /// Dots.

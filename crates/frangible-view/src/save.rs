@@ -32,13 +32,15 @@ impl Session {
                 let head = "# Does again what was done: frangible view --script FILE\n";
                 write_text(path, &format!("{head}{}\n", lines.join("\n")))
             }
+            Target::Times => {
+                let publishing = self.shown().publishing;
+                write_json(path, &serde_json::json!({ "session_s": publishing }))
+            }
             Target::Report => {
                 let blow = self.blow().ok_or_else(|| {
                     ViewError::NotNow("nothing was hit yet, so there is nothing to report".into())
                 })?;
-                let report = Report::of(blow);
-                let text = serde_json::to_string_pretty(&report).unwrap_or_default();
-                write_text(path, &(text + "\n"))
+                write_json(path, &Report::of(blow))
             }
         }
     }
@@ -50,6 +52,12 @@ fn no_scene() -> ViewError {
 
 fn write_text(path: &Path, text: &str) -> Result<(), ViewError> {
     Ok(write_atomically(path, text.as_bytes())?)
+}
+
+/// Writes numbers as JSON.
+pub(crate) fn write_json(path: &Path, numbers: &impl Serialize) -> Result<(), ViewError> {
+    let text = serde_json::to_string_pretty(numbers).unwrap_or_default();
+    write_text(path, &(text + "\n"))
 }
 
 /// Numbers of a contact.

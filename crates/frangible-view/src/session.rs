@@ -25,9 +25,13 @@ use crate::knobs::Settings;
 use crate::mesher::Mesher;
 use crate::picture::Picture;
 use crate::shown::{Compared, Focus};
+use crate::times::Laps;
 
 /// Slowest and fastest clock, simulated seconds per second.
 const SLOW_MOTION: [f64; 2] = [1e-4, 4.0];
+
+/// Pictures per simulated second.
+const FRAME_RATE: f64 = 60.0;
 
 /// A scene that runs, and how it is looked at. The same commands give the same scene, bit for bit.
 pub struct Session {
@@ -45,8 +49,9 @@ pub struct Session {
     slow_motion: f64,
     steps: u64,
     starts: u64,
-    /// Steps that a command still wants.
+    /// Steps that a command still wants, or a time it wants to come to, s.
     owed: u32,
+    owed_until: f64,
     recent: Option<SavedScene>,
     undo: Vec<(SavedScene, Option<Arc<Blow>>, u64)>,
     blow: Option<Arc<Blow>>,
@@ -73,6 +78,7 @@ pub struct Session {
     picture: Arc<Picture>,
     largest_color: Option<f64>,
     stale: bool,
+    publishing: Laps,
 }
 
 impl Default for Session {
@@ -99,6 +105,7 @@ impl Session {
             steps: 0,
             starts: 0,
             owed: 0,
+            owed_until: 0.0,
             recent: None,
             undo: Vec::new(),
             blow: None,
@@ -125,6 +132,7 @@ impl Session {
             picture: Arc::default(),
             largest_color: None,
             stale: true,
+            publishing: Laps::default(),
         }
     }
 
@@ -135,7 +143,7 @@ impl Session {
     /// What stands in the way; nothing was done then.
     pub fn apply(&mut self, command: Command) -> Result<(), ViewError> {
         self.begin(command)?;
-        while self.owed > 0 {
+        while self.owes() {
             self.take_owed_step()?;
         }
         Ok(())
@@ -169,6 +177,13 @@ impl Session {
                 self.running()?;
                 self.paused = true;
                 self.owed = count;
+            }
+            Command::Frames(count) => {
+                let now = self.running()?.time();
+                self.paused = true;
+                // To the end of a picture, whatever was before.
+                let next = (now * FRAME_RATE + 1e-6).floor() + f64::from(count);
+                self.owed_until = next / FRAME_RATE;
             }
             Command::SlowMotion(speed) => {
                 self.slow_motion = speed.clamp(SLOW_MOTION[0], SLOW_MOTION[1]);
@@ -276,7 +291,7 @@ impl Session {
     /// Whether a command's work still goes on.
     #[must_use]
     pub fn is_busy(&self) -> bool {
-        self.owed > 0 || self.has_jobs()
+        self.owes() || self.has_jobs()
     }
 
     /// Whether the clock should run: there is a scene, and nobody stopped it.

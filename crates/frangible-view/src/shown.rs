@@ -11,6 +11,7 @@ use crate::blow::Blow;
 use crate::command::{BallSpec, HammerSpec, Mark, Subject, Tool};
 use crate::knobs::Settings;
 use crate::picture::Picture;
+use crate::times::Spread;
 
 /// A session at one moment, to be drawn: whoever has it holds up nobody.
 #[derive(Clone, Debug, Default)]
@@ -87,6 +88,8 @@ pub struct Shown {
     pub contacts: LoadCounts,
     /// Where the time of the last break's step went.
     pub break_step: StepTimings,
+    /// Processor time of the session's thread for each of the last pictures, s; steps are not in it.
+    pub publishing: Spread,
 }
 
 /// Something to have in view: the camera turns to it when the number is another.

@@ -7,7 +7,7 @@ mod pictures;
 mod shade;
 
 use std::panic::{self, AssertUnwindSafe};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -17,10 +17,11 @@ use frangible_draw::{DrawError, LiveStage, Place, StillCamera, has_adapter, is_s
 use frangible_export::View;
 
 use crate::camera::Orbit;
-use crate::command::{Command, Tool};
+use crate::command::{Command, Target, Tool};
 use crate::error::ViewError;
 use crate::script::Script;
 use crate::shown::Shown;
+use crate::times::thread_time;
 use crate::worker::Worker;
 
 use director::Director;
@@ -152,7 +153,7 @@ impl Viewer {
             window.render_3d(stage.scene(), &mut camera).await;
         }
         while !self.quit {
-            let began = Instant::now();
+            let began = thread_time();
             let shown = self.worker.latest();
             self.set_stage(window, &shown);
             let said = self.hands.read(window);
@@ -175,14 +176,15 @@ impl Viewer {
                 pictures::strokes(stage, window, &shown.picture);
             }
             let mut camera = self.camera(window);
-            let own = began.elapsed();
+            let own = thread_time().saturating_sub(began);
             let open = match &mut self.stage {
                 Some(stage) => window.render_3d(stage.scene(), &mut camera).await,
                 None => true,
             };
             self.director.frame_done();
             let draw_calls = self.stage.as_ref().map_or(0, LiveStage::draw_calls);
-            self.panels.frame_done(window, draw_calls, own);
+            let all = thread_time().saturating_sub(began);
+            self.panels.times().note(window, draw_calls, [all, own]);
             if self.worker.is_dead() {
                 return Err(ViewError::Worker);
             }
@@ -258,7 +260,6 @@ impl Viewer {
             Command::Click(x, y) => {
                 let ray = self.ray(window, x, y);
                 let (from, through) = (ray.origin, ray.origin + ray.direction);
-                // A script's `tool` may not be in what was shown yet: the director waits for it.
                 self.pass_on(match self.worker.latest().tool {
                     Tool::Ball => Command::Throw { from, through },
                     Tool::Hammer => Command::Swing { from, through },
@@ -287,17 +288,25 @@ impl Viewer {
             }
             Command::Panel(name, open) => self.panels.set_open(&name, open),
             Command::Dark(dark) => self.panels.set_dark(dark),
+            Command::Save(Target::Times, path) => {
+                let saved = self.panels.times().save(&self.worker.latest(), &path);
+                self.say_saved(&path, saved);
+            }
             Command::Screenshot(path) => {
                 let saved = pictures::save(window, &path);
-                self.panels.tell(match &saved {
-                    Ok(()) => format!("wrote {}", path.display()),
-                    Err(error) => error.to_string(),
-                });
-                self.director.done(saved);
+                self.say_saved(&path, saved);
             }
             Command::Quit => self.quit = true,
             other => self.pass_on(other),
         }
+    }
+
+    fn say_saved(&mut self, path: &Path, saved: Result<(), ViewError>) {
+        self.panels.tell(match &saved {
+            Ok(()) => format!("wrote {}", path.display()),
+            Err(error) => error.to_string(),
+        });
+        self.director.done(saved);
     }
 
     fn pass_on(&mut self, command: Command) {

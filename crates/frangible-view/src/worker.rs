@@ -91,14 +91,14 @@ fn work(
     let mut published = Instant::now();
     let mut news = true;
     loop {
-        let moving = session.owed() > 0 || by_clock && session.is_running();
+        let moving = session.owes() || by_clock && session.is_running();
         let patience = match (moving, session.is_busy()) {
             (true, _) => Duration::ZERO,
             (false, true) => Duration::from_millis(4),
             (false, false) => Duration::from_millis(30),
         };
         // A command waits for the steps of the one before it.
-        if session.owed() == 0 {
+        if !session.owes() {
             match commands.recv_timeout(patience) {
                 Ok(command) => {
                     // What went wrong is in what is shown.
@@ -112,11 +112,11 @@ fn work(
         // How far a bake is, is news too.
         news |= session.poll() || session.is_busy();
         let began = Instant::now();
-        while session.owed() > 0 && began.elapsed() < PATIENCE {
+        while session.owes() && began.elapsed() < PATIENCE {
             let _ = session.take_owed_step();
             news = true;
         }
-        let runs = by_clock && session.is_running() && session.owed() == 0;
+        let runs = by_clock && session.is_running() && !session.owes();
         news |= clock.run(session, runs);
         if news && (!moving || published.elapsed() >= FRAME || !session.is_busy()) {
             publish(session);

@@ -17,6 +17,7 @@ use crate::marks;
 use crate::picking::pick;
 use crate::picture::{Batch, Picture};
 use crate::shown::{BakeShown, Focus, Selection, Shown};
+use crate::times::{Spread, thread_time};
 
 impl Session {
     pub(super) fn look(&mut self, subject: Subject) -> Result<(), ViewError> {
@@ -79,10 +80,21 @@ impl Session {
     /// What there is to see now.
     #[must_use]
     pub fn shown(&mut self) -> Shown {
+        let began = self.stale.then(thread_time);
         if self.stale {
             self.picture = Arc::new(self.draw());
             self.stale = false;
         }
+        let mut shown = self.tell();
+        if let Some(began) = began {
+            self.publishing.note(thread_time().saturating_sub(began));
+        }
+        shown.publishing = self.publishing.spread();
+        shown
+    }
+
+    /// All that panels tell, and the picture.
+    fn tell(&self) -> Shown {
         let live = self.live.as_ref();
         let count = |wanted: fn(&ThingKind) -> bool| {
             live.map_or(0, |live| {
@@ -145,6 +157,7 @@ impl Session {
                 .map(|live| live.world().impact_counts())
                 .unwrap_or_default(),
             break_step: self.break_step,
+            publishing: Spread::default(),
         }
     }
 
@@ -221,7 +234,7 @@ impl Session {
             _ => None,
         };
         picture.batches = match shown {
-            Some(batches) => batches,
+            Some(batches) => batches.into_iter().map(Arc::new).collect(),
             None => {
                 let batches = self.mesher.batches(live, explode);
                 self.mark_selected(&mut picture);

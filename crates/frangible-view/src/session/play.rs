@@ -56,9 +56,9 @@ impl Session {
         self.step().inspect_err(|error| self.complain(error))
     }
 
-    /// Steps still to be taken for a command.
-    pub(crate) fn owed(&self) -> u32 {
-        self.owed
+    /// Whether steps are still to be taken for a command.
+    pub(crate) fn owes(&self) -> bool {
+        self.owed > 0 || self.time() < self.owed_until - 1e-9
     }
 
     /// Puts the state aside once in a while, as long as something may break.

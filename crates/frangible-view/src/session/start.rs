@@ -112,6 +112,7 @@ impl Session {
         self.grip = None;
         self.set_subject(Subject::World);
         self.owed = 0;
+        self.owed_until = 0.0;
         self.mesher = crate::mesher::Mesher::default();
     }
 

@@ -12,6 +12,8 @@ pub(super) struct Director {
     script: Option<Script>,
     last: Option<Command>,
     frames: u32,
+    /// Pictures of 1/60 s that are still to be taken and drawn.
+    left: u32,
     failed: Option<ViewError>,
 }
 
@@ -21,6 +23,7 @@ impl Director {
             script,
             last: None,
             frames: 0,
+            left: 0,
             failed: None,
         }
     }
@@ -44,6 +47,17 @@ impl Director {
             self.frames = 0;
             return Ok(None);
         }
+        // Of `frames N` each is drawn, with whatever shadow there is.
+        if self.left > 0 {
+            if self.frames == 0 {
+                return Ok(None);
+            }
+            self.left -= 1;
+            self.frames = 0;
+            if self.left > 0 {
+                return Ok(Some(Command::Frames(1)));
+            }
+        }
         if let Some((problem, true)) = &shown.message {
             let line = self
                 .last
@@ -60,6 +74,10 @@ impl Director {
         self.frames = 0;
         let command = script.next_command().unwrap_or(Command::Quit);
         self.last = Some(command.clone());
+        if let Command::Frames(count @ 1..) = command {
+            self.left = count;
+            return Ok(Some(Command::Frames(1)));
+        }
         Ok(Some(command))
     }
 

@@ -9,7 +9,7 @@ mod play;
 mod status;
 
 use std::path::PathBuf;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use egui::{Align2, Context, Visuals};
 use frangible_draw::kiss3d::window::Window;
@@ -121,9 +121,9 @@ impl Panels {
         self.note = Some(note);
     }
 
-    /// Takes note of how long a frame took; `own` is what we did before it was drawn.
-    pub(super) fn frame_done(&mut self, window: &Window, draw_calls: usize, own: Duration) {
-        self.times.note(window, draw_calls, own);
+    /// Times of the last frames.
+    pub(super) fn times(&mut self) -> &mut FrameTimes {
+        &mut self.times
     }
 
     /// By how much the picture's middle is moved out of the panels' way, shares of half the window.

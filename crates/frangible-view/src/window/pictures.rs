@@ -30,6 +30,7 @@ pub(super) fn put(stage: &mut LiveStage, picture: &Picture) {
             normals: &batch.normals,
             values: &batch.values,
             faces: &batch.faces,
+            stamp: batch.stamp,
         });
     stage.show(meshes, picture.wireframe);
 }

@@ -1,59 +1,88 @@
 //! Where the time goes: frames, and the last break beside the paper's.
 
-use std::collections::VecDeque;
+use std::path::Path;
 use std::time::Duration;
 
 use egui::{Grid, Ui};
 use egui_plot::{Line, Plot, PlotPoints};
 use frangible_draw::kiss3d::window::Window;
 
+use crate::error::ViewError;
+use crate::save::write_json;
 use crate::shown::Shown;
-
-/// Frames on the graph.
-const KEPT: usize = 180;
+use crate::times::{Laps, Spread};
 
 /// Times of the last frames.
 #[derive(Default)]
-pub(super) struct FrameTimes {
-    /// From frame to frame, what the processor did of it, and what of that was not the renderer's, ms.
-    frames: VecDeque<[f64; 3]>,
+pub(in crate::window) struct FrameTimes {
+    /// From frame to frame.
+    wall: Laps,
+    /// Processor time of the window's thread, without the wait for the screen.
+    processor: Laps,
+    /// What of that was not the renderer's.
+    own: Laps,
     draw_calls: usize,
 }
 
+/// Where the time of the last frames went, for a file.
+#[derive(serde::Serialize)]
+struct Times {
+    /// From frame to frame, s.
+    frame_s: Spread,
+    /// Processor time of the window's thread for a frame, s; the driver's own threads are not in it.
+    window_s: Spread,
+    /// What of that was not the renderer's, s.
+    window_own_s: Spread,
+    /// Processor time of the session's thread for a picture, s.
+    session_s: Spread,
+    draw_calls: usize,
+    triangles: usize,
+    pieces: usize,
+}
+
 impl FrameTimes {
-    pub(super) fn note(&mut self, window: &Window, draw_calls: usize, own: Duration) {
+    /// Takes note of a frame: what the thread did for it in all, and of that before it was handed to the renderer.
+    pub(in crate::window) fn note(
+        &mut self,
+        window: &Window,
+        draw_calls: usize,
+        [all, own]: [Duration; 2],
+    ) {
         self.draw_calls = draw_calls;
-        let Some(timings) = window.render_timings() else {
-            return;
-        };
-        let milliseconds = |time: Duration| 1e3 * time.as_secs_f64();
-        // To present is to wait for the screen.
-        let drawing = timings.total.saturating_sub(timings.cpu_present);
-        self.frames.push_back([
-            milliseconds(timings.frame_wall),
-            milliseconds(own + drawing),
-            milliseconds(own),
-        ]);
-        if self.frames.len() > KEPT {
-            self.frames.pop_front();
+        if let Some(timings) = window.render_timings() {
+            self.wall.note(timings.frame_wall);
+            self.processor.note(all);
+            self.own.note(own);
         }
+    }
+
+    /// Writes the times of the last frames, and forgets them.
+    pub(in crate::window) fn save(&mut self, shown: &Shown, path: &Path) -> Result<(), ViewError> {
+        let times = Times {
+            frame_s: self.wall.spread(),
+            window_s: self.processor.spread(),
+            window_own_s: self.own.spread(),
+            session_s: shown.publishing,
+            draw_calls: self.draw_calls,
+            triangles: shown.picture.triangles(),
+            pieces: shown.pieces,
+        };
+        *self = Self::default();
+        write_json(path, &times)
     }
 }
 
 pub(super) fn panel(ui: &mut Ui, shown: &Shown, times: &FrameTimes) {
     // Not the mean: a break or a new scene costs one frame much, and says nothing of the others.
-    let median = |of: usize| {
-        let mut sorted: Vec<f64> = times.frames.iter().map(|frame| frame[of]).collect();
-        sorted.sort_by(f64::total_cmp);
-        sorted.get(sorted.len() / 2).copied().unwrap_or_default()
-    };
     ui.strong("Frames");
+    let [wall, processor, own] = [&times.wall, &times.processor, &times.own].map(Laps::spread);
+    let two = |spread: Spread| format!("{:.2} ({:.2})", 1e3 * spread.median, 1e3 * spread.p99);
+    ui.label(format!("{:.1} ms a frame", 1e3 * wall.median));
     ui.label(format!(
-        "{:.1} ms a frame, {:.1} ms of it on the processor: ours {:.2}, the renderer {:.2}",
-        median(0),
-        median(1),
-        median(2),
-        (median(1) - median(2)).max(0.0)
+        "processor, ms, median (p99): window {}, ours of it {}; session {}",
+        two(processor),
+        two(own),
+        two(shown.publishing)
     ));
     Plot::new("frames")
         .height(90.0)
@@ -64,9 +93,12 @@ pub(super) fn panel(ui: &mut Ui, shown: &Shown, times: &FrameTimes) {
         .allow_zoom(false)
         .allow_scroll(false)
         .show(ui, |plot| {
-            for (of, name) in [(0, "frame, ms"), (1, "processor, ms")] {
-                let frames = times.frames.iter().enumerate();
-                let points: Vec<[f64; 2]> = frames.map(|(i, t)| [i as f64, t[of]]).collect();
+            for (laps, name) in [
+                (&times.wall, "frame, ms"),
+                (&times.processor, "processor, ms"),
+            ] {
+                let frames = laps.iter().enumerate();
+                let points: Vec<[f64; 2]> = frames.map(|(i, t)| [i as f64, 1e3 * t]).collect();
                 plot.line(Line::new(name, PlotPoints::from(points)));
             }
         });
