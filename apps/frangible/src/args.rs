@@ -147,6 +147,8 @@ pub(crate) enum Measured {
     Haptic,
     /// A bull in a china shop
     Shop,
+    /// Scenes whose pieces break again, as a game plays them
+    Again,
     /// Many impacts on a GPU beside the CPU
     #[cfg(feature = "gpu")]
     Gpu,
@@ -167,7 +169,7 @@ pub(crate) struct BenchArgs {
     pub(crate) bodies: Vec<String>,
 
     /// Equal runs, 1 to 10000: of Table 1 warm runs of each body (30, fewer where they take longer than ten seconds), of
-    /// the plate and the shop runs of which each tick's and frame's least time counts (5)
+    /// the plate, the shop and the scenes runs of which each tick's and frame's least time counts (5)
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=10_000))]
     pub(crate) runs: Option<u32>,
 

@@ -7,8 +7,9 @@ use frangible_bench::cache::Cache;
 use frangible_bench::machine::Machine;
 use frangible_bench::page::sections::{self, Section, with_sections};
 use frangible_bench::subjects::chosen;
-use frangible_bench::{contacts, haptic, page, roofline, shop, table1};
+use frangible_bench::{again, contacts, haptic, page, roofline, shop, table1};
 use frangible_export::write_atomically;
+use frangible_scenes::GamePlan;
 use serde_json::{Map, Value, json};
 
 use crate::args::{BenchArgs, Measured};
@@ -20,6 +21,8 @@ use crate::say::say;
 const PAGE: &str = "performance.md";
 /// Warm runs of each body of Table 1.
 const WARM: usize = 30;
+/// Runs of each scene.
+const AGAIN: usize = 3;
 /// The body that is felt.
 const FELT: &str = "slab-moderate";
 /// Most impacts of a batch on a GPU.
@@ -91,6 +94,7 @@ fn measured(what: Measured) -> Vec<Measured> {
             Measured::Contacts,
             Measured::Haptic,
             Measured::Shop,
+            Measured::Again,
             #[cfg(feature = "gpu")]
             Measured::Gpu,
         ],
@@ -147,6 +151,12 @@ fn measure(
             };
             let found = shop::measure(&options, show)?;
             ("shop", sections::SHOP, page::shop(&found), json!(found))
+        }
+        Measured::Again => {
+            let plan = GamePlan::default();
+            let found = again::measure(args.runs.map_or(AGAIN, |n| n as usize), plan, show)?;
+            let text = page::again(&found, plan);
+            ("again", sections::AGAIN, text, json!(found))
         }
         #[cfg(feature = "gpu")]
         Measured::Gpu => {

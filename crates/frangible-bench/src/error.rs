@@ -6,6 +6,7 @@ use frangible::{AssetFileError, InputError, UnknownMaterial};
 use frangible_bake::BakeError;
 use frangible_rapier::WorldError;
 use frangible_reference::ReferenceError;
+use frangible_scenes::SceneError;
 use thiserror::Error;
 
 /// Why a measurement could not be made.
@@ -30,6 +31,9 @@ pub enum BenchError {
     /// A world that cannot be stepped.
     #[error(transparent)]
     World(#[from] WorldError),
+    /// A scene that cannot be played.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
     /// A GPU that fails.
     #[cfg(feature = "gpu")]
     #[error(transparent)]

@@ -6,12 +6,14 @@
 //! - [`roofline`]: operations and bytes of the initiation against the machine's measured peaks;
 //! - [`haptic`]: a loop of 1 kHz that feels a body, and how long its ticks take;
 //! - [`shop`]: a thousand breakable things and a bull, and how long frames take;
+//! - [`again`]: scenes whose pieces break again, played as a game does, and how long frames take;
 //! - `gpu` (feature `gpu`): batches of impacts on the CPU and on a GPU;
 //! - [`memory`]: what a body takes in a file and in memory;
 //! - [`stages`]: single stages on a small body, for `cargo bench` and for counting instructions.
 //!
 //! [`page`] makes the sections of `docs/performance.md` of them.
 
+pub mod again;
 pub mod cache;
 pub mod contacts;
 mod error;

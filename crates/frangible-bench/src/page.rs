@@ -1,5 +1,6 @@
 //! The findings as tables, for the terminal and for `docs/performance.md`.
 
+mod again;
 #[cfg(feature = "gpu")]
 mod gpu;
 mod haptic;
@@ -9,6 +10,7 @@ mod shop;
 
 use std::fmt::Write;
 
+pub use again::again;
 #[cfg(feature = "gpu")]
 pub use gpu::gpu;
 pub use haptic::haptic;

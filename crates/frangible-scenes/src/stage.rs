@@ -58,6 +58,15 @@ pub(crate) struct Thrown {
 
 /// Puts floor, bodies and projectiles in a world, in this order.
 pub(crate) fn set_up<'a>(scene: &'a Scene, baked: &[BakedBody]) -> Result<Stage<'a>, SceneError> {
+    set_up_as(scene, baked, |_| {})
+}
+
+/// The same in a world of other settings.
+pub(crate) fn set_up_as<'a>(
+    scene: &'a Scene,
+    baked: &[BakedBody],
+    change: impl FnOnce(&mut WorldConfig),
+) -> Result<Stage<'a>, SceneError> {
     if baked.len() != scene.bodies.len() {
         return Err(SceneError::BakedBodies {
             wanted: scene.bodies.len(),
@@ -82,6 +91,7 @@ pub(crate) fn set_up<'a>(scene: &'a Scene, baked: &[BakedBody]) -> Result<Stage<
     }
     config.pieces.generations = scene.pieces.generations;
     config.pieces.least_mass = scene.pieces.least_mass as f32;
+    change(&mut config);
     let mut world = BreakableWorld::new(config)?;
     if let Some(floor) = &scene.floor {
         let floor = SurfaceProperties::of(&Material::preset(floor)?, f32::INFINITY);
