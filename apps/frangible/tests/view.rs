@@ -39,6 +39,9 @@ look stress
 scrub 0.1
 panel inspect open
 screenshot stress.png
+show fracture-mesh
+screenshot meshes.png
+hide fracture-mesh
 save report first.json
 knob strength 5000          # MPa: nothing breaks that
 hit-again
@@ -50,6 +53,17 @@ screenshot pieces.png
 save glb state.glb
 save scene turned.toml
 save script done.txt
+reset-knob all
+home
+reset
+hammer 0.4 8 steel
+click 0.62 0.5              # the head comes down on the pane
+step 400
+save report struck.json
+save script struck.txt
+save gif struck.gif 0.1s 30fps 160x100
+frames 2
+save times times.json
 ";
 
 /// A display of our own, gone afterwards.
@@ -205,10 +219,23 @@ fn a_script_throws_breaks_looks_inside_turns_a_knob_and_saves() {
         assert!(done.contains(deed), "no `{deed}` in {done}");
     }
 
-    let [whole, stress, both, last] = ["whole", "stress", "both", "pieces"]
+    let struck: Value = serde_json::from_str(&read("struck.json")).expect("JSON");
+    assert!(struck["pieces"].as_u64() > Some(1), "{struck}");
+    assert!(
+        read("struck.txt").contains("swing "),
+        "{}",
+        read("struck.txt")
+    );
+    film(&shots.join("struck.gif"));
+    let times: Value = serde_json::from_str(&read("times.json")).expect("JSON");
+    assert!(times["draw_calls"].as_u64() > Some(1), "{times}");
+    assert!(times["window_s"]["median"].as_f64() > Some(0.0), "{times}");
+
+    let [whole, stress, meshes, both, last] = ["whole", "stress", "meshes", "both", "pieces"]
         .map(|name| picture(&shots.join(format!("{name}.png"))));
     for (a, b) in [
         (&whole, &stress),
+        (&stress, &meshes),
         (&stress, &both),
         (&both, &last),
         (&last, &whole),
@@ -217,6 +244,22 @@ fn a_script_throws_breaks_looks_inside_turns_a_knob_and_saves() {
         assert!(share > 0.01, "only {share} of two pictures differ");
     }
     keep(&shots);
+}
+
+/// A film of three pictures in which something moves.
+fn film(path: &Path) {
+    let file = BufReader::new(fs::File::open(path).expect("the GIF"));
+    let decoder = image::codecs::gif::GifDecoder::new(file).expect("a GIF");
+    let frames = image::AnimationDecoder::into_frames(decoder);
+    let frames = frames.collect_frames().expect("its pictures");
+    assert_eq!(frames.len(), 3);
+    let [first, last] = [&frames[0], &frames[2]]
+        .map(|frame| image::DynamicImage::ImageRgba8(frame.buffer().clone()).into_rgb8());
+    let share = difference(&first, &last);
+    assert!(
+        share > 0.002,
+        "only {share} of two pictures of a film differ"
+    );
 }
 
 /// Pictures are kept where somebody asks for them, to be looked at.

@@ -51,6 +51,9 @@ pub enum DrawError {
         "the renderer failed; its message is on the error output, often a driver out of memory: try a smaller picture"
     )]
     Renderer,
+    /// Whoever asked for the picture does not want it any more.
+    #[error("the picture was given up")]
+    Cancelled,
     /// The picture could not be compressed.
     #[error("the picture could not be encoded as PNG: {0}")]
     Encode(#[from] png::EncodingError),

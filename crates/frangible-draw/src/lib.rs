@@ -27,6 +27,7 @@ mod scale;
 mod sheet;
 mod stage;
 mod studio;
+mod traced;
 
 pub use adapter::{has_adapter, is_software};
 pub use camera::StillCamera;
@@ -38,3 +39,4 @@ pub use live::{LiveMesh, LiveShadow, LiveStage, Looks, Place, ShadowCaster, valu
 pub use mode_sheet::{ModeCell, ModeSheetOptions, mode_sheet};
 pub use sheet::{SheetOptions, contact_sheet, sheet_of_frames};
 pub use studio::{Studio, render_frame};
+pub use traced::GoOn;

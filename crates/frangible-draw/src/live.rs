@@ -25,6 +25,8 @@ pub enum Looks {
     Surface(SurfaceMaterial),
     /// Coloured by its values.
     Values,
+    /// Edges only, of this linear red, green, blue.
+    Edges([f32; 3]),
 }
 
 /// Triangles of one look.
@@ -134,6 +136,7 @@ impl LiveStage {
             self.solid &= match mesh.looks {
                 Looks::Surface(surface) => clarity(surface) <= 0.0,
                 Looks::Values => false,
+                Looks::Edges(_) => true,
             };
             let same = before.iter().position(|actor| {
                 Arc::ptr_eq(&actor.faces, mesh.faces)
@@ -173,11 +176,18 @@ impl LiveStage {
         match mesh.looks {
             Looks::Surface(surface) => dress(&mut node, surface),
             Looks::Values => dress_in_values(&mut node, Arc::clone(&self.palette)),
+            Looks::Edges(_) => {
+                node.set_casts_shadows(false);
+            }
         }
-        if wireframe {
+        let edges = match mesh.looks {
+            Looks::Edges(color) => Some(*color),
+            _ => wireframe.then_some([0.05, 0.06, 0.07]),
+        };
+        if let Some([red, green, blue]) = edges {
             node.set_surface_rendering_activation(false);
             node.set_lines_width(1.0, false);
-            node.set_lines_color(Some(Color::new(0.05, 0.06, 0.07, 1.0)));
+            node.set_lines_color(Some(Color::new(red, green, blue, 1.0)));
         }
         Actor {
             looks: mesh.looks.clone(),

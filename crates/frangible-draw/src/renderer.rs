@@ -15,6 +15,7 @@ use frangible_export::glam::Vec2;
 use frangible_export::{Recording, View};
 use image::RgbImage;
 use kiss3d::color::Color;
+use kiss3d::renderer::RayTracer;
 use kiss3d::text::Font;
 use kiss3d::window::{NumSamples, OffscreenSurface};
 
@@ -22,8 +23,10 @@ use crate::DrawError;
 use crate::backdrop::{furnish, surround};
 use crate::camera::StillCamera;
 use crate::field::{Field, field_scene};
+use crate::floor_shadow::Fineness;
 use crate::scale::halve;
 use crate::stage::{StageUnits, has_glass, stage};
+use crate::traced::{Tracing, trace, traced_stage};
 
 /// Pixels drawn per pixel of the picture, each way, where there is glass.
 ///
@@ -42,8 +45,10 @@ pub(crate) struct Shot {
 
 /// What is on it.
 pub(crate) enum Subject {
-    /// A recording of one frame.
-    Recording(Recording),
+    /// A recording of one frame, with the floor's shadow as fine as this.
+    Recording(Recording, Fineness),
+    /// A recording of one frame, path-traced.
+    Traced(Recording, Tracing),
     /// A surface coloured by numbers.
     Field(Field),
 }
@@ -56,7 +61,7 @@ pub(crate) struct Label {
     pub(crate) text: String,
 }
 
-type Job = (Shot, Sender<RgbImage>);
+type Job = (Shot, Sender<Option<RgbImage>>);
 
 /// Has a picture drawn and waits for it.
 pub(crate) fn draw(shot: Shot) -> Result<RgbImage, DrawError> {
@@ -65,23 +70,28 @@ pub(crate) fn draw(shot: Shot) -> Result<RgbImage, DrawError> {
         let (queue, jobs) = channel::<Job>();
         thread::spawn(move || {
             let mut surface = None;
+            // To make one takes seconds.
+            let mut tracer = None;
             for (shot, reply) in jobs {
                 let surface = surface.get_or_insert_with(|| open(&shot));
                 // Nobody waits for a picture whose asker has gone.
-                let _ = reply.send(photograph(surface, &shot));
+                let _ = reply.send(photograph(surface, &mut tracer, &shot));
             }
         });
         queue
     });
     let (reply, picture) = channel();
     queue.send((shot, reply)).map_err(|_| DrawError::Renderer)?;
-    picture.recv().map_err(|_| DrawError::Renderer)
+    let drawn = picture.recv().map_err(|_| DrawError::Renderer)?;
+    drawn.ok_or(DrawError::Cancelled)
 }
 
 /// How the edges of a shot are smoothed.
 fn sampling(shot: &Shot) -> (u32, NumSamples) {
-    let Subject::Recording(scene) = &shot.subject else {
-        return (1, NumSamples::Four);
+    let scene = match &shot.subject {
+        Subject::Recording(scene, _) => scene,
+        Subject::Field(_) => return (1, NumSamples::Four),
+        Subject::Traced(..) => return (1, NumSamples::One),
     };
     let surfaces = &scene.surfaces;
     let mut parts = scene.meshes.iter().flat_map(|mesh| &mesh.parts);
@@ -98,7 +108,11 @@ fn open(shot: &Shot) -> OffscreenSurface {
     surface
 }
 
-fn photograph(surface: &mut OffscreenSurface, shot: &Shot) -> RgbImage {
+fn photograph(
+    surface: &mut OffscreenSurface,
+    tracer: &mut Option<RayTracer>,
+    shot: &Shot,
+) -> Option<RgbImage> {
     let (factor, samples) = sampling(shot);
     let (width, height) = (factor * shot.width, factor * shot.height);
     if surface.samples() != samples as u32 {
@@ -110,24 +124,29 @@ fn photograph(surface: &mut OffscreenSurface, shot: &Shot) -> RgbImage {
     // The floor has its shadow without. On things, a map gives glass the shadow
     // of clay, and costs most of the time. Colours that stand for numbers want none.
     let shadows = match &shot.subject {
-        Subject::Recording(scene) => !has_glass(scene),
-        Subject::Field(_) => false,
+        Subject::Recording(scene, _) => !has_glass(scene),
+        Subject::Field(_) | Subject::Traced(..) => false,
     };
     surface.set_shadows_enabled(shadows);
     let view = StageUnits::of(&shot.view).view(&shot.view);
     let mut camera = StillCamera::new(&view, width as f32 / height as f32);
     let ink = Color::new(0.06, 0.07, 0.08, 1.0);
     let window = surface.window_mut();
-    surround(window, matches!(shot.subject, Subject::Recording(_)));
+    surround(window, !matches!(shot.subject, Subject::Field(_)));
     for label in &shot.labels {
         let [at, line] =
             [Vec2::from(label.at), Vec2::splat(label.height)].map(|v| factor as f32 * v);
         window.draw_text(&label.text, at, line.y, &Font::default(), ink);
     }
     let mut scene = match &shot.subject {
-        Subject::Recording(scene) => stage(scene, &shot.view),
+        Subject::Recording(scene, fineness) => stage(scene, &shot.view, *fineness),
+        Subject::Traced(scene, tracing) => {
+            let mut scene = traced_stage(scene, &shot.view);
+            let tracer = tracer.get_or_insert_with(RayTracer::new);
+            return trace(surface, tracer, &mut scene, &mut camera, tracing);
+        }
         Subject::Field(field) => field_scene(field, &shot.view),
     };
     let drawn = pollster::block_on(surface.render_image_3d(&mut scene, &mut camera));
-    if factor == 1 { drawn } else { halve(&drawn) }
+    Some(if factor == 1 { drawn } else { halve(&drawn) })
 }

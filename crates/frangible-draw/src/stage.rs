@@ -18,7 +18,7 @@ use crate::floor::{Laid, add_floor, texels};
 use crate::floor_shadow::{Caster, Fineness, FloorShadow};
 
 /// Light layers: what breaks, and what it lies on.
-const THINGS: u32 = 1;
+pub(crate) const THINGS: u32 = 1;
 pub(crate) const FLOOR: u32 = 2;
 
 /// The change from world to stage units.
@@ -52,8 +52,8 @@ impl StageUnits {
     }
 }
 
-/// Builds the scene of a recording's first frame.
-pub(crate) fn stage(recording: &Recording, view: &View) -> SceneNode3d {
+/// Builds the scene of a recording's first frame, the floor's shadow as fine as this.
+pub(crate) fn stage(recording: &Recording, view: &View, fineness: Fineness) -> SceneNode3d {
     let units = StageUnits::of(view);
     let mut scene = SceneNode3d::empty();
     let view = &units.view(view);
@@ -64,7 +64,7 @@ pub(crate) fn stage(recording: &Recording, view: &View) -> SceneNode3d {
             &casters(recording, units),
             height,
             key_light(view),
-            Fineness::STILL,
+            fineness,
         );
         let laid = Laid {
             height,
@@ -84,14 +84,14 @@ pub(crate) fn stage(recording: &Recording, view: &View) -> SceneNode3d {
 /// Faces of one surface, stage units: drawn at once, however many pieces they
 /// belong to. A draw of its own for each piece takes most of the time.
 #[derive(Default)]
-struct Bunch {
-    surface: usize,
+pub(crate) struct Bunch {
+    pub(crate) surface: usize,
     vertices: Vec<Vec3>,
     normals: Vec<Vec3>,
     faces: Vec<[u32; 3]>,
 }
 
-fn bunches(recording: &Recording, units: StageUnits) -> Vec<Bunch> {
+pub(crate) fn bunches(recording: &Recording, units: StageUnits) -> Vec<Bunch> {
     let mut bunches: Vec<Bunch> = Vec::new();
     for (index, node) in recording.nodes.iter().enumerate() {
         let pose = recording.pose(index, 0);
@@ -127,6 +127,12 @@ fn bunches(recording: &Recording, units: StageUnits) -> Vec<Bunch> {
 
 fn add_bunch(scene: &mut SceneNode3d, bunch: Bunch, surfaces: &[SurfaceMaterial]) {
     let surface = &surfaces[bunch.surface];
+    let mut node = add_faces(scene, bunch);
+    dress(&mut node, surface);
+}
+
+/// Adds the faces of a bunch, undressed.
+pub(crate) fn add_faces(scene: &mut SceneNode3d, bunch: Bunch) -> SceneNode3d {
     let mesh = GpuMesh3d::new(
         bunch.vertices,
         bunch.faces,
@@ -134,8 +140,7 @@ fn add_bunch(scene: &mut SceneNode3d, bunch: Bunch, surfaces: &[SurfaceMaterial]
         None,
         false,
     );
-    let mut node = scene.add_mesh(Rc::new(RefCell::new(mesh)), Vec3::ONE);
-    dress(&mut node, surface);
+    scene.add_mesh(Rc::new(RefCell::new(mesh)), Vec3::ONE)
 }
 
 /// Gives a thing the looks of a surface.
@@ -158,7 +163,7 @@ pub(crate) fn dress(node: &mut SceneNode3d, surface: &SurfaceMaterial) {
 }
 
 /// How far light travels through glass before it has the glass's colour, stage units.
-const GLASS_DEPTH: f32 = 0.12;
+pub(crate) const GLASS_DEPTH: f32 = 0.12;
 
 /// A large key light from the upper left of the camera, a weak fill from the
 /// right and a rim from behind that parts edges from the background. The floor
@@ -220,7 +225,7 @@ pub(crate) fn clarity(surface: &SurfaceMaterial) -> f32 {
 }
 
 /// Every face that can shade the floor.
-fn casters(recording: &Recording, units: StageUnits) -> Vec<Caster> {
+pub(crate) fn casters(recording: &Recording, units: StageUnits) -> Vec<Caster> {
     let mut casters = Vec::new();
     for (index, node) in recording.nodes.iter().enumerate() {
         let pose = recording.pose(index, 0);

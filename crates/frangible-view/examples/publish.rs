@@ -14,7 +14,7 @@ fn main() -> Result<(), ViewError> {
             session.apply(Command::Frames(1))?;
             // Two pictures are with whoever draws them.
             let shown = session.shown();
-            if shown.steps % 3 == 0 {
+            if shown.steps.is_multiple_of(3) {
                 std::hint::black_box(session.shown());
             }
         }

@@ -61,6 +61,14 @@ impl Orbit {
         self.distance = 1.05 * needed + 0.5 * height;
     }
 
+    /// Stands where this view does; the beginning stays what it was.
+    pub fn stand(&mut self, view: View) {
+        *self = Self {
+            home: self.home,
+            ..Self::new(view)
+        };
+    }
+
     /// Back to the beginning.
     pub fn go_home(&mut self) {
         *self = Self::new(self.home);

@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use frangible::glam::Vec3;
 
+use crate::error::{ViewError, within};
+
 /// One thing to do. Mouse, keys, panels and scripts all give these; [`Command::parse`] reads one, `to_string` writes it.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Command {
@@ -96,6 +98,17 @@ pub enum Command {
     HitAgain,
     /// Write a file.
     Save(Target, PathBuf),
+    /// Draw a film of the last seconds off-screen, or path-trace a still, and write it.
+    Film(FilmKind, PathBuf, FilmOptions),
+    /// Give up the film that is being made.
+    CancelSave,
+    /// From where films and stills are seen, and where the camera of a window stands.
+    LookFrom {
+        /// Where it stands, m.
+        eye: Vec3,
+        /// What it looks at, m.
+        target: Vec3,
+    },
     /// Write a picture of the window.
     Screenshot(PathBuf),
     /// Turn the camera, degrees to the right and up.
@@ -143,6 +156,10 @@ pub enum Subject {
 pub enum Mark {
     /// Edges instead of faces.
     Wireframe,
+    /// The skin of the fine mesh that carries the cracks.
+    FractureMesh,
+    /// The skin of the coarse mesh that carries the modes.
+    AnalysisMesh,
     /// Weak points, where cracks may start.
     WeakPoints,
     /// Where cracks started.
@@ -164,6 +181,58 @@ pub enum Target {
     Report,
     /// Where the time of the last pictures went, JSON.
     Times,
+}
+
+/// What is drawn off-screen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FilmKind {
+    /// What is there now, path-traced, PNG.
+    Still,
+    /// The last seconds, GIF.
+    Gif,
+    /// The last seconds, a folder of PNG.
+    Frames,
+    /// The last seconds, MP4; takes `ffmpeg`.
+    Mp4,
+}
+
+/// How a film is made.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FilmOptions {
+    /// How much of the last seconds, s, as they were seen: in slow motion a step takes long. At most 20.
+    pub seconds: f64,
+    /// Pictures per second, 1/s.
+    pub rate: f64,
+    /// Width and height, pixels.
+    pub size: [u32; 2],
+    /// Of a still: paths per pixel; noise falls with the square root of it.
+    pub samples: u32,
+}
+
+impl Default for FilmOptions {
+    fn default() -> Self {
+        Self {
+            seconds: 3.0,
+            rate: 20.0,
+            size: [640, 400],
+            samples: 64,
+        }
+    }
+}
+
+impl FilmOptions {
+    /// Refuses what cannot be drawn, or would never end.
+    pub(crate) fn check(&self) -> Result<(), ViewError> {
+        let longest = crate::reel::KEPT;
+        within("the film's length", self.seconds, [0.01, longest], "s")?;
+        within("the number of pictures", self.rate, [1.0, 60.0], "1/s")?;
+        within(
+            "the number of samples",
+            f64::from(self.samples),
+            [1.0, 65_536.0],
+            "",
+        )
+    }
 }
 
 /// A ball to throw.

@@ -4,6 +4,21 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
+/// Refuses a number outside of its range.
+pub(crate) fn within(
+    what: &str,
+    value: f64,
+    [least, most]: [f64; 2],
+    unit: &str,
+) -> Result<(), ViewError> {
+    if (least..=most).contains(&value) {
+        return Ok(());
+    }
+    Err(ViewError::NotNow(format!(
+        "{what} is {value} {unit}; it must be {least} to {most} {unit}"
+    )))
+}
+
 /// Why a command or the window failed.
 #[derive(Debug, Error)]
 #[non_exhaustive]

@@ -21,7 +21,9 @@ mod blow;
 mod camera;
 mod command;
 mod compare;
+mod edges;
 mod error;
+mod film;
 mod jobs;
 pub mod knobs;
 mod marks;
@@ -29,6 +31,7 @@ mod mesher;
 mod parse;
 mod picking;
 mod picture;
+mod reel;
 mod save;
 mod script;
 mod session;
@@ -40,7 +43,9 @@ mod worker;
 
 pub use blow::Blow;
 pub use camera::{Orbit, Ray};
-pub use command::{BallSpec, Command, HammerSpec, Mark, Subject, Target, Tool};
+pub use command::{
+    BallSpec, Command, FilmKind, FilmOptions, HammerSpec, Mark, Subject, Target, Tool,
+};
 pub use error::ViewError;
 pub use picture::{Batch, BatchLooks, Dot, Line, Picture};
 pub use script::Script;

@@ -67,8 +67,7 @@ pub(crate) fn strained(
 pub(crate) fn mode(analysis: &Analysis, pose: Pose, mode: usize, share: f64) -> (Batch, f64) {
     let asset = &analysis.asset;
     let field = asset.mode_on_fracture_mesh(mode);
-    let amplitude = TELLING * reach(asset) / field.largest_displacement().max(f32::MIN_POSITIVE);
-    let swing = (std::f64::consts::TAU * share).sin() as f32;
+    let [amplitude, swing] = amplitude_and_swing(asset, &field, share);
     let stress = |node: usize| {
         let [low, high] = ends(&field, node);
         // Half a swing later what was pressed is pulled.
@@ -83,6 +82,20 @@ pub(crate) fn mode(analysis: &Analysis, pose: Pose, mode: usize, share: f64) -> 
         swing.abs() * stress(node) / largest
     });
     (batch, f64::from(largest * amplitude))
+}
+
+/// Amplitude at which a mode is drawn, m·√kg, and how much of it is swung out at this share.
+fn amplitude_and_swing(asset: &Asset, field: &ModeField, share: f64) -> [f32; 2] {
+    let largest = field.largest_displacement().max(f32::MIN_POSITIVE);
+    let swing = (std::f64::consts::TAU * share).sin() as f32;
+    [TELLING * reach(asset) / largest, swing]
+}
+
+/// How far a mode is swung out as it is drawn, m·√kg.
+pub(crate) fn mode_amplitude(asset: &Asset, mode: usize, share: f64) -> f32 {
+    let field = asset.mode_on_fracture_mesh(mode);
+    let [amplitude, swing] = amplitude_and_swing(asset, &field, share);
+    amplitude * swing
 }
 
 /// Smallest and largest principal stress.

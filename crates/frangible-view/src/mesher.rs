@@ -302,7 +302,7 @@ shape = { box = [0.2, 0.2, 0.006] }
 material = "glass"
 modes = 20
 resolution = 3000
-supports = [{ below = 0.004 }]
+supports = [{ side = "-y", at = 0.03 }]
 [[projectile]]
 mass = 0.1
 radius = 0.012

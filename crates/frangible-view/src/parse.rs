@@ -7,11 +7,13 @@ use std::str::FromStr;
 use frangible::glam::Vec3;
 use frangible::nearest_name;
 
-use crate::command::{BallSpec, Command, HammerSpec, Mark, Subject, Target, Tool};
+use crate::command::{
+    BallSpec, Command, FilmKind, FilmOptions, HammerSpec, Mark, Subject, Target, Tool,
+};
 use crate::error::ViewError;
 
 /// Each command's first word, and what comes after it.
-const FORMS: [(&str, &str); 41] = [
+const FORMS: [(&str, &str); 43] = [
     ("scene", "NAME"),
     ("open", "FILE"),
     ("cancel-bake", ""),
@@ -35,15 +37,26 @@ const FORMS: [(&str, &str); 41] = [
     ("scrub", "SHARE"),
     ("exaggerate", "FACTOR"),
     ("explode", "FACTOR"),
-    ("show", "wireframe|weak-points|starts|impulse"),
-    ("hide", "wireframe|weak-points|starts|impulse"),
+    (
+        "show",
+        "wireframe|fracture-mesh|analysis-mesh|weak-points|starts|impulse",
+    ),
+    (
+        "hide",
+        "wireframe|fracture-mesh|analysis-mesh|weak-points|starts|impulse",
+    ),
     ("mode", "NUMBER"),
     ("select", "FROM-X,Y,Z THROUGH-X,Y,Z"),
     ("knob", "NAME VALUE"),
     ("reset-knob", "NAME|all"),
     ("material", "NAME"),
     ("hit-again", ""),
-    ("save", "scene|glb|script|report|times FILE"),
+    (
+        "save",
+        "scene|glb|script|report|times|still|gif|frames|mp4 FILE",
+    ),
+    ("cancel-save", ""),
+    ("look-from", "EYE-X,Y,Z TARGET-X,Y,Z"),
     ("screenshot", "FILE.png"),
     ("orbit", "DEGREES-RIGHT DEGREES-UP"),
     ("pan", "RIGHT UP"),
@@ -160,7 +173,13 @@ fn read(first: &str, rest: &[&str], tail: &str) -> Result<Command, String> {
         "reset-knob" => Command::ResetKnob(rest[0].into()),
         "material" => Command::Material(tail.into()),
         "hit-again" => Command::HitAgain,
+        "save" if FILMS.iter().any(|(name, _)| *name == rest[0]) => film(rest[0], tail)?,
         "save" => Command::Save(one_of(rest[0], &TARGETS)?, file(tail)),
+        "cancel-save" => Command::CancelSave,
+        "look-from" => Command::LookFrom {
+            eye: vector(rest[0])?,
+            target: vector(rest[1])?,
+        },
         "screenshot" => Command::Screenshot(tail.into()),
         "orbit" => Command::Orbit(number(0)? as f32, number(1)? as f32),
         "pan" => Command::Pan(number(0)? as f32, number(1)? as f32),
@@ -190,8 +209,10 @@ const SUBJECTS: [(&str, Subject); 5] = [
 
 const TOOLS: [(&str, Tool); 2] = [("ball", Tool::Ball), ("hammer", Tool::Hammer)];
 
-const MARKS: [(&str, Mark); 4] = [
+const MARKS: [(&str, Mark); 6] = [
     ("wireframe", Mark::Wireframe),
+    ("fracture-mesh", Mark::FractureMesh),
+    ("analysis-mesh", Mark::AnalysisMesh),
     ("weak-points", Mark::WeakPoints),
     ("starts", Mark::Starts),
     ("impulse", Mark::Impulse),
@@ -204,6 +225,68 @@ const TARGETS: [(&str, Target); 5] = [
     ("report", Target::Report),
     ("times", Target::Times),
 ];
+
+const FILMS: [(&str, FilmKind); 4] = [
+    ("still", FilmKind::Still),
+    ("gif", FilmKind::Gif),
+    ("frames", FilmKind::Frames),
+    ("mp4", FilmKind::Mp4),
+];
+
+/// A film: its file, and behind that what differs from the usual: `3s`, `20fps`, `640x400`, `64spp`.
+fn film(kind: &str, tail: &str) -> Result<Command, String> {
+    let mut options = FilmOptions::default();
+    let mut rest = file(tail).to_string_lossy().into_owned();
+    while let Some((before, last)) = rest.rsplit_once(char::is_whitespace) {
+        if !option(last, &mut options) {
+            break;
+        }
+        rest = before.trim_end().into();
+    }
+    if rest.is_empty() || option(&rest, &mut options.clone()) {
+        return Err(format!(
+            "write it as `save {kind} FILE`, and behind that what you like of 3s 20fps 640x400 64spp"
+        ));
+    }
+    Ok(Command::Film(one_of(kind, &FILMS)?, rest.into(), options))
+}
+
+/// Whether a word is an option, which is taken then.
+fn option(word: &str, options: &mut FilmOptions) -> bool {
+    let taken = |unit: &str| word.strip_suffix(unit);
+    if let Some(Ok(rate)) = taken("fps").map(number) {
+        options.rate = rate;
+    } else if let Some(Ok(samples)) = taken("spp").map(whole) {
+        options.samples = samples;
+    } else if let Some(Ok(seconds)) = taken("s").map(number) {
+        options.seconds = seconds;
+    } else if let Some((Ok(width), Ok(height))) =
+        word.split_once('x').map(|(w, h)| (whole(w), whole(h)))
+    {
+        options.size = [width, height];
+    } else {
+        return false;
+    }
+    true
+}
+
+fn write_film(options: &FilmOptions) -> String {
+    let usual = FilmOptions::default();
+    let mut text = String::new();
+    if options.seconds != usual.seconds {
+        text += &format!(" {}s", options.seconds);
+    }
+    if options.rate != usual.rate {
+        text += &format!(" {}fps", options.rate);
+    }
+    if options.size != usual.size {
+        text += &format!(" {}x{}", options.size[0], options.size[1]);
+    }
+    if options.samples != usual.samples {
+        text += &format!(" {}spp", options.samples);
+    }
+    text
+}
 
 /// What follows the first word.
 fn file(tail: &str) -> PathBuf {
@@ -281,6 +364,12 @@ impl fmt::Display for Command {
             Self::Save(target, path) => {
                 write!(f, "save {} {}", name_of(*target, &TARGETS), path.display())
             }
+            Self::Film(kind, path, options) => {
+                let (kind, options) = (name_of(*kind, &FILMS), write_film(options));
+                write!(f, "save {kind} {}{options}", path.display())
+            }
+            Self::CancelSave => write!(f, "cancel-save"),
+            Self::LookFrom { eye, target } => write!(f, "look-from {} {}", v(eye), v(target)),
             Self::Screenshot(path) => write!(f, "screenshot {}", path.display()),
             Self::Orbit(right, up) => write!(f, "orbit {right} {up}"),
             Self::Pan(right, up) => write!(f, "pan {right} {up}"),
@@ -320,6 +409,26 @@ mod tests {
             assert_eq!(command.to_string(), line.trim());
             assert_eq!(Command::parse(&command.to_string()).unwrap(), command);
         }
+    }
+
+    #[test]
+    fn a_film_has_its_options_behind_its_file() {
+        for (line, written) in [
+            ("save gif a b.gif", "save gif a b.gif"),
+            (
+                "save gif a.gif 2s 15fps 320x200",
+                "save gif a.gif 2s 15fps 320x200",
+            ),
+            (
+                "save still x.png 8spp 320x200",
+                "save still x.png 320x200 8spp",
+            ),
+            ("save mp4 3s.mp4 20fps 3s", "save mp4 3s.mp4"),
+        ] {
+            assert_eq!(Command::parse(line).unwrap().to_string(), written);
+        }
+        let error = Command::parse("save gif 3s").unwrap_err().to_string();
+        assert!(error.contains("`save gif FILE`"), "{error}");
     }
 
     #[test]

@@ -29,6 +29,8 @@ pub enum BatchLooks {
     Surface(SurfaceMaterial),
     /// Coloured by its values.
     Values,
+    /// Edges only, of this linear red, green, blue.
+    Edges([f32; 3]),
 }
 
 /// A stroke over the picture.

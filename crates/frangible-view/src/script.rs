@@ -51,7 +51,9 @@ impl Script {
     pub fn into_folder(mut self, folder: &Path) -> Self {
         let place = |path: &mut PathBuf| *path = folder.join(&path);
         for command in &mut self.commands {
-            if let Command::Save(_, path) | Command::Screenshot(path) = command {
+            if let Command::Save(_, path) | Command::Screenshot(path) | Command::Film(_, path, _) =
+                command
+            {
                 place(path);
             }
         }

@@ -7,6 +7,7 @@ mod start;
 mod swing;
 mod turn;
 
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -19,11 +20,13 @@ use crate::analysis::Analysis;
 use crate::baking::Shelf;
 use crate::blow::Blow;
 use crate::command::{BallSpec, Command, HammerSpec, Mark, Subject, Tool};
+use crate::edges::Skins;
 use crate::error::ViewError;
 use crate::jobs::Job;
 use crate::knobs::Settings;
 use crate::mesher::Mesher;
 use crate::picture::Picture;
+use crate::reel::Reel;
 use crate::shown::{Compared, Focus};
 use crate::times::Laps;
 
@@ -75,10 +78,14 @@ pub struct Session {
     commands: u64,
     message: Option<(String, bool)>,
     mesher: Mesher,
+    skins: Skins,
     picture: Arc<Picture>,
     largest_color: Option<f64>,
     stale: bool,
     publishing: Laps,
+    pub(crate) reel: Reel,
+    pub(crate) film_job: Option<Job<Result<PathBuf, ViewError>>>,
+    look_from: Option<View>,
 }
 
 impl Default for Session {
@@ -129,10 +136,14 @@ impl Session {
             commands: 0,
             message: None,
             mesher: Mesher::default(),
+            skins: Skins::default(),
             picture: Arc::default(),
             largest_color: None,
             stale: true,
             publishing: Laps::default(),
+            reel: Reel::default(),
+            film_job: None,
+            look_from: None,
         }
     }
 
@@ -211,6 +222,25 @@ impl Session {
             Command::ResetKnobs => self.turn_all_back()?,
             Command::Material(name) => self.choose_material(&name)?,
             Command::HitAgain => self.hit_again()?,
+            Command::LookFrom { eye, target } => {
+                let way = target - eye;
+                if !way.is_finite() || way.length() < 1e-4 {
+                    return Err(ViewError::NotNow(
+                        "the camera must stand elsewhere than where it looks".into(),
+                    ));
+                }
+                self.look_from = Some(View {
+                    eye,
+                    target,
+                    ..self.home
+                });
+            }
+            Command::Film(kind, path, options) => self.begin_film(kind, &path, &options)?,
+            Command::CancelSave => {
+                if self.film_job.take().is_some() {
+                    self.say("the film was given up".into());
+                }
+            }
             Command::Save(target, path) => {
                 self.write(target, &path)?;
                 self.message = Some((format!("wrote {}", path.display()), false));
@@ -270,7 +300,10 @@ impl Session {
 
     /// Collects what was computed elsewhere; true if there was anything.
     pub fn poll(&mut self) -> bool {
-        let any = self.poll_bake(None) | self.poll_analysis(None) | self.poll_again(None);
+        let any = self.poll_bake(None)
+            | self.poll_analysis(None)
+            | self.poll_again(None)
+            | self.poll_film(None);
         self.stale |= any;
         any
     }
@@ -279,13 +312,19 @@ impl Session {
     pub fn finish_jobs(&mut self) {
         let wait = Some(Duration::from_millis(200));
         while self.has_jobs() {
-            let any = self.poll_bake(wait) | self.poll_analysis(wait) | self.poll_again(wait);
+            let any = self.poll_bake(wait)
+                | self.poll_analysis(wait)
+                | self.poll_again(wait)
+                | self.poll_film(wait);
             self.stale |= any;
         }
     }
 
     fn has_jobs(&self) -> bool {
-        self.bake_job.is_some() || self.analysis_job.is_some() || self.again_job.is_some()
+        self.bake_job.is_some()
+            || self.analysis_job.is_some()
+            || self.again_job.is_some()
+            || self.film_job.is_some()
     }
 
     /// Whether a command's work still goes on.
@@ -329,7 +368,41 @@ impl Session {
         self.blow.as_ref()
     }
 
-    fn complain(&mut self, error: &ViewError) {
+    pub(crate) fn is_marked(&self, mark: Mark) -> bool {
+        self.marks.contains(&mark)
+    }
+
+    pub(crate) fn subject(&self) -> Subject {
+        self.subject
+    }
+
+    pub(crate) fn analysis(&self) -> Option<&Arc<Analysis>> {
+        self.analysis.as_ref()
+    }
+
+    pub(crate) fn scrubbed(&self) -> f64 {
+        self.scrub
+    }
+
+    pub(crate) fn exaggerated(&self) -> f64 {
+        self.exaggeration
+    }
+
+    /// The mode that is looked at, from 0.
+    pub(crate) fn mode_of(&self, analysis: &Analysis) -> usize {
+        self.mode.clamp(1, analysis.asset.modes.count().max(1)) - 1
+    }
+
+    /// From where films are seen.
+    pub(crate) fn film_view(&self) -> View {
+        self.look_from.unwrap_or(self.home)
+    }
+
+    pub(crate) fn say(&mut self, what: String) {
+        self.message = Some((what, false));
+    }
+
+    pub(crate) fn complain(&mut self, error: &ViewError) {
         self.message = Some((error.to_string(), true));
     }
 }

@@ -52,6 +52,10 @@ pub struct Shown {
     pub tool: Tool,
     /// The bake that runs.
     pub bake: Option<BakeShown>,
+    /// The film or still that is being made.
+    pub filming: Option<BakeShown>,
+    /// Seconds of film that are kept.
+    pub reel: f64,
     /// Whether a contact is being analysed.
     pub analysing: bool,
     /// The last thing worth saying, and whether it is a complaint.

@@ -252,7 +252,7 @@ impl Viewer {
     /// Carries out what is for the window, and passes on the rest.
     fn give(&mut self, command: Command, window: &mut Window) {
         let degrees = |angle: f32| angle.to_radians();
-        match command {
+        match command.clone() {
             Command::Orbit(right, up) => self.orbit.turn_by(degrees(right), degrees(up)),
             Command::Pan(right, up) => self.orbit.pan_by(right, up),
             Command::Zoom(factor) => self.orbit.zoom_by(factor),
@@ -285,6 +285,21 @@ impl Viewer {
                     from: ray.origin,
                     through: ray.origin + ray.direction,
                 });
+            }
+            Command::LookFrom { eye, target } => {
+                let home = self.orbit.home();
+                self.orbit.stand(View {
+                    eye,
+                    target,
+                    ..home
+                });
+                self.pass_on(command);
+            }
+            Command::Film(..) => {
+                // Films are seen as the window is.
+                let View { eye, target, .. } = self.orbit.view();
+                self.pass_on(Command::LookFrom { eye, target });
+                self.pass_on(command);
             }
             Command::Panel(name, open) => self.panels.set_open(&name, open),
             Command::Dark(dark) => self.panels.set_dark(dark),

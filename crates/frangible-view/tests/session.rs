@@ -184,7 +184,7 @@ fn the_strained_body_is_coloured_by_its_tension_and_moves_with_the_exaggeration(
     let mut positions = Vec::new();
     for factor in [0, 10, 20] {
         give(&mut session, &format!("exaggerate {factor}"));
-        positions.push(at(&mut session).positions);
+        positions.push(at(&mut session).positions.clone());
     }
     for ((still, once), twice) in positions[0].iter().zip(&positions[1]).zip(&positions[2]) {
         assert!((*twice - *still - 2.0 * (*once - *still)).length() < 1e-5);

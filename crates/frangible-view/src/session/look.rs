@@ -134,6 +134,14 @@ impl Session {
                 what: progress.what,
                 share: progress.share,
             }),
+            filming: self.film_job.as_ref().map(|job| {
+                let progress = job.progress();
+                BakeShown {
+                    what: progress.what,
+                    share: progress.share,
+                }
+            }),
+            reel: self.reel.seconds(),
             analysing: self.analysis_job.is_some() || self.again_job.is_some(),
             message: self.message.clone(),
             picture: Arc::clone(&self.picture),
@@ -222,7 +230,7 @@ impl Session {
                 Some(vec![batch])
             }
             (Subject::Modes, Some(blow), Some(analysis)) => {
-                let mode = self.mode.clamp(1, analysis.asset.modes.count().max(1)) - 1;
+                let mode = self.mode_of(analysis);
                 let (batch, largest) = marks::mode(analysis, blow.pose, mode, self.scrub);
                 self.largest_color = Some(largest);
                 Some(vec![batch])
@@ -241,6 +249,10 @@ impl Session {
                 batches
             }
         };
+        let mut skins = std::mem::take(&mut self.skins);
+        let edges = self.mesh_edges(&mut skins).into_iter().map(Arc::new);
+        picture.batches.extend(edges);
+        self.skins = skins;
         self.mark_contact(&mut picture);
         picture
     }

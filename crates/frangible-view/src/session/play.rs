@@ -13,7 +13,7 @@ use super::Session;
 use crate::blow::Blow;
 use crate::camera::Ray;
 use crate::command::{BallSpec, Command, Subject, Tool};
-use crate::error::ViewError;
+use crate::error::{ViewError, within};
 use crate::picking::pick;
 
 /// Simulated time between states that are put aside, s: an undone break is at most so far off.
@@ -39,7 +39,10 @@ impl Session {
         let Some(live) = self.live.as_mut() else {
             return Ok(());
         };
+        let before = live.time();
         let stepped = live.step();
+        let passed = (live.time() - before) / self.slow_motion;
+        self.reel.note(live, passed);
         self.steps += 1;
         self.stale = true;
         match self.log.last_mut() {
@@ -167,21 +170,6 @@ impl Session {
         ));
         Ok(())
     }
-}
-
-/// Refuses a number outside of its range.
-pub(super) fn within(
-    what: &str,
-    value: f64,
-    [least, most]: [f64; 2],
-    unit: &str,
-) -> Result<(), ViewError> {
-    if (least..=most).contains(&value) {
-        return Ok(());
-    }
-    Err(ViewError::NotNow(format!(
-        "{what} is {value} {unit}; it must be {least} to {most} {unit}"
-    )))
 }
 
 fn pose_of(pose: &RapierPose) -> Pose {

@@ -89,8 +89,10 @@ impl Session {
         match made {
             Ok(live) => {
                 self.home = live.view(wanted.look_from);
-                self.live = Some(live);
+                self.look_from = None;
                 self.forget_contacts();
+                self.reel.note(&live, 0.0);
+                self.live = Some(live);
                 self.built = self.settings.as_ref().map(|[now, _]| now.clone());
                 self.steps = 0;
                 self.starts += 1;
@@ -111,9 +113,11 @@ impl Session {
         self.selection = None;
         self.grip = None;
         self.set_subject(Subject::World);
+        self.reel.clear();
         self.owed = 0;
         self.owed_until = 0.0;
         self.mesher = crate::mesher::Mesher::default();
+        self.skins = crate::edges::Skins::default();
     }
 
     pub(super) fn reset(&mut self) -> Result<(), ViewError> {

@@ -5,10 +5,9 @@ use frangible::glam::Vec3;
 use frangible_scenes::Swing;
 
 use super::Session;
-use super::play::within;
 use crate::camera::Ray;
 use crate::command::{HammerSpec, Tool};
-use crate::error::ViewError;
+use crate::error::{ViewError, within};
 use crate::picking::pick;
 
 impl Session {

@@ -1,5 +1,6 @@
 //! The panels, and what keys mean beside what they show.
 
+mod films;
 mod gallery;
 mod help;
 mod inspect;
@@ -14,14 +15,14 @@ use std::time::Instant;
 use egui::{Align2, Context, Visuals};
 use frangible_draw::kiss3d::window::Window;
 
-use crate::command::{Command, Mark, Subject, Target, Tool};
+use crate::command::{Command, FilmOptions, Mark, Subject, Target, Tool};
 use crate::shown::Shown;
 use crate::window::input::{Said, Stroke};
 
 use performance::FrameTimes;
 
 /// Width of the panels at the sides, points.
-const LEFT: f32 = 216.0;
+const LEFT: f32 = 244.0;
 const RIGHT: f32 = 330.0;
 
 /// Distance from the window's edges, points.
@@ -56,6 +57,7 @@ pub(super) struct Panels {
     /// When the motion that plays was moved on last.
     playing: Option<Instant>,
     gallery: gallery::Gallery,
+    film: FilmOptions,
 }
 
 /// How long one play of a motion takes, s.
@@ -77,6 +79,7 @@ impl Panels {
             styled: None,
             playing: None,
             gallery: gallery::Gallery::default(),
+            film: FilmOptions::default(),
         }
     }
 

@@ -18,6 +18,7 @@ pub(super) fn put(stage: &mut LiveStage, picture: &Picture) {
         .map(|batch| match &batch.looks {
             BatchLooks::Surface(surface) => Looks::Surface(surface.clone()),
             BatchLooks::Values => Looks::Values,
+            BatchLooks::Edges(color) => Looks::Edges(*color),
         })
         .collect();
     let meshes = picture

@@ -110,10 +110,11 @@ fn cast(wish: &Wish) -> Cast {
         .picture
         .batches
         .iter()
+        .filter(|batch| !matches!(batch.looks, BatchLooks::Edges(_)))
         .map(|batch| ShadowCaster {
             surface: match &batch.looks {
                 BatchLooks::Surface(surface) => surface,
-                BatchLooks::Values => &opaque,
+                BatchLooks::Values | BatchLooks::Edges(_) => &opaque,
             },
             positions: &batch.positions,
             faces: &batch.faces,

@@ -105,6 +105,8 @@ fn marks(ui: &mut Ui, shown: &Shown, commands: &mut Vec<Command>) {
             (Mark::Starts, "crack starts"),
             (Mark::WeakPoints, "weak points"),
             (Mark::Wireframe, "wireframe"),
+            (Mark::FractureMesh, "fracture mesh"),
+            (Mark::AnalysisMesh, "analysis mesh"),
         ] {
             let mut on = shown.shows(mark);
             if ui.checkbox(&mut on, label).changed() {

@@ -57,6 +57,7 @@ impl Panels {
         });
         ui.separator();
         self.files(ui, shown, commands);
+        self.films(ui, shown, commands);
         ui.separator();
         ui.horizontal(|ui| {
             for (tab, label) in [
@@ -261,6 +262,7 @@ fn sliders<const N: usize>(
     all: [(&mut f64, std::ops::RangeInclusive<f64>, &str, &str); N],
 ) -> bool {
     let mut turned = false;
+    ui.spacing_mut().slider_width = 84.0;
     for (value, range, unit, label) in all {
         let slider = Slider::new(value, range)
             .logarithmic(true)

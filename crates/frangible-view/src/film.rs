@@ -1,0 +1,92 @@
+//! Films and path-traced stills: drawn off-screen by the pictures' renderer, on a thread of its own.
+
+#[cfg(all(feature = "window", not(target_arch = "wasm32")))]
+mod ffmpeg;
+#[cfg(all(feature = "window", not(target_arch = "wasm32")))]
+mod shoot;
+
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use frangible_export::{Recording, View};
+
+use crate::command::{FilmKind, FilmOptions};
+use crate::error::ViewError;
+use crate::jobs::{Job, Polled, Teller};
+use crate::session::Session;
+
+/// A film to be made.
+pub(crate) struct Take {
+    pub(crate) kind: FilmKind,
+    pub(crate) options: FilmOptions,
+    pub(crate) recording: Recording,
+    pub(crate) view: View,
+    pub(crate) path: PathBuf,
+}
+
+#[cfg(all(feature = "window", not(target_arch = "wasm32")))]
+use shoot::shoot;
+
+#[cfg(not(all(feature = "window", not(target_arch = "wasm32"))))]
+fn shoot(take: &Take, _: &Teller) -> Result<(), ViewError> {
+    Err(ViewError::NotNow(format!(
+        "`{}` cannot be drawn: this program was built without a renderer for films",
+        take.path.display()
+    )))
+}
+
+impl Session {
+    /// Begins to make a film of the last seconds, or a still of what is there.
+    pub(crate) fn begin_film(
+        &mut self,
+        kind: FilmKind,
+        path: &Path,
+        options: &FilmOptions,
+    ) -> Result<(), ViewError> {
+        if self.film_job.is_some() {
+            return Err(ViewError::NotNow(
+                "another film is being made; wait for it, or give it up with `cancel-save`".into(),
+            ));
+        }
+        options.check()?;
+        let view = self.film_view();
+        let live = self.live().ok_or_else(|| {
+            ViewError::NotNow("there is no scene to film; load one, and wait for its bake".into())
+        })?;
+        let recording = match kind {
+            FilmKind::Still => live.recording(view),
+            _ => self
+                .reel
+                .recording(live, options.seconds, options.rate, view),
+        };
+        let take = Take {
+            kind,
+            options: options.clone(),
+            recording,
+            view,
+            path: path.to_path_buf(),
+        };
+        self.film_job = Some(Job::start(move |teller: &Teller| {
+            shoot(&take, teller).map(|()| take.path.clone())
+        }));
+        Ok(())
+    }
+
+    pub(crate) fn poll_film(&mut self, wait: Option<Duration>) -> bool {
+        let Some(job) = &self.film_job else {
+            return false;
+        };
+        let polled = wait.map_or_else(|| job.poll(), |wait| job.wait(wait));
+        let result = match polled {
+            Polled::Running => return false,
+            Polled::Died => Err(ViewError::Worker),
+            Polled::Done(result) => result,
+        };
+        self.film_job = None;
+        match result {
+            Ok(path) => self.say(format!("wrote {}", path.display())),
+            Err(error) => self.complain(&error),
+        }
+        true
+    }
+}
