@@ -82,11 +82,23 @@ impl Session {
             Polled::Died => Err(ViewError::Worker),
             Polled::Done(result) => result,
         };
+        let given_up = job.is_cancelled();
         self.film_job = None;
         match result {
+            Err(_) if given_up => self.say("the film was given up".into()),
             Ok(path) => self.say(format!("wrote {}", path.display())),
             Err(error) => self.complain(&error),
         }
         true
+    }
+}
+
+/// Drivers do not like it when a program ends while they draw.
+impl Drop for Session {
+    fn drop(&mut self) {
+        if let Some(job) = &self.film_job {
+            job.cancel();
+            let _ = job.wait(Duration::from_secs(60));
+        }
     }
 }

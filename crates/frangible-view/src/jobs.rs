@@ -53,6 +53,16 @@ impl<T: Send + 'static> Job<T> {
         Self { teller, result }
     }
 
+    /// Asks it to end; it may take a while to hear that.
+    pub(crate) fn cancel(&self) {
+        self.teller.cancel.cancel();
+    }
+
+    /// Whether it was asked to end.
+    pub(crate) fn is_cancelled(&self) -> bool {
+        self.teller.cancel.is_cancelled()
+    }
+
     pub(crate) fn progress(&self) -> JobProgress {
         let progress = self.teller.progress.lock();
         progress.unwrap_or_else(PoisonError::into_inner).clone()

@@ -237,8 +237,8 @@ impl Session {
             }
             Command::Film(kind, path, options) => self.begin_film(kind, &path, &options)?,
             Command::CancelSave => {
-                if self.film_job.take().is_some() {
-                    self.say("the film was given up".into());
+                if let Some(job) = &self.film_job {
+                    job.cancel();
                 }
             }
             Command::Save(target, path) => {

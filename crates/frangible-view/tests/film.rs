@@ -105,7 +105,7 @@ fn a_film_can_be_given_up_and_leaves_no_file() {
     };
     give(&mut session, "frames 4");
     let path = folder("given-up").join("still.png");
-    let line = format!("save still {} 640x400 4000spp", path.display());
+    let line = format!("save still {} 96x64 4000spp", path.display());
     session.apply(Command::parse(&line).unwrap()).unwrap();
     assert!(session.shown().filming.is_some());
     let error = session.apply(Command::parse("save gif x.gif").unwrap());
