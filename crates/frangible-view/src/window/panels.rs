@@ -31,6 +31,9 @@ const EDGE: f32 = 6.0;
 /// A window in which both panels would leave too little to see, points.
 const NARROW: f32 = 820.0;
 
+/// Size of remarks, points.
+const SMALL: f32 = 11.0;
+
 /// How far a key draws pieces apart.
 const APART: f64 = 0.6;
 
@@ -256,6 +259,12 @@ impl Panels {
             false => egui::Color32::from_gray(20),
         });
         ctx.set_visuals(visuals);
+        // Of the usual sizes the small one is hard to read on a plain screen.
+        ctx.all_styles_mut(|style| {
+            if let Some(font) = style.text_styles.get_mut(&egui::TextStyle::Small) {
+                font.size = SMALL;
+            }
+        });
     }
 
     /// What a key means now.

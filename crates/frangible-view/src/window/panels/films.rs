@@ -56,6 +56,9 @@ impl Panels {
             let samples = DragValue::new(&mut self.film.samples).range(1..=65_536);
             ui.add(samples.suffix(" samples"))
                 .on_hover_text("per pixel of a still; noise falls with the square root");
+        });
+        ui.horizontal(|ui| {
+            ui.label("size");
             let [width, height] = &mut self.film.size;
             ui.add(DragValue::new(width).range(16..=4096));
             ui.label("×");

@@ -4,16 +4,21 @@ use egui::{Align2, Grid};
 
 use crate::window::input::KEYS;
 
+/// Width of the list, points.
+const WIDTH: f32 = 470.0;
+
 pub(super) fn show(ctx: &egui::Context, open: &mut bool) {
     let height = ctx.content_rect().height() - 60.0;
     egui::Window::new("Keys and mouse")
         .open(open)
         .collapsible(false)
         .resizable(false)
+        .default_size([WIDTH, height])
         .anchor(Align2::CENTER_CENTER, [0.0, 0.0])
         .show(ctx, |ui| {
             egui::ScrollArea::vertical()
                 .max_height(height)
+                .auto_shrink([false, true])
                 .show(ui, |ui| {
                     Grid::new("keys")
                         .num_columns(2)
