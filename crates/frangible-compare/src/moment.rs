@@ -73,10 +73,17 @@ impl<'a> Wave<'a> {
             .map(|&e| (body.weak_place(e, config, &self.pressed), body.strength(e)))
             .collect();
         let every = (self.motion.steps() / LOOKS).max(1);
+        // These steps alone: displacements are worked out for several that follow one another.
         let looks = (0..self.motion.steps()).step_by(every);
+        let rows = looks.flat_map(|step| self.motion.at(step));
+        let motion = Motion {
+            amplitudes: rows.copied().collect(),
+            modes: self.motion.modes,
+            ..Motion::default()
+        };
         every
-            * first_largest(looks.map(|step| {
-                batch.seek(&self.motion, step);
+            * first_largest((0..motion.steps()).map(|step| {
+                batch.seek(&motion, step);
                 let tension = |&((point, law), strength): &((_, _), f32)| {
                     let gradient = batch.gradient(asset, point, step);
                     let state = elasticity.state_by(gradient, law);

@@ -110,6 +110,19 @@ impl Orbit {
         }
     }
 
+    /// Where a point shows in the picture, the way back from [`Orbit::ray`]; none for what is behind the camera.
+    #[must_use]
+    pub fn place(&self, point: Vec3, aspect: f32, shift: [f32; 2]) -> Option<Vec2> {
+        let tangent = (0.5 * self.home.vertical_fov).tan();
+        let [right, up] = self.axes();
+        let away = self.away();
+        let d = point - (self.target + self.distance * away);
+        let depth = -d.dot(away);
+        let x = d.dot(right) / (depth * tangent * aspect) + shift[0];
+        let y = d.dot(up) / (depth * tangent) + shift[1];
+        (depth > 0.0).then(|| Vec2::new(0.5 + 0.5 * x, 0.5 - 0.5 * y))
+    }
+
     /// Right and up in the picture.
     fn axes(&self) -> [Vec3; 2] {
         let away = self.away();
@@ -176,6 +189,12 @@ mod tests {
         let ray = camera.ray(at, aspect, shift);
         let miss = (point - ray.origin).cross(ray.direction).length();
         assert!(miss < 1e-5, "{miss} m");
+        let place = camera
+            .place(point, aspect, shift)
+            .expect("before the camera");
+        assert!(place.distance(at) < 1e-5, "{place}");
+        let behind = view.eye - forward;
+        assert_eq!(camera.place(behind, aspect, shift), None);
     }
 
     #[test]

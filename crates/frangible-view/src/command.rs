@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use frangible::glam::Vec3;
+use frangible_compare::Method;
 
 use crate::error::{ViewError, within};
 
@@ -13,7 +14,7 @@ pub enum Command {
     Scene(String),
     /// Load a scene file, a mesh or a baked body.
     Open(PathBuf),
-    /// Give up the bake that runs.
+    /// Give up the bake that runs, or the comparison of methods.
     CancelBake,
     /// The scene from its beginning, with the knobs as they are.
     Reset,
@@ -96,6 +97,8 @@ pub enum Command {
     Material(String),
     /// The last impact again on the intact body, with the knobs as they are; both are shown side by side.
     HitAgain,
+    /// The last impact by these methods, up to four side by side; none: those that were shown, or the first four.
+    CompareMethods(Vec<Method>),
     /// Write a file.
     Save(Target, PathBuf),
     /// Draw a film of the last seconds off-screen, or path-trace a still, and write it.
@@ -149,6 +152,8 @@ pub enum Subject {
     Modes,
     /// What the last impact did, and what it does with the knobs as they are.
     Compare,
+    /// The last impact by several methods.
+    Methods,
 }
 
 /// Marks over the picture.

@@ -55,7 +55,7 @@ pub(crate) fn side_by_side(
 }
 
 /// Adds a shape of the body that was hit, its origin at `middle` in the body's frame.
-fn place(
+pub(crate) fn place(
     live: &LiveScene,
     mesh: &RecordedMesh,
     blow: &Blow,

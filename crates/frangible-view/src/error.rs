@@ -50,6 +50,9 @@ pub enum ViewError {
     /// The fracture model.
     #[error(transparent)]
     Fracture(#[from] frangible::InputError),
+    /// The methods that were to be compared.
+    #[error(transparent)]
+    Compare(#[from] frangible_compare::CompareError),
     /// No such material.
     #[error(transparent)]
     Material(#[from] frangible::UnknownMaterial),

@@ -28,6 +28,7 @@ mod jobs;
 pub mod knobs;
 mod marks;
 mod mesher;
+mod methods;
 mod parse;
 mod picking;
 mod picture;
@@ -47,7 +48,8 @@ pub use command::{
     BallSpec, Command, FilmKind, FilmOptions, HammerSpec, Mark, Subject, Target, Tool,
 };
 pub use error::ViewError;
-pub use picture::{Batch, BatchLooks, Dot, Line, Picture};
+pub use methods::{Methods, Outcome};
+pub use picture::{Batch, BatchLooks, Dot, Label, Line, Picture};
 pub use script::Script;
 pub use session::Session;
 pub use shown::{BakeShown, Compared, Focus, Selection, Shown};

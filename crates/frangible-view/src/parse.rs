@@ -11,9 +11,10 @@ use crate::command::{
     BallSpec, Command, FilmKind, FilmOptions, HammerSpec, Mark, Subject, Target, Tool,
 };
 use crate::error::ViewError;
+use crate::methods::named_methods;
 
 /// Each command's first word, and what comes after it.
-const FORMS: [(&str, &str); 43] = [
+const FORMS: [(&str, &str); 44] = [
     ("scene", "NAME"),
     ("open", "FILE"),
     ("cancel-bake", ""),
@@ -33,7 +34,7 @@ const FORMS: [(&str, &str); 43] = [
     ("let-go", ""),
     ("drop", "METRES"),
     ("undo", ""),
-    ("look", "world|stress|cracks|modes|compare"),
+    ("look", "world|stress|cracks|modes|compare|methods"),
     ("scrub", "SHARE"),
     ("exaggerate", "FACTOR"),
     ("explode", "FACTOR"),
@@ -51,6 +52,7 @@ const FORMS: [(&str, &str); 43] = [
     ("reset-knob", "NAME|all"),
     ("material", "NAME"),
     ("hit-again", ""),
+    ("compare-methods", "first|METHOD,METHOD"),
     (
         "save",
         "scene|glb|script|report|times|still|gif|frames|mp4 FILE",
@@ -173,6 +175,7 @@ fn read(first: &str, rest: &[&str], tail: &str) -> Result<Command, String> {
         "reset-knob" => Command::ResetKnob(rest[0].into()),
         "material" => Command::Material(tail.into()),
         "hit-again" => Command::HitAgain,
+        "compare-methods" => Command::CompareMethods(named_methods(rest[0])?),
         "save" if FILMS.iter().any(|(name, _)| *name == rest[0]) => film(rest[0], tail)?,
         "save" => Command::Save(one_of(rest[0], &TARGETS)?, file(tail)),
         "cancel-save" => Command::CancelSave,
@@ -199,12 +202,13 @@ fn read(first: &str, rest: &[&str], tail: &str) -> Result<Command, String> {
     })
 }
 
-const SUBJECTS: [(&str, Subject); 5] = [
+const SUBJECTS: [(&str, Subject); 6] = [
     ("world", Subject::World),
     ("stress", Subject::Stress),
     ("cracks", Subject::Cracks),
     ("modes", Subject::Modes),
     ("compare", Subject::Compare),
+    ("methods", Subject::Methods),
 ];
 
 const TOOLS: [(&str, Tool); 2] = [("ball", Tool::Ball), ("hammer", Tool::Hammer)];
@@ -361,6 +365,13 @@ impl fmt::Display for Command {
             Self::ResetKnobs => write!(f, "reset-knob all"),
             Self::Material(name) => write!(f, "material {name}"),
             Self::HitAgain => write!(f, "hit-again"),
+            Self::CompareMethods(methods) => {
+                let names: Vec<&str> = methods.iter().map(|method| method.name()).collect();
+                match names.is_empty() {
+                    true => write!(f, "compare-methods first"),
+                    false => write!(f, "compare-methods {}", names.join(",")),
+                }
+            }
             Self::Save(target, path) => {
                 write!(f, "save {} {}", name_of(*target, &TARGETS), path.display())
             }
@@ -398,6 +409,7 @@ mod tests {
             "NAME" | "MATERIAL" | "NAME|all" => "steel".to_string(),
             "FILE" | "FILE.png" => "a folder/x.png".into(),
             "N" | "NUMBER" => "7".into(),
+            "first|METHOD,METHOD" => "ours,voronoi".into(),
             _ if word.ends_with("X,Y,Z") => "0.1,-2,0.0003".into(),
             _ if word.contains('|') => word.split('|').next().unwrap_or_default().into(),
             _ => "0.25".into(),

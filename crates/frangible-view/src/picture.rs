@@ -55,6 +55,15 @@ pub struct Dot {
     pub size: f32,
 }
 
+/// Words over the picture, in the middle above a place.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Label {
+    /// Where, m.
+    pub at: Vec3,
+    /// The words.
+    pub text: String,
+}
+
 /// A moment, ready to be drawn.
 #[derive(Clone, Debug, Default)]
 pub struct Picture {
@@ -66,6 +75,8 @@ pub struct Picture {
     pub lines: Vec<Line>,
     /// Dots.
     pub dots: Vec<Dot>,
+    /// Words.
+    pub labels: Vec<Label>,
     /// The floor, if there is one.
     pub floor: Option<Floor>,
     /// Whether edges are drawn instead of faces.

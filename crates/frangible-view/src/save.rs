@@ -1,6 +1,7 @@
 //! Files of a session.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use frangible::ImpactReport;
 use frangible_export::{write_atomically, write_glb};
@@ -10,6 +11,7 @@ use serde::Serialize;
 use crate::blow::Blow;
 use crate::command::Target;
 use crate::error::ViewError;
+use crate::methods::Outcome;
 use crate::session::Session;
 
 impl Session {
@@ -40,7 +42,15 @@ impl Session {
                 let blow = self.blow().ok_or_else(|| {
                     ViewError::NotNow("nothing was hit yet, so there is nothing to report".into())
                 })?;
-                write_json(path, &Report::of(blow))
+                let mut report = Report::of(blow);
+                if let Some(methods) = &self.methods().filter(|m| Arc::ptr_eq(&m.blow, blow)) {
+                    report.methods = methods
+                        .outcomes
+                        .iter()
+                        .map(|o| MethodNumbers::of(o))
+                        .collect();
+                }
+                write_json(path, &report)
             }
         }
     }
@@ -77,6 +87,33 @@ struct Report<'a> {
     peak_stress_pa: f64,
     strength_pa: f64,
     weak_points: usize,
+    /// What other methods made of it, in the order in which they were computed.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    methods: Vec<MethodNumbers>,
+}
+
+/// Numbers of a method.
+#[derive(Serialize)]
+struct MethodNumbers {
+    method: &'static str,
+    pieces: usize,
+    largest_share: f64,
+    crack_area_m2: f64,
+    energy_j: f64,
+    milliseconds: f64,
+}
+
+impl MethodNumbers {
+    fn of(outcome: &Outcome) -> Self {
+        Self {
+            method: outcome.method.name(),
+            pieces: outcome.pieces,
+            largest_share: outcome.largest_share,
+            crack_area_m2: outcome.crack_area,
+            energy_j: outcome.energy,
+            milliseconds: 1e3 * outcome.seconds,
+        }
+    }
 }
 
 impl<'a> Report<'a> {
@@ -98,6 +135,7 @@ impl<'a> Report<'a> {
             peak_stress_pa: report.peak_stress,
             strength_pa: report.strength,
             weak_points: report.weak_points,
+            methods: Vec::new(),
         }
     }
 }

@@ -2,6 +2,7 @@
 
 mod grab;
 mod look;
+mod methods;
 mod play;
 mod start;
 mod swing;
@@ -25,6 +26,7 @@ use crate::error::ViewError;
 use crate::jobs::Job;
 use crate::knobs::Settings;
 use crate::mesher::Mesher;
+use crate::methods::Methods;
 use crate::picture::Picture;
 use crate::reel::Reel;
 use crate::shown::{Compared, Focus};
@@ -61,9 +63,11 @@ pub struct Session {
     break_step: StepTimings,
     analysis: Option<Arc<Analysis>>,
     compared: Option<Arc<Compared>>,
+    methods: Option<Arc<Methods>>,
     bake_job: Option<Job<Result<Vec<BakedBody>, SceneError>>>,
     analysis_job: Option<Job<Result<Analysis, frangible::InputError>>>,
     again_job: Option<Job<Result<turn::Again, ViewError>>>,
+    methods_job: Option<methods::MethodsJob>,
     subject: Subject,
     scrub: f64,
     exaggeration: f64,
@@ -119,9 +123,11 @@ impl Session {
             break_step: StepTimings::default(),
             analysis: None,
             compared: None,
+            methods: None,
             bake_job: None,
             analysis_job: None,
             again_job: None,
+            methods_job: None,
             subject: Subject::World,
             scrub: 0.0,
             exaggeration: 1.0,
@@ -241,6 +247,7 @@ impl Session {
                     job.cancel();
                 }
             }
+            Command::CompareMethods(methods) => self.compare_methods(methods)?,
             Command::Save(target, path) => {
                 self.write(target, &path)?;
                 self.message = Some((format!("wrote {}", path.display()), false));
@@ -300,10 +307,7 @@ impl Session {
 
     /// Collects what was computed elsewhere; true if there was anything.
     pub fn poll(&mut self) -> bool {
-        let any = self.poll_bake(None)
-            | self.poll_analysis(None)
-            | self.poll_again(None)
-            | self.poll_film(None);
+        let any = self.poll_all(None);
         self.stale |= any;
         any
     }
@@ -312,12 +316,14 @@ impl Session {
     pub fn finish_jobs(&mut self) {
         let wait = Some(Duration::from_millis(200));
         while self.has_jobs() {
-            let any = self.poll_bake(wait)
-                | self.poll_analysis(wait)
-                | self.poll_again(wait)
-                | self.poll_film(wait);
+            let any = self.poll_all(wait);
             self.stale |= any;
         }
+    }
+
+    fn poll_all(&mut self, wait: Option<Duration>) -> bool {
+        let first = self.poll_bake(wait) | self.poll_analysis(wait);
+        first | self.poll_again(wait) | self.poll_methods(wait) | self.poll_film(wait)
     }
 
     fn has_jobs(&self) -> bool {
@@ -325,6 +331,7 @@ impl Session {
             || self.analysis_job.is_some()
             || self.again_job.is_some()
             || self.film_job.is_some()
+            || self.methods_job.is_some()
     }
 
     /// Whether a command's work still goes on.
@@ -400,6 +407,12 @@ impl Session {
 
     pub(crate) fn say(&mut self, what: String) {
         self.message = Some((what, false));
+    }
+
+    /// The last impact by several methods, once that was asked for.
+    #[must_use]
+    pub fn methods(&self) -> Option<&Arc<Methods>> {
+        self.methods.as_ref()
     }
 
     pub(crate) fn complain(&mut self, error: &ViewError) {

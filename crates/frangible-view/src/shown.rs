@@ -10,6 +10,7 @@ use crate::analysis::Analysis;
 use crate::blow::Blow;
 use crate::command::{BallSpec, HammerSpec, Mark, Subject, Tool};
 use crate::knobs::Settings;
+use crate::methods::Methods;
 use crate::picture::Picture;
 use crate::times::Spread;
 
@@ -84,6 +85,8 @@ pub struct Shown {
     pub selection: Option<Selection>,
     /// Two outcomes of one impact.
     pub compared: Option<Arc<Compared>>,
+    /// The last impact by several methods.
+    pub methods: Option<Arc<Methods>>,
     /// The knobs as they are, and as the scene has them.
     pub settings: Option<[Settings; 2]>,
     /// Whether the knobs were turned since the scene was set up.

@@ -169,7 +169,8 @@ impl Viewer {
                 continue;
             }
             // From here on a frame is drawn: panels and strokes are drawn once for each.
-            for command in self.panels.draw(window, &shown, said) {
+            let words = self.words(window, &shown);
+            for command in self.panels.draw(window, &shown, said, &words) {
                 self.give(command, window);
             }
             if let Some(stage) = &self.stage {
@@ -333,6 +334,16 @@ impl Viewer {
     fn ray(&self, window: &Window, x: f32, y: f32) -> crate::camera::Ray {
         let shift = self.panels.shift(window);
         self.orbit.ray(Vec2::new(x, y), aspect(window), shift)
+    }
+
+    /// The picture's labels, and where they stand in the window, shares of its size.
+    fn words(&self, window: &Window, shown: &Shown) -> Vec<(Vec2, String)> {
+        let shift = self.panels.shift(window);
+        let words = shown.picture.labels.iter().filter_map(|label| {
+            let place = self.orbit.place(label.at, aspect(window), shift)?;
+            Some((place, label.text.clone()))
+        });
+        words.collect()
     }
 
     fn camera(&self, window: &mut Window) -> StillCamera {

@@ -28,7 +28,13 @@ impl Session {
                     "there is nothing to compare yet; take the last impact again first (H)".into(),
                 ));
             }
-            Subject::Compare => {}
+            Subject::Methods if self.methods.is_none() => {
+                return Err(ViewError::NotNow(
+                    "no methods were compared yet; have the last impact broken by them first (M)"
+                        .into(),
+                ));
+            }
+            Subject::Compare | Subject::Methods => {}
             Subject::Stress | Subject::Cracks | Subject::Modes => self.analyse()?,
         }
         self.set_subject(subject);
@@ -105,7 +111,11 @@ impl Session {
         };
         let bake = self.bake_job.as_ref().map(Job::progress);
         let again = self.again_job.as_ref().map(Job::progress);
-        let progress = bake.or(again.filter(|progress| !progress.what.is_empty()));
+        let methods = self.methods_job.as_ref().map(|m| m.job.progress());
+        let told = again
+            .or(methods)
+            .filter(|progress| !progress.what.is_empty());
+        let progress = bake.or(told);
         Shown {
             commands: self.commands,
             busy: self.is_busy(),
@@ -142,7 +152,9 @@ impl Session {
                 }
             }),
             reel: self.reel.seconds(),
-            analysing: self.analysis_job.is_some() || self.again_job.is_some(),
+            analysing: self.analysis_job.is_some()
+                || self.again_job.is_some()
+                || self.methods_job.is_some(),
             message: self.message.clone(),
             picture: Arc::clone(&self.picture),
             subject: self.subject,
@@ -156,6 +168,7 @@ impl Session {
             largest_color: self.largest_color,
             selection: self.selected(),
             compared: self.compared.clone(),
+            methods: self.methods.clone(),
             settings: self.settings.clone(),
             turned: match (&self.built, &self.settings) {
                 (Some(built), Some([now, _])) => built != now,
@@ -171,11 +184,16 @@ impl Session {
 
     /// Looks at something else, and has the camera turn to it.
     pub(super) fn set_subject(&mut self, subject: Subject) {
-        if self.subject == subject {
-            return;
+        if self.subject != subject {
+            self.turn_to(subject);
         }
+    }
+
+    pub(super) fn turn_to(&mut self, subject: Subject) {
         self.subject = subject;
         let on = match (subject, &self.blow) {
+            (Subject::Methods, _) => (self.methods.as_ref())
+                .map(|methods| (methods.blow.pose.translation, methods.extent())),
             (Subject::World, _) | (_, None) => None,
             (Subject::Compare, Some(blow)) => Some((blow.pose.translation, compare::extent(blow))),
             (_, Some(blow)) => {
@@ -239,6 +257,7 @@ impl Session {
                 Some(marks::cracks(analysis, blow.pose))
             }
             (Subject::Compare, ..) => self.side_by_side(live, &mut picture),
+            (Subject::Methods, ..) => self.panes(live, &mut picture),
             _ => None,
         };
         picture.batches = match shown {
@@ -266,8 +285,19 @@ impl Session {
         Some(batches)
     }
 
+    /// The last impact by several methods.
+    fn panes(&self, live: &LiveScene, picture: &mut Picture) -> Option<Vec<Batch>> {
+        let (batches, labels) = self.methods.as_ref()?.draw(live, self.explode as f32);
+        picture.labels = labels;
+        picture.floor = None;
+        Some(batches)
+    }
+
     fn mark_contact(&self, picture: &mut Picture) {
-        if matches!(self.subject, Subject::Compare | Subject::Modes) {
+        if matches!(
+            self.subject,
+            Subject::Compare | Subject::Methods | Subject::Modes
+        ) {
             return;
         }
         let Some(blow) = &self.blow else { return };

@@ -162,6 +162,8 @@ impl Session {
         self.recent = None;
         self.forget_analysis();
         self.compared = None;
+        self.methods = None;
+        self.methods_job = None;
         self.set_subject(Subject::World);
         self.paused = true;
         self.message = Some((

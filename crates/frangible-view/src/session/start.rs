@@ -108,8 +108,10 @@ impl Session {
         self.blow = None;
         self.analysis = None;
         self.compared = None;
+        self.methods = None;
         self.analysis_job = None;
         self.again_job = None;
+        self.methods_job = None;
         self.selection = None;
         self.grip = None;
         self.set_subject(Subject::World);
@@ -145,6 +147,8 @@ impl Session {
     pub(super) fn cancel_bake(&mut self) {
         if self.bake_job.take().is_some() {
             self.message = Some(("the bake was cancelled".into(), false));
+        } else if self.methods_job.take().is_some() {
+            self.message = Some(("the comparison was given up".into(), false));
         }
     }
 }

@@ -28,6 +28,7 @@ pub(super) enum Stroke {
     Cracks,
     Modes,
     Compare,
+    Methods,
     Wireframe,
     Explode,
     Home,
@@ -41,7 +42,7 @@ pub(super) enum Stroke {
 }
 
 /// Keys, what they are called, and what they do, in the order of the help.
-pub(super) const KEYS: [(Key, &str, Stroke, &str); 23] = [
+pub(super) const KEYS: [(Key, &str, Stroke, &str); 24] = [
     (
         Key::Space,
         "space",
@@ -99,6 +100,12 @@ pub(super) const KEYS: [(Key, &str, Stroke, &str); 23] = [
         "5",
         Stroke::Compare,
         "look at both outcomes of the impact that was taken again",
+    ),
+    (
+        Key::M,
+        "M",
+        Stroke::Methods,
+        "the last impact by other methods, side by side",
     ),
     (Key::X, "X", Stroke::Explode, "draw pieces apart, or not"),
     (Key::W, "W", Stroke::Wireframe, "edges instead of faces"),

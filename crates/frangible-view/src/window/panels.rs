@@ -5,6 +5,7 @@ mod gallery;
 mod help;
 mod inspect;
 mod knobs;
+mod methods;
 mod performance;
 mod play;
 mod status;
@@ -12,7 +13,8 @@ mod status;
 use std::path::PathBuf;
 use std::time::Instant;
 
-use egui::{Align2, Context, Visuals};
+use egui::{Align2, Color32, Context, FontId, LayerId, Visuals};
+use frangible::glam::Vec2;
 use frangible_draw::kiss3d::window::Window;
 
 use crate::command::{Command, FilmOptions, Mark, Subject, Target, Tool};
@@ -181,7 +183,13 @@ impl Panels {
     }
 
     /// Draws the panels over the next frame; what was said with mouse, keys and panels comes back.
-    pub(super) fn draw(&mut self, window: &mut Window, shown: &Shown, said: Said) -> Vec<Command> {
+    pub(super) fn draw(
+        &mut self,
+        window: &mut Window,
+        shown: &Shown,
+        said: Said,
+        words: &[(Vec2, String)],
+    ) -> Vec<Command> {
         let mut commands = said.commands;
         for stroke in said.strokes {
             self.mean(stroke, shown, &mut commands);
@@ -192,6 +200,7 @@ impl Panels {
         self.play_on(shown, &mut commands);
         window.draw_ui(|ctx| {
             self.style(ctx);
+            write_words(ctx, words);
             if self.shows_play(ctx.content_rect().width()) {
                 side(ctx, "play", Align2::LEFT_TOP, LEFT, |ui| {
                     self.play_panel(ui, shown, &mut commands);
@@ -289,6 +298,10 @@ impl Panels {
                 })
             }
             Stroke::Compare => Command::Look(Subject::Compare),
+            Stroke::Methods => {
+                self.tab = Some(Tab::Inspect);
+                Command::CompareMethods(Vec::new())
+            }
             Stroke::Wireframe => toggle(Mark::Wireframe),
             Stroke::Explode if shown.explode > 0.0 => Command::Explode(0.0),
             Stroke::Explode => Command::Explode(APART),
@@ -325,6 +338,22 @@ impl Panels {
                 return path;
             }
         }
+    }
+}
+
+/// Words over the picture and under the panels, each in the middle above its place.
+fn write_words(ctx: &Context, words: &[(Vec2, String)]) {
+    let painter = ctx.layer_painter(LayerId::background());
+    let size = ctx.content_rect().size();
+    for (at, text) in words {
+        let at = egui::pos2(at.x * size.x, at.y * size.y);
+        let font = FontId::proportional(15.0);
+        let color = Color32::from_gray(20);
+        let galley = painter.layout_no_wrap(text.clone(), font, color);
+        let place = Align2::CENTER_BOTTOM.anchor_size(at, galley.size());
+        let paper = Color32::from_rgba_unmultiplied(255, 255, 255, 170);
+        painter.rect_filled(place.expand(3.0), 3.0, paper);
+        painter.galley(place.min, galley, color);
     }
 }
 

@@ -35,6 +35,10 @@ pub(super) fn panel(
         compare(ui, compared);
         return;
     }
+    if shown.subject == Subject::Methods {
+        super::methods::panel(ui, shown, commands);
+        return;
+    }
     let Some(blow) = &shown.blow else {
         ui.label(
             "Nothing was hit yet: click into the scene to throw a ball, or let the body fall.",
@@ -84,6 +88,11 @@ fn subjects(ui: &mut Ui, shown: &Shown, commands: &mut Vec<Command>) {
                 "compare",
                 "5: the impact that was taken again, beside the old one",
             ),
+            (
+                Subject::Methods,
+                "methods",
+                "M: the last impact by other methods, side by side",
+            ),
         ] {
             let there = match subject {
                 Subject::World => true,
@@ -92,7 +101,10 @@ fn subjects(ui: &mut Ui, shown: &Shown, commands: &mut Vec<Command>) {
             };
             let label = egui::Button::selectable(shown.subject == subject, label);
             if ui.add_enabled(there, label).on_hover_text(hint).clicked() {
-                commands.push(Command::Look(subject));
+                commands.push(match subject {
+                    Subject::Methods => Command::CompareMethods(Vec::new()),
+                    other => Command::Look(other),
+                });
             }
         }
     });

@@ -32,7 +32,7 @@ impl Panels {
         scenes(ui, shown, &mut self.gallery, commands);
         if let Some(bake) = &shown.bake {
             ui.add(egui::ProgressBar::new(bake.share as f32).text(bake.what.clone()));
-            if ui.button("Cancel the bake").clicked() {
+            if ui.button("Cancel").clicked() {
                 commands.push(Command::CancelBake);
             }
         }

@@ -1,0 +1,201 @@
+//! The last impact by several methods, up to four of them side by side.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use frangible::glam::Vec3;
+use frangible::{Fracture, ImpactReport, nearest_name};
+use frangible_compare::{Broken, Method};
+use frangible_export::RecordedMesh;
+use frangible_scenes::LiveScene;
+
+use crate::blow::Blow;
+use crate::compare::place;
+use crate::marks::reach;
+use crate::mesher::numbered;
+use crate::picture::{Batch, Label};
+
+/// Methods that are shown at once, at most.
+pub(crate) const PANES: usize = 4;
+
+/// Methods that are shown first.
+pub(crate) const FIRST: [Method; PANES] = [
+    Method::Ours,
+    Method::QuasiStatic,
+    Method::Elements,
+    Method::EnergyVoronoi,
+];
+
+/// Distance of the middles of panes across and upwards, in widths and heights of the body.
+const GAPS: [f32; 2] = [1.55, 1.6];
+
+/// Least width and height of a pane over how far the body reaches: a heading needs room, and the camera may be turned.
+const LEAST: [f32; 2] = [1.5, 0.7];
+
+/// How far pieces are drawn apart at least: what is cracked would look whole.
+const APART: f32 = 0.2;
+
+/// Methods by name, each once; `first` for none.
+pub(crate) fn named_methods(word: &str) -> Result<Vec<Method>, String> {
+    let mut methods = Vec::new();
+    for name in word.split(',').filter(|_| word != "first") {
+        let method = Method::from_name(name).ok_or_else(|| {
+            let known = Method::ALL.map(Method::name);
+            let hint = nearest_name(name, known)
+                .map_or(String::new(), |n| format!(", did you mean `{n}`?"));
+            format!(
+                "there is no method `{name}`{hint}; methods: {}",
+                known.join(", ")
+            )
+        })?;
+        if !methods.contains(&method) {
+            methods.push(method);
+        }
+    }
+    Ok(methods)
+}
+
+/// What one method made of the impact.
+#[derive(Clone, Debug)]
+pub struct Outcome {
+    /// The method.
+    pub method: Method,
+    /// Pieces, 1 where it held.
+    pub pieces: usize,
+    /// The largest piece's share of the volume.
+    pub largest_share: f64,
+    /// Area of its cracks, one side, m².
+    pub crack_area: f64,
+    /// What they ask for, J.
+    pub energy: f64,
+    /// From the contacts to the pieces, s.
+    pub seconds: f64,
+    /// The pieces' shapes and where they lay in the body, m; empty where it held.
+    shapes: Vec<(Vec3, RecordedMesh)>,
+}
+
+impl Outcome {
+    pub(crate) fn new(broken: Broken, blow: &Blow, live: &LiveScene) -> Self {
+        let mut outcome = Self {
+            method: broken.method,
+            pieces: broken.pieces(),
+            largest_share: broken.largest_share(),
+            crack_area: broken.crack_area,
+            energy: broken.energy,
+            seconds: broken.seconds,
+            shapes: Vec::new(),
+        };
+        if let Some(thing) = live.things().get(blow.thing) {
+            let fracture = Fracture::new(broken.fragments, ImpactReport::default());
+            outcome.shapes = live.shapes(thing, &fracture);
+        }
+        outcome
+    }
+}
+
+/// One impact by several methods.
+#[derive(Clone, Debug)]
+pub struct Methods {
+    /// The impact.
+    pub blow: Arc<Blow>,
+    /// Those that are shown, row by row from the upper left.
+    pub chosen: Vec<Method>,
+    /// What came out so far.
+    pub outcomes: Vec<Arc<Outcome>>,
+    /// Towards the camera of the scene.
+    pub(crate) look_from: Vec3,
+}
+
+/// Where panes are.
+struct Layout {
+    /// To the right and up in the picture.
+    axes: [Vec3; 2],
+    /// Width and height of the body as it is seen, m.
+    size: [f32; 2],
+    columns: usize,
+    rows: usize,
+}
+
+impl Methods {
+    /// Of a method, if it was computed.
+    #[must_use]
+    pub fn outcome(&self, method: Method) -> Option<&Arc<Outcome>> {
+        self.outcomes.iter().find(|known| known.method == method)
+    }
+
+    /// Half the width and height of all panes, m.
+    pub(crate) fn extent(&self) -> [f32; 2] {
+        let Layout {
+            size,
+            columns,
+            rows,
+            ..
+        } = self.layout();
+        let half = |count: usize, k: usize| {
+            let apart = GAPS[k] * (count as f32 - 1.0) * size[k];
+            0.5 * (apart + 1.4 * size[k])
+        };
+        [half(columns, 0), half(rows, 1)]
+    }
+
+    /// Two methods side by side, more in two rows.
+    fn layout(&self) -> Layout {
+        let back = self.look_from.normalize_or(Vec3::Z);
+        let right = Vec3::Y.cross(back).normalize_or(Vec3::X);
+        let axes = [right, back.cross(right)];
+        let asset = self.blow.body.asset();
+        let rotation = self.blow.pose.rotation.normalize();
+        let reach = reach(asset);
+        let size = [0, 1].map(|k: usize| {
+            let along = asset.fracture.positions.iter();
+            let along = along.map(|&p| (rotation * p).dot(axes[k]).abs());
+            2.0 * along.fold(0.5 * LEAST[k] * reach, f32::max)
+        });
+        let count = self.chosen.len().max(1);
+        Layout {
+            axes,
+            size,
+            columns: count.min(2),
+            rows: count.div_ceil(2),
+        }
+    }
+
+    /// The panes, pieces drawn apart by `explode`, and what each of them is.
+    pub(crate) fn draw(&self, live: &LiveScene, explode: f32) -> (Vec<Batch>, Vec<Label>) {
+        let Layout {
+            axes: [right, up],
+            size: [width, height],
+            columns,
+            rows,
+        } = self.layout();
+        let blow = &*self.blow;
+        let mut batches: BTreeMap<usize, Batch> = BTreeMap::new();
+        let mut labels = Vec::new();
+        for (i, &method) in self.chosen.iter().enumerate() {
+            let across = (i % columns) as f32 - 0.5 * (columns as f32 - 1.0);
+            let down = (i / columns) as f32 - 0.5 * (rows as f32 - 1.0);
+            let shift = GAPS[0] * width * across * right - GAPS[1] * height * down * up;
+            let Some(outcome) = self.outcome(method) else {
+                continue;
+            };
+            for (birth, mesh) in &outcome.shapes {
+                let middle = (1.0 + explode.max(APART)) * *birth;
+                place(live, mesh, blow, middle, shift, &mut batches);
+            }
+            if let (true, Some(thing)) = (outcome.pieces == 1, live.things().get(blow.thing)) {
+                place(live, &thing.mesh, blow, Vec3::ZERO, shift, &mut batches);
+            }
+            labels.push(Label {
+                at: blow.pose.translation + shift + 0.62 * height * up,
+                text: match outcome.pieces {
+                    1 => format!("{}: held", method.title()),
+                    pieces => format!("{}: {pieces} pieces", method.title()),
+                },
+            });
+        }
+        for batch in batches.values_mut() {
+            batch.faces = Arc::new(numbered(batch.positions.len()));
+        }
+        (batches.into_values().collect(), labels)
+    }
+}
