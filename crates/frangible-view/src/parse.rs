@@ -252,6 +252,14 @@ fn film(kind: &str, tail: &str) -> Result<Command, String> {
             "write it as `save {kind} FILE`, and behind that what you like of 3s 20fps 640x400 64spp"
         ));
     }
+    // A word that is none would hide the options before it in the name of the file.
+    let mut words = rest.split_whitespace();
+    let hidden = words.any(|word| option(word, &mut options.clone()));
+    if let (true, Some(last)) = (hidden, rest.split_whitespace().next_back()) {
+        return Err(format!(
+            "`{last}` behind the file is none of 3s 20fps 640x400 64spp"
+        ));
+    }
     Ok(Command::Film(one_of(kind, &FILMS)?, rest.into(), options))
 }
 
@@ -439,6 +447,8 @@ mod tests {
         ] {
             assert_eq!(Command::parse(line).unwrap().to_string(), written);
         }
+        let error = Command::parse("save gif a.gif 320x200 1").unwrap_err();
+        assert!(error.to_string().contains("`1`"), "{error}");
         let error = Command::parse("save gif 3s").unwrap_err().to_string();
         assert!(error.contains("`save gif FILE`"), "{error}");
     }
