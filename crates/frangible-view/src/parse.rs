@@ -1,5 +1,7 @@
 //! Commands as lines of text: a word, then its numbers and names.
 
+mod films;
+
 use std::fmt;
 use std::path::PathBuf;
 use std::str::FromStr;
@@ -7,11 +9,11 @@ use std::str::FromStr;
 use frangible::glam::Vec3;
 use frangible::nearest_name;
 
-use crate::command::{
-    BallSpec, Command, FilmKind, FilmOptions, HammerSpec, Mark, Subject, Target, Tool,
-};
+use crate::command::{BallSpec, Command, HammerSpec, Mark, Subject, Target, Tool};
 use crate::error::ViewError;
 use crate::methods::named_methods;
+
+use films::{FILMS, film, write_film};
 
 /// Each command's first word, and what comes after it.
 const FORMS: [(&str, &str); 44] = [
@@ -229,76 +231,6 @@ const TARGETS: [(&str, Target); 5] = [
     ("report", Target::Report),
     ("times", Target::Times),
 ];
-
-const FILMS: [(&str, FilmKind); 4] = [
-    ("still", FilmKind::Still),
-    ("gif", FilmKind::Gif),
-    ("frames", FilmKind::Frames),
-    ("mp4", FilmKind::Mp4),
-];
-
-/// A film: its file, and behind that what differs from the usual: `3s`, `20fps`, `640x400`, `64spp`.
-fn film(kind: &str, tail: &str) -> Result<Command, String> {
-    let mut options = FilmOptions::default();
-    let mut rest = file(tail).to_string_lossy().into_owned();
-    while let Some((before, last)) = rest.rsplit_once(char::is_whitespace) {
-        if !option(last, &mut options) {
-            break;
-        }
-        rest = before.trim_end().into();
-    }
-    if rest.is_empty() || option(&rest, &mut options.clone()) {
-        return Err(format!(
-            "write it as `save {kind} FILE`, and behind that what you like of 3s 20fps 640x400 64spp"
-        ));
-    }
-    // A word that is none would hide the options before it in the name of the file.
-    let mut words = rest.split_whitespace();
-    let hidden = words.any(|word| option(word, &mut options.clone()));
-    if let (true, Some(last)) = (hidden, rest.split_whitespace().next_back()) {
-        return Err(format!(
-            "`{last}` behind the file is none of 3s 20fps 640x400 64spp"
-        ));
-    }
-    Ok(Command::Film(one_of(kind, &FILMS)?, rest.into(), options))
-}
-
-/// Whether a word is an option, which is taken then.
-fn option(word: &str, options: &mut FilmOptions) -> bool {
-    let taken = |unit: &str| word.strip_suffix(unit);
-    if let Some(Ok(rate)) = taken("fps").map(number) {
-        options.rate = rate;
-    } else if let Some(Ok(samples)) = taken("spp").map(whole) {
-        options.samples = samples;
-    } else if let Some(Ok(seconds)) = taken("s").map(number) {
-        options.seconds = seconds;
-    } else if let Some((Ok(width), Ok(height))) =
-        word.split_once('x').map(|(w, h)| (whole(w), whole(h)))
-    {
-        options.size = [width, height];
-    } else {
-        return false;
-    }
-    true
-}
-
-fn write_film(options: &FilmOptions) -> String {
-    let usual = FilmOptions::default();
-    let mut text = String::new();
-    if options.seconds != usual.seconds {
-        text += &format!(" {}s", options.seconds);
-    }
-    if options.rate != usual.rate {
-        text += &format!(" {}fps", options.rate);
-    }
-    if options.size != usual.size {
-        text += &format!(" {}x{}", options.size[0], options.size[1]);
-    }
-    if options.samples != usual.samples {
-        text += &format!(" {}spp", options.samples);
-    }
-    text
-}
 
 /// What follows the first word.
 fn file(tail: &str) -> PathBuf {

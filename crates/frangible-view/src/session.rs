@@ -6,6 +6,7 @@ mod methods;
 mod play;
 mod start;
 mod swing;
+mod told;
 mod turn;
 
 use std::path::PathBuf;
@@ -373,36 +374,6 @@ impl Session {
     #[must_use]
     pub fn blow(&self) -> Option<&Arc<Blow>> {
         self.blow.as_ref()
-    }
-
-    pub(crate) fn is_marked(&self, mark: Mark) -> bool {
-        self.marks.contains(&mark)
-    }
-
-    pub(crate) fn subject(&self) -> Subject {
-        self.subject
-    }
-
-    pub(crate) fn analysis(&self) -> Option<&Arc<Analysis>> {
-        self.analysis.as_ref()
-    }
-
-    pub(crate) fn scrubbed(&self) -> f64 {
-        self.scrub
-    }
-
-    pub(crate) fn exaggerated(&self) -> f64 {
-        self.exaggeration
-    }
-
-    /// The mode that is looked at, from 0.
-    pub(crate) fn mode_of(&self, analysis: &Analysis) -> usize {
-        self.mode.clamp(1, analysis.asset.modes.count().max(1)) - 1
-    }
-
-    /// From where films are seen.
-    pub(crate) fn film_view(&self) -> View {
-        self.look_from.unwrap_or(self.home)
     }
 
     pub(crate) fn say(&mut self, what: String) {

@@ -6,9 +6,9 @@ use std::time::Duration;
 /// How many of the last laps are kept: four seconds of pictures.
 const KEPT: usize = 240;
 
-/// Processor time of this thread so far; where the system does not tell, the time of day.
+/// Processor time of this thread so far; where the system does not tell, the time of day, and in a browser nothing.
 pub(crate) fn thread_time() -> Duration {
-    #[cfg(all(unix, not(target_os = "emscripten")))]
+    #[cfg(unix)]
     {
         let time = rustix::time::clock_gettime(rustix::time::ClockId::ThreadCPUTime);
         Duration::new(
@@ -16,13 +16,15 @@ pub(crate) fn thread_time() -> Duration {
             time.tv_nsec.unsigned_abs() as u32,
         )
     }
-    #[cfg(not(all(unix, not(target_os = "emscripten"))))]
+    #[cfg(all(not(unix), not(target_arch = "wasm32")))]
     {
         use std::sync::OnceLock;
         use std::time::Instant;
         static START: OnceLock<Instant> = OnceLock::new();
         START.get_or_init(Instant::now).elapsed()
     }
+    #[cfg(all(not(unix), target_arch = "wasm32"))]
+    Duration::ZERO
 }
 
 /// The last times of one kind.
