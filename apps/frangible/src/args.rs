@@ -88,7 +88,7 @@ pub(crate) struct CompareArgs {
     #[arg(long)]
     pub(crate) no_pictures: bool,
 
-    /// Write compare.md, about four built-in scenes, and its pictures into this folder instead
+    /// Write compare.md, about some of the built-in scenes, and its pictures into this folder instead
     #[arg(long, value_name = "DIR", conflicts_with_all = ["file", "scene", "seed", "methods", "json", "no_pictures"])]
     pub(crate) write: Option<PathBuf>,
 }

@@ -7,7 +7,7 @@ use frangible_compare::{DEFAULT_SITES, DEFAULT_STEP, Method};
 use crate::compare_report::{CompareReport, MethodReport};
 
 /// Scenes of the page.
-pub(crate) const SCENES: [&str; 4] = ["glass", "pane", "vase", "rabbit"];
+pub(crate) const SCENES: [&str; 5] = ["glass", "pane", "vase", "rabbit", "piggy-bank"];
 
 /// The page. `pictures`: folder of its pictures.
 pub(crate) fn page(reports: &[CompareReport], pictures: &str) -> String {

@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use frangible::{Division, Outcome, impact};
+use frangible::{Border, Division, Outcome, impact};
 
 use crate::elements;
 use crate::energy_voronoi::{self, DEFAULT_SITES};
@@ -167,11 +167,13 @@ fn of_faces(hit: Hit<'_>) -> Result<Broken, CompareError> {
 
 fn of_division(hit: Hit<'_>, division: Division<'_>) -> Broken {
     let (fragments, borders) = division.pieces(hit.config.crumb_share);
-    let cost = |border: &frangible::Border| border.area * hit.body.toughness(border.tet);
+    let cost = |border: &Border| border.area * hit.body.toughness(border.tet);
+    // Not by `sum`: of nothing it is −0.
+    let total = |of: &dyn Fn(&Border) -> f64| borders.iter().fold(0.0, |sum, b| sum + of(b));
     Broken {
         fragments,
-        crack_area: borders.iter().map(|border| border.area).sum(),
-        energy: borders.iter().map(cost).sum(),
+        crack_area: total(&|border| border.area),
+        energy: total(&cost),
         ..empty()
     }
 }

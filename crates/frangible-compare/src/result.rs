@@ -43,8 +43,9 @@ impl Broken {
 
 /// Area of the crack faces of all pieces, one side, m².
 pub(crate) fn border_area(fragments: &[Fragment]) -> f64 {
-    let both: f64 = fragments.iter().map(|f| inner_area(&f.mesh)).sum();
-    0.5 * both
+    let areas = fragments.iter().map(|f| inner_area(&f.mesh));
+    // An empty sum would be −0.
+    0.5 * areas.fold(0.0, |sum, area| sum + area)
 }
 
 fn inner_area(mesh: &TriMesh) -> f64 {
