@@ -8,11 +8,14 @@ use crate::command::{Result, cargo, output, root, run, run_keeping, run_within, 
 use crate::counts::counts;
 use crate::fuzz::{USUAL_SECONDS, fuzz};
 use crate::test::packages;
+use crate::web::trial;
 
 /// Building cargo-deny takes three minutes of one core; a machine that needs longer than this is stuck.
 const INSTALL_LIMIT: Duration = Duration::from_secs(20 * 60);
 /// Of all of the step; the first build with its instrumentation takes most of it.
 const FUZZ_LIMIT: Duration = Duration::from_secs(8 * 60);
+/// Of all of the step; the first build for browsers takes most of it.
+const WEB_LIMIT: Duration = Duration::from_secs(25 * 60);
 /// The cargo-deny that `deny.toml` is written for.
 const DENY_VERSION: &str = "0.20.2";
 const LICENCES: [&str; 2] = ["LICENSE-MIT", "LICENSE-APACHE"];
@@ -20,7 +23,7 @@ const LICENCES: [&str; 2] = ["LICENSE-MIT", "LICENSE-APACHE"];
 /// A step returns the lines worth repeating at the end.
 type Step = (&'static str, fn() -> Result<Vec<String>>);
 
-const STEPS: [Step; 9] = [
+const STEPS: [Step; 10] = [
     ("format", || quiet(&["fmt", "--all", "--check"])),
     ("clippy", || {
         quiet(&[
@@ -38,6 +41,7 @@ const STEPS: [Step; 9] = [
     ("licences", deny),
     ("packages", package_lists),
     ("main job", main_job),
+    ("web", || trial(Some(WEB_LIMIT))),
     ("counts", || counts(false)),
     ("fuzz", || fuzz(USUAL_SECONDS, Some(FUZZ_LIMIT))),
 ];

@@ -8,6 +8,7 @@ mod fuzz;
 mod glb;
 mod setup;
 mod test;
+mod web;
 
 use std::process::ExitCode;
 
@@ -19,6 +20,8 @@ cargo xtask test              setup, then all tests of the workspace in the rele
 cargo xtask ci                everything the continuous integration checks, with the minutes per step
 cargo xtask fuzz [SECONDS]    feed each reader of files hostile bytes for so long, 30 s if not told
 cargo xtask counts [--write]  count the instructions of each stage; fail where they grew by over 5 %, or store them
+cargo xtask web [--out DIR]   make the viewer's page for browsers, one static folder: target/web/page if not told
+cargo xtask web-test          make it, and break the pane in it with Chromium, drawn by the processor
 cargo xtask check-output DIR  check what `cargo run --release -- --out DIR --json > DIR/report.json` wrote";
 
 fn main() -> ExitCode {
@@ -39,6 +42,7 @@ fn run(words: &[&str]) -> Result {
             setup::setup();
             setup::cpp_compiler();
             setup::valgrind();
+            setup::browser();
             Ok(())
         }
         ["test"] => {
@@ -55,6 +59,9 @@ fn run(words: &[&str]) -> Result {
         },
         ["counts"] => counts::counts(false).map(drop),
         ["counts", "--write"] => counts::counts(true).map(drop),
+        ["web"] => web::web(None, None).map(drop),
+        ["web", "--out", folder] => web::web(Some(folder.as_ref()), None).map(drop),
+        ["web-test"] => web::trial(None).map(drop),
         ["check-output", directory] => check_output::check_output(directory.as_ref()),
         [] | ["help" | "--help" | "-h"] => {
             println!("{HELP}");

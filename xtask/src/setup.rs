@@ -1,5 +1,5 @@
-//! System packages: the pictures need a Vulkan driver, the viewer's test a display, fuzzing a C++ compiler and counting instructions valgrind; nothing else
-//! is needed beyond a C linker.
+//! System packages: the pictures need a Vulkan driver, the viewer's test a display, fuzzing a C++ compiler, counting instructions
+//! valgrind, and the test of the page a browser; nothing else is needed beyond a C linker.
 
 use std::path::Path;
 use std::process::Command;
@@ -22,6 +22,9 @@ const DISPLAY: [&str; 7] = [
 const COMPILER: &str = "g++";
 /// Counts instructions.
 const COUNTER: &str = "valgrind";
+/// Shows the page in its test, and what runs that.
+const BROWSER: &str = "chromium";
+const NODE: [&str; 2] = ["nodejs", "npm"];
 /// Where Linux drivers announce themselves.
 const DRIVER_FOLDERS: [&str; 3] = [
     "/usr/share/vulkan/icd.d",
@@ -77,6 +80,29 @@ pub(crate) fn valgrind() -> bool {
         );
     }
     there()
+}
+
+/// The browser's program and whether there is Node with npm; what is missing is installed where that is possible.
+pub(crate) fn browser() -> Option<&'static str> {
+    const NAMES: [&str; 4] = [BROWSER, "chromium-browser", "google-chrome", "chrome"];
+    let found = || {
+        let mut names = NAMES.into_iter();
+        names.find(|name| succeeds(name, &["--version"]))
+    };
+    let node = || succeeds("node", &["--version"]) && succeeds("npm", &["--version"]);
+    if cfg!(target_os = "linux") {
+        if found().is_none() {
+            install(
+                &[BROWSER],
+                &format!("the page's test needs `{BROWSER}`: install it"),
+            );
+        }
+        if !node() {
+            let advice = "the page's test needs Node 20 and npm: install them";
+            install(&NODE, advice);
+        }
+    }
+    found().filter(|_| node())
 }
 
 /// Installs Debian packages; where that cannot be, prints the advice.

@@ -24,27 +24,39 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+// Without the solver nobody calls the meshers of shapes.
+#![cfg_attr(not(feature = "solver"), allow(dead_code))]
+
+#[cfg(feature = "solver")]
 mod analysis;
+#[cfg(feature = "solver")]
 mod bake;
 mod cancel;
+#[cfg(feature = "solver")]
 mod cells;
 mod clusters;
+#[cfg(feature = "solver")]
 pub mod eigen;
+#[cfg(feature = "solver")]
 pub mod embed;
 mod error;
 mod extrude;
+#[cfg(feature = "solver")]
 pub mod fem;
 mod groups;
 mod import;
 mod import_tets;
 mod mesh;
+mod phase;
 mod random;
 mod report;
 pub mod shapes;
 mod sheet;
 mod supports;
+#[cfg(feature = "solver")]
 pub mod surface;
 
+#[cfg(feature = "solver")]
 pub use bake::{BakeSpec, bake};
 pub use cancel::CancelToken;
 pub use error::BakeError;

@@ -4,8 +4,8 @@ use std::fmt;
 
 use frangible_mesh::TetReport;
 
-use crate::eigen::Phase;
 use crate::mesh::BodyMesh;
+use crate::phase::Phase;
 
 /// Stages of a bake, in order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

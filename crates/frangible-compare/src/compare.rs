@@ -1,6 +1,6 @@
 //! All methods, one after another.
 
-use std::time::Instant;
+use web_time::Instant;
 
 use frangible::{Border, Division, Outcome, impact};
 

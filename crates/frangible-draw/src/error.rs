@@ -8,8 +8,15 @@ use thiserror::Error;
 #[non_exhaustive]
 pub enum DrawError {
     /// No graphics driver answered.
-    #[error(
-        "no graphics adapter found; install a Vulkan driver, for example `apt-get install mesa-vulkan-drivers`, which needs neither a graphics card nor a display"
+    #[cfg_attr(
+        target_family = "wasm",
+        error("the browser gives neither WebGPU nor WebGL 2 to draw with")
+    )]
+    #[cfg_attr(
+        not(target_family = "wasm"),
+        error(
+            "no graphics adapter found; install a Vulkan driver, for example `apt-get install mesa-vulkan-drivers`, which needs neither a graphics card nor a display"
+        )
     )]
     NoAdapter,
     /// The recording or the view is not sound.

@@ -72,10 +72,20 @@ pub(crate) struct FloorShadow {
     pub(crate) brightness: Vec<f32>,
 }
 
-impl FloorShadow {
+/// A shadow that is being cast, lamp by lamp.
+pub(crate) struct Casting {
+    shadow: FloorShadow,
+    outlines: Vec<Outline>,
+    layer: Vec<f32>,
+    /// Those that have not cast theirs, the next one last.
+    lamps: Vec<(Vec3, f32)>,
+    smoothings: usize,
+}
+
+impl Casting {
     /// `key` is a direction towards the key light, its length the distance at
     /// which the lamp has the radius 1.
-    pub(crate) fn cast(
+    pub(crate) fn begin(
         casters: &[Caster],
         floor_height: f32,
         key: Vec3,
@@ -83,31 +93,61 @@ impl FloorShadow {
     ) -> Self {
         let (center, half_side) = extent(casters, floor_height);
         let side = fineness.side;
-        let mut shadow = Self {
-            center,
-            half_side,
-            side,
-            brightness: vec![1.0; side * side],
+        let mut lamps: Vec<(Vec3, f32)> = lamps(key, fineness).collect();
+        lamps.reverse();
+        Self {
+            shadow: FloorShadow {
+                center,
+                half_side,
+                side,
+                brightness: vec![1.0; side * side],
+            },
+            outlines: casters
+                .iter()
+                .filter_map(|caster| Outline::above(caster, floor_height))
+                .collect(),
+            layer: vec![1.0; side * side],
+            lamps,
+            smoothings: fineness.smoothings,
+        }
+    }
+
+    /// Lets one lamp cast its shadow; false if all have.
+    pub(crate) fn go_on(&mut self) -> bool {
+        let Some((toward, share)) = self.lamps.pop() else {
+            return false;
         };
-        let outlines: Vec<Outline> = casters
-            .iter()
-            .filter_map(|caster| Outline::above(caster, floor_height))
-            .collect();
-        let mut layer = vec![1.0; side * side];
-        for (toward, share) in lamps(key, fineness) {
-            layer.fill(1.0);
-            for outline in &outlines {
-                shadow.project(outline, toward, &mut layer);
-            }
-            for (sum, light) in shadow.brightness.iter_mut().zip(&layer) {
-                *sum -= share * (1.0 - light);
-            }
+        self.layer.fill(1.0);
+        for outline in &self.outlines {
+            self.shadow.project(outline, toward, &mut self.layer);
         }
-        for _ in 0..fineness.smoothings {
-            smooth(&mut shadow.brightness, side);
+        for (sum, light) in self.shadow.brightness.iter_mut().zip(&self.layer) {
+            *sum -= share * (1.0 - light);
         }
-        fade_out(&mut shadow.brightness, side);
+        true
+    }
+
+    /// The shadow of all lamps.
+    pub(crate) fn finish(mut self) -> FloorShadow {
+        while self.go_on() {}
+        let mut shadow = self.shadow;
+        for _ in 0..self.smoothings {
+            smooth(&mut shadow.brightness, shadow.side);
+        }
+        fade_out(&mut shadow.brightness, shadow.side);
         shadow
+    }
+}
+
+impl FloorShadow {
+    /// As [`Casting::begin`], to its end.
+    pub(crate) fn cast(
+        casters: &[Caster],
+        floor_height: f32,
+        key: Vec3,
+        fineness: Fineness,
+    ) -> Self {
+        Casting::begin(casters, floor_height, key, fineness).finish()
     }
 
     fn project(&self, outline: &Outline, toward: Vec3, layer: &mut [f32]) {

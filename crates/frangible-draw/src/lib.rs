@@ -9,11 +9,17 @@
 //! Drawing takes a graphics driver but no display: a software driver such as
 //! Mesa's lavapipe will do. [`has_adapter`] tells whether there is one; without
 //! it everything here returns [`DrawError::NoAdapter`]. On one machine the same
-//! recording gives the same picture.
+//! recording gives the same picture. In a browser there is only the stage in a window.
 
+// What only pictures use.
+#![cfg_attr(target_family = "wasm", allow(dead_code))]
+
+#[cfg(not(target_family = "wasm"))]
 mod adapter;
 mod backdrop;
 mod camera;
+#[cfg(target_family = "wasm")]
+mod canvas;
 mod color_map;
 mod encode;
 mod error;
@@ -21,22 +27,38 @@ mod field;
 mod floor;
 mod floor_shadow;
 mod live;
+#[cfg(not(target_family = "wasm"))]
 mod mode_sheet;
+#[cfg(not(target_family = "wasm"))]
 mod renderer;
+#[cfg(not(target_family = "wasm"))]
 mod scale;
+#[cfg(not(target_family = "wasm"))]
 mod sheet;
 mod stage;
+#[cfg(not(target_family = "wasm"))]
 mod studio;
+#[cfg(not(target_family = "wasm"))]
 mod traced;
 
+#[cfg(not(target_family = "wasm"))]
 pub use adapter::{has_adapter, is_software};
 pub use camera::StillCamera;
+#[cfg(target_family = "wasm")]
+pub use canvas::open_canvas;
 pub use encode::{encode_png, encode_png_within};
 pub use error::DrawError;
 pub use image::RgbImage;
 pub use kiss3d;
-pub use live::{LiveMesh, LiveShadow, LiveStage, Looks, Place, ShadowCaster, value_color};
+pub use live::{
+    LiveCasting, LiveMesh, LiveShadow, LiveStage, Looks, Place, ShadowCaster, has_storage_buffers,
+    value_color,
+};
+#[cfg(not(target_family = "wasm"))]
 pub use mode_sheet::{ModeCell, ModeSheetOptions, mode_sheet};
+#[cfg(not(target_family = "wasm"))]
 pub use sheet::{SheetOptions, contact_sheet, sheet_of_frames};
+#[cfg(not(target_family = "wasm"))]
 pub use studio::{Studio, render_frame};
+#[cfg(not(target_family = "wasm"))]
 pub use traced::GoOn;

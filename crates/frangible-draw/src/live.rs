@@ -15,7 +15,7 @@ use crate::backdrop::{HAZE, furnish, haze, surround};
 use crate::color_map::color_of;
 use crate::field::{dress_in_values, palette_texture, texel};
 use crate::floor::{Laid, add_floor, texels};
-use crate::floor_shadow::{Caster, Fineness, FloorShadow};
+use crate::floor_shadow::{Caster, Casting, Fineness, FloorShadow};
 use crate::stage::{StageUnits, add_lights, clarity, dress, key_light};
 
 /// How a [`LiveMesh`] looks.
@@ -281,6 +281,21 @@ impl LiveShadow {
     /// twentieth of that.
     #[must_use]
     pub fn cast(place: Place, casters: &[ShadowCaster<'_>], floor: &Floor, fine: bool) -> Self {
+        LiveCasting::begin(place, casters, floor, fine).finish()
+    }
+}
+
+/// A shadow that is being cast bit by bit, where there is no other thread to do it.
+pub struct LiveCasting {
+    casting: Casting,
+    height: f32,
+    color: [f32; 3],
+}
+
+impl LiveCasting {
+    /// As [`LiveShadow::cast`].
+    #[must_use]
+    pub fn begin(place: Place, casters: &[ShadowCaster<'_>], floor: &Floor, fine: bool) -> Self {
         let Place { units, key } = place;
         let height = (floor.height - units.origin.y) * units.scale;
         let mut all = Vec::new();
@@ -297,12 +312,28 @@ impl LiveShadow {
             true => Fineness::STILL,
             false => Fineness::MOVING,
         };
-        let shadow = FloorShadow::cast(&all, height, key, fineness);
         Self {
-            texels: texels(&shadow),
-            shadow,
+            casting: Casting::begin(&all, height, key, fineness),
             height,
             color: floor.base_color,
+        }
+    }
+
+    /// Does a hundredth of the work of a fine shadow, or a twentieth of that of one for things on the move; false if all is
+    /// done.
+    pub fn go_on(&mut self) -> bool {
+        self.casting.go_on()
+    }
+
+    /// The shadow.
+    #[must_use]
+    pub fn finish(self) -> LiveShadow {
+        let shadow = self.casting.finish();
+        LiveShadow {
+            texels: texels(&shadow),
+            shadow,
+            height: self.height,
+            color: self.color,
         }
     }
 }
@@ -311,4 +342,11 @@ impl LiveShadow {
 #[must_use]
 pub fn value_color(value: f32) -> [u8; 3] {
     color_of(value)
+}
+
+/// Whether points and wireframes can be drawn in a window that is open: they need storage buffers, which WebGL 2 has not.
+#[must_use]
+pub fn has_storage_buffers() -> bool {
+    let limits = kiss3d::context::Context::get().device.limits();
+    limits.max_storage_buffers_per_shader_stage > 0
 }

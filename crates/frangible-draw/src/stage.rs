@@ -10,9 +10,10 @@ use std::rc::Rc;
 use frangible_export::glam::Vec3;
 use frangible_export::{Recording, SurfaceMaterial, View};
 use kiss3d::color::Color;
+use kiss3d::context::Context;
 use kiss3d::light::Light;
 use kiss3d::resource::GpuMesh3d;
-use kiss3d::scene::SceneNode3d;
+use kiss3d::scene::{AlphaMode, SceneNode3d};
 
 use crate::floor::{Laid, add_floor, texels};
 use crate::floor_shadow::{Caster, Fineness, FloorShadow};
@@ -159,7 +160,17 @@ pub(crate) fn dress(node: &mut SceneNode3d, surface: &SurfaceMaterial) {
         node.set_attenuation(Color::new(red, green, blue, 1.0), GLASS_DEPTH);
     } else {
         node.set_color(Color::new(red, green, blue, opacity));
+        if opacity < 1.0 && !draws_clear_things() {
+            node.set_alpha_mode(AlphaMode::Opaque);
+        }
     }
+}
+
+/// Whether surfaces that one looks through can be drawn; WebGL 2 lacks what the renderer sums their layers with, and would draw
+/// nothing at all.
+fn draws_clear_things() -> bool {
+    let able = Context::get().adapter.get_downlevel_capabilities().flags;
+    able.contains(wgpu::DownlevelFlags::INDEPENDENT_BLEND)
 }
 
 /// How far light travels through glass before it has the glass's colour, stage units.

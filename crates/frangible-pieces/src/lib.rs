@@ -2,18 +2,34 @@
 //!
 //! How right each way is, and what it costs, is measured by `frangible verify pieces` (`docs/recursive.md`).
 
+#[cfg(feature = "solver")]
 mod dense;
+#[cfg(feature = "solver")]
 mod error;
+#[cfg(feature = "solver")]
 mod lattice;
+mod method;
+#[cfg(feature = "solver")]
 mod model;
+#[cfg(feature = "solver")]
 mod parent_modes;
+#[cfg(feature = "solver")]
 mod proxy;
+#[cfg(feature = "solver")]
 mod quasi_static;
+#[cfg(feature = "solver")]
 mod reanalysis;
 
+#[cfg(feature = "solver")]
 pub use error::PieceError;
-pub use model::{Method, Pieces};
+pub use method::Method;
+#[cfg(feature = "solver")]
+pub use model::Pieces;
+#[cfg(feature = "solver")]
 pub use parent_modes::parent_modes;
+#[cfg(feature = "solver")]
 pub use proxy::ProxyLibrary;
+#[cfg(feature = "solver")]
 pub use quasi_static::quasi_static;
+#[cfg(feature = "solver")]
 pub use reanalysis::reanalysis;

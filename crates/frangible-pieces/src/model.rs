@@ -5,24 +5,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 use frangible::Body;
 use frangible::piece::{Elastic, PieceModel, Portion};
 
+use crate::method::Method;
 use crate::{PieceError, ProxyLibrary, parent_modes, quasi_static, reanalysis};
-
-/// How to find the stress in a piece.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Method {
-    /// The modes of the stored shape that it resembles most, scaled ([`ProxyLibrary`]).
-    ModalProxy,
-    /// Its parent's modes on its own elements ([`parent_modes`](crate::parent_modes())).
-    ParentModes,
-    /// Linear elasticity without inertia ([`quasi_static`](crate::quasi_static())).
-    QuasiStatic,
-    /// A small modal analysis of its own ([`reanalysis`](crate::reanalysis())); [`Method::ParentModes`] until it is ready.
-    Reanalysis,
-    /// What was measured to be best: see [`Pieces::method_for`].
-    #[default]
-    Auto,
-}
 
 /// Finds how pieces vibrate, by one of four methods.
 #[derive(Debug)]

@@ -1,6 +1,6 @@
 //! Where the time of a step went. Wall clock: the only thing here that differs from run to run.
 
-use std::time::Instant;
+use web_time::Instant;
 
 /// Wall-clock times of the parts of the last [`step`](crate::BreakableWorld::step), s.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -3,11 +3,10 @@
 use std::sync::Arc;
 
 use frangible::Asset;
-use frangible_bake::{BakeError, BakeReport, BakeSpec, CancelToken, Progress, check_groups};
-use frangible_mesh::TetError;
+use frangible::asset::RenderSurface;
+use frangible_bake::{BakeReport, CancelToken, Group, Progress, Shape, check_groups};
 
 use crate::body::BodySpec;
-use crate::check::MOST_TETS;
 use crate::error::SceneError;
 use crate::rescale::{Rescale, rescaled};
 use crate::scene::Scene;
@@ -134,31 +133,60 @@ pub fn bake_until(
                     groups,
                     ..
                 },
-            ) => {
-                let size = body.resolution.map(|tets| shape.size_for(tets as f64));
-                let spec = BakeSpec {
-                    modes: body.modes,
-                    render: render.map(|r| *r),
-                    fracture: size.transpose()?,
-                    supports: body.supports.clone(),
-                    groups,
-                    cancel: cancel.clone(),
-                    ..BakeSpec::new(&body.name, shape, body.material.clone())
-                };
-                let (asset, report) =
-                    frangible_bake::bake(&spec, progress).map_err(|e| mendable(&body.name, e))?;
-                BakedBody {
-                    asset: Arc::new(asset),
-                    report: Some(Arc::new(report)),
-                }
-            }
+            ) => bake_body(body, shape, render, groups, cancel, progress)?,
         });
     }
     Ok(baked)
 }
 
+#[cfg(feature = "bake")]
+fn bake_body(
+    body: &BodySpec,
+    shape: Shape,
+    render: Option<Box<RenderSurface>>,
+    groups: Vec<Group>,
+    cancel: &CancelToken,
+    progress: &mut dyn FnMut(Progress),
+) -> Result<BakedBody, SceneError> {
+    let size = body.resolution.map(|tets| shape.size_for(tets as f64));
+    let spec = frangible_bake::BakeSpec {
+        modes: body.modes,
+        render: render.map(|r| *r),
+        fracture: size.transpose()?,
+        supports: body.supports.clone(),
+        groups,
+        cancel: cancel.clone(),
+        ..frangible_bake::BakeSpec::new(&body.name, shape, body.material.clone())
+    };
+    let (asset, report) =
+        frangible_bake::bake(&spec, progress).map_err(|e| mendable(&body.name, e))?;
+    Ok(BakedBody {
+        asset: Arc::new(asset),
+        report: Some(Arc::new(report)),
+    })
+}
+
+#[cfg(not(feature = "bake"))]
+fn bake_body(
+    body: &BodySpec,
+    _: Shape,
+    _: Option<Box<RenderSurface>>,
+    _: Vec<Group>,
+    _: &CancelToken,
+    _: &mut dyn FnMut(Progress),
+) -> Result<BakedBody, SceneError> {
+    Err(SceneError::NoBake {
+        body: body.name.clone(),
+    })
+}
+
 /// Walls too thin, said with what the user of a scene can do about them.
-fn mendable(body: &str, error: BakeError) -> SceneError {
+#[cfg(feature = "bake")]
+fn mendable(body: &str, error: frangible_bake::BakeError) -> SceneError {
+    use crate::check::MOST_TETS;
+    use frangible_bake::BakeError;
+    use frangible_mesh::TetError;
+
     let BakeError::Tetrahedra(TetError::TooThin { wall, needed, .. }) = error else {
         return error.into();
     };

@@ -139,6 +139,14 @@ pub enum SceneError {
         /// Most tetrahedra there may be.
         limit: usize,
     },
+    /// A body to be baked, in a build without the bake.
+    #[error(
+        "`{body}` would have to be baked, which this build cannot do; give it baked (.frangible)"
+    )]
+    NoBake {
+        /// Name of the body.
+        body: String,
+    },
     /// The body could not be baked.
     #[error("baking failed: {0}")]
     Bake(#[from] frangible_bake::BakeError),

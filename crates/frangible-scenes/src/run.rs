@@ -1,11 +1,11 @@
 //! Lets a scene happen, and records it.
 
 use std::collections::BTreeMap;
-use std::time::Instant;
 
 use frangible_export::{Floor, Recording};
 use frangible_rapier::rapier3d::dynamics::RigidBodyHandle;
 use frangible_rapier::{BreakableWorld, HeldEvent};
+use web_time::Instant;
 
 use crate::bake::BakedBody;
 use crate::error::SceneError;

@@ -4,7 +4,6 @@ use std::sync::Arc;
 
 use frangible::glam::{Quat, Vec3};
 use frangible::{Asset, Body, Breakable, Fields, Material};
-use frangible_pieces::Pieces;
 use frangible_rapier::rapier3d::dynamics::RigidBodyHandle;
 use frangible_rapier::rapier3d::geometry::SharedShape;
 use frangible_rapier::rapier3d::math::{Pose, Rotation, Vector};
@@ -114,8 +113,10 @@ pub(crate) fn set_up_as<'a>(
     if let Some(strength) = scene.mortar {
         bond(&mut world, &bodies, strength)?;
     }
+    #[cfg(feature = "bake")]
     if scene.pieces.generations > 0 {
-        world.set_piece_model(Some(Arc::new(Pieces::new(scene.pieces.method))));
+        let model = frangible_pieces::Pieces::new(scene.pieces.method);
+        world.set_piece_model(Some(Arc::new(model)));
     }
     let numbers = 0..scene.projectiles.len();
     let mut stage = Stage {

@@ -3,9 +3,9 @@
 use std::sync::Arc;
 
 use frangible::Asset;
-use frangible_scenes::{
-    BakedBody, BodySource, BodySpec, Rescale, Scene, SceneError, Support, bake_until, open_sources,
-};
+use frangible_scenes::{BakedBody, BodySource, BodySpec, Rescale, Scene, SceneError, Support};
+#[cfg(feature = "bake")]
+use frangible_scenes::{bake_until, open_sources};
 
 use crate::error::ViewError;
 use crate::jobs::Teller;
@@ -45,21 +45,52 @@ pub(crate) struct Shelf(Vec<(Vec<BodyKey>, Vec<BakedBody>)>);
 impl Shelf {
     /// The scene's bodies, if they were baked.
     pub(crate) fn find(&self, scene: &Scene) -> Option<&[BakedBody]> {
-        let key: Vec<BodyKey> = scene.bodies.iter().map(BodyKey::of).collect();
+        let key = keys(scene);
         let found = self.0.iter().find(|(known, _)| *known == key);
         found.map(|(_, baked)| &baked[..])
     }
 
     pub(crate) fn keep(&mut self, scene: &Scene, baked: Vec<BakedBody>) {
-        self.0
-            .push((scene.bodies.iter().map(BodyKey::of).collect(), baked));
+        self.0.push((keys(scene), baked));
         if self.0.len() > KEPT {
             self.0.remove(0);
         }
     }
 }
 
+/// Whether one bake serves both.
+pub(crate) fn same_bakes(a: &Scene, b: &Scene) -> bool {
+    keys(a) == keys(b)
+}
+
+fn keys(scene: &Scene) -> Vec<BodyKey> {
+    scene.bodies.iter().map(BodyKey::of).collect()
+}
+
+/// The scene of a file, or of a body's file.
+#[cfg(feature = "bake")]
+pub(crate) fn scene_in(path: &std::path::Path) -> Result<Scene, SceneError> {
+    frangible_scenes::scene_of_file(path)
+}
+
+/// Without a bake nothing in a file would be of use.
+#[cfg(not(feature = "bake"))]
+pub(crate) fn scene_in(path: &std::path::Path) -> Result<Scene, SceneError> {
+    Err(SceneError::NoBake {
+        body: path.display().to_string(),
+    })
+}
+
+/// As with a bake, which this build has not.
+#[cfg(not(feature = "bake"))]
+pub(crate) fn bake(scene: &Scene, _: &Teller) -> Result<Vec<BakedBody>, SceneError> {
+    Err(SceneError::NoBake {
+        body: scene.name.clone(),
+    })
+}
+
 /// Bakes a scene's bodies and tells how far it is.
+#[cfg(feature = "bake")]
 pub(crate) fn bake(scene: &Scene, teller: &Teller) -> Result<Vec<BakedBody>, SceneError> {
     teller.tell("reading".into(), 0.0);
     let opened = open_sources(scene)?;

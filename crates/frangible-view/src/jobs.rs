@@ -1,10 +1,16 @@
-//! Work on other threads.
+//! Work on other threads; where there are none, work that is put off until it was said that it goes on.
 
+use std::cell::Cell;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, TryRecvError, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
-use frangible_scenes::CancelToken;
+use frangible_scenes::{BakedBody, CancelToken, SceneError};
+
+use crate::host::Delivery;
+
+/// Whether work is done by whoever asks for its result.
+const WITHOUT_THREADS: bool = cfg!(target_family = "wasm");
 
 /// What a job is at, and the share of it that is done.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -30,6 +36,14 @@ impl Teller {
 pub(crate) struct Job<T> {
     teller: Teller,
     result: Receiver<T>,
+    put_off: Cell<Option<PutOff>>,
+}
+
+/// Work to be done by whoever asks for its result.
+struct PutOff {
+    work: Box<dyn FnOnce()>,
+    /// Whether it was asked for already: the first answer is that it goes on, so that this can be shown.
+    asked: bool,
 }
 
 /// What there is of a job.
@@ -40,9 +54,29 @@ pub(crate) enum Polled<T> {
     Died,
 }
 
+impl Job<Result<Vec<BakedBody>, SceneError>> {
+    /// Bodies that somebody else brings.
+    pub(crate) fn delivered(order: impl FnOnce(Delivery)) -> Self {
+        let teller = Teller::default();
+        let (sender, result) = channel();
+        order(Delivery {
+            teller: teller.clone(),
+            sender,
+        });
+        Self {
+            teller,
+            result,
+            put_off: Cell::default(),
+        }
+    }
+}
+
 impl<T: Send + 'static> Job<T> {
     /// Begins it.
     pub(crate) fn start(work: impl FnOnce(&Teller) -> T + Send + 'static) -> Self {
+        if WITHOUT_THREADS {
+            return Self::put_off(work);
+        }
         let teller = Teller::default();
         let (sender, result) = channel();
         let own = teller.clone();
@@ -50,7 +84,27 @@ impl<T: Send + 'static> Job<T> {
             // Nobody waits for a job that was dropped.
             let _ = sender.send(work(&own));
         });
-        Self { teller, result }
+        Self {
+            teller,
+            result,
+            put_off: Cell::default(),
+        }
+    }
+
+    /// Does it when its result is asked for the second time.
+    fn put_off(work: impl FnOnce(&Teller) -> T + 'static) -> Self {
+        let teller = Teller::default();
+        let (sender, result) = channel();
+        let own = teller.clone();
+        let work = Box::new(move || {
+            // The receiver is there: it is in the job that has this work done.
+            let _ = sender.send(work(&own));
+        });
+        Self {
+            teller,
+            result,
+            put_off: Cell::new(Some(PutOff { work, asked: false })),
+        }
     }
 
     /// Asks it to end; it may take a while to hear that.
@@ -69,6 +123,14 @@ impl<T: Send + 'static> Job<T> {
     }
 
     pub(crate) fn poll(&self) -> Polled<T> {
+        match self.put_off.take() {
+            Some(PutOff { work, asked: true }) => work(),
+            Some(PutOff { work, asked: false }) => {
+                self.put_off.set(Some(PutOff { work, asked: true }));
+                return Polled::Running;
+            }
+            None => {}
+        }
         match self.result.try_recv() {
             Ok(result) => Polled::Done(result),
             Err(TryRecvError::Empty) => Polled::Running,
@@ -78,6 +140,9 @@ impl<T: Send + 'static> Job<T> {
 
     /// Waits for a while, or until it is done.
     pub(crate) fn wait(&self, longest: Duration) -> Polled<T> {
+        if let Some(PutOff { work, .. }) = self.put_off.take() {
+            work();
+        }
         match self.result.recv_timeout(longest) {
             Ok(result) => Polled::Done(result),
             Err(RecvTimeoutError::Timeout) => Polled::Running,
@@ -89,5 +154,26 @@ impl<T: Send + 'static> Job<T> {
 impl<T> Drop for Job<T> {
     fn drop(&mut self) {
         self.teller.cancel.cancel();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn work_put_off_is_done_when_asked_for_twice() {
+        let job = Job::put_off(|teller| {
+            teller.tell("adding".into(), 1.0);
+            1 + 1
+        });
+        assert!(matches!(job.poll(), Polled::Running));
+        assert_eq!(job.progress(), JobProgress::default());
+        assert!(matches!(job.poll(), Polled::Done(2)));
+        assert_eq!(job.progress().what, "adding");
+        assert!(matches!(
+            Job::put_off(|_| 3).wait(Duration::ZERO),
+            Polled::Done(3)
+        ));
     }
 }

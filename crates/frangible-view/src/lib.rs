@@ -24,6 +24,7 @@ mod compare;
 mod edges;
 mod error;
 mod film;
+mod host;
 mod jobs;
 pub mod knobs;
 mod marks;
@@ -48,6 +49,7 @@ pub use command::{
     BallSpec, Command, FilmKind, FilmOptions, HammerSpec, Mark, Subject, Target, Tool,
 };
 pub use error::ViewError;
+pub use host::{Delivery, Host};
 pub use methods::{Methods, Outcome};
 pub use picture::{Batch, BatchLooks, Dot, Label, Line, Picture};
 pub use script::Script;
@@ -55,5 +57,7 @@ pub use session::Session;
 pub use shown::{BakeShown, Compared, Focus, Selection, Shown};
 pub use times::Spread;
 #[cfg(feature = "window")]
+pub use window::{Page, PageOptions, run_in_page};
+#[cfg(all(feature = "window", not(target_family = "wasm")))]
 pub use window::{WindowOptions, run};
 pub use worker::Worker;

@@ -16,27 +16,33 @@ use crate::session::Session;
 
 impl Session {
     pub(crate) fn write(&mut self, target: Target, path: &Path) -> Result<(), ViewError> {
-        match target {
+        let bytes = self.file(target)?;
+        match &self.host {
+            Some(host) => host.save(path, &bytes),
+            None => Ok(write_atomically(path, &bytes)?),
+        }
+    }
+
+    /// What is in a file.
+    fn file(&mut self, target: Target) -> Result<Vec<u8>, ViewError> {
+        Ok(match target {
             Target::Scene => {
                 let scene = self.scene_now().ok_or_else(no_scene)?;
-                write_text(path, &scene_to_toml(&scene))
+                scene_to_toml(&scene).into_bytes()
             }
             Target::Glb => {
                 let camera = self.shown().home;
                 let live = self.live().ok_or_else(no_scene)?;
-                Ok(write_atomically(
-                    path,
-                    &write_glb(&live.recording(camera))?,
-                )?)
+                write_glb(&live.recording(camera))?
             }
             Target::Script => {
                 let lines: Vec<String> = self.log().iter().map(ToString::to_string).collect();
                 let head = "# Does again what was done: frangible view --script FILE\n";
-                write_text(path, &format!("{head}{}\n", lines.join("\n")))
+                format!("{head}{}\n", lines.join("\n")).into_bytes()
             }
             Target::Times => {
                 let publishing = self.shown().publishing;
-                write_json(path, &serde_json::json!({ "session_s": publishing }))
+                json(&serde_json::json!({ "session_s": publishing }))
             }
             Target::Report => {
                 let blow = self.blow().ok_or_else(|| {
@@ -50,9 +56,9 @@ impl Session {
                         .map(|o| MethodNumbers::of(o))
                         .collect();
                 }
-                write_json(path, &report)
+                json(&report)
             }
-        }
+        })
     }
 }
 
@@ -60,14 +66,16 @@ fn no_scene() -> ViewError {
     ViewError::NotNow("there is no scene to save; load one, and wait for its bake".into())
 }
 
-fn write_text(path: &Path, text: &str) -> Result<(), ViewError> {
-    Ok(write_atomically(path, text.as_bytes())?)
+/// Numbers as JSON.
+fn json(numbers: &impl Serialize) -> Vec<u8> {
+    let text = serde_json::to_string_pretty(numbers).unwrap_or_default();
+    (text + "\n").into_bytes()
 }
 
 /// Writes numbers as JSON.
+#[cfg_attr(not(feature = "window"), allow(dead_code))]
 pub(crate) fn write_json(path: &Path, numbers: &impl Serialize) -> Result<(), ViewError> {
-    let text = serde_json::to_string_pretty(numbers).unwrap_or_default();
-    write_text(path, &(text + "\n"))
+    Ok(write_atomically(path, &json(numbers))?)
 }
 
 /// Numbers of a contact.

@@ -16,14 +16,15 @@ use std::time::Duration;
 use frangible::FractureConfig;
 use frangible_export::View;
 use frangible_rapier::StepTimings;
-use frangible_scenes::{BakedBody, LiveScene, SavedScene, Scene, SceneError, scene, scene_of_file};
+use frangible_scenes::{BakedBody, LiveScene, SavedScene, Scene, SceneError, scene};
 
 use crate::analysis::Analysis;
-use crate::baking::Shelf;
+use crate::baking::{Shelf, scene_in};
 use crate::blow::Blow;
 use crate::command::{BallSpec, Command, HammerSpec, Mark, Subject, Tool};
 use crate::edges::Skins;
 use crate::error::ViewError;
+use crate::host::Host;
 use crate::jobs::Job;
 use crate::knobs::Settings;
 use crate::mesher::Mesher;
@@ -41,6 +42,8 @@ const FRAME_RATE: f64 = 60.0;
 
 /// A scene that runs, and how it is looked at. The same commands give the same scene, bit for bit.
 pub struct Session {
+    /// Instead of the disk and the bake, where there is neither.
+    pub(crate) host: Option<Box<dyn Host>>,
     scene: Option<Scene>,
     live: Option<LiveScene>,
     shelf: Shelf,
@@ -104,6 +107,7 @@ impl Session {
     #[must_use]
     pub fn new() -> Self {
         Self {
+            host: None,
             scene: None,
             live: None,
             shelf: Shelf::default(),
@@ -154,6 +158,14 @@ impl Session {
         }
     }
 
+    /// As [`Session::new`]; bodies come from this host instead of a bake, and files go to it.
+    #[must_use]
+    pub fn in_host(host: Box<dyn Host>) -> Self {
+        let mut session = Self::new();
+        session.host = Some(host);
+        session
+    }
+
     /// Carries a command out, or begins to: bakes, analyses and second impacts go on elsewhere until
     /// [`Session::poll`] or [`Session::finish_jobs`] collects them; steps that [`Command::Step`] asks for are taken here.
     ///
@@ -184,8 +196,14 @@ impl Session {
 
     fn carry_out(&mut self, command: Command) -> Result<(), ViewError> {
         match command {
-            Command::Scene(name) => self.load(scene(&name)?),
-            Command::Open(path) => self.load(scene_of_file(&path)?),
+            Command::Scene(name) => {
+                let wanted = match &self.host {
+                    Some(host) => host.scene(&name)?,
+                    None => scene(&name)?,
+                };
+                self.load(wanted);
+            }
+            Command::Open(path) => self.load(scene_in(&path)?),
             Command::CancelBake => self.cancel_bake(),
             Command::Reset => self.reset()?,
             Command::Drop(height) => self.drop_from(height)?,

@@ -19,7 +19,7 @@ pub(crate) fn thread_time() -> Duration {
     #[cfg(all(not(unix), not(target_arch = "wasm32")))]
     {
         use std::sync::OnceLock;
-        use std::time::Instant;
+        use web_time::Instant;
         static START: OnceLock<Instant> = OnceLock::new();
         START.get_or_init(Instant::now).elapsed()
     }

@@ -1,25 +1,28 @@
 //! The window: draws what the session shows, and turns mouse, keys and panels into commands.
 
+#[cfg(not(target_family = "wasm"))]
+mod desktop;
 mod director;
 mod input;
+mod page;
 mod panels;
 mod pictures;
 mod shade;
 
-use std::panic::{self, AssertUnwindSafe};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Duration;
+
+use web_time::Instant;
 
 use frangible::glam::Vec2;
-use frangible_draw::kiss3d::window::{CanvasSetup, NumSamples, Window};
-use frangible_draw::{DrawError, LiveStage, Place, StillCamera, has_adapter, is_software};
+use frangible_draw::kiss3d::window::Window;
+use frangible_draw::{LiveStage, Place, StillCamera};
 use frangible_export::View;
 
 use crate::camera::Orbit;
 use crate::command::{Command, Target, Tool};
 use crate::error::ViewError;
-use crate::script::Script;
 use crate::shown::Shown;
 use crate::times::thread_time;
 use crate::worker::Worker;
@@ -29,64 +32,9 @@ use input::Hands;
 use panels::Panels;
 use shade::Shade;
 
-/// How to open the window.
-#[derive(Clone, Debug)]
-pub struct WindowOptions {
-    /// What to load first.
-    pub first: Command,
-    /// Commands to give instead of a person's; the clock stands then, and the window closes at the end.
-    pub script: Option<Script>,
-    /// Folder for files saved with keys and buttons.
-    pub folder: PathBuf,
-    /// Width and height, pixels.
-    pub size: [u32; 2],
-}
-
-/// Opens the window and stays until it is closed.
-///
-/// # Errors
-/// No display or no graphics driver; in a script, the first command that failed.
-pub fn run(options: WindowOptions) -> Result<(), ViewError> {
-    let display = |name| std::env::var_os(name).is_some_and(|value| !value.is_empty());
-    if cfg!(target_os = "linux") && !display("DISPLAY") && !display("WAYLAND_DISPLAY") {
-        return Err(ViewError::NoDisplay);
-    }
-    // The adapter is asked for afterwards: on the way to it some drivers visit the display, and one without other guests
-    // may be shut for a moment when they leave.
-    let mut window = match open(options.size) {
-        Ok(window) => window,
-        Err(_) if !has_adapter() => return Err(DrawError::NoAdapter.into()),
-        Err(error) => return Err(error),
-    };
-    if is_software() {
-        // Smooth edges take such a driver most of the time.
-        window.set_samples(NumSamples::One);
-    }
-    let mut viewer = Viewer::new(options);
-    let result = pollster::block_on(viewer.live(&mut window));
-    // What is on the stage belongs to the window.
-    drop(viewer);
-    drop(window);
-    result
-}
-
-/// The window system's refusals are panics; they are turned into an error, and not printed as well.
-fn open([width, height]: [u32; 2]) -> Result<Window, ViewError> {
-    let setup = CanvasSetup {
-        samples: NumSamples::Four,
-        ..CanvasSetup::default()
-    };
-    let open = || pollster::block_on(Window::new_with_setup("Frangible", width, height, setup));
-    let hook = panic::take_hook();
-    panic::set_hook(Box::new(|_| {}));
-    let opened = panic::catch_unwind(AssertUnwindSafe(open));
-    panic::set_hook(hook);
-    opened.map_err(|payload| {
-        let text = payload.downcast_ref::<String>().cloned();
-        let text = text.or_else(|| payload.downcast_ref::<&str>().map(ToString::to_string));
-        ViewError::Window(text.unwrap_or_default())
-    })
-}
+#[cfg(not(target_family = "wasm"))]
+pub use desktop::{WindowOptions, run};
+pub use page::{Page, PageOptions, run_in_page};
 
 /// How long to wait where there is nothing new to draw.
 const REST: Duration = Duration::from_millis(12);
@@ -106,6 +54,8 @@ struct Viewer {
     hands: Hands,
     director: Director,
     shade: Shade,
+    /// What is around the window, in a browser.
+    page: Option<Box<dyn Page>>,
     /// Version of the picture that is on the stage.
     drawn: u64,
     /// Version of the shadow that is on the floor.
@@ -118,29 +68,35 @@ struct Viewer {
     still: (Instant, u32),
     /// Commands, picture and shadow of the last frame.
     news: (u64, u64, u64),
+    /// Whether nobody looks on while commands are carried out: a script gives them.
+    hurries: bool,
+    /// Whether points and wireframes can be drawn; in a browser with WebGL 2 they cannot.
+    fine_marks: bool,
+    /// Frames that were drawn.
+    frames: u64,
     quit: bool,
 }
 
 impl Viewer {
-    fn new(options: WindowOptions) -> Self {
-        let mut worker = Worker::start(options.script.is_none());
-        if options.script.is_none() {
-            worker.send(options.first);
-        }
+    fn of(worker: Worker, panels: Panels, director: Director, shade: Shade) -> Self {
         Self {
             stage: None,
             worker,
             orbit: Orbit::new(View::default()),
-            panels: Panels::new(options.folder, options.script.is_some()),
+            panels,
             hands: Hands::default(),
-            director: Director::new(options.script),
-            shade: Shade::start(),
+            director,
+            shade,
+            page: None,
             drawn: 0,
             shaded: 0,
             starts: u64::MAX,
             focus: 0,
             still: (Instant::now(), 0),
             news: (0, 0, 0),
+            hurries: false,
+            fine_marks: true,
+            frames: 0,
             quit: false,
         }
     }
@@ -153,7 +109,9 @@ impl Viewer {
             window.render_3d(stage.scene(), &mut camera).await;
         }
         while !self.quit {
+            self.hear_page(window);
             let began = thread_time();
+            self.worker.advance();
             let shown = self.worker.latest();
             self.set_stage(window, &shown);
             let said = self.hands.read(window);
@@ -163,9 +121,10 @@ impl Viewer {
                 self.give(command, window);
                 continue;
             }
+            self.tell_page(&shown, done);
             if self.may_rest(&shown, done, !said.anything) {
                 window.canvas_mut().poll_events();
-                std::thread::sleep(REST);
+                self.rest().await;
                 continue;
             }
             // From here on a frame is drawn: panels and strokes are drawn once for each.
@@ -174,7 +133,7 @@ impl Viewer {
                 self.give(command, window);
             }
             if let Some(stage) = &self.stage {
-                pictures::strokes(stage, window, &shown.picture);
+                pictures::strokes(stage, window, &shown.picture, self.fine_marks);
             }
             let mut camera = self.camera(window);
             let own = thread_time().saturating_sub(began);
@@ -183,6 +142,7 @@ impl Viewer {
                 None => true,
             };
             self.director.frame_done();
+            self.frames += 1;
             let draw_calls = self.stage.as_ref().map_or(0, LiveStage::draw_calls);
             let all = thread_time().saturating_sub(began);
             self.panels.times().note(window, draw_calls, [all, own]);
@@ -196,11 +156,18 @@ impl Viewer {
         Ok(())
     }
 
-    /// Whether another frame would show nothing new. A script has no use for frames before everything is done.
+    async fn rest(&self) {
+        match &self.page {
+            Some(page) => page.next_frame().await,
+            None => std::thread::sleep(REST),
+        }
+    }
+
+    /// Whether another frame would show nothing new. Whoever only waits for the end has no use for frames before it.
     fn may_rest(&mut self, shown: &Shown, done: bool, quiet: bool) -> bool {
         let news = self.news != (shown.commands, shown.picture.version, self.shaded);
         self.news = (shown.commands, shown.picture.version, self.shaded);
-        if self.director.has_script() && !done {
+        if self.hurries && !done {
             return true;
         }
         if news || !quiet || !done || self.panels.plays() {
@@ -239,7 +206,7 @@ impl Viewer {
         let Some(stage) = &mut self.stage else { return };
         if self.drawn != shown.picture.version {
             self.drawn = shown.picture.version;
-            pictures::put(stage, &shown.picture);
+            pictures::put(stage, &shown.picture, self.fine_marks);
         }
         self.shade.want(&shown.picture);
         if let Some((version, shadow)) = self.shade.latest()
@@ -286,6 +253,11 @@ impl Viewer {
                     from: ray.origin,
                     through: ray.origin + ray.direction,
                 });
+            }
+            Command::Screenshot(_) | Command::Open(_) | Command::Film(..) | Command::Quit
+                if self.page.is_some() =>
+            {
+                self.panels.tell(page::not_here(&command));
             }
             Command::LookFrom { eye, target } => {
                 let home = self.orbit.home();

@@ -1,11 +1,16 @@
-//! A session on a thread of its own: neither a step nor a break nor a bake makes whoever draws wait.
+//! A session that runs beside whoever draws: on a thread of its own, so that neither a step nor a break nor a bake makes
+//! anybody wait; or, where there are no threads, a little for each frame.
 
+use std::collections::VecDeque;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
-use std::time::{Duration, Instant};
+use std::time::Duration;
+
+use web_time::Instant;
 
 use crate::command::Command;
+use crate::host::Host;
 use crate::session::Session;
 use crate::shown::Shown;
 
@@ -15,47 +20,97 @@ const FRAME: Duration = Duration::from_millis(16);
 /// How long steps are taken before anybody else has a turn. A clock that cannot be kept up with goes slower.
 const PATIENCE: Duration = Duration::from_millis(10);
 
-/// A session that runs elsewhere.
+/// A session that runs beside whoever draws.
 pub struct Worker {
-    commands: Option<Sender<Command>>,
-    latest: Arc<Mutex<Arc<Shown>>>,
+    place: Place,
     sent: u64,
-    thread: Option<JoinHandle<()>>,
+}
+
+/// Where a session runs.
+enum Place {
+    Thread {
+        commands: Option<Sender<Command>>,
+        latest: Arc<Mutex<Arc<Shown>>>,
+        thread: Option<JoinHandle<()>>,
+    },
+    Here(Box<Here>),
+}
+
+/// A session on the thread of whoever draws.
+struct Here {
+    work: Work,
+    commands: VecDeque<Command>,
+    latest: Arc<Shown>,
 }
 
 impl Worker {
-    /// Starts a session; with `by_clock` its scenes run in real time, else only by [`Command::Step`].
+    /// Starts a session on a thread; with `by_clock` its scenes run in real time, else only by [`Command::Step`].
     #[must_use]
     pub fn start(by_clock: bool) -> Self {
         let (commands, received) = channel();
         let latest = Arc::new(Mutex::new(Arc::new(Shown::default())));
         let shared = Arc::clone(&latest);
         let thread = std::thread::spawn(move || {
-            let mut session = Session::new();
-            work(&mut session, &received, by_clock, |session| {
-                let shown = Arc::new(session.shown());
+            work(Work::new(Session::new(), by_clock), &received, |shown| {
                 *shared.lock().unwrap_or_else(PoisonError::into_inner) = shown;
             });
         });
         Self {
-            commands: Some(commands),
-            latest,
+            place: Place::Thread {
+                commands: Some(commands),
+                latest,
+                thread: Some(thread),
+            },
             sent: 0,
-            thread: Some(thread),
+        }
+    }
+
+    /// Starts a session on this thread, which has to call [`Worker::advance`] for each frame. A break, an analysis and a
+    /// second impact make it wait.
+    #[must_use]
+    pub fn start_here(by_clock: bool, host: Box<dyn Host>) -> Self {
+        let session = Session::in_host(host);
+        Self {
+            place: Place::Here(Box::new(Here {
+                work: Work::new(session, by_clock),
+                commands: VecDeque::new(),
+                latest: Arc::default(),
+            })),
+            sent: 0,
+        }
+    }
+
+    /// Lets a session of this thread go on for some milliseconds; one that has a thread needs no help.
+    pub fn advance(&mut self) {
+        if let Place::Here(here) = &mut self.place {
+            here.advance();
         }
     }
 
     /// Gives a command; it is carried out after those given before. False if the session's thread is gone.
     pub fn send(&mut self, command: Command) -> bool {
         self.sent += 1;
-        let sender = self.commands.as_ref();
-        sender.is_some_and(|commands| commands.send(command).is_ok())
+        match &mut self.place {
+            Place::Thread { commands, .. } => {
+                let sender = commands.as_ref();
+                sender.is_some_and(|commands| commands.send(command).is_ok())
+            }
+            Place::Here(here) => {
+                here.commands.push_back(command);
+                true
+            }
+        }
     }
 
     /// What there is to see, as of a few milliseconds ago.
     #[must_use]
     pub fn latest(&self) -> Arc<Shown> {
-        Arc::clone(&self.latest.lock().unwrap_or_else(PoisonError::into_inner))
+        match &self.place {
+            Place::Thread { latest, .. } => {
+                Arc::clone(&latest.lock().unwrap_or_else(PoisonError::into_inner))
+            }
+            Place::Here(here) => Arc::clone(&here.latest),
+        }
     }
 
     /// Whether all commands given so far are done, with all they began, in what is shown.
@@ -67,61 +122,123 @@ impl Worker {
     /// Whether the session's thread ended by itself, which it does not unless something is wrong.
     #[must_use]
     pub fn is_dead(&self) -> bool {
-        self.thread.as_ref().is_none_or(JoinHandle::is_finished)
+        match &self.place {
+            Place::Thread { thread, .. } => thread.as_ref().is_none_or(JoinHandle::is_finished),
+            Place::Here(_) => false,
+        }
     }
 }
 
 impl Drop for Worker {
     fn drop(&mut self) {
-        self.commands = None;
-        if let Some(thread) = self.thread.take() {
+        let Place::Thread {
+            commands, thread, ..
+        } = &mut self.place
+        else {
+            return;
+        };
+        *commands = None;
+        if let Some(thread) = thread.take() {
             // It panicked: its message was printed then.
             let _ = thread.join();
         }
     }
 }
 
-fn work(
-    session: &mut Session,
-    commands: &Receiver<Command>,
+impl Here {
+    fn advance(&mut self) {
+        while !self.work.session.owes() {
+            let Some(command) = self.commands.pop_front() else {
+                break;
+            };
+            self.work.take(command);
+        }
+        self.work.turn();
+        if self.work.news {
+            self.latest = self.work.publish();
+        }
+    }
+}
+
+/// A session, its clock, and what of it was not shown yet.
+struct Work {
+    session: Session,
+    clock: Clock,
     by_clock: bool,
-    mut publish: impl FnMut(&mut Session),
-) {
-    let mut clock = Clock::new();
-    let mut published = Instant::now();
-    let mut news = true;
+    published: Instant,
+    news: bool,
+}
+
+impl Work {
+    fn new(session: Session, by_clock: bool) -> Self {
+        Self {
+            session,
+            clock: Clock::new(),
+            by_clock,
+            published: Instant::now(),
+            news: true,
+        }
+    }
+
+    /// Whether something moves.
+    fn moves(&self) -> bool {
+        self.session.owes() || self.by_clock && self.session.is_running()
+    }
+
+    fn take(&mut self, command: Command) {
+        // What went wrong is in what is shown.
+        let _ = self.session.begin(command);
+        self.news = true;
+    }
+
+    /// Collects what was computed elsewhere and takes the steps that are due, for some milliseconds; true if the clock runs
+    /// and none was due.
+    fn turn(&mut self) -> bool {
+        let session = &mut self.session;
+        // How far a bake is, is news too.
+        self.news |= session.poll() || session.is_busy();
+        let began = Instant::now();
+        while session.owes() && began.elapsed() < PATIENCE {
+            let _ = session.take_owed_step();
+            self.news = true;
+        }
+        let runs = self.by_clock && session.is_running() && !session.owes();
+        let any = self.clock.run(session, runs);
+        self.news |= any;
+        runs && !any
+    }
+
+    /// What there is to see now.
+    fn publish(&mut self) -> Arc<Shown> {
+        self.published = Instant::now();
+        self.news = false;
+        Arc::new(self.session.shown())
+    }
+}
+
+fn work(mut work: Work, commands: &Receiver<Command>, mut show: impl FnMut(Arc<Shown>)) {
     loop {
-        let moving = session.owes() || by_clock && session.is_running();
-        let patience = match (moving, session.is_busy()) {
+        let moving = work.moves();
+        let patience = match (moving, work.session.is_busy()) {
             (true, _) => Duration::ZERO,
             (false, true) => Duration::from_millis(4),
             (false, false) => Duration::from_millis(30),
         };
         // A command waits for the steps of the one before it.
-        if !session.owes() {
+        if !work.session.owes() {
             match commands.recv_timeout(patience) {
-                Ok(command) => {
-                    // What went wrong is in what is shown.
-                    let _ = session.begin(command);
-                    news = true;
-                }
+                Ok(command) => work.take(command),
                 Err(RecvTimeoutError::Timeout) => {}
                 Err(RecvTimeoutError::Disconnected) => return,
             }
         }
-        // How far a bake is, is news too.
-        news |= session.poll() || session.is_busy();
-        let began = Instant::now();
-        while session.owes() && began.elapsed() < PATIENCE {
-            let _ = session.take_owed_step();
-            news = true;
+        match work.turn() {
+            true => std::thread::sleep(Duration::from_millis(2)),
+            false => std::thread::yield_now(),
         }
-        let runs = by_clock && session.is_running() && !session.owes();
-        news |= clock.run(session, runs);
-        if news && (!moving || published.elapsed() >= FRAME || !session.is_busy()) {
-            publish(session);
-            published = Instant::now();
-            news = false;
+        let due = !moving || work.published.elapsed() >= FRAME || !work.session.is_busy();
+        if work.news && due {
+            show(work.publish());
         }
     }
 }
@@ -148,7 +265,6 @@ impl Clock {
         self.last = now;
         if !runs {
             self.due = 0.0;
-            std::thread::yield_now();
             return false;
         }
         self.due += passed.min(0.1) * session.slow_motion();
@@ -163,9 +279,6 @@ impl Clock {
             let _ = session.step();
             self.due -= (session.time() - before).max(1e-6);
             any = true;
-        }
-        if !any {
-            std::thread::sleep(Duration::from_millis(2));
         }
         any
     }

@@ -2,7 +2,8 @@
 
 use std::f64::consts::PI;
 use std::sync::Arc;
-use std::time::Instant;
+
+use web_time::Instant;
 
 use crate::body::Body;
 use crate::config::FractureConfig;

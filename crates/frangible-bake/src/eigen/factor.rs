@@ -15,9 +15,10 @@ use crate::eigen::metric::Metric;
 use crate::eigen::ordering;
 use crate::eigen::panel::Row;
 use crate::eigen::substitution;
-use crate::eigen::watch::{Phase, Watch};
+use crate::eigen::watch::Watch;
 use crate::error::BakeError;
 use crate::fem::System;
+use crate::phase::Phase;
 
 /// Lower triangle of D K D, 1/s².
 pub(crate) fn scale(system: &System, inverse_root: &[f64]) -> SparseColMat<usize, f64> {

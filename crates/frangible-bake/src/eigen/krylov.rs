@@ -7,8 +7,9 @@ use crate::eigen::metric::{Basis, Metric};
 use crate::eigen::panel::{
     Row, Square, WIDTH, cholesky, inner, multiply, panel_of_columns, product, subtract,
 };
-use crate::eigen::watch::{Phase, Watch};
+use crate::eigen::watch::Watch;
 use crate::error::BakeError;
+use crate::phase::Phase;
 use crate::random;
 
 /// Of a block, less than this share of a column left by the others asks for a second pass: each digit lost here is one

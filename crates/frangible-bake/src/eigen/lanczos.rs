@@ -8,8 +8,9 @@ use crate::eigen::dense::symmetric_eigen;
 use crate::eigen::factor::Shifted;
 use crate::eigen::krylov::{Krylov, Pair};
 use crate::eigen::panel::{Square, WIDTH, inner, subtract, transposed};
-use crate::eigen::watch::{Phase, Watch};
+use crate::eigen::watch::Watch;
 use crate::error::BakeError;
+use crate::phase::Phase;
 
 /// Modes found per vector of the basis, once the first are: 0.3 to 0.5 on plates, vessels and solids.
 const FOUND_PER_VECTOR: f64 = 0.5;

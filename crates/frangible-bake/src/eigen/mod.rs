@@ -24,10 +24,10 @@ mod rigid;
 mod substitution;
 mod watch;
 
+pub use crate::phase::Phase;
 pub use constraints::Constraints;
 pub use residual::residual;
 pub use rigid::{remaining_motions, rigid_motions};
-pub use watch::Phase;
 
 use std::ops::ControlFlow;
 

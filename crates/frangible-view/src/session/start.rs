@@ -5,11 +5,14 @@ use std::time::Duration;
 use frangible_scenes::{BakedBody, BodySource, LiveScene, Scene};
 
 use super::{Session, settings_of};
-use crate::baking::{bake, of_wanted_material};
+use crate::baking::{bake, of_wanted_material, same_bakes};
 use crate::command::Subject;
 use crate::error::ViewError;
 use crate::jobs::{Job, Polled};
 use crate::knobs::turn_material;
+
+/// What a host cannot do.
+pub(super) const NEEDS_A_BAKE: &str = "Poisson's ratio and the number of modes need another bake, which a page cannot do: turn them back";
 
 impl Session {
     /// Takes another scene, its knobs as it has them.
@@ -32,7 +35,14 @@ impl Session {
             self.set_up(&wanted, &baked);
             return;
         }
-        self.bake_job = Some(Job::start(move |teller| bake(&wanted, teller)));
+        self.bake_job = match (&self.host, &self.scene) {
+            (Some(_), Some(own)) if !same_bakes(own, &wanted) => {
+                self.complain(&ViewError::NotNow(NEEDS_A_BAKE.into()));
+                None
+            }
+            (Some(host), Some(own)) => Some(Job::delivered(|delivery| host.bring(own, delivery))),
+            _ => Some(Job::start(move |teller| bake(&wanted, teller))),
+        };
     }
 
     /// The scene with the knobs as they are.

@@ -7,6 +7,7 @@ use frangible::{Material, Outcome, impact};
 use frangible_scenes::{BakedBody, Scene, intact_body};
 
 use super::Session;
+use super::start::NEEDS_A_BAKE;
 use crate::baking::{bake, of_wanted_material};
 use crate::blow::Blow;
 use crate::command::Subject;
@@ -103,6 +104,9 @@ impl Session {
             return Ok(());
         };
         let baked = self.shelf.find(&wanted).map(<[BakedBody]>::to_vec);
+        if baked.is_none() && self.host.is_some() {
+            return Err(ViewError::NotNow(NEEDS_A_BAKE.into()));
+        }
         let settings = self.settings.clone();
         self.again_job = Some(Job::start(move |teller| {
             take_again(&blow, number, &wanted, baked, settings.as_ref(), teller)

@@ -81,10 +81,6 @@ impl Director {
         Ok(Some(command))
     }
 
-    pub(super) fn has_script(&self) -> bool {
-        self.script.is_some()
-    }
-
     pub(super) fn frame_done(&mut self) {
         self.frames += 1;
     }

@@ -11,11 +11,13 @@ mod play;
 mod status;
 
 use std::path::PathBuf;
-use std::time::Instant;
+
+use web_time::Instant;
 
 use egui::{Align2, Color32, Context, FontId, LayerId, Visuals};
 use frangible::glam::Vec2;
 use frangible_draw::kiss3d::window::Window;
+use frangible_scenes::SCENE_NAMES;
 
 use crate::command::{Command, FilmOptions, Mark, Subject, Target, Tool};
 use crate::shown::Shown;
@@ -49,6 +51,10 @@ enum Tab {
 
 /// The panels, and what of them is open.
 pub(super) struct Panels {
+    /// Scenes to choose from.
+    scenes: Vec<String>,
+    /// Whether the window is a part of a page, without a disk.
+    in_page: bool,
     tab: Option<Tab>,
     play: bool,
     help: bool,
@@ -71,6 +77,8 @@ const PLAY_TIME: f64 = 4.0;
 impl Panels {
     pub(super) fn new(folder: PathBuf, script: bool) -> Self {
         Self {
+            scenes: SCENE_NAMES.map(String::from).to_vec(),
+            in_page: false,
             tab: None,
             play: true,
             help: false,
@@ -85,6 +93,15 @@ impl Panels {
             playing: None,
             gallery: gallery::Gallery::default(),
             film: FilmOptions::default(),
+        }
+    }
+
+    /// In a page there are these scenes only, and no disk.
+    pub(super) fn in_page(scenes: Vec<String>) -> Self {
+        Self {
+            scenes,
+            in_page: true,
+            ..Self::new(PathBuf::new(), false)
         }
     }
 

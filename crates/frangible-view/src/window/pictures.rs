@@ -10,8 +10,8 @@ use frangible_export::write_atomically;
 use crate::error::ViewError;
 use crate::picture::{BatchLooks, Picture};
 
-/// Puts a picture's triangles on the stage.
-pub(super) fn put(stage: &mut LiveStage, picture: &Picture) {
+/// Puts a picture's triangles on the stage, as edges where that is wanted and can be drawn.
+pub(super) fn put(stage: &mut LiveStage, picture: &Picture, wireframes: bool) {
     let looks: Vec<Looks> = picture
         .batches
         .iter()
@@ -33,17 +33,17 @@ pub(super) fn put(stage: &mut LiveStage, picture: &Picture) {
             faces: &batch.faces,
             stamp: batch.stamp,
         });
-    stage.show(meshes, picture.wireframe);
+    stage.show(meshes, picture.wireframe && wireframes);
 }
 
 /// Draws a picture's strokes and dots over the next frame.
-pub(super) fn strokes(stage: &LiveStage, window: &mut Window, picture: &Picture) {
+pub(super) fn strokes(stage: &LiveStage, window: &mut Window, picture: &Picture, dots: bool) {
     let color = |[red, green, blue]: [f32; 3]| Color::new(red, green, blue, 1.0);
     for line in &picture.lines {
         let [a, b] = line.ends.map(|end| stage.point(end));
         window.draw_line(a, b, color(line.color), line.width, false);
     }
-    for dot in &picture.dots {
+    for dot in picture.dots.iter().filter(|_| dots) {
         window.draw_point(stage.point(dot.at), color(dot.color), dot.size);
     }
 }

@@ -1,16 +1,22 @@
-//! The floor's shadow, computed on a thread of its own: roughly while things move, finely when they rest.
+//! The floor's shadow, computed on a thread of its own, or a little for each frame: roughly while things move, finely when they
+//! rest.
 
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
-use frangible_draw::{LiveShadow, Place, ShadowCaster};
+use web_time::Instant;
+
+use frangible_draw::{LiveCasting, LiveShadow, Place, ShadowCaster};
 use frangible_export::SurfaceMaterial;
 
 use crate::picture::{BatchLooks, Picture};
 
 /// How long a picture must stand before its shadow is computed finely.
 const REST: Duration = Duration::from_millis(250);
+
+/// How long a shadow is computed for each frame where there is no other thread.
+const SHARE: Duration = Duration::from_millis(5);
 
 /// A shadow to be cast.
 struct Wish {
@@ -26,10 +32,25 @@ struct Cast {
     shadow: Option<Arc<LiveShadow>>,
 }
 
+/// Who casts shadows.
+enum Caster {
+    Thread {
+        wishes: Sender<Wish>,
+        casts: Receiver<Cast>,
+    },
+    Here(Option<Begun>),
+}
+
+/// A shadow that was begun here; none without a floor.
+struct Begun {
+    version: u64,
+    fine: bool,
+    casting: Option<LiveCasting>,
+}
+
 /// Casts one shadow after the other.
 pub(super) struct Shade {
-    wishes: Sender<Wish>,
-    casts: Receiver<Cast>,
+    caster: Caster,
     place: Option<Place>,
     waiting: bool,
     seen: (u64, Instant),
@@ -39,7 +60,11 @@ pub(super) struct Shade {
 }
 
 impl Shade {
-    pub(super) fn start() -> Self {
+    /// On a thread of its own, or here: a little whenever a shadow is wanted.
+    pub(super) fn start(here: bool) -> Self {
+        if here {
+            return Self::by(Caster::Here(None));
+        }
         let (wishes, wished) = channel::<Wish>();
         let (done, casts) = channel();
         std::thread::spawn(move || {
@@ -49,9 +74,12 @@ impl Shade {
                 }
             }
         });
+        Self::by(Caster::Thread { wishes, casts })
+    }
+
+    fn by(caster: Caster) -> Self {
         Self {
-            wishes,
-            casts,
+            caster,
             place: None,
             waiting: false,
             seen: (0, Instant::now()),
@@ -69,13 +97,16 @@ impl Shade {
 
     /// Has this picture's shadow cast, unless that is done.
     pub(super) fn want(&mut self, picture: &Arc<Picture>) {
-        while let Ok(cast) = self.casts.try_recv() {
+        while let Some(cast) = self.caster.next() {
             self.waiting = false;
             self.count += 1;
             self.latest = Some(cast);
         }
         if self.seen.0 != picture.version {
             self.seen = (picture.version, Instant::now());
+            if self.caster.give_up_fine() {
+                self.waiting = false;
+            }
         }
         let fine = self.seen.1.elapsed() > REST;
         let known = self.latest.as_ref();
@@ -88,7 +119,7 @@ impl Shade {
             place,
             fine,
         };
-        self.waiting = self.wishes.send(wish).is_ok();
+        self.waiting = self.caster.begin(wish);
     }
 
     /// The last shadow, and its number.
@@ -104,7 +135,68 @@ impl Shade {
     }
 }
 
+impl Caster {
+    /// Has a shadow cast; false if nobody does it any more.
+    fn begin(&mut self, wish: Wish) -> bool {
+        match self {
+            Self::Thread { wishes, .. } => wishes.send(wish).is_ok(),
+            Self::Here(begun) => {
+                *begun = Some(Begun {
+                    version: wish.picture.version,
+                    fine: wish.fine,
+                    casting: begin(&wish),
+                });
+                true
+            }
+        }
+    }
+
+    /// The next shadow that is done.
+    fn next(&mut self) -> Option<Cast> {
+        let begun = match self {
+            Self::Thread { casts, .. } => return casts.try_recv().ok(),
+            Self::Here(begun) => begun,
+        };
+        let started = Instant::now();
+        if let Some(casting) = &mut begun.as_mut()?.casting {
+            while casting.go_on() {
+                if started.elapsed() > SHARE {
+                    return None;
+                }
+            }
+        }
+        let Begun {
+            version,
+            fine,
+            casting,
+        } = begun.take()?;
+        Some(Cast {
+            version,
+            fine,
+            shadow: casting.map(|casting| Arc::new(casting.finish())),
+        })
+    }
+
+    /// Gives up a fine shadow that was begun here; true if there was one. It would be late, and keep rough ones waiting.
+    fn give_up_fine(&mut self) -> bool {
+        match self {
+            Self::Here(begun) => begun.take_if(|begun| begun.fine).is_some(),
+            Self::Thread { .. } => false,
+        }
+    }
+}
+
 fn cast(wish: &Wish) -> Cast {
+    Cast {
+        version: wish.picture.version,
+        fine: wish.fine,
+        shadow: begin(wish).map(|casting| Arc::new(casting.finish())),
+    }
+}
+
+/// None without a floor.
+fn begin(wish: &Wish) -> Option<LiveCasting> {
+    let floor = wish.picture.floor.as_ref()?;
     let opaque = SurfaceMaterial::default();
     let casters: Vec<ShadowCaster<'_>> = wish
         .picture
@@ -120,11 +212,5 @@ fn cast(wish: &Wish) -> Cast {
             faces: &batch.faces,
         })
         .collect();
-    let floor = wish.picture.floor.as_ref();
-    Cast {
-        version: wish.picture.version,
-        fine: wish.fine,
-        shadow: floor
-            .map(|floor| Arc::new(LiveShadow::cast(wish.place, &casters, floor, wish.fine))),
-    }
+    Some(LiveCasting::begin(wish.place, &casters, floor, wish.fine))
 }

@@ -1,6 +1,6 @@
 //! Why it broke: the last contact over time, its cracks, its energy.
 
-use std::time::Instant;
+use web_time::Instant;
 
 use egui::{Color32, Grid, RichText, Slider, Ui};
 use egui_plot::{HLine, Line, Plot, PlotPoints, VLine};

@@ -2,9 +2,7 @@
 
 use egui::{ComboBox, Slider, Ui};
 use frangible::Material;
-use frangible_scenes::SCENE_NAMES;
 
-use super::gallery::Gallery;
 use super::{Panels, Tab};
 use crate::command::{Command, Target, Tool};
 use crate::shown::Shown;
@@ -29,7 +27,7 @@ impl Panels {
                 }
             });
         });
-        scenes(ui, shown, &mut self.gallery, commands);
+        self.choose_scene(ui, shown, commands);
         if let Some(bake) = &shown.bake {
             ui.add(egui::ProgressBar::new(bake.share as f32).text(bake.what.clone()));
             if ui.button("Cancel").clicked() {
@@ -73,8 +71,10 @@ impl Panels {
     }
 
     fn files(&mut self, ui: &mut Ui, shown: &Shown, commands: &mut Vec<Command>) {
-        ui.label("Save")
-            .on_hover_text(format!("into the folder {}", self.folder.display()));
+        ui.label("Save").on_hover_text(match self.in_page {
+            true => "as a download".into(),
+            false => format!("into the folder {}", self.folder.display()),
+        });
         ui.horizontal_wrapped(|ui| {
             for (label, target, ending, hint) in [
                 (
@@ -106,46 +106,45 @@ impl Panels {
                     commands.push(Command::Save(target, self.file(shown, ending)));
                 }
             }
-            if ui
-                .small_button("picture")
-                .on_hover_text("of the window")
-                .clicked()
-            {
+            let picture = (!self.in_page).then(|| ui.small_button("picture"));
+            if picture.is_some_and(|button| button.on_hover_text("of the window").clicked()) {
                 commands.push(Command::Screenshot(self.file(shown, "png")));
             }
         });
     }
-}
 
-fn scenes(ui: &mut Ui, shown: &Shown, gallery: &mut Gallery, commands: &mut Vec<Command>) {
-    let chosen = match shown.scene.as_str() {
-        "" => "choose a scene",
-        name => name,
-    };
-    ComboBox::from_id_salt("scenes")
-        .selected_text(chosen)
-        .width(ui.available_width() - 8.0)
-        .height(400.0)
-        .show_ui(ui, |ui| {
-            for name in SCENE_NAMES {
-                let chosen = shown.scene == name;
-                let button = match gallery.picture(ui.ctx(), name) {
-                    Some(picture) => {
-                        let image = egui::Image::new(picture).fit_to_exact_size(PICTURE);
-                        egui::Button::image_and_text(image, name)
+    fn choose_scene(&mut self, ui: &mut Ui, shown: &Shown, commands: &mut Vec<Command>) {
+        let chosen = match shown.scene.as_str() {
+            "" => "choose a scene",
+            name => name,
+        };
+        ComboBox::from_id_salt("scenes")
+            .selected_text(chosen)
+            .width(ui.available_width() - 8.0)
+            .height(400.0)
+            .show_ui(ui, |ui| {
+                for name in &self.scenes {
+                    let chosen = shown.scene == *name;
+                    let button = match self.gallery.picture(ui.ctx(), name) {
+                        Some(picture) => {
+                            let image = egui::Image::new(picture).fit_to_exact_size(PICTURE);
+                            egui::Button::image_and_text(image, name)
+                        }
+                        None => egui::Button::new(name),
+                    };
+                    if ui.add(button.selected(chosen).frame(chosen)).clicked() {
+                        commands.push(Command::Scene(name.clone()));
+                        ui.close();
                     }
-                    None => egui::Button::new(name),
-                };
-                if ui.add(button.selected(chosen).frame(chosen)).clicked() {
-                    commands.push(Command::Scene(name.into()));
-                    ui.close();
                 }
-            }
-        });
-    if !shown.summary.is_empty() {
-        ui.small(&shown.summary);
+            });
+        if !shown.summary.is_empty() {
+            ui.small(&shown.summary);
+        }
+        if !self.in_page {
+            ui.small("or drop a file onto the window: a mesh, a baked body, a scene");
+        }
     }
-    ui.small("or drop a file onto the window: a mesh, a baked body, a scene");
 }
 
 fn clock(ui: &mut Ui, shown: &Shown, commands: &mut Vec<Command>) {

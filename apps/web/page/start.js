@@ -1,0 +1,122 @@
+// Fetches the program and the first scene's bodies, finds out what the browser draws with, and starts.
+//
+// In the address: ?scene=NAME; ?renderer=webgl2 leaves WebGPU out; ?clock=stands runs scenes by commands only.
+
+const wishes = new URLSearchParams(location.search);
+const cover = document.getElementById("cover");
+const bar = document.getElementById("bar");
+const text = document.getElementById("text");
+const times = { begun: performance.now() };
+
+function failed(why) {
+  cover.hidden = false;
+  cover.style.display = "";
+  cover.classList.add("failed");
+  text.textContent = why;
+}
+
+/** The bytes of a file of this folder, unpacked; tell(share) meanwhile. */
+async function bytes(name, size, tell) {
+  const answer = await fetch(name);
+  if (!answer.ok) throw new Error(`${name}: the server says ${answer.status}`);
+  const parts = [];
+  let have = 0;
+  const reader = answer.body.getReader();
+  for (;;) {
+    const { done, value } = await reader.read();
+    if (done) break;
+    parts.push(value);
+    have += value.length;
+    tell(Math.min(have / size, 1));
+  }
+  const packed = new Blob(parts);
+  // Some servers unpack by themselves what ends in .gz.
+  const [a, b] = new Uint8Array(await packed.slice(0, 2).arrayBuffer());
+  if (a !== 0x1f || b !== 0x8b) return new Uint8Array(await packed.arrayBuffer());
+  const unpacked = packed.stream().pipeThrough(new DecompressionStream("gzip"));
+  return new Uint8Array(await new Response(unpacked).arrayBuffer());
+}
+
+/** What draws: "webgpu", "webgl2" or null, and whether it is a program that draws with the processor. */
+async function renderer() {
+  const adapter = wishes.get("renderer") === "webgl2" ? null : await navigator.gpu?.requestAdapter().catch(() => null);
+  if (adapter) {
+    const info = adapter.info ?? {};
+    return { kind: "webgpu", software: info.isFallbackAdapter === true || info.architecture === "swiftshader" };
+  }
+  // The program would prefer a WebGPU that then gives no adapter.
+  Object.defineProperty(navigator, "gpu", { value: undefined, configurable: true });
+  const context = document.createElement("canvas").getContext("webgl2");
+  if (!context) return { kind: null, software: false };
+  const named = context.getExtension("WEBGL_debug_renderer_info");
+  const name = named ? context.getParameter(named.UNMASKED_RENDERER_WEBGL) : "";
+  context.getExtension("WEBGL_lose_context")?.loseContext();
+  return { kind: "webgl2", software: /swiftshader|llvmpipe|software/i.test(name) };
+}
+
+async function start() {
+  const { program, programBytes, scenes } = await (await fetch("scenes.json")).json();
+  const wanted = wishes.get("scene");
+  const first = wanted in scenes ? wanted : Object.keys(scenes)[0];
+  const fetched = new Map();
+  // Each file once, whoever asks, and again after a failure.
+  const file = ({ name, size }, tell) => {
+    if (!fetched.has(name)) {
+      const promise = bytes(name, size, tell);
+      promise.catch(() => fetched.delete(name));
+      fetched.set(name, promise);
+    }
+    return fetched.get(name);
+  };
+  const bodies = (scene, tell) => Promise.all(scenes[scene].bodies.map((body) => file(body, tell)));
+
+  const shares = [0, 0];
+  const tell = (which) => (share) => {
+    shares[which] = share;
+    bar.value = 0.8 * shares[0] + 0.2 * shares[1];
+  };
+  const [wasm, drawn, { default: init }] = await Promise.all([
+    bytes(program, programBytes, tell(0)),
+    renderer(),
+    import("./frangible-web.js"),
+    bodies(first, tell(1)),
+  ]);
+  times.fetched = performance.now();
+  if (!drawn.kind) {
+    failed("This browser gives neither WebGPU nor WebGL 2, which the viewer draws with. Switch hardware acceleration on, or take a newer browser.");
+    return;
+  }
+  document.documentElement.dataset.renderer = drawn.kind;
+  text.textContent = "starting";
+  window.frangible = {
+    scenes: Object.keys(scenes),
+    first,
+    smooth: !drawn.software,
+    byClock: wishes.get("clock") !== "stands",
+    canvas: "stage",
+    scene: (name) => scenes[name]?.text,
+    bodies,
+    failed,
+    times,
+    save(name, content) {
+      const link = document.createElement("a");
+      link.href = URL.createObjectURL(new Blob([content]));
+      link.download = name;
+      link.click();
+      setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
+    },
+    drawn() {
+      if (times.picture) return;
+      const { whole, pieces } = JSON.parse(window.frangible_state());
+      if (whole + pieces === 0) return;
+      times.picture = performance.now();
+      cover.style.display = "none";
+      document.getElementById("stage").focus();
+    },
+  };
+  await init({ module_or_path: wasm });
+  times.started = performance.now();
+}
+
+window.addEventListener("unhandledrejection", (event) => failed(`The viewer could not start: ${event.reason?.message ?? event.reason}`));
+start();

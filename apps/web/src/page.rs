@@ -1,0 +1,205 @@
+//! The page: its commands in, what there is to see out.
+
+use std::cell::RefCell;
+use std::pin::Pin;
+use std::rc::Rc;
+use std::sync::Arc;
+
+use frangible_draw::open_canvas;
+use frangible_view::{Command, Page, PageOptions, Shown, ViewError, run_in_page};
+use js_sys::{Function, Promise, Reflect};
+use serde::Serialize;
+use wasm_bindgen::closure::Closure;
+use wasm_bindgen::{JsCast, JsValue};
+use wasm_bindgen_futures::{JsFuture, spawn_local};
+
+use crate::bridge::Bridge;
+use crate::console;
+use crate::host::Folder;
+
+/// What the page and the window share.
+#[derive(Default)]
+struct Shared {
+    commands: Vec<Command>,
+    shown: Arc<Shown>,
+    done: bool,
+    frames: u64,
+}
+
+struct Around {
+    bridge: Bridge,
+    shared: Rc<RefCell<Shared>>,
+}
+
+/// Opens the window in the page, and gives the page `frangible_command(text)` and `frangible_state()`.
+pub(crate) fn start() {
+    let Some(bridge) = Bridge::find() else {
+        return;
+    };
+    report_panics();
+    console::start();
+    // Every browser that runs the program has vectors: their instructions are in it, used or not.
+    pulp_wasm_simd_flag::enable_simd128();
+    let shared = Rc::new(RefCell::new(Shared::default()));
+    offer(&shared);
+    let scenes = bridge.scenes();
+    let first = bridge.text("first").or_else(|| scenes.first().cloned());
+    let options = PageOptions {
+        first: Command::Scene(first.unwrap_or_default()),
+        scenes,
+        by_clock: bridge.get("byClock").is_truthy(),
+        host: Box::new(Folder(bridge.clone())),
+        page: Box::new(Around {
+            bridge: bridge.clone(),
+            shared,
+        }),
+    };
+    spawn_local(async move {
+        if let Err(error) = live(&bridge, options).await {
+            let _ = bridge.call("failed", &[error.to_string().into()]);
+        }
+    });
+}
+
+async fn live(bridge: &Bridge, options: PageOptions) -> Result<(), ViewError> {
+    let canvas = bridge.text("canvas").unwrap_or_else(|| "canvas".into());
+    let mut window = open_canvas(&canvas, bridge.get("smooth").is_truthy()).await?;
+    run_in_page(&mut window, options).await
+}
+
+/// A panic ends the program: the page says so instead of standing still.
+fn report_panics() {
+    std::panic::set_hook(Box::new(|panic| {
+        if let Some(bridge) = Bridge::find() {
+            let _ = bridge.call("failed", &[panic.to_string().into()]);
+        }
+    }));
+}
+
+/// The two functions of the page.
+fn offer(shared: &Rc<RefCell<Shared>>) {
+    let inbox = Rc::clone(shared);
+    let command = Closure::<dyn FnMut(String) -> String>::new(move |line: String| {
+        match Command::parse(&line) {
+            Ok(command) => {
+                let mut shared = inbox.borrow_mut();
+                shared.commands.push(command);
+                shared.done = false;
+                String::new()
+            }
+            Err(error) => error.to_string(),
+        }
+    });
+    let seen = Rc::clone(shared);
+    let state = Closure::<dyn FnMut() -> String>::new(move || {
+        let shared = seen.borrow();
+        serde_json::to_string(&State::of(&shared)).unwrap_or_default()
+    });
+    let global = js_sys::global();
+    for (name, function) in [
+        ("frangible_command", command.into_js_value()),
+        ("frangible_state", state.into_js_value()),
+    ] {
+        // It fails on frozen objects only, and the window is none.
+        let _ = Reflect::set(&global, &name.into(), &function);
+    }
+}
+
+/// What `frangible_state()` tells, as JSON.
+#[derive(Serialize)]
+struct State<'a> {
+    scene: &'a str,
+    /// Commands carried out; all of them are, and what they began.
+    commands: u64,
+    done: bool,
+    busy: bool,
+    /// Frames drawn.
+    frames: u64,
+    /// Simulated time, s, and steps.
+    time: f64,
+    steps: u64,
+    paused: bool,
+    whole: usize,
+    pieces: usize,
+    triangles: usize,
+    /// Of the last break, s: the impact, and the whole step.
+    fracture_seconds: f64,
+    step_seconds: f64,
+    /// Of its pieces, kg.
+    masses: Vec<f64>,
+    /// Where the last contact that mattered was, m.
+    hit: Option<[f32; 3]>,
+    message: Option<&'a str>,
+    complaint: bool,
+}
+
+impl<'a> State<'a> {
+    fn of(shared: &'a Shared) -> Self {
+        let shown = &shared.shown;
+        let step = &shown.break_step;
+        let fracture = shown.blow.as_ref().and_then(|blow| blow.fracture.as_ref());
+        let fragments = fracture.iter().flat_map(|fracture| &fracture.fragments);
+        Self {
+            scene: &shown.scene,
+            commands: shown.commands,
+            done: shared.done,
+            busy: shown.busy,
+            frames: shared.frames,
+            time: shown.time,
+            steps: shown.steps,
+            paused: shown.paused,
+            whole: shown.whole,
+            pieces: shown.pieces,
+            triangles: shown.picture.triangles(),
+            fracture_seconds: step.fracture,
+            step_seconds: step.ours() + step.rigid,
+            masses: fragments.map(|fragment| fragment.mass.mass).collect(),
+            hit: shown.blow.as_ref().and_then(|blow| {
+                let point = blow.contacts.first()?.point;
+                Some((blow.pose.rotation * point + blow.pose.translation).to_array())
+            }),
+            message: shown.message.as_ref().map(|(text, _)| text.as_str()),
+            complaint: shown
+                .message
+                .as_ref()
+                .is_some_and(|(_, complaint)| *complaint),
+        }
+    }
+}
+
+impl Page for Around {
+    fn commands(&self) -> Vec<Command> {
+        std::mem::take(&mut self.shared.borrow_mut().commands)
+    }
+
+    fn show(&self, shown: &Arc<Shown>, done: bool, frames: u64) {
+        let before = {
+            let mut shared = self.shared.borrow_mut();
+            shared.shown = Arc::clone(shown);
+            shared.done = done && shared.commands.is_empty();
+            std::mem::replace(&mut shared.frames, frames)
+        };
+        if before != frames {
+            // A page that does not care how many there are has no such function.
+            let _ = self.bridge.call("drawn", &[(frames as f64).into()]);
+        }
+    }
+
+    fn next_frame(&self) -> Pin<Box<dyn Future<Output = ()>>> {
+        let promise = Promise::new(&mut |resolve: Function, _| request_frame(&resolve));
+        Box::pin(async move {
+            // It is never rejected.
+            let _ = JsFuture::from(promise).await;
+        })
+    }
+}
+
+/// Has the browser call this when it draws again.
+fn request_frame(then: &Function) {
+    let global = js_sys::global();
+    let request = Reflect::get(&global, &"requestAnimationFrame".into());
+    if let Ok(Ok(request)) = request.map(JsCast::dyn_into::<Function>) {
+        let argument: &JsValue = then.as_ref();
+        let _ = request.call1(&global, argument);
+    }
+}

@@ -1,0 +1,52 @@
+//! What stands in for the disk and the bake where there is neither: a page in a browser.
+
+use std::path::Path;
+use std::sync::mpsc::Sender;
+
+use frangible_scenes::{BakedBody, Scene, SceneError};
+
+use crate::error::ViewError;
+use crate::jobs::Teller;
+
+/// Has scenes, brings their baked bodies and takes files.
+pub trait Host {
+    /// The scene of this name.
+    ///
+    /// # Errors
+    /// There is none, and which there are.
+    fn scene(&self, name: &str) -> Result<Scene, ViewError>;
+
+    /// Has the bodies of a scene brought, as it was before any knob was turned.
+    fn bring(&self, scene: &Scene, delivery: Delivery);
+
+    /// Takes a file.
+    ///
+    /// # Errors
+    /// What stands in the way.
+    fn save(&self, name: &Path, bytes: &[u8]) -> Result<(), ViewError>;
+}
+
+/// Where bodies that were asked for are handed in.
+pub struct Delivery {
+    pub(crate) teller: Teller,
+    pub(crate) sender: Sender<Result<Vec<BakedBody>, SceneError>>,
+}
+
+impl Delivery {
+    /// Tells what is being done, and the share of it that is done.
+    pub fn tell(&self, what: &str, share: f64) {
+        self.teller.tell(what.into(), share);
+    }
+
+    /// Whether nobody waits for it any more.
+    #[must_use]
+    pub fn is_unwanted(&self) -> bool {
+        self.teller.cancel.is_cancelled()
+    }
+
+    /// Hands the bodies in, one per body of the scene, in their order.
+    pub fn finish(self, bodies: Result<Vec<BakedBody>, SceneError>) {
+        // Nobody waits for what was cancelled.
+        let _ = self.sender.send(bodies);
+    }
+}

@@ -1,0 +1,85 @@
+//! The window as a part of a page in a browser.
+
+use std::pin::Pin;
+use std::sync::Arc;
+
+use frangible_draw::has_storage_buffers;
+use frangible_draw::kiss3d::window::Window;
+
+use crate::command::Command;
+use crate::error::ViewError;
+use crate::host::Host;
+use crate::shown::Shown;
+use crate::worker::Worker;
+
+use super::Viewer;
+use super::director::Director;
+use super::panels::Panels;
+use super::shade::Shade;
+
+/// What is around the window.
+pub trait Page {
+    /// Commands that the page gives.
+    fn commands(&self) -> Vec<Command>;
+
+    /// What there is to see, whether all commands are done, and how many frames were drawn.
+    fn show(&self, shown: &Arc<Shown>, done: bool, frames: u64);
+
+    /// Waits until the browser draws again.
+    fn next_frame(&self) -> Pin<Box<dyn Future<Output = ()>>>;
+}
+
+/// How to show the window in a page.
+pub struct PageOptions {
+    /// What to load first.
+    pub first: Command,
+    /// Names of the scenes that the host can bring.
+    pub scenes: Vec<String>,
+    /// Whether scenes run by the clock of the page; else only by [`Command::Step`].
+    pub by_clock: bool,
+    /// Brings bodies and takes files.
+    pub host: Box<dyn Host>,
+    /// The page.
+    pub page: Box<dyn Page>,
+}
+
+/// Shows a page's window (`frangible_draw::open_canvas`) for as long as the page lives. There are no threads: what takes long
+/// makes the page wait.
+///
+/// # Errors
+/// None yet.
+pub async fn run_in_page(window: &mut Window, options: PageOptions) -> Result<(), ViewError> {
+    let mut worker = Worker::start_here(options.by_clock, options.host);
+    worker.send(options.first);
+    let panels = Panels::in_page(options.scenes);
+    let mut viewer = Viewer::of(worker, panels, Director::new(None), Shade::start(true));
+    viewer.page = Some(options.page);
+    viewer.hurries = !options.by_clock;
+    viewer.fine_marks = has_storage_buffers();
+    viewer.live(window).await
+}
+
+impl Viewer {
+    pub(super) fn hear_page(&mut self, window: &mut Window) {
+        let commands = self.page.as_ref().map(|page| page.commands());
+        for command in commands.into_iter().flatten() {
+            self.give(command, window);
+        }
+    }
+
+    pub(super) fn tell_page(&self, shown: &Arc<Shown>, done: bool) {
+        if let Some(page) = &self.page {
+            page.show(shown, done, self.frames);
+        }
+    }
+}
+
+/// Why a page does not do this.
+pub(super) fn not_here(command: &Command) -> String {
+    match command {
+        Command::Open(_) => "a page cannot bake: open files with `frangible view FILE`".into(),
+        Command::Film(..) => "a page makes no films or stills: `frangible view` does".into(),
+        Command::Screenshot(_) => "take the picture with the browser".into(),
+        _ => format!("`{command}` is nothing for a page"),
+    }
+}

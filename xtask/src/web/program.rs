@@ -1,0 +1,133 @@
+//! The viewer's program for browsers: built, and packed with what calls it.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use super::library::{Library, library};
+use super::{Clock, Folders};
+use crate::command::{Result, cargo, output, root, shown, status_within};
+
+const TARGET: &str = "wasm32-unknown-unknown";
+const NAME: &str = "frangible-web";
+/// Both sides of what it generates must be of one version.
+const GENERATOR: &str = "wasm-bindgen";
+/// The packer's name for the same.
+const GENERATOR_OF_PACKER: &str = "wasm-bindgen-cli-support";
+
+/// The program as it lies in the page's folder.
+pub(super) struct Program {
+    /// Name of the packed file.
+    pub(super) packed: String,
+    /// Bytes, unpacked.
+    pub(super) unpacked: u64,
+    /// What packs other files.
+    pub(super) packer: PathBuf,
+}
+
+pub(super) fn program(folders: &Folders, clock: Clock) -> Result<Program> {
+    same_generator()?;
+    let packer = packer(folders, clock)?;
+    let built = build(folders, clock)?;
+    let text = output(
+        Command::new(&packer)
+            .arg("page")
+            .arg(built)
+            .arg(&folders.out),
+    )?;
+    Ok(Program {
+        packed: format!("{NAME}.wasm.gz"),
+        unpacked: number_of(&text)?,
+        packer,
+    })
+}
+
+/// A number that the packer wrote.
+pub(super) fn number_of(text: &[u8]) -> Result<u64> {
+    let text = String::from_utf8_lossy(text);
+    text.trim()
+        .parse()
+        .map_err(|_| format!("the packer said `{}`, no size", text.trim()))
+}
+
+/// Builds the program, its standard library too where the toolchain has none for browsers.
+fn build(folders: &Folders, clock: Clock) -> Result<PathBuf> {
+    let mut command = cargo(&["build", "--profile", "web", "--target", TARGET, "-p", NAME]);
+    command
+        .arg("--target-dir")
+        .arg(&folders.target)
+        .env_remove("CARGO_TARGET_DIR");
+    match library(folders, TARGET)? {
+        Library::Installed => {}
+        Library::Sources(sources) => {
+            command
+                .arg("-Zbuild-std=std,panic_abort")
+                // Building the standard library is no stable feature of cargo, but has been this way for years.
+                .env("RUSTC_BOOTSTRAP", "1");
+            if let Some(folder) = sources {
+                command.env("__CARGO_TESTS_ONLY_SRC_ROOT", folder);
+            }
+        }
+    }
+    within(&mut command, clock)?;
+    let built = folders.target.join(TARGET).join("web");
+    Ok(built.join(format!("{NAME}.wasm")))
+}
+
+/// Builds the packer.
+fn packer(folders: &Folders, clock: Clock) -> Result<PathBuf> {
+    let target = folders.target.join("pack");
+    let mut command = cargo(&["build", "--release", "--locked", "--manifest-path"]);
+    command
+        .arg(root().join("xtask/web-pack/Cargo.toml"))
+        .arg("--target-dir")
+        .arg(&target)
+        .env_remove("CARGO_TARGET_DIR");
+    within(&mut command, clock)?;
+    Ok(target.join("release/web-pack"))
+}
+
+pub(super) fn within(command: &mut Command, clock: Clock) -> Result {
+    println!("$ {}", shown(command));
+    match status_within(command, clock.left())? {
+        Some(status) if status.success() => Ok(()),
+        Some(_) => Err(format!(
+            "`{}` failed; its messages are above",
+            shown(command)
+        )),
+        None => Err(format!(
+            "`{}` took too long; the next run goes on from there",
+            shown(command)
+        )),
+    }
+}
+
+/// Refuses a packer of another version than what the program is built with.
+fn same_generator() -> Result {
+    let versions = [
+        (root().join("Cargo.lock"), GENERATOR),
+        (
+            root().join("xtask/web-pack/Cargo.lock"),
+            GENERATOR_OF_PACKER,
+        ),
+    ]
+    .map(|(lock, name)| locked(&lock, name));
+    let [program, packer] = versions;
+    let (program, packer) = (program?, packer?);
+    if program == packer {
+        return Ok(());
+    }
+    Err(format!(
+        "the program is built with {GENERATOR} {program}, the packer with {packer}: name {program} in xtask/web-pack/Cargo.toml"
+    ))
+}
+
+/// The version of a package in a lock file.
+fn locked(lock: &Path, name: &str) -> Result<String> {
+    let text = std::fs::read_to_string(lock)
+        .map_err(|error| format!("`{}` cannot be read: {error}", lock.display()))?;
+    let head = format!("name = \"{name}\"\nversion = \"");
+    text.split_once(&head)
+        .and_then(|(_, rest)| rest.split_once('"'))
+        .map(|(version, _)| version.to_owned())
+        .ok_or_else(|| format!("`{}` has no {name}", lock.display()))
+}

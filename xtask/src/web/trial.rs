@@ -1,0 +1,105 @@
+//! The page in a browser: a ball is thrown at the pane, and it breaks.
+
+use std::path::PathBuf;
+use std::process::Command;
+use std::time::{Duration, Instant};
+
+use super::bodies::{Packed, frangible};
+use super::program::within;
+use super::{Clock, Folders, folders, make, make_folder};
+use crate::command::{Result, root, run_keeping, shown};
+use crate::setup::browser;
+
+/// Drives the browser; the version that the test is written for.
+const DRIVER: &str = "playwright-core@1.65.1";
+/// What the page draws with, the one after the other.
+const RENDERERS: [&str; 2] = ["webgpu", "webgl2"];
+
+/// What the browser may take before it counts as stuck.
+const LONGEST: Duration = Duration::from_secs(15 * 60);
+
+/// Makes the page and tries it, and returns the lines that sum it up; one of them says so where there is no browser.
+pub(crate) fn trial(limit: Option<Duration>) -> Result<Vec<String>> {
+    let clock = Clock {
+        start: Instant::now(),
+        limit,
+    };
+    let folders = folders(None);
+    let (mut lines, scenes) = make(&folders, clock)?;
+    let Some(browser) = browser() else {
+        let line = "web: not tried: there is no browser, or no Node".to_string();
+        println!("{line}");
+        lines.push(line);
+        return Ok(lines);
+    };
+    let out = out(&folders);
+    make_folder(&out)?;
+    let native = native(&folders, &scenes, clock)?;
+    let mut command = Command::new("node");
+    command
+        .arg(root().join("apps/web/test/page.test.mjs"))
+        .arg(&folders.out)
+        .arg(path_of(browser))
+        .arg(driver(&folders, clock)?)
+        .arg(&out)
+        .arg(native)
+        .args(RENDERERS)
+        .env("SECONDS", clock.left().min(LONGEST).as_secs().to_string());
+    println!("$ {}", shown(&command));
+    lines.extend(run_keeping(&mut command, |line| {
+        RENDERERS.iter().any(|renderer| line.starts_with(renderer))
+    })?);
+    println!("pictures lie in {}", out.display());
+    Ok(lines)
+}
+
+/// Where pictures go: `OUT`, or the target folder.
+fn out(folders: &Folders) -> PathBuf {
+    std::env::var_os("OUT").map_or_else(|| folders.target.join("artifacts"), PathBuf::from)
+}
+
+/// The browser's path, as its driver wants it.
+fn path_of(name: &str) -> PathBuf {
+    let path = std::env::var_os("PATH").unwrap_or_default();
+    let mut candidates = std::env::split_paths(&path).map(|folder| folder.join(name));
+    candidates
+        .find(|file| file.is_file())
+        .unwrap_or_else(|| name.into())
+}
+
+/// The driver's package, fetched if it is not there: only that, no browser of its own.
+fn driver(folders: &Folders, clock: Clock) -> Result<PathBuf> {
+    let folder = folders.target.join(DRIVER);
+    let there = folder.join("node_modules/playwright-core/package.json");
+    if !there.is_file() {
+        make_folder(&folder)?;
+        let mut command = Command::new("npm");
+        command
+            .args(["install", "--no-audit", "--no-fund", "--ignore-scripts"])
+            .args(["--save-exact", "--prefix"])
+            .arg(&folder)
+            .arg(DRIVER)
+            .env("PLAYWRIGHT_SKIP_BROWSER_DOWNLOAD", "1");
+        within(&mut command, clock)?;
+    }
+    Ok(folder)
+}
+
+/// What the program for this machine breaks the page's first scene into: its report.
+fn native(folders: &Folders, scenes: &[Packed], clock: Clock) -> Result<PathBuf> {
+    let scene = scenes.first().ok_or("the page has no scene")?;
+    let out = folders.target.join("native");
+    make_folder(&out)?;
+    let report = out.join("report.json");
+    let file = std::fs::File::create(&report)
+        .map_err(|error| format!("`{}` cannot be written: {error}", report.display()))?;
+    let mut command = Command::new(frangible(clock)?);
+    command
+        .arg("break")
+        .arg(&scene.toml)
+        .args(["--json", "--no-pictures", "--out"])
+        .arg(&out)
+        .stdout(file);
+    within(&mut command, clock)?;
+    Ok(report)
+}
