@@ -16,6 +16,7 @@ use crate::jobs::{Job, Polled, Teller};
 use crate::session::Session;
 
 /// A film to be made.
+#[cfg_attr(target_family = "wasm", allow(dead_code))]
 pub(crate) struct Take {
     pub(crate) kind: FilmKind,
     pub(crate) options: FilmOptions,
