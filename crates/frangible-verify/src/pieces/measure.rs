@@ -73,7 +73,7 @@ pub struct Blow {
     pub level: f64,
     /// Whether it breaks the piece.
     pub breaks: bool,
-    /// Whether the piece breaks if it is hit slower and faster by [`NUDGE`].
+    /// Whether the piece breaks if it is hit slower and faster by one part in twenty.
     pub nudged: [bool; 2],
     /// Of a piece that it cracks and does not break: first frequency with these cracks over that without.
     pub softened: Option<f64>,
