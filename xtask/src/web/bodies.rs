@@ -23,14 +23,14 @@ struct Light {
 const SCENES: [Light; 2] = [
     Light {
         scene: "pane",
-        modes: 24,
-        tetrahedra: 12_000,
+        modes: 20,
+        tetrahedra: 10_000,
         compact: false,
     },
     Light {
         scene: "brick",
-        modes: 20,
-        tetrahedra: 6_000,
+        modes: 16,
+        tetrahedra: 5_000,
         compact: true,
     },
 ];

@@ -119,8 +119,9 @@ fn unpack(package: &Path, apt: &Path) -> Result {
         .spawn()
         .map_err(|error| format!("dpkg-deb could not be run: {error}"))?;
     let mut tar = Command::new("tar");
-    tar.args(["-x", "--wildcards", "./usr/src/rustc-*/library/*", "-C"])
-        .arg(&to);
+    tar.arg("-C")
+        .arg(&to)
+        .args(["-x", "--wildcards", "./usr/src/rustc-*/library/*"]);
     if let Some(stream) = packed.stdout.take() {
         tar.stdin(stream);
     }
