@@ -55,9 +55,9 @@ async function renderer() {
 }
 
 async function start() {
-  const { program, programBytes, scenes } = await (await fetch("scenes.json")).json();
+  const { program, programBytes, first: usual, scenes } = await (await fetch("scenes.json")).json();
   const wanted = wishes.get("scene");
-  const first = wanted in scenes ? wanted : Object.keys(scenes)[0];
+  const first = wanted in scenes ? wanted : usual;
   const fetched = new Map();
   // Each file once, whoever asks, and again after a failure.
   const file = ({ name, size }, tell) => {

@@ -105,6 +105,8 @@ fn write_list(folders: &Folders, program: &program::Program, bodies: &[bodies::P
     let list = serde_json::json!({
         "program": program.packed,
         "programBytes": size(&program.packed)?,
+        // Objects have no order.
+        "first": bodies.first().map(|body| body.scene),
         "scenes": scenes,
     });
     let path = folders.out.join("scenes.json");
