@@ -40,7 +40,7 @@ impl Pieces {
     }
 
     /// The method that serves a piece of so many uncut tetrahedra, in the end. [`Method::Auto`] gives every piece its own modes:
-    /// measured on fragments of all scenes (`docs/recursive.md`), nothing else decides right as often, and small pieces, for
+    /// measured on fragments of all scenes (`docs/recursive.md`), nothing as quick decides right more often, and small pieces, for
     /// which statics might do, have their modes sooner than a factored stiffness of as many elements.
     #[must_use]
     pub fn method_for(&self, _tets: usize) -> Method {
