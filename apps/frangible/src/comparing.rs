@@ -3,7 +3,7 @@
 use std::error::Error;
 use std::fs;
 
-use frangible::{Fragment, nearest_name};
+use frangible::Fragment;
 use frangible_compare::{Broken, Hit, Method, Options, compare};
 use frangible_export::write_atomically;
 use frangible_scenes::{FirstBreak, Opened, Scene, bake_opened, first_break, open_sources};
@@ -109,15 +109,7 @@ fn methods(names: &[String]) -> Result<Vec<Method>, String> {
     }
     let mut methods = Vec::new();
     for name in names {
-        let method = Method::from_name(name.trim()).ok_or_else(|| {
-            let known = Method::ALL.map(Method::name);
-            let hint = nearest_name(name, known)
-                .map_or(String::new(), |n| format!(", did you mean `{n}`?"));
-            format!(
-                "there is no method `{name}`{hint}; methods: {}",
-                known.join(", ")
-            )
-        })?;
+        let method = Method::from_name(name.trim())?;
         if !methods.contains(&method) {
             methods.push(method);
         }

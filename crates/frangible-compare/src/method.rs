@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use frangible::nearest_name;
+
 /// A way to break a body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Method {
@@ -52,9 +54,18 @@ impl Method {
     }
 
     /// The method of this [name](Self::name).
-    #[must_use]
-    pub fn from_name(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|method| method.name() == name)
+    ///
+    /// # Errors
+    /// A name that is none of them: says so, with the nearest one.
+    pub fn from_name(name: &str) -> Result<Self, String> {
+        let found = Self::ALL.into_iter().find(|method| method.name() == name);
+        found.ok_or_else(|| {
+            let known = Self::ALL.map(Self::name);
+            let hint = nearest_name(name, known)
+                .map_or(String::new(), |n| format!(", did you mean `{n}`?"));
+            let known = known.join(", ");
+            format!("there is no method `{name}`{hint}; methods: {known}")
+        })
     }
 }
 

@@ -295,7 +295,8 @@ fn what_cannot_be_compared_is_refused() {
 #[test]
 fn a_name_stands_for_its_method_only() {
     for method in Method::ALL {
-        assert_eq!(Method::from_name(method.name()), Some(method));
+        assert_eq!(Method::from_name(method.name()), Ok(method));
     }
-    assert_eq!(Method::from_name("Ours"), None);
+    let error = Method::from_name("Ours").unwrap_err();
+    assert!(error.contains("did you mean `ours`"), "{error}");
 }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use frangible::glam::Vec3;
-use frangible::{Fracture, ImpactReport, nearest_name};
+use frangible::{Fracture, ImpactReport};
 use frangible_compare::{Broken, Method};
 use frangible_export::RecordedMesh;
 use frangible_scenes::LiveScene;
@@ -39,15 +39,7 @@ const APART: f32 = 0.2;
 pub(crate) fn named_methods(word: &str) -> Result<Vec<Method>, String> {
     let mut methods = Vec::new();
     for name in word.split(',').filter(|_| word != "first") {
-        let method = Method::from_name(name).ok_or_else(|| {
-            let known = Method::ALL.map(Method::name);
-            let hint = nearest_name(name, known)
-                .map_or(String::new(), |n| format!(", did you mean `{n}`?"));
-            format!(
-                "there is no method `{name}`{hint}; methods: {}",
-                known.join(", ")
-            )
-        })?;
+        let method = Method::from_name(name)?;
         if !methods.contains(&method) {
             methods.push(method);
         }
