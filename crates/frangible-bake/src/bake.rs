@@ -173,6 +173,7 @@ pub fn bake(
         ),
         peak_stress: Vec::new(),
         eigenvalues: modes.eigenvalues.clone(),
+        ..ModalBasis::default()
     };
     let asset = Asset {
         name: spec.name.clone(),

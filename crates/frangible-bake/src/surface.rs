@@ -54,6 +54,7 @@ pub fn outer_surface(mesh: &TetMesh, crease: f64) -> OuterSurface {
         triangles,
         normals,
         curvature_radius,
+        ..OuterSurface::default()
     }
 }
 

@@ -49,6 +49,7 @@ pub fn parent_modes(portion: &Arc<Portion>, parent: &Body) -> Result<Elastic, Pi
             eigenvalues,
             shapes,
             peak_stress: Vec::new(),
+            ..ModalBasis::default()
         }),
     })
 }

@@ -50,6 +50,7 @@ pub fn reanalysis(
             shapes,
             peak_stress: Vec::new(),
             eigenvalues: found.eigenvalues,
+            ..ModalBasis::default()
         }),
     })
 }

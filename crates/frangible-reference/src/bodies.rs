@@ -93,6 +93,7 @@ pub fn linear_asset(
             eigenvalues: found.eigenvalues,
             shapes,
             peak_stress: vec![0.0; modes],
+            ..ModalBasis::default()
         },
         bounds: StressBounds::default(),
         mass,

@@ -57,6 +57,7 @@ fn two_elements(modes: &[fn(Vec3) -> Vec3]) -> Asset {
         eigenvalues: (1..=modes.len()).map(|i| i as f64).collect(),
         shapes: rows.collect(),
         peak_stress: vec![1.0; modes.len()],
+        ..ModalBasis::default()
     };
     let barycentric_gradients = elements
         .iter()

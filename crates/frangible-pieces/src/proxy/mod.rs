@@ -58,6 +58,7 @@ impl ProxyLibrary {
                     .collect(),
                 shapes,
                 peak_stress: Vec::new(),
+                ..ModalBasis::default()
             }),
         })
     }

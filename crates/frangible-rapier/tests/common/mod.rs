@@ -64,6 +64,7 @@ pub fn box_asset(half: Vec3, cells: [usize; 3]) -> Arc<Asset> {
         tets: boundary.iter().map(|(_, e)| *e).collect(),
         normals: boundary.iter().map(|(t, _)| [normal(t); 3]).collect(),
         curvature_radius: vec![f32::INFINITY; boundary.len()],
+        ..OuterSurface::default()
     };
     let point = EmbeddedPoint {
         element: 0,

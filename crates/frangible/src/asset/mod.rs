@@ -137,6 +137,47 @@ pub struct OuterSurface {
     pub normals: Vec<[Vec3; 3]>,
     /// Radius of curvature where a contact touches this triangle, m; infinite where flat.
     pub curvature_radius: Vec<f32>,
+    /// Where the body is a wall behind its triangles.
+    pub walls: SurfaceWalls,
+}
+
+/// Thin walls behind the outer surface: what the stress right under a contact hangs on, which no mode shows
+/// (`near_field`). One number per triangle of the surface in each list; all lists are empty for a body without walls.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SurfaceWalls {
+    /// Thickness of the wall, m; infinite where the body is no wall.
+    pub thickness: Vec<f32>,
+    /// How much the wall's curvature stiffens it against bending waves of all directions, 1/m²: the mean over the angle θ of
+    /// (κ₁ sin²θ + κ₂ cos²θ)², κ₁ and κ₂ the principal curvatures of the wall's middle surface. 1/R² of a dome, 3/(8R²) of a
+    /// tube, 0 of a flat wall.
+    pub stiffening: Vec<f32>,
+    /// Distance along the wall to its nearest edge, m, where it ends, is held or grows much thicker; infinite where it has none.
+    pub margin: Vec<f32>,
+}
+
+impl SurfaceWalls {
+    /// The wall behind a triangle of the surface, if there is one.
+    #[must_use]
+    pub fn at(&self, triangle: u32) -> Option<SurfaceWall> {
+        let i = triangle as usize;
+        let thickness = *self.thickness.get(i)?;
+        thickness.is_finite().then(|| SurfaceWall {
+            thickness: f64::from(thickness),
+            stiffening: f64::from(self.stiffening[i]),
+            margin: f64::from(self.margin[i]),
+        })
+    }
+}
+
+/// The wall behind one triangle of the surface: the numbers of [`SurfaceWalls`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SurfaceWall {
+    /// Thickness, m.
+    pub thickness: f64,
+    /// Stiffening by curvature, 1/m².
+    pub stiffening: f64,
+    /// Distance to the wall's nearest edge, m.
+    pub margin: f64,
 }
 
 /// Quadratic tetrahedra with straight edges: four corners, then mid-edge nodes in the order

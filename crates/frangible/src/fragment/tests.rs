@@ -71,6 +71,7 @@ pub(super) fn block(n: usize) -> Asset {
         curvature_radius: vec![f32::INFINITY; boundary.len()],
         tets: boundary.iter().map(|b| b.1).collect(),
         triangles: boundary.into_iter().map(|b| b.0).collect(),
+        ..OuterSurface::default()
     };
     let mass = MassProperties::of_tetrahedra(
         1.0,

@@ -13,6 +13,9 @@ pub struct ModalBasis {
     pub shapes: Vec<f32>,
     /// Largest spectral norm of each mode's linear stress over the fracture tetrahedra, Pa per unit amplitude (m·√kg).
     pub peak_stress: Vec<f32>,
+    /// How many modes, the highest, a blow does not follow through time: they answer its force statically, together, as the
+    /// [residual vector](crate::FractureConfig::residual). 0: all are followed.
+    pub residual_modes: usize,
 }
 
 impl ModalBasis {
@@ -20,6 +23,12 @@ impl ModalBasis {
     #[must_use]
     pub fn count(&self) -> usize {
         self.eigenvalues.len()
+    }
+
+    /// Number of modes that a blow follows through time, the lowest.
+    #[must_use]
+    pub fn followed(&self) -> usize {
+        self.count().saturating_sub(self.residual_modes)
     }
 
     /// Natural frequency of mode `i` without damping, Hz.

@@ -267,5 +267,6 @@ fn surface(fragment: &Fragment, root: &OuterSurface, trace: &Trace, edge: f32) -
         normals: fragment.mesh.normals.clone(),
         tets: tets.chain(trace.inner_of.iter().copied()).collect(),
         curvature_radius: radii.chain(rough).collect(),
+        ..OuterSurface::default()
     }
 }

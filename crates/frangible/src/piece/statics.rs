@@ -92,6 +92,7 @@ pub(crate) fn static_load(
         eigenvalues: vec![1.0],
         shapes: displacement.iter().map(|&u| u as f32).collect(),
         peak_stress: Vec::new(),
+        ..ModalBasis::default()
     };
     let portion = asset.portion.clone();
     let prepared = match &portion {

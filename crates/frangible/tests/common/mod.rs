@@ -93,6 +93,7 @@ pub fn synthetic_asset(size: &Size) -> Asset {
             .collect(),
         tets: boundary.iter().map(|b| b.1).collect(),
         triangles: boundary.into_iter().map(|b| b.0).collect(),
+        ..OuterSurface::default()
     };
     let analysis = AnalysisMesh {
         nodes: (0..size.analysis_nodes).map(|_| numbers.vec3()).collect(),
@@ -119,6 +120,7 @@ pub fn synthetic_asset(size: &Size) -> Asset {
             .collect(),
         shapes: (0..shapes).map(|_| numbers.f32()).collect(),
         peak_stress: (0..size.modes).map(|_| 1.0 + numbers.f32()).collect(),
+        ..ModalBasis::default()
     };
     let bounds = StressBounds {
         cluster_of_tet: (0..fracture.tets.len() as u32).map(|e| e % 2).collect(),

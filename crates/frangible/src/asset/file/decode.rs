@@ -42,6 +42,7 @@ impl Asset {
                 tets: r.rows(s::SURFACE_TETS)?,
                 normals: r.rows(s::SURFACE_NORMALS)?,
                 curvature_radius: r.rows(s::SURFACE_CURVATURE)?,
+                ..OuterSurface::default()
             },
             analysis: AnalysisMesh {
                 nodes: r.rows(s::ANALYSIS_NODES)?,
@@ -56,6 +57,7 @@ impl Asset {
                 eigenvalues: r.rows(s::EIGENVALUES)?,
                 shapes: shapes(&r)?,
                 peak_stress: r.rows(s::PEAK_STRESS)?,
+                ..ModalBasis::default()
             },
             bounds: bounds(&r)?,
             mass: mass(r.one(s::MASS)?),
