@@ -52,8 +52,6 @@ pub(crate) struct Prepared {
     pub(crate) reaches: Reaches,
     /// What an impulse does at most, by place and duration.
     pub(crate) per_impulse: PerImpulse,
-    /// Largest entry of each mode's shape, 1/√kg.
-    pub(crate) largest_shapes: Vec<f32>,
     /// Σ φ_i dm of every mode, √kg: what a held body's weight pushes; empty for a free one, where it is zero.
     pub(crate) weight: Vec<Vec3>,
     /// k of the bounds' quadratic term, Pa.
@@ -64,6 +62,8 @@ pub(crate) struct Prepared {
     pub(crate) centroids: Arc<[Vec3]>,
     /// Mean edge of the fracture mesh, m.
     pub(crate) edge: f32,
+    /// Longest edge of the fracture mesh, m.
+    pub(crate) longest_edge: f32,
 }
 
 impl Breakable {
@@ -87,7 +87,7 @@ impl Breakable {
             asset.bounds.clone()
         };
         let whole = bounds.root(modes.count());
-        let reaches = Reaches::new(modes, &asset.material);
+        let reaches = Reaches::new(modes);
         let surface = TriangleTree::new(&asset.fracture.positions, &asset.surface.triangles);
         let prepared = Prepared {
             root: None,
@@ -99,7 +99,6 @@ impl Breakable {
             surface,
             per_impulse: PerImpulse::new(&asset, &whole.0, &reaches),
             reaches,
-            largest_shapes: modes.largest_shapes(),
             whole,
             bounds,
             skin,
@@ -111,6 +110,7 @@ impl Breakable {
                 .map(|e| asset.fracture.centroid(e))
                 .collect(),
             edge: asset.fracture.mean_edge(),
+            longest_edge: asset.fracture.longest_edge(),
         };
         let fields = Arc::new(Fields::default());
         Self {
@@ -384,7 +384,8 @@ impl Body {
         pressed: &[u32],
     ) -> (&EmbeddedPoint, Law) {
         let skin = &self.prepared.skin;
-        weak_place(&self.asset, skin, config, pressed, tet as usize)
+        let place = weak_place(&self.asset, skin, config, pressed, tet as usize);
+        (place.point, place.law)
     }
 
     /// The smallest strength of its weak tetrahedra, Pa; the material's where there is none.

@@ -4,10 +4,17 @@
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct FractureConfig {
-    /// Contact duration model. Default: [`DurationModel::Hertz`].
+    /// Contact duration model. Default: [`DurationModel::Integrated`].
     pub duration: DurationModel,
-    /// Lengthen the contact until the body's vibration holds no more energy than the impact brought. Default: on.
+    /// Lengthen a contact whose impulse and duration are given until the body's vibration holds no more energy than the impact
+    /// brought. Default: off; a blow that is integrated has no need of it.
     pub admissible_duration: bool,
+    /// Modes that are not followed through time answer the force statically: the residual vector. Default: on; in the paper
+    /// they are left out.
+    pub residual: bool,
+    /// Contacts on walls have the stress right under them that no mode shows, and the wall gives way there
+    /// ([`near_field`](crate::near_field)). Default: on; in the paper there is none.
+    pub near_field: bool,
     /// All cracks of an impact together spend no more than its peak strain energy. Default: on.
     pub energy_ledger: bool,
     /// Pass over times and places whose stress bound stays below the strength; what breaks, and how, is the same bit for
@@ -45,6 +52,9 @@ pub struct FractureConfig {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum DurationModel {
+    /// None: striker, Hertz' spring and the body's vibration are integrated together, and duration, force, impulse and
+    /// restitution are outcomes ([`blow`](crate::blow)).
+    Integrated,
     /// Hertz' law for the two bodies, local curvatures and effective masses `[G12 Eq. 1]`.
     Hertz,
     /// The most excited mode in Hertz' law, with consistent dimensions `[G12 Eq. 2, corrected]`.
@@ -89,8 +99,10 @@ pub enum CrackPath {
 impl Default for FractureConfig {
     fn default() -> Self {
         Self {
-            duration: DurationModel::Hertz,
-            admissible_duration: true,
+            duration: DurationModel::Integrated,
+            admissible_duration: false,
+            residual: true,
+            near_field: true,
             energy_ledger: true,
             culling: true,
             samples_per_period: 16.0,
@@ -113,13 +125,20 @@ impl Default for FractureConfig {
 }
 
 impl FractureConfig {
+    /// Whether contacts have anything beside the modes that are followed, or are integrated: then their forces are followed with
+    /// the body, substep by substep.
+    pub(crate) fn has_complement(&self) -> bool {
+        self.duration == DurationModel::Integrated || self.residual || self.near_field
+    }
+
     /// The paper's model: modal duration, instant planar cracks that start freely at the centres of elements and stop at the
     /// face of another, no energy correction.
     #[must_use]
     pub fn as_in_the_paper() -> Self {
         Self {
             duration: DurationModel::ModalHertz,
-            admissible_duration: false,
+            residual: false,
+            near_field: false,
             energy_ledger: false,
             timing: CrackTiming::Instant,
             path: CrackPath::Planar,

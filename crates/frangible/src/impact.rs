@@ -1,16 +1,15 @@
 //! THE pipeline: contacts in, outcome out, one call per stage in the paper's order.
 
-use std::f64::consts::PI;
 use std::sync::Arc;
 
 use web_time::Instant;
 
+use crate::asset::Asset;
+use crate::blow::Blow;
 use crate::body::Body;
-use crate::config::FractureConfig;
-use crate::contact::{self, Contact, Refusal};
-use crate::crack::{
-    CrackSystem, Culling, Peak, StressField, Suspects, crack, front_limit, refused_following,
-};
+use crate::config::{DurationModel, FractureConfig};
+use crate::contact::{self, Contact, Load, Refusal};
+use crate::crack::{CrackSystem, Culling, Peak, StressField, Suspects, crack, front_limit};
 use crate::error::InputError;
 use crate::fragment::{self, Built, Labels};
 use crate::modal::Motion;
@@ -126,7 +125,6 @@ pub(crate) fn begin(
     refuse: bool,
 ) -> Result<Begun, InputError> {
     contacts.iter().try_for_each(Contact::validate)?;
-    let asset = &*body.asset;
     let mut report = report_on(body);
     report.approach_energy = contact::approach_energy(contacts);
     let clock = Instant::now();
@@ -136,40 +134,105 @@ pub(crate) fn begin(
         return Ok(held(refusal, report, clock));
     }
 
-    // Contact → force pulse → modal response [G12 §4.1-4.3].
-    let load = contact::modal_load(body, contacts);
-    if load.touches.is_empty() {
-        return Ok(Begun::Held(f64::INFINITY, report));
-    }
-    report.unadjusted_duration = contact::contact_duration(asset, &load, config.duration);
-    report.contact_duration = if config.admissible_duration {
-        let budget = report.approach_energy;
-        contact::admissible_duration(asset, &load, budget, report.unadjusted_duration)
+    let vibration = if config.has_complement() {
+        integrated(body, contacts, config, &mut report)
     } else {
-        report.unadjusted_duration
+        given(body, contacts, config, &mut report)
     };
-    let pressed = load.pressed();
-    if refuse && body.state().is_intact() {
-        let pulse_frequency = (PI / report.contact_duration) as f32;
-        let (impulse, pressed) = (&load.modal_impulse, &pressed);
-        if let Some(refusal) = refused_following(body, impulse, pressed, pulse_frequency, config) {
-            return Ok(held(refusal, report, clock));
-        }
+    report.timings.response = clock.elapsed().as_secs_f64();
+    Ok(match vibration {
+        Some(vibration) => Begun::Vibrates(Vibration {
+            report,
+            ..vibration
+        }),
+        None => Begun::Held(f64::INFINITY, report),
+    })
+}
+
+/// Contact → force pulse → modal response [G12 §4.1-4.3]: impulses are given, and only modes answer. None where nothing pushes.
+fn given(
+    body: &Body,
+    contacts: &[Contact],
+    config: &FractureConfig,
+    report: &mut ImpactReport,
+) -> Option<Vibration> {
+    let asset = &*body.asset;
+    let load = contact::modal_load(body, contacts.iter().filter(|c| c.impulse > 0.0));
+    if load.touches.is_empty() {
+        return None;
     }
+    (report.unadjusted_duration, report.contact_duration) =
+        durations(asset, &load, contacts, config);
     let pulse = contact::pulse(asset, &load, report.contact_duration, config);
     report.looked_at = LookedAt::Amplitudes;
     report.time_step = pulse.time_step;
     report.time_steps = pulse.total_steps;
     report.most_excited_frequency = contact::most_excited_mode(asset, &load.modal_impulse)
         .map_or(0.0, |i| asset.modes.frequency(i));
-    report.timings.response = clock.elapsed().as_secs_f64();
-    let modal_impulse = load.modal_impulse;
-    Ok(Begun::Vibrates(Vibration {
-        modal_impulse,
-        pressed,
+    Some(Vibration {
+        pressed: load.pressed(),
+        modal_impulse: load.modal_impulse,
         pulse,
-        report,
-    }))
+        report: ImpactReport::default(),
+        blow: None,
+    })
+}
+
+/// Duration of contacts whose impulses are given, s, and what is made of it where it has to be admissible.
+fn durations(
+    asset: &Asset,
+    load: &Load,
+    contacts: &[Contact],
+    config: &FractureConfig,
+) -> (f64, f64) {
+    let duration = contact::contact_duration(asset, load, config.duration);
+    let longer = if config.admissible_duration {
+        contact::admissible_duration(asset, load, contact::approach_energy(contacts), duration)
+    } else {
+        duration
+    };
+    (duration, longer)
+}
+
+/// The blow, followed with the body. None where nothing pushes.
+fn integrated(
+    body: &Body,
+    contacts: &[Contact],
+    config: &FractureConfig,
+    report: &mut ImpactReport,
+) -> Option<Vibration> {
+    let blow = if config.duration == DurationModel::Integrated {
+        Blow::new(body, contacts, config)?
+    } else {
+        // Every contact is a half-sine of its impulse.
+        let mut scripts: Vec<Contact> =
+            (contacts.iter().filter(|c| c.impulse > 0.0).copied()).collect();
+        let load = contact::modal_load(body, &scripts);
+        if load.touches.is_empty() {
+            return None;
+        }
+        let (_, duration) = durations(&body.asset, &load, contacts, config);
+        let strikers = scripts.iter_mut().filter(|c| !c.is_script());
+        strikers.for_each(|c| c.duration = duration as f32);
+        Blow::new(body, &scripts, config)?
+    };
+    let asset = &*body.asset;
+    report.unadjusted_duration = blow.hertz_time();
+    report.contact_duration = blow.duration();
+    report.looked_at = LookedAt::Amplitudes;
+    report.time_step = blow.time_step();
+    report.time_steps = blow.motion.steps();
+    report.contacts = blow.reports();
+    let modal_impulse = blow.modal_impulse();
+    report.most_excited_frequency =
+        contact::most_excited_mode(asset, &modal_impulse).map_or(0.0, |i| asset.modes.frequency(i));
+    Some(Vibration {
+        pressed: blow.pressed(),
+        modal_impulse,
+        pulse: blow.pulse(),
+        report: ImpactReport::default(),
+        blow: Some(Box::new(blow)),
+    })
 }
 
 /// Of an impact that a bound refused.
@@ -190,8 +253,12 @@ pub(crate) fn vibrate<'a>(
     trace: &mut Option<CrackTrace>,
 ) -> Cracked<'a> {
     let clock = Instant::now();
-    let motion = vibration.motion(body);
-    let mut report = vibration.report;
+    let mut vibration = vibration;
+    let mut report = std::mem::take(&mut vibration.report);
+    let motion = match &mut vibration.blow {
+        Some(blow) => std::mem::take(&mut blow.motion),
+        None => vibration.motion(body),
+    };
     report.peak_elastic_energy = motion.peak_energy;
     report.peak_strain_energy = motion.peak_strain_energy;
     report.timings.response += clock.elapsed().as_secs_f64();
@@ -265,7 +332,7 @@ fn run_cracks_from<'a>(
     };
     let mut system = CrackSystem::new(body, config, budget);
     let mut displacement = DisplacementBatch::new(asset);
-    let mut culling = Culling::new(body, config);
+    let mut culling = Culling::new(body, config, motion);
     let elasticity = Elasticity::new(&asset.material).with_green_lagrange(config.green_lagrange);
     let mut peak = Peak::default();
     let mut field = StressField {
@@ -275,6 +342,8 @@ fn run_cracks_from<'a>(
         pressed,
         displacement: &mut displacement,
         elasticity,
+        near: motion.complement.near(),
+        centroids: &body.prepared.centroids,
         step: 0,
     };
     let mut suspects = Suspects::default();
@@ -289,8 +358,8 @@ fn run_cracks_from<'a>(
             culling.begin();
             for step in (step..motion.steps()).take(STRIDE) {
                 let k = lane(step);
-                roots[k] = culling.root(motion.at(step));
-                culling.survive(motion.at(step), roots[k], k);
+                roots[k] = culling.root(motion, step);
+                culling.survive(motion, step, roots[k], k);
             }
             field.displacement.seek(motion, step);
             suspects.find(body, &mut field, culling.survivors(), peak);

@@ -14,6 +14,7 @@
 //! Everything is in SI units and in the body frame (origin at the centre of mass). The same input gives the same bits.
 
 pub mod asset;
+pub mod blow;
 pub mod body;
 pub mod config;
 pub mod contact;
@@ -28,6 +29,7 @@ pub mod material;
 pub mod mesh;
 pub mod modal;
 mod names;
+pub mod near_field;
 mod onset;
 pub mod outcome;
 pub mod piece;

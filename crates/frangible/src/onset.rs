@@ -78,14 +78,14 @@ impl OnsetSearch {
         mut looks: usize,
     ) -> Onset {
         let (asset, motion) = (&**body.asset(), &self.motion);
-        let mut culling = Culling::new(body, config);
+        let mut culling = Culling::new(body, config, motion);
         let mut suspects = Suspects::default();
         for first in (from..motion.steps()).step_by(STRIDE) {
             let steps = first..(first + STRIDE).min(motion.steps());
             culling.begin();
             for step in steps.clone() {
-                let root = culling.root(motion.at(step));
-                culling.survive(motion.at(step), root, lane(step));
+                let root = culling.root(motion, step);
+                culling.survive(motion, step, root, lane(step));
             }
             if culling.survivors().next().is_none() {
                 continue;
@@ -103,6 +103,8 @@ impl OnsetSearch {
                 displacement: displacement.get_or_insert_with(|| DisplacementBatch::new(asset)),
                 elasticity: Elasticity::new(&asset.material)
                     .with_green_lagrange(config.green_lagrange),
+                near: motion.complement.near(),
+                centroids: &body.prepared.centroids,
                 step: first,
             };
             field.displacement.seek(motion, first);

@@ -79,6 +79,29 @@ pub struct Fragment {
     pub supported: bool,
 }
 
+/// What became of one contact of a blow that was integrated: an outcome, not an input.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[non_exhaustive]
+pub struct ContactReport {
+    /// Where, m, body frame: on the surface.
+    pub point: Vec3,
+    /// Unit direction of the force on this body.
+    pub normal: Vec3,
+    /// Impulse along the normal until the contact parted, or the wall under it was gone, N·s.
+    pub impulse: f64,
+    /// Largest force, N.
+    pub peak_force: f64,
+    /// How long the contact lasted, s.
+    pub duration: f64,
+    /// Radius of the disc that touched at the peak force, m.
+    pub contact_radius: f64,
+    /// Speed at which the striker leaves the body as a rigid one, m/s; negative where it goes on into it. Over the speed of
+    /// approach it is the coefficient of restitution.
+    pub departure_speed: f64,
+    /// Force at the end of each [time step](ImpactReport::time_step), N.
+    pub force: Vec<f32>,
+}
+
 /// What of an impact had to be looked at, from the cheapest.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum LookedAt {
@@ -88,8 +111,6 @@ pub enum LookedAt {
     /// of all its parts.
     #[default]
     Impulses,
-    /// The motion that follows the force, weak point by weak point, and the most of the rest: they refused it, free of time.
-    Following,
     /// The amplitudes of the modes over time: a bound of the whole body refused every time step.
     Amplitudes,
     /// The amplitudes, and bounds of parts of the body: they refused every time step.
@@ -104,7 +125,7 @@ pub enum LookedAt {
 pub struct ImpactReport {
     /// Contact duration t_d used, s.
     pub contact_duration: f64,
-    /// Contact duration before it was made admissible, s.
+    /// Hertz' duration of the contact on a rigid, free body, s; of the models that lengthen it, what it was before.
     pub unadjusted_duration: f64,
     /// Frequency of the most excited mode, Hz.
     pub most_excited_frequency: f64,
@@ -143,6 +164,8 @@ pub struct ImpactReport {
     pub first_crack_point: Option<Vec3>,
     /// Volume of all fragments over the volume of the body, minus one.
     pub volume_error: f64,
+    /// What became of each contact, where the blow was integrated.
+    pub contacts: Vec<ContactReport>,
     /// Wall-clock time of each stage.
     pub timings: StageTimings,
 }

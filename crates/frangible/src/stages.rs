@@ -1,6 +1,7 @@
 //! An impact in two stages, for those who find elsewhere, on a GPU, when its stress first nears the strength; and its second
 //! half alone, for motions that come from elsewhere.
 
+use crate::blow::Blow;
 use crate::body::Body;
 use crate::config::FractureConfig;
 use crate::contact::{Contact, Pulse};
@@ -30,6 +31,8 @@ pub struct Vibration {
     pub pulse: Pulse,
     /// What is known of the impact so far.
     pub report: ImpactReport,
+    /// The blow, where it was followed with the body: then the modes are not all there is, and `pulse` only says how long it was.
+    pub(crate) blow: Option<Box<Blow>>,
 }
 
 impl Vibration {
@@ -55,9 +58,18 @@ impl Vibration {
         })
     }
 
+    /// Whether the pulse and the modes are all there is. Else the blow was followed with the body, or the modes left out count.
+    #[must_use]
+    pub fn is_pulse(&self) -> bool {
+        self.blow.is_none()
+    }
+
     /// Amplitudes of the modes over time.
     #[must_use]
     pub fn motion(&self, body: &Body) -> Motion {
+        if let Some(blow) = &self.blow {
+            return blow.motion.clone();
+        }
         let asset = &*body.asset;
         modal::respond(
             &asset.modes,
@@ -102,7 +114,7 @@ pub fn follow(
     if body.statics.is_some() {
         return Err(InputError::Motion("the body is a piece without modes"));
     }
-    if motion.modes != body.asset.modes.count() || motion.steps() == 0 {
+    if motion.modes != body.asset.modes.followed() || motion.steps() == 0 {
         return Err(InputError::Motion(
             "it must have an amplitude for each of the body's modes and one time step or more",
         ));

@@ -10,7 +10,7 @@ const NUMBERS: usize = Contact::BYTES / 4;
 
 impl Contact {
     /// Length of a contact in bytes.
-    pub const BYTES: usize = 64;
+    pub const BYTES: usize = 68;
 
     /// The contact as bytes: its numbers in the order of the fields, little-endian, four bytes each.
     #[must_use]
@@ -31,6 +31,7 @@ impl Contact {
             fy,
             fz,
             self.approach_speed,
+            self.duration,
             s.contact_modulus,
             s.inverse_effective_mass,
             s.curvature_radius,
@@ -68,6 +69,7 @@ impl Contact {
             fy,
             fz,
             approach_speed,
+            duration,
             contact_modulus,
             inverse_effective_mass,
             curvature_radius,
@@ -80,6 +82,7 @@ impl Contact {
             impulse,
             friction: Vec3::new(fx, fy, fz),
             approach_speed,
+            duration,
             striker: Striker {
                 contact_modulus,
                 inverse_effective_mass,
@@ -122,7 +125,7 @@ mod tests {
         let bytes = contact().to_bytes();
         assert_eq!(bytes[..4], [0xcd, 0xcc, 0xcc, 0x3d]);
         assert_eq!(bytes[24..28], [0, 0, 0xc0, 0x3f]);
-        assert_eq!(bytes[44..48], [0, 0, 0x80, 0x7f]);
+        assert_eq!(bytes[48..52], [0, 0, 0x80, 0x7f]);
     }
 
     #[test]

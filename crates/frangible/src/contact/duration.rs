@@ -40,7 +40,7 @@ pub fn modal_hertz_duration(eigenvalue: f64, radius: f64, speed: f64) -> f64 {
 #[must_use]
 pub fn most_excited_mode(asset: &Asset, modal_shape: &[f64]) -> Option<usize> {
     let amplitude = |i: usize| modal_shape[i].abs() / asset.modes.eigenvalues[i].sqrt();
-    (0..asset.modes.count())
+    (0..asset.modes.followed())
         .filter(|&i| {
             asset.modes.damping(i, &asset.material) < 0.9 * 2.0 * asset.modes.eigenvalues[i].sqrt()
         })
@@ -81,7 +81,7 @@ fn touch_duration(asset: &Asset, touch: &Touch, model: DurationModel) -> f64 {
     };
     let eigenvalue = asset.modes.eigenvalues[mode];
     match model {
-        DurationModel::Hertz => hertz,
+        DurationModel::Integrated | DurationModel::Hertz => hertz,
         DurationModel::ModalHertz => {
             let ball = (asset.mass.volume * 0.75 / std::f64::consts::PI).cbrt();
             let radius = touch.curvature_radius.clamp(SHARPEST_RADIUS, ball);
@@ -107,7 +107,7 @@ fn touch_duration(asset: &Asset, touch: &Touch, model: DurationModel) -> f64 {
 }
 
 /// Hertz' duration of a contact, s, where the body has this radius of curvature, m, and nᵀ K n, 1/kg.
-pub(super) fn hertz_at(
+pub(crate) fn hertz_at(
     asset: &Asset,
     contact: &Contact,
     curvature_radius: f64,
@@ -123,16 +123,25 @@ pub(super) fn hertz_at(
     };
     let modulus =
         1.0 / (1.0 / asset.material.contact_modulus() + 1.0 / f64::from(striker.contact_modulus));
+    let radius = contact_radius_of_curvature(asset, contact, curvature_radius);
+    let speed = f64::from(contact.approach_speed).max(SLOWEST_APPROACH);
+    hertz_duration(mass, modulus, radius, speed)
+}
+
+/// Radius of the curvatures of both bodies together, m, where the struck one has this radius of curvature, m.
+pub(crate) fn contact_radius_of_curvature(
+    asset: &Asset,
+    contact: &Contact,
+    curvature_radius: f64,
+) -> f64 {
     let own = curvature_radius.max(SHARPEST_RADIUS);
-    let other = f64::from(striker.curvature_radius).max(1e-4);
+    let other = f64::from(contact.striker.curvature_radius).max(1e-4);
     let curvature = 1.0 / own + 1.0 / other;
     // Flat on flat has no Hertz contact; the ball of the body's volume stands in.
     let ball = (asset.mass.volume * 0.75 / std::f64::consts::PI).cbrt();
-    let radius = if curvature > 0.0 {
+    if curvature > 0.0 {
         (1.0 / curvature).min(ball)
     } else {
         ball
-    };
-    let speed = f64::from(contact.approach_speed).max(SLOWEST_APPROACH);
-    hertz_duration(mass, modulus, radius, speed)
+    }
 }

@@ -13,12 +13,16 @@ pub struct Contact {
     pub point: Vec3,
     /// Unit direction of the impulse **on this body** (from the striker into the body).
     pub normal: Vec3,
-    /// Magnitude φ of the normal impulse, N·s.
+    /// Magnitude φ of the normal impulse, N·s. Only the models of the duration that are not integrated, and scripts, take it as
+    /// given; of a blow that is integrated it is an outcome, and this number says only how large friction is beside it.
     pub impulse: f32,
     /// Friction's part of the impulse on this body, N·s: whatever is not along the normal.
     pub friction: Vec3,
     /// Speed of approach along the normal before the rigid-body step, m/s.
     pub approach_speed: f32,
+    /// Duration of a blow that a script asks for, s: its impulse is then given as a half-sine, whatever strikes. 0 for a striker,
+    /// whose blow is [integrated](crate::DurationModel::Integrated).
+    pub duration: f32,
     /// What hit the body.
     pub striker: Striker,
 }
@@ -92,7 +96,32 @@ impl Contact {
             impulse,
             friction: Vec3::ZERO,
             approach_speed,
+            duration: 0.0,
             striker,
+        }
+    }
+
+    /// A half-sine that a script asks for: where (m), its impulse (N·s, on this body) and its duration (s).
+    #[must_use]
+    pub fn script(point: Vec3, impulse: Vec3, duration: f32) -> Self {
+        let mut contact = Self::new(point, impulse, impulse.length(), 0.0, Striker::rigid());
+        contact.duration = duration;
+        contact
+    }
+
+    /// Whether a script gives its impulse and duration.
+    #[must_use]
+    pub fn is_script(&self) -> bool {
+        self.duration > 0.0
+    }
+
+    /// Direction of its force on the body: the unit normal, and what friction there is beside it.
+    pub(crate) fn direction(&self) -> Vec3 {
+        let normal = self.normal.normalize_or_zero();
+        if self.impulse > 0.0 {
+            normal + self.friction / self.impulse
+        } else {
+            normal
         }
     }
 
@@ -143,6 +172,7 @@ impl Contact {
         for (what, value) in [
             ("a contact's impulse (N·s)", self.impulse),
             ("a contact's approach speed (m/s)", self.approach_speed),
+            ("a contact's duration (s)", self.duration),
             (
                 "a striker's inverse effective mass (1/kg)",
                 self.striker.inverse_effective_mass,

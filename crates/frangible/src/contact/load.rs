@@ -15,6 +15,8 @@ pub struct Touch {
     pub contact: Contact,
     /// Number of the surface triangle that it touches.
     pub triangle: u32,
+    /// Weights of the corners of that triangle.
+    pub weights: [f32; 3],
     /// ξ_i = φ_i(b) · n of every mode, 1/√kg.
     pub modal_shape: Vec<f64>,
     /// Radius of curvature of the body there, m; infinite where flat.
@@ -23,10 +25,22 @@ pub struct Touch {
     pub inverse_effective_mass: f64,
 }
 
+impl Touch {
+    /// φ_i(b) · v of every mode, 1/√kg.
+    pub(crate) fn project(&self, body: &Body, v: Vec3) -> Vec<f64> {
+        let at = SurfacePoint {
+            triangle: self.triangle,
+            weights: self.weights,
+            position: self.contact.point,
+        };
+        projected(&body.asset, &at, v)
+    }
+}
+
 /// All contacts of an impact as one modal load.
 #[derive(Clone, Debug)]
 pub struct Load {
-    /// One per contact with an impulse.
+    /// One per contact.
     pub touches: Vec<Touch>,
     /// Σ_k φ_i(b_k) · J_k of every mode, J the whole impulse with friction, N·s/√kg: the modal impulses.
     pub modal_impulse: Vec<f64>,
@@ -41,12 +55,12 @@ impl Load {
 
 /// Finds each contact on the surface and sums up the modal impulses.
 #[must_use]
-pub fn modal_load(body: &Body, contacts: &[Contact]) -> Load {
+pub fn modal_load<'a>(body: &Body, contacts: impl IntoIterator<Item = &'a Contact>) -> Load {
     let asset = &*body.asset;
     let modes = asset.modes.count();
     let mut modal_impulse = vec![0.0; modes];
-    let mut touches = Vec::with_capacity(contacts.len());
-    for contact in contacts.iter().filter(|c| c.impulse > 0.0) {
+    let mut touches = Vec::new();
+    for contact in contacts {
         let normal = contact.normal.normalize();
         let at = body.prepared.surface.closest(contact.point);
         let modal_shape = projected(asset, &at, normal);
@@ -67,6 +81,7 @@ pub fn modal_load(body: &Body, contacts: &[Contact]) -> Load {
                 ..*contact
             },
             triangle: at.triangle,
+            weights: at.weights,
             modal_shape,
             curvature_radius: f64::from(asset.surface.curvature_radius[at.triangle as usize]),
             inverse_effective_mass: give(asset, &at, normal),

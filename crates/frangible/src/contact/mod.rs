@@ -14,6 +14,7 @@ pub use duration::{
     answer_duration, contact_duration, hertz_duration, modal_hertz_duration, most_excited_mode,
 };
 pub use kinds::{Contact, Striker};
+pub(crate) use duration::{contact_radius_of_curvature, hertz_at};
 pub(crate) use load::each_row;
 pub use load::{Load, Touch, modal_load};
 pub(crate) use per_impulse::PerImpulse;

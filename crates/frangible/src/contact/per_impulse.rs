@@ -1,10 +1,11 @@
-//! How much a body bears of a blow, by place and duration: a few numbers per surface triangle, so that nearly all contacts of
+//! How much a body bears of a blow, by place and force: a few numbers per surface triangle, so that nearly all contacts of
 //! a game are refused by one multiplication.
 //!
-//! An impulse J at a point b of the surface moves mode i at most |φ_i(b)| J D_i(t_d), D_i its [reach](crate::modal::Reaches), which falls
-//! with the duration t_d. Over a triangle φ_i is linear and its length convex, so with s_i the largest stress of mode i in
-//! the body no stress exceeds J · max over its corners of Σ_i s_i |φ_i| D_i(t_d). That number is kept for durations a factor
-//! apart, the next shorter one counts; in sixteenths of octaves, rounded up, so that a triangle takes as many bytes.
+//! An impulse J at a point b of the surface, put on by a force that is at most P J, moves mode i at most |φ_i(b)| J D_i(P), D_i its
+//! [reach](crate::modal::Reaches), which for modes that follow the force grows with P. Over a triangle φ_i is linear and its length convex,
+//! so with s_i the largest stress of mode i in the body no stress exceeds J · max over its corners of Σ_i s_i |φ_i| D_i(P). That number
+//! is kept for values of P a factor apart, the next larger one counts; in sixteenths of octaves, rounded up, so that a triangle
+//! takes as many bytes.
 
 use glam::Vec3;
 
@@ -14,12 +15,11 @@ use crate::mesh::SurfacePoint;
 use crate::modal::Reaches;
 use crate::stress::dot;
 
-/// Durations: none, and those between the shortest that tells the highest mode from a blow without duration and the
-/// longest; beyond, the longest counts.
+/// Values of P that have numbers; below the smallest that one counts, above the largest none does.
 const RUNGS: usize = 16;
 
-/// Each is so many times the one before: 1.5¹⁴ = 290 from the shortest to the longest.
-const RATIO: f32 = 1.5;
+/// Each is so many times the next smaller one: 1.6¹⁵ = 1150 from the smallest to the largest.
+const RATIO: f32 = 1.6;
 
 /// Codes to an octave.
 const OCTAVE: f32 = 16.0;
@@ -27,10 +27,10 @@ const OCTAVE: f32 = 16.0;
 /// Share of the numbers that rounding of sums over a few thousand terms cannot reach.
 const ROUNDING: f32 = 1.0 + 1e-4;
 
-/// Largest stress per impulse, Pa per N·s, of each surface triangle and duration.
+/// Largest stress per impulse, Pa per N·s, of each surface triangle and largest force per impulse.
 #[derive(Clone, Debug)]
 pub(crate) struct PerImpulse {
-    /// Pulse frequency u = π/t_d of the shortest duration, rad/s.
+    /// Largest force per impulse that has numbers, 1/s.
     highest: f32,
     codes: Vec<[u8; RUNGS]>,
     /// What a code stands for, Pa per N·s.
@@ -71,27 +71,24 @@ impl PerImpulse {
         }
     }
 
-    /// Most stress per impulse on a triangle, Pa per N·s, of a pulse of frequency u = π/t_d, rad/s.
-    pub(crate) fn of(&self, triangle: u32, u: f32) -> f32 {
-        let rung = (self.highest / u).log2() * RATIO.log2().recip();
-        // Of a duration below the shortest the logarithm is negative, and so is that of infinite u.
-        let rung = if rung >= 0.0 { 1 + rung as usize } else { 0 };
-        let code = self.codes[triangle as usize][rung.min(RUNGS - 1)];
+    /// Most stress per impulse on a triangle, Pa per N·s, of a blow whose force is at most `force` per impulse, 1/s.
+    pub(crate) fn of(&self, triangle: u32, force: f32) -> f32 {
+        if force.is_nan() || force > self.highest {
+            return f32::INFINITY;
+        }
+        // The first logarithm rounds, so that a whole number may be the next one: each rung stands for a little more.
+        let rung = (self.highest / force).log2() * RATIO.log2().recip();
+        let code = self.codes[triangle as usize][(rung as usize).min(RUNGS - 1)];
         self.numbers[usize::from(code)]
     }
 }
 
-/// s_i D_i of every mode for each duration, and the pulse frequency of the shortest, rad/s.
+/// s_i D_i of every mode for each largest force per impulse, and the largest of those, 1/s.
 fn rungs(stress: &[f32], reaches: &Reaches) -> ([Vec<f32>; RUNGS], f32) {
-    // Below two thirds of its own frequency a mode begins to tell a pulse from a blow without duration.
-    let highest = reaches.highest() * (2.0 / 3.0);
+    let highest = reaches.highest();
     let rows = std::array::from_fn(|rung| {
-        // A little more than what is asked for is compared with: the logarithm rounds.
-        let u = match rung {
-            0 => f32::INFINITY,
-            _ => highest * RATIO.powi(1 - rung as i32) * ROUNDING,
-        };
-        let weight = |(i, s): (usize, &f32)| s * reaches.most(i, u);
+        let force = highest * RATIO.powi(-(rung as i32)) * ROUNDING;
+        let weight = |(i, s): (usize, &f32)| s * reaches.most(i, force);
         stress.iter().enumerate().map(weight).collect()
     });
     (rows, highest)

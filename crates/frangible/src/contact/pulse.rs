@@ -71,10 +71,10 @@ pub fn pulse(asset: &Asset, load: &Load, duration: f64, config: &FractureConfig)
         }
     };
     let peak = |i: usize| f64::from(basis.peak_stress[i]);
-    let total: f64 = (0..basis.count()).map(|i| amplitude(i) * peak(i)).sum();
+    let total: f64 = (0..basis.followed()).map(|i| amplitude(i) * peak(i)).sum();
     let mut neglected = 0.0;
     let mut high = 0;
-    for i in (0..basis.count()).rev() {
+    for i in (0..basis.followed()).rev() {
         neglected += swing(i) * peak(i);
         if neglected > NEGLECTED_SHARE * total {
             high = i;
@@ -86,8 +86,8 @@ pub fn pulse(asset: &Asset, load: &Load, duration: f64, config: &FractureConfig)
         .ceil()
         .max(MIN_CONTACT_STEPS);
     let time_step = duration / contact_steps;
-    let largest = (0..basis.count()).map(amplitude).fold(0.0, f64::max);
-    let low = (0..basis.count())
+    let largest = (0..basis.followed()).map(amplitude).fold(0.0, f64::max);
+    let low = (0..basis.followed())
         .find(|&i| amplitude(i) >= SIGNIFICANT * largest)
         .unwrap_or(0);
     let end = match config.timing {

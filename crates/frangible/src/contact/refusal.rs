@@ -1,11 +1,11 @@
 //! Contacts refused free of time: bounds of the stress that follow no motion, from the cheapest (beyond the paper).
 //!
-//! 1. One number per surface triangle and duration ([`PerImpulse`](super::PerImpulse)).
+//! 1. One number per surface triangle and largest force ([`PerImpulse`](super::PerImpulse)).
 //! 2. The reach of every mode under its impulse (`modal/reach.rs`) in the bound of the whole body …
 //! 3. … and of its parts.
 //!
-//! A contact that is made admissible only lasts longer, and the reaches fall with the duration: Hertz' duration, which needs no modes,
-//! serves for all of them. With the other models of the duration the bounds ask for none.
+//! A blow that is integrated has no impulse and no duration yet: what it can bring at most follows from the energy of approach
+//! (`blow/limits.rs`). A contact on a wall is not refused here: its near field is known only once it is integrated.
 
 use glam::Vec3;
 
@@ -13,6 +13,7 @@ use super::Contact;
 use super::duration::hertz_at;
 use super::load::{each_row, give};
 use crate::asset::Asset;
+use crate::blow::Limits;
 use crate::body::Body;
 use crate::config::{DurationModel, FractureConfig};
 use crate::crack::refused_by_parts;
@@ -72,21 +73,38 @@ impl Pushes {
         Some(found)
     }
 
-    fn places(&self) -> &[(SurfacePoint, Vec3)] {
+    pub(crate) fn places(&self) -> &[(SurfacePoint, Vec3)] {
         &self.places[..self.count]
+    }
+
+    /// Whether any of them lies on a wall and pushes across it.
+    fn any_wall(&self, asset: &Asset) -> bool {
+        let walls = &asset.surface.walls;
+        let mut places = self.places().iter();
+        places.any(|(at, _)| walls.at(at.triangle).is_some())
     }
 
     /// Adds Σ φ_i(b) · push of some modes to `sums`, which is as long.
     fn modal(&self, asset: &Asset, modes: std::ops::Range<usize>, sums: &mut [f32]) {
-        for (place, push) in self.places() {
-            each_row(asset, place, |node, weight| {
-                let w = *push * weight;
-                let [x, y, z] = [0, 1, 2].map(|k| &asset.modes.row(3 * node + k)[modes.clone()]);
-                for (((sum, x), y), z) in sums.iter_mut().zip(x).zip(y).zip(z) {
-                    *sum += w.x * x + w.y * y + w.z * z;
-                }
-            });
+        for place in self.places() {
+            Self::modal_of(place, asset, modes.clone(), sums);
         }
+    }
+
+    /// Adds φ_i(b) · push of one place.
+    fn modal_of(
+        (place, push): &(SurfacePoint, Vec3),
+        asset: &Asset,
+        modes: std::ops::Range<usize>,
+        sums: &mut [f32],
+    ) {
+        each_row(asset, place, |node, weight| {
+            let w = *push * weight;
+            let [x, y, z] = [0, 1, 2].map(|k| &asset.modes.row(3 * node + k)[modes.clone()]);
+            for (((sum, x), y), z) in sums.iter_mut().zip(x).zip(y).zip(z) {
+                *sum += w.x * x + w.y * y + w.z * z;
+            }
+        });
     }
 
     /// The stress bound of the whole body, Pa. `amplitude` turns a mode's number and its Σ φ_i(b) · push into its amplitude, m·√kg.
@@ -119,14 +137,6 @@ impl Pushes {
         stress + 0.5 * quadratic_modulus * gradient * gradient
     }
 
-    /// Σ_k |push_k| times the number of its triangle, Pa.
-    fn rough_bound(&self, body: &Body, pulse_frequency: f32) -> f32 {
-        let per_impulse = &body.prepared.per_impulse;
-        let of = |(at, push): &(SurfacePoint, Vec3)| {
-            push.length() * per_impulse.of(at.triangle, pulse_frequency)
-        };
-        self.places().iter().map(of).sum()
-    }
 }
 
 /// Whether a bound free of time shows that no stress of this impact does anything to the body. Allocates nothing unless parts of the
@@ -136,9 +146,34 @@ pub(crate) fn refused(
     contacts: &[Contact],
     config: &FractureConfig,
 ) -> Option<Refusal> {
-    let hit = || contacts.iter().filter(|c| c.impulse > 0.0);
-    let pushes = Pushes::new(body, hit().map(|c| (c.point, c.push())))?;
-    let u = pulse_frequency(body, hit().zip(pushes.places()), config);
+    let blow = config.has_complement();
+    let hit = || {
+        contacts.iter().filter(move |c| match blow {
+            true => c.is_script() || c.approach_speed > 0.0,
+            false => c.impulse > 0.0,
+        })
+    };
+    let pushes = Pushes::new(body, hit().map(|c| (c.point, c.direction())))?;
+    if config.near_field && pushes.any_wall(&body.asset) {
+        return None;
+    }
+    let mut limits = [Limits::default(); MOST_CONTACTS];
+    if config.duration == DurationModel::Integrated {
+        let mut hits = [None; MOST_CONTACTS];
+        for (slot, hit) in hits.iter_mut().zip(hit().zip(pushes.places())) {
+            *slot = Some((hit.0, hit.1.0));
+        }
+        if !Limits::of(&body.asset, &hits[..pushes.count], &mut limits) {
+            return None;
+        }
+    } else {
+        for (limit, (contact, (at, _))) in limits.iter_mut().zip(hit().zip(pushes.places())) {
+            let impulse = f64::from(contact.impulse);
+            let duration = given_duration(body, contact, at, config)?;
+            let force = std::f64::consts::FRAC_PI_2 * impulse / duration;
+            *limit = Limits { impulse, force };
+        }
+    }
     let quadratic_modulus = body.quadratic_modulus(config);
     let harmless = harmless(body);
     let whole = |looked_at, bound: f32| {
@@ -148,44 +183,68 @@ pub(crate) fn refused(
             as_weakest: bound,
         })
     };
-    if quadratic_modulus == 0.0
-        && let Some(refusal) = whole(LookedAt::Sizes, pushes.rough_bound(body, u))
-    {
-        return Some(refusal);
+    let each = || pushes.places().iter().zip(&limits);
+    let force_of = |limit: &Limits| (limit.force / limit.impulse.max(f64::MIN_POSITIVE)) as f32;
+    if quadratic_modulus == 0.0 {
+        let per_impulse = &body.prepared.per_impulse;
+        let bound = each()
+            .map(|((at, direction), limit)| {
+                let number = per_impulse.of(at.triangle, force_of(limit));
+                direction.length() * limit.impulse as f32 * number
+            })
+            .sum();
+        if let Some(refusal) = whole(LookedAt::Sizes, bound) {
+            return Some(refusal);
+        }
     }
+    // Forces of several contacts need not rise and fall together: the sizes of what they do add up.
     let reaches = &body.prepared.reaches;
-    let reach = |mode: usize, push: f32| push * reaches.most(mode, u);
-    let bound = pushes.bound(body, quadratic_modulus, reach);
-    if let Some(refusal) = whole(LookedAt::Impulses, bound) {
-        return Some(refusal);
+    let modes = body.asset.modes.count();
+    if pushes.count == 1 {
+        let limit = limits[0];
+        let (impulse, force) = (limit.impulse as f32, force_of(&limit));
+        let reach = |mode: usize, push: f32| push * impulse * reaches.most(mode, force);
+        let bound = pushes.bound(body, quadratic_modulus, reach);
+        if let Some(refusal) = whole(LookedAt::Impulses, bound) {
+            return Some(refusal);
+        }
     }
     // Fronts of old cracks feel the stress of the whole body.
-    if u.is_infinite() || !body.state().is_intact() {
+    if !body.state().is_intact() {
         return None;
     }
-    let modes = body.asset.modes.count();
     let mut amplitudes = vec![0.0; modes];
-    pushes.modal(&body.asset, 0..modes, &mut amplitudes);
-    for (mode, q) in amplitudes.iter_mut().enumerate() {
-        *q = reach(mode, *q);
+    let mut own = vec![0.0; modes];
+    for (place, limit) in each() {
+        own.fill(0.0);
+        Pushes::modal_of(place, &body.asset, 0..modes, &mut own);
+        let (impulse, force) = (limit.impulse as f32, force_of(limit));
+        for (mode, (sum, push)) in amplitudes.iter_mut().zip(&own).enumerate() {
+            *sum += push.abs() * impulse * reaches.most(mode, force);
+        }
     }
     refused_by_parts(body, &amplitudes, quadratic_modulus)
 }
 
-/// u = π/t_d of the shortest duration that the impact may have, rad/s; infinite where it takes the modes to say.
-fn pulse_frequency<'a>(
+/// Duration of a contact whose impulse is given, s; none where it takes the modes to say.
+fn given_duration(
     body: &Body,
-    contacts: impl Iterator<Item = (&'a Contact, &'a (SurfacePoint, Vec3))>,
+    contact: &Contact,
+    at: &SurfacePoint,
     config: &FractureConfig,
-) -> f32 {
-    if config.duration != DurationModel::Hertz {
-        return f32::INFINITY;
+) -> Option<f64> {
+    if contact.is_script() {
+        return Some(f64::from(contact.duration));
     }
-    let asset = &*body.asset;
-    let durations = contacts.map(|(contact, (at, _))| {
-        let radius = f64::from(asset.surface.curvature_radius[at.triangle as usize]);
-        let give = give(asset, at, contact.normal.normalize());
-        hertz_at(asset, contact, radius, give)
-    });
-    (std::f64::consts::PI / durations.fold(f64::INFINITY, f64::min)) as f32
+    match config.duration {
+        DurationModel::Hertz => {
+            let asset = &*body.asset;
+            let radius = f64::from(asset.surface.curvature_radius[at.triangle as usize]);
+            let give = give(asset, at, contact.normal.normalize());
+            Some(hertz_at(asset, contact, radius, give))
+        }
+        // With no modes that follow the force the bounds ask for no duration.
+        _ if !config.residual || body.asset.modes.residual_modes == 0 => Some(f64::INFINITY),
+        _ => None,
+    }
 }

@@ -4,8 +4,9 @@ use glam::Vec3;
 
 use crate::asset::{Asset, EmbeddedPoint};
 use crate::config::FractureConfig;
+use crate::near_field::NearFields;
 use crate::stress::{
-    DisplacementBatch, Elasticity, Law, Skin, StressLanes, StressState, Symmetric3, Wall,
+    DisplacementBatch, Elasticity, Law, STRIDE, Skin, StressLanes, StressState, Symmetric3, Wall,
     largest_eigenvalue,
 };
 
@@ -18,6 +19,10 @@ pub(crate) struct StressField<'a> {
     pub(crate) pressed: &'a [u32],
     pub(crate) displacement: &'a mut DisplacementBatch,
     pub(crate) elasticity: Elasticity,
+    /// What the modes do not show under contacts on walls.
+    pub(crate) near: NearFields<'a>,
+    /// Centroids of the fracture tetrahedra, m.
+    pub(crate) centroids: &'a [Vec3],
     pub(crate) step: usize,
 }
 
@@ -25,9 +30,13 @@ impl StressField<'_> {
     /// Stress and strain energy density at the centroid of fracture tetrahedron `e`.
     pub(crate) fn at(&mut self, e: usize) -> StressState {
         let gradient = self.gradient(self.asset.embedded_tet(e));
-        match self.wall(e) {
-            Some(wall) => self.elasticity.free_state(gradient, wall.normal),
-            None => self.elasticity.state(gradient),
+        let Some(wall) = self.wall(e) else {
+            return self.elasticity.state(gradient);
+        };
+        let state = self.elasticity.free_state(gradient, wall.normal);
+        match self.near.at(self.centroids[e], &wall, self.step) {
+            Some(near) => self.elasticity.with_energy(state.stress.plus(&near)),
+            None => state,
         }
     }
 
@@ -82,16 +91,34 @@ impl StressField<'_> {
                 ..*centre
             };
             let gradient = self.gradient(&point);
-            self.elasticity.free_state(gradient, wall.normal).stress
+            let stress = self.elasticity.free_state(gradient, wall.normal).stress;
+            let place = self.centroids[e] + up;
+            match self.near.at(place, wall, self.step) {
+                Some(near) => stress.plus(&near),
+                None => stress,
+            }
         })
     }
 
     /// The same where a crack may start in it, at all steps of the batch: at its [`weak_place`].
     #[inline(always)]
     pub(crate) fn at_weak_point(&mut self, e: usize) -> StressLanes {
-        let (point, law) = weak_place(self.asset, self.skin, self.config, self.pressed, e);
-        let gradients = self.displacement.gradients(self.asset, point);
-        self.elasticity.lanes(&gradients, law)
+        let weak = weak_place(self.asset, self.skin, self.config, self.pressed, e);
+        let gradients = self.displacement.gradients(self.asset, weak.point);
+        let mut lanes = self.elasticity.lanes(&gradients, weak.law);
+        if !self.near.0.is_empty()
+            && let Law::Free(_) = weak.law
+            && let Some(wall) = self.wall(e)
+        {
+            let flaw = self.skin.flaw_position(self.asset.place(e));
+            let flaw = flaw.filter(|_| weak.on_surface);
+            let place = flaw.unwrap_or(self.centroids[e]);
+            let batch = self.step / STRIDE;
+            if self.near.add(&mut lanes, place, &wall, batch) {
+                self.elasticity.set_energy(&mut lanes);
+            }
+        }
+        lanes
     }
 
     fn gradient(&mut self, point: &EmbeddedPoint) -> glam::Mat3 {
@@ -107,8 +134,15 @@ fn wall(asset: &Asset, skin: &Skin, config: &FractureConfig, e: usize) -> Option
     }
 }
 
-/// Where a crack may start in fracture tetrahedron `e`, and the law of the stress there: at its flaw on the free surface,
-/// else at its centroid.
+/// Where a crack may start in a fracture tetrahedron, and the law of the stress there.
+pub(crate) struct WeakPlace<'a> {
+    pub(crate) point: &'a EmbeddedPoint,
+    pub(crate) law: Law,
+    /// Whether it is its flaw on the free surface, else it is its centroid.
+    pub(crate) on_surface: bool,
+}
+
+/// The place of fracture tetrahedron `e`: at its flaw on the free surface, else at its centroid.
 ///
 /// Under a contact the surface is pressed together, which no mode resolves: there the centroid serves.
 #[inline(always)]
@@ -118,17 +152,22 @@ pub(crate) fn weak_place<'a>(
     config: &FractureConfig,
     pressed: &[u32],
     e: usize,
-) -> (&'a EmbeddedPoint, Law) {
+) -> WeakPlace<'a> {
     let wall = wall(asset, skin, config, e);
     let flaw = skin.flaw(asset.place(e)).filter(|_| config.surface_flaws);
-    match flaw.filter(|flaw| !pressed.contains(&flaw.triangle)) {
+    let (point, law, on_surface) = match flaw.filter(|flaw| !pressed.contains(&flaw.triangle)) {
         Some(flaw) => match wall.and_then(|wall| wall.edge(flaw.normal)) {
-            Some(along) => (&flaw.point, Law::Edge(along)),
-            None => (&flaw.point, Law::Free(flaw.normal)),
+            Some(along) => (&flaw.point, Law::Edge(along), true),
+            None => (&flaw.point, Law::Free(flaw.normal), true),
         },
         None => {
             let law = wall.map_or(Law::Solid, |wall| Law::Free(wall.normal));
-            (asset.embedded_tet(e), law)
+            (asset.embedded_tet(e), law, false)
         }
+    };
+    WeakPlace {
+        point,
+        law,
+        on_surface,
     }
 }

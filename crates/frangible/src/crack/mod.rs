@@ -3,7 +3,6 @@
 mod arrivals;
 mod culling;
 mod field;
-mod following;
 mod initiation;
 mod node_values;
 mod parts;
@@ -16,7 +15,6 @@ mod tip;
 
 pub(crate) use culling::Culling;
 pub(crate) use field::{StressField, weak_place};
-pub(crate) use following::refused_following;
 pub(crate) use initiation::{Peak, crack};
 pub(crate) use parts::refused_by_parts;
 use propagation::{advance, retry};

@@ -27,7 +27,7 @@ impl<'a> Parts<'a> {
 
     /// Rows of the largest stress of each mode in a part, Pa per m·√kg, and of its gradient.
     #[inline(always)]
-    fn rows(&self, part: usize) -> (&'a [f32], &'a [f32]) {
+    pub(crate) fn rows(&self, part: usize) -> (&'a [f32], &'a [f32]) {
         let bounds = &self.body.prepared.bounds;
         let modes = self.body.asset.modes.count();
         let cluster = self.body.clusters.clusters[part] as usize;
@@ -39,6 +39,8 @@ impl<'a> Parts<'a> {
     #[inline(always)]
     pub(crate) fn bound(&self, part: usize, amplitudes: &[f32]) -> f32 {
         let (stress, gradient) = self.rows(part);
+        let modes = amplitudes.len();
+        let (stress, gradient) = (&stress[..modes], &gradient[..modes]);
         tension_bound(amplitudes, stress, gradient, self.quadratic_modulus)
     }
 

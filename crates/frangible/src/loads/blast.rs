@@ -3,6 +3,7 @@
 use glam::Vec3;
 
 use crate::asset::Asset;
+use crate::blow::Residual;
 use crate::body::Body;
 use crate::config::FractureConfig;
 use crate::contact::{self, Load, each_row};
@@ -66,7 +67,18 @@ pub fn blast(body: &Body, blast: &Blast, config: &FractureConfig) -> Result<Outc
         modal_impulse: modal_impulse(asset, blast),
     };
     let pulse = contact::pulse(asset, &load, f64::from(blast.duration), config);
-    let motion = modal::respond(&asset.modes, &asset.material, &load.modal_impulse, &pulse);
+    let followed = asset.modes.followed();
+    let (swing, still) = load.modal_impulse.split_at(followed);
+    let mut motion = modal::respond(&asset.modes, &asset.material, swing, &pulse);
+    if config.residual {
+        // The modes left out follow the half-sine of unit impulse.
+        let force = (1..=pulse.contact_steps).map(|step| {
+            let t = step as f64 * pulse.time_step;
+            (pulse.amplitude * (pulse.frequency() * t).sin()) as f32
+        });
+        let residual = Residual::new(asset, still, force.collect());
+        motion.complement.residuals.extend(residual);
+    }
     let mut report = report_on(body);
     report.looked_at = LookedAt::Amplitudes;
     report.contact_duration = pulse.duration;

@@ -6,11 +6,13 @@
 
 use glam::Vec3;
 
+use crate::blow::SteadyNear;
 use crate::body::Body;
 use crate::config::{CrackTiming, FractureConfig};
 use crate::contact::{Pushes, each_row};
 use crate::error::{InputError, finite};
 use crate::impact::{Cracked, harmless, pieces, report_on, run_cracks};
+use crate::mesh::SurfacePoint;
 use crate::modal::Motion;
 use crate::outcome::{LookedAt, Outcome};
 use crate::piece::static_load;
@@ -62,12 +64,18 @@ pub fn rest(
     let (asset, prepared) = (&*body.asset, &*body.prepared);
     let weight = |mode: usize| prepared.weight.get(mode).map_or(0.0, |w| w.dot(gravity));
     let compliance = |mode: usize| prepared.periods[mode] * prepared.periods[mode];
+    let near_at = |(at, force): &(SurfacePoint, Vec3)| {
+        let wanted = config.near_field && !config.green_lagrange;
+        wanted.then(|| SteadyNear::of(body, at, *force)).flatten()
+    };
     let mut report = report_on(body);
     if config.culling {
         let pushes = forces.iter().map(|f| (f.point, f.force));
         let k = body.quadratic_modulus(config);
-        let bound = Pushes::new(body, pushes)
-            .map(|pushes| pushes.bound(body, k, |i, f| (f + weight(i)) * compliance(i)));
+        let bound = Pushes::new(body, pushes).map(|pushes| {
+            let near: f32 = pushes.places().iter().filter_map(near_at).map(|n| n.bound()).sum();
+            pushes.bound(body, k, |i, f| (f + weight(i)) * compliance(i)) + near
+        });
         if let Some(bound) = bound.filter(|b| *b <= harmless(body)) {
             report.stress_bound = f64::from(bound);
             let margin = report.strength / f64::from(bound);
@@ -79,11 +87,18 @@ pub fn rest(
         }
     }
     report.looked_at = LookedAt::Amplitudes;
-    let mut amplitudes: Vec<f32> = (0..asset.modes.count()).map(weight).collect();
+    // The modes that a blow leaves to the residual vector serve a steady load as all others do.
+    let modes = match config.residual {
+        true => asset.modes.count(),
+        false => asset.modes.followed(),
+    };
+    let mut amplitudes: Vec<f32> = (0..modes).map(weight).collect();
+    let mut near: Vec<SteadyNear> = Vec::new();
     let mut pressed = Vec::with_capacity(forces.len());
     for force in forces {
         let at = prepared.surface.closest(force.point);
         pressed.push(at.triangle);
+        near.extend(near_at(&(at, force.force)));
         each_row(asset, &at, |node, share| {
             for axis in 0..3 {
                 let w = share * force.force[axis];
@@ -105,12 +120,8 @@ pub fn rest(
     report.time_steps = steps;
     let energy = report.peak_strain_energy;
     let run = |steps, report| {
-        let motion = Motion {
-            modes: amplitudes.len(),
-            amplitudes: amplitudes.repeat(steps),
-            peak_energy: energy,
-            peak_strain_energy: energy,
-        };
+        let mut motion = Motion::new(amplitudes.repeat(steps), modes, energy, energy);
+        motion.complement.near = near.iter().map(SteadyNear::field).collect();
         run_cracks(
             body,
             config,

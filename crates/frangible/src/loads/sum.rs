@@ -6,6 +6,7 @@
 
 use glam::Vec3;
 
+use crate::blow::SteadyNear;
 use crate::body::Body;
 use crate::impact::harmless;
 use crate::stress::ShapeWeights;
@@ -55,6 +56,10 @@ impl PerNewton {
             let here = sums(&|i| shapes[i].length());
             most.force = [0, 1].map(|k| most.force[k].max(here[k]));
         }
+        // A wall may be pushed right where its near field is: bounded from the longest waves that the modes leave to it.
+        let walls = asset.surface.walls.thickness.len() as u32;
+        let near = (0..walls).filter_map(|t| SteadyNear::most_per_newton(body, t));
+        most.force[0] += near.fold(0.0, f32::max);
         if !prepared.weight.is_empty() {
             most.gravity = sums(&|i| prepared.weight[i].length());
         }

@@ -79,11 +79,18 @@ impl MassProperties {
         }
     }
 
+    /// n_aᵀ K n_b, 1/kg: what a unit impulse at one (point, unit direction) changes the speed along another by (both in the
+    /// frame of the piece), rotation included.
+    #[must_use]
+    pub fn inverse_mass_between(&self, a: (DVec3, DVec3), b: (DVec3, DVec3)) -> f64 {
+        let arm = |(point, n): (DVec3, DVec3)| (point - self.centre).cross(n);
+        a.1.dot(b.1) / self.mass + arm(a).dot(self.inertia.inverse() * arm(b))
+    }
+
     /// nᵀ K n, 1/kg: the inverse effective mass felt by an impulse along unit `n` at `point`
     /// (both in the frame of the piece), rotation included.
     #[must_use]
     pub fn inverse_effective_mass(&self, point: DVec3, n: DVec3) -> f64 {
-        let arm = (point - self.centre).cross(n);
-        1.0 / self.mass + arm.dot(self.inertia.inverse() * arm)
+        self.inverse_mass_between((point, n), (point, n))
     }
 }

@@ -102,4 +102,13 @@ impl TetMesh {
         }
         (sum / (6 * self.tets.len().max(1)) as f64) as f32
     }
+
+    /// Longest edge, m.
+    #[must_use]
+    pub fn longest_edge(&self) -> f32 {
+        let tets = (0..self.tets.len()).map(|e| self.corners(e));
+        tets.flat_map(|x| EDGES.map(|[i, j]| x[i].distance_squared(x[j])))
+            .fold(0.0, f32::max)
+            .sqrt()
+    }
 }

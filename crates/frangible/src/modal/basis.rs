@@ -44,17 +44,6 @@ impl ModalBasis {
         &self.shapes[dof * m..(dof + 1) * m]
     }
 
-    /// Largest entry of each mode's shape, 1/√kg.
-    pub(crate) fn largest_shapes(&self) -> Vec<f32> {
-        let mut largest = vec![0.0_f32; self.count()];
-        for row in self.shapes.chunks_exact(self.count().max(1)) {
-            for (most, phi) in largest.iter_mut().zip(row) {
-                *most = most.max(phi.abs());
-            }
-        }
-        largest
-    }
-
     /// Rayleigh damping d_i = α λ_i + β of mode `i`, 1/s.
     #[must_use]
     pub fn damping(&self, i: usize, material: &Material) -> f64 {

@@ -12,7 +12,7 @@
 
 use glam::Vec3;
 
-use super::step::Step;
+use super::tick::Tick;
 use crate::body::Body;
 use crate::contact::each_row;
 use crate::error::{InputError, finite, positive};
@@ -95,17 +95,10 @@ struct LiveMode {
 impl LiveMode {
     /// At rest: ω, rad/s; damping d, 1/s; tick, s.
     fn new(frequency: f64, damping: f64, tick: f64) -> Self {
-        let (w, d) = (frequency * tick, damping * tick);
-        // (ω q)' = ω q̇, q̈ = −ω (ω q) − d q̇ + f, f' = Δf / tick, Δf' = 0; all times the tick.
-        let Step { own, force, .. } = Step {
-            own: [[0.0, w], [-w, -d]],
-            force: [[0.0, 0.0], [tick, 0.0]],
-            turn: [[0.0, 1.0], [0.0, 0.0]],
-        }
-        .exponential();
+        let Tick { own, held, ramp } = Tick::new(frequency, damping, tick);
         Self {
             frequency,
-            step: [0, 1].map(|i| [own[i][0], own[i][1], force[i][0], force[i][1]]),
+            step: [0, 1].map(|i| [own[i][0], own[i][1], held[i], ramp[i]]),
             state: [0.0; 2],
             force: 0.0,
             next: 0.0,

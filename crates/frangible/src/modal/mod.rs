@@ -7,11 +7,13 @@ mod live;
 mod reach;
 mod response;
 mod step;
+mod tick;
 
 pub use basis::ModalBasis;
 pub(crate) use energy::ContactEnergy;
 pub use energy::contact_energy_within;
 pub use field::ModeField;
 pub use live::{LiveModes, SurfacePlace};
-pub(crate) use reach::{Reaches, Split};
+pub(crate) use reach::Reaches;
 pub use response::{Motion, Oscillator, respond};
+pub(crate) use tick::Tick;

@@ -8,6 +8,7 @@
 
 use super::ModalBasis;
 use super::step::Step;
+use crate::blow::Complement;
 use crate::contact::Pulse;
 use crate::material::Material;
 
@@ -96,9 +97,29 @@ pub struct Motion {
     pub peak_energy: f64,
     /// Largest strain energy Σ ½ λ q² at a step, J.
     pub peak_strain_energy: f64,
+    /// What the modes leave out.
+    pub(crate) complement: Complement,
 }
 
 impl Motion {
+    /// A motion that comes from elsewhere: amplitudes of the first `modes` modes, step after step, m·√kg, and its largest energy
+    /// and strain energy, J.
+    #[must_use]
+    pub fn new(
+        amplitudes: Vec<f32>,
+        modes: usize,
+        peak_energy: f64,
+        peak_strain_energy: f64,
+    ) -> Self {
+        Self {
+            amplitudes,
+            modes,
+            peak_energy,
+            peak_strain_energy,
+            complement: Complement::default(),
+        }
+    }
+
     /// Number of time steps.
     #[must_use]
     pub fn steps(&self) -> usize {
@@ -112,10 +133,10 @@ impl Motion {
     }
 }
 
-/// Response of all modes to `pulse` with load shape ξ, computed in f64, stored in f32 `[G12 §4.3]`.
+/// Response of the followed modes to `pulse` with load shape ξ, computed in f64, stored in f32 `[G12 §4.3]`.
 #[must_use]
 pub fn respond(basis: &ModalBasis, material: &Material, load: &[f64], pulse: &Pulse) -> Motion {
-    let (modes, steps) = (basis.count(), pulse.total_steps);
+    let (modes, steps) = (basis.followed(), pulse.total_steps);
     let mut amplitudes = vec![0.0_f32; steps * modes];
     let mut energy = vec![[0.0_f64; 2]; steps];
     for first in (0..modes).step_by(WIDTH) {
@@ -143,6 +164,7 @@ pub fn respond(basis: &ModalBasis, material: &Material, load: &[f64], pulse: &Pu
         modes,
         peak_energy: peak(0),
         peak_strain_energy: peak(1),
+        complement: Complement::default(),
     }
 }
 

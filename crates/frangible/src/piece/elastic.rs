@@ -117,7 +117,7 @@ impl Prepared {
         let bounds = StressBounds::with_skin(asset, &skin);
         let whole = bounds.root(asset.modes.count());
         asset.modes.peak_stress.clone_from(&whole.0);
-        let reaches = Reaches::new(&asset.modes, &asset.material);
+        let reaches = Reaches::new(&asset.modes);
         Self {
             root: Some(Arc::clone(root)),
             index: Arc::clone(&root.index),
@@ -127,7 +127,6 @@ impl Prepared {
             bounds,
             per_impulse: PerImpulse::new(asset, &whole.0, &reaches),
             reaches,
-            largest_shapes: asset.modes.largest_shapes(),
             whole,
             periods: crate::body::periods(&asset.modes),
             weight: crate::body::weight(asset),
@@ -135,6 +134,7 @@ impl Prepared {
             per_newton: OnceLock::new(),
             centroids: Arc::clone(&root.centroids),
             edge: root.edge,
+            longest_edge: root.longest_edge,
         }
     }
 }

@@ -42,7 +42,7 @@ pub(crate) fn static_impact(
     contacts.iter().try_for_each(Contact::validate)?;
     let mut report = report_on(body);
     report.approach_energy = contact::approach_energy(contacts);
-    let load = contact::modal_load(body, contacts);
+    let load = contact::modal_load(body, contacts.iter().filter(|c| c.impulse > 0.0));
     if load.touches.is_empty() {
         return Ok(Outcome::Held {
             margin: f64::INFINITY,
@@ -108,12 +108,7 @@ pub(crate) fn static_load(
     let amplitudes: Vec<f32> = grows.collect();
     report.time_step = time_step;
     report.time_steps = amplitudes.len();
-    let motion = Motion {
-        modes: 1,
-        amplitudes,
-        peak_energy: energy,
-        peak_strain_energy: energy,
-    };
+    let motion = Motion::new(amplitudes, 1, energy, energy);
     let cracked = run_cracks(
         &loaded, config, &motion, pressed, time_step, energy, report, trace,
     );

@@ -1,5 +1,7 @@
 //! u = Φ q on the coarse nodes, several time steps at a time; gradients anywhere from ten nodes.
 
+use std::sync::Arc;
+
 use glam::{Mat3, Vec3};
 
 use super::wide::Wide;
@@ -62,6 +64,8 @@ pub(crate) type Lanes = [f32; BATCH];
 pub struct DisplacementBatch {
     /// Amplitudes of every mode at the batch's steps, m·√kg.
     amplitudes: Vec<Lanes>,
+    /// Shapes that follow a force, m/N, and the force at the batch's steps, N.
+    residuals: Vec<(Arc<[f32]>, Lanes)>,
     /// `displacements[node][axis][step]`, m.
     displacements: Vec<[Lanes; 3]>,
     /// Batch that each node's displacements belong to …
@@ -81,7 +85,8 @@ impl DisplacementBatch {
     pub fn new(asset: &Asset) -> Self {
         let nodes = asset.analysis.nodes.len();
         Self {
-            amplitudes: vec![[0.0; BATCH]; asset.modes.count()],
+            amplitudes: Vec::new(),
+            residuals: Vec::new(),
             displacements: vec![[[0.0; BATCH]; 3]; nodes],
             computed: vec![0; nodes],
             batch: 0,
@@ -95,18 +100,30 @@ impl DisplacementBatch {
             return;
         }
         self.batch = batch as u32 + 1;
+        let residuals = &motion.complement.residuals;
+        self.amplitudes.clear();
+        self.amplitudes.resize(motion.modes, [0.0; BATCH]);
+        self.residuals.clear();
+        let shapes = residuals.iter().map(|r| (Arc::clone(&r.shape), [0.0; BATCH]));
+        self.residuals.extend(shapes);
         // Transposed: the inner loops run over the batch, so that they vectorise. Before the first step all is at rest.
         for k in 0..BATCH {
             let step = (batch * STRIDE + k).checked_sub(1);
-            match step.filter(|&step| step < motion.steps()) {
-                Some(step) => {
-                    for (row, &q) in self.amplitudes.iter_mut().zip(motion.at(step)) {
-                        row[k] = q;
-                    }
+            if let Some(step) = step.filter(|&step| step < motion.steps()) {
+                for (row, &q) in self.amplitudes.iter_mut().zip(motion.at(step)) {
+                    row[k] = q;
                 }
-                None => self.amplitudes.iter_mut().for_each(|row| row[k] = 0.0),
+                for ((_, row), residual) in self.residuals.iter_mut().zip(residuals) {
+                    row[k] = residual.force(step);
+                }
             }
         }
+    }
+
+    /// Forgets the batch that is held: the motion has changed.
+    pub(crate) fn forget(&mut self) {
+        self.batch = 0;
+        self.computed.fill(0);
     }
 
     /// Computes the batch at every node, as if all were asked for.
@@ -120,7 +137,7 @@ impl DisplacementBatch {
     fn at_node(&mut self, asset: &Asset, node: usize) -> &[Lanes; 3] {
         if self.computed[node] != self.batch {
             self.computed[node] = self.batch;
-            self.displacements[node] = product(asset, node, &self.amplitudes);
+            self.displacements[node] = product(asset, node, &self.amplitudes, &self.residuals);
         }
         &self.displacements[node]
     }
@@ -139,13 +156,13 @@ impl DisplacementBatch {
         }
         let (some, rest) = waiting[..count].as_chunks::<2>();
         for &some in some {
-            let products = products(asset, some, &self.amplitudes);
+            let products = products(asset, some, &self.amplitudes, &self.residuals);
             for (node, product) in some.into_iter().zip(products) {
                 self.displacements[node] = product;
             }
         }
         for &node in rest {
-            self.displacements[node] = product(asset, node, &self.amplitudes);
+            self.displacements[node] = product(asset, node, &self.amplitudes, &self.residuals);
         }
     }
 
@@ -209,10 +226,30 @@ impl pulp::NullaryFnOnce for Fill<'_> {
     }
 }
 
+/// What follows the force at a node: the shapes of the highest modes, so first in the sum.
+#[inline(always)]
+fn following(node: usize, residuals: &[(Arc<[f32]>, Lanes)]) -> [Lanes; 3] {
+    let mut sums = [[0.0_f32; BATCH]; 3];
+    for (shape, force) in residuals {
+        for (axis, sum) in sums.iter_mut().enumerate() {
+            let u = shape[3 * node + axis];
+            for k in 0..BATCH {
+                sum[k] += u * force[k];
+            }
+        }
+    }
+    sums
+}
+
 /// One node's rows of Φ times the amplitudes.
 #[inline(always)]
-fn product(asset: &Asset, node: usize, amplitudes: &[Lanes]) -> [Lanes; 3] {
-    let mut sums = [[0.0_f32; BATCH]; 3];
+fn product(
+    asset: &Asset,
+    node: usize,
+    amplitudes: &[Lanes],
+    residuals: &[(Arc<[f32]>, Lanes)],
+) -> [Lanes; 3] {
+    let mut sums = following(node, residuals);
     let [x, y, z] = [0, 1, 2].map(|axis| asset.modes.row(3 * node + axis));
     // High modes first: they move little, so that the sum is large, and rounds, only at the end.
     for (((q, x), y), z) in amplitudes.iter().zip(x).zip(y).zip(z).rev() {
@@ -227,8 +264,13 @@ fn product(asset: &Asset, node: usize, amplitudes: &[Lanes]) -> [Lanes; 3] {
 
 /// The same of two nodes. By index: a reversed zip of seven costs more than it multiplies.
 #[inline(always)]
-fn products(asset: &Asset, nodes: [usize; 2], amplitudes: &[Lanes]) -> [[Lanes; 3]; 2] {
-    let mut sums = [[[0.0_f32; BATCH]; 3]; 2];
+fn products(
+    asset: &Asset,
+    nodes: [usize; 2],
+    amplitudes: &[Lanes],
+    residuals: &[(Arc<[f32]>, Lanes)],
+) -> [[Lanes; 3]; 2] {
+    let mut sums = nodes.map(|node| following(node, residuals));
     let modes = amplitudes.len();
     let mut rows: [[&[f32]; 3]; 2] = [[&[]; 3]; 2];
     for (rows, node) in rows.iter_mut().zip(nodes) {

@@ -1,9 +1,9 @@
 //! Stress at a point at the steps of a batch, side by side.
 
-use glam::Mat3;
+use glam::{Mat3, Vec3};
 
 use super::displacement::Lanes;
-use super::strain::Symmetric3;
+use super::strain::{Symmetric3, products};
 use super::wide::Wide;
 
 /// Stress and strain energy at a point at the steps of a batch.
@@ -20,6 +20,16 @@ impl StressLanes {
     #[inline(always)]
     pub(crate) fn stress(&self, k: usize) -> Symmetric3 {
         Symmetric3::from_components(self.components.map(|lanes| lanes[k]))
+    }
+
+    /// Adds a tension along unit `t` at each step, Pa; the energy stays.
+    #[inline(always)]
+    pub(crate) fn add_uniaxial(&mut self, tension: &Lanes, t: Vec3) {
+        for (lanes, product) in self.components.iter_mut().zip(products(t, t)) {
+            for (sum, tension) in lanes.iter_mut().zip(tension) {
+                *sum += tension * product;
+            }
+        }
     }
 
     /// Qᵀ σ Q, without the energy.

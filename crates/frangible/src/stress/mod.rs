@@ -10,7 +10,7 @@ mod wall;
 mod wide;
 
 pub use bound::StressBounds;
-pub(crate) use bound::{MARGIN, ROUNDING, quadratic_modulus, tension_bound};
+pub(crate) use bound::{MARGIN, quadratic_modulus, tension_bound};
 pub(crate) use displacement::{BATCH, Lanes, STRIDE, lane};
 pub use displacement::{DisplacementBatch, ShapeWeights};
 pub(crate) use lanes::StressLanes;

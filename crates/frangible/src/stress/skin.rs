@@ -47,6 +47,8 @@ pub struct Skin {
     /// Place in `flaws` of each fracture tetrahedron's, or [`NONE`].
     flaw_of_tet: Vec<u32>,
     flaws: Vec<Flaw>,
+    /// Where the flaws are, m, frame of the fracture mesh.
+    places: Vec<Vec3>,
     walls: Walls,
 }
 
@@ -79,6 +81,7 @@ impl Skin {
             walls: Walls::new(&asset.analysis, &search.neighbours, &flaws, &places),
             flaw_of_tet,
             flaws,
+            places,
         }
     }
 
@@ -107,6 +110,7 @@ impl Skin {
             walls: Walls::new(&asset.analysis, &search.neighbours, &flaws, &places),
             flaw_of_tet,
             flaws,
+            places,
         }
     }
 
@@ -114,6 +118,11 @@ impl Skin {
     #[must_use]
     pub fn flaw(&self, place: usize) -> Option<&Flaw> {
         self.flaws.get(self.flaw_of_tet[place] as usize)
+    }
+
+    /// Where the flaw of the fracture tetrahedron at a [place](Asset::place) is, m, frame of the fracture mesh.
+    pub(crate) fn flaw_position(&self, place: usize) -> Option<Vec3> {
+        self.places.get(self.flaw_of_tet[place] as usize).copied()
     }
 
     /// The wall that a fracture tetrahedron of this asset is part of, if any. Its normal is that of the tetrahedron's own

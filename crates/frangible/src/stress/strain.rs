@@ -57,6 +57,19 @@ impl Symmetric3 {
         }
     }
 
+    /// Tension along unit `t`, Pa.
+    #[must_use]
+    pub fn uniaxial(tension: f32, t: Vec3) -> Self {
+        Self::from_components(uniaxial(tension, t))
+    }
+
+    /// The sum of two tensors.
+    #[must_use]
+    pub fn plus(&self, other: &Self) -> Self {
+        let (a, b) = (self.components(), other.components());
+        Self::from_components(std::array::from_fn(|i| a[i] + b[i]))
+    }
+
     /// Von Mises' equivalent of a stress, √(3 J₂): what a bar under this much tension would feel of change of shape.
     #[must_use]
     pub fn von_mises(self) -> f32 {
@@ -212,6 +225,30 @@ impl Elasticity {
         }
     }
 
+    /// Strain energy density of a stress without traction across some surface, J/m³: ((1 + ν) σ : σ − ν tr(σ)²) / 2E.
+    #[inline(always)]
+    fn energy_of<T: Real>(&self, s: &[T; 6]) -> T {
+        let nu = self.lambda / (2.0 * (self.lambda + self.mu));
+        let trace = s[0] + s[1] + s[2];
+        let squares = s[0] * s[0] + s[1] * s[1] + s[2] * s[2];
+        let shear = s[3] * s[3] + s[4] * s[4] + s[5] * s[5];
+        ((squares + shear * 2.0) * (1.0 + nu) - trace * trace * nu) * (0.5 / self.youngs_modulus)
+    }
+
+    /// Gives a stress of a wall the energy density that it has.
+    pub(crate) fn with_energy(&self, stress: Symmetric3) -> StressState {
+        StressState {
+            stress,
+            energy_density: self.energy_of(&stress.components()),
+        }
+    }
+
+    /// Gives stresses of a wall at the steps of a batch the energy densities that they have.
+    #[inline(always)]
+    pub(crate) fn set_energy(&self, lanes: &mut StressLanes) {
+        lanes.energy_density = self.energy_of(&lanes.components.map(Wide)).0;
+    }
+
     /// σ = λ tr(E) I + 2 μ E.
     pub(super) fn hooke(&self, strain: &Symmetric3) -> Symmetric3 {
         Symmetric3::from_components(self.hooke_of(&strain.components()))
@@ -253,7 +290,8 @@ impl Elasticity {
 }
 
 /// a_x b_x, a_y b_y, a_z b_z, and the halves of a b + b a off the diagonal: xy, yz, zx.
-fn products(a: Vec3, b: Vec3) -> [f32; 6] {
+#[inline(always)]
+pub(super) fn products(a: Vec3, b: Vec3) -> [f32; 6] {
     [
         a.x * b.x,
         a.y * b.y,

@@ -1,0 +1,478 @@
+//! The integration of a blow, substep by substep.
+
+use std::f64::consts::{PI, TAU};
+
+use super::Complement;
+use super::bank::{BankState, dot};
+use super::complement::Residual;
+use super::plan::Plan;
+use crate::body::Body;
+use crate::config::{CrackTiming, FractureConfig};
+use crate::contact::{Contact, Pulse};
+use crate::modal::Motion;
+use crate::near_field::NearField;
+use crate::outcome::ContactReport;
+
+/// A blow of so many substeps is cut off: a contact that lasts this long is none of a blow's.
+const MOST_SUBSTEPS: usize = 60_000;
+
+/// Most time steps of one impact; a longer motion is cut there (the cut shows in the report's number of steps).
+const MOST_STEPS: usize = 20_000;
+
+/// Mode i is significantly excited when its amplitude reaches this share of the largest.
+const SIGNIFICANT: f64 = 0.05;
+
+/// Periods of the lowest significantly excited mode that are looked at.
+const PERIODS: f64 = 1.5;
+
+/// Rounds over all contacts until their forces agree.
+const MOST_ROUNDS: usize = 60;
+
+/// A blow, integrated: the forces of its contacts and the motion of the body.
+#[derive(Clone, Debug)]
+pub struct Blow {
+    plan: Plan,
+    instant: bool,
+    /// Forces after each substep, N, contact after contact.
+    forces: Vec<f64>,
+    /// Time steps until the contacts have parted.
+    contact_steps: usize,
+    /// Speed of each striker away from the body as a rigid one after it, m/s.
+    departures: Vec<f64>,
+    /// What the body does.
+    pub(crate) motion: Motion,
+}
+
+impl Blow {
+    /// The blow of these contacts on a body; none where nothing pushes.
+    pub(crate) fn new(body: &Body, contacts: &[Contact], config: &FractureConfig) -> Option<Self> {
+        let plan = Plan::new(body, contacts, config)?;
+        let mut blow = Self {
+            plan,
+            instant: config.timing == CrackTiming::Instant,
+            forces: Vec::new(),
+            contact_steps: 0,
+            departures: Vec::new(),
+            motion: Motion::default(),
+        };
+        let run = blow.run(None);
+        blow.motion = blow.motion_of(body, &run);
+        blow.forces = run.forces;
+        blow.contact_steps = run.contact_steps;
+        blow.departures = run.speeds.iter().map(|v| -v).collect();
+        Some(blow)
+    }
+
+    /// Time step of the motion, s.
+    pub(crate) fn time_step(&self) -> f64 {
+        self.plan.time_step
+    }
+
+    /// Surface triangles that the contacts press on.
+    pub(crate) fn pressed(&self) -> Vec<u32> {
+        self.plan.sites.iter().map(|s| s.touch.triangle).collect()
+    }
+
+    /// What the contacts push each mode with, as given impulses would, N·s/√kg.
+    pub(crate) fn modal_impulse(&self) -> Vec<f64> {
+        let mut sums = vec![0.0; self.plan.modes];
+        let count = self.plan.sites.len();
+        for (k, drive) in self.plan.drive.iter().enumerate() {
+            let impulse: f64 = self.forces.iter().skip(k).step_by(count).sum::<f64>() * self.substep();
+            for (sum, xi) in sums.iter_mut().zip(drive) {
+                *sum += impulse * xi;
+            }
+        }
+        sums
+    }
+
+    /// Its time steps, and a half-sine of its length.
+    pub(crate) fn pulse(&self) -> Pulse {
+        let duration = self.duration().max(self.substep());
+        Pulse {
+            duration,
+            amplitude: 0.5 * PI / duration,
+            time_step: self.plan.time_step,
+            contact_steps: self.contact_steps,
+            total_steps: self.motion.steps(),
+        }
+    }
+
+    /// How long the contacts push, s.
+    pub(crate) fn duration(&self) -> f64 {
+        let count = self.plan.sites.len();
+        let last = self.forces.iter().rposition(|&f| f > 0.0);
+        last.map_or(0.0, |i| (i / count + 1) as f64 * self.substep())
+    }
+
+    /// Hertz' time of the contacts, the shortest, s.
+    pub(crate) fn hertz_time(&self) -> f64 {
+        let times = self.plan.sites.iter().map(|s| s.hertz_time);
+        times.fold(f64::INFINITY, f64::min)
+    }
+
+    fn substep(&self) -> f64 {
+        self.plan.time_step / self.plan.substeps as f64
+    }
+
+    /// What became of each contact.
+    pub(crate) fn reports(&self) -> Vec<ContactReport> {
+        let count = self.plan.sites.len();
+        let dt = self.substep();
+        let of = |(k, site): (usize, &super::plan::Site)| {
+            let forces = || self.forces.iter().skip(k).step_by(count);
+            let peak = forces().copied().fold(0.0, f64::max);
+            let sampled = forces().skip(self.plan.substeps - 1);
+            ContactReport {
+                point: site.touch.contact.point,
+                normal: site.touch.contact.normal,
+                impulse: forces().sum::<f64>() * dt,
+                peak_force: peak,
+                duration: forces()
+                    .rposition(|&f| f > 0.0)
+                    .map_or(0.0, |i| (i + 1) as f64 * dt),
+                contact_radius: (site.near.as_ref())
+                    .map_or(site.spring.contact_radius(peak), |near| near.contact_radius),
+                departure_speed: self.departures[k],
+                force: sampled
+                    .step_by(self.plan.substeps)
+                    .map(|&f| f as f32)
+                    .collect(),
+            }
+        };
+        self.plan.sites.iter().enumerate().map(of).collect()
+    }
+
+    /// Strain and kinetic energy of all modes and wall oscillators at the end of the contacts over what the strikers lost, J each;
+    /// for tests.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn energies(&self) -> [f64; 2] {
+        let run = self.run(None);
+        let mass = 1.0 / self.plan.inverse_mass[0];
+        let before = f64::from(self.plan.sites[0].touch.contact.approach_speed);
+        let lost = 0.5 * mass * (before * before - run.speeds[0] * run.speeds[0]);
+        [run.energy_at_parting, lost]
+    }
+
+    /// Lets the force of contact `k` fall to nothing between two times, s: the wall under it is gone. What was before stays as it
+    /// was, bit for bit.
+    pub(crate) fn cut(&mut self, body: &Body, k: usize, times: [f64; 2]) {
+        let (count, dt) = (self.plan.sites.len(), self.substep());
+        for (i, f) in self.forces.iter_mut().enumerate().skip(k).step_by(count) {
+            let t = (i / count + 1) as f64 * dt;
+            *f *= (1.0 - (t - times[0]) / (times[1] - times[0])).clamp(0.0, 1.0);
+        }
+        let run = self.run(Some(&self.forces));
+        self.motion = self.motion_of(body, &run);
+    }
+
+    /// Contacts on walls: where, how thick the wall is, m.
+    pub(crate) fn walls(&self) -> impl Iterator<Item = (usize, glam::Vec3, f64)> {
+        let sites = self.plan.sites.iter().enumerate();
+        sites.filter_map(|(k, site)| {
+            let near = site.near.as_ref()?;
+            Some((k, near.place.point, near.wall.thickness))
+        })
+    }
+
+    fn run(&self, given: Option<&[f64]>) -> Record {
+        // With the widest vectors that this processor has; the same operations in the same order, so the same bits.
+        pulp::Arch::new().dispatch(Run {
+            plan: &self.plan,
+            given,
+            instant: self.instant,
+        })
+    }
+
+    fn motion_of(&self, body: &Body, run: &Record) -> Motion {
+        let plan = &self.plan;
+        let count = plan.sites.len();
+        let asset = &*body.asset;
+        let mut complement = Complement::default();
+        let mut first = 0;
+        for (k, site) in plan.sites.iter().enumerate() {
+            let sampled = run.forces.iter().skip((plan.substeps - 1) * count + k);
+            let force: Vec<f32> = sampled
+                .step_by(plan.substeps * count)
+                .map(|&f| f as f32)
+                .collect();
+            if let Some(near) = &site.near {
+                let oscillators = near.oscillators.len();
+                let rows = run.swing.chunks_exact(run.width);
+                let frequencies = &plan.oscillators[near.oscillators.clone()];
+                // From ω p of the oscillator of unit mass to ω² q of the one that the force itself drives, N.
+                let scale: Vec<f32> = (near.bands.oscillators.iter().zip(frequencies))
+                    .map(|(band, (w, _))| (w / band.give.sqrt()) as f32)
+                    .collect();
+                let mut swing = Vec::with_capacity(rows.len() * oscillators);
+                for row in rows {
+                    let own = &row[first..first + oscillators];
+                    swing.extend(own.iter().zip(&scale).map(|(x, s)| x * s));
+                }
+                first += oscillators;
+                let mut across: Vec<f32> = force.iter().map(|f| f * near.across as f32).collect();
+                across.resize(run.near_steps, 0.0);
+                let (place, wall, bands) = (near.place, &near.wall, &near.bands);
+                complement
+                    .near
+                    .push(NearField::new(place, wall, bands, &swing, &across));
+            }
+            complement
+                .residuals
+                .extend(Residual::new(asset, &site.residual, force));
+        }
+        Motion {
+            amplitudes: run.amplitudes.clone(),
+            modes: plan.modes,
+            peak_energy: run.peak_energy,
+            peak_strain_energy: run.peak_strain_energy,
+            complement,
+        }
+    }
+}
+
+/// What an integration found.
+struct Record {
+    /// Forces after each substep, N.
+    forces: Vec<f64>,
+    /// Amplitudes of the modes at each time step, m·√kg.
+    amplitudes: Vec<f32>,
+    /// ω p of all wall oscillators at each time step until the near field has gone, m·√kg/s.
+    swing: Vec<f32>,
+    /// How many oscillators there are in a row of `swing`, at least 1.
+    width: usize,
+    near_steps: usize,
+    contact_steps: usize,
+    /// Speed of each striker into the body after the blow, m/s.
+    speeds: Vec<f64>,
+    peak_energy: f64,
+    peak_strain_energy: f64,
+    energy_at_parting: f64,
+}
+
+/// The integration.
+struct Run<'a> {
+    plan: &'a Plan,
+    /// Forces that are known already, instead of strikers.
+    given: Option<&'a [f64]>,
+    /// Whether nothing is looked at after the contact.
+    instant: bool,
+}
+
+impl pulp::NullaryFnOnce for Run<'_> {
+    type Output = Record;
+
+    #[inline(always)]
+    fn call(self) -> Record {
+        let plan = self.plan;
+        let count = plan.sites.len();
+        let dt = plan.time_step / plan.substeps as f64;
+        let mut state = BankState::rest(plan.oscillators.len());
+        let mut ways = vec![0.0; count];
+        let mut speeds: Vec<f64> = (plan.sites.iter())
+            .map(|s| f64::from(s.touch.contact.approach_speed))
+            .collect();
+        let mut forces = vec![0.0; count];
+        let mut next = vec![0.0; count];
+        let mut growth = vec![0.0; count];
+        let mut bases = vec![0.0; count];
+        // What a unit growth of force l takes from gap k within a substep.
+        let mut give = vec![0.0; count * count];
+        for k in 0..count {
+            for l in 0..count {
+                give[k * count + l] = plan.inverse_mass[k * count + l] * dt * dt / 6.0
+                    + plan.fine.give(&plan.gap[k], &plan.drive[l]);
+            }
+        }
+        let modes = plan.modes;
+        let mut record = Record {
+            forces: Vec::new(),
+            amplitudes: Vec::new(),
+            swing: Vec::new(),
+            width: (plan.oscillators.len() - modes).max(1),
+            near_steps: 0,
+            contact_steps: 0,
+            speeds: Vec::new(),
+            peak_energy: 0.0,
+            peak_strain_energy: 0.0,
+            energy_at_parting: 0.0,
+        };
+        let mut substep = 0;
+        let mut parted = false;
+        while !(parted && substep % plan.substeps == 0) {
+            let t = (substep + 1) as f64 * dt;
+            plan.fine.coast(&mut state, &plan.drive, &forces);
+            for k in 0..count {
+                // The gap if no force grew, less what stays of the forces in the static part.
+                let fall: f64 = (0..count)
+                    .map(|l| plan.inverse_mass[k * count + l] * forces[l])
+                    .sum();
+                bases[k] = ways[k] + speeds[k] * dt
+                    - 0.5 * fall * dt * dt
+                    - dot(&plan.gap[k], &state.x);
+            }
+            match self.given {
+                Some(given) => {
+                    for (k, next) in next.iter_mut().enumerate() {
+                        *next = given.get(substep * count + k).copied().unwrap_or(0.0);
+                    }
+                }
+                None if parted => next.fill(0.0),
+                None => solve(plan, &bases, &give, &forces, t, &mut next),
+            }
+            for k in 0..count {
+                growth[k] = next[k] - forces[k];
+            }
+            plan.fine.grow(&mut state, &plan.drive, &growth);
+            for k in 0..count {
+                let row = &plan.inverse_mass[k * count..(k + 1) * count];
+                let (mut held, mut mean) = (0.0, 0.0);
+                for ((b, f), g) in row.iter().zip(&forces).zip(&growth) {
+                    held += b * (0.5 * f + g / 6.0);
+                    mean += b * (f + 0.5 * g);
+                }
+                ways[k] += speeds[k] * dt - held * dt * dt;
+                speeds[k] -= mean * dt;
+            }
+            forces.copy_from_slice(&next);
+            record.forces.extend_from_slice(&forces);
+            substep += 1;
+            if substep % plan.substeps == 0 {
+                record.sample(plan, &state, &forces, true);
+            }
+            if !parted {
+                parted = match self.given {
+                    Some(given) => substep * count >= given.len(),
+                    None => self.has_parted(&state, &speeds, &forces, t),
+                } || substep >= MOST_SUBSTEPS;
+                if parted {
+                    record.energy_at_parting = energies(&state)[0];
+                }
+            }
+        }
+        record.contact_steps = substep / plan.substeps;
+        record.speeds = speeds;
+        self.ring(&mut record, state);
+        record
+    }
+}
+
+impl Run<'_> {
+    /// Whether every contact is open and opening further.
+    #[inline(always)]
+    fn has_parted(&self, state: &BankState, speeds: &[f64], forces: &[f64], t: f64) -> bool {
+        let plan = self.plan;
+        if forces.iter().any(|&f| f > 0.0) {
+            return false;
+        }
+        plan.sites.iter().enumerate().all(|(k, site)| {
+            if let Some([_, duration]) = site.script {
+                return t >= duration;
+            }
+            // ω q and q̇ are felt alike.
+            let give: f64 = (plan.gap[k].iter().zip(&plan.oscillators).zip(&state.v))
+                .map(|((gap, (w, _)), v)| gap * w * v)
+                .sum();
+            speeds[k] < give
+        })
+    }
+
+    /// The free motion after the contacts.
+    #[inline(always)]
+    fn ring(&self, record: &mut Record, mut state: BankState) {
+        let plan = self.plan;
+        let time_step = plan.time_step;
+        if self.instant {
+            record.near_steps = record.contact_steps;
+            return;
+        }
+        let amplitude = |i: usize| state.x[i].hypot(state.v[i]) / plan.oscillators[i].0;
+        let largest = (0..plan.modes).map(amplitude).fold(0.0, f64::max);
+        let low = (0..plan.modes).find(|&i| amplitude(i) >= SIGNIFICANT * largest);
+        let period = low.map_or(0.0, |i| TAU / plan.oscillators[i].0);
+        let steps = (PERIODS * period / time_step).ceil() as usize;
+        let steps = steps.clamp(
+            record.contact_steps,
+            MOST_STEPS.max(record.contact_steps),
+        );
+        // After the blow its waves leave within half a period of the lowest of them.
+        let near = plan.sites.iter().filter_map(|s| s.near.as_ref());
+        let leave = near.map(|n| PI / n.lowest).fold(0.0, f64::max);
+        let near_steps = record.contact_steps + (leave / time_step).ceil() as usize;
+        record.near_steps = near_steps.min(steps);
+        for step in record.contact_steps..steps {
+            plan.coarse.coast(&mut state, &[], &[]);
+            record.sample(plan, &state, &[], step < record.near_steps);
+        }
+    }
+}
+
+impl Record {
+    #[inline(always)]
+    fn sample(&mut self, plan: &Plan, state: &BankState, forces: &[f64], near: bool) {
+        let (modes, all) = (plan.modes, plan.oscillators.len());
+        let amplitudes = state.x[..modes].iter().zip(&plan.oscillators);
+        self.amplitudes
+            .extend(amplitudes.map(|(x, (w, _))| (x / w) as f32));
+        if near {
+            self.swing
+                .extend(state.x[modes..all].iter().map(|&x| x as f32));
+        }
+        let count = forces.len();
+        let mut held = 0.0;
+        for k in 0..count {
+            for l in 0..count {
+                held += 0.5 * forces[k] * plan.compliance[k * count + l] * forces[l];
+            }
+        }
+        let [whole, strain] = energies(state);
+        self.peak_energy = self.peak_energy.max(whole + held);
+        self.peak_strain_energy = self.peak_strain_energy.max(strain + held);
+    }
+}
+
+/// Energy and strain energy of all oscillators, J.
+#[inline(always)]
+fn energies(state: &BankState) -> [f64; 2] {
+    let strain = 0.5 * dot(&state.x, &state.x);
+    [strain + 0.5 * dot(&state.v, &state.v), strain]
+}
+
+/// The forces at the end of a substep, N.
+#[inline(always)]
+fn solve(plan: &Plan, bases: &[f64], give: &[f64], forces: &[f64], t: f64, next: &mut [f64]) {
+    let count = bases.len();
+    next.copy_from_slice(forces);
+    for _ in 0..MOST_ROUNDS {
+        let mut change = 0.0_f64;
+        let mut largest = 0.0_f64;
+        for k in 0..count {
+            let site = &plan.sites[k];
+            let found = match site.script {
+                Some([impulse, duration]) if t < duration => {
+                    0.5 * PI * impulse / duration * (PI * t / duration).sin()
+                }
+                Some(_) => 0.0,
+                None => {
+                    let mut gap = bases[k];
+                    for l in 0..count {
+                        let i = k * count + l;
+                        gap += give[i] * forces[l];
+                        if l != k {
+                            gap -= (give[i] + plan.compliance[i]) * next[l];
+                        }
+                    }
+                    let i = k * count + k;
+                    site.spring.force(gap, give[i] + plan.compliance[i])
+                }
+            };
+            change = change.max((found - next[k]).abs());
+            largest = largest.max(found);
+            next[k] = found;
+        }
+        if count == 1 || change <= 1e-12 * largest {
+            break;
+        }
+    }
+}

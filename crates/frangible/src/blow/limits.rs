@@ -1,0 +1,112 @@
+//! What a blow can do at most, known before it is integrated: what lets contacts be refused unseen.
+//!
+//! With B the inverse masses of the rigid bodies at the contacts and v the approach there, the motion of approach holds the energy
+//! `T = ½ vᵀ B⁻¹ v`, and nothing adds to it: springs, modes and wall oscillators only store, pass on and lose. So
+//! - Hertz' spring of a contact never holds more: its force stays below that at which it holds T;
+//! - the impulses J of the contacts so far have left the approach v − B J, which holds at most T as well. So
+//!   `½ Jᵀ B J ≤ 4 T`, and where no contact's push helps another (all of B ≥ 0) `J_k ≤ √(8 T / B_kk)`; of one contact 2 v / B.
+
+use super::Spring;
+use crate::asset::Asset;
+use crate::contact::Contact;
+use crate::mesh::SurfacePoint;
+
+/// Most contacts whose energy is worked out.
+const MOST: usize = 16;
+
+/// What any one contact of a blow can do at most.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Limits {
+    /// Impulse, N·s.
+    pub(crate) impulse: f64,
+    /// Force, N.
+    pub(crate) force: f64,
+}
+
+impl Limits {
+    /// Of all contacts at their places on the surface, into `limits`; false where nothing is known.
+    pub(crate) fn of(
+        asset: &Asset,
+        contacts: &[Option<(&Contact, SurfacePoint)>],
+        limits: &mut [Self],
+    ) -> bool {
+        let count = contacts.len();
+        if count > MOST || limits.len() < count {
+            return false;
+        }
+        let contacts = || contacts.iter().flatten().enumerate();
+        let mut inverse_mass = [0.0; MOST * MOST];
+        let mut speeds = [0.0; MOST];
+        for (k, (a, at)) in contacts() {
+            speeds[k] = f64::from(a.approach_speed);
+            for (l, (b, there)) in contacts().take(k + 1) {
+                let mut entry = 0.0;
+                if !asset.is_supported() {
+                    let place = |c: &Contact, at: &SurfacePoint| {
+                        let normal = c.normal.normalize();
+                        (at.position.as_dvec3(), normal.as_dvec3())
+                    };
+                    entry = asset.mass.inverse_mass_between(place(a, at), place(b, there));
+                }
+                if k == l {
+                    entry += f64::from(a.striker.inverse_effective_mass);
+                    if entry <= 0.0 {
+                        entry = 1.0 / asset.mass.mass;
+                    }
+                }
+                if entry < 0.0 {
+                    return false;
+                }
+                inverse_mass[k * MOST + l] = entry;
+            }
+        }
+        let energy = energy(&inverse_mass, &speeds[..count]);
+        for (k, (contact, at)) in contacts() {
+            if contact.is_script() {
+                // Its pulse is known.
+                let (impulse, duration) =
+                    (f64::from(contact.impulse), f64::from(contact.duration));
+                limits[k] = Self {
+                    impulse,
+                    force: 0.5 * std::f64::consts::PI * impulse / duration,
+                };
+                continue;
+            }
+            let radius = f64::from(asset.surface.curvature_radius[at.triangle as usize]);
+            limits[k] = Self {
+                impulse: (8.0 * energy / inverse_mass[k * MOST + k]).sqrt(),
+                force: Spring::at(asset, contact, radius).force_of_energy(energy),
+            };
+        }
+        energy.is_finite()
+    }
+}
+
+/// ½ vᵀ B⁻¹ v, J, by Cholesky's factor of B, whose lower half is given; where B is singular, a little is added to it.
+fn energy(inverse_mass: &[f64; MOST * MOST], speeds: &[f64]) -> f64 {
+    let count = speeds.len();
+    let mut factor = *inverse_mass;
+    let mut solved = [0.0; MOST];
+    let mut energy = 0.0;
+    for k in 0..count {
+        let smallest = 1e-9 * inverse_mass[k * MOST + k];
+        for l in 0..=k {
+            let mut sum = factor[k * MOST + l];
+            for j in 0..l {
+                sum -= factor[k * MOST + j] * factor[l * MOST + j];
+            }
+            factor[k * MOST + l] = if k == l {
+                sum.max(smallest).sqrt()
+            } else {
+                sum / factor[l * MOST + l]
+            };
+        }
+        let mut rest = speeds[k];
+        for j in 0..k {
+            rest -= factor[k * MOST + j] * solved[j];
+        }
+        solved[k] = rest / factor[k * MOST + k];
+        energy += 0.5 * solved[k] * solved[k];
+    }
+    energy
+}

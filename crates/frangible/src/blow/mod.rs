@@ -1,0 +1,40 @@
+//! A blow, integrated against the body that it hits (beyond the paper).
+//!
+//! # Idea
+//!
+//! How long a contact lasts and how hard it pushes follows from the two bodies: the striker's mass, Hertz' spring between them, and
+//! how the struck body gives way, as a whole and by vibrating. So nothing about the pulse is chosen: the striker flies in with its
+//! speed, and force, duration, impulse and restitution are outcomes. A wall that swallows the blow lets the striker drop; a brick
+//! throws it back.
+//!
+//! # Equations
+//!
+//! Per contact k, with F_k ≥ 0 the force on the body along its unit normal and g_k how deep the striker is in,
+//!
+//! `g_k = y_k − Σ_i ξ_ki q_i − Σ_l c_kl F_l = (F_k / K_k)^(2/3)`, `ÿ_k = −Σ_l B_kl F_l`, `q̈_i + d_i q̇_i + λ_i q_i = Σ_k ξ_ki F_k`,
+//!
+//! where y is the striker's way against the body as a rigid one, B the rigid bodies' inverse masses at the contacts, with rotation, q the
+//! modes that are followed and, on a wall, the wall oscillators (`near_field`), c what the modes left out give way by, statically, and
+//! `K = 4/3 E* √R` Hertz' spring. F is linear over each substep, so every oscillator is stepped exactly; the new forces solve one
+//! equation per contact, which has exactly one root, as the left side falls with F and the right side grows.
+//!
+//! What friction there is follows the normal force: F_k pushes along n + f, f the ratio of the engine's friction and normal impulse.
+//!
+//! # Limits
+//!
+//! Hertz' spring has no losses; crushing and plastic dents of strikers are not in it. The contact between two bodies that both vibrate
+//! holds one body's modes, that of the body asked about; the other is rigid with Hertz' dent. A contact that chatters
+//! is followed until all its points have parted.
+
+mod bank;
+mod complement;
+mod integrate;
+mod limits;
+mod plan;
+mod spring;
+
+pub(crate) use complement::{Complement, Residual};
+pub use integrate::Blow;
+pub(crate) use limits::Limits;
+pub(crate) use plan::SteadyNear;
+pub use spring::Spring;

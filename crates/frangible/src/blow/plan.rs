@@ -1,0 +1,437 @@
+//! What a blow is integrated with: how each contact pushes and feels the modes, the wall oscillators about it, what follows the
+//! force, and how fine the steps are.
+
+use std::f64::consts::{PI, TAU};
+use std::ops::Range;
+
+use glam::Vec3;
+
+use super::Spring;
+use super::bank::{Bank, padded};
+use crate::asset::Asset;
+use crate::body::Body;
+use crate::config::FractureConfig;
+use crate::contact::{self, Contact, Load, Touch, hertz_at, modal_load};
+use crate::mesh::SurfacePoint;
+use crate::near_field::{Bands, NearField, NearPlace, PlateTheory, Spacing, WallMaterial};
+
+/// Hertz' time over the longest substep. Measured: the energy error then stays below 1e-4 of what the striker loses (see
+/// `frangible-bake/tests/blow.rs`).
+const SUBSTEPS_PER_HERTZ_TIME: f64 = 400.0;
+
+/// Waves so much faster than Hertz' time follow the force: angular frequency times that time.
+const FOLLOWING: f64 = 120.0;
+
+/// Up to here (angular frequency times Hertz' time) a blow makes waves ring, and wall oscillators are evenly spaced.
+const RINGING: f64 = 25.0;
+
+/// Wall oscillators are so close that their echo comes this many times later than the blow is expected to last.
+const ECHO: f64 = 1.3;
+
+/// A near field needs its waves to be short against the way to the wall's edge: wave number times distance …
+const EDGE: f64 = 2.0;
+
+/// … and where the modes do not reach that far, at least this.
+const LEAST_EDGE: f64 = 1.0;
+
+/// Cosine between the force and the wall's normal below which a blow falls along the wall.
+const ACROSS: f64 = 0.3;
+
+/// A contact, made ready.
+#[derive(Clone, Debug)]
+pub(super) struct Site {
+    pub(super) touch: Touch,
+    pub(super) spring: Spring,
+    /// A script's impulse, N·s, and duration, s, instead of a striker.
+    pub(super) script: Option<[f64; 2]>,
+    /// Hertz' time, s.
+    pub(super) hertz_time: f64,
+    pub(super) near: Option<NearPlan>,
+    /// φ · (n + f) of every mode that follows the force, 1/√kg; zero for those that the near field serves.
+    pub(super) residual: Vec<f64>,
+}
+
+/// The near field of a contact, before its motion is known.
+#[derive(Clone, Debug)]
+pub(super) struct NearPlan {
+    pub(super) place: NearPlace,
+    pub(super) wall: WallMaterial,
+    pub(super) bands: Bands,
+    /// Its oscillators among those of the bank.
+    pub(super) oscillators: Range<usize>,
+    /// Radius a of the contact, m.
+    pub(super) contact_radius: f64,
+    /// Share of the contact's force that acts across the wall.
+    pub(super) across: f64,
+    /// Lowest angular frequency, rad/s.
+    pub(super) lowest: f64,
+}
+
+/// Everything that a blow is integrated with.
+#[derive(Clone, Debug)]
+pub(super) struct Plan {
+    pub(super) sites: Vec<Site>,
+    /// Modes that are followed.
+    pub(super) modes: usize,
+    /// ω and d of the modes and, after them, of all wall oscillators.
+    pub(super) oscillators: Vec<(f64, f64)>,
+    /// How hard each contact pushes each oscillator, 1/√kg.
+    pub(super) drive: Vec<Vec<f64>>,
+    /// How each contact feels each oscillator's ω q, s/√kg.
+    pub(super) gap: Vec<Vec<f64>>,
+    /// B of the rigid bodies, 1/kg: row-major.
+    pub(super) inverse_mass: Vec<f64>,
+    /// c of what follows the force, m/N: row-major.
+    pub(super) compliance: Vec<f64>,
+    /// Step at which stresses are looked at, s.
+    pub(super) time_step: f64,
+    /// Substeps in each.
+    pub(super) substeps: usize,
+    /// The oscillators through a substep.
+    pub(super) fine: Bank,
+    /// The oscillators through a time step.
+    pub(super) coarse: Bank,
+}
+
+impl Plan {
+    /// None where nothing pushes.
+    pub(super) fn new(body: &Body, contacts: &[Contact], config: &FractureConfig) -> Option<Self> {
+        let pushing = |c: &&Contact| c.is_script() || c.approach_speed > 0.0;
+        let asset = &*body.asset;
+        let modes = asset.modes.followed();
+        let load = modal_load(body, contacts.iter().filter(pushing));
+        if load.touches.is_empty() {
+            return None;
+        }
+        let inverse_mass = inverse_masses(body, &load);
+        let count = load.touches.len();
+        let mut sites: Vec<Site> = Vec::with_capacity(count);
+        let mut shapes: Vec<[Vec<f64>; 2]> = Vec::with_capacity(count);
+        let mut oscillators: Vec<(f64, f64)> = (0..modes)
+            .map(|i| {
+                let damping = asset.modes.damping(i, &asset.material);
+                (asset.modes.eigenvalues[i].sqrt(), damping)
+            })
+            .collect();
+        for (k, touch) in load.touches.iter().enumerate() {
+            let mass = 1.0 / inverse_mass[k * count + k];
+            let (site, shape) = site(body, touch, mass, config, &mut oscillators);
+            sites.push(site);
+            shapes.push(shape);
+        }
+        let hertz_time = sites
+            .iter()
+            .map(|s| s.script.map_or(s.hertz_time, |[_, duration]| duration))
+            .fold(f64::INFINITY, f64::min);
+        let pulse = contact::pulse(asset, &load, hertz_time, config);
+        let time_step = pulse.time_step;
+        let substeps = (time_step * SUBSTEPS_PER_HERTZ_TIME / hertz_time).ceil() as usize;
+        let mut plan = Self {
+            modes,
+            inverse_mass,
+            compliance: Vec::new(),
+            time_step,
+            substeps: substeps.max(1),
+            fine: Bank::default(),
+            coarse: Bank::default(),
+            drive: Vec::new(),
+            gap: Vec::new(),
+            oscillators,
+            sites,
+        };
+        plan.couple(body, shapes);
+        plan.fine = Bank::new(&plan.oscillators, time_step / plan.substeps as f64);
+        plan.coarse = Bank::new(&plan.oscillators, time_step);
+        Some(plan)
+    }
+
+    /// How contacts push and feel all oscillators, and each other through what follows the force.
+    fn couple(&mut self, body: &Body, shapes: Vec<[Vec<f64>; 2]>) {
+        let asset = &*body.asset;
+        let count = self.sites.len();
+        let width = padded(self.oscillators.len());
+        let mut felt = Vec::with_capacity(count);
+        for (site, [drive, gap]) in self.sites.iter_mut().zip(shapes) {
+            let (mut pushes, mut feels) = (vec![0.0; width], vec![0.0; width]);
+            for i in 0..self.modes {
+                pushes[i] = drive[i];
+                feels[i] = gap[i] / self.oscillators[i].0;
+            }
+            if let Some(near) = &site.near {
+                let normal = f64::from(site.touch.contact.normal.dot(near.place.inwards));
+                for (i, band) in near.oscillators.clone().zip(&near.bands.oscillators) {
+                    let xi = band.give.sqrt();
+                    pushes[i] = xi * near.across;
+                    feels[i] = xi * normal / self.oscillators[i].0;
+                }
+            }
+            site.residual = drive[self.modes..].to_vec();
+            felt.push(gap[self.modes..].to_vec());
+            self.drive.push(pushes);
+            self.gap.push(feels);
+        }
+        self.compliance = vec![0.0; count * count];
+        let eigenvalues = &asset.modes.eigenvalues[self.modes..];
+        for k in 0..count {
+            for (l, site) in self.sites.iter().enumerate() {
+                let terms = felt[k].iter().zip(&site.residual).zip(eigenvalues);
+                self.compliance[k * count + l] = terms.map(|((a, b), lambda)| a * b / lambda).sum();
+            }
+            if let Some(near) = &self.sites[k].near {
+                let normal = f64::from(self.sites[k].touch.contact.normal.dot(near.place.inwards));
+                self.compliance[k * count + k] += normal * near.across * near.bands.compliance();
+            }
+        }
+    }
+}
+
+/// B: what a unit impulse at contact l changes the approach at contact k by, 1/kg.
+fn inverse_masses(body: &Body, load: &Load) -> Vec<f64> {
+    let asset = &*body.asset;
+    let count = load.touches.len();
+    let mut matrix = vec![0.0; count * count];
+    for (k, a) in load.touches.iter().enumerate() {
+        for (l, b) in load.touches.iter().enumerate() {
+            if !asset.is_supported() {
+                let place = |t: &Touch| (t.contact.point.as_dvec3(), t.contact.normal.as_dvec3());
+                matrix[k * count + l] = asset.mass.inverse_mass_between(place(a), place(b));
+            }
+        }
+        let own = &mut matrix[k * count + k];
+        *own += f64::from(a.contact.striker.inverse_effective_mass);
+        // Neither gives way when a held body is hit by an immovable one; the body's own mass stands in.
+        if *own <= 0.0 {
+            *own = 1.0 / asset.mass.mass;
+        }
+    }
+    matrix
+}
+
+/// One contact, and its push on and feeling of every mode that there is.
+fn site(
+    body: &Body,
+    touch: &Touch,
+    mass: f64,
+    config: &FractureConfig,
+    oscillators: &mut Vec<(f64, f64)>,
+) -> (Site, [Vec<f64>; 2]) {
+    let asset = &*body.asset;
+    let contact = &touch.contact;
+    let spring = Spring::at(asset, contact, touch.curvature_radius);
+    let hertz_time = hertz_at(
+        asset,
+        contact,
+        touch.curvature_radius,
+        touch.inverse_effective_mass,
+    );
+    let script = contact
+        .is_script()
+        .then(|| [f64::from(contact.impulse), f64::from(contact.duration)]);
+    let mut site = Site {
+        spring,
+        script,
+        hertz_time,
+        near: None,
+        residual: Vec::new(),
+        touch: touch.clone(),
+    };
+    let direction = contact.direction();
+    let mut drive = touch.project(body, direction);
+    let mut gap = touch.modal_shape.clone();
+    let followed = asset.modes.followed();
+    if config.near_field
+        && let Some((near, first)) = near(body, &site, mass, direction)
+    {
+        let served = first;
+        // Across the wall the near field goes on where the modes end; along it they serve.
+        let inwards = near.place.inwards;
+        let along = |v: Vec3| v - v.dot(inwards) * inwards;
+        let (drive_along, gap_along) = (
+            touch.project(body, along(direction)),
+            touch.project(body, along(contact.normal)),
+        );
+        drive[served..].copy_from_slice(&drive_along[served..]);
+        gap[served..].copy_from_slice(&gap_along[served..]);
+        let first = oscillators.len();
+        for band in &near.bands.oscillators {
+            let material = &asset.material;
+            let damping = material.stiffness_damping * band.eigenvalue + material.mass_damping;
+            oscillators.push((band.eigenvalue.sqrt(), damping));
+        }
+        site.near = Some(NearPlan {
+            oscillators: first..oscillators.len(),
+            ..near
+        });
+    }
+    if !config.residual {
+        drive[followed..].fill(0.0);
+        gap[followed..].fill(0.0);
+    }
+    (site, [drive, gap])
+}
+
+/// The near field of a contact on a wall, and the number of the first mode that it serves instead of.
+fn near(body: &Body, site: &Site, mass: f64, direction: Vec3) -> Option<(NearPlan, usize)> {
+    let asset = &*body.asset;
+    let touch = &site.touch;
+    let surface = asset.surface.walls.at(touch.triangle)?;
+    let inwards = inwards(asset, touch.triangle, touch.weights)?;
+    let across = f64::from(direction.dot(inwards));
+    if f64::from(touch.contact.normal.dot(inwards)) < ACROSS {
+        return None;
+    }
+    let wall = WallMaterial::new(&asset.material, &surface, PlateTheory::default());
+    let speed = f64::from(touch.contact.approach_speed);
+    let peak = match site.script {
+        Some([impulse, duration]) => 0.5 * PI * impulse / duration,
+        None => site.spring.peak_force(mass, speed, wall.dashpot()),
+    };
+    // Never wider than the wall's own way to its edge, nor a point.
+    let widest = surface.margin.max(surface.thickness);
+    let contact_radius = site
+        .spring
+        .contact_radius(peak)
+        .clamp(1e-3 * surface.thickness, widest);
+
+    let (first, lowest) = first_wave(asset, &wall, surface.margin, asset.modes.followed())?;
+    let start = wall.wave_number(lowest);
+    let duration = match site.script {
+        Some([_, duration]) => duration,
+        None => site.hertz_time + 3.0 * mass / wall.dashpot(),
+    };
+    let time = site.script.map_or(site.hertz_time, |[_, duration]| duration);
+    let spacing = Spacing {
+        width: TAU / (ECHO * duration),
+        even_to: RINGING / time,
+        follows_from: FOLLOWING / time,
+    };
+    let origin = body.origin().as_vec3();
+    let point = touch.contact.point + origin;
+    let reach = NearField::reach(start).min(nearest_crack(body, point));
+    let bands = Bands::new(&wall, start, contact_radius, spacing);
+    let place = NearPlace {
+        point,
+        inwards,
+        reach,
+    };
+    let plan = NearPlan {
+        place,
+        wall,
+        bands,
+        oscillators: 0..0,
+        contact_radius,
+        across,
+        lowest,
+    };
+    Some((plan, first))
+}
+
+/// A steady force on a wall: where its near field is, and what of.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SteadyNear {
+    place: NearPlace,
+    wall: WallMaterial,
+    /// Lowest wave number, 1/m.
+    first: f64,
+    /// Force across the wall, N.
+    across: f32,
+}
+
+impl SteadyNear {
+    /// Of a force, N, on a place of the surface; all modes of the body serve.
+    pub(crate) fn of(body: &Body, at: &SurfacePoint, force: Vec3) -> Option<Self> {
+        let asset = &*body.asset;
+        let surface = asset.surface.walls.at(at.triangle)?;
+        let inwards = inwards(asset, at.triangle, at.weights)?;
+        let across = force.dot(inwards);
+        if across <= 0.0 {
+            return None;
+        }
+        let wall = WallMaterial::new(&asset.material, &surface, PlateTheory::default());
+        let (_, lowest) = first_wave(asset, &wall, surface.margin, asset.modes.count())?;
+        let first = wall.wave_number(lowest);
+        let point = at.position + body.origin().as_vec3();
+        let reach = NearField::reach(first).min(nearest_crack(body, point));
+        let place = NearPlace {
+            point,
+            inwards,
+            reach,
+        };
+        Some(Self {
+            place,
+            wall,
+            first,
+            across,
+        })
+    }
+
+    /// No principal stress of a steady force on a triangle of the surface exceeds this per newton, Pa/N.
+    pub(crate) fn most_per_newton(body: &Body, triangle: u32) -> Option<f32> {
+        let asset = &*body.asset;
+        let surface = asset.surface.walls.at(triangle)?;
+        let wall = WallMaterial::new(&asset.material, &surface, PlateTheory::default());
+        let (_, lowest) = first_wave(asset, &wall, surface.margin, asset.modes.count())?;
+        Some(wall.most_stress(wall.wave_number(lowest)) as f32)
+    }
+
+    /// No principal stress of it exceeds this, Pa.
+    pub(crate) fn bound(&self) -> f32 {
+        (f64::from(self.across) * self.wall.most_stress(self.first)) as f32
+    }
+
+    /// Its stress.
+    pub(crate) fn field(&self) -> NearField {
+        NearField::steady(self.place, &self.wall, self.first, self.across)
+    }
+}
+
+/// Unit normal of a wall at a place of the surface, inwards.
+fn inwards(asset: &Asset, triangle: u32, weights: [f32; 3]) -> Option<Vec3> {
+    let normals = &asset.surface.normals[triangle as usize];
+    let mixed: Vec3 = normals.iter().zip(weights).map(|(n, w)| *n * w).sum();
+    mixed.try_normalize().map(|n| -n)
+}
+
+/// Where the near field takes over from the `followed` lowest modes: the first mode that it stands for, and its lowest angular
+/// frequency, rad/s. None where curvature or an edge is in the way of all waves that the modes leave out.
+fn first_wave(
+    asset: &Asset,
+    wall: &WallMaterial,
+    margin: f64,
+    followed: usize,
+) -> Option<(usize, f64)> {
+    let modes = &asset.modes;
+    let count = modes.count();
+    // Between two modes; above the last one as far as it lies above its neighbour, on average.
+    let after = |i: usize| {
+        let here = modes.eigenvalues[i - 1].sqrt();
+        match modes.eigenvalues.get(i) {
+            Some(next) => 0.5 * (here + next.sqrt()),
+            None => here * (1.0 + 0.5 / i as f64),
+        }
+    };
+    if followed == 0 {
+        return None;
+    }
+    let wanted = wall.bending_rules_from();
+    let lowest = wall
+        .eigenvalue(wanted.max(EDGE / margin))
+        .sqrt()
+        .max(after(followed));
+    let first = modes.eigenvalues.partition_point(|l| l.sqrt() < lowest);
+    if first < count || lowest <= after(count) {
+        return Some((first, lowest));
+    }
+    // The modes do not reach that far.
+    let last = after(count);
+    let k = wall.wave_number(last);
+    (k * margin >= LEAST_EDGE && k >= wanted).then_some((count, last))
+}
+
+/// Distance of the nearest place that a crack of the body has cut, m; infinite without cracks.
+fn nearest_crack(body: &Body, point: Vec3) -> f64 {
+    let cuts = body.state().cracks.iter().flat_map(|crack| &crack.cuts);
+    let centroids = &body.prepared.centroids;
+    let squares = cuts.map(|cut| centroids[cut.tet as usize].distance_squared(point));
+    f64::from(squares.fold(f32::INFINITY, f32::min).sqrt())
+}

@@ -1,0 +1,257 @@
+//! The wave numbers of an infinite wall in bands: wall oscillators, and what follows the force.
+
+use std::f64::consts::PI;
+
+use super::bessel::Bessel;
+use super::wall::{WallMaterial, hertz_disc};
+
+/// Ratio of the frequencies of neighbouring bands, where they are not evenly spaced.
+const FREQUENCY_RATIO: f64 = 1.25;
+
+/// Ratio of the wave numbers of neighbouring bands that follow the force.
+const WAVE_NUMBER_RATIO: f64 = 1.12;
+
+/// Most evenly spaced bands: a blow longer than they can tell apart hears its own echo.
+const MOST_EVEN: usize = 64;
+
+/// How the bands are to be spaced in frequency, rad/s.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Spacing {
+    /// Width of the first bands: oscillators so far apart swing together again after 2π over it.
+    pub(crate) width: f64,
+    /// Up to this frequency the bands are that wide; above it each is wider than the last by a fixed ratio.
+    pub(crate) even_to: f64,
+    /// Waves above this frequency follow the force.
+    pub(crate) follows_from: f64,
+}
+
+/// A band of wave numbers that swings as one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Band {
+    /// Its edges, 1/m.
+    edges: [f64; 2],
+    /// ω², 1/s².
+    pub(crate) eigenvalue: f64,
+    /// ξ² = p̂² Δ(k²)/(4πμ), 1/kg: how the contact feels it.
+    pub(crate) give: f64,
+    /// H of its middle, 1/(Pa·m): curvature per steady pressure.
+    curvature: f64,
+}
+
+impl Band {
+    fn new(wall: &WallMaterial, contact_radius: f64, edges: [f64; 2]) -> Self {
+        let [low, high] = edges;
+        // The middle by area in the plane of wave vectors.
+        let k = (0.5 * (low * low + high * high)).sqrt();
+        let pressure = hertz_disc(k * contact_radius);
+        Self {
+            edges,
+            eigenvalue: wall.eigenvalue(k),
+            give: pressure * pressure * (high * high - low * low) / (4.0 * PI * wall.mass_per_area),
+            curvature: pressure * wall.curvature(k),
+        }
+    }
+
+    /// κ_r + κ_θ and κ_θ − κ_r at distance r per newton of ω² q, 1/(N·m).
+    fn shape(&self, bessel: &Bessel, r: f64) -> [f64; 2] {
+        let [low, high] = self.edges;
+        let integrals = |k: f64| {
+            let x = k * r;
+            // Series for small arguments, where both differences lose their digits.
+            if x < 0.1 {
+                return [
+                    0.5 * k * k * (1.0 - x * x / 8.0),
+                    // ∫₀ᵏ k J₂ dk = k⁴ r²/32 (1 − x²/18 …)
+                    k * k * x * x / 32.0 * (1.0 - x * x / 18.0),
+                ];
+            }
+            let [j0, j1] = bessel.at(x);
+            [k * j1 / r, (2.0 - x * j1 - 2.0 * j0) / (r * r)]
+        };
+        let (a, b) = (integrals(low), integrals(high));
+        let scale = self.curvature / (2.0 * PI);
+        [scale * (b[0] - a[0]), scale * (b[1] - a[1])]
+    }
+}
+
+/// All bands about one contact.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Bands {
+    /// Those that swing: the wall oscillators.
+    pub(crate) oscillators: Vec<Band>,
+    /// Those that follow the force.
+    following: Vec<Band>,
+}
+
+impl Bands {
+    /// From wave number `first`, 1/m, on, for a contact of this radius, m.
+    pub(crate) fn new(
+        wall: &WallMaterial,
+        first: f64,
+        contact_radius: f64,
+        spacing: Spacing,
+    ) -> Self {
+        let last = wall.last_wave_number(contact_radius);
+        let mut bands = Self::default();
+        if last <= first {
+            return bands;
+        }
+        let mut low = first;
+        let mut frequency = wall.eigenvalue(first).sqrt();
+        let even = ((spacing.even_to - frequency) / spacing.width).ceil();
+        let width = (spacing.even_to - frequency) / even.clamp(1.0, MOST_EVEN as f64);
+        while low < last && frequency < spacing.follows_from {
+            let next = if frequency + 0.5 * width < spacing.even_to {
+                frequency + width
+            } else {
+                frequency * FREQUENCY_RATIO
+            };
+            let high = wall.wave_number(next).min(last);
+            bands
+                .oscillators
+                .push(Band::new(wall, contact_radius, [low, high]));
+            (low, frequency) = (high, next);
+        }
+        while low < last * (1.0 - 1e-9) {
+            let high = (low * WAVE_NUMBER_RATIO).min(last);
+            bands
+                .following
+                .push(Band::new(wall, contact_radius, [low, high]));
+            low = high;
+        }
+        bands
+    }
+
+    /// What the contact gives way by, m/N, in the waves that follow the force.
+    pub(crate) fn compliance(&self) -> f64 {
+        let give = |band: &Band| band.give / band.eigenvalue;
+        self.following.iter().map(give).sum()
+    }
+
+    /// σ_r + σ_θ and σ_θ − σ_r at the far face, Pa per newton, of everything that follows the force, at these distances, m.
+    pub(super) fn following_stress(&self, wall: &WallMaterial, radii: &[f64]) -> Vec<[f64; 2]> {
+        let bessel = Bessel::new();
+        let at = |&r: &f64| {
+            let mut sum = [0.0; 2];
+            for band in &self.following {
+                let shape = band.shape(&bessel, r);
+                sum = [sum[0] + shape[0], sum[1] + shape[1]];
+            }
+            stress(wall, sum)
+        };
+        radii.iter().map(at).collect()
+    }
+
+    /// The oscillators' shares of the same, Pa per newton of ω² q: for each distance those of all oscillators.
+    pub(super) fn swinging_stress(
+        &self,
+        wall: &WallMaterial,
+        radii: &[f64],
+    ) -> Vec<Vec<[f64; 2]>> {
+        let bessel = Bessel::new();
+        let at = |&r: &f64| {
+            let shapes = self.oscillators.iter().map(|band| band.shape(&bessel, r));
+            shapes.map(|shape| stress(wall, shape)).collect()
+        };
+        radii.iter().map(at).collect()
+    }
+}
+
+fn stress(wall: &WallMaterial, [sum, difference]: [f64; 2]) -> [f64; 2] {
+    [
+        sum * wall.stress_of_sum(),
+        difference * wall.stress_of_difference(),
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::asset::SurfaceWall;
+    use crate::material::Material;
+    use crate::near_field::PlateTheory;
+
+    const RADIUS: f64 = 0.6e-3;
+
+    fn wall(theory: PlateTheory) -> WallMaterial {
+        let wall = SurfaceWall {
+            thickness: 1e-3,
+            stiffening: 0.0,
+            margin: f64::INFINITY,
+        };
+        WallMaterial::new(&Material::preset("glass").unwrap(), &wall, theory)
+    }
+
+    fn spacing(wall: &WallMaterial, first: f64) -> Spacing {
+        let lowest = wall.eigenvalue(first).sqrt();
+        Spacing {
+            width: 0.5 * lowest,
+            even_to: 10.0 * lowest,
+            follows_from: 60.0 * lowest,
+        }
+    }
+
+    /// The integrals that the bands cut up, by the midpoint rule.
+    fn integrated(wall: &WallMaterial, first: f64, r: f64) -> [f64; 2] {
+        const STEPS: usize = 200_000;
+        let last = wall.last_wave_number(RADIUS);
+        let dk = (last - first) / STEPS as f64;
+        let mut sum = [0.0; 2];
+        for i in 0..STEPS {
+            let k = first + (i as f64 + 0.5) * dk;
+            let f = k * hertz_disc(k * RADIUS) * wall.curvature(k) * dk / (2.0 * PI);
+            sum = [sum[0] + f * libm::j0(k * r), sum[1] + f * libm::jn(2, k * r)];
+        }
+        stress(wall, sum)
+    }
+
+    #[test]
+    fn bands_add_up_to_the_integral_at_every_distance() {
+        for theory in [PlateTheory::Kirchhoff, PlateTheory::Layer] {
+            let wall = wall(theory);
+            let first = 250.0;
+            let bands = Bands::new(&wall, first, RADIUS, spacing(&wall, first));
+            assert!(bands.oscillators.len() > 20 && bands.following.len() > 5);
+            let radii = [0.0, 1e-4, 5e-4, 1e-3, 2e-3, 5e-3, 1e-2, 2e-2];
+            let most = integrated(&wall, first, 0.0)[0];
+            let still = bands.following_stress(&wall, &radii);
+            let swinging = bands.swinging_stress(&wall, &radii);
+            for (i, &r) in radii.iter().enumerate() {
+                let expected = integrated(&wall, first, r);
+                for part in 0..2 {
+                    let swings: f64 = swinging[i].iter().map(|s| s[part]).sum();
+                    let found = still[i][part] + swings;
+                    assert!(
+                        (found - expected[part]).abs() < 0.005 * most,
+                        "{theory:?} {r} {part}: {found} {}",
+                        expected[part]
+                    );
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn oscillators_push_back_as_zeners_dashpot_does() {
+        // Under a force that lasts, the contact of an infinite plate moves at F / 8√(Dμ) from the start, whatever the wave numbers:
+        // Σ ξ² sin(ωt)/ω of bands that reach from nearly nothing on.
+        let wall = wall(PlateTheory::Kirchhoff);
+        let spacing = Spacing {
+            width: 2e3,
+            even_to: 1.2e5,
+            follows_from: 4e6,
+        };
+        let bands = Bands::new(&wall, 0.5, 1e-5, spacing);
+        for t in [1e-4, 2e-4, 4e-4] {
+            // Of a force held since t = 0: Σ ξ² (1 − cos ωt)/ω², and its mean speed.
+            let moved: f64 = bands
+                .oscillators
+                .iter()
+                .map(|b| b.give * (1.0 - (b.eigenvalue.sqrt() * t).cos()) / b.eigenvalue)
+                .sum::<f64>()
+                + bands.compliance();
+            let expected = t / wall.dashpot();
+            assert!((moved / expected - 1.0).abs() < 0.03, "{t}: {moved} {expected}");
+        }
+    }
+}

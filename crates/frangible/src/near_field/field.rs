@@ -1,0 +1,323 @@
+//! The near field of one contact over time: tables over distance and time step, and the stress that they give at a point of the wall.
+
+use glam::Vec3;
+
+use super::bands::{Bands, Spacing};
+use super::wall::WallMaterial;
+use crate::stress::{BATCH, Lanes, STRIDE, StressLanes, Symmetric3, Wall};
+
+/// Step between the first distances of the table, in thicknesses of the wall.
+const FIRST_STEP: f64 = 0.08;
+
+/// Every step is larger than the one before by this factor.
+const GROWTH: f64 = 1.04;
+
+/// A place belongs to the contact's wall where the cosine between the two normals is at least this.
+const SAME_WALL: f32 = 0.3;
+
+/// A place belongs to the contact's wall where its distance along the wall is at least this share of the straight one, less
+/// [`DEEPEST`] thicknesses.
+const LEAST_SHARE: f32 = 0.7;
+
+/// Thicknesses of the wall that a place may lie deeper than the contact.
+const DEEPEST: f32 = 1.5;
+
+/// The field ends so many wavelengths of the longest wave that it has from the contact.
+const WAVELENGTHS: f64 = 2.5;
+
+/// Where the contact is.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct NearPlace {
+    /// On the surface, m, body frame of the mesh.
+    pub(crate) point: Vec3,
+    /// Unit normal of the wall there, from the loaded face inwards.
+    pub(crate) inwards: Vec3,
+    /// The field is zero from this distance on, m: a crack, an edge, or nothing that matters.
+    pub(crate) reach: f64,
+}
+
+/// The near field of one contact.
+#[derive(Clone, Debug)]
+pub(crate) struct NearField {
+    place: NearPlace,
+    thickness: f32,
+    /// Distances of the table, m, rising from 0; zero stress from the last on.
+    radii: Vec<f32>,
+    /// σ_r + σ_θ and σ_θ − σ_r of the far face, Pa: `[part][radius * steps + step]`.
+    table: [Vec<f32>; 2],
+    /// No principal tension at this distance or farther exceeds this, Pa: `[radius * steps + step]`.
+    most: Vec<f32>,
+    /// Time steps; after them there is no field.
+    steps: usize,
+    /// Whether it lasts: one step stands for all.
+    steady: bool,
+}
+
+impl NearField {
+    /// How far the field of waves from wave number `first`, 1/m, on is kept, m.
+    pub(crate) fn reach(first: f64) -> f64 {
+        WAVELENGTHS * std::f64::consts::TAU / first
+    }
+
+    /// `swing`: for each time step ω² q of each oscillator of the bands, N; `force`: on the contact, N.
+    pub(crate) fn new(
+        place: NearPlace,
+        wall: &WallMaterial,
+        bands: &Bands,
+        swing: &[f32],
+        force: &[f32],
+    ) -> Self {
+        let radii = radii(wall.thickness, place.reach);
+        let steps = force.len();
+        let still = bands.following_stress(wall, &radii);
+        let swinging = bands.swinging_stress(wall, &radii);
+        let mut table = [0, 1].map(|_| vec![0.0_f32; radii.len() * steps]);
+        // With the widest vectors that this processor has; the same operations in the same order, so the same bits.
+        pulp::Arch::new().dispatch(Fill {
+            table: &mut table,
+            still: &still,
+            swinging: &swinging,
+            swing: &by_oscillator(swing, steps),
+            force,
+        });
+        let last = (radii.len() - 1) * steps;
+        table.iter_mut().for_each(|t| t[last..].fill(0.0));
+        let mut field = Self {
+            place,
+            thickness: wall.thickness as f32,
+            radii: radii.iter().map(|&r| r as f32).collect(),
+            most: Vec::new(),
+            table,
+            steps,
+            steady: false,
+        };
+        field.most = field.largest_from_outside();
+        field
+    }
+
+    /// The field of a steady force, N.
+    pub(crate) fn steady(place: NearPlace, wall: &WallMaterial, first: f64, force: f32) -> Self {
+        let everything_follows = Spacing {
+            width: 1.0,
+            even_to: 0.0,
+            follows_from: 0.0,
+        };
+        // A point: the layer keeps its stress finite.
+        let bands = Bands::new(wall, first, 1e-3 * wall.thickness, everything_follows);
+        Self {
+            steady: true,
+            ..Self::new(place, wall, &bands, &[], &[force])
+        }
+    }
+
+    /// The step of the table that a time step is.
+    #[inline(always)]
+    fn step(&self, step: usize) -> usize {
+        if self.steady { 0 } else { step }
+    }
+
+    /// ½ (|σ_r + σ_θ| + |σ_θ − σ_r|) bounds both principal stresses on either face; between two distances the table is
+    /// linear, so the larger of its ends bounds it.
+    fn largest_from_outside(&self) -> Vec<f32> {
+        const ROUNDING: f32 = 1.0 + 1e-5;
+        let steps = self.steps;
+        let mut most = vec![0.0_f32; self.table[0].len()];
+        for i in (0..self.radii.len()).rev() {
+            for step in 0..steps {
+                let at = i * steps + step;
+                let here = 0.5 * ROUNDING * (self.table[0][at].abs() + self.table[1][at].abs());
+                let outside = most.get(at + steps).copied().unwrap_or(0.0);
+                most[at] = here.max(outside);
+            }
+        }
+        most
+    }
+
+    /// Largest principal tension that the field adds anywhere at this distance or farther, Pa, at a time step.
+    pub(crate) fn most(&self, distance: f32, step: usize) -> f32 {
+        let step = self.step(step);
+        if step >= self.steps {
+            return 0.0;
+        }
+        match self.below(distance) {
+            Some(i) => self.most[i * self.steps + step],
+            None => 0.0,
+        }
+    }
+
+    /// Largest distance of the table that is no farther, or none beyond the last.
+    fn below(&self, distance: f32) -> Option<usize> {
+        let after = self.radii.partition_point(|&r| r <= distance);
+        (after < self.radii.len()).then(|| after.saturating_sub(1))
+    }
+
+    /// No place of the wall within this straight distance of the contact, m, is nearer than this along the wall.
+    pub(crate) fn nearest_along(&self, distance: f32) -> f32 {
+        (LEAST_SHARE * distance - DEEPEST * self.thickness).max(0.0)
+    }
+
+    /// Straight distance of a place from the contact, m.
+    pub(crate) fn distance(&self, place: Vec3) -> f32 {
+        place.distance(self.place.point)
+    }
+
+    /// Where a point of the wall lies in the field; none where it does not reach. `wall`: the body's wall at the point.
+    #[inline]
+    fn locate(&self, point: Vec3, wall: &Wall) -> Option<Located> {
+        let side = wall.normal.dot(self.place.inwards);
+        let away = point - self.place.point;
+        let along = away - away.dot(wall.normal) * wall.normal;
+        let distance = along.length();
+        let radius = self.below(distance)?;
+        if side.abs() < SAME_WALL || distance < self.nearest_along(away.length()) {
+            return None;
+        }
+        // From the middle of the wall, towards the far face, in halves of the thickness.
+        let [front, back] = wall.distances(point);
+        let height = (-(front + back) / self.thickness * side.signum()).clamp(-1.0, 1.0);
+        let radial = along
+            .try_normalize()
+            .unwrap_or(wall.normal.any_orthonormal_vector());
+        let [a, b] = [radius, radius + 1].map(|i| self.radii[i]);
+        Some(Located {
+            radius,
+            share: (distance - a) / (b - a),
+            height,
+            radial,
+            hoop: wall.normal.cross(radial),
+        })
+    }
+
+    /// Radial and hoop stress there at a time step, Pa.
+    #[inline(always)]
+    fn stress(&self, at: &Located, step: usize) -> [f32; 2] {
+        let step = self.step(step);
+        if step >= self.steps {
+            return [0.0; 2];
+        }
+        let rows = [at.radius, at.radius + 1].map(|i| i * self.steps + step);
+        let [sum, difference] = [0, 1].map(|part| {
+            let [a, b] = rows.map(|i| self.table[part][i]);
+            at.height * (a + (b - a) * at.share)
+        });
+        [0.5 * (sum - difference), 0.5 * (sum + difference)]
+    }
+}
+
+/// A point in the field.
+struct Located {
+    /// Distance of the table before it, and how far on the way to the next.
+    radius: usize,
+    share: f32,
+    /// From the middle of the wall in halves of its thickness, positive towards the far face.
+    height: f32,
+    radial: Vec3,
+    hoop: Vec3,
+}
+
+/// Distances of the table, m, for a wall of this thickness, m.
+fn radii(thickness: f64, reach: f64) -> Vec<f64> {
+    let first = FIRST_STEP * thickness;
+    let mut radii = vec![0.0];
+    let mut step = first;
+    let mut r = 0.0;
+    while r < reach {
+        r += step;
+        step *= GROWTH;
+        radii.push(r);
+    }
+    radii
+}
+
+/// Step after step of each oscillator, side by side.
+fn by_oscillator(swing: &[f32], steps: usize) -> Vec<f32> {
+    let oscillators = swing.len().checked_div(steps).unwrap_or(0);
+    let mut sorted = Vec::with_capacity(swing.len());
+    for i in 0..oscillators {
+        sorted.extend(swing.iter().skip(i).step_by(oscillators));
+    }
+    sorted
+}
+
+/// The sums over all oscillators at every distance and time step.
+struct Fill<'a> {
+    table: &'a mut [Vec<f32>; 2],
+    still: &'a [[f64; 2]],
+    swinging: &'a [Vec<[f64; 2]>],
+    swing: &'a [f32],
+    force: &'a [f32],
+}
+
+impl pulp::NullaryFnOnce for Fill<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let steps = self.force.len();
+        if steps == 0 {
+            return;
+        }
+        for part in 0..2 {
+            let rows = self.table[part].chunks_exact_mut(steps);
+            for ((row, still), swinging) in rows.zip(self.still).zip(self.swinging) {
+                let share = still[part] as f32;
+                for (sum, &force) in row.iter_mut().zip(self.force) {
+                    *sum = share * force;
+                }
+                for (shares, swing) in swinging.iter().zip(self.swing.chunks_exact(steps)) {
+                    let share = shares[part] as f32;
+                    for (sum, &q) in row.iter_mut().zip(swing) {
+                        *sum += share * q;
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// The near fields of all contacts.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct NearFields<'a>(pub(crate) &'a [NearField]);
+
+impl NearFields<'_> {
+    /// Adds them to the stress at a point of a wall at the steps of a batch; whether any reaches it.
+    #[inline]
+    pub(crate) fn add(
+        &self,
+        stress: &mut StressLanes,
+        point: Vec3,
+        wall: &Wall,
+        batch: usize,
+    ) -> bool {
+        let mut reached = false;
+        for field in self.0 {
+            let Some(at) = field.locate(point, wall) else {
+                continue;
+            };
+            reached = true;
+            let (mut radial, mut hoop): (Lanes, Lanes) = ([0.0; BATCH], [0.0; BATCH]);
+            for k in 0..BATCH {
+                // Before the first step there is none.
+                let step = (batch * STRIDE + k).wrapping_sub(1);
+                [radial[k], hoop[k]] = field.stress(&at, step);
+            }
+            stress.add_uniaxial(&radial, at.radial);
+            stress.add_uniaxial(&hoop, at.hoop);
+        }
+        reached
+    }
+
+    /// Their stress at a point of a wall at a time step; none where no field reaches.
+    pub(crate) fn at(&self, point: Vec3, wall: &Wall, step: usize) -> Option<Symmetric3> {
+        let mut sum = None;
+        for field in self.0 {
+            if let Some(at) = field.locate(point, wall) {
+                let [radial, hoop] = field.stress(&at, step);
+                let stress = Symmetric3::uniaxial(radial, at.radial)
+                    .plus(&Symmetric3::uniaxial(hoop, at.hoop));
+                sum = Some(sum.map_or(stress, |s: Symmetric3| s.plus(&stress)));
+            }
+        }
+        sum
+    }
+}
