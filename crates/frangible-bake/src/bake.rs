@@ -22,6 +22,7 @@ use crate::report::{BakeReport, MeshReport, Progress, Stage};
 use crate::shapes::{self, MeshSize, Shape};
 use crate::supports::{Holder, Support, check_groups, check_supports};
 use crate::surface::{CREASE, SOLID_CREASE, outer_surface};
+use crate::walls::walls;
 
 /// Share of the meshing before a solid is covered by elements.
 const MESHING: f64 = 0.75;
@@ -162,8 +163,14 @@ pub fn bake(
         Shape::Solid(_) | Shape::Tets(_) => SOLID_CREASE,
         _ => CREASE,
     };
-    let surface = outer_surface(&fracture, crease);
+    let mut surface = outer_surface(&fracture, crease);
     let cells = convex_cells(&fracture, &fine.cell_of_tet, fine.cells);
+    let supported: Vec<u32> = (0..held.len() as u32)
+        .filter(|&v| held[v as usize] != [false; 3])
+        .collect();
+
+    clock.enter(Stage::Walls)?;
+    surface.walls = walls(&fracture.positions, &surface, &supported, crease);
 
     clock.enter(Stage::Stress)?;
     let basis = ModalBasis {
@@ -187,9 +194,7 @@ pub fn bake(
         mass,
         cells,
         cell_of_tet: fine.cell_of_tet.clone(),
-        supported: (0..held.len() as u32)
-            .filter(|&v| held[v as usize] != [false; 3])
-            .collect(),
+        supported,
         render: spec.render.as_ref().map(|r| moved(r, -centre)),
         portion: None,
     }

@@ -55,6 +55,8 @@ mod sheet;
 mod supports;
 #[cfg(feature = "solver")]
 pub mod surface;
+#[cfg(feature = "solver")]
+mod walls;
 
 #[cfg(feature = "solver")]
 pub use bake::{BakeSpec, bake};

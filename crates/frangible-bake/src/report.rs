@@ -21,6 +21,8 @@ pub enum Stage {
     Embed,
     /// Normals, curvature, convex cells.
     Surface,
+    /// Thickness, curvature and edges of thin walls.
+    Walls,
     /// Peak stress of each mode.
     Stress,
 }
@@ -33,6 +35,7 @@ impl fmt::Display for Stage {
             Self::Modes => "finding modes",
             Self::Embed => "embedding",
             Self::Surface => "surface",
+            Self::Walls => "walls",
             Self::Stress => "peak stresses",
         })
     }

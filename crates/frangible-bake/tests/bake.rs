@@ -83,6 +83,7 @@ fn an_asset_holds_together() {
             Stage::Modes,
             Stage::Embed,
             Stage::Surface,
+            Stage::Walls,
             Stage::Stress
         ]
     );

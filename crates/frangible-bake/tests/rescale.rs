@@ -15,9 +15,16 @@ enum Kind {
     Shelf,
     Covered,
     CoveredShelf,
+    Pane,
 }
 
-const KINDS: [Kind; 4] = [Kind::Glass, Kind::Shelf, Kind::Covered, Kind::CoveredShelf];
+const KINDS: [Kind; 5] = [
+    Kind::Glass,
+    Kind::Shelf,
+    Kind::Covered,
+    Kind::CoveredShelf,
+    Kind::Pane,
+];
 
 /// Sides of the block, m: no two modes of nearly the same frequency.
 const SIDES: [f64; 3] = [0.11, 0.07, 0.03];
@@ -36,6 +43,10 @@ fn spec(kind: Kind, size: f64, material: &Material) -> BakeSpec {
             edges(0.0185, 0.0093, 0),
         ),
         Kind::Covered | Kind::CoveredShelf => (solid(size), edges(0.015, 0.008, 0)),
+        Kind::Pane => (
+            Shape::plate(0.11 * size, 0.07 * size, 0.004 * size),
+            edges(0.011, 0.004, 1),
+        ),
     };
     let held = |below| vec![Support::clamped(Region::below(0, below * size))];
     BakeSpec {
@@ -157,6 +168,29 @@ fn assert_same(rescaled: &Asset, fresh: &Asset, what: &str) {
         let inertia = |a: &Asset| a.mass.inertia.col(k)[k];
         near(inertia(rescaled), inertia(fresh), 1e-6, what);
     }
+    let walls = |a: &Asset| {
+        let walls = a.surface.walls.clone();
+        [walls.thickness, walls.stiffening, walls.margin]
+    };
+    // Flat but for the rounding of positions: its curvature is noise, far below that of any tube.
+    let size = f64::from(
+        fresh
+            .fracture
+            .positions
+            .iter()
+            .fold(0.0, |m: f32, p| m.max(p.length())),
+    );
+    let noise = [0.0, 1e-6 / (size * size), 0.0];
+    for (k, (ours, theirs)) in walls(rescaled).iter().zip(walls(fresh)).enumerate() {
+        assert_eq!(ours.len(), theirs.len(), "{what}");
+        for (a, b) in ours.iter().zip(&theirs) {
+            let (a, b) = (f64::from(*a), f64::from(*b));
+            assert!(
+                a == b || (a - b).abs() <= 1e-4 * b + noise[k],
+                "{what}: {a}, not {b}"
+            );
+        }
+    }
     let (a, b) = (&rescaled.modes, &fresh.modes);
     for i in 0..b.count() {
         near(a.eigenvalues[i], b.eigenvalues[i], 1e-6, what);
@@ -203,6 +237,7 @@ fn another_size_is_what_its_bake_gives() {
             Kind::Covered => &[2.0, 0.5],
             Kind::Glass => &[1.7],
             Kind::CoveredShelf => &[2.0, 0.5],
+            Kind::Pane => &[2.0, 1.7],
         };
         for &factor in factors {
             let rescaled = baked(kind, 1.0, &start()).scaled(factor).unwrap();
@@ -218,6 +253,7 @@ fn another_size_is_what_its_bake_gives() {
                 continue;
             }
             assert_same(&rescaled, &fresh, "size");
+            assert_eq!(fresh.surface.walls.is_empty(), kind != Kind::Pane);
             let radii = rescaled.surface.curvature_radius.iter();
             for (a, b) in radii.zip(&fresh.surface.curvature_radius) {
                 let clamped = *a == 0.003 && factor > 1.0;

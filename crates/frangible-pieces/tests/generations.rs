@@ -7,8 +7,8 @@ use std::sync::Arc;
 use common::breakable;
 use frangible::glam::DVec3;
 use frangible::{
-    Body, Contact, Fracture, FractureConfig, Material, Outcome, Portion, Striker, glam::Vec3,
-    impact,
+    Body, Contact, Fracture, FractureConfig, Fragment, Material, Outcome, Portion, Striker,
+    glam::Vec3, impact,
 };
 use frangible_bake::Shape;
 use frangible_pieces::reanalysis;
@@ -100,6 +100,38 @@ fn pieces_of_pieces_tile_them_over_three_generations() {
     assert!(seen.pieces >= 8, "{}", seen.pieces);
 }
 
+/// A piece of a plate is as thick as the plate, ends at its cracks, and has no wall behind them.
+fn check_walls(piece: &Body, fragment: &Fragment) {
+    let (mesh, surface) = (&fragment.mesh, &piece.asset().surface);
+    assert_eq!(surface.walls.thickness.len(), mesh.triangles.len());
+    let (outer, inner) = mesh.triangles.split_at(mesh.outer_triangles);
+    let at_crack: Vec<u32> = inner.iter().flatten().copied().collect();
+    for (t, corners) in outer.iter().enumerate() {
+        let Some(wall) = surface.walls.at(t as u32) else {
+            continue;
+        };
+        assert!((wall.thickness - 0.004).abs() < 1e-6, "{wall:?}");
+        assert!(wall.margin <= 0.1);
+        let x = corners.map(|v| mesh.positions[v as usize]);
+        let longest = x[0]
+            .distance(x[1])
+            .max(x[1].distance(x[2]))
+            .max(x[2].distance(x[0]));
+        if corners.iter().any(|v| at_crack.contains(v)) {
+            assert!(
+                wall.margin <= f64::from(longest),
+                "{wall:?}, edge {longest}"
+            );
+        }
+    }
+    let behind_cracks = outer.len()..mesh.triangles.len();
+    assert!(
+        behind_cracks
+            .into_iter()
+            .all(|t| surface.walls.at(t as u32).is_none())
+    );
+}
+
 #[test]
 fn pieces_share_the_parents_mesh_and_weak_points() {
     let kind = breakable(Shape::plate(0.2, 0.2, 0.004), "glass", 12_000.0, 40);
@@ -119,6 +151,7 @@ fn pieces_share_the_parents_mesh_and_weak_points() {
             let piece = body.piece(portion, elastic).expect("a piece");
             let (own, parents) = (&piece.asset().fracture, &body.asset().fracture);
             assert!(Arc::ptr_eq(own, parents));
+            check_walls(&piece, &fracture.fragments[number]);
         }
         for &e in portion.tets() {
             assert_eq!(owner[e as usize].replace(number), None, "tetrahedron {e}");

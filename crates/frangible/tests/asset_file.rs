@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use frangible::asset::{Embedding, FORMAT_VERSION, RenderSurface, SaveOptions, seal};
+use frangible::asset::{Embedding, FORMAT_VERSION, RenderSurface, SaveOptions, SurfaceWalls, seal};
 use frangible::glam::Vec3;
 use frangible::{Asset, AssetFileError, InputError};
 
@@ -20,11 +20,23 @@ fn tiny() -> Asset {
         elements: 2,
         modes: 3,
     });
-    Asset {
+    let mut asset = Asset {
         supported: vec![1, 4, 7],
         render: Some(drawn_surface()),
         ..asset
-    }
+    };
+    let walls = |number: f32| {
+        (0..12)
+            .map(|t| if t < 8 { number } else { f32::INFINITY })
+            .collect()
+    };
+    asset.surface.walls = SurfaceWalls {
+        thickness: walls(0.004),
+        stiffening: walls(0.0),
+        margin: walls(0.02),
+    };
+    asset.modes.residual_modes = 1;
+    asset
 }
 
 /// Debug shows every number with all its digits and signs, and knows nothing of the format.
@@ -59,6 +71,14 @@ fn entry_of(bytes: &[u8], id: u32) -> usize {
         .map(|i| HEADER + i * ENTRY)
         .find(|&at| u32_at(bytes, at) == id)
         .unwrap()
+}
+
+/// Numbers of the sections.
+fn ids(bytes: &[u8]) -> Vec<u32> {
+    let count = u32_at(bytes, 20) as usize;
+    (0..count)
+        .map(|i| u32_at(bytes, HEADER + i * ENTRY))
+        .collect()
 }
 
 /// Where the data of a section starts.
@@ -129,7 +149,7 @@ fn the_layout_is_the_documented_one() {
     let asset = tiny();
     let bytes = asset.to_bytes();
     assert_eq!(&bytes[..8], b"FRANGIBL");
-    assert_eq!(u32_at(&bytes, 16), 2);
+    assert_eq!(u32_at(&bytes, 16), FORMAT_VERSION);
     assert_eq!(u64_at(&bytes, 24), bytes.len());
     let number = |id, row: usize, column: usize, columns: usize| {
         f32::from_bits(u32_at(
@@ -266,39 +286,49 @@ fn other_files_are_told_apart() {
 }
 
 #[test]
-fn another_version_is_refused_before_anything_else_is_believed() {
-    let mut bytes = tiny().to_bytes();
-    bytes[16] = 7;
-    assert_eq!(
-        Asset::from_bytes(&bytes).unwrap_err(),
-        AssetFileError::Version {
-            found: 7,
-            supported: FORMAT_VERSION
-        }
-    );
+fn another_version_is_refused_before_anything_else_is_believed_and_says_how_to_go_on() {
+    for found in [0, FORMAT_VERSION - 1, FORMAT_VERSION + 1, u32::MAX] {
+        let mut bytes = tiny().to_bytes();
+        bytes[16..20].copy_from_slice(&found.to_le_bytes());
+        let error = Asset::from_bytes(&bytes).unwrap_err();
+        let supported = FORMAT_VERSION;
+        assert_eq!(error, AssetFileError::Version { found, supported });
+        let text = error.to_string();
+        assert!(
+            text.contains(&format!("format is {found}, this one's is {supported}")),
+            "{text}"
+        );
+        assert!(text.contains("bake it again: frangible bake"), "{text}");
+    }
 }
 
 #[test]
-fn a_free_body_is_written_in_the_first_version_and_a_held_one_is_not() {
-    let held = tiny();
-    let free = Asset {
+fn what_a_body_lacks_its_file_lacks() {
+    let whole = tiny();
+    let mut bare = Asset {
         supported: Vec::new(),
-        ..tiny()
+        ..whole.clone()
     };
-    assert_eq!(u32_at(&held.to_bytes(), 16), 2);
-    assert_eq!(u32_at(&free.to_bytes(), 16), 1);
-    // The first version knew nothing of supports.
-    let mut older = held.to_bytes();
-    put(&mut older, 16, &1_u32.to_le_bytes());
-    assert!(same(&Asset::from_bytes(&older).unwrap(), &free));
-    // The second is for bodies that are held.
-    let mut loose = free.to_bytes();
-    put(&mut loose, 16, &2_u32.to_le_bytes());
-    assert!(section_problem(&loose).contains("supported nodes: is missing"));
-    let mut empty = held.to_bytes();
+    bare.surface.walls = SurfaceWalls::default();
+    let bytes = bare.to_bytes();
+    for id in [36, 37, 38, 99] {
+        let has = |bytes: &[u8]| ids(bytes).contains(&id);
+        assert!(has(&whole.to_bytes()) && !has(&bytes), "section {id}");
+    }
+    assert!(same(&Asset::from_bytes(&bytes).unwrap(), &bare));
+    let mut empty = whole.to_bytes();
     let at = entry_of(&empty, 99) + 16;
     put(&mut empty, at, &0_u64.to_le_bytes());
     assert!(section_problem(&empty).contains("supported nodes: is empty"));
+    for id in [36, 37, 38, 85] {
+        let mut torn = whole.to_bytes();
+        let at = entry_of(&torn, id);
+        put(&mut torn, at, &9999_u32.to_le_bytes());
+        assert!(
+            section_problem(&torn).ends_with("is missing"),
+            "section {id}"
+        );
+    }
 }
 
 #[test]
@@ -315,7 +345,7 @@ fn a_compact_asset_comes_back_rounded_to_half_precision_and_otherwise_bit_for_bi
     }
     for asset in [tiny(), free, still, wide] {
         let bytes = asset.to_bytes_with(&SaveOptions::compact());
-        assert_eq!(u32_at(&bytes, 16), 3);
+        assert!(ids(&bytes).contains(&83) && !ids(&bytes).contains(&81));
         let back = Asset::from_bytes(&bytes).unwrap();
         assert!(same(&back, &asset.clone().with_compact_shapes()));
         // Rounding twice is rounding once.
@@ -335,7 +365,7 @@ fn a_compact_asset_comes_back_rounded_to_half_precision_and_otherwise_bit_for_bi
 }
 
 #[test]
-fn a_compact_asset_leaves_out_offsets_that_are_all_zero() {
+fn offsets_that_are_all_zero_are_left_out() {
     let mut unmoved = tiny();
     let Embedding { tets, nodes } = &mut unmoved.embedding;
     for point in tets.iter_mut().chain(nodes) {
@@ -343,19 +373,20 @@ fn a_compact_asset_leaves_out_offsets_that_are_all_zero() {
     }
     let mut nearly = unmoved.clone();
     nearly.embedding.nodes[1].offset.y = -0.0;
-    let written = |asset: &Asset| asset.to_bytes_with(&SaveOptions::compact());
-    let (bytes, with_offsets) = (written(&unmoved), written(&nearly));
-    assert_eq!([u32_at(&bytes, 16), u32_at(&with_offsets, 16)], [4, 3]);
-    let points = unmoved.embedding.tets.len() + unmoved.embedding.nodes.len();
-    assert!(bytes.len() <= with_offsets.len() - 12 * points);
-    for (bytes, asset) in [(&bytes, unmoved), (&with_offsets, nearly)] {
-        let back = Asset::from_bytes(bytes).unwrap();
-        assert!(same(&back, &asset.with_compact_shapes()));
+    for options in [SaveOptions::default(), SaveOptions::compact()] {
+        let written = |asset: &Asset| asset.to_bytes_with(&options);
+        let (bytes, with_offsets) = (written(&unmoved), written(&nearly));
+        assert!(!ids(&bytes).contains(&66) && !ids(&bytes).contains(&69));
+        assert!(!ids(&with_offsets).contains(&66) && ids(&with_offsets).contains(&69));
+        for (bytes, asset) in [(&bytes, &unmoved), (&with_offsets, &nearly)] {
+            let back = Asset::from_bytes(bytes).unwrap();
+            let expected = match options.compact {
+                true => asset.clone().with_compact_shapes(),
+                false => asset.clone(),
+            };
+            assert!(same(&back, &expected));
+        }
     }
-    // The version before does not do without them.
-    let mut older = bytes;
-    put(&mut older, 16, &3_u32.to_le_bytes());
-    assert!(section_problem(&older).contains("offsets of tetrahedra: is missing"));
 }
 
 #[test]
@@ -390,8 +421,6 @@ fn hostile_half_precision_is_refused() {
     let scales = entry_of(&bytes, 84);
     expect(with(scales + 16, &0_u64.to_le_bytes()), "of 0 modes");
     expect(with(scales, &9999_u32.to_le_bytes()), "is missing");
-    // Under an older version there are no mode shapes at all.
-    expect(with(16, &2_u32.to_le_bytes()), "`mode shapes` is missing");
 }
 
 #[test]
@@ -481,7 +510,7 @@ fn sections_of_unknown_number_are_skipped() {
 fn arrays_that_do_not_fit_are_refused() {
     let nan = f32::NAN;
     type Change = fn(&mut Asset);
-    let cases: [(Change, &str); 39] = [
+    let cases: [(Change, &str); 46] = [
         (
             |a| a.supported[1] = 8,
             "supported node 1 lies beyond the 8 nodes",
@@ -540,6 +569,34 @@ fn arrays_that_do_not_fit_are_refused() {
         (
             |a| a.surface.curvature_radius[2] = 0.0,
             "curvature radius of surface triangle 2",
+        ),
+        (
+            |a| a.surface.walls.margin.clear(),
+            "one wall margin per surface triangle: 12, not 0; give every list",
+        ),
+        (
+            |a| a.surface.walls.thickness[2] = 0.0,
+            "wall thickness of surface triangle 2 is 0",
+        ),
+        (
+            |a| a.surface.walls.thickness[3] = f32::NAN,
+            "wall thickness of surface triangle 3 is NaN, not above zero; give metres",
+        ),
+        (
+            |a| a.surface.walls.stiffening[4] = -1.0,
+            "wall stiffening of surface triangle 4 is -1",
+        ),
+        (
+            |a| a.surface.walls.margin[5] = f32::NAN,
+            "wall margin of surface triangle 5 is NaN",
+        ),
+        (
+            |a| a.surface.walls.margin[6] = -0.5,
+            "wall margin of surface triangle 6 is -0.5",
+        ),
+        (
+            |a| a.modes.residual_modes = 3,
+            "3 of its 3 modes are to answer statically",
         ),
         (
             |a| a.analysis.elements[1][9] = 10,

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use frangible::Asset;
-use frangible::asset::{Embedding, SaveOptions};
+use frangible::asset::{Embedding, SaveOptions, SurfaceWalls};
 use frangible::glam::Vec3;
 
 mod common;
@@ -19,10 +19,17 @@ fn seeds() -> [(&'static str, Asset, SaveOptions); 5] {
             modes,
         })
     };
-    let drawn = Asset {
+    let mut drawn = Asset {
         render: Some(drawn_surface()),
         ..asset(1, 10, 1, 2)
     };
+    let walls = |number: f32| vec![number; drawn.surface.triangles.len()];
+    drawn.surface.walls = SurfaceWalls {
+        thickness: walls(0.004),
+        stiffening: walls(0.0),
+        margin: walls(f32::INFINITY),
+    };
+    drawn.modes.residual_modes = 1;
     // Where no point has an offset, a compact file has none either.
     let mut unmoved = asset(1, 10, 1, 1).with_compact_shapes();
     let Embedding { tets, nodes } = &mut unmoved.embedding;

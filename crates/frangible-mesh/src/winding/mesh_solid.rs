@@ -156,6 +156,15 @@ impl MeshSolid {
         })
     }
 
+    /// The first triangle through which the segment leaves the body, from its back to its front: how far along the segment,
+    /// 0..1, and its index in the surface; the lowest of those that share the place.
+    #[must_use]
+    pub fn first_exit(&self, from: DVec3, to: DVec3) -> Option<(f64, u32)> {
+        let hits = segment::hits(&self.tree, from, to);
+        let exit = hits.iter().find(|hit| hit.leaves != self.turned)?;
+        Some((exit.t, exit.face))
+    }
+
     pub(super) fn packets(&self) -> &[Packet] {
         &self.tree.packets
     }

@@ -15,6 +15,8 @@ pub(super) struct Hit {
     pub(super) t: f64,
     /// Whether the segment passes from the back of the triangle to its front.
     pub(super) leaves: bool,
+    /// Index of the triangle in the surface.
+    pub(super) face: u32,
 }
 
 /// All hits of the segment, by `t`. A hit of a shared side appears once per triangle.
@@ -29,7 +31,7 @@ pub(super) fn hits(tree: &Tree, from: DVec3, to: DVec3) -> Vec<Hit> {
     if !tree.nodes.is_empty() {
         visit(tree, 0, from, along, DVec3::from_array(inverse), &mut found);
     }
-    found.sort_by(|a, b| a.t.total_cmp(&b.t));
+    found.sort_by(|a, b| a.t.total_cmp(&b.t).then(a.face.cmp(&b.face)));
     found
 }
 
@@ -98,6 +100,7 @@ fn triangles_met(packet: &Packet, from: DVec3, along: DVec3, found: &mut Vec<Hit
             found.push(Hit {
                 t,
                 leaves: volume < 0.0,
+                face: packet.faces[lane],
             });
         }
     }

@@ -151,11 +151,18 @@ pub struct SurfaceWalls {
     /// (κ₁ sin²θ + κ₂ cos²θ)², κ₁ and κ₂ the principal curvatures of the wall's middle surface. 1/R² of a dome, 3/(8R²) of a
     /// tube, 0 of a flat wall.
     pub stiffening: Vec<f32>,
-    /// Distance along the wall to its nearest edge, m, where it ends, is held or grows much thicker; infinite where it has none.
+    /// Distance along the wall to its nearest edge, m, where it ends, is held, folds, or is a third thicker or thinner; infinite
+    /// where it has none.
     pub margin: Vec<f32>,
 }
 
 impl SurfaceWalls {
+    /// Whether there is no wall anywhere.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.thickness.is_empty() && self.stiffening.is_empty() && self.margin.is_empty()
+    }
+
     /// The wall behind a triangle of the surface, if there is one.
     #[must_use]
     pub fn at(&self, triangle: u32) -> Option<SurfaceWall> {

@@ -127,6 +127,7 @@ impl Asset {
                 *radius = (f64::from(*radius) * factor).max(SMALLEST_CURVATURE_RADIUS) as f32;
             }
         }
+        asset.rescale_walls(factor);
         asset.rescale_modes(
             (factor * factor).recip(),
             (factor * factor.sqrt()).recip(),
@@ -135,6 +136,19 @@ impl Asset {
         );
         asset.weigh();
         asset.checked()
+    }
+
+    fn rescale_walls(&mut self, factor: f64) {
+        let walls = &mut self.surface.walls;
+        for (numbers, factor) in [
+            (&mut walls.thickness, factor),
+            (&mut walls.stiffening, (factor * factor).recip()),
+            (&mut walls.margin, factor),
+        ] {
+            for x in numbers {
+                *x = (f64::from(*x) * factor) as f32;
+            }
+        }
     }
 
     fn rescale_modes(&mut self, eigenvalues: f64, shapes: f64, gradient: f64, stress: f64) {

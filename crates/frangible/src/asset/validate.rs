@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use super::{Asset, EmbeddedPoint, RenderSurface};
+use super::{Asset, EmbeddedPoint, RenderSurface, SurfaceWalls};
 use crate::error::InputError;
 use crate::mesh::{FACES, MassProperties, NO_NEIGHBOUR, TetMesh};
 
@@ -83,7 +83,8 @@ impl Asset {
             &surface.curvature_radius,
             |&r| r > 0.0,
             |t| format!("the curvature radius of surface triangle {t} is not above zero"),
-        )
+        )?;
+        walls(&surface.walls, count)
     }
 
     fn check_analysis(&self) -> Check {
@@ -146,6 +147,12 @@ impl Asset {
             ));
         }
         one_each("mode", count, "peak stress", modes.peak_stress.len())?;
+        if modes.residual_modes > 0 && modes.residual_modes >= count {
+            return Err(format!(
+                "{} of its {count} modes are to answer statically, and none is left to follow; follow one at least",
+                modes.residual_modes
+            ));
+        }
         all(
             &modes.eigenvalues,
             |&l| l.is_finite() && l > 0.0,
@@ -204,6 +211,53 @@ impl Asset {
             .then_some(())
             .ok_or_else(|| "the supported nodes do not rise from one to the next".into())
     }
+}
+
+/// All three lists or none; infinity is a number like others here: no wall, no edge.
+fn walls(walls: &SurfaceWalls, triangles: usize) -> Check {
+    if walls.is_empty() {
+        return Ok(());
+    }
+    let lists = [
+        ("wall thickness", &walls.thickness),
+        ("wall stiffening", &walls.stiffening),
+        ("wall margin", &walls.margin),
+    ];
+    for (what, list) in lists {
+        one_each("surface triangle", triangles, what, list.len()).map_err(|problem| {
+            format!("{problem}; give every list of its walls, or none of them")
+        })?;
+    }
+    all(
+        &walls.thickness,
+        |&h| h > 0.0,
+        |t| {
+            format!(
+                "the wall thickness of surface triangle {t} is {}, not above zero; give metres, or infinity where there is no wall",
+                walls.thickness[t]
+            )
+        },
+    )?;
+    all(
+        &walls.stiffening,
+        |&k| k >= 0.0,
+        |t| {
+            format!(
+                "the wall stiffening of surface triangle {t} is {}, not zero or above; give 0 for a flat wall",
+                walls.stiffening[t]
+            )
+        },
+    )?;
+    all(
+        &walls.margin,
+        |&m| m >= 0.0,
+        |t| {
+            format!(
+                "the wall margin of surface triangle {t} is {}, not zero or above; give infinity for a wall without an edge",
+                walls.margin[t]
+            )
+        },
+    )
 }
 
 fn mass(mass: &MassProperties) -> Check {

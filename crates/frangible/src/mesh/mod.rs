@@ -1,5 +1,6 @@
 //! Meshes: tetrahedra of the body, triangles of the pieces, and exact mass properties.
 
+mod along;
 mod boxes;
 mod closest;
 mod mass;
@@ -10,6 +11,7 @@ mod surface;
 mod tet;
 mod tree;
 
+pub use along::AlongSurface;
 pub use closest::closest_on_triangle;
 pub use mass::MassProperties;
 pub use render::{RenderMesh, box_projection};

@@ -6,12 +6,12 @@ use glam::{DVec3, Vec3};
 
 use super::lists::Lists;
 use super::{Breakup, FixedPoints, Trace};
-use crate::asset::{Asset, OuterSurface};
+use crate::asset::{Asset, OuterSurface, SurfaceWalls};
 use crate::body::{Body, Prepared};
 use crate::config::FractureConfig;
 use crate::crack::CrackSystem;
 use crate::fragment::{self, EdgeCut};
-use crate::mesh::MassProperties;
+use crate::mesh::{AlongSurface, MassProperties};
 use crate::outcome::{Fracture, Fragment};
 use crate::state::BodyState;
 
@@ -75,6 +75,7 @@ impl Portion {
         portion.mass = asset.mass;
         portion.positions = asset.surface_positions().to_vec();
         portion.surface = asset.surface.clone();
+        portion.surface.walls = portion.walls();
         portion
     }
 
@@ -200,6 +201,36 @@ impl Portion {
         self.whole
     }
 
+    /// The walls behind its surface: those of the baked body, which end where a crack has passed. None behind crack faces.
+    fn walls(&self) -> SurfaceWalls {
+        let root = &self.root.surface.walls;
+        if root.thickness.is_empty() {
+            return SurfaceWalls::default();
+        }
+        let triangles = &self.surface.triangles;
+        let outer = self.trace.outer_of.len();
+        let broken =
+            |&t: &usize| t >= outer || self.cracked.binary_search(&self.surface.tets[t]).is_ok();
+        let edges = (0..triangles.len()).filter(broken);
+        let edges: Vec<u32> = edges.flat_map(|t| triangles[t]).collect();
+        let along = AlongSurface::new(&self.positions, triangles);
+        let distances = along.at_triangles(&along.distances(&edges, |t| t < outer));
+        let inherited = |numbers: &[f32]| {
+            let own = self.trace.outer_of.iter().map(|&t| numbers[t as usize]);
+            own.chain(self.trace.inner_of.iter().map(|_| f32::INFINITY))
+                .collect()
+        };
+        let mut walls = SurfaceWalls {
+            thickness: inherited(&root.thickness),
+            stiffening: inherited(&root.stiffening),
+            margin: inherited(&root.margin),
+        };
+        for (margin, distance) in walls.margin.iter_mut().zip(distances) {
+            *margin = margin.min(distance as f32);
+        }
+        walls
+    }
+
     /// Whether a node is its own.
     pub(crate) fn has_node(&self, node: u32) -> bool {
         self.nodes.binary_search(&node).is_ok()
@@ -250,6 +281,7 @@ impl Fracture {
             };
             portion.positions = fragment.mesh.positions.clone();
             portion.surface = surface(fragment, &portion.root.surface, &portion.trace, edge);
+            portion.surface.walls = portion.walls();
             portions[k] = Some(Arc::new(portion));
         }
         portions

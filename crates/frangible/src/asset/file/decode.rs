@@ -4,13 +4,13 @@ use std::sync::Arc;
 
 use glam::{DMat3, DVec3, Vec3};
 
+use super::AssetFileError;
 use super::reader::Reader;
 use super::sections::{self as s, Section};
-use super::{AssetFileError, COMPACT, SUPPORTED, WITHOUT_ZEROS};
 use crate::asset::half::Half;
 use crate::asset::{
     AnalysisMesh, Asset, ConvexCell, EmbeddedPoint, Embedding, OuterSurface, RenderMaterial,
-    RenderSurface,
+    RenderSurface, SurfaceWalls,
 };
 use crate::material::Material;
 use crate::mesh::{MassProperties, TetMesh};
@@ -42,7 +42,7 @@ impl Asset {
                 tets: r.rows(s::SURFACE_TETS)?,
                 normals: r.rows(s::SURFACE_NORMALS)?,
                 curvature_radius: r.rows(s::SURFACE_CURVATURE)?,
-                ..OuterSurface::default()
+                walls: walls(&r)?,
             },
             analysis: AnalysisMesh {
                 nodes: r.rows(s::ANALYSIS_NODES)?,
@@ -57,7 +57,7 @@ impl Asset {
                 eigenvalues: r.rows(s::EIGENVALUES)?,
                 shapes: shapes(&r)?,
                 peak_stress: r.rows(s::PEAK_STRESS)?,
-                ..ModalBasis::default()
+                residual_modes: r.one::<u32>(s::RESIDUAL_MODES)? as usize,
             },
             bounds: bounds(&r)?,
             mass: mass(r.one(s::MASS)?),
@@ -127,7 +127,7 @@ fn embedded(r: &Reader<'_>, sections: [Section; 3]) -> Result<Vec<EmbeddedPoint>
         Err(AssetFileError::section(section.name, problem))
     };
     check(of_barycentric, barycentric.len())?;
-    let offsets = if r.version < WITHOUT_ZEROS || r.has(of_offsets) {
+    let offsets = if r.has(of_offsets) {
         let offsets = r.each::<Vec3>(of_offsets)?;
         check(of_offsets, offsets.len())?;
         Some(offsets)
@@ -166,6 +166,19 @@ fn cells(r: &Reader<'_>) -> Result<Vec<ConvexCell>, AssetFileError> {
     Ok(sizes.iter().map(cell).collect())
 }
 
+/// The walls behind the surface, where there are any: all of their sections or none.
+fn walls(r: &Reader<'_>) -> Result<SurfaceWalls, AssetFileError> {
+    let sections = [s::WALL_THICKNESS, s::WALL_STIFFENING, s::WALL_MARGIN];
+    if !sections.iter().any(|&section| r.has(section)) {
+        return Ok(SurfaceWalls::default());
+    }
+    Ok(SurfaceWalls {
+        thickness: r.rows(s::WALL_THICKNESS)?,
+        stiffening: r.rows(s::WALL_STIFFENING)?,
+        margin: r.rows(s::WALL_MARGIN)?,
+    })
+}
+
 /// The stress bounds, where the file has them.
 fn bounds(r: &Reader<'_>) -> Result<StressBounds, AssetFileError> {
     let sections = [s::BOUND_CLUSTERS, s::STRESS_BOUNDS, s::GRADIENT_BOUNDS];
@@ -181,7 +194,7 @@ fn bounds(r: &Reader<'_>) -> Result<StressBounds, AssetFileError> {
 
 /// Mode shapes: as they are, or in half precision times the scale of their column.
 fn shapes(r: &Reader<'_>) -> Result<Vec<f32>, AssetFileError> {
-    if r.version < COMPACT {
+    if r.has(s::MODE_SHAPES) {
         return r.rows(s::MODE_SHAPES);
     }
     let scales = r.rows::<f32>(s::HALF_SCALES)?;
@@ -202,13 +215,9 @@ fn shapes(r: &Reader<'_>) -> Result<Vec<f32>, AssetFileError> {
     Ok(halves.zip(columns).map(|(h, s)| h.value() * s).collect())
 }
 
-/// Versions before supports know the number of their section as little as any other that is unknown.
+/// The nodes that something holds; none of a free body, whose file has no such section.
 fn supported(r: &Reader<'_>) -> Result<Vec<u32>, AssetFileError> {
-    if r.version < SUPPORTED {
-        return Ok(Vec::new());
-    }
-    // In the version for them they must be there; in later ones, which are for something else, a body may be free.
-    if r.version > SUPPORTED && !r.has(s::SUPPORTED) {
+    if !r.has(s::SUPPORTED) {
         return Ok(Vec::new());
     }
     let nodes = r.rows(s::SUPPORTED)?;

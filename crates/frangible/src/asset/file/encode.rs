@@ -1,8 +1,8 @@
 //! Asset to bytes.
 
+use super::SaveOptions;
 use super::sections::{self as s, Section};
 use super::writer::Writer;
-use super::{COMPACT, FREE, SUPPORTED, SaveOptions, WITHOUT_ZEROS};
 use crate::asset::half::{Half, half_scales};
 use crate::asset::{Asset, EmbeddedPoint, Embedding, RenderSurface};
 use crate::material::Material;
@@ -30,15 +30,20 @@ impl Asset {
         w.rows(s::SURFACE_TETS, &self.surface.tets);
         w.rows(s::SURFACE_NORMALS, &self.surface.normals);
         w.rows(s::SURFACE_CURVATURE, &self.surface.curvature_radius);
+        let walls = &self.surface.walls;
+        if !walls.is_empty() {
+            w.rows(s::WALL_THICKNESS, &walls.thickness);
+            w.rows(s::WALL_STIFFENING, &walls.stiffening);
+            w.rows(s::WALL_MARGIN, &walls.margin);
+        }
         w.rows(s::ANALYSIS_NODES, &self.analysis.nodes);
         w.rows(s::ANALYSIS_ELEMENTS, &self.analysis.elements);
         w.rows(s::ANALYSIS_GRADIENTS, &self.analysis.barycentric_gradients);
         let Embedding { tets, nodes } = &self.embedding;
-        let unmoved = options.compact && [tets, nodes].iter().all(|points| are_unmoved(points));
         let of_tets = [s::TET_ELEMENTS, s::TET_BARYCENTRIC, s::TET_OFFSETS];
-        embedded(&mut w, of_tets, tets, !unmoved);
+        embedded(&mut w, of_tets, tets);
         let of_nodes = [s::NODE_ELEMENTS, s::NODE_BARYCENTRIC, s::NODE_OFFSETS];
-        embedded(&mut w, of_nodes, nodes, !unmoved);
+        embedded(&mut w, of_nodes, nodes);
         w.rows(s::EIGENVALUES, &self.modes.eigenvalues);
         if options.compact {
             let scales = half_scales(&self.modes);
@@ -53,6 +58,7 @@ impl Asset {
             w.rows(s::MODE_SHAPES, &self.modes.shapes);
         }
         w.rows(s::PEAK_STRESS, &self.modes.peak_stress);
+        w.rows(s::RESIDUAL_MODES, &[self.modes.residual_modes as u32]);
         // Rounded shapes have other bounds: they are found when a body is made.
         if !(self.bounds.is_empty() || options.compact) {
             w.rows(s::BOUND_CLUSTERS, &self.bounds.cluster_of_tet);
@@ -72,12 +78,7 @@ impl Asset {
         if let Some(surface) = &self.render {
             render(&mut w, surface);
         }
-        w.finish(match (options.compact, self.is_supported()) {
-            (true, _) if unmoved => WITHOUT_ZEROS,
-            (true, _) => COMPACT,
-            (false, true) => SUPPORTED,
-            (false, false) => FREE,
-        })
+        w.finish()
     }
 }
 
@@ -115,11 +116,10 @@ fn embedded(
     w: &mut Writer,
     [elements, barycentric, offsets]: [Section; 3],
     points: &[EmbeddedPoint],
-    with_offsets: bool,
 ) {
     w.each(elements, points.iter().map(|p| p.element));
     w.each(barycentric, points.iter().map(|p| p.barycentric));
-    if with_offsets {
+    if !are_unmoved(points) {
         w.each(offsets, points.iter().map(|p| p.offset));
     }
 }

@@ -20,12 +20,12 @@ pub enum AssetFileError {
     },
     /// Written by another version of the format.
     #[error(
-        "it has version {found} of the format, and this build reads up to {supported}; bake it again"
+        "it was baked by another version of Frangible (its format is {found}, this one's is {supported}); bake it again: frangible bake FILE --output NAME.frangible"
     )]
     Version {
         /// Version of the file.
         found: u32,
-        /// Newest version this build reads.
+        /// Version that this build reads.
         supported: u32,
     },
     /// The end is missing.

@@ -13,22 +13,9 @@ mod writer;
 pub use error::AssetFileError;
 pub use writer::seal;
 
-/// Newest version of the file format; this build reads all versions up to it. An asset is written in the oldest version
-/// that can hold it.
-pub const FORMAT_VERSION: u32 = 4;
-
-/// First version: free bodies only.
-const FREE: u32 = 1;
-/// Version that also holds which nodes are supported. Whoever ignored them would let a pane fall out of its frame,
-/// hence the version.
-const SUPPORTED: u32 = 2;
-/// Version whose mode shapes are of half precision; held bodies and free ones. A reader that knew nothing of them would find no
-/// mode shapes, hence the version.
-const COMPACT: u32 = 3;
-
-/// Version that leaves out what is zero throughout of [`COMPACT`]: the offsets of points that lie where their coordinates
-/// say, as all of a mesh inside its analysis mesh do. A reader that knew nothing of it would miss them, hence the version.
-const WITHOUT_ZEROS: u32 = 4;
+/// Version of the file format: the only one that this build reads and writes. Files are cheap to bake again, so there is no
+/// conversion.
+pub const FORMAT_VERSION: u32 = 5;
 
 /// How an asset is written.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

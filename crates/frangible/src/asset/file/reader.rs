@@ -3,8 +3,8 @@
 use super::row::{Kind, Row};
 use super::sections::Section;
 use super::{
-    ALIGNMENT, AssetFileError, CHECKSUM_AT, COVERED_FROM, ENTRY, FORMAT_VERSION, FREE, HEADER,
-    MAGIC, checksum, foreign,
+    ALIGNMENT, AssetFileError, CHECKSUM_AT, COVERED_FROM, ENTRY, FORMAT_VERSION, HEADER, MAGIC,
+    checksum, foreign,
 };
 
 #[derive(Clone, Copy)]
@@ -17,15 +17,13 @@ struct Entry<'a> {
 
 /// The sections of a file whose header, checksum and table are sound.
 pub(super) struct Reader<'a> {
-    /// Version of the format.
-    pub(super) version: u32,
     /// Sorted by number.
     entries: Vec<Entry<'a>>,
 }
 
 impl<'a> Reader<'a> {
     pub(super) fn new(bytes: &'a [u8]) -> Result<Self, AssetFileError> {
-        let (version, count) = header(bytes)?;
+        let count = header(bytes)?;
         // A count that the file has no room for ends here, before anything of its size is allocated.
         let table = count
             .checked_mul(ENTRY)
@@ -45,7 +43,7 @@ impl<'a> Reader<'a> {
         if let Some(pair) = entries.windows(2).find(|pair| pair[0].id == pair[1].id) {
             return Err(fail(pair[0].id, "occurs twice"));
         }
-        Ok(Self { version, entries })
+        Ok(Self { entries })
     }
 
     pub(super) fn has(&self, section: Section) -> bool {
@@ -113,8 +111,8 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// Checks all but the table, and gives the version and the number of sections.
-fn header(bytes: &[u8]) -> Result<(u32, usize), AssetFileError> {
+/// Checks all but the table, and gives the number of sections.
+fn header(bytes: &[u8]) -> Result<usize, AssetFileError> {
     let found = bytes.len() as u64;
     let truncated = |expected: u64| AssetFileError::Truncated { expected, found };
     if !bytes.starts_with(&MAGIC) {
@@ -129,7 +127,7 @@ fn header(bytes: &[u8]) -> Result<(u32, usize), AssetFileError> {
         return Err(truncated(HEADER as u64));
     };
     let version = u32::get(&header[16..]);
-    if !(FREE..=FORMAT_VERSION).contains(&version) {
+    if version != FORMAT_VERSION {
         return Err(AssetFileError::Version {
             found: version,
             supported: FORMAT_VERSION,
@@ -146,7 +144,7 @@ fn header(bytes: &[u8]) -> Result<(u32, usize), AssetFileError> {
     if stored != checksum(bytes.get(COVERED_FROM..).unwrap_or_default()) {
         return Err(AssetFileError::Checksum);
     }
-    Ok((version, u32::get(&header[20..]) as usize))
+    Ok(u32::get(&header[20..]) as usize)
 }
 
 /// One entry of the table, and where the next section may begin: sections follow one another.

@@ -1,4 +1,4 @@
-//! Numbers and names of the sections. A number, once given, keeps its meaning for ever.
+//! Numbers and names of the sections.
 
 /// A section: its number in the file, and its name in `docs/asset-format.md` and in errors.
 #[derive(Clone, Copy, Debug)]
@@ -29,6 +29,9 @@ sections! {
     SURFACE_TETS = 33, "surface tetrahedra";
     SURFACE_NORMALS = 34, "surface normals";
     SURFACE_CURVATURE = 35, "surface curvature radii";
+    WALL_THICKNESS = 36, "wall thicknesses";
+    WALL_STIFFENING = 37, "wall stiffenings";
+    WALL_MARGIN = 38, "wall margins";
     ANALYSIS_NODES = 48, "analysis nodes";
     ANALYSIS_ELEMENTS = 49, "analysis elements";
     ANALYSIS_GRADIENTS = 50, "analysis barycentric gradients";
@@ -43,6 +46,7 @@ sections! {
     PEAK_STRESS = 82, "peak stress";
     HALF_SHAPES = 83, "mode shapes of half precision";
     HALF_SCALES = 84, "scales of mode shapes";
+    RESIDUAL_MODES = 85, "residual modes";
     BOUND_CLUSTERS = 88, "clusters of tetrahedra";
     STRESS_BOUNDS = 89, "stress bounds";
     GRADIENT_BOUNDS = 90, "gradient bounds";

@@ -2,7 +2,7 @@
 
 use super::row::{Kind, Row};
 use super::sections::Section;
-use super::{ALIGNMENT, CHECKSUM_AT, COVERED_FROM, ENTRY, HEADER, MAGIC, checksum};
+use super::{ALIGNMENT, CHECKSUM_AT, COVERED_FROM, ENTRY, FORMAT_VERSION, HEADER, MAGIC, checksum};
 
 struct Entry {
     id: u32,
@@ -51,12 +51,12 @@ impl Writer {
         });
     }
 
-    pub(super) fn finish(self, version: u32) -> Vec<u8> {
+    pub(super) fn finish(self) -> Vec<u8> {
         let start = HEADER + self.entries.len() * ENTRY;
         let mut bytes = Vec::with_capacity(start + self.data.len());
         bytes.extend(MAGIC);
         bytes.extend([0; COVERED_FROM - CHECKSUM_AT]);
-        bytes.extend(version.to_le_bytes());
+        bytes.extend(FORMAT_VERSION.to_le_bytes());
         bytes.extend((self.entries.len() as u32).to_le_bytes());
         bytes.extend([0; 8]);
         for entry in &self.entries {
