@@ -1,5 +1,7 @@
 //! Switches and numbers of the fracture model.
 
+use crate::near_field::PlateTheory;
+
 /// How an impact is turned into cracks. `Default` is our model; [`FractureConfig::as_in_the_paper`] is the paper's.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
@@ -13,8 +15,8 @@ pub struct FractureConfig {
     /// they are left out.
     pub residual: bool,
     /// Contacts on walls have the stress right under them that no mode shows, and the wall gives way there
-    /// ([`near_field`](crate::near_field)). Default: on; in the paper there is none.
-    pub near_field: bool,
+    /// ([`near_field`](crate::near_field)). Default: that of an elastic layer; in the paper there is none.
+    pub near_field: Option<PlateTheory>,
     /// All cracks of an impact together spend no more than its peak strain energy. Default: on.
     pub energy_ledger: bool,
     /// Pass over times and places whose stress bound stays below the strength; what breaks, and how, is the same bit for
@@ -102,7 +104,7 @@ impl Default for FractureConfig {
             duration: DurationModel::Integrated,
             admissible_duration: false,
             residual: true,
-            near_field: true,
+            near_field: Some(PlateTheory::Layer),
             energy_ledger: true,
             culling: true,
             samples_per_period: 16.0,
@@ -128,7 +130,7 @@ impl FractureConfig {
     /// Whether contacts have anything beside the modes that are followed, or are integrated: then their forces are followed with
     /// the body, substep by substep.
     pub(crate) fn has_complement(&self) -> bool {
-        self.duration == DurationModel::Integrated || self.residual || self.near_field
+        self.duration == DurationModel::Integrated || self.residual || self.near_field.is_some()
     }
 
     /// The paper's model: modal duration, instant planar cracks that start freely at the centres of elements and stop at the
@@ -138,7 +140,7 @@ impl FractureConfig {
         Self {
             duration: DurationModel::ModalHertz,
             residual: false,
-            near_field: false,
+            near_field: None,
             energy_ledger: false,
             timing: CrackTiming::Instant,
             path: CrackPath::Planar,

@@ -17,7 +17,7 @@ use crate::outcome::{Fracture, ImpactReport, LookedAt, Outcome};
 use crate::piece::{Breakup, static_impact};
 use crate::stages::Vibration;
 use crate::state::BodyState;
-use crate::stress::{BATCH, DisplacementBatch, Elasticity, MARGIN, STRIDE, lane};
+use crate::stress::{BATCH, DisplacementBatch, MARGIN, STRIDE, lane};
 use crate::trace::CrackTrace;
 
 /// Computes what an impact does to a body. Nothing is changed; the caller replaces a broken body by its fragments.
@@ -202,7 +202,7 @@ fn integrated(
     report: &mut ImpactReport,
 ) -> Option<Vibration> {
     let blow = if config.duration == DurationModel::Integrated {
-        Blow::new(body, contacts, config)?
+        Blow::of_valid(body, contacts, config)?
     } else {
         // Every contact is a half-sine of its impulse.
         let mut scripts: Vec<Contact> =
@@ -214,7 +214,7 @@ fn integrated(
         let (_, duration) = durations(&body.asset, &load, contacts, config);
         let strikers = scripts.iter_mut().filter(|c| !c.is_script());
         strikers.for_each(|c| c.duration = duration as f32);
-        Blow::new(body, &scripts, config)?
+        Blow::of_valid(body, &scripts, config)?
     };
     let asset = &*body.asset;
     report.unadjusted_duration = blow.hertz_time();
@@ -333,19 +333,8 @@ fn run_cracks_from<'a>(
     let mut system = CrackSystem::new(body, config, budget);
     let mut displacement = DisplacementBatch::new(asset);
     let mut culling = Culling::new(body, config, motion);
-    let elasticity = Elasticity::new(&asset.material).with_green_lagrange(config.green_lagrange);
     let mut peak = Peak::default();
-    let mut field = StressField {
-        asset,
-        skin: &body.prepared.skin,
-        config,
-        pressed,
-        displacement: &mut displacement,
-        elasticity,
-        near: motion.complement.near(),
-        centroids: &body.prepared.centroids,
-        step: 0,
-    };
+    let mut field = StressField::new(body, config, motion, pressed, &mut displacement);
     let mut suspects = Suspects::default();
     let mut roots = [0.0; BATCH];
     // From the beginning of its batch, so that every batch is whole.

@@ -5,7 +5,7 @@ use crate::config::FractureConfig;
 use crate::crack::{Culling, Peak, StressField, Suspects};
 use crate::modal::Motion;
 use crate::stages::Vibration;
-use crate::stress::{DisplacementBatch, Elasticity, STRIDE, lane, largest_eigenvalue};
+use crate::stress::{DisplacementBatch, STRIDE, lane, largest_eigenvalue};
 
 /// What is known of the beginning of cracks in an impact.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -95,18 +95,10 @@ impl OnsetSearch {
             }
             looks -= 1;
             let displacement = &mut self.displacement;
-            let mut field = StressField {
-                asset,
-                skin: &body.prepared.skin,
-                config,
-                pressed: &self.vibration.pressed,
-                displacement: displacement.get_or_insert_with(|| DisplacementBatch::new(asset)),
-                elasticity: Elasticity::new(&asset.material)
-                    .with_green_lagrange(config.green_lagrange),
-                near: motion.complement.near(),
-                centroids: &body.prepared.centroids,
-                step: first,
-            };
+            let displacement = displacement.get_or_insert_with(|| DisplacementBatch::new(asset));
+            let pressed = &self.vibration.pressed;
+            let mut field = StressField::new(body, config, motion, pressed, displacement);
+            field.step = first;
             field.displacement.seek(motion, first);
             suspects.find(body, &mut field, culling.survivors(), at_strength(body));
             for step in steps {

@@ -8,10 +8,13 @@ use super::complement::Residual;
 use super::plan::Plan;
 use crate::body::Body;
 use crate::config::{CrackTiming, FractureConfig};
+use crate::crack::StressField;
+use crate::error::InputError;
 use crate::contact::{Contact, Pulse};
 use crate::modal::Motion;
 use crate::near_field::NearField;
 use crate::outcome::ContactReport;
+use crate::stress::{DisplacementBatch, Symmetric3, lane};
 
 /// A blow of so many substeps is cut off: a contact that lasts this long is none of a blow's.
 const MOST_SUBSTEPS: usize = 60_000;
@@ -39,13 +42,34 @@ pub struct Blow {
     contact_steps: usize,
     /// Speed of each striker away from the body as a rigid one after it, m/s.
     departures: Vec<f64>,
+    energy_at_parting: f64,
     /// What the body does.
     pub(crate) motion: Motion,
 }
 
 impl Blow {
-    /// The blow of these contacts on a body; none where nothing pushes.
-    pub(crate) fn new(body: &Body, contacts: &[Contact], config: &FractureConfig) -> Option<Self> {
+    /// The blow of these contacts on a body, which nothing breaks; none where nothing pushes, or a piece has no modes.
+    ///
+    /// # Errors
+    /// What [`Contact::validate`] refuses.
+    pub fn new(
+        body: &Body,
+        contacts: &[Contact],
+        config: &FractureConfig,
+    ) -> Result<Option<Self>, InputError> {
+        contacts.iter().try_for_each(Contact::validate)?;
+        Ok(match body.statics {
+            Some(_) => None,
+            None => Self::of_valid(body, contacts, config),
+        })
+    }
+
+    /// [`Blow::new`] of contacts that have been checked.
+    pub(crate) fn of_valid(
+        body: &Body,
+        contacts: &[Contact],
+        config: &FractureConfig,
+    ) -> Option<Self> {
         let plan = Plan::new(body, contacts, config)?;
         let mut blow = Self {
             plan,
@@ -53,10 +77,12 @@ impl Blow {
             forces: Vec::new(),
             contact_steps: 0,
             departures: Vec::new(),
+            energy_at_parting: 0.0,
             motion: Motion::default(),
         };
         let run = blow.run(None);
         blow.motion = blow.motion_of(body, &run);
+        blow.energy_at_parting = run.energy_at_parting;
         blow.forces = run.forces;
         blow.contact_steps = run.contact_steps;
         blow.departures = run.speeds.iter().map(|v| -v).collect();
@@ -64,7 +90,8 @@ impl Blow {
     }
 
     /// Time step of the motion, s.
-    pub(crate) fn time_step(&self) -> f64 {
+    #[must_use]
+    pub fn time_step(&self) -> f64 {
         self.plan.time_step
     }
 
@@ -116,7 +143,8 @@ impl Blow {
     }
 
     /// What became of each contact.
-    pub(crate) fn reports(&self) -> Vec<ContactReport> {
+    #[must_use]
+    pub fn reports(&self) -> Vec<ContactReport> {
         let count = self.plan.sites.len();
         let dt = self.substep();
         let of = |(k, site): (usize, &super::plan::Site)| {
@@ -143,16 +171,28 @@ impl Blow {
         self.plan.sites.iter().enumerate().map(of).collect()
     }
 
-    /// Strain and kinetic energy of all modes and wall oscillators at the end of the contacts over what the strikers lost, J each;
-    /// for tests.
-    #[doc(hidden)]
+    /// Energy of all modes and wall oscillators when the contact parts, and what the motion of approach has lost, J: of one contact,
+    /// without damping, the same but for the error of the substeps.
     #[must_use]
     pub fn energies(&self) -> [f64; 2] {
-        let run = self.run(None);
         let mass = 1.0 / self.plan.inverse_mass[0];
         let before = f64::from(self.plan.sites[0].touch.contact.approach_speed);
-        let lost = 0.5 * mass * (before * before - run.speeds[0] * run.speeds[0]);
-        [run.energy_at_parting, lost]
+        let after = self.departures[0];
+        [
+            self.energy_at_parting,
+            0.5 * mass * (before * before - after * after),
+        ]
+    }
+
+    /// The body's stress at the weak place of fracture tetrahedron `tet` at a time step of the blow, Pa, as cracks feel it.
+    #[must_use]
+    pub fn stress(&self, body: &Body, tet: u32, step: usize, config: &FractureConfig) -> Symmetric3 {
+        let pressed = self.pressed();
+        let mut displacement = DisplacementBatch::new(&body.asset);
+        displacement.seek(&self.motion, step);
+        let mut field = StressField::new(body, config, &self.motion, &pressed, &mut displacement);
+        field.step = step;
+        field.at_weak_point(tet as usize).stress(lane(step))
     }
 
     /// Lets the force of contact `k` fall to nothing between two times, s: the wall under it is gone. What was before stays as it

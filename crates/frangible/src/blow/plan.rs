@@ -239,8 +239,8 @@ fn site(
     let mut drive = touch.project(body, direction);
     let mut gap = touch.modal_shape.clone();
     let followed = asset.modes.followed();
-    if config.near_field
-        && let Some((near, first)) = near(body, &site, mass, direction)
+    if let Some(theory) = config.near_field
+        && let Some((near, first)) = near(body, &site, mass, direction, theory)
     {
         let served = first;
         // Across the wall the near field goes on where the modes end; along it they serve.
@@ -271,7 +271,13 @@ fn site(
 }
 
 /// The near field of a contact on a wall, and the number of the first mode that it serves instead of.
-fn near(body: &Body, site: &Site, mass: f64, direction: Vec3) -> Option<(NearPlan, usize)> {
+fn near(
+    body: &Body,
+    site: &Site,
+    mass: f64,
+    direction: Vec3,
+    theory: PlateTheory,
+) -> Option<(NearPlan, usize)> {
     let asset = &*body.asset;
     let touch = &site.touch;
     let surface = asset.surface.walls.at(touch.triangle)?;
@@ -280,7 +286,7 @@ fn near(body: &Body, site: &Site, mass: f64, direction: Vec3) -> Option<(NearPla
     if f64::from(touch.contact.normal.dot(inwards)) < ACROSS {
         return None;
     }
-    let wall = WallMaterial::new(&asset.material, &surface, PlateTheory::default());
+    let wall = WallMaterial::new(&asset.material, &surface, theory);
     let speed = f64::from(touch.contact.approach_speed);
     let peak = match site.script {
         Some([impulse, duration]) => 0.5 * PI * impulse / duration,
@@ -339,7 +345,12 @@ pub(crate) struct SteadyNear {
 
 impl SteadyNear {
     /// Of a force, N, on a place of the surface; all modes of the body serve.
-    pub(crate) fn of(body: &Body, at: &SurfacePoint, force: Vec3) -> Option<Self> {
+    pub(crate) fn of(
+        body: &Body,
+        at: &SurfacePoint,
+        force: Vec3,
+        theory: PlateTheory,
+    ) -> Option<Self> {
         let asset = &*body.asset;
         let surface = asset.surface.walls.at(at.triangle)?;
         let inwards = inwards(asset, at.triangle, at.weights)?;
@@ -347,7 +358,7 @@ impl SteadyNear {
         if across <= 0.0 {
             return None;
         }
-        let wall = WallMaterial::new(&asset.material, &surface, PlateTheory::default());
+        let wall = WallMaterial::new(&asset.material, &surface, theory);
         let (_, lowest) = first_wave(asset, &wall, surface.margin, asset.modes.count())?;
         let first = wall.wave_number(lowest);
         let point = at.position + body.origin().as_vec3();

@@ -154,7 +154,7 @@ pub(crate) fn refused(
         })
     };
     let pushes = Pushes::new(body, hit().map(|c| (c.point, c.direction())))?;
-    if config.near_field && pushes.any_wall(&body.asset) {
+    if config.near_field.is_some() && pushes.any_wall(&body.asset) {
         return None;
     }
     let mut limits = [Limits::default(); MOST_CONTACTS];

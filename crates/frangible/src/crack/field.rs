@@ -3,7 +3,9 @@
 use glam::Vec3;
 
 use crate::asset::{Asset, EmbeddedPoint};
+use crate::body::Body;
 use crate::config::FractureConfig;
+use crate::modal::Motion;
 use crate::near_field::NearFields;
 use crate::stress::{
     DisplacementBatch, Elasticity, Law, STRIDE, Skin, StressLanes, StressState, Symmetric3, Wall,
@@ -26,7 +28,30 @@ pub(crate) struct StressField<'a> {
     pub(crate) step: usize,
 }
 
-impl StressField<'_> {
+impl<'a> StressField<'a> {
+    /// Of a motion, at its first step.
+    pub(crate) fn new(
+        body: &'a Body,
+        config: &'a FractureConfig,
+        motion: &'a Motion,
+        pressed: &'a [u32],
+        displacement: &'a mut DisplacementBatch,
+    ) -> Self {
+        let asset = &*body.asset;
+        Self {
+            asset,
+            skin: &body.prepared.skin,
+            config,
+            pressed,
+            displacement,
+            elasticity: Elasticity::new(&asset.material)
+                .with_green_lagrange(config.green_lagrange),
+            near: motion.complement.near(),
+            centroids: &body.prepared.centroids,
+            step: 0,
+        }
+    }
+
     /// Stress and strain energy density at the centroid of fracture tetrahedron `e`.
     pub(crate) fn at(&mut self, e: usize) -> StressState {
         let gradient = self.gradient(self.asset.embedded_tet(e));

@@ -65,8 +65,8 @@ pub fn rest(
     let weight = |mode: usize| prepared.weight.get(mode).map_or(0.0, |w| w.dot(gravity));
     let compliance = |mode: usize| prepared.periods[mode] * prepared.periods[mode];
     let near_at = |(at, force): &(SurfacePoint, Vec3)| {
-        let wanted = config.near_field && !config.green_lagrange;
-        wanted.then(|| SteadyNear::of(body, at, *force)).flatten()
+        let theory = config.near_field.filter(|_| !config.green_lagrange)?;
+        SteadyNear::of(body, at, *force, theory)
     };
     let mut report = report_on(body);
     if config.culling {

@@ -32,7 +32,7 @@ pub(crate) struct Band {
     edges: [f64; 2],
     /// ω², 1/s².
     pub(crate) eigenvalue: f64,
-    /// ξ² = p̂² Δ(k²)/(4πμ), 1/kg: how the contact feels it.
+    /// ξ², 1/kg, how the contact feels it: p̂² Δ(k²)/(4πμ) of a thin plate; in general such that ξ²/ω² is what the layer gives way by.
     pub(crate) give: f64,
     /// H of its middle, 1/(Pa·m): curvature per steady pressure.
     curvature: f64,
@@ -47,7 +47,9 @@ impl Band {
         Self {
             edges,
             eigenvalue: wall.eigenvalue(k),
-            give: pressure * pressure * (high * high - low * low) / (4.0 * PI * wall.mass_per_area),
+            give: pressure * pressure * (high * high - low * low) / (4.0 * PI)
+                * wall.compliance(k)
+                * wall.eigenvalue(k),
             curvature: pressure * wall.curvature(k),
         }
     }

@@ -118,6 +118,15 @@ impl WallMaterial {
         (3.0 * self.curvature_stiffness / self.bending_stiffness).powf(0.25)
     }
 
+    /// How far the contact gives way in waves of wave number k, m per Pa at the crest, beyond what Hertz' half-space does.
+    pub(super) fn compliance(&self, k: f64) -> f64 {
+        let factor = match self.theory {
+            PlateTheory::Kirchhoff => 1.0,
+            PlateTheory::Layer => layer_compliance(k * self.thickness),
+        };
+        factor / self.stiffness(k)
+    }
+
     /// Largest wave number that matters, 1/m: beyond it neither a contact of radius a, m, nor the far face shows anything.
     pub(super) fn last_wave_number(&self, contact_radius: f64) -> f64 {
         match self.theory {
@@ -166,6 +175,20 @@ fn layer_factor(x: f64) -> f64 {
     x.powi(3) * sinh / (3.0 * (sinh * sinh - x * x))
 }
 
+/// How much more an elastic layer than a half-space gives way under a pressure of wave number k, over what Kirchhoff's plate does;
+/// `x` = kh. The layer bends and is squeezed: (f_a + f_s) against 2, with f_a = (cosh x + 1)/(sinh x − x),
+/// f_s = (cosh x − 1)/(sinh x + x). What is left falls to nothing where kh > 4: Hertz' spring has the rest.
+fn layer_compliance(x: f64) -> f64 {
+    if x < 0.1 {
+        // 1 + 3x²/10 + …, less x³/6 of the half-space: the differences lose digits.
+        return 1.0 + 0.3 * x * x - x.powi(3) / 6.0;
+    }
+    let x = x.min(40.0);
+    let bends = (x.cosh() + 1.0) / (x.sinh() - x);
+    let squeezed = (x.cosh() - 1.0) / (x.sinh() + x);
+    x.powi(3) / 12.0 * (bends + squeezed - 2.0)
+}
+
 /// Transform of Hertz' pressure on a disc, of unit force; `x` = ka.
 pub(super) fn hertz_disc(x: f64) -> f64 {
     if x < 1e-2 {
@@ -198,6 +221,8 @@ mod tests {
             assert!((layer_factor(x) - expected).abs() < 0.01, "{x}");
         }
         assert!((layer_factor(0.1) - layer_factor(0.0999)).abs() < 1e-5);
+        assert!((layer_compliance(0.1) - layer_compliance(0.0999)).abs() < 1e-5);
+        assert!((0.0..1e-6).contains(&layer_compliance(30.0)));
     }
 
     #[test]
