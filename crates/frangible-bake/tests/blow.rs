@@ -36,8 +36,14 @@ fn supported_plate(modes: usize) -> Body {
     };
     let spec = BakeSpec {
         modes,
-        analysis: Some(MeshSize { edge: 0.003, layers: 1 }),
-        fracture: Some(MeshSize { edge: 0.001, layers: 1 }),
+        analysis: Some(MeshSize {
+            edge: 0.003,
+            layers: 1,
+        }),
+        fracture: Some(MeshSize {
+            edge: 0.001,
+            layers: 1,
+        }),
         supports: vec![edge(0, 1.0), edge(0, -1.0), edge(1, 1.0), edge(1, -1.0)],
         ..BakeSpec::new("plate", Shape::plate(SIDE, SIDE, THICKNESS), pmma())
     };
@@ -49,7 +55,13 @@ fn supported_plate(modes: usize) -> Body {
 fn ball(speed: f32, radius: f64, mass: f64) -> Contact {
     let steel = Material::preset("steel").unwrap();
     let striker = Striker::ball(&steel, mass, radius);
-    Contact::new(Vec3::new(0.0, 0.0, 0.0005), Vec3::NEG_Z, 0.0, speed, striker)
+    Contact::new(
+        Vec3::new(0.0, 0.0, 0.0005),
+        Vec3::NEG_Z,
+        0.0,
+        speed,
+        striker,
+    )
 }
 
 /// Curvatures along x and y of a simply supported plate at points along x from its middle, of all its modes: theory of thin plates, a
@@ -91,7 +103,10 @@ fn series(force: &[f32], step: f64, radius: f64, points: &[f64]) -> Vec<[f64; 2]
 fn look() {
     let m = pmma();
     let d = m.youngs_modulus * THICKNESS.powi(3) / 12.0 / (1.0 - m.poisson_ratio.powi(2));
-    println!("expected f1 {}", 2.0 * (PI / SIDE).powi(2) * (d / (m.density * THICKNESS)).sqrt() / 2.0 / PI);
+    println!(
+        "expected f1 {}",
+        2.0 * (PI / SIDE).powi(2) * (d / (m.density * THICKNESS)).sqrt() / 2.0 / PI
+    );
     let modes: usize = std::env::var("MODES").map_or(100, |m| m.parse().unwrap());
     let body = supported_plate(modes);
     for theory in [PlateTheory::Kirchhoff, PlateTheory::Layer] {
@@ -99,10 +114,22 @@ fn look() {
         config.near_field = Some(theory);
         for v in [20.0, 80.0] {
             let t = std::time::Instant::now();
-            let blow = Blow::new(&body, &[ball(v, 2e-3, 2.6e-4)], &config).unwrap().unwrap();
+            let blow = Blow::new(&body, &[ball(v, 2e-3, 2.6e-4)], &config)
+                .unwrap()
+                .unwrap();
             let time = t.elapsed();
             let r = &blow.reports()[0];
-            println!("{theory:?} {v} m/s: {:?} peak {} N, {} us, a {} mm, e {}, energies {:?}, step {} steps {}", time, r.peak_force, 1e6*r.duration, 1e3*r.contact_radius, r.departure_speed/f64::from(v), blow.energies(), blow.time_step(), r.force.len());
+            println!(
+                "{theory:?} {v} m/s: {:?} peak {} N, {} us, a {} mm, e {}, energies {:?}, step {} steps {}",
+                time,
+                r.peak_force,
+                1e6 * r.duration,
+                1e3 * r.contact_radius,
+                r.departure_speed / f64::from(v),
+                blow.energies(),
+                blow.time_step(),
+                r.force.len()
+            );
             for t in [1e-5, 3e-5, 6e-5, 1e-4] {
                 let i = (t / blow.time_step()) as usize;
                 print!("{} ", r.force.get(i).copied().unwrap_or(0.0));
@@ -112,19 +139,46 @@ fn look() {
             for step in [10, 20, 30] {
                 println!("t {}", blow.time_step() * (step + 1) as f64);
                 for target in [0.0, 1e-3, 2e-3, 4e-3, 8e-3, 16e-3] {
-                    let tet = body.weak_tets().iter().copied().filter(|&e| mesh.centroid(e as usize).z < -0.0001).min_by_key(|&e| {
-                        let d = mesh.centroid(e as usize) - Vec3::new(target, 0.0, -0.0004);
-                        (d.length() * 1e9) as i64
-                    }).unwrap();
+                    let tet = body
+                        .weak_tets()
+                        .iter()
+                        .copied()
+                        .filter(|&e| mesh.centroid(e as usize).z < -0.0001)
+                        .min_by_key(|&e| {
+                            let d = mesh.centroid(e as usize) - Vec3::new(target, 0.0, -0.0004);
+                            (d.length() * 1e9) as i64
+                        })
+                        .unwrap();
                     let s = blow.stress(&body, tet, step, &config);
                     // along local
                     let c = mesh.centroid(tet as usize);
-                    let surf = body.asset().surface.tets.iter().position(|&t| t == tet).map(|t| { let p = body.asset().surface.triangles[t].map(|v| mesh.positions[v as usize]); (p[0]+p[1]+p[2])/3.0 }).unwrap_or(c);
+                    let surf = body
+                        .asset()
+                        .surface
+                        .tets
+                        .iter()
+                        .position(|&t| t == tet)
+                        .map(|t| {
+                            let p = body.asset().surface.triangles[t]
+                                .map(|v| mesh.positions[v as usize]);
+                            (p[0] + p[1] + p[2]) / 3.0
+                        })
+                        .unwrap_or(c);
                     let r0 = surf.truncate().length() as f64;
-                    let truth = series(&r.force[..=step], blow.time_step(), r.contact_radius, &[r0])[0];
-                    let bend = |a: f64, b: f64| d * (a + m.poisson_ratio * b) * 6.0 / THICKNESS.powi(2) / 1e6;
+                    let truth =
+                        series(&r.force[..=step], blow.time_step(), r.contact_radius, &[r0])[0];
+                    let bend = |a: f64, b: f64| {
+                        d * (a + m.poisson_ratio * b) * 6.0 / THICKNESS.powi(2) / 1e6
+                    };
                     let tr = s.diagonal[0] + s.diagonal[1];
-                    println!("  at r {:.5}: sum {:.1} series {:.1}   (rr {:.1} tt {:.1})", r0, tr/1e6, bend(truth[0], truth[1]) + bend(truth[1], truth[0]), s.diagonal[0]/1e6, s.diagonal[1]/1e6);
+                    println!(
+                        "  at r {:.5}: sum {:.1} series {:.1}   (rr {:.1} tt {:.1})",
+                        r0,
+                        tr / 1e6,
+                        bend(truth[0], truth[1]) + bend(truth[1], truth[0]),
+                        s.diagonal[0] / 1e6,
+                        s.diagonal[1] / 1e6
+                    );
                 }
             }
         }

@@ -3,9 +3,7 @@
 use std::f32::consts::TAU;
 use std::time::Instant;
 
-use frangible::contact::{modal_load, pulse};
 use frangible::glam::Vec3;
-use frangible::modal::respond;
 use frangible::{
     Asset, Body, Breakable, Contact, FractureConfig, LookedAt, Material, Outcome, Striker, impact,
     would_break,
@@ -46,8 +44,6 @@ pub enum Class {
     Size,
     /// By how far its impulse moves each mode at most.
     Impulse,
-    /// By the motion that follows the force, weak point by weak point, and the most of the rest.
-    Following,
     /// By the amplitudes of the modes: at every step the bound of the whole body stays below the strength.
     Amplitudes,
     /// By clusters: at some step the bound of the whole body passes the strength, that of no cluster does.
@@ -62,10 +58,9 @@ pub enum Class {
 
 impl Class {
     /// From the cheapest.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 7] = [
         Self::Size,
         Self::Impulse,
-        Self::Following,
         Self::Amplitudes,
         Self::Clusters,
         Self::LookedAt,
@@ -79,7 +74,6 @@ impl Class {
         match self {
             Self::Size => "refused by its size",
             Self::Impulse => "refused by its impulse",
-            Self::Following => "refused by what follows it",
             Self::Amplitudes => "refused by the amplitudes",
             Self::Clusters => "refused by clusters",
             Self::LookedAt => "looked at, holds",
@@ -242,39 +236,10 @@ fn class(body: &Body, contact: &Contact, config: &FractureConfig) -> Result<Clas
         (Outcome::Broke(_), _) => Class::Breaks,
         (_, LookedAt::Sizes) => Class::Size,
         (_, LookedAt::Impulses) => Class::Impulse,
-        (_, LookedAt::Following) => Class::Following,
-        (_, LookedAt::Amplitudes) => {
-            if root_passes(body, contact, report.contact_duration, config) {
-                Class::Clusters
-            } else {
-                Class::Amplitudes
-            }
-        }
+        (_, LookedAt::Amplitudes) => Class::Amplitudes,
+        (_, LookedAt::Clusters) => Class::Clusters,
         _ if report.cracks > 0 => Class::Cracked,
         _ => Class::LookedAt,
-    })
-}
-
-/// Whether the bound of the whole body passes the strength at some step, Σ|q| s + ½ k (Σ|q| g)²: the report does not tell.
-fn root_passes(body: &Body, contact: &Contact, duration: f64, config: &FractureConfig) -> bool {
-    let asset = body.asset();
-    let material = &asset.material;
-    let load = modal_load(body, &[*contact]);
-    let pulse = pulse(asset, &load, duration, config);
-    let motion = respond(&asset.modes, material, &load.modal_impulse, &pulse);
-    let (stress, gradient) = asset.bounds.root(asset.modes.count());
-    let k = (3.0 * material.lame_lambda().max(0.0) + 2.0 * material.shear_modulus()) as f32;
-    let limit = material.strength as f32 * (1.0 - MARGIN);
-    (0..motion.steps()).any(|step| {
-        let sum = |row: &[f32]| -> f32 {
-            motion
-                .at(step)
-                .iter()
-                .zip(row)
-                .map(|(q, r)| q.abs() * r)
-                .sum()
-        };
-        sum(&stress) + 0.5 * k * sum(&gradient).powi(2) > limit
     })
 }
 

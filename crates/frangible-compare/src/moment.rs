@@ -76,11 +76,7 @@ impl<'a> Wave<'a> {
         // These steps alone: displacements are worked out for several that follow one another.
         let looks = (0..self.motion.steps()).step_by(every);
         let rows = looks.flat_map(|step| self.motion.at(step));
-        let motion = Motion {
-            amplitudes: rows.copied().collect(),
-            modes: self.motion.modes,
-            ..Motion::default()
-        };
+        let motion = Motion::new(rows.copied().collect(), self.motion.modes, 0.0, 0.0);
         every
             * first_largest((0..motion.steps()).map(|step| {
                 batch.seek(&motion, step);
@@ -95,11 +91,8 @@ impl<'a> Wave<'a> {
 
     /// The body at a step.
     pub(crate) fn at(&self, step: usize) -> Moment<'_> {
-        let motion = Motion {
-            amplitudes: self.motion.at(step).to_vec(),
-            modes: self.motion.modes,
-            ..Motion::default()
-        };
+        let row = self.motion.at(step).to_vec();
+        let motion = Motion::new(row, self.motion.modes, 0.0, 0.0);
         let mut batch = DisplacementBatch::new(self.hit.body.asset());
         batch.seek(&motion, 0);
         Moment {

@@ -24,18 +24,16 @@ pub const DEFAULT_STEP: f64 = 1.0 / 3840.0;
 pub(crate) fn quasi_static(hit: Hit<'_>, step: f64) -> Result<Outcome, CompareError> {
     let asset = hit.body.asset();
     let load = modal_load(hit.body, hit.contacts);
-    let impulses = load.modal_impulse.iter().zip(&asset.modes.eigenvalues);
+    let followed = asset.modes.followed();
+    let impulses = load.modal_impulse[..followed]
+        .iter()
+        .zip(&asset.modes.eigenvalues);
     let still: Vec<f64> = impulses.map(|(impulse, l)| impulse / (step * l)).collect();
     let energies = still.iter().zip(&asset.modes.eigenvalues);
     let energy = energies.map(|(q, l)| 0.5 * l * q * q).sum();
     let row: Vec<f32> = still.iter().map(|&q| q as f32).collect();
     let (time_step, steps) = steps(hit, step);
-    let motion = Motion {
-        amplitudes: row.repeat(steps),
-        modes: row.len(),
-        peak_energy: energy,
-        peak_strain_energy: energy,
-    };
+    let motion = Motion::new(row.repeat(steps), row.len(), energy, energy);
     let pressed: Vec<u32> = load.touches.iter().map(|touch| touch.triangle).collect();
     Ok(follow(hit.body, &motion, &pressed, time_step, hit.config)?)
 }

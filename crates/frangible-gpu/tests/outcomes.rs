@@ -42,7 +42,7 @@ fn cracks_and_pieces_are_the_same_bits_with_and_without_a_gpu() {
                     broke += usize::from(matches!(outcome, Outcome::Broke(_)));
                     if let Outcome::Held { margin, .. } = outcome
                         && outcome.report().cracks == 0
-                        && outcome.report().looked_at > LookedAt::Following
+                        && outcome.report().looked_at > LookedAt::Impulses
                     {
                         held_by_gpu += usize::from(*margin > 1.0);
                     }

@@ -69,11 +69,8 @@ fn reading(bar: &Body, depth: f32, elements: usize) -> [f64; 3] {
     let asset = own.asset();
     let mut amplitudes = vec![0.0; asset.modes.count()];
     amplitudes[0] = 1.0;
-    let motion = Motion {
-        modes: amplitudes.len(),
-        amplitudes,
-        ..Motion::default()
-    };
+    let modes = amplitudes.len();
+    let motion = Motion::new(amplitudes, modes, 0.0, 0.0);
     let mut batch = DisplacementBatch::new(asset);
     batch.seek(&motion, 0);
     let elasticity = Elasticity::new(&asset.material).with_green_lagrange(false);

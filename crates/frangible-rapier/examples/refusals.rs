@@ -37,7 +37,6 @@ fn row(name: &str, what: &str, c: LoadCounts) {
         c.asked,
         c.contacts,
         share(c.by_impulses),
-        share(c.by_following),
         share(c.by_amplitudes),
         share(c.by_clusters),
         share(c.by_stresses),

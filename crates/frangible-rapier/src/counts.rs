@@ -15,8 +15,6 @@ pub struct LoadCounts {
     /// Refused by their impulses and how long they act, free of time ([`LookedAt::Sizes`], [`LookedAt::Impulses`]); steady
     /// loads by the size of their forces.
     pub by_impulses: u64,
-    /// Refused by the motion that follows the force ([`LookedAt::Following`]).
-    pub by_following: u64,
     /// Refused by the amplitudes of the modes and bounds of the whole body, at every time step ([`LookedAt::Amplitudes`]).
     pub by_amplitudes: u64,
     /// Refused by bounds of parts of the body ([`LookedAt::Clusters`]).
@@ -35,7 +33,6 @@ impl LoadCounts {
         let of = match held {
             None => &mut self.broke,
             Some(LookedAt::Sizes | LookedAt::Impulses) => &mut self.by_impulses,
-            Some(LookedAt::Following) => &mut self.by_following,
             Some(LookedAt::Amplitudes) => &mut self.by_amplitudes,
             Some(LookedAt::Clusters) => &mut self.by_clusters,
             Some(LookedAt::Stresses) => &mut self.by_stresses,

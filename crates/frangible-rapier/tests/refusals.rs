@@ -6,7 +6,7 @@ use common::tumble::{BODIES, baked, tumble};
 use frangible_rapier::LoadCounts;
 
 fn sum(c: LoadCounts) -> u64 {
-    c.by_impulses + c.by_following + c.by_amplitudes + c.by_clusters + c.by_stresses + c.broke
+    c.by_impulses + c.by_amplitudes + c.by_clusters + c.by_stresses + c.broke
 }
 
 #[test]

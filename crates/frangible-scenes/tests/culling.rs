@@ -166,7 +166,7 @@ fn the_hardest_blow_that_is_refused_free_of_time_leaves_the_strength_unreached()
                 let blow = Contact::collision(asset, some.point, some.normal, speed, some.striker);
                 let outcome = impact(&body, &[blow], &config).unwrap();
                 let level = outcome.report().looked_at as usize;
-                if level > LookedAt::Following as usize {
+                if level > LookedAt::Impulses as usize {
                     break;
                 }
                 hardest[level] = Some(outcome);

@@ -3,13 +3,14 @@
 use std::path::Path;
 
 use frangible::glam::Vec3;
+use frangible::near_field::PlateTheory;
 use frangible::{CrackPath, CrackTiming, DurationModel, FractureConfig, Material, nearest_name};
 
 use super::body::body;
 use super::either::SwitchOrName;
 use super::schema::{
-    DurationTable, FractureTable, KindName, MethodName, OutputTable, PathTable, PiecesTable,
-    ProjectileTable, SceneTable, TimingTable,
+    DurationTable, FractureTable, KindName, MethodName, NearFieldName, OutputTable, PathTable,
+    PiecesTable, ProjectileTable, SceneTable, TimingTable,
 };
 use crate::body::BodySpec;
 use crate::check::Fault;
@@ -120,6 +121,7 @@ fn fracture(table: FractureTable) -> FractureConfig {
     let mut config = FractureConfig::default();
     match table.duration {
         None => {}
+        Some(DurationTable::Integrated) => config.duration = DurationModel::Integrated,
         Some(DurationTable::Hertz) => config.duration = DurationModel::Hertz,
         Some(DurationTable::ModalHertz) => config.duration = DurationModel::ModalHertz,
         Some(DurationTable::AsPrinted { c }) => config.duration = DurationModel::AsPrinted { c },
@@ -144,6 +146,13 @@ fn fracture(table: FractureTable) -> FractureConfig {
             config.path = CrackPath::Steered { turning_length };
         }
     }
+    match table.near_field {
+        None => {}
+        Some(NearFieldName::Off) => config.near_field = None,
+        Some(NearFieldName::Kirchhoff) => config.near_field = Some(PlateTheory::Kirchhoff),
+        Some(NearFieldName::Layer) => config.near_field = Some(PlateTheory::Layer),
+    }
+    set(&mut config.residual, table.residual);
     set(&mut config.admissible_duration, table.admissible_duration);
     set(&mut config.samples_per_period, table.samples_per_period);
     set(&mut config.crumb_share, table.crumb_share);

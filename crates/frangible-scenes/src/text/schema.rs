@@ -193,6 +193,8 @@ pub(super) enum KindName {
 pub(super) struct FractureTable {
     pub(super) duration: Option<DurationTable>,
     pub(super) admissible_duration: Option<bool>,
+    pub(super) residual: Option<bool>,
+    pub(super) near_field: Option<NearFieldName>,
     pub(super) samples_per_period: Option<f64>,
     pub(super) timing: Option<TimingTable>,
     pub(super) path: Option<PathTable>,
@@ -211,9 +213,19 @@ pub(super) struct FractureTable {
 #[derive(Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub(super) enum DurationTable {
+    Integrated,
     Hertz,
     ModalHertz,
     AsPrinted { c: f64 },
+}
+
+/// What walls do right under a contact.
+#[derive(Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum NearFieldName {
+    Off,
+    Kirchhoff,
+    Layer,
 }
 
 /// When cracks run.

@@ -3,6 +3,7 @@
 use std::fmt::{Display, Write};
 
 use frangible::glam::{Quat, Vec3};
+use frangible::near_field::PlateTheory;
 use frangible::{CrackPath, CrackTiming, DurationModel, FractureConfig};
 
 use super::support::support_text;
@@ -211,8 +212,16 @@ fn write_fracture(t: &mut Text, config: &FractureConfig) {
                 format!("{{ as_printed = {{ c = {} }} }}", number(c)),
             );
         }
-        _ => t.line("duration", quoted("hertz")),
+        DurationModel::Hertz => t.line("duration", quoted("hertz")),
+        _ => t.line("duration", quoted("integrated")),
     }
+    t.line("residual", config.residual);
+    let near_field = match config.near_field {
+        None => "off",
+        Some(PlateTheory::Kirchhoff) => "kirchhoff",
+        Some(PlateTheory::Layer) => "layer",
+    };
+    t.line("near_field", quoted(near_field));
     t.line("admissible_duration", config.admissible_duration);
     t.line("samples_per_period", number(config.samples_per_period));
     match config.timing {

@@ -41,7 +41,7 @@ macro_rules! switch {
 }
 
 /// Names of the duration models, in the order of their numbers.
-const DURATIONS: [&str; 3] = ["Hertz", "modal Hertz", "as printed"];
+const DURATIONS: [&str; 4] = ["integrated", "Hertz", "modal Hertz", "as printed"];
 
 /// All knobs, in the order of the panel.
 pub static KNOBS: [Knob; 20] = [
@@ -183,19 +183,21 @@ pub static KNOBS: [Knob; 20] = [
         label: "contact duration",
         unit: "",
         factor: 1.0,
-        range: [0.0, 2.0],
+        range: [0.0, 3.0],
         kind: Kind::Choice(&DURATIONS),
         rebakes: false,
-        help: "t_d = 2.868 (m² / (E² R v))^⅕ of the two bodies [Eq. 1]; modal: of the most excited mode; or Eq. 2 as printed",
+        help: "integrated: an outcome of striker, spring and vibration; else t_d = 2.868 (m² / (E² R v))^⅕ of the two bodies [Eq. 1]; modal: of the most excited mode; or Eq. 2 as printed",
         get: |s| match s.fracture.duration {
-            DurationModel::Hertz => 0.0,
-            DurationModel::ModalHertz => 1.0,
-            _ => 2.0,
+            DurationModel::Integrated => 0.0,
+            DurationModel::Hertz => 1.0,
+            DurationModel::ModalHertz => 2.0,
+            _ => 3.0,
         },
         set: |s, x| {
             s.fracture.duration = match x as usize {
-                0 => DurationModel::Hertz,
-                1 => DurationModel::ModalHertz,
+                0 => DurationModel::Integrated,
+                1 => DurationModel::Hertz,
+                2 => DurationModel::ModalHertz,
                 _ => DurationModel::AsPrinted {
                     c: s.printed_coefficient,
                 },

@@ -8,9 +8,9 @@ use super::complement::Residual;
 use super::plan::Plan;
 use crate::body::Body;
 use crate::config::{CrackTiming, FractureConfig};
+use crate::contact::{Contact, Pulse};
 use crate::crack::StressField;
 use crate::error::InputError;
-use crate::contact::{Contact, Pulse};
 use crate::modal::Motion;
 use crate::near_field::NearField;
 use crate::outcome::ContactReport;
@@ -105,7 +105,8 @@ impl Blow {
         let mut sums = vec![0.0; self.plan.modes];
         let count = self.plan.sites.len();
         for (k, drive) in self.plan.drive.iter().enumerate() {
-            let impulse: f64 = self.forces.iter().skip(k).step_by(count).sum::<f64>() * self.substep();
+            let impulse: f64 =
+                self.forces.iter().skip(k).step_by(count).sum::<f64>() * self.substep();
             for (sum, xi) in sums.iter_mut().zip(drive) {
                 *sum += impulse * xi;
             }
@@ -186,7 +187,13 @@ impl Blow {
 
     /// The body's stress at the weak place of fracture tetrahedron `tet` at a time step of the blow, Pa, as cracks feel it.
     #[must_use]
-    pub fn stress(&self, body: &Body, tet: u32, step: usize, config: &FractureConfig) -> Symmetric3 {
+    pub fn stress(
+        &self,
+        body: &Body,
+        tet: u32,
+        step: usize,
+        config: &FractureConfig,
+    ) -> Symmetric3 {
         let pressed = self.pressed();
         let mut displacement = DisplacementBatch::new(&body.asset);
         displacement.seek(&self.motion, step);
@@ -348,9 +355,8 @@ impl pulp::NullaryFnOnce for Run<'_> {
                 let fall: f64 = (0..count)
                     .map(|l| plan.inverse_mass[k * count + l] * forces[l])
                     .sum();
-                bases[k] = ways[k] + speeds[k] * dt
-                    - 0.5 * fall * dt * dt
-                    - dot(&plan.gap[k], &state.x);
+                bases[k] =
+                    ways[k] + speeds[k] * dt - 0.5 * fall * dt * dt - dot(&plan.gap[k], &state.x);
             }
             match self.given {
                 Some(given) => {
@@ -432,10 +438,7 @@ impl Run<'_> {
         let low = (0..plan.modes).find(|&i| amplitude(i) >= SIGNIFICANT * largest);
         let period = low.map_or(0.0, |i| TAU / plan.oscillators[i].0);
         let steps = (PERIODS * period / time_step).ceil() as usize;
-        let steps = steps.clamp(
-            record.contact_steps,
-            MOST_STEPS.max(record.contact_steps),
-        );
+        let steps = steps.clamp(record.contact_steps, MOST_STEPS.max(record.contact_steps));
         // After the blow its waves leave within half a period of the lowest of them.
         let near = plan.sites.iter().filter_map(|s| s.near.as_ref());
         let leave = near.map(|n| PI / n.lowest).fold(0.0, f64::max);

@@ -46,7 +46,9 @@ impl Limits {
                         let normal = c.normal.normalize();
                         (at.position.as_dvec3(), normal.as_dvec3())
                     };
-                    entry = asset.mass.inverse_mass_between(place(a, at), place(b, there));
+                    entry = asset
+                        .mass
+                        .inverse_mass_between(place(a, at), place(b, there));
                 }
                 if k == l {
                     entry += f64::from(a.striker.inverse_effective_mass);
@@ -64,8 +66,7 @@ impl Limits {
         for (k, (contact, at)) in contacts() {
             if contact.is_script() {
                 // Its pulse is known.
-                let (impulse, duration) =
-                    (f64::from(contact.impulse), f64::from(contact.duration));
+                let (impulse, duration) = (f64::from(contact.impulse), f64::from(contact.duration));
                 limits[k] = Self {
                     impulse,
                     force: 0.5 * std::f64::consts::PI * impulse / duration,

@@ -305,7 +305,9 @@ fn near(
         Some([_, duration]) => duration,
         None => site.hertz_time + 3.0 * mass / wall.dashpot(),
     };
-    let time = site.script.map_or(site.hertz_time, |[_, duration]| duration);
+    let time = site
+        .script
+        .map_or(site.hertz_time, |[_, duration]| duration);
     let spacing = Spacing {
         width: TAU / (ECHO * duration),
         even_to: RINGING / time,

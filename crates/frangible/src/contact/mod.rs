@@ -13,8 +13,8 @@ pub use admissible::{admissible_duration, approach_energy};
 pub use duration::{
     answer_duration, contact_duration, hertz_duration, modal_hertz_duration, most_excited_mode,
 };
-pub use kinds::{Contact, Striker};
 pub(crate) use duration::{contact_radius_of_curvature, hertz_at};
+pub use kinds::{Contact, Striker};
 pub(crate) use load::each_row;
 pub use load::{Load, Touch, modal_load};
 pub(crate) use per_impulse::PerImpulse;

@@ -136,7 +136,6 @@ impl Pushes {
         }
         stress + 0.5 * quadratic_modulus * gradient * gradient
     }
-
 }
 
 /// Whether a bound free of time shows that no stress of this impact does anything to the body. Allocates nothing unless parts of the

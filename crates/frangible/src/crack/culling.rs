@@ -73,7 +73,11 @@ impl<'a> Culling<'a> {
         let modes = tension_bound(motion.at(step), stress, gradient, self.quadratic_modulus);
         if !self.on {
             // Nothing but old cracks' fronts asks, and they need not be spared.
-            return if motion.complement.is_empty() { modes } else { f32::INFINITY };
+            return if motion.complement.is_empty() {
+                modes
+            } else {
+                f32::INFINITY
+            };
         }
         let complement = &motion.complement;
         let residuals = self.residuals.iter().zip(&complement.residuals);

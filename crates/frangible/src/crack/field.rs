@@ -44,8 +44,7 @@ impl<'a> StressField<'a> {
             config,
             pressed,
             displacement,
-            elasticity: Elasticity::new(&asset.material)
-                .with_green_lagrange(config.green_lagrange),
+            elasticity: Elasticity::new(&asset.material).with_green_lagrange(config.green_lagrange),
             near: motion.complement.near(),
             centroids: &body.prepared.centroids,
             step: 0,

@@ -73,7 +73,12 @@ pub fn rest(
         let pushes = forces.iter().map(|f| (f.point, f.force));
         let k = body.quadratic_modulus(config);
         let bound = Pushes::new(body, pushes).map(|pushes| {
-            let near: f32 = pushes.places().iter().filter_map(near_at).map(|n| n.bound()).sum();
+            let near: f32 = pushes
+                .places()
+                .iter()
+                .filter_map(near_at)
+                .map(|n| n.bound())
+                .sum();
             pushes.bound(body, k, |i, f| (f + weight(i)) * compliance(i)) + near
         });
         if let Some(bound) = bound.filter(|b| *b <= harmless(body)) {

@@ -91,7 +91,10 @@ mod tests {
                     );
                 for (a, b) in pairs {
                     let size = b.abs().max(1e-3 * tick);
-                    assert!((a - b).abs() < 1e-9 * size, "{frequency} {damping}: {a} {b}");
+                    assert!(
+                        (a - b).abs() < 1e-9 * size,
+                        "{frequency} {damping}: {a} {b}"
+                    );
                 }
             }
         }

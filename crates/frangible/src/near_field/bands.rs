@@ -145,11 +145,7 @@ impl Bands {
     }
 
     /// The oscillators' shares of the same, Pa per newton of ω² q: for each distance those of all oscillators.
-    pub(super) fn swinging_stress(
-        &self,
-        wall: &WallMaterial,
-        radii: &[f64],
-    ) -> Vec<Vec<[f64; 2]>> {
+    pub(super) fn swinging_stress(&self, wall: &WallMaterial, radii: &[f64]) -> Vec<Vec<[f64; 2]>> {
         let bessel = Bessel::new();
         let at = |&r: &f64| {
             let shapes = self.oscillators.iter().map(|band| band.shape(&bessel, r));
@@ -202,7 +198,10 @@ mod tests {
         for i in 0..STEPS {
             let k = first + (i as f64 + 0.5) * dk;
             let f = k * hertz_disc(k * RADIUS) * wall.curvature(k) * dk / (2.0 * PI);
-            sum = [sum[0] + f * libm::j0(k * r), sum[1] + f * libm::jn(2, k * r)];
+            sum = [
+                sum[0] + f * libm::j0(k * r),
+                sum[1] + f * libm::jn(2, k * r),
+            ];
         }
         stress(wall, sum)
     }
@@ -253,7 +252,10 @@ mod tests {
                 .sum::<f64>()
                 + bands.compliance();
             let expected = t / wall.dashpot();
-            assert!((moved / expected - 1.0).abs() < 0.03, "{t}: {moved} {expected}");
+            assert!(
+                (moved / expected - 1.0).abs() < 0.03,
+                "{t}: {moved} {expected}"
+            );
         }
     }
 }

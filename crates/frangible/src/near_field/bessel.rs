@@ -61,7 +61,11 @@ mod tests {
         for i in 0..4000 {
             let x = f64::from(i) * 0.0637;
             let [j0, j1] = bessel.at(x);
-            let expected = if x < END { [libm::j0(x), libm::j1(x)] } else { [0.0; 2] };
+            let expected = if x < END {
+                [libm::j0(x), libm::j1(x)]
+            } else {
+                [0.0; 2]
+            };
             assert!((j0 - expected[0]).abs() < 1e-7, "J0({x})");
             assert!((j1 - expected[1]).abs() < 1e-7, "J1({x})");
         }

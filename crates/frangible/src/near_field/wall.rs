@@ -78,7 +78,11 @@ impl WallMaterial {
             return self.stiffness(k) / self.mass_per_area;
         }
         // (S k² + E h s − μ ω²)(D k² + S − I ω²) = S² k², Mindlin's plate on an elastic foundation: the smaller root.
-        let (s, i, mu) = (self.shear_stiffness, self.rotary_inertia, self.mass_per_area);
+        let (s, i, mu) = (
+            self.shear_stiffness,
+            self.rotary_inertia,
+            self.mass_per_area,
+        );
         let held = self.curvature_stiffness;
         let bending = self.bending_stiffness * k * k + s;
         let a = mu * i;

@@ -104,7 +104,9 @@ impl DisplacementBatch {
         self.amplitudes.clear();
         self.amplitudes.resize(motion.modes, [0.0; BATCH]);
         self.residuals.clear();
-        let shapes = residuals.iter().map(|r| (Arc::clone(&r.shape), [0.0; BATCH]));
+        let shapes = residuals
+            .iter()
+            .map(|r| (Arc::clone(&r.shape), [0.0; BATCH]));
         self.residuals.extend(shapes);
         // Transposed: the inner loops run over the batch, so that they vectorise. Before the first step all is at rest.
         for k in 0..BATCH {
