@@ -276,6 +276,7 @@ pub fn impact(case: &Case, number: u64) -> Result<(Body, Vec<Contact>), InputErr
             impulse: (1.3 * speed / give) as f32,
             friction: Vec3::ZERO,
             approach_speed: speed as f32,
+            duration: 0.0,
             striker: Striker {
                 contact_modulus: modulus as f32,
                 inverse_effective_mass: inverse_mass as f32,

@@ -164,6 +164,9 @@ pub struct ImpactReport {
     pub first_crack_point: Option<Vec3>,
     /// Volume of all fragments over the volume of the body, minus one.
     pub volume_error: f64,
+    /// Fractured tetrahedra and when the crack was there, s after the contact began: crack after crack of those that this impact
+    /// moved, each in the order of its growth.
+    pub arrivals: Vec<Vec<(u32, f64)>>,
     /// What became of each contact, where the blow was integrated.
     pub contacts: Vec<ContactReport>,
     /// Wall-clock time of each stage.

@@ -6,7 +6,7 @@ use crate::body::Body;
 use crate::config::FractureConfig;
 use crate::contact::{Contact, Pulse};
 use crate::error::{InputError, positive};
-use crate::impact::{Begun, Cracked, begin, impact, pieces, report_on, run_cracks, vibrate};
+use crate::impact::{Begun, Cracked, Cracking, begin, impact, pieces, report_on, vibrate};
 use crate::modal::{self, Motion};
 use crate::outcome::{ImpactReport, LookedAt, Outcome};
 
@@ -135,10 +135,15 @@ pub fn follow(
     report.time_step = time_step;
     report.time_steps = motion.steps();
     report.looked_at = LookedAt::Amplitudes;
-    report.peak_elastic_energy = motion.peak_energy;
-    report.peak_strain_energy = energy;
-    let cracked = run_cracks(
-        body, config, motion, pressed, time_step, energy, report, &mut None,
-    );
+    let cracked = Cracking {
+        body,
+        config,
+        motion: motion.clone(),
+        pressed: pressed.to_vec(),
+        time_step,
+        budget: energy,
+        blow: None,
+    }
+    .run(0, report, &mut None);
     Ok(pieces(body, cracked))
 }

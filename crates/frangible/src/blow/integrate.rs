@@ -2,6 +2,8 @@
 
 use std::f64::consts::{PI, TAU};
 
+use glam::Vec3;
+
 use super::Complement;
 use super::bank::{BankState, dot};
 use super::complement::Residual;
@@ -9,12 +11,12 @@ use super::plan::Plan;
 use crate::body::Body;
 use crate::config::{CrackTiming, FractureConfig};
 use crate::contact::{Contact, Pulse};
-use crate::crack::StressField;
+use crate::crack::{CrackSystem, StressField};
 use crate::error::InputError;
 use crate::modal::Motion;
 use crate::near_field::NearField;
 use crate::outcome::ContactReport;
-use crate::stress::{DisplacementBatch, Symmetric3, lane};
+use crate::stress::{DisplacementBatch, Symmetric3, lane, perpendicular_axes};
 
 /// A blow of so many substeps is cut off: a contact that lasts this long is none of a blow's.
 const MOST_SUBSTEPS: usize = 60_000;
@@ -31,6 +33,41 @@ const PERIODS: f64 = 1.5;
 /// Rounds over all contacts until their forces agree.
 const MOST_ROUNDS: usize = 60;
 
+/// Arms of a star count that reach this many thicknesses of the wall from the contact.
+const STAR: f64 = 4.0;
+
+/// Arms that cut the wall under a contact: between three the wall bends as three cantilevers do, and carries next to nothing.
+const ENOUGH: usize = 3;
+
+/// Angle between directions of different arms, rad.
+const APART: f32 = 0.4;
+
+/// How many arms of a star reach [`STAR`] thicknesses from a contact: directions, some way apart, in which cracks that run from it or to
+/// it have cut the wall there.
+fn arms(system: &CrackSystem, point: Vec3, inwards: Vec3, thickness: f64) -> usize {
+    let (u, v) = perpendicular_axes(inwards);
+    let near = (STAR * thickness) as f32;
+    let far = 1.5 * near + system.edge;
+    let mut angles: Vec<f32> = Vec::new();
+    for site in system.cracks.iter().flat_map(|crack| &crack.sites) {
+        let away = site.position - point;
+        let away = away - away.dot(inwards) * inwards;
+        let distance = away.length();
+        // Radial: the crack's normal lies across the way out.
+        let radial = site.direction.dot(away).abs() < 0.5 * distance;
+        if radial && site.time.is_finite() && (near..far).contains(&distance) {
+            angles.push(away.dot(v).atan2(away.dot(u)));
+        }
+    }
+    angles.sort_unstable_by(f32::total_cmp);
+    let (Some(first), Some(last)) = (angles.first(), angles.last()) else {
+        return 0;
+    };
+    let around = first + std::f32::consts::TAU - last;
+    let gaps = angles.windows(2).map(|w| w[1] - w[0]).chain([around]);
+    gaps.filter(|&gap| gap > APART).count().max(1)
+}
+
 /// A blow, integrated: the forces of its contacts and the motion of the body.
 #[derive(Clone, Debug)]
 pub struct Blow {
@@ -43,6 +80,8 @@ pub struct Blow {
     /// Speed of each striker away from the body as a rigid one after it, m/s.
     departures: Vec<f64>,
     energy_at_parting: f64,
+    /// Contacts whose wall is gone.
+    gone: Vec<usize>,
     /// What the body does.
     pub(crate) motion: Motion,
 }
@@ -78,6 +117,7 @@ impl Blow {
             contact_steps: 0,
             departures: Vec::new(),
             energy_at_parting: 0.0,
+            gone: Vec::new(),
             motion: Motion::default(),
         };
         let run = blow.run(None);
@@ -202,24 +242,39 @@ impl Blow {
         field.at_weak_point(tet as usize).stress(lane(step))
     }
 
-    /// Lets the force of contact `k` fall to nothing between two times, s: the wall under it is gone. What was before stays as it
-    /// was, bit for bit.
-    pub(crate) fn cut(&mut self, body: &Body, k: usize, times: [f64; 2]) {
+    /// Lets the force of contact `k` fall to nothing from `now`, s, on: the wall under it is gone. What was before stays as it was, bit
+    /// for bit.
+    pub(crate) fn cut(&mut self, body: &Body, k: usize, now: f64) {
         let (count, dt) = (self.plan.sites.len(), self.substep());
+        let thickness = self.plan.sites[k]
+            .near
+            .as_ref()
+            .map_or(0.0, |n| n.wall.thickness);
+        let falls = STAR * thickness / body.asset.material.rayleigh_speed();
         for (i, f) in self.forces.iter_mut().enumerate().skip(k).step_by(count) {
             let t = (i / count + 1) as f64 * dt;
-            *f *= (1.0 - (t - times[0]) / (times[1] - times[0])).clamp(0.0, 1.0);
+            *f *= (1.0 - (t - now).max(0.0) / falls).max(0.0);
         }
+        self.gone.push(k);
         let run = self.run(Some(&self.forces));
         self.motion = self.motion_of(body, &run);
     }
 
-    /// Contacts on walls: where, how thick the wall is, m.
-    pub(crate) fn walls(&self) -> impl Iterator<Item = (usize, glam::Vec3, f64)> {
+    /// The first contact whose wall the cracks have cut, and whose force goes on: at least three arms of a star reach some thicknesses
+    /// from it.
+    pub(crate) fn under_a_cut_wall(&self, system: &CrackSystem) -> Option<usize> {
         let sites = self.plan.sites.iter().enumerate();
-        sites.filter_map(|(k, site)| {
-            let near = site.near.as_ref()?;
-            Some((k, near.place.point, near.wall.thickness))
+        let mut walls = sites.filter_map(|(k, site)| Some((k, site.near.as_ref()?)));
+        walls.find_map(|(k, near)| {
+            let arms = || {
+                arms(
+                    system,
+                    near.place.point,
+                    near.place.inwards,
+                    near.wall.thickness,
+                )
+            };
+            (!self.gone.contains(&k) && arms() >= ENOUGH).then_some(k)
         })
     }
 

@@ -276,6 +276,16 @@ impl<'a> CrackSystem<'a> {
         self.cracks[id as usize].junctions = old.junctions.iter().map(junction).collect();
     }
 
+    /// What the cracks cut in this impact, and when, s: crack after crack, those that did not move left out.
+    pub(crate) fn arrivals(&self) -> Vec<Vec<(u32, f64)>> {
+        let new = |crack: &Crack| -> Vec<(u32, f64)> {
+            let cuts = crack.elements.iter().map(|cut| (cut.tet, cut.time));
+            cuts.filter(|(_, time)| time.is_finite()).collect()
+        };
+        let cracks = self.cracks.iter().map(new);
+        cracks.filter(|crack| !crack.is_empty()).collect()
+    }
+
     /// Neighbours of a tetrahedron that this crack has not cut, in the same body.
     fn open_faces(&self, tet: u32, crack: u32) -> impl Iterator<Item = u32> + use<'a> {
         let neighbours = self.asset.fracture.neighbours[tet as usize];

@@ -8,7 +8,7 @@ use crate::body::Body;
 use crate::config::FractureConfig;
 use crate::contact::{self, Load, each_row};
 use crate::error::{InputError, finite, positive};
-use crate::impact::{pieces, report_on, run_cracks};
+use crate::impact::{Cracking, pieces, report_on};
 use crate::mesh::SurfacePoint;
 use crate::modal;
 use crate::outcome::{LookedAt, Outcome};
@@ -85,20 +85,17 @@ pub fn blast(body: &Body, blast: &Blast, config: &FractureConfig) -> Result<Outc
     report.unadjusted_duration = pulse.duration;
     report.time_step = pulse.time_step;
     report.time_steps = motion.steps();
-    report.peak_elastic_energy = motion.peak_energy;
-    report.peak_strain_energy = motion.peak_strain_energy;
-    let budget = motion.peak_strain_energy;
-    let cracked = run_cracks(
+    let cracked = Cracking {
         body,
         config,
-        &motion,
+        budget: motion.peak_strain_energy,
+        motion,
         // A blast presses everywhere, far below any strength.
-        &[],
-        pulse.time_step,
-        budget,
-        report,
-        &mut None,
-    );
+        pressed: Vec::new(),
+        time_step: pulse.time_step,
+        blow: None,
+    }
+    .run(0, report, &mut None);
     Ok(pieces(body, cracked))
 }
 

@@ -11,7 +11,7 @@ use crate::body::Body;
 use crate::config::{CrackTiming, FractureConfig};
 use crate::contact::{Pushes, each_row};
 use crate::error::{InputError, finite};
-use crate::impact::{Cracked, harmless, pieces, report_on, run_cracks};
+use crate::impact::{Cracked, Cracking, harmless, pieces, report_on};
 use crate::mesh::SurfacePoint;
 use crate::modal::Motion;
 use crate::outcome::{LookedAt, Outcome};
@@ -127,16 +127,16 @@ pub fn rest(
     let run = |steps, report| {
         let mut motion = Motion::new(amplitudes.repeat(steps), modes, energy, energy);
         motion.complement.near = near.iter().map(SteadyNear::field).collect();
-        run_cracks(
+        Cracking {
             body,
             config,
-            &motion,
-            &pressed,
+            motion,
+            pressed: pressed.clone(),
             time_step,
-            f64::INFINITY,
-            report,
-            &mut None,
-        )
+            budget: f64::INFINITY,
+            blow: None,
+        }
+        .run(0, report, &mut None)
     };
     if body.state().is_intact() {
         // The load does not change: where nothing starts at once, nothing ever does.

@@ -10,7 +10,7 @@ use crate::body::{Body, Prepared};
 use crate::config::FractureConfig;
 use crate::contact::{self, Contact, each_row};
 use crate::error::InputError;
-use crate::impact::{pieces, report_on, run_cracks};
+use crate::impact::{Cracking, pieces, report_on};
 use crate::modal::{ModalBasis, Motion};
 use crate::outcome::{ImpactReport, LookedAt, Outcome};
 use crate::trace::CrackTrace;
@@ -84,8 +84,6 @@ pub(crate) fn static_load(
             .map(|(f, u)| f * u)
             .sum::<f64>();
     report.looked_at = LookedAt::Amplitudes;
-    report.peak_elastic_energy = energy;
-    report.peak_strain_energy = energy;
     // The displacement as the only mode of a body of its own: all else is as ever.
     let mut asset = Asset::clone(&body.asset);
     asset.modes = ModalBasis {
@@ -109,9 +107,16 @@ pub(crate) fn static_load(
     report.time_step = time_step;
     report.time_steps = amplitudes.len();
     let motion = Motion::new(amplitudes, 1, energy, energy);
-    let cracked = run_cracks(
-        &loaded, config, &motion, pressed, time_step, energy, report, trace,
-    );
+    let cracked = Cracking {
+        body: &loaded,
+        config,
+        motion,
+        pressed: pressed.to_vec(),
+        time_step,
+        budget: energy,
+        blow: None,
+    }
+    .run(0, report, trace);
     pieces(&loaded, cracked)
 }
 

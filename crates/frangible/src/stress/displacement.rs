@@ -122,12 +122,6 @@ impl DisplacementBatch {
         }
     }
 
-    /// Forgets the batch that is held: the motion has changed.
-    pub(crate) fn forget(&mut self) {
-        self.batch = 0;
-        self.computed.fill(0);
-    }
-
     /// Computes the batch at every node, as if all were asked for.
     pub fn fill(&mut self, asset: &Asset) {
         // With the widest vectors that this processor has, as where they are asked for.
