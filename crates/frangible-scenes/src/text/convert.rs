@@ -7,6 +7,7 @@ use frangible::{CrackPath, CrackTiming, DurationModel, FractureConfig, Material,
 
 use super::body::body;
 use super::either::SwitchOrName;
+use super::gone::Gone;
 use super::schema::{
     DurationTable, FractureTable, KindName, MethodName, OutputTable, PathTable, PiecesTable,
     ProjectileTable, SceneTable, TimingTable,
@@ -129,12 +130,9 @@ fn fracture(table: FractureTable) -> FractureConfig {
         Some(TimingTable::Instant) => config.timing = CrackTiming::Instant,
         Some(TimingTable::TimeResolved {
             speed,
-            release_reach,
+            release_reach: Gone,
         }) => {
-            config.timing = CrackTiming::TimeResolved {
-                speed,
-                release_reach,
-            };
+            config.timing = CrackTiming::TimeResolved { speed };
         }
     }
     match table.path {

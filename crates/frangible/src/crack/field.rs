@@ -74,14 +74,8 @@ impl StressField<'_> {
     fn on_faces(&mut self, e: usize, wall: &Wall) -> [Symmetric3; 2] {
         let centre = self.asset.embedded_tet(e);
         let distances = wall.distances(self.asset.fracture.centroid(e));
-        let gradients = &self.asset.analysis.barycentric_gradients[centre.element as usize];
         distances.map(|distance| {
-            let up = wall.normal * distance;
-            let point = EmbeddedPoint {
-                barycentric: std::array::from_fn(|k| centre.barycentric[k] + gradients[k].dot(up)),
-                ..*centre
-            };
-            let gradient = self.gradient(&point);
+            let gradient = self.gradient(&shifted(self.asset, centre, wall.normal * distance));
             self.elasticity.free_state(gradient, wall.normal).stress
         })
     }
@@ -94,9 +88,40 @@ impl StressField<'_> {
         self.elasticity.lanes(&gradients, law)
     }
 
+    /// The same at the mirror image of the [`weak_place`] behind the middle of the wall that it is in, if it is in one: on the opposite
+    /// face, of a place on a face. Half the difference of the two is what bends the wall there.
+    #[inline(always)]
+    pub(crate) fn opposite_weak_point(&mut self, e: usize) -> Option<StressLanes> {
+        let wall = self.wall(e)?;
+        let (point, law) = weak_place(self.asset, self.skin, self.config, self.pressed, e);
+        let [front, back] = wall.distances(position(self.asset, point));
+        let image = shifted(self.asset, point, wall.normal * (front + back));
+        let gradients = self.displacement.gradients(self.asset, &image);
+        Some(self.elasticity.lanes(&gradients, law))
+    }
+
     fn gradient(&mut self, point: &EmbeddedPoint) -> glam::Mat3 {
         self.displacement.gradient(self.asset, point, self.step)
     }
+}
+
+/// A point of the body moved by a little, m, seen by the same analysis element.
+fn shifted(asset: &Asset, point: &EmbeddedPoint, by: Vec3) -> EmbeddedPoint {
+    let gradients = &asset.analysis.barycentric_gradients[point.element as usize];
+    EmbeddedPoint {
+        barycentric: std::array::from_fn(|k| point.barycentric[k] + gradients[k].dot(by)),
+        ..*point
+    }
+}
+
+/// Where an embedded point is, m.
+fn position(asset: &Asset, point: &EmbeddedPoint) -> Vec3 {
+    let corners = &asset.analysis.elements[point.element as usize][..4];
+    let parts = corners.iter().zip(point.barycentric);
+    let closest: Vec3 = parts
+        .map(|(&v, share)| asset.analysis.nodes[v as usize] * share)
+        .sum();
+    closest + point.offset
 }
 
 fn wall(asset: &Asset, skin: &Skin, config: &FractureConfig, e: usize) -> Option<Wall> {
