@@ -7,13 +7,13 @@
 //! 3. A crack runs through the tetrahedra that its plane crosses, and stops at faces that are open. Where the middles of two
 //!    neighbours lie on different sides of the plane, their face opens. The energy that this asks for is G_c times the area of
 //!    the faces, which zigzag; what it gets is as in ours, γ η A at that moment, and from the ledger.
-//! 4. A crack takes the tension across it from weak points within its extent, as our release waves do in the end; with instant
-//!    cracks, as in ours, none does.
+//! 4. A crack takes part of the tension across it from the weak points beside it, as our release waves do in the end; of a wall's stress all
+//!    counts as bending. With instant cracks, as in ours, none does.
 //!
 //! So weak points, strength, toughness and energy are ours; the path is the mesh's, and nothing happens in time. Left out: Smith
 //! et al.'s constraint solver and their weakening of what lies beside an open face, Müller et al.'s fixed radius of a crack.
 
-use frangible::stress::{largest_eigenvalue, principal_axes};
+use frangible::stress::{STRETCHED, Skin, bent, largest_eigenvalue, principal_axes};
 use frangible::{CrackTiming, Fragment};
 
 use crate::error::CompareError;
@@ -55,10 +55,10 @@ pub(crate) fn separate(hit: Hit<'_>) -> Result<Separated, CompareError> {
 
 /// Opens the faces.
 fn open(hit: Hit<'_>, moment: &mut Moment<'_>, faces: &mut Faces<'_>) {
-    let reach = match hit.config.timing {
-        CrackTiming::TimeResolved { release_reach, .. } => release_reach as f32,
-        _ => 0.0,
-    };
+    let asset = hit.body.asset();
+    let skin = Skin::of(asset);
+    let in_wall = bent(asset.material.poisson_ratio);
+    let instant = hit.config.timing == CrackTiming::Instant;
     let mut starts: Vec<(f32, u32)> = Vec::new();
     for &tet in hit.body.weak_tets() {
         let tension = largest_eigenvalue(&moment.at_weak_point(tet).stress);
@@ -73,10 +73,15 @@ fn open(hit: Hit<'_>, moment: &mut Moment<'_>, faces: &mut Faces<'_>) {
         if faces.is_touched(tet) {
             continue;
         }
-        let middle = hit.body.asset().fracture.centroid(tet as usize);
+        let middle = asset.fracture.centroid(tet as usize);
         let mut stress = moment.at_weak_point(tet).stress;
-        for crack in cracks.iter().filter(|c| c.releases(middle, reach)) {
-            stress = stress.released(crack.normal);
+        if !instant {
+            let wall = skin.wall(asset, tet as usize);
+            let wall = wall.filter(|_| hit.config.plane_stress_walls);
+            let beta = wall.map_or(STRETCHED, |_| in_wall);
+            for crack in &cracks {
+                stress = stress.released(crack.normal, crack.share_left(middle, beta));
+            }
         }
         if largest_eigenvalue(&stress) > hit.body.strength(tet) {
             let normal = principal_axes(&stress).1[0].as_vec3();

@@ -4,6 +4,7 @@ use std::collections::VecDeque;
 
 use frangible::glam::Vec3;
 use frangible::mesh::NO_NEIGHBOUR;
+use frangible::stress::share_left;
 use frangible::{Body, TetMesh};
 
 use crate::moment::Moment;
@@ -24,12 +25,11 @@ pub(crate) struct PlaneCrack {
 }
 
 impl PlaneCrack {
-    /// Whether a point lies within `reach` times its extent.
-    pub(crate) fn releases(&self, p: Vec3, reach: f32) -> bool {
-        let within = (reach * self.extent).powi(2);
-        self.sites
-            .iter()
-            .any(|site| site.distance_squared(p) < within)
+    /// Share of the tension across it that it leaves at a point, for this β of [`share_left`].
+    pub(crate) fn share_left(&self, p: Vec3, beta: f32) -> f32 {
+        let to_sites = self.sites.iter().map(|&site| site - p);
+        let nearest = to_sites.min_by(|a, b| a.length_squared().total_cmp(&b.length_squared()));
+        nearest.map_or(1.0, |to| share_left(to, self.normal, self.extent, beta))
     }
 }
 

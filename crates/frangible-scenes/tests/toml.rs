@@ -139,10 +139,7 @@ fn an_intricate_scene_survives_writing_and_reading() {
     let absolute = |text: &str| parse_scene(text, Path::new(""));
     let text = scene_to_toml(&scene);
     assert_eq!(absolute(&text).unwrap(), scene, "{text}");
-    scene.fracture.timing = CrackTiming::TimeResolved {
-        speed: 0.1 + 0.2,
-        release_reach: 0.0,
-    };
+    scene.fracture.timing = CrackTiming::TimeResolved { speed: 0.1 + 0.2 };
     scene.fracture.path = CrackPath::Steered {
         turning_length: 1.0 / 3.0,
     };
@@ -235,6 +232,25 @@ fn a_misspelt_key_is_named_with_its_line_and_the_nearest() {
         let message = refused(text);
         assert!(message.starts_with(expected), "{message}\nnot: {expected}");
     }
+}
+
+#[test]
+fn a_knob_that_is_gone_is_refused_with_its_line_and_what_to_do() {
+    let gone = "scene line 4: the knob `release_reach` is gone, since how far a crack releases the stress beside it now follows from its \
+                length: delete it";
+    for value in ["1", "0.5", "\"far\"", "{ metres = 1 }"] {
+        for text in [
+            format!(
+                "[fracture]\ntiming = {{ time_resolved = {{ speed = 0.5, release_reach = {value} }} }}"
+            ),
+            format!("[fracture.timing.time_resolved]\nrelease_reach = {value}\nspeed = 0.5"),
+        ] {
+            assert_eq!(refused(&format!("{LEAST}{text}")), gone);
+        }
+    }
+    let kept = format!("{LEAST}[fracture]\ntiming = {{ time_resolved = {{ speed = 0.25 }} }}");
+    let timing = CrackTiming::TimeResolved { speed: 0.25 };
+    assert_eq!(parsed(&kept).fracture.timing, timing);
 }
 
 #[test]

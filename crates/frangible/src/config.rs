@@ -75,12 +75,10 @@ pub enum CrackTiming {
     /// A crack runs its whole length the moment it starts, breadth-first, and no crack feels another `[G12 §5]`; ends with
     /// the contact.
     Instant,
-    /// Cracks run at a finite speed and unload the material around them.
+    /// Cracks run at a finite speed, and release waves that they send out unload the material beside them.
     TimeResolved {
         /// Crack speed over the Rayleigh wave speed. Default 0.5.
         speed: f64,
-        /// Reach κ of the release wave over the crack's extent; 0 turns release off. Default 1.
-        release_reach: f64,
     },
 }
 
@@ -108,10 +106,7 @@ impl Default for FractureConfig {
             energy_ledger: true,
             culling: true,
             samples_per_period: 16.0,
-            timing: CrackTiming::TimeResolved {
-                speed: 0.5,
-                release_reach: 1.0,
-            },
+            timing: CrackTiming::TimeResolved { speed: 0.5 },
             path: CrackPath::Steered {
                 turning_length: 0.0067,
             },

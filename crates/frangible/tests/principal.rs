@@ -50,6 +50,8 @@ fn release_takes_away_the_stress_across_a_crack() {
         diagonal: [3e6, 2e6, 1e6],
         off: [0.0; 3],
     };
-    let left = s.released(frangible::glam::Vec3::X);
+    let left = s.released(frangible::glam::Vec3::X, 0.0);
     assert_eq!(left.diagonal, [0.0, 2e6, 1e6]);
+    let left = s.released(frangible::glam::Vec3::Y, 0.25);
+    assert_eq!(left.diagonal, [3e6, 0.5e6, 1e6]);
 }

@@ -26,22 +26,9 @@ pub(super) fn check_fracture(config: &FractureConfig) -> Result<(), Fault> {
         let must = "above 0 and at most 1000";
         range("fracture.duration", "the constant c", c, 0.0, 1000.0, must)?;
     }
-    if let CrackTiming::TimeResolved {
-        speed,
-        release_reach,
-    } = config.timing
-    {
+    if let CrackTiming::TimeResolved { speed } = config.timing {
         let must = "above 0 and at most 1";
         range("fracture.timing", "the crack speed", speed, 0.0, 1.0, must)?;
-        if !(0.0..=100.0).contains(&release_reach) {
-            let must = "0 to 100";
-            return Err(quantity(
-                "fracture.timing",
-                "the release reach",
-                release_reach,
-                must,
-            ));
-        }
     }
     if let CrackPath::Steered { turning_length } = config.path {
         let must = "above 0 and at most 10 m";

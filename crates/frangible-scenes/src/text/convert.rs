@@ -8,6 +8,7 @@ use frangible::{CrackPath, CrackTiming, DurationModel, FractureConfig, Material,
 
 use super::body::body;
 use super::either::SwitchOrName;
+use super::gone::Gone;
 use super::schema::{
     DurationTable, FractureTable, KindName, MethodName, NearFieldName, OutputTable, PathTable,
     PiecesTable, ProjectileTable, SceneTable, TimingTable,
@@ -131,12 +132,9 @@ fn fracture(table: FractureTable) -> FractureConfig {
         Some(TimingTable::Instant) => config.timing = CrackTiming::Instant,
         Some(TimingTable::TimeResolved {
             speed,
-            release_reach,
+            release_reach: Gone,
         }) => {
-            config.timing = CrackTiming::TimeResolved {
-                speed,
-                release_reach,
-            };
+            config.timing = CrackTiming::TimeResolved { speed };
         }
     }
     match table.path {

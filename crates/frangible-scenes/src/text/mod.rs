@@ -3,6 +3,7 @@
 mod body;
 mod convert;
 mod either;
+mod gone;
 mod message;
 mod schema;
 mod support;

@@ -3,6 +3,7 @@
 use serde::Deserialize;
 
 use super::either::{AxisTable, MaterialChoice, RotationChoice, SwitchOrName};
+use super::gone::Gone;
 use super::weakness::WeaknessTable;
 
 /// A whole file.
@@ -233,7 +234,12 @@ pub(super) enum NearFieldName {
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub(super) enum TimingTable {
     Instant,
-    TimeResolved { speed: f64, release_reach: f64 },
+    TimeResolved {
+        speed: f64,
+        /// What it said once; any value is refused.
+        #[serde(default)]
+        release_reach: Gone,
+    },
 }
 
 /// Where cracks run.

@@ -225,14 +225,12 @@ fn write_fracture(t: &mut Text, config: &FractureConfig) {
     t.line("admissible_duration", config.admissible_duration);
     t.line("samples_per_period", number(config.samples_per_period));
     match config.timing {
-        CrackTiming::TimeResolved {
-            speed,
-            release_reach,
-        } => {
-            let (speed, reach) = (number(speed), number(release_reach));
-            let value =
-                format!("{{ time_resolved = {{ speed = {speed}, release_reach = {reach} }} }}");
-            t.line("timing", value);
+        CrackTiming::TimeResolved { speed } => {
+            let speed = number(speed);
+            t.line(
+                "timing",
+                format!("{{ time_resolved = {{ speed = {speed} }} }}"),
+            );
         }
         _ => t.line("timing", quoted("instant")),
     }

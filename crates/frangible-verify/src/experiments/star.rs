@@ -54,7 +54,6 @@ pub struct StarPlan {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Variant {
     pub(crate) name: &'static str,
-    reach: f64,
     instant: bool,
     green_lagrange: bool,
     strength: f64,
@@ -63,37 +62,21 @@ pub(crate) struct Variant {
 
 const DEFAULT: Variant = Variant {
     name: "default",
-    reach: 1.0,
     instant: false,
     green_lagrange: false,
     strength: 1.0,
     weak_points: 1.0,
 };
 
-const VARIANTS: [Variant; 8] = [
+const VARIANTS: [Variant; 5] = [
     Variant {
         name: "cracks at once, no release (`CrackTiming::Instant`)",
         instant: true,
         ..DEFAULT
     },
     Variant {
-        name: "finite speed, no release (κ = 0)",
-        reach: 0.0,
-        ..DEFAULT
-    },
-    Variant {
         name: "Green and Lagrange's strain of the linear modes (`green_lagrange`, the paper's)",
         green_lagrange: true,
-        ..DEFAULT
-    },
-    Variant {
-        name: "release reach κ = 2",
-        reach: 2.0,
-        ..DEFAULT
-    },
-    Variant {
-        name: "release reach κ = 4",
-        reach: 4.0,
         ..DEFAULT
     },
     Variant {
@@ -365,8 +348,6 @@ fn strike(
     config.green_lagrange = variant.green_lagrange;
     if variant.instant {
         config.timing = CrackTiming::Instant;
-    } else if let CrackTiming::TimeResolved { release_reach, .. } = &mut config.timing {
-        *release_reach *= variant.reach;
     }
     let (_, trace) = impact_traced(&plate.body(seed), &[contact], &config)
         .map_err(|source| VerifyError::Impact { case: NAME, source })?;

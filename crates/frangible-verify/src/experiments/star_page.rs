@@ -129,8 +129,8 @@ fn set_up(stars: &Stars) -> String {
         "A square plate of acrylic glass, {side:.0} × {side:.0} mm, clamped on its four sides, is hit in its middle by a steel ball 4 mm \
          wide ({mass:.2} g). Material: the preset `pmma`; model: `FractureConfig::default()`. Mesh: {edge} mm elements, {modes} modes. \
          Plates per speed: {seeds}, which differ in their weak points.\n\n\
-         *Nothing was fitted to the experiment.* What goes in are published properties of the material and three numbers of the model that no \
-         handbook gives: the density of weak points, the depth γ that feeds a crack, the reach κ of release waves. What comes out, the number \
+         *Nothing was fitted to the experiment.* What goes in are published properties of the material and two numbers of the model that no \
+         handbook gives: the density of weak points and the depth γ that feeds a crack. What comes out, the number \
          of cracks and its law, is a prediction.\n\n\
          *The blow.* A thin plate gives nothing back: flexural waves carry the energy away, so that the ball feels a dashpot \
          8 √(Dρh) behind the spring of its contact. The restitution is Zener's (Phys. Rev. 59, 669 (1941), with a linear spring): {bounce}. \

@@ -3,7 +3,7 @@
 /// No more.
 const END: u32 = u32::MAX;
 
-/// A site whose wave is on its way, or that lies beyond its crack's reach.
+/// A site whose wave is on its way.
 #[derive(Clone, Copy, Debug)]
 struct Arrival {
     site: u32,
@@ -23,11 +23,13 @@ pub(super) struct Queue {
 
 impl Default for Queue {
     fn default() -> Self {
-        Self { first: END }
+        Self::EMPTY
     }
 }
 
 impl Queue {
+    pub(super) const EMPTY: Self = Self { first: END };
+
     pub(super) fn is_empty(self) -> bool {
         self.first == END
     }
@@ -84,16 +86,22 @@ impl Arrivals {
         true
     }
 
-    /// Takes the nearest site that arrives before `now`, s, and lies within `reach`, m, and all that are farther; site and distance.
-    pub(super) fn arrive(&mut self, queue: &mut Queue, now: f64, reach: f32) -> Option<(u32, f32)> {
+    /// Takes all sites that arrive before `now`, s, the nearest first: that one, and its distance.
+    pub(super) fn arrive(
+        &mut self,
+        queue: &mut Queue,
+        now: f64,
+        mut each: impl FnMut(u32),
+    ) -> Option<(u32, f32)> {
         let mut before = END;
         let mut at = queue.first;
         while let Some(later) = self.get(at).filter(|a| a.time >= now) {
             before = at;
             at = later.next;
         }
-        let nearest = self.get(at).filter(|a| a.distance < reach)?;
+        let nearest = self.get(at)?;
         while let Some(farther) = self.get(at) {
+            each(farther.site);
             self.free.push(at);
             at = farther.next;
         }
@@ -144,11 +152,13 @@ mod tests {
             true
         }
 
-        fn arrive(&mut self, now: f64, reach: f32) -> Option<(u32, f32)> {
-            let here = self.0.iter().filter(|p| p.2 < now && p.1 < reach);
-            let nearest = *here.min_by(|a, b| a.1.total_cmp(&b.1))?;
-            self.0.retain(|p| p.1 < nearest.1);
-            Some((nearest.0, nearest.1))
+        /// Those that arrive, the nearest first.
+        fn arrive(&mut self, now: f64) -> Vec<(u32, f32)> {
+            let here = self.0.iter().filter(|p| p.2 < now);
+            let mut here: Vec<_> = here.map(|p| (p.0, p.1)).collect();
+            here.sort_by(|a, b| a.1.total_cmp(&b.1));
+            self.0.retain(|p| p.2 >= now);
+            here
         }
     }
 
@@ -173,10 +183,12 @@ mod tests {
             added += u32::from(expected);
             let now = number(14.0);
             if k % 4 == 0 {
-                let reach = number(12.0) as f32;
-                let expected = plain.arrive(now, reach);
-                assert_eq!(arrivals.arrive(queue, now, reach), expected);
-                arrived += u32::from(expected.is_some());
+                let expected = plain.arrive(now);
+                let mut met = Vec::new();
+                let nearest = arrivals.arrive(queue, now, |site| met.push(site));
+                assert_eq!(nearest, expected.first().copied());
+                assert!(met.iter().eq(expected.iter().map(|(site, _)| site)));
+                arrived += expected.len();
             }
             let times = plain.0.iter().map(|p| p.2).filter(|&t| t >= now);
             assert_eq!(

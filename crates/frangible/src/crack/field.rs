@@ -107,17 +107,11 @@ impl<'a> StressField<'a> {
     fn on_faces(&mut self, e: usize, wall: &Wall) -> [Symmetric3; 2] {
         let centre = self.asset.embedded_tet(e);
         let distances = wall.distances(self.asset.fracture.centroid(e));
-        let gradients = &self.asset.analysis.barycentric_gradients[centre.element as usize];
         distances.map(|distance| {
             let up = wall.normal * distance;
-            let point = EmbeddedPoint {
-                barycentric: std::array::from_fn(|k| centre.barycentric[k] + gradients[k].dot(up)),
-                ..*centre
-            };
-            let gradient = self.gradient(&point);
+            let gradient = self.gradient(&shifted(self.asset, centre, up));
             let stress = self.elasticity.free_state(gradient, wall.normal).stress;
-            let place = self.centroids[e] + up;
-            match self.near.at(place, wall, self.step) {
+            match self.near.at(self.centroids[e] + up, wall, self.step) {
                 Some(near) => stress.plus(&near),
                 None => stress,
             }
@@ -130,23 +124,59 @@ impl<'a> StressField<'a> {
         let weak = weak_place(self.asset, self.skin, self.config, self.pressed, e);
         let gradients = self.displacement.gradients(self.asset, weak.point);
         let mut lanes = self.elasticity.lanes(&gradients, weak.law);
-        if !self.near.0.is_empty()
-            && let Law::Free(_) = weak.law
+        if let Law::Free(_) = weak.law
+            && !self.near.0.is_empty()
             && let Some(wall) = self.wall(e)
         {
-            let flaw = self.skin.flaw_position(self.asset.place(e));
-            let flaw = flaw.filter(|_| weak.on_surface);
-            let place = flaw.unwrap_or(self.centroids[e]);
-            let batch = self.step / STRIDE;
-            if self.near.add(&mut lanes, place, &wall, batch) {
-                self.elasticity.set_energy(&mut lanes);
-            }
+            self.add_near(&mut lanes, self.place(e, weak.on_surface), &wall);
         }
         lanes
     }
 
+    /// Position of a weak point, m.
+    #[inline(always)]
+    fn place(&self, e: usize, on_surface: bool) -> Vec3 {
+        let flaw = self.skin.flaw_position(self.asset.place(e));
+        flaw.filter(|_| on_surface).unwrap_or(self.centroids[e])
+    }
+
+    /// Adds the near fields to the stress at a point of a wall.
+    #[inline(always)]
+    fn add_near(&self, lanes: &mut StressLanes, place: Vec3, wall: &Wall) {
+        if self.near.add(lanes, place, wall, self.step / STRIDE) {
+            self.elasticity.set_energy(lanes);
+        }
+    }
+
+    /// The same at the mirror image of the [`weak_place`] behind the middle of the wall that it is in, if it is in one: on the opposite
+    /// face, of a place on a face. Half the difference of the two is what bends the wall there.
+    #[inline(always)]
+    pub(crate) fn opposite_weak_point(&mut self, e: usize) -> Option<StressLanes> {
+        let wall = self.wall(e)?;
+        let weak = weak_place(self.asset, self.skin, self.config, self.pressed, e);
+        let place = self.place(e, weak.on_surface);
+        let [front, back] = wall.distances(place);
+        let across = wall.normal * (front + back);
+        let image = shifted(self.asset, weak.point, across);
+        let gradients = self.displacement.gradients(self.asset, &image);
+        let mut lanes = self.elasticity.lanes(&gradients, weak.law);
+        if let Law::Free(_) = weak.law {
+            self.add_near(&mut lanes, place + across, &wall);
+        }
+        Some(lanes)
+    }
+
     fn gradient(&mut self, point: &EmbeddedPoint) -> glam::Mat3 {
         self.displacement.gradient(self.asset, point, self.step)
+    }
+}
+
+/// A point of the body moved by a little, m, seen by the same analysis element.
+fn shifted(asset: &Asset, point: &EmbeddedPoint, by: Vec3) -> EmbeddedPoint {
+    let gradients = &asset.analysis.barycentric_gradients[point.element as usize];
+    EmbeddedPoint {
+        barycentric: std::array::from_fn(|k| point.barycentric[k] + gradients[k].dot(by)),
+        ..*point
     }
 }
 

@@ -56,7 +56,7 @@ pub(crate) fn crack(
     if instant {
         advance(system, field, now);
     }
-    let (mut candidates, peak) = candidates(system, field.step, suspects, [since, now], peak);
+    let (mut candidates, peak) = candidates(system, field, suspects, [since, now], peak);
     for candidate in &mut candidates {
         if instant {
             candidate.time = now;
@@ -85,13 +85,13 @@ pub(crate) fn crack(
 /// Weak points that pass their strength in a step, `times` its beginning and end, s, and are not released by then.
 fn candidates<'a>(
     system: &mut CrackSystem,
-    step: usize,
+    field: &mut StressField,
     suspects: &'a Suspects,
     times: [f64; 2],
     peak_so_far: Peak,
 ) -> (Vec<Candidate<'a>>, Peak) {
     let resistance = system.resistance;
-    let k = lane(step);
+    let k = lane(field.step);
     let mut candidates = Vec::new();
     let mut peak = peak_so_far;
     system.questions += 1;
@@ -106,7 +106,7 @@ fn candidates<'a>(
         let felt = resistance.as_weakest(suspect.bounds[k], strength);
         let may_start = suspect.bounds[k] > strength
             && pays(system, suspect, k)
-            && releases.may_crack(system, suspect, step, strength, times[0]);
+            && releases.may_crack(system, field, suspect, strength, times[0]);
         if !may_start && suspect.bounds[k] <= peak.tension && felt <= peak.as_weakest {
             continue;
         }
@@ -147,7 +147,7 @@ fn try_start(system: &mut CrackSystem, field: &mut StressField, suspect: &Suspec
     let strength = system.resistance.strength(e);
     system.questions += 1;
     let mut releases = std::mem::take(&mut system.releases);
-    let stress = releases.released(system, suspect, k, now);
+    let stress = releases.released(system, field, suspect, now);
     system.releases = releases;
     if largest_eigenvalue(&stress) <= strength {
         return;

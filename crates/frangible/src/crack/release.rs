@@ -1,251 +1,241 @@
-//! Release waves (Mott 1947; beyond the paper): a new free surface unloads the material around it at wave speed.
+//! Release waves (Mott 1947; beyond the paper): a new free surface unloads the material beside it at wave speed.
 //!
-//! At a point x and time t every crack that has a fractured tetrahedron e' with
-//! `|x − x_e'| < min(c_R (t − t_e'), κ a)` takes away the stress across it: σ ← P σ P, P = I − n nᵀ, n the crack's
-//! normal at the nearest such tetrahedron, a the crack's present length. In crack order: projections do not commute.
+//! At a point x and time t every crack with a fractured tetrahedron e' whose wave is there, `|x − x_e'| < c_R (t − t_e')`, takes away part
+//! of the stress across it. How much follows from the crack's present length and where beside it the nearest such tetrahedron lies
+//! (`stress/shadow.rs`); no constant sets how far. Crack after crack in their order: what two of them leave hangs on it.
+//!
+//! The nearest tetrahedron may lie less straight beside a point than one before it, where a crack bends. A point therefore keeps, of each crack,
+//! the smallest share that it has met: what is released stays released.
 //!
 //! A crack's tetrahedra are thinned to *sites* about one mean edge apart, the first of each place: some ten tetrahedra
-//! lie in one such place, and the difference in distance is below what the mesh resolves.
+//! lie in one such place, and the difference in distance is below what the mesh resolves. A site stands for the crack as far as half an
+//! edge around it, so that a point close to the crack does not pass between two of them.
 //!
-//! Both limits only grow with time, so what has released a point once releases it for good. A point therefore looks at
-//! each fractured tetrahedron once: it keeps the nearest one that has released it and, of those still to come, only
-//! the ones that no nearer one will precede. The product of all its projections is kept until something arrives.
+//! A point looks at each site once: it keeps the nearest one whose wave has reached it and, of those still to come, only the ones that no
+//! nearer one will precede. At each growth of a crack in between it looks at the crack's length alone.
 
-use glam::{Mat3, Vec3};
+mod memory;
 
-use super::arrivals::{Arrivals, Queue};
+use memory::{Memory, Sources};
+
+use super::field::StressField;
 use super::suspects::Suspect;
 use super::system::CrackSystem;
 use crate::config::CrackTiming;
-use crate::stress::{MARGIN, STRIDE, Symmetric3, lane};
+use crate::stress::{
+    BATCH, MARGIN, Released, STRETCHED, STRIDE, StressLanes, Symmetric3, bent, lane,
+    largest_eigenvalue,
+};
 
 /// Rounding of what is left, relative to the whole stress.
 const ROUNDING: f32 = 1e-5;
 
-/// What has released a point of one crack near it.
-#[derive(Clone, Copy, Debug)]
-struct Seen {
-    /// Nearest site that has, or [`NONE`].
-    site: u32,
-    /// Its distance, m; infinite without one.
-    distance: f32,
-    /// How many of its sites were looked at.
-    looked_at: u32,
-    /// Those still to come.
-    pending: Queue,
-}
+/// Cracks between two looks whether what is left is little enough.
+const BETWEEN_LOOKS: usize = 4;
 
-/// No site.
-const NONE: u32 = u32::MAX;
-
-/// What a point knows of all cracks.
+/// A point that has asked.
 #[derive(Clone, Debug)]
 struct Point {
-    /// Cracks near it, rising …
-    cracks: Vec<u32>,
-    /// … and what is known of each.
-    seen: Vec<Seen>,
-    /// Sites whose wave is on its way, or that lie beyond their crack's reach.
-    pending: Arrivals,
-    /// P₁ P₂ … of the cracks that have released it, if any has.
-    projection: Option<Mat3>,
-    /// Nothing arrives before this time, s …
-    next: f64,
-    /// … as long as the cracks have grown this many times.
-    growths: usize,
-    /// Batch of steps that `held` is about, under this projection.
+    memory: Memory,
+    /// Batch of steps that `held` is about.
     held_in: Option<usize>,
     /// Bit k: at step k of the batch what is left stays below the strength.
     held: u8,
+    /// Whether shares fell since that was asked.
+    changed: bool,
+    /// Batch of steps in which the stress behind the wall's middle was last asked for, and its place among those.
+    opposite: Option<(usize, usize)>,
+}
+
+impl Point {
+    /// Whether it is known that step k of a batch leaves it below its strength.
+    fn holds(&self, batch: usize, k: usize) -> bool {
+        self.held_in == Some(batch) && self.held >> k & 1 == 1
+    }
 }
 
 /// Memory of the points that have asked, by their place among the weak points.
 #[derive(Default)]
 pub(crate) struct Releases {
-    points: Vec<Point>,
+    points: Vec<Option<Point>>,
+    /// Stress behind the middle of walls in the present batch, by the order in which it was asked for.
+    opposites: Vec<StressLanes>,
+    /// That batch.
+    batch: usize,
 }
 
 impl Releases {
-    /// Whether what is left of a suspect's stress at a step may pass its strength, Pa; a no is certain.
+    /// Whether what is left of a suspect's stress at the field's step may pass its strength, Pa; a no is certain.
+    ///
+    /// It is found for the rest of the batch at once, and a no stands until the batch ends, whatever cracks do in the meantime: they
+    /// only release more.
     pub(crate) fn may_crack(
         &mut self,
         system: &CrackSystem,
+        field: &mut StressField,
         suspect: &Suspect,
-        step: usize,
         strength: f32,
         now: f64,
     ) -> bool {
-        let Some(point) = self.at_time(system, suspect, now) else {
+        let (batch, step) = (field.step / STRIDE, lane(field.step));
+        let place = suspect.place as usize;
+        if let Some(Some(point)) = self.points.get(place)
+            && point.holds(batch, step)
+        {
+            return false;
+        }
+        let Some(point) = self.reached(system, field, suspect, now) else {
             return true;
         };
-        let Some(q) = point.projection else {
+        if point.held_in == Some(batch) && !point.changed {
             return true;
-        };
-        // All steps of the batch at once, until the projection changes.
-        let batch = step / STRIDE;
+        }
+        point.changed = false;
         if point.held_in != Some(batch) {
-            point.held_in = Some(batch);
-            let left = suspect.state.projected(&q).tension_bounds();
-            point.held = 0;
-            for (k, (left, whole)) in left.iter().zip(&suspect.bounds).enumerate() {
-                let holds = left + ROUNDING * whole.abs() <= strength * (1.0 - MARGIN);
-                point.held |= u8::from(holds) << k;
+            (point.held_in, point.held) = (Some(batch), 0);
+        }
+        let mut held = point.held;
+        let limit = strength * (1.0 - MARGIN);
+        let needed = u8::MAX << step;
+        let left = self.left(field, suspect, Some((limit, needed)));
+        held |= holding(&left, suspect, limit);
+        // The bound is too high by up to a third where two tensions are equal.
+        for k in step..BATCH {
+            if held >> k & 1 == 0 {
+                held |= u8::from(largest_eigenvalue(&left.stress(k)) <= limit) << k;
             }
         }
-        point.held >> lane(step) & 1 == 0
+        if let Some(point) = &mut self.points[place] {
+            point.held = held;
+        }
+        held >> step & 1 == 0
     }
 
-    /// What is left of a suspect's stress at step k of the batch, at time `now`, s.
+    /// What is left of a suspect's stress at the field's step, at time `now`, s.
     pub(crate) fn released(
         &mut self,
         system: &CrackSystem,
+        field: &mut StressField,
         suspect: &Suspect,
-        k: usize,
         now: f64,
     ) -> Symmetric3 {
-        let stress = suspect.state.stress(k);
-        let point = self.at_time(system, suspect, now);
-        match point.and_then(|point| point.projection) {
-            Some(q) => Symmetric3::from_mat3(q.transpose() * stress.to_mat3() * q),
-            None => stress,
+        let k = lane(field.step);
+        if self.reached(system, field, suspect, now).is_some() {
+            self.left(field, suspect, None).stress(k)
+        } else {
+            suspect.state.stress(k)
         }
     }
 
-    /// A point's memory as of `now`, s; none with cracks that release nothing.
-    fn at_time(&mut self, system: &CrackSystem, suspect: &Suspect, now: f64) -> Option<&mut Point> {
-        let CrackTiming::TimeResolved { release_reach, .. } = system.config.timing else {
+    /// What is left of a suspect's stress at all steps of the field's batch, without the energy. `enough`: a limit, Pa, and steps at which
+    /// it matters only whether the rest stays below.
+    fn left(
+        &mut self,
+        field: &mut StressField,
+        suspect: &Suspect,
+        enough: Option<(f32, u8)>,
+    ) -> StressLanes {
+        pulp::Arch::new().dispatch(Left {
+            releases: self,
+            field,
+            suspect,
+            enough,
+        })
+    }
+
+    /// A suspect's point as of `now`, s, if any crack has released it.
+    fn reached(
+        &mut self,
+        system: &CrackSystem,
+        field: &StressField,
+        suspect: &Suspect,
+        now: f64,
+    ) -> Option<&mut Point> {
+        if system.config.timing == CrackTiming::Instant || system.cracks.is_empty() {
             return None;
-        };
+        }
         let place = suspect.place as usize;
         if place >= self.points.len() {
-            let untouched = Point {
-                cracks: Vec::new(),
-                seen: Vec::new(),
-                pending: Arrivals::default(),
-                projection: None,
-                next: f64::INFINITY,
-                growths: 0,
+            self.points.resize(place + 1, None);
+        }
+        let point = self.points[place].get_or_insert_with(|| {
+            let beta = match field.wall(suspect.tet as usize) {
+                Some(_) => bent(system.asset.material.poisson_ratio),
+                None => STRETCHED,
+            };
+            Point {
+                memory: Memory::new(system.centroids[suspect.tet as usize], beta),
                 held_in: None,
                 held: 0,
-            };
-            self.points.resize(place + 1, untouched);
-        }
-        let point = &mut self.points[place];
-        if point.growths != system.growth.len() || now > point.next {
-            update(point, system, suspect.tet, now, release_reach as f32);
-        }
-        Some(point)
+                changed: true,
+                opposite: None,
+            }
+        });
+        point.changed |= point.memory.update(Sources::of(system), now);
+        point.memory.dark.then_some(point)
     }
 }
 
-fn update(point: &mut Point, system: &CrackSystem, e: u32, now: f64, release_reach: f32) {
-    let centre = system.centroids[e as usize];
-    let known = point.growths;
-    let grown = &system.growth[known..];
-    point.growths = system.growth.len();
-    let mut changed = false;
-    if grown.len() < 4 * system.cracks.len() {
-        for (growth, &crack) in (known..).zip(grown) {
-            // A look at a crack that grew several times is a look at all of it.
-            if system.extents[crack as usize].latest_growth == growth as u32 {
-                changed |= look(point, system, crack, centre, now, release_reach);
+/// What cracks leave of a suspect's stress, with the widest vectors that this processor has; the same operations in the same order,
+/// so the same bits.
+struct Left<'a, 'f> {
+    releases: &'a mut Releases,
+    field: &'a mut StressField<'f>,
+    suspect: &'a Suspect,
+    enough: Option<(f32, u8)>,
+}
+
+impl pulp::NullaryFnOnce for Left<'_, '_> {
+    type Output = StressLanes;
+
+    #[inline(always)]
+    fn call(self) -> StressLanes {
+        let Releases {
+            points,
+            opposites,
+            batch,
+        } = self.releases;
+        let mut rest = Released::new(&self.suspect.state, None);
+        let Some(point) = &mut points[self.suspect.place as usize] else {
+            return rest.left();
+        };
+        let present = self.field.step / STRIDE;
+        if *batch != present {
+            *batch = present;
+            opposites.clear();
+        }
+        // Only in a wall the two shares differ.
+        if point.memory.beta != STRETCHED
+            && point.opposite.is_none_or(|(of, _)| of != present)
+            && let Some(opposite) = self.field.opposite_weak_point(self.suspect.tet as usize)
+        {
+            point.opposite = Some((present, opposites.len()));
+            opposites.push(opposite);
+        }
+        let opposite = point.opposite.filter(|&(of, _)| of == present);
+        let opposite = opposite.and_then(|(_, i)| opposites.get(i));
+        rest = Released::new(&self.suspect.state, opposite);
+        for (k, shadow) in point.memory.shadows().enumerate() {
+            rest.release(shadow);
+            // What is below stays below.
+            if k % BETWEEN_LOOKS == BETWEEN_LOOKS - 1
+                && let Some((limit, needed)) = self.enough
+                && holding(&rest.left(), self.suspect, limit) & needed == needed
+            {
+                break;
             }
         }
-    } else {
-        for crack in 0..system.cracks.len() as u32 {
-            changed |= look(point, system, crack, centre, now, release_reach);
-        }
-    }
-    if now > point.next {
-        for i in 0..point.seen.len() {
-            if !point.seen[i].pending.is_empty() {
-                let reach = reach(system, point.cracks[i], release_reach);
-                changed |= arrive(point, i, now, reach);
-            }
-        }
-        let queues = point.seen.iter().map(|seen| seen.pending);
-        point.next = queues
-            .map(|queue| point.pending.next(queue, now))
-            .fold(f64::INFINITY, f64::min);
-    }
-    if changed {
-        point.projection = projection(system, point);
-        point.held_in = None;
+        rest.left()
     }
 }
 
-/// How far a crack releases, m.
-fn reach(system: &CrackSystem, crack: u32, release_reach: f32) -> f32 {
-    release_reach * (2.0 * system.extents[crack as usize].size).max(system.edge)
-}
-
-/// Looks at a crack that has grown; whether it releases the point more, or otherwise.
-fn look(
-    point: &mut Point,
-    system: &CrackSystem,
-    crack: u32,
-    centre: Vec3,
-    now: f64,
-    release_reach: f32,
-) -> bool {
-    let reach = reach(system, crack, release_reach);
-    let extent = &system.extents[crack as usize];
-    // Out of reach of the whole crack: nothing to look at until it grows. Of one that was seen this is never so.
-    if centre.distance_squared(extent.origin) > (extent.size + reach).powi(2) {
-        return false;
+/// Bit k: at step k of the batch what is left of a suspect's stress stays below a limit, Pa.
+#[inline(always)]
+fn holding(left: &StressLanes, suspect: &Suspect, limit: f32) -> u8 {
+    let mut holding = 0;
+    let bounds = left.tension_bounds();
+    for (k, (left, whole)) in bounds.iter().zip(&suspect.bounds).enumerate() {
+        holding |= u8::from(left + ROUNDING * whole.abs() <= limit) << k;
     }
-    let i = match point.cracks.binary_search(&crack) {
-        Ok(i) => i,
-        Err(i) => {
-            let new = Seen {
-                site: NONE,
-                distance: f32::INFINITY,
-                looked_at: 0,
-                pending: Queue::default(),
-            };
-            point.cracks.insert(i, crack);
-            point.seen.insert(i, new);
-            i
-        }
-    };
-    let seen = &mut point.seen[i];
-    let wave = system.asset.material.rayleigh_speed();
-    let sites = &system.cracks[crack as usize].sites;
-    let first = std::mem::replace(&mut seen.looked_at, sites.len() as u32);
-    for (site, place) in (first..).zip(&sites[first as usize..]) {
-        let distance = place.position.distance(centre);
-        if seen.distance <= distance {
-            continue;
-        }
-        let arrival = place.time + f64::from(distance) / wave;
-        let added = point
-            .pending
-            .add(&mut seen.pending, site, distance, arrival);
-        if added && arrival >= now {
-            point.next = point.next.min(arrival);
-        }
-    }
-    arrive(point, i, now, reach)
-}
-
-/// Lets those sites of the crack at place `i` of those seen arrive whose wave is here and that lie within reach; whether one is
-/// nearer than what was.
-fn arrive(point: &mut Point, i: usize, now: f64, reach: f32) -> bool {
-    let seen = &mut point.seen[i];
-    let Some((site, distance)) = point.pending.arrive(&mut seen.pending, now, reach) else {
-        return false;
-    };
-    (seen.site, seen.distance) = (site, distance);
-    true
-}
-
-/// In crack order: projections do not commute.
-fn projection(system: &CrackSystem, point: &Point) -> Option<Mat3> {
-    let seen = point.cracks.iter().zip(&point.seen);
-    let released = seen.filter(|(_, s)| s.site != NONE);
-    let across = released.map(|(&crack, s)| {
-        let n = system.cracks[crack as usize].sites[s.site as usize].direction;
-        Mat3::IDENTITY - Mat3::from_cols(n * n.x, n * n.y, n * n.z)
-    });
-    across.reduce(|product, next| product * next)
+    holding
 }

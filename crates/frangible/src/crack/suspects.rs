@@ -1,6 +1,6 @@
 //! Which weak points may crack, or raise the peak, at the steps of a batch: all steps of a point at once, so that the
 //! arithmetic runs over the steps side by side. What cracks do in the meantime only takes suspects away: release
-//! waves never raise the largest tension (λ_max(P σ P) ≤ max(λ_max(σ), 0)).
+//! waves never raise the largest tension (λ_max(Q σ Q) ≤ max(λ_max(σ), 0), `stress/shadow.rs`).
 
 use super::field::StressField;
 use super::initiation::Peak;

@@ -93,14 +93,45 @@ pub(crate) struct ElementCut {
     pub(crate) time: f64,
 }
 
-/// Start and size of a crack.
+/// Where a crack is, and how long.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Extent {
     pub(crate) origin: Vec3,
     /// Largest distance of a fractured tetrahedron from the start, m.
     pub(crate) size: f32,
+    /// Two of its tetrahedra that lie far apart …
+    ends: [Vec3; 2],
+    /// … and their distance, m.
+    pub(crate) chord: f32,
     /// Where the crack comes last in [`CrackSystem::growth`].
     pub(crate) latest_growth: u32,
+}
+
+impl Extent {
+    /// Of a crack that starts here.
+    pub(super) fn new(origin: Vec3) -> Self {
+        Self {
+            origin,
+            size: 0.0,
+            ends: [origin; 2],
+            chord: 0.0,
+            latest_growth: 0,
+        }
+    }
+
+    /// With a tetrahedron more; whether the crack got longer. The end nearer to a place that lies beyond both moves there.
+    pub(super) fn grow(&mut self, centre: Vec3) -> bool {
+        let size = self.size.max(centre.distance(self.origin));
+        let [first, second] = self.ends.map(|end| end.distance(centre));
+        let longer = first.max(second) > self.chord;
+        if longer {
+            self.ends[usize::from(first > second)] = centre;
+            self.chord = first.max(second);
+        }
+        let grown = longer || size > self.size;
+        self.size = size;
+        grown
+    }
 }
 
 /// A place on a crack.
@@ -176,9 +207,9 @@ pub(crate) struct CrackSystem<'a> {
     pub(crate) area: f64,
     /// What has released the weak points so far.
     pub(crate) releases: Releases,
-    /// The crack that grew, got a site or a longer reach, once for each time between two questions about releases.
+    /// The crack that grew, got a site or longer, once for each time between two questions about releases.
     pub(crate) growth: Vec<u32>,
-    /// Start and size of each crack.
+    /// Where each crack is, and how long.
     pub(crate) extents: Vec<Extent>,
     /// Number of questions so far.
     pub(crate) questions: u64,
@@ -362,11 +393,7 @@ impl<'a> CrackSystem<'a> {
 
     /// Adds a crack without tetrahedra yet, which starts in this one.
     pub(crate) fn add(&mut self, frame: CrackFrame, start: u32) {
-        self.extents.push(Extent {
-            origin: frame.origin,
-            size: 0.0,
-            latest_growth: 0,
-        });
+        self.extents.push(Extent::new(frame.origin));
         self.cracks.push(Crack::new(frame, start));
     }
 
@@ -378,9 +405,7 @@ impl<'a> CrackSystem<'a> {
         c.area += f64::from(area);
         let centre = self.centroids[tet];
         let extent = &mut self.extents[crack as usize];
-        let size = extent.size.max(centre.distance(extent.origin));
-        let mut grown = size > extent.size;
-        extent.size = size;
+        let mut grown = extent.grow(centre);
         // The surface of a planar crack is the same everywhere.
         if self.config.path != CrackPath::Planar {
             for (&node, &s) in self.asset.fracture.tets[tet].iter().zip(&cut.values) {

@@ -1,6 +1,6 @@
 //! Stress at a point at the steps of a batch, side by side.
 
-use glam::{Mat3, Vec3};
+use glam::Vec3;
 
 use super::displacement::Lanes;
 use super::strain::{Symmetric3, products};
@@ -29,30 +29,6 @@ impl StressLanes {
             for (sum, tension) in lanes.iter_mut().zip(tension) {
                 *sum += tension * product;
             }
-        }
-    }
-
-    /// Qᵀ σ Q, without the energy.
-    #[inline(always)]
-    pub(crate) fn projected(&self, q: &Mat3) -> Self {
-        let [xx, yy, zz, xy, yz, zx] = self.components.map(Wide);
-        let rows = [[xx, xy, zx], [xy, yy, yz], [zx, yz, zz]];
-        let columns = q.to_cols_array_2d();
-        let halves = columns.map(|c| rows.map(|r| r[0] * c[0] + r[1] * c[1] + r[2] * c[2]));
-        let part = |i: usize, j: usize| {
-            let (half, left) = (halves[j], columns[i]);
-            (half[0] * left[0] + half[1] * left[1] + half[2] * left[2]).0
-        };
-        Self {
-            components: [
-                part(0, 0),
-                part(1, 1),
-                part(2, 2),
-                part(0, 1),
-                part(1, 2),
-                part(2, 0),
-            ],
-            energy_density: Lanes::default(),
         }
     }
 

@@ -83,13 +83,6 @@ impl Symmetric3 {
     pub fn times(self, v: Vec3) -> Vec3 {
         Vec3::from_array(times(&self.components(), v))
     }
-
-    /// What is left of a stress beside a free surface of unit normal `n`: P σ P, P = I − n nᵀ.
-    #[must_use]
-    pub fn released(self, n: Vec3) -> Self {
-        let p = Mat3::IDENTITY - Mat3::from_cols(n * n.x, n * n.y, n * n.z);
-        Self::from_mat3(p * self.to_mat3() * p)
-    }
 }
 
 /// Lamé's parameters at run-time precision.

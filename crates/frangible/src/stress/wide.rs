@@ -33,7 +33,7 @@ pub(crate) struct Wide(pub(crate) Lanes);
 
 impl Wide {
     #[inline(always)]
-    fn with(self, other: Self, f: impl Fn(f32, f32) -> f32) -> Self {
+    pub(super) fn with(self, other: Self, f: impl Fn(f32, f32) -> f32) -> Self {
         let mut out = [0.0; BATCH];
         for ((o, a), b) in out.iter_mut().zip(self.0).zip(other.0) {
             *o = f(a, b);
