@@ -18,6 +18,7 @@ const HELP: &str = "\
 cargo xtask setup             install the system packages that are missing, where that is allowed
 cargo xtask test              setup, then all tests of the workspace in the release profile
 cargo xtask ci                everything the continuous integration checks, with the minutes per step
+cargo xtask rebake            write the baked bodies and states in fuzz/corpus anew, after a change of their formats
 cargo xtask fuzz [SECONDS]    feed each reader of files hostile bytes for so long, 30 s if not told
 cargo xtask counts [--write]  count the instructions of each stage; fail where they grew by over 5 %, or store them
 cargo xtask web [--out DIR]   make the viewer's page for browsers, one static folder: target/web/page if not told
@@ -36,6 +37,13 @@ fn main() -> ExitCode {
     }
 }
 
+/// The tests that read what is checked in also write it.
+fn rebake() -> Result {
+    let tests = ["--test", "fuzz_seeds", "--test", "hostile_state"];
+    let mut cargo = command::cargo(&["test", "--release", "-p", "frangible"]);
+    command::run(cargo.args(tests).env("FRANGIBLE_WRITE_SEEDS", "1"))
+}
+
 fn run(words: &[&str]) -> Result {
     match words {
         ["setup"] => {
@@ -50,6 +58,7 @@ fn run(words: &[&str]) -> Result {
             test::test()
         }
         ["ci"] => ci::ci(),
+        ["rebake"] => rebake(),
         ["fuzz"] => fuzz::fuzz(fuzz::USUAL_SECONDS, None).map(drop),
         ["fuzz", seconds] => match seconds.parse() {
             Ok(seconds @ 1..) => fuzz::fuzz(seconds, None).map(drop),

@@ -276,9 +276,13 @@ pub(crate) struct BakeArgs {
     #[arg(long, value_name = "M")]
     pub(crate) material: Option<String>,
 
-    /// Number of vibration modes [default: the scene's own, or 120]
+    /// Number of vibration modes to keep, 1 to 400 [default: the scene's own, or 200]
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub(crate) modes: Option<i64>,
+
+    /// How many of them a blow follows through time; the rest answer it at once [default: found by trial on the body]
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    pub(crate) followed: Option<i64>,
 
     /// Mode shapes in half precision: a smaller file; the report tells what it changes
     #[arg(long)]

@@ -61,7 +61,16 @@ pub(crate) fn run(args: &BakeArgs) -> Result<(), Box<dyn Error>> {
     } else {
         save_asset(&body.asset, &args.output)?;
     }
-    text += &row("wrote", &args.output.display().to_string());
+    let shapes = size_of_val(&*body.asset.modes.shapes) as f64;
+    text += &row(
+        "wrote",
+        &format!(
+            "{}, {:.1} MB; in memory the modes take {:.1} MB",
+            args.output.display(),
+            1e-6 * std::fs::metadata(&args.output).map_or(0, |m| m.len()) as f64,
+            1e-6 * shapes
+        ),
+    );
     for note in notes {
         text += &row("note", &note);
     }
@@ -101,9 +110,11 @@ fn quality(body: &BakedBody, seconds: f64) -> String {
         row(
             "modes",
             format!(
-                "{}, from {first:.0} Hz (residual {:.0e})",
-                asset.modes.count(),
-                report.max_residual
+                "{} kept, from {first:.0} Hz (residual {:.0e}); a blow follows {}, up to {:.0} Hz",
+                report.modes,
+                report.max_residual,
+                report.followed,
+                asset.modes.frequency(report.followed - 1)
             ),
         );
         row("collider", format!("{} convex cells", report.cells));

@@ -35,6 +35,7 @@ pub(crate) struct BodyReport {
     pub(crate) analysis_nodes: usize,
     pub(crate) analysis_elements: usize,
     pub(crate) modes: usize,
+    pub(crate) modes_followed: usize,
     pub(crate) first_frequencies_hz: Vec<f64>,
     /// Known of bodies baked in this run.
     pub(crate) largest_residual: Option<f64>,
@@ -136,6 +137,7 @@ impl BodyReport {
             analysis_nodes: asset.analysis.nodes.len(),
             analysis_elements: asset.analysis.elements.len(),
             modes,
+            modes_followed: asset.modes.followed(),
             first_frequencies_hz: (0..modes.min(4))
                 .map(|i| asset.modes.frequency(i))
                 .collect(),
@@ -169,8 +171,9 @@ impl BodyReport {
         row(
             "modes",
             format!(
-                "{}, from {} … Hz{}",
+                "{}, {} of them followed, from {} … Hz{}",
                 self.modes,
+                self.modes_followed,
                 frequencies.join(", "),
                 self.largest_residual
                     .map_or(String::new(), |r| format!(" (residual {r:.0e})"))

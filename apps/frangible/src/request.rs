@@ -5,6 +5,7 @@ use std::path::Path;
 
 use frangible::Material;
 use frangible::glam::{Quat, Vec3};
+use frangible_bake::{MOST_MODES, USUAL_MODES};
 use frangible_scenes::{
     Axis, BodySource, FileKind, FileWish, MaterialEdit, Projectile, SCENE_NAMES, Scene, scene,
     scene_of_file,
@@ -105,6 +106,7 @@ pub(crate) fn body_of(args: &BakeArgs) -> Result<Scene, Box<dyn Error>> {
     }
     set_material(&mut wanted, args.material.as_deref())?;
     set_modes(&mut wanted, args.modes)?;
+    set_followed(&mut wanted, args.followed)?;
     set_mesh(&mut wanted, &args.mesh)?;
     set_supports(&mut wanted, &args.supports)?;
     wanted.validate()?;
@@ -153,11 +155,25 @@ fn set_modes(scene: &mut Scene, modes: Option<i64>) -> Result<(), Box<dyn Error>
         .ok()
         .filter(|&m| m > 0)
         .ok_or_else(|| {
-            format!("--modes is {modes}; it must be 1 or more (100 is plenty for most bodies)")
+            format!("--modes is {modes}; it must be 1 to {MOST_MODES} ({USUAL_MODES} is plenty for most bodies)")
         })?;
     refuse_baked(scene, "--modes")?;
     for body in &mut scene.bodies {
         body.modes = count;
+    }
+    Ok(())
+}
+
+fn set_followed(scene: &mut Scene, followed: Option<i64>) -> Result<(), Box<dyn Error>> {
+    let Some(followed) = followed else {
+        return Ok(());
+    };
+    let count = usize::try_from(followed).ok().filter(|&m| m > 0);
+    let count = count.ok_or_else(|| {
+        format!("--followed is {followed}; it must be 1 to the number of modes, or be left out")
+    })?;
+    for body in &mut scene.bodies {
+        body.followed = Some(count);
     }
     Ok(())
 }

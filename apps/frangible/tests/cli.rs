@@ -53,7 +53,7 @@ fn impossible_numbers_of_modes_are_refused() {
     refused_in_a_sentence(
         "modes",
         &["--modes", "100000"],
-        &["number of modes", "100000", "1 to 1000"],
+        &["number of modes", "100000", "1 to 400"],
     );
     refused("modes", &["--modes", "1.5"], &["1.5", "--modes"]);
 }

@@ -92,6 +92,24 @@ pub enum BakeError {
         /// Number of elastic modes there are.
         available: usize,
     },
+    /// More modes wanted than an asset keeps.
+    #[error("{wanted} modes wanted, but an asset keeps at most {most}; ask for 1 to {most}")]
+    TooManyModes {
+        /// Number of modes asked for.
+        wanted: usize,
+        /// Most that there can be.
+        most: usize,
+    },
+    /// No mode to follow, or more than there are.
+    #[error(
+        "{wanted} of {modes} modes are to be followed through time; follow 1 to {modes}, or leave the choice to the bake"
+    )]
+    Followed {
+        /// Number asked for.
+        wanted: usize,
+        /// Modes that the asset keeps.
+        modes: usize,
+    },
     /// The shifted stiffness matrix could not be factorized.
     #[error(
         "the stiffness matrix could not be factorized ({reason}); check the mesh for slivers and loose parts"

@@ -25,6 +25,8 @@ pub enum Stage {
     Walls,
     /// Peak stress of each mode.
     Stress,
+    /// How many modes a blow follows.
+    Followed,
 }
 
 impl fmt::Display for Stage {
@@ -37,6 +39,7 @@ impl fmt::Display for Stage {
             Self::Surface => "surface",
             Self::Walls => "walls",
             Self::Stress => "peak stresses",
+            Self::Followed => "modes to follow",
         })
     }
 }
@@ -90,6 +93,10 @@ pub struct BakeReport {
     pub rigid_motions: usize,
     /// The first ten natural frequencies, Hz.
     pub frequencies: Vec<f64>,
+    /// Modes that the asset keeps.
+    pub modes: usize,
+    /// Those of them that a blow follows through time, the lowest; the others answer statically.
+    pub followed: usize,
     /// Largest relative residual ‖Kφ − λMφ‖ / ‖Kφ‖ of all modes.
     pub max_residual: f64,
     /// Number of convex cells.

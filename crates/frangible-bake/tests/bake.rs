@@ -4,7 +4,7 @@ use std::process::Command;
 
 use frangible::glam::DVec3;
 use frangible::{Asset, Material};
-use frangible_bake::{BakeError, BakeSpec, MeshSize, Shape, Stage, bake};
+use frangible_bake::{BakeError, BakeReport, BakeSpec, MeshSize, Shape, Stage, bake};
 
 fn small_glass() -> BakeSpec {
     let mut spec = BakeSpec::new(
@@ -84,7 +84,8 @@ fn an_asset_holds_together() {
             Stage::Embed,
             Stage::Surface,
             Stage::Walls,
-            Stage::Stress
+            Stage::Stress,
+            Stage::Followed
         ]
     );
     assert_eq!(asset.modes.count(), 40);
@@ -251,7 +252,7 @@ fn bad_input_is_refused_with_a_way_out() {
     assert!(
         matches!(
             error,
-            BakeError::Modes {
+            BakeError::TooManyModes {
                 wanted: 1_000_000,
                 ..
             }
@@ -272,4 +273,47 @@ fn bad_input_is_refused_with_a_way_out() {
         ),
         "{error}"
     );
+}
+
+/// A small plate; more than 60 modes, so that the bake chooses.
+fn plate_of(
+    modes: usize,
+    followed: Option<usize>,
+) -> Result<(frangible::Asset, BakeReport), BakeError> {
+    let shape = Shape::plate(0.1, 0.08, 0.008);
+    let spec = BakeSpec {
+        modes,
+        followed,
+        analysis: Some(shape.size_for(400.0).unwrap()),
+        fracture: Some(shape.size_for(3000.0).unwrap()),
+        ..BakeSpec::new("plate", shape, Material::preset("glass").unwrap())
+    };
+    bake(&spec, &mut |_| {})
+}
+
+#[test]
+fn the_bake_chooses_how_many_modes_a_blow_follows() {
+    let (asset, report) = plate_of(90, None).unwrap();
+    assert_eq!((report.modes, asset.modes.count()), (90, 90));
+    assert_eq!(report.followed, asset.modes.followed());
+    assert!((10..=90).contains(&report.followed), "{}", report.followed);
+    // The modes themselves do not hang on the choice.
+    let (told, report) = plate_of(90, Some(33)).unwrap();
+    assert_eq!((report.followed, told.modes.residual_modes), (33, 57));
+    assert_eq!(told.modes.shapes, asset.modes.shapes);
+    // Of few modes all are followed.
+    assert_eq!(plate_of(60, None).unwrap().0.modes.residual_modes, 0);
+}
+
+#[test]
+fn numbers_of_modes_that_cannot_be_are_refused_with_the_limit() {
+    for (modes, followed, words) in [
+        (401, None, "at most 400; ask for 1 to 400"),
+        (0, None, "ask for 1 to 400"),
+        (20, Some(0), "follow 1 to 20"),
+        (20, Some(21), "21 of 20 modes"),
+    ] {
+        let error = plate_of(modes, followed).unwrap_err().to_string();
+        assert!(error.contains(words), "{error}");
+    }
 }

@@ -115,9 +115,14 @@ pub fn bake_until(
     let mut baked: Vec<BakedBody> = Vec::with_capacity(scene.bodies.len());
     for (i, (body, source)) in scene.bodies.iter().zip(opened).enumerate() {
         let same = |other: &BodySpec| {
-            (&other.source, &other.material, other.modes, &other.rescale)
-                == (&body.source, &body.material, body.modes, &body.rescale)
-                && (other.resolution, &other.supports) == (body.resolution, &body.supports)
+            (
+                &other.source,
+                &other.material,
+                &other.supports,
+                &other.rescale,
+            ) == (&body.source, &body.material, &body.supports, &body.rescale)
+                && (other.resolution, other.modes, other.followed)
+                    == (body.resolution, body.modes, body.followed)
         };
         baked.push(match (scene.bodies[..i].iter().position(same), source) {
             (Some(known), _) => baked[known].clone(),
@@ -151,6 +156,7 @@ fn bake_body(
     let size = body.resolution.map(|tets| shape.size_for(tets as f64));
     let spec = frangible_bake::BakeSpec {
         modes: body.modes,
+        followed: body.followed,
         render: render.map(|r| *r),
         fracture: size.transpose()?,
         supports: body.supports.clone(),

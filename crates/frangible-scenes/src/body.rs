@@ -2,7 +2,7 @@
 
 use frangible::glam::{Quat, Vec3};
 use frangible::{Material, Paint, Patch};
-use frangible_bake::Support;
+use frangible_bake::{Support, USUAL_MODES};
 
 use crate::rescale::Rescale;
 use crate::source::BodySource;
@@ -17,8 +17,10 @@ pub struct BodySpec {
     /// What it is made of. A [`BodySource::Asset`] brings its own material, and this one is not looked at: see
     /// [`BodySpec::rescale`].
     pub material: Material,
-    /// Number of vibration modes; a [`BodySource::Asset`] brings its own.
+    /// Number of vibration modes that are kept; a [`BodySource::Asset`] brings its own.
     pub modes: usize,
+    /// How many of them a blow follows through time; without it the bake's own choice.
+    pub followed: Option<usize>,
     /// Where it starts.
     pub place: Place,
     /// Orientation at the start.
@@ -65,14 +67,15 @@ pub enum Place {
 }
 
 impl BodySpec {
-    /// A body of this material at rest on the floor, 120 modes.
+    /// A body of this material at rest on the floor, with as many modes as a bake keeps unless told.
     #[must_use]
     pub fn new(name: impl Into<String>, source: BodySource, material: Material) -> Self {
         Self {
             name: name.into(),
             source,
             material,
-            modes: 120,
+            modes: USUAL_MODES,
+            followed: None,
             resolution: None,
             place: Place::Standing { over: [0.0; 2] },
             rotation: Quat::IDENTITY,

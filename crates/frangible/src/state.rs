@@ -123,7 +123,7 @@ impl BodyState {
     /// Bytes of another kind, too few of them, or too many.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, InputError> {
         let rest = bytes.strip_prefix(MAGIC).ok_or(InputError::State(
-            "these bytes are no state of a body of this version",
+            "it was not written by this version of Frangible",
         ))?;
         let mut numbers = Numbers(rest);
         let count = numbers.next()?;

@@ -1,7 +1,7 @@
 //! Checks of one body.
 
 use frangible::glam::Vec3;
-use frangible_bake::{READY_SHAPES, check_supports};
+use frangible_bake::{MOST_MODES, READY_SHAPES, check_supports};
 
 use super::quantity::{finite, quantity, range};
 use super::{Fault, LONGEST_NAME, MAX_SPEED, MOST_TETS};
@@ -30,9 +30,20 @@ pub(super) fn check_body(body: &BodySpec) -> Result<(), Fault> {
         "the number of modes",
         body.modes as f64,
         0.0,
-        1000.0,
-        "1 to 1000",
+        MOST_MODES as f64,
+        "1 to 400",
     )?;
+    if let Some(followed) = body.followed
+        && !(1..=body.modes).contains(&followed)
+    {
+        let must = "1 or more, and at most the number of modes";
+        return Err(quantity(
+            "followed",
+            "the number of modes to follow",
+            followed,
+            must,
+        ));
+    }
     if let BodySource::Mesh {
         size, resolution, ..
     } = &body.source

@@ -29,6 +29,12 @@ pub(super) fn body(table: BodyTable, usual: String, folder: &Path) -> Result<Bod
             "`modes` are part of a baked body; bake it again to change them",
         ),
         (
+            "followed",
+            table.followed.is_some(),
+            !baked,
+            "`followed` is part of a baked body; bake it again to change it",
+        ),
+        (
             "size",
             table.size.is_some(),
             meshed || baked,
@@ -94,6 +100,7 @@ pub(super) fn body(table: BodyTable, usual: String, folder: &Path) -> Result<Bod
         };
     }
     set(&mut body.modes, table.modes);
+    body.followed = table.followed;
     body.resolution = table.resolution.filter(|_| own);
     body.place = place(table.position.as_deref(), table.drop)?;
     if let Some(RotationChoice(turns)) = table.rotation {

@@ -39,6 +39,7 @@ pub(super) struct BodyTable {
     pub(super) up: Option<AxisTable>,
     pub(super) material: Option<MaterialChoice>,
     pub(super) modes: Option<usize>,
+    pub(super) followed: Option<usize>,
     pub(super) position: Option<Vec<f64>>,
     pub(super) drop: Option<f64>,
     pub(super) rotation: Option<RotationChoice>,

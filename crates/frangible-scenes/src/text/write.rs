@@ -136,6 +136,13 @@ fn write_body(t: &mut Text, body: &BodySpec) {
     if own_material {
         t.line("material", material_text(&body.material));
         t.line("modes", body.modes);
+        if let Some(followed) = body.followed {
+            t.noted(
+                "followed",
+                followed,
+                "of them through time, the rest at once",
+            );
+        }
     }
     let (position, height) = match body.place {
         Place::Standing { over } => (Some(over.to_vec()), None),
