@@ -12,6 +12,9 @@ use crate::stress::{
     largest_eigenvalue,
 };
 
+/// Cosine from which on the normals of a wall at two tetrahedra that touch belong to one face.
+const SAME_FACE: f32 = 0.3;
+
 /// Stress at fracture tetrahedra at one step.
 pub(crate) struct StressField<'a> {
     pub(crate) asset: &'a Asset,
@@ -69,22 +72,41 @@ impl<'a> StressField<'a> {
         wall(self.asset, self.skin, self.config, e)
     }
 
-    /// Stress that steers a crack in fracture tetrahedron `e`: in a wall that of its face with the larger tension, since
-    /// there the crack opens; behind, a bent wall may be stretched another way. `state`: that at the centroid.
+    /// Stress that steers a crack in fracture tetrahedron `e`, and the outward normal of the face of the wall that it is taken from, zero
+    /// in a solid. A crack through a wall opens from one of its faces and follows the tension there: behind, a bent wall is stretched
+    /// another way. `opens`: the normal of that face where the crack comes from; where it comes from no wall, it opens from the face with
+    /// the larger tension. `state`: that at the centroid.
     pub(crate) fn steering(
         &mut self,
         e: usize,
         wall: Option<&Wall>,
         state: &StressState,
-    ) -> Symmetric3 {
+        opens: Vec3,
+    ) -> (Symmetric3, Vec3) {
         let Some(wall) = wall else {
-            return state.stress;
+            return (state.stress, Vec3::ZERO);
         };
         let [front, back] = self.on_faces(e, wall);
-        if largest_eigenvalue(&front) >= largest_eigenvalue(&back) {
-            front
+        let side = opens.dot(wall.normal);
+        let in_front = if side.abs() > SAME_FACE {
+            side > 0.0
         } else {
-            back
+            largest_eigenvalue(&front) >= largest_eigenvalue(&back)
+        };
+        if in_front {
+            (front, wall.normal)
+        } else {
+            (back, -wall.normal)
+        }
+    }
+
+    /// Outward normal of the face of the wall that a crack opens from which starts in fracture tetrahedron `e`; zero where its flaw
+    /// lies on no face of a wall.
+    pub(crate) fn opens(&self, e: usize) -> Vec3 {
+        let weak = weak_place(self.asset, self.skin, self.config, self.pressed, e);
+        match (weak.law, self.wall(e)) {
+            (Law::Free(normal), Some(_)) if weak.on_surface => normal,
+            _ => Vec3::ZERO,
         }
     }
 

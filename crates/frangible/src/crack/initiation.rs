@@ -176,6 +176,7 @@ fn try_start(system: &mut CrackSystem, field: &mut StressField, suspect: &Suspec
             tet: e,
             values,
             direction,
+            opens: field.opens(e as usize),
             time: now,
         },
         area,

@@ -99,12 +99,14 @@ fn enter(system: &mut CrackSystem, field: &mut StressField, front: Front) {
         return;
     }
     let state = field.at(n);
+    let mut opens = Vec3::ZERO;
     let direction = match system.config.path {
         CrackPath::Planar => crack.frame.normal,
         CrackPath::Steered { turning_length } => {
             let length = mesh.centroid(n).distance(mesh.centroid(from.tet as usize));
             let wall = field.wall(n);
-            let stress = field.steering(n, wall.as_ref(), &state);
+            let (stress, face) = field.steering(n, wall.as_ref(), &state, from.opens);
+            opens = face;
             let ahead = match wall {
                 Some(wall) => upright(from.direction, wall.normal),
                 _ => from.direction,
@@ -162,6 +164,7 @@ fn enter(system: &mut CrackSystem, field: &mut StressField, front: Front) {
             tet: front.tet,
             values,
             direction,
+            opens,
             time: match system.config.timing {
                 CrackTiming::TimeResolved { .. } => front.arrival,
                 CrackTiming::Instant => from.time,

@@ -89,6 +89,8 @@ pub(crate) struct ElementCut {
     pub(crate) values: [f32; 4],
     /// Unit ∇s: the crack's normal there.
     pub(crate) direction: Vec3,
+    /// Outward normal of the face of the wall that the crack opens from; zero in a solid, and of a crack that was there before.
+    pub(crate) opens: Vec3,
     /// When it joined, s after the contact began.
     pub(crate) time: f64,
 }
@@ -284,6 +286,7 @@ impl<'a> CrackSystem<'a> {
                 tet: cut.tet,
                 values: cut.values,
                 direction: cut.direction,
+                opens: Vec3::ZERO,
                 time: f64::NEG_INFINITY,
             };
             self.join(id, cut, 0.0);
