@@ -9,7 +9,8 @@ use crate::stress::{STRETCHED, Shadow, share_left};
 /// A share falls by this much or stays.
 const LEAST: f32 = 5e-3;
 
-/// A crack that takes less than this counts as taking nothing: it is far for its length and needs no look.
+/// A crack that takes less than this counts as taking nothing: it is far for its length and needs no look. A rounding for time's sake:
+/// most cracks about a point are short and far.
 const FAINT: f32 = 0.02;
 
 /// Distance over a crack's half-length a beyond which that is so: of all shares that of a stretched body falls most,
