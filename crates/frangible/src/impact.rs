@@ -324,10 +324,12 @@ impl<'a> Cracking<'a> {
         let mut looked = Looked::default();
         // From the beginning of its batch, so that every batch is whole.
         let mut step = first_step / STRIDE * STRIDE;
-        while let Some((next, contact)) = self.follow(step, &mut system, &mut looked, &mut report) {
+        while let Some((next, contact, compliance)) =
+            self.follow(step, &mut system, &mut looked, &mut report)
+        {
             let Some(blow) = &mut self.blow else { break };
             let now = next as f64 * self.time_step;
-            blow.cut(body, contact, now);
+            blow.weaken(body, contact, compliance, now);
             self.motion = std::mem::take(&mut blow.motion);
             report.contacts = blow.reports();
             report.contact_duration = blow.duration();
@@ -339,33 +341,32 @@ impl<'a> Cracking<'a> {
         self.end(system, looked, report, trace)
     }
 
-    /// Runs the cracks from a time step on: to the end of the motion, or to a time step before which cracks have cut the wall under a
-    /// contact, whose number comes with it.
+    /// Runs the cracks from a time step on: to the end of the motion, or to a time step before which cracks have weakened the wall under a
+    /// contact, whose number comes with it, and what the wall then gives way by, m/N.
     fn follow(
         &mut self,
         first_step: usize,
         system: &mut CrackSystem<'a>,
         looked: &mut Looked,
         report: &mut ImpactReport,
-    ) -> Option<(usize, usize)> {
+    ) -> Option<(usize, usize, f64)> {
         let (body, config, motion) = (self.body, self.config, &self.motion);
         let mut displacement = DisplacementBatch::new(&body.asset);
         let mut culling = Culling::new(body, config, motion);
         let mut field = StressField::new(body, config, motion, &self.pressed, &mut displacement);
         let mut suspects = Suspects::default();
         let mut roots = [0.0; BATCH];
-        let mut cut = None;
+        let mut weakened = None;
         for step in first_step..motion.steps() {
             let k = lane(step);
             field.step = step;
             if step % STRIDE == 0 {
                 if step > first_step
-                    && let Some(blow) = &self.blow
+                    && let Some(blow) = self.blow.as_ref().filter(|b| b.pushes_at(step))
+                    && let Some((contact, compliance)) = blow.weakened(system)
                 {
-                    cut = blow.under_a_cut_wall(system).map(|contact| (step, contact));
-                    if cut.is_some() {
-                        break;
-                    }
+                    weakened = Some((step, contact, compliance));
+                    break;
                 }
                 // Bounds, then the points that they leave, of all steps of the batch.
                 let start = Instant::now();
@@ -391,7 +392,7 @@ impl<'a> Cracking<'a> {
         looked.asked_clusters |= culling.asked_clusters;
         looked.passed_over = looked.passed_over.max(culling.passed_over);
         looked.as_weakest = looked.as_weakest.max(culling.as_weakest);
-        cut
+        weakened
     }
 
     /// What came of it.

@@ -2,9 +2,8 @@
 
 use std::f64::consts::{PI, TAU};
 
-use glam::Vec3;
-
 use super::Complement;
+use super::star::Star;
 use super::bank::{BankState, dot};
 use super::complement::Residual;
 use super::plan::Plan;
@@ -16,7 +15,7 @@ use crate::error::InputError;
 use crate::modal::Motion;
 use crate::near_field::NearField;
 use crate::outcome::ContactReport;
-use crate::stress::{DisplacementBatch, Symmetric3, lane, perpendicular_axes};
+use crate::stress::{DisplacementBatch, Symmetric3, lane};
 
 /// A blow of so many substeps is cut off: a contact that lasts this long is none of a blow's.
 const MOST_SUBSTEPS: usize = 60_000;
@@ -33,39 +32,16 @@ const PERIODS: f64 = 1.5;
 /// Rounds over all contacts until their forces agree.
 const MOST_ROUNDS: usize = 60;
 
-/// Arms of a star count that reach this many thicknesses of the wall from the contact.
-const STAR: f64 = 4.0;
+/// A star counts anew when it gives way by this factor more.
+const GREW: f64 = 1.3;
 
-/// Arms that cut the wall under a contact: between three the wall bends as three cantilevers do, and carries next to nothing.
-const ENOUGH: usize = 3;
-
-/// Angle between directions of different arms, rad.
-const APART: f32 = 0.4;
-
-/// How many arms of a star reach [`STAR`] thicknesses from a contact: directions, some way apart, in which cracks that run from it or to
-/// it have cut the wall there.
-fn arms(system: &CrackSystem, point: Vec3, inwards: Vec3, thickness: f64) -> usize {
-    let (u, v) = perpendicular_axes(inwards);
-    let near = (STAR * thickness) as f32;
-    let far = 1.5 * near + system.edge;
-    let mut angles: Vec<f32> = Vec::new();
-    for site in system.cracks.iter().flat_map(|crack| &crack.sites) {
-        let away = site.position - point;
-        let away = away - away.dot(inwards) * inwards;
-        let distance = away.length();
-        // Radial: the crack's normal lies across the way out.
-        let radial = site.direction.dot(away).abs() < 0.5 * distance;
-        if radial && site.time.is_finite() && (near..far).contains(&distance) {
-            angles.push(away.dot(v).atan2(away.dot(u)));
-        }
-    }
-    angles.sort_unstable_by(f32::total_cmp);
-    let (Some(first), Some(last)) = (angles.first(), angles.last()) else {
-        return 0;
-    };
-    let around = first + std::f32::consts::TAU - last;
-    let gaps = angles.windows(2).map(|w| w[1] - w[0]).chain([around]);
-    gaps.filter(|&gap| gap > APART).count().max(1)
+/// From a substep on the wall under a contact gives way by so much more.
+#[derive(Clone, Copy, Debug)]
+struct Softening {
+    contact: usize,
+    substep: usize,
+    /// m/N.
+    compliance: f64,
 }
 
 /// A blow, integrated: the forces of its contacts and the motion of the body.
@@ -80,8 +56,8 @@ pub struct Blow {
     /// Speed of each striker away from the body as a rigid one after it, m/s.
     departures: Vec<f64>,
     energy_at_parting: f64,
-    /// Contacts whose wall is gone.
-    gone: Vec<usize>,
+    /// What stars of cracks have made of the walls under the contacts.
+    stars: Vec<Softening>,
     /// What the body does.
     pub(crate) motion: Motion,
 }
@@ -117,15 +93,11 @@ impl Blow {
             contact_steps: 0,
             departures: Vec::new(),
             energy_at_parting: 0.0,
-            gone: Vec::new(),
+            stars: Vec::new(),
             motion: Motion::default(),
         };
-        let run = blow.run(None);
-        blow.motion = blow.motion_of(body, &run);
-        blow.energy_at_parting = run.energy_at_parting;
-        blow.forces = run.forces;
-        blow.contact_steps = run.contact_steps;
-        blow.departures = run.speeds.iter().map(|v| -v).collect();
+        let run = blow.run(&[]);
+        blow.take(body, run);
         Some(blow)
     }
 
@@ -242,47 +214,54 @@ impl Blow {
         field.at_weak_point(tet as usize).stress(lane(step))
     }
 
-    /// Lets the force of contact `k` fall to nothing from `now`, s, on: the wall under it is gone. What was before stays as it was, bit
-    /// for bit.
-    pub(crate) fn cut(&mut self, body: &Body, k: usize, now: f64) {
-        let (count, dt) = (self.plan.sites.len(), self.substep());
-        let thickness = self.plan.sites[k]
-            .near
-            .as_ref()
-            .map_or(0.0, |n| n.wall.thickness);
-        let falls = STAR * thickness / body.asset.material.rayleigh_speed();
-        for (i, f) in self.forces.iter_mut().enumerate().skip(k).step_by(count) {
-            let t = (i / count + 1) as f64 * dt;
-            *f *= (1.0 - (t - now).max(0.0) / falls).max(0.0);
-        }
-        self.gone.push(k);
-        let run = self.run(Some(&self.forces));
-        self.motion = self.motion_of(body, &run);
-    }
-
-    /// The first contact whose wall the cracks have cut, and whose force goes on: at least three arms of a star reach some thicknesses
-    /// from it.
-    pub(crate) fn under_a_cut_wall(&self, system: &CrackSystem) -> Option<usize> {
+    /// Whether cracks have cut the wall under a contact so far that its force must be found anew: number of the contact, and what the
+    /// star gives way by, m/N.
+    pub(crate) fn weakened(&self, system: &CrackSystem) -> Option<(usize, f64)> {
         let sites = self.plan.sites.iter().enumerate();
         let mut walls = sites.filter_map(|(k, site)| Some((k, site.near.as_ref()?)));
         walls.find_map(|(k, near)| {
-            let arms = || {
-                arms(
-                    system,
-                    near.place.point,
-                    near.place.inwards,
-                    near.wall.thickness,
-                )
-            };
-            (!self.gone.contains(&k) && arms() >= ENOUGH).then_some(k)
+            let star = Star::of(system, &near.place, near.wall.thickness)?;
+            let compliance = star.compliance(near.wall.bending_stiffness);
+            let known = self.stars.iter().rev().find(|s| s.contact == k);
+            let before = known.map_or(0.0, |s| s.compliance);
+            (compliance > GREW * before).then_some((k, compliance))
         })
     }
 
-    fn run(&self, given: Option<&[f64]>) -> Record {
+    /// Whether contacts still push at a time step.
+    pub(crate) fn pushes_at(&self, step: usize) -> bool {
+        step < self.contact_steps
+    }
+
+    /// Goes on from `now`, s, with a wall under contact `k` that gives way by so much more, m/N. What was before stays as it was, bit for
+    /// bit.
+    pub(crate) fn weaken(&mut self, body: &Body, k: usize, compliance: f64, now: f64) {
+        let substep = (now / self.substep()).round() as usize;
+        self.stars.push(Softening {
+            contact: k,
+            substep,
+            compliance,
+        });
+        let known = (substep * self.plan.sites.len()).min(self.forces.len());
+        let run = self.run(&self.forces[..known]);
+        self.take(body, run);
+    }
+
+    fn take(&mut self, body: &Body, run: Record) {
+        self.motion = self.motion_of(body, &run);
+        self.energy_at_parting = run.energy_at_parting;
+        self.contact_steps = run.contact_steps;
+        self.departures = run.speeds.iter().map(|v| -v).collect();
+        self.forces = run.forces;
+    }
+
+    /// `known`: forces from the beginning on that are known already.
+    fn run(&self, known: &[f64]) -> Record {
         // With the widest vectors that this processor has; the same operations in the same order, so the same bits.
         pulp::Arch::new().dispatch(Run {
             plan: &self.plan,
-            given,
+            known,
+            stars: &self.stars,
             instant: self.instant,
         })
     }
@@ -356,8 +335,9 @@ struct Record {
 /// The integration.
 struct Run<'a> {
     plan: &'a Plan,
-    /// Forces that are known already, instead of strikers.
-    given: Option<&'a [f64]>,
+    /// Forces from the beginning on that are known already.
+    known: &'a [f64],
+    stars: &'a [Softening],
     /// Whether nothing is looked at after the contact.
     instant: bool,
 }
@@ -379,6 +359,7 @@ impl pulp::NullaryFnOnce for Run<'_> {
         let mut next = vec![0.0; count];
         let mut growth = vec![0.0; count];
         let mut bases = vec![0.0; count];
+        let mut weakness = vec![0.0; count];
         // What a unit growth of force l takes from gap k within a substep.
         let mut give = vec![0.0; count * count];
         for k in 0..count {
@@ -413,14 +394,13 @@ impl pulp::NullaryFnOnce for Run<'_> {
                 bases[k] =
                     ways[k] + speeds[k] * dt - 0.5 * fall * dt * dt - dot(&plan.gap[k], &state.x);
             }
-            match self.given {
-                Some(given) => {
-                    for (k, next) in next.iter_mut().enumerate() {
-                        *next = given.get(substep * count + k).copied().unwrap_or(0.0);
-                    }
-                }
+            for star in self.stars.iter().filter(|star| star.substep == substep) {
+                weakness[star.contact] = star.compliance;
+            }
+            match self.known.get(substep * count..(substep + 1) * count) {
+                Some(known) => next.copy_from_slice(known),
                 None if parted => next.fill(0.0),
-                None => solve(plan, &bases, &give, &forces, t, &mut next),
+                None => solve(plan, &bases, &give, &weakness, &forces, t, &mut next),
             }
             for k in 0..count {
                 growth[k] = next[k] - forces[k];
@@ -443,10 +423,7 @@ impl pulp::NullaryFnOnce for Run<'_> {
                 record.sample(plan, &state, &forces, true);
             }
             if !parted {
-                parted = match self.given {
-                    Some(given) => substep * count >= given.len(),
-                    None => self.has_parted(&state, &speeds, &forces, t),
-                } || substep >= MOST_SUBSTEPS;
+                parted = self.has_parted(&state, &speeds, &forces, t) || substep >= MOST_SUBSTEPS;
                 if parted {
                     record.energy_at_parting = energies(&state)[0];
                 }
@@ -539,7 +516,15 @@ fn energies(state: &BankState) -> [f64; 2] {
 
 /// The forces at the end of a substep, N.
 #[inline(always)]
-fn solve(plan: &Plan, bases: &[f64], give: &[f64], forces: &[f64], t: f64, next: &mut [f64]) {
+fn solve(
+    plan: &Plan,
+    bases: &[f64],
+    give: &[f64],
+    weakness: &[f64],
+    forces: &[f64],
+    t: f64,
+    next: &mut [f64],
+) {
     let count = bases.len();
     next.copy_from_slice(forces);
     for _ in 0..MOST_ROUNDS {
@@ -562,7 +547,8 @@ fn solve(plan: &Plan, bases: &[f64], give: &[f64], forces: &[f64], t: f64, next:
                         }
                     }
                     let i = k * count + k;
-                    site.spring.force(gap, give[i] + plan.compliance[i])
+                    let compliance = plan.compliance[i] + weakness[k];
+                    site.spring.force(gap, give[i] + compliance)
                 }
             };
             change = change.max((found - next[k]).abs());

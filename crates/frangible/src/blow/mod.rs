@@ -20,6 +20,9 @@
 //!
 //! What friction there is follows the normal force: F_k pushes along n + f, f the ratio of the engine's friction and normal impulse.
 //!
+//! A star of cracks under a contact leaves cantilevers, which give way more (`star.rs`): from then on the force is found anew, and falls with
+//! what the star has cut.
+//!
 //! # Limits
 //!
 //! Hertz' spring has no losses; crushing and plastic dents of strikers are not in it. The contact between two bodies that both vibrate
@@ -32,6 +35,7 @@ mod integrate;
 mod limits;
 mod plan;
 mod spring;
+mod star;
 
 pub(crate) use complement::{Complement, Residual};
 pub use integrate::Blow;

@@ -54,50 +54,36 @@ impl<'a> StressField<'a> {
         }
     }
 
-    /// Stress and strain energy density at the centroid of fracture tetrahedron `e`.
-    pub(crate) fn at(&mut self, e: usize) -> StressState {
+    /// What a crack feels in fracture tetrahedron `e`: in a solid the stress and energy at its centroid, in a wall the stress on both faces
+    /// beside it and the mean of the energy through the wall. The centroids of the three tetrahedra that fill a prism of one layer lie at a
+    /// quarter of the thickness from its middle, in it and at a quarter again: they would show half of what bending holds.
+    pub(crate) fn at(&mut self, e: usize) -> Felt {
         let gradient = self.gradient(self.asset.embedded_tet(e));
         let Some(wall) = self.wall(e) else {
-            return self.elasticity.state(gradient);
+            return Felt {
+                state: self.elasticity.state(gradient),
+                wall: None,
+            };
         };
-        let state = self.elasticity.free_state(gradient, wall.normal);
-        match self.near.at(self.centroids[e], &wall, self.step) {
-            Some(near) => self.elasticity.with_energy(state.stress.plus(&near)),
-            None => state,
+        let faces = self.on_faces(e, &wall);
+        // Stress is linear through the wall, and energy quadratic: Simpson's rule is exact.
+        let middle = faces[0].plus(&faces[1]).scaled(0.5);
+        let [front, back, middle] =
+            [faces[0], faces[1], middle].map(|s| self.elasticity.with_energy(s));
+        let energy = (front.energy_density + back.energy_density + 4.0 * middle.energy_density)
+            * (1.0 / 6.0);
+        Felt {
+            state: StressState {
+                energy_density: energy,
+                ..middle
+            },
+            wall: Some((wall, faces)),
         }
     }
 
     /// The wall that fracture tetrahedron `e` is part of.
     pub(crate) fn wall(&self, e: usize) -> Option<Wall> {
         wall(self.asset, self.skin, self.config, e)
-    }
-
-    /// Stress that steers a crack in fracture tetrahedron `e`, and the outward normal of the face of the wall that it is taken from, zero
-    /// in a solid. A crack through a wall opens from one of its faces and follows the tension there: behind, a bent wall is stretched
-    /// another way. `opens`: the normal of that face where the crack comes from; where it comes from no wall, it opens from the face with
-    /// the larger tension. `state`: that at the centroid.
-    pub(crate) fn steering(
-        &mut self,
-        e: usize,
-        wall: Option<&Wall>,
-        state: &StressState,
-        opens: Vec3,
-    ) -> (Symmetric3, Vec3) {
-        let Some(wall) = wall else {
-            return (state.stress, Vec3::ZERO);
-        };
-        let [front, back] = self.on_faces(e, wall);
-        let side = opens.dot(wall.normal);
-        let in_front = if side.abs() > SAME_FACE {
-            side > 0.0
-        } else {
-            largest_eigenvalue(&front) >= largest_eigenvalue(&back)
-        };
-        if in_front {
-            (front, wall.normal)
-        } else {
-            (back, -wall.normal)
-        }
     }
 
     /// Outward normal of the face of the wall that a crack opens from which starts in fracture tetrahedron `e`; zero where its flaw
@@ -108,21 +94,6 @@ impl<'a> StressField<'a> {
             (Law::Free(normal), Some(_)) if weak.on_surface => normal,
             _ => Vec3::ZERO,
         }
-    }
-
-    /// Tension across a crack of this unit normal in fracture tetrahedron `e` that opens its front, Pa: of a wall that of its middle and
-    /// the part of its bending that counts (`tip.rs`), at most the larger one of its faces. `state`: that at the centroid.
-    pub(crate) fn opening(&mut self, e: usize, normal: Vec3, state: &StressState) -> f64 {
-        let across = |stress: &Symmetric3| f64::from(normal.dot(stress.to_mat3() * normal));
-        let Some(wall) = self.wall(e) else {
-            return across(&state.stress).max(0.0);
-        };
-        let [front, back] = self.on_faces(e, &wall).map(|stress| across(&stress));
-        let largest = front.max(back).max(0.0);
-        let middle = (0.5 * (front + back)).clamp(0.0, largest);
-        let nu = self.asset.material.poisson_ratio;
-        let share = (1.0 + nu) / (3.0 * (3.0 + nu));
-        (middle.powi(2) + share * (largest - middle).powi(2)).sqrt()
     }
 
     /// Stress on the two faces of a wall beside the centroid of fracture tetrahedron `e`.
@@ -199,6 +170,50 @@ fn shifted(asset: &Asset, point: &EmbeddedPoint, by: Vec3) -> EmbeddedPoint {
     EmbeddedPoint {
         barycentric: std::array::from_fn(|k| point.barycentric[k] + gradients[k].dot(by)),
         ..*point
+    }
+}
+
+/// What a crack feels in a tetrahedron.
+pub(crate) struct Felt {
+    /// Stress and strain energy; in a wall the stress of its middle and the mean of the energy.
+    pub(crate) state: StressState,
+    /// The wall, and the stress on its two faces.
+    pub(crate) wall: Option<(Wall, [Symmetric3; 2])>,
+}
+
+impl Felt {
+    /// Stress that steers a crack, and the outward normal of the face of the wall that it is taken from, zero in a solid. A crack through a
+    /// wall opens from one of its faces and follows the tension there: behind, a bent wall is stretched another way. `opens`: the normal
+    /// of that face where the crack comes from; where it comes from no wall, it opens from the face with the larger tension.
+    pub(crate) fn steering(&self, opens: Vec3) -> (Symmetric3, Vec3) {
+        let Some((wall, [front, back])) = &self.wall else {
+            return (self.state.stress, Vec3::ZERO);
+        };
+        let side = opens.dot(wall.normal);
+        let in_front = if side.abs() > SAME_FACE {
+            side > 0.0
+        } else {
+            largest_eigenvalue(front) >= largest_eigenvalue(back)
+        };
+        if in_front {
+            (*front, wall.normal)
+        } else {
+            (*back, -wall.normal)
+        }
+    }
+
+    /// Tension across a crack of this unit normal that opens its front, Pa: of a wall that of its middle and the part of its bending that
+    /// counts (`tip.rs`), at most the larger one of its faces.
+    pub(crate) fn opening(&self, normal: Vec3, poisson_ratio: f64) -> f64 {
+        let across = |stress: &Symmetric3| f64::from(normal.dot(stress.to_mat3() * normal));
+        let Some((_, faces)) = &self.wall else {
+            return across(&self.state.stress).max(0.0);
+        };
+        let [front, back] = faces.each_ref().map(across);
+        let largest = front.max(back).max(0.0);
+        let middle = (0.5 * (front + back)).clamp(0.0, largest);
+        let share = (1.0 + poisson_ratio) / (3.0 * (3.0 + poisson_ratio));
+        (middle.powi(2) + share * (largest - middle).powi(2)).sqrt()
     }
 }
 

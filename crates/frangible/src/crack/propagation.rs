@@ -98,17 +98,16 @@ fn enter(system: &mut CrackSystem, field: &mut StressField, front: Front) {
             });
         return;
     }
-    let state = field.at(n);
+    let felt = field.at(n);
     let mut opens = Vec3::ZERO;
     let direction = match system.config.path {
         CrackPath::Planar => crack.frame.normal,
         CrackPath::Steered { turning_length } => {
             let length = mesh.centroid(n).distance(mesh.centroid(from.tet as usize));
-            let wall = field.wall(n);
-            let (stress, face) = field.steering(n, wall.as_ref(), &state, from.opens);
+            let (stress, face) = felt.steering(from.opens);
             opens = face;
-            let ahead = match wall {
-                Some(wall) => upright(from.direction, wall.normal),
+            let ahead = match &felt.wall {
+                Some((wall, _)) => upright(from.direction, wall.normal),
                 _ => from.direction,
             };
             let toward = steered(
@@ -150,9 +149,9 @@ fn enter(system: &mut CrackSystem, field: &mut StressField, front: Front) {
     let area = crossing_area(&x, &values);
     let material = &system.asset.material;
     let cost = f64::from(area) * system.resistance.toughness.of(front.tet);
-    let mut gain = f64::from(area) * material.energy_depth * f64::from(state.energy_density);
+    let mut gain = f64::from(area) * material.energy_depth * f64::from(felt.state.energy_density);
     if let Some(depth) = system.tip_depth(&front) {
-        let opening = field.opening(n, direction, &state);
+        let opening = felt.opening(direction, material.poisson_ratio);
         let density = 0.5 * opening * opening / material.contact_modulus();
         gain = gain.max(f64::from(area) * depth * density);
     }

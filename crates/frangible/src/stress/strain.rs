@@ -63,6 +63,12 @@ impl Symmetric3 {
         Self::from_components(uniaxial(tension, t))
     }
 
+    /// The tensor times a number.
+    #[must_use]
+    pub fn scaled(&self, factor: f32) -> Self {
+        Self::from_components(self.components().map(|c| c * factor))
+    }
+
     /// The sum of two tensors.
     #[must_use]
     pub fn plus(&self, other: &Self) -> Self {

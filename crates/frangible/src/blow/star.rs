@@ -1,0 +1,99 @@
+//! A star of cracks under a contact: how much less the wall carries.
+//!
+//! n arms of length L leave n cantilevers that are held at the distance L and pushed at their tips. A tip of angle 2π/n bends to a
+//! constant curvature, as its width grows with the distance as the moment does, so that together they give way by
+//! `L² / 4 n D tan(π/n)` per force. The whole wall within L gave way by `L² / 16 π D` (a clamped disc), which the modes and wall
+//! oscillators have already: the difference is what the star adds. Two arms are one crack, along which the wall still bends as one.
+
+use std::f64::consts::PI;
+
+use crate::crack::CrackSystem;
+use crate::near_field::NearPlace;
+use crate::stress::perpendicular_axes;
+
+/// Fewest arms of a star.
+const FEWEST: usize = 3;
+
+/// Arms are looked for from this many thicknesses of the wall on: nearer, every crack lies in all directions.
+const FROM: f64 = 2.0;
+
+/// Angle between the directions of different arms, rad.
+const APART: f32 = 0.4;
+
+/// The arms of a star.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Star {
+    /// Length that at least three arms reach, m.
+    length: f64,
+    /// How many arms reach it, nearly.
+    arms: usize,
+}
+
+impl Star {
+    /// The star that cracks have cut about a contact; none with fewer than three arms.
+    pub(super) fn of(system: &CrackSystem, place: &NearPlace, thickness: f64) -> Option<Self> {
+        let (u, v) = perpendicular_axes(place.inwards);
+        let nearest = (FROM * thickness) as f32;
+        // Direction and distance of places where a crack runs out from the contact, or in to it.
+        let mut places: Vec<(f32, f32)> = Vec::new();
+        for site in system.cracks.iter().flat_map(|crack| &crack.sites) {
+            let away = site.position - place.point;
+            let away = away - away.dot(place.inwards) * place.inwards;
+            let distance = away.length();
+            let radial = site.direction.dot(away).abs() < 0.5 * distance;
+            if radial && site.time.is_finite() && distance > nearest && distance < place.reach as f32 {
+                places.push((away.dot(v).atan2(away.dot(u)), distance));
+            }
+        }
+        places.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
+        let mut lengths: Vec<f32> = Vec::new();
+        let mut previous = f32::NEG_INFINITY;
+        for &(angle, distance) in &places {
+            match lengths.last_mut() {
+                Some(length) if angle - previous < APART => *length = length.max(distance),
+                _ => lengths.push(distance),
+            }
+            previous = angle;
+        }
+        // The last arm may be the first one's other side.
+        if lengths.len() > 1
+            && let (Some(first), Some(last)) = (places.first(), places.last())
+            && first.0 + std::f32::consts::TAU - last.0 < APART
+            && let Some(length) = lengths.pop()
+        {
+            lengths[0] = lengths[0].max(length);
+        }
+        lengths.sort_unstable_by(|a, b| b.total_cmp(a));
+        let length = *lengths.get(FEWEST - 1)?;
+        Some(Self {
+            length: f64::from(length),
+            arms: lengths.iter().filter(|l| **l > 0.8 * length).count(),
+        })
+    }
+
+    /// What it adds to the give of the wall, m/N, where the wall has this bending stiffness, N·m.
+    pub(super) fn compliance(&self, bending_stiffness: f64) -> f64 {
+        let n = self.arms as f64;
+        let tips = 1.0 / (4.0 * n * (PI / n).tan());
+        let whole = 1.0 / (16.0 * PI);
+        self.length * self.length * (tips - whole) / bending_stiffness
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Star;
+
+    #[test]
+    fn more_and_longer_arms_give_way_more() {
+        let star = |length, arms| Star { length, arms }.compliance(2.0);
+        assert!(star(0.02, 3) > 0.0);
+        assert!((star(0.02, 3) / star(0.01, 3) - 4.0).abs() < 1e-12);
+        for arms in 3..12 {
+            assert!(star(0.01, arms + 1) > star(0.01, arms));
+        }
+        // Very many arms: tips of no width, L²/4πD in all.
+        let many = star(1.0, 100_000) * 2.0 + 1.0 / (16.0 * std::f64::consts::PI);
+        assert!((many * 4.0 * std::f64::consts::PI - 1.0).abs() < 1e-6);
+    }
+}
