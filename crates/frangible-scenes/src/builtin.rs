@@ -173,7 +173,7 @@ pub fn scene(name: &str) -> Result<Scene, SceneError> {
                 "a window pane held in its frame, hit by a steel ball",
                 Shape::plate(0.4, 0.4, 0.004),
                 "glass",
-                200,
+                80,
                 Quat::IDENTITY,
                 Action::Throw(Projectile::ball(0.13, 0.0158, 20.0)),
             )?,

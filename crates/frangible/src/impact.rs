@@ -386,7 +386,8 @@ impl<'a> Cracking<'a> {
             }
             report.looked_at = LookedAt::Stresses;
             let start = Instant::now();
-            looked.peak = crack(system, &mut field, &suspects, self.time_step, looked.peak);
+            let times = [step, step + 1].map(|step| motion.begin(step, self.time_step));
+            looked.peak = crack(system, &mut field, &suspects, times, looked.peak);
             report.timings.cracks += start.elapsed().as_secs_f64();
         }
         looked.asked_clusters |= culling.asked_clusters;

@@ -140,8 +140,6 @@ pub struct Count {
 pub struct Stars {
     /// What was to be computed.
     pub plan: StarPlan,
-    /// Coefficient of restitution for each thickness.
-    pub restitutions: Vec<f64>,
     /// The default model, one run per thickness.
     pub runs: Vec<StarRun>,
     /// The measured thickness, computed in other ways.
@@ -234,10 +232,8 @@ impl Stars {
             plan.thicknesses.len() * plan.speeds.len() + others * plan.variant_speeds.len();
         let counter = Counter::new(plates * plan.seeds as usize, hear);
         let ball = ball();
-        let (mut runs, mut variants, mut restitutions) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut runs, mut variants) = (Vec::new(), Vec::new());
         for &thickness in &plan.thicknesses {
-            let restitution = ball.restitution(&pmma, thickness, &steel);
-            restitutions.push(restitution);
             let baked = plate(&plan, thickness, pmma.clone())?;
             let run = |variant: Variant, speeds: &[f64]| {
                 let plate = changed(&baked, variant)?;
@@ -246,8 +242,7 @@ impl Stars {
                     .flat_map(|&v| (1..=plan.seeds).map(move |seed| (v, seed)))
                     .collect();
                 let hit = |&(speed, seed): &(f64, u64)| {
-                    let contact =
-                        ball.contact(&steel, restitution, thickness, f64::INFINITY, speed);
+                    let contact = ball.contact(&steel, thickness, speed);
                     let hit = strike(&plate, &plan, thickness, contact, variant, seed);
                     counter.count();
                     hit
@@ -265,7 +260,6 @@ impl Stars {
         }
         Ok(Self {
             plan,
-            restitutions,
             runs,
             variants,
         })

@@ -135,6 +135,7 @@ impl Blow {
             time_step: self.plan.time_step,
             contact_steps: self.contact_steps,
             total_steps: self.motion.steps(),
+            longest_step: self.plan.time_step,
         }
     }
 
@@ -308,6 +309,7 @@ impl Blow {
             modes: plan.modes,
             peak_energy: run.peak_energy,
             peak_strain_energy: run.peak_strain_energy,
+            coarse: (plan.coarser > 1.0).then_some((run.near_steps, plan.coarser)),
             complement,
         }
     }
@@ -469,16 +471,19 @@ impl Run<'_> {
         let largest = (0..plan.modes).map(amplitude).fold(0.0, f64::max);
         let low = (0..plan.modes).find(|&i| amplitude(i) >= SIGNIFICANT * largest);
         let period = low.map_or(0.0, |i| TAU / plan.oscillators[i].0);
-        let steps = (PERIODS * period / time_step).ceil() as usize;
-        let steps = steps.clamp(record.contact_steps, MOST_STEPS.max(record.contact_steps));
         // After the blow its waves leave within half a period of the lowest of them.
         let near = plan.sites.iter().filter_map(|s| s.near.as_ref());
         let leave = near.map(|n| PI / n.lowest).fold(0.0, f64::max);
-        let near_steps = record.contact_steps + (leave / time_step).ceil() as usize;
-        record.near_steps = near_steps.min(steps);
-        for step in record.contact_steps..steps {
+        record.near_steps = record.contact_steps + (leave / time_step).ceil() as usize;
+        for _ in record.contact_steps..record.near_steps {
+            plan.step.coast(&mut state, &[], &[]);
+            record.sample(plan, &state, &[], true);
+        }
+        let rest = PERIODS * period - record.near_steps as f64 * time_step;
+        let steps = (rest / (plan.coarser * time_step)).ceil().max(0.0) as usize;
+        for _ in 0..steps.min(MOST_STEPS) {
             plan.coarse.coast(&mut state, &[], &[]);
-            record.sample(plan, &state, &[], step < record.near_steps);
+            record.sample(plan, &state, &[], false);
         }
     }
 }

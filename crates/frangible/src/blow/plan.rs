@@ -85,11 +85,15 @@ pub(super) struct Plan {
     pub(super) compliance: Vec<f64>,
     /// Step at which stresses are looked at, s.
     pub(super) time_step: f64,
+    /// Steps after the blow are longer by this factor.
+    pub(super) coarser: f64,
     /// Substeps in each.
     pub(super) substeps: usize,
     /// The oscillators through a substep.
     pub(super) fine: Bank,
     /// The oscillators through a time step.
+    pub(super) step: Bank,
+    /// The oscillators through a time step after the blow.
     pub(super) coarse: Bank,
 }
 
@@ -133,7 +137,9 @@ impl Plan {
             time_step,
             substeps: substeps.max(1),
             fine: Bank::default(),
+            step: Bank::default(),
             coarse: Bank::default(),
+            coarser: (pulse.longest_step / time_step).max(1.0),
             drive: Vec::new(),
             gap: Vec::new(),
             oscillators,
@@ -141,7 +147,8 @@ impl Plan {
         };
         plan.couple(body, shapes);
         plan.fine = Bank::new(&plan.oscillators, time_step / plan.substeps as f64);
-        plan.coarse = Bank::new(&plan.oscillators, time_step);
+        plan.step = Bank::new(&plan.oscillators, time_step);
+        plan.coarse = Bank::new(&plan.oscillators, plan.coarser * time_step);
         Some(plan)
     }
 

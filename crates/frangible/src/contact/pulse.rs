@@ -24,6 +24,8 @@ pub struct Pulse {
     pub contact_steps: usize,
     /// Steps until the end of the computation.
     pub total_steps: usize,
+    /// Longest step that shows the modes' swing, s: that after the contact would do with.
+    pub longest_step: f64,
 }
 
 impl Pulse {
@@ -109,5 +111,6 @@ pub fn pulse(asset: &Asset, load: &Load, duration: f64, config: &FractureConfig)
         time_step,
         contact_steps,
         total_steps,
+        longest_step: period / config.samples_per_period,
     }
 }

@@ -90,7 +90,7 @@ impl<'a> StressField<'a> {
     /// lies on no face of a wall.
     pub(crate) fn opens(&self, e: usize) -> Vec3 {
         let weak = weak_place(self.asset, self.skin, self.config, self.pressed, e);
-        match (weak.law, self.wall(e)) {
+        match (weak.law, weak.wall) {
             (Law::Free(normal), Some(_)) if weak.on_surface => normal,
             _ => Vec3::ZERO,
         }
@@ -117,11 +117,10 @@ impl<'a> StressField<'a> {
         let weak = weak_place(self.asset, self.skin, self.config, self.pressed, e);
         let gradients = self.displacement.gradients(self.asset, weak.point);
         let mut lanes = self.elasticity.lanes(&gradients, weak.law);
-        if let Law::Free(_) = weak.law
+        if let (Law::Free(_), Some(wall)) = (weak.law, &weak.wall)
             && !self.near.0.is_empty()
-            && let Some(wall) = self.wall(e)
         {
-            self.add_near(&mut lanes, self.place(e, weak.on_surface), &wall);
+            self.add_near(&mut lanes, self.place(e, weak.on_surface), wall);
         }
         lanes
     }
@@ -145,8 +144,8 @@ impl<'a> StressField<'a> {
     /// face, of a place on a face. Half the difference of the two is what bends the wall there.
     #[inline(always)]
     pub(crate) fn opposite_weak_point(&mut self, e: usize) -> Option<StressLanes> {
-        let wall = self.wall(e)?;
         let weak = weak_place(self.asset, self.skin, self.config, self.pressed, e);
+        let wall = weak.wall?;
         let place = self.place(e, weak.on_surface);
         let [front, back] = wall.distances(place);
         let across = wall.normal * (front + back);
@@ -231,6 +230,8 @@ pub(crate) struct WeakPlace<'a> {
     pub(crate) law: Law,
     /// Whether it is its flaw on the free surface, else it is its centroid.
     pub(crate) on_surface: bool,
+    /// The wall that it is in.
+    pub(crate) wall: Option<Wall>,
 }
 
 /// The place of fracture tetrahedron `e`: at its flaw on the free surface, else at its centroid.
@@ -260,5 +261,6 @@ pub(crate) fn weak_place<'a>(
         point,
         law,
         on_surface,
+        wall,
     }
 }

@@ -38,7 +38,7 @@ struct Candidate<'a> {
     suspect: &'a Suspect,
 }
 
-/// Runs and starts all cracks of the field's step; returns the largest tension met at a weak point so far.
+/// Runs and starts all cracks of the field's step, which lasts from one time, s, to another; returns the largest tension met at a weak point so far.
 ///
 /// Instant cracks start at the step, the most stressed first. Others start when their stress passes the strength, taken
 /// as linear between the steps, and feel what ran and was released before: how many start does not hang on the step.
@@ -46,11 +46,9 @@ pub(crate) fn crack(
     system: &mut CrackSystem,
     field: &mut StressField,
     suspects: &Suspects,
-    time_step: f64,
+    [since, now]: [f64; 2],
     peak: Peak,
 ) -> Peak {
-    let since = field.step as f64 * time_step;
-    let now = since + time_step;
     retry(system, since);
     let instant = system.config.timing == CrackTiming::Instant;
     if instant {

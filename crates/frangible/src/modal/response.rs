@@ -99,6 +99,8 @@ pub struct Motion {
     pub peak_strain_energy: f64,
     /// What the modes leave out.
     pub(crate) complement: Complement,
+    /// From this step on steps are longer, by this factor: after a blow only the modes swing.
+    pub(crate) coarse: Option<(usize, f64)>,
 }
 
 impl Motion {
@@ -117,6 +119,7 @@ impl Motion {
             peak_energy,
             peak_strain_energy,
             complement: Complement::default(),
+            coarse: None,
         }
     }
 
@@ -124,6 +127,16 @@ impl Motion {
     #[must_use]
     pub fn steps(&self) -> usize {
         self.amplitudes.len().checked_div(self.modes).unwrap_or(0)
+    }
+
+    /// When a step begins, s, where the first are so long, s.
+    pub(crate) fn begin(&self, step: usize, time_step: f64) -> f64 {
+        match self.coarse {
+            Some((first, factor)) if step > first => {
+                (first as f64 + (step - first) as f64 * factor) * time_step
+            }
+            _ => step as f64 * time_step,
+        }
     }
 
     /// Amplitudes of all modes at a step, m·√kg.
@@ -165,6 +178,7 @@ pub fn respond(basis: &ModalBasis, material: &Material, load: &[f64], pulse: &Pu
         peak_energy: peak(0),
         peak_strain_energy: peak(1),
         complement: Complement::default(),
+            coarse: None,
     }
 }
 
@@ -281,7 +295,7 @@ mod tests {
                 amplitude: std::f64::consts::FRAC_PI_2 / 1e-3,
                 time_step: 1e-3 / 40.0,
                 contact_steps: 40,
-                total_steps: 90,
+                total_steps: 90, longest_step: 1e-3,
             };
             let motion = respond(&basis, &material, &load, &pulse);
             let (mut energy, mut strain_energy) = ([0.0; 90], [0.0; 90]);

@@ -43,6 +43,8 @@ pub(crate) struct NearField {
     thickness: f32,
     /// Distances of the table, m, rising from 0; zero stress from the last on.
     radii: Vec<f32>,
+    /// Square of the straight distance beyond which no place of the wall lies in the field, m².
+    outermost: f32,
     /// σ_r + σ_θ and σ_θ − σ_r of the far face, Pa: `[part][radius * steps + step]`.
     table: [Vec<f32>; 2],
     /// No principal tension at this distance or farther exceeds this, Pa: `[radius * steps + step]`.
@@ -82,8 +84,12 @@ impl NearField {
         });
         let last = (radii.len() - 1) * steps;
         table.iter_mut().for_each(|t| t[last..].fill(0.0));
+        let end = radii.last().map_or(0.0, |&r| r as f32);
+        // Of a place that counts, the distance along the wall is at least the share of the straight one less the depth.
+        let straight = (end + DEEPEST * wall.thickness as f32) / LEAST_SHARE;
         let mut field = Self {
             place,
+            outermost: straight * straight,
             thickness: wall.thickness as f32,
             radii: radii.iter().map(|&r| r as f32).collect(),
             most: Vec::new(),
@@ -164,8 +170,11 @@ impl NearField {
     /// Where a point of the wall lies in the field; none where it does not reach. `wall`: the body's wall at the point.
     #[inline]
     fn locate(&self, point: Vec3, wall: &Wall) -> Option<Located> {
-        let side = wall.normal.dot(self.place.inwards);
         let away = point - self.place.point;
+        if away.length_squared() > self.outermost {
+            return None;
+        }
+        let side = wall.normal.dot(self.place.inwards);
         let along = away - away.dot(wall.normal) * wall.normal;
         let distance = along.length();
         let radius = self.below(distance)?;

@@ -247,8 +247,8 @@ fn product(
 ) -> [Lanes; 3] {
     let mut sums = following(node, residuals);
     let [x, y, z] = [0, 1, 2].map(|axis| asset.modes.row(3 * node + axis));
-    // High modes first: they move little, so that the sum is large, and rounds, only at the end.
-    for (((q, x), y), z) in amplitudes.iter().zip(x).zip(y).zip(z).rev() {
+    // In the order of memory: backwards it takes several times as long.
+    for (((q, x), y), z) in amplitudes.iter().zip(x).zip(y).zip(z) {
         for k in 0..BATCH {
             sums[0][k] += x * q[k];
             sums[1][k] += y * q[k];
@@ -258,7 +258,7 @@ fn product(
     sums
 }
 
-/// The same of two nodes. By index: a reversed zip of seven costs more than it multiplies.
+/// The displacements of two nodes.
 #[inline(always)]
 fn products(
     asset: &Asset,
@@ -274,7 +274,7 @@ fn products(
             *row = &asset.modes.row(3 * node + axis)[..modes];
         }
     }
-    for (mode, q) in amplitudes.iter().enumerate().rev() {
+    for (mode, q) in amplitudes.iter().enumerate() {
         for n in 0..2 {
             for axis in 0..3 {
                 let phi = rows[n][axis][mode];
