@@ -34,7 +34,6 @@ const FEWEST: usize = 20;
 /// Most calls of a class.
 const MOST_CALLS: usize = 400_000;
 /// The bounds' safety share, as in `frangible`: only sorts contacts here.
-const MARGIN: f32 = 1e-4;
 
 /// How a contact is refused, or not.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]

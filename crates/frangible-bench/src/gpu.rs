@@ -139,7 +139,7 @@ fn of_body(
     progress: &mut dyn FnMut(&str, f64),
 ) -> Result<OfBody, BenchError> {
     let asset = kind.asset();
-    let config = FractureConfig::default();
+    let config = FractureConfig::with_given_impulses();
     let bodies: Vec<Body> = (0..largest as u64).map(|seed| kind.body(seed)).collect();
     let contacts: Vec<[Contact; 1]> = (0..largest)
         .map(|k| Ok([blow(kind, k, speed)?]))

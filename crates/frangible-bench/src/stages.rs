@@ -81,7 +81,7 @@ impl Bench {
     /// An asset that the run time refuses.
     pub fn new(asset: Asset) -> Result<Self, BenchError> {
         let body = Breakable::new(asset)?.body(1);
-        let ours = FractureConfig::default();
+        let ours = FractureConfig::with_given_impulses();
         let paper = FractureConfig::as_in_the_paper();
         let hit = |speed: f64| {
             let at = Vec3::new(0.04, 0.02, 0.003);

@@ -14,7 +14,7 @@
 //! let loaded = gpu.load(&kind)?;
 //! let bodies: Vec<_> = (0..100).map(|seed| kind.body(seed)).collect();
 //! let impacts: Vec<Impact> = bodies.iter().map(|body| Impact::new(&loaded, body, &contacts)).collect();
-//! let outcomes = gpu.impacts(&impacts, &frangible::FractureConfig::default())?;
+//! let outcomes = gpu.impacts(&impacts, &frangible::FractureConfig::with_given_impulses())?;
 //! # Ok(()) }
 //! ```
 //!

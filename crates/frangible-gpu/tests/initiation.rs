@@ -18,10 +18,10 @@ fn without_culling(mut config: FractureConfig) -> FractureConfig {
 
 /// Every law of stress, and strain with and without its quadratic terms.
 fn configs() -> [FractureConfig; 3] {
-    let mut no_flaws = FractureConfig::default();
+    let mut no_flaws = FractureConfig::with_given_impulses();
     no_flaws.surface_flaws = false;
     [
-        FractureConfig::default(),
+        FractureConfig::with_given_impulses(),
         no_flaws,
         FractureConfig::as_in_the_paper(),
     ]
@@ -250,7 +250,7 @@ fn under_a_contact_stress_is_taken_inside() {
 fn a_batch_is_its_impacts_one_by_one() {
     let Some(gpu) = gpu() else { return };
     let mut numbers = Numbers(5);
-    let config = FractureConfig::default();
+    let config = FractureConfig::with_given_impulses();
     let loaded: Vec<_> = kinds().iter().map(|k| gpu.load(&k.1).unwrap()).collect();
     let bodies: Vec<Body> = (0..18)
         .map(|i| kinds()[i % 3].1.body(i as u64 / 6))
@@ -283,7 +283,7 @@ fn near_the_strength_the_cpu_decides() {
         let loaded = gpu.load(kind).unwrap();
         let body = kind.body(1);
         // With a duration that does not depend on the impulse, stress grows with it, steadily.
-        let mut config = FractureConfig::default();
+        let mut config = FractureConfig::with_given_impulses();
         config.admissible_duration = false;
         let blow = numbers.blow(kind.asset(), 2.0);
         let scaled = |factor: f64| Contact {
@@ -328,7 +328,7 @@ fn what_cannot_be_computed_is_refused_by_its_number() {
     let Some(gpu) = gpu() else { return };
     let [(_, glass), (_, pane), _] = kinds();
     let loaded = gpu.load(glass).unwrap();
-    let config = FractureConfig::default();
+    let config = FractureConfig::with_given_impulses();
     let (own, other) = (glass.body(1), pane.body(1));
     let good = [Numbers(1).blow(glass.asset(), 1.0)];
     let bad = [Contact {

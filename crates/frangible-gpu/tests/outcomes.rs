@@ -13,7 +13,7 @@ fn cracks_and_pieces_are_the_same_bits_with_and_without_a_gpu() {
     let Some(gpu) = gpu() else { return };
     let mut numbers = Numbers(2);
     let (mut broke, mut cracked, mut held_by_gpu) = (0, 0, 0);
-    for config in [FractureConfig::default(), FractureConfig::as_in_the_paper()] {
+    for config in [FractureConfig::with_given_impulses(), FractureConfig::as_in_the_paper()] {
         for (name, kind) in kinds() {
             for kind in [kind.clone(), uneven(kind)] {
                 let loaded = gpu.load(&kind).unwrap();
@@ -73,7 +73,7 @@ fn every_choice_gives_the_same_pieces() {
     }
     let kind = &kinds()[1].1;
     let (bodies, contacts) = blows(kind, &mut Numbers(4), 12);
-    let config = FractureConfig::default();
+    let config = FractureConfig::with_given_impulses();
     let mut all = Vec::new();
     for choice in [Choice::Cpu, Choice::Gpu, Choice::Auto] {
         let mut solver = Solver::new(choice).unwrap();
@@ -102,7 +102,7 @@ fn every_choice_gives_the_same_pieces() {
 /// Needs no GPU.
 #[test]
 fn passing_over_quiet_time_steps_changes_no_bits() {
-    let config = FractureConfig::default();
+    let config = FractureConfig::with_given_impulses();
     let mut broke = 0;
     for (name, kind) in kinds() {
         let (bodies, contacts) = blows(kind, &mut Numbers(2), 5);

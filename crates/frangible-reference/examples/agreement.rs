@@ -47,7 +47,7 @@ fn seconds() -> f64 {
 }
 
 fn run(cases: &[Case], impacts: u64, field: Field, ours: bool) -> Result<(), Box<dyn Error>> {
-    let mut config = FractureConfig::default();
+    let mut config = FractureConfig::with_given_impulses();
     if !ours {
         config = FractureConfig::as_in_the_paper();
         config.crumb_share = 0.0;

@@ -33,7 +33,7 @@ fn difference(
 /// The first difference of one impact in our model, up to its first crack, and whether there was one.
 fn first_difference(case: &Case, number: u64, field: Field) -> (Result<(), Mismatch>, bool) {
     let (body, contacts) = generate(case, number).unwrap();
-    let config = FractureConfig::default();
+    let config = FractureConfig::with_given_impulses();
     let (outcome, trace) = impact_traced(&body, &contacts, &config).unwrap();
     let options = Options::first_crack_of_ours();
     let reference = first_crack(&body, &contacts, field, &options).unwrap();
@@ -170,7 +170,7 @@ fn tracing_changes_no_outcome() {
     let case = &linear_cases().unwrap()[1];
     for number in 0..10 {
         let (body, contacts) = generate(case, number).unwrap();
-        for config in [as_in_the_paper(), FractureConfig::default()] {
+        for config in [as_in_the_paper(), FractureConfig::with_given_impulses()] {
             let plain = impact(&body, &contacts, &config).unwrap();
             let (traced, trace) = impact_traced(&body, &contacts, &config).unwrap();
             let (a, b) = (plain.report(), traced.report());

@@ -129,6 +129,19 @@ impl FractureConfig {
         self.duration == DurationModel::Integrated || self.residual || self.near_field.is_some()
     }
 
+    /// Our cracks under half-sines of the engine's impulses, which last as long as Hertz says and longer where they brought in too much
+    /// energy, on the modes that are followed alone: what a GPU can take over, and where the blow itself is not the question.
+    #[must_use]
+    pub fn with_given_impulses() -> Self {
+        Self {
+            duration: DurationModel::Hertz,
+            admissible_duration: true,
+            residual: false,
+            near_field: None,
+            ..Self::default()
+        }
+    }
+
     /// The paper's model: modal duration, instant planar cracks that start freely at the centres of elements and stop at the
     /// face of another, no energy correction.
     #[must_use]

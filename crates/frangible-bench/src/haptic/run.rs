@@ -170,7 +170,7 @@ fn play(kind: &Breakable, ticks: u64, paced: bool) -> Result<Log, BenchError> {
         stiffness: STIFFNESS,
         damping: DAMPING,
     };
-    let mut config = FractureConfig::default();
+    let mut config = FractureConfig::with_given_impulses();
     config.samples_per_period = SAMPLES;
     let positions = kind.asset().fracture.positions.iter();
     let top = positions.map(|p| p.z).fold(f32::NEG_INFINITY, f32::max);

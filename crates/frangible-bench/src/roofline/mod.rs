@@ -136,7 +136,7 @@ fn of_body(
     let mut asset = baked.asset;
     asset.material.strength *= TOUGHER;
     let body = Breakable::new(asset)?.body(1);
-    let mut config = FractureConfig::default();
+    let mut config = FractureConfig::with_given_impulses();
     config.culling = false;
     let whole = vibration(&body, &contact, &config)?;
     let mut vibration = whole.clone();
