@@ -37,7 +37,8 @@ pub(crate) enum Command {
         name: Option<String>,
     },
     /// Check modes, responses and contacts against closed forms; fails when one is off. `verify experiments` compares cracks and
-    /// pieces with published experiments, `verify pieces` the ways to find how fragments vibrate; both take minutes
+    /// pieces with published experiments, `verify pieces` the ways to find how fragments vibrate; both take minutes. `verify near-field`
+    /// tabulates the stress and the force of a blow
     Verify(VerifyArgs),
     /// Measure how fast the bodies of the paper's Table 1 break, and how fast harmless contacts are refused
     Bench(BenchArgs),
@@ -207,6 +208,8 @@ pub(crate) enum Verification {
     Experiments,
     /// Ways to find how fragments vibrate, beside a full analysis of each: minutes
     Pieces,
+    /// The near field, the residual vector and the force of a blow, in tables: a minute
+    NearField,
 }
 
 #[derive(Args, Clone, Debug)]
@@ -219,7 +222,7 @@ pub(crate) struct VerifyArgs {
     #[arg(long)]
     pub(crate) json: bool,
 
-    /// Also write verification.md (or experiments.md, recursive.md) and its plots into this folder, made when it is missing
+    /// Also write verification.md (or experiments.md, recursive.md, near-field.md) and its plots into this folder, made when it is missing
     #[arg(long, value_name = "DIR")]
     pub(crate) write: Option<PathBuf>,
 

@@ -14,6 +14,7 @@ mod list;
 mod mode_files;
 mod mode_report;
 mod modes;
+mod near_field;
 mod pictures;
 mod place;
 mod progress;
@@ -71,6 +72,9 @@ fn main() -> ExitCode {
             experimenting::run(&args)
         }
         Some(Command::Verify(args)) if args.what == Some(Verification::Pieces) => truth::run(&args),
+        Some(Command::Verify(args)) if args.what == Some(Verification::NearField) => {
+            near_field::run(&args)
+        }
         Some(Command::Verify(args)) => verifying::run(&args),
         Some(Command::Bench(args)) => benching::run(&args),
         #[cfg(feature = "draw")]

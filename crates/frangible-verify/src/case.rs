@@ -63,6 +63,8 @@ pub const CASES: &[Case] = &[
     cases::scaling::CASE,
     cases::oscillator::CASE,
     cases::contact::CASE,
+    cases::near_field::CASE,
+    cases::blow::CASE,
 ];
 
 /// The case of this name.

@@ -5,11 +5,13 @@
 //! [`CASES`] lists them all; [`report`] makes text of what they found, [`plot`] pictures. [`experiments`] compares cracks
 //! and pieces with published experiments, which takes minutes; [`pieces`] the ways to find how a fragment vibrates.
 
+mod blows;
 mod case;
 mod cases;
 mod check;
 pub mod experiments;
 mod models;
+pub mod near_field;
 mod ode;
 pub mod pieces;
 pub mod plot;

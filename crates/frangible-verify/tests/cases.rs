@@ -134,6 +134,16 @@ fn two_steel_spheres_touch_as_long_as_hertz_says() {
 }
 
 #[test]
+fn a_hit_plate_has_the_stress_of_all_its_modes() {
+    holds("near-field");
+}
+
+#[test]
+fn a_blow_is_zeners_on_a_plate_hertzs_on_a_block_and_st_venants_on_a_rod() {
+    holds("blow");
+}
+
+#[test]
 fn every_case_is_tested_and_has_names_of_its_own() {
     let tests = include_str!("cases.rs");
     for case in CASES {

@@ -72,10 +72,21 @@ impl Blow {
         contacts: &[Contact],
         config: &FractureConfig,
     ) -> Result<Option<Self>, InputError> {
+        Self::with_substep(body, contacts, config, None)
+    }
+
+    /// [`Blow::new`] with substeps no longer than this, s: what the error of the default is measured with.
+    #[doc(hidden)]
+    pub fn with_substep(
+        body: &Body,
+        contacts: &[Contact],
+        config: &FractureConfig,
+        longest: Option<f64>,
+    ) -> Result<Option<Self>, InputError> {
         contacts.iter().try_for_each(Contact::validate)?;
         Ok(match body.statics {
             Some(_) => None,
-            None => Self::of_valid(body, contacts, config),
+            None => Self::integrated(body, contacts, config, longest),
         })
     }
 
@@ -85,7 +96,16 @@ impl Blow {
         contacts: &[Contact],
         config: &FractureConfig,
     ) -> Option<Self> {
-        let plan = Plan::new(body, contacts, config)?;
+        Self::integrated(body, contacts, config, None)
+    }
+
+    fn integrated(
+        body: &Body,
+        contacts: &[Contact],
+        config: &FractureConfig,
+        longest: Option<f64>,
+    ) -> Option<Self> {
+        let plan = Plan::new(body, contacts, config, longest)?;
         let mut blow = Self {
             plan,
             instant: config.timing == CrackTiming::Instant,

@@ -5,21 +5,29 @@ use std::f64::consts::PI;
 use super::bessel::Bessel;
 use super::wall::{WallMaterial, hertz_disc};
 
-/// Ratio of the frequencies of neighbouring bands, where they are not evenly spaced.
-const FREQUENCY_RATIO: f64 = 1.25;
+/// Width of the highest bands that swing, over their frequency.
+const WIDEST: f64 = 0.25;
+
+/// Width of the first band over that of the even ones. What a cut through a spectrum leaves over is `sin(ωt)/t` on either side, and
+/// bands of width Δ make it larger by x/sin x, x = Δt/2: only where both sides are fine does it cancel. Measured: with even bands from
+/// the first on, the force on a plate in its last third is up to a third off, by where the modes end; with these 4 %.
+const FIRST_WIDTH: f64 = 0.125;
+
+/// Most that a band is wider than the one before.
+const WIDER: f64 = 1.2;
 
 /// Ratio of the wave numbers of neighbouring bands that follow the force.
 const WAVE_NUMBER_RATIO: f64 = 1.12;
 
 /// Most evenly spaced bands: a blow longer than they can tell apart hears its own echo.
-const MOST_EVEN: usize = 64;
+const MOST_EVEN: f64 = 64.0;
 
 /// How the bands are to be spaced in frequency, rad/s.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Spacing {
-    /// Width of the first bands: oscillators so far apart swing together again after 2π over it.
+    /// Width of the bands: oscillators so far apart swing together again after 2π over it. The first are narrower.
     pub(crate) width: f64,
-    /// Up to this frequency the bands are that wide; above it each is wider than the last by a fixed ratio.
+    /// Up to this frequency the bands are no wider than that; above it each is wider than the last.
     pub(crate) even_to: f64,
     /// Waves above this frequency follow the force.
     pub(crate) follows_from: f64,
@@ -100,15 +108,19 @@ impl Bands {
         }
         let mut low = first;
         let mut frequency = wall.eigenvalue(first).sqrt();
-        let even = ((spacing.even_to - frequency) / spacing.width).ceil();
-        let width = (spacing.even_to - frequency) / even.clamp(1.0, MOST_EVEN as f64);
+        let width = (spacing.width)
+            .max((spacing.even_to - frequency) / MOST_EVEN)
+            .min(2.0 * WIDEST * frequency.max(spacing.even_to));
+        let mut step = FIRST_WIDTH * width;
         while low < last && frequency < spacing.follows_from {
-            let next = if frequency + 0.5 * width < spacing.even_to {
-                frequency + width
+            let next = frequency + step;
+            let widest = if next < spacing.even_to {
+                width
             } else {
-                frequency * FREQUENCY_RATIO
+                WIDEST * next
             };
-            let high = wall.wave_number(next).min(last);
+            step = (WIDER * step).min(widest.max(step));
+            let high = wall.wave_number(next).clamp(low, last);
             bands
                 .oscillators
                 .push(Band::new(wall, contact_radius, [low, high]));
@@ -227,6 +239,64 @@ mod tests {
                         "{theory:?} {r} {part}: {found} {}",
                         expected[part]
                     );
+                }
+            }
+        }
+    }
+
+    /// What pressure of wave number k makes of tension along the far face of an elastic layer, over that pressure; x = kh. Airy's function
+    /// φ = cos(kx) f(kz)/k², f = A cosh ζ + B sinh ζ + C ζ sinh ζ + D ζ cosh ζ, in plane strain: σ_zz = −f cos kx, σ_xz = f' sin kx,
+    /// σ_xx = f'' cos kx. At the loaded face f = 1 and f' = 0, at the far one both are nothing: four equations, solved as they stand.
+    fn far_tension(x: f64) -> f64 {
+        let rows = |z: f64| {
+            let (s, c) = (z.sinh(), z.cosh());
+            [[c, s, z * s, z * c], [s, c, s + z * c, c + z * s]]
+        };
+        let (top, bottom) = (rows(0.5 * x), rows(-0.5 * x));
+        let columns = |m: [[f64; 4]; 4]| glam::DMat4::from_cols_array_2d(&m).transpose();
+        let equations = columns([top[0], top[1], bottom[0], bottom[1]]);
+        let [a, b, c, d] = (equations.inverse() * glam::DVec4::X).to_array();
+        let z = -0.5 * x;
+        let (sinh, cosh) = (z.sinh(), z.cosh());
+        a * cosh + b * sinh + c * (2.0 * cosh + z * sinh) + d * (2.0 * sinh + z * cosh)
+    }
+
+    #[test]
+    fn a_narrow_steady_load_bends_the_far_face_as_an_elastic_layer_is_bent() {
+        // Contact of 0.2 thicknesses. The layer has no edge, and bends without end in long waves: both have waves from `first` on.
+        let wall = wall(PlateTheory::Layer);
+        let (h, nu) = (wall.thickness, 0.23);
+        assert_eq!(Material::preset("glass").unwrap().poisson_ratio, nu);
+        let radius = 0.2 * h;
+        for first in [60.0, 250.0] {
+            let steady = Spacing {
+                width: 1.0,
+                even_to: 0.0,
+                follows_from: 0.0,
+            };
+            let bands = Bands::new(&wall, first, radius, steady);
+            let radii = [0.2, 0.5, 1.0, 2.0, 4.0, 8.0].map(|r| r * h);
+            let found = bands.following_stress(&wall, &radii);
+            let most = found[0][0].abs();
+            for (r, found) in radii.iter().zip(found) {
+                const STEPS: usize = 40_000;
+                let last = 30.0 / h;
+                let dk = (last - first) / STEPS as f64;
+                let mut exact = [0.0; 2];
+                for i in 0..STEPS {
+                    let k = first + (i as f64 + 0.5) * dk;
+                    let wave = far_tension(k * h) * hertz_disc(k * radius) * k * dk / (2.0 * PI);
+                    // Plane waves of all directions: σ along each, ν σ across.
+                    exact[0] += (1.0 + nu) * wave * libm::j0(k * r);
+                    exact[1] += (1.0 - nu) * wave * libm::jn(2, k * r);
+                }
+                for part in 0..2 {
+                    let error = (found[part] - exact[part]).abs() / most;
+                    println!(
+                        "first {first} r {r} part {part}: {} {} error {error:.4}",
+                        found[part], exact[part]
+                    );
+                    assert!(error < 0.01, "{first} {r} {part}: {found:?} {exact:?}");
                 }
             }
         }

@@ -28,7 +28,8 @@
 //! a half-space, over Kirchhoff's plate: the half-space is Hertz' spring already, and Mindlin's shear would count it twice. Together they are at once the contact's radiation,
 //! Zener's dashpot 8 √(Dμ) of an infinite plate (1941), and the near field's stress. Within a band J is integrated in closed form,
 //! ∫ k J₀ dk = k J₁/r and ∫ k J₂ dk = −(kr J₁ + 2 J₀)/r², so bands may be wide without ghosts at a distance. Bands
-//! too high for the blow to make them ring follow the force, as one static table.
+//! too high for the blow to make them ring follow the force, as one static table. Where the modes end and the bands begin is read off what
+//! the modes move at the contact, `Σ ξ² = k²/4πμ`; the first bands are narrow, so that the seam does not sound (`blow/plan.rs`, [`Bands`]).
 //!
 //! # Changes and limits
 //!

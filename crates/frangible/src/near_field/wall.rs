@@ -184,8 +184,8 @@ fn layer_factor(x: f64) -> f64 {
 /// f_s = (cosh x − 1)/(sinh x + x). What is left falls to nothing where kh > 4: Hertz' spring has the rest.
 fn layer_compliance(x: f64) -> f64 {
     if x < 0.1 {
-        // 1 + 3x²/10 + …, less x³/6 of the half-space: the differences lose digits.
-        return 1.0 + 0.3 * x * x - x.powi(3) / 6.0;
+        // 1 + x²/5 + …, less x³/6 of the half-space: the differences lose digits.
+        return 1.0 + 0.2 * x * x - x.powi(3) / 6.0;
     }
     let x = x.min(40.0);
     let bends = (x.cosh() + 1.0) / (x.sinh() - x);
