@@ -33,7 +33,6 @@ const BUDGET: f64 = 1.0;
 const FEWEST: usize = 20;
 /// Most calls of a class.
 const MOST_CALLS: usize = 400_000;
-/// The bounds' safety share, as in `frangible`: only sorts contacts here.
 
 /// How a contact is refused, or not.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]

@@ -46,6 +46,7 @@ fn sound() -> Contact {
         impulse: 0.2,
         friction: Vec3::new(0.0, 0.1, 0.0),
         approach_speed: 4.0,
+        duration: 0.0,
         striker: Striker {
             contact_modulus: 2e11,
             inverse_effective_mass: 10.0,
