@@ -30,15 +30,15 @@ const TOLERANCE: f64 = 0.03;
 const CONTACTS: usize = 16;
 /// Contacts that may change by more.
 const SPARED: usize = 2;
-/// Tetrahedra of the sample all over the surface …
+/// Triangles of the sample that lie all over the surface.
 const SPREAD: usize = 900;
-/// … and about each contact.
+/// Triangles of the sample that lie about each contact.
 const ABOUT: usize = 40;
 /// Reach of the near field that is left out, in thicknesses of the wall.
 const NEAR: f32 = 2.0;
-/// Steps of the force …
+/// Time steps while the force acts.
 const FORCED: usize = 16;
-/// … and times after it.
+/// Time steps after the force, for each one while it acts.
 const FREE: usize = 32;
 /// All of them.
 const TIMES: usize = FORCED + FREE;

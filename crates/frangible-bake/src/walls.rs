@@ -26,11 +26,11 @@ use frangible_mesh::{MeshSolid, Surface};
 const SLENDER: f64 = 3.0;
 /// Cosine between the normals of the two faces of a wall, at most.
 const OPPOSITE: f64 = -0.8;
-/// Radius of the neighbourhood in which the curvature is found, in thicknesses …
+/// Radius of the neighbourhood in which the curvature is found, in thicknesses.
 const SCALE: f64 = 4.0;
-/// … at least this many edges of its triangle, so that there is something to fit to, …
+/// The neighbourhood reaches at least this many edges of its triangle, so that there is something to fit to.
 const RINGS: f64 = 3.0;
-/// … and at most this many triangles: some eleven rings, over which facets have averaged out.
+/// The neighbourhood has at most this many triangles: some eleven rings, over which facets have averaged out.
 const FITTED: usize = 400;
 /// Radius of the neighbourhood over which the thickness is averaged, in thicknesses, and at least one ring.
 const AVERAGED: f64 = 0.5;

@@ -134,7 +134,8 @@ mod tests {
                     amplitude: std::f64::consts::PI / (2.0 * duration),
                     time_step,
                     contact_steps,
-                    total_steps, longest_step: 1e-3,
+                    total_steps,
+                    longest_step: 1e-3,
                 };
                 let mut material = Material::preset("glass").unwrap();
                 material.stiffness_damping = stiffness_damping;

@@ -13,7 +13,10 @@ fn cracks_and_pieces_are_the_same_bits_with_and_without_a_gpu() {
     let Some(gpu) = gpu() else { return };
     let mut numbers = Numbers(2);
     let (mut broke, mut cracked, mut held_by_gpu) = (0, 0, 0);
-    for config in [FractureConfig::with_given_impulses(), FractureConfig::as_in_the_paper()] {
+    for config in [
+        FractureConfig::with_given_impulses(),
+        FractureConfig::as_in_the_paper(),
+    ] {
         for (name, kind) in kinds() {
             for kind in [kind.clone(), uneven(kind)] {
                 let loaded = gpu.load(&kind).unwrap();

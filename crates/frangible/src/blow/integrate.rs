@@ -3,10 +3,10 @@
 use std::f64::consts::{PI, TAU};
 
 use super::Complement;
-use super::star::Star;
 use super::bank::{BankState, dot};
 use super::complement::Residual;
 use super::plan::Plan;
+use super::star::Star;
 use crate::body::Body;
 use crate::config::{CrackTiming, FractureConfig};
 use crate::contact::{Contact, Pulse};

@@ -24,7 +24,7 @@ pub(crate) struct Limits {
 }
 
 impl Limits {
-    /// Of all contacts at their places on the surface, into `limits`; false where nothing is known.
+    /// Works out the limits of all contacts at their places on the surface, into `limits`; false where nothing is known.
     pub(crate) fn of(
         asset: &Asset,
         contacts: &[Option<(&Contact, SurfacePoint)>],

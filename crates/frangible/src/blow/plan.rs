@@ -28,10 +28,10 @@ const RINGING: f64 = 25.0;
 /// Wall oscillators are so close that their echo comes this many times later than the blow is expected to last.
 const ECHO: f64 = 1.3;
 
-/// A near field needs its waves to be short against the way to the wall's edge: wave number times distance …
+/// A near field needs its waves to be short against the way to the wall's edge: least wave number times distance.
 const EDGE: f64 = 2.0;
 
-/// … and where the modes do not reach that far, at least this.
+/// Where the modes do not reach waves as short as [`EDGE`] asks for, a near field still needs this wave number times distance.
 const LEAST_EDGE: f64 = 1.0;
 
 /// The frequency at which the wall oscillators take over, from the modes' own motion at the contact, over that from their
@@ -364,7 +364,7 @@ pub(crate) struct SteadyNear {
 }
 
 impl SteadyNear {
-    /// Of a force, N, on a place of the surface; all modes of the body serve.
+    /// The near field of a force, N, on a place of the surface; all modes of the body serve beside it.
     pub(crate) fn of(
         body: &Body,
         at: &SurfacePoint,

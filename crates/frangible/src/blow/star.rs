@@ -41,7 +41,11 @@ impl Star {
             let away = away - away.dot(place.inwards) * place.inwards;
             let distance = away.length();
             let radial = site.direction.dot(away).abs() < 0.5 * distance;
-            if radial && site.time.is_finite() && distance > nearest && distance < place.reach as f32 {
+            if radial
+                && site.time.is_finite()
+                && distance > nearest
+                && distance < place.reach as f32
+            {
                 places.push((away.dot(v).atan2(away.dot(u)), distance));
             }
         }

@@ -23,7 +23,7 @@ pub(crate) struct Culling<'a> {
     bounds: Vec<f32>,
     /// Most stress of each residual shape, Pa/N: in the whole body, and in each cluster.
     residuals: Vec<(f32, Vec<f32>)>,
-    /// Of each near field and cluster, a distance from the contact that none of its points is nearer than, m.
+    /// For each near field and cluster a distance from the contact that none of its points is nearer than, m.
     distances: Vec<Vec<f32>>,
 }
 

@@ -32,7 +32,7 @@ pub(crate) struct StressField<'a> {
 }
 
 impl<'a> StressField<'a> {
-    /// Of a motion, at its first step.
+    /// The stress of a motion, at its first step.
     pub(crate) fn new(
         body: &'a Body,
         config: &'a FractureConfig,
@@ -140,7 +140,7 @@ impl<'a> StressField<'a> {
         }
     }
 
-    /// The same at the mirror image of the [`weak_place`] behind the middle of the wall that it is in, if it is in one: on the opposite
+    /// Stress at all steps of the batch at the mirror image of the [`weak_place`] behind the middle of the wall that it is in, if it is in one: on the opposite
     /// face, of a place on a face. Half the difference of the two is what bends the wall there.
     #[inline(always)]
     pub(crate) fn opposite_weak_point(&mut self, e: usize) -> Option<StressLanes> {

@@ -178,7 +178,7 @@ pub fn respond(basis: &ModalBasis, material: &Material, load: &[f64], pulse: &Pu
         peak_energy: peak(0),
         peak_strain_energy: peak(1),
         complement: Complement::default(),
-            coarse: None,
+        coarse: None,
     }
 }
 
@@ -295,7 +295,8 @@ mod tests {
                 amplitude: std::f64::consts::FRAC_PI_2 / 1e-3,
                 time_step: 1e-3 / 40.0,
                 contact_steps: 40,
-                total_steps: 90, longest_step: 1e-3,
+                total_steps: 90,
+                longest_step: 1e-3,
             };
             let motion = respond(&basis, &material, &load, &pulse);
             let (mut energy, mut strain_energy) = ([0.0; 90], [0.0; 90]);

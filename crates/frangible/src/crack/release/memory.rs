@@ -103,22 +103,22 @@ pub(super) struct Memory {
     place: Vec3,
     /// β of the stress that bends; where nothing does, that of the stress that stretches.
     pub(super) beta: f32,
-    /// Cracks near it, rising …
+    /// Cracks near the point, rising.
     cracks: Vec<u32>,
-    /// … and what is known of each.
+    /// What is known of each of those cracks.
     seen: Vec<Seen>,
     /// Sites whose wave is on its way.
     pending: Arrivals,
     /// Whether any crack has released it.
     pub(super) dark: bool,
-    /// Nothing arrives before this time, s …
+    /// Nothing arrives before this time, s, as long as the cracks have grown as often as `growths` says.
     next: f64,
-    /// … as long as the cracks have grown this many times.
+    /// How many times the cracks had grown when `next` was found.
     growths: usize,
 }
 
 impl Memory {
-    /// Of a point at this place that no crack has released.
+    /// The memory of a point at this place that no crack has released.
     pub(super) fn new(place: Vec3, beta: f32) -> Self {
         Self {
             place,
