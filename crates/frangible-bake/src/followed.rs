@@ -38,7 +38,7 @@ const ABOUT: usize = 40;
 const NEAR: f32 = 2.0;
 /// Time steps while the force acts.
 const FORCED: usize = 16;
-/// Time steps after the force, for each one while it acts.
+/// Time steps after the force.
 const FREE: usize = 32;
 /// All of them.
 const TIMES: usize = FORCED + FREE;
