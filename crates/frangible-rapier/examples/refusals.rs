@@ -14,9 +14,9 @@ const DROP: f32 = 0.02;
 
 fn main() {
     println!(
-        "| bodies | what | asked | contacts | by impulses | by what follows | by amplitudes | by clusters | by stresses | broke |"
+        "| bodies | what | asked | contacts | by impulses | by amplitudes | by clusters | by stresses | broke |"
     );
-    println!("|---|---|---:|---:|---:|---:|---:|---:|---:|---:|");
+    println!("|---|---|---:|---:|---:|---:|---:|---:|---:|");
     let names = ["brick", "glass block", "porcelain bowl", "drinking glass"];
     for name in names {
         let run = tumble(&[baked(name)], DROP, SECONDS);
@@ -33,7 +33,7 @@ fn main() {
 fn row(name: &str, what: &str, c: LoadCounts) {
     let share = |n: u64| format!("{:.1} %", 100.0 * n as f64 / c.asked.max(1) as f64);
     println!(
-        "| {BODIES} × {name} | {what} | {} | {} | {} | {} | {} | {} | {} | {} |",
+        "| {BODIES} × {name} | {what} | {} | {} | {} | {} | {} | {} | {} |",
         c.asked,
         c.contacts,
         share(c.by_impulses),

@@ -2,16 +2,20 @@
 //!
 //! The step stands. A whole body takes its blow, and gives way to its fragments when its turn comes, at the motion it has
 //! then: momentum, angular momentum and energy are those of the whole body, and the cracks' energy is taken from the
-//! motion as ever. Work is counted in tetrahedra, not in time, so that the same bodies break in the same step on any machine.
+//! motion as ever. Where the verdict comes in the step of the blow, the blow's impulse takes the place of the engine's
+//! (`exchange.rs`); a body that waited, or was judged elsewhere, keeps what the engine gave it, since by then the bodies are
+//! elsewhere. Work is counted in tetrahedra, not in time, so that the same bodies break in the same step on any machine.
 
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
 use rapier3d::dynamics::{RigidBody, RigidBodyHandle};
 
+use crate::blows::{Meeting, meetings, share_out};
 use crate::contacts::{Impact, Surfaces, impact_on};
 use crate::counts::held;
 use crate::error::WorldError;
 use crate::event::{BreakCause, HeldEvent};
+use crate::exchange::Families;
 use crate::guard::put_back;
 use crate::judge::{Case, Verdict, verdict};
 use crate::motion::kinetic_energy;
@@ -30,6 +34,8 @@ pub(crate) struct Waiting {
     pub(crate) impact: Impact,
     /// Tetrahedra to look at; none where a quick bound refuses the impact.
     pub(crate) cost: usize,
+    /// Number of the step of the blow.
+    pub(crate) step: u64,
 }
 
 impl BreakableWorld {
@@ -76,7 +82,7 @@ impl BreakableWorld {
         for handle in overloaded {
             done = done.and(self.give_way_to_load(handle, &before));
         }
-        done.and(self.serve(budget, delay))
+        done.and(self.serve(budget, delay, &before))
             .and(self.conclude())
             .and(weighed)
     }
@@ -143,7 +149,12 @@ impl BreakableWorld {
             let body = RigidBodyHandle::from_raw_parts(index, generation);
             let impact = impact_on(body, &self.physics, before, &surfaces, &self.config);
             let cost = self.work(body, &impact);
-            Waiting { body, impact, cost }
+            Waiting {
+                body,
+                impact,
+                cost,
+                step: self.steps,
+            }
         });
         blows.filter(|w| !w.impact.contacts.is_empty()).collect()
     }
@@ -161,23 +172,30 @@ impl BreakableWorld {
     }
 
     /// Puts those first in line to the fracture: at once, or elsewhere until `delay` steps from now.
-    fn serve(&mut self, budget: usize, delay: usize) -> Result<(), WorldError> {
+    fn serve(&mut self, budget: usize, delay: usize, before: &HitBodies) -> Result<(), WorldError> {
         let mut watch = Watch::start();
         let mut line: VecDeque<Waiting> = std::mem::take(&mut self.waiting);
         line.retain(|w| self.breakables.contains_key(&key(w.body)));
         let (mut cheap, mut dear, mut later) = (Vec::new(), Vec::new(), VecDeque::new());
         let mut work = 0_usize;
-        for Waiting { body, impact, cost } in line {
-            let busy = self.cases.iter().any(|case| case.body == body);
+        let mut fresh: BTreeSet<Key> = BTreeSet::new();
+        for waiting in line {
+            let busy = self.cases.iter().any(|case| case.body == waiting.body);
+            let Waiting {
+                body, cost, step, ..
+            } = waiting;
+            if step == self.steps {
+                fresh.insert(key(body));
+            }
             if cost == 0 && !busy {
-                cheap.push((body, impact));
+                cheap.push((body, waiting.impact));
             } else if !busy && (work == 0 || work.saturating_add(cost) <= budget) {
                 work += cost;
-                dear.push((body, impact));
+                dear.push((body, waiting.impact));
             } else {
                 // First come, first served: whoever comes after one that must wait for the budget waits too.
                 work = if busy { work } else { usize::MAX };
-                later.push_back(Waiting { body, impact, cost });
+                later.push_back(waiting);
             }
         }
         self.waiting = later;
@@ -195,16 +213,72 @@ impl BreakableWorld {
         }
         let verdicts = self.judge(&cheap);
         self.timings.fracture += watch.lap();
+        let mut blows = self.fresh_blows(&cheap, &verdicts, &fresh, before);
+        let mut families = Families::new();
         for ((body, impact), verdict) in cheap.into_iter().zip(verdicts) {
             if let Ok(verdict) = &verdict {
                 let contacts = impact.contacts.len();
                 self.impact_counts.count(contacts, verdict.held());
             }
-            let obeyed = verdict.and_then(|v| self.obey(body, BreakCause::Impact, impact, v));
-            done = done.and(obeyed);
+            let blow = blows.remove(&key(body)).unwrap_or_default();
+            let obeyed = verdict.and_then(|v| {
+                self.obey(
+                    body,
+                    BreakCause::Impact,
+                    impact,
+                    v,
+                    &blow,
+                    &families,
+                    before,
+                )
+            });
+            match obeyed {
+                Ok(Some(fragments)) => {
+                    families.insert(key(body), fragments);
+                }
+                Ok(None) => {}
+                Err(error) => done = done.and(Err(error)),
+            }
         }
         self.timings.fragments += watch.lap();
         done
+    }
+
+    /// What blows of the step just taken say of the impulses between bodies: those that held give it at once, those of bodies
+    /// that break are returned. A verdict that comes later finds the bodies elsewhere: there the engine's blow stands.
+    fn fresh_blows(
+        &mut self,
+        questions: &[(RigidBodyHandle, Impact)],
+        verdicts: &[Result<Verdict, WorldError>],
+        fresh: &BTreeSet<Key>,
+        before: &HitBodies,
+    ) -> BTreeMap<Key, Vec<Meeting>> {
+        let model = self.config.fracture.duration;
+        let (mut held, mut broke) = (Vec::new(), BTreeMap::new());
+        for ((handle, impact), verdict) in questions.iter().zip(verdicts) {
+            let Some(body) = before.get(&key(*handle)) else {
+                continue;
+            };
+            if !fresh.contains(&key(*handle)) {
+                continue;
+            }
+            let pose = body.position();
+            match verdict {
+                Ok(Verdict::Held(outcome)) => {
+                    held.extend(meetings(*handle, pose, impact, outcome.report(), model));
+                }
+                Ok(Verdict::Broke(fracture, _)) => {
+                    let blow = meetings(*handle, pose, impact, &fracture.report, model);
+                    broke.insert(key(*handle), blow);
+                }
+                Err(_) => {}
+            }
+        }
+        // Of two bodies that met, the one that breaks says how long the other pushed.
+        held.retain(|m: &Meeting| m.partner.is_none_or(|p| !broke.contains_key(&key(p))));
+        share_out(&mut broke.values_mut().flatten().collect::<Vec<_>>());
+        self.give_blows(held, before);
+        broke
     }
 
     /// Does what was decided elsewhere and is due.
@@ -222,9 +296,12 @@ impl BreakableWorld {
             }
             self.timings.fracture += watch.lap();
             if self.breakables.contains_key(&key(case.body)) {
-                let cause = BreakCause::Impact;
-                let obeyed = verdict.and_then(|v| self.obey(case.body, cause, case.impact, v));
-                done = done.and(obeyed);
+                let (cause, late) = (BreakCause::Impact, HitBodies::new());
+                let obeyed = verdict.and_then(|v| {
+                    let none = Families::new();
+                    self.obey(case.body, cause, case.impact, v, &[], &none, &late)
+                });
+                done = done.and(obeyed.map(|_| ()));
             }
             self.timings.fragments += watch.lap();
         }
@@ -260,34 +337,70 @@ impl BreakableWorld {
         match verdict(outcome, &self.config)? {
             // What only cracks is dealt with when all loads are looked at.
             Verdict::Held(_) => Ok(()),
-            broke => self.obey(handle, BreakCause::Rest, load, broke),
+            broke => {
+                let none = Families::new();
+                let obeyed = self.obey(handle, BreakCause::Rest, load, broke, &[], &none, before);
+                obeyed.map(|_| ())
+            }
         }
     }
 
+    /// Does what a verdict says; returns the fragments of a body that broke. `blow`: what its contacts gave, where that is known
+    /// in the step of the blow; `families`: what became of bodies that broke before it.
+    #[expect(clippy::too_many_arguments, reason = "all of one question")]
     fn obey(
         &mut self,
         handle: RigidBodyHandle,
         cause: BreakCause,
         impact: Impact,
         verdict: Verdict,
-    ) -> Result<(), WorldError> {
+        blow: &[Meeting],
+        families: &Families,
+        before: &HitBodies,
+    ) -> Result<Option<Vec<RigidBodyHandle>>, WorldError> {
         let (fracture, parts) = match verdict {
-            Verdict::Held(outcome) => return self.take_note(handle, impact, outcome),
+            Verdict::Held(outcome) => {
+                return self.take_note(handle, impact, outcome).map(|()| None);
+            }
             Verdict::Broke(fracture, parts) => (fracture, parts),
         };
         if !self.has_room(&fracture, 0, handle) {
-            return Ok(());
+            return Ok(None);
         }
         let Some(parent) = self.physics.bodies.get(handle).cloned() else {
-            return Ok(());
+            return Ok(None);
         };
         let fragments = self.replace(handle, &parts);
         let mut strikers = impact.strikers.clone();
         strikers.retain(|&s| self.physics.bodies.contains(s));
-        let others = self.kinetic_energy_of(&strikers);
-        let toll = fracture.report.fracture_energy;
-        let paid = take_energy(&mut self.physics.bodies, &fragments, &strikers, toll);
-        let after = self.kinetic_energy_of(&fragments) + self.kinetic_energy_of(&strikers);
+        // What met a body that broke before it meets that one's pieces.
+        let others: Vec<RigidBodyHandle> = (impact.strikers.iter())
+            .flat_map(|&s| self.what_became_of(Some(s), families))
+            .collect();
+        let energy =
+            |world: &Self| world.kinetic_energy_of(&fragments) + world.kinetic_energy_of(&others);
+        let whole = kinetic_energy(&parent) + self.kinetic_energy_of(&others);
+        let mut lost = 0.0;
+        for meeting in blow {
+            lost += self.replace_blow(&fracture, &fragments, meeting, families, before);
+        }
+        let cracks = fracture.report.fracture_energy;
+        let lost = lost.clamp(0.0, cracks);
+        let toll = cracks - lost;
+        let paid = take_energy(&mut self.physics.bodies, &fragments, &others, toll);
+        let after = energy(self);
+        // What the engine's blow took, and the blow that broke the body gave back, was there before the step.
+        let moved = [handle].into_iter().chain(impact.strikers.iter().copied());
+        let then: f64 = moved
+            .filter_map(|h| before.get(&key(h)))
+            .map(kinetic_energy)
+            .sum();
+        let first = if blow.is_empty() {
+            whole
+        } else {
+            whole.max(then)
+        };
+        let made = fragments.clone();
         let broken = Broken {
             parent: handle,
             cause,
@@ -295,14 +408,16 @@ impl BreakableWorld {
             parts,
             impact: Impact { strikers, ..impact },
             fragments,
+            blow: Vec::new(),
+            lost,
         };
-        if self.record(broken, Some(&parent), paid)
+        if self.record(broken, Some(&parent), lost + paid)
             && let Some(event) = self.events.last_mut()
         {
-            event.kinetic_before = kinetic_energy(&parent) + others;
+            event.kinetic_before = first;
             event.kinetic_after = after;
         }
-        Ok(())
+        Ok(Some(made))
     }
 
     fn kinetic_energy_of(&self, bodies: &[RigidBodyHandle]) -> f64 {

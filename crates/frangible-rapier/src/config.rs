@@ -14,9 +14,10 @@ pub enum Breaking {
     /// sees a break.
     #[default]
     InsideStep,
-    /// After the step, which stands: the whole body takes the blow, then its fragments go on with its motion. A ball
-    /// loses as much to a pane as if it had held. No copy, no second step; for scenes of hundreds of bodies hit by
-    /// something heavier than they are.
+    /// After the step, which stands: the whole body takes the blow, then its fragments go on with its motion. A body judged in
+    /// the step of the blow gives its striker back what the engine took too much, and the striker meets the pieces in the
+    /// next step; to a body judged later a ball loses as much as if it had held. No copy, no second step; for scenes of
+    /// hundreds of bodies.
     AfterStep {
         /// Work per step, in tetrahedra of the fracture meshes of the bodies that a quick bound does not clear; one body
         /// at least. The others wait in the order of their blows, and stay whole until then: they collide as whole bodies

@@ -2,7 +2,9 @@
 //!
 //! Theory §2: point and direction in the body frame, the impulse on this body, the approach speed from the
 //! velocities **before** the step (Rapier keeps only those after it), and the striker's modulus, effective
-//! mass, curvature, restitution, and, when it is breakable too, how long it answers.
+//! mass, curvature, restitution, and, when it is breakable too, how long it answers. A partner that touches at several points
+//! shares its mass among them, so that the energy of approach is counted once. Of a blow that is integrated the impulse is an
+//! outcome; the engine's then says only which share of it is friction.
 
 use std::collections::BTreeMap;
 
@@ -23,6 +25,8 @@ use crate::world::{Key, collider_key, key};
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Impact {
     pub(crate) contacts: Vec<Contact>,
+    /// The other body of each contact; none for a collider without one. Empty of what no engine's contact caused.
+    pub(crate) partners: Vec<Option<RigidBodyHandle>>,
     pub(crate) strikers: Vec<RigidBodyHandle>,
 }
 
@@ -83,9 +87,12 @@ pub(crate) fn impact_on(
                     striker(body, partner, point, physics, surfaces),
                 );
                 if known {
-                    contact.friction = point.friction;
+                    // Restitution comes after friction, in the engine; the blow's friction follows its normal force.
+                    let most = point.friction_coefficient * point.impulse;
+                    contact.friction = point.friction.clamp_length_max(most);
                 }
                 impact.contacts.push(contact);
+                impact.partners.push(other);
             }
         }
         let added = &mut impact.contacts[first..];
@@ -94,6 +101,9 @@ pub(crate) fn impact_on(
             let rubbed = rubbed.map(|impulse| impulse * share);
             let coefficient = group[0].friction_coefficient;
             rub(added, body, partner, coefficient, rubbed);
+        }
+        if let Some(partner) = partner {
+            share_striker(added, body, partner);
         }
         if let (Some(other), Some(partner)) = (other, partner) {
             let other = surfaces.breakables.get(&key(other));
@@ -310,14 +320,14 @@ fn curvature_at(body: &Body, point: Vector) -> f32 {
 }
 
 /// Two breakable bodies meet: how long the other one answers each contact, for the models that ask. Hertz' law has both
-/// bodies in it already.
+/// bodies in it already, and so has a blow that is integrated.
 fn answer(
     contacts: &mut [Contact],
     (body, itself): (&RigidBody, &Body),
     (partner, other): (&RigidBody, &Body),
     model: DurationModel,
 ) {
-    if model == DurationModel::Hertz {
+    if matches!(model, DurationModel::Hertz | DurationModel::Integrated) {
         return;
     }
     let into = partner.position().inverse() * *body.position();
@@ -360,6 +370,43 @@ pub(crate) fn weighted_mean(contacts: &[Contact]) -> Option<(Vector, Vector, f32
         mean(&|c| c.normal).try_normalize()?,
         total,
     ))
+}
+
+/// Shares a partner that strikes at several points among them: w_k of its effective mass at each, half of it evenly and half as
+/// the impulses are. Each with the whole mass would count the energy of approach once per point. Where the points differ in
+/// speed the shares are smaller by (Σ w v)² / Σ w v², so that together they bring the energy ½ (Σ w v)² / (nᵀ K n) of the
+/// approach of their common push, which is never more than the motion holds.
+fn share_striker(contacts: &mut [Contact], body: &RigidBody, partner: &RigidBody) {
+    let count = contacts.len() as f32;
+    let total: f32 = contacts.iter().map(|c| c.impulse).sum();
+    if contacts.len() < 2 || !(total.is_finite() && total > 0.0) {
+        return;
+    }
+    let weight = |c: &Contact| 0.5 * (c.impulse / total + 1.0 / count);
+    let mean = |f: &dyn Fn(&Contact) -> Vector| {
+        let terms = contacts.iter().map(|c| f(c) * weight(c));
+        terms.sum::<Vector>()
+    };
+    let normal = mean(&|c| c.normal).try_normalize();
+    let speed: f32 = contacts.iter().map(|c| weight(c) * c.approach_speed).sum();
+    let square: f32 = (contacts.iter())
+        .map(|c| weight(c) * c.approach_speed * c.approach_speed)
+        .sum();
+    let even = if square > 0.0 {
+        speed * speed / square
+    } else {
+        1.0
+    };
+    // Points that push against each other have no common push: each keeps its own.
+    let common = normal.map(|normal| {
+        let point = *body.position() * mean(&|c| c.point);
+        inverse_effective_mass(partner, point, *body.rotation() * normal)
+    });
+    let shares: Vec<f32> = contacts.iter().map(|c| even * weight(c)).collect();
+    for (contact, share) in contacts.iter_mut().zip(shares) {
+        let own = contact.striker.inverse_effective_mass;
+        contact.striker.inverse_effective_mass = common.unwrap_or(own) / share;
+    }
 }
 
 /// Scales the impulses of one pair so that their sum is no more than the two bodies' meeting can give,

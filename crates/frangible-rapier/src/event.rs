@@ -46,8 +46,8 @@ pub struct BreakEvent {
     pub linvel: Vector,
     /// Angular velocity then, rad/s.
     pub angvel: Vector,
-    /// Energy taken from the motion for the cracks, J: at most `fracture.report.fracture_energy`, less when the
-    /// pieces hardly moved against each other.
+    /// Energy taken from the motion for the cracks, J: what the blow took into vibration first, then a toll. At most
+    /// `fracture.report.fracture_energy`, less when the pieces hardly moved against each other.
     pub energy_paid: f64,
     /// Kinetic energy before the step, of the body and of what hit it, J; of a blast or scripted blow, of the body alone.
     pub kinetic_before: f64,

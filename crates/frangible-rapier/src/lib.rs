@@ -2,8 +2,9 @@
 //!
 //! [`BreakableWorld::step`] is the front door: it steps Rapier, hands every impact on a breakable body to
 //! [`frangible::impact()`], and when a body breaks it undoes the step, puts the fragments in the body's place
-//! with the velocities from **before** the impact, and steps again. So a ball goes on through the pane it
-//! broke instead of bouncing off a pane that is no longer there.
+//! with the velocities from **before** the impact, lets the blow's own impulse act, and steps again. So a ball goes on through
+//! the pane it broke with what the blow left it, instead of bouncing off a pane that is no longer there. Off a body that holds it
+//! bounces as the blow says: a thin wide pane swallows it, a block throws it back.
 //!
 //! ```
 //! use frangible_rapier::{Ball, BreakableWorld, SurfaceProperties, WorldConfig};
@@ -28,7 +29,8 @@
 //! # What it keeps
 //! - Mass, centre and inertia of a fragment are the exact ones of the piece, never those of its collider.
 //! - Replacing a body by its fragments changes neither momentum nor angular momentum, and adds no kinetic energy.
-//! - The cracks' energy is taken from the motion of fragments and striker relative to each other.
+//! - Impulses of blows are equal and opposite on body and striker, and never give energy.
+//! - The cracks' energy is taken from what the blow took, then from the motion of fragments and striker relative to each other.
 //! - No fragment's centre of mass passes through a fixed body, and no ball through anything.
 //! - Two runs give the same bits.
 //!
@@ -53,6 +55,8 @@
 //! them they are plain bodies. Bodies that are cracked but whole get new, lower modes the same way.
 //!
 //! # What it does not do yet
+//! Contacts that a bound refuses unseen, and blows judged in a later step than their own, keep the engine's impulse and
+//! restitution. Two breakable bodies that meet each see the other as a rigid one; the mean of their answers counts.
 //! Without a model fragments are plain bodies: they do not break again. Multibody joints of a broken body are released,
 //! impulse joints move to the fragment that holds them; neither loads a body. A blow of less than
 //! [`WorldConfig::impact_speed`] breaks nothing: only what presses for four steps in a row counts as carried.
@@ -64,6 +68,8 @@
 
 mod after;
 mod approach;
+mod blows;
+mod cluster;
 mod collider;
 mod config;
 mod contacts;
@@ -71,6 +77,7 @@ mod counts;
 mod debris;
 mod error;
 mod event;
+mod exchange;
 mod floor;
 mod friction;
 mod guard;

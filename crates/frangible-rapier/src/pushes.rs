@@ -274,6 +274,8 @@ impl BreakableWorld {
             parts,
             impact: Impact::default(),
             fragments,
+            blow: Vec::new(),
+            lost: 0.0,
         };
         if self.record(broken, before.as_ref(), energy_paid)
             && let Some(event) = self.events.last_mut()

@@ -56,6 +56,7 @@ impl Load {
         };
         Impact {
             contacts: self.forces.iter().map(contact).collect(),
+            partners: Vec::new(),
             strikers: self.partners.clone(),
         }
     }

@@ -1,4 +1,7 @@
 //! After a break: the cracks' energy is taken from the motion, and the break is recorded.
+//!
+//! The cracks are paid first from what the motion has lost by the blow that made them (`exchange.rs`), which went into
+//! vibration, and only the rest is taken as a toll (`toll.rs`). Kinetic energy and the cracks' energy together never rise.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -7,6 +10,7 @@ use frangible::Fracture;
 use rapier3d::dynamics::{RigidBody, RigidBodyHandle, RigidBodySet};
 use rapier3d::math::Vector;
 
+use crate::blows::Meeting;
 use crate::contacts::Impact;
 use crate::event::{BreakCause, BreakEvent};
 use crate::motion::kinetic_energy;
@@ -23,6 +27,10 @@ pub(crate) struct Broken {
     pub(crate) parts: Parts,
     pub(crate) impact: Impact,
     pub(crate) fragments: Vec<RigidBodyHandle>,
+    /// Its contacts, where the blow was integrated.
+    pub(crate) blow: Vec<Meeting>,
+    /// What the motion has lost by that blow, J: the vibration's, from which the cracks are paid first.
+    pub(crate) lost: f64,
 }
 
 /// A body that broke, with all that hit it: before the step, and what has become of each.
@@ -97,13 +105,15 @@ impl BreakableWorld {
                 .retain(|&s| self.physics.bodies.contains(s));
             let work = self.work_of_gravity(&group, before).max(0.0);
             let energy = group.energy_before(before);
-            // Rapier's restitution at many contacts at once can gain some energy; a break never does.
+            // Rapier's restitution at many contacts at once can gain some energy; a break and its cracks never do.
             let gain = group.energy_after(&self.physics.bodies) - energy - work;
-            let toll = broken.fracture.report.fracture_energy.max(gain);
+            let cracks = broken.fracture.report.fracture_energy;
+            let lost = broken.lost.min(cracks);
+            let toll = (cracks - lost).max(cracks + gain);
             let bodies = &mut self.physics.bodies;
             let paid = take_energy(bodies, &broken.fragments, &group.others(), toll);
             let parent = before.get(broken.parent);
-            if self.record(broken, parent, paid.min(toll)) {
+            if self.record(broken, parent, (lost + paid).min(cracks)) {
                 groups.push((group, energy, work));
             }
         }

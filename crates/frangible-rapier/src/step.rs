@@ -1,18 +1,21 @@
 //! THE step: bodies break inside it.
 //!
-//! Theory §6. A step that may see an impact (see `approach.rs`) begins with a copy of the world. After it, each
+//! Theory §4a and §6. A step that may see an impact (see `approach.rs`) begins with a copy of the world. After it, each
 //! impact is put to the fracture. If a body broke: back to the copy, fragments in its place with the velocities
-//! from before the impact, and the step is taken again, so that the striker meets fragments instead of a body
-//! that is gone. Several bodies may break in a step; a body that is only hit in the repeated step is asked then,
-//! up to [`MAX_REPEATS`] times. Fragments are not asked in the step of their birth (`pieces.rs`). What bodies carry is asked after
+//! from before the impact, the blow's own impulse between the pieces and the striker, and the step is taken again, so that the
+//! striker meets fragments instead of a body that is gone, and the engine resolves only what still approaches. If the bodies
+//! held, the blow's impulses take the place of the engine's (`exchange.rs`). Several bodies may break in a step; a body that is
+//! only hit in the repeated step is asked then, up to [`MAX_REPEATS`] times, and its blow counts only in the step that
+//! stands. Fragments are not asked in the step of their birth (`pieces.rs`). What bodies carry is asked after
 //! every step (`resting.rs`); blasts and scripted blows come before it (`pushes.rs`).
 
 use std::collections::BTreeMap;
 
-use frangible::{BodyState, Fracture, Outcome};
+use frangible::{BodyState, Fracture, ImpactReport, Outcome};
 use rapier3d::dynamics::{RigidBodyHandle, RigidBodySet};
 
 use crate::approach::candidates;
+use crate::blows::{Meeting, meetings};
 use crate::config::Breaking;
 use crate::contacts::{Impact, Surfaces, impact_on};
 use crate::error::WorldError;
@@ -37,6 +40,8 @@ const BREAK_ITERATIONS: usize = 4;
 struct Asked {
     broken: Vec<Broken>,
     held: BTreeMap<Key, (Impact, HeldEvent)>,
+    /// Blows of the step last taken that held.
+    standing: Vec<Meeting>,
     error: Option<WorldError>,
 }
 
@@ -227,12 +232,15 @@ impl BreakableWorld {
             for broken in &mut asked.broken {
                 broken.fragments = self.replace(broken.parent, &broken.parts);
             }
+            self.pass_blows(&mut asked.broken);
             self.timings.fragments += watch.lap();
             before = Some(self.physics.bodies.clone());
             centres = self.guarded_centres();
             self.timings.copies += watch.lap();
             self.advance_finely();
         }
+        let standing = std::mem::take(&mut asked.standing);
+        self.give_blows(standing, before.as_ref().unwrap_or(&base.bodies));
         watch.lap();
         put_back(&mut self.physics, &centres);
         self.timings.upkeep += watch.lap();
@@ -244,7 +252,7 @@ impl BreakableWorld {
     /// Puts the impacts of the step just taken to the fracture; true when a body broke.
     fn ask(&mut self, near: &[RigidBodyHandle], before: &RigidBodySet, asked: &mut Asked) -> bool {
         let mut watch = Watch::start();
-        let (blows, loads) = self.questions(near, before, asked);
+        let (blows, loads, mut standing) = self.questions(near, before, asked);
         self.timings.contacts += watch.lap();
         let verdicts = self.judge(&blows);
         for (rest, contacts, verdict) in loads
@@ -278,22 +286,52 @@ impl BreakableWorld {
                 }),
         );
         answers.sort_by_key(|answer| key(answer.body));
+        let blows = answers.iter().filter(|a| a.cause == BreakCause::Impact);
+        standing.extend(blows.map(|answer| answer.body));
         self.timings.fracture += watch.lap();
         let mut news = false;
         for answer in answers {
-            news |= self.hear(answer, asked);
+            news |= self.hear(answer, before, asked);
+        }
+        asked.standing.clear();
+        if !news {
+            standing.sort_by_key(|&handle| key(handle));
+            for handle in standing {
+                if let Some((impact, event)) = asked.held.get(&key(handle)) {
+                    let meetings = self.meetings(handle, before, impact, &event.report);
+                    asked.standing.extend(meetings);
+                }
+            }
         }
         news
     }
 
-    /// Blows to be put to the fracture, and what overloads do.
+    /// What a blow that was integrated says of the impulses between a body and its strikers.
+    fn meetings(
+        &self,
+        handle: RigidBodyHandle,
+        before: &RigidBodySet,
+        impact: &Impact,
+        report: &ImpactReport,
+    ) -> Vec<Meeting> {
+        let model = self.config.fracture.duration;
+        before.get(handle).map_or_else(Vec::new, |body| {
+            meetings(handle, body.position(), impact, report, model)
+        })
+    }
+
+    /// Blows to be put to the fracture, what overloads do, and bodies whose blow is known to hold.
     fn questions(
         &self,
         near: &[RigidBodyHandle],
         before: &RigidBodySet,
         asked: &Asked,
-    ) -> (Vec<(RigidBodyHandle, Impact)>, Vec<Answer>) {
-        let (mut blows, mut loads) = (Vec::new(), Vec::new());
+    ) -> (
+        Vec<(RigidBodyHandle, Impact)>,
+        Vec<Answer>,
+        Vec<RigidBodyHandle>,
+    ) {
+        let (mut blows, mut loads, mut standing) = (Vec::new(), Vec::new(), Vec::new());
         let surfaces = Surfaces {
             bodies: &self.surfaces,
             colliders: &self.collider_surfaces,
@@ -307,7 +345,12 @@ impl BreakableWorld {
             let known = asked.held.get(&key(handle));
             if !impact.contacts.is_empty() && known.is_none_or(|(known, _)| *known != impact) {
                 blows.push((handle, impact));
-            } else if let Some(load) = self.breaking_load(handle, body, before) {
+                continue;
+            }
+            if !impact.contacts.is_empty() {
+                standing.push(handle);
+            }
+            if let Some(load) = self.breaking_load(handle, body, before) {
                 let (impact, verdict) = match load {
                     Ok((load, outcome)) => (load, verdict(outcome, &self.config)),
                     Err(error) => (impact, Err(error)),
@@ -320,11 +363,11 @@ impl BreakableWorld {
                 });
             }
         }
-        (blows, loads)
+        (blows, loads, standing)
     }
 
     /// Takes note of an answer; true when it broke the body.
-    fn hear(&mut self, answer: Answer, asked: &mut Asked) -> bool {
+    fn hear(&mut self, answer: Answer, before: &RigidBodySet, asked: &mut Asked) -> bool {
         let handle = answer.body;
         let (fracture, parts) = match answer.verdict {
             Ok(Verdict::Broke(fracture, parts)) => (fracture, parts),
@@ -343,6 +386,7 @@ impl BreakableWorld {
         if !self.has_room(&fracture, taken.sum(), handle) {
             return false;
         }
+        let blow = self.meetings(handle, before, &answer.impact, &fracture.report);
         asked.broken.push(Broken {
             parent: handle,
             cause: answer.cause,
@@ -350,6 +394,8 @@ impl BreakableWorld {
             parts,
             impact: answer.impact,
             fragments: Vec::new(),
+            blow,
+            lost: 0.0,
         });
         asked.held.remove(&key(handle));
         true

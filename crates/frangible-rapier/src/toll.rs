@@ -1,4 +1,4 @@
-//! What the cracks cost is taken from the motion.
+//! What the cracks cost, beyond what the blow has already taken, comes from the motion.
 //!
 //! The group of fragments and strikers has a common rigid motion: the one with its momentum P and angular
 //! momentum L. Every body's deviation from it is scaled by √(1 − E/T), T the deviations' kinetic energy: the sum
@@ -7,9 +7,10 @@
 //! then the common motion is its own, so that the toll comes from the fall that broke the body, or from the striker
 //! that broke what was held.
 
-use frangible::glam::{DMat3, DVec3};
+use frangible::glam::DVec3;
 use rapier3d::dynamics::{RigidBody, RigidBodyHandle, RigidBodySet, RigidBodyVelocity};
 
+use crate::cluster::Cluster;
 use crate::motion::{centre, world_inertia};
 
 /// A rigid motion: velocity at the origin `about`, and angular velocity.
@@ -79,33 +80,11 @@ fn motion_of(body: &RigidBody) -> Motion {
 
 /// The rigid motion with the group's momentum and angular momentum.
 fn common_motion(bodies: &RigidBodySet, group: &[RigidBodyHandle]) -> Option<Motion> {
-    let members = || group.iter().map(|&h| &bodies[h]);
-    let mass: f64 = members().map(|b| f64::from(b.mass())).sum();
-    let about = members()
-        .map(|b| centre(b) * f64::from(b.mass()))
-        .sum::<DVec3>()
-        / mass;
-    let linear = members()
-        .map(|b| b.linvel().as_dvec3() * f64::from(b.mass()))
-        .sum::<DVec3>()
-        / mass;
-    let (mut inertia, mut spin) = (DMat3::ZERO, DVec3::ZERO);
-    for body in members() {
-        let (m, r, own) = (
-            f64::from(body.mass()),
-            centre(body) - about,
-            world_inertia(body),
-        );
-        // Steiner: m (r² 1 − r rᵀ).
-        let outer = DMat3::from_cols(r * r.x, r * r.y, r * r.z);
-        inertia += own + (DMat3::from_diagonal(DVec3::splat(r.length_squared())) - outer) * m;
-        spin += own * body.angvel().as_dvec3() + r.cross(body.linvel().as_dvec3() - linear) * m;
-    }
-    let angular = inertia.inverse() * spin;
-    (linear.is_finite() && angular.is_finite()).then_some(Motion {
-        about,
-        linear,
-        angular,
+    let whole = Cluster::of(bodies, group)?;
+    Some(Motion {
+        about: whole.centre,
+        linear: whole.linear,
+        angular: whole.angular,
     })
 }
 
