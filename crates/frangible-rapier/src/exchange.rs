@@ -6,7 +6,8 @@
 //!
 //! **A blow that holds**: after the step, the difference between the two normal impulses, at the arms that the engine
 //! had. No share of it that would bring the bodies nearer again, or give them more energy than the engine took at these
-//! contacts, or more than they had before the step.
+//! contacts, or more than they had before the step. What the engine gained, of two bodies that touched nothing else, is taken
+//! back first.
 //!
 //! **A break**: before the step is taken again, the blow's impulse up to the moment when the contact parted, or the wall under it was
 //! gone. The pieces nearest to the contacts take it as one body, a plug: the fewest that do not leave faster than the striker
@@ -26,6 +27,7 @@ use crate::cluster::{Cluster, Kick, affordable};
 use crate::motion::{centre, kinetic_energy};
 use crate::motions::Before;
 use crate::settle::Broken;
+use crate::toll::take_energy;
 use crate::world::{BreakableWorld, Key, key};
 
 /// Pieces of bodies that broke in a step.
@@ -45,6 +47,7 @@ impl BreakableWorld {
     }
 
     fn give_blow(&mut self, meeting: &Meeting, before: &impl Before) {
+        self.take_gain(meeting, before);
         let bodies = &mut self.physics.bodies;
         let Some(mut pair) = Pair::now(bodies, meeting, before) else {
             return;
@@ -67,6 +70,52 @@ impl BreakableWorld {
             pair.energy(bodies) <= (now + allowed) * (1.0 + 1e-5) + 1e-9,
             "a blow that holds gave energy"
         );
+    }
+
+    /// Rapier's restitution at several contacts at once can gain energy: of two bodies that met nothing else in the step it is
+    /// taken back.
+    fn take_gain(&mut self, meeting: &Meeting, before: &impl Before) {
+        let pair: Vec<RigidBodyHandle> = [Some(meeting.body), meeting.partner]
+            .into_iter()
+            .flatten()
+            .collect();
+        if !self.are_alone(&pair) {
+            return;
+        }
+        let gravity = self.physics.gravity.as_dvec3();
+        let bodies = &mut self.physics.bodies;
+        let mut gain = 0.0;
+        for &handle in &pair {
+            if let (Some(then), Some(now)) = (before.body(handle), bodies.get(handle)) {
+                let fall = gravity * f64::from(now.gravity_scale() * now.mass());
+                let work = fall.dot(centre(now) - centre(then));
+                gain += kinetic_energy(now) - kinetic_energy(then);
+                gain -= if now.is_dynamic() { work } else { 0.0 };
+            }
+        }
+        take_energy(bodies, &pair[..1], &pair[1..], gain);
+    }
+
+    /// Whether these bodies touched nothing but each other, and nothing is tied to them.
+    fn are_alone(&self, pair: &[RigidBodyHandle]) -> bool {
+        let physics = &self.physics;
+        let parent = |c| physics.colliders.get(c).and_then(|c| c.parent());
+        pair.iter().all(|&handle| {
+            let Some(body) = physics.bodies.get(handle) else {
+                return false;
+            };
+            if body.is_fixed() {
+                return true;
+            }
+            let pairs =
+                (body.colliders().iter()).flat_map(|&c| physics.narrow_phase.contact_pairs_with(c));
+            let mut touching = pairs.filter(|p| p.has_any_active_contact());
+            let inside = |c| parent(c).is_some_and(|h| pair.contains(&h));
+            let mut joints = physics.impulse_joints.attached_joints(handle);
+            !body.is_kinematic()
+                && joints.next().is_none()
+                && touching.all(|p| inside(p.collider1) && inside(p.collider2))
+        })
     }
 
     /// Before a step is taken again with fragments: the blows that made them act.

@@ -217,10 +217,11 @@ fn play(seed: u64) -> (u64, u64, [f64; 2]) {
         let now = world.kinetic_energy();
         let cracks: f64 = world.breaks().iter().map(|e| e.energy_paid).sum();
         let rise = (now + cracks) / energy - 1.0;
-        // A break gains nothing but rounding, and no step gains what was lost before. A step without a break is the engine's: a
-        // block that lands on three corners at 20 m/s was seen to gain 7 % by Rapier's restitution, before the blow took its place.
+        // A break gains nothing but rounding, and no step gains what was lost before. Other steps are the engine's, whose
+        // restitution at several contacts at once gains up to 3 % here among pieces and between three bodies (measured); of two
+        // bodies alone it is taken back.
         let (kind, limit) = if world.breaks().is_empty() {
-            (1, 0.1)
+            (1, 0.05)
         } else {
             (0, 1e-5)
         };
