@@ -464,6 +464,8 @@ impl Run<'_> {
         let leave = near.map(|n| PI / n.lowest).fold(0.0, f64::max);
         let near_steps = record.contact_steps + (leave / time_step).ceil() as usize;
         record.near_steps = near_steps.min(steps);
+        let rest = steps - record.contact_steps;
+        record.amplitudes.reserve_exact(rest * plan.modes);
         for step in record.contact_steps..steps {
             plan.coarse.coast(&mut state, &[], &[]);
             record.sample(plan, &state, &[], step < record.near_steps);
@@ -475,9 +477,9 @@ impl Record {
     #[inline(always)]
     fn sample(&mut self, plan: &Plan, state: &BankState, forces: &[f64], near: bool) {
         let (modes, all) = (plan.modes, plan.oscillators.len());
-        let amplitudes = state.x[..modes].iter().zip(&plan.oscillators);
+        let amplitudes = state.x[..modes].iter().zip(&plan.periods);
         self.amplitudes
-            .extend(amplitudes.map(|(x, (w, _))| (x / w) as f32));
+            .extend(amplitudes.map(|(x, period)| (x * period) as f32));
         if near {
             self.swing
                 .extend(state.x[modes..all].iter().map(|&x| x as f32));
