@@ -63,7 +63,7 @@ pub(crate) fn walls(
     if stretches.iter().all(Option::is_none) {
         return SurfaceWalls::default();
     }
-    let held = faces.from_supports(&along, &stretches, &measured, supported);
+    let held = faces.distances_from_supports(&along, &stretches, &measured, supported);
     let of = |number: &dyn Fn(usize, Bend, f64) -> f64| -> Vec<f32> {
         let numbers = (0..faces.count()).map(|t| match (bends[t], stretches[t]) {
             (Some(bend), Some(margin)) => number(t, bend, margin) as f32,
@@ -310,7 +310,7 @@ impl<'a> Faces<'a> {
     }
 
     /// Distance of each triangle from what holds its wall, m: on either of its faces.
-    fn from_supports(
+    fn distances_from_supports(
         &self,
         along: &AlongSurface<'_>,
         stretches: &[Option<f64>],

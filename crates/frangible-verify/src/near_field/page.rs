@@ -128,7 +128,8 @@ impl NearField {
              a corner, as shares of the shortest wavelength λ_c of the modes. The table shows the largest error of the total stress around the contact, over \
              its peak. Of the supported edge ({:.1} mm, 100 modes) it is against the series of all modes with an elastic layer's far face, of a free and of a \
              held edge ({:.1} mm, 75 modes followed, 225 as residual vector) against 300 modes and their near field, which have \
-             such an error of their own at half the distance. Closer to the edge than 1/k_c there is no near field at all, and modes serve.\n\n{}\n",
+             such an error of their own at half the distance. The waves of the near field are not reflected at the edge, so that closer to it than a quarter of λ_c the stress between contact and edge is of the right size \
+             only.\n\n{}\n",
             1e3 * wavelength_of(100),
             1e3 * wavelength_of(75),
             table(&head, &rows)

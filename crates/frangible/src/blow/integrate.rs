@@ -501,7 +501,9 @@ impl Run<'_> {
         }
         let rest = PERIODS * period - record.near_steps as f64 * time_step;
         let steps = (rest / (plan.coarser * time_step)).ceil().max(0.0) as usize;
-        for _ in 0..steps.min(MOST_STEPS) {
+        let steps = steps.min(MOST_STEPS);
+        record.amplitudes.reserve_exact(steps * plan.modes);
+        for _ in 0..steps {
             plan.coarse.coast(&mut state, &[], &[]);
             record.sample(plan, &state, &[], false);
         }
@@ -512,9 +514,9 @@ impl Record {
     #[inline(always)]
     fn sample(&mut self, plan: &Plan, state: &BankState, forces: &[f64], near: bool) {
         let (modes, all) = (plan.modes, plan.oscillators.len());
-        let amplitudes = state.x[..modes].iter().zip(&plan.oscillators);
+        let amplitudes = state.x[..modes].iter().zip(&plan.periods);
         self.amplitudes
-            .extend(amplitudes.map(|(x, (w, _))| (x / w) as f32));
+            .extend(amplitudes.map(|(x, period)| (x * period) as f32));
         if near {
             self.swing
                 .extend(state.x[modes..all].iter().map(|&x| x as f32));

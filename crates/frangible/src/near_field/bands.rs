@@ -292,10 +292,6 @@ mod tests {
                 }
                 for part in 0..2 {
                     let error = (found[part] - exact[part]).abs() / most;
-                    println!(
-                        "first {first} r {r} part {part}: {} {} error {error:.4}",
-                        found[part], exact[part]
-                    );
                     assert!(error < 0.01, "{first} {r} {part}: {found:?} {exact:?}");
                 }
             }

@@ -33,8 +33,8 @@
 //!
 //! # Changes and limits
 //!
-//! - It holds for a force across a wall, further from the wall's edges than about 2/k_c; nearer, the modes up to a higher
-//!   frequency serve statically first (`blow/complement.rs`), and closer than 1/k_c there is no near field.
+//! - It holds for a force across a wall, down to a quarter of the shortest mode's wavelength from the wall's edges (`docs/near-field.md` has
+//!   the errors). Nearer it is not reflected there: between contact and edge it is of the right size only.
 //! - Where curvature holds the wall more than bending does (E h s > D k⁴ / 3) there are no plane waves to continue with: modes serve.
 //! - On the loaded face and inside the wall the true stress is not linear in z where kh > 1; the field's is. The far face is where
 //!   cracks start.
