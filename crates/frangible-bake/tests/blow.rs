@@ -8,7 +8,7 @@ use frangible::glam::{DVec3, Vec3};
 use frangible::near_field::PlateTheory;
 use frangible::stress::largest_eigenvalue;
 use frangible::{Asset, Body, Breakable, Contact, FractureConfig, Material, Striker};
-use frangible_bake::{BakeSpec, MeshSize, Shape, bake};
+use frangible_bake::{BakeSpec, Shape, bake};
 
 fn material(name: &str) -> Material {
     let mut material = Material::preset(name).unwrap();
