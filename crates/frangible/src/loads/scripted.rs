@@ -4,7 +4,7 @@ use glam::Vec3;
 
 use crate::body::Body;
 use crate::config::FractureConfig;
-use crate::contact::{Contact, Striker};
+use crate::contact::{Contact, Striker, hertz_at};
 use crate::error::InputError;
 use crate::impact::impact;
 use crate::outcome::Outcome;
@@ -12,8 +12,8 @@ use crate::outcome::Outcome;
 /// Radius of curvature of what strikes, m: a fingertip, a hammer's edge.
 const RADIUS: f32 = 0.01;
 
-/// What an impulse (N·s, body frame) at a point of the surface (m, the nearest one is taken) does to a body, as if a
-/// rigid thing of 1 cm radius had struck there. Whether it breaks depends on the impulse, as ever.
+/// What an impulse (N·s, body frame) at a point of the surface (m, the nearest one is taken) does to a body: a half-sine as long as
+/// Hertz says of a rigid thing of 1 cm radius that gives this impulse. Whether it breaks depends on the impulse, as ever.
 ///
 /// # Errors
 /// A number that is not finite, or an impulse of no length.
@@ -23,18 +23,23 @@ pub fn fracture_at(
     impulse: Vec3,
     config: &FractureConfig,
 ) -> Result<Outcome, InputError> {
-    // The speed that an immovable striker without bounce needs for this impulse.
-    let size = impulse.length();
-    let mass = &body.asset.mass;
-    let direction = impulse.normalize_or_zero().as_dvec3();
-    let give = mass.inverse_effective_mass(point.as_dvec3(), direction) as f32;
     let striker = Striker {
         curvature_radius: RADIUS,
         ..Striker::rigid()
     };
-    impact(
-        body,
-        &[Contact::new(point, impulse, size, size * give, striker)],
-        config,
-    )
+    // The speed that an immovable striker without bounce needs for this impulse.
+    let size = impulse.length();
+    let mut contact = Contact::new(point, impulse, size, 0.0, striker);
+    contact.validate()?;
+    let asset = &*body.asset;
+    let at = body.prepared.surface.closest(point);
+    let direction = impulse.normalize_or_zero().as_dvec3();
+    let give = asset
+        .mass
+        .inverse_effective_mass(at.position.as_dvec3(), direction);
+    contact.approach_speed = size * give as f32;
+    let radius = f64::from(asset.surface.curvature_radius[at.triangle as usize]);
+    let given = if asset.is_supported() { 0.0 } else { give };
+    contact.duration = hertz_at(asset, &contact, radius, given) as f32;
+    impact(body, &[contact], config)
 }
