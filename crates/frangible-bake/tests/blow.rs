@@ -303,7 +303,7 @@ fn several_contacts_at_once_keep_energy_and_momentum() {
         ((after + flight + rings) / before - 1.0).abs()
     };
     // Finer ones reach the rounding of the contacts' f32.
-    let (coarse, fine) = (missing(8e-6), missing(4e-6));
+    let (coarse, fine) = (missing(4e-6), missing(2e-6));
     assert!(missing(0.5e-6) < 3e-6);
     assert!((3.0..5.5).contains(&(coarse / fine)), "{coarse} {fine}");
 }

@@ -155,9 +155,9 @@ fn first_by_looking_at_all(
 #[test]
 fn the_onset_is_the_first_step_at_which_any_weak_point_passes_its_strength() {
     let body = pane();
-    let config = FractureConfig::default();
+    let config = FractureConfig::with_given_impulses();
     // Soft blows are refused before their vibration begins, unless that is off.
-    let mut unrefused = FractureConfig::default();
+    let mut unrefused = FractureConfig::with_given_impulses();
     unrefused.culling = false;
     let (mut never, mut at) = (0, 0);
     for speed in [0.8, 1.6, 2.4, 3.2, 4.0, 6.0, 12.0] {
@@ -183,7 +183,7 @@ fn the_onset_is_the_first_step_at_which_any_weak_point_passes_its_strength() {
 #[test]
 fn from_its_onset_on_an_impact_ends_as_a_whole_one_does() {
     let body = pane();
-    let config = FractureConfig::default();
+    let config = FractureConfig::with_given_impulses();
     let contact = blow(&body, 12.0);
     let Outcome::Broke(whole) = impact(&body, &[contact], &config).unwrap() else {
         panic!("it held");
@@ -206,7 +206,7 @@ fn from_its_onset_on_an_impact_ends_as_a_whole_one_does() {
 #[test]
 fn old_cracks_leave_the_question_open() {
     let mut body = pane();
-    let config = FractureConfig::default();
+    let config = FractureConfig::with_given_impulses();
     // A blow that cracks without parting, among rising ones.
     let state = (10..80).find_map(|k| {
         let outcome = impact(&body, &[blow(&body, 0.1 * f64::from(k))], &config).unwrap();
@@ -216,7 +216,7 @@ fn old_cracks_leave_the_question_open() {
         }
     });
     let state = state.expect("some blow cracks the pane without parting it");
-    let mut unrefused = FractureConfig::default();
+    let mut unrefused = FractureConfig::with_given_impulses();
     unrefused.culling = false;
     let answer = |body: &Body| {
         OnsetSearch::new(body, begun(body, blow(body, 1.6), &unrefused)).look(body, &config, 9)

@@ -78,6 +78,8 @@ fn peak(asset: &Asset, config: &FractureConfig) -> f64 {
 fn unculled() -> FractureConfig {
     let mut config = FractureConfig::default();
     config.culling = false;
+    // The force's own near field is no stress of the bent plate.
+    config.near_field = None;
     config
 }
 

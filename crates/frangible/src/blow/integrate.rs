@@ -494,7 +494,8 @@ impl Run<'_> {
         // After the blow its waves leave within half a period of the lowest of them.
         let near = plan.sites.iter().filter_map(|s| s.near.as_ref());
         let leave = near.map(|n| PI / n.lowest).fold(0.0, f64::max);
-        record.near_steps = record.contact_steps + (leave / time_step).ceil() as usize;
+        let leave = ((leave / time_step).ceil() as usize).min(MOST_STEPS);
+        record.near_steps = record.contact_steps + leave;
         for _ in record.contact_steps..record.near_steps {
             plan.step.coast(&mut state, &[], &[]);
             record.sample(plan, &state, &[], true);
