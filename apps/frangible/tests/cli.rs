@@ -47,13 +47,13 @@ fn impossible_numbers_of_modes_are_refused() {
         refused_in_a_sentence(
             "modes",
             &["--modes", modes],
-            &["--modes", modes, "1 or more"],
+            &["--modes", modes, "1 to 400"],
         );
     }
     refused_in_a_sentence(
         "modes",
         &["--modes", "100000"],
-        &["number of modes", "100000", "1 to 400"],
+        &["--modes", "100000", "1 to 400"],
     );
     refused("modes", &["--modes", "1.5"], &["1.5", "--modes"]);
 }

@@ -28,6 +28,9 @@ const RINGING: f64 = 25.0;
 /// Wall oscillators are so close that their echo comes this many times later than the blow is expected to last.
 const ECHO: f64 = 1.3;
 
+/// Least distance to the wall's edge for a near field, times its lowest wave number.
+const LEAST_EDGE: f64 = 1.0;
+
 /// The frequency at which the wall oscillators take over, from the modes' own motion at the contact, over that from their
 /// frequencies is held between this and its inverse: beyond it something else than a plain wall is there.
 const LEAST_MATCH: f64 = 0.8;
@@ -424,7 +427,8 @@ fn inwards(asset: &Asset, triangle: u32, weights: [f32; 3]) -> Option<Vec3> {
 /// frequency, rad/s. None at an edge, and where curvature is in the way of all waves that the modes leave out.
 ///
 /// It starts at the same wave number close to an edge. Measured (`docs/near-field.md`): a quarter of the shortest mode's wavelength from a free or a held
-/// edge this is 8 % off, and 25 % where the modes up to twice the inverse distance answer statically first.
+/// edge this is 8 % off, and 25 % where the modes up to twice the inverse distance answer statically first. Closer than a sixth of that
+/// wavelength it is off by half and more, and the residual vector serves instead.
 fn first_wave(
     asset: &Asset,
     wall: &WallMaterial,
@@ -447,13 +451,14 @@ fn first_wave(
     let wanted = wall.bending_rules_from();
     let lowest = wall.eigenvalue(wanted).sqrt().max(after(followed));
     let first = modes.eigenvalues.partition_point(|l| l.sqrt() < lowest);
-    if first < count || lowest <= after(count) {
-        return Some((first, lowest));
-    }
-    // The modes do not reach that far.
-    let last = after(count);
-    let k = wall.wave_number(last);
-    (k >= wanted).then_some((count, last))
+    let (first, lowest) = if first < count || lowest <= after(count) {
+        (first, lowest)
+    } else {
+        // The modes do not reach that far.
+        (count, after(count))
+    };
+    let k = wall.wave_number(lowest);
+    (k >= 0.999 * wanted && k * margin >= LEAST_EDGE).then_some((first, lowest))
 }
 
 /// Where the wall oscillators take over, rad/s, such that together with the modes before `first` they are the whole wall.
