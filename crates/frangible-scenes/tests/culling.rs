@@ -63,18 +63,17 @@ fn cracks_and_pieces(outcome: &Outcome) -> Vec<u64> {
 }
 
 /// What refuses a blow, in the order of [`LookedAt`].
-const LEVELS: [&str; 6] = [
+const LEVELS: [&str; 5] = [
     "by sizes",
     "by impulses",
-    "by what follows the force",
     "by time steps",
     "by parts",
     "looked at",
 ];
 
 /// Whether blows of every kind were met.
-fn enough([sizes, impulses, following, amplitudes, clusters, stresses]: [usize; 6]) -> bool {
-    sizes + impulses > 3 && following + amplitudes + clusters > 3 && stresses > 3
+fn enough([sizes, impulses, amplitudes, clusters, stresses]: [usize; 5]) -> bool {
+    sizes + impulses > 3 && amplitudes + clusters > 3 && stresses > 3
 }
 
 fn models() -> [FractureConfig; 2] {
@@ -159,8 +158,8 @@ fn the_hardest_blow_that_is_refused_free_of_time_leaves_the_strength_unreached()
         for seed in 0..4 {
             let body = kind.body(seed);
             let some = numbers.blow(asset);
-            let mut hardest: [Option<Outcome>; 3] = [None, None, None];
-            let mut blows = [some; 3];
+            let mut hardest: [Option<Outcome>; 2] = [None, None];
+            let mut blows = [some; 2];
             for k in 0..60 {
                 let speed = 1e-3 * 1.15_f64.powi(k);
                 let blow = Contact::collision(asset, some.point, some.normal, speed, some.striker);
@@ -190,7 +189,7 @@ fn the_hardest_blow_that_is_refused_free_of_time_leaves_the_strength_unreached()
             }
         }
     }
-    assert!(met[0] > 3 && met[1] > 3 && met[2] > 1, "{met:?}");
+    assert!(met[0] > 3 && met[1] > 3, "{met:?}");
 }
 
 #[test]

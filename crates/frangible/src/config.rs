@@ -138,6 +138,7 @@ impl FractureConfig {
             admissible_duration: true,
             residual: false,
             near_field: None,
+            samples_per_period: 16.0,
             ..Self::default()
         }
     }

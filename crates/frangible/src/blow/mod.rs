@@ -40,5 +40,5 @@ mod star;
 pub(crate) use complement::{Complement, Residual};
 pub use integrate::Blow;
 pub(crate) use limits::Limits;
-pub(crate) use plan::SteadyNear;
+pub(crate) use plan::{SteadyNear, has_near_field};
 pub use spring::Spring;

@@ -423,6 +423,14 @@ fn inwards(asset: &Asset, triangle: u32, weights: [f32; 3]) -> Option<Vec3> {
     mixed.try_normalize().map(|n| -n)
 }
 
+/// Whether a contact on this triangle of the surface may have a near field.
+pub(crate) fn has_near_field(asset: &Asset, triangle: u32, theory: PlateTheory) -> bool {
+    asset.surface.walls.at(triangle).is_some_and(|surface| {
+        let wall = WallMaterial::new(&asset.material, &surface, theory);
+        first_wave(asset, &wall, surface.margin, asset.modes.followed()).is_some()
+    })
+}
+
 /// Where the near field takes over from the `followed` lowest modes: the first mode that it stands for, and its lowest angular
 /// frequency, rad/s. None at an edge, and where curvature is in the way of all waves that the modes leave out.
 ///

@@ -13,12 +13,13 @@ use super::Contact;
 use super::duration::hertz_at;
 use super::load::{each_row, give};
 use crate::asset::Asset;
-use crate::blow::Limits;
+use crate::blow::{Limits, has_near_field};
 use crate::body::Body;
 use crate::config::{DurationModel, FractureConfig};
 use crate::crack::refused_by_parts;
 use crate::impact::harmless;
 use crate::mesh::SurfacePoint;
+use crate::near_field::PlateTheory;
 use crate::outcome::LookedAt;
 use crate::stress::tension_bound;
 
@@ -77,11 +78,10 @@ impl Pushes {
         &self.places[..self.count]
     }
 
-    /// Whether any of them lies on a wall and pushes across it.
-    fn any_wall(&self, asset: &Asset) -> bool {
-        let walls = &asset.surface.walls;
+    /// Whether any of them has a near field.
+    fn any_near(&self, asset: &Asset, theory: PlateTheory) -> bool {
         let mut places = self.places().iter();
-        places.any(|(at, _)| walls.at(at.triangle).is_some())
+        places.any(|(at, _)| has_near_field(asset, at.triangle, theory))
     }
 
     /// Adds Σ φ_i(b) · push of some modes to `sums`, which is as long.
@@ -153,7 +153,9 @@ pub(crate) fn refused(
         })
     };
     let pushes = Pushes::new(body, hit().map(|c| (c.point, c.direction())))?;
-    if config.near_field.is_some() && pushes.any_wall(&body.asset) {
+    if let Some(theory) = config.near_field
+        && pushes.any_near(&body.asset, theory)
+    {
         return None;
     }
     let mut limits = [Limits::default(); MOST_CONTACTS];
