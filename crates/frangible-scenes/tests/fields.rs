@@ -200,7 +200,8 @@ fn share_along_the_score(body: &Body, hit: Contact) -> f64 {
 #[test]
 fn a_scored_pane_breaks_along_the_score() {
     let (plain, scored) = (scored(1.0), scored(0.3));
-    for speed in [6.0, 8.0] {
+    // Slow enough that the star of the blow itself is small.
+    for speed in [2.0, 3.0] {
         let share = |kind: &Breakable| {
             mean(8, |seed| {
                 share_along_the_score(&kind.body(seed), pane_hit(0.0, 0.0, speed))

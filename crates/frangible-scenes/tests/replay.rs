@@ -66,7 +66,7 @@ fn contacts_and_a_seed_replay_a_break_bit_for_bit() {
         .collect();
     let bytes = message(5, &impacts);
     let contacts: usize = impacts.iter().map(Vec::len).sum();
-    assert_eq!(bytes.len(), 8 + impacts.len() + 64 * contacts);
+    assert_eq!(bytes.len(), 8 + impacts.len() + Contact::BYTES * contacts);
     let config = FractureConfig::default();
     // Another machine: the asset came there as a file.
     let here = Breakable::new(Arc::clone(glass())).unwrap();

@@ -350,7 +350,8 @@ fn pane_areas(config: &FractureConfig) -> [f64; 4] {
 #[test]
 fn a_harder_hit_cracks_the_pane_more() {
     let areas = pane_areas(&FractureConfig::default());
-    assert_eq!(areas[0], 0.0);
+    // A star under the ball, which parts nothing.
+    assert!(areas[0] < 0.1 * areas[3], "{areas:.1?} cm²");
     assert!(areas.windows(2).all(|w| w[1] > w[0]), "{areas:.1?} cm²");
 }
 
@@ -491,6 +492,7 @@ fn bad_contacts_are_refused_and_nothing_comes_of_nothing() {
     }
     let nothing = Contact {
         impulse: 0.0,
+        approach_speed: 0.0,
         ..good
     };
     for contacts in [&[][..], &[nothing], &[nothing, nothing]] {
@@ -514,8 +516,8 @@ fn bad_contacts_are_refused_and_nothing_comes_of_nothing() {
 
 #[test]
 fn vibration_holds_no_more_energy_than_the_blow_brought() {
-    let config = FractureConfig::default();
-    let mut free = FractureConfig::default();
+    let config = FractureConfig::with_given_impulses();
+    let mut free = FractureConfig::with_given_impulses();
     free.admissible_duration = false;
     let (mut lengthened, mut fullest) = (0, 0.0_f64);
     let sharp = blow(
