@@ -48,9 +48,11 @@ fn other_methods_are_chosen_and_what_is_known_is_kept() {
     give(&mut session, "compare-methods voronoi,ours");
     assert_eq!(names(&session), ["voronoi", "ours"]);
     let first = session.methods().unwrap().outcomes.clone();
-    assert_eq!(
-        first[0].pieces, first[1].pieces,
-        "as many cells as pieces, in a convex pane"
+    // As many cells as pieces, in a convex pane, but for those that are crumbs and join a neighbour.
+    let [cells, pieces] = [first[0].pieces, first[1].pieces];
+    assert!(
+        cells <= pieces && 10 * cells > 8 * pieces,
+        "{cells} cells, {pieces} pieces"
     );
     give(&mut session, "compare-methods ours,elements,voronoi");
     assert_eq!(names(&session), ["ours", "elements", "voronoi"]);

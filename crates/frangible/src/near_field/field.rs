@@ -108,8 +108,8 @@ impl NearField {
             even_to: 0.0,
             follows_from: 0.0,
         };
-        // A point: the layer keeps its stress finite.
-        let bands = Bands::new(wall, first, 1e-3 * wall.thickness, everything_follows);
+        // Nothing rests on a point: a patch as wide as the wall is thick.
+        let bands = Bands::new(wall, first, wall.thickness, everything_follows);
         Self {
             steady: true,
             ..Self::new(place, wall, &bands, &[], &[force])
