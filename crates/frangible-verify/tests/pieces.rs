@@ -20,7 +20,7 @@ fn broken() -> Broken {
     let steel = Material::preset("steel").expect("steel");
     let ball = Striker::ball(&steel, 0.2, 0.018);
     let at = Vec3::new(0.03, 0.01, 0.0025);
-    let hit = Contact::collision(body.asset(), at, Vec3::NEG_Z, 15.0, ball);
+    let hit = Contact::collision(body.asset(), at, Vec3::NEG_Z, 5.0, ball);
     match impact(&body, &[hit], &FractureConfig::default()).expect("an outcome") {
         Outcome::Broke(fracture) => Broken::new("plate", body, *fracture),
         _ => panic!("the plate held"),
