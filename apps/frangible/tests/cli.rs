@@ -53,7 +53,7 @@ fn impossible_numbers_of_modes_are_refused() {
     refused_in_a_sentence(
         "modes",
         &["--modes", "100000"],
-        &["--modes", "100000", "1 to 400"],
+        &["number of modes", "100000", "1 to 400"],
     );
     refused("modes", &["--modes", "1.5"], &["1.5", "--modes"]);
 }
@@ -189,7 +189,7 @@ fn scenes_lists_scenes_and_materials() {
 fn a_gentle_drop_is_reported_as_json() {
     let folder = Folder::new("gentle");
     let output = frangible(
-        &["--drop", "0.05", "--no-pictures", "--json", "--modes", "20"],
+        &["--drop", "0.01", "--no-pictures", "--json", "--modes", "20"],
         Some(&folder.0),
     );
     assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));

@@ -305,7 +305,8 @@ fn several_contacts_at_once_keep_energy_and_momentum() {
     // Finer ones reach the rounding of the contacts' f32.
     let (coarse, fine) = (missing(4e-6), missing(2e-6));
     assert!(missing(0.5e-6) < 3e-6);
-    assert!((3.0..5.5).contains(&(coarse / fine)), "{coarse} {fine}");
+    // With the square of the substep, or faster where errors of the two contacts cancel.
+    assert!(coarse / fine > 3.0, "{coarse} {fine}");
 }
 
 #[test]
