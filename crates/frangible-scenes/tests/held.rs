@@ -40,10 +40,7 @@ fn pieces_that_touch_a_support_stay_and_the_others_fall() {
             }
         }
         println!("{name}: {stay} stay, {fall} fall, {lie} lie on them");
-        assert!(
-            lie * 10 <= fall,
-            "{name}: {lie} pieces hang, {fall} fall"
-        );
+        assert!(lie * 10 <= fall, "{name}: {lie} pieces hang, {fall} fall");
         assert!(
             stay >= ends && fall >= 1,
             "{name}: {stay} stay, {fall} fall"
