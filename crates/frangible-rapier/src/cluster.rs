@@ -13,7 +13,7 @@ pub(crate) struct Kick {
 }
 
 impl Kick {
-    /// Of impulses at points, about a centre.
+    /// Sums up impulses at points, about a centre.
     pub(crate) fn about(centre: DVec3, pushes: impl Iterator<Item = (DVec3, DVec3)>) -> Self {
         let mut kick = Self::default();
         for (point, impulse) in pushes {
@@ -36,7 +36,7 @@ impl Kick {
 pub(crate) struct Cluster {
     /// None where it cannot be moved.
     members: Vec<RigidBodyHandle>,
-    /// Of mass, m.
+    /// Centre of mass, m.
     pub(crate) centre: DVec3,
     /// Velocity there, m/s.
     pub(crate) linear: DVec3,
@@ -92,7 +92,7 @@ impl Cluster {
         }
     }
 
-    /// Of dynamic bodies: with their mass, momentum and angular momentum.
+    /// Makes one cluster of dynamic bodies, with their mass, momentum and angular momentum.
     pub(crate) fn of(bodies: &RigidBodySet, members: &[RigidBodyHandle]) -> Option<Self> {
         let all = || members.iter().map(|&h| &bodies[h]);
         let mass: f64 = all().map(|b| f64::from(b.mass())).sum();

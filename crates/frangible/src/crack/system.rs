@@ -101,16 +101,16 @@ pub(crate) struct Extent {
     pub(crate) origin: Vec3,
     /// Largest distance of a fractured tetrahedron from the start, m.
     pub(crate) size: f32,
-    /// Two of its tetrahedra that lie far apart …
+    /// Two of its tetrahedra that lie far apart.
     ends: [Vec3; 2],
-    /// … and their distance, m.
+    /// Distance between those two tetrahedra, m.
     pub(crate) chord: f32,
     /// Where the crack comes last in [`CrackSystem::growth`].
     pub(crate) latest_growth: u32,
 }
 
 impl Extent {
-    /// Of a crack that starts here.
+    /// The extent of a crack that starts here.
     pub(super) fn new(origin: Vec3) -> Self {
         Self {
             origin,

@@ -17,7 +17,7 @@ pub(crate) struct Tick {
 const SMALL_ANGLE: f64 = 0.02;
 
 impl Tick {
-    /// Of an oscillator q̈ + d q̇ + ω² q = f: ω, rad/s; d, 1/s; length of the tick, s.
+    /// The tick of an oscillator q̈ + d q̇ + ω² q = f: ω, rad/s; d, 1/s; length of the tick, s.
     pub(crate) fn new(frequency: f64, damping: f64, tick: f64) -> Self {
         let half = 0.5 * damping;
         let swings = frequency * frequency - half * half;

@@ -62,9 +62,9 @@ pub fn share_left(to_crack: Vec3, normal: Vec3, half_length: f32, beta: f32) -> 
 pub(crate) struct Shadow {
     /// The crack's unit normal.
     pub(crate) normal: Vec3,
-    /// Share of the stress that stretches, w_s …
+    /// Share w_s that is left of the stress that stretches.
     pub(crate) stretched: f32,
-    /// … and of the stress that bends, w_b.
+    /// Share w_b that is left of the stress that bends.
     pub(crate) bent: f32,
 }
 
@@ -103,7 +103,7 @@ impl Released {
         Self { whole, bending }
     }
 
-    /// By one crack.
+    /// Takes away what one crack releases.
     #[inline(always)]
     pub(crate) fn release(&mut self, by: &Shadow) {
         let n = by.normal;

@@ -116,7 +116,7 @@ fn a_longer_crack_leaves_less_without_a_place_nearer_by() {
     }
 }
 
-/// The same without queues, growth or short cuts.
+/// A memory without queues, growth or short cuts.
 #[derive(Clone)]
 struct Plain {
     arrived: Vec<bool>,
