@@ -241,28 +241,20 @@ fn pieces_drawn_apart_are_farther_from_each_other_and_can_be_selected() {
     });
     let outermost = births.fold(0.0, f32::max);
     assert!(outermost > 0.05 && (farthest - 2.0 * outermost).abs() < 1e-4);
-    // A piece seen from above has mass and a box around it. The ray falls on the highest triangle
-    // drawn, because a piece of a glass may be hollow below its centre of mass.
+    // Each piece is aimed at from above. A bent one may be missed, because its centre of mass lies beside it; a flat one is
+    // met, and has a mass and a box around it.
     give(&mut session, "explode 0");
-    let shown = session.shown();
-    let batches = shown.picture.batches.iter();
-    let centres = batches.flat_map(|batch| {
-        let corner = |v: u32| batch.positions[v as usize];
-        let faces = batch.faces.iter();
-        faces.map(move |&[a, b, c]| (corner(a) + corner(b) + corner(c)) / 3.0)
+    let live = session.live().unwrap();
+    let things = live.things().iter();
+    let pieces = things.filter(|t| t.mass > 0.0 && t.name.contains("piece"));
+    let centres: Vec<_> = pieces.map(|t| live.pose(t).unwrap().translation).collect();
+    let mut met = centres.iter().filter_map(|at| {
+        let (x, y, z) = (at.x, at.y, at.z);
+        let ray = format!("select {x},{},{z} {x},{y},{z}", y + 1.0);
+        give(&mut session, &ray);
+        session.shown().selection.filter(|thing| thing.mass > 0.0)
     });
-    let at = centres.max_by(|a, b| a.y.total_cmp(&b.y)).unwrap();
-    let line = format!(
-        "select {},{},{} {},{},{}",
-        at.x,
-        at.y + 1.0,
-        at.z,
-        at.x,
-        at.y,
-        at.z
-    );
-    give(&mut session, &line);
-    let selection = session.shown().selection.expect("something lies there");
+    let selection = met.next().expect("a piece lies there");
     assert!(selection.mass > 0.0 && selection.volume > 0.0);
     assert!(selection.size[0] >= selection.size[2] && selection.size[2] > 0.0);
 }
