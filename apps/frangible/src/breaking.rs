@@ -41,6 +41,7 @@ pub(crate) fn run(file: Option<&Path>, args: &BreakArgs) -> Result<(), Box<dyn E
     })?;
     stages.push(("bake".to_string(), 1e3 * clock.elapsed().as_secs_f64()));
     notes.extend(mesh_notes(&scene, &baked));
+    notes.extend(baked.iter().filter_map(idle_toughness));
     let runs = play_seeds(&scene, &baked, sheet.is_some(), &bar)?;
     let Some((_, run)) = runs.first() else {
         return Err("no seed to break with".into());
@@ -128,6 +129,23 @@ fn mesh_notes(scene: &Scene, baked: &[BakedBody]) -> Vec<String> {
         }
     }
     notes
+}
+
+/// A crack that is offered more than this many times its cost where it starts is stopped by no toughness.
+const IDLE_FEED: f64 = 100.0;
+
+/// What to know of a body whose toughness does nothing, as in the paper's own sets of numbers.
+fn idle_toughness(baked: &BakedBody) -> Option<String> {
+    let material = &baked.asset.material;
+    let feed = material.crack_feed();
+    (feed > IDLE_FEED).then(|| {
+        format!(
+            "{}: the fracture energy of `{}` stops no crack, because at its strength a crack is offered {feed:.0} times its cost; an energy_depth of {:.2} mm would let it",
+            baked.asset.name,
+            material.name,
+            1e3 * material.energy_depth * 8.0 / feed
+        )
+    })
 }
 
 /// Plays the scene, with a sheet once per seed, the scene's own first.

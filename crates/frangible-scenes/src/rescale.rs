@@ -26,6 +26,9 @@ pub struct MaterialEdit {
     pub name: Option<String>,
     /// The numbers of [`MaterialEdit::KEYS`], where another.
     pub numbers: [Option<f64>; 13],
+    /// Time in which stress rises to the strength, s: the strength is then what the preset's
+    /// [rate law](frangible::RateLaw) makes of it.
+    pub rise_time: Option<f64>,
 }
 
 impl MaterialEdit {
@@ -55,10 +58,11 @@ impl MaterialEdit {
         }
     }
 
-    /// The material with this changed.
+    /// The material with this changed. A strength alone derives the energy depth again ([`Material::with_strength`]); a fracture energy
+    /// alone is that of a tougher material with the same flaws, whose strength follows ([`Material::with_fracture_energy`]).
     ///
     /// # Errors
-    /// An unknown preset.
+    /// An unknown preset; a rise time that is not above zero, or of a material whose rate law is not known.
     pub fn apply(&self, at_hand: &Material) -> Result<Material, SceneError> {
         let mut m = match &self.preset {
             Some(preset) => Material::preset(preset)?,
@@ -67,26 +71,55 @@ impl MaterialEdit {
         if let Some(name) = &self.name {
             m.name.clone_from(name);
         }
-        let places = [
-            &mut m.youngs_modulus,
-            &mut m.poisson_ratio,
-            &mut m.density,
-            &mut m.stiffness_damping,
-            &mut m.mass_damping,
-            &mut m.strength,
-            &mut m.fracture_energy,
-            &mut m.energy_depth,
-            &mut m.weak_point_density,
-            &mut m.roughness_amplitude,
-            &mut m.roughness_wavelength,
-            &mut m.restitution,
-            &mut m.friction,
+        let [.., strength, fracture_energy, energy_depth, _, _, _, _, _] = self.numbers;
+        let stiffness = self.numbers[0];
+        m.youngs_modulus = stiffness.unwrap_or(m.youngs_modulus);
+        if let Some(fracture_energy) = fracture_energy {
+            m = m.with_fracture_energy(fracture_energy);
+        }
+        if let Some(strength) = strength {
+            m = m.with_strength(strength);
+        }
+        m.energy_depth = energy_depth.unwrap_or(m.energy_depth);
+        let rest = [
+            (&mut m.poisson_ratio, 1),
+            (&mut m.density, 2),
+            (&mut m.stiffness_damping, 3),
+            (&mut m.mass_damping, 4),
+            (&mut m.weak_point_density, 8),
+            (&mut m.roughness_amplitude, 9),
+            (&mut m.roughness_wavelength, 10),
+            (&mut m.restitution, 11),
+            (&mut m.friction, 12),
         ];
-        for (place, number) in places.into_iter().zip(self.numbers) {
-            *place = number.unwrap_or(*place);
+        for (place, number) in rest {
+            *place = self.numbers[number].unwrap_or(*place);
+        }
+        if let Some(rise_time) = self.rise_time {
+            let wrong = || SceneError::RiseTime {
+                rise_time,
+                name: m.name.clone(),
+                known: with_rates().join(", "),
+            };
+            let name = self.preset.as_ref().unwrap_or(&m.name);
+            let preset = Material::presets().iter().find(|p| p.name == name);
+            let law = preset.and_then(|p| p.rate);
+            let law = law
+                .filter(|_| rise_time.is_finite() && rise_time > 0.0)
+                .ok_or_else(wrong)?;
+            m.strength = law.strength(m.strength, rise_time);
         }
         Ok(m)
     }
+}
+
+/// Presets whose strength is known at high rates.
+fn with_rates() -> Vec<&'static str> {
+    let presets = Material::presets().iter();
+    presets
+        .filter(|p| p.rate.is_some())
+        .map(|p| p.name)
+        .collect()
 }
 
 /// The asset of a file with what is to be another.

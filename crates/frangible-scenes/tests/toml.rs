@@ -104,6 +104,7 @@ fn intricate() -> Scene {
     let mut edit = MaterialEdit::preset("stone");
     edit.name = Some("soft “stone”".into());
     (edit.numbers[0], edit.numbers[5]) = (Some(1e9 / 3.0), Some(1e6));
+    edit.rise_time = Some(1e-5);
     third.rescale.material = Some(edit);
     let mut scene = Scene::one_body(first);
     scene.name = "intricate".into();
@@ -607,4 +608,45 @@ fn weak_places_are_read_and_mistakes_in_them_named() {
     assert!(message.contains("built-in shape"), "{message}");
     let message = refused(&format!("{LEAST}weibull_modulus = 0.5\n"));
     assert!(message.contains("Weibull"), "{message}");
+}
+
+#[test]
+fn strength_fracture_energy_and_energy_depth_go_together() {
+    let glass = Material::preset("glass").unwrap();
+    let of = |text: &str| {
+        let scene = format!(
+            "[[body]]\nshape = {{ box = [0.1, 0.1, 0.1] }}\nmaterial = {{ preset = \"glass\", {text} }}"
+        );
+        let scene = parsed(&scene);
+        let again = parsed(&scene_to_toml(&scene));
+        assert_eq!(scene.bodies[0].material, again.bodies[0].material, "{text}");
+        scene.bodies[0].material.clone()
+    };
+    let tougher = of("fracture_energy = 30.0");
+    let root = (30.0 / glass.fracture_energy).sqrt();
+    assert!((tougher.strength / glass.strength - root).abs() < 1e-12);
+    assert_eq!(tougher.energy_depth, glass.energy_depth);
+    let stronger = of("strength = 82e6");
+    assert!((stronger.energy_depth / glass.energy_depth - 0.25).abs() < 1e-12);
+    let all = of("strength = 5e7, fracture_energy = 9.0, energy_depth = 0.004");
+    assert_eq!(
+        (all.strength, all.fracture_energy, all.energy_depth),
+        (5e7, 9.0, 0.004)
+    );
+    let fast = of("rise_time = 1e-5");
+    assert_eq!(fast.strength, 1.52 * glass.strength);
+    for wrong in [
+        "preset = \"ice\", rise_time = 1e-5",
+        "preset = \"glass\", rise_time = 0.0",
+    ] {
+        let scene =
+            format!("[[body]]\nshape = {{ box = [0.1, 0.1, 0.1] }}\nmaterial = {{ {wrong} }}");
+        let error = parse_scene(&scene, Path::new("folder"))
+            .unwrap_err()
+            .to_string();
+        assert!(
+            error.contains("rise_time") && error.contains("glass, concrete, pmma"),
+            "{error}"
+        );
+    }
 }

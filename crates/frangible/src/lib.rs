@@ -58,7 +58,7 @@ pub use names::nearest_name;
 pub use onset::{Onset, OnsetSearch};
 pub use outcome::{Fracture, Fragment, ImpactReport, LookedAt, Outcome, StageTimings};
 pub use piece::{Elastic, PieceModel, Portion};
-pub use presets::{Preset, UnknownMaterial};
+pub use presets::{Preset, RateLaw, UnknownMaterial};
 pub use stages::{Stage, Vibration, follow};
 pub use state::BodyState;
 pub use trace::{CrackTrace, ElementTrace};

@@ -70,6 +70,38 @@ impl Material {
         Ok(())
     }
 
+    /// The same material with another tensile strength, Pa. Its flaws are others then, so the energy depth is derived again:
+    /// `γ = 16 E G_c / R_c²`, 0.25 m at most, as for every [preset](crate::presets).
+    #[must_use]
+    pub fn with_strength(self, strength: f64) -> Self {
+        let depth = energy_depth(self.youngs_modulus, self.fracture_energy, strength);
+        Self {
+            strength,
+            energy_depth: depth,
+            ..self
+        }
+    }
+
+    /// The same material with another fracture energy, J/m². Its flaws stay what they are, and so does the energy depth, which is a
+    /// length of the flaws. What starts a crack at a flaw of given length grows with the root of the toughness (Griffith), so
+    /// the strength is multiplied by the root of the ratio of the fracture energies.
+    #[must_use]
+    pub fn with_fracture_energy(self, fracture_energy: f64) -> Self {
+        Self {
+            strength: self.strength * (fracture_energy / self.fracture_energy).sqrt(),
+            fracture_energy,
+            ..self
+        }
+    }
+
+    /// How many times its own cost a crack is offered where the tension is just the strength: `γ R_c² / (2 E G_c)`, 8 for a
+    /// preset. Where it is a thousand, toughness stops no crack.
+    #[must_use]
+    pub fn crack_feed(&self) -> f64 {
+        let density = self.strength * self.strength / (2.0 * self.youngs_modulus);
+        self.energy_depth * density / self.fracture_energy
+    }
+
     /// Lamé's first parameter λ, Pa.
     #[must_use]
     pub fn lame_lambda(&self) -> f64 {
@@ -93,5 +125,23 @@ impl Material {
     #[must_use]
     pub fn contact_modulus(&self) -> f64 {
         self.youngs_modulus / (1.0 - self.poisson_ratio * self.poisson_ratio)
+    }
+}
+
+/// How many times the depth that pays for a crack at the strength the energy depth is: a crack stops where the tension is 1/√8 of
+/// the strength.
+const ENERGY_DEPTH_FACTOR: f64 = 8.0;
+
+/// Largest energy depth, m.
+const ENERGY_DEPTH_LIMIT: f64 = 0.25;
+
+/// Energy depth of a material, m; [`presets`](crate::presets) say why.
+pub(crate) const fn energy_depth(youngs_modulus: f64, fracture_energy: f64, strength: f64) -> f64 {
+    let depth =
+        ENERGY_DEPTH_FACTOR * 2.0 * youngs_modulus * fracture_energy / (strength * strength);
+    if depth < ENERGY_DEPTH_LIMIT {
+        depth
+    } else {
+        ENERGY_DEPTH_LIMIT
     }
 }

@@ -157,3 +157,37 @@ fn a_name_like_no_other_gets_no_suggestion() {
         assert!(error.to_string().len() < 1000);
     }
 }
+
+#[test]
+fn a_tougher_material_with_the_same_flaws_is_stronger_and_a_stronger_one_has_other_flaws() {
+    let glass = Material::preset("glass").unwrap();
+    let tougher = glass
+        .clone()
+        .with_fracture_energy(4.0 * glass.fracture_energy);
+    assert!((tougher.strength / glass.strength - 2.0).abs() < 1e-12);
+    assert_eq!(tougher.energy_depth, glass.energy_depth);
+    let stronger = glass.clone().with_strength(2.0 * glass.strength);
+    assert!((stronger.energy_depth / glass.energy_depth - 0.25).abs() < 1e-12);
+    assert_eq!(stronger.fracture_energy, glass.fracture_energy);
+    for m in [&glass, &tougher, &stronger] {
+        assert!((m.crack_feed() - 8.0).abs() < 1e-9, "{}", m.crack_feed());
+    }
+}
+
+#[test]
+fn strength_rises_with_the_rate_as_far_as_it_was_measured() {
+    let mut laws = 0;
+    for preset in Material::presets() {
+        let Some(law) = preset.rate else { continue };
+        laws += 1;
+        let strength = preset.material().strength;
+        let at = |rise: f64| law.strength(strength, rise) / strength;
+        let slow = strength / law.reference;
+        assert!((at(slow) - 1.0).abs() < 1e-12 && at(10.0 * slow) == 1.0);
+        let tenth = 10_f64.powf(law.exponent);
+        assert!((at(0.1 * slow) - tenth).abs() < 1e-9, "{}", preset.name);
+        assert_eq!(at(1e-9), law.limit, "{}", preset.name);
+        assert!(!law.source.is_empty());
+    }
+    assert_eq!(laws, 3);
+}

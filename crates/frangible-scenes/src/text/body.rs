@@ -170,6 +170,7 @@ fn edit(table: MaterialTable) -> MaterialEdit {
             table.restitution,
             table.friction,
         ],
+        rise_time: table.rise_time,
     }
 }
 

@@ -41,6 +41,7 @@ pub(super) fn edit_text(edit: &MaterialEdit) -> String {
     let texts = [("preset", &edit.preset), ("name", &edit.name)].into_iter();
     let texts = texts.filter_map(|(key, text)| Some(format!("{key} = {}", quoted(text.as_ref()?))));
     let numbers = MaterialEdit::KEYS.iter().zip(edit.numbers);
+    let numbers = numbers.chain([(&"rise_time", edit.rise_time)]);
     let numbers = numbers.filter_map(|(key, value)| Some(format!("{key} = {}", number(value?))));
     let parts: Vec<String> = texts.chain(numbers).collect();
     format!("{{ {} }}", parts.join(", "))
@@ -79,8 +80,14 @@ pub(super) fn material_text(material: &Material) -> String {
             ("friction", m.friction),
         ]
     };
+    let differs = |ours: f64, theirs: f64| ours.to_bits() != theirs.to_bits();
+    // One of these alone would change the others when it is read.
+    let together = ["strength", "fracture_energy", "energy_depth"];
+    let resists = differs(material.strength, preset.strength)
+        || differs(material.fracture_energy, preset.fracture_energy)
+        || differs(material.energy_depth, preset.energy_depth);
     for ((key, ours), (_, theirs)) in fields(material).into_iter().zip(fields(&preset)) {
-        if ours.to_bits() != theirs.to_bits() {
+        if differs(ours, theirs) || (resists && together.contains(&key)) {
             parts.push(format!("{key} = {}", number(ours)));
         }
     }

@@ -17,7 +17,8 @@
 //!   `γ₁ = 2 E G_c / R_c²` is the depth at which a tension of just R_c pays for its crack. Eight times that lets a crack run on
 //!   until the tension falls to 1/√8 = 0.35 R_c: 5 mm for glass. Quasi-brittle materials (concrete, brick, stone) get metres by
 //!   that rule; γ is capped at 0.25 m, about the largest crack in the bodies meant here, so they need more than R_c to
-//!   break, as they do under impact.
+//!   break, as they do under impact. γ is a length of the material's flaws: [`Material::with_strength`] derives it again,
+//!   [`Material::with_fracture_energy`] keeps it and lets the strength follow.
 //! - **weak points** per m³: one per grain or flaw that matters, spaced about 3 mm in glass, 5 mm in brick, 10 mm in concrete.
 //! - **roughness**: grain-like amplitude and wavelength; glass breaks smooth and conchoidal, concrete follows its aggregate.
 //! - **restitution** and **friction**: for whole bodies meeting a hard floor at metres per second, dry. A polished glass
@@ -25,22 +26,20 @@
 //!
 //! The strikers and floors (`steel`, `rubber`, `wood`, `stone`) are isotropic and elastic here and meant to hit, not to break.
 
+mod rate;
 mod table;
 
 use thiserror::Error;
 
 use crate::material::Material;
 use crate::names::nearest_name;
+pub use rate::RateLaw;
 use table::PRESETS;
 
 /// Frequency at which the published loss factor is met, Hz.
 const LOSS_FREQUENCY: f64 = 10_000.0;
 /// Mass damping β of every real material, 1/s: the middle of the paper's 3 … 10.
 const MASS_DAMPING: f64 = 5.0;
-/// How many times γ₁ the energy depth is: a crack stops where the tension is 1/√8 of the strength.
-const ENERGY_DEPTH_FACTOR: f64 = 8.0;
-/// Largest energy depth, m.
-const ENERGY_DEPTH_LIMIT: f64 = 0.25;
 /// A name longer than this is cut in the message, characters.
 const LONGEST_NAME: usize = 48;
 
@@ -56,6 +55,8 @@ pub struct Preset {
     pub source: &'static str,
     /// Fracture toughness K_Ic, Pa·√m; 0 where the source gives only the fracture energy.
     pub fracture_toughness: f64,
+    /// How its strength rises with the rate, where that was measured.
+    pub rate: Option<RateLaw>,
     numbers: Numbers,
 }
 

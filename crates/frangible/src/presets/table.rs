@@ -2,9 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use super::{
-    ENERGY_DEPTH_FACTOR, ENERGY_DEPTH_LIMIT, LOSS_FREQUENCY, MASS_DAMPING, Numbers, Preset,
-};
+use super::{LOSS_FREQUENCY, MASS_DAMPING, Numbers, Preset, RateLaw, rate};
+use crate::material::energy_depth;
 
 /// A real material's published numbers, before the derived ones are filled in.
 struct Published {
@@ -41,13 +40,12 @@ const fn real(p: Published) -> Preset {
         ),
         Toughness::Energy(g) => (0.0, g),
     };
-    let depth =
-        ENERGY_DEPTH_FACTOR * 2.0 * p.youngs_modulus * fracture_energy / (p.strength * p.strength);
     Preset {
         name: p.name,
         summary: p.summary,
         source: p.source,
         fracture_toughness,
+        rate: None,
         numbers: Numbers {
             youngs_modulus: p.youngs_modulus,
             poisson_ratio: p.poisson_ratio,
@@ -56,16 +54,19 @@ const fn real(p: Published) -> Preset {
             fracture_energy,
             stiffness_damping: p.loss_factor / (TAU * LOSS_FREQUENCY),
             mass_damping: MASS_DAMPING,
-            energy_depth: if depth < ENERGY_DEPTH_LIMIT {
-                depth
-            } else {
-                ENERGY_DEPTH_LIMIT
-            },
+            energy_depth: energy_depth(p.youngs_modulus, fracture_energy, p.strength),
             weak_point_density: p.weak_point_density,
             roughness: p.roughness,
             restitution: p.restitution,
             friction: p.friction,
         },
+    }
+}
+
+const fn with_rate(preset: Preset, law: RateLaw) -> Preset {
+    Preset {
+        rate: Some(law),
+        ..preset
     }
 }
 
@@ -87,6 +88,7 @@ const fn paper(row: Table1, rest: &Preset) -> Preset {
         summary: row.summary,
         source: row.source,
         fracture_toughness: 0.0,
+        rate: None,
         numbers: Numbers {
             youngs_modulus: row.youngs_modulus,
             stiffness_damping: row.stiffness_damping,
@@ -350,15 +352,15 @@ const SLAB: Table1 = Table1 {
 };
 
 pub(super) static PRESETS: [Preset; 20] = [
-    GLASS,
+    with_rate(GLASS, rate::GLASS),
     PORCELAIN,
     BRICK,
-    CONCRETE,
+    with_rate(CONCRETE, rate::CONCRETE),
     MARBLE,
     ICE,
     SUGAR,
     CHOCOLATE,
-    PMMA,
+    with_rate(PMMA, rate::PMMA),
     STEEL,
     RUBBER,
     WOOD,
