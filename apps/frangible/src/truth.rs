@@ -5,7 +5,7 @@ use std::fmt::Write;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use frangible::{Breakable, Fields, Outcome, impact};
+use frangible::{Outcome, impact};
 use frangible_export::write_atomically;
 use frangible_scenes::SCENE_NAMES;
 use frangible_verify::pieces::{Broken, Truth, TruthPlan};
@@ -107,10 +107,7 @@ fn of_scene(name: &str) -> Result<Vec<Broken>, Box<dyn Error>> {
         let Some(record) = run.break_of(i) else {
             continue;
         };
-        let fields = Fields::from_paint(&baked.asset, &spec.paint)?
-            .patched(&baked.asset, &spec.weakness)?
-            .with_weibull_modulus(spec.weibull_modulus);
-        let kind = Breakable::new(baked.asset.clone())?.with_fields(fields)?;
+        let kind = frangible_scenes::breakable(spec, &baked.asset)?;
         for seed in 1..=SEEDS {
             let body = kind.body(seed);
             let outcome = impact(&body, &record.contacts, &scene.fracture)?;

@@ -41,8 +41,9 @@ pub struct BodySpec {
     /// Weakness painted with the vertex colours of its mesh; [`BodySpec::weakness`] lies over it. Not part of the bake, but the
     /// colours are.
     pub paint: Vec<Paint>,
-    /// Weibull modulus of the scatter of its strength, see [`frangible::Fields::weibull_modulus`]; 0: none.
-    pub weibull_modulus: f64,
+    /// Weibull modulus of the scatter of its strength, see [`frangible::Fields::weibull_modulus`]; 0: none. The material's preset
+    /// says it if nothing does here ([`frangible::Preset::weibull_modulus`]).
+    pub weibull_modulus: Option<f64>,
     /// What is to differ from the bake of a [`BodySource::Asset`]; not looked at for other sources.
     pub rescale: Rescale,
 }
@@ -84,7 +85,7 @@ impl BodySpec {
             supports: Vec::new(),
             weakness: Vec::new(),
             paint: Vec::new(),
-            weibull_modulus: 0.0,
+            weibull_modulus: None,
             rescale: Rescale::default(),
         }
     }

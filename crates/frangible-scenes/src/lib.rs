@@ -57,5 +57,5 @@ pub use source::{
     Axis, BodySource, FileKind, Opened, axes_of, compacted, open_source, save_asset,
     save_compact_asset,
 };
-pub use stage::intact_body;
+pub use stage::{breakable, intact_body};
 pub use text::{parse_scene, scene_to_toml};

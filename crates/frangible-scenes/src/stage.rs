@@ -255,10 +255,19 @@ fn is_convex(asset: &Asset) -> bool {
 }
 
 /// What bodies of this description and asset are made of, with what the description says of their weakness.
-fn breakable(spec: &BodySpec, asset: &Arc<Asset>) -> Result<Breakable, SceneError> {
+///
+/// # Errors
+/// A weakness that cannot be used.
+pub fn breakable(spec: &BodySpec, asset: &Arc<Asset>) -> Result<Breakable, SceneError> {
+    let preset = || {
+        let name = &asset.material.name;
+        Material::presets().iter().find(|p| p.name == name)
+    };
+    let scatter = spec.weibull_modulus;
+    let scatter = scatter.unwrap_or_else(|| preset().map_or(0.0, |p| p.weibull_modulus));
     let fields = Fields::from_paint(asset, &spec.paint)?
         .patched(asset, &spec.weakness)?
-        .with_weibull_modulus(spec.weibull_modulus);
+        .with_weibull_modulus(scatter);
     Ok(Breakable::new(Arc::clone(asset))?.with_fields(fields)?)
 }
 

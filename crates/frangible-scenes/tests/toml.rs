@@ -71,7 +71,7 @@ fn intricate() -> Scene {
         Material::preset("porcelain").unwrap(),
     );
     third.place = Place::Standing { over: [3.0, -2.0] };
-    third.weibull_modulus = 1e2 / 3.0;
+    third.weibull_modulus = Some(1e2 / 3.0);
     let zones = [
         Zone::Box([Vec3::ZERO, Vec3::new(0.1, -0.2, 1.0 / 3.0)]),
         Zone::Sphere {
@@ -556,7 +556,7 @@ fn weak_places_are_read_and_mistakes_in_them_named() {
          {{ box = [[0, 0, 0], [1, 1, 1]], toughness = 2, weak_points = 0 }},\n]\n"
     );
     let body = &parsed(&text).bodies[0];
-    assert_eq!(body.weibull_modulus, 8.0);
+    assert_eq!(body.weibull_modulus, Some(8.0));
     let line = Zone::Tube {
         line: vec![Vec3::ZERO, Vec3::Z * 0.1],
         radius: 0.002,

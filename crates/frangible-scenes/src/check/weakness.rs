@@ -30,7 +30,7 @@ pub(super) fn check_weakness(body: &BodySpec) -> Result<(), Fault> {
                        `sphere`, `plane` or `line`";
         return Err(Fault::new("weakness", SceneError::Clash(problem.into())));
     }
-    let m = body.weibull_modulus;
+    let m = body.weibull_modulus.unwrap_or(0.0);
     if m.to_bits() != 0 && !(m.is_finite() && m >= 1.0) {
         let must = "0 (no scatter), or 1 or above";
         return Err(quantity("weibull_modulus", "the Weibull modulus", m, must));

@@ -114,7 +114,7 @@ pub(super) fn body(table: BodyTable, usual: String, folder: &Path) -> Result<Bod
         .map(support)
         .collect::<Result<_, _>>()?;
     (body.paint, body.weakness) = super::weakness::weakness(table.weakness)?;
-    set(&mut body.weibull_modulus, table.weibull_modulus);
+    body.weibull_modulus = table.weibull_modulus;
     Ok(body)
 }
 

@@ -178,8 +178,8 @@ fn write_body(t: &mut Text, body: &BodySpec) {
         let all: Vec<String> = paint.chain(body.weakness.iter().map(patch_text)).collect();
         t.line("weakness", format!("[\n  {},\n]", all.join(",\n  ")));
     }
-    if body.weibull_modulus.to_bits() != 0 {
-        t.line("weibull_modulus", number(body.weibull_modulus));
+    if let Some(modulus) = body.weibull_modulus {
+        t.line("weibull_modulus", number(modulus));
     }
 }
 

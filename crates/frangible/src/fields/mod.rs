@@ -60,13 +60,19 @@ impl Factors {
 pub struct Fields {
     /// Of each fracture tetrahedron; empty: one everywhere.
     pub of_tet: Vec<Factors>,
-    /// Modulus m of a Weibull scatter of the strength from one weak point to another, its own of every body's seed; then
-    /// R_c is the stress that 63 % of the weak points do not survive. Real glass 5 to 10, fine ceramics 10 to 20; lower
-    /// scatters more. Default 0: no scatter.
+    /// Modulus m of a Weibull scatter of the strength from one weak point to another, another one for every body's seed. Real glass
+    /// 5 to 10, fine ceramics 10 to 20; lower scatters more. Default 0: no scatter, every weak point has R_c.
+    ///
+    /// A tested specimen is as strong as the weakest of its many flaws, so a single flaw is usually much stronger. With a scatter
+    /// R_c is the strength that 63 % of specimens of [`SPECIMEN`](Self::SPECIMEN) do not survive, and 63 % of single weak points
+    /// do not survive R_c times the m-th root of the number of weak points in a specimen.
     pub weibull_modulus: f64,
 }
 
 impl Fields {
+    /// Volume of the specimen whose strength R_c is, where strength scatters, m³: a pane of 4 mm with 240 cm² under load.
+    pub const SPECIMEN: f64 = 1e-4;
+
     /// Factors of the place of each tetrahedron's centre: m, body frame.
     #[must_use]
     pub fn from_function(asset: &Asset, factors: impl Fn(Vec3) -> Factors) -> Self {
