@@ -96,7 +96,7 @@ fn plate(painted: bool) -> String {
 /// A steel ball in the middle of the plate; where the mesh is painted, green is missing.
 fn scene(folder: &Path, mesh: &str, weakness: &str) -> Scene {
     let text = format!(
-        "duration = 1\n[[body]]\nmesh = \"{mesh}\"\nup = \"y\"\nmaterial = \"glass\"\nmodes = 40\n\
+        "duration = 1\n[[body]]\nmesh = \"{mesh}\"\nup = \"y\"\nmaterial = \"glass\"\nmodes = 40\nweibull_modulus = 0\n\
          resolution = 12000\nposition = [0, 1, 0]\n{weakness}\n\
          [[projectile]]\nmass = 0.13\nradius = 0.016\nspeed = 6\ntoward = [0, 0, -1]\n"
     );

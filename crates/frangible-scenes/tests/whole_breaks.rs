@@ -10,7 +10,9 @@ use common::{
     strike,
 };
 use frangible::glam::{DMat3, DVec3, Vec3};
-use frangible::{Asset, Body, Contact, Fracture, FractureConfig, Outcome, TriMesh, impact};
+use frangible::{
+    Asset, Body, Breakable, Contact, Fracture, FractureConfig, Outcome, TriMesh, impact,
+};
 
 type Case = (&'static str, &'static Arc<Asset>, Contact);
 
@@ -587,4 +589,28 @@ fn cracks_cost_their_area_times_the_toughness() {
             "{name}: it broke below its strength"
         );
     });
+}
+
+#[test]
+fn a_fast_ball_cuts_a_plug_out_and_keeps_most_of_its_speed() {
+    let kind = Breakable::new(Arc::clone(pane())).unwrap();
+    let hit = [pane_hit(0.0, 0.0, 40.0)];
+    let config = FractureConfig::default();
+    let outcome = impact(&kind.body(1), &hit, &config).unwrap();
+    let strong = kind.body(1).strengthened(1e3);
+    let whole = impact(&strong, &hit, &config).unwrap();
+    let [cut, held] = [&outcome, &whole].map(|o| o.report().contacts[0].clone());
+    println!(
+        "{:.0} µs, {:.2} N·s, leaves at {:.1} m/s; a pane that holds: {:.0} µs, {:.2} N·s, {:.1} m/s",
+        1e6 * cut.duration,
+        cut.impulse,
+        cut.departure_speed,
+        1e6 * held.duration,
+        held.impulse,
+        held.departure_speed
+    );
+    assert!(matches!(outcome, Outcome::Broke(_)));
+    // The wall under the ball is gone long before the ball would have come to rest.
+    assert!(cut.duration < 0.2 * held.duration && cut.impulse < 0.5 * held.impulse);
+    assert!(cut.departure_speed < -20.0, "{}", cut.departure_speed);
 }

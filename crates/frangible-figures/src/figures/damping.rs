@@ -7,7 +7,7 @@ use frangible::{Asset, Body, Contact, FractureConfig, Outcome, impact};
 use frangible_draw::RgbImage;
 
 use crate::FigureError;
-use crate::bodies::{changed, slab_blow};
+use crate::bodies::{changed, slab_blow, slab_inputs};
 use crate::draw::{Look, Model, PieceColours, add_pieces, below, beside};
 use crate::figure::{Claim, Figure, Findings, Picture, Table};
 use crate::statistics::{Damage, SEEDS, falls, mean_damage, models, pieces};
@@ -71,8 +71,9 @@ fn compute(workshop: &mut Workshop<'_>) -> Result<Findings, FigureError> {
                 .into(),
         },
         text: format!(
-            "The slab and the blow of Fig. 7 at G_c 90 J/m², pieces pulled apart, seed 1; means over {SEEDS} seeds. α damps mode i at the rate α ω_i²: \
+            "The slab and the blow of Fig. 7 at G_c 90 J/m². {}. Pieces are pulled apart, seed 1; means over {SEEDS} seeds. α damps mode i at the rate α ω_i²: \
              of the slab's 100 modes the highest has {:.0} Hz. How much of a mode is left after the pulse depends on α ω_i² times the pulse.",
+            slab_inputs(&slab),
             slab.modes.frequency(slab.modes.count() - 1)
         ),
         claims,

@@ -445,7 +445,8 @@ impl pulp::NullaryFnOnce for Run<'_> {
                 record.sample(plan, &state, &forces, true);
             }
             if !parted {
-                parted = self.has_parted(&state, &speeds, &forces, t) || substep >= MOST_SUBSTEPS;
+                parted = self.has_parted(&state, &speeds, &forces, &weakness, t)
+                    || substep >= MOST_SUBSTEPS;
                 if parted {
                     record.energy_at_parting = energies(&state)[0];
                 }
@@ -459,14 +460,24 @@ impl pulp::NullaryFnOnce for Run<'_> {
 }
 
 impl Run<'_> {
-    /// Whether every contact is open and opening further.
+    /// Whether every contact is open and opening further, or has nothing left to push.
     #[inline(always)]
-    fn has_parted(&self, state: &BankState, speeds: &[f64], forces: &[f64], t: f64) -> bool {
+    fn has_parted(
+        &self,
+        state: &BankState,
+        speeds: &[f64],
+        forces: &[f64],
+        weakness: &[f64],
+        t: f64,
+    ) -> bool {
         let plan = self.plan;
         if forces.iter().any(|&f| f > 0.0) {
             return false;
         }
         plan.sites.iter().enumerate().all(|(k, site)| {
+            if weakness[k].is_infinite() {
+                return true;
+            }
             if let Some([_, duration]) = site.script {
                 return t >= duration;
             }
@@ -561,6 +572,7 @@ fn solve(
         for k in 0..count {
             let site = &plan.sites[k];
             let found = match site.script {
+                _ if weakness[k].is_infinite() => 0.0,
                 Some([impulse, duration]) if t < duration => {
                     0.5 * PI * impulse / duration * (PI * t / duration).sin()
                 }

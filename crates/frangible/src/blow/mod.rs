@@ -21,7 +21,7 @@
 //! What friction there is follows the normal force: F_k pushes along n + f, f the ratio of the engine's friction and normal impulse.
 //!
 //! A star of cracks under a contact leaves cantilevers, which give way more (`star.rs`): from then on the force is found anew, and falls with
-//! what the star has cut.
+//! what the star has cut. Where rings of cracks have cut the wall under the contact out, the blow ends.
 //!
 //! # Limits
 //!
