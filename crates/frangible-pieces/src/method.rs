@@ -8,8 +8,6 @@ pub enum Method {
     ModalProxy,
     /// Its parent's modes on its own elements ([`parent_modes`](crate::parent_modes())).
     ParentModes,
-    /// Linear elasticity without inertia ([`quasi_static`](crate::quasi_static())).
-    QuasiStatic,
     /// A small modal analysis of its own ([`reanalysis`](crate::reanalysis())); [`Method::ParentModes`] until it is ready.
     Reanalysis,
     /// What was measured to be best: see [`Pieces::method_for`](crate::Pieces::method_for).

@@ -6,9 +6,9 @@ use frangible::Body;
 use frangible::piece::{Elastic, PieceModel, Portion};
 
 use crate::method::Method;
-use crate::{PieceError, ProxyLibrary, parent_modes, quasi_static, reanalysis};
+use crate::{PieceError, ProxyLibrary, parent_modes, reanalysis};
 
-/// Finds how pieces vibrate, by one of four methods.
+/// Finds how pieces vibrate, by one of three methods.
 #[derive(Debug)]
 #[non_exhaustive]
 pub struct Pieces {
@@ -40,8 +40,7 @@ impl Pieces {
     }
 
     /// The method that serves a piece of so many uncut tetrahedra, in the end. [`Method::Auto`] gives every piece its own modes:
-    /// measured on fragments of all scenes (`docs/recursive.md`), nothing as quick decides right more often, and small pieces, for
-    /// which statics might do, have their modes sooner than a factored stiffness of as many elements.
+    /// measured on fragments of all scenes (`docs/recursive.md`), nothing as quick decides right more often.
     #[must_use]
     pub fn method_for(&self, _tets: usize) -> Method {
         match self.method {
@@ -72,12 +71,13 @@ impl Pieces {
         portion: &Arc<Portion>,
         parent: &Body,
     ) -> Result<Elastic, PieceError> {
-        let elements = self.elements_for(portion.tets().len());
         match method {
             Method::ModalProxy => self.library(portion)?.fitted(portion),
             Method::ParentModes => parent_modes(portion, parent),
-            Method::QuasiStatic => quasi_static(portion, elements),
-            Method::Reanalysis => reanalysis(portion, elements, self.modes),
+            Method::Reanalysis => {
+                let elements = self.elements_for(portion.tets().len());
+                reanalysis(portion, elements, self.modes)
+            }
             Method::Auto => self.elastic(self.method_for(portion.tets().len()), portion, parent),
         }
     }

@@ -14,7 +14,7 @@ use crate::error::InputError;
 use crate::fragment::{self, Built, Labels};
 use crate::modal::Motion;
 use crate::outcome::{Fracture, ImpactReport, LookedAt, Outcome};
-use crate::piece::{Breakup, static_impact};
+use crate::piece::Breakup;
 use crate::stages::Vibration;
 use crate::state::BodyState;
 use crate::stress::{BATCH, DisplacementBatch, MARGIN, STRIDE, lane};
@@ -34,9 +34,6 @@ pub fn impact(
     contacts: &[Contact],
     config: &FractureConfig,
 ) -> Result<Outcome, InputError> {
-    if let Some(statics) = &body.statics {
-        return static_impact(body, statics, contacts, config, &mut None);
-    }
     let cracked = cracks(body, contacts, config, &mut None)?;
     Ok(pieces(body, cracked))
 }
@@ -52,10 +49,7 @@ pub fn impact_traced(
     config: &FractureConfig,
 ) -> Result<(Outcome, CrackTrace), InputError> {
     let mut trace = Some(CrackTrace::default());
-    let outcome = match &body.statics {
-        Some(statics) => static_impact(body, statics, contacts, config, &mut trace)?,
-        None => pieces(body, cracks(body, contacts, config, &mut trace)?),
-    };
+    let outcome = pieces(body, cracks(body, contacts, config, &mut trace)?);
     Ok((outcome, trace.unwrap_or_default()))
 }
 
@@ -68,10 +62,6 @@ pub fn would_break(
     contacts: &[Contact],
     config: &FractureConfig,
 ) -> Result<bool, InputError> {
-    if body.statics.is_some() {
-        let outcome = impact(body, contacts, config)?;
-        return Ok(matches!(outcome, Outcome::Broke(_)));
-    }
     let cracked = cracks(body, contacts, config, &mut None)?;
     Ok(matches!(cracked, Cracked::Parted(..)))
 }
@@ -81,7 +71,6 @@ pub fn would_break(
 #[must_use]
 pub fn is_harmless(body: &Body, contacts: &[Contact], config: &FractureConfig) -> bool {
     config.culling
-        && body.statics.is_none()
         && contacts.iter().all(|c| c.validate().is_ok())
         && contact::refused(body, contacts, config).is_some()
 }

@@ -6,14 +6,14 @@ use crate::body::Body;
 use crate::config::FractureConfig;
 use crate::contact::{Contact, Pulse};
 use crate::error::{InputError, positive};
-use crate::impact::{Begun, Cracked, Cracking, begin, impact, pieces, report_on, vibrate};
+use crate::impact::{Begun, Cracked, Cracking, begin, pieces, report_on, vibrate};
 use crate::modal::{self, Motion};
 use crate::outcome::{ImpactReport, LookedAt, Outcome};
 
 /// What the first stage of an impact leaves to do.
 #[derive(Clone, Debug)]
 pub enum Stage {
-    /// Nothing: its impulses are too weak for any crack. Or the body is a piece without modes, and this is what came of it.
+    /// Nothing: its impulses are too weak for any crack.
     Held(Outcome),
     /// Its modes have to be followed over time.
     Vibrates(Vibration),
@@ -45,9 +45,6 @@ impl Vibration {
         contacts: &[Contact],
         config: &FractureConfig,
     ) -> Result<Stage, InputError> {
-        if body.statics.is_some() {
-            return Ok(Stage::Held(impact(body, contacts, config)?));
-        }
         Ok(match begin(body, contacts, config, config.culling)? {
             Begun::Held(margin, report) => Stage::Held(Outcome::Held {
                 margin,
@@ -103,7 +100,7 @@ impl Vibration {
 /// A motion whose rows are all the same is a steady state: what methods without a vibration make of an impact.
 ///
 /// # Errors
-/// A body without modes, or a motion, time step or energy that is not one of this body.
+/// A motion, time step or energy that is not one of this body.
 pub fn follow(
     body: &Body,
     motion: &Motion,
@@ -111,9 +108,6 @@ pub fn follow(
     time_step: f64,
     config: &FractureConfig,
 ) -> Result<Outcome, InputError> {
-    if body.statics.is_some() {
-        return Err(InputError::Motion("the body is a piece without modes"));
-    }
     if motion.modes != body.asset.modes.followed() || motion.steps() == 0 {
         return Err(InputError::Motion(
             "it must have an amplitude for each of the body's modes and one time step or more",

@@ -12,7 +12,7 @@ use std::sync::Arc;
 use frangible::asset::{AnalysisMesh, EmbeddedPoint};
 use frangible::glam::{DMat3, DVec3, Vec3};
 use frangible::modal::ModalBasis;
-use frangible::piece::{Elastic, Portion, Response};
+use frangible::piece::{Elastic, Portion};
 
 use crate::PieceError;
 pub use library::ProxyLibrary;
@@ -50,7 +50,7 @@ impl ProxyLibrary {
             tets: centroids.map(|p| fit.embed(p)).collect(),
             nodes: nodes.map(|p| fit.embed(p)).collect(),
             analysis: fit.analysis(),
-            response: Response::Modes(ModalBasis {
+            modes: ModalBasis {
                 eigenvalues: proxy
                     .eigenvalues
                     .iter()
@@ -59,7 +59,7 @@ impl ProxyLibrary {
                 shapes,
                 peak_stress: Vec::new(),
                 ..ModalBasis::default()
-            }),
+            },
         })
     }
 }

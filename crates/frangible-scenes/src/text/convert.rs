@@ -111,7 +111,6 @@ fn pieces(table: PiecesTable) -> PieceSpec {
         MethodName::Auto => Method::Auto,
         MethodName::ModalProxy => Method::ModalProxy,
         MethodName::ParentModes => Method::ParentModes,
-        MethodName::QuasiStatic => Method::QuasiStatic,
         MethodName::Reanalysis => Method::Reanalysis,
     });
     set(&mut spec.method, method);

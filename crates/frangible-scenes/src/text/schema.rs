@@ -177,7 +177,6 @@ pub(super) enum MethodName {
     Auto,
     ModalProxy,
     ParentModes,
-    QuasiStatic,
     Reanalysis,
 }
 

@@ -82,7 +82,6 @@ fn write_pieces(t: &mut Text, pieces: &PieceSpec) {
     let method = match pieces.method {
         Method::ModalProxy => "modal_proxy",
         Method::ParentModes => "parent_modes",
-        Method::QuasiStatic => "quasi_static",
         Method::Reanalysis => "reanalysis",
         _ => "auto",
     };

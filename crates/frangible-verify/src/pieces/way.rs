@@ -20,7 +20,7 @@ pub struct Way {
 }
 
 /// All ways, in the order of the tables.
-pub const WAYS: [Way; 8] = [
+pub const WAYS: [Way; 7] = [
     Way {
         name: "modal proxy",
         method: Method::ModalProxy,
@@ -29,11 +29,6 @@ pub const WAYS: [Way; 8] = [
     Way {
         name: "parent's modes",
         method: Method::ParentModes,
-        size: None,
-    },
-    Way {
-        name: "quasi-static",
-        method: Method::QuasiStatic,
         size: None,
     },
     Way {
@@ -65,10 +60,10 @@ pub const WAYS: [Way; 8] = [
 
 /// Places of the ways that the page speaks of.
 pub(crate) const PARENT_MODES: usize = 1;
-pub(crate) const REANALYSIS: usize = 4;
-pub(crate) const FINE: usize = 5;
-pub(crate) const FINEST: usize = 6;
-pub(crate) const AUTO: usize = 7;
+pub(crate) const REANALYSIS: usize = 3;
+pub(crate) const FINE: usize = 4;
+pub(crate) const FINEST: usize = 5;
+pub(crate) const AUTO: usize = 6;
 
 /// The ways with what they need.
 pub(crate) struct Ways(Vec<Pieces>);
