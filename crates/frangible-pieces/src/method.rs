@@ -1,11 +1,9 @@
 //! Names of the methods.
 
-/// How to find the stress in a piece.
+/// How a piece is found to vibrate.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Method {
-    /// The modes of the stored shape that it resembles most, scaled ([`ProxyLibrary`](crate::ProxyLibrary)).
-    ModalProxy,
     /// Its parent's modes on its own elements ([`parent_modes`](crate::parent_modes())).
     ParentModes,
     /// A small modal analysis of its own ([`reanalysis`](crate::reanalysis())); [`Method::ParentModes`] until it is ready.

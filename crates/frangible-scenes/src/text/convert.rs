@@ -109,7 +109,6 @@ fn pieces(table: PiecesTable) -> PieceSpec {
     set(&mut spec.least_mass, table.least_mass);
     let method = table.method.map(|name| match name {
         MethodName::Auto => Method::Auto,
-        MethodName::ModalProxy => Method::ModalProxy,
         MethodName::ParentModes => Method::ParentModes,
         MethodName::Reanalysis => Method::Reanalysis,
     });

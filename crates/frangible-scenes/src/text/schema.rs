@@ -175,7 +175,6 @@ pub(super) struct PiecesTable {
 #[serde(rename_all = "snake_case")]
 pub(super) enum MethodName {
     Auto,
-    ModalProxy,
     ParentModes,
     Reanalysis,
 }

@@ -80,7 +80,6 @@ fn write_pieces(t: &mut Text, pieces: &PieceSpec) {
     );
     t.noted("least_mass", number(pieces.least_mass), "kg");
     let method = match pieces.method {
-        Method::ModalProxy => "modal_proxy",
         Method::ParentModes => "parent_modes",
         Method::Reanalysis => "reanalysis",
         _ => "auto",
