@@ -2,7 +2,6 @@
 
 mod basis;
 mod energy;
-mod field;
 mod live;
 mod reach;
 mod response;
@@ -12,7 +11,6 @@ mod tick;
 pub use basis::ModalBasis;
 pub(crate) use energy::ContactEnergy;
 pub use energy::contact_energy_within;
-pub use field::ModeField;
 pub use live::{LiveModes, SurfacePlace};
 pub(crate) use reach::Reaches;
 pub use response::{Motion, Oscillator, respond};

@@ -76,14 +76,6 @@ impl Symmetric3 {
         Self::from_components(std::array::from_fn(|i| a[i] + b[i]))
     }
 
-    /// Von Mises' equivalent of a stress, √(3 J₂): what a bar under this much tension would feel of change of shape.
-    #[must_use]
-    pub fn von_mises(self) -> f32 {
-        let ([xx, yy, zz], [xy, yz, zx]) = (self.diagonal, self.off);
-        let differences = (xx - yy).powi(2) + (yy - zz).powi(2) + (zz - xx).powi(2);
-        (0.5 * differences + 3.0 * (xy * xy + yz * yz + zx * zx)).sqrt()
-    }
-
     /// The tensor times a vector.
     #[must_use]
     pub fn times(self, v: Vec3) -> Vec3 {
