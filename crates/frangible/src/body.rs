@@ -12,7 +12,7 @@ use crate::error::InputError;
 use crate::fields::{Fields, Resistance, Toughness};
 use crate::fragment::{MeshIndex, RenderIndex};
 use crate::loads::PerNewton;
-use crate::mesh::TriangleTree;
+use crate::mesh::{SurfacePoint, TriangleTree};
 use crate::modal::{ModalBasis, Reaches};
 use crate::rng::{Purpose, stream, uniform};
 use crate::state::BodyState;
@@ -268,6 +268,13 @@ impl Body {
     /// Works out what its first steady load would ask for, so that this does not have to wait for it.
     pub fn prepare_for_loads(&self) {
         crate::loads::prepare(self);
+    }
+
+    /// The point of its surface nearest to a point, m, body frame.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn nearest_on_surface(&self, point: Vec3) -> SurfacePoint {
+        self.prepared.surface.closest(point)
     }
 
     /// Its centre of mass in the frame of the fracture mesh, m: zero but for pieces.
