@@ -4,7 +4,8 @@ use std::path::Path;
 
 use frangible::glam::Vec3;
 use frangible::near_field::PlateTheory;
-use frangible::{CrackPath, CrackTiming, DurationModel, FractureConfig, Material, nearest_name};
+use frangible::{CrackPath, CrackTiming, DurationModel, FractureConfig, Material};
+use frangible_mesh::nearest_name;
 
 use super::body::body;
 use super::either::SwitchOrName;
