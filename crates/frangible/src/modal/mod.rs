@@ -9,7 +9,6 @@ mod tick;
 
 pub use basis::ModalBasis;
 pub(crate) use energy::ContactEnergy;
-pub use energy::contact_energy_within;
 pub(crate) use reach::Reaches;
 pub use response::{Motion, Oscillator, respond};
 #[doc(hidden)]

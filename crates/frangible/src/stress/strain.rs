@@ -200,12 +200,6 @@ impl Elasticity {
         self.state_by(gradient, Law::Free(n))
     }
 
-    /// The same at the edge between two free surfaces that runs along unit `t`: all that is left is the tension along it.
-    #[must_use]
-    pub fn edge_state(&self, gradient: Mat3, t: Vec3) -> StressState {
-        self.state_by(gradient, Law::Edge(t))
-    }
-
     /// By any of the laws, for the steps of a batch side by side; `[column j][row i]` = ∂u_i/∂x_j.
     #[inline(always)]
     pub(crate) fn lanes(&self, gradient: &[[Wide; 3]; 3], law: Law) -> StressLanes {
@@ -356,7 +350,7 @@ pub enum Law {
     Solid,
     /// Beside a free surface of this unit normal: [`Elasticity::free_state`].
     Free(Vec3),
-    /// At an edge along this unit vector: [`Elasticity::edge_state`].
+    /// At the edge between two free surfaces that runs along this unit vector: all that is left is the tension along it.
     Edge(Vec3),
 }
 
@@ -410,7 +404,7 @@ mod tests {
                     energy += 0.5 * sigma * back;
                 }
                 assert!((free.energy_density - energy).abs() < 1e-5 * size * 1e-4);
-                let edge = law.edge_state(g, n);
+                let edge = law.state_by(g, Law::Edge(n));
                 let along = n.dot(strain.times(n));
                 assert!((n.dot(edge.stress.times(n)) - e * along).abs() < 1e-5 * size);
                 assert!(edge.stress.times(a).length() < 1e-5 * size);
