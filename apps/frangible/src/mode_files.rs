@@ -4,8 +4,10 @@ use std::error::Error;
 
 use frangible::Asset;
 use frangible::glam::{Quat, Vec3};
-use frangible::modal::ModeField;
 use frangible::stress::{Symmetric3, largest_eigenvalue};
+use frangible_bake::mode_field::{
+    ModeField, mode_on_analysis_mesh, mode_on_fracture_mesh, von_mises,
+};
 use frangible_export::{ExportError, VtuCells, VtuField, VtuMesh, VtuValues, write_vtu};
 
 /// How far the largest displacement is drawn, as a share of the body's diagonal.
@@ -51,7 +53,7 @@ pub(crate) fn picture(_: &Asset, _: usize, _: Quat, _: Vec3) -> Result<Vec<u8>, 
 /// A mode on the outer surface, turned as its scene turns it.
 #[cfg(feature = "draw")]
 fn cell(asset: &Asset, mode: usize, rotation: Quat) -> frangible_draw::ModeCell {
-    let field = asset.mode_on_fracture_mesh(mode);
+    let field = mode_on_fracture_mesh(asset, mode);
     let nodes = &asset.fracture.positions;
     let low = nodes.iter().fold(Vec3::INFINITY, |low, &p| low.min(p));
     let high = nodes
@@ -70,7 +72,7 @@ fn cell(asset: &Asset, mode: usize, rotation: Quat) -> frangible_draw::ModeCell 
             if place[node] == u32::MAX {
                 place[node] = positions.len() as u32;
                 positions.push(rotation * (nodes[node] + scale * field.displacements[node]));
-                stresses.push(field.stresses[node].von_mises());
+                stresses.push(von_mises(&field.stresses[node]));
             }
             place[node]
         }));
@@ -111,14 +113,14 @@ fn three_digits(value: f64) -> String {
 /// The elements that carry the modes, with all shapes and stresses.
 pub(crate) fn analysis_vtu(asset: &Asset) -> Result<Vec<u8>, ExportError> {
     let cells = VtuCells::Quadratic(&asset.analysis.elements);
-    let fields = (0..asset.modes.count()).map(|i| asset.mode_on_analysis_mesh(i));
+    let fields = (0..asset.modes.count()).map(|i| mode_on_analysis_mesh(asset, i));
     vtu(asset, &asset.analysis.nodes, cells, fields)
 }
 
 /// The same on the mesh that carries cracks.
 pub(crate) fn fracture_vtu(asset: &Asset) -> Result<Vec<u8>, ExportError> {
     let cells = VtuCells::Linear(&asset.fracture.tets);
-    let fields = (0..asset.modes.count()).map(|i| asset.mode_on_fracture_mesh(i));
+    let fields = (0..asset.modes.count()).map(|i| mode_on_fracture_mesh(asset, i));
     vtu(asset, &asset.fracture.positions, cells, fields)
 }
 
@@ -143,7 +145,7 @@ fn vtu(
         let shape: Vec<Vec3> = field.displacements.iter().map(|&u| scale * u).collect();
         vectors.push((format!("mode_{number:02}"), shape));
         let stresses = &field.stresses;
-        let von_mises: Vec<f32> = stresses.iter().map(|s| scale * s.von_mises()).collect();
+        let von_mises: Vec<f32> = stresses.iter().map(|s| scale * von_mises(s)).collect();
         let principal = stresses.iter().map(|s| scale * principal(s));
         scalars.push((format!("von_mises_{number:02}"), von_mises));
         scalars.push((format!("principal_{number:02}"), principal.collect()));

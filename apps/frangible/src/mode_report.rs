@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 use std::fmt::Write;
 
 use frangible::stress::Symmetric3;
+use frangible_bake::mode_field::mode_on_fracture_mesh;
 use frangible_scenes::BakedBody;
 use serde::Serialize;
 
@@ -47,7 +48,7 @@ impl ModeReport {
             |i: usize| modes.damping(i, &asset.material) / (2.0 * TAU * modes.frequency(i));
         // Not the asset's own bound: that is taken amid the tetrahedra, and misses the skin of a thin plate.
         let peak = |i: usize| {
-            let field = asset.mode_on_fracture_mesh(i);
+            let field = mode_on_fracture_mesh(asset, i);
             let moved = field.largest_displacement().max(f32::MIN_POSITIVE);
             let stresses = field.stresses.iter().map(largest_tension);
             f64::from(stresses.fold(0.0, f32::max)) / f64::from(moved)

@@ -1,7 +1,7 @@
 //! What holds a body: parts of it that do not move, in all directions or in some.
 
 use frangible::glam::DVec3;
-use frangible::nearest_name;
+use frangible_mesh::nearest_name;
 
 use crate::error::BakeError;
 use crate::groups::{Group, Reach};

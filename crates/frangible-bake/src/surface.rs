@@ -4,7 +4,7 @@ use frangible::TetMesh;
 use frangible::asset::OuterSurface;
 use frangible::glam::{DVec3, Vec3};
 
-pub use frangible::asset::SMALLEST_CURVATURE_RADIUS as SMALLEST_RADIUS;
+pub use crate::rescale::SMALLEST_CURVATURE_RADIUS as SMALLEST_RADIUS;
 
 /// Faces that meet at a larger angle, degrees, keep their edge sharp.
 pub const CREASE: f64 = 35.0;

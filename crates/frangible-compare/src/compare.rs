@@ -2,8 +2,9 @@
 
 use web_time::Instant;
 
-use frangible::{Border, Division, Outcome, impact};
+use frangible::{Outcome, impact};
 
+use crate::divide::{Border, Division};
 use crate::elements;
 use crate::energy_voronoi::{self, DEFAULT_SITES};
 use crate::error::CompareError;

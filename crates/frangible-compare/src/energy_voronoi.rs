@@ -12,8 +12,7 @@
 //! Left out: their quasi-static solver (the moment comes from our modes), several events during one contact, and all sound. They
 //! go on drawing sites until the energy is spent; here their number is stated, and each border must pay for itself as well.
 
-use frangible::{Border, Division};
-
+use crate::divide::{Border, Division};
 use crate::draws::Draws;
 use crate::error::CompareError;
 use crate::hit::Hit;

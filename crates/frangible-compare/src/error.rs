@@ -16,6 +16,9 @@ pub enum CompareError {
     /// A piece of a broken body.
     #[error("`{0}` is a piece of a broken body; methods are compared on whole bodies only")]
     Piece(String),
+    /// Labels by which a body cannot be divided.
+    #[error("a body cannot be divided: {0}")]
+    Labels(String),
     /// An option that cannot be used.
     #[error("{what} is {value}; it must be {wanted}")]
     Option {

@@ -15,6 +15,7 @@
 //! same input and seed give the same bits.
 
 mod compare;
+mod divide;
 mod draws;
 mod elements;
 mod energy_voronoi;
@@ -29,6 +30,7 @@ mod result;
 mod voronoi;
 
 pub use compare::{Options, compare};
+pub use divide::{Border, Division};
 pub use energy_voronoi::DEFAULT_SITES;
 pub use error::CompareError;
 pub use hit::Hit;

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use frangible::nearest_name;
+use strsim::levenshtein;
 
 /// A way to break a body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -61,7 +61,10 @@ impl Method {
         let found = Self::ALL.into_iter().find(|method| method.name() == name);
         found.ok_or_else(|| {
             let known = Self::ALL.map(Self::name);
-            let hint = nearest_name(name, known)
+            let near = |n: &&str| 2 * levenshtein(name, n) <= name.chars().count();
+            let nearest = known.into_iter().min_by_key(|n| levenshtein(name, n));
+            let hint = nearest
+                .filter(near)
                 .map_or(String::new(), |n| format!(", did you mean `{n}`?"));
             let known = known.join(", ");
             format!("there is no method `{name}`{hint}; methods: {known}")

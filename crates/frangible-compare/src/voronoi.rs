@@ -5,9 +5,11 @@
 //! at least. A cell that hangs together in several parts leaves several pieces, one that holds no node of the mesh none.
 
 use frangible::glam::{DVec3, Vec3};
-use frangible::{Body, Division, InputError, TetMesh};
+use frangible::{Body, TetMesh};
 
+use crate::divide::Division;
 use crate::draws::Draws;
+use crate::error::CompareError;
 use crate::hit::Hit;
 
 /// Largest distance from the impact point over the length ℓ in which the density of sites falls to 1/e.
@@ -40,7 +42,7 @@ impl Sites {
     }
 
     /// The body divided among the cells.
-    pub(crate) fn divide<'a>(&self, body: &'a Body) -> Result<Division<'a>, InputError> {
+    pub(crate) fn divide<'a>(&self, body: &'a Body) -> Result<Division<'a>, CompareError> {
         let mesh: &TetMesh = &body.asset().fracture;
         let place = |node: u32| mesh.positions[node as usize].as_dvec3();
         let nodes = 0..mesh.positions.len() as u32;

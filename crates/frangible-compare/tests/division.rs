@@ -3,7 +3,8 @@
 mod common;
 
 use common::{Case, plate};
-use frangible::{Breakable, Division, InputError};
+use frangible::Breakable;
+use frangible_compare::{CompareError, Division};
 
 #[test]
 fn labels_that_cannot_be_used_are_refused() {
@@ -11,7 +12,7 @@ fn labels_that_cannot_be_used_are_refused() {
     let nodes = body.asset().fracture.positions.len();
     let refused = |labels: Vec<u32>, at: f64| {
         let error = Division::new(&body, labels, |_, _| at).expect_err("refused");
-        assert!(matches!(error, InputError::Labels(_)));
+        assert!(matches!(error, CompareError::Labels(_)));
         error.to_string()
     };
     assert!(refused(vec![0; nodes - 1], 0.5).contains(&format!("{nodes} nodes")));

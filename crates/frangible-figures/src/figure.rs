@@ -1,6 +1,6 @@
 //! What can be shown, in the order of the paper.
 
-use frangible::nearest_name;
+use frangible_bake::frangible_mesh::nearest_name;
 use frangible_draw::RgbImage;
 
 use crate::FigureError;

@@ -31,7 +31,8 @@ pub use input::{InputGroup, InputMaterial, InputMesh};
 pub use mend_tets::{MendedTets, NodeGroup, TetInputError, TetMend, mend_tets};
 #[cfg(feature = "mesh-io")]
 pub use read::{
-    MOST_BYTES, MOST_TRIANGLES, MeshFormat, ReadError, nearest_file, parse_mesh, read_mesh,
+    MOST_BYTES, MOST_TRIANGLES, MeshFormat, ReadError, nearest_file, nearest_name, parse_mesh,
+    read_mesh,
 };
 #[cfg(feature = "mesh-io")]
 pub use read_tets::{TetFormat, parse_tetgen, parse_tets, read_tets};

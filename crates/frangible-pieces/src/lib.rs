@@ -1,4 +1,4 @@
-//! How pieces of broken bodies vibrate, so that they break again: four ways, and [`Pieces`], which chooses.
+//! How pieces of broken bodies vibrate, so that they break again: two ways, and [`Pieces`], which chooses.
 //!
 //! How right each way is, and what it costs, is measured by `frangible verify pieces` (`docs/recursive.md`).
 
@@ -14,10 +14,6 @@ mod model;
 #[cfg(feature = "solver")]
 mod parent_modes;
 #[cfg(feature = "solver")]
-mod proxy;
-#[cfg(feature = "solver")]
-mod quasi_static;
-#[cfg(feature = "solver")]
 mod reanalysis;
 
 #[cfg(feature = "solver")]
@@ -27,9 +23,5 @@ pub use method::Method;
 pub use model::Pieces;
 #[cfg(feature = "solver")]
 pub use parent_modes::parent_modes;
-#[cfg(feature = "solver")]
-pub use proxy::ProxyLibrary;
-#[cfg(feature = "solver")]
-pub use quasi_static::quasi_static;
 #[cfg(feature = "solver")]
 pub use reanalysis::reanalysis;

@@ -1,15 +1,11 @@
 //! Names of the methods.
 
-/// How to find the stress in a piece.
+/// How a piece is found to vibrate.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Method {
-    /// The modes of the stored shape that it resembles most, scaled ([`ProxyLibrary`](crate::ProxyLibrary)).
-    ModalProxy,
     /// Its parent's modes on its own elements ([`parent_modes`](crate::parent_modes())).
     ParentModes,
-    /// Linear elasticity without inertia ([`quasi_static`](crate::quasi_static())).
-    QuasiStatic,
     /// A small modal analysis of its own ([`reanalysis`](crate::reanalysis())); [`Method::ParentModes`] until it is ready.
     Reanalysis,
     /// What was measured to be best: see [`Pieces::method_for`](crate::Pieces::method_for).

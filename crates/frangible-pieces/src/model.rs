@@ -1,14 +1,14 @@
 //! Which method serves which piece, and when.
 
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 
 use frangible::Body;
 use frangible::piece::{Elastic, PieceModel, Portion};
 
 use crate::method::Method;
-use crate::{PieceError, ProxyLibrary, parent_modes, quasi_static, reanalysis};
+use crate::{PieceError, parent_modes, reanalysis};
 
-/// Finds how pieces vibrate, by one of four methods.
+/// Finds how pieces vibrate, by one of two methods.
 #[derive(Debug)]
 #[non_exhaustive]
 pub struct Pieces {
@@ -18,7 +18,6 @@ pub struct Pieces {
     pub elements: Option<usize>,
     /// Modes of a piece at most. Default 30.
     pub modes: usize,
-    libraries: Mutex<Vec<Arc<ProxyLibrary>>>,
 }
 
 impl Default for Pieces {
@@ -35,15 +34,13 @@ impl Pieces {
             method,
             elements: None,
             modes: 30,
-            libraries: Mutex::default(),
         }
     }
 
-    /// The method that serves a piece of so many uncut tetrahedra, in the end. [`Method::Auto`] gives every piece its own modes:
-    /// measured on fragments of all scenes (`docs/recursive.md`), nothing as quick decides right more often, and small pieces, for
-    /// which statics might do, have their modes sooner than a factored stiffness of as many elements.
+    /// The method that serves a piece in the end. [`Method::Auto`] gives every piece its own modes:
+    /// measured on fragments of all scenes (`docs/recursive.md`), nothing as quick decides right more often.
     #[must_use]
-    pub fn method_for(&self, _tets: usize) -> Method {
+    pub fn method_for(&self) -> Method {
         match self.method {
             Method::Auto => Method::Reanalysis,
             method => method,
@@ -72,37 +69,20 @@ impl Pieces {
         portion: &Arc<Portion>,
         parent: &Body,
     ) -> Result<Elastic, PieceError> {
-        let elements = self.elements_for(portion.tets().len());
         match method {
-            Method::ModalProxy => self.library(portion)?.fitted(portion),
             Method::ParentModes => parent_modes(portion, parent),
-            Method::QuasiStatic => quasi_static(portion, elements),
-            Method::Reanalysis => reanalysis(portion, elements, self.modes),
-            Method::Auto => self.elastic(self.method_for(portion.tets().len()), portion, parent),
+            Method::Reanalysis => {
+                let elements = self.elements_for(portion.tets().len());
+                reanalysis(portion, elements, self.modes)
+            }
+            Method::Auto => self.elastic(self.method_for(), portion, parent),
         }
-    }
-
-    /// The stored shapes for the piece's Poisson's ratio, baked when the first piece of that ratio asks; others wait for it.
-    fn library(&self, portion: &Portion) -> Result<Arc<ProxyLibrary>, PieceError> {
-        let ratio = portion.root().material.poisson_ratio;
-        let known = self.libraries.lock();
-        // What a panic may have left behind is whole: libraries are pushed when they are done.
-        let mut known = known.unwrap_or_else(PoisonError::into_inner);
-        if let Some(library) = known
-            .iter()
-            .find(|l| (l.poisson_ratio() - ratio).abs() < 1e-9)
-        {
-            return Ok(Arc::clone(library));
-        }
-        let library = Arc::new(ProxyLibrary::new(ratio, self.modes)?);
-        known.push(Arc::clone(&library));
-        Ok(library)
     }
 }
 
 impl PieceModel for Pieces {
     fn at_once(&self, portion: &Arc<Portion>, parent: &Body) -> Option<Elastic> {
-        let method = match self.method_for(portion.tets().len()) {
+        let method = match self.method_for() {
             Method::Reanalysis => Method::ParentModes,
             method => method,
         };
@@ -110,7 +90,7 @@ impl PieceModel for Pieces {
     }
 
     fn later(&self, portion: &Arc<Portion>) -> Option<Elastic> {
-        match self.method_for(portion.tets().len()) {
+        match self.method_for() {
             Method::Reanalysis => {
                 let elements = self.elements_for(portion.tets().len());
                 told(reanalysis(portion, elements, self.modes))

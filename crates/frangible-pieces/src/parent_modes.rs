@@ -10,7 +10,7 @@ use faer::Mat;
 use frangible::asset::{AnalysisMesh, EmbeddedPoint};
 use frangible::glam::{DVec3, Vec3};
 use frangible::modal::ModalBasis;
-use frangible::piece::{Elastic, Portion, Response};
+use frangible::piece::{Elastic, Portion};
 use frangible::stress::ShapeWeights;
 use frangible::{Asset, Body};
 
@@ -45,12 +45,12 @@ pub fn parent_modes(portion: &Arc<Portion>, parent: &Body) -> Result<Elastic, Pi
         analysis,
         tets,
         nodes,
-        response: Response::Modes(ModalBasis {
+        modes: ModalBasis {
             eigenvalues,
             shapes,
             peak_stress: Vec::new(),
             ..ModalBasis::default()
-        }),
+        },
     })
 }
 

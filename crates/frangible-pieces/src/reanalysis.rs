@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use frangible::modal::ModalBasis;
-use frangible::piece::{Elastic, Portion, Response};
+use frangible::piece::{Elastic, Portion};
 use frangible_bake::eigen::{Constraints, quick_modes};
 
 use crate::PieceError;
@@ -46,11 +46,11 @@ pub fn reanalysis(
         analysis: lattice.analysis,
         tets: lattice.tets,
         nodes: lattice.nodes,
-        response: Response::Modes(ModalBasis {
+        modes: ModalBasis {
             shapes,
             peak_stress: Vec::new(),
             eigenvalues: found.eigenvalues,
             ..ModalBasis::default()
-        }),
+        },
     })
 }

@@ -145,7 +145,7 @@ fn pieces_share_the_parents_mesh_and_weak_points() {
     let mut owner = vec![None; body.asset().fracture.tets.len()];
     for (number, portion) in portions.iter().enumerate() {
         let portion = portion.as_ref().expect("every fragment was wanted");
-        let elastic = frangible_pieces::quasi_static(portion, 60);
+        let elastic = frangible_pieces::reanalysis(portion, 60, 4);
         // Some are too small for elements of their own.
         if let Ok(elastic) = elastic {
             let piece = body.piece(portion, elastic).expect("a piece");

@@ -5,16 +5,10 @@ mod common;
 use std::sync::Arc;
 
 use common::{breakable, frequencies, modes, whole};
-use faer::Mat;
-use faer::linalg::solvers::Solve as _;
 use frangible::glam::Vec3;
-use frangible::piece::{Response, Statics};
-use frangible::stress::ShapeWeights;
-use frangible::{
-    Body, Contact, Elastic, FractureConfig, Material, Outcome, Portion, Striker, impact,
-};
+use frangible::{Body, Contact, FractureConfig, Material, Outcome, Portion, Striker, impact};
 use frangible_bake::Shape;
-use frangible_pieces::{ProxyLibrary, parent_modes, quasi_static, reanalysis};
+use frangible_pieces::{parent_modes, reanalysis};
 
 /// Sides of the bar, m.
 const BAR: [f64; 3] = [0.2, 0.03, 0.02];
@@ -91,100 +85,6 @@ fn a_cracked_body_rings_lower() {
     }
 }
 
-/// Forces of a uniform traction, N/m², on all triangles of a body's surface that lie at `x`, along x.
-fn pulled(body: &Body, elastic: &Elastic, at: f32, traction: f64) -> Vec<f64> {
-    let asset = body.asset();
-    let mut forces = vec![0.0; 3 * elastic.analysis.nodes.len()];
-    for triangle in &asset.surface.triangles {
-        let corners = triangle.map(|v| asset.fracture.positions[v as usize]);
-        if corners.iter().any(|c| (c.x - at).abs() > 1e-6) {
-            continue;
-        }
-        let [a, b, c] = corners.map(|c| c.as_dvec3());
-        let area = 0.5 * (b - a).cross(c - a).length();
-        for &v in triangle {
-            // Of a whole body the nodes of the portion are all of the mesh's.
-            let point = &elastic.nodes[v as usize];
-            let element = elastic.analysis.elements[point.element as usize];
-            for (node, weight) in element.into_iter().zip(ShapeWeights::values(point)) {
-                forces[3 * node as usize] += traction * area / 3.0 * f64::from(weight);
-            }
-        }
-    }
-    forces
-}
-
-/// How the displacement along x of the nodes away from a bar's ends grows: c of c X + d X² in X = x / half its length, fitted
-/// together with what turns of the bar and Poisson's ratio add.
-fn stretch(body: &Body, elastic: &Elastic, u: &[f64]) -> [f64; 2] {
-    const TERMS: usize = 6;
-    let half = 0.5 * BAR[0];
-    let mut normal = Mat::<f64>::zeros(TERMS, TERMS);
-    let mut right = Mat::<f64>::zeros(TERMS, 1);
-    for (v, p) in body.asset().fracture.positions.iter().enumerate() {
-        let [x, y, z] = p.as_dvec3().to_array().map(|p| p / half);
-        // The ends are a section's width and more away.
-        if x.abs() > 0.6 {
-            continue;
-        }
-        let point = &elastic.nodes[v];
-        let element = elastic.analysis.elements[point.element as usize];
-        let own = element.into_iter().zip(ShapeWeights::values(point));
-        let along: f64 = own.map(|(n, w)| f64::from(w) * u[3 * n as usize]).sum();
-        let terms = [1.0, x, x * x, y, z, y * y + z * z];
-        for i in 0..TERMS {
-            right[(i, 0)] += terms[i] * along;
-            for j in 0..TERMS {
-                normal[(i, j)] += terms[i] * terms[j];
-            }
-        }
-    }
-    let fitted = normal.partial_piv_lu().solve(right);
-    [fitted[(1, 0)], fitted[(2, 0)]]
-}
-
-fn statics(elastic: &Elastic) -> &Arc<dyn Statics> {
-    match &elastic.response {
-        Response::Static(statics) => statics,
-        Response::Modes(_) => panic!("statics were expected"),
-    }
-}
-
-#[test]
-fn a_bar_pulled_at_both_ends_or_at_one_stretches_by_the_textbook() {
-    let body = bar();
-    let elastic = quasi_static(&whole(&body), 600).expect("statics");
-    let half = 0.5 * BAR[0];
-    let traction = 1e6;
-    let modulus = body.asset().material.youngs_modulus;
-    let at = |x: f64| x as f32;
-    let right = pulled(&body, &elastic, at(half), traction);
-    let left = pulled(&body, &elastic, at(-half), -traction);
-    let force: f64 = right.iter().sum();
-    assert!((force / (traction * BAR[1] * BAR[2]) - 1.0).abs() < 1e-4);
-
-    // What σ/E everywhere would stretch half of it by, m.
-    let unit = traction / modulus * half;
-
-    let both: Vec<f64> = right.iter().zip(&left).map(|(a, b)| a + b).collect();
-    let u = statics(&elastic).displacement(&both);
-    let [linear, square] = stretch(&body, &elastic, &u);
-    assert!((linear / unit - 1.0).abs() < 0.01, "{linear} {unit}");
-    assert!(square.abs() < 0.01 * unit, "{square} {unit}");
-
-    // Pulled at one end its own inertia holds it, and the stress falls linearly to zero at the other (d'Alembert).
-    let u = statics(&elastic).displacement(&right);
-    let [linear, square] = stretch(&body, &elastic, &u);
-    assert!(
-        (linear / (0.5 * unit) - 1.0).abs() < 0.01,
-        "{linear} {unit}"
-    );
-    assert!(
-        (square / (0.25 * unit) - 1.0).abs() < 0.02,
-        "{square} {unit}"
-    );
-}
-
 #[test]
 fn the_parents_modes_of_an_uncut_whole_are_its_own() {
     let body = bar();
@@ -198,44 +98,18 @@ fn the_parents_modes_of_an_uncut_whole_are_its_own() {
 }
 
 #[test]
-fn the_proxy_of_a_box_is_the_box() {
-    // Of a stored shape's proportions, and between two.
-    // Coarse elements with lumped masses are some per cent too low; between stored shapes one factor serves all modes, which
-    // thinner boxes miss by a quarter.
-    for (sides, tolerance) in [([0.12, 0.06, 0.03], 0.06), ([0.12, 0.05, 0.025], 0.3)] {
-        let body = breakable(Shape::block(sides), "brick", 4_000.0, 20).body(1);
-        let library = ProxyLibrary::new(body.asset().material.poisson_ratio, 12).expect("shapes");
-        let elastic = library.fitted(&whole(&body)).expect("a proxy");
-        let (found, expected) = (
-            frequencies(modes(&elastic)),
-            frequencies(&body.asset().modes),
-        );
-        assert_near(&found, &expected, tolerance, "proxy");
-    }
-}
-
-#[test]
 fn every_way_gives_the_same_bits_on_any_number_of_threads() {
     let body = bar();
     let portion = whole(&body);
-    let library = ProxyLibrary::new(body.asset().material.poisson_ratio, 6).expect("shapes");
     let all = |portion: &Arc<Portion>| -> Vec<u64> {
         let mut bits = Vec::new();
-        let bases = [
-            reanalysis(portion, 150, 12),
-            parent_modes(portion, &body),
-            library.fitted(portion),
-        ];
+        let bases = [reanalysis(portion, 150, 12), parent_modes(portion, &body)];
         for elastic in bases {
             let elastic = elastic.expect("modes");
             let modes = modes(&elastic);
             bits.extend(modes.eigenvalues.iter().map(|x| x.to_bits()));
             bits.extend(modes.shapes.iter().map(|x| u64::from(x.to_bits())));
         }
-        let elastic = quasi_static(portion, 150).expect("statics");
-        let forces = pulled(&body, &elastic, 0.5 * BAR[0] as f32, 1e6);
-        let u = statics(&elastic).displacement(&forces);
-        bits.extend(u.iter().map(|x| x.to_bits()));
         bits
     };
     let alone = all(&portion);

@@ -3,8 +3,9 @@
 use std::f32::consts::FRAC_PI_2;
 
 use frangible::glam::{Quat, Vec3};
-use frangible::{Material, Patch, Zone, nearest_name};
+use frangible::{Material, Patch, Zone};
 use frangible_bake::{Region, Shape, Support};
+use frangible_mesh::nearest_name;
 
 use crate::again;
 use crate::body::{BodySpec, Place};

@@ -111,7 +111,7 @@ pub enum SceneError {
         /// Its file.
         path: PathBuf,
         /// Why.
-        source: Box<frangible::asset::RescaleError>,
+        source: Box<frangible_bake::RescaleError>,
         /// What to type, or nothing.
         hint: String,
     },

@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use frangible::asset::RescaleError;
 use frangible::glam::Vec3;
 use frangible::{Asset, Material};
+use frangible_bake::{RescaleError, scaled, with_material};
 
 use crate::error::SceneError;
 
@@ -132,14 +132,14 @@ pub(crate) fn rescaled(asset: Asset, rescale: &Rescale, path: &Path) -> Result<A
     let mut asset = asset;
     if let Some(edit) = &rescale.material {
         let material = edit.apply(&asset.material)?;
-        asset = asset.with_material(&material).map_err(wrong)?;
+        asset = with_material(&asset, &material).map_err(wrong)?;
     }
     if let Some(size) = rescale.size {
         let points = &asset.fracture.positions;
         let low = points.iter().fold(Vec3::INFINITY, |l, &p| l.min(p));
         let high = points.iter().fold(Vec3::NEG_INFINITY, |h, &p| h.max(p));
         let longest = f64::from((high - low).max_element());
-        asset = asset.scaled(size / longest).map_err(wrong)?;
+        asset = scaled(&asset, size / longest).map_err(wrong)?;
     }
     Ok(asset)
 }

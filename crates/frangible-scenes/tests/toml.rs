@@ -221,9 +221,18 @@ fn a_misspelt_key_is_named_with_its_line_and_the_nearest() {
             "[[body]]\nshape = \"vase\"\n[fracture]\npath = { steerd = { turning_length = 1 } }",
             "scene line 4: unknown name `steerd`, did you mean `steered`?",
         ),
+        // Ways that are gone are answered with those that remain.
+        (
+            "[[body]]\nshape = \"vase\"\n[pieces]\nmethod = \"quasi_static\"",
+            "scene line 4: unknown name `quasi_static`; known here: auto, parent_modes, reanalysis",
+        ),
+        (
+            "[[body]]\nshape = \"vase\"\n[pieces]\nmethod = \"modal_proxy\"",
+            "scene line 4: unknown name `modal_proxy`; known here: auto, parent_modes, reanalysis",
+        ),
         (
             "[[body]]\nshape = \"vase\"\nmaterial = \"porcelan\"",
-            "scene line 3: unknown material `porcelan`; did you mean `porcelain`?",
+            "scene line 3: unknown material `porcelan`; materials: glass, ",
         ),
         (
             "[[body]]\nshape = \"vase\"\n[[projectile]]\nmass = 1\nradius = 1\nspeed = 1\ntarget = \"sceen\"",
@@ -358,7 +367,7 @@ fn wrong_types_and_unusable_values_are_told_with_their_line() {
         (
             "[[body]]\nasset = \"a.frangible\"\nmaterial = \"glas\"".into(),
             3,
-            "did you mean `glass`",
+            "unknown material `glas`; materials: glass, ",
         ),
         (
             "[[body]]\nasset = \"a.frangible\"\nmodes = 3".into(),

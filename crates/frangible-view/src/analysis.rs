@@ -12,6 +12,7 @@ use frangible::{
 };
 
 use crate::blow::Blow;
+use frangible_bake::mode_field::motion_on_analysis_mesh;
 
 /// Modes that are plotted: those that strain the body most.
 const PLOTTED_MODES: usize = 6;
@@ -166,7 +167,7 @@ impl Analysis {
         let steps = self.motion.steps();
         let mut points = vec![[0.0, 0.0]];
         for k in (0..steps).step_by(steps.div_ceil(TENSIONS).max(1)) {
-            let field = self.asset.motion_on_analysis_mesh(self.motion.at(k));
+            let field = motion_on_analysis_mesh(&self.asset, self.motion.at(k));
             let tensions = field.stresses.iter().map(largest_eigenvalue);
             let largest = tensions.fold(0.0, f32::max);
             points.push([self.time_step * (k + 1) as f64, f64::from(largest)]);

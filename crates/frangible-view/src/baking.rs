@@ -123,7 +123,7 @@ pub(crate) fn of_wanted_material(
             Some((_, to)) => to.clone(),
             None if baked.asset.material == wanted => baked.clone(),
             None => BakedBody {
-                asset: Arc::new(baked.asset.with_material(&wanted)?),
+                asset: Arc::new(frangible_bake::with_material(&baked.asset, &wanted)?),
                 report: baked.report.clone(),
             },
         };

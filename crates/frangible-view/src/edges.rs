@@ -5,6 +5,9 @@ use std::sync::Arc;
 
 use frangible::Asset;
 use frangible::glam::Vec3;
+use frangible_bake::mode_field::{
+    mode_on_analysis_mesh, mode_on_fracture_mesh, motion_on_analysis_mesh, motion_on_fracture_mesh,
+};
 use frangible_export::Pose;
 use frangible_scenes::{LiveScene, ThingKind};
 
@@ -129,8 +132,8 @@ impl Session {
                     let amplitudes = analysis.amplitudes(self.scrubbed());
                     let asset = &analysis.asset;
                     let field = match fine {
-                        true => asset.motion_on_fracture_mesh(amplitudes),
-                        false => asset.motion_on_analysis_mesh(amplitudes),
+                        true => motion_on_fracture_mesh(asset, amplitudes),
+                        false => motion_on_analysis_mesh(asset, amplitudes),
                     };
                     let moved = (self.exaggerated() as f32, &field.displacements[..]);
                     batches.push(skins.batch(asset, fine, blow.pose, moved));
@@ -139,8 +142,8 @@ impl Session {
                     let (asset, mode) = (&analysis.asset, self.mode_of(analysis));
                     let factor = mode_amplitude(asset, mode, self.scrubbed());
                     let field = match fine {
-                        true => asset.mode_on_fracture_mesh(mode),
-                        false => asset.mode_on_analysis_mesh(mode),
+                        true => mode_on_fracture_mesh(asset, mode),
+                        false => mode_on_analysis_mesh(asset, mode),
                     };
                     let moved = (factor, &field.displacements[..]);
                     batches.push(skins.batch(asset, fine, blow.pose, moved));

@@ -58,7 +58,7 @@ pub enum ViewError {
     Material(#[from] frangible::UnknownMaterial),
     /// A body that cannot be of the material asked for.
     #[error(transparent)]
-    Rescale(#[from] frangible::asset::RescaleError),
+    Rescale(#[from] frangible_bake::RescaleError),
     /// A file that cannot be written.
     #[error(transparent)]
     Export(#[from] frangible_export::ExportError),

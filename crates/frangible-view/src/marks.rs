@@ -4,8 +4,10 @@ use std::sync::Arc;
 
 use frangible::Asset;
 use frangible::glam::Vec3;
-use frangible::modal::ModeField;
 use frangible::stress::largest_eigenvalue;
+use frangible_bake::mode_field::{
+    ModeField, mode_on_fracture_mesh, motion_on_analysis_mesh, motion_on_fracture_mesh,
+};
 use frangible_export::{Pose, SurfaceMaterial};
 use frangible_scenes::Thing;
 
@@ -35,9 +37,7 @@ pub(crate) fn reach(asset: &Asset) -> f32 {
 
 /// An exaggeration in round numbers that shows the deformation at this moment well.
 pub(crate) fn telling_exaggeration(analysis: &Analysis, share: f64) -> f64 {
-    let field = analysis
-        .asset
-        .motion_on_analysis_mesh(analysis.amplitudes(share));
+    let field = motion_on_analysis_mesh(&analysis.asset, analysis.amplitudes(share));
     let largest = field.largest_displacement();
     if largest <= 0.0 {
         return 1.0;
@@ -54,7 +54,7 @@ pub(crate) fn strained(
     exaggeration: f64,
 ) -> (Batch, f64) {
     let asset = &analysis.asset;
-    let field = asset.motion_on_fracture_mesh(analysis.amplitudes(share));
+    let field = motion_on_fracture_mesh(asset, analysis.amplitudes(share));
     let largest = analysis.peak_tension.max(1.0);
     let batch = surface(asset, &field, exaggeration as f32, pose, |node| {
         largest_eigenvalue(&field.stresses[node]) / largest as f32
@@ -66,7 +66,7 @@ pub(crate) fn strained(
 /// drawn amplitude, Pa.
 pub(crate) fn mode(analysis: &Analysis, pose: Pose, mode: usize, share: f64) -> (Batch, f64) {
     let asset = &analysis.asset;
-    let field = asset.mode_on_fracture_mesh(mode);
+    let field = mode_on_fracture_mesh(asset, mode);
     let [amplitude, swing] = amplitude_and_swing(asset, &field, share);
     let stress = |node: usize| {
         let [low, high] = ends(&field, node);
@@ -93,7 +93,7 @@ fn amplitude_and_swing(asset: &Asset, field: &ModeField, share: f64) -> [f32; 2]
 
 /// How far a mode is swung out as it is drawn, m·√kg.
 pub(crate) fn mode_amplitude(asset: &Asset, mode: usize, share: f64) -> f32 {
-    let field = asset.mode_on_fracture_mesh(mode);
+    let field = mode_on_fracture_mesh(asset, mode);
     let [amplitude, swing] = amplitude_and_swing(asset, &field, share);
     amplitude * swing
 }

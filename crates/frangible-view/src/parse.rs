@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use std::str::FromStr;
 
 use frangible::glam::Vec3;
-use frangible::nearest_name;
+use frangible_bake::frangible_mesh::nearest_name;
 
 use crate::command::{BallSpec, Command, HammerSpec, Mark, Subject, Target, Tool};
 use crate::error::ViewError;

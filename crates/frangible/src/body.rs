@@ -12,9 +12,8 @@ use crate::error::InputError;
 use crate::fields::{Fields, Resistance, Toughness};
 use crate::fragment::{MeshIndex, RenderIndex};
 use crate::loads::PerNewton;
-use crate::mesh::TriangleTree;
+use crate::mesh::{SurfacePoint, TriangleTree};
 use crate::modal::{ModalBasis, Reaches};
-use crate::piece::Statics;
 use crate::rng::{Purpose, stream, uniform};
 use crate::state::BodyState;
 use crate::stress::{Law, ShapeWeights, Skin, StressBounds, quadratic_modulus};
@@ -182,7 +181,6 @@ impl Breakable {
             weak_tets,
             state: BodyState::default(),
             tips: Vec::new(),
-            statics: None,
         }
     }
 }
@@ -238,8 +236,6 @@ pub struct Body {
     state: BodyState,
     /// Of the cracks of its state.
     pub(crate) tips: Vec<Tip>,
-    /// Of a piece without modes: what finds its displacement.
-    pub(crate) statics: Option<Arc<dyn Statics>>,
 }
 
 impl Body {
@@ -274,6 +270,13 @@ impl Body {
         crate::loads::prepare(self);
     }
 
+    /// The point of its surface nearest to a point, m, body frame.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn nearest_on_surface(&self, point: Vec3) -> SurfacePoint {
+        self.prepared.surface.closest(point)
+    }
+
     /// Its centre of mass in the frame of the fracture mesh, m: zero but for pieces.
     #[must_use]
     pub fn origin(&self) -> DVec3 {
@@ -284,13 +287,7 @@ impl Body {
     }
 
     /// A part of this body.
-    pub(crate) fn part(
-        &self,
-        mut asset: Asset,
-        weak_tets: Vec<u32>,
-        state: BodyState,
-        statics: Option<Arc<dyn Statics>>,
-    ) -> Self {
+    pub(crate) fn part(&self, mut asset: Asset, weak_tets: Vec<u32>, state: BodyState) -> Self {
         let prepared = match asset.portion.clone() {
             Some(portion) => Arc::new(Prepared::of_piece(&mut asset, &portion)),
             None => Arc::clone(&self.prepared),
@@ -302,7 +299,6 @@ impl Body {
             asset: Arc::new(asset),
             prepared,
             resistance,
-            statics,
             seed: self.seed,
             weak_tets,
             tips,

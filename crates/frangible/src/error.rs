@@ -55,9 +55,6 @@ pub enum InputError {
     /// Fields of strength, toughness or weak points that cannot be used.
     #[error("fields of a body cannot be used: {0}")]
     Field(String),
-    /// Labels by which a body cannot be divided.
-    #[error("a body cannot be divided: {0}")]
-    Labels(String),
     /// A motion that is not one of the body's modes.
     #[error("a motion cannot be followed: {0}")]
     Motion(&'static str),

@@ -8,16 +8,15 @@ use crate::asset::Asset;
 use crate::blow::Blow;
 use crate::body::Body;
 use crate::config::{DurationModel, FractureConfig};
-use crate::contact::{self, Contact, Load, Refusal};
-use crate::crack::{CrackSystem, Culling, Peak, StressField, Suspects, crack, front_limit};
+use crate::contact::{self, Contact, Load, Pulse};
+use crate::crack::front_limit;
+use crate::cracking::{Cracked, Cracking};
 use crate::error::InputError;
-use crate::fragment::{self, Built, Labels};
-use crate::modal::Motion;
+use crate::fragment::{self, Built};
+use crate::modal::{self, Motion};
 use crate::outcome::{Fracture, ImpactReport, LookedAt, Outcome};
-use crate::piece::{Breakup, static_impact};
-use crate::stages::Vibration;
-use crate::state::BodyState;
-use crate::stress::{BATCH, DisplacementBatch, MARGIN, STRIDE, lane};
+use crate::piece::Breakup;
+use crate::stress::MARGIN;
 use crate::trace::CrackTrace;
 
 /// Computes what an impact does to a body. Nothing is changed; the caller replaces a broken body by its fragments.
@@ -34,11 +33,10 @@ pub fn impact(
     contacts: &[Contact],
     config: &FractureConfig,
 ) -> Result<Outcome, InputError> {
-    if let Some(statics) = &body.statics {
-        return static_impact(body, statics, contacts, config, &mut None);
-    }
-    let cracked = cracks(body, contacts, config, &mut None)?;
-    Ok(pieces(body, cracked))
+    Ok(match Vibration::begin(body, contacts, config)? {
+        Stage::Held(outcome) => outcome,
+        Stage::Vibrates(vibration) => vibration.end(body, config, 0),
+    })
 }
 
 /// [`impact()`], and what its cracks did element by element: for tests and for the comparison with the paper. No bound free of time
@@ -52,9 +50,9 @@ pub fn impact_traced(
     config: &FractureConfig,
 ) -> Result<(Outcome, CrackTrace), InputError> {
     let mut trace = Some(CrackTrace::default());
-    let outcome = match &body.statics {
-        Some(statics) => static_impact(body, statics, contacts, config, &mut trace)?,
-        None => pieces(body, cracks(body, contacts, config, &mut trace)?),
+    let outcome = match begin(body, contacts, config, false)? {
+        Stage::Held(outcome) => outcome,
+        Stage::Vibrates(vibration) => pieces(body, vibration.crack(body, config, 0, &mut trace)),
     };
     Ok((outcome, trace.unwrap_or_default()))
 }
@@ -68,12 +66,10 @@ pub fn would_break(
     contacts: &[Contact],
     config: &FractureConfig,
 ) -> Result<bool, InputError> {
-    if body.statics.is_some() {
-        let outcome = impact(body, contacts, config)?;
-        return Ok(matches!(outcome, Outcome::Broke(_)));
-    }
-    let cracked = cracks(body, contacts, config, &mut None)?;
-    Ok(matches!(cracked, Cracked::Parted(..)))
+    Ok(match Vibration::begin(body, contacts, config)? {
+        Stage::Held(_) => false,
+        Stage::Vibrates(vibration) => vibration.would_break(body, config, 0),
+    })
 }
 
 /// Whether a bound that costs microseconds shows that an impact does nothing to a body; [`impact()`] asks it first. False
@@ -81,49 +77,119 @@ pub fn would_break(
 #[must_use]
 pub fn is_harmless(body: &Body, contacts: &[Contact], config: &FractureConfig) -> bool {
     config.culling
-        && body.statics.is_none()
         && contacts.iter().all(|c| c.validate().is_ok())
         && contact::refused(body, contacts, config).is_some()
 }
 
-/// What the cracks of an impact did to a body.
-#[expect(clippy::large_enum_variant, reason = "one at a time, never stored")]
-pub(crate) enum Cracked<'a> {
-    /// Margin, report, and the body's cracks if there are new ones.
-    Held(f64, ImpactReport, Option<Box<BodyState>>),
-    /// Pieces, not made yet.
-    Parted(CrackSystem<'a>, Labels, ImpactReport),
-}
-
-fn cracks<'a>(
-    body: &'a Body,
-    contacts: &[Contact],
-    config: &'a FractureConfig,
-    trace: &mut Option<CrackTrace>,
-) -> Result<Cracked<'a>, InputError> {
-    Ok(
-        match begin(body, contacts, config, config.culling && trace.is_none())? {
-            Begun::Held(margin, report) => Cracked::Held(margin, report, None),
-            Begun::Vibrates(vibration) => vibrate(body, config, vibration, 0, trace),
-        },
-    )
-}
-
-/// What is known of an impact before the motion of the modes is.
-pub(crate) enum Begun {
-    /// Too weak for any crack: margin and report.
-    Held(f64, ImpactReport),
-    /// The modes have to be followed.
+/// What the first stage of an impact leaves to do.
+#[derive(Clone, Debug)]
+pub enum Stage {
+    /// Nothing: its impulses are too weak for any crack.
+    Held(Outcome),
+    /// Its modes have to be followed over time.
     Vibrates(Vibration),
 }
 
+/// An impact whose modes have to be followed over time.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct Vibration {
+    /// Modal impulse of every mode, N·s/√kg.
+    pub modal_impulse: Vec<f64>,
+    /// Surface triangles under its contacts: their flaws are pressed together, see [`Body::weak_place`].
+    pub pressed: Vec<u32>,
+    /// The pulse of unit impulse and its time steps.
+    pub pulse: Pulse,
+    /// What is known of the impact so far.
+    pub report: ImpactReport,
+    /// The blow, where it was followed with the body: then the modes are not all there is, and `pulse` only says how long it was.
+    pub(crate) blow: Option<Box<Blow>>,
+}
+
+impl Vibration {
+    /// Begins an impact: everything of [`impact()`](crate::impact()) before the motion of the modes.
+    ///
+    /// # Errors
+    /// As [`impact()`](crate::impact()).
+    pub fn begin(
+        body: &Body,
+        contacts: &[Contact],
+        config: &FractureConfig,
+    ) -> Result<Stage, InputError> {
+        begin(body, contacts, config, config.culling)
+    }
+
+    /// Whether the pulse and the modes are all there is. Else the blow was followed with the body, or the modes left out count.
+    #[must_use]
+    pub fn is_pulse(&self) -> bool {
+        self.blow.is_none()
+    }
+
+    /// Amplitudes of the modes over time.
+    #[must_use]
+    pub fn motion(&self, body: &Body) -> Motion {
+        if let Some(blow) = &self.blow {
+            return blow.motion.clone();
+        }
+        let asset = &*body.asset;
+        modal::respond(
+            &asset.modes,
+            &asset.material,
+            &self.modal_impulse,
+            &self.pulse,
+        )
+    }
+
+    /// Ends the impact. With `first_step` 0 this is [`impact()`](crate::impact()); time steps before it are passed over.
+    ///
+    /// Where none of those has a weak point's stress above its strength, and the body has no cracks yet, the cracks and
+    /// the pieces are the same bit for bit; the report's stresses and the margin are those of the steps looked at.
+    #[must_use]
+    pub fn end(self, body: &Body, config: &FractureConfig, first_step: usize) -> Outcome {
+        pieces(body, self.crack(body, config, first_step, &mut None))
+    }
+
+    /// Whether the impact would break the body into pieces: [`Self::end`] without making them.
+    #[must_use]
+    pub fn would_break(self, body: &Body, config: &FractureConfig, first_step: usize) -> bool {
+        let cracked = self.crack(body, config, first_step, &mut None);
+        matches!(cracked, Cracked::Parted(..))
+    }
+
+    /// Second stage: the motion of the modes, and the cracks that it opens from time step `first_step` on.
+    fn crack<'a>(
+        mut self,
+        body: &'a Body,
+        config: &'a FractureConfig,
+        first_step: usize,
+        trace: &mut Option<CrackTrace>,
+    ) -> Cracked<'a> {
+        let clock = Instant::now();
+        let motion = match &mut self.blow {
+            Some(blow) => std::mem::take(&mut blow.motion),
+            None => self.motion(body),
+        };
+        self.report.timings.response += clock.elapsed().as_secs_f64();
+        Cracking {
+            body,
+            config,
+            pressed: self.pressed,
+            time_step: self.pulse.time_step,
+            budget: motion.peak_strain_energy,
+            motion,
+            blow: self.blow,
+        }
+        .run(first_step, self.report, trace)
+    }
+}
+
 /// First stage: bounds free of time, if they may `refuse` it, force pulse and time steps.
-pub(crate) fn begin(
+fn begin(
     body: &Body,
     contacts: &[Contact],
     config: &FractureConfig,
     refuse: bool,
-) -> Result<Begun, InputError> {
+) -> Result<Stage, InputError> {
     contacts.iter().try_for_each(Contact::validate)?;
     let mut report = report_on(body);
     report.approach_energy = contact::approach_energy(contacts);
@@ -131,7 +197,11 @@ pub(crate) fn begin(
 
     // Most contacts end here (beyond the paper: contact/refusal.rs).
     if refuse && let Some(refusal) = contact::refused(body, contacts, config) {
-        return Ok(held(refusal, report, clock));
+        report.looked_at = refusal.looked_at;
+        report.stress_bound = f64::from(refusal.bound);
+        report.timings.response = clock.elapsed().as_secs_f64();
+        let margin = report.strength / f64::from(refusal.as_weakest);
+        return Ok(held(margin, report));
     }
 
     let vibration = if config.has_complement() {
@@ -141,11 +211,19 @@ pub(crate) fn begin(
     };
     report.timings.response = clock.elapsed().as_secs_f64();
     Ok(match vibration {
-        Some(vibration) => Begun::Vibrates(Vibration {
+        Some(vibration) => Stage::Vibrates(Vibration {
             report,
             ..vibration
         }),
-        None => Begun::Held(f64::INFINITY, report),
+        None => held(f64::INFINITY, report),
+    })
+}
+
+fn held(margin: f64, report: ImpactReport) -> Stage {
+    Stage::Held(Outcome::Held {
+        margin,
+        report,
+        state: None,
     })
 }
 
@@ -235,226 +313,6 @@ fn integrated(
     })
 }
 
-/// Of an impact that a bound refused.
-fn held(refusal: Refusal, mut report: ImpactReport, clock: Instant) -> Begun {
-    report.looked_at = refusal.looked_at;
-    report.stress_bound = f64::from(refusal.bound);
-    report.timings.response = clock.elapsed().as_secs_f64();
-    let margin = report.strength / f64::from(refusal.as_weakest);
-    Begun::Held(margin, report)
-}
-
-/// Second stage: the motion of the modes, and what it does from time step `first_step` on.
-pub(crate) fn vibrate<'a>(
-    body: &'a Body,
-    config: &'a FractureConfig,
-    vibration: Vibration,
-    first_step: usize,
-    trace: &mut Option<CrackTrace>,
-) -> Cracked<'a> {
-    let clock = Instant::now();
-    let mut vibration = vibration;
-    let mut report = std::mem::take(&mut vibration.report);
-    let motion = match &mut vibration.blow {
-        Some(blow) => std::mem::take(&mut blow.motion),
-        None => vibration.motion(body),
-    };
-    report.timings.response += clock.elapsed().as_secs_f64();
-    Cracking {
-        body,
-        config,
-        pressed: vibration.pressed,
-        time_step: vibration.pulse.time_step,
-        budget: motion.peak_strain_energy,
-        motion,
-        blow: vibration.blow,
-    }
-    .run(first_step, report, trace)
-}
-
-/// Below this stress bound nothing happens to a body, Pa: no crack starts, and none of its old ones moves.
-pub(crate) fn harmless(body: &Body) -> f32 {
-    let strength = body.resistance.weakest as f32 * (1.0 - MARGIN);
-    if body.state().is_intact() {
-        strength
-    } else {
-        strength.min(front_limit(body))
-    }
-}
-
-/// A report with what is known of every load.
-pub(crate) fn report_on(body: &Body) -> ImpactReport {
-    ImpactReport {
-        strength: body.resistance.weakest,
-        weak_points: body.weak_tets().len(),
-        ..ImpactReport::default()
-    }
-}
-
-/// Stress wave → cracks `[G12 §4.4, §5]` → which nodes hang together `[G12 §6.1]`, for any motion of the body.
-pub(crate) struct Cracking<'a> {
-    pub(crate) body: &'a Body,
-    pub(crate) config: &'a FractureConfig,
-    pub(crate) motion: Motion,
-    /// Surface triangles under a contact.
-    pub(crate) pressed: Vec<u32>,
-    /// Time step of the motion, s.
-    pub(crate) time_step: f64,
-    /// Energy that the cracks may spend, with the ledger, J.
-    pub(crate) budget: f64,
-    /// The blow that the motion comes from: it ends when the wall under it is gone.
-    pub(crate) blow: Option<Box<Blow>>,
-}
-
-impl<'a> Cracking<'a> {
-    /// Runs all cracks, where it is known that nothing happens before time step `first_step`.
-    pub(crate) fn run(
-        mut self,
-        first_step: usize,
-        mut report: ImpactReport,
-        trace: &mut Option<CrackTrace>,
-    ) -> Cracked<'a> {
-        let (body, config) = (self.body, self.config);
-        let budget = if config.energy_ledger {
-            self.budget
-        } else {
-            f64::INFINITY
-        };
-        let mut system = CrackSystem::new(body, config, budget);
-        let mut looked = Looked::default();
-        // From the beginning of its batch, so that every batch is whole.
-        let mut step = first_step / STRIDE * STRIDE;
-        while let Some((next, contact, compliance)) =
-            self.follow(step, &mut system, &mut looked, &mut report)
-        {
-            let Some(blow) = &mut self.blow else { break };
-            let now = next as f64 * self.time_step;
-            blow.weaken(body, contact, compliance, now);
-            self.motion = std::mem::take(&mut blow.motion);
-            report.contacts = blow.reports();
-            report.contact_duration = blow.duration();
-            report.time_steps = self.motion.steps();
-            step = next;
-        }
-        report.peak_elastic_energy = self.motion.peak_energy;
-        report.peak_strain_energy = self.motion.peak_strain_energy;
-        self.end(system, looked, report, trace)
-    }
-
-    /// Runs the cracks from a time step on: to the end of the motion, or to a time step before which cracks have weakened the wall under a
-    /// contact, whose number comes with it, and what the wall then gives way by, m/N.
-    fn follow(
-        &mut self,
-        first_step: usize,
-        system: &mut CrackSystem<'a>,
-        looked: &mut Looked,
-        report: &mut ImpactReport,
-    ) -> Option<(usize, usize, f64)> {
-        let (body, config, motion) = (self.body, self.config, &self.motion);
-        let mut displacement = DisplacementBatch::new(&body.asset);
-        let mut culling = Culling::new(body, config, motion);
-        let mut field = StressField::new(body, config, motion, &self.pressed, &mut displacement);
-        let mut suspects = Suspects::default();
-        let mut roots = [0.0; BATCH];
-        let mut weakened = None;
-        for step in first_step..motion.steps() {
-            let k = lane(step);
-            field.step = step;
-            if step % STRIDE == 0 {
-                if step > first_step
-                    && let Some(blow) = self.blow.as_ref().filter(|b| b.pushes_at(step))
-                    && let Some((contact, compliance)) = blow.weakened(system)
-                {
-                    weakened = Some((step, contact, compliance));
-                    break;
-                }
-                // Bounds, then the points that they leave, of all steps of the batch.
-                let start = Instant::now();
-                culling.begin();
-                for step in (step..motion.steps()).take(STRIDE) {
-                    let k = lane(step);
-                    roots[k] = culling.root(motion, step);
-                    culling.survive(motion, step, roots[k], k);
-                }
-                field.displacement.seek(motion, step);
-                suspects.find(body, &mut field, culling.survivors(), looked.peak);
-                report.timings.stress += start.elapsed().as_secs_f64();
-            }
-            system.wake(roots[k]);
-            if !culling.survives(k) && system.is_quiet() {
-                continue;
-            }
-            report.looked_at = LookedAt::Stresses;
-            let start = Instant::now();
-            let times = [step, step + 1].map(|step| motion.begin(step, self.time_step));
-            looked.peak = crack(system, &mut field, &suspects, times, looked.peak);
-            report.timings.cracks += start.elapsed().as_secs_f64();
-        }
-        looked.asked_clusters |= culling.asked_clusters;
-        looked.passed_over = looked.passed_over.max(culling.passed_over);
-        looked.as_weakest = looked.as_weakest.max(culling.as_weakest);
-        weakened
-    }
-
-    /// What came of it.
-    fn end(
-        self,
-        system: CrackSystem<'a>,
-        looked: Looked,
-        mut report: ImpactReport,
-        trace: &mut Option<CrackTrace>,
-    ) -> Cracked<'a> {
-        let body = self.body;
-        let peak = looked.peak;
-        if let Some(first) = system.cracks.get(system.old_cracks) {
-            report.first_crack_time = first.elements.first().map(|cut| cut.time);
-            report.first_crack_point = Some(first.frame.origin - body.origin().as_vec3());
-        }
-        if report.looked_at == LookedAt::Amplitudes && looked.asked_clusters {
-            report.looked_at = LookedAt::Clusters;
-        }
-        report.peak_stress = f64::from(peak.tension);
-        if peak.tension > 0.0 {
-            let place = body.prepared.centroids[peak.tet as usize].as_dvec3();
-            report.peak_point = Some((place - body.origin()).as_vec3());
-        }
-        report.stress_bound = f64::from(peak.tension.max(looked.passed_over));
-        report.cracks = system.cracks.len() - system.old_cracks;
-        report.crack_area = system.area;
-        report.fracture_energy = system.spent;
-        let margin = report.strength / f64::from(peak.as_weakest.max(looked.as_weakest));
-        if system.area == 0.0 && trace.is_none() {
-            return Cracked::Held(margin, report, None);
-        }
-        let start = Instant::now();
-        let crumb_share = self.config.crumb_share;
-        let labels = fragment::label(&system, &body.prepared.index, crumb_share);
-        report.timings.labels = start.elapsed().as_secs_f64();
-        if let Some(trace) = trace {
-            *trace = CrackTrace::of(&system, &labels.of_node);
-        }
-        report.arrivals = system.arrivals();
-        if labels.count < 2 {
-            let grown = system.area > 0.0;
-            let state = grown.then(|| Box::new(BodyState::of(&system.cracks)));
-            Cracked::Held(margin, report, state)
-        } else {
-            Cracked::Parted(system, labels, report)
-        }
-    }
-}
-
-/// What has been met so far.
-#[derive(Clone, Copy, Debug, Default)]
-struct Looked {
-    peak: Peak,
-    asked_clusters: bool,
-    /// Largest bound of what was passed over, Pa.
-    passed_over: f32,
-    /// Largest bound of what was passed over, as the weakest point would feel it, Pa.
-    as_weakest: f32,
-}
-
 /// Cracks → fragments `[G12 §6]`.
 pub(crate) fn pieces(body: &Body, cracked: Cracked<'_>) -> Outcome {
     let (system, labels, mut report) = match cracked {
@@ -497,4 +355,23 @@ pub(crate) fn pieces(body: &Body, cracked: Cracked<'_>) -> Outcome {
         report,
         breakup: Some(Arc::new(breakup)),
     }))
+}
+
+/// Below this stress bound nothing happens to a body, Pa: no crack starts, and none of its old ones moves.
+pub(crate) fn harmless(body: &Body) -> f32 {
+    let strength = body.resistance.weakest as f32 * (1.0 - MARGIN);
+    if body.state().is_intact() {
+        strength
+    } else {
+        strength.min(front_limit(body))
+    }
+}
+
+/// A report with what is known of every load.
+pub(crate) fn report_on(body: &Body) -> ImpactReport {
+    ImpactReport {
+        strength: body.resistance.weakest,
+        weak_points: body.weak_tets().len(),
+        ..ImpactReport::default()
+    }
 }

@@ -133,29 +133,17 @@ fn spelling_of_case_and_separators_does_not_matter() {
 }
 
 #[test]
-fn a_wrong_name_is_answered_with_the_nearest_and_all_names() {
-    let error = Material::preset("porcelan").unwrap_err();
-    assert_eq!(error.nearest, Some("porcelain"));
-    let message = error.to_string();
-    assert!(
-        message.starts_with(
-            "unknown material `porcelan`; did you mean `porcelain`?; materials: glass, "
-        ),
-        "{message}"
-    );
-    for preset in Material::presets() {
-        assert!(message.contains(preset.name), "{message}");
+fn a_wrong_name_is_answered_with_all_names() {
+    for name in ["porcelan", "", "\u{1F9CA}"] {
+        let message = Material::preset(name).unwrap_err().to_string();
+        let expected = format!("unknown material `{name}`; materials: glass, ");
+        assert!(message.starts_with(&expected), "{message}");
+        for preset in Material::presets() {
+            assert!(message.contains(preset.name), "{message}");
+        }
     }
-    assert_eq!(Material::preset("pma").unwrap_err().nearest, Some("pmma"));
-}
-
-#[test]
-fn a_name_like_no_other_gets_no_suggestion() {
-    for name in ["", "unobtainium", "\u{1F9CA}", &"x".repeat(100_000)] {
-        let error = Material::preset(name).unwrap_err();
-        assert_eq!(error.nearest, None, "{name:.20}");
-        assert!(error.to_string().len() < 1000);
-    }
+    let endless = Material::preset(&"x".repeat(100_000)).unwrap_err();
+    assert!(endless.to_string().len() < 1000);
 }
 
 #[test]

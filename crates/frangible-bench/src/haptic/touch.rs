@@ -14,13 +14,13 @@
 use std::sync::Arc;
 
 use frangible::glam::Vec3;
-use frangible::modal::{LiveModes, SurfacePlace};
 use frangible::{
     Body, Contact, Force, Fracture, FractureConfig, InputError, Onset, OnsetSearch, Outcome, Stage,
     Striker, Vibration, rest_margin_at_least,
 };
 
 use super::judge::{Case, Judge};
+use super::live::{LiveModes, SurfacePlace};
 
 /// Length of a tick, s.
 pub const TICK: f64 = 1e-3;

@@ -2,9 +2,9 @@
 
 use frangible::contact::{contact_duration, modal_load, most_excited_mode};
 use frangible::glam::{Quat, Vec3};
-use frangible::stress::Symmetric3;
 use frangible::{Asset, Body, Contact, DurationModel, Striker};
 use frangible_bake::Shape;
+use frangible_bake::mode_field::{mode_on_fracture_mesh, von_mises};
 use frangible_draw::{ModeCell, ModeSheetOptions, mode_sheet};
 use frangible_verify::plot::{Axis, Chart, Marker, Series};
 
@@ -263,15 +263,11 @@ fn duration_chart(title: &str, x: &str, answers: &[(f64, Answer)]) -> Chart {
 const DRAWN: f32 = 0.035;
 
 fn cell(rod: &Asset, landing: Landing, answer: &Answer) -> ModeCell {
-    let field = rod.mode_on_fracture_mesh(answer.mode);
+    let field = mode_on_fracture_mesh(rod, answer.mode);
     let largest = field.largest_displacement().max(f32::MIN_POSITIVE);
     let rotation = landing.rotation();
     let positions = rod.fracture.positions.iter().zip(&field.displacements);
-    let stresses: Vec<f32> = field
-        .stresses
-        .iter()
-        .map(|s: &Symmetric3| s.von_mises())
-        .collect();
+    let stresses: Vec<f32> = field.stresses.iter().map(von_mises).collect();
     let most = stresses.iter().copied().fold(f32::MIN_POSITIVE, f32::max);
     ModeCell {
         positions: positions

@@ -7,6 +7,7 @@ use frangible::glam::Vec3;
 use frangible::modal::{Motion, respond};
 use frangible::stress::{Symmetric3, largest_eigenvalue};
 use frangible::{Asset, Body, FractureConfig};
+use frangible_bake::mode_field::mode_on_fracture_mesh;
 use frangible_draw::{ModeCell, ModeSheetOptions, mode_sheet};
 use frangible_verify::plot::{Axis, Chart, Marker, Series};
 
@@ -91,7 +92,7 @@ impl Faces {
             }));
         }
         let of_mode = |mode: usize| {
-            let field = slab.mode_on_fracture_mesh(mode);
+            let field = mode_on_fracture_mesh(slab, mode);
             nodes.iter().map(|&v| field.stresses[v]).collect()
         };
         Self {

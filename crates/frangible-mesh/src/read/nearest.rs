@@ -1,12 +1,32 @@
-//! “Did you mean …?” for file names.
+//! “Did you mean …?” for names, and for those of files.
 
 use std::path::Path;
 
-/// A longer name, or one of more neighbours than [`MOST_NEIGHBOURS`], gets no suggestion, characters.
-const LONGEST_NAME: usize = 64;
+use strsim::levenshtein;
+
+/// A name longer than this gets no suggestion, characters.
+const LONGEST_NAME: usize = 48;
+
+/// The same of a file, or of one of its neighbours.
+const LONGEST_FILE_NAME: usize = 64;
 
 /// How many names of a folder are looked at.
 const MOST_NEIGHBOURS: usize = 10_000;
+
+/// The closest of the known names, if it takes fewer edits than half of the letters; the first of equals.
+#[must_use]
+pub fn nearest_name<'a>(wanted: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let length = wanted.chars().take(LONGEST_NAME + 1).count();
+    if length > LONGEST_NAME {
+        return None;
+    }
+    known
+        .into_iter()
+        .map(|name| (levenshtein(wanted, name), name))
+        .min_by_key(|&(distance, _)| distance)
+        .filter(|&(distance, _)| 2 * distance <= length)
+        .map(|(_, name)| name)
+}
 
 /// The name in the same folder that takes fewest edits, if that is at most a third of its letters.
 #[must_use]
@@ -21,42 +41,28 @@ pub fn nearest_file(path: &Path) -> Option<String> {
         .filter_map(|entry| entry.ok()?.file_name().into_string().ok())
         .collect();
     names.sort_unstable();
+    let (length, folded) = (wanted.chars().count(), wanted.to_lowercase());
+    let short = |name: &str| name.chars().count() <= LONGEST_FILE_NAME;
     names
         .into_iter()
-        .map(|name| (edit_distance(wanted, &name), name))
+        .filter(|name| short(&folded) && short(name))
+        .map(|name| (levenshtein(&folded, &name.to_lowercase()), name))
         .min_by_key(|&(distance, _)| distance)
-        .filter(|(distance, _)| 3 * distance <= wanted.chars().count())
+        .filter(|(distance, _)| 3 * distance <= length)
         .map(|(_, name)| name)
-}
-
-/// Insertions, deletions and replacements of single characters, whatever their case.
-fn edit_distance(a: &str, b: &str) -> usize {
-    let a: Vec<char> = a.to_lowercase().chars().collect();
-    let b: Vec<char> = b.to_lowercase().chars().collect();
-    if a.len().max(b.len()) > LONGEST_NAME {
-        return usize::MAX / 4;
-    }
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, ca) in a.iter().enumerate() {
-        let mut diagonal = row[0];
-        row[0] = i + 1;
-        for (j, cb) in b.iter().enumerate() {
-            let replaced = diagonal + usize::from(ca != cb);
-            diagonal = row[j + 1];
-            row[j + 1] = replaced.min(diagonal + 1).min(row[j] + 1);
-        }
-    }
-    row[b.len()]
 }
 
 #[cfg(test)]
 mod tests {
-    use super::edit_distance;
+    use super::nearest_name;
 
     #[test]
-    fn edits_are_counted_whatever_the_case() {
-        assert_eq!(edit_distance("bunny.obj", "Bunny.OBJ"), 0);
-        assert_eq!(edit_distance("buny.obj", "bunny.obj"), 1);
-        assert_eq!(edit_distance("kitten", "sitting"), 3);
+    fn a_name_like_no_other_gets_no_suggestion() {
+        let known = ["glass", "porcelain", "pmma"];
+        assert_eq!(nearest_name("porcelan", known), Some("porcelain"));
+        assert_eq!(nearest_name("pma", known), Some("pmma"));
+        for name in ["", "unobtainium", "\u{1F9CA}", &"x".repeat(100_000)] {
+            assert_eq!(nearest_name(name, known), None, "{name:.20}");
+        }
     }
 }

@@ -4,7 +4,6 @@
 use std::sync::Arc;
 
 use frangible::modal::ModalBasis;
-use frangible::piece::Response;
 use frangible::{Body, Breakable, Elastic, FractureConfig, Material, Portion};
 use frangible_bake::{BakeSpec, MeshSize, Shape, bake};
 
@@ -26,12 +25,9 @@ pub fn whole(body: &Body) -> Arc<Portion> {
     Arc::new(Portion::of_cracked(body, config.crumb_share))
 }
 
-/// The modes of an elastic body that has some.
+/// The modes of an elastic body.
 pub fn modes(elastic: &Elastic) -> &ModalBasis {
-    match &elastic.response {
-        Response::Modes(modes) => modes,
-        Response::Static(_) => panic!("a piece with modes was expected"),
-    }
+    &elastic.modes
 }
 
 /// The first five frequencies, Hz.

@@ -1,7 +1,7 @@
 //! Ready solids by name.
 
-use frangible::nearest_name;
 use frangible_bake::{READY_SHAPES, Shape};
+use frangible_mesh::nearest_name;
 
 use crate::error::SceneError;
 

@@ -4,7 +4,8 @@ use std::path::Path;
 
 use frangible::glam::Vec3;
 use frangible::near_field::PlateTheory;
-use frangible::{CrackPath, CrackTiming, DurationModel, FractureConfig, Material, nearest_name};
+use frangible::{CrackPath, CrackTiming, DurationModel, FractureConfig, Material};
+use frangible_mesh::nearest_name;
 
 use super::body::body;
 use super::either::SwitchOrName;
@@ -109,9 +110,7 @@ fn pieces(table: PiecesTable) -> PieceSpec {
     set(&mut spec.least_mass, table.least_mass);
     let method = table.method.map(|name| match name {
         MethodName::Auto => Method::Auto,
-        MethodName::ModalProxy => Method::ModalProxy,
         MethodName::ParentModes => Method::ParentModes,
-        MethodName::QuasiStatic => Method::QuasiStatic,
         MethodName::Reanalysis => Method::Reanalysis,
     });
     set(&mut spec.method, method);

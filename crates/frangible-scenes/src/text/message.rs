@@ -1,6 +1,6 @@
 //! What is wrong with a scene file, in words, and on which line.
 
-use frangible::nearest_name;
+use frangible_mesh::nearest_name;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue, Error};
 

@@ -175,9 +175,7 @@ pub(super) struct PiecesTable {
 #[serde(rename_all = "snake_case")]
 pub(super) enum MethodName {
     Auto,
-    ModalProxy,
     ParentModes,
-    QuasiStatic,
     Reanalysis,
 }
 

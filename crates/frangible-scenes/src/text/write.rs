@@ -80,9 +80,7 @@ fn write_pieces(t: &mut Text, pieces: &PieceSpec) {
     );
     t.noted("least_mass", number(pieces.least_mass), "kg");
     let method = match pieces.method {
-        Method::ModalProxy => "modal_proxy",
         Method::ParentModes => "parent_modes",
-        Method::QuasiStatic => "quasi_static",
         Method::Reanalysis => "reanalysis",
         _ => "auto",
     };

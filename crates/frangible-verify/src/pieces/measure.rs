@@ -3,7 +3,6 @@
 use std::sync::Arc;
 
 use frangible::glam::Vec3;
-use frangible::piece::Response;
 use frangible::{
     Asset, Body, Contact, Elastic, FractureConfig, InputError, Material, Outcome, Portion, impact,
     would_break,
@@ -56,7 +55,7 @@ pub struct PieceSample {
 pub struct Reading {
     /// Quadratic elements.
     pub elements: usize,
-    /// First frequencies, Hz; none without modes.
+    /// First frequencies, Hz.
     pub frequencies: Vec<f64>,
     /// Time of one thread until the piece can be hit, s.
     pub ready: f64,
@@ -114,10 +113,6 @@ impl Bodies {
     ) -> Result<Self, PieceError> {
         let start = clock::now();
         let elastic = find()?;
-        let statics = match &elastic.response {
-            Response::Static(statics) => statics.bytes(),
-            Response::Modes(_) => 0,
-        };
         let brittle = broken.body.piece(portion, elastic)?;
         let ready = clock::now() - start;
         let asset = brittle.asset();
@@ -126,7 +121,7 @@ impl Bodies {
             elements: asset.analysis.elements.len(),
             frequencies: (0..count).map(|i| asset.modes.frequency(i)).collect(),
             ready,
-            bytes: bytes(asset) + statics,
+            bytes: bytes(asset),
         };
         Ok(Self {
             strong: brittle.strengthened(STRONGER),
@@ -281,10 +276,7 @@ fn blow(piece: &Body, contact: Contact) -> Result<(bool, Option<f64>), InputErro
     let first = |body: &Body| {
         let portion = Arc::new(Portion::of_cracked(body, config.crumb_share));
         let elastic = reanalysis(&portion, SOFTENED.0, SOFTENED.1).ok()?;
-        match elastic.response {
-            Response::Modes(modes) => Some(modes.frequency(0)),
-            Response::Static(_) => None,
-        }
+        Some(elastic.modes.frequency(0))
     };
     let before = first(piece);
     cracked.set_state(*state)?;

@@ -5,35 +5,22 @@ use std::sync::Arc;
 use frangible::{Body, Elastic, Portion};
 use frangible_pieces::{Method, PieceError, Pieces};
 
-use super::Broken;
-use crate::VerifyError;
-
 /// A way to find how a piece vibrates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Way {
     /// What the tables call it.
     pub name: &'static str,
-    /// The method; [`Method::Auto`]: what [`Pieces::method_for`] says of the piece's size.
+    /// The method; [`Method::Auto`]: what [`Pieces::method_for`] says.
     pub method: Method,
     /// Quadratic elements and modes; none: those of [`Pieces::default`], by the piece's size.
     pub size: Option<(usize, usize)>,
 }
 
 /// All ways, in the order of the tables.
-pub const WAYS: [Way; 8] = [
-    Way {
-        name: "modal proxy",
-        method: Method::ModalProxy,
-        size: None,
-    },
+pub const WAYS: [Way; 6] = [
     Way {
         name: "parent's modes",
         method: Method::ParentModes,
-        size: None,
-    },
-    Way {
-        name: "quasi-static",
-        method: Method::QuasiStatic,
         size: None,
     },
     Way {
@@ -64,18 +51,18 @@ pub const WAYS: [Way; 8] = [
 ];
 
 /// Places of the ways that the page speaks of.
-pub(crate) const PARENT_MODES: usize = 1;
-pub(crate) const REANALYSIS: usize = 4;
-pub(crate) const FINE: usize = 5;
-pub(crate) const FINEST: usize = 6;
-pub(crate) const AUTO: usize = 7;
+pub(crate) const PARENT_MODES: usize = 0;
+pub(crate) const REANALYSIS: usize = 2;
+pub(crate) const FINE: usize = 3;
+pub(crate) const FINEST: usize = 4;
+pub(crate) const AUTO: usize = 5;
 
-/// The ways with what they need.
+/// The ways, ready to be asked.
 pub(crate) struct Ways(Vec<Pieces>);
 
 impl Ways {
-    /// With the stored shapes of all these bodies' materials: what they cost is no piece's.
-    pub(crate) fn ready(broken: &[Broken]) -> Result<Self, VerifyError> {
+    /// All of [`WAYS`].
+    pub(crate) fn new() -> Self {
         let ways = WAYS.map(|way| {
             let mut pieces = Pieces::new(way.method);
             if let Some((elements, modes)) = way.size {
@@ -83,28 +70,7 @@ impl Ways {
             }
             pieces
         });
-        for (way, pieces) in WAYS.iter().zip(&ways) {
-            if way.method != Method::ModalProxy {
-                continue;
-            }
-            let mut known: Vec<f64> = Vec::new();
-            for broken in broken {
-                let ratio = broken.body.asset().material.poisson_ratio;
-                if known.contains(&ratio) {
-                    continue;
-                }
-                let first = broken.portions().next();
-                if let Some((_, portion)) = first {
-                    known.push(ratio);
-                    pieces
-                        .elastic(way.method, &portion, &broken.body)
-                        .map_err(|e| VerifyError::Pieces {
-                            reason: e.to_string(),
-                        })?;
-                }
-            }
-        }
-        Ok(Self(ways.into()))
+        Self(ways.into())
     }
 
     /// An earlier way that makes the same of a piece of so many tetrahedra.
@@ -112,7 +78,7 @@ impl Ways {
         let what = |i: usize| {
             let pieces = &self.0[i];
             let elements = pieces.elements_for(tets);
-            (pieces.method_for(tets), elements, pieces.modes)
+            (pieces.method_for(), elements, pieces.modes)
         };
         (0..way).find(|&i| what(i) == what(way))
     }

@@ -160,7 +160,7 @@ impl Session {
 fn knob_named(name: &str) -> Result<&'static Knob, ViewError> {
     Knob::named(name).ok_or_else(|| {
         let names: Vec<&str> = KNOBS.iter().map(|knob| knob.name).collect();
-        let hint = frangible::nearest_name(name, names.iter().copied())
+        let hint = frangible_bake::frangible_mesh::nearest_name(name, names.iter().copied())
             .map_or(String::new(), |n| format!(", did you mean `{n}`?"));
         ViewError::NotNow(format!(
             "there is no knob `{name}`{hint}; knobs: {}",

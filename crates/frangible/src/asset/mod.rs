@@ -3,7 +3,6 @@
 mod file;
 mod half;
 mod render;
-mod rescale;
 mod validate;
 
 use std::sync::Arc;
@@ -20,7 +19,6 @@ use crate::stress::StressBounds;
 pub use file::seal;
 pub use file::{AssetFileError, FORMAT_VERSION, SaveOptions};
 pub use render::{RenderMaterial, RenderSurface};
-pub use rescale::{RescaleError, SMALLEST_CURVATURE_RADIUS};
 
 /// Everything the run time needs of one kind of object. Share it (`Arc`) among all bodies of that kind.
 ///

@@ -63,7 +63,7 @@ pub struct Blow {
 }
 
 impl Blow {
-    /// The blow of these contacts on a body, which nothing breaks; none where nothing pushes, or a piece has no modes.
+    /// The blow of these contacts on a body, which nothing breaks; none where nothing pushes.
     ///
     /// # Errors
     /// What [`Contact::validate`] refuses.
@@ -84,10 +84,7 @@ impl Blow {
         longest: Option<f64>,
     ) -> Result<Option<Self>, InputError> {
         contacts.iter().try_for_each(Contact::validate)?;
-        Ok(match body.statics {
-            Some(_) => None,
-            None => Self::integrated(body, contacts, config, longest),
-        })
+        Ok(Self::integrated(body, contacts, config, longest))
     }
 
     /// [`Blow::new`] of contacts that have been checked.

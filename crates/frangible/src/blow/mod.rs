@@ -41,4 +41,4 @@ pub(crate) use complement::{Complement, Residual};
 pub use integrate::Blow;
 pub(crate) use limits::Limits;
 pub(crate) use plan::{SteadyNear, has_near_field};
-pub use spring::Spring;
+pub(crate) use spring::Spring;

@@ -5,17 +5,17 @@ use crate::contact::{Contact, contact_radius_of_curvature};
 
 /// F = K δ^1.5 for a dent δ, K = 4/3 E* √R (Hertz 1882).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Spring {
+pub(crate) struct Spring {
     /// K, N/m^1.5.
-    pub stiffness: f64,
+    pub(crate) stiffness: f64,
     /// Radius R of the two curvatures together, m.
-    pub radius: f64,
+    pub(crate) radius: f64,
 }
 
 impl Spring {
     /// Between two bodies with together this modulus E*, Pa, and radius, m.
     #[must_use]
-    pub fn new(modulus: f64, radius: f64) -> Self {
+    pub(crate) fn new(modulus: f64, radius: f64) -> Self {
         Self {
             stiffness: 4.0 / 3.0 * modulus * radius.sqrt(),
             radius,
@@ -32,31 +32,25 @@ impl Spring {
 
     /// Dent δ under a force, N, m.
     #[must_use]
-    pub fn dent(&self, force: f64) -> f64 {
+    pub(crate) fn dent(&self, force: f64) -> f64 {
         (force.max(0.0) / self.stiffness).cbrt().powi(2)
     }
 
     /// Radius of the disc that touches under a force, N, m: √(R δ).
     #[must_use]
-    pub fn contact_radius(&self, force: f64) -> f64 {
+    pub(crate) fn contact_radius(&self, force: f64) -> f64 {
         (self.radius * self.dent(force)).sqrt()
     }
 
     /// Force at which the spring holds this much energy, J, N: 2/5 F δ = energy.
     #[must_use]
-    pub fn force_of_energy(&self, energy: f64) -> f64 {
+    pub(crate) fn force_of_energy(&self, energy: f64) -> f64 {
         (2.5 * energy * self.stiffness.powf(2.0 / 3.0)).powf(0.6)
-    }
-
-    /// Energy that the spring holds under a force, N, J.
-    #[must_use]
-    pub fn energy(&self, force: f64) -> f64 {
-        0.4 * force * self.dent(force)
     }
 
     /// The force F ≥ 0 at which `dent(F) + compliance F = gap`, N: gap, m; compliance, m/N. Zero where the gap is open.
     #[must_use]
-    pub fn force(&self, gap: f64, compliance: f64) -> f64 {
+    pub(crate) fn force(&self, gap: f64, compliance: f64) -> f64 {
         if gap <= 0.0 {
             return 0.0;
         }
@@ -77,7 +71,7 @@ impl Spring {
     /// The blow of a mass on this spring behind a dashpot (Zener 1941), kg, m/s, N·s/m: its peak force, N. An infinite
     /// dashpot is a rigid wall.
     #[must_use]
-    pub fn peak_force(&self, mass: f64, speed: f64, dashpot: f64) -> f64 {
+    pub(crate) fn peak_force(&self, mass: f64, speed: f64, dashpot: f64) -> f64 {
         let rigid = self.force_of_energy(0.5 * mass * speed * speed);
         if !dashpot.is_finite() {
             return rigid;
@@ -123,6 +117,8 @@ mod tests {
         let stiff = spring.peak_force(mass, speed, 1e9);
         let rigid = spring.peak_force(mass, speed, f64::INFINITY);
         assert!((stiff / rigid - 1.0).abs() < 0.01);
-        assert!((spring.energy(rigid) / (0.5 * mass * speed * speed) - 1.0).abs() < 1e-12);
+        assert!(
+            (0.4 * rigid * spring.dent(rigid) / (0.5 * mass * speed * speed) - 1.0).abs() < 1e-12
+        );
     }
 }

@@ -119,7 +119,7 @@ fn projected(asset: &Asset, at: &SurfacePoint, v: Vec3) -> Vec<f64> {
 
 /// The analysis nodes that carry a point of the surface, each once, with their weights: ten for each corner of its triangle,
 /// which mostly share an element.
-pub(crate) fn each_row(asset: &Asset, at: &SurfacePoint, mut visit: impl FnMut(usize, f32)) {
+pub fn each_row(asset: &Asset, at: &SurfacePoint, mut visit: impl FnMut(usize, f32)) {
     let (carriers, count) = carriers(asset, at);
     for &(carrier, weight) in &carriers[..count] {
         visit(carrier as usize, weight);

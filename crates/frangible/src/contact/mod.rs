@@ -15,7 +15,8 @@ pub use duration::{
 };
 pub(crate) use duration::{contact_radius_of_curvature, hertz_at};
 pub use kinds::{Contact, Striker};
-pub(crate) use load::each_row;
+#[doc(hidden)]
+pub use load::each_row;
 pub use load::{Load, Touch, modal_load};
 pub(crate) use per_impulse::PerImpulse;
 pub use pulse::{Pulse, pulse};

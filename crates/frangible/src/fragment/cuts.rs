@@ -83,13 +83,14 @@ impl Cuts {
         true
     }
 
-    /// Cuts an edge, its lower node first, at this place along it; one that is cut stays as it is.
-    pub(crate) fn cut_at(&mut self, [low, high]: [u32; 2], at: f64) {
-        if self.place(low, high).is_none() {
+    /// Cuts of edges, each of another, its lower node first, at these places along them.
+    pub(super) fn at_places(list: &[([u32; 2], f64)], node_count: usize) -> Self {
+        let mut cuts = Self::none(node_count);
+        for &(ends, at) in list {
             let at = at.clamp(CUT_MARGIN, 1.0 - CUT_MARGIN);
-            let (ends, crack) = ([low, high], 0);
-            self.add(EdgeCut { ends, at, crack });
+            cuts.add(EdgeCut { ends, at, crack: 0 });
         }
+        cuts
     }
 
     /// Adds the cut of an edge that has none.

@@ -69,7 +69,7 @@ pub(super) fn inner_faces(
 }
 
 /// Tetrahedra whose nodes have several labels, ascending: those around the cut edges between two labels.
-pub(crate) fn divided_tets(
+pub(super) fn divided_tets(
     tets: &[[u32; 4]],
     index: &MeshIndex,
     labels: &Labels,

@@ -6,6 +6,7 @@ mod components;
 mod cuts;
 mod draft;
 mod finish;
+mod foreign;
 mod index;
 mod junction;
 mod label;
@@ -20,12 +21,12 @@ mod label_tests;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use build::{Built, build, build_cracked};
+pub(crate) use build::{Built, build};
 pub(crate) use components::DisjointSets;
 pub(crate) use cuts::{Cuts, EdgeCut};
-pub(crate) use draft::divided_tets;
+pub use foreign::{CutEdge, interfaces_of_labels, pieces_of_cuts};
 pub(crate) use index::MeshIndex;
-pub(crate) use label::{Labels, label, of_cuts};
-pub(crate) use partition::{Interface, Point, face_parts, interfaces};
+pub(crate) use label::{Labels, label};
+pub(crate) use partition::{Point, face_parts, interfaces};
 pub(crate) use points::PointTable;
 pub(crate) use render::{RenderIndex, draw};

@@ -7,12 +7,12 @@ use crate::blow::Residual;
 use crate::body::Body;
 use crate::config::FractureConfig;
 use crate::contact::{self, Load, each_row};
+use crate::cracking::Cracking;
 use crate::error::{InputError, finite, positive};
-use crate::impact::{Cracking, pieces, report_on};
+use crate::impact::{pieces, report_on};
 use crate::mesh::SurfacePoint;
 use crate::modal;
 use crate::outcome::{LookedAt, Outcome};
-use crate::piece::static_load;
 
 /// A pressure pulse that spreads from a point. Its impulse per area falls as 1/distance, as that of an explosion does
 /// at moderate distance; it acts along the normal of what faces the point, weakened by the cosine of its slant.
@@ -42,26 +42,6 @@ pub fn blast(body: &Body, blast: &Blast, config: &FractureConfig) -> Result<Outc
     )?;
     positive("a blast's duration", f64::from(blast.duration), "s")?;
     let asset = &*body.asset;
-    if let Some(statics) = &body.statics {
-        let peak = std::f32::consts::PI / (2.0 * blast.duration);
-        let pushes = nodal_impulse(asset, blast);
-        let forces: Vec<f64> = pushes
-            .iter()
-            .flat_map(|push| (*push * peak).as_dvec3().to_array())
-            .collect();
-        let (duration, report) = (f64::from(blast.duration), report_on(body));
-        let none = &mut None;
-        return Ok(static_load(
-            body,
-            statics,
-            &forces,
-            &[],
-            duration,
-            config,
-            report,
-            none,
-        ));
-    }
     let load = Load {
         touches: Vec::new(),
         modal_impulse: modal_impulse(asset, blast),

@@ -1,12 +1,14 @@
-//! Loads that are no impact of a rigid-body engine: resting contacts, blasts, scripted blows (beyond the paper, but for
-//! the resting contacts it names `[G12 §7.3.3]`).
+//! Loads that are no impact of a rigid-body engine: resting contacts, blasts, scripted blows, motions (beyond the paper,
+//! but for the resting contacts it names `[G12 §7.3.3]`).
 
 mod blast;
+mod motion;
 mod rest;
 mod scripted;
 mod sum;
 
 pub use blast::{Blast, blast};
+pub use motion::follow;
 pub use rest::{Force, rest};
 pub use scripted::fracture_at;
 pub(crate) use sum::PerNewton;

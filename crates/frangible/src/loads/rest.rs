@@ -10,12 +10,12 @@ use crate::blow::SteadyNear;
 use crate::body::Body;
 use crate::config::{CrackTiming, FractureConfig};
 use crate::contact::{Pushes, each_row};
+use crate::cracking::{Cracked, Cracking};
 use crate::error::{InputError, finite};
-use crate::impact::{Cracked, Cracking, harmless, pieces, report_on};
+use crate::impact::{harmless, pieces, report_on};
 use crate::mesh::SurfacePoint;
 use crate::modal::Motion;
 use crate::outcome::{LookedAt, Outcome};
-use crate::piece::static_load;
 
 /// A force on the surface, body frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -47,19 +47,6 @@ pub fn rest(
     for force in forces {
         finite("a force's point", force.point)?;
         finite("a force", force.force)?;
-    }
-    if let Some(statics) = &body.statics {
-        let (mut on_nodes, pressed) = forces_on(body, forces);
-        if body.asset.is_supported() {
-            let weight = statics.weight(gravity);
-            on_nodes.iter_mut().zip(weight).for_each(|(f, w)| *f += w);
-        }
-        let (time_step, steps) = steps(body, config);
-        let duration = 2.0 * time_step * steps as f64;
-        let report = report_on(body);
-        return Ok(static_load(
-            body, statics, &on_nodes, &pressed, duration, config, report, &mut None,
-        ));
     }
     let (asset, prepared) = (&*body.asset, &*body.prepared);
     let weight = |mode: usize| prepared.weight.get(mode).map_or(0.0, |w| w.dot(gravity));
@@ -146,10 +133,6 @@ pub fn rest(
         }
     }
     Ok(pieces(body, run(steps, report)))
-}
-
-fn forces_on(body: &Body, forces: &[Force]) -> (Vec<f64>, Vec<u32>) {
-    crate::piece::forces(body, forces.iter().map(|f| (f.point, f.force)))
 }
 
 /// Time step, s, and number of steps in which a crack can cross the body: one mean edge per step.

@@ -69,9 +69,7 @@ impl PerNewton {
 
 /// Makes the number that [`rest_margin_at_least`] multiplies with.
 pub(crate) fn prepare(body: &Body) {
-    if body.statics.is_none() {
-        body.prepared.per_newton.get_or_init(|| PerNewton::of(body));
-    }
+    body.prepared.per_newton.get_or_init(|| PerNewton::of(body));
 }
 
 /// How many times as much a body could carry, at least, of forces whose sizes (N) add up to `total`, wherever they act, and
@@ -79,10 +77,6 @@ pub(crate) fn prepare(body: &Body) {
 /// handful of multiplications: above 1, nothing happens.
 #[must_use]
 pub fn rest_margin_at_least(body: &Body, total: f32, gravity: f32) -> f64 {
-    if body.statics.is_some() {
-        // Nothing is known without a solve.
-        return 0.0;
-    }
     let most = body.prepared.per_newton.get_or_init(|| PerNewton::of(body));
     let [stress, gradient] = [0, 1].map(|k| total * most.force[k] + gravity * most.gravity[k]);
     let bound = stress + 0.5 * body.prepared.quadratic_modulus * gradient * gradient;

@@ -20,4 +20,6 @@ pub(crate) use smooth::smooth_normals;
 pub use surface::TriMesh;
 pub(crate) use tet::{EDGES, FACES};
 pub use tet::{NO_NEIGHBOUR, TetMesh};
-pub(crate) use tree::{SurfacePoint, TriangleTree};
+#[doc(hidden)]
+pub use tree::SurfacePoint;
+pub(crate) use tree::TriangleTree;

@@ -33,13 +33,13 @@ pub(crate) struct TriangleTree {
 
 /// The point of a surface closest to a given one.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct SurfacePoint {
+pub struct SurfacePoint {
     /// Its triangle.
-    pub(crate) triangle: u32,
+    pub triangle: u32,
     /// Weights of the triangle's corners.
-    pub(crate) weights: [f32; 3],
+    pub weights: [f32; 3],
     /// Where it is, m.
-    pub(crate) position: Vec3,
+    pub position: Vec3,
 }
 
 impl TriangleTree {

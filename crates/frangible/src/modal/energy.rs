@@ -5,19 +5,6 @@ use std::f64::consts::PI;
 use super::{ModalBasis, Oscillator};
 use crate::material::Material;
 
-/// Whether the modal energy Σ ½ (q̇² + λ q²) stays at or below `budget`, J, over a contact of this duration, s, with modal
-/// impulses `load`, N·s/√kg.
-#[must_use]
-pub fn contact_energy_within(
-    basis: &ModalBasis,
-    material: &Material,
-    load: &[f64],
-    duration: f64,
-    budget: f64,
-) -> bool {
-    ContactEnergy::new(basis, material, load).is_within(duration, budget)
-}
-
 /// Rounding of the bounds and of the energies, relative: where they are closer to the budget the energies decide.
 const ROUNDING: f64 = 1e-9;
 
@@ -34,7 +21,7 @@ struct Mode {
     impulse: f64,
 }
 
-/// Energy that a contact puts into the modes, for any duration.
+/// Modal energy Σ ½ (q̇² + λ q²) that a contact puts into the modes, for any duration.
 pub(crate) struct ContactEnergy {
     modes: Vec<Mode>,
 }

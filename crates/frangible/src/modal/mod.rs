@@ -2,8 +2,6 @@
 
 mod basis;
 mod energy;
-mod field;
-mod live;
 mod reach;
 mod response;
 mod step;
@@ -11,9 +9,7 @@ mod tick;
 
 pub use basis::ModalBasis;
 pub(crate) use energy::ContactEnergy;
-pub use energy::contact_energy_within;
-pub use field::ModeField;
-pub use live::{LiveModes, SurfacePlace};
 pub(crate) use reach::Reaches;
 pub use response::{Motion, Oscillator, respond};
-pub(crate) use tick::Tick;
+#[doc(hidden)]
+pub use tick::Tick;

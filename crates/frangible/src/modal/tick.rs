@@ -4,13 +4,13 @@ use super::step::Step;
 
 /// What a tick makes of ω q and q̇, and of a force that goes in a straight line from its beginning to its end.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct Tick {
+pub struct Tick {
     /// (ω q, q̇) after the tick per (ω q, q̇) before it.
-    pub(crate) own: [[f64; 2]; 2],
+    pub own: [[f64; 2]; 2],
     /// (ω q, q̇) after it per force at its beginning, held.
-    pub(crate) held: [f64; 2],
+    pub held: [f64; 2],
     /// (ω q, q̇) after it per newton that the force grows by.
-    pub(crate) ramp: [f64; 2],
+    pub ramp: [f64; 2],
 }
 
 /// Below this angle ω Δt the closed form loses digits; the series of the matrix exponential is short there.
@@ -18,7 +18,8 @@ const SMALL_ANGLE: f64 = 0.02;
 
 impl Tick {
     /// The tick of an oscillator q̈ + d q̇ + ω² q = f: ω, rad/s; d, 1/s; length of the tick, s.
-    pub(crate) fn new(frequency: f64, damping: f64, tick: f64) -> Self {
+    #[must_use]
+    pub fn new(frequency: f64, damping: f64, tick: f64) -> Self {
         let half = 0.5 * damping;
         let swings = frequency * frequency - half * half;
         if frequency * tick < SMALL_ANGLE || swings < 0.01 * frequency * frequency {

@@ -48,4 +48,5 @@ mod wall;
 
 pub(crate) use bands::{Bands, Spacing};
 pub(crate) use field::{NearField, NearFields, NearPlace};
-pub use wall::{PlateTheory, WallMaterial};
+pub use wall::PlateTheory;
+pub(crate) use wall::WallMaterial;

@@ -18,15 +18,15 @@ pub enum PlateTheory {
 
 /// An infinite wall of a material.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct WallMaterial {
+pub(crate) struct WallMaterial {
     /// Thickness h, m.
-    pub thickness: f64,
+    pub(crate) thickness: f64,
     /// Bending stiffness D = E h³ / 12(1−ν²), N·m.
-    pub bending_stiffness: f64,
+    pub(crate) bending_stiffness: f64,
     /// Mass per area μ = ρ h, kg/m².
-    pub mass_per_area: f64,
+    pub(crate) mass_per_area: f64,
     /// Stiffness E h s by which curvature holds the wall where it is, Pa/m.
-    pub curvature_stiffness: f64,
+    pub(crate) curvature_stiffness: f64,
     /// Shear stiffness κ G h, N/m.
     shear_stiffness: f64,
     /// Rotary inertia ρ h³ / 12, kg.
@@ -41,7 +41,7 @@ pub struct WallMaterial {
 impl WallMaterial {
     /// A wall of this thickness (m) and stiffening by curvature (1/m²).
     #[must_use]
-    pub fn new(material: &Material, wall: &SurfaceWall, theory: PlateTheory) -> Self {
+    pub(crate) fn new(material: &Material, wall: &SurfaceWall, theory: PlateTheory) -> Self {
         let (e, nu, h) = (
             material.youngs_modulus,
             material.poisson_ratio,
@@ -62,7 +62,7 @@ impl WallMaterial {
 
     /// Zener's dashpot of the infinite plate, 8 √(D μ), N·s/m.
     #[must_use]
-    pub fn dashpot(&self) -> f64 {
+    pub(crate) fn dashpot(&self) -> f64 {
         8.0 * (self.bending_stiffness * self.mass_per_area).sqrt()
     }
 
@@ -73,7 +73,7 @@ impl WallMaterial {
 
     /// ω² of the wave number k, 1/s².
     #[must_use]
-    pub fn eigenvalue(&self, k: f64) -> f64 {
+    pub(crate) fn eigenvalue(&self, k: f64) -> f64 {
         if self.theory == PlateTheory::Kirchhoff {
             return self.stiffness(k) / self.mass_per_area;
         }
@@ -93,7 +93,7 @@ impl WallMaterial {
 
     /// The wave number of an angular frequency, rad/s, 1/m; 0 below the frequency where waves begin.
     #[must_use]
-    pub fn wave_number(&self, frequency: f64) -> f64 {
+    pub(crate) fn wave_number(&self, frequency: f64) -> f64 {
         let wanted = frequency * frequency;
         // Kirchhoff's wave is the shortest of none: shear and inertia only slow waves down.
         let mut low = 0.0;
@@ -118,7 +118,7 @@ impl WallMaterial {
 
     /// The wave number from which on bending rules, D k⁴ ≥ 3 E h s, 1/m: longer waves are held by the wall's curvature.
     #[must_use]
-    pub fn bending_rules_from(&self) -> f64 {
+    pub(crate) fn bending_rules_from(&self) -> f64 {
         (3.0 * self.curvature_stiffness / self.bending_stiffness).powf(0.25)
     }
 

@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, OnceLock};
 
-use super::{Portion, Statics};
+use super::Portion;
 use crate::asset::{AnalysisMesh, Asset, EmbeddedPoint, Embedding};
 use crate::body::{Body, Prepared};
 use crate::contact::PerImpulse;
@@ -11,7 +11,7 @@ use crate::mesh::TriangleTree;
 use crate::modal::{ModalBasis, Reaches};
 use crate::stress::{Search, Skin, StressBounds};
 
-/// An elastic body for a [`Portion`]: elements that carry its motion, and how it answers a push.
+/// An elastic body for a [`Portion`]: elements that carry its motion, and the modes of the piece.
 ///
 /// Everything is in the frame of the fracture mesh.
 #[derive(Clone, Debug)]
@@ -22,17 +22,8 @@ pub struct Elastic {
     pub tets: Vec<EmbeddedPoint>,
     /// Where [`Portion::nodes`] lie in them, one each.
     pub nodes: Vec<EmbeddedPoint>,
-    /// How it answers.
-    pub response: Response,
-}
-
-/// How an elastic body answers a push.
-#[derive(Clone, Debug)]
-pub enum Response {
-    /// By vibrating: modes of the piece, without its rigid motions. [`ModalBasis::peak_stress`] may be empty.
-    Modes(ModalBasis),
-    /// At once, without inertia but for that of the body as a whole.
-    Static(Arc<dyn Statics>),
+    /// Modes of the piece, without its rigid motions. [`ModalBasis::peak_stress`] may be empty.
+    pub modes: ModalBasis,
 }
 
 /// Finds how pieces vibrate.
@@ -67,10 +58,7 @@ impl Body {
         if points().any(|p| p.element as usize >= elements) {
             return Err(misfit("names an element that is not there"));
         }
-        let (modes, statics) = match elastic.response {
-            Response::Modes(modes) => (modes, None),
-            Response::Static(statics) => (ModalBasis::default(), Some(statics)),
-        };
+        let modes = elastic.modes;
         if modes.shapes.len() != 3 * elastic.analysis.nodes.len() * modes.count() {
             return Err(misfit("has mode shapes of another size"));
         }
@@ -105,7 +93,7 @@ impl Body {
         };
         let own = self.weak_tets().iter().copied();
         let weak_tets = own.filter(|e| tets.binary_search(e).is_ok()).collect();
-        Ok(self.part(asset, weak_tets, portion.state.clone(), statics))
+        Ok(self.part(asset, weak_tets, portion.state.clone()))
     }
 }
 

@@ -5,7 +5,7 @@
 //! tetrahedra the same way, so pieces of pieces tile their parent, generation after generation.
 //!
 //! How it vibrates is another matter: its modes are not those of the whole. A [`PieceModel`] finds them
-//! (crate `frangible-pieces` has several), as an [`Elastic`] body; [`Body::piece`](crate::Body::piece) makes a body of both.
+//! (crate `frangible-pieces` has two), as an [`Elastic`] body; [`Body::piece`](crate::Body::piece) makes a body of both.
 //! A body that is cracked but whole can have new modes in the same way ([`Portion::of_cracked`]).
 
 mod breakup;
@@ -13,14 +13,11 @@ mod elastic;
 mod lists;
 mod portion;
 mod solid;
-mod statics;
 
 pub(crate) use breakup::{Breakup, FixedPoints, Trace};
-pub use elastic::{Elastic, PieceModel, Response};
+pub use elastic::{Elastic, PieceModel};
 pub use portion::Portion;
 pub use solid::Solid;
-pub use statics::Statics;
-pub(crate) use statics::{forces, static_impact, static_load};
 
 /// Labels from here on are those of a piece's neighbours.
 pub(crate) const FOREIGN: u32 = 1 << 31;

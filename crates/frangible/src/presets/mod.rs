@@ -32,7 +32,6 @@ mod table;
 use thiserror::Error;
 
 use crate::material::Material;
-use crate::names::nearest_name;
 pub use rate::RateLaw;
 use table::PRESETS;
 
@@ -106,17 +105,11 @@ impl Preset {
 
 /// A name that is no preset's.
 #[derive(Clone, Debug, Error, PartialEq)]
-#[error("unknown material `{name}`{}; materials: {}", hint(.nearest), names().join(", "))]
+#[error("unknown material `{name}`; materials: {}", names().join(", "))]
 #[non_exhaustive]
 pub struct UnknownMaterial {
     /// What was asked for, cut if very long.
     pub name: String,
-    /// The preset whose name is closest, if one is close.
-    pub nearest: Option<&'static str>,
-}
-
-fn hint(nearest: &Option<&'static str>) -> String {
-    nearest.map_or_else(String::new, |near| format!("; did you mean `{near}`?"))
 }
 
 fn names() -> Vec<&'static str> {
@@ -133,14 +126,13 @@ impl Material {
     /// The preset of that name; case does not matter, and `_` or a space may stand for `-`.
     ///
     /// # Errors
-    /// [`UnknownMaterial`], with the nearest name and all names in its message.
+    /// [`UnknownMaterial`], with all names in its message.
     pub fn preset(name: &str) -> Result<Material, UnknownMaterial> {
         let wanted: String = name.trim().to_lowercase().replace(['_', ' '], "-");
         match PRESETS.iter().find(|preset| preset.name == wanted) {
             Some(preset) => Ok(preset.material()),
             None => Err(UnknownMaterial {
                 name: name.chars().take(LONGEST_NAME).collect(),
-                nearest: nearest_name(&wanted, PRESETS.iter().map(|preset| preset.name)),
             }),
         }
     }

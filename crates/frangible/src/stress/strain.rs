@@ -76,14 +76,6 @@ impl Symmetric3 {
         Self::from_components(std::array::from_fn(|i| a[i] + b[i]))
     }
 
-    /// Von Mises' equivalent of a stress, √(3 J₂): what a bar under this much tension would feel of change of shape.
-    #[must_use]
-    pub fn von_mises(self) -> f32 {
-        let ([xx, yy, zz], [xy, yz, zx]) = (self.diagonal, self.off);
-        let differences = (xx - yy).powi(2) + (yy - zz).powi(2) + (zz - xx).powi(2);
-        (0.5 * differences + 3.0 * (xy * xy + yz * yz + zx * zx)).sqrt()
-    }
-
     /// The tensor times a vector.
     #[must_use]
     pub fn times(self, v: Vec3) -> Vec3 {
@@ -206,12 +198,6 @@ impl Elasticity {
     #[must_use]
     pub fn free_state(&self, gradient: Mat3, n: Vec3) -> StressState {
         self.state_by(gradient, Law::Free(n))
-    }
-
-    /// The same at the edge between two free surfaces that runs along unit `t`: all that is left is the tension along it.
-    #[must_use]
-    pub fn edge_state(&self, gradient: Mat3, t: Vec3) -> StressState {
-        self.state_by(gradient, Law::Edge(t))
     }
 
     /// By any of the laws, for the steps of a batch side by side; `[column j][row i]` = ∂u_i/∂x_j.
@@ -364,7 +350,7 @@ pub enum Law {
     Solid,
     /// Beside a free surface of this unit normal: [`Elasticity::free_state`].
     Free(Vec3),
-    /// At an edge along this unit vector: [`Elasticity::edge_state`].
+    /// At the edge between two free surfaces that runs along this unit vector: all that is left is the tension along it.
     Edge(Vec3),
 }
 
@@ -418,7 +404,7 @@ mod tests {
                     energy += 0.5 * sigma * back;
                 }
                 assert!((free.energy_density - energy).abs() < 1e-5 * size * 1e-4);
-                let edge = law.edge_state(g, n);
+                let edge = law.state_by(g, Law::Edge(n));
                 let along = n.dot(strain.times(n));
                 assert!((n.dot(edge.stress.times(n)) - e * along).abs() < 1e-5 * size);
                 assert!(edge.stress.times(a).length() < 1e-5 * size);

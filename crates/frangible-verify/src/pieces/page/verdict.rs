@@ -81,17 +81,9 @@ impl Truth {
             .iter()
             .map(|&tets| format!("{} of {tets}", pieces.elements_for(tets)))
             .collect();
-        let same = sizes
-            .iter()
-            .all(|&t| pieces.method_for(t) == Method::Reanalysis);
         let _ = write!(
             text,
-            "{}, {} modes, on about as many elements as the size asks for ({} uncut tetrahedra). ",
-            if same {
-                "a reanalysis of every piece"
-            } else {
-                "a method by size"
-            },
+            "a reanalysis of every piece, {} modes, on about as many elements as the size asks for ({} uncut tetrahedra). ",
             pieces.modes,
             of_sizes.join(", ")
         );

@@ -7,15 +7,13 @@
 //! deflection; under the ramp stiff modes follow the force, which is the quasi-static answer, and slow ones swing.
 //!
 //! Limits: the displacement is that of the modes there are; the dent under a contact is below what a hundred modes resolve. The
-//! body's motion as a whole belongs to the rigid-body engine. Nothing breaks here: ask [`impact()`](crate::impact()) or
-//! [`rest()`](crate::rest()).
+//! body's motion as a whole belongs to the rigid-body engine. Nothing breaks here: ask [`impact()`](frangible::impact()) or
+//! [`rest()`](frangible::rest()).
 
-use glam::Vec3;
-
-use super::tick::Tick;
-use crate::body::Body;
-use crate::contact::each_row;
-use crate::error::{InputError, finite, positive};
+use frangible::contact::each_row;
+use frangible::glam::Vec3;
+use frangible::modal::Tick;
+use frangible::{Body, InputError};
 
 /// A place on a body's surface, with what its modes see of it. [`SurfacePlace::seek`] moves it without allocating.
 #[derive(Clone, Debug)]
@@ -40,7 +38,7 @@ impl SurfacePlace {
             position: Vec3::ZERO,
             normal: Vec3::Z,
             triangle: 0,
-            shapes: vec![Vec3::ZERO; body.asset.modes.count()],
+            shapes: vec![Vec3::ZERO; body.asset().modes.count()],
         };
         place.seek(body, point)?;
         Ok(place)
@@ -51,9 +49,16 @@ impl SurfacePlace {
     /// # Errors
     /// A point that is not finite; the place stays where it was.
     pub fn seek(&mut self, body: &Body, point: Vec3) -> Result<(), InputError> {
-        finite("a point to be touched", point)?;
-        let asset = &*body.asset;
-        let at = body.prepared.surface.closest(point);
+        if !point.is_finite() {
+            return Err(InputError::NotFinite {
+                what: "a point to be touched",
+                x: point.x,
+                y: point.y,
+                z: point.z,
+            });
+        }
+        let asset = &**body.asset();
+        let at = body.nearest_on_surface(point);
         let normals = &asset.surface.normals[at.triangle as usize];
         let mixed: Vec3 = normals.iter().zip(at.weights).map(|(n, w)| *n * w).sum();
         self.position = at.position;
@@ -121,8 +126,14 @@ impl LiveModes {
     /// # Errors
     /// A tick that is not above zero, or not finite.
     pub fn new(body: &Body, tick: f64) -> Result<Self, InputError> {
-        positive("the length of a tick", tick, " s")?;
-        let (basis, material) = (&body.asset.modes, &body.asset.material);
+        if !(tick.is_finite() && tick > 0.0) {
+            return Err(InputError::NotPositive {
+                what: "the length of a tick",
+                value: tick,
+                unit: "s",
+            });
+        }
+        let (basis, material) = (&body.asset().modes, &body.asset().material);
         let modes = (0..basis.count()).map(|i| {
             let frequency = basis.eigenvalues[i].sqrt();
             LiveMode::new(frequency, basis.damping(i, material), tick)

@@ -1,13 +1,15 @@
 //! A mode at the nodes of the meshes: against displacements whose stress is known.
 
-use frangible::Asset;
 use frangible::asset::{AnalysisMesh, EmbeddedPoint, Embedding};
 use frangible::glam::{Mat3, Vec3};
 use frangible::modal::ModalBasis;
 use frangible::stress::{Symmetric3, principal_axes};
-
-mod common;
-use common::{Size, synthetic_asset};
+use frangible::{Asset, Material};
+use frangible_bake::mode_field::{
+    mode_on_analysis_mesh, mode_on_fracture_mesh, motion_on_analysis_mesh, motion_on_fracture_mesh,
+    von_mises,
+};
+use frangible_bake::{BakeSpec, Shape, bake};
 
 const CORNERS: [Vec3; 4] = [
     Vec3::new(0.01, -0.02, 0.03),
@@ -22,6 +24,16 @@ fn gradients(corners: [Vec3; 4]) -> [Vec3; 4] {
     let inverse = Mat3::from_cols(b - a, c - a, d - a).inverse().transpose();
     let rows = [inverse.x_axis, inverse.y_axis, inverse.z_axis];
     [-(rows[0] + rows[1] + rows[2]), rows[0], rows[1], rows[2]]
+}
+
+/// A baked block, for what is not looked at.
+fn block() -> Asset {
+    let glass = Material::preset("glass").expect("a preset");
+    let spec = BakeSpec {
+        modes: 4,
+        ..BakeSpec::new("block", Shape::block([0.1, 0.05, 0.03]), glass)
+    };
+    bake(&spec, &mut |_| {}).expect("a baked block").0
 }
 
 /// Two elements that share a face, a point in each, and modes that move every node as these functions say.
@@ -84,12 +96,7 @@ fn two_elements(modes: &[fn(Vec3) -> Vec3]) -> Asset {
             ],
         },
         modes,
-        ..synthetic_asset(&Size {
-            cubes: 1,
-            analysis_nodes: 10,
-            elements: 1,
-            modes: 1,
-        })
+        ..block()
     }
 }
 
@@ -129,20 +136,20 @@ fn stretched_and_bent_bodies_have_the_stress_of_the_closed_form() {
     };
     let on_nodes = |mode| {
         (
-            asset.mode_on_analysis_mesh(mode),
+            mode_on_analysis_mesh(&asset, mode),
             asset.analysis.nodes.clone(),
         )
     };
     let on_points = |mode| {
         let places = asset.embedding.nodes.iter().map(|p| place(&asset, p));
-        (asset.mode_on_fracture_mesh(mode), places.collect())
+        (mode_on_fracture_mesh(&asset, mode), places.collect())
     };
     let (stretched, bent) = (100.0 * modulus, |p: Vec3| -300.0 * modulus * p.z);
     for (field, places) in [on_nodes(0), on_points(0)] {
         for ((u, s), p) in field.displacements.iter().zip(&field.stresses).zip(&places) {
             assert!(u.abs_diff_eq(stretch(*p), 1e-4), "{u} at {p}");
             assert!(near(*s, along_x(stretched), stretched), "{s:?}");
-            assert!((s.von_mises() / stretched - 1.0).abs() < 1e-4);
+            assert!((von_mises(s) / stretched - 1.0).abs() < 1e-4);
         }
     }
     for (number, (field, places)) in [on_nodes(1), on_points(1)].into_iter().enumerate() {
@@ -177,14 +184,14 @@ fn the_equivalent_stress_is_that_of_the_principal_stresses_and_blind_to_pressure
         };
         let [a, b, c] = principal_axes(&stress).0;
         let reference = (0.5 * ((a - b).powi(2) + (b - c).powi(2) + (c - a).powi(2))).sqrt();
-        assert!((f64::from(stress.von_mises()) / reference - 1.0).abs() < 1e-5);
+        assert!((f64::from(von_mises(&stress)) / reference - 1.0).abs() < 1e-5);
         let squeezed = Symmetric3 {
             diagonal: stress.diagonal.map(|s| s - 3e7),
             off: stress.off,
         };
-        assert!((squeezed.von_mises() / stress.von_mises() - 1.0).abs() < 1e-4);
+        assert!((von_mises(&squeezed) / von_mises(&stress) - 1.0).abs() < 1e-4);
     }
-    assert_eq!(Symmetric3::default().von_mises(), 0.0);
+    assert_eq!(von_mises(&Symmetric3::default()), 0.0);
 }
 
 #[test]
@@ -194,15 +201,15 @@ fn a_motion_is_the_sum_of_its_modes_and_modes_not_named_stand_still() {
         let of = |mode: usize| amplitudes.get(mode).copied().unwrap_or(0.0);
         for (motion, modes) in [
             (
-                asset.motion_on_analysis_mesh(amplitudes),
-                [0, 1].map(|mode| asset.mode_on_analysis_mesh(mode)),
+                motion_on_analysis_mesh(&asset, amplitudes),
+                [0, 1].map(|mode| mode_on_analysis_mesh(&asset, mode)),
             ),
             (
-                asset.motion_on_fracture_mesh(amplitudes),
-                [0, 1].map(|mode| asset.mode_on_fracture_mesh(mode)),
+                motion_on_fracture_mesh(&asset, amplitudes),
+                [0, 1].map(|mode| mode_on_fracture_mesh(&asset, mode)),
             ),
         ] {
-            let largest = modes[0].stresses.iter().map(|s| s.von_mises());
+            let largest = modes[0].stresses.iter().map(von_mises);
             let largest = largest.fold(0.0, f32::max);
             for (i, (u, s)) in motion
                 .displacements
@@ -229,5 +236,5 @@ fn a_motion_is_the_sum_of_its_modes_and_modes_not_named_stand_still() {
 #[test]
 #[should_panic(expected = "mode 2 of 2")]
 fn a_mode_that_does_not_exist_is_a_bug_of_the_caller() {
-    let _ = two_elements(&[stretch, bending]).mode_on_fracture_mesh(2);
+    let _ = mode_on_fracture_mesh(&two_elements(&[stretch, bending]), 2);
 }

@@ -1,0 +1,189 @@
+//! Another material or another size without another bake.
+//!
+//! For a fixed shape and Poisson's ratio, K is proportional to E s and M to ρ s³, where s is the size. So
+//! λ goes as E / (ρ s²), the mass-normalised shapes as 1 / √(ρ s³), their gradients one power of s lower, and
+//! their stress as E / (√ρ s^2.5). Damping, strength, toughness, weak points, roughness and contact numbers are in no
+//! mode: they are only replaced.
+//!
+//! Factors are formed in f64 and each stored f32 is rounded once per call, 6e-8 of it; eigenvalues stay in f64. Rescale the
+//! asset as it was baked rather than the last result, where a slider asks for it a thousand times.
+
+use std::sync::Arc;
+
+use frangible::asset::EmbeddedPoint;
+use frangible::glam::{DVec3, Vec3};
+use frangible::{Asset, InputError, MassProperties, Material};
+use thiserror::Error;
+
+/// Smallest radius of curvature of a surface, m: edges and corners are rounded off this far in any real body, whatever
+/// its size.
+pub const SMALLEST_CURVATURE_RADIUS: f64 = 0.003;
+
+/// Poisson's ratios this close are the same: far above the rounding of a sum, far below what shows in a mode.
+const SAME_RATIO: f64 = 1e-9;
+
+/// Largest mode shape and stress there must be: numbers 1e-10 of it are still normal ones of f32.
+const SMALLEST: f32 = 1e-28;
+
+/// Why an asset cannot be rescaled.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[non_exhaustive]
+pub enum RescaleError {
+    /// The modes would be others, and no factor gives them.
+    #[error(
+        "`{asset}` is baked of {baked_material} with Poisson's ratio {baked}, and {wanted_material} has {wanted}: modes of another ratio need another bake; bake it again of {wanted_material}, or give a material of ratio {baked}"
+    )]
+    PoissonRatio {
+        /// Name of the asset.
+        asset: String,
+        /// Material it was baked of.
+        baked_material: String,
+        /// Poisson's ratio it was baked with.
+        baked: f64,
+        /// Material that was asked for.
+        wanted_material: String,
+        /// Its Poisson's ratio.
+        wanted: f64,
+    },
+    /// Mode shapes or stresses would fade into the smallest numbers of f32, or beyond.
+    #[error(
+        "`{asset}`, changed like this, leaves the range of its numbers; change size or material by less"
+    )]
+    OutOfRange {
+        /// Name of the asset.
+        asset: String,
+    },
+    /// A number that cannot be used.
+    #[error(transparent)]
+    Input(#[from] InputError),
+}
+
+/// The asset of another material of the same Poisson's ratio, as if baked of it.
+///
+/// # Errors
+/// [`RescaleError::PoissonRatio`] for a material of another ratio; a number of the material out of its range.
+pub fn with_material(asset: &Asset, material: &Material) -> Result<Asset, RescaleError> {
+    material.validate()?;
+    let old = &asset.material;
+    if (material.poisson_ratio - old.poisson_ratio).abs() > SAME_RATIO {
+        return Err(RescaleError::PoissonRatio {
+            asset: asset.name.clone(),
+            baked_material: old.name.clone(),
+            baked: old.poisson_ratio,
+            wanted_material: material.name.clone(),
+            wanted: material.poisson_ratio,
+        });
+    }
+    let stiffness = material.youngs_modulus / old.youngs_modulus;
+    let density = material.density / old.density;
+    let mut asset = asset.clone();
+    // The ratio of the bake: many steps within rounding must not lead away from it.
+    asset.material = material.clone();
+    asset.material.poisson_ratio = old.poisson_ratio;
+    rescale_modes(
+        &mut asset,
+        stiffness / density,
+        density.sqrt().recip(),
+        density.sqrt().recip(),
+        stiffness / density.sqrt(),
+    );
+    weigh(&mut asset);
+    checked(asset)
+}
+
+/// The asset `factor` times as large, of the same material, as if the shape had been baked at that size.
+///
+/// Curvature radii at [`SMALLEST_CURVATURE_RADIUS`] stay there: edges of a larger body are no blunter. A rounding that the
+/// bake clamped to it is not found again by growing.
+///
+/// # Errors
+/// A factor that is not above zero, or so far from one that numbers leave the range of f32.
+pub fn scaled(asset: &Asset, factor: f64) -> Result<Asset, RescaleError> {
+    if !(factor.is_finite() && factor > 0.0) {
+        Err(InputError::NotPositive {
+            what: "the factor of the size",
+            value: factor,
+            unit: "times",
+        })?;
+    }
+    let mut asset = asset.clone();
+    let scale = |v: &mut Vec3| *v = (v.as_dvec3() * factor).as_vec3();
+    let fracture = Arc::make_mut(&mut asset.fracture);
+    fracture.positions.iter_mut().for_each(scale);
+    asset.analysis.nodes.iter_mut().for_each(scale);
+    for gradient in asset.analysis.barycentric_gradients.iter_mut().flatten() {
+        *gradient = (gradient.as_dvec3() / factor).as_vec3();
+    }
+    let offset = |p: &mut EmbeddedPoint| scale(&mut p.offset);
+    asset.embedding.tets.iter_mut().for_each(offset);
+    asset.embedding.nodes.iter_mut().for_each(offset);
+    for cell in &mut asset.cells {
+        cell.points.iter_mut().for_each(scale);
+    }
+    if let Some(render) = &mut asset.render {
+        render.positions.iter_mut().for_each(scale);
+    }
+    for radius in &mut asset.surface.curvature_radius {
+        if *radius > SMALLEST_CURVATURE_RADIUS as f32 {
+            *radius = (f64::from(*radius) * factor).max(SMALLEST_CURVATURE_RADIUS) as f32;
+        }
+    }
+    rescale_walls(&mut asset, factor);
+    rescale_modes(
+        &mut asset,
+        (factor * factor).recip(),
+        (factor * factor.sqrt()).recip(),
+        (factor * factor * factor.sqrt()).recip(),
+        (factor * factor * factor.sqrt()).recip(),
+    );
+    weigh(&mut asset);
+    checked(asset)
+}
+
+fn rescale_walls(asset: &mut Asset, factor: f64) {
+    let walls = &mut asset.surface.walls;
+    for (numbers, factor) in [
+        (&mut walls.thickness, factor),
+        (&mut walls.stiffening, (factor * factor).recip()),
+        (&mut walls.margin, factor),
+    ] {
+        for x in numbers {
+            *x = (f64::from(*x) * factor) as f32;
+        }
+    }
+}
+
+fn rescale_modes(asset: &mut Asset, eigenvalues: f64, shapes: f64, gradient: f64, stress: f64) {
+    let modes = &mut asset.modes;
+    modes.eigenvalues.iter_mut().for_each(|l| *l *= eigenvalues);
+    for (numbers, factor) in [
+        (&mut modes.shapes, shapes),
+        (&mut modes.peak_stress, stress),
+        (&mut asset.bounds.stress, stress),
+        (&mut asset.bounds.gradient, gradient),
+    ] {
+        for x in numbers {
+            *x = (f64::from(*x) * factor) as f32;
+        }
+    }
+}
+
+fn checked(asset: Asset) -> Result<Asset, RescaleError> {
+    let stored = |numbers: &[f32]| {
+        let largest = numbers.iter().fold(0.0_f32, |m, x| m.max(x.abs()));
+        (SMALLEST..f32::INFINITY).contains(&largest)
+    };
+    if !(stored(&asset.modes.shapes) && stored(&asset.modes.peak_stress)) {
+        return Err(RescaleError::OutOfRange { asset: asset.name });
+    }
+    asset.validate()?;
+    Ok(asset)
+}
+
+/// As the bake does: of the mesh as stored, so that the masses of its pieces sum to it.
+fn weigh(asset: &mut Asset) {
+    let mesh = &asset.fracture;
+    let corners = (0..mesh.tets.len()).map(|e| mesh.corners(e).map(|p| p.as_dvec3()));
+    asset.mass = MassProperties::of_tetrahedra(asset.material.density, corners);
+    asset.mass.centre = DVec3::ZERO;
+}

@@ -1,0 +1,58 @@
+//! A motion of the modes that comes from elsewhere.
+
+use crate::body::Body;
+use crate::config::FractureConfig;
+use crate::cracking::Cracking;
+use crate::error::{InputError, positive};
+use crate::impact::{pieces, report_on};
+use crate::modal::Motion;
+use crate::outcome::{LookedAt, Outcome};
+
+/// What cracks do under any motion of a body's modes, wherever it comes from: [`impact()`](crate::impact()) from its stress wave
+/// on. `pressed`: surface triangles that something presses on; `time_step`: of the motion, s. With the energy ledger all
+/// cracks together spend no more than the motion's [peak strain energy](Motion::peak_strain_energy).
+///
+/// A motion whose rows are all the same is a steady state: what methods without a vibration make of an impact.
+///
+/// # Errors
+/// A motion, time step or energy that is not one of this body.
+pub fn follow(
+    body: &Body,
+    motion: &Motion,
+    pressed: &[u32],
+    time_step: f64,
+    config: &FractureConfig,
+) -> Result<Outcome, InputError> {
+    if motion.modes != body.asset.modes.followed() || motion.steps() == 0 {
+        return Err(InputError::Motion(
+            "it must have an amplitude for each of the body's modes and one time step or more",
+        ));
+    }
+    if !motion.amplitudes.iter().all(|q| q.is_finite()) {
+        return Err(InputError::Motion(
+            "every amplitude must be a finite number",
+        ));
+    }
+    positive("time step", time_step, "s")?;
+    let energy = motion.peak_strain_energy;
+    if !energy.is_finite() || energy < 0.0 {
+        return Err(InputError::Motion(
+            "its strain energy must be a finite number, zero or above",
+        ));
+    }
+    let mut report = report_on(body);
+    report.time_step = time_step;
+    report.time_steps = motion.steps();
+    report.looked_at = LookedAt::Amplitudes;
+    let cracked = Cracking {
+        body,
+        config,
+        motion: motion.clone(),
+        pressed: pressed.to_vec(),
+        time_step,
+        budget: energy,
+        blow: None,
+    }
+    .run(0, report, &mut None);
+    Ok(pieces(body, cracked))
+}
