@@ -121,7 +121,7 @@ impl LiveModes {
     /// # Errors
     /// A tick that is not above zero, or not finite.
     pub fn new(body: &Body, tick: f64) -> Result<Self, InputError> {
-        positive("the length of a tick", tick, " s")?;
+        positive("the length of a tick", tick, "s")?;
         let (basis, material) = (&body.asset.modes, &body.asset.material);
         let modes = (0..basis.count()).map(|i| {
             let frequency = basis.eigenvalues[i].sqrt();

@@ -40,6 +40,7 @@ pub(crate) fn static_impact(
     trace: &mut Option<CrackTrace>,
 ) -> Result<Outcome, InputError> {
     contacts.iter().try_for_each(Contact::validate)?;
+    config.validate()?;
     let mut report = report_on(body);
     report.approach_energy = contact::approach_energy(contacts);
     let load = contact::modal_load(body, contacts.iter().filter(|c| c.impulse > 0.0));
