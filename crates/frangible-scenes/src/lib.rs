@@ -28,6 +28,7 @@ mod launch;
 mod live;
 mod meshes;
 mod output;
+mod overlap;
 mod projectile;
 mod recorder;
 mod rescale;
