@@ -113,6 +113,11 @@ fn options_that_clash_or_do_not_exist_are_refused() {
     refused("clash", &["--at", "0,0,0"], &["--ball"]);
     refused("clash", &["--seed", "-1"], &["-1", "--seed"]);
     refused("clash", &["--no-such-option"], &["--no-such-option"]);
+    refused_in_a_sentence(
+        "clash",
+        &["--contact-sheet", "9", "--no-pictures"],
+        &["--contact-sheet 9", "--no-pictures", "drop one"],
+    );
 }
 
 #[test]
