@@ -9,6 +9,7 @@ use frangible_scenes::{
 };
 
 use crate::args::BakeArgs;
+use crate::breaking::filled;
 use crate::place::try_file;
 use crate::progress::Bar;
 use crate::request::body_of;
@@ -29,7 +30,8 @@ pub(crate) fn run(args: &BakeArgs) -> Result<(), Box<dyn Error>> {
     let bar = Bar::new(false);
     bar.show(&format!("{}: reading", scene.name), 0.0);
     let sources = open_sources(&scene)?;
-    let notes: Vec<String> = sources.iter().flat_map(Opened::notes).cloned().collect();
+    let mut notes: Vec<String> = sources.iter().flat_map(Opened::notes).cloned().collect();
+    let open: Vec<bool> = sources.iter().map(Opened::is_open).collect();
     try_file(&args.output)?;
 
     let clock = Instant::now();
@@ -41,6 +43,7 @@ pub(crate) fn run(args: &BakeArgs) -> Result<(), Box<dyn Error>> {
     let Some(body) = baked.first() else {
         return Err("the scene has no body; add a [[body]]".into());
     };
+    notes.extend(filled(&open, &baked));
     let mut text = quality(body, seconds);
     if args.compact {
         let (asset, change) = compacted(&body.asset);

@@ -21,6 +21,7 @@ pub(crate) fn run(file: Option<&Path>, args: &BreakArgs) -> Result<(), Box<dyn E
     bar.show(&format!("{}: reading", scene.name), 0.0);
     let sources = open_sources(&scene)?;
     notes.extend(sources.iter().flat_map(Opened::notes).cloned());
+    let open: Vec<bool> = sources.iter().map(Opened::is_open).collect();
     let names = scene.output.file_names(&scene.name);
     let was_there = make_folder(
         &args.out,
@@ -41,6 +42,7 @@ pub(crate) fn run(file: Option<&Path>, args: &BreakArgs) -> Result<(), Box<dyn E
     })?;
     stages.push(("bake".to_string(), 1e3 * clock.elapsed().as_secs_f64()));
     notes.extend(mesh_notes(&scene, &baked));
+    notes.extend(filled(&open, &baked));
     notes.extend(baked.iter().filter_map(idle_toughness));
     let runs = play_seeds(&scene, &baked, sheet.is_some(), &bar)?;
     let Some((_, run)) = runs.first() else {
@@ -129,6 +131,19 @@ fn mesh_notes(scene: &Scene, baked: &[BakedBody]) -> Vec<String> {
         }
     }
     notes
+}
+
+/// What became of bodies whose surface has an outside only: it may be the skin of a pot, or a solid with a hole.
+pub(crate) fn filled(open: &[bool], baked: &[BakedBody]) -> Vec<String> {
+    let open = open.iter().zip(baked).filter(|(open, _)| **open);
+    open.map(|(_, body)| {
+        let asset = &body.asset;
+        format!(
+            "{}: the surface is open and is filled as a solid of {:.3} kg; for a thin wall, model its inside, too",
+            asset.name, asset.mass.mass
+        )
+    })
+    .collect()
 }
 
 /// A crack that is offered more than this many times its cost where it starts is stopped by no toughness.

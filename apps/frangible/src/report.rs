@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use frangible::ImpactReport;
-use frangible_scenes::{BakedBody, Run};
+use frangible_scenes::{BakedBody, BlowRecord, Run};
 use serde::Serialize;
 
 /// Everything a run has to tell. Of a scene with one body its figures stand beside the scene's, of several in a list.
@@ -40,6 +40,8 @@ pub(crate) struct BodyReport {
     /// Known of bodies baked in this run.
     pub(crate) largest_residual: Option<f64>,
     pub(crate) impact: Option<Impact>,
+    /// What hit the body or its pieces, in the order of time.
+    pub(crate) blows: Vec<Blow>,
     pub(crate) fragments: usize,
     pub(crate) mass_kg: f64,
     pub(crate) fragment_mass_sum_kg: f64,
@@ -55,6 +57,8 @@ pub(crate) struct BodyReport {
 /// Numbers of the impact that broke the body, or of the hardest that did not.
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct Impact {
+    /// Simulated time.
+    pub(crate) time_s: f64,
     pub(crate) approach_speed_m_s: f64,
     pub(crate) impulse_n_s: f64,
     pub(crate) contact_duration_s: f64,
@@ -62,8 +66,10 @@ pub(crate) struct Impact {
     pub(crate) most_excited_hz: f64,
     pub(crate) time_step_s: f64,
     pub(crate) time_steps: usize,
-    pub(crate) peak_stress_pa: f64,
+    /// None where a bound showed that no stress had to be computed.
+    pub(crate) peak_stress_pa: Option<f64>,
     pub(crate) stress_bound_pa: f64,
+    /// Strength over the stress or its bound; known of a body that held.
     pub(crate) margin: Option<f64>,
     pub(crate) peak_strain_energy_j: f64,
     pub(crate) strength_pa: f64,
@@ -76,23 +82,52 @@ pub(crate) struct Impact {
     pub(crate) volume_error: f64,
 }
 
-impl Impact {
-    pub(crate) fn new(report: &ImpactReport, contacts: &[frangible::Contact]) -> Self {
-        let speed = contacts
-            .iter()
-            .map(|c| c.approach_speed)
-            .fold(0.0_f32, f32::max);
+/// One of the blows on a body.
+#[derive(Clone, Debug, Serialize)]
+pub(crate) struct Blow {
+    /// Simulated time.
+    pub(crate) time_s: f64,
+    /// 0 where it hit the body itself, 1 for a piece of it.
+    pub(crate) generation: u32,
+    pub(crate) broke: bool,
+    pub(crate) approach_speed_m_s: f64,
+    pub(crate) approach_energy_j: f64,
+    /// Strength over the stress or its bound, of what held.
+    pub(crate) margin: Option<f64>,
+}
+
+impl Blow {
+    fn new(record: &BlowRecord) -> Self {
         Self {
-            approach_speed_m_s: f64::from(speed),
+            time_s: record.time,
+            generation: record.generation,
+            broke: record.broke,
+            approach_speed_m_s: record.approach_speed,
+            approach_energy_j: record.approach_energy,
+            margin: record.margin.filter(|m| m.is_finite()),
+        }
+    }
+}
+
+impl Impact {
+    fn new(
+        time: f64,
+        report: &ImpactReport,
+        contacts: &[frangible::Contact],
+        margin: Option<f64>,
+    ) -> Self {
+        Self {
+            time_s: time,
+            approach_speed_m_s: approach_speed(contacts),
             impulse_n_s: contacts.iter().map(|c| f64::from(c.impulse)).sum(),
             contact_duration_s: report.contact_duration,
             unadjusted_duration_s: report.unadjusted_duration,
             most_excited_hz: report.most_excited_frequency,
             time_step_s: report.time_step,
             time_steps: report.time_steps,
-            peak_stress_pa: report.peak_stress,
+            peak_stress_pa: Some(report.peak_stress).filter(|peak| *peak > 0.0),
             stress_bound_pa: report.stress_bound,
-            margin: None,
+            margin: margin.filter(|m| m.is_finite()),
             peak_strain_energy_j: report.peak_strain_energy,
             strength_pa: report.strength,
             weak_points: report.weak_points,
@@ -104,6 +139,35 @@ impl Impact {
             volume_error: report.volume_error,
         }
     }
+}
+
+/// Blows that the table lists; all stand in the JSON.
+const LISTED_BLOWS: usize = 6;
+
+fn blows_in_words(blows: &[Blow]) -> String {
+    let listed = blows.iter().take(LISTED_BLOWS).map(|blow| {
+        let (time, speed) = (blow.time_s, blow.approach_speed_m_s);
+        let what = match (blow.generation, blow.broke) {
+            (0, true) => " broke it",
+            (0, false) => "",
+            (_, true) => " broke a piece",
+            (_, false) => " hit a piece",
+        };
+        format!("{time:.3} s {speed:.2} m/s{what}")
+    });
+    let listed: Vec<String> = listed.collect();
+    let more = if blows.len() > LISTED_BLOWS {
+        ", …"
+    } else {
+        ""
+    };
+    format!("{}: {}{more}", blows.len(), listed.join(", "))
+}
+
+/// The fastest of the contacts, m/s.
+fn approach_speed(contacts: &[frangible::Contact]) -> f64 {
+    let speeds = contacts.iter().map(|c| c.approach_speed);
+    f64::from(speeds.fold(0.0_f32, f32::max))
 }
 
 /// Median, 99th percentile and longest, ms.
@@ -124,8 +188,9 @@ impl BodyReport {
         let broken = run.break_of(number);
         let held = run.held_by(number);
         let impact = broken
-            .map(|b| Impact::new(&b.report, &b.contacts))
-            .or_else(|| held.map(|h| Impact::new(&h.report, &h.contacts)));
+            .map(|b| Impact::new(b.time, &b.report, &b.contacts, None))
+            .or_else(|| held.map(|h| Impact::new(h.time, &h.report, &h.contacts, Some(h.margin))));
+        let blows = run.blows.iter().filter(|b| b.body == number);
         let modes = asset.modes.count();
         let breaks = || run.breaks.iter().filter(|b| b.body == number);
         Self {
@@ -143,6 +208,7 @@ impl BodyReport {
                 .collect(),
             largest_residual: baked.report.as_ref().map(|r| r.max_residual),
             impact,
+            blows: blows.map(Blow::new).collect(),
             fragments: broken.map_or(1, |b| b.masses.len()),
             mass_kg: asset.mass.mass,
             fragment_mass_sum_kg: broken.map_or(asset.mass.mass, |b| b.masses.iter().sum()),
@@ -183,8 +249,16 @@ impl BodyReport {
             row(
                 "impact",
                 format!(
-                    "{:.2} m/s, {:.3} N·s, {:.3} J",
-                    i.approach_speed_m_s, i.impulse_n_s, i.approach_energy_j
+                    "{} after {:.3} s: {:.2} m/s, {:.3} N·s, {:.3} J",
+                    if self.broke {
+                        "that broke it"
+                    } else {
+                        "the hardest"
+                    },
+                    i.time_s,
+                    i.approach_speed_m_s,
+                    i.impulse_n_s,
+                    i.approach_energy_j
                 ),
             );
             row(
@@ -200,9 +274,14 @@ impl BodyReport {
             row(
                 "stress",
                 format!(
-                    "peak {:.1} MPa against a strength of {:.1} MPa",
-                    i.peak_stress_pa / 1e6,
-                    i.strength_pa / 1e6
+                    "{} against a strength of {:.1} MPa{}",
+                    match i.peak_stress_pa {
+                        Some(peak) => format!("peak {:.1} MPa", peak / 1e6),
+                        None => format!("at most {:.1} MPa", i.stress_bound_pa / 1e6),
+                    },
+                    i.strength_pa / 1e6,
+                    i.margin
+                        .map_or(String::new(), |margin| format!(", a margin of {margin:.2}"))
                 ),
             );
             row(
@@ -217,6 +296,9 @@ impl BodyReport {
             );
         } else {
             row("impact", "none harder than the threshold".into());
+        }
+        if self.blows.len() > 1 {
+            row("blows", blows_in_words(&self.blows));
         }
         if self.broke {
             let masses: Vec<String> = self

@@ -69,6 +69,12 @@ pub(crate) fn scene_of(file: Option<&Path>, args: &BreakArgs) -> Result<Request,
         wanted.seed = seed;
     }
     if let Some(n) = args.contact_sheet {
+        if args.no_pictures {
+            return Err(format!(
+                "--contact-sheet {n} draws a picture, which --no-pictures forbids; drop one of the two"
+            )
+            .into());
+        }
         wanted.output.seeds = usize::try_from(n)
             .ok()
             .filter(|n| (1..=36).contains(n))

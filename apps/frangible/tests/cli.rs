@@ -107,6 +107,11 @@ fn options_that_clash_or_do_not_exist_are_refused() {
     refused("clash", &["--at", "0,0,0"], &["--ball"]);
     refused("clash", &["--seed", "-1"], &["-1", "--seed"]);
     refused("clash", &["--no-such-option"], &["--no-such-option"]);
+    refused_in_a_sentence(
+        "clash",
+        &["--contact-sheet", "9", "--no-pictures"],
+        &["--contact-sheet 9", "--no-pictures", "drop one"],
+    );
 }
 
 #[test]
@@ -183,7 +188,7 @@ fn scenes_lists_scenes_and_materials() {
 fn a_gentle_drop_is_reported_as_json() {
     let folder = Folder::new("gentle");
     let output = frangible(
-        &["--drop", "0.01", "--no-pictures", "--json", "--modes", "20"],
+        &["--drop", "0.03", "--no-pictures", "--json", "--modes", "20"],
         Some(&folder.0),
     );
     assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
@@ -192,6 +197,7 @@ fn a_gentle_drop_is_reported_as_json() {
     assert_eq!(report["broke"], false, "{report:#}");
     assert_eq!(report["fragments"], 1);
     assert_eq!(report["modes"], 20);
+    assert_held(&report);
     assert_eq!(folder.files(), ["glass.glb"]);
     assert!(
         fs::read(folder.0.join("glass.glb"))
@@ -245,4 +251,22 @@ fn a_reader_that_has_seen_enough_is_no_error() {
     let output = child.wait_with_output().expect("its end");
     let said = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success() && said.is_empty(), "{said}");
+}
+
+/// What a report says of the hardest blow on a body that held: its time, and no stress of zero.
+fn assert_held(report: &serde_json::Value) {
+    let impact = &report["impact"];
+    let number = |key: &str| impact[key].as_f64().unwrap_or(f64::NAN);
+    assert!(number("margin") > 0.0, "{report:#}");
+    assert!(number("time_s") > 0.0, "{report:#}");
+    assert!(number("stress_bound_pa") > 0.0, "{report:#}");
+    assert!(impact["peak_stress_pa"] != 0.0, "{report:#}");
+    let blows = report["blows"].as_array().expect("a list");
+    assert!(!blows.is_empty(), "{report:#}");
+    assert!(
+        blows.iter().all(|blow| blow["broke"] == false),
+        "{report:#}"
+    );
+    let hardest = |blow: &&serde_json::Value| blow["time_s"] == impact["time_s"];
+    assert_eq!(blows.iter().filter(hardest).count(), 1, "{report:#}");
 }

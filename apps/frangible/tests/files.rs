@@ -348,6 +348,32 @@ fn a_mesh_breaks_and_so_does_its_bake_into_the_same_pieces() {
 }
 
 #[test]
+fn an_open_surface_is_filled_and_the_note_says_how_heavy_it_is() {
+    let folder = Folder::new("open");
+    let args = ["--drop", "0.01", "--resolution", "2000", "--modes", "12"];
+    let notes = |name: &str, obj: &str| {
+        let mesh = scene_file(&folder, name, obj);
+        let args = [&["break", &mesh, "--no-pictures"], &args[..]].concat();
+        let report = report(&args, &folder.0.join("out"));
+        let mass = report["mass_kg"].as_f64().expect("a mass");
+        (report["notes"].to_string(), format!("{mass:.3} kg"))
+    };
+    let closed = box_obj([0.1; 3]);
+    let (told, _) = notes("closed.obj", &closed);
+    assert!(!told.contains("filled"), "{told}");
+    // Without its lid, and with two edges written as faces.
+    let (told, mass) = notes("open.obj", &closed.replace("f 3 7 8 4\n", "f 7 8\nf 3 4\n"));
+    for part in [
+        "open",
+        "filled as a solid",
+        &mass,
+        "2 faces of fewer than three corners",
+    ] {
+        assert!(told.contains(part), "no `{part}` in {told}");
+    }
+}
+
+#[test]
 fn size_and_up_make_a_body_in_metres_stand() {
     let folder = Folder::new("size");
     // 120 mm along z, which is up, in a file whose unit is the millimetre.

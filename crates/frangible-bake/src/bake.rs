@@ -83,7 +83,30 @@ impl BakeSpec {
             cancel: CancelToken::default(),
         }
     }
+
+    /// A body for games: about 1 500 tetrahedra for cracks and 40 modes, so that it breaks in about 20 ms instead of 160. Its cracks are
+    /// coarser than those of [`BakeSpec::new`].
+    ///
+    /// # Errors
+    /// A shape that has no volume, by its number or station at fault.
+    pub fn for_games(
+        name: impl Into<String>,
+        shape: Shape,
+        material: Material,
+    ) -> Result<Self, BakeError> {
+        Ok(Self {
+            fracture: Some(shape.size_for(GAME_TETS)?),
+            modes: GAME_MODES,
+            ..Self::new(name, shape, material)
+        })
+    }
 }
+
+/// Tetrahedra of a body for games, about.
+const GAME_TETS: f64 = 1500.0;
+
+/// Modes of a body for games.
+const GAME_MODES: usize = 40;
 
 /// Bakes an asset: meshes the shape twice, finds its modes, and ties the two meshes together.
 ///

@@ -317,3 +317,21 @@ fn numbers_of_modes_that_cannot_be_are_refused_with_the_limit() {
         assert!(error.contains(words), "{error}");
     }
 }
+
+#[test]
+fn a_body_for_games_is_small() {
+    let glass = Material::preset("glass").unwrap();
+    for (name, shape) in [
+        ("glass", Shape::drinking_glass()),
+        ("plate", Shape::dinner_plate()),
+        ("brick", Shape::block([0.21, 0.1, 0.05])),
+    ] {
+        let spec = BakeSpec::for_games(name, shape, glass.clone()).unwrap();
+        let (asset, _) = bake(&spec, &mut |_| {}).unwrap();
+        let tets = asset.fracture.tets.len();
+        assert!((1200..2500).contains(&tets), "{name}: {tets} tetrahedra");
+        assert_eq!(asset.modes.count(), 40, "{name}");
+    }
+    let nothing = Shape::block([0.1, 0.0, 0.1]);
+    assert!(BakeSpec::for_games("nothing", nothing, glass).is_err());
+}

@@ -28,6 +28,8 @@ pub struct InputMesh {
     pub materials: Vec<InputMaterial>,
     /// Parts that the file names besides: groups and objects of an OBJ, nodes and meshes of a glTF, solids of a text STL.
     pub groups: Vec<InputGroup>,
+    /// Faces of fewer than three corners, which a reader has passed over.
+    pub skipped_faces: usize,
 }
 
 /// A run of triangles that a file gives a name; a name may have several runs, and a triangle several names.

@@ -453,11 +453,6 @@ fn damaged_files_say_what_is_wrong_where() {
         ),
         (
             MeshFormat::Obj,
-            text.replace("f 2 3 4", "f 2 3"),
-            "line 10: a face needs three corners",
-        ),
-        (
-            MeshFormat::Obj,
             text.replace("v 0 1 0", "v 0 nan 0"),
             "vertex 3 has a coordinate",
         ),
@@ -681,4 +676,19 @@ fn groups_objects_and_materials_of_an_obj_are_named_parts() {
         .map(|(name, triangles)| (name.to_string(), triangles.to_vec()))
         .collect();
     assert_eq!(parts, expected);
+}
+
+#[test]
+fn faces_of_fewer_than_three_corners_are_passed_over_and_counted() {
+    let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 7 8\nf 1 3 2\nf 1 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\nf 4\n";
+    let mesh = read(MeshFormat::Obj, text.replace("f 7 8", "f 3 4"));
+    assert_eq!((mesh.triangles.len(), mesh.skipped_faces), (4, 3));
+    let (surface, report) = frangible_mesh::repair(&mesh).unwrap();
+    assert_eq!(surface.triangles.len(), 4);
+    let note = report.to_string();
+    assert_eq!(note, "passed over 3 faces of fewer than three corners");
+    let ply = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nelement face 5\n\
+               property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n2 0 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n";
+    let mesh = read(MeshFormat::Ply, ply);
+    assert_eq!((mesh.triangles.len(), mesh.skipped_faces), (4, 1));
 }

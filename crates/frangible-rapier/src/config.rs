@@ -177,7 +177,7 @@ impl WorldConfig {
     /// Checks every number.
     ///
     /// # Errors
-    /// The first field that is not finite or out of its range.
+    /// The first field that is not finite or out of its range, of the fracture's too.
     pub fn validate(&self) -> Result<(), WorldError> {
         finite("gravity", self.gravity)?;
         positive("time step (s)", self.dt)?;
@@ -202,6 +202,7 @@ impl WorldConfig {
         not_negative("delay until a piece breaks again (s)", self.pieces.delay)?;
         not_negative("delay of a piece's own modes (s)", self.pieces.later)?;
         not_negative("dust mass (kg)", self.dust_mass)?;
-        not_negative("debris mass (kg)", self.debris_mass)
+        not_negative("debris mass (kg)", self.debris_mass)?;
+        Ok(self.fracture.validate()?)
     }
 }

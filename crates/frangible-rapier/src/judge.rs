@@ -172,7 +172,7 @@ impl BreakableWorld {
     }
 }
 
-fn breakable(
+pub(crate) fn breakable(
     breakables: &BTreeMap<Key, Body>,
     handle: RigidBodyHandle,
 ) -> Result<&Body, WorldError> {

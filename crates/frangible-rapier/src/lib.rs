@@ -20,11 +20,13 @@
 //! # Ok::<(), frangible_rapier::WorldError>(())
 //! ```
 //!
+//! `examples/glass.rs` is a whole game: a glass falls and breaks.
+//!
 //! # What breaks a body
 //! Impacts, with their friction, on one body or on two breakable ones that meet. What it carries: after every step the
 //! forces of its resting contacts, and a held body's weight, are put to [`frangible::rest()`];
 //! [`BreakableWorld::rest_margin`] says how far it is from breaking. [`BreakableWorld::blast`] and
-//! [`BreakableWorld::fracture_at`]. [`BreakEvent::cause`] tells which it was.
+//! [`BreakableWorld::fracture_at`]. [`BreakEvent::cause`] tells which it was. [`BreakableWorld::would_break`] asks before.
 //!
 //! # What it keeps
 //! - Mass, centre and inertia of a fragment are the exact ones of the piece, never those of its collider.
@@ -68,6 +70,7 @@
 
 mod after;
 mod approach;
+mod ask;
 mod blows;
 mod cluster;
 mod collider;

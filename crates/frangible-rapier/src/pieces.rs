@@ -99,9 +99,9 @@ impl BreakableWorld {
         ) else {
             return;
         };
-        let (cracks, crumbs) = (body.state().clone(), self.config.fracture.crumb_share);
+        let (cracks, config) = (body.state().clone(), self.config.fracture.clone());
         self.promise(handle, self.config.pieces.later, Some(cracks), move || {
-            let portion = Arc::new(Portion::of_cracked(&body, crumbs));
+            let portion = Arc::new(Portion::of_cracked(&body, &config).ok()?);
             let elastic = model.later(&portion);
             let elastic = elastic.or_else(|| model.at_once(&portion, &body));
             made(&body, &portion, elastic)

@@ -1,6 +1,6 @@
 //! What a contact needs to know of a body's surface.
 
-use frangible::Material;
+use frangible::{Material, Preset};
 
 use crate::error::{WorldError, not_negative};
 
@@ -21,29 +21,25 @@ pub struct SurfaceProperties {
 pub(crate) const EDGE_RADIUS: f32 = 3e-3;
 
 impl SurfaceProperties {
-    /// Hardened steel (E 210 GPa, ν 0.3). [`crate::BreakableWorld::insert_ball`] sets the radius.
-    pub const STEEL: Self = Self {
-        contact_modulus: 2.31e11,
-        restitution: 0.6,
-        friction: 0.3,
-        curvature_radius: f32::INFINITY,
-    };
-    /// Stone or concrete floor (E 50 GPa, ν 0.2).
-    pub const STONE: Self = Self {
-        contact_modulus: 5.2e10,
-        restitution: 0.3,
-        friction: 0.6,
-        curvature_radius: f32::INFINITY,
-    };
-    /// Wooden floor across the grain (E 1 GPa).
-    pub const WOOD: Self = Self {
-        contact_modulus: 1.1e9,
-        restitution: 0.3,
-        friction: 0.5,
-        curvature_radius: f32::INFINITY,
-    };
+    /// The steel of [`Preset::STEEL`], flat. [`crate::BreakableWorld::insert_ball`] sets the radius.
+    pub const STEEL: Self = Self::flat(&Preset::STEEL);
+    /// The granite of [`Preset::STONE`], flat: a floor.
+    pub const STONE: Self = Self::flat(&Preset::STONE);
+    /// The oak of [`Preset::WOOD`], flat: a floor, a table top.
+    pub const WOOD: Self = Self::flat(&Preset::WOOD);
 
-    /// Of a material, with the given radius of curvature, m.
+    /// The surface of a preset material where it is flat.
+    #[must_use]
+    pub const fn flat(preset: &Preset) -> Self {
+        Self {
+            contact_modulus: preset.contact_modulus() as f32,
+            restitution: preset.restitution() as f32,
+            friction: preset.friction() as f32,
+            curvature_radius: f32::INFINITY,
+        }
+    }
+
+    /// The surface of a material, with the given radius of curvature, m.
     #[must_use]
     pub fn of(material: &Material, curvature_radius: f32) -> Self {
         Self {

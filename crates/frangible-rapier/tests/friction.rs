@@ -3,6 +3,7 @@
 mod common;
 
 use common::{body, box_asset, unbreakable, world};
+use frangible::Material;
 use frangible::glam::Vec3;
 use frangible_rapier::rapier3d::dynamics::FrictionModel;
 use frangible_rapier::rapier3d::math::{Pose, Rotation, Vector};
@@ -76,5 +77,18 @@ fn what_falls_straight_down_is_not_rubbed() {
             friction.length() < 1e-2 * push.length(),
             "{friction} of {push} N·s"
         );
+    }
+}
+
+#[test]
+fn ready_surfaces_are_those_of_the_materials() {
+    let ready = [
+        ("steel", SurfaceProperties::STEEL),
+        ("stone", SurfaceProperties::STONE),
+        ("wood", SurfaceProperties::WOOD),
+    ];
+    for (name, surface) in ready {
+        let material = Material::preset(name).unwrap();
+        assert_eq!(surface, SurfaceProperties::of(&material, f32::INFINITY));
     }
 }

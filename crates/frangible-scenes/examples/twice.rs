@@ -96,7 +96,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 
 /// The cracked cup with modes of its own.
 fn anew(cracked: &Body, config: &FractureConfig) -> Result<Body, Box<dyn Error>> {
-    let portion = Arc::new(Portion::of_cracked(cracked, config.crumb_share));
+    let portion = Arc::new(Portion::of_cracked(cracked, config)?);
     Ok(cracked.piece(&portion, reanalysis(&portion, ELEMENTS, MODES)?)?)
 }
 

@@ -94,6 +94,18 @@ pub enum SceneError {
         /// Depth, mm.
         depth_mm: f32,
     },
+    /// Two bodies that would start inside each other.
+    #[error(
+        "`{one}` and `{other}` overlap: one would start {depth_mm:.1} mm deep inside the other; give one of them another `position`"
+    )]
+    Overlap {
+        /// Name of one body.
+        one: String,
+        /// Name of the other.
+        other: String,
+        /// How deep, mm.
+        depth_mm: f32,
+    },
     /// As many baked bodies as the scene has are needed.
     #[error("the scene has {wanted} bodies, but {given} baked ones were given; bake this scene")]
     BakedBodies {

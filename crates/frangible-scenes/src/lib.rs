@@ -28,6 +28,7 @@ mod launch;
 mod live;
 mod meshes;
 mod output;
+mod overlap;
 mod projectile;
 mod recorder;
 mod rescale;
@@ -50,7 +51,7 @@ pub use live::{LiveScene, SavedScene, Swing, Thing, ThingKind, Throw};
 pub use output::{FileWish, Output};
 pub use projectile::{Projectile, ProjectileKind};
 pub use rescale::{MaterialEdit, Rescale};
-pub use result::{BreakRecord, HeldRecord, Run};
+pub use result::{BlowRecord, BreakRecord, HeldRecord, Run};
 pub use run::play;
 pub use scene::{PieceSpec, Scene};
 pub use source::{

@@ -13,6 +13,8 @@ pub struct Run {
     pub breaks: Vec<BreakRecord>,
     /// The hardest impact on each body that did not break it, if any, in the order of the bodies.
     pub held: Vec<HeldRecord>,
+    /// Everything that hit a body or its pieces and was put to the fracture, in the order of time.
+    pub blows: Vec<BlowRecord>,
     /// Whether everything but projectiles lay still at the end.
     pub at_rest: bool,
     /// Simulated time, s.
@@ -28,10 +30,55 @@ pub struct Run {
 pub struct HeldRecord {
     /// Number of the body, from 0.
     pub body: usize,
+    /// Simulated time, s.
+    pub time: f64,
     /// The contacts, body frame.
     pub contacts: Vec<Contact>,
+    /// Strength over the stress, or over a bound of it: see [`frangible::Outcome::Held`].
+    pub margin: f64,
     /// What the fracture found.
     pub report: ImpactReport,
+}
+
+/// One of the blows of a run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BlowRecord {
+    /// Number of the body, from 0.
+    pub body: usize,
+    /// 0 where it hit the body itself, 1 for a piece of it, 2 for a piece of that.
+    pub generation: u32,
+    /// Simulated time, s.
+    pub time: f64,
+    /// The fastest of its contacts, m/s.
+    pub approach_speed: f64,
+    /// Kinetic energy of approach, J.
+    pub approach_energy: f64,
+    /// Whether it parted what it hit.
+    pub broke: bool,
+    /// Strength over the stress, or over a bound of it, of what held.
+    pub margin: Option<f64>,
+}
+
+impl BlowRecord {
+    pub(crate) fn new(
+        body: usize,
+        generation: u32,
+        time: f64,
+        contacts: &[Contact],
+        report: &ImpactReport,
+        margin: Option<f64>,
+    ) -> Self {
+        let speeds = contacts.iter().map(|c| c.approach_speed);
+        Self {
+            body,
+            generation,
+            time,
+            approach_speed: f64::from(speeds.fold(0.0_f32, f32::max)),
+            approach_energy: report.approach_energy,
+            broke: margin.is_none(),
+            margin,
+        }
+    }
 }
 
 /// One break of a run.

@@ -10,7 +10,7 @@ use web_time::Instant;
 use crate::bake::BakedBody;
 use crate::error::SceneError;
 use crate::recorder::{FRAME_RATE, piece_name};
-use crate::result::{BreakRecord, HeldRecord, Run};
+use crate::result::{BlowRecord, BreakRecord, HeldRecord, Run};
 use crate::scene::Scene;
 use crate::stage::{FEW, Stage, Thrown, set_up};
 
@@ -54,6 +54,7 @@ pub fn play(
         recording: Recording::default(),
         breaks: Vec::new(),
         held: Vec::new(),
+        blows: Vec::new(),
         at_rest: false,
         simulated: 0.0,
         rigid_seconds: 0.0,
@@ -79,10 +80,20 @@ pub fn play(
             run.simulated += f64::from(dt);
             world.step()?;
             for held in world.held() {
-                if let Some((body, _)) = known.get(&held.body.into_raw_parts())
-                    && bodies[*body].handle == held.body
-                {
-                    keep_hardest(&mut run.held, *body, held);
+                let Some((body, _)) = known.get(&held.body.into_raw_parts()) else {
+                    continue;
+                };
+                let generation = world.breakable(held.body).map_or(0, |b| b.generation());
+                let (contacts, report) = (&held.contacts, &held.report);
+                // What a body carries is no blow.
+                if !contacts.is_empty() {
+                    let margin = Some(held.margin);
+                    let blow =
+                        BlowRecord::new(*body, generation, run.simulated, contacts, report, margin);
+                    run.blows.push(blow);
+                }
+                if bodies[*body].handle == held.body {
+                    keep_hardest(&mut run.held, *body, run.simulated, held);
                 }
             }
             for event in world.breaks() {
@@ -95,6 +106,12 @@ pub fn play(
                 for (i, handle) in event.fragments.iter().enumerate() {
                     let name = piece_name(&name, generation, i);
                     known.insert(handle.into_raw_parts(), (body, name));
+                }
+                let (contacts, report) = (&event.contacts, &event.fracture.report);
+                if !contacts.is_empty() {
+                    let blow =
+                        BlowRecord::new(body, generation, run.simulated, contacts, report, None);
+                    run.blows.push(blow);
                 }
                 let fragments = &event.fracture.fragments;
                 run.breaks.push(BreakRecord {
@@ -139,9 +156,11 @@ pub fn play(
 }
 
 /// Keeps one record per body, the one with the greatest stress or bound of it.
-fn keep_hardest(all: &mut Vec<HeldRecord>, body: usize, event: &HeldEvent) {
+fn keep_hardest(all: &mut Vec<HeldRecord>, body: usize, time: f64, event: &HeldEvent) {
     let new = || HeldRecord {
         body,
+        time,
+        margin: event.margin,
         contacts: event.contacts.clone(),
         report: event.report.clone(),
     };

@@ -149,6 +149,8 @@ pub enum Opened {
         groups: Vec<Group>,
         /// What a user should know of it.
         notes: Vec<String>,
+        /// Whether its surface is open, so that it was closed and filled.
+        open: bool,
     },
     /// Baked.
     Asset(Arc<Asset>),
@@ -162,6 +164,12 @@ impl Opened {
             Self::Shape { notes, .. } => notes,
             Self::Asset(_) => &[],
         }
+    }
+
+    /// Whether its surface is open, so that it was closed and filled: it may have been meant as the skin of a thin wall.
+    #[must_use]
+    pub const fn is_open(&self) -> bool {
+        matches!(self, Self::Shape { open: true, .. })
     }
 }
 
@@ -201,6 +209,7 @@ const fn plain(shape: Shape) -> Opened {
         render: None,
         groups: Vec::new(),
         notes: Vec::new(),
+        open: false,
     }
 }
 

@@ -16,6 +16,7 @@ use crate::bonds::bond;
 use crate::error::SceneError;
 use crate::launch::{Target, launch, vector};
 use crate::meshes::{BodySurfaces, whole};
+use crate::overlap::check_overlaps;
 use crate::projectile::Projectile;
 use crate::recorder::{Recorder, Role};
 use crate::scene::Scene;
@@ -110,6 +111,8 @@ pub(crate) fn set_up_as<'a>(
             floor,
         )?);
     }
+    let assets: Vec<Arc<Asset>> = baked.iter().map(|body| Arc::clone(&body.asset)).collect();
+    check_overlaps(&bodies, &assets)?;
     if let Some(strength) = scene.mortar {
         bond(&mut world, &bodies, strength)?;
     }

@@ -659,3 +659,29 @@ fn strength_fracture_energy_and_energy_depth_go_together() {
         );
     }
 }
+
+#[test]
+fn one_word_names_the_papers_model_and_other_keys_override_it() {
+    let fracture = |keys: &str| parsed(&format!("{LEAST}[fracture]\n{keys}\n")).fracture;
+    let paper = FractureConfig::as_in_the_paper();
+    assert_eq!(fracture("model = \"paper\""), paper);
+    assert_eq!(fracture("model = \"ours\""), FractureConfig::default());
+    let given = FractureConfig::with_given_impulses();
+    assert_eq!(fracture("model = \"given_impulses\""), given);
+    let mut ledger = paper.clone();
+    ledger.energy_ledger = true;
+    ledger.samples_per_period = 4.0;
+    let keys = "samples_per_period = 4\nmodel = \"paper\"\nenergy_ledger = true";
+    assert_eq!(fracture(keys), ledger);
+    let message = refused(&format!("{LEAST}[fracture]\nmodel = \"papers\""));
+    assert!(
+        message.contains("line 4") && message.contains("paper"),
+        "{message}"
+    );
+
+    let mut scene = parsed(LEAST);
+    scene.fracture = paper;
+    let text = scene_to_toml(&scene);
+    assert!(text.contains("model = \"paper\""), "{text}");
+    assert_eq!(parsed(&text).fracture, scene.fracture);
+}

@@ -14,8 +14,9 @@ pub(crate) fn within(
     if (least..=most).contains(&value) {
         return Ok(());
     }
+    let gap = if unit.is_empty() { "" } else { " " };
     Err(ViewError::NotNow(format!(
-        "{what} is {value} {unit}; it must be {least} to {most} {unit}"
+        "{what} is {value}{gap}{unit}; it must be {least} to {most}{gap}{unit}"
     )))
 }
 
@@ -89,4 +90,20 @@ pub enum ViewError {
     /// The thread of the session died.
     #[error("the simulation's thread ended without a word; its message is on the error output")]
     Worker,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::within;
+
+    #[test]
+    fn a_number_without_a_unit_is_refused_without_a_gap() {
+        let refused = |unit| {
+            within("the number", 0.0, [1.0, 9.0], unit)
+                .unwrap_err()
+                .to_string()
+        };
+        assert_eq!(refused(""), "the number is 0; it must be 1 to 9");
+        assert_eq!(refused("s"), "the number is 0 s; it must be 1 to 9 s");
+    }
 }

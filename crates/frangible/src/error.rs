@@ -7,13 +7,13 @@ use thiserror::Error;
 #[non_exhaustive]
 pub enum InputError {
     /// A quantity that must be finite and above zero is not.
-    #[error("{what} is {value} {unit}; it must be a finite number above zero")]
+    #[error("{what} is {value}{}{unit}; it must be a finite number above zero", if unit.is_empty() { "" } else { " " })]
     NotPositive {
         /// The quantity.
         what: &'static str,
         /// What was given.
         value: f64,
-        /// Its unit.
+        /// Its unit; empty where it has none.
         unit: &'static str,
     },
     /// A quantity that must be finite and not negative is not.
@@ -23,6 +23,16 @@ pub enum InputError {
         what: &'static str,
         /// What was given.
         value: f64,
+    },
+    /// A number of a [`FractureConfig`](crate::FractureConfig) that is out of its range.
+    #[error("`{field}` of the fracture configuration is {value}; it must be {must}")]
+    Configuration {
+        /// The field.
+        field: &'static str,
+        /// What was given.
+        value: f64,
+        /// Its range.
+        must: &'static str,
     },
     /// Poisson's ratio out of (−1, 0.5).
     #[error(

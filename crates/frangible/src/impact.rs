@@ -27,7 +27,7 @@ use crate::trace::CrackTrace;
 /// allocation.
 ///
 /// # Errors
-/// A contact with a NaN, a negative impulse or no direction.
+/// A contact with a NaN, a negative impulse or no direction; what [`FractureConfig::validate`] refuses.
 pub fn impact(
     body: &Body,
     contacts: &[Contact],
@@ -77,6 +77,7 @@ pub fn would_break(
 #[must_use]
 pub fn is_harmless(body: &Body, contacts: &[Contact], config: &FractureConfig) -> bool {
     config.culling
+        && config.validate().is_ok()
         && contacts.iter().all(|c| c.validate().is_ok())
         && contact::refused(body, contacts, config).is_some()
 }
@@ -191,6 +192,7 @@ fn begin(
     refuse: bool,
 ) -> Result<Stage, InputError> {
     contacts.iter().try_for_each(Contact::validate)?;
+    config.validate()?;
     let mut report = report_on(body);
     report.approach_energy = contact::approach_energy(contacts);
     let clock = Instant::now();

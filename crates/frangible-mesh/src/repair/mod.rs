@@ -74,6 +74,7 @@ pub fn repair(mesh: &InputMesh) -> Result<(Surface, RepairReport), RepairError> 
     let mut report = RepairReport {
         vertices_in: mesh.positions.len(),
         faces_in,
+        skipped: mesh.skipped_faces,
         loose: mesh.positions.len() - used,
         ..RepairReport::default()
     };

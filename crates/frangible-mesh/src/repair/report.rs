@@ -13,6 +13,8 @@ pub struct RepairReport {
     pub faces_in: usize,
     /// Triangles after.
     pub faces_out: usize,
+    /// Faces of fewer than three corners, which the reader has passed over.
+    pub skipped: usize,
     /// Vertices merged into others at the same place; texture seams are the usual reason.
     pub welded: usize,
     /// Vertices that no triangle used.
@@ -64,6 +66,13 @@ impl fmt::Display for RepairReport {
         };
         let face = |count, before| counted(count, before, "triangle", "triangles", "");
         let parts = [
+            counted(
+                self.skipped,
+                "passed over ",
+                "face",
+                "faces",
+                " of fewer than three corners",
+            ),
             counted(self.welded, "welded ", "vertex", "vertices", ""),
             face(self.degenerate, "dropped empty: "),
             face(self.duplicate, "dropped doubled: "),

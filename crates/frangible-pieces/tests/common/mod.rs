@@ -22,7 +22,7 @@ pub fn breakable(shape: Shape, material: &str, tets: f64, modes: usize) -> Break
 /// All of a body as a portion.
 pub fn whole(body: &Body) -> Arc<Portion> {
     let config = FractureConfig::default();
-    Arc::new(Portion::of_cracked(body, config.crumb_share))
+    Arc::new(Portion::of_cracked(body, &config).expect("a sound configuration"))
 }
 
 /// The modes of an elastic body.

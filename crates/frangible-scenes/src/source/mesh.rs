@@ -43,5 +43,6 @@ pub(super) fn shape(
         render: Some(Box::new(imported.render)),
         groups: imported.groups,
         notes,
+        open: imported.mended.open_shells > 0,
     })
 }

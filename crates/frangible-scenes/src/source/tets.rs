@@ -54,5 +54,6 @@ pub(super) fn open(
         render: None,
         groups,
         notes,
+        open: false,
     })
 }

@@ -11,8 +11,8 @@ use super::body::body;
 use super::either::SwitchOrName;
 use super::gone::Gone;
 use super::schema::{
-    DurationTable, FractureTable, KindName, MethodName, NearFieldName, OutputTable, PathTable,
-    PiecesTable, ProjectileTable, SceneTable, TimingTable,
+    DurationTable, FractureTable, KindName, MethodName, ModelName, NearFieldName, OutputTable,
+    PathTable, PiecesTable, ProjectileTable, SceneTable, TimingTable,
 };
 use crate::body::BodySpec;
 use crate::check::Fault;
@@ -118,7 +118,11 @@ fn pieces(table: PiecesTable) -> PieceSpec {
 }
 
 fn fracture(table: FractureTable) -> FractureConfig {
-    let mut config = FractureConfig::default();
+    let mut config = match table.model {
+        None | Some(ModelName::Ours) => FractureConfig::default(),
+        Some(ModelName::GivenImpulses) => FractureConfig::with_given_impulses(),
+        Some(ModelName::Paper) => FractureConfig::as_in_the_paper(),
+    };
     match table.duration {
         None => {}
         Some(DurationTable::Integrated) => config.duration = DurationModel::Integrated,

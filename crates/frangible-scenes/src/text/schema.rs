@@ -188,10 +188,11 @@ pub(super) enum KindName {
     Hammer,
 }
 
-/// `[fracture]`: what differs from the default; the keys are the fields of `frangible::FractureConfig`.
+/// `[fracture]`: what differs from the model that it names; the keys are the fields of `frangible::FractureConfig`.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct FractureTable {
+    pub(super) model: Option<ModelName>,
     pub(super) duration: Option<DurationTable>,
     pub(super) admissible_duration: Option<bool>,
     pub(super) residual: Option<bool>,
@@ -208,6 +209,15 @@ pub(super) struct FractureTable {
     pub(super) first_element_pays: Option<bool>,
     pub(super) griffith_fronts: Option<bool>,
     pub(super) ends_inside: Option<bool>,
+}
+
+/// Where all switches and numbers come from that the table does not give.
+#[derive(Clone, Copy, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum ModelName {
+    Ours,
+    GivenImpulses,
+    Paper,
 }
 
 /// Contact duration models.

@@ -209,6 +209,10 @@ fn write_fracture(t: &mut Text, config: &FractureConfig) {
         return;
     }
     t.table("[fracture]");
+    if *config == FractureConfig::as_in_the_paper() {
+        t.line("model", quoted("paper"));
+        return;
+    }
     match config.duration {
         DurationModel::ModalHertz => t.line("duration", quoted("modal_hertz")),
         DurationModel::AsPrinted { c } => {

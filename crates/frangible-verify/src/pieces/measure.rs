@@ -274,7 +274,7 @@ fn blow(piece: &Body, contact: Contact) -> Result<(bool, Option<f64>), InputErro
     };
     let mut cracked = piece.clone();
     let first = |body: &Body| {
-        let portion = Arc::new(Portion::of_cracked(body, config.crumb_share));
+        let portion = Arc::new(Portion::of_cracked(body, &config).ok()?);
         let elastic = reanalysis(&portion, SOFTENED.0, SOFTENED.1).ok()?;
         Some(elastic.modes.frequency(0))
     };

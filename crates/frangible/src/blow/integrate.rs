@@ -66,7 +66,7 @@ impl Blow {
     /// The blow of these contacts on a body, which nothing breaks; none where nothing pushes.
     ///
     /// # Errors
-    /// What [`Contact::validate`] refuses.
+    /// What [`Contact::validate`] and [`FractureConfig::validate`] refuse.
     pub fn new(
         body: &Body,
         contacts: &[Contact],
@@ -84,6 +84,7 @@ impl Blow {
         longest: Option<f64>,
     ) -> Result<Option<Self>, InputError> {
         contacts.iter().try_for_each(Contact::validate)?;
+        config.validate()?;
         Ok(Self::integrated(body, contacts, config, longest))
     }
 

@@ -39,7 +39,8 @@ impl Pulse {
 /// Fewest steps within a contact.
 const MIN_CONTACT_STEPS: f64 = 16.0;
 
-/// Most steps of one impact; a longer motion is cut there (the cut shows in the report's number of steps).
+/// Most steps of one impact. The steps of a longer contact are longer: a body that is pushed over thousands of its periods follows the
+/// force, which these steps show. The motion after the contact is cut there (the cut shows in the report's number of steps).
 const MAX_STEPS: usize = 20_000;
 
 /// The swings of the modes above ω_high together hold at most this share of the bounded stress.
@@ -86,7 +87,7 @@ pub fn pulse(asset: &Asset, load: &Load, duration: f64, config: &FractureConfig)
     let period = TAU / basis.eigenvalues[high].sqrt();
     let contact_steps = (duration * config.samples_per_period / period)
         .ceil()
-        .max(MIN_CONTACT_STEPS);
+        .clamp(MIN_CONTACT_STEPS, MAX_STEPS as f64);
     let time_step = duration / contact_steps;
     let largest = (0..basis.followed()).map(amplitude).fold(0.0, f64::max);
     let low = (0..basis.followed())
@@ -100,7 +101,7 @@ pub fn pulse(asset: &Asset, load: &Load, duration: f64, config: &FractureConfig)
     };
     let contact_steps = contact_steps as usize;
     let total_steps = if end > duration {
-        ((end / time_step).ceil() as usize).clamp(contact_steps, MAX_STEPS.max(contact_steps))
+        ((end / time_step).ceil() as usize).clamp(contact_steps, MAX_STEPS)
     } else {
         // The quotient may round up to a step beyond the contact.
         contact_steps

@@ -10,6 +10,7 @@ use super::tests::block;
 use crate::asset::Asset;
 use crate::crack::CrackSystem;
 use crate::mesh::{EDGES, NO_NEIGHBOUR, Rows};
+use crate::piece::Portion;
 use crate::rng::{Purpose, stream, uniform};
 use crate::state::{BodyState, OldCrack, OldCut};
 use crate::{Breakable, FractureConfig};
@@ -139,4 +140,26 @@ fn cracks_end_where_the_plain_flood_ends_them() {
             .count();
     }
     assert!(added > 100 && repeated > 10, "{added}, {repeated}");
+}
+
+#[test]
+fn a_cracked_body_as_a_portion_has_the_cuts_that_its_configuration_asks_for() {
+    let asset = block(6);
+    let kind = Breakable::of_sound(asset.clone().into());
+    let (ours, paper) = (FractureConfig::default(), FractureConfig::as_in_the_paper());
+    let (mut of_ours, mut of_paper) = (0, 0);
+    for seed in 0..12 {
+        let mut body = kind.body(1);
+        body.set_state(cracked(&asset, seed)).unwrap();
+        let cuts = |config| Portion::of_cracked(&body, config).unwrap().cuts().len();
+        of_ours += cuts(&ours);
+        of_paper += cuts(&paper);
+    }
+    // The paper's cracks stop at the face of what they meet, so they cut fewer edges.
+    assert!(0 < of_paper && of_paper < of_ours, "{of_paper}, {of_ours}");
+    let broken = FractureConfig {
+        crumb_share: f64::NAN,
+        ..ours
+    };
+    assert!(Portion::of_cracked(&kind.body(1), &broken).is_err());
 }

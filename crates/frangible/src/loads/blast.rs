@@ -32,7 +32,7 @@ const NEAREST: f32 = 0.01;
 /// What a blast does to a body. The whole surface that faces it is pushed at once.
 ///
 /// # Errors
-/// A number that is not finite, or an impulse or duration that is not above zero.
+/// A number that is not finite, or an impulse or duration that is not above zero; what [`FractureConfig::validate`] refuses.
 pub fn blast(body: &Body, blast: &Blast, config: &FractureConfig) -> Result<Outcome, InputError> {
     finite("a blast's origin", blast.origin)?;
     positive(
@@ -41,6 +41,7 @@ pub fn blast(body: &Body, blast: &Blast, config: &FractureConfig) -> Result<Outc
         "Pa·s",
     )?;
     positive("a blast's duration", f64::from(blast.duration), "s")?;
+    config.validate()?;
     let asset = &*body.asset;
     let load = Load {
         touches: Vec::new(),

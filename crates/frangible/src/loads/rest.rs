@@ -36,13 +36,14 @@ const DIAGONALS: f64 = 3.0;
 /// open is not limited by the energy ledger: a weight goes on pushing.
 ///
 /// # Errors
-/// A force, point or gravity that is not finite.
+/// A force, point or gravity that is not finite; what [`FractureConfig::validate`] refuses.
 pub fn rest(
     body: &Body,
     forces: &[Force],
     gravity: Vec3,
     config: &FractureConfig,
 ) -> Result<Outcome, InputError> {
+    config.validate()?;
     finite("gravity", gravity)?;
     for force in forces {
         finite("a force's point", force.point)?;

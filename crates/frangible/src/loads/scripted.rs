@@ -16,7 +16,7 @@ const RADIUS: f32 = 0.01;
 /// Hertz says of a rigid thing of 1 cm radius that gives this impulse. Whether it breaks depends on the impulse, as ever.
 ///
 /// # Errors
-/// A number that is not finite, or an impulse of no length.
+/// A number that is not finite, or an impulse of no length; what [`FractureConfig::validate`] refuses.
 pub fn fracture_at(
     body: &Body,
     point: Vec3,

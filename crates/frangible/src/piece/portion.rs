@@ -10,6 +10,7 @@ use crate::asset::{Asset, OuterSurface, SurfaceWalls};
 use crate::body::{Body, Prepared};
 use crate::config::FractureConfig;
 use crate::crack::CrackSystem;
+use crate::error::InputError;
 use crate::fragment::{self, EdgeCut};
 use crate::mesh::{AlongSurface, MassProperties};
 use crate::outcome::{Fracture, Fragment};
@@ -43,17 +44,15 @@ pub struct Portion {
 }
 
 impl Portion {
-    /// The whole of a body, with the cracks that it has so far: for modes that feel them.
+    /// The whole of a body, with the cracks that it has so far: for modes that feel them. `config` says how cracks end and which crumbs
+    /// stay, as in the impact that left them.
     ///
-    /// `crumb_share`: see [`FractureConfig::crumb_share`].
-    #[must_use]
-    pub fn of_cracked(body: &Body, crumb_share: f64) -> Self {
-        let config = FractureConfig {
-            crumb_share,
-            ..FractureConfig::default()
-        };
-        let system = CrackSystem::new(body, &config, 0.0);
-        let labels = fragment::label(&system, &body.prepared.index, crumb_share);
+    /// # Errors
+    /// What [`FractureConfig::validate`] refuses.
+    pub fn of_cracked(body: &Body, config: &FractureConfig) -> Result<Self, InputError> {
+        config.validate()?;
+        let system = CrackSystem::new(body, config, 0.0);
+        let labels = fragment::label(&system, &body.prepared.index, config.crumb_share);
         let asset = &*body.asset;
         let trace = match &asset.portion {
             Some(portion) => portion.trace.clone(),
@@ -76,7 +75,7 @@ impl Portion {
         portion.positions = asset.surface_positions().to_vec();
         portion.surface = asset.surface.clone();
         portion.surface.walls = portion.walls();
-        portion
+        Ok(portion)
     }
 
     fn new(body: &Body, breakup: &Breakup, lists: Lists, trace: Trace, generation: u32) -> Self {

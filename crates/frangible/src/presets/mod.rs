@@ -80,6 +80,32 @@ struct Numbers {
 }
 
 impl Preset {
+    /// Structural steel: balls, anvils.
+    pub const STEEL: Self = table::STEEL;
+    /// Granite: floors, kerbs.
+    pub const STONE: Self = table::STONE;
+    /// White oak across the grain: floors, table tops.
+    pub const WOOD: Self = table::WOOD;
+
+    /// Plane-strain modulus E/(1−ν²), Pa; see [`Material::contact_modulus`].
+    #[must_use]
+    pub const fn contact_modulus(&self) -> f64 {
+        self.numbers.youngs_modulus
+            / (1.0 - self.numbers.poisson_ratio * self.numbers.poisson_ratio)
+    }
+
+    /// Coefficient of restitution, 0 to 1.
+    #[must_use]
+    pub const fn restitution(&self) -> f64 {
+        self.numbers.restitution
+    }
+
+    /// Coulomb friction coefficient.
+    #[must_use]
+    pub const fn friction(&self) -> f64 {
+        self.numbers.friction
+    }
+
     /// The material, every field of which may then be changed.
     #[must_use]
     pub fn material(&self) -> Material {

@@ -277,7 +277,7 @@ const PMMA: Preset = real(Published {
     friction: 0.4,
 });
 
-const STEEL: Preset = real(Published {
+pub(super) const STEEL: Preset = real(Published {
     name: "steel",
     summary: "structural steel: balls, anvils; a striker",
     source: "E 210 GPa, ν 0.3, ultimate strength 360 MPa (S235): EN 1993-1-1; ρ 7850 kg/m³: EN 1991-1-1; K_Ic 140 MPa√m (mild steel): \
@@ -312,7 +312,7 @@ const RUBBER: Preset = real(Published {
     friction: 0.9,
 });
 
-const WOOD: Preset = real(Published {
+pub(super) const WOOD: Preset = real(Published {
     name: "wood",
     summary: "white oak, loaded across the grain: floors, table tops; a striker",
     source: "Forest Products Laboratory, Wood Handbook, 2010 (FPL-GTR-190), white oak at 12 % moisture: E 2.2 GPa = 0.163 × 13.5 GPa (radial), ν 0.37 (LR), \
@@ -330,7 +330,7 @@ const WOOD: Preset = real(Published {
     friction: 0.5,
 });
 
-const STONE: Preset = real(Published {
+pub(super) const STONE: Preset = real(Published {
     name: "stone",
     summary: "granite: floors, kerbs; a floor",
     source: "E 55 GPa, modulus of rupture 10–70 MPa, E 30–60 GPa for granites: Conservation of Historic Stone Buildings and Monuments, National Academy Press 1982, p. 64; \

@@ -28,6 +28,8 @@ struct Obj {
     /// Where the corners of each face end, and its material.
     faces: Vec<(u32, u32)>,
     triangles: u64,
+    /// Faces of fewer than three corners: some programs write edges so.
+    skipped_faces: usize,
     /// Whether something that is no colour was reported.
     warned: bool,
 }
@@ -145,8 +147,9 @@ impl Obj {
         }
         let count = self.corners.len() - first;
         if count < 3 {
-            let problem = format!("a face needs three corners, this one has {count}");
-            return Err(ReadError::malformed(format!("line {line}"), problem));
+            self.corners.truncate(first);
+            self.skipped_faces += 1;
+            return Ok(());
         }
         self.triangles += count as u64 - 2;
         check_triangles(self.triangles)?;
@@ -192,7 +195,7 @@ impl Obj {
             .and_then(|i| u32::try_from(i).ok())
             .filter(|&i| i != Corner::NONE)
             .ok_or(ReadError::IndexOutOfRange {
-                face: self.faces.len() + 1,
+                face: self.faces.len() + self.skipped_faces + 1,
                 index,
                 vertices: there,
             })
@@ -203,7 +206,10 @@ impl Obj {
             self.colors.resize(self.positions.len(), WHITE);
         }
         let mut splitter = Splitter::new(&self.positions, &self.uvs, &self.normals, &self.corners);
-        let mut mesh = InputMesh::default();
+        let mut mesh = InputMesh {
+            skipped_faces: self.skipped_faces,
+            ..InputMesh::default()
+        };
         let mut vertices = Vec::new();
         let mut points = Vec::new();
         let mut local = Vec::new();

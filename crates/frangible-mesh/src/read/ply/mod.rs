@@ -185,6 +185,7 @@ impl Faces {
         for (face, &end) in self.ends.iter().enumerate() {
             let corners = self.corners.get(first..end as usize).unwrap_or_default();
             first = end as usize;
+            mesh.skipped_faces += usize::from(corners.len() < 3);
             points.clear();
             for &index in corners {
                 let position = usize::try_from(index)

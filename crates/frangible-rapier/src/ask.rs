@@ -1,0 +1,49 @@
+//! Questions about blows that have not happened.
+
+use frangible::{Contact, Outcome, Striker};
+use rapier3d::dynamics::RigidBodyHandle;
+use rapier3d::math::Vector;
+
+use crate::error::{WorldError, finite, not_negative};
+use crate::judge::breakable;
+use crate::world::BreakableWorld;
+
+impl BreakableWorld {
+    /// Whether a blow would break a body into pieces, all in world coordinates: what strikes it at `point`, m, flies `toward` a direction of any
+    /// length at `speed`, m/s, against the body. Nothing in the world changes. A game asks it before an arrow is drawn, or to show
+    /// where a wall would give way; a blow that is far too weak costs microseconds, one that breaks as much as the break.
+    ///
+    /// # Errors
+    /// No breakable body of this handle, a number that is not finite, a direction of no length, a negative speed.
+    pub fn would_break(
+        &self,
+        handle: RigidBodyHandle,
+        point: Vector,
+        toward: Vector,
+        speed: f32,
+        striker: Striker,
+    ) -> Result<bool, WorldError> {
+        let body = breakable(&self.breakables, handle)?;
+        let (index, generation) = handle.into_raw_parts();
+        let rigid = self.physics.bodies.get(handle);
+        let rigid = rigid.ok_or(WorldError::NoBody { index, generation })?;
+        finite("point", point)?;
+        finite("direction", toward)?;
+        not_negative("speed (m/s)", speed)?;
+        let to_body = rigid.rotation().inverse();
+        let contact = Contact::collision(
+            body.asset(),
+            to_body * (point - rigid.translation()),
+            to_body * toward,
+            f64::from(speed),
+            striker,
+        );
+        let config = &self.config.fracture;
+        if self.clears_quickly {
+            return Ok(frangible::would_break(body, &[contact], config)?);
+        }
+        // Another judge was set, and is asked.
+        let outcome = (self.break_function)(body, &[contact], config)?;
+        Ok(matches!(outcome, Outcome::Broke(fracture) if fracture.fragments.len() > 1))
+    }
+}

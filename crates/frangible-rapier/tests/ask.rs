@@ -1,0 +1,85 @@
+//! Whether a blow would break a body, asked of the world.
+
+mod common;
+
+use common::baked::pane;
+use frangible::{Body, Contact, FractureConfig, Material, Striker};
+use frangible_rapier::rapier3d::math::{Pose, Rotation, Vector};
+use frangible_rapier::{Ball, BreakableWorld, SurfaceProperties, WorldConfig, WorldError};
+use std::f32::consts::FRAC_PI_2;
+
+/// Pane 0.3 × 0.3 m whose normal is x, far from the origin.
+fn world() -> (
+    BreakableWorld,
+    frangible_rapier::rapier3d::dynamics::RigidBodyHandle,
+) {
+    let mut config = WorldConfig::default();
+    config.gravity = Vector::ZERO;
+    let mut world = BreakableWorld::new(config).unwrap();
+    let pose = Pose::from_parts(
+        Vector::new(5.0, 1.0, -3.0),
+        Rotation::from_rotation_y(FRAC_PI_2),
+    );
+    let body = Body::new(pane().clone(), 1).unwrap();
+    let handle = world.insert_breakable(body, pose, Vector::ZERO, Vector::ZERO);
+    (world, handle.unwrap())
+}
+
+fn ball() -> Striker {
+    Striker::ball(&Material::preset("steel").unwrap(), 0.13, 0.016)
+}
+
+#[test]
+fn a_blow_asked_of_the_world_is_that_of_the_body_frame_and_of_the_step() {
+    let (mut world, handle) = world();
+    let place = Vector::new(5.0, 1.05, -3.02);
+    let (mut broke, mut held) = (0, 0);
+    for speed in [0.5, 2.0, 5.0, 10.0, 20.0] {
+        // From the front, +x in the world, which is +z of the pane.
+        let point = place + 0.002 * Vector::X;
+        let asked = world.would_break(handle, point, -Vector::X, speed, ball());
+        let body = world.breakable(handle).unwrap();
+        let contact = Contact::collision(
+            body.asset(),
+            frangible::glam::Vec3::new(0.02, 0.05, 0.002),
+            frangible::glam::Vec3::NEG_Z,
+            f64::from(speed),
+            ball(),
+        );
+        let config = FractureConfig::default();
+        let expected = frangible::would_break(body, &[contact], &config).unwrap();
+        assert_eq!(asked.unwrap(), expected, "{speed} m/s");
+        broke += usize::from(expected);
+        held += usize::from(!expected);
+    }
+    assert!(broke > 0 && held > 0, "{broke} broke, {held} held");
+
+    // What it says of 20 m/s happens.
+    let start = Pose::from_translation(place + 0.05 * Vector::X);
+    let (steel, shot) = (SurfaceProperties::STEEL, -20.0 * Vector::X);
+    let flying = Ball {
+        mass: 0.13,
+        radius: 0.016,
+    };
+    world.insert_ball(flying, steel, start, shot).unwrap();
+    let steps = 0..4;
+    let breaks: usize = steps.map(|_| world.step().unwrap().len()).sum();
+    assert_eq!(breaks, 1);
+    // Nobody is there any more.
+    let gone = world.would_break(handle, place, -Vector::X, 1.0, ball());
+    assert!(matches!(gone, Err(WorldError::NoBody { .. })));
+}
+
+#[test]
+fn a_blow_that_cannot_be_meant_is_refused() {
+    let (world, handle) = world();
+    let ask = |point, toward, speed| {
+        let asked = world.would_break(handle, point, toward, speed, ball());
+        asked.unwrap_err().to_string()
+    };
+    let nan = Vector::splat(f32::NAN);
+    assert!(ask(nan, Vector::X, 1.0).contains("point"));
+    assert!(ask(Vector::ZERO, nan, 1.0).contains("direction"));
+    assert!(ask(Vector::ZERO, Vector::X, -1.0).contains("speed"));
+    assert!(ask(Vector::ZERO, Vector::ZERO, 1.0).contains("normal"));
+}
