@@ -117,7 +117,7 @@ fn mode_displacements(asset: &Asset, mode: usize) -> Vec<Vec3> {
         .collect()
 }
 
-/// Of a field of vectors at the analysis nodes, at the closest point of an element; column j = ∂u/∂x_j.
+/// Value and gradient of a field of vectors at the analysis nodes, at the closest point of an element; column j = ∂u/∂x_j.
 fn value_and_gradient(asset: &Asset, field: &[Vec3], point: &EmbeddedPoint) -> (Vec3, Mat3) {
     let element = point.element as usize;
     let barycentric_gradients = &asset.analysis.barycentric_gradients[element];

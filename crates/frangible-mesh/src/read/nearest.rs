@@ -7,7 +7,7 @@ use strsim::levenshtein;
 /// A name longer than this gets no suggestion, characters.
 const LONGEST_NAME: usize = 48;
 
-/// The same of a file, or of one of its neighbours.
+/// A file's name longer than this gets no suggestion, nor is one suggested, characters.
 const LONGEST_FILE_NAME: usize = 64;
 
 /// How many names of a folder are looked at.
