@@ -71,7 +71,7 @@ impl Material {
     }
 
     /// The same material with another tensile strength, Pa. Its flaws are others then, so the energy depth is derived again:
-    /// `γ = 16 E G_c / R_c²`, 0.25 m at most, as for every [preset](crate::presets).
+    /// `γ = 16 E G_c / R_c²`, 0.25 m at most, as for every [preset](crate::Preset).
     #[must_use]
     pub fn with_strength(self, strength: f64) -> Self {
         let depth = energy_depth(self.youngs_modulus, self.fracture_energy, strength);
