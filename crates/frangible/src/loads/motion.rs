@@ -34,6 +34,7 @@ pub fn follow(
         ));
     }
     positive("time step", time_step, "s")?;
+    config.validate()?;
     let energy = motion.peak_strain_energy;
     if !energy.is_finite() || energy < 0.0 {
         return Err(InputError::Motion(
