@@ -357,11 +357,13 @@ fn a_harder_hit_cracks_the_pane_more() {
     assert!(areas.windows(2).all(|w| w[1] > w[0]), "{areas:.1?} cm²");
 }
 
+/// Known deviation: a harder hit should crack more. In the paper's model, where no crack relieves another, 15 m/s cut the whole pane at
+/// once, and 30 m/s cannot cut more.
 #[test]
-#[ignore = "2, 6, 15, 30 m/s, mean of 5 seeds: 0, 0, 474, 464 cm2: the whole pane is cut at once"]
-fn a_harder_hit_cracks_the_pane_more_in_the_papers_model_too() {
+fn a_harder_hit_cuts_the_whole_pane_at_once_in_the_papers_model() {
     let areas = pane_areas(&FractureConfig::as_in_the_paper());
-    assert!(areas.windows(2).all(|w| w[1] >= w[0]), "{areas:.1?} cm²");
+    assert!(areas[1] <= areas[2], "{areas:.1?} cm²");
+    assert!((areas[3] / areas[2] - 1.0).abs() < 0.1, "{areas:.1?} cm²");
 }
 
 /// Share of the crack faces' area that lies more than 30° askew in the pane.
