@@ -18,7 +18,7 @@ use crate::error::BenchError;
 use crate::subjects::steel_ball;
 
 /// Speed of the ball for each [`Depth`], m/s.
-const SPEEDS: [f64; 4] = [0.05, 1.2, 4.0, 15.0];
+const SPEEDS: [f64; 4] = [0.05, 1.0, 3.0, 15.0];
 
 /// Steps of [`Bench::displacements`].
 pub const STEPS: usize = 64;
