@@ -180,7 +180,7 @@ fn checked(asset: Asset) -> Result<Asset, RescaleError> {
     Ok(asset)
 }
 
-/// As the bake does: of the mesh as stored, so that the masses of its pieces sum to it.
+/// Mass properties of the mesh as stored, as the bake finds them, so that the masses of its pieces sum to them.
 fn weigh(asset: &mut Asset) {
     let mesh = &asset.fracture;
     let corners = (0..mesh.tets.len()).map(|e| mesh.corners(e).map(|p| p.as_dvec3()));

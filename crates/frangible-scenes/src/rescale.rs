@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use frangible::glam::Vec3;
-use frangible::{Asset, Material};
+use frangible::{Asset, Material, Preset};
 use frangible_bake::{RescaleError, scaled, with_material};
 
 use crate::error::SceneError;
@@ -71,29 +71,43 @@ impl MaterialEdit {
         if let Some(name) = &self.name {
             m.name.clone_from(name);
         }
-        let [.., strength, fracture_energy, energy_depth, _, _, _, _, _] = self.numbers;
-        let stiffness = self.numbers[0];
-        m.youngs_modulus = stiffness.unwrap_or(m.youngs_modulus);
+        // First what follows from a number that is given, then all numbers that are.
+        let [
+            youngs_modulus,
+            ..,
+            strength,
+            fracture_energy,
+            _,
+            _,
+            _,
+            _,
+            _,
+            _,
+        ] = self.numbers;
+        m.youngs_modulus = youngs_modulus.unwrap_or(m.youngs_modulus);
         if let Some(fracture_energy) = fracture_energy {
             m = m.with_fracture_energy(fracture_energy);
         }
         if let Some(strength) = strength {
             m = m.with_strength(strength);
         }
-        m.energy_depth = energy_depth.unwrap_or(m.energy_depth);
-        let rest = [
-            (&mut m.poisson_ratio, 1),
-            (&mut m.density, 2),
-            (&mut m.stiffness_damping, 3),
-            (&mut m.mass_damping, 4),
-            (&mut m.weak_point_density, 8),
-            (&mut m.roughness_amplitude, 9),
-            (&mut m.roughness_wavelength, 10),
-            (&mut m.restitution, 11),
-            (&mut m.friction, 12),
+        let places = [
+            &mut m.youngs_modulus,
+            &mut m.poisson_ratio,
+            &mut m.density,
+            &mut m.stiffness_damping,
+            &mut m.mass_damping,
+            &mut m.strength,
+            &mut m.fracture_energy,
+            &mut m.energy_depth,
+            &mut m.weak_point_density,
+            &mut m.roughness_amplitude,
+            &mut m.roughness_wavelength,
+            &mut m.restitution,
+            &mut m.friction,
         ];
-        for (place, number) in rest {
-            *place = self.numbers[number].unwrap_or(*place);
+        for (place, number) in places.into_iter().zip(self.numbers) {
+            *place = number.unwrap_or(*place);
         }
         if let Some(rise_time) = self.rise_time {
             let wrong = || SceneError::RiseTime {
@@ -102,8 +116,7 @@ impl MaterialEdit {
                 known: with_rates().join(", "),
             };
             let name = self.preset.as_ref().unwrap_or(&m.name);
-            let preset = Material::presets().iter().find(|p| p.name == name);
-            let law = preset.and_then(|p| p.rate);
+            let law = Preset::named(name).and_then(|preset| preset.rate);
             let law = law
                 .filter(|_| rise_time.is_finite() && rise_time > 0.0)
                 .ok_or_else(wrong)?;

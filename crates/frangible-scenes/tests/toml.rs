@@ -643,6 +643,10 @@ fn strength_fracture_energy_and_energy_depth_go_together() {
         (5e7, 9.0, 0.004)
     );
     let fast = of("rise_time = 1e-5");
+    let spelled = parsed(
+        "[[body]]\nshape = { box = [0.1, 0.1, 0.1] }\nmaterial = { preset = \"GLASS\", rise_time = 1e-5 }",
+    );
+    assert_eq!(spelled.bodies[0].material, fast);
     assert_eq!(fast.strength, 1.52 * glass.strength);
     for wrong in [
         "preset = \"ice\", rise_time = 1e-5",

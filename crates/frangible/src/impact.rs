@@ -111,7 +111,7 @@ impl Vibration {
     /// Begins an impact: everything of [`impact()`](crate::impact()) before the motion of the modes.
     ///
     /// # Errors
-    /// As [`impact()`](crate::impact()).
+    /// What [`impact()`](crate::impact()) refuses.
     pub fn begin(
         body: &Body,
         contacts: &[Contact],

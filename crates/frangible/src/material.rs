@@ -70,7 +70,7 @@ impl Material {
         Ok(())
     }
 
-    /// The same material with another tensile strength, Pa. Its flaws are others then, so the energy depth is derived again:
+    /// Gives the material another tensile strength, Pa. Its flaws are others then, so the energy depth is derived again:
     /// `γ = 16 E G_c / R_c²`, 0.25 m at most, as for every [preset](Material::presets).
     #[must_use]
     pub fn with_strength(self, strength: f64) -> Self {
@@ -82,7 +82,7 @@ impl Material {
         }
     }
 
-    /// The same material with another fracture energy, J/m². Its flaws stay what they are, and so does the energy depth, which is a
+    /// Gives the material another fracture energy, J/m². Its flaws stay what they are, and so does the energy depth, which is a
     /// length of the flaws. What starts a crack at a flaw of given length grows with the root of the toughness (Griffith), so
     /// the strength is multiplied by the root of the ratio of the fracture energies.
     #[must_use]

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-use frangible::{Breakable, CrackTiming, FractureConfig, Material, impact_traced};
+use frangible::{Breakable, CrackTiming, FractureConfig, Material, Preset, impact_traced};
 use frangible_bake::{BakeSpec, MeshSize, Region, Shape, Support, bake};
 use rayon::prelude::*;
 
@@ -324,10 +324,8 @@ fn changed(plate: &Breakable, variant: Variant) -> Result<Breakable, VerifyError
     let mut asset = (**plate.asset()).clone();
     asset.material.strength *= variant.strength;
     asset.material.weak_point_density *= variant.weak_points;
-    let law = Material::presets()
-        .iter()
-        .find(|p| p.name == asset.material.name);
-    if let (Some(rise_time), Some(law)) = (variant.rise_time, law.and_then(|p| p.rate)) {
+    let law = Preset::named(&asset.material.name).and_then(|preset| preset.rate);
+    if let (Some(rise_time), Some(law)) = (variant.rise_time, law) {
         asset.material.strength = law.strength(asset.material.strength, rise_time);
     }
     Breakable::new(asset).map_err(|source| VerifyError::Impact { case: NAME, source })

@@ -87,6 +87,13 @@ impl Preset {
     /// White oak across the grain: floors, table tops.
     pub const WOOD: Self = table::WOOD;
 
+    /// The preset of that name, if there is one; case does not matter, and `_` or a space may stand for `-`.
+    #[must_use]
+    pub fn named(name: &str) -> Option<&'static Self> {
+        let wanted: String = name.trim().to_lowercase().replace(['_', ' '], "-");
+        PRESETS.iter().find(|preset| preset.name == wanted)
+    }
+
     /// Plane-strain modulus E/(1−ν²), Pa; see [`Material::contact_modulus`].
     #[must_use]
     pub const fn contact_modulus(&self) -> f64 {
@@ -154,12 +161,10 @@ impl Material {
     /// # Errors
     /// [`UnknownMaterial`], with all names in its message.
     pub fn preset(name: &str) -> Result<Material, UnknownMaterial> {
-        let wanted: String = name.trim().to_lowercase().replace(['_', ' '], "-");
-        match PRESETS.iter().find(|preset| preset.name == wanted) {
-            Some(preset) => Ok(preset.material()),
-            None => Err(UnknownMaterial {
-                name: name.chars().take(LONGEST_NAME).collect(),
-            }),
-        }
+        let unknown = || UnknownMaterial {
+            name: name.chars().take(LONGEST_NAME).collect(),
+        };
+        let preset = Preset::named(name).ok_or_else(unknown)?;
+        Ok(preset.material())
     }
 }

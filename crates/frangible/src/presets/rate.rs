@@ -49,5 +49,5 @@ pub(super) const PMMA: RateLaw = RateLaw {
     limit: 1.3,
     source: "an estimate from one measurement: a sphere's impact needs about 30 % more load than a slow test to fracture a plate on a ring \
              (Flexure strength and fracture of polymethylmethacrylate plates; abstract); that strength in tension grows with rate: Wu, Ma, Xia, \
-             Materials Letters 58 (2004) 3681 (abstract)",
+             Materials Letters 2004, 10.1016/j.matlet.2004.07.022 (abstract)",
 };
