@@ -61,7 +61,7 @@ home
 reset
 hammer 0.4 8 steel
 click 0.62 0.5              # the head comes down on the pane
-step 400
+step 320                    # its pieces are still in the air
 save report struck.json
 save script struck.txt
 save gif struck.gif 0.1s 30fps 160x100
@@ -267,7 +267,7 @@ fn film(path: &Path) {
         .map(|frame| image::DynamicImage::ImageRgba8(frame.buffer().clone()).into_rgb8());
     let share = difference(&first, &last);
     assert!(
-        share > 0.0003,
+        share > 0.002,
         "only {share} of two pictures of a film differ"
     );
 }
