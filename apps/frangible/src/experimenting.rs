@@ -4,7 +4,7 @@ use std::error::Error;
 use std::fmt::Write;
 
 use frangible_export::write_atomically;
-use frangible_verify::experiments::{Experiments, Figure, MassPlan, StarPlan};
+use frangible_verify::experiments::{Experiments, Figure, MassPlan, RearStarPlan, StarPlan};
 use serde_json::json;
 
 use crate::args::VerifyArgs;
@@ -20,7 +20,12 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<(), Box<dyn Error>> {
     make_folders(args.write.as_deref(), PAGE, PICTURES)?;
     let bar = Bar::new(args.json);
     let hear = |share: f64| bar.show("breaking plates and balls", share);
-    let found = Experiments::compute(StarPlan::full(), MassPlan::full(), &hear)?;
+    let found = Experiments::compute(
+        StarPlan::full(),
+        RearStarPlan::full(),
+        MassPlan::full(),
+        &hear,
+    )?;
     drop(bar);
     let mut files = Vec::new();
     if let Some(folder) = &args.write {

@@ -1,6 +1,7 @@
 //! Cracks: where they start, how they run, when they stop `[G12 §4.4, §5]`.
 
 mod arrivals;
+mod branching;
 mod culling;
 mod field;
 mod initiation;
