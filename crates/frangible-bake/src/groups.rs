@@ -1,4 +1,7 @@
 //! Named parts of a body's surface, as its file names them.
+//!
+//! A group holds the outer nodes that lie within a fifth of their shortest edge of it, since the fine mesh follows curved walls
+//! by chords.
 
 use frangible::glam::DVec3;
 use frangible::mesh::closest_on_triangle;

@@ -1,4 +1,7 @@
 //! A vibration mode as fields on the body, for those who look at it: displacement and linear stress at points.
+//!
+//! Stresses to be looked at are means at the nodes, since the stress of single elements jumps and shows as blotches; the run
+//! time keeps that of the elements.
 
 use frangible::asset::EmbeddedPoint;
 use frangible::glam::{Mat3, Vec3};

@@ -1,5 +1,5 @@
 //! What holds of every blow: energy, momentum, what the modes left out give, and that no input makes nonsense. Beside closed forms
-//! blows stand in `frangible verify` (cases `blow` and `near-field`).
+//! blows stand in `frangible-lab verify` (cases `blow` and `near-field`).
 
 use std::sync::{Arc, OnceLock};
 

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use common::baked::pane;
 use frangible::{Breakable, Fields};
-use frangible_pieces::{Method, Pieces};
+use frangible_bake::pieces::{Method, Pieces};
 use frangible_rapier::rapier3d::dynamics::{RigidBody, RigidBodyHandle};
 use frangible_rapier::rapier3d::math::{Pose, Vector};
 use frangible_rapier::{BreakableWorld, SurfaceProperties, WorldConfig};

@@ -10,8 +10,8 @@ use frangible::glam::Vec3;
 use frangible::{
     Body, Breakable, Contact, FractureConfig, Material, Outcome, Portion, Striker, impact,
 };
+use frangible_bake::pieces::reanalysis;
 use frangible_bake::{BakeSpec, Shape, bake};
-use frangible_pieces::reanalysis;
 
 /// Places around the wall.
 const PLACES: usize = 12;

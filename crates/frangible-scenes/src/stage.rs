@@ -118,7 +118,7 @@ pub(crate) fn set_up_as<'a>(
     }
     #[cfg(feature = "bake")]
     if scene.pieces.generations > 0 {
-        let model = frangible_pieces::Pieces::new(scene.pieces.method);
+        let model = frangible_bake::pieces::Pieces::new(scene.pieces.method);
         world.set_piece_model(Some(Arc::new(model)));
     }
     let numbers = 0..scene.projectiles.len();

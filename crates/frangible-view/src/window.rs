@@ -1,4 +1,7 @@
 //! The window: draws what the session shows, and turns mouse, keys and panels into commands.
+//!
+//! The window opens before the graphics adapter is asked for: some drivers visit the display, and a display server without
+//! guests resets itself.
 
 #[cfg(not(target_family = "wasm"))]
 mod desktop;

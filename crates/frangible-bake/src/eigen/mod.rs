@@ -10,7 +10,7 @@
 
 mod basis;
 mod constraints;
-mod dense;
+pub(crate) mod dense;
 mod factor;
 mod krylov;
 mod lanczos;

@@ -20,7 +20,7 @@ use crate::error::SceneError;
 use crate::output::{FileWish, Output};
 use crate::projectile::{Projectile, ProjectileKind};
 use crate::scene::{PieceSpec, Scene};
-use frangible_pieces::Method;
+use frangible_bake::pieces::Method;
 
 pub(super) fn scene(table: SceneTable, folder: &Path, name: &str) -> Result<Scene, Fault> {
     let name = table.name.unwrap_or_else(|| name.into());

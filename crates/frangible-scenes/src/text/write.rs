@@ -14,7 +14,7 @@ use crate::output::{FileWish, Output};
 use crate::projectile::{Projectile, ProjectileKind};
 use crate::scene::{PieceSpec, Scene};
 use crate::source::BodySource;
-use frangible_pieces::Method;
+use frangible_bake::pieces::Method;
 
 /// The scene as TOML text; reading it gives the same scene, bit for bit.
 #[must_use]

@@ -4,6 +4,9 @@
 //! They come from a function of the place ([`Fields::from_function`]), from zones and scored lines ([`Fields::from_patches`]),
 //! from the vertex colours of the asset's drawn surface ([`Fields::from_paint`]), or from whatever the vertices of a surface
 //! hold ([`Fields::from_vertices`]).
+//!
+//! Weakness is not baked. The factors belong to a [`Breakable`](crate::Breakable), so that one asset serves scored and plain
+//! bodies; culling compares each cluster with its weakest point.
 
 mod kink;
 mod paint;

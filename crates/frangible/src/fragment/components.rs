@@ -4,6 +4,8 @@
 //! starts there, from all sides of the cuts at once, the side that has seen least going on. Sides that meet are one;
 //! a side that has nowhere to go is a component. When one side is left, it has all that nobody has seen: it is
 //! not searched further, and its volume is what the others leave of the whole.
+//!
+//! Volumes of nodes are whole numbers, so the volume of the rest is exact.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;

@@ -3,6 +3,9 @@
 //!
 //! Stiffness and mass are integrated exactly over the body alone, by cutting its tetrahedra along the planes of the
 //! lattice: a Ritz method, whose frequencies fall towards the true ones as the elements grow more.
+//!
+//! Where two walls share a cell of the lattice, the cell has a copy for each of them. Barycentric coordinates of embedded points
+//! may be slightly negative.
 
 mod cut;
 mod lattice;
