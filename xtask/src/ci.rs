@@ -13,9 +13,9 @@ use crate::web::trial;
 
 /// Building cargo-deny takes three minutes of one core; a machine that needs longer than this is stuck.
 const INSTALL_LIMIT: Duration = Duration::from_secs(20 * 60);
-/// Of all of the step; the first build with its instrumentation takes most of it.
+/// Limit of the whole step of fuzzing; its first build with instrumentation takes most of it.
 const FUZZ_LIMIT: Duration = Duration::from_secs(8 * 60);
-/// Of all of the step; the first build for browsers takes most of it.
+/// Limit of the whole step of the page; its first build for browsers takes most of it.
 const WEB_LIMIT: Duration = Duration::from_secs(25 * 60);
 /// The cargo-deny that `deny.toml` is written for.
 const DENY_VERSION: &str = "0.20.2";

@@ -14,7 +14,7 @@ use crate::setup::valgrind;
 
 /// More than this above the stored count is a failure.
 const MOST: f64 = 1.05;
-/// Of the whole step when it is one of the integration's.
+/// Limit of the whole step when it is one of the integration's.
 const LIMIT: Duration = Duration::from_secs(8 * 60);
 /// The function whose instructions are counted, in `examples/count_instructions.rs`.
 const COUNTED: &str = "*counted_work*";

@@ -167,7 +167,7 @@ pub(crate) struct ModesArgs {
     #[arg(long, value_name = "FILE.vtu")]
     pub(crate) vtu: Option<PathBuf>,
 
-    /// The same on the mesh that carries cracks, which is the body's own shape
+    /// Write the mesh that carries cracks, which is the body's own shape, with the same fields, ending in .vtu
     #[arg(long, value_name = "FILE.vtu")]
     pub(crate) fracture_vtu: Option<PathBuf>,
 

@@ -8,11 +8,12 @@
 use std::ops::ControlFlow;
 use std::time::Instant;
 
-use frangible::asset::RenderSurface;
 use frangible::glam::DVec3;
-use frangible::modal::ModalBasis;
-use frangible::stress::StressBounds;
-use frangible::{Asset, MassProperties, Material, TetMesh};
+use frangible::internals::asset::RenderSurface;
+use frangible::internals::modal::ModalBasis;
+use frangible::internals::stress::StressBounds;
+use frangible::internals::{MassProperties, TetMesh};
+use frangible::{Asset, Material};
 use frangible_mesh::TetReport;
 
 use crate::analysis::Analysis;

@@ -4,7 +4,7 @@
 //! by chords.
 
 use frangible::glam::DVec3;
-use frangible::mesh::closest_on_triangle;
+use frangible::internals::mesh::closest_on_triangle;
 use frangible_mesh::{InputMesh, Similarity};
 
 /// How far from a group a node may lie to be on it, in its shortest edges: the fine mesh rounds edges off and follows

@@ -3,10 +3,10 @@
 
 use std::sync::{Arc, OnceLock};
 
-use frangible::blow::Blow;
 use frangible::glam::{DVec3, Vec3};
-use frangible::near_field::PlateTheory;
-use frangible::stress::largest_eigenvalue;
+use frangible::internals::blow::Blow;
+use frangible::internals::near_field::PlateTheory;
+use frangible::internals::stress::largest_eigenvalue;
 use frangible::{Asset, Body, Breakable, Contact, FractureConfig, Material, Striker};
 use frangible_bake::{BakeSpec, Shape, bake};
 

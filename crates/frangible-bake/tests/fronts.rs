@@ -4,9 +4,10 @@ mod common;
 
 use common::{breakable, modes, whole};
 use frangible::glam::Vec3;
-use frangible::modal::Motion;
-use frangible::stress::{DisplacementBatch, Elasticity};
-use frangible::{Body, BodyState, Contact, FractureConfig, Material, Striker, impact};
+use frangible::internals::BodyState;
+use frangible::internals::modal::Motion;
+use frangible::internals::stress::{DisplacementBatch, Elasticity};
+use frangible::{Body, Contact, FractureConfig, Material, Striker, impact};
 use frangible_bake::Shape;
 use frangible_bake::pieces::reanalysis;
 

@@ -6,9 +6,10 @@ use std::sync::Arc;
 
 use common::breakable;
 use frangible::glam::DVec3;
+use frangible::internals::Portion;
 use frangible::{
-    Body, Contact, Fracture, FractureConfig, Fragment, Material, Outcome, Portion, Striker,
-    glam::Vec3, impact,
+    Body, Contact, Fracture, FractureConfig, Fragment, Material, Outcome, Striker, glam::Vec3,
+    impact,
 };
 use frangible_bake::Shape;
 use frangible_bake::pieces::reanalysis;

@@ -6,7 +6,8 @@ use std::sync::Arc;
 
 use common::{breakable, frequencies, modes, whole};
 use frangible::glam::Vec3;
-use frangible::{Body, Contact, FractureConfig, Material, Outcome, Portion, Striker, impact};
+use frangible::internals::Portion;
+use frangible::{Body, Contact, FractureConfig, Material, Outcome, Striker, impact};
 use frangible_bake::Shape;
 use frangible_bake::pieces::{parent_modes, reanalysis};
 

@@ -4,7 +4,8 @@ use std::hint::black_box;
 use std::time::Duration;
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use frangible::{FractureConfig, StageTimings};
+use frangible::FractureConfig;
+use frangible::internals::StageTimings;
 use frangible_lab::bench::stages::{Bench, Depth, small_body};
 
 fn stages(c: &mut Criterion) {

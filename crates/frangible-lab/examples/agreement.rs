@@ -7,7 +7,8 @@ use std::error::Error;
 use std::sync::OnceLock;
 use std::time::Instant;
 
-use frangible::{FractureConfig, impact, impact_traced};
+use frangible::internals::impact_traced;
+use frangible::{FractureConfig, impact};
 use frangible_lab::reference::agreement::{MARGIN, compare, compare_first_start};
 use frangible_lab::reference::bodies::{Case, baked_cases, impact as generate, linear_cases};
 use frangible_lab::reference::{

@@ -6,7 +6,7 @@ use std::error::Error;
 use std::hint::black_box;
 
 use frangible::Asset;
-use frangible::asset::SaveOptions;
+use frangible::internals::asset::SaveOptions;
 use frangible_lab::bench::stages::{Bench, Depth, small_body};
 
 /// Cases and how often each is repeated: enough for a million instructions.
@@ -55,7 +55,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 fn counted_work(
     bench: &Bench,
     case: usize,
-    middle: &mut (frangible::stress::DisplacementBatch, usize),
+    middle: &mut (frangible::internals::stress::DisplacementBatch, usize),
 ) {
     match case {
         0 => {

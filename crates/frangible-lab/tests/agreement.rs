@@ -1,6 +1,7 @@
 //! The pipeline in the paper's mode does what the paper says, element by element.
 
-use frangible::{DurationModel, FractureConfig, Outcome, impact, impact_traced};
+use frangible::internals::{DurationModel, impact_traced};
+use frangible::{FractureConfig, Outcome, impact};
 use frangible_lab::reference::agreement::{MARGIN, Mismatch, compare, compare_first_start};
 use frangible_lab::reference::bodies::{Case, baked_cases, impact as generate, linear_cases};
 use frangible_lab::reference::{

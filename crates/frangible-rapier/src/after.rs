@@ -315,7 +315,7 @@ impl BreakableWorld {
             return 0;
         };
         let cleared = self.clears_quickly
-            && frangible::is_harmless(body, &impact.contacts, &self.config.fracture);
+            && frangible::internals::is_harmless(body, &impact.contacts, &self.config.fracture);
         if cleared {
             0
         } else {

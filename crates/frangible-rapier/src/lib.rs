@@ -24,7 +24,7 @@
 //!
 //! # What breaks a body
 //! Impacts, with their friction, on one body or on two breakable ones that meet. What it carries: after every step the
-//! forces of its resting contacts, and a held body's weight, are put to [`frangible::rest()`];
+//! forces of its resting contacts, and a held body's weight, are put to [`frangible::internals::rest()`];
 //! [`BreakableWorld::rest_margin`] says how far it is from breaking. [`BreakableWorld::blast`] and
 //! [`BreakableWorld::fracture_at`]. [`BreakEvent::cause`] tells which it was. [`BreakableWorld::would_break`] asks before.
 //!

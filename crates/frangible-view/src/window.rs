@@ -45,7 +45,7 @@ const REST: Duration = Duration::from_millis(12);
 /// How long frames are drawn after the last news: panels fade, and hints come after half a second.
 const LIVELY: Duration = Duration::from_millis(1200);
 
-/// Of frames with nothing new one in so many is drawn.
+/// Where frames show nothing new, one in so many is drawn.
 const SELDOM: u32 = 40;
 
 /// Everything the window needs.

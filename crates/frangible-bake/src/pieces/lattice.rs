@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use crate::BodyMesh;
 use crate::fem::{Cover, Elasticity, System, assemble_supported_cover};
-use frangible::asset::{AnalysisMesh, EmbeddedPoint};
-use frangible::piece::Portion;
+use frangible::internals::asset::{AnalysisMesh, EmbeddedPoint};
+use frangible::internals::piece::Portion;
 
 use crate::pieces::PieceError;
 

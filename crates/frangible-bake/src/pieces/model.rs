@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use frangible::Body;
-use frangible::piece::{Elastic, PieceModel, Portion};
+use frangible::internals::piece::{Elastic, PieceModel, Portion};
 
 use crate::pieces::method::Method;
 use crate::pieces::{PieceError, parent_modes, reanalysis};
@@ -27,7 +27,7 @@ impl Default for Pieces {
 }
 
 impl Pieces {
-    /// By this method.
+    /// A model that finds modes by this method.
     #[must_use]
     pub fn new(method: Method) -> Self {
         Self {

@@ -7,11 +7,11 @@
 use std::sync::Arc;
 
 use faer::Mat;
-use frangible::asset::{AnalysisMesh, EmbeddedPoint};
 use frangible::glam::{DVec3, Vec3};
-use frangible::modal::ModalBasis;
-use frangible::piece::{Elastic, Portion};
-use frangible::stress::ShapeWeights;
+use frangible::internals::asset::{AnalysisMesh, EmbeddedPoint};
+use frangible::internals::modal::ModalBasis;
+use frangible::internals::piece::{Elastic, Portion};
+use frangible::internals::stress::ShapeWeights;
 use frangible::{Asset, Body};
 
 use crate::pieces::PieceError;

@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use crate::eigen::{Constraints, quick_modes};
-use frangible::modal::ModalBasis;
-use frangible::piece::{Elastic, Portion};
+use frangible::internals::modal::ModalBasis;
+use frangible::internals::piece::{Elastic, Portion};
 
 use crate::pieces::PieceError;
 use crate::pieces::lattice::Lattice;

@@ -3,8 +3,9 @@
 
 use std::sync::Arc;
 
-use frangible::modal::ModalBasis;
-use frangible::{Body, Breakable, Elastic, FractureConfig, Material, Portion};
+use frangible::internals::modal::ModalBasis;
+use frangible::internals::{Elastic, Portion};
+use frangible::{Body, Breakable, FractureConfig, Material};
 use frangible_bake::{BakeSpec, MeshSize, Shape, bake};
 
 /// A baked shape of about so many fracture tetrahedra.

@@ -20,9 +20,9 @@ pub const SIZE: [usize; 2] = [8000, 40];
 pub struct Findings {
     /// Its name.
     pub scene: String,
-    /// Bodies of the scene that broke …
+    /// Bodies of the scene that broke.
     pub breaks: usize,
-    /// … and pieces that broke again.
+    /// Pieces that broke again.
     pub again: usize,
     /// Rigid bodies in the end.
     pub bodies: usize,
@@ -32,7 +32,7 @@ pub struct Findings {
     pub frames: Spread,
     /// Frames over 1/60 s.
     pub late: usize,
-    /// Of all bodies in the end; the same in every run.
+    /// A number made of all bodies in the end; it is the same in every run.
     pub fingerprint: String,
 }
 

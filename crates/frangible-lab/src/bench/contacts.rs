@@ -4,8 +4,9 @@ use std::f32::consts::TAU;
 use std::time::Instant;
 
 use frangible::glam::Vec3;
+use frangible::internals::LookedAt;
 use frangible::{
-    Asset, Body, Breakable, Contact, FractureConfig, LookedAt, Material, Outcome, Striker, impact,
+    Asset, Body, Breakable, Contact, FractureConfig, Material, Outcome, Striker, impact,
     would_break,
 };
 use rand_chacha::ChaCha8Rng;
@@ -38,13 +39,13 @@ const MOST_CALLS: usize = 400_000;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Class {
-    /// By the size of its impulse, its place and its duration: one number.
+    /// Refused by the size of its impulse, its place and its duration: one number.
     Size,
-    /// By how far its impulse moves each mode at most.
+    /// Refused by how far its impulse moves each mode at most.
     Impulse,
-    /// By the amplitudes of the modes: at every step the bound of the whole body stays below the strength.
+    /// Refused by the amplitudes of the modes: at every step the bound of the whole body stays below the strength.
     Amplitudes,
-    /// By clusters: at some step the bound of the whole body passes the strength, that of no cluster does.
+    /// Refused by clusters: at some step the bound of the whole body passes the strength, that of no cluster does.
     Clusters,
     /// Stresses at weak points are looked at, and stay below the strength.
     LookedAt,

@@ -3,7 +3,8 @@
 use std::path::PathBuf;
 
 use crate::reference::ReferenceError;
-use frangible::{AssetFileError, InputError, UnknownMaterial};
+use frangible::InputError;
+use frangible::internals::{AssetFileError, UnknownMaterial};
 use frangible_bake::BakeError;
 use frangible_rapier::WorldError;
 use frangible_scenes::SceneError;

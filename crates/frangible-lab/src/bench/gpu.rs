@@ -3,7 +3,8 @@
 use std::time::Instant;
 
 use frangible::glam::Vec3;
-use frangible::{Body, Breakable, Contact, FractureConfig, Material, Stage, Vibration};
+use frangible::internals::{Stage, Vibration};
+use frangible::{Body, Breakable, Contact, FractureConfig, Material};
 use frangible_bake::{BakeSpec, Shape, bake};
 use frangible_gpu::{Choice, Gpu, Impact, RanOn, Solver};
 use serde::Serialize;

@@ -3,7 +3,7 @@
 //! Memory is counted by an allocator that whoever measures brings along (`examples/memory.rs`): [`Counted`] is how it says what
 //! it counted.
 
-use frangible::asset::SaveOptions;
+use frangible::internals::asset::SaveOptions;
 use frangible::{Asset, Body, Breakable, FractureConfig, impact};
 use serde::Serialize;
 
@@ -40,9 +40,9 @@ pub struct OfBody {
     pub compact: usize,
     /// Largest relative change of a mode's peak stress by half precision.
     pub change: f64,
-    /// The asset in memory …
+    /// The asset in memory.
     pub asset: u64,
-    /// … and what is made of it once: trees, bounds, what hangs together.
+    /// What is made of the asset once, bytes: trees, bounds, what hangs together.
     pub prepared: u64,
     /// Each body of its kind.
     pub body: u64,

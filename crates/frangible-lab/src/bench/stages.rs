@@ -2,15 +2,15 @@
 
 use std::hint::black_box;
 
-use frangible::contact::{Load, Pulse, contact_duration, modal_load, pulse};
 use frangible::glam::Vec3;
-use frangible::modal::{Motion, respond};
-use frangible::stress::{
+use frangible::internals::contact::{Load, Pulse, contact_duration, modal_load, pulse};
+use frangible::internals::modal::{Motion, respond};
+use frangible::internals::stress::{
     DisplacementBatch, Elasticity, largest_eigenvalue, largest_eigenvalue_bound,
 };
+use frangible::internals::{LookedAt, StageTimings};
 use frangible::{
-    Asset, Body, Breakable, Contact, FractureConfig, LookedAt, Material, Outcome, StageTimings,
-    impact, would_break,
+    Asset, Body, Breakable, Contact, FractureConfig, Material, Outcome, impact, would_break,
 };
 use frangible_bake::{BakeSpec, MeshSize, Shape, bake};
 
@@ -75,7 +75,7 @@ pub struct Bench {
 }
 
 impl Bench {
-    /// Of the baked [`small_body`].
+    /// Stages measured on the baked [`small_body`].
     ///
     /// # Errors
     /// An asset that the run time refuses.

@@ -7,7 +7,7 @@ use serde::Serialize;
 pub struct Times(Vec<f64>);
 
 impl Times {
-    /// Of these times, s, in any order.
+    /// Statistics of these times, s, in any order.
     #[must_use]
     pub fn new(mut times: Vec<f64>) -> Self {
         times.sort_by(f64::total_cmp);

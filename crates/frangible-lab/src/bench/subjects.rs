@@ -21,10 +21,10 @@ const SLAB: [f64; 3] = [0.1, 0.1, 0.005];
 /// Elements that carry the modes of a slab, with some 3 200 nodes.
 const SLAB_ELEMENTS: f64 = 1500.0;
 
-/// Tetrahedra asked of the mesher for the pig …
+/// Tetrahedra asked of the mesher for the pig.
 pub(crate) const PIG_TETS: usize = 21_460;
 
-/// … and what it is grown by to all sides, m: with the paper's few tetrahedra its wall is just over one cell thick, and nodes
+/// How far the pig is grown to all sides, m: with the paper's few tetrahedra its wall is just over one cell thick, and nodes
 /// and tetrahedra both come near the paper's. Found by trying.
 pub(crate) const PIG_GROWN: f64 = 3e-4;
 
@@ -69,9 +69,9 @@ pub struct Blow {
     pub at: [f32; 3],
     /// Direction of the impulse on the body, of any length.
     pub toward: [f32; 3],
-    /// Speed of approach, m/s …
+    /// Speed of approach, m/s.
     pub speed: f64,
-    /// … and in our model, where it takes more: cracks have to be paid for.
+    /// Speed of approach in our model, m/s. It takes more there, because cracks have to be paid for.
     pub speed_ours: f64,
     /// Mass of the steel ball that hits, kg; without one the body lands on flat stone.
     pub ball: Option<f64>,

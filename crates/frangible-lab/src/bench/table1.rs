@@ -3,9 +3,8 @@
 use std::time::{Duration, Instant};
 
 use crate::reference::{Field, Options as Reading, fracture};
-use frangible::{
-    Asset, Body, Breakable, Contact, FractureConfig, ImpactReport, Outcome, impact, impact_traced,
-};
+use frangible::internals::impact_traced;
+use frangible::{Asset, Body, Breakable, Contact, FractureConfig, ImpactReport, Outcome, impact};
 use frangible_rapier::{WorldConfig, collision_shape};
 use serde::Serialize;
 

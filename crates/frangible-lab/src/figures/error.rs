@@ -18,7 +18,7 @@ pub enum FigureError {
     },
     /// The material of a body.
     #[error(transparent)]
-    Material(#[from] frangible::UnknownMaterial),
+    Material(#[from] frangible::internals::UnknownMaterial),
     /// The bake refused a body.
     #[error("a body could not be baked: {0}")]
     Bake(#[from] frangible_bake::BakeError),

@@ -1,6 +1,7 @@
 //! Whether the pipeline of `frangible` did what the reference did, and if not, how near the deciding test was.
 
-use frangible::{CrackTrace, ImpactReport};
+use frangible::ImpactReport;
+use frangible::internals::CrackTrace;
 
 use crate::reference::initiation::{Break, StartTest};
 

@@ -3,11 +3,12 @@
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use frangible::asset::{AnalysisMesh, ConvexCell, EmbeddedPoint, Embedding};
 use frangible::glam::{DVec3, Vec3};
-use frangible::modal::ModalBasis;
-use frangible::stress::StressBounds;
-use frangible::{Asset, Body, Contact, InputError, MassProperties, Material, Striker, TetMesh};
+use frangible::internals::asset::{AnalysisMesh, ConvexCell, EmbeddedPoint, Embedding};
+use frangible::internals::modal::ModalBasis;
+use frangible::internals::stress::StressBounds;
+use frangible::internals::{MassProperties, TetMesh};
+use frangible::{Asset, Body, Contact, InputError, Material, Striker};
 use frangible_bake::eigen::lowest_modes;
 use frangible_bake::fem::{Elasticity, Elements, QuadraticMesh, assemble};
 use frangible_bake::surface::{CREASE, outer_surface};
@@ -218,7 +219,7 @@ pub fn linear_cases() -> Result<Vec<Case>, BakeError> {
     Ok(cases)
 }
 
-/// The same bodies as `frangible_bake` bakes them, with quadratic elements of their own.
+/// The bodies as `frangible_bake` bakes them, with quadratic elements of their own.
 ///
 /// # Errors
 /// None with these shapes, by their tests.

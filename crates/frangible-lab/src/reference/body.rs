@@ -1,8 +1,8 @@
 //! The body as plain numbers in f64.
 
-use frangible::asset::EmbeddedPoint;
 use frangible::glam::DVec3;
-use frangible::mesh::NO_NEIGHBOUR;
+use frangible::internals::asset::EmbeddedPoint;
+use frangible::internals::mesh::NO_NEIGHBOUR;
 use frangible::{Asset, Material};
 use thiserror::Error;
 
@@ -156,7 +156,7 @@ impl<'a> Solid<'a> {
         }
     }
 
-    /// The same at a point of the analysis mesh.
+    /// The gradient of the displacement at a point of the analysis mesh.
     pub(crate) fn gradient_at(&self, u: &[DVec3], at: &EmbeddedPoint) -> [[f64; 3]; 3] {
         let element = at.element as usize;
         if self.field == Field::Linear {

@@ -67,7 +67,7 @@ pub fn fracture(
     run(body, contacts, field, options, usize::MAX)
 }
 
-/// The same until a first crack has run: what follows it may be another model's.
+/// Runs [`fracture`] until a first crack has run: what follows it may be another model's.
 ///
 /// # Errors
 /// As [`fracture`].

@@ -78,7 +78,7 @@ impl Complex {
         Self(self.1.cos(), self.1.sin()) * Self::real(self.0.exp())
     }
 
-    /// Of a real number.
+    /// The square root of a real number, imaginary where the number is negative.
     fn sqrt(self) -> Self {
         if self.0 < 0.0 {
             Self(0.0, (-self.0).sqrt())

@@ -5,8 +5,8 @@
 
 use frangible::Material;
 use frangible::glam::DVec3;
-use frangible::mesh::NO_NEIGHBOUR;
-use frangible::stress::Skin;
+use frangible::internals::mesh::NO_NEIGHBOUR;
+use frangible::internals::stress::Skin;
 
 use crate::reference::body::Solid;
 use crate::reference::stress::{Matrix, hooke, strain};

@@ -21,7 +21,8 @@ pub use case::{CASES, Case, Findings, Plot, case};
 pub use check::Check;
 pub use ritz::{box_frequencies, first_box_frequency};
 
-use frangible::{InputError, UnknownMaterial};
+use frangible::InputError;
+use frangible::internals::UnknownMaterial;
 use frangible_bake::BakeError;
 use thiserror::Error;
 

@@ -19,7 +19,7 @@ pub(crate) const GLASS: Elasticity = Elasticity {
     density: 2500.0,
 };
 
-/// The same stiffness with the ν = 0.3 of the tables.
+/// Glass's stiffness with the ν = 0.3 of the tables.
 pub(crate) const TABLES: Elasticity = Elasticity {
     poisson_ratio: 0.3,
     ..GLASS

@@ -45,3 +45,23 @@ fn an_unknown_figure_is_refused_with_those_there_are() {
     );
     assert!(!place.exists(), "a folder was made");
 }
+
+#[test]
+fn a_figure_as_json_has_its_claims_and_tables() {
+    let folder = Folder::new("figure-json");
+    let output = lab(&["figures", "fig3", "--json", "--write", folder.text()]);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let report: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    let figure = &report["figures"][0];
+    assert_eq!(figure["name"], "fig3");
+    let claims = figure["claims"].as_array().expect("claims");
+    assert!(!claims.is_empty() && claims.iter().all(|c| c["agrees"].is_boolean()));
+    for table in figure["tables"].as_array().expect("tables") {
+        let columns = table["heading"].as_array().expect("a heading").len();
+        let rows = table["rows"].as_array().expect("rows");
+        assert!(
+            rows.iter()
+                .all(|row| row.as_array().map(Vec::len) == Some(columns))
+        );
+    }
+}

@@ -3,8 +3,9 @@
 use std::path::Path;
 
 use frangible::glam::Vec3;
-use frangible::near_field::PlateTheory;
-use frangible::{CrackPath, CrackTiming, DurationModel, FractureConfig, Material};
+use frangible::internals::near_field::PlateTheory;
+use frangible::internals::{CrackPath, CrackTiming, DurationModel};
+use frangible::{FractureConfig, Material};
 use frangible_mesh::nearest_name;
 
 use super::body::body;

@@ -61,7 +61,7 @@ impl Factors {
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Fields {
-    /// Of each fracture tetrahedron; empty: one everywhere.
+    /// Factors of each fracture tetrahedron; an empty list means one everywhere.
     pub of_tet: Vec<Factors>,
     /// Modulus m of a Weibull scatter of the strength from one weak point to another, another one for every body's seed. Real glass
     /// 5 to 10, fine ceramics 10 to 20; lower scatters more. Default 0: no scatter, every weak point has R_c.

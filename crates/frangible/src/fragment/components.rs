@@ -31,7 +31,7 @@ pub(super) struct Component {
 
 /// The components, and who is in which.
 pub(super) struct Components {
-    /// By rising lowest node.
+    /// The components, ordered by their lowest node.
     pub(super) list: Vec<Component>,
     /// Component of all nodes that were not seen.
     pub(super) rest: u32,
@@ -44,7 +44,7 @@ pub(super) struct Components {
 }
 
 impl Components {
-    /// Of the whole body, or of a portion of it, which cuts part from the rest.
+    /// The components of the whole body, or of a portion of it, which cuts part from the rest.
     pub(super) fn of(cuts: &Cuts, index: &MeshIndex, portion: Option<&Portion>) -> Self {
         let mut search = Search::new(cuts, index, portion);
         search.run();

@@ -3,8 +3,8 @@
 //! On a conforming mesh held nodes lose their unknowns. Here springs at the held fine nodes stand in for that; a cantilever's
 //! frequencies are 0.5–0.8 % low.
 
-use frangible::TetMesh;
 use frangible::glam::DVec3;
+use frangible::internals::TetMesh;
 
 use crate::fem::cover::Cover;
 use crate::fem::element::Elasticity;

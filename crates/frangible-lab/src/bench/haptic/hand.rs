@@ -39,7 +39,7 @@ pub struct Hand {
 }
 
 impl Hand {
-    /// Of a head of this mass, kg, and radius, m, above a surface at height `surface`, m.
+    /// A hand whose head has this mass, kg, and radius, m, above a surface at height `surface`, m.
     #[must_use]
     pub fn new(mass: f32, radius: f32, surface: f32, seed: u64) -> Self {
         Self {

@@ -5,7 +5,8 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread::JoinHandle;
 
 use frangible::glam::Vec3;
-use frangible::{Body, Force, FractureConfig, InputError, Outcome, Vibration, rest};
+use frangible::internals::{Force, Vibration, rest};
+use frangible::{Body, FractureConfig, InputError, Outcome};
 
 /// What is to be decided about a body.
 pub enum Case {

@@ -8,11 +8,11 @@
 //!
 //! Limits: the displacement is that of the modes there are; the dent under a contact is below what a hundred modes resolve. The
 //! body's motion as a whole belongs to the rigid-body engine. Nothing breaks here: ask [`impact()`](frangible::impact()) or
-//! [`rest()`](frangible::rest()).
+//! [`rest()`](frangible::internals::rest()).
 
-use frangible::contact::each_row;
 use frangible::glam::Vec3;
-use frangible::modal::Tick;
+use frangible::internals::contact::each_row;
+use frangible::internals::modal::Tick;
 use frangible::{Body, InputError};
 
 /// A place on a body's surface, with what its modes see of it. [`SurfacePlace::seek`] moves it without allocating.
@@ -91,9 +91,9 @@ struct LiveMode {
     step: [[f64; 4]; 2],
     /// (ω q, q̇).
     state: [f64; 2],
-    /// Modal force at the end of the last tick, N/√kg …
+    /// Modal force at the end of the last tick, N/√kg.
     force: f64,
-    /// … and what is pushed with for the end of the next.
+    /// Modal force that is pushed with at the end of the next tick, N/√kg.
     next: f64,
 }
 

@@ -79,9 +79,9 @@ pub struct Findings {
     pub modes: usize,
     /// Its material.
     pub material: &'static str,
-    /// By what a tick did; the last line is all of them.
+    /// How long ticks took, by what they did; the last line is all of them.
     pub taps: Vec<Taps>,
-    /// Of the run with the clock.
+    /// How the run with the clock kept its time.
     pub kept: Option<Kept>,
     /// Runs that did not keep time.
     pub runs: usize,
@@ -95,7 +95,7 @@ pub struct Findings {
     pub largest_displacement: f32,
     /// Largest difference between the displacement and its quasi-static part, m.
     pub largest_swing: f32,
-    /// Of all forces, displacements and pieces; the same in every run.
+    /// A number made of all forces, displacements and pieces; it is the same in every run.
     pub fingerprint: String,
 }
 

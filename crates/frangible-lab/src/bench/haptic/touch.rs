@@ -14,10 +14,8 @@
 use std::sync::Arc;
 
 use frangible::glam::Vec3;
-use frangible::{
-    Body, Contact, Force, Fracture, FractureConfig, InputError, Onset, OnsetSearch, Outcome, Stage,
-    Striker, Vibration, rest_margin_at_least,
-};
+use frangible::internals::{Force, Onset, OnsetSearch, Stage, Vibration, rest_margin_at_least};
+use frangible::{Body, Contact, Fracture, FractureConfig, InputError, Outcome, Striker};
 
 use super::judge::{Case, Judge};
 use super::live::{LiveModes, SurfacePlace};
@@ -68,7 +66,7 @@ pub struct Felt {
     pub kind: Kind,
     /// On the probe, N.
     pub force: Vec3,
-    /// Of the surface at the contact, m: how far vibration has moved it from where it rests; zero without contact.
+    /// How far vibration has moved the surface at the contact from where it rests, m; zero without contact.
     pub displacement: Vec3,
     /// The quasi-static part of it, m.
     pub at_rest: Vec3,

@@ -1,6 +1,6 @@
 //! Operations and bytes of the initiation, counted in the source: what it has to do, not what a compiler makes of it.
 
-use frangible::stress::{DisplacementBatch, Law};
+use frangible::internals::stress::{DisplacementBatch, Law};
 
 /// Steps of a batch, which go through the arithmetic side by side.
 const LANES: usize = DisplacementBatch::LANES;
@@ -47,7 +47,7 @@ pub(super) fn weak_point(law: Law) -> f64 {
 /// Bytes of the same: the point, its element's node numbers and gradients, the displacements of ten nodes, which other points
 /// share.
 pub(super) fn weak_point_bytes() -> f64 {
-    let point = size_of::<frangible::asset::EmbeddedPoint>();
+    let point = size_of::<frangible::internals::asset::EmbeddedPoint>();
     let element = 10 * size_of::<u32>() + 4 * size_of::<frangible::glam::Vec3>();
     (point + element + 10 * NODE) as f64
 }
@@ -59,7 +59,7 @@ pub(super) const NODE: usize = 3 * LANES * size_of::<f32>();
 mod tests {
     use super::{displacement, displacement_bytes, response, weak_point, weak_point_bytes};
     use frangible::glam::Vec3;
-    use frangible::stress::{DisplacementBatch, Law};
+    use frangible::internals::stress::{DisplacementBatch, Law};
 
     #[test]
     fn counts_by_hand() {

@@ -9,8 +9,9 @@ mod peak;
 
 use std::time::{Duration, Instant};
 
-use frangible::stress::{DisplacementBatch, Law};
-use frangible::{Body, Breakable, FractureConfig, Stage, Vibration};
+use frangible::internals::stress::{DisplacementBatch, Law};
+use frangible::internals::{Stage, Vibration};
+use frangible::{Body, Breakable, FractureConfig};
 use serde::Serialize;
 
 use crate::bench::cache::Cache;
@@ -25,9 +26,9 @@ pub const BODIES: [&str; 3] = ["glass", "slab-moderate", "rabbit"];
 
 /// Strengths are multiplied with this, so that nothing breaks and every weak point is looked at to the end.
 const TOUGHER: f64 = 1e6;
-/// The best of so many runs counts: others may use the machine …
+/// The best of so many runs counts: others may use the machine.
 const RUNS: usize = 60;
-/// … and displacements and stresses are looked at for so many batches only, so that a run is over before the next one's turn.
+/// Displacements and stresses are looked at for so many batches only, so that a run is over before the next one's turn.
 const BATCHES: usize = 2;
 /// A body's stresses are looked at again and again for so long, each time after a pause.
 const BUDGET: Duration = Duration::from_secs(2);
@@ -204,7 +205,7 @@ struct Work {
     modes: usize,
     nodes: [usize; 2],
     points: [usize; 3],
-    /// Of gradients and stresses, at a batch.
+    /// Operations of gradients and stresses, at a batch.
     operations: f64,
 }
 

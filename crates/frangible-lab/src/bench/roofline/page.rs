@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use frangible::stress::DisplacementBatch;
+use frangible::internals::stress::DisplacementBatch;
 
 use super::{Findings, OfBody, Reached, SIZES};
 use crate::bench::machine::Machine;

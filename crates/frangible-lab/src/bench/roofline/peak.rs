@@ -28,7 +28,7 @@ pub struct Arithmetic {
     pub fused: f64,
     /// f32, one multiplication and one addition: what the run time does, whose bits must not hang on the processor.
     pub separate: f64,
-    /// The same in f64.
+    /// Operations in f64, one multiplication and one addition.
     pub double: f64,
     /// f32 numbers in a vector.
     pub lanes: usize,

@@ -71,7 +71,7 @@ pub struct Findings {
     pub pieces: usize,
     /// Memory that a thing in the shop takes, with all that Rapier keeps of it, bytes; where the system tells.
     pub bytes_per_thing: Option<f64>,
-    /// Of all bodies in the end; the same in every run.
+    /// A number made of all bodies in the end; it is the same in every run.
     pub fingerprint: String,
 }
 
@@ -82,7 +82,7 @@ impl Findings {
         Times::new(self.frames.iter().map(part).collect()).spread()
     }
 
-    /// The same of Rapier alone.
+    /// The spread of Rapier's part of the frames alone.
     #[must_use]
     pub fn spread_alone(&self) -> Spread {
         Times::new(self.alone.clone()).spread()

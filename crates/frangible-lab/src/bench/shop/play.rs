@@ -40,7 +40,7 @@ pub struct Frame {
 pub const PARTS: [&str; 5] = ["contacts", "fracture", "fragments", "loads", "upkeep"];
 
 impl Frame {
-    /// Of two equal frames the least of each time.
+    /// Takes the lesser of each time of two equal frames.
     pub(super) fn least(&mut self, other: &Self) {
         self.all = self.all.min(other.all);
         self.rigid = self.rigid.min(other.rigid);
@@ -60,9 +60,9 @@ pub struct Happened {
     pub pieces: usize,
     /// Things that wait for their break.
     pub waiting: usize,
-    /// Bodies in the world …
+    /// Bodies in the world.
     pub bodies: usize,
-    /// … and those of them that move.
+    /// Bodies in the world that move.
     pub awake: usize,
 }
 

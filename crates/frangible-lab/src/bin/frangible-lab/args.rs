@@ -61,6 +61,10 @@ pub(crate) struct FiguresArgs {
     /// Folder for figures.md and its pictures, made when it is missing; figures not computed keep their place on the page
     #[arg(short = 'o', long, default_value = "out", value_name = "DIR")]
     pub(crate) write: PathBuf,
+
+    /// Print JSON instead of text: claims, verdicts and tables
+    #[arg(long)]
+    pub(crate) json: bool,
 }
 
 /// What to measure.

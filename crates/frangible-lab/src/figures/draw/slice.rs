@@ -1,8 +1,8 @@
 //! Where cracks cross tetrahedra.
 
 use frangible::glam::Vec3;
-use frangible::mesh::NO_NEIGHBOUR;
-use frangible::{ElementTrace, TetMesh};
+use frangible::internals::mesh::NO_NEIGHBOUR;
+use frangible::internals::{ElementTrace, TetMesh};
 
 /// Local nodes of the face opposite each node.
 const FACES: [[usize; 3]; 4] = [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]];

@@ -3,11 +3,9 @@
 use std::sync::Arc;
 
 use frangible::glam::{Quat, Vec3};
-use frangible::mesh::NO_NEIGHBOUR;
-use frangible::{
-    Asset, Breakable, Contact, CrackTrace, FractureConfig, Material, Outcome, Striker,
-    impact_traced,
-};
+use frangible::internals::mesh::NO_NEIGHBOUR;
+use frangible::internals::{CrackTrace, impact_traced};
+use frangible::{Asset, Breakable, Contact, FractureConfig, Material, Outcome, Striker};
 use frangible_bake::Shape;
 use frangible_draw::RgbImage;
 

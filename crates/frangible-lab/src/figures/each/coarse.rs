@@ -4,10 +4,8 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use frangible::glam::Vec3;
-use frangible::{
-    Asset, Body, Contact, CrackTrace, Fracture, FractureConfig, Material, Outcome, Striker,
-    TetMesh, impact_traced,
-};
+use frangible::internals::{CrackTrace, TetMesh, impact_traced};
+use frangible::{Asset, Body, Contact, Fracture, FractureConfig, Material, Outcome, Striker};
 use frangible_bake::Shape;
 
 use crate::figures::FigureError;

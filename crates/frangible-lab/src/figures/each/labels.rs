@@ -2,8 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use frangible::TetMesh;
 use frangible::glam::Vec3;
+use frangible::internals::TetMesh;
 use frangible_draw::RgbImage;
 
 use super::coarse::{Broken, add_edges, plate};

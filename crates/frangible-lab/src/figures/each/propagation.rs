@@ -1,7 +1,7 @@
 //! Fig. 6: how one crack runs through a coarse mesh.
 
 use frangible::glam::Vec3;
-use frangible::{ElementTrace, TetMesh};
+use frangible::internals::{ElementTrace, TetMesh};
 use frangible_draw::RgbImage;
 
 use super::coarse::{Broken, add_edges, bar};

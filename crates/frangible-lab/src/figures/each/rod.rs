@@ -1,9 +1,10 @@
 //! Fig. 3: the contact duration of a rod that falls in several ways.
 
 use crate::plot::{Axis, Chart, Marker, Series};
-use frangible::contact::{contact_duration, modal_load, most_excited_mode};
 use frangible::glam::{Quat, Vec3};
-use frangible::{Asset, Body, Contact, DurationModel, Striker};
+use frangible::internals::DurationModel;
+use frangible::internals::contact::{contact_duration, modal_load, most_excited_mode};
+use frangible::{Asset, Body, Contact, Striker};
 use frangible_bake::Shape;
 use frangible_bake::mode_field::{mode_on_fracture_mesh, von_mises};
 use frangible_draw::{ModeCell, ModeSheetOptions, mode_sheet};

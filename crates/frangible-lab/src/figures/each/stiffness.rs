@@ -3,11 +3,10 @@
 use std::sync::Arc;
 
 use crate::plot::{Axis, Chart, Marker, Series};
-use frangible::contact::{contact_duration, modal_load};
 use frangible::glam::{Quat, Vec3};
-use frangible::{
-    Asset, Body, Breakable, Contact, Force, FractureConfig, Outcome, Striker, impact, rest,
-};
+use frangible::internals::contact::{contact_duration, modal_load};
+use frangible::internals::{Force, rest};
+use frangible::{Asset, Body, Breakable, Contact, FractureConfig, Outcome, Striker, impact};
 use frangible_bake::Shape;
 use frangible_draw::RgbImage;
 use rayon::prelude::*;

@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use crate::plot::{Axis, Chart, Marker, Series};
 use frangible::glam::Vec3;
-use frangible::{Asset, Body, Contact, FractureConfig, impact_traced};
+use frangible::internals::impact_traced;
+use frangible::{Asset, Body, Contact, FractureConfig};
 use frangible_draw::RgbImage;
 
 use crate::figures::FigureError;

@@ -1,12 +1,12 @@
 //! Fig. 5: the stress in the slab over the contact.
 
 use crate::plot::{Axis, Chart, Marker, Series};
-use frangible::contact::{
+use frangible::glam::Vec3;
+use frangible::internals::contact::{
     Pulse, admissible_duration, approach_energy, contact_duration, modal_load, pulse,
 };
-use frangible::glam::Vec3;
-use frangible::modal::{Motion, respond};
-use frangible::stress::{Symmetric3, largest_eigenvalue};
+use frangible::internals::modal::{Motion, respond};
+use frangible::internals::stress::{Symmetric3, largest_eigenvalue};
 use frangible::{Asset, Body, FractureConfig};
 use frangible_bake::mode_field::mode_on_fracture_mesh;
 use frangible_draw::{ModeCell, ModeSheetOptions, mode_sheet};

@@ -2,8 +2,8 @@
 
 use std::sync::{Mutex, PoisonError};
 
-use frangible::blow::Blow;
 use frangible::glam::{DVec3, Vec3};
+use frangible::internals::blow::Blow;
 use frangible::{Asset, Body, Breakable, Contact, FractureConfig, Material, Striker};
 use frangible_bake::{BakeError, BakeSpec, MeshSize, Region, Shape, Support, bake};
 

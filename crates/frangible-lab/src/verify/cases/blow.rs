@@ -2,9 +2,9 @@
 
 use std::f64::consts::PI;
 
-use frangible::blow::Blow;
 use frangible::glam::Vec3;
-use frangible::near_field::PlateTheory;
+use frangible::internals::blow::Blow;
+use frangible::internals::near_field::PlateTheory;
 use frangible::{Asset, Contact, FractureConfig, Material, Striker};
 use frangible_bake::{BakeError, BakeSpec, MeshSize, Shape, bake};
 

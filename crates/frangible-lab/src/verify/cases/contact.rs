@@ -3,9 +3,10 @@
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-use frangible::contact::{contact_duration, hertz_duration, modal_load, pulse};
 use frangible::glam::Vec3;
-use frangible::{Body, Contact, DurationModel, FractureConfig, Striker};
+use frangible::internals::DurationModel;
+use frangible::internals::contact::{contact_duration, hertz_duration, modal_load, pulse};
+use frangible::{Body, Contact, FractureConfig, Striker};
 use frangible_bake::fem::Elasticity;
 use frangible_bake::{BakeError, bake};
 

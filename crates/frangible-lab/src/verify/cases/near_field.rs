@@ -1,7 +1,7 @@
 //! The stress of a hit plate beside the series of all its modes, and of a narrow load beside an elastic layer.
 
 use frangible::FractureConfig;
-use frangible::near_field::PlateTheory;
+use frangible::internals::near_field::PlateTheory;
 use frangible_bake::BakeError;
 
 use crate::verify::blows::plate::Terms;

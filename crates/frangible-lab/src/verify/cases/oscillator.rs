@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use frangible::modal::Oscillator;
+use frangible::internals::modal::Oscillator;
 use frangible_bake::BakeError;
 
 use crate::verify::case::{Case, Findings};

@@ -2,8 +2,9 @@
 
 use std::f64::consts::TAU;
 
+use frangible::Asset;
 use frangible::glam::DVec2;
-use frangible::{Asset, CrackTrace};
+use frangible::internals::CrackTrace;
 
 /// Where the cracks of a plate cut a plane parallel to its faces: one straight piece per fractured tetrahedron, m, in the body
 /// frame (its origin, the middle of the plate, is where the plate is hit).
@@ -20,7 +21,7 @@ impl CrackPattern {
     #[must_use]
     pub fn of(asset: &Asset, trace: &CrackTrace, height: f64) -> Self {
         let cuts = trace.cracks.iter().flatten();
-        let piece = |cut: &frangible::ElementTrace| {
+        let piece = |cut: &frangible::internals::ElementTrace| {
             let corners = asset.fracture.corners(cut.tet as usize);
             piece(
                 corners.map(|c| c.as_dvec3().to_array()),

@@ -3,7 +3,8 @@
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-use frangible::{Breakable, CrackTiming, FractureConfig, Material, Preset, impact_traced};
+use frangible::internals::{CrackTiming, Preset, impact_traced};
+use frangible::{Breakable, FractureConfig, Material};
 use frangible_bake::{BakeSpec, MeshSize, Region, Shape, Support, bake};
 use rayon::prelude::*;
 
@@ -121,7 +122,7 @@ pub struct StarRun {
     pub thickness: f64,
     /// How it differs from the default model.
     pub variant: &'static str,
-    /// By speed, then by seed.
+    /// The impacts, ordered by speed and then by seed.
     pub impacts: Vec<StarImpact>,
     /// N = k v^p through the mean counts of the speeds at which the plates have at least one radial crack on average.
     pub law: Option<PowerLaw>,
@@ -325,10 +326,12 @@ fn changed(plate: &Breakable, variant: Variant) -> Result<Breakable, VerifyError
     asset.material.strength *= variant.strength;
     asset.material.weak_point_density *= variant.weak_points;
     let law = Preset::named(&asset.material.name).and_then(|preset| preset.rate);
+    let refused = |source| VerifyError::Impact { case: NAME, source };
     if let (Some(rise_time), Some(law)) = (variant.rise_time, law) {
-        asset.material.strength = law.strength(asset.material.strength, rise_time);
+        let slow = asset.material.strength;
+        asset.material.strength = law.strength(slow, rise_time).map_err(refused)?;
     }
-    Breakable::new(asset).map_err(|source| VerifyError::Impact { case: NAME, source })
+    Breakable::new(asset).map_err(refused)
 }
 
 pub(crate) fn breakable(case: &'static str, spec: &BakeSpec) -> Result<Breakable, VerifyError> {

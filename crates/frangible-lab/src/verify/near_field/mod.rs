@@ -6,7 +6,7 @@ mod edges;
 mod page;
 mod residual;
 
-use frangible::near_field::PlateTheory;
+use frangible::internals::near_field::PlateTheory;
 use frangible::{Contact, FractureConfig, glam::Vec3};
 use frangible_bake::BakeError;
 

@@ -1,7 +1,7 @@
 //! What the modes that are not followed give as residual vector.
 
 use frangible::glam::Vec3;
-use frangible::stress::largest_eigenvalue;
+use frangible::internals::stress::largest_eigenvalue;
 use frangible::{Asset, Body, Contact, FractureConfig, Material, Striker};
 use frangible_bake::{BakeError, BakeSpec, Shape, bake};
 

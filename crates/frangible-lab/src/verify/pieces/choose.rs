@@ -2,7 +2,8 @@
 
 use std::sync::Arc;
 
-use frangible::{Body, Fracture, Portion};
+use frangible::internals::Portion;
+use frangible::{Body, Fracture};
 
 /// Fewest uncut tetrahedra and least mass, kg, of a piece that breaks again: those of the world's default.
 pub(crate) const LEAST_TETS: usize = 60;

@@ -76,9 +76,9 @@ pub(crate) fn contact(
 /// The largest tension before any crack.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Stress {
-    /// Of all weak points, Pa …
+    /// Largest tension of all weak points, Pa.
     pub(crate) peak: f64,
-    /// … and where, m, in the frame of the piece.
+    /// Place of that weak point, m, in the frame of the piece.
     pub(crate) place: Vec3,
     /// The largest share of a weak point's strength.
     pub(crate) level: f64,

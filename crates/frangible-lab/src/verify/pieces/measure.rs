@@ -3,9 +3,9 @@
 use std::sync::Arc;
 
 use frangible::glam::Vec3;
+use frangible::internals::{Elastic, Portion};
 use frangible::{
-    Asset, Body, Contact, Elastic, FractureConfig, InputError, Material, Outcome, Portion, impact,
-    would_break,
+    Asset, Body, Contact, FractureConfig, InputError, Material, Outcome, impact, would_break,
 };
 use frangible_bake::pieces::{PieceError, reanalysis};
 
@@ -46,7 +46,7 @@ pub struct PieceSample {
     pub truth: Reading,
     /// The blows, and what the full analysis says of each.
     pub blows: Vec<Blow>,
-    /// Of each of [`WAYS`]; none where it refused the piece.
+    /// What each of [`WAYS`] found; none where it refused the piece.
     pub ways: Vec<Option<Sample>>,
 }
 
@@ -74,7 +74,7 @@ pub struct Blow {
     pub breaks: bool,
     /// Whether the piece breaks if it is hit slower and faster by one part in twenty.
     pub nudged: [bool; 2],
-    /// Of a piece that it cracks and does not break: first frequency with these cracks over that without.
+    /// First frequency with the cracks over that without, for a piece that the blow cracks and does not break.
     pub softened: Option<f64>,
 }
 
@@ -83,7 +83,7 @@ pub struct Blow {
 pub struct Sample {
     /// Read off its elastic body.
     pub reading: Reading,
-    /// Of each blow.
+    /// What was found of each blow.
     pub blows: Vec<BlowSample>,
 }
 

@@ -32,7 +32,7 @@ use way::Ways;
 pub struct TruthPlan {
     /// Fragments, spread over the bodies and over sizes; fewer where there are not so many.
     pub fragments: usize,
-    /// Of these, so many are meshed anew and baked.
+    /// How many of the fragments are meshed anew and baked.
     pub baked: usize,
     /// Quadratic elements and modes of the full analysis.
     pub elements: usize,

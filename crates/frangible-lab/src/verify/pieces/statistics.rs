@@ -24,7 +24,7 @@ pub(crate) struct Worth {
 }
 
 impl Worth {
-    /// Of a way over pieces.
+    /// What a way is worth over these pieces.
     pub(crate) fn of<'a>(
         pieces: impl Iterator<Item = &'a PieceSample> + Clone,
         way: usize,
@@ -73,7 +73,7 @@ pub(crate) fn frequency_errors(piece: &PieceSample, sample: &Sample) -> impl Ite
         .map(|(f, t)| (f / t - 1.0).abs())
 }
 
-/// Of each blow whether it is decided as by the truth.
+/// For each blow, whether it is decided as the truth decides it.
 pub(crate) fn decisions(piece: &PieceSample, sample: &Sample) -> impl Iterator<Item = bool> {
     let same = |(own, truth): (&BlowSample, &super::Blow)| own.breaks == truth.breaks;
     sample.blows.iter().zip(&piece.blows).map(same)

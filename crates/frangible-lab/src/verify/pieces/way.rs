@@ -2,7 +2,8 @@
 
 use std::sync::Arc;
 
-use frangible::{Body, Elastic, Portion};
+use frangible::Body;
+use frangible::internals::{Elastic, Portion};
 use frangible_bake::pieces::{Method, PieceError, Pieces};
 
 /// A way to find how a piece vibrates.

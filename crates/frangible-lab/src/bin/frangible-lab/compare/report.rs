@@ -104,7 +104,7 @@ impl CompareReport {
             contacts: found.contacts.len(),
             impulse_n_s: impulses.sum(),
             approach_speed_m_s: f64::from(hardest.fold(0.0, f32::max)),
-            approach_energy_j: frangible::contact::approach_energy(&found.contacts),
+            approach_energy_j: frangible::internals::contact::approach_energy(&found.contacts),
             volume_m3: asset.mass.volume,
             methods: all.iter().map(|b| MethodReport::new(b, volume)).collect(),
             files: Vec::new(),
@@ -112,7 +112,7 @@ impl CompareReport {
         }
     }
 
-    /// Of a method that was run.
+    /// The row of a method, if it was run.
     pub(crate) fn of(&self, method: Method) -> Option<&MethodReport> {
         self.methods.iter().find(|row| row.method == method.name())
     }
