@@ -5,7 +5,8 @@ mod common;
 use std::sync::Arc;
 
 use common::{mean, pane, pane_hit};
-use frangible::{Asset, Breakable, Fields, FractureConfig, ImpactReport, impact};
+use frangible::internals::Fields;
+use frangible::{Asset, Breakable, FractureConfig, ImpactReport, impact};
 
 /// A blow in the middle of a pane whose strength scatters as glass does.
 fn struck(asset: &Arc<Asset>, speed: f64, seed: u64, config: &FractureConfig) -> ImpactReport {

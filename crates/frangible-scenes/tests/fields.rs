@@ -6,10 +6,8 @@ use std::sync::Arc;
 
 use common::{block, blow, glass, mean, pane, pane_hit, pieces, rim_hit, steel_ball, stone_floor};
 use frangible::glam::Vec3;
-use frangible::{
-    Asset, Body, Breakable, Contact, Factors, Fields, FractureConfig, InputError, Outcome, Patch,
-    Preset, Zone, impact, impact_traced,
-};
+use frangible::internals::{Factors, Fields, Patch, Preset, Zone, impact_traced};
+use frangible::{Asset, Body, Breakable, Contact, FractureConfig, InputError, Outcome, impact};
 use frangible_scenes::{bake, scene};
 
 fn kind(asset: &Arc<Asset>, fields: Fields) -> Breakable {

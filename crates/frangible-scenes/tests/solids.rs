@@ -3,9 +3,8 @@
 use std::sync::Arc;
 
 use frangible::glam::Vec3;
-use frangible::{
-    Asset, Breakable, Contact, Fields, FractureConfig, Material, Outcome, Striker, impact,
-};
+use frangible::internals::Fields;
+use frangible::{Asset, Breakable, Contact, FractureConfig, Material, Outcome, Striker, impact};
 use frangible_bake::{BakeSpec, Shape, bake};
 
 /// A block of porcelain, and its section, m².

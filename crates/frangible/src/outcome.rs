@@ -53,7 +53,7 @@ pub struct Fracture {
 }
 
 impl Fracture {
-    /// Of pieces that came about elsewhere: they do not break again.
+    /// A break whose pieces came about elsewhere: they do not break again.
     #[must_use]
     pub fn new(fragments: Vec<Fragment>, report: ImpactReport) -> Self {
         Self {
@@ -104,6 +104,7 @@ pub struct ContactReport {
 
 /// What of an impact had to be looked at, from the cheapest.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+#[non_exhaustive]
 pub enum LookedAt {
     /// The sizes of its impulses, where they act and how long: one number of each place refused it.
     Sizes,

@@ -4,6 +4,9 @@
 //! They come from a function of the place ([`Fields::from_function`]), from zones and scored lines ([`Fields::from_patches`]),
 //! from the vertex colours of the asset's drawn surface ([`Fields::from_paint`]), or from whatever the vertices of a surface
 //! hold ([`Fields::from_vertices`]).
+//!
+//! Weakness is not baked. The factors belong to a [`Breakable`](crate::Breakable), so that one asset serves scored and plain
+//! bodies; culling compares each cluster with its weakest point.
 
 mod kink;
 mod paint;
@@ -60,7 +63,7 @@ impl Factors {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Fields {
-    /// Of each fracture tetrahedron; empty: one everywhere.
+    /// Factors of each fracture tetrahedron; an empty list means one everywhere.
     pub of_tet: Vec<Factors>,
     /// Modulus m of a Weibull scatter of the strength from one weak point to another, another one for every body's seed. Real glass
     /// 5 to 10, fine ceramics 10 to 20; lower scatters more. Default 0: no scatter, every weak point has R_c.

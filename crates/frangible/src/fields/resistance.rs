@@ -98,7 +98,7 @@ impl Resistance {
         }
     }
 
-    /// Of a part of the body, with these weak tetrahedra.
+    /// The resistance of a part of the body, with these weak tetrahedra.
     pub(crate) fn of_part(&self, weak_tets: &[u32]) -> Self {
         let weakest = weak_tets.iter().map(|&e| self.strength(e));
         let weakest = weakest.min_by(f32::total_cmp);
