@@ -13,6 +13,7 @@ use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use rapier3d::dynamics::{RigidBody, RigidBodyHandle};
 
 use crate::blows::{Meeting, meetings, share_out};
+use crate::callbacks::Callbacks;
 use crate::contacts::{Impact, Surfaces, impact_on};
 use crate::counts::held;
 use crate::error::WorldError;
@@ -53,6 +54,7 @@ impl BreakableWorld {
         &mut self,
         budget: usize,
         delay: usize,
+        caller: Callbacks<'_>,
     ) -> Result<(), WorldError> {
         let mut watch = Watch::start();
         self.motions.note(&self.physics.bodies);
@@ -64,7 +66,7 @@ impl BreakableWorld {
         };
         let centres = self.guarded_centres();
         self.timings.upkeep += watch.lap();
-        self.advance();
+        self.advance(caller);
         watch.lap();
         put_back(&mut self.physics, &centres);
         self.timings.upkeep += watch.lap();

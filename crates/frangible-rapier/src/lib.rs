@@ -72,6 +72,7 @@ mod after;
 mod approach;
 mod ask;
 mod blows;
+mod callbacks;
 mod cluster;
 mod collider;
 mod config;

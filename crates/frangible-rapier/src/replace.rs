@@ -163,6 +163,7 @@ fn fragment_collider(shape: SharedShape, parent: Option<&Collider>) -> ColliderB
         .active_hooks(ActiveHooks::MODIFY_SOLVER_CONTACTS);
     let Some(parent) = parent else { return builder };
     builder
+        .active_hooks(ActiveHooks::MODIFY_SOLVER_CONTACTS | parent.active_hooks())
         .friction(parent.friction())
         .friction_combine_rule(parent.friction_combine_rule())
         .restitution(parent.restitution())

@@ -14,9 +14,11 @@ use std::collections::BTreeMap;
 use frangible::internals::BodyState;
 use frangible::{Fracture, ImpactReport, Outcome};
 use rapier3d::dynamics::{RigidBodyHandle, RigidBodySet};
+use rapier3d::pipeline::{EventHandler, PhysicsHooks};
 
 use crate::approach::candidates;
 use crate::blows::{Meeting, meetings};
+use crate::callbacks::{Callbacks, Held, Hooks};
 use crate::config::Breaking;
 use crate::contacts::{Impact, Surfaces, impact_on};
 use crate::error::WorldError;
@@ -60,6 +62,29 @@ impl BreakableWorld {
     /// # Errors
     /// The fracture refused an asset or a contact. The step is complete and the body whole: go on, or remove it.
     pub fn step(&mut self) -> Result<&[BreakEvent], WorldError> {
+        self.step_for(Callbacks::NONE)
+    }
+
+    /// [`step`](Self::step) with hooks and an event handler of the caller's own, as Rapier's pipeline takes them.
+    ///
+    /// A step in which a body breaks is undone and taken again. Events of an undone step are dropped; those of the step that stands come
+    /// once it does, in the order in which Rapier spoke. Hooks are asked in every step taken. Colliders of fragments inherit
+    /// what hooks and events their body's collider asked for, and have [`ActiveHooks::MODIFY_SOLVER_CONTACTS`] of our own, so
+    /// `modify_solver_contacts` is asked of fragments in any case.
+    ///
+    /// # Errors
+    /// As [`step`](Self::step).
+    ///
+    /// [`ActiveHooks::MODIFY_SOLVER_CONTACTS`]: rapier3d::pipeline::ActiveHooks::MODIFY_SOLVER_CONTACTS
+    pub fn step_with(
+        &mut self,
+        hooks: &dyn PhysicsHooks,
+        events: &dyn EventHandler,
+    ) -> Result<&[BreakEvent], WorldError> {
+        self.step_for(Callbacks { hooks, events })
+    }
+
+    fn step_for(&mut self, caller: Callbacks<'_>) -> Result<&[BreakEvent], WorldError> {
         let mut watch = Watch::start();
         self.timings = StepTimings::default();
         self.events.clear();
@@ -72,27 +97,27 @@ impl BreakableWorld {
         let pushed = self.apply_pushes();
         self.timings.upkeep += watch.lap();
         let done = match self.config.breaking {
-            Breaking::InsideStep => self.step_breaking_inside(),
-            Breaking::AfterStep { budget, delay } => self.step_then_break(budget, delay),
+            Breaking::InsideStep => self.step_breaking_inside(caller),
+            Breaking::AfterStep { budget, delay } => self.step_then_break(budget, delay, caller),
         };
         self.steps += 1;
         pushed.and(done).map(|()| &*self.events)
     }
 
-    fn step_breaking_inside(&mut self) -> Result<(), WorldError> {
+    fn step_breaking_inside(&mut self, caller: Callbacks<'_>) -> Result<(), WorldError> {
         let mut watch = Watch::start();
         let near = self.near();
         self.timings.copies += watch.lap();
         let (asked, before) = if near.is_empty() {
             let centres = self.guarded_centres();
             self.timings.upkeep += watch.lap();
-            self.advance();
+            self.advance(caller);
             watch.lap();
             put_back(&mut self.physics, &centres);
             self.timings.upkeep += watch.lap();
             (Asked::default(), None)
         } else {
-            let (asked, before) = self.step_with_breaks(near);
+            let (asked, before) = self.step_with_breaks(near, caller);
             (asked, Some(before))
         };
         self.upkeep();
@@ -179,15 +204,23 @@ impl BreakableWorld {
         near
     }
 
-    pub(crate) fn advance(&mut self) {
+    pub(crate) fn advance(&mut self, caller: Callbacks<'_>) {
         // Fragments of a blast are newborn when the step begins.
         if self.events.is_empty() {
-            let mut watch = Watch::start();
-            self.physics.step_with_events(&self.siblings, &());
-            self.timings.rigid += watch.lap();
+            self.advance_plainly(caller);
         } else {
-            self.advance_finely();
+            self.advance_finely(caller);
         }
+    }
+
+    fn advance_plainly(&mut self, caller: Callbacks<'_>) {
+        let mut watch = Watch::start();
+        let hooks = Hooks {
+            own: caller.hooks,
+            siblings: &self.siblings,
+        };
+        self.physics.step_with_events(&hooks, caller.events);
+        self.timings.rigid += watch.lap();
     }
 
     pub(crate) fn guarded_centres(&self) -> Centres {
@@ -201,17 +234,19 @@ impl BreakableWorld {
 
     /// A step with fragments just born: a blow runs through a chain of them, one link per solver iteration. With
     /// too few a piece between floor and chain is squeezed through a thin floor.
-    fn advance_finely(&mut self) {
+    fn advance_finely(&mut self, caller: Callbacks<'_>) {
         let iterations = self.physics.integration_parameters.num_solver_iterations;
         self.physics.integration_parameters.num_solver_iterations = BREAK_ITERATIONS * iterations;
-        let mut watch = Watch::start();
-        self.physics.step_with_events(&self.siblings, &());
-        self.timings.rigid += watch.lap();
+        self.advance_plainly(caller);
         self.physics.integration_parameters.num_solver_iterations = iterations;
     }
 
     /// The step, and the bodies as they were before it.
-    fn step_with_breaks(&mut self, mut near: Vec<RigidBodyHandle>) -> (Asked, RigidBodySet) {
+    fn step_with_breaks(
+        &mut self,
+        mut near: Vec<RigidBodyHandle>,
+        caller: Callbacks<'_>,
+    ) -> (Asked, RigidBodySet) {
         let mut watch = Watch::start();
         let base = Snapshot::take(&self.physics, &self.siblings);
         self.snapshots += 1;
@@ -219,7 +254,12 @@ impl BreakableWorld {
         let mut before: Option<RigidBodySet> = None;
         let mut centres = self.guarded_centres();
         self.timings.copies += watch.lap();
-        self.advance();
+        let mut said = Held::default();
+        let hooks = caller.hooks;
+        self.advance(Callbacks {
+            hooks,
+            events: &said,
+        });
         for _ in 0..MAX_REPEATS {
             if !self.ask(&near, before.as_ref().unwrap_or(&base.bodies), &mut asked) {
                 break;
@@ -228,6 +268,7 @@ impl BreakableWorld {
             near.retain(|&handle| asked.broken.iter().all(|b| b.parent != handle));
             self.undone_steps += 1;
             self.timings.undone += std::mem::take(&mut self.timings.rigid);
+            said.forget();
             base.restore(&mut self.physics, &mut self.siblings);
             self.timings.copies += watch.lap();
             for broken in &mut asked.broken {
@@ -238,8 +279,12 @@ impl BreakableWorld {
             before = Some(self.physics.bodies.clone());
             centres = self.guarded_centres();
             self.timings.copies += watch.lap();
-            self.advance_finely();
+            self.advance_finely(Callbacks {
+                hooks,
+                events: &said,
+            });
         }
+        said.tell(caller.events, &self.physics);
         let standing = std::mem::take(&mut asked.standing);
         self.give_blows(standing, before.as_ref().unwrap_or(&base.bodies));
         watch.lap();

@@ -3,6 +3,7 @@
 
 use std::error::Error;
 
+use frangible::Contact;
 use frangible_rapier::BreakCause;
 use frangible_scenes::{BreakRecord, SCENE_NAMES, bake, play, scene};
 
@@ -13,7 +14,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let asked: Vec<String> = std::env::args().skip(1).collect();
     let wanted = |name: &&&str| asked.is_empty() || asked.iter().any(|a| a == **name);
     println!("{HEAD}");
-    let mut problems = Vec::new();
+    let (mut problems, mut blows) = (Vec::new(), Vec::new());
     for name in SCENE_NAMES.iter().filter(wanted) {
         let mut scene = scene(name)?;
         scene.duration = scene.duration.min(LONGEST);
@@ -21,6 +22,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         let run = play(&scene, &baked, &mut |_| {})?;
         for record in &run.breaks {
             println!("{}", row(name, record));
+            blows.extend(blow(name, record));
             let problem = record.energy_created();
             problems.extend(problem.map(|problem| format!("{name}: {problem}")));
         }
@@ -28,7 +30,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             println!("| {name} | held | | | | | | | | | | |");
         }
     }
-    println!("\n{FOOT}");
+    println!("\n{FOOT}\n\n{BLOWS}\n{}", blows.join("\n"));
     if problems.is_empty() {
         Ok(())
     } else {
@@ -53,6 +55,35 @@ the rest, before + work − after − paid; restitution and friction took it.
 Approach counts all that a collision absorbs up to its turning point; kinetic energy before also has what the collision leaves alone.
 So in every row cracks ≤ peak strain ≤ approach ≤ before + work, and after + cracks ≤ before + work. A load that
 rests has no approach: its strain energy is the work it does on the body.";
+
+const BLOWS: &str = "## The blows
+
+What became of the contact with the largest force in each of those breaks that came from an impact. Nothing of it was given: striker and body were
+integrated together. *Hertz*: how long the same contact would last on a rigid, free body. *Departure over approach*: the coefficient of
+restitution; negative where cracks cut the wall out and the striker went on into it.
+
+| scene | approach, m/s | lasted, µs | Hertz, µs | force, N | impulse, N·s | departure over approach |
+|---|---:|---:|---:|---:|---:|---:|";
+
+/// The blow of a break, if it was one.
+fn blow(name: &str, b: &BreakRecord) -> Option<String> {
+    let r = &b.report;
+    let outcomes = r.contacts.iter();
+    let hardest = outcomes.max_by(|a, b| a.peak_force.total_cmp(&b.peak_force))?;
+    let distance = |contact: &&Contact| contact.point.distance(hardest.point);
+    let given = b.contacts.iter();
+    let given = given.min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
+    let speed = f64::from(given.approach_speed);
+    Some(format!(
+        "| {name} | {} | {} | {} | {} | {} | {:.2} |",
+        short(speed),
+        short(1e6 * hardest.duration),
+        short(1e6 * r.unadjusted_duration),
+        short(hardest.peak_force),
+        short(hardest.impulse),
+        hardest.departure_speed / speed,
+    ))
+}
 
 fn row(name: &str, b: &BreakRecord) -> String {
     let r = &b.report;

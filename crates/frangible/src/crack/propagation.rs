@@ -18,9 +18,9 @@
 use glam::Vec3;
 
 use super::branching::{forks, start};
-use super::field::StressField;
+use super::field::{Felt, StressField};
 use super::surface::crossing_area;
-use super::system::{CrackSystem, ElementCut, Front, Junction, UNCUT};
+use super::system::{CrackSystem, ElementCut, Front, UNCUT};
 use crate::config::{CrackPath, CrackTiming};
 use crate::fields::Tip;
 use crate::stress::{Symmetric3, principal_axes};
@@ -58,20 +58,69 @@ pub(crate) fn advance(system: &mut CrackSystem, field: &mut StressField, now: f6
     }
 }
 
+/// A front enters a tetrahedron if its crack crosses it, meets nothing there, and can pay for it.
 fn enter(system: &mut CrackSystem, field: &mut StressField, front: Front) {
     let n = front.tet as usize;
     if system.fractured_by[n] == front.crack {
         return;
     }
+    let Some(mut crossing) = crosses(system, &front) else {
+        return;
+    };
+    if system.fractured_by[n] != UNCUT {
+        return system.meet(&front, false);
+    }
+    let felt = field.at(n);
+    let Some((direction, opens)) = steers(system, &felt, &front, &mut crossing) else {
+        return system.meet(&front, true);
+    };
+    let cut = ElementCut {
+        tet: front.tet,
+        values: crossing.values,
+        direction,
+        opens,
+        time: match system.config.timing {
+            CrackTiming::TimeResolved { .. } => front.arrival,
+            CrackTiming::Instant => crossing.from.time,
+        },
+    };
+    let area = crossing_area(&crossing.x, &cut.values);
+    match pays(system, &felt, &front, &cut, area) {
+        Payment::Refused => {}
+        Payment::Later => system.stalled.push(front),
+        Payment::Now { gain } => {
+            let fork = forks(system, field, &front, &cut, &felt);
+            system.fracture(front.crack, cut, area, gain);
+            if let Some(fork) = fork {
+                start(system, field, front.crack, &cut, &fork);
+            }
+        }
+    }
+}
+
+/// The tetrahedron ahead of a front, as its crack crosses it.
+struct Crossing {
+    /// The crack's cut in the tetrahedron that the front comes from.
+    from: ElementCut,
+    /// Corners, m.
+    x: [Vec3; 4],
+    /// s at the corners, m; a steered crack does not know the fourth yet.
+    values: [f32; 4],
+    /// The corner that the shared face does not have.
+    fourth: usize,
+}
+
+/// Whether the crack crosses the tetrahedron ahead: where s has both signs. A steered crack crosses the shared face, a planar one any
+/// part of the tetrahedron `[G12 §5.2.2]`.
+fn crosses(system: &CrackSystem, front: &Front) -> Option<Crossing> {
     let mesh = &system.asset.fracture;
     let crack = &system.cracks[front.crack as usize];
     let from = crack.elements[front.from as usize];
     let from_nodes = mesh.tets[from.tet as usize];
-    let nodes = mesh.tets[n];
     // Values of the shared face are those of the tetrahedron the front comes from.
     let mut values = [0.0_f32; 4];
     let (mut below, mut above, mut fourth) = (false, false, 0);
-    for (k, node) in nodes.iter().enumerate() {
+    for (k, node) in mesh.tets[front.tet as usize].iter().enumerate() {
         if let Some(i) = from_nodes.iter().position(|v| v == node) {
             values[k] = from.values[i];
             below |= values[k] < 0.0;
@@ -80,99 +129,97 @@ fn enter(system: &mut CrackSystem, field: &mut StressField, front: Front) {
             fourth = k;
         }
     }
-    let x = mesh.corners(n);
+    let x = mesh.corners(front.tet as usize);
     if system.config.path == CrackPath::Planar {
-        // A fixed surface crosses whatever has nodes on both sides of it [G12 §5.2.2].
         values[fourth] = crack.frame.planar(x[fourth]);
         below |= values[fourth] < 0.0;
         above |= values[fourth] >= 0.0;
     }
-    if !(below && above) {
-        return;
-    }
-    if system.fractured_by[n] != UNCUT {
-        system.cracks[front.crack as usize]
-            .junctions
-            .push(Junction {
-                from: front.from,
-                own: false,
-            });
-        return;
-    }
-    let felt = field.at(n);
-    let mut opens = Vec3::ZERO;
-    let direction = match system.config.path {
-        CrackPath::Planar => crack.frame.normal,
-        CrackPath::Steered { turning_length } => {
-            let length = mesh.centroid(n).distance(mesh.centroid(from.tet as usize));
-            let (stress, face) = felt.steering(from.opens);
-            opens = face;
-            let ahead = match &felt.wall {
-                Some((wall, _)) => upright(from.direction, wall.normal),
-                _ => from.direction,
-            };
-            let toward = steered(
-                ahead,
-                &stress,
-                system.resistance.painted(front.tet),
-                f64::from(length),
-                turning_length,
-            );
-            let tip = Tip {
-                tet: front.tet,
-                normal: toward,
-                from: mesh.centroid(from.tet as usize),
-                reach: KINK_REACH * system.edge,
-            };
-            let toward = system.resistance.toughness.kinked(mesh, tip);
-            let predicted = extrapolated(crack, &x, &values, fourth, toward);
-            match system.values.get(front.crack, nodes[fourth]) {
-                None => values[fourth] = predicted,
-                Some(known) => {
-                    if (known - predicted).abs() > SELF_MEETING * system.edge {
-                        let junction = Junction {
-                            from: front.from,
-                            own: true,
-                        };
-                        system.cracks[front.crack as usize].junctions.push(junction);
-                        return;
-                    }
-                    values[fourth] = known;
-                }
-            }
-            gradient(&x, &values).unwrap_or(toward)
-        }
+    (below && above).then_some(Crossing {
+        from,
+        x,
+        values,
+        fourth,
+    })
+}
+
+/// Where the crack turns in the tetrahedron ahead: its normal there, and the normal of the face of a wall that it opens from. A steered
+/// crack finds s at the fourth node; none where it meets another sheet of itself.
+fn steers(
+    system: &CrackSystem,
+    felt: &Felt,
+    front: &Front,
+    crossing: &mut Crossing,
+) -> Option<(Vec3, Vec3)> {
+    let crack = &system.cracks[front.crack as usize];
+    let CrackPath::Steered { turning_length } = system.config.path else {
+        return Some((crack.frame.normal, Vec3::ZERO));
     };
-    let area = crossing_area(&x, &values);
+    let Crossing {
+        from,
+        x,
+        values,
+        fourth,
+    } = crossing;
+    let mesh = &system.asset.fracture;
+    let place = mesh.centroid(from.tet as usize);
+    let length = mesh.centroid(front.tet as usize).distance(place);
+    let (stress, opens) = felt.steering(from.opens);
+    let ahead = match &felt.wall {
+        Some((wall, _)) => upright(from.direction, wall.normal),
+        _ => from.direction,
+    };
+    let toward = steered(
+        ahead,
+        &stress,
+        system.resistance.painted(front.tet),
+        f64::from(length),
+        turning_length,
+    );
+    let tip = Tip {
+        tet: front.tet,
+        normal: toward,
+        from: place,
+        reach: KINK_REACH * system.edge,
+    };
+    let toward = system.resistance.toughness.kinked(mesh, tip);
+    let predicted = extrapolated(crack, x, values, *fourth, toward);
+    let node = mesh.tets[front.tet as usize][*fourth];
+    let known = system.values.get(front.crack, node);
+    if known.is_some_and(|known| (known - predicted).abs() > SELF_MEETING * system.edge) {
+        return None;
+    }
+    values[*fourth] = known.unwrap_or(predicted);
+    Some((gradient(x, values).unwrap_or(toward), opens))
+}
+
+/// Whether a crack can pay for a tetrahedron.
+enum Payment {
+    /// The ledger has no more, and never will.
+    Refused,
+    /// Not under the present stress.
+    Later,
+    /// Yes; the area sets so much energy free, J.
+    Now { gain: f64 },
+}
+
+/// The energy test of a front `[G12 Algorithm 2]`: `E_f + A_n G_c < E_s + A_n γ η_n`.
+fn pays(system: &CrackSystem, felt: &Felt, front: &Front, cut: &ElementCut, area: f32) -> Payment {
+    let crack = &system.cracks[front.crack as usize];
     let material = &system.asset.material;
     let cost = f64::from(area) * system.resistance.toughness.of(front.tet);
     let mut gain = f64::from(area) * material.energy_depth * f64::from(felt.state.energy_density);
-    if let Some(depth) = system.tip_depth(&front) {
-        let opening = felt.opening(direction, material.poisson_ratio);
+    if let Some(depth) = system.tip_depth(front) {
+        let opening = felt.opening(cut.direction, material.poisson_ratio);
         let density = 0.5 * opening * opening / material.contact_modulus();
         gain = gain.max(f64::from(area) * depth * density);
     }
     if !system.affords(front.tet, area) {
-        return;
-    }
-    if crack.spent + cost < crack.available + gain {
-        let cut = ElementCut {
-            tet: front.tet,
-            values,
-            direction,
-            opens,
-            time: match system.config.timing {
-                CrackTiming::TimeResolved { .. } => front.arrival,
-                CrackTiming::Instant => from.time,
-            },
-        };
-        let fork = forks(system, field, &front, &cut, &felt);
-        system.fracture(front.crack, cut, area, gain);
-        if let Some(fork) = fork {
-            start(system, field, front.crack, &cut, &fork);
-        }
+        Payment::Refused
+    } else if crack.spent + cost < crack.available + gain {
+        Payment::Now { gain }
     } else {
-        system.stalled.push(front);
+        Payment::Later
     }
 }
 

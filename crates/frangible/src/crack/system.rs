@@ -368,6 +368,15 @@ impl<'a> CrackSystem<'a> {
         sharp.then(|| tip.depth(crack.area))
     }
 
+    /// A crack's front ran into what is cut already, its own crack or another.
+    pub(crate) fn meet(&mut self, front: &Front, own: bool) {
+        let crack = &mut self.cracks[front.crack as usize];
+        crack.junctions.push(Junction {
+            from: front.from,
+            own,
+        });
+    }
+
     /// Adds a fractured tetrahedron to a crack, whose area sets so much energy free, J, and sends the crack's front to its
     /// neighbours.
     pub(crate) fn fracture(&mut self, crack: u32, cut: ElementCut, area: f32, gain: f64) {
