@@ -38,6 +38,7 @@ pub mod state;
 pub mod stress;
 mod trace;
 mod weak_clusters;
+mod weak_rows;
 
 pub use asset::{Asset, AssetFileError};
 pub use body::{Body, Breakable};

@@ -8,10 +8,12 @@ mod node_values;
 mod parts;
 mod propagation;
 mod release;
+mod sites;
 mod surface;
 mod suspects;
 mod system;
 mod tip;
+mod weak_stress;
 
 pub(crate) use culling::Culling;
 pub(crate) use field::{StressField, weak_place};
