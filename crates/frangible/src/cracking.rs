@@ -117,7 +117,8 @@ impl<'a> Cracking<'a> {
                     culling.survive(motion, step, roots[k], k);
                 }
                 field.displacement.seek(motion, step);
-                suspects.find(body, &mut field, culling.survivors(), looked.peak);
+                let cut = &system.fractured_by;
+                suspects.find(body, &mut field, culling.survivors(), cut, looked.peak);
                 report.timings.stress += start.elapsed().as_secs_f64();
             }
             system.wake(roots[k]);

@@ -100,7 +100,8 @@ impl OnsetSearch {
             let mut field = StressField::new(body, config, motion, pressed, displacement);
             field.step = first;
             field.displacement.seek(motion, first);
-            suspects.find(body, &mut field, culling.survivors(), at_strength(body));
+            let survivors = culling.survivors();
+            suspects.find(body, &mut field, survivors, &[], at_strength(body));
             for step in steps {
                 if passes(body, suspects, step) {
                     return Onset::At(step);

@@ -43,8 +43,32 @@ impl Shape {
             let first = asset.modes.count() - self.amplitudes.len();
             let rows = [0, 1, 2].map(|axis| &asset.modes.row(3 * node + axis)[first..]);
             // With the widest vectors that this processor has; the same operations in the same order, so the same bits.
-            pulp::Arch::new().dispatch(|| rows.map(|row| crate::stress::dot(row, &self.amplitudes)))
+            pulp::Arch::new().dispatch(Dots {
+                rows,
+                amplitudes: &self.amplitudes,
+            })
         })
+    }
+}
+
+/// What a node's rows have of some amplitudes.
+struct Dots<'a> {
+    rows: [&'a [f32]; 3],
+    amplitudes: &'a [f32],
+}
+
+impl pulp::NullaryFnOnce for Dots<'_> {
+    type Output = [f32; 3];
+
+    #[inline(always)]
+    fn call(self) -> [f32; 3] {
+        let [x, y, z] = self.rows;
+        let dot = crate::stress::dot;
+        [
+            dot(x, self.amplitudes),
+            dot(y, self.amplitudes),
+            dot(z, self.amplitudes),
+        ]
     }
 }
 

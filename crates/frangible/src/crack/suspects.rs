@@ -5,6 +5,7 @@
 use super::culling::limit;
 use super::field::StressField;
 use super::initiation::Peak;
+use super::system::UNCUT;
 use super::weak_stress::WeakStress;
 use crate::body::Body;
 use crate::stress::{BATCH, Frame, Lanes, Steps, StressLanes};
@@ -33,13 +34,15 @@ pub(crate) struct Suspects {
 }
 
 impl Suspects {
-    /// Looks at all points of the clusters that survive at any step of the field's batch. `survivors`: places of the clusters
-    /// in the body's list, bit k set where step k needs a look.
+    /// Looks at the points of the clusters that survive at any step of the field's batch, but for those that cracks have cut. `survivors`:
+    /// places of the clusters in the body's list, bit k set where step k needs a look; `fractured_by`: the crack that fractured each
+    /// tetrahedron, or nothing where none has.
     pub(crate) fn find(
         &mut self,
         body: &Body,
         field: &mut StressField,
         survivors: impl Iterator<Item = (u32, Steps)>,
+        fractured_by: &[u32],
         peak: Peak,
     ) {
         self.points.clear();
@@ -50,6 +53,7 @@ impl Suspects {
             body,
             field,
             survivors,
+            fractured_by,
             peak,
         });
     }
@@ -89,6 +93,7 @@ struct Look<'a, 'f, I> {
     body: &'a Body,
     field: &'a mut StressField<'f>,
     survivors: I,
+    fractured_by: &'a [u32],
     peak: Peak,
 }
 
@@ -105,12 +110,11 @@ impl<I: Iterator<Item = (u32, Steps)>> pulp::NullaryFnOnce for Look<'_, '_, I> {
             match laws {
                 Some(laws) => self.by_rows(cluster, laws.cluster(body, config, cluster), steps),
                 None => {
-                    for (place, &tet) in body
-                        .clusters
-                        .places(cluster)
-                        .zip(body.clusters.tets(cluster))
-                    {
-                        self.by_displacement(place, tet, steps);
+                    let tets = body.clusters.tets(cluster);
+                    for (place, &tet) in body.clusters.places(cluster).zip(tets) {
+                        if !self.is_cut(tet) {
+                            self.by_displacement(place, tet, steps);
+                        }
                     }
                 }
             }
@@ -119,6 +123,11 @@ impl<I: Iterator<Item = (u32, Steps)>> pulp::NullaryFnOnce for Look<'_, '_, I> {
 }
 
 impl<I> Look<'_, '_, I> {
+    fn is_cut(&self, tet: u32) -> bool {
+        let by = self.fractured_by.get(tet as usize);
+        by.is_some_and(|&by| by != UNCUT)
+    }
+
     #[inline(always)]
     fn by_rows(&mut self, cluster: usize, rows: &ClusterRows, steps: Steps) {
         let body = self.body;
@@ -131,6 +140,12 @@ impl<I> Look<'_, '_, I> {
         let points = (body.clusters.places(cluster)).zip(body.clusters.tets(cluster));
         for ((i, (place, &tet)), &frame) in (0..).zip(points).zip(&rows.frames) {
             let point = seen.next(self.field, frame);
+            if self.is_cut(tet) {
+                if next == Some(&i) {
+                    next = pressed.next();
+                }
+                continue;
+            }
             if next == Some(&i) {
                 next = pressed.next();
                 self.by_displacement(place, tet, steps);

@@ -11,6 +11,9 @@ const STEP: usize = 6;
 /// There are enough when an impulse leaves out no more than this of what its modes could add up to.
 const ENOUGH: f32 = 0.02;
 
+/// More than one shape for so many modes, or rows, is too many: what is in doubt is computed twice.
+const WORTH: usize = 4;
+
 /// Rounding, relative to what the modes could add up to.
 const ROUNDING: f32 = 1e-5;
 
@@ -28,7 +31,12 @@ pub(crate) struct Coarse {
 impl Coarse {
     /// Of the rows of a cluster's points; `periods`: how far an impulse moves each mode, in any unit. None where few shapes do not do.
     pub(crate) fn new(frames: &[Frame], rows: &Rows, periods: &[f32]) -> Option<Self> {
-        pulp::Arch::new().dispatch(|| Self::found(frames, rows, periods))
+        // With the widest vectors that this processor has; the same operations in the same order, so the same bits.
+        pulp::Arch::new().dispatch(Find {
+            frames,
+            rows,
+            periods,
+        })
     }
 
     #[inline(always)]
@@ -44,15 +52,11 @@ impl Coarse {
         let most: f32 = largest.iter().sum();
         let mut shapes: Vec<f32> = Vec::new();
         let mut shares: Vec<f32> = Vec::new();
-        loop {
+        for found in (STEP..=modes.min(count) / WORTH).step_by(STEP) {
             for _ in 0..STEP {
                 let (shape, of_rows) = next_shape(&mut left, modes)?;
                 shapes.extend(shape);
                 shares.extend(of_rows);
-            }
-            let found = shapes.len() / modes;
-            if 3 * found > modes || 2 * found > count {
-                return None;
             }
             let rest = self::largest(frames, &left, modes);
             if rest.iter().sum::<f32>() > ENOUGH * most {
@@ -70,6 +74,7 @@ impl Coarse {
                 rest: rest.map(|((r, s), p)| (r + ROUNDING * s) / p).collect(),
             });
         }
+        None
     }
 
     /// Adds the rows, as the shapes have them, times the amplitudes of the first modes, m·√kg; returns bounds of what is left out, Pa.
@@ -94,13 +99,32 @@ impl Coarse {
     }
 }
 
+/// Looks for shapes.
+struct Find<'a> {
+    frames: &'a [Frame],
+    rows: &'a Rows,
+    periods: &'a [f32],
+}
+
+impl pulp::NullaryFnOnce for Find<'_> {
+    type Output = Option<Coarse>;
+
+    #[inline(always)]
+    fn call(self) -> Option<Coarse> {
+        Coarse::found(self.frames, self.rows, self.periods)
+    }
+}
+
 /// Takes the largest row's direction out of all rows: the direction, and how much of it each row had. None where nothing is left.
 #[inline(always)]
 fn next_shape(left: &mut [f32], modes: usize) -> Option<(Vec<f32>, Vec<f32>)> {
-    let squares = left.chunks_exact(modes).map(|row| super::dot(row, row));
-    let (row, square) = squares
-        .enumerate()
-        .max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)))?;
+    let (mut row, mut square) = (0, 0.0);
+    for (i, other) in left.chunks_exact(modes).enumerate() {
+        let others = super::dot(other, other);
+        if others > square {
+            (row, square) = (i, others);
+        }
+    }
     if square <= f32::MIN_POSITIVE {
         return None;
     }

@@ -32,10 +32,12 @@ impl Moment {
             ShapeWeights::gradients(point, &asset.analysis.barycentric_gradients[element]);
         let nodes = &asset.analysis.elements[element];
         // With the widest vectors that this processor has; the same operations in the same order, so the same bits.
-        pulp::Arch::new().dispatch(|| {
-            for &node in nodes {
-                self.compute(asset, motion, node as usize, step);
-            }
+        pulp::Arch::new().dispatch(Compute {
+            moment: self,
+            asset,
+            motion,
+            nodes,
+            step,
         });
         // The gradients of the shape functions add up to nothing: what all nodes share only costs digits.
         let shared = self.nodes[nodes[0] as usize].0;
@@ -65,5 +67,25 @@ impl Moment {
             *u += dot(&asset.modes.row(dof)[..motion.modes], amplitudes);
         }
         *known = (Vec3::from_array(u), step as u32 + 1);
+    }
+}
+
+/// Displacements of an element's nodes.
+struct Compute<'a> {
+    moment: &'a mut Moment,
+    asset: &'a Asset,
+    motion: &'a Motion,
+    nodes: &'a [u32; 10],
+    step: usize,
+}
+
+impl pulp::NullaryFnOnce for Compute<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        for &node in self.nodes {
+            (self.moment).compute(self.asset, self.motion, node as usize, self.step);
+        }
     }
 }

@@ -20,24 +20,27 @@ pub(crate) struct RowPoint<'a> {
     pub(crate) frame: Frame,
 }
 
+/// A node of a point's element, and the element's first one; what each of the point's rows has of the difference of their displacements,
+/// Pa/m.
+type NodeShares = ([usize; 2], [[f32; 3]; MOST]);
+
 impl RowPoint<'_> {
-    /// Calls `each` with each node of the point's element but the first, and the first, and with what each of the point's rows has of the difference of their displacements, Pa/m: the gradients of the shape functions add up to nothing.
+    /// All nodes of the point's element but the first: the gradients of the shape functions add up to nothing.
     #[inline(always)]
-    fn each_node(
-        &self,
-        asset: &Asset,
-        elasticity: &Elasticity,
-        mut each: impl FnMut([usize; 2], &[[f32; 3]; MOST]),
-    ) {
+    fn nodes(&self, asset: &Asset, elasticity: &Elasticity) -> [NodeShares; NODES - 1] {
         let element = self.point.element as usize;
         let gradients = &asset.analysis.barycentric_gradients[element];
         let weights = ShapeWeights::gradients(self.point, gradients);
-        let nodes: &[u32; NODES] = &asset.analysis.elements[element];
-        for (&node, g) in nodes.iter().zip(weights).skip(1) {
+        let nodes = &asset.analysis.elements[element];
+        let mut all = [([0; 2], [[0.0; 3]; MOST]); NODES - 1];
+        for ((to, &node), &g) in all.iter_mut().zip(&nodes[1..]).zip(&weights[1..]) {
             let shares = elasticity.per_displacement(self.law, self.frame, g);
-            let nodes = [node, nodes[0]].map(|node| node as usize);
-            each(nodes, &shares.map(|s| s.to_array()));
+            for (to, share) in to.1.iter_mut().zip(shares) {
+                *to = share.to_array();
+            }
+            to.0 = [node as usize, nodes[0] as usize];
         }
+        all
     }
 }
 
@@ -147,7 +150,7 @@ pub(crate) fn of_shape(
     let mut rows = Vec::new();
     for point in points {
         let mut sums = [0.0; MOST];
-        point.each_node(asset, elasticity, |nodes, shares| {
+        for (nodes, shares) in point.nodes(asset, elasticity) {
             let [here, shared] = nodes.map(|node| shape.at(asset, node));
             for axis in 0..3 {
                 let u = here[axis] - shared[axis];
@@ -155,7 +158,7 @@ pub(crate) fn of_shape(
                     *sum += share[axis] * u;
                 }
             }
-        });
+        }
         rows.extend(&sums[..point.frame.count()]);
     }
     rows
@@ -181,18 +184,18 @@ impl pulp::NullaryFnOnce for Fill<'_> {
         for point in self.points {
             let count = point.frame.count();
             sums[..count].iter_mut().for_each(|sum| sum.fill(0.0));
-            point.each_node(self.asset, self.elasticity, |nodes, shares| {
+            for ([node, first], shares) in point.nodes(self.asset, self.elasticity) {
                 for axis in 0..3 {
-                    let rows = nodes.map(|node| &shapes.row(3 * node + axis)[..modes]);
-                    let [here, shared] = rows;
-                    for (sum, share) in sums[..count].iter_mut().zip(shares) {
-                        let share = share[axis];
-                        for ((sum, here), shared) in sum.iter_mut().zip(here).zip(shared) {
-                            *sum += share * (here - shared);
+                    let here = &shapes.row(3 * node + axis)[..modes];
+                    let shared = &shapes.row(3 * first + axis)[..modes];
+                    for (sum, share) in sums[..count].iter_mut().zip(&shares) {
+                        let (sum, share) = (&mut sum[..modes], share[axis]);
+                        for i in 0..modes {
+                            sum[i] += share * (here[i] - shared[i]);
                         }
                     }
                 }
-            });
+            }
             for sum in &sums[..count] {
                 let group = &mut self.rows.numbers[row / GROUP * modes..][..modes];
                 for (to, &from) in group.iter_mut().zip(sum.iter().rev()) {
