@@ -4,7 +4,8 @@
 use std::sync::OnceLock;
 
 use frangible::glam::Vec3;
-use frangible::{Asset, Body, BodyState, Breakable, Contact, FractureConfig, Striker, impact};
+use frangible::internals::BodyState;
+use frangible::{Asset, Body, Breakable, Contact, FractureConfig, Striker, impact};
 use libfuzzer_sys::fuzz_target;
 
 const ASSET: &[u8] = include_bytes!("../corpus/read_asset/cubes");

@@ -2,7 +2,7 @@
 #![no_main]
 
 use frangible::Asset;
-use frangible::asset::seal;
+use frangible::internals::asset::seal;
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|data: &[u8]| {

@@ -7,25 +7,77 @@ use crate::check_output::check_output;
 use crate::command::{Result, cargo, output, root, run, run_keeping, run_within, shown, succeeds};
 use crate::counts::counts;
 use crate::fuzz::{USUAL_SECONDS, fuzz};
+use crate::green;
 use crate::test::packages;
 use crate::web::trial;
 
 /// Building cargo-deny takes three minutes of one core; a machine that needs longer than this is stuck.
 const INSTALL_LIMIT: Duration = Duration::from_secs(20 * 60);
-/// Of all of the step; the first build with its instrumentation takes most of it.
+/// Limit of the whole step of fuzzing; its first build with instrumentation takes most of it.
 const FUZZ_LIMIT: Duration = Duration::from_secs(8 * 60);
-/// Of all of the step; the first build for browsers takes most of it.
+/// Limit of the whole step of the page; its first build for browsers takes most of it.
 const WEB_LIMIT: Duration = Duration::from_secs(25 * 60);
 /// The cargo-deny that `deny.toml` is written for.
 const DENY_VERSION: &str = "0.20.2";
 const LICENCES: [&str; 2] = ["LICENSE-MIT", "LICENSE-APACHE"];
 
-/// A step returns the lines worth repeating at the end.
-type Step = (&'static str, fn() -> Result<Vec<String>>);
+/// What the page in a browser is built from, and what tests it.
+const PAGE: [&str; 15] = [
+    "Cargo.toml",
+    "Cargo.lock",
+    "apps/web",
+    "crates/frangible",
+    "crates/frangible-bake",
+    "crates/frangible-compare",
+    "crates/frangible-draw",
+    "crates/frangible-export",
+    "crates/frangible-mesh",
+    "crates/frangible-rapier",
+    "crates/frangible-scenes",
+    "crates/frangible-view",
+    "xtask/src/command.rs",
+    "xtask/src/web",
+    "xtask/web-pack",
+];
 
-const STEPS: [Step; 10] = [
-    ("format", || quiet(&["fmt", "--all", "--check"])),
-    ("clippy", || {
+/// Packages that can be built without some of their features, and with which.
+const FEATURES: [&[&str]; 7] = [
+    &["-p", "frangible-mesh", "--no-default-features"],
+    &["-p", "frangible-bake", "--no-default-features"],
+    &["-p", "frangible-rapier", "--features", "parallel"],
+    &["-p", "frangible-scenes", "--no-default-features"],
+    &["-p", "frangible-view", "--no-default-features"],
+    &[
+        "-p",
+        "frangible-view",
+        "--no-default-features",
+        "--features",
+        "window",
+    ],
+    &["-p", "frangible-cli", "--no-default-features"],
+];
+
+/// What one step does: it returns the lines worth repeating at the end.
+type Check = fn() -> Result<Vec<String>>;
+
+struct Step {
+    name: &'static str,
+    check: Check,
+    /// The step belongs to a leaf with heavy dependencies: it runs only when one of these paths has changed since it last passed.
+    leaf: Option<&'static [&'static str]>,
+}
+
+const fn step(name: &'static str, check: Check) -> Step {
+    Step {
+        name,
+        check,
+        leaf: None,
+    }
+}
+
+const STEPS: [Step; 12] = [
+    step("format", || quiet(&["fmt", "--all", "--check"])),
+    step("clippy", || {
         quiet(&[
             "clippy",
             "--release",
@@ -36,25 +88,33 @@ const STEPS: [Step; 10] = [
             "warnings",
         ])
     }),
-    ("test", tests),
-    ("docs", docs),
-    ("licences", deny),
-    ("packages", package_lists),
-    ("main job", main_job),
-    ("web", || trial(Some(WEB_LIMIT))),
-    ("counts", || counts(false)),
-    ("fuzz", || fuzz(USUAL_SECONDS, Some(FUZZ_LIMIT))),
+    step("test", tests),
+    step("docs", docs),
+    step("licences", deny),
+    step("packages", package_lists),
+    step("features", features),
+    step("oldest rust", oldest_rust),
+    step("main job", main_job),
+    Step {
+        name: "web",
+        check: || trial(Some(WEB_LIMIT)),
+        leaf: Some(&PAGE),
+    },
+    step("counts", || counts(false)),
+    step("fuzz", || fuzz(USUAL_SECONDS, Some(FUZZ_LIMIT))),
 ];
 
-/// Runs all steps, stops at the first that fails, and ends with the times and the tests' summary.
-pub(crate) fn ci() -> Result {
+/// Runs all steps, stops at the first that fails, and ends with the times and the tests' summary. With `all` the steps of leaves run
+/// even if nothing changed.
+pub(crate) fn ci(all: bool) -> Result {
     let mut times = Vec::new();
     let mut kept = Vec::new();
     let mut outcome = Ok(());
-    for (name, step) in STEPS {
+    for step in &STEPS {
+        let name = step.name;
         println!("\n=== {name}");
         let start = Instant::now();
-        let result = step();
+        let result = run_step(step, all);
         times.push((name, start.elapsed(), result.is_ok()));
         match result {
             Ok(lines) => kept.extend(lines),
@@ -67,7 +127,7 @@ pub(crate) fn ci() -> Result {
     println!();
     for (name, time, passed) in &times {
         println!(
-            "{name:<10} {:>6.1} min  {}",
+            "{name:<11} {:>6.1} min  {}",
             time.as_secs_f64() / 60.0,
             if *passed { "ok" } else { "FAILED" }
         );
@@ -76,6 +136,69 @@ pub(crate) fn ci() -> Result {
         println!("{line}");
     }
     outcome
+}
+
+fn run_step(step: &Step, all: bool) -> Result<Vec<String>> {
+    let Some(paths) = step.leaf else {
+        return (step.check)();
+    };
+    // Without git there is no state, and the step runs.
+    let state = green::state(paths).ok().flatten();
+    if let Some(state) = state.as_ref().filter(|_| !all)
+        && green::passed(step.name, state)
+    {
+        let line = format!(
+            "{}: skipped: nothing it is built from has changed since it passed; `cargo xtask ci --all` runs it",
+            step.name
+        );
+        println!("{line}");
+        return Ok(vec![line]);
+    }
+    let lines = (step.check)()?;
+    if let Some(state) = state {
+        green::note(step.name, &state);
+    }
+    Ok(lines)
+}
+
+/// Each package compiles with the features that it can be had with, alone, as its users have it.
+fn features() -> Result<Vec<String>> {
+    for words in FEATURES {
+        announced(cargo(&["check", "--release"]).args(words))?;
+    }
+    Ok(Vec::new())
+}
+
+/// The workspace compiles with the oldest compiler that it says it needs.
+fn oldest_rust() -> Result<Vec<String>> {
+    let manifest = read(&root().join("Cargo.toml"))?;
+    let manifest = String::from_utf8_lossy(&manifest);
+    let oldest = manifest
+        .lines()
+        .find_map(|line| line.strip_prefix("rust-version = \"")?.strip_suffix('"'))
+        .ok_or("Cargo.toml names no `rust-version`")?;
+    let used = output(&mut cargo(&["--version"]))?;
+    let used = String::from_utf8_lossy(&used);
+    let used = used.split_whitespace().nth(1).unwrap_or("");
+    if used == oldest || used.starts_with(&format!("{oldest}.")) {
+        println!("this is Rust {used}: all steps are checks of it");
+        return Ok(Vec::new());
+    }
+    let toolchain = format!("+{oldest}");
+    if !succeeds("cargo", &[&toolchain, "--version"]) {
+        let line = format!(
+            "oldest rust: skipped: this is Rust {used}, and Rust {oldest} is not installed; `rustup toolchain install {oldest}` gets it"
+        );
+        println!("{line}");
+        return Ok(vec![line]);
+    }
+    let mut command = std::process::Command::new("cargo");
+    command.args([&toolchain, "check", "--release", "--workspace"]);
+    // Its own folder, lest every run builds all dependencies twice.
+    let target = std::env::var_os("CARGO_TARGET_DIR").unwrap_or_else(|| "target".into());
+    command.current_dir(root());
+    command.env("CARGO_TARGET_DIR", root().join(target).join("oldest"));
+    announced(&mut command).map(|()| Vec::new())
 }
 
 fn quiet(arguments: &[&str]) -> Result<Vec<String>> {
@@ -144,8 +267,19 @@ fn package_lists() -> Result<Vec<String>> {
                 "package `{name}` would publish `{stray}`; delete it, exclude it in Cargo.toml, or allow it in xtask/src/ci.rs"
             ));
         }
+        if !files.contains(&"README.md") {
+            return Err(format!(
+                "package `{name}` has no README.md, which its page in the registry would show"
+            ));
+        }
         println!("{name}: {} files", files.len());
     }
+    // Their manifests are complete, and each finds the others in the versions that it asks for.
+    let mut command = cargo(&["package", "--workspace", "--no-verify", "--allow-dirty"]);
+    for (name, _) in packages()?.iter().filter(|(_, published)| !*published) {
+        command.args(["--exclude", name]);
+    }
+    announced(&mut command)?;
     same_licences()
 }
 

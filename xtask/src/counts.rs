@@ -14,12 +14,12 @@ use crate::setup::valgrind;
 
 /// More than this above the stored count is a failure.
 const MOST: f64 = 1.05;
-/// Of the whole step when it is one of the integration's.
+/// Limit of the whole step when it is one of the integration's.
 const LIMIT: Duration = Duration::from_secs(8 * 60);
 /// The function whose instructions are counted, in `examples/count_instructions.rs`.
 const COUNTED: &str = "*counted_work*";
 const PROGRAM: &str = "count_instructions";
-const STORED: &str = "crates/frangible-bench/counts.txt";
+const STORED: &str = "crates/frangible-lab/counts.txt";
 
 /// What the counts depend on, a line each.
 type Tools = [String; 3];
@@ -158,7 +158,7 @@ fn total(text: &str) -> Option<u64> {
 
 fn text(tools: &Tools, counts: &[Count]) -> String {
     let mut text = String::from(
-        "# Instructions of each stage (crates/frangible-bench/examples/count_instructions.rs); `cargo xtask counts --write` makes this.\n",
+        "# Instructions of each stage (crates/frangible-lab/examples/count_instructions.rs); `cargo xtask counts --write` makes this.\n",
     );
     for tool in tools {
         text += &format!("# {tool}\n");

@@ -6,6 +6,8 @@ mod command;
 mod counts;
 mod fuzz;
 mod glb;
+mod green;
+mod outcomes;
 mod setup;
 mod test;
 mod web;
@@ -13,16 +15,20 @@ mod web;
 use std::process::ExitCode;
 
 use command::Result;
+use outcomes::{Wish, outcomes};
 
 const HELP: &str = "\
-cargo xtask setup             install the system packages that are missing, where that is allowed
-cargo xtask test              setup, then all tests of the workspace in the release profile
-cargo xtask ci                everything the continuous integration checks, with the minutes per step
+cargo xtask test [--fast]     setup, then all tests of the workspace in the release profile; --fast leaves out those over three seconds
+cargo xtask ci [--all]        everything the continuous integration checks, with the minutes per step; --all also runs the steps of
+                              leaves that have not changed since they passed
+cargo xtask outcomes [--write FILE | --against FILE]
+                              break all built-in scenes; print, store or compare pieces, areas, energies and bits
+cargo xtask counts [--write]  count the instructions of each stage; fail where they grew by over 5 %, or store them
 cargo xtask rebake            write the baked bodies and states in fuzz/corpus anew, after a change of their formats
 cargo xtask fuzz [SECONDS]    feed each reader of files hostile bytes for so long, 30 s if not told
-cargo xtask counts [--write]  count the instructions of each stage; fail where they grew by over 5 %, or store them
 cargo xtask web [--out DIR]   make the viewer's page for browsers, one static folder: target/web/page if not told
 cargo xtask web-test          make it, and break the pane in it with Chromium, drawn by the processor
+cargo xtask setup             install the system packages that are missing, where that is allowed
 cargo xtask check-output DIR  check what `cargo run --release -- --out DIR --json > DIR/report.json` wrote";
 
 fn main() -> ExitCode {
@@ -57,7 +63,9 @@ fn run(words: &[&str]) -> Result {
             setup::setup();
             test::test()
         }
-        ["ci"] => ci::ci(),
+        ["test", "--fast"] => test::fast(),
+        ["ci"] => ci::ci(false),
+        ["ci", "--all"] => ci::ci(true),
         ["rebake"] => rebake(),
         ["fuzz"] => fuzz::fuzz(fuzz::USUAL_SECONDS, None).map(drop),
         ["fuzz", seconds] => match seconds.parse() {
@@ -68,6 +76,9 @@ fn run(words: &[&str]) -> Result {
         },
         ["counts"] => counts::counts(false).map(drop),
         ["counts", "--write"] => counts::counts(true).map(drop),
+        ["outcomes"] => outcomes(&Wish::Print),
+        ["outcomes", "--write", file] => outcomes(&Wish::Write(file.as_ref())),
+        ["outcomes", "--against", file] => outcomes(&Wish::Against(file.as_ref())),
         ["web"] => web::web(None, None).map(drop),
         ["web", "--out", folder] => web::web(Some(folder.as_ref()), None).map(drop),
         ["web-test"] => web::trial(None).map(drop),

@@ -44,6 +44,25 @@ pub(crate) fn test() -> Result {
     }
 }
 
+/// Runs the tests that take no more than a few seconds each; `.config/nextest.toml` says which those are.
+pub(crate) fn fast() -> Result {
+    if !succeeds("cargo", &["nextest", "--version"]) {
+        return Err(
+            "the fast tests are chosen by cargo-nextest: `cargo install cargo-nextest --locked` gets it"
+                .into(),
+        );
+    }
+    let words = [
+        "nextest",
+        "run",
+        "--profile",
+        "fast",
+        "--release",
+        "--workspace",
+    ];
+    run(cargo(&words).args(assertions()?))
+}
+
 /// Debug assertions for our own packages only: dependencies keep the profile they have in `cargo run --release`, and
 /// so are built once. This running xtask is left out, it would be rebuilt for nothing.
 fn assertions() -> Result<Vec<String>> {

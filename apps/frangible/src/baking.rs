@@ -10,10 +10,10 @@ use frangible_scenes::{
 
 use crate::args::BakeArgs;
 use crate::breaking::filled;
-use crate::place::try_file;
 use crate::progress::Bar;
 use crate::request::body_of;
 use crate::say::say;
+use frangible_export::try_file;
 
 /// Largest relative change of a mode's peak stress that `--compact` may make.
 const MOST_CHANGE: f64 = 0.1;

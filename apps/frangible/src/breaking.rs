@@ -9,11 +9,11 @@ use frangible_scenes::{BakedBody, Opened, Run, Scene, bake_opened, open_sources,
 
 use crate::args::BreakArgs;
 use crate::pictures;
-use crate::place::make_folder;
 use crate::progress::Bar;
 use crate::report::{BodyReport, Report, frames_ms};
 use crate::request::{Request, scene_of};
 use crate::say::say;
+use frangible_export::make_folder;
 
 pub(crate) fn run(file: Option<&Path>, args: &BreakArgs) -> Result<(), Box<dyn Error>> {
     let Request { scene, mut notes } = scene_of(file, args)?;
@@ -26,6 +26,7 @@ pub(crate) fn run(file: Option<&Path>, args: &BreakArgs) -> Result<(), Box<dyn E
     let was_there = make_folder(
         &args.out,
         &names.iter().flatten().cloned().collect::<Vec<_>>(),
+        "--out",
     )?;
     let [glb, picture, sheet, json] = names;
     let mut stages = Vec::new();

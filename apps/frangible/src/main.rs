@@ -2,28 +2,17 @@
 
 mod args;
 mod baking;
-mod benching;
 mod breaking;
-mod compare_page;
-mod compare_report;
-mod comparing;
-#[cfg(feature = "draw")]
-mod drawing;
-mod experimenting;
 mod list;
 mod mode_files;
 mod mode_report;
 mod modes;
-mod near_field;
 mod pictures;
-mod place;
 mod progress;
 mod report;
 mod request;
 mod say;
 mod support;
-mod truth;
-mod verifying;
 #[cfg(feature = "draw")]
 mod viewing;
 
@@ -34,7 +23,7 @@ use clap::Parser;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use frangible_scenes::FileKind;
 
-use args::{Cli, Command, Verification};
+use args::{Cli, Command};
 
 /// A file given where a command should stand.
 fn file_without_command(error: &clap::Error) -> Option<&str> {
@@ -47,7 +36,33 @@ fn file_without_command(error: &clap::Error) -> Option<&str> {
     }
 }
 
+/// The command of the laboratory that does what a former command of this program did.
+fn of_the_lab(words: &[String]) -> Option<String> {
+    let [first, rest @ ..] = words else {
+        return None;
+    };
+    let (name, rest) = match (first.as_str(), rest) {
+        ("verify", [what, rest @ ..])
+            if ["experiments", "pieces", "near-field"].contains(&what.as_str()) =>
+        {
+            (what.as_str(), rest)
+        }
+        (name @ ("verify" | "bench" | "figures" | "compare"), rest) => (name, rest),
+        _ => return None,
+    };
+    let words = [name].into_iter().chain(rest.iter().map(String::as_str));
+    Some(words.collect::<Vec<_>>().join(" "))
+}
+
 fn main() -> ExitCode {
+    let words: Vec<String> = std::env::args().skip(1).collect();
+    if let Some(new) = of_the_lab(&words) {
+        eprintln!(
+            "error: `frangible {}` is a command of the laboratory: cargo run --release -p frangible-lab -- {new}",
+            words[0]
+        );
+        return ExitCode::from(2);
+    }
     let cli = Cli::try_parse().unwrap_or_else(|error| {
         if let Some(file) = file_without_command(&error) {
             eprintln!(
@@ -60,25 +75,8 @@ fn main() -> ExitCode {
     let result = match cli.command {
         None => breaking::run(None, &cli.break_args),
         Some(Command::Break(command)) => breaking::run(command.file.as_deref(), &command.args),
-        Some(Command::Compare(args)) => comparing::run(&args),
         Some(Command::Bake(args)) => baking::run(&args),
         Some(Command::Modes(args)) => modes::run(&args),
-        Some(Command::Verify(args))
-            if args.count.is_some() && args.what != Some(Verification::Pieces) =>
-        {
-            Err("--count goes with `frangible verify pieces`".into())
-        }
-        Some(Command::Verify(args)) if args.what == Some(Verification::Experiments) => {
-            experimenting::run(&args)
-        }
-        Some(Command::Verify(args)) if args.what == Some(Verification::Pieces) => truth::run(&args),
-        Some(Command::Verify(args)) if args.what == Some(Verification::NearField) => {
-            near_field::run(&args)
-        }
-        Some(Command::Verify(args)) => verifying::run(&args),
-        Some(Command::Bench(args)) => benching::run(&args),
-        #[cfg(feature = "draw")]
-        Some(Command::Figures(args)) => drawing::run(&args),
         #[cfg(feature = "draw")]
         Some(Command::View(args)) => viewing::run(&args),
         Some(Command::Scenes { name: None }) => list::print(),
@@ -90,5 +88,29 @@ fn main() -> ExitCode {
             eprintln!("error: {error}");
             ExitCode::FAILURE
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::of_the_lab;
+
+    #[test]
+    fn former_commands_are_answered_with_the_new_ones() {
+        let new = |text: &str| {
+            let words: Vec<String> = text.split_whitespace().map(String::from).collect();
+            of_the_lab(&words)
+        };
+        assert_eq!(
+            new("verify --write docs").as_deref(),
+            Some("verify --write docs")
+        );
+        assert_eq!(
+            new("verify pieces --count 9").as_deref(),
+            Some("pieces --count 9")
+        );
+        assert_eq!(new("bench").as_deref(), Some("bench"));
+        assert_eq!(new("break verify"), None);
+        assert_eq!(new(""), None);
     }
 }

@@ -4,7 +4,7 @@ use std::error::Error;
 
 use frangible::Asset;
 use frangible::glam::{Quat, Vec3};
-use frangible::stress::{Symmetric3, largest_eigenvalue};
+use frangible::internals::stress::{Symmetric3, largest_eigenvalue};
 use frangible_bake::mode_field::{
     ModeField, mode_on_analysis_mesh, mode_on_fracture_mesh, von_mises,
 };
@@ -117,7 +117,7 @@ pub(crate) fn analysis_vtu(asset: &Asset) -> Result<Vec<u8>, ExportError> {
     vtu(asset, &asset.analysis.nodes, cells, fields)
 }
 
-/// The same on the mesh that carries cracks.
+/// The mesh that carries cracks, with the same fields.
 pub(crate) fn fracture_vtu(asset: &Asset) -> Result<Vec<u8>, ExportError> {
     let cells = VtuCells::Linear(&asset.fracture.tets);
     let fields = (0..asset.modes.count()).map(|i| mode_on_fracture_mesh(asset, i));

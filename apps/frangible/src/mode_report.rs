@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 use std::fmt::Write;
 
-use frangible::stress::Symmetric3;
+use frangible::internals::stress::Symmetric3;
 use frangible_bake::mode_field::mode_on_fracture_mesh;
 use frangible_scenes::BakedBody;
 use serde::Serialize;
@@ -144,7 +144,7 @@ impl ModeReport {
     }
 }
 
-/// Of a stress or its opposite, Pa.
+/// The largest eigenvalue of a stress or of its opposite, Pa.
 fn largest_tension(stress: &Symmetric3) -> f32 {
     let opposite = Symmetric3 {
         diagonal: stress.diagonal.map(|s| -s),

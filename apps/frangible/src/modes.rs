@@ -12,10 +12,10 @@ use frangible_scenes::{BodySource, BodySpec, Opened, bake_opened, open_sources};
 use crate::args::ModesArgs;
 use crate::mode_files::{analysis_vtu, fracture_vtu, picture};
 use crate::mode_report::ModeReport;
-use crate::place::try_file;
 use crate::progress::Bar;
 use crate::request::body_with_modes;
 use crate::say::say;
+use frangible_export::try_file;
 
 /// The most shapes that one sheet can show.
 const MOST_DRAWN: usize = 36;

@@ -182,7 +182,7 @@ pub(crate) fn frames_ms(run: &Run) -> [f64; 3] {
 }
 
 impl BodyReport {
-    /// Of the body of this number, from 0.
+    /// The report of the body of this number, from 0.
     pub(crate) fn new(name: &str, baked: &BakedBody, run: &Run, number: usize) -> Self {
         let asset = &*baked.asset;
         let broken = run.break_of(number);

@@ -6,10 +6,7 @@ use std::path::Path;
 use frangible::Material;
 use frangible::glam::{Quat, Vec3};
 use frangible_bake::{MOST_MODES, USUAL_MODES};
-use frangible_scenes::{
-    Axis, BodySource, FileKind, FileWish, MaterialEdit, Projectile, SCENE_NAMES, Scene, scene,
-    scene_of_file,
-};
+use frangible_scenes::{Axis, BodySource, FileKind, FileWish, MaterialEdit, Projectile, Scene};
 
 use crate::args::{BakeArgs, BreakArgs, MeshArgs, ModesArgs};
 use crate::support::parse_support;
@@ -22,7 +19,7 @@ pub(crate) struct Request {
 
 /// The scene to break, every number checked.
 pub(crate) fn scene_of(file: Option<&Path>, args: &BreakArgs) -> Result<Request, Box<dyn Error>> {
-    let mut wanted = named(file, args.scene.as_deref())?;
+    let mut wanted = frangible_scenes::scene_of(file, args.scene.as_deref())?;
     let mut notes = Vec::new();
     if let Some(file) = file
         && FileKind::of(file)? != FileKind::Scene
@@ -96,7 +93,7 @@ pub(crate) fn scene_of(file: Option<&Path>, args: &BreakArgs) -> Result<Request,
 
 /// The scene whose only body is to be baked, every number checked.
 pub(crate) fn body_of(args: &BakeArgs) -> Result<Scene, Box<dyn Error>> {
-    let mut wanted = named(args.file.as_deref(), args.scene.as_deref())?;
+    let mut wanted = frangible_scenes::scene_of(args.file.as_deref(), args.scene.as_deref())?;
     match &wanted.bodies[..] {
         [body] if matches!(body.source, BodySource::Asset(_)) => {
             return Err("the body is baked already; bake the mesh it was made of".into());
@@ -121,7 +118,7 @@ pub(crate) fn body_of(args: &BakeArgs) -> Result<Scene, Box<dyn Error>> {
 
 /// The scene whose only body is to be looked at, every number checked.
 pub(crate) fn body_with_modes(args: &ModesArgs) -> Result<Scene, Box<dyn Error>> {
-    let mut wanted = named(args.file.as_deref(), args.scene.as_deref())?;
+    let mut wanted = frangible_scenes::scene_of(args.file.as_deref(), args.scene.as_deref())?;
     if wanted.bodies.len() != 1 {
         let count = wanted.bodies.len();
         return Err(format!(
@@ -133,13 +130,6 @@ pub(crate) fn body_with_modes(args: &ModesArgs) -> Result<Scene, Box<dyn Error>>
     set_mesh(&mut wanted, &args.mesh)?;
     wanted.validate()?;
     Ok(wanted)
-}
-
-pub(crate) fn named(file: Option<&Path>, name: Option<&str>) -> Result<Scene, Box<dyn Error>> {
-    Ok(match file {
-        Some(file) => scene_of_file(file)?,
-        None => scene(name.unwrap_or(SCENE_NAMES[0]))?,
-    })
 }
 
 fn set_material(scene: &mut Scene, name: Option<&str>) -> Result<(), Box<dyn Error>> {

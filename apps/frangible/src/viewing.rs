@@ -7,13 +7,13 @@ use frangible_scenes::SCENE_NAMES;
 use frangible_view::{Command, Script, WindowOptions, run as open_window};
 
 use crate::args::ViewArgs;
-use crate::place::make_folder;
+use frangible_export::make_folder;
 
 pub(crate) fn run(args: &ViewArgs) -> Result<(), Box<dyn Error>> {
     let script = args.script.as_deref().map(Script::read).transpose()?;
     if script.is_some() {
         // Before minutes of baking.
-        make_folder(&args.shots, &[]).map_err(|e| e.replace("--out DIR", "--shots DIR"))?;
+        make_folder(&args.shots, &[], "--shots")?;
     }
     open_window(WindowOptions {
         first: first(args.what.as_deref()),

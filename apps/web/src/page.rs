@@ -122,10 +122,10 @@ struct State<'a> {
     whole: usize,
     pieces: usize,
     triangles: usize,
-    /// Of the last break, s: the impact, and the whole step.
+    /// How long the last break took, s: the impact here, the whole step in the next field.
     fracture_seconds: f64,
     step_seconds: f64,
-    /// Of its pieces, kg.
+    /// Masses of the pieces of the last break, kg.
     masses: Vec<f64>,
     /// Where the last contact that mattered was, m.
     hit: Option<[f32; 3]>,

@@ -132,7 +132,7 @@ fn system(case: &str) -> Result<System, Failure> {
     }
 }
 
-/// Of a lower triangle whose entries stand for the `axes` diagonal ones of a block.
+/// The lower triangle whose entries stand for the `axes` diagonal ones of a block.
 fn write_matrix(path: &Path, lower: &SparseColMat<usize, f64>, axes: usize) -> Result<(), Failure> {
     let (n, mut entries, mut text) = (axes * lower.ncols(), 0, String::new());
     for j in 0..lower.ncols() {

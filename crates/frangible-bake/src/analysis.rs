@@ -1,7 +1,7 @@
 //! The quadratic elements that carry the modes: a mesh of the shape, or a lattice that covers it.
 
-use frangible::asset::{AnalysisMesh, Embedding};
 use frangible::glam::DVec3;
+use frangible::internals::asset::{AnalysisMesh, Embedding};
 
 use crate::eigen::Constraints;
 use crate::embed::Locator;
@@ -14,7 +14,7 @@ use crate::mesh::BodyMesh;
 use crate::report::MeshReport;
 use crate::supports::Holder;
 
-/// Of a support that the elements cannot see.
+/// What is said of a support that the elements cannot see.
 const TOO_SMALL: &str = "holds a part of the body smaller than the elements that carry the modes; enlarge its region or refine the \
      analysis mesh";
 

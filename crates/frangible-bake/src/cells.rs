@@ -1,8 +1,8 @@
 //! Convex cells of the body: points for the colliders of the whole and of its fragments.
 
-use frangible::TetMesh;
-use frangible::asset::ConvexCell;
 use frangible::glam::Vec3;
+use frangible::internals::TetMesh;
+use frangible::internals::asset::ConvexCell;
 
 /// Directions in which a cell keeps its farthest node.
 const DIRECTIONS: usize = 64;

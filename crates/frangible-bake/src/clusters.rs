@@ -7,9 +7,9 @@
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-use frangible::TetMesh;
 use frangible::glam::DVec3;
-use frangible::mesh::NO_NEIGHBOUR;
+use frangible::internals::TetMesh;
+use frangible::internals::mesh::NO_NEIGHBOUR;
 
 /// Moves of the seeds to the middle of their clusters; more change little.
 const ROUNDS: usize = 4;

@@ -1,8 +1,8 @@
 //! Where a point lies in the analysis mesh: element and barycentric coordinates.
 
-use frangible::asset::EmbeddedPoint;
 use frangible::glam::DVec3;
-use frangible::mesh::closest_on_triangle;
+use frangible::internals::asset::EmbeddedPoint;
+use frangible::internals::mesh::closest_on_triangle;
 
 use crate::error::BakeError;
 use crate::fem::QuadraticMesh;
@@ -135,7 +135,7 @@ impl Locator {
             .ok_or_else(outside)
     }
 
-    /// The same, as the asset stores it.
+    /// Locates a point and gives its place as the asset stores it.
     ///
     /// # Errors
     /// [`BakeError::OutsideAnalysisMesh`] when no element is near enough.

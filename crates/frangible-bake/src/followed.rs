@@ -12,11 +12,13 @@
 //! [`NEAR`] thicknesses of the contact are left out: no number of modes shows the stress there, which the near field gives.
 
 use frangible::Asset;
-use frangible::asset::EmbeddedPoint;
-use frangible::contact::hertz_duration;
 use frangible::glam::Vec3;
-use frangible::modal::Oscillator;
-use frangible::stress::{ShapeWeights, Symmetric3, largest_eigenvalue, largest_eigenvalue_bound};
+use frangible::internals::asset::EmbeddedPoint;
+use frangible::internals::contact::hertz_duration;
+use frangible::internals::modal::Oscillator;
+use frangible::internals::stress::{
+    ShapeWeights, Symmetric3, largest_eigenvalue, largest_eigenvalue_bound,
+};
 
 use crate::random;
 

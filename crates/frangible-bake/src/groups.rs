@@ -1,7 +1,10 @@
 //! Named parts of a body's surface, as its file names them.
+//!
+//! A group holds the outer nodes that lie within a fifth of their shortest edge of it, since the fine mesh follows curved walls
+//! by chords.
 
 use frangible::glam::DVec3;
-use frangible::mesh::closest_on_triangle;
+use frangible::internals::mesh::closest_on_triangle;
 use frangible_mesh::{InputMesh, Similarity};
 
 /// How far from a group a node may lie to be on it, in its shortest edges: the fine mesh rounds edges off and follows

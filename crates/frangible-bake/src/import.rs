@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use frangible::asset::{RenderMaterial, RenderSurface};
+use frangible::internals::asset::{RenderMaterial, RenderSurface};
 use frangible_mesh::{
     InputMesh, MeshSolid, RepairReport, Similarity, Thickness, repair, wall_thickness,
 };

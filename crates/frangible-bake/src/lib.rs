@@ -51,6 +51,7 @@ mod import_tets;
 mod mesh;
 pub mod mode_field;
 mod phase;
+pub mod pieces;
 mod random;
 mod report;
 pub mod rescale;

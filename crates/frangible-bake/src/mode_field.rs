@@ -1,8 +1,11 @@
 //! A vibration mode as fields on the body, for those who look at it: displacement and linear stress at points.
+//!
+//! Stresses to be looked at are means at the nodes, since the stress of single elements jumps and shows as blotches; the run
+//! time keeps that of the elements.
 
-use frangible::asset::EmbeddedPoint;
 use frangible::glam::{Mat3, Vec3};
-use frangible::stress::{ShapeWeights, Symmetric3};
+use frangible::internals::asset::EmbeddedPoint;
+use frangible::internals::stress::{ShapeWeights, Symmetric3};
 use frangible::{Asset, Material};
 
 /// A mode at the nodes of a mesh, one entry per node in each list. Its sign, and so that of its stresses, is arbitrary.

@@ -10,9 +10,10 @@
 
 use std::sync::Arc;
 
-use frangible::asset::EmbeddedPoint;
 use frangible::glam::{DVec3, Vec3};
-use frangible::{Asset, InputError, MassProperties, Material};
+use frangible::internals::MassProperties;
+use frangible::internals::asset::EmbeddedPoint;
+use frangible::{Asset, InputError, Material};
 use thiserror::Error;
 
 /// Smallest radius of curvature of a surface, m: edges and corners are rounded off this far in any real body, whatever

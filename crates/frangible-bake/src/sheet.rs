@@ -3,6 +3,8 @@
 //! Cracks run along element faces' neighbours, so a lattice would show in them. The sheet is jittered
 //! with a seed, re-connected by Lawson flips until no two triangles fail the Delaunay test, and
 //! relaxed by a few steps of Laplacian smoothing; vertices on edges slide only along them.
+//!
+//! Boxes and bodies of revolution are one such sheet, extruded through layers.
 
 use frangible::glam::DVec3;
 

@@ -211,7 +211,7 @@ impl<'a> Holder<'a> {
         })
     }
 
-    /// The same for positions in a frame whose origin is at `origin` of the frame of the shape.
+    /// The support for positions in a frame whose origin is at `origin` of the frame of the shape.
     pub(crate) fn with_origin(self, origin: DVec3) -> Self {
         Self { origin, ..self }
     }

@@ -1,14 +1,14 @@
 //! Outer surface of the fracture mesh: smooth normals and radii of curvature.
 
-use frangible::TetMesh;
-use frangible::asset::OuterSurface;
 use frangible::glam::{DVec3, Vec3};
+use frangible::internals::TetMesh;
+use frangible::internals::asset::OuterSurface;
 
 pub use crate::rescale::SMALLEST_CURVATURE_RADIUS as SMALLEST_RADIUS;
 
 /// Faces that meet at a larger angle, degrees, keep their edge sharp.
 pub const CREASE: f64 = 35.0;
-/// The same on the lattice mesh of a solid, whose triangles turn more from one to the next on curved surfaces.
+/// The largest such angle on the lattice mesh of a solid, whose triangles turn more from one to the next on curved surfaces.
 pub const SOLID_CREASE: f64 = 50.0;
 /// Radii above this many body diagonals count as flat: they are the rounding of f32 positions.
 const FLAT: f64 = 50.0;

@@ -17,9 +17,9 @@
 //! **What is a wall.** A connected stretch that a disc of radius [`SLENDER`] thicknesses fits into. So a pane, a plate, the side
 //! of a glass is one; a cube, a brick, a ball, a hammer's head and the rim of a pane are none.
 
-use frangible::asset::{OuterSurface, SurfaceWalls};
 use frangible::glam::{DMat2, DVec2, DVec3, Vec3};
-use frangible::mesh::AlongSurface;
+use frangible::internals::asset::{OuterSurface, SurfaceWalls};
+use frangible::internals::mesh::AlongSurface;
 use frangible_mesh::{MeshSolid, Surface};
 
 /// A wall's radius, of the largest disc in it and of its curvature, is at least this many times its thickness.

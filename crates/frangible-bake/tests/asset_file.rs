@@ -1,6 +1,7 @@
 //! What a bake gives survives its file.
 
-use frangible::{Asset, Material, TetMesh};
+use frangible::internals::TetMesh;
+use frangible::{Asset, Material};
 use frangible_bake::{BakeSpec, MeshSize, Shape, bake};
 
 #[test]

@@ -1,12 +1,12 @@
 //! What holds of every blow: energy, momentum, what the modes left out give, and that no input makes nonsense. Beside closed forms
-//! blows stand in `frangible verify` (cases `blow` and `near-field`).
+//! blows stand in `frangible-lab verify` (cases `blow` and `near-field`).
 
 use std::sync::{Arc, OnceLock};
 
-use frangible::blow::Blow;
 use frangible::glam::{DVec3, Vec3};
-use frangible::near_field::PlateTheory;
-use frangible::stress::largest_eigenvalue;
+use frangible::internals::blow::Blow;
+use frangible::internals::near_field::PlateTheory;
+use frangible::internals::stress::largest_eigenvalue;
 use frangible::{Asset, Body, Breakable, Contact, FractureConfig, Material, Striker, impact};
 use frangible_bake::{BakeSpec, Shape, bake};
 

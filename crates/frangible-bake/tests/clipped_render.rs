@@ -3,8 +3,9 @@
 use std::f64::consts::{PI, TAU};
 
 use frangible::glam::{DVec3, Vec2, Vec3};
-use frangible::mesh::closest_on_triangle;
-use frangible::{Breakable, FractureConfig, Fragment, Material, Outcome, fracture_at};
+use frangible::internals::fracture_at;
+use frangible::internals::mesh::closest_on_triangle;
+use frangible::{Breakable, FractureConfig, Fragment, Material, Outcome};
 use frangible_bake::frangible_mesh::{InputMaterial, InputMesh};
 use frangible_bake::{BakeSpec, ImportOptions, bake, import_mesh};
 

@@ -131,7 +131,7 @@ fn the_mass_is_that_of_the_body_and_rigid_motions_cost_nothing() {
         .map(|(x, y)| x * y)
         .sum();
     let corners = (0..body.tets.len()).map(|t| body.corners(t));
-    let exact = frangible::MassProperties::of_tetrahedra(GLASS.density, corners);
+    let exact = frangible::internals::MassProperties::of_tetrahedra(GLASS.density, corners);
     assert_near(inertia, exact.inertia.x_axis.x, 1e-6, "moment of inertia");
 }
 

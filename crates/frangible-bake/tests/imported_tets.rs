@@ -74,7 +74,7 @@ fn a_held_group_of_few_large_tetrahedra_is_clamped_by_the_lattice() {
     let (mut input, _) = rod();
     let nodes = (0..input.positions.len() as u32).filter(|&v| input.positions[v as usize].x < 1e-9);
     let wall: Vec<u32> = nodes.collect();
-    let faces = frangible::TetMesh::new(
+    let faces = frangible::internals::TetMesh::new(
         input.positions.iter().map(|p| p.as_vec3()).collect(),
         input.tets.clone(),
     )

@@ -1,4 +1,4 @@
-//! Modal analysis against its own invariants; `frangible-verify` has the closed forms.
+//! Modal analysis against its own invariants; `frangible_lab::verify` has the closed forms.
 
 use std::ops::ControlFlow;
 

@@ -1,9 +1,9 @@
 //! A mode at the nodes of the meshes: against displacements whose stress is known.
 
-use frangible::asset::{AnalysisMesh, EmbeddedPoint, Embedding};
 use frangible::glam::{Mat3, Vec3};
-use frangible::modal::ModalBasis;
-use frangible::stress::{Symmetric3, principal_axes};
+use frangible::internals::asset::{AnalysisMesh, EmbeddedPoint, Embedding};
+use frangible::internals::modal::ModalBasis;
+use frangible::internals::stress::{Symmetric3, principal_axes};
 use frangible::{Asset, Material};
 use frangible_bake::mode_field::{
     mode_on_analysis_mesh, mode_on_fracture_mesh, motion_on_analysis_mesh, motion_on_fracture_mesh,

@@ -1,11 +1,9 @@
 //! Impacts whose beginning of cracks is looked for ahead.
 
 use frangible::glam::Vec3;
-use frangible::stress::{DisplacementBatch, Elasticity, largest_eigenvalue};
-use frangible::{
-    Body, Breakable, Contact, FractureConfig, Material, Onset, OnsetSearch, Outcome, Stage,
-    Striker, Vibration, impact,
-};
+use frangible::internals::stress::{DisplacementBatch, Elasticity, largest_eigenvalue};
+use frangible::internals::{Onset, OnsetSearch, Stage, Vibration};
+use frangible::{Body, Breakable, Contact, FractureConfig, Material, Outcome, Striker, impact};
 use frangible_bake::{BakeSpec, MeshSize, Shape, bake};
 
 /// A pane of glass 300 × 200 × 6 mm, 40 modes.

@@ -1,7 +1,7 @@
 //! A rescaled asset is the asset that a bake of the other material or size gives.
 
-use frangible::asset::SaveOptions;
 use frangible::glam::{DVec3, Vec3};
+use frangible::internals::asset::SaveOptions;
 use frangible::{Asset, Body, Contact, FractureConfig, Material, Outcome, Striker, impact};
 use frangible_bake::frangible_mesh::InputMesh;
 use frangible_bake::{
@@ -200,9 +200,9 @@ fn assert_same(rescaled: &Asset, fresh: &Asset, what: &str) {
             // Modes of nearly one frequency mix freely.
             continue;
         }
-        let stress = |m: &frangible::modal::ModalBasis| f64::from(m.peak_stress[i]);
+        let stress = |m: &frangible::internals::modal::ModalBasis| f64::from(m.peak_stress[i]);
         near(stress(a), stress(b), 1e-4, &format!("{what}, mode {i}"));
-        let column = |m: &frangible::modal::ModalBasis| -> Vec<f64> {
+        let column = |m: &frangible::internals::modal::ModalBasis| -> Vec<f64> {
             let column = m.shapes.iter().skip(i).step_by(m.count());
             column.map(|&x| f64::from(x)).collect()
         };

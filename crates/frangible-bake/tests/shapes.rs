@@ -1,7 +1,7 @@
 //! The built-in shapes at both resolutions: sound tetrahedra, closed boundaries, right volumes.
 
-use frangible::TetMesh;
-use frangible::mesh::NO_NEIGHBOUR;
+use frangible::internals::TetMesh;
+use frangible::internals::mesh::NO_NEIGHBOUR;
 use frangible_bake::{BakeError, BodyMesh, MeshSize, Shape, Station};
 
 fn built_in() -> Vec<(&'static str, Shape)> {

@@ -3,8 +3,9 @@
 use std::sync::Arc;
 
 use frangible::glam::Vec3;
-use frangible::stress::Skin;
-use frangible::{Asset, Body, Force, FractureConfig, Material, rest};
+use frangible::internals::stress::Skin;
+use frangible::internals::{Force, rest};
+use frangible::{Asset, Body, FractureConfig, Material};
 use frangible_bake::{BakeSpec, MeshSize, Region, Shape, Support, bake};
 
 const SIZE: [f64; 3] = [0.2, 0.1, 0.006];
@@ -33,7 +34,7 @@ fn plate(layers: usize) -> Asset {
     baked(Shape::plate(SIZE[0], SIZE[1], SIZE[2]), layers, Vec::new())
 }
 
-/// Of one mode, a bar bent to the curvature 1 about y [Timoshenko, Goodier, art. 102], and a stretch across it that
+/// Stresses of one mode, a bar bent to the curvature 1 about y [Timoshenko, Goodier, art. 102], and a stretch across it that
 /// a mesh of one layer cannot tell from nothing: E_zz = `noise` · z.
 fn bent(mut asset: Asset, noise: f32) -> Asset {
     let nu = asset.material.poisson_ratio as f32;

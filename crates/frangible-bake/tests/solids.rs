@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
 use frangible::glam::{DVec3, Vec2, Vec3};
-use frangible::mesh::NO_NEIGHBOUR;
+use frangible::internals::mesh::NO_NEIGHBOUR;
 use frangible::{Asset, Material};
 use frangible_bake::frangible_mesh::{DistanceSolid, InputMaterial, InputMesh, TetError};
 use frangible_bake::{

@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use frangible::asset::SurfaceWall;
 use frangible::glam::{DVec3, Vec3};
+use frangible::internals::asset::SurfaceWall;
 use frangible::{Asset, Material};
 use frangible_bake::frangible_mesh::DistanceSolid;
 use frangible_bake::{BakeSpec, MeshSize, Region, Shape, SolidShape, Station, Support, bake};

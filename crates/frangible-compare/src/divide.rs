@@ -5,7 +5,8 @@
 //! labels is cut at a place of the caller's, tetrahedra are parted exactly through these places. So the pieces tile the body,
 //! and stand beside those of an impact as their equals. Where a cell holds no node of the fracture mesh it leaves no piece.
 
-use frangible::{Body, CutEdge, Fragment, interfaces_of_labels, pieces_of_cuts};
+use frangible::internals::{CutEdge, interfaces_of_labels, pieces_of_cuts};
+use frangible::{Body, Fragment};
 
 use crate::error::CompareError;
 

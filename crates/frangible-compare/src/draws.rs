@@ -1,7 +1,7 @@
 //! Random places in a body.
 
-use frangible::TetMesh;
 use frangible::glam::{DVec3, Vec3};
+use frangible::internals::TetMesh;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 

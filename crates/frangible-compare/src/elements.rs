@@ -13,8 +13,9 @@
 //! So weak points, strength, toughness and energy are ours; the path is the mesh's, and nothing happens in time. Left out: Smith
 //! et al.'s constraint solver and their weakening of what lies beside an open face, Müller et al.'s fixed radius of a crack.
 
-use frangible::stress::{STRETCHED, Skin, bent, largest_eigenvalue, principal_axes};
-use frangible::{CrackTiming, Fragment};
+use frangible::Fragment;
+use frangible::internals::CrackTiming;
+use frangible::internals::stress::{STRETCHED, Skin, bent, largest_eigenvalue, principal_axes};
 
 use crate::error::CompareError;
 use crate::face_pieces::face_pieces;
@@ -26,7 +27,7 @@ use crate::plane_crack::{Faces, PlaneCrack};
 pub(crate) struct Separated {
     /// Largest first; one where it held.
     pub(crate) fragments: Vec<Fragment>,
-    /// Of open faces, one side, m².
+    /// Area of the open faces, one side, m².
     pub(crate) crack_area: f64,
     /// J.
     pub(crate) energy: f64,

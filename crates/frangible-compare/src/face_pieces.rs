@@ -3,8 +3,9 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use frangible::glam::{DVec3, Vec3};
-use frangible::mesh::NO_NEIGHBOUR;
-use frangible::{Body, Fragment, MassProperties, TetMesh, TriMesh};
+use frangible::internals::mesh::NO_NEIGHBOUR;
+use frangible::internals::{MassProperties, TetMesh};
+use frangible::{Body, Fragment, TriMesh};
 
 use crate::plane_crack::{Faces, face, face_area};
 

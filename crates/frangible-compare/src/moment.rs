@@ -1,8 +1,11 @@
 //! The body's stress at one moment of the vibration that ours follows.
 
-use frangible::modal::Motion;
-use frangible::stress::{DisplacementBatch, Elasticity, StressState, largest_eigenvalue};
-use frangible::{FractureConfig, Stage, Vibration};
+use frangible::FractureConfig;
+use frangible::internals::modal::Motion;
+use frangible::internals::stress::{
+    DisplacementBatch, Elasticity, StressState, largest_eigenvalue,
+};
+use frangible::internals::{Stage, Vibration};
 
 use crate::error::CompareError;
 use crate::hit::Hit;

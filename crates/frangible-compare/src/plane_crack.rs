@@ -2,10 +2,11 @@
 
 use std::collections::VecDeque;
 
+use frangible::Body;
 use frangible::glam::Vec3;
-use frangible::mesh::NO_NEIGHBOUR;
-use frangible::stress::share_left;
-use frangible::{Body, TetMesh};
+use frangible::internals::TetMesh;
+use frangible::internals::mesh::NO_NEIGHBOUR;
+use frangible::internals::stress::share_left;
 
 use crate::moment::Moment;
 

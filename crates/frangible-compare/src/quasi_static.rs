@@ -9,9 +9,10 @@
 //! of vibration sees; Müller et al. anchor the body instead. From there on all is ours: weak points, strength, crack surfaces,
 //! release, energy. The load acts for Δt; the cracks together spend no more than the strain energy of the steady state.
 
-use frangible::contact::modal_load;
-use frangible::modal::Motion;
-use frangible::{CrackTiming, Outcome, follow};
+use frangible::Outcome;
+use frangible::internals::contact::modal_load;
+use frangible::internals::modal::Motion;
+use frangible::internals::{CrackTiming, follow};
 
 use crate::error::CompareError;
 use crate::hit::Hit;

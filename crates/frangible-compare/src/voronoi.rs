@@ -4,8 +4,9 @@
 //! the largest distance there is. Their number is the caller's; [`compare`](crate::compare) takes as many as ours has pieces, two
 //! at least. A cell that hangs together in several parts leaves several pieces, one that holds no node of the mesh none.
 
+use frangible::Body;
 use frangible::glam::{DVec3, Vec3};
-use frangible::{Body, TetMesh};
+use frangible::internals::TetMesh;
 
 use crate::divide::Division;
 use crate::draws::Draws;

@@ -1,4 +1,6 @@
 //! A surface coloured by a number at each vertex, as a kiss3d scene.
+//!
+//! Numbers become colours in a texture, since kiss3d has no colours at vertices.
 
 use std::cell::RefCell;
 use std::rc::Rc;

@@ -74,7 +74,7 @@ pub struct Place {
 }
 
 impl Place {
-    /// Of a stage lit for this view.
+    /// The place of a stage that is lit for this view.
     #[must_use]
     pub fn of(view: &View) -> Self {
         let units = StageUnits::of(view);

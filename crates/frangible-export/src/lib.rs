@@ -9,7 +9,8 @@
 //!   same bytes.
 //! * [`write_vtu`] writes tetrahedra with fields at their nodes for ParaView.
 //! * [`write_atomically`] puts bytes on disk so that no reader ever finds half
-//!   a file under the final name.
+//!   a file under the final name; [`make_folder`] and [`try_file`] prove
+//!   beforehand that there is a place for it.
 //!
 //! The world is right-handed, y up, in metres, kilograms and seconds, as in
 //! glTF.
@@ -18,6 +19,7 @@ mod atomic;
 mod bounds;
 mod error;
 mod glb;
+mod place;
 mod recording;
 mod validate;
 mod vtu;
@@ -26,6 +28,7 @@ pub use atomic::write_atomically;
 pub use error::{ExportError, RecordingError};
 pub use glam;
 pub use glb::write_glb;
+pub use place::{make_folder, try_file};
 pub use recording::{
     Floor, MeshPart, Moments, Pose, RecordedMesh, RecordedNode, Recording, SurfaceMaterial, View,
 };

@@ -1,4 +1,7 @@
 //! What happened, as plain data.
+//!
+//! A recording belongs to this crate so that pictures and files share one plain description of what happened, and neither needs
+//! the physics.
 
 use std::ops::Range;
 

@@ -2,7 +2,8 @@
 
 use std::time::Instant;
 
-use frangible::{Breakable, FractureConfig, Outcome, Stage};
+use frangible::internals::Stage;
+use frangible::{Breakable, FractureConfig, Outcome};
 use rayon::prelude::*;
 
 use crate::device::Gpu;

@@ -1,6 +1,7 @@
 //! Impacts in batches: which of them held, and what becomes of the others.
 
-use frangible::{Body, Contact, FractureConfig, Outcome, Stage, Vibration};
+use frangible::internals::{Stage, Vibration};
+use frangible::{Body, Contact, FractureConfig, Outcome};
 use rayon::prelude::*;
 
 use crate::device::Gpu;
@@ -26,7 +27,7 @@ pub struct Impact<'a> {
 }
 
 impl<'a> Impact<'a> {
-    /// Of a body whose kind is loaded.
+    /// An impact on a body whose kind is loaded.
     #[must_use]
     pub fn new(kind: &'a Loaded, body: &'a Body, contacts: &'a [Contact]) -> Self {
         Self {

@@ -1,9 +1,10 @@
 //! What comes back of an impact: where and when its stress passes the strength.
 
-use frangible::stress::{
+use frangible::internals::stress::{
     DisplacementBatch, Elasticity, Symmetric3, largest_eigenvalue, largest_eigenvalue_bound,
 };
-use frangible::{Body, FractureConfig, LookedAt, Vibration};
+use frangible::internals::{LookedAt, Vibration};
+use frangible::{Body, FractureConfig};
 
 use crate::passes::HEADER;
 
@@ -108,7 +109,7 @@ impl Initiation {
         self.margin = body.weakest() / felt;
     }
 
-    /// Of an impact whose bound, Pa, passes the limit at no time step.
+    /// What is told of an impact whose bound, Pa, passes the limit at no time step.
     pub(crate) fn passed_over(bound: f32, body: &Body, time_steps: usize) -> Self {
         let mut found = Self {
             passed_over: bound,

@@ -1,8 +1,8 @@
 //! The modal response as the GPU steps it: matrices per mode, and states to restart from.
 
 use frangible::Material;
-use frangible::contact::Pulse;
-use frangible::modal::{ModalBasis, Oscillator};
+use frangible::internals::contact::Pulse;
+use frangible::internals::modal::{ModalBasis, Oscillator};
 
 use crate::passes::COLUMNS;
 
@@ -85,7 +85,7 @@ fn power_of_two(a: &Matrix4, n: u32) -> Matrix4 {
 
 #[cfg(test)]
 mod tests {
-    use frangible::modal::respond;
+    use frangible::internals::modal::respond;
 
     use super::*;
 

@@ -2,8 +2,9 @@
 
 use std::collections::HashMap;
 
-use frangible::stress::Law;
-use frangible::{Body, Breakable, FractureConfig, Vibration};
+use frangible::internals::Vibration;
+use frangible::internals::stress::Law;
+use frangible::{Body, Breakable, FractureConfig};
 
 use crate::error::GpuError;
 use crate::passes::COLUMNS;
@@ -39,7 +40,7 @@ pub(crate) struct Wave {
     pub(crate) weak: Vec<u32>,
     pub(crate) columns: usize,
     pub(crate) records: usize,
-    /// Of each impact.
+    /// What each impact has of the lists.
     pub(crate) spans: Vec<Span>,
     /// Where the weak tetrahedra of a body begin, with some of them under a contact: impacts of one body share them. Looked
     /// up only, never iterated.
@@ -56,9 +57,9 @@ pub(crate) struct Span {
     /// Its first live column, once the bounds are known, and how many it has.
     first_alive: usize,
     pub(crate) alive: usize,
-    /// Largest bound of its other columns, Pa …
+    /// Largest bound of its other columns, Pa.
     pub(crate) passed_over: f32,
-    /// … and of all.
+    /// Largest bound of all columns, Pa.
     pub(crate) bound: f32,
 }
 

@@ -3,8 +3,9 @@
 mod common;
 
 use common::{Numbers, gpu, kinds, uneven, weak_rim};
-use frangible::stress::Law;
-use frangible::{Body, Breakable, Contact, FractureConfig, Stage, Vibration};
+use frangible::internals::stress::Law;
+use frangible::internals::{Stage, Vibration};
+use frangible::{Body, Breakable, Contact, FractureConfig};
 use frangible_gpu::{
     DOUBT, Exceedance, GpuError, Impact, Initiation, LIST, Verdict, initiation_on_cpu,
     would_start_on_cpu,

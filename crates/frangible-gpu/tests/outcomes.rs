@@ -3,9 +3,8 @@
 mod common;
 
 use common::{Numbers, cracks_and_pieces, gpu, kinds, uneven};
-use frangible::{
-    Body, Breakable, Contact, FractureConfig, LookedAt, Outcome, Stage, Vibration, impact,
-};
+use frangible::internals::{LookedAt, Stage, Vibration};
+use frangible::{Body, Breakable, Contact, FractureConfig, Outcome, impact};
 use frangible_gpu::{Choice, Impact, RanOn, Solver, initiation_on_cpu};
 
 #[test]

@@ -2,6 +2,9 @@
 //!
 //! A mesh file becomes an [`InputMesh`] (what is drawn, kept as it is), is repaired to a [`Surface`] (what is
 //! solid), becomes a [`Solid`] by its generalised winding number, and is filled with tetrahedra.
+//!
+//! The mesher is a crate of its own because it needs no finite elements: its tests and fuzz targets build in seconds, and it is
+//! of use without the rest.
 
 pub mod distance;
 mod error;

@@ -1,4 +1,6 @@
 //! Tetrahedra from a file → a body, or the reason why not.
+//!
+//! Imported tetrahedra are mended or refused by element number and are never meshed anew, since whoever brings them chose them.
 
 use std::fmt;
 

@@ -5,6 +5,8 @@
 //! motion as ever. Where the verdict comes in the step of the blow, the blow's impulse takes the place of the engine's
 //! (`exchange.rs`); a body that waited, or was judged elsewhere, keeps what the engine gave it, since by then the bodies are
 //! elsewhere. Work is counted in tetrahedra, not in time, so that the same bodies break in the same step on any machine.
+//!
+//! A heap costs what its colliders have parts, so the cell shares of a piece are merged to 12 of at most 48 points each.
 
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
@@ -313,7 +315,7 @@ impl BreakableWorld {
             return 0;
         };
         let cleared = self.clears_quickly
-            && frangible::is_harmless(body, &impact.contacts, &self.config.fracture);
+            && frangible::internals::is_harmless(body, &impact.contacts, &self.config.fracture);
         if cleared {
             0
         } else {

@@ -1,7 +1,8 @@
 //! What blows that were integrated say of the impulses between bodies that met.
 
+use frangible::ImpactReport;
 use frangible::glam::{DVec3, Vec3};
-use frangible::{DurationModel, ImpactReport};
+use frangible::internals::DurationModel;
 use rapier3d::dynamics::RigidBodyHandle;
 use rapier3d::math::Pose;
 

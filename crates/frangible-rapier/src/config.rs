@@ -99,8 +99,9 @@ pub struct WorldConfig {
     pub hull_volume_ratio: f32,
     /// How finely the collider of a whole body follows it. Default: all the convex cells of the bake, 128 points each.
     pub whole_collider: ColliderDetail,
-    /// The same of fragments that one hull does not fit. Default: 12 parts of at most 48 points. What a heap of pieces costs
-    /// is mostly this. Measured in `frangible bench shop`, Rapier's time per frame: every share of a cell with 128 points
+    /// How finely the colliders follow fragments that one hull does not fit. Default: 12 parts of at most 48 points. What a heap of pieces
+    /// costs
+    /// is mostly this. Measured in `frangible-lab bench shop`, Rapier's time per frame: every share of a cell with 128 points
     /// 97 ms, this 45 ms, 4 parts of 24 points with [`WorldConfig::hull_volume_ratio`] 3 13 ms.
     pub fragment_collider: ColliderDetail,
     /// Speed at which fragments of one parent part when they overlap, m/s; zero leaves overlaps alone.

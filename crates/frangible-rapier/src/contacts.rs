@@ -8,8 +8,9 @@
 
 use std::collections::BTreeMap;
 
-use frangible::contact::answer_duration;
-use frangible::{Body, Contact, DurationModel, Striker};
+use frangible::internals::DurationModel;
+use frangible::internals::contact::answer_duration;
+use frangible::{Body, Contact, Striker};
 use rapier3d::dynamics::{FrictionModel, RigidBody, RigidBodyHandle};
 use rapier3d::geometry::ColliderHandle;
 use rapier3d::math::Vector;

@@ -2,7 +2,8 @@
 
 use std::sync::Arc;
 
-use frangible::{Asset, BodyState, Contact, Fracture, ImpactReport};
+use frangible::internals::BodyState;
+use frangible::{Asset, Contact, Fracture, ImpactReport};
 use rapier3d::dynamics::RigidBodyHandle;
 use rapier3d::math::{Pose, Vector};
 

@@ -1,7 +1,7 @@
 //! The blow's impulses take the place of the engine's.
 //!
 //! The engine gives each meeting of two bodies the impulse (1 + e) v / K of two rigid ones. What a body that vibrates takes is
-//! known only from the integrated blow ([`frangible::blow`]), whose impulses are outcomes. Impulses are put on both bodies, equal
+//! known only from the integrated blow ([`frangible::internals::blow`]), whose impulses are outcomes. Impulses are put on both bodies, equal
 //! and opposite and on one line, so that momentum is exact.
 //!
 //! **A blow that holds**: after the step, the difference between the two normal impulses, at the arms that the engine
@@ -18,7 +18,7 @@
 use std::collections::BTreeMap;
 
 use frangible::glam::{DVec3, Vec3};
-use frangible::mesh::closest_on_triangle;
+use frangible::internals::mesh::closest_on_triangle;
 use frangible::{Fracture, TriMesh};
 use rapier3d::dynamics::{RigidBody, RigidBodyHandle, RigidBodySet};
 

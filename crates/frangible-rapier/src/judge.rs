@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 
-use frangible::outcome::LookedAt;
+use frangible::internals::outcome::LookedAt;
 use frangible::{Body, Fracture, Outcome};
 use rapier3d::dynamics::RigidBodyHandle;
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};

@@ -24,7 +24,7 @@
 //!
 //! # What breaks a body
 //! Impacts, with their friction, on one body or on two breakable ones that meet. What it carries: after every step the
-//! forces of its resting contacts, and a held body's weight, are put to [`frangible::rest()`];
+//! forces of its resting contacts, and a held body's weight, are put to [`frangible::internals::rest()`];
 //! [`BreakableWorld::rest_margin`] says how far it is from breaking. [`BreakableWorld::blast`] and
 //! [`BreakableWorld::fracture_at`]. [`BreakEvent::cause`] tells which it was. [`BreakableWorld::would_break`] asks before.
 //!
@@ -45,14 +45,14 @@
 //! For scenes of hundreds of bodies take [`Breaking::AfterStep`]: no copy, no second step, work spread over steps by a
 //! budget and over threads; [`ColliderDetail`] for light colliders; [`WorldConfig::dust_mass`] and
 //! [`WorldConfig::debris_mass`] for what is too small to matter; the feature `parallel` for Rapier's own threads. All of it
-//! gives the same bits on any number of threads. The china shop of `frangible-bench` does it for a thousand.
+//! gives the same bits on any number of threads. The china shop of `frangible_lab::bench` does it for a thousand.
 //!
 //! # What is held
 //! A body whose asset has supports (a pane in its frame, a shelf in its wall) is fixed until it breaks; then the
 //! fragments with a supported node stay, the others fall.
 //!
 //! # Fragments that break again
-//! With a model of how they vibrate ([`BreakableWorld::set_piece_model`]; crate `frangible-pieces` has several) fragments
+//! With a model of how they vibrate ([`BreakableWorld::set_piece_model`]; module `pieces` of `frangible-bake` has several) fragments
 //! become breakable bodies [`PieceConfig::delay`] after they were born, within limits of generation, mass and size; below
 //! them they are plain bodies. Bodies that are cracked but whole get new, lower modes the same way.
 //!

@@ -1,7 +1,7 @@
 //! Exact mass properties in Rapier's form.
 
-use frangible::MassProperties as Exact;
 use frangible::glam::{DMat3, DVec3};
+use frangible::internals::MassProperties as Exact;
 use rapier3d::dynamics::MassProperties;
 use rapier3d::math::{Matrix, Rotation, Vector};
 
@@ -28,7 +28,7 @@ pub(crate) fn rapier_mass(exact: &Exact) -> Result<MassProperties, WorldError> {
     ))
 }
 
-/// Of a solid ball: mass in kg, radius in m.
+/// Mass properties of a solid ball: mass in kg, radius in m.
 pub(crate) fn ball_mass(mass: f32, radius: f32) -> MassProperties {
     MassProperties::new(
         Vector::ZERO,

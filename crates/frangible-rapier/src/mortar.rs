@@ -2,6 +2,8 @@
 //!
 //! A fixed impulse joint over the face where they meet. Bodies that are bonded do not collide with each other; when the bond is
 //! gone they do.
+//!
+//! Its area and strength ride in the joint's user data, so that a piece of a broken brick keeps its bond.
 
 use rapier3d::dynamics::{
     FixedJointBuilder, GenericJoint, ImpulseJoint, ImpulseJointHandle, RigidBodyHandle,

@@ -7,8 +7,9 @@
 use std::sync::mpsc::{Receiver, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 
-use frangible::piece::{Elastic, PieceModel, Portion};
-use frangible::{Body, BodyState};
+use frangible::Body;
+use frangible::internals::BodyState;
+use frangible::internals::piece::{Elastic, PieceModel, Portion};
 use rapier3d::dynamics::RigidBodyHandle;
 
 use crate::config::PieceConfig;
@@ -21,7 +22,7 @@ pub(crate) struct Expected {
     handle: RigidBodyHandle,
     /// Step at whose beginning it joins the world.
     due: u64,
-    /// Of a body that is there already and had these cracks: it is replaced only if it still has them.
+    /// The cracks of a body that is there already: it is replaced only if it still has them.
     cracks: Option<BodyState>,
     body: Arc<Mutex<Made>>,
 }

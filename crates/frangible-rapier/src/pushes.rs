@@ -2,14 +2,15 @@
 //! anything: what breaks is replaced at once, and what was pushed goes on from there.
 //!
 //! A blast pushes every dynamic body too. Of a breakable body, and of its fragments, the outer triangles that face the
-//! origin are lit, each with the impulse per area of [`frangible::Blast`]; hidden crack faces are not. Of any other body
+//! origin are lit, each with the impulse per area of [`frangible::internals::Blast`]; hidden crack faces are not. Of any other body
 //! only colliders are known: a ball is lit over its near half, 2/3 of its cross-section's worth; any other shape is taken
 //! for its local bounding box. Nothing casts a shadow on anything else.
 
 use std::sync::Arc;
 
 use frangible::glam::Vec3;
-use frangible::{Blast, Fracture, Outcome, TriMesh};
+use frangible::internals::Blast;
+use frangible::{Fracture, Outcome, TriMesh};
 use rapier3d::dynamics::{RigidBody, RigidBodyHandle};
 use rapier3d::geometry::ColliderSet;
 use rapier3d::math::Vector;
@@ -23,7 +24,7 @@ use crate::settle::Broken;
 use crate::toll::take_energy;
 use crate::world::{BreakableWorld, key};
 
-/// Nearest that a part of the surface counts as, m: as [`frangible::blast`] has it.
+/// Nearest that a part of the surface counts as, m: as [`frangible::internals::blast`] has it.
 const NEAREST: f32 = 0.01;
 
 /// A load that waits for the next step; world coordinates.
@@ -50,7 +51,7 @@ struct Kick {
 
 impl BreakableWorld {
     /// A pressure pulse that spreads from `origin` (m): impulse per area at 1 m in Pa·s, duration in s; see
-    /// [`frangible::Blast`]. It acts at the beginning of the next step, on all dynamic bodies and on held breakable ones.
+    /// [`frangible::internals::Blast`]. It acts at the beginning of the next step, on all dynamic bodies and on held breakable ones.
     ///
     /// # Errors
     /// An origin that is not finite, an impulse or duration not above zero.
@@ -72,7 +73,7 @@ impl BreakableWorld {
     }
 
     /// A blow that a script asks for: an impulse (N·s) at a point (m), both in world axes, as if a rigid thing of 1 cm
-    /// radius had struck there, see [`frangible::fracture_at`]. It acts at the beginning of the next step. The nearest
+    /// radius had struck there, see [`frangible::internals::fracture_at`]. It acts at the beginning of the next step. The nearest
     /// fragment gets the impulse, or the whole body when it holds; a held one passes it on to its supports.
     ///
     /// # Errors
@@ -147,7 +148,7 @@ impl BreakableWorld {
             }
             let (surface, positions) = (&body.asset().surface, body.asset().surface_positions());
             let whole = kick_on(positions, &surface.triangles, &at(Vec3::ZERO));
-            let outcome = frangible::blast(body, &at(Vec3::ZERO), &self.config.fracture);
+            let outcome = frangible::internals::blast(body, &at(Vec3::ZERO), &self.config.fracture);
             let done = outcome.map_err(WorldError::from).and_then(|outcome| {
                 let kick_piece = |fracture: &Fracture, i: usize| {
                     let TriMesh {
@@ -180,7 +181,7 @@ impl BreakableWorld {
         };
         let local = rigid.position().inverse_transform_point(point);
         let push = rigid.rotation().inverse() * impulse;
-        let outcome = frangible::fracture_at(body, local, push, &self.config.fracture)?;
+        let outcome = frangible::internals::fracture_at(body, local, push, &self.config.fracture)?;
         let about = |centre: Vec3| Kick {
             linear: push,
             angular: (local - centre).cross(push),

@@ -25,7 +25,7 @@ struct Part {
     /// None of dust.
     shape: Option<SharedShape>,
     mass: MassProperties,
-    /// Of mass, in the parent's frame, m.
+    /// Centre of mass, in the parent's frame, m.
     centre: Vector,
     supported: bool,
 }

@@ -1,6 +1,6 @@
 //! What lies on what: resting contacts, asked at every step `[G12 §7.3.3]`.
 //!
-//! After a step each breakable body that is awake, or held, is put to [`frangible::rest()`] with the forces of its
+//! After a step each breakable body that is awake, or held, is put to [`frangible::internals::rest()`] with the forces of its
 //! resting contacts: impulse / time step, friction included. Contacts that approach faster than the impact speed are not
 //! among them. A single step's impulses are noisy (a thing put down at 0.1 m/s presses for one step of 1/240 s with three
 //! times its weight), so a load counts as the smallest of the last [`STEADY`] steps: a body breaks only when each of
@@ -10,8 +10,9 @@
 use std::collections::BTreeMap;
 
 use frangible::glam::Vec3;
-use frangible::outcome::LookedAt;
-use frangible::{Body, Contact, Force, Outcome, Striker};
+use frangible::internals::Force;
+use frangible::internals::outcome::LookedAt;
+use frangible::{Body, Contact, Outcome, Striker};
 use rapier3d::dynamics::{RigidBody, RigidBodyHandle};
 use rapier3d::pipeline::PhysicsWorld;
 
@@ -234,7 +235,7 @@ impl BreakableWorld {
         if self.weighs_quickly && burdens.get(&key(handle)).is_none_or(|b| b.over == 0) {
             let total = most_force_on(rigid, &self.physics);
             let gravity = self.physics.gravity.length() * rigid.gravity_scale().abs();
-            let margin = frangible::rest_margin_at_least(body, total, gravity);
+            let margin = frangible::internals::rest_margin_at_least(body, total, gravity);
             let known = burdens.contains_key(&key(handle));
             let burden = burdens.entry(key(handle)).or_default();
             burden.hard = match (margin >= EASE, known) {

@@ -28,7 +28,7 @@ pub(crate) struct Siblings {
     /// How much of an overlap siblings part by in a step, m.
     pub(crate) relaxation: f32,
     parents: u64,
-    /// By index of the body: asked for every pair of fragments in every step.
+    /// When each body was born, by its index: asked for every pair of fragments in every step.
     births: Vec<Option<Birth>>,
 }
 

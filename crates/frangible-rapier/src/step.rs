@@ -11,7 +11,8 @@
 
 use std::collections::BTreeMap;
 
-use frangible::{BodyState, Fracture, ImpactReport, Outcome};
+use frangible::internals::BodyState;
+use frangible::{Fracture, ImpactReport, Outcome};
 use rapier3d::dynamics::{RigidBodyHandle, RigidBodySet};
 
 use crate::approach::candidates;

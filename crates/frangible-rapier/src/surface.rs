@@ -1,6 +1,7 @@
 //! What a contact needs to know of a body's surface.
 
-use frangible::{Material, Preset};
+use frangible::Material;
+use frangible::internals::Preset;
 
 use crate::error::{WorldError, not_negative};
 

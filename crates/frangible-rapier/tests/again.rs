@@ -5,8 +5,9 @@ mod common;
 use std::sync::Arc;
 
 use common::baked::pane;
-use frangible::{Breakable, Fields};
-use frangible_pieces::{Method, Pieces};
+use frangible::Breakable;
+use frangible::internals::Fields;
+use frangible_bake::pieces::{Method, Pieces};
 use frangible_rapier::rapier3d::dynamics::{RigidBody, RigidBodyHandle};
 use frangible_rapier::rapier3d::math::{Pose, Vector};
 use frangible_rapier::{BreakableWorld, SurfaceProperties, WorldConfig};

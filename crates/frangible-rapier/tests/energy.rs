@@ -4,9 +4,9 @@ mod common;
 
 use common::baked::{block, pane};
 use common::{at, body, world};
-use frangible::DurationModel;
-use frangible::contact::answer_duration;
 use frangible::glam::{DVec3, Vec3};
+use frangible::internals::DurationModel;
+use frangible::internals::contact::answer_duration;
 use frangible_rapier::rapier3d::dynamics::RigidBodyHandle;
 use frangible_rapier::rapier3d::math::{Pose, Vector};
 use frangible_rapier::{Ball, BreakEvent, BreakableWorld, SurfaceProperties};

@@ -5,10 +5,8 @@ mod common;
 use common::baked::{block, shelf};
 use common::{at, body, box_asset, relative, slicer};
 use frangible::glam::Vec3;
-use frangible::{
-    Contact, Force, FractureConfig, LookedAt, Outcome, Striker, impact, is_harmless, rest,
-    rest_margin_at_least,
-};
+use frangible::internals::{Force, LookedAt, is_harmless, rest, rest_margin_at_least};
+use frangible::{Contact, FractureConfig, Outcome, Striker, impact};
 use frangible_rapier::rapier3d::dynamics::RigidBodyHandle;
 use frangible_rapier::rapier3d::geometry::ShapeType;
 use frangible_rapier::rapier3d::math::Vector;

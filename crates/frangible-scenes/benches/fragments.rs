@@ -8,7 +8,8 @@ use std::time::Duration;
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use frangible::glam::Vec3;
-use frangible::{Asset, Body, Contact, FractureConfig, Material, StageTimings, impact};
+use frangible::internals::StageTimings;
+use frangible::{Asset, Body, Contact, FractureConfig, Material, impact};
 use frangible_bake::{BakeSpec, Shape, bake};
 
 #[path = "../tests/common/mod.rs"]

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use std::ops::RangeInclusive;
 use std::sync::Arc;
 
-use frangible::asset::SaveOptions;
+use frangible::internals::asset::SaveOptions;
 use frangible::{Asset, Body, Contact, FractureConfig, InputError, Striker, impact};
 use frangible_scenes::{SCENE_NAMES, bake, compacted, scene};
 

@@ -7,11 +7,10 @@ use std::error::Error;
 use std::sync::Arc;
 
 use frangible::glam::Vec3;
-use frangible::{
-    Body, Breakable, Contact, FractureConfig, Material, Outcome, Portion, Striker, impact,
-};
+use frangible::internals::Portion;
+use frangible::{Body, Breakable, Contact, FractureConfig, Material, Outcome, Striker, impact};
+use frangible_bake::pieces::reanalysis;
 use frangible_bake::{BakeSpec, Shape, bake};
-use frangible_pieces::reanalysis;
 
 /// Places around the wall.
 const PLACES: usize = 12;

@@ -1,6 +1,6 @@
 //! How materials look: outside and crack faces.
 
-use frangible::asset::RenderMaterial;
+use frangible::internals::asset::RenderMaterial;
 use frangible_export::SurfaceMaterial;
 
 /// Surfaces of a material's outside and of its crack faces.

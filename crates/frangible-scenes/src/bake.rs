@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use frangible::Asset;
-use frangible::asset::RenderSurface;
+use frangible::internals::asset::RenderSurface;
 use frangible_bake::{BakeReport, CancelToken, Group, Progress, Shape, check_groups};
 
 use crate::body::BodySpec;

@@ -1,7 +1,8 @@
 //! One breakable body of a scene.
 
+use frangible::Material;
 use frangible::glam::{Quat, Vec3};
-use frangible::{Material, Paint, Patch};
+use frangible::internals::{Paint, Patch};
 use frangible_bake::{Support, USUAL_MODES};
 
 use crate::rescale::Rescale;
@@ -41,8 +42,8 @@ pub struct BodySpec {
     /// Weakness painted with the vertex colours of its mesh; [`BodySpec::weakness`] lies over it. Not part of the bake, but the
     /// colours are.
     pub paint: Vec<Paint>,
-    /// Weibull modulus of the scatter of its strength, see [`frangible::Fields::weibull_modulus`]; 0: none. The material's preset
-    /// says it if nothing does here ([`frangible::Preset::weibull_modulus`]).
+    /// Weibull modulus of the scatter of its strength, see [`frangible::internals::Fields::weibull_modulus`]; 0: none. The material's preset
+    /// says it if nothing does here ([`frangible::internals::Preset::weibull_modulus`]).
     pub weibull_modulus: Option<f64>,
     /// What is to differ from the bake of a [`BodySource::Asset`]; not looked at for other sources.
     pub rescale: Rescale,

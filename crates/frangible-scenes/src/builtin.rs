@@ -2,8 +2,9 @@
 
 use std::f32::consts::FRAC_PI_2;
 
+use frangible::Material;
 use frangible::glam::{Quat, Vec3};
-use frangible::{Material, Patch, Zone};
+use frangible::internals::{Patch, Zone};
 use frangible_bake::{Region, Shape, Support};
 use frangible_mesh::nearest_name;
 

@@ -116,7 +116,7 @@ pub enum SceneError {
     },
     /// A file of a baked body that cannot be read or written.
     #[error(transparent)]
-    Asset(#[from] frangible::AssetFileError),
+    Asset(#[from] frangible::internals::AssetFileError),
     /// A baked body that cannot be of the material or size asked for.
     #[error("{}: {source}{hint}", path.display())]
     Rescale {
@@ -170,7 +170,7 @@ pub enum SceneError {
     Input(#[from] frangible::InputError),
     /// No such material.
     #[error(transparent)]
-    Material(#[from] frangible::UnknownMaterial),
+    Material(#[from] frangible::internals::UnknownMaterial),
     /// A rise time that is no time, or a material whose strength at high rates is not known.
     #[error(
         "`rise_time = {rise_time}` of material `{name}`: it must be above 0 s, and the preset one of {known}; remove it to keep the strength of slow tests"

@@ -6,6 +6,7 @@ use std::path::Path;
 use frangible::Material;
 
 use crate::body::BodySpec;
+use crate::builtin::{SCENE_NAMES, scene};
 use crate::check::tame;
 use crate::error::SceneError;
 use crate::scene::Scene;
@@ -48,6 +49,17 @@ pub fn scene_of_file(path: &Path) -> Result<Scene, SceneError> {
     let mut scene = Scene::one_body(body);
     scene.summary = format!("{} dropped", path.display());
     Ok(scene)
+}
+
+/// The scene of a file where one is given, else the built-in scene of this name, else the first built-in one.
+///
+/// # Errors
+/// As [`scene_of_file`] and [`scene()`](crate::scene()).
+pub fn scene_of(file: Option<&Path>, name: Option<&str>) -> Result<Scene, SceneError> {
+    match file {
+        Some(file) => scene_of_file(file),
+        None => scene(name.unwrap_or(SCENE_NAMES[0])),
+    }
 }
 
 /// Reads a scene file. Paths in it are relative to its folder.

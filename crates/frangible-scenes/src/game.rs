@@ -43,9 +43,9 @@ impl Default for GamePlan {
 pub struct GameRun {
     /// What each frame took, without waiting for its beginning, s.
     pub frames: Vec<f64>,
-    /// Bodies of the scene that broke …
+    /// Bodies of the scene that broke.
     pub breaks: usize,
-    /// … and pieces that broke again.
+    /// Pieces that broke again.
     pub again: usize,
     /// Where each rigid body is in the end: place, m, and rotation.
     pub poses: Vec<[f32; 7]>,

@@ -11,6 +11,9 @@
 //!
 //! [`scene()`] gives a built-in scene, [`scene_of_file`] one from a scene file, a mesh or a baked body, and
 //! [`parse_scene`] one from TOML text; [`scene_to_toml`] goes back.
+//!
+//! A browser needs no solver: without the feature `bake` the crate has neither finite elements nor faer, and baked bodies have
+//! to be given.
 
 mod again;
 mod appearance;
@@ -43,7 +46,7 @@ pub use bake::{BakedBody, bake, bake_opened, bake_until, open_sources};
 pub use body::{BodySpec, Place};
 pub use builtin::{SCENE_NAMES, scene};
 pub use error::SceneError;
-pub use files::{read_scene, scene_of_file};
+pub use files::{read_scene, scene_of, scene_of_file};
 pub use first_break::{FirstBreak, first_break};
 pub use frangible_bake::{CancelToken, Region, Support};
 pub use game::{GamePlan, GameRun, play_as_game};

@@ -3,16 +3,17 @@
 use std::collections::HashMap;
 
 use frangible::glam::Vec3;
-use frangible::{Asset, Fragment, RenderMesh, box_projection};
+use frangible::internals::{RenderMesh, box_projection};
+use frangible::{Asset, Fragment};
 use frangible_export::{MeshPart, RecordedMesh};
 
 /// Indices of the surfaces (materials) of the outside and of the crack faces.
 #[derive(Clone, Debug)]
 pub(crate) struct BodySurfaces {
-    /// Of an outside without materials of its own.
+    /// Surface of an outside without materials of its own.
     pub(crate) outer: usize,
     pub(crate) inner: usize,
-    /// Of the materials that came with a mesh file.
+    /// Surfaces of the materials that came with a mesh file.
     pub(crate) authored: Vec<usize>,
 }
 

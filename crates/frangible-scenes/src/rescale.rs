@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use frangible::glam::Vec3;
-use frangible::{Asset, Material, Preset};
+use frangible::internals::Preset;
+use frangible::{Asset, Material};
 use frangible_bake::{RescaleError, scaled, with_material};
 
 use crate::error::SceneError;
@@ -27,7 +28,7 @@ pub struct MaterialEdit {
     /// The numbers of [`MaterialEdit::KEYS`], where another.
     pub numbers: [Option<f64>; 13],
     /// Time in which stress rises to the strength, s: the strength is then what the preset's
-    /// [rate law](frangible::RateLaw) makes of it.
+    /// [rate law](frangible::internals::RateLaw) makes of it.
     pub rise_time: Option<f64>,
 }
 
@@ -120,7 +121,7 @@ impl MaterialEdit {
             let law = law
                 .filter(|_| rise_time.is_finite() && rise_time > 0.0)
                 .ok_or_else(wrong)?;
-            m.strength = law.strength(m.strength, rise_time);
+            m.strength = law.strength(m.strength, rise_time)?;
         }
         Ok(m)
     }

@@ -1,4 +1,7 @@
 //! Lets a scene happen, and records it.
+//!
+//! Steps are fine until a body breaks: at 1/240 s a falling body moves 2 cm in a step, and Rapier shares the blow among points
+//! that are not there yet. At 1/3840 s there is one contact, where it is.
 
 use std::collections::BTreeMap;
 

@@ -2,7 +2,7 @@
 
 use frangible::FractureConfig;
 use frangible::glam::Vec3;
-use frangible_pieces::Method;
+use frangible_bake::pieces::Method;
 
 use crate::body::BodySpec;
 use crate::output::Output;

@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use frangible::Asset;
-use frangible::asset::RenderSurface;
+use frangible::internals::asset::RenderSurface;
 use frangible_bake::{Group, Shape};
 
 use crate::error::SceneError;

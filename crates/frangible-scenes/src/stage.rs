@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use frangible::glam::{Quat, Vec3};
-use frangible::{Asset, Body, Breakable, Fields, Material, Preset};
+use frangible::internals::Fields;
+use frangible::{Asset, Body, Breakable, Material};
 use frangible_rapier::rapier3d::dynamics::RigidBodyHandle;
 use frangible_rapier::rapier3d::geometry::SharedShape;
 use frangible_rapier::rapier3d::math::{Pose, Rotation, Vector};
@@ -24,7 +25,7 @@ use crate::scene::Scene;
 /// Gap between a standing body and the floor, m.
 const STANDING_GAP: f32 = 1e-4;
 
-/// Of more bodies than this the colliders are light.
+/// With more bodies than this the colliders are light.
 pub(crate) const FEW: usize = 8;
 
 /// A body in the world.
@@ -61,7 +62,7 @@ pub(crate) fn set_up<'a>(scene: &'a Scene, baked: &[BakedBody]) -> Result<Stage<
     set_up_as(scene, baked, |_| {})
 }
 
-/// The same in a world of other settings.
+/// Sets up a scene in a world of other settings.
 pub(crate) fn set_up_as<'a>(
     scene: &'a Scene,
     baked: &[BakedBody],
@@ -118,7 +119,7 @@ pub(crate) fn set_up_as<'a>(
     }
     #[cfg(feature = "bake")]
     if scene.pieces.generations > 0 {
-        let model = frangible_pieces::Pieces::new(scene.pieces.method);
+        let model = frangible_bake::pieces::Pieces::new(scene.pieces.method);
         world.set_piece_model(Some(Arc::new(model)));
     }
     let numbers = 0..scene.projectiles.len();
@@ -262,11 +263,13 @@ fn is_convex(asset: &Asset) -> bool {
 /// # Errors
 /// A weakness that cannot be used.
 pub fn breakable(spec: &BodySpec, asset: &Arc<Asset>) -> Result<Breakable, SceneError> {
-    let of_preset = || Preset::named(&asset.material.name).map_or(0.0, |p| p.weibull_modulus);
-    let scatter = spec.weibull_modulus.unwrap_or_else(of_preset);
     let fields = Fields::from_paint(asset, &spec.paint)?
         .patched(asset, &spec.weakness)?
-        .with_weibull_modulus(scatter);
+        .scattered_as(&asset.material);
+    let fields = match spec.weibull_modulus {
+        Some(modulus) => fields.with_weibull_modulus(modulus),
+        None => fields,
+    };
     Ok(Breakable::new(Arc::clone(asset))?.with_fields(fields)?)
 }
 

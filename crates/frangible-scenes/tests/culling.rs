@@ -4,10 +4,8 @@ mod common;
 
 use common::{block, blow, glass, pane, rim_hit, steel_ball, stone_floor};
 use frangible::glam::Vec3;
-use frangible::{
-    Asset, Breakable, Contact, Factors, Fields, Force, FractureConfig, LookedAt, Outcome, Patch,
-    Zone, impact, rest, would_break,
-};
+use frangible::internals::{Factors, Fields, Force, LookedAt, Patch, Zone, rest};
+use frangible::{Asset, Breakable, Contact, FractureConfig, Outcome, impact, would_break};
 use std::sync::Arc;
 
 /// Numbers in 0..1 (a linear congruential generator).

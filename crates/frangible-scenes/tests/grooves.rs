@@ -7,9 +7,8 @@ use std::sync::Arc;
 
 use common::{blow, steel_ball, stone_floor};
 use frangible::glam::Vec3;
-use frangible::{
-    Asset, Breakable, Contact, CrackTrace, Fields, FractureConfig, Patch, impact_traced,
-};
+use frangible::internals::{CrackTrace, Fields, Patch, impact_traced};
+use frangible::{Asset, Breakable, Contact, FractureConfig};
 use frangible_scenes::{bake, scene};
 
 /// Area over which s = 0 crosses a tetrahedron, m².

@@ -6,10 +6,8 @@ use std::sync::Arc;
 
 use common::{blow, glass, pane, pieces, stone_floor};
 use frangible::glam::Vec3;
-use frangible::{
-    Asset, Blast, Body, Contact, Force, FractureConfig, LookedAt, Material, Outcome, blast,
-    fracture_at, impact, rest, would_break,
-};
+use frangible::internals::{Blast, Force, LookedAt, blast, fracture_at, rest};
+use frangible::{Asset, Body, Contact, FractureConfig, Material, Outcome, impact, would_break};
 use frangible_bake::{BakeSpec, Region, Shape, Support, bake};
 
 const GRAVITY: Vec3 = Vec3::new(0.0, 0.0, -9.81);

@@ -9,9 +9,8 @@ mod common;
 
 use common::{blow, steel_ball};
 use frangible::glam::Vec3;
-use frangible::{
-    Asset, Breakable, Channel, Fields, FractureConfig, Paint, Patch, Zone, impact_traced,
-};
+use frangible::internals::{Channel, Fields, Paint, Patch, Zone, impact_traced};
+use frangible::{Asset, Breakable, FractureConfig};
 use frangible_scenes::{Scene, bake, parse_scene, play};
 
 /// Sides of the plate, m.

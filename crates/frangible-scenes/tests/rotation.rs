@@ -8,9 +8,10 @@ mod common;
 use std::sync::Arc;
 
 use common::{block, blow, pane, steel_ball, stone_floor};
-use frangible::asset::{AnalysisMesh, OuterSurface};
 use frangible::glam::{DMat3, Mat3, Quat, Vec3};
-use frangible::{Asset, Body, Contact, FractureConfig, TetMesh, impact_traced};
+use frangible::internals::asset::{AnalysisMesh, OuterSurface};
+use frangible::internals::{TetMesh, impact_traced};
+use frangible::{Asset, Body, Contact, FractureConfig};
 
 /// The asset in a frame turned by q.
 fn turned(asset: &Asset, q: Quat) -> Asset {
@@ -102,8 +103,10 @@ fn a_body_turned_with_its_blow_breaks_the_same_way() {
                     ..contact
                 };
                 let other = run(turned(&asset, q), contact);
-                let cuts = |trace: &frangible::CrackTrace| -> Vec<Vec<u32>> {
-                    let tets = |c: &Vec<frangible::ElementTrace>| c.iter().map(|e| e.tet).collect();
+                let cuts = |trace: &frangible::internals::CrackTrace| -> Vec<Vec<u32>> {
+                    let tets = |c: &Vec<frangible::internals::ElementTrace>| {
+                        c.iter().map(|e| e.tet).collect()
+                    };
                     trace.cracks.iter().map(tets).collect()
                 };
                 all += 1;

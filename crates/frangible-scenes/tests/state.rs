@@ -6,7 +6,8 @@ mod common;
 use std::sync::Arc;
 
 use common::{glass, pieces, rim_hit};
-use frangible::{Body, BodyState, Breakable, Contact, FractureConfig, InputError, Outcome, impact};
+use frangible::internals::BodyState;
+use frangible::{Body, Breakable, Contact, FractureConfig, InputError, Outcome, impact};
 
 /// Blows of this speed leave cracks in the glass and it whole.
 const SPEED: f64 = 0.8;

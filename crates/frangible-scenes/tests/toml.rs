@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use frangible::glam::{Quat, Vec3};
-use frangible::{Channel, CrackPath, CrackTiming, FractureConfig, Material, Paint, Patch, Zone};
+use frangible::internals::{Channel, CrackPath, CrackTiming, Paint, Patch, Zone};
+use frangible::{FractureConfig, Material};
 use frangible_bake::{Shape, Station};
 use frangible_scenes::{
     Axis, BodySource, BodySpec, FileWish, MaterialEdit, Place, Projectile, ProjectileKind, Region,

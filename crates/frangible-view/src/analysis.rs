@@ -4,12 +4,11 @@ use std::f64::consts::PI;
 use std::sync::Arc;
 
 use frangible::glam::Vec3;
-use frangible::mesh::TetMesh;
-use frangible::modal::Motion;
-use frangible::stress::largest_eigenvalue;
-use frangible::{
-    Asset, Body, Contact, FractureConfig, InputError, Stage, Vibration, impact_traced,
-};
+use frangible::internals::mesh::TetMesh;
+use frangible::internals::modal::Motion;
+use frangible::internals::stress::largest_eigenvalue;
+use frangible::internals::{Stage, Vibration, impact_traced};
+use frangible::{Asset, Body, Contact, FractureConfig, InputError};
 
 use crate::blow::Blow;
 use frangible_bake::mode_field::motion_on_analysis_mesh;

@@ -210,7 +210,7 @@ pub struct FilmOptions {
     pub rate: f64,
     /// Width and height, pixels.
     pub size: [u32; 2],
-    /// Of a still: paths per pixel; noise falls with the square root of it.
+    /// Paths per pixel of a still; its noise falls with the square root of this number.
     pub samples: u32,
 }
 

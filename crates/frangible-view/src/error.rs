@@ -56,7 +56,7 @@ pub enum ViewError {
     Compare(#[from] frangible_compare::CompareError),
     /// No such material.
     #[error(transparent)]
-    Material(#[from] frangible::UnknownMaterial),
+    Material(#[from] frangible::internals::UnknownMaterial),
     /// A body that cannot be of the material asked for.
     #[error(transparent)]
     Rescale(#[from] frangible_bake::RescaleError),

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use frangible::Asset;
 use frangible::glam::Vec3;
-use frangible::stress::largest_eigenvalue;
+use frangible::internals::stress::largest_eigenvalue;
 use frangible_bake::mode_field::{
     ModeField, mode_on_fracture_mesh, motion_on_analysis_mesh, motion_on_fracture_mesh,
 };

@@ -1,5 +1,7 @@
 //! The things of a scene as batches: many pieces in each, so that drawing them costs a few calls, and each piece written
 //! again only when it moved, so that a floor full of shards at rest costs nothing.
+//!
+//! The renderer knows one pose per draw call only, and 500 draws cost more than 20 uploads.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;

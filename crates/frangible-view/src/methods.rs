@@ -109,7 +109,7 @@ struct Layout {
 }
 
 impl Methods {
-    /// Of a method, if it was computed.
+    /// The outcome of a method, if it was computed.
     #[must_use]
     pub fn outcome(&self, method: Method) -> Option<&Arc<Outcome>> {
         self.outcomes.iter().find(|known| known.method == method)

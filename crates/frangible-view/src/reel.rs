@@ -1,4 +1,6 @@
 //! The last seconds, kept as poses: what a film is made of. Keeping them costs a few microseconds sixty times a second.
+//!
+//! Films are drawn by the renderer of the pictures, which has a graphics context of its own on a thread of its own.
 
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;

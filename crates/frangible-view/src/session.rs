@@ -433,7 +433,7 @@ fn settings_of(scene: &Scene, baked: Option<&BakedBody>) -> Option<Settings> {
 /// c of Eq. 2 as printed, where that model is in use; else one of the right order for a hand-sized thing.
 fn printed_coefficient(fracture: &FractureConfig) -> f64 {
     match fracture.duration {
-        frangible::DurationModel::AsPrinted { c } => c,
+        frangible::internals::DurationModel::AsPrinted { c } => c,
         _ => 0.01,
     }
 }

@@ -1,4 +1,7 @@
 //! The window: draws what the session shows, and turns mouse, keys and panels into commands.
+//!
+//! The window opens before the graphics adapter is asked for: some drivers visit the display, and a display server without
+//! guests resets itself.
 
 #[cfg(not(target_family = "wasm"))]
 mod desktop;
@@ -42,7 +45,7 @@ const REST: Duration = Duration::from_millis(12);
 /// How long frames are drawn after the last news: panels fade, and hints come after half a second.
 const LIVELY: Duration = Duration::from_millis(1200);
 
-/// Of frames with nothing new one in so many is drawn.
+/// Where frames show nothing new, one in so many is drawn.
 const SELDOM: u32 = 40;
 
 /// Everything the window needs.

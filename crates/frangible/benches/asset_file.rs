@@ -4,8 +4,9 @@ use std::hint::black_box;
 use std::path::Path;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use frangible::asset::seal;
-use frangible::{Asset, TetMesh};
+use frangible::Asset;
+use frangible::internals::TetMesh;
+use frangible::internals::asset::seal;
 
 #[path = "../tests/common/mod.rs"]
 mod common;

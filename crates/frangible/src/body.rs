@@ -32,7 +32,7 @@ pub struct Breakable {
 /// What follows from an asset and every impact needs.
 #[derive(Debug)]
 pub(crate) struct Prepared {
-    /// Of a piece: what was prepared for the body as it was baked.
+    /// What was prepared for the body as it was baked, where this is a piece of it.
     pub(crate) root: Option<Arc<Prepared>>,
     /// What hangs together in the fracture mesh.
     pub(crate) index: Arc<MeshIndex>,
@@ -42,9 +42,9 @@ pub(crate) struct Prepared {
     pub(crate) render: Option<RenderIndex>,
     /// Free surfaces: flaws and walls.
     pub(crate) skin: Skin,
-    /// Stress bounds of the clusters …
+    /// Stress bounds of the clusters.
     pub(crate) bounds: StressBounds,
-    /// … and of the whole body: stress and gradient, one number per mode.
+    /// Stress bounds of the whole body: stress and gradient, one number per mode.
     pub(crate) whole: (Vec<f32>, Vec<f32>),
     /// 1/√λ_i of every mode, s.
     pub(crate) periods: Vec<f32>,
@@ -77,7 +77,7 @@ impl Breakable {
         Ok(Self::of_sound(asset))
     }
 
-    /// Of an asset that has been checked.
+    /// The kind of an asset that has been checked.
     pub(crate) fn of_sound(asset: Arc<Asset>) -> Self {
         let modes = &asset.modes;
         let skin = Skin::of(&asset);
@@ -121,7 +121,7 @@ impl Breakable {
         }
     }
 
-    /// Of the same asset, with strength, toughness and weak points that vary over the body: scored lines, painted weakness.
+    /// The kind of the same asset with strength, toughness and weak points that vary over the body: scored lines, painted weakness.
     ///
     /// # Errors
     /// Fields of another asset, or with a number that cannot be used.
@@ -238,7 +238,7 @@ pub struct Body {
     seed: u64,
     weak_tets: Vec<u32>,
     state: BodyState,
-    /// Of the cracks of its state.
+    /// Fronts of the cracks in its state.
     pub(crate) tips: Vec<Tip>,
 }
 
@@ -311,7 +311,7 @@ impl Body {
         }
     }
 
-    /// The same body, so many times as strong (above 0) and as tough as it was: the stress that a blow would bring is seen
+    /// This body, so many times as strong (above 0) and as tough as it was: the stress that a blow would bring is seen
     /// on one that does not crack.
     #[must_use]
     pub fn strengthened(&self, factor: f32) -> Self {

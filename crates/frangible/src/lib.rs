@@ -11,52 +11,44 @@
 //! - [`Outcome`]: held, or broken into [`Fragment`]s, with an [`ImpactReport`].
 //!
 //! [`FractureConfig`] holds the switches; its default goes beyond the paper, [`FractureConfig::as_in_the_paper`] does not.
+//! [`internals`] has the rest; its names may change in any release.
 //! Everything is in SI units and in the body frame (origin at the centre of mass). The same input gives the same bits.
 
-pub mod asset;
-pub mod blow;
-pub mod body;
-pub mod config;
-pub mod contact;
+mod asset;
+mod blow;
+mod body;
+mod config;
+mod contact;
 mod crack;
 mod cracking;
-pub mod error;
-pub mod fields;
+mod error;
+mod fields;
 mod fragment;
-pub mod impact;
-pub mod loads;
-pub mod material;
-pub mod mesh;
-pub mod modal;
-pub mod near_field;
+mod impact;
+pub mod internals;
+mod loads;
+mod material;
+mod mesh;
+mod modal;
+mod near_field;
 mod onset;
-pub mod outcome;
-pub mod piece;
+mod outcome;
+mod piece;
 mod presets;
 mod rng;
-pub mod state;
-pub mod stress;
+mod state;
+mod stress;
 mod trace;
 mod weak_clusters;
 mod weak_rows;
 
-pub use asset::{Asset, AssetFileError};
+pub use asset::Asset;
 pub use body::{Body, Breakable};
-pub use config::{CrackPath, CrackTiming, DurationModel, FractureConfig};
+pub use config::FractureConfig;
 pub use contact::{Contact, Striker};
-pub use crack::CrackFront;
 pub use error::InputError;
-pub use fields::{Channel, Factors, Fields, Paint, Patch, Zone};
-#[doc(hidden)]
-pub use fragment::{CutEdge, interfaces_of_labels, pieces_of_cuts};
 pub use glam;
-pub use impact::{Stage, Vibration, impact, impact_traced, is_harmless, would_break};
-pub use loads::{Blast, Force, blast, follow, fracture_at, rest, rest_margin_at_least};
+pub use impact::{impact, would_break};
 pub use material::Material;
-pub use mesh::{MassProperties, RenderMesh, TetMesh, TriMesh, box_projection};
-pub use onset::{Onset, OnsetSearch};
-pub use outcome::{Fracture, Fragment, ImpactReport, LookedAt, Outcome, StageTimings};
-pub use piece::{Elastic, PieceModel, Portion};
-pub use presets::{Preset, RateLaw, UnknownMaterial};
-pub use state::BodyState;
-pub use trace::{CrackTrace, ElementTrace};
+pub use mesh::TriMesh;
+pub use outcome::{Fracture, Fragment, ImpactReport, Outcome};

@@ -29,7 +29,7 @@ pub struct OnsetSearch {
 }
 
 impl OnsetSearch {
-    /// Of an impact that has begun.
+    /// Begins the search in an impact that has begun.
     #[must_use]
     pub fn new(body: &Body, vibration: Vibration) -> Self {
         Self {

@@ -53,7 +53,7 @@ pub struct Fracture {
 }
 
 impl Fracture {
-    /// Of pieces that came about elsewhere: they do not break again.
+    /// A break whose pieces came about elsewhere: they do not break again.
     #[must_use]
     pub fn new(fragments: Vec<Fragment>, report: ImpactReport) -> Self {
         Self {
@@ -104,6 +104,7 @@ pub struct ContactReport {
 
 /// What of an impact had to be looked at, from the cheapest.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+#[non_exhaustive]
 pub enum LookedAt {
     /// The sizes of its impulses, where they act and how long: one number of each place refused it.
     Sizes,
@@ -156,6 +157,8 @@ pub struct ImpactReport {
     pub crack_area: f64,
     /// Number of cracks that started.
     pub cracks: usize,
+    /// How many of them left another crack at a fork.
+    pub forks: usize,
     /// Number of weak points of the body.
     pub weak_points: usize,
     /// Time of the first crack after the contact began, s.

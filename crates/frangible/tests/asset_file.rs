@@ -3,9 +3,12 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use frangible::asset::{Embedding, FORMAT_VERSION, RenderSurface, SaveOptions, SurfaceWalls, seal};
 use frangible::glam::Vec3;
-use frangible::{Asset, AssetFileError, InputError};
+use frangible::internals::AssetFileError;
+use frangible::internals::asset::{
+    Embedding, FORMAT_VERSION, RenderSurface, SaveOptions, SurfaceWalls, seal,
+};
+use frangible::{Asset, InputError};
 
 mod common;
 use common::{Size, drawn_surface, synthetic_asset};
@@ -137,7 +140,7 @@ fn an_asset_comes_back_bit_for_bit() {
 #[test]
 fn a_rebuilt_adjacency_is_the_stored_one() {
     let asset = Asset::from_bytes(&tiny().to_bytes()).unwrap();
-    let rebuilt = frangible::TetMesh::new(
+    let rebuilt = frangible::internals::TetMesh::new(
         asset.fracture.positions.clone(),
         asset.fracture.tets.clone(),
     );
@@ -647,12 +650,13 @@ fn arrays_that_do_not_fit_are_refused() {
     fn drawn(asset: &mut Asset) -> &mut RenderSurface {
         asset.render.as_mut().unwrap()
     }
-    fn mesh(asset: &mut Asset) -> &mut frangible::TetMesh {
+    fn mesh(asset: &mut Asset) -> &mut frangible::internals::TetMesh {
         std::sync::Arc::make_mut(&mut asset.fracture)
     }
     fn outside(asset: &mut Asset, tet: usize) -> &mut u32 {
         let mut row = mesh(asset).neighbours[tet].iter_mut();
-        row.find(|n| **n == frangible::mesh::NO_NEIGHBOUR).unwrap()
+        row.find(|n| **n == frangible::internals::mesh::NO_NEIGHBOUR)
+            .unwrap()
     }
     assert!(tiny().validate().is_ok());
     for (change, words) in cases {

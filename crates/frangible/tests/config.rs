@@ -1,10 +1,8 @@
 //! A configuration whose numbers cannot be used is refused by every load, by the name of the field.
 
 use frangible::glam::Vec3;
-use frangible::{
-    Blast, Body, Breakable, Contact, CrackPath, CrackTiming, DurationModel, Force, FractureConfig,
-    InputError, Striker,
-};
+use frangible::internals::{Blast, CrackPath, CrackTiming, DurationModel, Force};
+use frangible::{Body, Breakable, Contact, FractureConfig, InputError, Striker};
 
 mod common;
 use common::{Size, synthetic_asset};
@@ -38,12 +36,12 @@ fn refusals(body: &Body, config: &FractureConfig) -> Vec<Option<InputError>> {
     vec![
         config.validate().err(),
         frangible::impact(body, &contacts, config).err(),
-        frangible::impact_traced(body, &contacts, config).err(),
+        frangible::internals::impact_traced(body, &contacts, config).err(),
         frangible::would_break(body, &contacts, config).err(),
-        frangible::blast(body, &blast, config).err(),
-        frangible::rest(body, &[force], Vec3::ZERO, config).err(),
-        frangible::fracture_at(body, Vec3::ONE, Vec3::NEG_ONE, config).err(),
-        frangible::blow::Blow::new(body, &contacts, config).err(),
+        frangible::internals::blast(body, &blast, config).err(),
+        frangible::internals::rest(body, &[force], Vec3::ZERO, config).err(),
+        frangible::internals::fracture_at(body, Vec3::ONE, Vec3::NEG_ONE, config).err(),
+        frangible::internals::blow::Blow::new(body, &contacts, config).err(),
     ]
 }
 
@@ -95,7 +93,9 @@ fn a_configuration_with_a_number_out_of_its_range_is_refused_by_every_load() {
                 assert!(text.contains(field) && text.contains("must be"), "{text}");
             }
             let contacts = [hit(1e-9, 1.0)];
-            assert!(!frangible::is_harmless(&body, &contacts, &config));
+            assert!(!frangible::internals::is_harmless(
+                &body, &contacts, &config
+            ));
         }
     }
 }

@@ -1,7 +1,8 @@
 //! How contact durations go with what they depend on, and what a contact must not hold.
 
 use frangible::glam::Vec3;
-use frangible::{Contact, Striker, contact};
+use frangible::internals::contact;
+use frangible::{Contact, Striker};
 
 fn relative(a: f64, b: f64) -> f64 {
     (a / b - 1.0).abs()

@@ -4,8 +4,8 @@ use std::fs;
 use std::path::Path;
 
 use frangible::Asset;
-use frangible::asset::{Embedding, SaveOptions, SurfaceWalls};
 use frangible::glam::Vec3;
+use frangible::internals::asset::{Embedding, SaveOptions, SurfaceWalls};
 
 mod common;
 use common::{Size, drawn_surface, synthetic_asset};

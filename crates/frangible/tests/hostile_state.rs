@@ -5,7 +5,8 @@ use std::fs;
 use std::path::Path;
 
 use frangible::glam::Vec3;
-use frangible::{BodyState, Breakable, Contact, FractureConfig, Striker, impact};
+use frangible::internals::BodyState;
+use frangible::{Breakable, Contact, FractureConfig, Striker, impact};
 
 mod common;
 use common::{Size, synthetic_asset};

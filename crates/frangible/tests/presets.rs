@@ -169,13 +169,17 @@ fn strength_rises_with_the_rate_as_far_as_it_was_measured() {
         let Some(law) = preset.rate else { continue };
         laws += 1;
         let strength = preset.material().strength;
-        let at = |rise: f64| law.strength(strength, rise) / strength;
+        let at = |rise: f64| law.strength(strength, rise).unwrap() / strength;
         let slow = strength / law.reference;
         assert!((at(slow) - 1.0).abs() < 1e-12 && at(10.0 * slow) == 1.0);
         let tenth = 10_f64.powf(law.exponent);
         assert!((at(0.1 * slow) - tenth).abs() < 1e-9, "{}", preset.name);
         assert_eq!(at(1e-9), law.limit, "{}", preset.name);
         assert!(!law.source.is_empty());
+        for impossible in [0.0, -1e-5, f64::NAN, f64::INFINITY] {
+            assert!(law.strength(strength, impossible).is_err());
+            assert!(law.strength(impossible, 1e-5).is_err());
+        }
     }
     assert_eq!(laws, 3);
 }

@@ -1,6 +1,6 @@
 //! Principal stresses.
 
-use frangible::stress::{Symmetric3, largest_eigenvalue, principal_axes};
+use frangible::internals::stress::{Symmetric3, largest_eigenvalue, principal_axes};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 

@@ -37,7 +37,8 @@ fn however_slowly_a_contact_approaches_its_steps_are_few() {
                     speed,
                     striker,
                 )];
-                let (outcome, _) = frangible::impact_traced(&body, &contacts, &config).unwrap();
+                let (outcome, _) =
+                    frangible::internals::impact_traced(&body, &contacts, &config).unwrap();
                 let steps = outcome.report().time_steps;
                 // A blow that is followed with the body has as many more after the contact, fine and coarse.
                 let most = if config.residual { 60_000 } else { 20_000 };

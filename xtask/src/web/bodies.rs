@@ -40,7 +40,7 @@ pub(super) struct Packed {
     pub(super) scene: &'static str,
     /// The scene, TOML.
     pub(super) text: String,
-    /// The same as a file.
+    /// The scene as a file.
     pub(super) toml: PathBuf,
     /// The packed body, in the page's folder.
     pub(super) file: String,

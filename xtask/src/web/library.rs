@@ -151,7 +151,7 @@ fn sources() -> Option<String> {
         .find_map(|text| of_stanzas(&text).or_else(|| of_lines(&text)))
 }
 
-/// From a file of stanzas (`URIs: …`).
+/// Reads a file of stanzas (`URIs: …`).
 fn of_stanzas(text: &str) -> Option<String> {
     text.split("\n\n").find_map(|stanza| {
         let field = |name: &str| {

@@ -5,34 +5,33 @@ use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::{
     LltRegularization, cholesky_in_place, cholesky_in_place_scratch,
 };
-use faer::linalg::evd::{ComputeEigenvectors, self_adjoint_evd, self_adjoint_evd_scratch};
+use faer::linalg::evd::{
+    ComputeEigenvectors, EvdError, self_adjoint_evd, self_adjoint_evd_scratch,
+};
 use faer::linalg::matmul::matmul;
 use faer::linalg::triangular_solve::{
     solve_lower_triangular_in_place, solve_upper_triangular_in_place,
 };
 use faer::sparse::SparseColMat;
-use faer::{Accum, Par, Spec};
+use faer::{Accum, Mat, MatMut, MatRef, Par, Spec};
 
 use crate::eigen::basis::Block;
 use crate::eigen::metric::{Basis, Metric};
 use crate::error::BakeError;
 
-/// All eigenvalues, rising, and eigenvectors of a symmetric matrix (lower triangle used).
+/// Rising eigenvalues of a symmetric matrix, from its lower triangle, on the calling thread alone; its eigenvectors are written
+/// into `vectors`.
 ///
-/// Divides by the largest entry first: faer 0.24 loses digits on matrices of tiny norm.
-pub(crate) fn symmetric_eigen(matrix: &Block) -> Result<(Vec<f64>, Block), BakeError> {
-    let n = matrix.rows;
-    let scale = matrix
-        .data
-        .iter()
-        .fold(0.0_f64, |m, x| m.max(x.abs()))
-        .max(f64::MIN_POSITIVE);
-    let scaled = Block {
-        data: matrix.data.iter().map(|x| x / scale).collect(),
-        rows: n,
-    };
+/// The matrix is divided by its largest entry first, since faer 0.24 loses digits on matrices of tiny norm.
+pub(crate) fn eigen_into(
+    matrix: MatRef<'_, f64>,
+    vectors: MatMut<'_, f64>,
+) -> Result<Vec<f64>, EvdError> {
+    let n = matrix.nrows();
+    let entries = (0..n).flat_map(|j| (0..n).map(move |i| matrix[(i, j)].abs()));
+    let scale = entries.fold(f64::MIN_POSITIVE, f64::max);
+    let scaled = Mat::from_fn(n, n, |i, j| matrix[(i, j)] / scale);
     let mut values = vec![0.0; n];
-    let mut vectors = Block::zeros(n, n);
     let params = Spec::default();
     let mut memory = MemBuffer::new(self_adjoint_evd_scratch::<f64>(
         n,
@@ -41,17 +40,24 @@ pub(crate) fn symmetric_eigen(matrix: &Block) -> Result<(Vec<f64>, Block), BakeE
         params,
     ));
     self_adjoint_evd(
-        scaled.view(),
+        scaled.as_ref(),
         DiagMut::from_slice_mut(&mut values),
-        Some(vectors.view_mut()),
+        Some(vectors),
         Par::Seq,
         MemStack::new(&mut memory),
         params,
-    )
-    .map_err(|e| BakeError::Factorization {
-        reason: format!("dense eigenvalues: {e:?}"),
-    })?;
+    )?;
     values.iter_mut().for_each(|v| *v *= scale);
+    Ok(values)
+}
+
+/// All eigenvalues, rising, and eigenvectors of a symmetric matrix (lower triangle used).
+pub(crate) fn symmetric_eigen(matrix: &Block) -> Result<(Vec<f64>, Block), BakeError> {
+    let mut vectors = Block::zeros(matrix.rows, matrix.rows);
+    let values =
+        eigen_into(matrix.view(), vectors.view_mut()).map_err(|e| BakeError::Factorization {
+            reason: format!("dense eigenvalues: {e:?}"),
+        })?;
     Ok((values, vectors))
 }
 

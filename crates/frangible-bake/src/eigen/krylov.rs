@@ -12,7 +12,7 @@ use crate::error::BakeError;
 use crate::phase::Phase;
 use crate::random;
 
-/// Of a block, less than this share of a column left by the others asks for a second pass: each digit lost here is one
+/// A column of a block of which the others leave less than this share asks for a second pass: each digit lost here is one
 /// lost by orthogonality.
 const LITTLE: f64 = 1e-3;
 

@@ -10,7 +10,7 @@
 
 mod basis;
 mod constraints;
-mod dense;
+pub(crate) mod dense;
 mod factor;
 mod krylov;
 mod lanczos;
@@ -43,9 +43,9 @@ use watch::Watch;
 /// How exact modes must be.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Accuracy {
-    /// Unknowns up to which the dense solver is used, which is exact …
+    /// Unknowns up to which the dense solver is used, which is exact.
     dense: usize,
-    /// … and wanted modes per unknown beyond which it is.
+    /// Wanted modes per unknown beyond which the dense solver is used, too.
     share: f64,
     /// Relative residual at which a Ritz pair of the inverse counts as found.
     tolerance: f64,
@@ -54,7 +54,7 @@ pub(crate) struct Accuracy {
 }
 
 impl Accuracy {
-    /// Of a bake. A residual of A is as large after purification as the tolerance; this leaves a digit to the check in the
+    /// The accuracy of a bake. A residual of A is as large after purification as the tolerance; this leaves a digit to the check in the
     /// plain norm, which weighs nodes differently.
     const BAKED: Self = Self {
         dense: 800,
@@ -63,7 +63,7 @@ impl Accuracy {
         residual: 1e-8,
     };
 
-    /// Of a piece while others wait for it: frequencies to 1e-6 or so, since their error is the square of the residual.
+    /// The accuracy for a piece while others wait for it: frequencies to 1e-6 or so, since their error is the square of the residual.
     const QUICK: Self = Self {
         dense: 150,
         share: 0.4,
@@ -118,7 +118,7 @@ pub fn lowest_modes(
     lowest_supported_modes(system, &Constraints::default(), wanted, progress)
 }
 
-/// The same of a body that is held. Shapes have an entry for every unknown, zero where it is held.
+/// The lowest modes of a body that is held. Shapes have an entry for every unknown, zero where it is held.
 ///
 /// # Errors
 /// As [`lowest_modes`]; [`BakeError::AllHeld`] when nothing is left to move.
@@ -131,7 +131,8 @@ pub fn lowest_supported_modes(
     search(system, constraints, wanted, Accuracy::BAKED, progress)
 }
 
-/// The same at once and less exactly: frequencies are right to six digits, residuals of shapes may be a few per cent. For what is found
+/// The lowest modes found at once and less exactly: frequencies are right to six digits, residuals of shapes may be a few per cent. For
+/// what is found
 /// while somebody waits.
 ///
 /// # Errors

@@ -33,7 +33,7 @@ pub(crate) fn across(panel: &[Row]) -> MatRef<'_, f64> {
     MatRef::from_column_major_slice(panel.as_flattened(), WIDTH, panel.len())
 }
 
-/// The same, to be written to.
+/// A panel as a matrix that is written to, its rows across.
 pub(crate) fn across_mut(panel: &mut [Row]) -> MatMut<'_, f64> {
     let rows = panel.len();
     MatMut::from_column_major_slice_mut(panel.as_flattened_mut(), WIDTH, rows)

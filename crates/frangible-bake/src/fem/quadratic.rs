@@ -1,7 +1,7 @@
 //! Quadratic tetrahedra with straight edges: nodes and shape functions.
 
-use frangible::asset::AnalysisMesh;
 use frangible::glam::DVec3;
+use frangible::internals::asset::AnalysisMesh;
 
 use crate::mesh::{BodyMesh, barycentric_gradients};
 

@@ -4,7 +4,7 @@ use std::fmt;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use frangible::TetMesh;
+use frangible::internals::TetMesh;
 use frangible_mesh::{
     Resolution, Solid, TetOptions, TetReport, counted_volume, tetrahedralize_watched,
 };
@@ -79,7 +79,7 @@ pub(crate) fn elements(shape: &SolidShape, size: Option<MeshSize>, volume: f64) 
     elements as usize
 }
 
-/// The same solid, not merely an equal one: solids cannot be compared.
+/// Two are equal if they are one and the same solid, since solids cannot be compared.
 impl PartialEq for SolidShape {
     fn eq(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.solid, &other.solid)

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use frangible::TetMesh;
+use frangible::internals::TetMesh;
 use frangible_mesh::{NodeGroup, TetBody};
 
 use crate::clusters::cluster;
@@ -106,7 +106,7 @@ impl TetShape {
     }
 }
 
-/// The same tetrahedra, not merely equal ones: comparing large meshes takes as long as reading them.
+/// Two are equal if they are one and the same list of tetrahedra: comparing large meshes takes as long as reading them.
 impl PartialEq for TetShape {
     fn eq(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.body, &other.body)

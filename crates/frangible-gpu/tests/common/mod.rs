@@ -126,8 +126,8 @@ pub(crate) fn cracks_and_pieces(outcome: &Outcome) -> Vec<u64> {
 /// A copy of a kind whose strength varies: weaker at one end, and scattered.
 pub(crate) fn uneven(kind: &Breakable) -> Breakable {
     let asset: &Arc<Asset> = kind.asset();
-    let fields = frangible::Fields::from_function(asset, |p| {
-        frangible::Factors::of_strength(if p.x > 0.0 { 0.6 } else { 1.0 })
+    let fields = frangible::internals::Fields::from_function(asset, |p| {
+        frangible::internals::Factors::of_strength(if p.x > 0.0 { 0.6 } else { 1.0 })
     })
     .with_weibull_modulus(8.0);
     kind.clone().with_fields(fields).unwrap()
@@ -138,9 +138,9 @@ pub(crate) fn weak_rim(kind: &Breakable) -> Breakable {
     let asset: &Arc<Asset> = kind.asset();
     let positions = asset.fracture.positions.iter();
     let half = positions.fold(Vec3::ZERO, |most, p| most.max(p.abs()));
-    let fields = frangible::Fields::from_function(asset, |p| {
+    let fields = frangible::internals::Fields::from_function(asset, |p| {
         let rim = p.abs().truncate().cmpgt(half.truncate() - 0.003).any();
-        frangible::Factors::of_strength(if rim { 1.0 } else { 30.0 })
+        frangible::internals::Factors::of_strength(if rim { 1.0 } else { 30.0 })
     });
     kind.clone().with_fields(fields).unwrap()
 }

@@ -85,7 +85,7 @@ impl DistanceSolid {
         }
     }
 
-    /// By central differences, of one primitive alone.
+    /// Distance and gradient by central differences, of one primitive alone.
     fn differences(&self, p: DVec3) -> Sloped {
         let h = STEP * (self.bounds.high - self.bounds.low).max_element();
         let value = |p: DVec3| self.value(p, f64::INFINITY);

@@ -19,7 +19,7 @@ pub fn ellipsoid(p: DVec3, radii: DVec3) -> f64 {
     t * scaled.length()
 }
 
-/// The same with its gradient: the normal at the closest point.
+/// Distance to an ellipsoid with its gradient, which is the normal at the closest point.
 pub(super) fn sloped_ellipsoid(p: DVec3, radii: DVec3) -> (f64, DVec3) {
     let (t, scaled) = ellipsoid_root(p, radii);
     let gradient = scaled.normalize_or_zero().copysign(p);

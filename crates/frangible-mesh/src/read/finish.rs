@@ -8,7 +8,7 @@ use crate::{InputMaterial, InputMesh};
 /// Stands for “no material” until the mesh is finished.
 pub(crate) const NO_MATERIAL: u32 = u32::MAX;
 
-/// Of vertices without a colour where others have one.
+/// Colour of vertices that have none where others have one.
 pub(crate) const WHITE: [f32; 4] = [1.0; 4];
 
 /// Checks coordinates and sizes, makes normals unit and completes missing ones, gives material-less triangles the

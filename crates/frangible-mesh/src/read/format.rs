@@ -16,7 +16,7 @@ pub enum MeshFormat {
 }
 
 impl MeshFormat {
-    /// By the ending of the name.
+    /// The format that the ending of the name stands for.
     #[must_use]
     pub fn from_extension(path: &Path) -> Option<Self> {
         match path.extension()?.to_str()?.to_ascii_lowercase().as_str() {
@@ -28,7 +28,7 @@ impl MeshFormat {
         }
     }
 
-    /// By the first bytes; for binary STL, by the length that its header announces.
+    /// The format that the first bytes tell; binary STL is told by the length that its header announces.
     #[must_use]
     pub fn sniff(bytes: &[u8]) -> Option<Self> {
         if bytes.starts_with(b"glTF") {

@@ -1,4 +1,6 @@
 //! Names in force while a file is read: runs of triangles.
+//!
+//! Groups are runs of triangles, so that memory grows with the file, however many names a line has.
 
 use crate::InputGroup;
 

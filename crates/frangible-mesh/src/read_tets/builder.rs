@@ -7,7 +7,7 @@ use glam::DVec3;
 use crate::read::{ReadError, check_triangles, check_vertices};
 use crate::tet_input::{TetGroup, TetInput};
 
-/// Of a kind of element that cannot be broken.
+/// The error for a kind of element that cannot be broken.
 pub(super) fn other_cells(kind: &'static str) -> ReadError {
     ReadError::OtherCells { kind }
 }
@@ -22,7 +22,7 @@ pub(super) struct Builder {
     mids: Vec<[u64; 6]>,
     numbers: Vec<u64>,
     faces: Vec<[u64; 3]>,
-    /// By dimension and number: tetrahedra or faces, rising.
+    /// Members of each group, by its dimension and number: tetrahedra or faces, rising.
     members: BTreeMap<(u8, i64), Vec<u32>>,
     names: BTreeMap<(u8, i64), String>,
 }
@@ -174,7 +174,7 @@ fn all<const N: usize>(
 enum Numbers {
     /// The first, and how many follow it without a gap.
     Run(u64, u64),
-    /// By number.
+    /// Pairs of number and place, ordered by number.
     Sorted(Vec<(u64, u32)>),
 }
 

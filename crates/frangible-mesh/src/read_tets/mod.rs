@@ -38,7 +38,7 @@ pub enum TetFormat {
 }
 
 impl TetFormat {
-    /// By the ending of the name.
+    /// The format that the ending of the name stands for.
     #[must_use]
     pub fn from_extension(path: &Path) -> Option<Self> {
         match path.extension()?.to_str()?.to_ascii_lowercase().as_str() {

@@ -9,7 +9,7 @@ use rayon::slice::ParallelSliceMut as _;
 /// put them up to 1e-6 apart.
 const CRACK: f64 = 1e-5;
 
-/// The same as a share of the rim's shortest edge there, so that finely divided rims do not shrink.
+/// How far apart they may be as a share of the rim's shortest edge there, so that finely divided rims do not shrink.
 const CRACK_PER_EDGE: f64 = 0.25;
 
 /// Vertices of one cell that others may move onto; more means a rim far finer than any crack that is closed.

@@ -14,7 +14,7 @@ pub(super) fn smooth_line(knots: &[(DVec3, f64)], steps: u32) -> Vec<(DVec3, f64
         .collect()
 }
 
-/// The same in the plane, for outlines.
+/// A smooth curve through knots in the plane, for outlines.
 pub(super) fn smooth_profile(knots: &[(f64, f64)], steps: u32) -> Vec<DVec2> {
     let points: Vec<DVec4> = knots
         .iter()

@@ -8,7 +8,7 @@ use crate::stuffing::lattice::Lattice;
 
 /// A cut nearer to a vertex than this share of a long edge moves the vertex onto it [Labelle & Shewchuk 2007, Table 1].
 const LONG: f64 = 0.24999;
-/// The same for a short edge. These two give dihedral angles between 10.78° and 164.74°.
+/// The share for a short edge. These two give dihedral angles between 10.78° and 164.74°.
 const SHORT: f64 = 0.41189;
 
 /// Side of a lattice vertex after warping.

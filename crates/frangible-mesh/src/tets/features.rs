@@ -17,7 +17,7 @@ use crate::tets::local::sharpest_around;
 const CREASE: f64 = 35.0;
 /// A vertex moves at most this share of a cell.
 const REACH: f64 = 0.75;
-/// The same for a corner, which fewer vertices are near.
+/// The share of a cell that a corner may move, which fewer vertices are near.
 const CORNER_REACH: f64 = 1.0;
 /// A tangent plane counts from surface points at most this share of a cell away.
 const NEAR: f64 = 0.5;

@@ -6,12 +6,15 @@ pub mod tumble;
 
 use std::sync::Arc;
 
-use frangible::asset::{AnalysisMesh, ConvexCell, EmbeddedPoint, Embedding, OuterSurface};
 use frangible::glam::{DMat3, DVec3, Vec3};
-use frangible::modal::ModalBasis;
+use frangible::internals::asset::{
+    AnalysisMesh, ConvexCell, EmbeddedPoint, Embedding, OuterSurface,
+};
+use frangible::internals::modal::ModalBasis;
+use frangible::internals::{MassProperties, TetMesh};
 use frangible::{
-    Asset, Body, Contact, Fracture, FractureConfig, Fragment, ImpactReport, InputError,
-    MassProperties, Material, Outcome, TetMesh, TriMesh,
+    Asset, Body, Contact, Fracture, FractureConfig, Fragment, ImpactReport, InputError, Material,
+    Outcome, TriMesh,
 };
 use frangible_rapier::rapier3d::math::{Pose, Vector};
 use frangible_rapier::{BreakableWorld, WorldConfig};

@@ -1,6 +1,7 @@
 //! Checks of the fracture's switches and numbers.
 
-use frangible::{CrackPath, CrackTiming, DurationModel, FractureConfig};
+use frangible::FractureConfig;
+use frangible::internals::{CrackPath, CrackTiming, DurationModel};
 
 use super::Fault;
 use super::quantity::{quantity, range};

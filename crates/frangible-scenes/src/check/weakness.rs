@@ -1,6 +1,6 @@
 //! Weak places of a body.
 
-use frangible::{Paint, Patch};
+use frangible::internals::{Paint, Patch};
 
 use super::{Fault, quantity};
 use crate::body::BodySpec;
@@ -48,7 +48,7 @@ fn check_paint(paint: &Paint) -> Result<(), Fault> {
     check_factors([paint.strength, paint.toughness, paint.weak_points])
 }
 
-/// Of strength, toughness and weak points, where given.
+/// Checks the factors of strength, toughness and weak points that are given.
 fn check_factors(factors: [Option<[f32; 2]>; 3]) -> Result<(), Fault> {
     const WHAT: [&str; 3] = [
         "the strength of a weak place",

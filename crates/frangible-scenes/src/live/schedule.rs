@@ -20,7 +20,7 @@ pub(super) struct Schedule {
 }
 
 impl Schedule {
-    /// Of a scene that was just set up.
+    /// The schedule of a scene that was just set up.
     pub(super) fn new(scene: &Scene, targets: Vec<Target>, thrown: Vec<Thrown>) -> Self {
         Self {
             projectiles: scene.projectiles.clone(),

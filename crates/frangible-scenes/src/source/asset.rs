@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use frangible::Asset;
-use frangible::asset::SaveOptions;
+use frangible::internals::asset::SaveOptions;
 
 use crate::error::SceneError;
 

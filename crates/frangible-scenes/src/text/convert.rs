@@ -3,8 +3,9 @@
 use std::path::Path;
 
 use frangible::glam::Vec3;
-use frangible::near_field::PlateTheory;
-use frangible::{CrackPath, CrackTiming, DurationModel, FractureConfig, Material};
+use frangible::internals::near_field::PlateTheory;
+use frangible::internals::{CrackPath, CrackTiming, DurationModel};
+use frangible::{FractureConfig, Material};
 use frangible_mesh::nearest_name;
 
 use super::body::body;
@@ -20,7 +21,7 @@ use crate::error::SceneError;
 use crate::output::{FileWish, Output};
 use crate::projectile::{Projectile, ProjectileKind};
 use crate::scene::{PieceSpec, Scene};
-use frangible_pieces::Method;
+use frangible_bake::pieces::Method;
 
 pub(super) fn scene(table: SceneTable, folder: &Path, name: &str) -> Result<Scene, Fault> {
     let name = table.name.unwrap_or_else(|| name.into());

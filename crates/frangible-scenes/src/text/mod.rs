@@ -1,4 +1,6 @@
 //! Scenes as TOML text.
+//!
+//! Visitors are hand-written, because serde's untagged enums lose the line of a mistake.
 
 mod body;
 mod convert;

@@ -2,9 +2,10 @@
 
 use std::fmt::{Display, Write};
 
+use frangible::FractureConfig;
 use frangible::glam::{Quat, Vec3};
-use frangible::near_field::PlateTheory;
-use frangible::{CrackPath, CrackTiming, DurationModel, FractureConfig};
+use frangible::internals::near_field::PlateTheory;
+use frangible::internals::{CrackPath, CrackTiming, DurationModel};
 
 use super::support::support_text;
 use super::values::{edit_text, list, material_text, number, quoted, shape_text, vector};
@@ -14,7 +15,7 @@ use crate::output::{FileWish, Output};
 use crate::projectile::{Projectile, ProjectileKind};
 use crate::scene::{PieceSpec, Scene};
 use crate::source::BodySource;
-use frangible_pieces::Method;
+use frangible_bake::pieces::Method;
 
 /// The scene as TOML text; reading it gives the same scene, bit for bit.
 #[must_use]

@@ -1,6 +1,6 @@
 //! The knobs one by one.
 
-use frangible::DurationModel;
+use frangible::internals::DurationModel;
 
 use super::{Kind, Knob};
 

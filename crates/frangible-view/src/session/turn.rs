@@ -169,7 +169,7 @@ fn knob_named(name: &str) -> Result<&'static Knob, ViewError> {
     })
 }
 
-/// The same contacts on the intact body, made anew with the knobs.
+/// Lets the same contacts hit the intact body, made anew with the knobs.
 fn take_again(
     blow: &Blow,
     number: usize,

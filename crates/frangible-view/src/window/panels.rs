@@ -151,7 +151,7 @@ impl Panels {
         &mut self.times
     }
 
-    /// By how much the picture's middle is moved out of the panels' way, shares of half the window.
+    /// How far the picture's middle is moved out of the panels' way, in shares of half the window.
     pub(super) fn shift(&self, window: &Window) -> [f32; 2] {
         let points = window.width() as f32 / window.scale_factor() as f32;
         let [left, right] = self.margins(points);

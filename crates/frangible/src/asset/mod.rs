@@ -56,7 +56,7 @@ pub struct Asset {
     /// The surface as its author drew it, kept for drawing and for clipping; physics never reads it.
     /// `None` where the fracture mesh's own surface is all there is.
     pub render: Option<RenderSurface>,
-    /// Of a piece that may break again, which part of the broken body it is; `None` for what was baked. The fracture mesh is
+    /// Which part of the broken body a piece is that may break again; `None` for what was baked. The fracture mesh is
     /// then the broken body's, in its frame; the surface has vertices of its own, in the piece's frame
     /// ([`Asset::surface_positions`]); [`Embedding::tets`] and [`StressBounds::cluster_of_tet`] have an entry for each of
     /// [`Portion::tets`], [`Embedding::nodes`] for each vertex of the surface; cells are empty.

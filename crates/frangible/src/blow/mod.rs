@@ -28,6 +28,10 @@
 //! Hertz' spring has no losses; crushing and plastic dents of strikers are not in it. The contact between two bodies that both vibrate
 //! holds one body's modes, that of the body asked about; the other is rigid with Hertz' dent. A contact that chatters
 //! is followed until all its points have parted.
+//!
+//! Forces are linear over substeps of a four-hundredth of Hertz' time, every oscillator is stepped exactly, and one equation per
+//! contact and substep has one root. Steps after the blow are as long as the modes allow. Where the star of cracks under a
+//! contact has three arms or more, its sectors are cantilevers, and the blow is found anew with their give.
 
 mod bank;
 mod complement;

@@ -15,7 +15,7 @@ use crate::contact::{self, Contact, Load, Touch, hertz_at, modal_load};
 use crate::mesh::SurfacePoint;
 use crate::near_field::{Bands, NearField, NearPlace, PlateTheory, Spacing, WallMaterial};
 
-/// Hertz' time over the longest substep. Measured: the energy error then is 3e-6 of what the striker loses (`frangible verify`, case
+/// Hertz' time over the longest substep. Measured: the energy error then is 3e-6 of what the striker loses (`frangible-lab verify`, case
 /// `blow`), and falls with the square of the substep.
 const SUBSTEPS_PER_HERTZ_TIME: f64 = 400.0;
 

@@ -21,7 +21,7 @@ pub struct Contact {
     /// Speed of approach along the normal before the rigid-body step, m/s.
     pub approach_speed: f32,
     /// Duration of a blow that a script asks for, s: its impulse is then given as a half-sine, whatever strikes. 0 for a striker,
-    /// whose blow is [integrated](crate::DurationModel::Integrated).
+    /// whose blow is [integrated](crate::internals::DurationModel::Integrated).
     pub duration: f32,
     /// What hit the body.
     pub striker: Striker,

@@ -1,6 +1,17 @@
 //! Cracks: where they start, how they run, when they stop `[G12 §4.4, §5]`.
+//!
+//! Cracks start between the steps, where the stress, linear from step to step, passes the strength; so their number does not
+//! hang on the step. A crack through a wall opens from one face and follows the tension of that face, since arms that turned to
+//! whichever face has the larger tension curled into petals; what feeds it is the mean energy through the wall.
+//!
+//! What has released a point releases it for good, so a point looks at each place of a crack once. Sites still to come stand in
+//! queues, the last first.
+//!
+//! The fronts of old cracks follow Griffith: a crack of centimetres is fed from a layer of 2πa, where a is its area over the
+//! length of its front. Cracks that a piece's own modes know release nothing more.
 
 mod arrivals;
+mod branching;
 mod culling;
 mod field;
 mod initiation;

@@ -21,7 +21,7 @@ use crate::material::Material;
 use crate::mesh::{EDGES, FACES, NO_NEIGHBOUR};
 use crate::state::{BodyState, OldCrack, OldCut};
 
-/// H over the edge of the analysis' cells. Chosen by measurement: in a bent bar (`frangible-pieces/tests/fronts.rs`, 3000 elements,
+/// H over the edge of the analysis' cells. Chosen by measurement: in a bent bar (`frangible-bake/tests/fronts.rs`, 3000 elements,
 /// crack a fifth and a third of its depth) the front then gets 0.3 and 0.4 of the energy that the modes lose; with half a cell 0.13 and 0.15.
 const RESOLVED: f64 = 2.0;
 

@@ -1,4 +1,6 @@
 //! Weakness painted with vertex colours.
+//!
+//! Paint is read off the drawn surface, since welding its vertices would mix colours at seams.
 
 use super::{Factors, Fields};
 use crate::asset::Asset;

@@ -4,6 +4,8 @@
 //! starts there, from all sides of the cuts at once, the side that has seen least going on. Sides that meet are one;
 //! a side that has nowhere to go is a component. When one side is left, it has all that nobody has seen: it is
 //! not searched further, and its volume is what the others leave of the whole.
+//!
+//! Volumes of nodes are whole numbers, so the volume of the rest is exact.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -29,7 +31,7 @@ pub(super) struct Component {
 
 /// The components, and who is in which.
 pub(super) struct Components {
-    /// By rising lowest node.
+    /// The components, ordered by their lowest node.
     pub(super) list: Vec<Component>,
     /// Component of all nodes that were not seen.
     pub(super) rest: u32,
@@ -42,7 +44,7 @@ pub(super) struct Components {
 }
 
 impl Components {
-    /// Of the whole body, or of a portion of it, which cuts part from the rest.
+    /// The components of the whole body, or of a portion of it, which cuts part from the rest.
     pub(super) fn of(cuts: &Cuts, index: &MeshIndex, portion: Option<&Portion>) -> Self {
         let mut search = Search::new(cuts, index, portion);
         search.run();

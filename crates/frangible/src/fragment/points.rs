@@ -12,17 +12,17 @@ use crate::piece::{FixedPoints, Portion};
 pub(crate) struct PointTable<'a> {
     mesh: &'a TetMesh,
     cuts: &'a Cuts,
-    /// Of a piece, where it may not move.
+    /// The portion, where a piece is cut whose points may not move.
     portion: Option<&'a Portion>,
-    /// All that are no mesh nodes …
+    /// All that are no mesh nodes.
     points: Vec<Point>,
-    /// … and where they are, m.
+    /// Places of the points, m.
     positions: Vec<DVec3>,
     /// Number of each cut edge's point, 0 for none yet; a mesh node's number is never asked for.
     of_cut: Vec<u32>,
-    /// Faces and uncut edges, by their lowest node and the others …
+    /// Faces and uncut edges, by their lowest node and the others.
     others: ByNode<[u32; 2]>,
-    /// … and their numbers.
+    /// Numbers of these faces and edges.
     of_other: Vec<u32>,
     /// The latest centre: its tetrahedron is the only one that asks for it.
     centre: (u32, u32),
@@ -187,7 +187,7 @@ impl<'a> PointTable<'a> {
         }
     }
 
-    /// Of a tetrahedron with two nodes of its own and two of a neighbour: the middle of the diagonal along which the quad
+    /// For a tetrahedron with two nodes of its own and two of a neighbour, the middle of the diagonal along which the quad
     /// between them has been split so far, so that what is fanned from there is the same two triangles.
     fn middle_of_quad(&self, nodes: &[u32; 4], foreign: &[bool; 4]) -> Option<DVec3> {
         let pair = |side: bool| {

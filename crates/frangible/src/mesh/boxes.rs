@@ -8,9 +8,9 @@ pub(super) const WIDE: usize = 8;
 /// Up to eight boxes, corner by corner; how many there are its owner knows.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Boxes {
-    /// x, y, z of the lower corners, m …
+    /// x, y, z of the lower corners, m.
     low: [[f32; WIDE]; 3],
-    /// … and of the upper ones.
+    /// x, y, z of the upper corners, m.
     high: [[f32; WIDE]; 3],
 }
 

@@ -16,7 +16,7 @@ pub struct MassProperties {
 }
 
 impl MassProperties {
-    /// Of signed tetrahedra of one density, kg/m³: the apexes (a, b, c, d) with positive or negative
+    /// Mass properties of signed tetrahedra of one density, kg/m³: the apexes (a, b, c, d) with positive or negative
     /// volume. A closed surface is the sum of the tetrahedra of its triangles with any fourth point.
     #[must_use]
     pub fn of_tetrahedra(density: f64, tetrahedra: impl Iterator<Item = [DVec3; 4]>) -> Self {
@@ -45,7 +45,7 @@ impl MassProperties {
         }
     }
 
-    /// Of what a closed surface encloses, of one density, kg/m³, given the corners of its triangles: the tetrahedra of
+    /// Mass properties of what a closed surface encloses, of one density, kg/m³, given the corners of its triangles: the tetrahedra of
     /// the triangles with the origin.
     pub(crate) fn of_surface(density: f64, triangles: impl Iterator<Item = [DVec3; 3]>) -> Self {
         let (mut volume, mut first) = (0.0, DVec3::ZERO);

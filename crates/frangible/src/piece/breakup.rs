@@ -56,9 +56,9 @@ impl Breakup {
 /// Points of a partition within faces and tetrahedra, in the frame of the fracture mesh, m: later breaks must not move them.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct FixedPoints {
-    /// By the nodes of the face, ascending.
+    /// Points on faces, ordered by the nodes of the face, which rise.
     pub(crate) faces: Vec<([u32; 3], DVec3)>,
-    /// By the tetrahedron.
+    /// Points in tetrahedra, ordered by the tetrahedron.
     pub(crate) centres: Vec<(u32, DVec3)>,
 }
 

@@ -98,7 +98,7 @@ impl Body {
 }
 
 impl Prepared {
-    /// Of a piece, whose modes lack only the peak of their stress.
+    /// The numbers of a piece, whose modes lack only the peak of their stress.
     pub(crate) fn of_piece(asset: &mut Asset, portion: &Portion) -> Self {
         let root = &portion.prepared;
         let skin = Skin::of_piece(asset, portion, &root.skin);

@@ -21,7 +21,7 @@ pub(super) struct Lists {
 }
 
 impl Lists {
-    /// Of the pieces with these labels.
+    /// The lists of the pieces with these labels.
     pub(super) fn of(body: &Body, breakup: &Breakup, labels: &[u32]) -> Vec<Self> {
         let mesh = &body.asset.fracture;
         let count = breakup.of_node.iter().filter(|&&l| l < FOREIGN).max();

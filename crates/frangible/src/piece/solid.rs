@@ -1,4 +1,7 @@
 //! A piece as a solid of tetrahedra: what its modes are computed for.
+//!
+//! Cracked bodies are covered in parts: two parts of cut tetrahedra hang together where they share a node of the face between
+//! them, and the lattice has a copy of its cell on each side of a crack.
 
 use glam::DVec3;
 

@@ -1,5 +1,7 @@
 //! How strength rises with the rate at which stress rises.
 
+use crate::error::{InputError, positive};
+
 /// Strength at a high rate of stress over the strength of a slow test, `min((σ̇/σ̇₀)^m, limit)`.
 ///
 /// A slow test lets flaws grow while it lasts: water at the tip of a flaw in glass, crazes in acrylic. A blow that loads in microseconds does not,
@@ -19,11 +21,15 @@ pub struct RateLaw {
 
 impl RateLaw {
     /// The strength, Pa, of a material that bears `strength`, Pa, in a slow test, where stress rises within `rise_time`, s.
-    #[must_use]
-    pub fn strength(&self, strength: f64, rise_time: f64) -> f64 {
+    ///
+    /// # Errors
+    /// A strength or a rise time that is not a finite number above zero.
+    pub fn strength(&self, strength: f64, rise_time: f64) -> Result<f64, InputError> {
+        positive("the strength of a slow test", strength, "Pa")?;
+        positive("the time in which the stress rises", rise_time, "s")?;
         let rate = strength / rise_time;
         let factor = (rate / self.reference).powf(self.exponent);
-        strength * factor.clamp(1.0, self.limit)
+        Ok(strength * factor.clamp(1.0, self.limit))
     }
 }
 

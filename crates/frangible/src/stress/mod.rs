@@ -1,4 +1,12 @@
 //! Displacements, strains and stresses `[G12 §4.4]`.
+//!
+//! Eight steps are computed side by side, written once for one step and for eight. `pulp` picks the widest vectors at run time,
+//! and no operation is fused, so the bits are those of plain code.
+//!
+//! Strain is linear, as the modes are: the quadratic terms take a turn of 0.03 for a stretch of 5e-4, which is glass's strength.
+//! Flaws lie on the surface, where no traction acts, and thin walls are in plane stress; at the centres of a plate of one layer
+//! bending shows half of the skin's stress or less. What a crack releases follows from its length, by the closed forms of a
+//! crack in a stretched and in a bent wall.
 
 mod bound;
 mod coarse;

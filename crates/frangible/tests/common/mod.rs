@@ -1,13 +1,14 @@
 //! An asset made of numbers that fit together but mean nothing.
 #![allow(unreachable_pub)]
 
-use frangible::asset::{
+use frangible::glam::Vec3;
+use frangible::internals::asset::{
     AnalysisMesh, ConvexCell, EmbeddedPoint, Embedding, OuterSurface, RenderMaterial, RenderSurface,
 };
-use frangible::glam::Vec3;
-use frangible::modal::ModalBasis;
-use frangible::stress::StressBounds;
-use frangible::{Asset, MassProperties, Material, TetMesh};
+use frangible::internals::modal::ModalBasis;
+use frangible::internals::stress::StressBounds;
+use frangible::internals::{MassProperties, TetMesh};
+use frangible::{Asset, Material};
 
 /// How much of everything.
 pub struct Size {

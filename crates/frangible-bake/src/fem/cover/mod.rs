@@ -3,6 +3,9 @@
 //!
 //! Stiffness and mass are integrated exactly over the body alone, by cutting its tetrahedra along the planes of the
 //! lattice: a Ritz method, whose frequencies fall towards the true ones as the elements grow more.
+//!
+//! Where two walls share a cell of the lattice, the cell has a copy for each of them. Barycentric coordinates of embedded points
+//! may be slightly negative.
 
 mod cut;
 mod lattice;
@@ -12,8 +15,8 @@ mod slivers;
 mod springs;
 mod topology;
 
-use frangible::asset::{AnalysisMesh, EmbeddedPoint, Embedding};
 use frangible::glam::{DVec3, Vec3};
+use frangible::internals::asset::{AnalysisMesh, EmbeddedPoint, Embedding};
 
 use crate::error::{BakeError, positive};
 use crate::fem::assembly::System;
@@ -36,9 +39,9 @@ const FICTITIOUS: f64 = 1e-8;
 /// A cell whose volume is off by no more than this share is full: rounding of the cuts.
 const FULL: f64 = 1e-9;
 
-/// Relative error in the number of elements that will do …
+/// Relative error in the number of elements that will do.
 const NEAR: f64 = 0.02;
-/// … and of a piece, where each attempt costs as much as a tenth of its modes.
+/// Relative error in the number of elements that will do for a piece, where each attempt costs as much as a tenth of its modes.
 const NEAR_OF_PIECE: f64 = 0.2;
 
 /// A part of a piece's tetrahedron below this share of its element is integrated as if products of strains were quadratic in
@@ -69,7 +72,7 @@ impl Cover {
         Self::of(body, &face_pairs(body), elements_wanted, false)
     }
 
-    /// The same for a body whose tetrahedra hang together as `faces` says, pairs of them: of two on both sides of a crack
+    /// Covers a body whose tetrahedra hang together as `faces` says, pairs of them: of two on both sides of a crack
     /// nothing passes from one to the other. While somebody waits: the number of elements within a fifth, and on the calling
     /// thread alone, since pieces are covered side by side.
     ///
@@ -174,7 +177,7 @@ pub fn assemble_cover(cover: &Cover, material: &Elasticity) -> System {
     assemble_supported_cover(cover, material, &BodyMesh::default(), &[])
 }
 
-/// The same for a body that is held at nodes of its own: `held` has the axes of each node of `body`, which is the one
+/// Assembles the elements of a body that is held at nodes of its own: `held` has the axes of each node of `body`, which is the one
 /// that is covered, or nothing. Springs hold it there: stiff, but no stiffer than the elements can follow.
 #[must_use]
 pub fn assemble_supported_cover(
@@ -221,7 +224,7 @@ fn elements_of_tets(body: &BodyMesh, topology: &Topology, lattice: &Lattice) -> 
     (0..body.tets.len()).map(holder).collect()
 }
 
-/// Of the elements of the tetrahedra around a node, the one that it lies deepest in.
+/// For each node the element that it lies deepest in, among those of the tetrahedra around it.
 fn elements_of_nodes(body: &BodyMesh, topology: &Topology, lattice: &Lattice) -> Vec<u32> {
     let frames: Vec<Frame> = topology.cells.iter().map(|c| c.frame()).collect();
     let mut best = vec![(f64::NEG_INFINITY, 0); body.positions.len()];

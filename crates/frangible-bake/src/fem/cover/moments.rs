@@ -55,7 +55,7 @@ impl Moments {
         }
     }
 
-    /// The same of a tetrahedron much smaller than the element, by the four points that integrate quadratic functions.
+    /// Adds a tetrahedron much smaller than the element, by the four points that integrate quadratic functions.
     pub(crate) fn add_small(&mut self, corners: [[f64; 4]; 4], volume: f64) {
         let sum: [f64; 4] = std::array::from_fn(|i| (0..4).map(|c| corners[c][i]).sum());
         for corner in &corners {

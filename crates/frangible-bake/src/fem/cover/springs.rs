@@ -1,7 +1,10 @@
 //! Springs that hold a covered body where it is supported: the nodes of the elements are not on the body.
+//!
+//! On a conforming mesh held nodes lose their unknowns. Here springs at the held fine nodes stand in for that; a cantilever's
+//! frequencies are 0.5–0.8 % low.
 
-use frangible::TetMesh;
 use frangible::glam::DVec3;
+use frangible::internals::TetMesh;
 
 use crate::fem::cover::Cover;
 use crate::fem::element::Elasticity;

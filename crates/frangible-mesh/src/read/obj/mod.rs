@@ -20,7 +20,7 @@ use crate::InputMesh;
 #[derive(Default)]
 struct Obj {
     positions: Vec<DVec3>,
-    /// Of each position; empty where no line has one.
+    /// Colour of each position; empty where no line has one.
     colors: Vec<[f32; 4]>,
     uvs: Vec<Vec2>,
     normals: Vec<Vec3>,

@@ -1,4 +1,10 @@
 //! Assets as files: `.frangible`, described in `docs/asset-format.md`.
+//!
+//! Sizes, the checksum, every index and every number are checked before a file is believed. The adjacency is stored, because
+//! rebuilding it takes longer than loading the file.
+//!
+//! Until 0.1.0 there is one version of the format: what another version wrote is refused with a sentence that says how to make
+//! it anew.
 
 mod decode;
 mod disk;

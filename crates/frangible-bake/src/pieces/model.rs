@@ -1,0 +1,107 @@
+//! Which method serves which piece, and when.
+
+use std::sync::Arc;
+
+use frangible::Body;
+use frangible::internals::piece::{Elastic, PieceModel, Portion};
+
+use crate::pieces::method::Method;
+use crate::pieces::{PieceError, parent_modes, reanalysis};
+
+/// Finds how pieces vibrate, by one of two methods.
+#[derive(Debug)]
+#[non_exhaustive]
+pub struct Pieces {
+    /// The method.
+    pub method: Method,
+    /// Quadratic elements of a piece, about. Default none: by its size, see [`Pieces::elements_for`].
+    pub elements: Option<usize>,
+    /// Modes of a piece at most. Default 30.
+    pub modes: usize,
+}
+
+impl Default for Pieces {
+    fn default() -> Self {
+        Self::new(Method::default())
+    }
+}
+
+impl Pieces {
+    /// A model that finds modes by this method.
+    #[must_use]
+    pub fn new(method: Method) -> Self {
+        Self {
+            method,
+            elements: None,
+            modes: 30,
+        }
+    }
+
+    /// The method that serves a piece in the end. [`Method::Auto`] gives every piece its own modes:
+    /// measured on fragments of all scenes (`docs/recursive.md`), nothing as quick decides right more often.
+    #[must_use]
+    pub fn method_for(&self) -> Method {
+        match self.method {
+            Method::Auto => Method::Reanalysis,
+            method => method,
+        }
+    }
+
+    /// Quadratic elements of a piece of so many uncut tetrahedra, about: [`Pieces::elements`], or 300 up to 2000
+    /// tetrahedra and more with the root of their number from there, up to 1000. A large piece is a large part of a body: its
+    /// walls bend and turn more often from end to end, and on 300 elements its frequencies are 10 % too high in the median.
+    #[must_use]
+    pub fn elements_for(&self, tets: usize) -> usize {
+        let by_size = || {
+            let growth = (tets as f64 / 2000.0).sqrt().clamp(1.0, 10.0 / 3.0);
+            (300.0 * growth).round() as usize
+        };
+        self.elements.unwrap_or_else(by_size)
+    }
+
+    /// How a piece of `parent` vibrates, by one method and at once.
+    ///
+    /// # Errors
+    /// A piece that has no elements, or whose matrices cannot be solved.
+    pub fn elastic(
+        &self,
+        method: Method,
+        portion: &Arc<Portion>,
+        parent: &Body,
+    ) -> Result<Elastic, PieceError> {
+        match method {
+            Method::ParentModes => parent_modes(portion, parent),
+            Method::Reanalysis => {
+                let elements = self.elements_for(portion.tets().len());
+                reanalysis(portion, elements, self.modes)
+            }
+            Method::Auto => self.elastic(self.method_for(), portion, parent),
+        }
+    }
+}
+
+impl PieceModel for Pieces {
+    fn at_once(&self, portion: &Arc<Portion>, parent: &Body) -> Option<Elastic> {
+        let method = match self.method_for() {
+            Method::Reanalysis => Method::ParentModes,
+            method => method,
+        };
+        told(self.elastic(method, portion, parent))
+    }
+
+    fn later(&self, portion: &Arc<Portion>) -> Option<Elastic> {
+        match self.method_for() {
+            Method::Reanalysis => {
+                let elements = self.elements_for(portion.tets().len());
+                told(reanalysis(portion, elements, self.modes))
+            }
+            _ => None,
+        }
+    }
+}
+
+fn told(elastic: Result<Elastic, PieceError>) -> Option<Elastic> {
+    elastic
+        .inspect_err(|e| log::warn!("a piece does not break again: {e}"))
+        .ok()
+}

@@ -1,0 +1,253 @@
+//! The parent's modes on the piece's own elements, with the piece's mass.
+//!
+//! A Ritz method: displacements of the piece are sums of the parent's mode shapes and of rigid motions. K and M of these few
+//! are integrated over the piece alone, one point per tetrahedron, and the small eigenproblem gives modes of the piece:
+//! combinations of the parent's, orthogonal to its rigid motions. Too stiff, since they cannot follow the new free faces.
+
+use std::sync::Arc;
+
+use faer::Mat;
+use frangible::glam::{DVec3, Vec3};
+use frangible::internals::asset::{AnalysisMesh, EmbeddedPoint};
+use frangible::internals::modal::ModalBasis;
+use frangible::internals::piece::{Elastic, Portion};
+use frangible::internals::stress::ShapeWeights;
+use frangible::{Asset, Body};
+
+use crate::pieces::PieceError;
+use crate::pieces::dense::{add_product, eigen, product, refused};
+
+/// Shapes that depend on the others to within this share of their mass are left out.
+const DEPENDENT: f64 = 1e-7;
+
+/// Most of the parent's modes that are tried.
+const MOST: usize = 60;
+
+/// The modes of a piece as combinations of its parent's.
+///
+/// # Errors
+/// A piece without uncut tetrahedra, or shapes that have no eigenvalues.
+pub fn parent_modes(portion: &Arc<Portion>, parent: &Body) -> Result<Elastic, PieceError> {
+    let asset = &**parent.asset();
+    let (analysis, tets, nodes, old) = restricted(portion, asset);
+    let held = !portion.supported().is_empty();
+    let trial = trial_shapes(asset, &analysis, &old, held, portion.origin());
+    let (stiffness, mass) = integrals(portion, asset, &analysis, &tets, &trial);
+    let (eigenvalues, combinations) = ritz(&stiffness, &mass, if held { 0 } else { 6 })?;
+    let rows = 3 * analysis.nodes.len();
+    let count = eigenvalues.len();
+    let shapes = product(trial.as_ref(), combinations.as_ref());
+    let shapes = (0..rows)
+        .flat_map(|row| (0..count).map(move |mode| (row, mode)))
+        .map(|at| shapes[at] as f32)
+        .collect();
+    Ok(Elastic {
+        analysis,
+        tets,
+        nodes,
+        modes: ModalBasis {
+            eigenvalues,
+            shapes,
+            peak_stress: Vec::new(),
+            ..ModalBasis::default()
+        },
+    })
+}
+
+/// The parent's elements that carry the piece, where its tetrahedra and nodes lie in them, and the numbers their nodes had.
+fn restricted(
+    portion: &Portion,
+    asset: &Asset,
+) -> (
+    AnalysisMesh,
+    Vec<EmbeddedPoint>,
+    Vec<EmbeddedPoint>,
+    Vec<u32>,
+) {
+    let whole = &asset.analysis;
+    let (mut element, mut node) = (
+        vec![u32::MAX; whole.elements.len()],
+        vec![u32::MAX; whole.nodes.len()],
+    );
+    let (mut mesh, mut old) = (AnalysisMesh::default(), Vec::new());
+    let mut number = |e: u32, mesh: &mut AnalysisMesh| {
+        let e = e as usize;
+        if element[e] == u32::MAX {
+            element[e] = mesh.elements.len() as u32;
+            let nodes = whole.elements[e].map(|v| {
+                let new = &mut node[v as usize];
+                if *new == u32::MAX {
+                    *new = old.len() as u32;
+                    old.push(v);
+                    mesh.nodes.push(whole.nodes[v as usize]);
+                }
+                *new
+            });
+            mesh.elements.push(nodes);
+            mesh.barycentric_gradients
+                .push(whole.barycentric_gradients[e]);
+        }
+        element[e]
+    };
+    let mut tets = Vec::with_capacity(portion.tets().len());
+    // A node goes with the element of the first tetrahedron around it.
+    let mut carrier = vec![u32::MAX; portion.nodes().len()];
+    let mut first = u32::MAX;
+    for &e in portion.tets() {
+        let point = asset.embedded_tet(e as usize);
+        let element = number(point.element, &mut mesh);
+        tets.push(EmbeddedPoint { element, ..*point });
+        first = first.min(element);
+        for v in portion.root().fracture.tets[e as usize] {
+            if let Ok(place) = portion.nodes().binary_search(&v)
+                && carrier[place] == u32::MAX
+            {
+                carrier[place] = element;
+            }
+        }
+    }
+    let positions = &portion.root().fracture.positions;
+    let numbered = portion.nodes().iter().zip(&carrier);
+    let nodes = numbered.map(|(&v, &element)| {
+        // Nodes whose tetrahedra are all cut: few, and beside the others.
+        let element = if element == u32::MAX { first } else { element };
+        let corner = mesh.nodes[mesh.elements[element as usize][0] as usize];
+        let g = &mesh.barycentric_gradients[element as usize];
+        let [y, z, w] = [1, 2, 3].map(|k| g[k].dot(positions[v as usize] - corner));
+        EmbeddedPoint {
+            element,
+            barycentric: [1.0 - y - z - w, y, z, w],
+            offset: Vec3::ZERO,
+        }
+    });
+    let nodes = nodes.collect();
+    (mesh, tets, nodes, old)
+}
+
+/// Rigid motions (of a free piece), then the parent's modes: a row per unknown.
+fn trial_shapes(
+    asset: &Asset,
+    analysis: &AnalysisMesh,
+    old: &[u32],
+    held: bool,
+    centre: DVec3,
+) -> Mat<f64> {
+    let rigid = if held { 0 } else { 6 };
+    let modes = asset.modes.count().min(MOST);
+    Mat::from_fn(3 * old.len(), rigid + modes, |row, column| {
+        let (node, axis) = (row / 3, row % 3);
+        if column >= rigid {
+            let dof = 3 * old[node] as usize + axis;
+            return f64::from(asset.modes.row(dof)[column - rigid]);
+        }
+        let unit = DVec3::AXES[column % 3];
+        if column < 3 {
+            return unit[axis];
+        }
+        unit.cross(analysis.nodes[node].as_dvec3() - centre)[axis]
+    })
+}
+
+/// Stiffness and mass of the trial shapes over the piece.
+fn integrals(
+    portion: &Portion,
+    asset: &Asset,
+    analysis: &AnalysisMesh,
+    tets: &[EmbeddedPoint],
+    trial: &Mat<f64>,
+) -> (Mat<f64>, Mat<f64>) {
+    /// Tetrahedra multiplied at once.
+    const BLOCK: usize = 64;
+    /// Most tetrahedra looked at, about.
+    const SAMPLES: usize = 2000;
+    let m = trial.ncols();
+    let (mut stiffness, mut mass) = (Mat::<f64>::zeros(m, m), Mat::<f64>::zeros(m, m));
+    let mesh = &portion.root().fracture;
+    // Of many tetrahedra some: the shapes vary over the coarse elements only.
+    // One of each run, but not always the same: meshes repeat themselves every few tetrahedra.
+    let stride = tets.len().div_ceil(SAMPLES).max(1);
+    let scattered = |first: usize| (first / stride).wrapping_mul(0x9e37_79b9) >> 7;
+    let chosen = (0..tets.len()).step_by(stride);
+    let chosen = chosen.map(|first| (first + scattered(first) % stride).min(tets.len() - 1));
+    let chosen: Vec<usize> = chosen.collect();
+    let own = chosen.iter().map(|&i| portion.tets()[i]);
+    let volumes: Vec<f64> = own.map(|e| mesh.volume(e as usize)).collect();
+    let tets: Vec<EmbeddedPoint> = chosen.iter().map(|&i| tets[i]).collect();
+    // Those left out, and those that are cut, count with the others.
+    let scale = portion.mass().volume / volumes.iter().sum::<f64>();
+    let (lambda, mu) = (asset.material.lame_lambda(), asset.material.shear_modulus());
+    for (points, volumes) in tets.chunks(BLOCK).zip(volumes.chunks(BLOCK)) {
+        let mut strains = Mat::<f64>::zeros(7 * points.len(), m);
+        let mut places = Mat::<f64>::zeros(3 * points.len(), m);
+        for (i, (point, volume)) in points.iter().zip(volumes).enumerate() {
+            let element = point.element as usize;
+            let nodes = &analysis.elements[element];
+            let weights = ShapeWeights::values(point);
+            let gradients =
+                ShapeWeights::gradients(point, &analysis.barycentric_gradients[element]);
+            let weight = (volume * scale).sqrt();
+            let by_mass = weight * asset.material.density.sqrt();
+            let (shear, both) = (weight * mu.sqrt(), weight * (2.0 * mu).sqrt());
+            let bulk = weight * lambda.abs().sqrt();
+            for column in 0..m {
+                let (mut u, mut g) = ([0.0; 3], [[0.0; 3]; 3]);
+                for ((&node, w), d) in nodes.iter().zip(weights).zip(gradients) {
+                    let d = d.as_dvec3().to_array();
+                    for axis in 0..3 {
+                        let value = trial[(3 * node as usize + axis, column)];
+                        u[axis] += f64::from(w) * value;
+                        for k in 0..3 {
+                            g[axis][k] += d[k] * value;
+                        }
+                    }
+                }
+                for axis in 0..3 {
+                    places[(3 * i + axis, column)] = by_mass * u[axis];
+                    strains[(7 * i + axis, column)] = both * g[axis][axis];
+                    let (j, k) = ((axis + 1) % 3, (axis + 2) % 3);
+                    strains[(7 * i + 3 + axis, column)] = shear * (g[j][k] + g[k][j]);
+                }
+                strains[(7 * i + 6, column)] = bulk * (g[0][0] + g[1][1] + g[2][2]);
+            }
+        }
+        let sign = lambda.signum();
+        let signed = Mat::from_fn(strains.nrows(), m, |i, j| {
+            strains[(i, j)] * if i % 7 == 6 { sign } else { 1.0 }
+        });
+        add_product(&mut stiffness, strains.transpose(), signed.as_ref());
+        add_product(&mut mass, places.transpose(), places.as_ref());
+    }
+    (stiffness, mass)
+}
+
+/// Eigenvalues and combinations of the trial shapes, without the `rigid` lowest ones.
+fn ritz(
+    stiffness: &Mat<f64>,
+    mass: &Mat<f64>,
+    rigid: usize,
+) -> Result<(Vec<f64>, Mat<f64>), PieceError> {
+    let m = mass.nrows();
+    let scale: Vec<f64> = (0..m)
+        .map(|i| 1.0 / mass[(i, i)].max(f64::MIN_POSITIVE).sqrt())
+        .collect();
+    let unit = Mat::from_fn(m, m, |i, j| mass[(i, j)] * scale[i] * scale[j]);
+    let (values, vectors) = eigen(unit.as_ref())?;
+    let kept: Vec<usize> = (0..m)
+        .filter(|&i| values[i] > DEPENDENT * m as f64)
+        .collect();
+    let white = Mat::from_fn(m, kept.len(), |i, j| {
+        scale[i] * vectors[(i, kept[j])] / values[kept[j]].sqrt()
+    });
+    let half = product(stiffness.as_ref(), white.as_ref());
+    let reduced = product(white.transpose(), half.as_ref());
+    let (values, vectors) = eigen(reduced.as_ref())?;
+    let elastic: Vec<usize> = (rigid.min(kept.len())..kept.len())
+        .filter(|&i| values[i] > 0.0)
+        .collect();
+    if elastic.is_empty() {
+        return Err(refused("the parent's modes do not tell how it bends"));
+    }
+    let chosen = Mat::from_fn(kept.len(), elastic.len(), |i, j| vectors[(i, elastic[j])]);
+    let eigenvalues = elastic.iter().map(|&i| values[i]).collect();
+    Ok((eigenvalues, product(white.as_ref(), chosen.as_ref())))
+}

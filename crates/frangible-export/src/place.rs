@@ -1,0 +1,60 @@
+//! Places to write to, tried before minutes are spent.
+
+use std::fs;
+use std::path::Path;
+
+/// Makes the output folder; proves that it can be written, and that no folder has the name of a file to write. Returns whether
+/// the folder was there before. Messages name the command line's `option` that chooses another folder.
+///
+/// # Errors
+/// A sentence for the user of the command line.
+pub fn make_folder(folder: &Path, names: &[String], option: &str) -> Result<bool, String> {
+    let was_there = folder.exists();
+    let wrong = |e: std::io::Error| {
+        format!(
+            "cannot write to the folder `{}`: {e}; choose another with {option} DIR",
+            folder.display()
+        )
+    };
+    fs::create_dir_all(folder).map_err(wrong)?;
+    probe(folder).map_err(wrong)?;
+    for name in names {
+        let path = folder.join(name);
+        if path.is_dir() {
+            return Err(format!(
+                "`{}` is a folder, and a file of that name is to be written; move it, or choose another {option} DIR",
+                path.display()
+            ));
+        }
+    }
+    Ok(was_there)
+}
+
+/// Proves that a file of this name can be written where it is to lie.
+///
+/// # Errors
+/// A sentence for the user of the command line.
+pub fn try_file(path: &Path) -> Result<(), String> {
+    if path.is_dir() {
+        return Err(format!(
+            "`{}` is a folder; name a file with -o",
+            path.display()
+        ));
+    }
+    let folder = match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    };
+    probe(folder).map_err(|e| {
+        format!(
+            "cannot write `{}`: {e}; choose another place with -o FILE",
+            path.display()
+        )
+    })
+}
+
+fn probe(folder: &Path) -> std::io::Result<()> {
+    let probe = folder.join(format!(".frangible-{}", std::process::id()));
+    fs::write(&probe, b"")?;
+    fs::remove_file(&probe)
+}

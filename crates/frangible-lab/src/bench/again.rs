@@ -1,0 +1,88 @@
+//! Scenes whose pieces break again, played as a game plays them: frame times.
+//!
+//! Every run gives the same bits, so a frame's time is its least over the runs, and percentiles are over frames.
+
+use frangible_scenes::{GamePlan, GameRun, bake, play_as_game, scene};
+use serde::Serialize;
+
+use crate::bench::error::BenchError;
+use crate::bench::fingerprint::Fingerprint;
+use crate::bench::stats::{Spread, Times};
+
+/// The scenes.
+pub const SCENES: [&str; 4] = ["shards", "five-blows", "wall", "crockery"];
+
+/// Fracture tetrahedra and modes of each body, as of a game's.
+pub const SIZE: [usize; 2] = [8000, 40];
+
+/// What was found of a scene.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Findings {
+    /// Its name.
+    pub scene: String,
+    /// Bodies of the scene that broke.
+    pub breaks: usize,
+    /// Pieces that broke again.
+    pub again: usize,
+    /// Rigid bodies in the end.
+    pub bodies: usize,
+    /// Equal runs.
+    pub runs: usize,
+    /// Frames: the least time of each.
+    pub frames: Spread,
+    /// Frames over 1/60 s.
+    pub late: usize,
+    /// A number made of all bodies in the end; it is the same in every run.
+    pub fingerprint: String,
+}
+
+/// Plays each scene so many times.
+///
+/// # Errors
+/// A scene that cannot be baked or played, runs that differ.
+pub fn measure(
+    runs: usize,
+    plan: GamePlan,
+    progress: &mut dyn FnMut(&str, f64),
+) -> Result<Vec<Findings>, BenchError> {
+    let runs = runs.max(1);
+    let mut all = Vec::new();
+    for (i, name) in SCENES.into_iter().enumerate() {
+        let share = |part: f64| (i as f64 + part) / SCENES.len() as f64;
+        progress(name, share(0.0));
+        let mut scene = scene(name)?;
+        for body in &mut scene.bodies {
+            (body.resolution, body.modes) = (Some(SIZE[0]), SIZE[1]);
+        }
+        let baked = bake(&scene, &mut |_| {})?;
+        let mut best = play_as_game(&scene, &baked, plan, &mut |_| {})?;
+        for run in 1..runs {
+            progress(name, share(run as f64 / runs as f64));
+            let other = play_as_game(&scene, &baked, plan, &mut |_| {})?;
+            if print(&other) != print(&best) {
+                let problem = format!("two runs of the scene `{name}` ended differently");
+                return Err(BenchError::NotAsMeant(problem));
+            }
+            for (time, t) in best.frames.iter_mut().zip(other.frames) {
+                *time = time.min(t);
+            }
+        }
+        all.push(Findings {
+            scene: name.into(),
+            breaks: best.breaks,
+            again: best.again,
+            bodies: best.poses.len(),
+            runs,
+            late: best.frames.iter().filter(|t| **t > 1.0 / 60.0).count(),
+            fingerprint: format!("{:016x}", print(&best).value()),
+            frames: Times::new(best.frames).spread(),
+        });
+    }
+    Ok(all)
+}
+
+fn print(run: &GameRun) -> Fingerprint {
+    let mut print = Fingerprint::default();
+    run.poses.iter().flatten().for_each(|&x| print.add(x));
+    print
+}

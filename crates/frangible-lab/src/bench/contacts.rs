@@ -1,0 +1,284 @@
+//! How many contacts a second are refused, and how long one takes at worst.
+
+use std::f32::consts::TAU;
+use std::time::Instant;
+
+use frangible::glam::Vec3;
+use frangible::internals::LookedAt;
+use frangible::{
+    Asset, Body, Breakable, Contact, FractureConfig, Material, Outcome, Striker, impact,
+    would_break,
+};
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::{Rng, SeedableRng};
+use serde::Serialize;
+
+use crate::bench::cache::Cache;
+use crate::bench::error::BenchError;
+use crate::bench::stats::{Spread, Times};
+use crate::bench::subjects::{MODES, PIG_GROWN, PIG_TETS, solid, steel_ball};
+
+/// Contacts of the game-like distribution.
+const GAME: usize = 2000;
+/// Speeds of the game-like distribution, m/s: things that are put down, roll and nudge each other; 0.3 m/s is a fall of 5 mm.
+const GAME_SPEEDS: [f64; 2] = [0.01, 0.3];
+/// Speeds among which contacts for each class are looked for, m/s.
+const ALL_SPEEDS: [f64; 2] = [0.01, 6.0];
+/// Contacts tried for the classes.
+const TRIED: usize = 300;
+/// Different contacts of a class at most.
+const KEPT: usize = 400;
+/// A class is timed for about so long, s, but for each of its contacts at least once.
+const BUDGET: f64 = 1.0;
+/// Contacts that a class keeps however long one takes.
+const FEWEST: usize = 20;
+/// Most calls of a class.
+const MOST_CALLS: usize = 400_000;
+
+/// How a contact is refused, or not.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Class {
+    /// Refused by the size of its impulse, its place and its duration: one number.
+    Size,
+    /// Refused by how far its impulse moves each mode at most.
+    Impulse,
+    /// Refused by the amplitudes of the modes: at every step the bound of the whole body stays below the strength.
+    Amplitudes,
+    /// Refused by clusters: at some step the bound of the whole body passes the strength, that of no cluster does.
+    Clusters,
+    /// Stresses at weak points are looked at, and stay below the strength.
+    LookedAt,
+    /// Cracks run that part nothing.
+    Cracked,
+    /// It breaks.
+    Breaks,
+}
+
+impl Class {
+    /// From the cheapest.
+    pub const ALL: [Self; 7] = [
+        Self::Size,
+        Self::Impulse,
+        Self::Amplitudes,
+        Self::Clusters,
+        Self::LookedAt,
+        Self::Cracked,
+        Self::Breaks,
+    ];
+
+    /// In words.
+    #[must_use]
+    pub const fn title(self) -> &'static str {
+        match self {
+            Self::Size => "refused by its size",
+            Self::Impulse => "refused by its impulse",
+            Self::Amplitudes => "refused by the amplitudes",
+            Self::Clusters => "refused by clusters",
+            Self::LookedAt => "looked at, holds",
+            Self::Cracked => "cracks, holds",
+            Self::Breaks => "breaks",
+        }
+    }
+}
+
+/// A class, timed.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Timed {
+    /// Different contacts.
+    pub contacts: usize,
+    /// Calls of `would_break` a second on one core; no clock read between them.
+    pub per_second: f64,
+    /// Single calls, s; each holds what reading the clock costs.
+    pub latency: Spread,
+}
+
+/// What was found.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Findings {
+    /// Tetrahedra of the body.
+    pub tets: usize,
+    /// Its nodes.
+    pub nodes: usize,
+    /// Its weak points.
+    pub weak_points: usize,
+    /// Its modes.
+    pub modes: usize,
+    /// What reading the clock costs, s: part of every latency.
+    pub clock: f64,
+    /// The game-like distribution.
+    pub game: Timed,
+    /// Share of each class in it.
+    pub game_shares: Vec<(Class, f64)>,
+    /// Each class for itself; one that was not met is left out.
+    pub classes: Vec<(Class, Timed)>,
+}
+
+/// Bakes the body, or reads it, and times the contacts.
+///
+/// # Errors
+/// A body that does not bake, or whose file cannot be read.
+pub fn measure(cache: &Cache, progress: &mut dyn FnMut(&str, f64)) -> Result<Findings, BenchError> {
+    let geometry = || Ok((solid("piggy_bank", PIG_GROWN, PIG_TETS)?, None, None));
+    let baked = cache.body("porcelain-pig", MODES, "porcelain", geometry, progress)?;
+    let body = Breakable::new(baked.asset)?.body(1);
+    let config = FractureConfig::default();
+    progress("game-like contacts", 0.0);
+    let game = Source::new(&body, GAME_SPEEDS, 1)?.take(GAME);
+    let mut game_counts = [0; Class::ALL.len()];
+    for contact in &game {
+        game_counts[class(&body, contact, &config)? as usize] += 1;
+    }
+    let game_timed = time(&body, &game, &config)?;
+    let mut found: [Vec<Contact>; Class::ALL.len()] = Default::default();
+    for (i, contact) in Source::new(&body, ALL_SPEEDS, 2)?
+        .take(TRIED)
+        .iter()
+        .enumerate()
+    {
+        progress("finding contacts of each class", i as f64 / TRIED as f64);
+        let kind = &mut found[class(&body, contact, &config)? as usize];
+        if kind.len() < KEPT {
+            kind.push(*contact);
+        }
+    }
+    let mut classes = Vec::new();
+    for (kind, contacts) in Class::ALL.into_iter().zip(&found) {
+        progress(kind.title(), kind as usize as f64 / Class::ALL.len() as f64);
+        if !contacts.is_empty() {
+            classes.push((kind, time(&body, contacts, &config)?));
+        }
+    }
+    let asset = body.asset();
+    Ok(Findings {
+        tets: asset.fracture.tets.len(),
+        nodes: asset.fracture.positions.len(),
+        weak_points: body.weak_tets().len(),
+        modes: asset.modes.count(),
+        clock: clock_cost(),
+        game: game_timed,
+        game_shares: Class::ALL
+            .into_iter()
+            .map(|kind| (kind, f64::from(game_counts[kind as usize]) / GAME as f64))
+            .collect(),
+        classes,
+    })
+}
+
+/// The game-like distribution, in words.
+pub const GAME_DISTRIBUTION: &str = "one contact each, at a corner of a surface triangle drawn at random, along its inward \
+     normal tilted by up to 45° to any side, at speeds log-uniform between 0.01 and 0.3 m/s; one half steel balls of 20 to 220 g, \
+     one half flat stone that does not give way; the impulse that rigid bodies exchange, restitution 0.5";
+/// What differs where contacts for the classes are looked for, in words.
+pub const CLASS_SPEEDS: &str = "0.01 to 6 m/s";
+
+/// Draws contacts.
+struct Source<'a> {
+    asset: &'a Asset,
+    speeds: [f64; 2],
+    stone: Striker,
+    rng: ChaCha8Rng,
+}
+
+impl<'a> Source<'a> {
+    fn new(body: &'a Body, speeds: [f64; 2], seed: u64) -> Result<Self, BenchError> {
+        Ok(Self {
+            asset: body.asset(),
+            speeds,
+            stone: Striker {
+                restitution: 0.5,
+                ..Striker::fixed(&Material::preset("stone")?)
+            },
+            rng: ChaCha8Rng::seed_from_u64(seed),
+        })
+    }
+
+    fn take(mut self, count: usize) -> Vec<Contact> {
+        (0..count).filter_map(|_| self.draw().ok()).collect()
+    }
+
+    /// In 0..1.
+    fn uniform(&mut self) -> f64 {
+        f64::from(self.rng.next_u32()) / (f64::from(u32::MAX) + 1.0)
+    }
+
+    fn draw(&mut self) -> Result<Contact, BenchError> {
+        let surface = &self.asset.surface;
+        let triangle = (self.uniform() * surface.triangles.len() as f64) as usize;
+        let corner = surface.triangles[triangle][0] as usize;
+        let inward = -surface.normals[triangle][0];
+        let (around, tilt) = (TAU * self.uniform() as f32, self.uniform() as f32);
+        let side = inward.any_orthonormal_vector();
+        let aside = side * around.cos() + inward.cross(side) * around.sin();
+        let [low, high] = self.speeds;
+        let speed = low * (high / low).powf(self.uniform());
+        let striker = if self.uniform() < 0.5 {
+            steel_ball(0.02 + 0.2 * self.uniform())?
+        } else {
+            self.stone
+        };
+        let point: Vec3 = self.asset.fracture.positions[corner];
+        Ok(Contact::collision(
+            self.asset,
+            point,
+            inward + tilt * aside,
+            speed,
+            striker,
+        ))
+    }
+}
+
+fn class(body: &Body, contact: &Contact, config: &FractureConfig) -> Result<Class, BenchError> {
+    let outcome = impact(body, &[*contact], config)?;
+    let report = outcome.report();
+    Ok(match (&outcome, report.looked_at) {
+        (Outcome::Broke(_), _) => Class::Breaks,
+        (_, LookedAt::Sizes) => Class::Size,
+        (_, LookedAt::Impulses) => Class::Impulse,
+        (_, LookedAt::Amplitudes) => Class::Amplitudes,
+        (_, LookedAt::Clusters) => Class::Clusters,
+        _ if report.cracks > 0 => Class::Cracked,
+        _ => Class::LookedAt,
+    })
+}
+
+/// Rate first, then single calls; `contacts` is not empty.
+fn time(body: &Body, contacts: &[Contact], config: &FractureConfig) -> Result<Timed, BenchError> {
+    let clock = Instant::now();
+    would_break(body, &contacts[..1], config)?;
+    let fit = BUDGET / clock.elapsed().as_secs_f64();
+    let contacts = &contacts[..contacts.len().min(FEWEST.max(fit as usize))];
+    let round = || -> Result<f64, BenchError> {
+        let clock = Instant::now();
+        for contact in contacts {
+            std::hint::black_box(would_break(body, std::slice::from_ref(contact), config)?);
+        }
+        Ok(clock.elapsed().as_secs_f64())
+    };
+    let first = round()?.max(1e-9);
+    let rounds = ((BUDGET / first) as usize).clamp(1, MOST_CALLS.div_ceil(contacts.len()));
+    let mut times = Vec::with_capacity(rounds);
+    for _ in 0..rounds {
+        times.push(round()?);
+    }
+    let per_second = contacts.len() as f64 / Times::new(times).median();
+    let mut single = Vec::with_capacity(rounds * contacts.len());
+    for _ in 0..rounds {
+        for contact in contacts {
+            let clock = Instant::now();
+            std::hint::black_box(would_break(body, std::slice::from_ref(contact), config)?);
+            single.push(clock.elapsed().as_secs_f64());
+        }
+    }
+    Ok(Timed {
+        contacts: contacts.len(),
+        per_second,
+        latency: Times::new(single).spread(),
+    })
+}
+
+/// Median of a call that does nothing, s.
+fn clock_cost() -> f64 {
+    let empty = (0..10_000).map(|_| Instant::now().elapsed().as_secs_f64());
+    Times::new(empty.collect()).median()
+}

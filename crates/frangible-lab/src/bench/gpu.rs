@@ -1,0 +1,257 @@
+//! Batches of impacts on the CPU and on a GPU, and which of the two [`Choice::Auto`] takes.
+
+use std::time::Instant;
+
+use frangible::glam::Vec3;
+use frangible::internals::{Stage, Vibration};
+use frangible::{Body, Breakable, Contact, FractureConfig, Material};
+use frangible_bake::{BakeSpec, Shape, bake};
+use frangible_gpu::{Choice, Gpu, Impact, RanOn, Solver};
+use serde::Serialize;
+
+use crate::bench::error::BenchError;
+use crate::bench::subjects::{MODES, steel_ball};
+
+/// Runs of a batch; the fastest counts.
+const RUNS: usize = 3;
+/// Most impacts of a batch with an adapter in software: they take a second each where it is busy.
+const MOST_IN_SOFTWARE: usize = 16;
+/// CPU time of a batch that hundredths of a second tell, s.
+const LEAST_CPU: f64 = 0.05;
+/// Speeds of the blows, m/s: they come near the strength; most hold, some crack.
+const SPEEDS: [(&str, f64); 2] = [("pane", 1.0), ("glass", 1.5)];
+
+/// The adapter that computes.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Adapter {
+    /// Its name.
+    pub name: String,
+    /// Whether it computes on the CPU.
+    pub software: bool,
+}
+
+/// A time beside the processor's own.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Cost {
+    /// Wall-clock time per impact, s.
+    pub wall: f64,
+    /// CPU time of the whole process per impact, s, where the system tells, and the batch takes long enough.
+    pub cpu: Option<f64>,
+}
+
+/// A batch.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Batch {
+    /// Impacts, one contact each, each on a body of its own.
+    pub impacts: usize,
+    /// Those with cracks.
+    pub cracked: usize,
+    /// On the CPU, all its threads.
+    pub cpu: Cost,
+    /// On the GPU, and the CPU for what it leaves.
+    pub gpu: Option<Cost>,
+    /// What `Choice::Auto` took.
+    pub auto: &'static str,
+}
+
+/// A kind of body.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct OfBody {
+    /// Its name.
+    pub name: &'static str,
+    /// Its tetrahedra.
+    pub tets: usize,
+    /// Its weak points.
+    pub weak_points: usize,
+    /// Nodes of its analysis mesh.
+    pub analysis_nodes: usize,
+    /// Mean number of time steps of an impact.
+    pub steps: usize,
+    /// Rising batches.
+    pub batches: Vec<Batch>,
+    /// Why `Choice::Auto` took what it took for the largest one: with the threshold that its trial found.
+    pub why: String,
+}
+
+/// What was found.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Findings {
+    /// The adapter, or why there is none.
+    pub adapter: Result<Adapter, String>,
+    /// Modes of each body.
+    pub modes: usize,
+    /// The bodies.
+    pub bodies: Vec<OfBody>,
+}
+
+/// Times batches of 1, 4, 16 … impacts, up to `largest`. Without a GPU the CPU alone.
+///
+/// # Errors
+/// A body that does not bake, a GPU that fails.
+pub fn measure(
+    largest: usize,
+    progress: &mut dyn FnMut(&str, f64),
+) -> Result<Findings, BenchError> {
+    let adapter = match Gpu::new() {
+        Ok(gpu) => Ok(Adapter {
+            name: gpu.adapter().into(),
+            software: gpu.is_software(),
+        }),
+        Err(problem) => Err(problem.to_string()),
+    };
+    let largest = match &adapter {
+        Ok(adapter) if adapter.software => largest.min(MOST_IN_SOFTWARE),
+        _ => largest,
+    };
+    let mut bodies = Vec::new();
+    for (name, speed) in SPEEDS {
+        progress(&format!("baking {name}"), 0.0);
+        let shape = match name {
+            "pane" => Shape::plate(0.3, 0.3, 0.004),
+            _ => Shape::drinking_glass(),
+        };
+        let spec = BakeSpec {
+            modes: MODES,
+            ..BakeSpec::new(name, shape, Material::preset("glass")?)
+        };
+        let kind = Breakable::new(bake(&spec, &mut |_| {})?.0)?;
+        bodies.push(of_body(
+            name,
+            &kind,
+            speed,
+            largest,
+            adapter.is_ok(),
+            progress,
+        )?);
+    }
+    Ok(Findings {
+        adapter,
+        modes: MODES,
+        bodies,
+    })
+}
+
+fn of_body(
+    name: &'static str,
+    kind: &Breakable,
+    speed: f64,
+    largest: usize,
+    gpu: bool,
+    progress: &mut dyn FnMut(&str, f64),
+) -> Result<OfBody, BenchError> {
+    let asset = kind.asset();
+    let config = FractureConfig::with_given_impulses();
+    let bodies: Vec<Body> = (0..largest as u64).map(|seed| kind.body(seed)).collect();
+    let contacts: Vec<[Contact; 1]> = (0..largest)
+        .map(|k| Ok([blow(kind, k, speed)?]))
+        .collect::<Result<_, BenchError>>()?;
+    let mut steps = 0;
+    for (body, contacts) in bodies.iter().zip(&contacts) {
+        if let Stage::Vibrates(vibration) = Vibration::begin(body, contacts, &config)? {
+            steps += vibration.pulse.total_steps;
+        }
+    }
+    let mut cpu = Solver::new(Choice::Cpu)?;
+    let mut on_gpu = gpu.then(|| Solver::new(Choice::Gpu)).transpose()?;
+    let mut auto = Solver::new(Choice::Auto)?;
+    let (mut batches, mut why) = (Vec::new(), String::new());
+    let sizes = std::iter::successors(Some(1), |n| Some(4 * n));
+    for size in sizes.take_while(|&n| n <= largest) {
+        progress(
+            &format!("{name}: {size} impacts"),
+            size as f64 / largest as f64,
+        );
+        let batch = |solver: &mut Solver| time(solver, kind, &bodies[..size], &contacts, &config);
+        let (of_cpu, cracked) = batch(&mut cpu)?;
+        let of_gpu = on_gpu.as_mut().map(batch).transpose()?;
+        let loaded = auto.load(kind)?;
+        let impacts = impacts(&loaded, &bodies[..size], &contacts);
+        let (_, ran) = auto.impacts(&impacts, &config)?;
+        why.clone_from(&ran.why);
+        batches.push(Batch {
+            impacts: size,
+            cracked,
+            cpu: of_cpu,
+            gpu: of_gpu.map(|(cost, _)| cost),
+            auto: match ran.on {
+                RanOn::Cpu => "CPU",
+                RanOn::Gpu => "GPU",
+            },
+        });
+    }
+    Ok(OfBody {
+        name,
+        tets: asset.fracture.tets.len(),
+        weak_points: bodies.first().map_or(0, |body| body.weak_tets().len()),
+        analysis_nodes: asset.analysis.nodes.len(),
+        steps: steps / largest.max(1),
+        batches,
+        why,
+    })
+}
+
+fn impacts<'a>(
+    kind: &'a frangible_gpu::Loaded,
+    bodies: &'a [Body],
+    contacts: &'a [[Contact; 1]],
+) -> Vec<Impact<'a>> {
+    let each = bodies.iter().zip(contacts);
+    each.map(|(body, contacts)| Impact::new(kind, body, contacts))
+        .collect()
+}
+
+/// Cost per impact of the fastest run, and how many impacts cracked. The first run warms up.
+fn time(
+    solver: &mut Solver,
+    kind: &Breakable,
+    bodies: &[Body],
+    contacts: &[[Contact; 1]],
+    config: &FractureConfig,
+) -> Result<(Cost, usize), BenchError> {
+    let loaded = solver.load(kind)?;
+    let impacts = impacts(&loaded, bodies, contacts);
+    let (outcomes, _) = solver.impacts(&impacts, config)?;
+    let cracked = outcomes.iter().filter(|o| o.report().cracks > 0).count();
+    let each = 1.0 / impacts.len() as f64;
+    let mut best: Option<Cost> = None;
+    for _ in 0..RUNS {
+        let (wall, cpu) = (Instant::now(), cpu_seconds());
+        solver.impacts(&impacts, config)?;
+        let cost = Cost {
+            wall: wall.elapsed().as_secs_f64() * each,
+            cpu: cpu_seconds()
+                .zip(cpu)
+                .map(|(b, a)| b - a)
+                .filter(|&spent| spent >= LEAST_CPU)
+                .map(|spent| spent * each),
+        };
+        best = Some(match best {
+            Some(best) if best.wall <= cost.wall => best,
+            _ => cost,
+        });
+    }
+    let none = Cost {
+        wall: 0.0,
+        cpu: None,
+    };
+    Ok((best.unwrap_or(none), cracked))
+}
+
+/// A steel ball of 60 g on a place of the surface, from outside.
+fn blow(kind: &Breakable, k: usize, speed: f64) -> Result<Contact, BenchError> {
+    let asset = kind.asset();
+    let triangle = (k * 7919 + 13) % asset.surface.triangles.len();
+    let corner = asset.surface.triangles[triangle][0];
+    let point = asset.fracture.positions[corner as usize];
+    let inward: Vec3 = -asset.surface.normals[triangle][0];
+    let ball = steel_ball(0.06)?;
+    Ok(Contact::collision(asset, point, inward, speed, ball))
+}
+
+/// CPU time of this process so far, s, where the system tells in hundredths.
+fn cpu_seconds() -> Option<f64> {
+    let stat = std::fs::read_to_string("/proc/self/stat").ok()?;
+    let fields: Vec<&str> = stat.rsplit(')').next()?.split_whitespace().collect();
+    let ticks = fields.get(11)?.parse::<f64>().ok()? + fields.get(12)?.parse::<f64>().ok()?;
+    Some(ticks / 100.0)
+}

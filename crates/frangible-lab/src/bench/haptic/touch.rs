@@ -1,0 +1,278 @@
+//! A tick: where the probe is and how fast, in; force, displacement of the surface and news of the body, out.
+//!
+//! - The force is that of a spring and a damper along the surface's normal, as haptic devices render contact: kilonewtons per
+//!   metre, a hundredth of what the surface itself would answer with. While the probe is inside, the surface point slides with it and
+//!   is not looked for anew, so that it is not pushed out on the other side of a thin body.
+//! - The surface gives way by its vibration under that force: quasi-static and dynamic, exact over the tick ([`LiveModes`]).
+//! - The first tick of a contact is a blow: the impulse that rigid bodies exchange at the speed of approach, in the time that two
+//!   elastic bodies take. Most are refused at once. Else the ticks that follow look for the first moment at which a crack can
+//!   start, a bounded piece of work each ([`OnsetSearch`]), and if there is one, cracks and pieces are made on another thread, to be
+//!   there [`DELAY`] ticks later.
+//! - One question at a time: until it is answered the body is whole, and no other blow is asked about.
+//! - In the other ticks of a contact the force presses. One number per body clears that nearly always.
+
+use std::sync::Arc;
+
+use frangible::glam::Vec3;
+use frangible::internals::{Force, Onset, OnsetSearch, Stage, Vibration, rest_margin_at_least};
+use frangible::{Body, Contact, Fracture, FractureConfig, InputError, Outcome, Striker};
+
+use super::judge::{Case, Judge};
+use super::live::{LiveModes, SurfacePlace};
+
+/// Length of a tick, s.
+pub const TICK: f64 = 1e-3;
+
+/// Ticks from the first moment at which a crack can start to the pieces: twice what a break of 8 000 tetrahedra takes one core.
+pub const DELAY: u64 = 24;
+
+/// Batches of time steps that a tick looks at: 0.2 to 0.5 ms.
+const LOOKS: usize = 1;
+
+/// What holds the probe's tip.
+#[derive(Clone, Copy, Debug)]
+pub struct Probe {
+    /// Radius of the tip, m.
+    pub radius: f32,
+    /// What the body is hit by, for blows.
+    pub striker: Striker,
+    /// Spring of the contact, N/m.
+    pub stiffness: f32,
+    /// Damper of the contact, N·s/m.
+    pub damping: f32,
+}
+
+/// What became of a tick.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// The probe touches nothing.
+    Free,
+    /// It presses or slides.
+    Contact,
+    /// It has just met the surface.
+    Blow,
+    /// A blow is being looked at.
+    Looking,
+    /// A crack can start: cracks and pieces are on their way.
+    Cracks,
+    /// Cracks and pieces are there.
+    Verdict,
+}
+
+/// What a tick gives back.
+#[derive(Clone, Debug)]
+pub struct Felt {
+    /// What became of it.
+    pub kind: Kind,
+    /// On the probe, N.
+    pub force: Vec3,
+    /// How far vibration has moved the surface at the contact from where it rests, m; zero without contact.
+    pub displacement: Vec3,
+    /// The quasi-static part of it, m.
+    pub at_rest: Vec3,
+    /// The pieces, in the tick in which they are there.
+    pub pieces: Option<Box<Fracture>>,
+}
+
+impl Felt {
+    const fn nothing() -> Self {
+        Self {
+            kind: Kind::Free,
+            force: Vec3::ZERO,
+            displacement: Vec3::ZERO,
+            at_rest: Vec3::ZERO,
+            pieces: None,
+        }
+    }
+}
+
+/// A body that is touched.
+pub struct Touch {
+    body: Arc<Body>,
+    config: FractureConfig,
+    probe: Probe,
+    live: LiveModes,
+    place: SurfacePlace,
+    inside: bool,
+    /// It broke: there is nothing left to touch.
+    gone: bool,
+    tick: u64,
+    /// A blow that is being looked at.
+    search: Option<OnsetSearch>,
+    judge: Judge,
+}
+
+impl Touch {
+    /// A whole body at rest.
+    ///
+    /// # Errors
+    /// None to be expected.
+    pub fn new(body: Body, probe: Probe, config: &FractureConfig) -> Result<Self, InputError> {
+        // Made when it is first asked for, which should not be in a tick.
+        let _ = rest_margin_at_least(&body, 0.0, 0.0);
+        Ok(Self {
+            live: LiveModes::new(&body, TICK)?,
+            place: SurfacePlace::nearest(&body, Vec3::ZERO)?,
+            body: Arc::new(body),
+            config: config.clone(),
+            probe,
+            inside: false,
+            gone: false,
+            tick: 0,
+            search: None,
+            judge: Judge::new(config.clone(), DELAY),
+        })
+    }
+
+    /// Puts another whole body in the place of this one, once no question about it is open.
+    ///
+    /// # Errors
+    /// None to be expected.
+    pub fn replace(&mut self, body: Body) -> Result<(), InputError> {
+        self.live = LiveModes::new(&body, TICK)?;
+        self.body = Arc::new(body);
+        (self.inside, self.gone) = (false, false);
+        Ok(())
+    }
+
+    /// Whether cracks and pieces are due in the coming tick.
+    #[must_use]
+    pub fn expects_verdict(&self) -> bool {
+        self.judge.is_due(self.tick + 1)
+    }
+
+    /// Who makes cracks and pieces.
+    pub fn judge(&mut self) -> &mut Judge {
+        &mut self.judge
+    }
+
+    /// A tick: the centre of the probe's tip, m, and its velocity, m/s, in the body frame. When its force is given out, let
+    /// [`Judge::hand_over`] follow.
+    ///
+    /// # Errors
+    /// A position or velocity that is not finite.
+    pub fn tick(&mut self, position: Vec3, velocity: Vec3) -> Result<Felt, InputError> {
+        self.tick += 1;
+        if self.gone {
+            return Ok(Felt::nothing());
+        }
+        let normal = self.place.normal;
+        let on_plane = position - normal * (position - self.place.position).dot(normal);
+        let near = if self.inside { on_plane } else { position };
+        self.place.seek(&self.body, near)?;
+        let (push, displacement, at_rest) = self.contact(position, velocity);
+        let first = push > 0.0 && !self.inside;
+        self.inside = push > 0.0;
+        let mut felt = Felt {
+            force: self.place.normal * push,
+            displacement,
+            at_rest,
+            ..Felt::nothing()
+        };
+        if self.inside {
+            felt.kind = Kind::Contact;
+        }
+        if let Some(kind) = self.question(first, velocity, felt.force)? {
+            felt.kind = kind;
+        }
+        if let Some(verdict) = self.judge.verdict(self.tick) {
+            felt.kind = Kind::Verdict;
+            felt.pieces = self.take_note(verdict?)?;
+        }
+        Ok(felt)
+    }
+
+    /// The size of the contact's force, N, and the displacement of the surface, m: now, and when all has come to rest.
+    fn contact(&mut self, position: Vec3, velocity: Vec3) -> (f32, Vec3, Vec3) {
+        let (place, probe) = (&self.place, &self.probe);
+        let moved = self.live.displacement(place).dot(place.normal);
+        let gap = (position - place.position).dot(place.normal) - moved - probe.radius;
+        let push = if gap < 0.0 {
+            let parting = (velocity - self.live.velocity(place)).dot(place.normal);
+            (-probe.stiffness * gap - probe.damping * parting).max(0.0)
+        } else {
+            0.0
+        };
+        if push > 0.0 {
+            self.live.push(place, place.normal * -push);
+        }
+        self.live.step();
+        if push > 0.0 {
+            let at_rest = self.live.static_displacement(place);
+            (push, self.live.displacement(place), at_rest)
+        } else {
+            (0.0, Vec3::ZERO, Vec3::ZERO)
+        }
+    }
+
+    /// Goes on with an open question, or asks a new one; what came of it.
+    fn question(
+        &mut self,
+        first: bool,
+        velocity: Vec3,
+        force: Vec3,
+    ) -> Result<Option<Kind>, InputError> {
+        if let Some(mut search) = self.search.take() {
+            return Ok(Some(match search.look(&self.body, &self.config, LOOKS) {
+                Onset::Never => Kind::Looking,
+                Onset::NotBefore(_) if self.body.state().is_intact() => {
+                    self.search = Some(search);
+                    Kind::Looking
+                }
+                _ => {
+                    let (vibration, first_step) = search.into_impact();
+                    let case = Case::Impact(Box::new(vibration), first_step);
+                    self.judge.ask(self.tick, &self.body, case);
+                    Kind::Cracks
+                }
+            }));
+        }
+        if !self.inside || self.judge.is_busy() {
+            return Ok(None);
+        }
+        if first {
+            self.blow(velocity)?;
+            return Ok(Some(Kind::Blow));
+        }
+        // One number per body clears nearly all that presses.
+        if rest_margin_at_least(&self.body, force.length(), 0.0) > 1.0 {
+            return Ok(None);
+        }
+        let press = Force {
+            point: self.place.position,
+            force: -force,
+        };
+        self.judge.ask(self.tick, &self.body, Case::Press(press));
+        Ok(Some(Kind::Cracks))
+    }
+
+    /// Asks about a blow: refused at once, or to be looked at.
+    fn blow(&mut self, velocity: Vec3) -> Result<(), InputError> {
+        let (body, inward) = (&self.body, -self.place.normal);
+        let speed = f64::from(velocity.dot(inward).max(0.0));
+        let striker = self.probe.striker;
+        let hit = Contact::collision(body.asset(), self.place.position, inward, speed, striker);
+        if let Stage::Vibrates(vibration) = Vibration::begin(body, &[hit], &self.config)? {
+            let mut search = OnsetSearch::new(body, vibration);
+            // The bounds alone, in this tick.
+            let onset = search.look(body, &self.config, 0);
+            self.search = (onset != Onset::Never).then_some(search);
+        }
+        Ok(())
+    }
+
+    /// The pieces, or the body's own cracks.
+    fn take_note(&mut self, verdict: Outcome) -> Result<Option<Box<Fracture>>, InputError> {
+        match verdict {
+            Outcome::Broke(fracture) => {
+                self.gone = true;
+                return Ok(Some(fracture));
+            }
+            Outcome::Held {
+                state: Some(state), ..
+            } => Arc::make_mut(&mut self.body).set_state(*state)?,
+            _ => {}
+        }
+        Ok(None)
+    }
+}

@@ -1,0 +1,66 @@
+//! Frame times of scenes whose pieces break again.
+
+use std::fmt::Write;
+
+use frangible_scenes::GamePlan;
+
+use super::{grouped, ms, table};
+use crate::bench::again::{Findings, SIZE};
+
+/// Frame times by scene.
+#[must_use]
+pub fn again(found: &[Findings], plan: GamePlan) -> String {
+    let rows: Vec<Vec<String>> = found
+        .iter()
+        .map(|f| {
+            vec![
+                f.scene.clone(),
+                f.breaks.to_string(),
+                f.again.to_string(),
+                f.bodies.to_string(),
+                ms(f.frames.p50),
+                ms(f.frames.p99),
+                ms(f.frames.max),
+                format!("{} of {}", f.late, f.frames.calls),
+            ]
+        })
+        .collect();
+    let mut text = format!(
+        "Scenes of the gallery, their bodies of about {} tetrahedra and {} modes, in steps of 1/{} s, breaks after the step (at most {} tetrahedra of work put in per step, each on other threads for {} steps), \
+         pieces that break from {:.1} s after their birth on, with modes of their own from {:.1} s on, \
+         frames of 1/60 s that begin when they are due. Bodies and steps are coarser than in the pictures, so not the same breaks. A frame's time is its least over \
+         {} equal runs.\n\n",
+        grouped(SIZE[0] as f64),
+        SIZE[1],
+        60 * plan.steps_per_frame,
+        grouped(plan.budget as f64),
+        plan.delay,
+        plan.pieces[0],
+        plan.pieces[1],
+        found.first().map_or(0, |f| f.runs),
+    );
+    text += &table(
+        &[
+            "scene",
+            "bodies broke",
+            "pieces broke again",
+            "bodies in the end",
+            "median, ms",
+            "p99, ms",
+            "longest, ms",
+            "over 1/60 s",
+        ],
+        &rows,
+    );
+    let within = found.iter().filter(|f| f.frames.p99 <= 1.0 / 60.0);
+    let names: Vec<&str> = within.map(|f| f.scene.as_str()).collect();
+    let _ = writeln!(
+        text,
+        "\nThe 99th percentile is within 1/60 s in {} of {} scenes{}{}.",
+        names.len(),
+        found.len(),
+        if names.is_empty() { "" } else { ": " },
+        names.join(", ")
+    );
+    text
+}

@@ -1,0 +1,305 @@
+//! How near the initiation comes to what the machine can do: operations and bytes of each stage against measured peaks.
+//!
+//! A stage can be no faster than its operations at the peak of arithmetic, nor than its bytes at the rate of the memory that holds
+//! them: the *roofline*. Reached is the longer of the two over the time it takes.
+
+mod counts;
+mod page;
+mod peak;
+
+use std::time::{Duration, Instant};
+
+use frangible::internals::stress::{DisplacementBatch, Law};
+use frangible::internals::{Stage, Vibration};
+use frangible::{Body, Breakable, FractureConfig};
+use serde::Serialize;
+
+use crate::bench::cache::Cache;
+use crate::bench::error::BenchError;
+use crate::bench::subjects::{MODES, Subject};
+
+pub use page::{page, tables};
+pub use peak::{Arithmetic, Memory, SIZES};
+
+/// Bodies that are measured where none is named.
+pub const BODIES: [&str; 3] = ["glass", "slab-moderate", "rabbit"];
+
+/// Strengths are multiplied with this, so that nothing breaks and every weak point is looked at to the end.
+const TOUGHER: f64 = 1e6;
+/// The best of so many runs counts: others may use the machine.
+const RUNS: usize = 60;
+/// Displacements and stresses are looked at for so many batches only, so that a run is over before the next one's turn.
+const BATCHES: usize = 2;
+/// A body's stresses are looked at again and again for so long, each time after a pause.
+const BUDGET: Duration = Duration::from_secs(2);
+const NAP: Duration = Duration::from_millis(2);
+
+/// A stage beside its roofline.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Reached {
+    /// What it does.
+    pub stage: &'static str,
+    /// Arithmetic it needs, operations.
+    pub operations: f64,
+    /// Bytes it needs.
+    pub bytes: f64,
+    /// Size of the memory they lie in, bytes.
+    pub working_set: usize,
+    /// The peak of its arithmetic, operations a second.
+    pub peak: f64,
+    /// Reading memory of that size, bytes a second.
+    pub bandwidth: f64,
+    /// What it takes, s.
+    pub seconds: f64,
+}
+
+impl Reached {
+    /// The shortest time that arithmetic allows, s.
+    #[must_use]
+    pub fn by_arithmetic(&self) -> f64 {
+        self.operations / self.peak
+    }
+
+    /// The shortest time that memory allows, s.
+    #[must_use]
+    pub fn by_memory(&self) -> f64 {
+        self.bytes / self.bandwidth
+    }
+
+    /// Share of the roofline reached.
+    #[must_use]
+    pub fn share(&self) -> f64 {
+        self.by_arithmetic().max(self.by_memory()) / self.seconds
+    }
+}
+
+/// The stages of a body.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct OfBody {
+    /// Its name.
+    pub body: &'static str,
+    /// Time steps.
+    pub steps: usize,
+    /// Modes.
+    pub modes: usize,
+    /// Nodes of the analysis mesh whose displacements are needed, and all.
+    pub nodes: [usize; 2],
+    /// Weak points: inside, beside a free surface, at an edge.
+    pub points: [usize; 3],
+    /// Each stage.
+    pub stages: Vec<Reached>,
+}
+
+/// What was found.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Findings {
+    /// Rates of arithmetic.
+    pub arithmetic: Arithmetic,
+    /// Rates of memory at [`SIZES`].
+    pub memory: Vec<Memory>,
+    /// Each body.
+    pub bodies: Vec<OfBody>,
+}
+
+/// Measures the machine, then bodies in our model, every weak point at every time step.
+///
+/// # Errors
+/// A body that does not bake, or whose file cannot be read.
+pub fn measure(
+    subjects: &[&'static Subject],
+    cache: &Cache,
+    progress: &mut dyn FnMut(&str, f64),
+) -> Result<Findings, BenchError> {
+    progress("peaks of the machine", 0.0);
+    let arithmetic = Arithmetic::measure();
+    let memory = SIZES.map(|(_, size)| Memory::measure(size)).to_vec();
+    let mut bodies = Vec::new();
+    for subject in subjects {
+        bodies.push(of_body(subject, cache, &arithmetic, progress)?);
+    }
+    Ok(Findings {
+        arithmetic,
+        memory,
+        bodies,
+    })
+}
+
+fn of_body(
+    subject: &'static Subject,
+    cache: &Cache,
+    arithmetic: &Arithmetic,
+    progress: &mut dyn FnMut(&str, f64),
+) -> Result<OfBody, BenchError> {
+    let geometry = || subject.geometry();
+    let baked = cache.body(subject.file(), MODES, subject.material, geometry, progress)?;
+    progress(&format!("{}: stages", subject.name), 0.5);
+    let contact = subject.contact(&baked.asset, subject.blow.speed_ours)?;
+    let mut asset = baked.asset;
+    asset.material.strength *= TOUGHER;
+    let body = Breakable::new(asset)?.body(1);
+    let mut config = FractureConfig::with_given_impulses();
+    config.culling = false;
+    let whole = vibration(&body, &contact, &config)?;
+    let mut vibration = whole.clone();
+    vibration.pulse.total_steps = whole
+        .pulse
+        .total_steps
+        .min(BATCHES * DisplacementBatch::STRIDE);
+    let work = Work::of(&body, &vibration, &config);
+    let product = displacement_time(&body, &vibration);
+    // Some nodes belong to no weak point's element, and the stage leaves them out.
+    let needed = product * work.nodes[0] as f64 / work.nodes[1] as f64;
+    let stresses = stress_time(&body, &vibration, &config) - needed;
+    let (modes, steps) = (work.modes, whole.pulse.total_steps);
+    let batches = vibration
+        .pulse
+        .total_steps
+        .div_ceil(DisplacementBatch::STRIDE) as f64;
+    let all = work.nodes[1];
+    let shapes = 12 * modes * all;
+    let fields = counts::NODE * all + 10 * 8 * body.asset().analysis.elements.len();
+    let bandwidth = |size: usize| Memory::measure(size).read;
+    let stages = vec![
+        Reached {
+            stage: "response of the modes (f64)",
+            operations: counts::response(modes, steps),
+            bytes: counts::response_bytes(modes, steps),
+            working_set: 4 * modes * steps,
+            peak: arithmetic.double,
+            bandwidth: bandwidth(4 * modes * steps),
+            seconds: shortest(|| {
+                std::hint::black_box(whole.motion(&body));
+            }),
+        },
+        Reached {
+            stage: "displacements u = Φ q",
+            operations: batches * all as f64 * counts::displacement(modes),
+            bytes: batches * all as f64 * counts::displacement_bytes(modes),
+            working_set: shapes,
+            peak: arithmetic.separate,
+            bandwidth: bandwidth(shapes),
+            seconds: product,
+        },
+        Reached {
+            stage: "gradients, stresses, bounds",
+            operations: batches * work.operations,
+            bytes: batches * work.points.iter().sum::<usize>() as f64 * counts::weak_point_bytes(),
+            working_set: fields,
+            peak: arithmetic.separate,
+            bandwidth: bandwidth(fields),
+            seconds: stresses,
+        },
+    ];
+    Ok(OfBody {
+        body: subject.name,
+        steps,
+        modes,
+        nodes: work.nodes,
+        points: work.points,
+        stages,
+    })
+}
+
+/// What a look at every weak point has to do.
+struct Work {
+    modes: usize,
+    nodes: [usize; 2],
+    points: [usize; 3],
+    /// Operations of gradients and stresses, at a batch.
+    operations: f64,
+}
+
+impl Work {
+    fn of(body: &Body, vibration: &Vibration, config: &FractureConfig) -> Self {
+        let analysis = &body.asset().analysis;
+        let mut needed = vec![false; analysis.nodes.len()];
+        let (mut points, mut operations) = ([0; 3], 0.0);
+        for &tet in body.weak_tets() {
+            let (point, law) = body.weak_place(tet, config, &vibration.pressed);
+            for &node in &analysis.elements[point.element as usize] {
+                needed[node as usize] = true;
+            }
+            operations += counts::weak_point(law);
+            points[match law {
+                Law::Solid => 0,
+                Law::Free(_) => 1,
+                Law::Edge(_) => 2,
+            }] += 1;
+        }
+        Self {
+            modes: body.asset().modes.count(),
+            nodes: [needed.iter().filter(|&&n| n).count(), needed.len()],
+            points,
+            operations,
+        }
+    }
+}
+
+fn vibration(
+    body: &Body,
+    contact: &frangible::Contact,
+    config: &FractureConfig,
+) -> Result<Vibration, BenchError> {
+    match Vibration::begin(body, &[*contact], config)? {
+        Stage::Vibrates(vibration) => Ok(vibration),
+        Stage::Held(_) => Err(BenchError::NotAsMeant(
+            "a blow of Table 1 is refused by its impulse; change its speed in subjects.rs".into(),
+        )),
+    }
+}
+
+/// u = Φ q at all nodes and steps, s.
+fn displacement_time(body: &Body, vibration: &Vibration) -> f64 {
+    let asset = body.asset();
+    let motion = vibration.motion(body);
+    shortest(|| {
+        let mut batch = DisplacementBatch::new(asset);
+        for step in (0..motion.steps()).step_by(DisplacementBatch::STRIDE) {
+            batch.seek(&motion, step);
+            batch.fill(asset);
+            std::hint::black_box(&batch);
+        }
+    })
+}
+
+/// Displacements, gradients and stresses as the impact itself times them, s.
+fn stress_time(body: &Body, vibration: &Vibration, config: &FractureConfig) -> f64 {
+    let (clock, mut shortest) = (Instant::now(), f64::INFINITY);
+    while clock.elapsed() < BUDGET {
+        // Who has just slept is not stopped soon for others.
+        std::thread::sleep(NAP);
+        let outcome = vibration.clone().end(body, config, 0);
+        shortest = shortest.min(outcome.report().timings.stress);
+    }
+    shortest
+}
+
+fn shortest(mut run: impl FnMut()) -> f64 {
+    let times = (0..RUNS).map(|_| {
+        let clock = Instant::now();
+        run();
+        clock.elapsed().as_secs_f64()
+    });
+    times.fold(f64::INFINITY, f64::min)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Reached;
+
+    #[test]
+    fn the_longer_of_the_two_is_the_roof() {
+        let reached = Reached {
+            stage: "",
+            operations: 8e9,
+            bytes: 1e9,
+            working_set: 0,
+            peak: 8e9,
+            bandwidth: 5e9,
+            seconds: 4.0,
+        };
+        assert_eq!(reached.by_arithmetic(), 1.0);
+        assert_eq!(reached.by_memory(), 0.2);
+        assert_eq!(reached.share(), 0.25);
+    }
+}

@@ -1,0 +1,33 @@
+//! `frangible-lab near-field`: the stress and the force of a blow, in tables.
+
+use std::error::Error;
+
+use frangible_lab::verify::near_field::NearField;
+use serde_json::json;
+
+use crate::args::PageArgs;
+use crate::output::{Bar, Page, say};
+
+/// The page, and the folder of its picture.
+const PAGE: &str = "near-field.md";
+const PICTURES: &str = "near-field";
+
+pub(crate) fn run(args: &PageArgs) -> Result<(), Box<dyn Error>> {
+    let place = Page::new(args.write.as_deref(), PAGE, PICTURES)?;
+    let bar = Bar::new(args.json);
+    let found = NearField::compute(&mut |share| bar.show("hitting plates", share))?;
+    drop(bar);
+    let page = found.page(PICTURES)?;
+    let files = place.write(&page.text, &page.pictures)?;
+    if args.json {
+        return Ok(say(&format!(
+            "{:#}\n",
+            json!({ "page": page.text, "files": files })
+        ))?);
+    }
+    let mut text = page.text;
+    for file in files {
+        text.push_str(&format!("wrote {file}\n"));
+    }
+    Ok(say(&text)?)
+}

@@ -1,0 +1,37 @@
+//! Why there is no figure.
+
+use thiserror::Error;
+
+/// Why a figure could not be made.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum FigureError {
+    /// A name that no figure has.
+    #[error("there is no figure `{name}`{hint}; figures: {known}")]
+    UnknownFigure {
+        /// What was asked for.
+        name: String,
+        /// The one that was probably meant, or nothing.
+        hint: String,
+        /// All there are.
+        known: String,
+    },
+    /// The material of a body.
+    #[error(transparent)]
+    Material(#[from] frangible::internals::UnknownMaterial),
+    /// The bake refused a body.
+    #[error("a body could not be baked: {0}")]
+    Bake(#[from] frangible_bake::BakeError),
+    /// The pipeline refused an impact.
+    #[error(transparent)]
+    Input(#[from] frangible::InputError),
+    /// A scene could not be played.
+    #[error(transparent)]
+    Scene(#[from] frangible_scenes::SceneError),
+    /// A picture could not be drawn.
+    #[error(transparent)]
+    Draw(#[from] frangible_draw::DrawError),
+    /// Nothing broke where the figure needs pieces.
+    #[error("nothing to show: {0}")]
+    Nothing(&'static str),
+}

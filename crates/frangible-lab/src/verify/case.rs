@@ -1,0 +1,102 @@
+//! What can be verified, in the order of the report.
+
+use frangible_bake::BakeError;
+
+use crate::plot::Chart;
+use crate::verify::VerifyError;
+use crate::verify::cases;
+use crate::verify::check::Check;
+
+/// Something with a known answer.
+#[derive(Clone, Copy, Debug)]
+pub struct Case {
+    /// Short name, one word.
+    pub name: &'static str,
+    /// Heading of its part of the report.
+    pub title: &'static str,
+    /// What is computed and where the references come from, Markdown.
+    pub about: &'static str,
+    pub(crate) compute: Compute,
+}
+
+/// Computes a case; hears the share done, 0..=1.
+pub(crate) type Compute = fn(&mut dyn FnMut(f64)) -> Result<Findings, BakeError>;
+
+/// What a case found.
+#[derive(Clone, Debug, Default)]
+pub struct Findings {
+    /// Comparisons, in the order of the report.
+    pub checks: Vec<Check>,
+    /// Pictures that belong to them.
+    pub plots: Vec<Plot>,
+}
+
+impl From<Vec<Check>> for Findings {
+    fn from(checks: Vec<Check>) -> Self {
+        Self {
+            checks,
+            plots: Vec::new(),
+        }
+    }
+}
+
+/// A chart with a name and a caption.
+#[derive(Clone, Debug)]
+pub struct Plot {
+    /// Name of its file without the ending.
+    pub name: &'static str,
+    /// What it shows, Markdown.
+    pub caption: String,
+    /// The chart itself.
+    pub chart: Chart,
+}
+
+/// All cases.
+pub const CASES: &[Case] = &[
+    cases::bar::CASE,
+    cases::plate::CASE,
+    cases::block::CASE,
+    cases::ball::CASE,
+    cases::cantilever::CASE,
+    cases::convergence::CASE,
+    cases::basis::CASE,
+    cases::scaling::CASE,
+    cases::oscillator::CASE,
+    cases::contact::CASE,
+    cases::near_field::CASE,
+    cases::blow::CASE,
+];
+
+/// The case of this name.
+#[must_use]
+pub fn case(name: &str) -> Option<&'static Case> {
+    CASES.iter().find(|case| case.name == name)
+}
+
+impl Case {
+    /// Computes it; `progress` hears the share done, 0..=1.
+    ///
+    /// # Errors
+    /// [`VerifyError::Bake`] when the code under test refuses to compute it at all.
+    pub fn run(&self, progress: &mut dyn FnMut(f64)) -> Result<Findings, VerifyError> {
+        (self.compute)(progress).map_err(|source| VerifyError::Bake {
+            case: self.name,
+            source,
+        })
+    }
+}
+
+impl Plot {
+    /// The chart as a PNG file.
+    ///
+    /// # Errors
+    /// [`VerifyError::Plot`] with what the encoder said.
+    pub fn png(&self, width: u32, height: u32) -> Result<Vec<u8>, VerifyError> {
+        self.chart
+            .png(width, height)
+            .map_err(|error| VerifyError::Plot {
+                name: self.name.into(),
+                reason: error.to_string(),
+            })
+    }
+}

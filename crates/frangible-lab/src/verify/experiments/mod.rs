@@ -1,0 +1,65 @@
+//! Is the fracture real? Counts and distributions beside published experiments, by `frangible-lab experiments`.
+//!
+//! Here nothing passes or fails: there is no exact answer, only what was measured on other bodies. [`Experiments::compute`] breaks
+//! some hundred of them, [`Experiments::page`] says what came out, with errors, and where it disagrees.
+
+mod blow;
+mod fit;
+mod masses;
+mod masses_page;
+mod page;
+mod pattern;
+mod progress;
+mod rear_star;
+mod star;
+mod star_page;
+
+pub use fit::{CutOffLaw, PowerLaw};
+pub use masses::{MassPlan, MassRun, Masses, Published};
+pub(crate) use page::table;
+pub use page::{Figure, Page};
+pub use pattern::CrackPattern;
+pub use progress::Hear;
+pub use rear_star::{RearStar, RearStarPlan, RearStars};
+pub(crate) use star::preset;
+pub use star::{Count, StarImpact, StarPlan, StarRun, Stars};
+
+use crate::verify::VerifyError;
+
+/// All experiments, computed.
+#[derive(Clone, Debug)]
+pub struct Experiments {
+    /// Radial cracks of thin plates.
+    pub stars: Stars,
+    /// Cracks of window glass from its rear face.
+    pub rear_stars: RearStars,
+    /// Masses of pieces.
+    pub masses: Masses,
+}
+
+/// Share of the work that goes into the stars.
+const STARS: f64 = 0.5;
+
+/// Share that goes into the rear stars.
+const REAR: f64 = 0.2;
+
+impl Experiments {
+    /// Computes what the plans ask for; the same plans give the same bits on any number of threads. With the full plans
+    /// it takes minutes.
+    ///
+    /// # Errors
+    /// What the bake or the impact refused.
+    pub fn compute(
+        stars: StarPlan,
+        rear_stars: RearStarPlan,
+        masses: MassPlan,
+        hear: Hear<'_>,
+    ) -> Result<Self, VerifyError> {
+        let before = STARS + REAR;
+        Ok(Self {
+            stars: Stars::compute(stars, &|share| hear(STARS * share))?,
+            rear_stars: RearStars::compute(rear_stars, &|share| hear(STARS + REAR * share))?,
+            masses: Masses::compute(masses, &|share| hear(before + (1.0 - before) * share))?,
+        })
+    }
+}

@@ -1,0 +1,165 @@
+//! How right are the ways to find how a piece vibrates? Fragments of broken bodies, each hit at three places, by every way and by
+//! a full analysis of its own: `frangible-lab pieces`.
+//!
+//! The truth is an analysis of the piece as fine as a bake's; some pieces are also meshed anew from their surface and baked,
+//! which shares neither elements nor lattice with it. Nothing passes or fails: [`Truth::page`] says what came out.
+
+mod baked;
+mod chart;
+mod choose;
+mod clock;
+mod impacts;
+mod measure;
+mod page;
+mod statistics;
+mod way;
+
+pub use baked::Rebaked;
+pub use choose::Broken;
+pub use measure::{Blow, PieceSample, Reading, Sample};
+pub use way::{WAYS, Way};
+
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use crate::verify::VerifyError;
+use crate::verify::experiments::Hear;
+use choose::{Chosen, choose};
+use way::Ways;
+
+/// What to compute.
+#[derive(Clone, Debug)]
+pub struct TruthPlan {
+    /// Fragments, spread over the bodies and over sizes; fewer where there are not so many.
+    pub fragments: usize,
+    /// How many of the fragments are meshed anew and baked.
+    pub baked: usize,
+    /// Quadratic elements and modes of the full analysis.
+    pub elements: usize,
+    /// See [`Self::elements`].
+    pub modes: usize,
+    /// Threads; times are those of the thread that works.
+    pub threads: usize,
+}
+
+impl TruthPlan {
+    /// As published.
+    #[must_use]
+    pub const fn full() -> Self {
+        Self {
+            fragments: 200,
+            baked: 10,
+            elements: 3000,
+            modes: 100,
+            threads: 2,
+        }
+    }
+
+    /// A few pieces against a coarser truth: to see that everything runs.
+    #[must_use]
+    pub const fn tiny() -> Self {
+        Self {
+            fragments: 4,
+            baked: 1,
+            elements: 800,
+            modes: 40,
+            threads: 2,
+        }
+    }
+}
+
+/// Everything that was computed.
+#[derive(Clone, Debug)]
+pub struct Truth {
+    /// What was to be computed.
+    pub plan: TruthPlan,
+    /// One per fragment, in the order of the bodies, smaller ones first.
+    pub pieces: Vec<PieceSample>,
+    /// Those that were baked anew.
+    pub baked: Vec<Rebaked>,
+    /// Pieces whose full analysis was refused, with the reason.
+    pub refused: Vec<String>,
+}
+
+impl Truth {
+    /// Measures fragments of these bodies. All but times is the same on any number of threads.
+    ///
+    /// # Errors
+    /// What the fracture code refused; a thread that could not be started.
+    pub fn compute(
+        plan: TruthPlan,
+        broken: &[Broken],
+        hear: Hear<'_>,
+    ) -> Result<Self, VerifyError> {
+        let chosen = choose(broken, plan.fragments);
+        let ways = Ways::new();
+        let every = (chosen.len() / plan.baked.max(1)).max(1);
+        // The middle one of each stretch, so that small and large pieces come up.
+        let to_bake = |i: usize| plan.baked > 0 && i % every == every / 2;
+        let rows = side_by_side(&chosen, plan.threads, hear, &|i, piece: &Chosen| {
+            let sample = measure::measure(&plan, &ways, &broken[piece.broken], piece, i)?;
+            let baked = match &sample {
+                Ok(sample) if to_bake(i) => baked::rebake(&broken[piece.broken], piece, sample),
+                _ => None,
+            };
+            Ok((sample, baked))
+        })?;
+        let mut truth = Self {
+            plan,
+            pieces: Vec::new(),
+            baked: Vec::new(),
+            refused: Vec::new(),
+        };
+        for (sample, baked) in rows {
+            match sample {
+                Ok(sample) => truth.pieces.push(sample),
+                Err(reason) => truth.refused.push(reason),
+            }
+            truth.baked.extend(baked);
+        }
+        truth.baked.truncate(truth.plan.baked);
+        Ok(truth)
+    }
+}
+
+/// Applies `work` to all, the largest (last) first, each thread with a pool of its own so that whatever it calls stays on it.
+fn side_by_side<T: Sync, R: Send>(
+    all: &[T],
+    threads: usize,
+    hear: Hear<'_>,
+    work: &(dyn Fn(usize, &T) -> Result<R, VerifyError> + Sync),
+) -> Result<Vec<R>, VerifyError> {
+    let (next, done) = (AtomicUsize::new(0), AtomicUsize::new(0));
+    let results: Mutex<Vec<(usize, Result<R, VerifyError>)>> = Mutex::default();
+    let failed = |reason: String| VerifyError::Pieces { reason };
+    hear(0.0);
+    let one = || {
+        loop {
+            let taken = next.fetch_add(1, Ordering::Relaxed);
+            if taken >= all.len() {
+                return;
+            }
+            let i = all.len() - 1 - taken;
+            let result = work(i, &all[i]);
+            if let Ok(mut results) = results.lock() {
+                results.push((i, result));
+            }
+            let done = done.fetch_add(1, Ordering::Relaxed) + 1;
+            hear(done as f64 / all.len() as f64);
+        }
+    };
+    let pools: Vec<rayon::ThreadPool> = (0..threads.max(1))
+        .map(|_| rayon::ThreadPoolBuilder::new().num_threads(1).build())
+        .collect::<Result<_, _>>()
+        .map_err(|e| failed(e.to_string()))?;
+    std::thread::scope(|scope| {
+        for pool in &pools {
+            scope.spawn(|| pool.install(one));
+        }
+    });
+    let mut results = results
+        .into_inner()
+        .map_err(|_| failed("it panicked".into()))?;
+    results.sort_by_key(|r| r.0);
+    results.into_iter().map(|r| r.1).collect()
+}

@@ -1,0 +1,104 @@
+//! Everything that is not needed to break a body and use its pieces: what the sibling crates are built from, and what the laboratory
+//! and the viewer look into.
+//!
+//! **Names in here may change in any release**, the patch releases included. What stands at the root of the crate does not.
+//!
+//! The modules follow the way of a contact through the crate: [`asset`] and [`mesh`] (what a bake makes), [`body`], [`contact`],
+//! [`blow`], [`modal`] and [`near_field`] (the motion), [`stress`], [`loads`] (other ways to move a body), [`piece`] (a fragment as
+//! a body).
+
+/// What a bake makes of a shape, its file and its checks.
+pub mod asset {
+    pub use crate::asset::*;
+}
+
+/// The force of a blow, integrated against the body.
+pub mod blow {
+    pub use crate::blow::*;
+}
+
+/// What bodies of one kind share, and what each has of its own.
+pub mod body {
+    pub use crate::body::*;
+}
+
+/// The switches of the fracture.
+pub mod config {
+    pub use crate::config::*;
+}
+
+/// How long and how hard a contact acts, and when it can be refused.
+pub mod contact {
+    pub use crate::contact::*;
+}
+
+/// Errors of the input.
+pub mod error {
+    pub use crate::error::*;
+}
+
+/// Strength and toughness that vary over a body.
+pub mod fields {
+    pub use crate::fields::*;
+}
+
+/// Loads other than contacts: rest, blast, script.
+pub mod loads {
+    pub use crate::loads::*;
+}
+
+/// Materials.
+pub mod material {
+    pub use crate::material::*;
+}
+
+/// Tetrahedra and surfaces.
+pub mod mesh {
+    pub use crate::mesh::*;
+}
+
+/// The modes and how they move.
+pub mod modal {
+    pub use crate::modal::*;
+}
+
+/// What the modes leave out of the motion near a contact.
+pub mod near_field {
+    pub use crate::near_field::*;
+}
+
+/// What an impact did.
+pub mod outcome {
+    pub use crate::outcome::*;
+}
+
+/// Fragments that are bodies again.
+pub mod piece {
+    pub use crate::piece::*;
+}
+
+/// The cracks that a body remembers.
+pub mod state {
+    pub use crate::state::*;
+}
+
+/// Stresses at weak points.
+pub mod stress {
+    pub use crate::stress::*;
+}
+
+pub use crate::asset::AssetFileError;
+pub use crate::config::{CrackPath, CrackTiming, DurationModel};
+pub use crate::crack::CrackFront;
+pub use crate::fields::{Channel, Factors, Fields, Paint, Patch, Zone};
+#[doc(hidden)]
+pub use crate::fragment::{CutEdge, interfaces_of_labels, pieces_of_cuts};
+pub use crate::impact::{Stage, Vibration, impact_traced, is_harmless};
+pub use crate::loads::{Blast, Force, blast, follow, fracture_at, rest, rest_margin_at_least};
+pub use crate::mesh::{MassProperties, RenderMesh, TetMesh, box_projection};
+pub use crate::onset::{Onset, OnsetSearch};
+pub use crate::outcome::{LookedAt, StageTimings};
+pub use crate::piece::{Elastic, PieceModel, Portion};
+pub use crate::presets::{Preset, RateLaw, UnknownMaterial};
+pub use crate::state::BodyState;
+pub use crate::trace::{CrackTrace, ElementTrace};
