@@ -186,6 +186,7 @@ fn cracks_start_from_the_stress_that_displacements_give() {
         let body = following(asset, modes).strengthened(1e4);
         let mut config = FractureConfig::default();
         config.culling = false;
+        body.prepare_for_blows(&config);
         let contact = on_stone(point, -point, 3.0);
         let outcome = impact(&body, &[contact], &config).unwrap();
         let report = outcome.report();

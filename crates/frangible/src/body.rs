@@ -274,6 +274,12 @@ impl Body {
         crate::loads::prepare(self);
     }
 
+    /// Works out how its modes stress its weak points, so that its first blow does not have to wait for it. Else that is done part by part,
+    /// where a blow has to look. Copies of the body share it.
+    pub fn prepare_for_blows(&self, config: &FractureConfig) {
+        self.rows.prepare(self, config);
+    }
+
     /// The point of its surface nearest to a point, m, body frame.
     #[doc(hidden)]
     #[must_use]

@@ -67,6 +67,15 @@ impl WeakRows {
         };
         self.0[laws].get_or_init(make).as_ref()
     }
+
+    /// Makes all that [`Self::of`] gives by and by.
+    pub(crate) fn prepare(&self, body: &Body, config: &FractureConfig) {
+        if let Some(rows) = self.of(body, config, body.asset.modes.followed()) {
+            for cluster in 0..rows.clusters.len() {
+                rows.cluster(body, config, cluster).coarse(body);
+            }
+        }
+    }
 }
 
 impl LawRows {

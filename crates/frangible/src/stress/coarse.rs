@@ -165,3 +165,62 @@ fn largest(frames: &[Frame], rows: &[f32], modes: usize) -> Vec<f32> {
     largest.iter_mut().for_each(|x| *x = x.sqrt());
     largest
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::Vec3;
+
+    use super::*;
+    use crate::rng::{Purpose, stream, uniform};
+
+    #[test]
+    fn what_shapes_leave_out_of_any_point_is_bounded() {
+        const MODES: usize = 48;
+        let mut rng = stream(3, Purpose::WeakPoints, 0);
+        let mut number = || 2.0 * uniform(&mut rng) as f32 - 1.0;
+        let frames: Vec<Frame> = (0..40)
+            .map(|i| match i % 3 {
+                0 => Frame::Surface([Vec3::X, Vec3::Y]),
+                1 => Frame::Edge(Vec3::Z),
+                _ => Frame::Space,
+            })
+            .collect();
+        let count: usize = frames.iter().map(|f| f.count()).sum();
+        // Rows of few shapes, nearly.
+        let shapes: Vec<Vec<f32>> = (0..4)
+            .map(|_| (0..MODES).map(|_| number()).collect())
+            .collect();
+        let rows: Vec<Vec<f32>> = (0..count)
+            .map(|_| {
+                let shares: Vec<f32> = (0..4).map(|_| 1e9 * number()).collect();
+                let of = |m: usize| -> f32 { (0..4).map(|k| shares[k] * shapes[k][m]).sum() };
+                (0..MODES).map(|m| of(m) + 1e6 * number()).collect()
+            })
+            .collect();
+        let rows = Rows::of(MODES, rows.into_iter());
+        let periods: Vec<f32> = (0..MODES).map(|m| 1e-3 / (m + 1) as f32).collect();
+        let coarse = Coarse::new(&frames, &rows, &periods).unwrap();
+        let amplitudes: Vec<Lanes> = periods
+            .iter()
+            .map(|p| std::array::from_fn(|_| p * number()))
+            .collect();
+        let mut exact = vec![[0.0; BATCH]; rows.padded()];
+        let mut found = exact.clone();
+        rows.add(&amplitudes, &mut exact);
+        let left_out = coarse.add(&amplitudes, &mut Vec::new(), &mut found);
+        let (mut row, mut tightest) = (0, f32::INFINITY);
+        for frame in &frames {
+            for k in 0..BATCH {
+                let apart = (0..frame.count()).map(|i| {
+                    let apart = exact[row + i][k] - found[row + i][k];
+                    frame.weight(i) * apart * apart
+                });
+                let apart = apart.sum::<f32>().sqrt();
+                assert!(apart <= left_out[k], "{frame:?}: {apart} {}", left_out[k]);
+                tightest = tightest.min(left_out[k] / apart);
+            }
+            row += frame.count();
+        }
+        assert!(tightest < 20.0, "{tightest}");
+    }
+}
