@@ -18,6 +18,7 @@ use crate::rng::{Purpose, stream, uniform};
 use crate::state::BodyState;
 use crate::stress::{Law, ShapeWeights, Skin, StressBounds, quadratic_modulus};
 use crate::weak_clusters::WeakClusters;
+use crate::weak_rows::WeakRows;
 
 /// An asset that has been checked and made ready: one per kind of object, cheap to clone, shared by its bodies.
 #[derive(Clone, Debug)]
@@ -177,6 +178,7 @@ impl Breakable {
             prepared: Arc::clone(&self.prepared),
             resistance,
             clusters,
+            rows: Arc::default(),
             seed,
             weak_tets,
             state: BodyState::default(),
@@ -230,6 +232,8 @@ pub struct Body {
     pub(crate) prepared: Arc<Prepared>,
     pub(crate) resistance: Resistance,
     pub(crate) clusters: WeakClusters,
+    /// How the modes stress its weak points; its copies share it.
+    pub(crate) rows: Arc<WeakRows>,
     /// Seed of its weak points and of the roughness of its cracks.
     seed: u64,
     weak_tets: Vec<u32>,
@@ -270,6 +274,12 @@ impl Body {
         crate::loads::prepare(self);
     }
 
+    /// Works out how its modes stress its weak points, so that its first blow does not have to wait for it. Else that is done part by part,
+    /// where a blow has to look. Copies of the body share it.
+    pub fn prepare_for_blows(&self, config: &FractureConfig) {
+        self.rows.prepare(self, config);
+    }
+
     /// The point of its surface nearest to a point, m, body frame.
     #[doc(hidden)]
     #[must_use]
@@ -296,6 +306,7 @@ impl Body {
         let tips = tips(&asset, &state);
         Self {
             clusters: WeakClusters::new(&asset, &weak_tets, &prepared.bounds, &resistance),
+            rows: Arc::default(),
             asset: Arc::new(asset),
             prepared,
             resistance,

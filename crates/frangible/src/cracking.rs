@@ -13,6 +13,9 @@ use crate::state::BodyState;
 use crate::stress::{BATCH, DisplacementBatch, STRIDE, lane};
 use crate::trace::CrackTrace;
 
+/// Time steps between two looks whether cracks have weakened the wall under a contact.
+const BETWEEN_STARS: usize = 7;
+
 /// What the cracks of an impact did to a body.
 #[expect(clippy::large_enum_variant, reason = "one at a time, never stored")]
 pub(crate) enum Cracked<'a> {
@@ -53,10 +56,11 @@ impl<'a> Cracking<'a> {
         };
         let mut system = CrackSystem::new(body, config, budget);
         let mut looked = Looked::default();
+        let mut suspects = Suspects::default();
         // From the beginning of its batch, so that every batch is whole.
         let mut step = first_step / STRIDE * STRIDE;
         while let Some((next, contact, compliance)) =
-            self.follow(step, &mut system, &mut looked, &mut report)
+            self.follow(step, &mut system, &mut suspects, &mut looked, &mut report)
         {
             let Some(blow) = &mut self.blow else { break };
             let now = next as f64 * self.time_step;
@@ -65,6 +69,7 @@ impl<'a> Cracking<'a> {
             report.contacts = blow.reports();
             report.contact_duration = blow.duration();
             report.time_steps = self.motion.steps();
+            system.releases.forget_batch();
             step = next;
         }
         report.peak_elastic_energy = self.motion.peak_energy;
@@ -78,6 +83,7 @@ impl<'a> Cracking<'a> {
         &mut self,
         first_step: usize,
         system: &mut CrackSystem<'a>,
+        suspects: &mut Suspects,
         looked: &mut Looked,
         report: &mut ImpactReport,
     ) -> Option<(usize, usize, f64)> {
@@ -85,30 +91,34 @@ impl<'a> Cracking<'a> {
         let mut displacement = DisplacementBatch::new(&body.asset);
         let mut culling = Culling::new(body, config, motion);
         let mut field = StressField::new(body, config, motion, &self.pressed, &mut displacement);
-        let mut suspects = Suspects::default();
         let mut roots = [0.0; BATCH];
         let mut weakened = None;
         for step in first_step..motion.steps() {
+            if system.is_spent() {
+                break;
+            }
             let k = lane(step);
             field.step = step;
-            if step % STRIDE == 0 {
-                if step > first_step
-                    && let Some(blow) = self.blow.as_ref().filter(|b| b.pushes_at(step))
-                    && let Some((contact, compliance)) = blow.weakened(system)
-                {
-                    weakened = Some((step, contact, compliance));
-                    break;
-                }
+            if step % BETWEEN_STARS == 0
+                && step > first_step
+                && let Some(blow) = self.blow.as_ref().filter(|b| b.pushes_at(step))
+                && let Some((contact, compliance)) = blow.weakened(system)
+            {
+                weakened = Some((step, contact, compliance));
+                break;
+            }
+            if step % STRIDE == 0 || step == first_step {
                 // Bounds, then the points that they leave, of all steps of the batch.
                 let start = Instant::now();
                 culling.begin();
-                for step in (step..motion.steps()).take(STRIDE) {
+                for step in (step..motion.steps()).take(BATCH - k) {
                     let k = lane(step);
                     roots[k] = culling.root(motion, step);
                     culling.survive(motion, step, roots[k], k);
                 }
                 field.displacement.seek(motion, step);
-                suspects.find(body, &mut field, culling.survivors(), looked.peak);
+                let cut = &system.fractured_by;
+                suspects.find(body, &mut field, culling.survivors(), cut, looked.peak);
                 report.timings.stress += start.elapsed().as_secs_f64();
             }
             system.wake(roots[k]);
@@ -118,12 +128,13 @@ impl<'a> Cracking<'a> {
             report.looked_at = LookedAt::Stresses;
             let start = Instant::now();
             let times = [step, step + 1].map(|step| motion.begin(step, self.time_step));
-            looked.peak = crack(system, &mut field, &suspects, times, looked.peak);
+            looked.peak = crack(system, &mut field, suspects, times, looked.peak);
             report.timings.cracks += start.elapsed().as_secs_f64();
         }
         looked.asked_clusters |= culling.asked_clusters;
-        looked.passed_over = looked.passed_over.max(culling.passed_over);
-        looked.as_weakest = looked.as_weakest.max(culling.as_weakest);
+        let [most, felt] = suspects.passed_over;
+        looked.passed_over = looked.passed_over.max(culling.passed_over).max(most);
+        looked.as_weakest = looked.as_weakest.max(culling.as_weakest).max(felt);
         weakened
     }
 

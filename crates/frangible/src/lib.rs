@@ -40,6 +40,7 @@ mod state;
 mod stress;
 mod trace;
 mod weak_clusters;
+mod weak_rows;
 
 pub use asset::Asset;
 pub use body::{Body, Breakable};

@@ -5,7 +5,7 @@
 //! follow it, `q_i = ξ_i F(t)/λ_i`. Together they are one more shape of the body per contact, `u_s = Σ ξ_i φ_i/λ_i`, with the
 //! amplitude F(t). A brick that lands on its corner shows a fifth of its stress in 80 modes, and all of it with this shape.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use crate::asset::Asset;
 use crate::near_field::{NearField, NearFields};
@@ -21,12 +21,55 @@ pub(crate) struct Complement {
 /// A shape of the body that follows a force.
 #[derive(Clone, Debug)]
 pub(crate) struct Residual {
-    /// Displacement of the analysis nodes per newton, m/N: `3 * node + axis`.
-    pub(crate) shape: Arc<[f32]>,
+    pub(crate) shape: Arc<Shape>,
     /// The force at each time step, N; zero after the last.
     pub(crate) force: Vec<f32>,
-    /// ξ_i/λ_i of the modes that it is made of, the last of the body, m·√kg/N: what bounds its stress.
+}
+
+/// Displacements of the analysis nodes per newton, each computed when it is first asked for.
+#[derive(Debug)]
+pub(crate) struct Shape {
+    /// m/N.
+    nodes: Box<[OnceLock<[f32; 3]>]>,
+    /// ξ_i/λ_i of the modes that it is made of, the last of the body, m·√kg/N.
     amplitudes: Vec<f32>,
+}
+
+impl Shape {
+    /// Displacement of a node of the asset that it was made for, m/N.
+    #[inline]
+    pub(crate) fn at(&self, asset: &Asset, node: usize) -> [f32; 3] {
+        *self.nodes[node].get_or_init(|| {
+            let first = asset.modes.count() - self.amplitudes.len();
+            let rows = [0, 1, 2].map(|axis| &asset.modes.row(3 * node + axis)[first..]);
+            // With the widest vectors that this processor has; the same operations in the same order, so the same bits.
+            pulp::Arch::new().dispatch(Dots {
+                rows,
+                amplitudes: &self.amplitudes,
+            })
+        })
+    }
+}
+
+/// What a node's rows have of some amplitudes.
+struct Dots<'a> {
+    rows: [&'a [f32]; 3],
+    amplitudes: &'a [f32],
+}
+
+impl pulp::NullaryFnOnce for Dots<'_> {
+    type Output = [f32; 3];
+
+    #[inline(always)]
+    fn call(self) -> [f32; 3] {
+        let [x, y, z] = self.rows;
+        let dot = crate::stress::dot;
+        [
+            dot(x, self.amplitudes),
+            dot(y, self.amplitudes),
+            dot(z, self.amplitudes),
+        ]
+    }
 }
 
 impl Residual {
@@ -43,18 +86,14 @@ impl Residual {
         if amplitudes.iter().all(|&q| q == 0.0) {
             return None;
         }
-        let rows = basis.shapes.chunks_exact(basis.count());
-        let mut shape = vec![0.0; rows.len()];
-        // With the widest vectors that this processor has; the same operations in the same order, so the same bits.
-        pulp::Arch::new().dispatch(|| {
-            for (u, row) in shape.iter_mut().zip(rows) {
-                *u = crate::stress::dot(&row[first..], &amplitudes);
-            }
-        });
-        Some(Self {
-            shape: shape.into(),
-            force,
+        let nodes = asset.analysis.nodes.iter().map(|_| OnceLock::new());
+        let shape = Shape {
+            nodes: nodes.collect(),
             amplitudes,
+        };
+        Some(Self {
+            shape: Arc::new(shape),
+            force,
         })
     }
 
@@ -65,8 +104,9 @@ impl Residual {
 
     /// No stress exceeds this per newton, Pa/N, where no mode's exceeds its number in `row`, Pa per m·√kg.
     pub(crate) fn bound(&self, row: &[f32]) -> f32 {
-        let last = &row[row.len() - self.amplitudes.len()..];
-        let terms = last.iter().zip(&self.amplitudes);
+        let amplitudes = &self.shape.amplitudes;
+        let last = &row[row.len() - amplitudes.len()..];
+        let terms = last.iter().zip(amplitudes);
         let sum: f32 = terms.map(|(s, q)| s * q.abs()).sum();
         sum * (1.0 + MARGIN)
     }

@@ -41,7 +41,7 @@ mod plan;
 mod spring;
 mod star;
 
-pub(crate) use complement::{Complement, Residual};
+pub(crate) use complement::{Complement, Residual, Shape};
 pub use integrate::Blow;
 pub(crate) use limits::Limits;
 pub(crate) use plan::{SteadyNear, has_near_field};

@@ -86,12 +86,22 @@ impl Arrivals {
         true
     }
 
+    /// Whether a queue has a site that is no farther than this distance, m, and no later than this time, s.
+    pub(super) fn precedes(&self, queue: Queue, distance: f32, time: f64) -> bool {
+        let mut at = queue.first;
+        while let Some(later) = self.get(at).filter(|a| a.time > time) {
+            at = later.next;
+        }
+        self.get(at)
+            .is_some_and(|sooner| sooner.distance <= distance)
+    }
+
     /// Takes all sites that arrive before `now`, s, the nearest first: that one, and its distance.
     pub(super) fn arrive(
         &mut self,
         queue: &mut Queue,
         now: f64,
-        mut each: impl FnMut(u32),
+        mut each: impl FnMut(u32, f32),
     ) -> Option<(u32, f32)> {
         let mut before = END;
         let mut at = queue.first;
@@ -101,7 +111,7 @@ impl Arrivals {
         }
         let nearest = self.get(at)?;
         while let Some(farther) = self.get(at) {
-            each(farther.site);
+            each(farther.site, farther.distance);
             self.free.push(at);
             at = farther.next;
         }
@@ -185,7 +195,7 @@ mod tests {
             if k % 4 == 0 {
                 let expected = plain.arrive(now);
                 let mut met = Vec::new();
-                let nearest = arrivals.arrive(queue, now, |site| met.push(site));
+                let nearest = arrivals.arrive(queue, now, |site, _| met.push(site));
                 assert_eq!(nearest, expected.first().copied());
                 assert!(met.iter().eq(expected.iter().map(|(site, _)| site)));
                 arrived += expected.len();

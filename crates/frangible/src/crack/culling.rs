@@ -4,7 +4,7 @@ use super::parts::Parts;
 use crate::body::Body;
 use crate::config::FractureConfig;
 use crate::modal::Motion;
-use crate::stress::{MARGIN, tension_bound};
+use crate::stress::{MARGIN, Steps, tension_bound};
 
 /// Passes over clusters of weak points that cannot crack.
 pub(crate) struct Culling<'a> {
@@ -18,7 +18,7 @@ pub(crate) struct Culling<'a> {
     /// Whether the bound of the whole body ever let a time step pass.
     pub(crate) asked_clusters: bool,
     /// Of each cluster, a bit for each step of the batch that needs a look.
-    survivors: Vec<u8>,
+    survivors: Vec<Steps>,
     /// Bounds of the clusters at the step looked at last, Pa.
     bounds: Vec<f32>,
     /// Most stress of each residual shape, Pa/N: in the whole body, and in each cluster.
@@ -133,7 +133,7 @@ impl<'a> Culling<'a> {
     }
 
     /// Clusters that need a look at any step of the batch, as places in the body's list, with a bit for each such step.
-    pub(crate) fn survivors(&self) -> impl Iterator<Item = (u32, u8)> {
+    pub(crate) fn survivors(&self) -> impl Iterator<Item = (u32, Steps)> {
         let survivors = (0..).zip(self.survivors.iter().copied());
         survivors.filter(|&(_, steps)| steps != 0)
     }

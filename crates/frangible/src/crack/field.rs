@@ -8,8 +8,8 @@ use crate::config::FractureConfig;
 use crate::modal::Motion;
 use crate::near_field::NearFields;
 use crate::stress::{
-    DisplacementBatch, Elasticity, Law, STRIDE, Skin, StressLanes, StressState, Symmetric3, Wall,
-    largest_eigenvalue,
+    DisplacementBatch, Elasticity, Law, Moment, STRIDE, Skin, StressLanes, StressState, Symmetric3,
+    Wall, largest_eigenvalue,
 };
 
 /// Cosine from which on the normals of a wall at two tetrahedra that touch belong to one face.
@@ -23,6 +23,8 @@ pub(crate) struct StressField<'a> {
     /// Surface triangles that something presses on: they are not free.
     pub(crate) pressed: &'a [u32],
     pub(crate) displacement: &'a mut DisplacementBatch,
+    motion: &'a Motion,
+    moment: Moment,
     pub(crate) elasticity: Elasticity,
     /// What the modes do not show under contacts on walls.
     pub(crate) near: NearFields<'a>,
@@ -47,6 +49,8 @@ impl<'a> StressField<'a> {
             config,
             pressed,
             displacement,
+            motion,
+            moment: Moment::default(),
             elasticity: Elasticity::new(&asset.material).with_green_lagrange(config.green_lagrange),
             near: motion.complement.near(),
             centroids: &body.prepared.centroids,
@@ -125,9 +129,15 @@ impl<'a> StressField<'a> {
         lanes
     }
 
+    /// Whether something presses on the flaw of fracture tetrahedron `e`.
+    pub(super) fn is_pressed(&self, e: usize) -> bool {
+        let flaw = self.skin.flaw(self.asset.place(e));
+        flaw.is_some_and(|flaw| self.pressed.contains(&flaw.triangle))
+    }
+
     /// Position of a weak point, m.
     #[inline(always)]
-    fn place(&self, e: usize, on_surface: bool) -> Vec3 {
+    pub(super) fn place(&self, e: usize, on_surface: bool) -> Vec3 {
         let flaw = self.skin.flaw_position(self.asset.place(e));
         flaw.filter(|_| on_surface).unwrap_or(self.centroids[e])
     }
@@ -159,7 +169,7 @@ impl<'a> StressField<'a> {
     }
 
     fn gradient(&mut self, point: &EmbeddedPoint) -> glam::Mat3 {
-        self.displacement.gradient(self.asset, point, self.step)
+        (self.moment).gradient(self.asset, self.motion, point, self.step)
     }
 }
 

@@ -4,8 +4,8 @@
 //! hang on the step. A crack through a wall opens from one face and follows the tension of that face, since arms that turned to
 //! whichever face has the larger tension curled into petals; what feeds it is the mean energy through the wall.
 //!
-//! What has released a point releases it for good, so a point looks at each place of a crack once. Sites still to come stand in
-//! queues, the last first.
+//! What has released a point releases it for good, so a point looks at each place of a crack once, and only when what it remembers does not
+//! hold it; blocks of places farther than one it knows it passes over. Sites still to come stand in queues, the last first.
 //!
 //! The fronts of old cracks follow Griffith: a crack of centimetres is fed from a layer of 2πa, where a is its area over the
 //! length of its front. Cracks that a piece's own modes know release nothing more.
@@ -19,10 +19,12 @@ mod node_values;
 mod parts;
 mod propagation;
 mod release;
+mod sites;
 mod surface;
 mod suspects;
 mod system;
 mod tip;
+mod weak_stress;
 
 pub(crate) use culling::Culling;
 pub(crate) use field::{StressField, weak_place};

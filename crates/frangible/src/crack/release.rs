@@ -23,7 +23,7 @@ use super::suspects::Suspect;
 use super::system::{CrackSystem, Front};
 use crate::config::CrackTiming;
 use crate::stress::{
-    BATCH, MARGIN, Released, STRETCHED, STRIDE, StressLanes, Symmetric3, bent, lane,
+    BATCH, MARGIN, Released, STRETCHED, STRIDE, Steps, StressLanes, Symmetric3, bent, lane,
     largest_eigenvalue,
 };
 
@@ -40,18 +40,11 @@ struct Point {
     /// Batch of steps that `held` is about.
     held_in: Option<usize>,
     /// Bit k: at step k of the batch what is left stays below the strength.
-    held: u8,
+    held: Steps,
     /// Whether shares fell since that was asked.
     changed: bool,
     /// Batch of steps in which the stress behind the wall's middle was last asked for, and its place among those.
     opposite: Option<(usize, usize)>,
-}
-
-impl Point {
-    /// Whether it is known that step k of a batch leaves it below its strength.
-    fn holds(&self, batch: usize, k: usize) -> bool {
-        self.held_in == Some(batch) && self.held >> k & 1 == 1
-    }
 }
 
 /// Memory of the points that have asked, by their place among the weak points.
@@ -65,6 +58,14 @@ pub(crate) struct Releases {
 }
 
 impl Releases {
+    /// Forgets what is known of the present batch: the motion goes on in another way.
+    pub(crate) fn forget_batch(&mut self) {
+        self.opposites.clear();
+        for point in self.points.iter_mut().flatten() {
+            (point.held_in, point.opposite) = (None, None);
+        }
+    }
+
     /// Whether what is left of a suspect's stress at the field's step may pass its strength, Pa; a no is certain.
     ///
     /// It is found for the rest of the batch at once, and a no stands until the batch ends, whatever cracks do in the meantime: they
@@ -79,36 +80,52 @@ impl Releases {
     ) -> bool {
         let (batch, step) = (field.step / STRIDE, lane(field.step));
         let place = suspect.place as usize;
-        if let Some(Some(point)) = self.points.get(place)
-            && point.holds(batch, step)
-        {
-            return false;
+        // What it remembers may do already: since then cracks have only released more.
+        if let Some(Some(point)) = self.points.get(place) {
+            if point.memory.dark && point.held_in != Some(batch) {
+                self.look(field, suspect, strength);
+            }
+            if self.holds(place, batch, step) {
+                return false;
+            }
         }
         let Some(point) = self.reached(system, field, suspect, now) else {
             return true;
         };
-        if point.held_in == Some(batch) && !point.changed {
-            return true;
+        let again = point.held_in != Some(batch) || point.changed;
+        if again {
+            self.look(field, suspect, strength);
         }
-        point.changed = false;
-        if point.held_in != Some(batch) {
-            (point.held_in, point.held) = (Some(batch), 0);
-        }
-        let mut held = point.held;
+        !self.holds(place, batch, step)
+    }
+
+    /// Whether it is known that step k of a batch leaves a point below its strength.
+    fn holds(&self, place: usize, batch: usize, k: usize) -> bool {
+        let point = self.points[place].as_ref();
+        point.is_some_and(|p| p.held_in == Some(batch) && p.held >> k & 1 == 1)
+    }
+
+    /// Finds the steps from the field's on at which what is left of a suspect's stress stays below the strength, Pa, by what its point
+    /// remembers.
+    fn look(&mut self, field: &mut StressField, suspect: &Suspect, strength: f32) {
+        let (batch, step) = (field.step / STRIDE, lane(field.step));
         let limit = strength * (1.0 - MARGIN);
-        let needed = u8::MAX << step;
+        let needed = Steps::MAX << step;
         let left = self.left(field, suspect, Some((limit, needed)));
-        held |= holding(&left, suspect, limit);
+        let mut held = holding(&left, suspect, limit);
         // The bound is too high by up to a third where two tensions are equal.
         for k in step..BATCH {
             if held >> k & 1 == 0 {
-                held |= u8::from(largest_eigenvalue(&left.stress(k)) <= limit) << k;
+                held |= Steps::from(largest_eigenvalue(&left.stress(k)) <= limit) << k;
             }
         }
-        if let Some(point) = &mut self.points[place] {
-            point.held = held;
+        if let Some(point) = &mut self.points[suspect.place as usize] {
+            if point.held_in != Some(batch) {
+                (point.held_in, point.held) = (Some(batch), 0);
+            }
+            point.held |= held;
+            point.changed = false;
         }
-        held >> step & 1 == 0
     }
 
     /// What is left of a suspect's stress at the field's step, at time `now`, s.
@@ -133,7 +150,7 @@ impl Releases {
         &mut self,
         field: &mut StressField,
         suspect: &Suspect,
-        enough: Option<(f32, u8)>,
+        enough: Option<(f32, Steps)>,
     ) -> StressLanes {
         pulp::Arch::new().dispatch(Left {
             releases: self,
@@ -205,7 +222,7 @@ struct Left<'a, 'f> {
     releases: &'a mut Releases,
     field: &'a mut StressField<'f>,
     suspect: &'a Suspect,
-    enough: Option<(f32, u8)>,
+    enough: Option<(f32, Steps)>,
 }
 
 impl pulp::NullaryFnOnce for Left<'_, '_> {
@@ -254,11 +271,11 @@ impl pulp::NullaryFnOnce for Left<'_, '_> {
 
 /// Bit k: at step k of the batch what is left of a suspect's stress stays below a limit, Pa.
 #[inline(always)]
-fn holding(left: &StressLanes, suspect: &Suspect, limit: f32) -> u8 {
+fn holding(left: &StressLanes, suspect: &Suspect, limit: f32) -> Steps {
     let mut holding = 0;
     let bounds = left.tension_bounds();
     for (k, (left, whole)) in bounds.iter().zip(&suspect.bounds).enumerate() {
-        holding |= u8::from(left + ROUNDING * whole.abs() <= limit) << k;
+        holding |= Steps::from(left + ROUNDING * whole.abs() <= limit) << k;
     }
     holding
 }

@@ -2,10 +2,14 @@
 //! arithmetic runs over the steps side by side. What cracks do in the meantime only takes suspects away: release
 //! waves never raise the largest tension (λ_max(Q σ Q) ≤ max(λ_max(σ), 0), `stress/shadow.rs`).
 
+use super::culling::limit;
 use super::field::StressField;
 use super::initiation::Peak;
+use super::system::UNCUT;
+use super::weak_stress::WeakStress;
 use crate::body::Body;
-use crate::stress::{BATCH, Lanes, StressLanes};
+use crate::stress::{BATCH, Frame, Lanes, Steps, StressLanes};
+use crate::weak_rows::ClusterRows;
 
 /// A weak point whose stress may pass its strength, or the peak so far, at a step of a batch.
 #[derive(Clone, Copy, Debug)]
@@ -19,21 +23,26 @@ pub(crate) struct Suspect {
     pub(crate) bounds: Lanes,
 }
 
-/// Suspects of the steps of a batch.
-#[derive(Default)]
+/// Suspects of the steps of a batch of one motion.
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Suspects {
     points: Vec<Suspect>,
     of_step: [Vec<u32>; BATCH],
+    stress: WeakStress,
+    /// Largest bound of the points that were passed over, Pa, and as the weakest point would feel it.
+    pub(crate) passed_over: [f32; 2],
 }
 
 impl Suspects {
-    /// Looks at all points of the clusters that survive at any step of the field's batch. `survivors`: places of the clusters
-    /// in the body's list, bit k set where step k needs a look.
+    /// Looks at the points of the clusters that survive at any step of the field's batch, but for those that cracks have cut. `survivors`:
+    /// places of the clusters in the body's list, bit k set where step k needs a look; `fractured_by`: the crack that fractured each
+    /// tetrahedron, or nothing where none has.
     pub(crate) fn find(
         &mut self,
         body: &Body,
         field: &mut StressField,
-        survivors: impl Iterator<Item = (u32, u8)>,
+        survivors: impl Iterator<Item = (u32, Steps)>,
+        fractured_by: &[u32],
         peak: Peak,
     ) {
         self.points.clear();
@@ -44,24 +53,26 @@ impl Suspects {
             body,
             field,
             survivors,
+            fractured_by,
             peak,
         });
     }
 
+    /// Steps, of those to look at, at which the stress at a point may pass its strength, or the peak.
     #[inline(always)]
-    fn note(&mut self, body: &Body, suspect: Suspect, steps: u8, peak: Peak) {
-        let resistance = &body.resistance;
-        let strength = resistance.strength(suspect.tet);
-        let limit = peak.tension.min(strength);
-        let mut passing = 0_u8;
-        for (k, &bound) in suspect.bounds.iter().enumerate() {
-            let passes = bound > limit || resistance.as_weakest(bound, strength) > peak.as_weakest;
-            passing |= u8::from(passes) << k;
+    fn passing(body: &Body, tet: u32, bounds: &Lanes, steps: Steps, peak: Peak) -> Steps {
+        let strength = body.resistance.strength(tet);
+        let felt = body.resistance.at_strength(peak.as_weakest, strength);
+        let limit = strength.min(peak.tension).min(felt);
+        let mut passing = 0;
+        for (k, &bound) in bounds.iter().enumerate() {
+            passing |= Steps::from(bound > limit) << k;
         }
-        passing &= steps;
-        if passing == 0 {
-            return;
-        }
+        passing & steps
+    }
+
+    #[inline(always)]
+    fn note(&mut self, suspect: Suspect, mut passing: Steps) {
         let number = self.points.len() as u32;
         self.points.push(suspect);
         while passing != 0 {
@@ -82,26 +93,136 @@ struct Look<'a, 'f, I> {
     body: &'a Body,
     field: &'a mut StressField<'f>,
     survivors: I,
+    fractured_by: &'a [u32],
     peak: Peak,
 }
 
-impl<I: Iterator<Item = (u32, u8)>> pulp::NullaryFnOnce for Look<'_, '_, I> {
+impl<I: Iterator<Item = (u32, Steps)>> pulp::NullaryFnOnce for Look<'_, '_, I> {
     type Output = ();
 
     #[inline(always)]
-    fn call(self) {
-        for (cluster, steps) in self.survivors {
-            let places = self.body.clusters.places(cluster as usize);
-            for (place, &tet) in places.zip(self.body.clusters.tets(cluster as usize)) {
-                let state = self.field.at_weak_point(tet as usize);
+    fn call(mut self) {
+        let (body, config) = (self.body, self.field.config);
+        let modes = self.field.displacement.amplitudes().len();
+        let laws = body.rows.of(body, config, modes);
+        while let Some((cluster, steps)) = self.survivors.next() {
+            let cluster = cluster as usize;
+            match laws {
+                Some(laws) => self.by_rows(cluster, laws.cluster(body, config, cluster), steps),
+                None => {
+                    let tets = body.clusters.tets(cluster);
+                    for (place, &tet) in body.clusters.places(cluster).zip(tets) {
+                        if !self.is_cut(tet) {
+                            self.by_displacement(place, tet, steps);
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+impl<I> Look<'_, '_, I> {
+    fn is_cut(&self, tet: u32) -> bool {
+        let by = self.fractured_by.get(tet as usize);
+        by.is_some_and(|&by| by != UNCUT)
+    }
+
+    #[inline(always)]
+    fn by_rows(&mut self, cluster: usize, rows: &ClusterRows, steps: Steps) {
+        let body = self.body;
+        let mut stress = std::mem::take(&mut self.suspects.stress);
+        stress.look(body, self.field, cluster, rows);
+        let mut seen = stress.points(cluster);
+        let mut pressed = seen.pressed().iter();
+        let mut next = pressed.next();
+        let mut doubts = 0;
+        let points = (body.clusters.places(cluster)).zip(body.clusters.tets(cluster));
+        for ((i, (place, &tet)), &frame) in (0..).zip(points).zip(&rows.frames) {
+            let point = seen.next(self.field, frame);
+            if self.is_cut(tet) {
+                if next == Some(&i) {
+                    next = pressed.next();
+                }
+                continue;
+            }
+            if next == Some(&i) {
+                next = pressed.next();
+                self.by_displacement(place, tet, steps);
+                continue;
+            }
+            let exact;
+            let mut numbers = point.numbers;
+            if let Some(left_out) = &point.left_out {
+                if self.is_below(frame, numbers, left_out, tet, steps) {
+                    continue;
+                }
+                doubts += 1;
+                exact = seen.exact(self.field, rows, &point);
+                numbers = &exact;
+            }
+            let bounds = frame.tension_bounds(numbers);
+            let passing = Suspects::passing(body, tet, &bounds, steps, self.peak);
+            if passing != 0 {
+                let mut state = frame.stress(numbers);
+                self.field.elasticity.set_energy(&mut state);
                 let suspect = Suspect {
                     place: place as u32,
                     tet,
-                    bounds: state.tension_bounds(),
                     state,
+                    bounds,
                 };
-                self.suspects.note(self.body, suspect, steps, self.peak);
+                self.suspects.note(suspect, passing);
             }
+        }
+        stress.doubted(cluster, doubts, rows.frames.len());
+        self.suspects.stress = stress;
+    }
+
+    /// Whether bounds show that a point stays below its strength at all steps to look at.
+    #[inline(always)]
+    fn is_below(
+        &mut self,
+        frame: Frame,
+        numbers: &[Lanes],
+        left_out: &Lanes,
+        tet: u32,
+        steps: Steps,
+    ) -> bool {
+        let resistance = &self.body.resistance;
+        let strength = resistance.strength(tet);
+        let limit = limit(strength);
+        let mut bounds = frame.tension_bounds(numbers);
+        let (mut above, mut most) = (0, 0.0_f32);
+        for (k, (bound, left_out)) in bounds.iter_mut().zip(left_out).enumerate() {
+            *bound += left_out;
+            above |= Steps::from(*bound > limit) << k;
+        }
+        if above & steps != 0 {
+            return false;
+        }
+        for bound in bounds {
+            most = most.max(bound.min(limit));
+        }
+        let felt = resistance.as_weakest(most, strength);
+        let passed_over = &mut self.suspects.passed_over;
+        *passed_over = [passed_over[0].max(most), passed_over[1].max(felt)];
+        true
+    }
+
+    #[inline(always)]
+    fn by_displacement(&mut self, place: usize, tet: u32, steps: Steps) {
+        let state = self.field.at_weak_point(tet as usize);
+        let bounds = state.tension_bounds();
+        let passing = Suspects::passing(self.body, tet, &bounds, steps, self.peak);
+        if passing != 0 {
+            let suspect = Suspect {
+                place: place as u32,
+                tet,
+                state,
+                bounds,
+            };
+            self.suspects.note(suspect, passing);
         }
     }
 }

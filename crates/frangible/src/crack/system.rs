@@ -7,6 +7,7 @@ use glam::Vec3;
 
 use super::node_values::NodeValues;
 use super::release::Releases;
+use super::sites::{Site, Sites};
 use super::surface::CrackFrame;
 use super::tip::{Tip, is_inside, tip_limit};
 use crate::asset::Asset;
@@ -21,6 +22,10 @@ pub(crate) const UNCUT: u32 = u32::MAX;
 
 /// Of another piece than the one that cracks: no front goes there.
 pub(crate) const ELSEWHERE: u32 = u32::MAX - 1;
+
+/// The ledger is spent when it lacks the energy of this area in squares of the mean edge: a fiftieth of what a crack cuts of a
+/// tetrahedron on average.
+const SPENT: f64 = 0.01;
 
 /// One crack.
 pub(crate) struct Crack {
@@ -39,7 +44,7 @@ pub(crate) struct Crack {
     /// Area, m².
     pub(crate) area: f64,
     /// Its tetrahedra thinned to one per place: what releases the stress around it.
-    pub(crate) sites: Vec<Site>,
+    pub(crate) sites: Sites,
     /// Question about releases that it last grew before.
     grown_before: u64,
     /// Where it ran into another crack (or into itself).
@@ -62,7 +67,7 @@ impl Crack {
             spent: 0.0,
             available: 0.0,
             area: 0.0,
-            sites: Vec::new(),
+            sites: Sites::default(),
             grown_before: 0,
             junctions: Vec::new(),
             forks: Vec::new(),
@@ -137,14 +142,6 @@ impl Extent {
         self.size = size;
         grown
     }
-}
-
-/// A place on a crack.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Site {
-    pub(crate) position: Vec3,
-    pub(crate) direction: Vec3,
-    pub(crate) time: f64,
 }
 
 /// A crack's front that met a tetrahedron it may not enter.
@@ -352,6 +349,12 @@ impl<'a> CrackSystem<'a> {
         self.fronts.is_empty() && self.stalled.is_empty()
     }
 
+    /// Whether the ledger has nothing left to speak of: no crack runs any more.
+    pub(crate) fn is_spent(&self) -> bool {
+        let least = SPENT * f64::from(self.edge * self.edge) * self.resistance.toughness.least;
+        self.spent > 0.0 && self.budget - self.spent < least
+    }
+
     /// Whether the ledger has the fracture energy of this area, m², in a tetrahedron. What it refuses it refuses for good.
     pub(crate) fn affords(&self, tet: u32, area: f32) -> bool {
         self.spent + f64::from(area) * self.resistance.toughness.of(tet) <= self.budget
@@ -430,14 +433,8 @@ impl<'a> CrackSystem<'a> {
                 self.values.keep(crack, node, s);
             }
         }
-        // Latest first: a new place is next to the latest ones. The modes know what is settled: it releases nothing more.
-        let apart = self.edge * self.edge;
-        if c.elements.len() >= c.settled
-            && c.sites
-                .iter()
-                .rev()
-                .all(|s| s.position.distance_squared(centre) > apart)
-        {
+        // The modes know what is settled: it releases nothing more.
+        if c.elements.len() >= c.settled && !c.sites.any_within(self.edge, centre) {
             c.sites.push(Site {
                 position: centre,
                 direction: cut.direction,

@@ -134,6 +134,15 @@ impl Resistance {
         strengths.min_by(f32::total_cmp).unwrap_or(f32::INFINITY)
     }
 
+    /// No smaller stress at a point of this strength is felt as more than `felt` by the weakest point, Pa.
+    pub(crate) fn at_strength(&self, felt: f32, strength: f32) -> f32 {
+        if self.of_tet.is_empty() {
+            felt
+        } else {
+            felt * (strength / self.weakest as f32) * (1.0 - 1e-6)
+        }
+    }
+
     /// A stress as a body of the weakest strength everywhere would feel it, Pa: of equal share of the strength.
     pub(crate) fn as_weakest(&self, stress: f32, strength: f32) -> f32 {
         if self.of_tet.is_empty() {

@@ -211,10 +211,44 @@ impl NearField {
         });
         [0.5 * (sum - difference), 0.5 * (sum + difference)]
     }
+
+    /// No principal tension of the field there exceeds this at the steps of a batch, Pa.
+    #[inline(always)]
+    pub(crate) fn most_lanes(&self, at: &Located, batch: usize) -> Lanes {
+        let row = &self.most[at.radius * self.steps..][..self.steps];
+        let first = (batch * STRIDE).wrapping_sub(1);
+        std::array::from_fn(|k| {
+            let step = self.step(first.wrapping_add(k));
+            row.get(step).copied().unwrap_or(0.0)
+        })
+    }
+
+    /// Radial and hoop stress there at all steps of a batch, Pa.
+    #[inline(always)]
+    pub(crate) fn lanes(&self, at: &Located, batch: usize) -> [Lanes; 2] {
+        let (mut radial, mut hoop): (Lanes, Lanes) = ([0.0; BATCH], [0.0; BATCH]);
+        // Before the first step there is none.
+        let first = (batch * STRIDE).wrapping_sub(1);
+        if self.steady || first >= self.steps.saturating_sub(BATCH) {
+            for k in 0..BATCH {
+                [radial[k], hoop[k]] = self.stress(at, first.wrapping_add(k));
+            }
+            return [radial, hoop];
+        }
+        let rows = [at.radius, at.radius + 1].map(|i| i * self.steps + first);
+        let [[a, b], [c, d]] = [0, 1].map(|part| rows.map(|i| &self.table[part][i..i + BATCH]));
+        for k in 0..BATCH {
+            let sum = at.height * (a[k] + (b[k] - a[k]) * at.share);
+            let difference = at.height * (c[k] + (d[k] - c[k]) * at.share);
+            (radial[k], hoop[k]) = (0.5 * (sum - difference), 0.5 * (sum + difference));
+        }
+        [radial, hoop]
+    }
 }
 
 /// A point in the field.
-struct Located {
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Located {
     /// Distance of the table before it, and how far on the way to the next.
     radius: usize,
     share: f32,
@@ -222,6 +256,13 @@ struct Located {
     height: f32,
     radial: Vec3,
     hoop: Vec3,
+}
+
+impl Located {
+    /// Unit vectors along which the field's two tensions act.
+    pub(crate) fn directions(&self) -> [Vec3; 2] {
+        [self.radial, self.hoop]
+    }
 }
 
 /// Distances of the table, m, for a wall of this thickness, m.
@@ -289,6 +330,16 @@ impl pulp::NullaryFnOnce for Fill<'_> {
 pub(crate) struct NearFields<'a>(pub(crate) &'a [NearField]);
 
 impl NearFields<'_> {
+    /// Numbers of the fields that reach a point of a wall, and where it lies in them.
+    pub(crate) fn places(
+        &self,
+        point: Vec3,
+        wall: &Wall,
+    ) -> impl Iterator<Item = (usize, Located)> {
+        let fields = self.0.iter().enumerate();
+        fields.filter_map(move |(i, field)| Some((i, field.locate(point, wall)?)))
+    }
+
     /// Adds them to the stress at a point of a wall at the steps of a batch; whether any reaches it.
     #[inline]
     pub(crate) fn add(
@@ -304,12 +355,7 @@ impl NearFields<'_> {
                 continue;
             };
             reached = true;
-            let (mut radial, mut hoop): (Lanes, Lanes) = ([0.0; BATCH], [0.0; BATCH]);
-            for k in 0..BATCH {
-                // Before the first step there is none.
-                let step = (batch * STRIDE + k).wrapping_sub(1);
-                [radial[k], hoop[k]] = field.stress(&at, step);
-            }
+            let [radial, hoop] = field.lanes(&at, batch);
             stress.add_uniaxial(&radial, at.radial);
             stress.add_uniaxial(&hoop, at.hoop);
         }

@@ -51,6 +51,6 @@ mod field;
 mod wall;
 
 pub(crate) use bands::{Bands, Spacing};
-pub(crate) use field::{NearField, NearFields, NearPlace};
+pub(crate) use field::{Located, NearField, NearFields, NearPlace};
 pub use wall::PlateTheory;
 pub(crate) use wall::WallMaterial;

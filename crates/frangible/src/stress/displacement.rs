@@ -6,10 +6,14 @@ use glam::{Mat3, Vec3};
 
 use super::wide::Wide;
 use crate::asset::{Asset, EmbeddedPoint};
+use crate::blow::Shape;
 use crate::modal::Motion;
 
-/// Steps multiplied at once, side by side: Φ is read from memory once for all of them.
-pub(crate) const BATCH: usize = 8;
+/// Steps multiplied at once, side by side: what is multiplied with them is read from memory once for all of them.
+pub(crate) const BATCH: usize = 16;
+
+/// A bit for each step of a batch.
+pub(crate) type Steps = u16;
 
 /// The first of them is the last of the batch before, so that what happens between two steps lies within one batch.
 pub(crate) const STRIDE: usize = BATCH - 1;
@@ -65,7 +69,7 @@ pub struct DisplacementBatch {
     /// Amplitudes of every mode at the batch's steps, m·√kg.
     amplitudes: Vec<Lanes>,
     /// Shapes that follow a force, m/N, and the force at the batch's steps, N.
-    residuals: Vec<(Arc<[f32]>, Lanes)>,
+    residuals: Vec<(Arc<Shape>, Lanes)>,
     /// `displacements[node][axis][step]`, m.
     displacements: Vec<[Lanes; 3]>,
     /// Batch that each node's displacements belong to …
@@ -120,6 +124,16 @@ impl DisplacementBatch {
                 }
             }
         }
+    }
+
+    /// Amplitudes of the modes that are followed at the batch's steps, m·√kg.
+    pub(crate) fn amplitudes(&self) -> &[Lanes] {
+        &self.amplitudes
+    }
+
+    /// Shapes that follow a force, m/N, and the force at the batch's steps, N.
+    pub(crate) fn residuals(&self) -> &[(Arc<Shape>, Lanes)] {
+        &self.residuals
     }
 
     /// Computes the batch at every node, as if all were asked for.
@@ -224,11 +238,10 @@ impl pulp::NullaryFnOnce for Fill<'_> {
 
 /// What follows the force at a node: the shapes of the highest modes, so first in the sum.
 #[inline(always)]
-fn following(node: usize, residuals: &[(Arc<[f32]>, Lanes)]) -> [Lanes; 3] {
+fn following(asset: &Asset, node: usize, residuals: &[(Arc<Shape>, Lanes)]) -> [Lanes; 3] {
     let mut sums = [[0.0_f32; BATCH]; 3];
     for (shape, force) in residuals {
-        for (axis, sum) in sums.iter_mut().enumerate() {
-            let u = shape[3 * node + axis];
+        for (u, sum) in shape.at(asset, node).into_iter().zip(&mut sums) {
             for k in 0..BATCH {
                 sum[k] += u * force[k];
             }
@@ -252,9 +265,9 @@ fn product(
     asset: &Asset,
     node: usize,
     amplitudes: &[Lanes],
-    residuals: &[(Arc<[f32]>, Lanes)],
+    residuals: &[(Arc<Shape>, Lanes)],
 ) -> [Lanes; 3] {
-    let mut sums = following(node, residuals);
+    let mut sums = following(asset, node, residuals);
     let [x, y, z] = [0, 1, 2].map(|axis| asset.modes.row(3 * node + axis));
     for block in blocks(amplitudes.len()) {
         let rows = amplitudes[block.clone()].iter().zip(&x[block.clone()]);
@@ -275,9 +288,9 @@ fn products(
     asset: &Asset,
     nodes: [usize; 2],
     amplitudes: &[Lanes],
-    residuals: &[(Arc<[f32]>, Lanes)],
+    residuals: &[(Arc<Shape>, Lanes)],
 ) -> [[Lanes; 3]; 2] {
-    let mut sums = nodes.map(|node| following(node, residuals));
+    let mut sums = nodes.map(|node| following(asset, node, residuals));
     let modes = amplitudes.len();
     let mut rows: [[&[f32]; 3]; 2] = [[&[]; 3]; 2];
     for (rows, node) in rows.iter_mut().zip(nodes) {

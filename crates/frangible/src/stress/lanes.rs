@@ -25,9 +25,15 @@ impl StressLanes {
     /// Adds a tension along unit `t` at each step, Pa; the energy stays.
     #[inline(always)]
     pub(crate) fn add_uniaxial(&mut self, tension: &Lanes, t: Vec3) {
-        for (lanes, product) in self.components.iter_mut().zip(products(t, t)) {
-            for (sum, tension) in lanes.iter_mut().zip(tension) {
-                *sum += tension * product;
+        self.add(tension, products(t, t));
+    }
+
+    /// Adds so much of a tensor's components at each step, Pa; the energy stays.
+    #[inline(always)]
+    pub(super) fn add(&mut self, size: &Lanes, components: [f32; 6]) {
+        for (lanes, component) in self.components.iter_mut().zip(components) {
+            for (sum, size) in lanes.iter_mut().zip(size) {
+                *sum += size * component;
             }
         }
     }

@@ -35,8 +35,12 @@ pub fn largest_eigenvalue_bound(s: &Symmetric3) -> f32 {
 pub fn principal_axes(s: &Symmetric3) -> ([f64; 3], [DVec3; 3]) {
     let mut a = s.to_mat3().as_dmat3().to_cols_array_2d();
     let mut v = DMat3::IDENTITY.to_cols_array_2d();
-    // A sweep roughly squares the off-diagonal part; six reach rounding from any start.
+    // A sweep roughly squares the off-diagonal part; six reach rounding from any start, and mostly three do.
     for _ in 0..6 {
+        let off = a[0][1].abs() + a[0][2].abs() + a[1][2].abs();
+        if off <= 1e-17 * (a[0][0].abs() + a[1][1].abs() + a[2][2].abs()) {
+            break;
+        }
         for (p, q) in [(0, 1), (0, 2), (1, 2)] {
             if a[p][q] == 0.0 {
                 continue;

@@ -86,14 +86,14 @@ impl Symmetric3 {
 /// Lamé's parameters at run-time precision.
 #[derive(Clone, Copy, Debug)]
 pub struct Elasticity {
-    lambda: f32,
-    mu: f32,
+    pub(super) lambda: f32,
+    pub(super) mu: f32,
     /// Whether strain has its quadratic terms.
     quadratic: bool,
     /// λ* = 2 λ μ / (λ + 2 μ): λ where nothing holds the third direction.
-    plane_lambda: f32,
+    pub(super) plane_lambda: f32,
     /// E = μ (3 λ + 2 μ) / (λ + μ).
-    youngs_modulus: f32,
+    pub(super) youngs_modulus: f32,
 }
 
 /// Stress and strain energy at a point.
@@ -210,7 +210,7 @@ impl Elasticity {
         }
     }
 
-    /// Strain energy density of a stress without traction across some surface, J/m³: ((1 + ν) σ : σ − ν tr(σ)²) / 2E.
+    /// Strain energy density of a stress, J/m³: ((1 + ν) σ : σ − ν tr(σ)²) / 2E.
     #[inline(always)]
     fn energy_of<T: Real>(&self, s: &[T; 6]) -> T {
         let nu = self.lambda / (2.0 * (self.lambda + self.mu));
@@ -228,7 +228,7 @@ impl Elasticity {
         }
     }
 
-    /// Gives stresses of a wall at the steps of a batch the energy densities that they have.
+    /// Gives stresses at the steps of a batch the energy densities that they have.
     #[inline(always)]
     pub(crate) fn set_energy(&self, lanes: &mut StressLanes) {
         lanes.energy_density = self.energy_of(&lanes.components.map(Wide)).0;

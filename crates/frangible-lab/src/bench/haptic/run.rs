@@ -176,7 +176,13 @@ fn play(kind: &Breakable, ticks: u64, paced: bool) -> Result<Log, BenchError> {
     let top = positions.map(|p| p.z).fold(f32::NEG_INFINITY, f32::max);
     let mut hand = Hand::new(HEAD as f32, radius, top, 1);
     let mut plate = 1;
-    let mut touch = Touch::new(kind.body(plate), probe, &config)?;
+    // A tick has no time to work out what a first blow asks for.
+    let fresh = |plate| {
+        let body = kind.body(plate);
+        body.prepare_for_blows(&config);
+        body
+    };
+    let mut touch = Touch::new(fresh(plate), probe, &config)?;
     let mut log = Log::default();
     let mut clock = Clock::start(paced);
     let (mut strokes, mut broken) = (0, false);
@@ -184,7 +190,7 @@ fn play(kind: &Breakable, ticks: u64, paced: bool) -> Result<Log, BenchError> {
         if hand.is_done() {
             if broken {
                 plate += 1;
-                touch.replace(kind.body(plate))?;
+                touch.replace(fresh(plate))?;
                 (strokes, broken) = (0, false);
             }
             hand.strike(SPEEDS[strokes.min(SPEEDS.len() - 1)]);

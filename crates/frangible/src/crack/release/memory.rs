@@ -3,8 +3,9 @@
 use glam::Vec3;
 
 use super::super::arrivals::{Arrivals, Queue};
-use super::super::system::{Crack, CrackSystem, Extent, Site};
-use crate::stress::{STRETCHED, Shadow, share_left};
+use super::super::sites::Site;
+use super::super::system::{Crack, CrackSystem, Extent};
+use crate::stress::{STRETCHED, Shadow, share_beside, share_left};
 
 /// A share falls by this much or stays.
 const LEAST: f32 = 5e-3;
@@ -24,6 +25,8 @@ struct Seen {
     site: u32,
     /// Its distance, m; infinite without one.
     distance: f32,
+    /// Half the crack's length when that was looked at last, m.
+    half_length: f32,
     /// How many of its sites were looked at.
     looked_at: u32,
     /// Those still to come.
@@ -39,6 +42,7 @@ impl Seen {
     const NOTHING: Self = Self {
         site: NONE,
         distance: f32::INFINITY,
+        half_length: 0.0,
         looked_at: 0,
         pending: Queue::EMPTY,
         shadow: Shadow {
@@ -76,6 +80,15 @@ impl<'a> Sources<'a> {
     /// Half a crack's present length, m.
     fn half_length(&self, crack: u32) -> f32 {
         0.5 * self.extents[crack as usize].chord.max(self.edge)
+    }
+
+    /// Whether a site of a crack this far away, m, certainly leaves as much as is left already.
+    fn takes_no_more(&self, left: &Shadow, crack: u32, distance: f32, beta: f32) -> bool {
+        const ROUNDING: f32 = 1e-5;
+        let distance = (distance - 0.5 * self.edge).max(0.0);
+        let half_length = self.half_length(crack);
+        let least = |beta| share_beside(distance, half_length, beta) - ROUNDING;
+        least(STRETCHED) > left.stretched - LEAST && least(beta) > left.bent - LEAST
     }
 
     /// What a crack of the present length leaves at a point beside one of its sites; `beta`: of the stress that bends.
@@ -201,22 +214,31 @@ impl Memory {
         let seen = &mut self.seen[i];
         let sites = &sources.cracks[crack as usize].sites;
         let first = std::mem::replace(&mut seen.looked_at, sites.len() as u32);
-        for (site, place) in (first..).zip(&sites[first as usize..]) {
-            let distance = place.position.distance(self.place);
-            if seen.distance <= distance {
+        for (places, block) in sites.blocks_from(first as usize) {
+            let nearest = block.nearest(self.place);
+            let soonest = block.since + f64::from(nearest) / sources.wave;
+            if seen.distance <= nearest || (self.pending).precedes(seen.pending, nearest, soonest) {
                 continue;
             }
-            let arrival = place.time + f64::from(distance) / sources.wave;
-            let added = self.pending.add(&mut seen.pending, site, distance, arrival);
-            if added && arrival >= now {
-                self.next = self.next.min(arrival);
+            for (site, place) in (places.start as u32..).zip(&sites[places]) {
+                let distance = place.position.distance(self.place);
+                if seen.distance <= distance {
+                    continue;
+                }
+                let arrival = place.time + f64::from(distance) / sources.wave;
+                let added = self.pending.add(&mut seen.pending, site, distance, arrival);
+                if added && arrival >= now {
+                    self.next = self.next.min(arrival);
+                }
             }
         }
         let before = seen.site;
         let mut falls = self.arrive(sources, i, now);
         let seen = &mut self.seen[i];
         // The crack is longer than when it was seen last.
-        if seen.site == before && before != NONE {
+        let half_length = sources.half_length(crack);
+        if seen.site == before && before != NONE && seen.half_length != half_length {
+            seen.half_length = half_length;
             let new = sources.cast(crack, before, self.place, self.beta);
             falls |= darken(&mut seen.shadow, new);
         }
@@ -228,11 +250,19 @@ impl Memory {
     fn arrive(&mut self, sources: Sources, i: usize, now: f64) -> bool {
         let (crack, seen) = (self.cracks[i], &mut self.seen[i]);
         let (shadow, mut falls) = (&mut seen.shadow, false);
-        let arrived = self.pending.arrive(&mut seen.pending, now, |site| {
-            falls |= darken(shadow, sources.cast(crack, site, self.place, self.beta));
-        });
+        let mut too_far = false;
+        let arrived = self
+            .pending
+            .arrive(&mut seen.pending, now, |site, distance| {
+                // They come the nearest first, and the farther a site, the more it leaves at least.
+                too_far = too_far || sources.takes_no_more(shadow, crack, distance, self.beta);
+                if !too_far {
+                    falls |= darken(shadow, sources.cast(crack, site, self.place, self.beta));
+                }
+            });
         if let Some((site, distance)) = arrived {
             (seen.site, seen.distance) = (site, distance);
+            seen.half_length = sources.half_length(crack);
         }
         falls
     }

@@ -1,0 +1,145 @@
+//! Breaks of scenes, seed after seed, and how two such lists differ: what a change of rounding, or of a sampling, is judged by.
+//!
+//! The blow is that of a scene's first break; only the seed of the weak points and of the cracks' roughness changes.
+//!
+//!     cargo run --release -p frangible-scenes --example statistics -- 100 glass pane plate bowl brick > before.txt
+//!     …                                                                                              > after.txt
+//!     cargo run --release -p frangible-scenes --example statistics -- compare before.txt after.txt
+//!
+//! Pairs are marked whose means differ by more than two standard errors of their difference, or that Kolmogorov and Smirnov's test takes
+//! for one distribution at less than 1 %. Of twenty-five pairs of equal samples one is marked by chance.
+
+use std::collections::BTreeMap;
+use std::error::Error;
+use std::sync::Arc;
+
+use frangible::{Outcome, impact};
+use frangible_scenes::{bake, breakable, first_break, scene};
+
+/// What is compared of each break, in the order of the columns.
+const COLUMNS: [&str; 5] = [
+    "pieces",
+    "crack area, m²",
+    "largest piece's share",
+    "first crack, s",
+    "cracks",
+];
+
+/// Below this chance, or with means so many standard errors apart, samples differ.
+const LEAST_P: f64 = 0.01;
+const MOST_ERRORS: f64 = 2.0;
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    match arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
+        ["compare", before, after] => compare(before, after),
+        [seeds, ref scenes @ ..] if !scenes.is_empty() => {
+            let seeds = seeds.parse()?;
+            scenes.iter().try_for_each(|name| list(name, seeds))
+        }
+        _ => Err("statistics SEEDS SCENE… | statistics compare BEFORE AFTER".into()),
+    }
+}
+
+/// Prints a line per break of a scene.
+fn list(name: &str, seeds: u64) -> Result<(), Box<dyn Error>> {
+    let scene = scene(name)?;
+    let bodies = bake(&scene, &mut |_| {})?;
+    let first = first_break(&scene, &bodies, &mut |_| {})?.ok_or("nothing breaks")?;
+    let number = scene.bodies.iter().position(|b| b.name == first.name);
+    let spec = &scene.bodies[number.unwrap_or(0)];
+    let kind = breakable(spec, &Arc::clone(first.body.asset()))?;
+    for seed in 1..=seeds {
+        let outcome = impact(&kind.body(seed), &first.contacts, &first.config)?;
+        let report = outcome.report();
+        let (pieces, largest) = match &outcome {
+            Outcome::Broke(fracture) => {
+                let volumes = fracture.fragments.iter().map(|f| f.mass.volume);
+                let all: f64 = volumes.clone().sum();
+                (fracture.fragments.len(), volumes.fold(0.0, f64::max) / all)
+            }
+            _ => (1, 1.0),
+        };
+        println!(
+            "{name} {seed} {pieces} {:.6e} {largest:.6} {:.6e} {}",
+            report.crack_area,
+            report.first_crack_time.unwrap_or(0.0),
+            report.cracks
+        );
+    }
+    Ok(())
+}
+
+/// Columns of each scene.
+type Scenes = BTreeMap<String, [Vec<f64>; 5]>;
+
+fn read(path: &str) -> Result<Scenes, Box<dyn Error>> {
+    let mut scenes = Scenes::new();
+    for line in std::fs::read_to_string(path)?.lines() {
+        let words: Vec<&str> = line.split_whitespace().collect();
+        let [name, _, ref numbers @ ..] = words[..] else {
+            continue;
+        };
+        let columns = scenes.entry(name.into()).or_default();
+        for (column, number) in columns.iter_mut().zip(numbers) {
+            column.push(number.parse()?);
+        }
+    }
+    Ok(scenes)
+}
+
+fn compare(before: &str, after: &str) -> Result<(), Box<dyn Error>> {
+    let (before, after) = (read(before)?, read(after)?);
+    let (mut pairs, mut differ) = (0, 0);
+    println!(
+        "| scene | | before | after | standard errors apart | p |\n| --- | --- | ---: | ---: | ---: | ---: |"
+    );
+    for (name, columns) in &before {
+        let Some(others) = after.get(name) else {
+            continue;
+        };
+        for ((what, a), b) in COLUMNS.iter().zip(columns).zip(others) {
+            let [(mean_a, error_a), (mean_b, error_b)] = [a, b].map(|x| mean(x));
+            let apart = (mean_b - mean_a).abs() / error_a.hypot(error_b).max(f64::MIN_POSITIVE);
+            let p = kolmogorov_smirnov(a, b);
+            let marked = apart > MOST_ERRORS || p < LEAST_P;
+            (pairs, differ) = (pairs + 1, differ + usize::from(marked));
+            let mark = if marked { " ←" } else { "" };
+            println!(
+                "| {name} × {} | {what} | {mean_a:.4e} ± {error_a:.0e} | {mean_b:.4e} | {apart:.2} | {p:.3}{mark} |",
+                b.len()
+            );
+        }
+    }
+    println!("\n{differ} of {pairs} pairs differ.");
+    Ok(())
+}
+
+/// Mean and its standard error.
+fn mean(sample: &[f64]) -> (f64, f64) {
+    let n = sample.len() as f64;
+    let mean = sample.iter().sum::<f64>() / n;
+    let squares: f64 = sample.iter().map(|x| (x - mean).powi(2)).sum();
+    (mean, (squares / (n - 1.0).max(1.0) / n).sqrt())
+}
+
+/// Chance that two samples of one distribution differ as much: Kolmogorov's limit with Stephens' correction for small samples.
+fn kolmogorov_smirnov(a: &[f64], b: &[f64]) -> f64 {
+    let share = |sample: &[f64], x: f64| {
+        sample.iter().filter(|&&y| y <= x).count() as f64 / sample.len() as f64
+    };
+    let places = a.iter().chain(b);
+    let apart = places.map(|&x| (share(a, x) - share(b, x)).abs());
+    let most = apart.fold(0.0, f64::max);
+    let (n, m) = (a.len() as f64, b.len() as f64);
+    let size = (n * m / (n + m)).sqrt();
+    let x = (size + 0.12 + 0.11 / size) * most;
+    if x < 0.2 {
+        return 1.0;
+    }
+    let terms = (1..=100).map(|k| {
+        let k = f64::from(k);
+        (-1.0_f64).powf(k - 1.0) * (-2.0 * k * k * x * x).exp()
+    });
+    (2.0 * terms.sum::<f64>()).clamp(0.0, 1.0)
+}

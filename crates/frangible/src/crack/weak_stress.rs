@@ -1,0 +1,245 @@
+//! Stress at the weak points of a cluster at the steps of a batch: rows times amplitudes, and what a motion has beside its modes.
+
+use super::field::{StressField, weak_place};
+use crate::body::Body;
+use crate::near_field::Located;
+use crate::stress::{Frame, Lanes, MOST, STRIDE, of_shape};
+use crate::weak_rows::{ClusterRows, row_points};
+
+/// What one motion adds to rows of the body, and room for their stress.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct WeakStress {
+    /// Of each cluster that was looked at.
+    added: Vec<Option<Added>>,
+    /// Row after row.
+    numbers: Vec<Lanes>,
+    /// Room for shapes.
+    room: Vec<Lanes>,
+    /// What the shapes leave out, Pa, where the numbers are theirs.
+    left_out: Option<Lanes>,
+}
+
+/// Where more than one of so many points is in doubt, all of them are computed …
+const MANY: usize = 4;
+
+/// … and in the following batches, as many as this less one.
+const WAIT: u8 = 4;
+
+/// What a motion adds in a cluster.
+#[derive(Clone, Debug)]
+struct Added {
+    /// Of each shape that follows a force: its stress in each row, Pa/N.
+    residuals: Vec<Vec<f32>>,
+    near: Vec<NearPoint>,
+    /// Points, by their places in the cluster, that something presses on: rows do not hold for them.
+    pressed: Vec<u32>,
+    /// Batches until it is bounded again.
+    wait: u8,
+}
+
+/// A point in a near field.
+#[derive(Clone, Debug)]
+pub(super) struct NearPoint {
+    /// Its first row, and how many it has.
+    row: usize,
+    count: usize,
+    /// Number of the field.
+    field: usize,
+    at: Located,
+    /// What each row has of the field's two tensions.
+    shares: [[f32; MOST]; 2],
+}
+
+impl WeakStress {
+    /// Computes the stress at all points of the cluster at place `cluster` of the body's list, or what bounds it.
+    #[inline(always)]
+    pub(super) fn look(
+        &mut self,
+        body: &Body,
+        field: &StressField,
+        cluster: usize,
+        rows: &ClusterRows,
+    ) {
+        if self.added.is_empty() {
+            self.added.resize(body.clusters.clusters.len(), None);
+        }
+        let added =
+            self.added[cluster].get_or_insert_with(|| Added::new(body, field, cluster, rows));
+        let numbers = &mut self.numbers;
+        numbers.clear();
+        numbers.resize(rows.rows.padded(), Lanes::default());
+        for (shares, (_, force)) in added.residuals.iter().zip(field.displacement.residuals()) {
+            for (number, share) in numbers.iter_mut().zip(shares) {
+                add(number, *share, force);
+            }
+        }
+        let amplitudes = field.displacement.amplitudes();
+        added.wait = added.wait.saturating_sub(1);
+        self.left_out = None;
+        if field.config.culling
+            && added.wait == 0
+            && let Some(coarse) = rows.coarse(body)
+        {
+            self.left_out = Some(coarse.add(amplitudes, &mut self.room, numbers));
+            return;
+        }
+        rows.rows.add(amplitudes, numbers);
+        for near in &added.near {
+            near.add(field, &mut numbers[near.row..]);
+        }
+    }
+
+    /// Points of a cluster that was looked at, one after the other.
+    pub(super) fn points(&self, cluster: usize) -> Points<'_> {
+        Points {
+            stress: self,
+            added: self.added[cluster].as_ref(),
+            row: 0,
+            near: 0,
+        }
+    }
+
+    /// Waits a while before the cluster is bounded again, if too many of its points were in doubt.
+    pub(super) fn doubted(&mut self, cluster: usize, doubts: usize, points: usize) {
+        if let Some(added) = &mut self.added[cluster]
+            && MANY * doubts > points
+        {
+            added.wait = WAIT;
+        }
+    }
+}
+
+/// Adds so much of a force, or a tension, at each step.
+#[inline(always)]
+fn add(sum: &mut Lanes, share: f32, of: &Lanes) {
+    for (sum, of) in sum.iter_mut().zip(of) {
+        *sum += share * of;
+    }
+}
+
+/// The points of a cluster.
+pub(super) struct Points<'a> {
+    stress: &'a WeakStress,
+    added: Option<&'a Added>,
+    row: usize,
+    near: usize,
+}
+
+/// What is known of a point.
+pub(super) struct Seen<'a> {
+    /// Its numbers, or of a point that was bounded what its shapes have of them.
+    pub(super) numbers: &'a [Lanes],
+    /// Of a point that was bounded what to add to the tension, Pa.
+    pub(super) left_out: Option<Lanes>,
+    row: usize,
+    near: &'a [NearPoint],
+}
+
+impl<'a> Points<'a> {
+    /// Points, by their places in the cluster, that rows do not hold for.
+    pub(super) fn pressed(&self) -> &'a [u32] {
+        self.added.map_or(&[], |added| &added.pressed)
+    }
+
+    /// The next one.
+    #[inline(always)]
+    pub(super) fn next(&mut self, field: &StressField, frame: Frame) -> Seen<'a> {
+        let row = self.row;
+        self.row += frame.count();
+        let near = self.added.map_or(&[][..], |added| &added.near[self.near..]);
+        let count = near.iter().take_while(|near| near.row == row).count();
+        self.near += count;
+        let near = &near[..count];
+        let mut left_out = self.stress.left_out;
+        if let Some(left_out) = &mut left_out {
+            for near in near {
+                let most = field.near.0[near.field].most_lanes(&near.at, field.step / STRIDE);
+                add(left_out, 1.0, &most);
+            }
+        }
+        Seen {
+            numbers: &self.stress.numbers[row..self.row],
+            left_out,
+            row,
+            near,
+        }
+    }
+
+    /// The numbers of a point, the same bits as where they were not bounded.
+    #[inline(always)]
+    pub(super) fn exact(
+        &self,
+        field: &StressField,
+        rows: &ClusterRows,
+        seen: &Seen,
+    ) -> [Lanes; MOST] {
+        let mut numbers = [Lanes::default(); MOST];
+        let amplitudes = field.displacement.amplitudes();
+        let shapes = self.added.map_or(&[][..], |added| &added.residuals);
+        for (i, number) in numbers[..seen.numbers.len()].iter_mut().enumerate() {
+            for (shares, (_, force)) in shapes.iter().zip(field.displacement.residuals()) {
+                add(number, shares[seen.row + i], force);
+            }
+            rows.rows.add_one(seen.row + i, amplitudes, number);
+        }
+        for near in seen.near {
+            near.add(field, &mut numbers);
+        }
+        numbers
+    }
+}
+
+impl NearPoint {
+    /// Adds the field to the point's numbers.
+    #[inline(always)]
+    fn add(&self, field: &StressField, numbers: &mut [Lanes]) {
+        let stress = field.near.0[self.field].lanes(&self.at, field.step / STRIDE);
+        for (tension, shares) in stress.iter().zip(&self.shares) {
+            for (number, share) in numbers[..self.count].iter_mut().zip(shares) {
+                add(number, *share, tension);
+            }
+        }
+    }
+}
+
+impl Added {
+    #[inline(never)]
+    fn new(body: &Body, field: &StressField, cluster: usize, rows: &ClusterRows) -> Self {
+        let shapes = field.displacement.residuals();
+        let residuals = if shapes.is_empty() {
+            Vec::new()
+        } else {
+            let points = row_points(body, field.config, cluster);
+            let of = |shape| of_shape(field.asset, &field.elasticity, shape, &points);
+            shapes.iter().map(|(shape, _)| of(shape)).collect()
+        };
+        let (mut near, mut pressed, mut row) = (Vec::new(), Vec::new(), 0);
+        let points = body.clusters.tets(cluster).iter().zip(&rows.frames);
+        for (i, (&tet, &frame)) in (0..).zip(points) {
+            let tet = tet as usize;
+            if field.is_pressed(tet) {
+                pressed.push(i);
+            } else if !field.near.0.is_empty() && !matches!(frame, Frame::Edge(_)) {
+                let weak = weak_place(field.asset, field.skin, field.config, &[], tet);
+                if let Some(wall) = &weak.wall {
+                    let place = field.place(tet, weak.on_surface);
+                    let places = field.near.places(place, wall);
+                    near.extend(places.map(|(field, at)| NearPoint {
+                        row,
+                        count: frame.count(),
+                        field,
+                        shares: at.directions().map(|along| frame.of_uniaxial(along)),
+                        at,
+                    }));
+                }
+            }
+            row += frame.count();
+        }
+        Self {
+            residuals,
+            near,
+            pressed,
+            wait: 0,
+        }
+    }
+}

@@ -1,0 +1,91 @@
+//! u = Φ q on the coarse nodes at one time step, for cracks that run: they ask for few places, each at few steps.
+
+use glam::{Mat3, Vec3};
+
+use super::displacement::ShapeWeights;
+use super::wide::dot;
+use crate::asset::{Asset, EmbeddedPoint};
+use crate::modal::Motion;
+
+/// Displacements of the coarse nodes at one time step, each node computed when it is first asked for.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Moment {
+    /// Of each node, m, and the time step that it belongs to, counted from 1; empty before anything is asked for.
+    nodes: Vec<(Vec3, u32)>,
+}
+
+impl Moment {
+    /// ∇u at an embedded point at a time step, column j = ∂u/∂x_j.
+    pub(crate) fn gradient(
+        &mut self,
+        asset: &Asset,
+        motion: &Motion,
+        point: &EmbeddedPoint,
+        step: usize,
+    ) -> Mat3 {
+        if self.nodes.is_empty() {
+            self.nodes
+                .resize(asset.analysis.nodes.len(), (Vec3::ZERO, 0));
+        }
+        let element = point.element as usize;
+        let gradients =
+            ShapeWeights::gradients(point, &asset.analysis.barycentric_gradients[element]);
+        let nodes = &asset.analysis.elements[element];
+        // With the widest vectors that this processor has; the same operations in the same order, so the same bits.
+        pulp::Arch::new().dispatch(Compute {
+            moment: self,
+            asset,
+            motion,
+            nodes,
+            step,
+        });
+        // The gradients of the shape functions add up to nothing: what all nodes share only costs digits.
+        let shared = self.nodes[nodes[0] as usize].0;
+        let mut sum = Mat3::ZERO;
+        for (&node, g) in nodes.iter().zip(gradients).skip(1) {
+            let u = self.nodes[node as usize].0 - shared;
+            sum.x_axis += u * g.x;
+            sum.y_axis += u * g.y;
+            sum.z_axis += u * g.z;
+        }
+        sum
+    }
+
+    #[inline(always)]
+    fn compute(&mut self, asset: &Asset, motion: &Motion, node: usize, step: usize) {
+        let known = &mut self.nodes[node];
+        if known.1 == step as u32 + 1 {
+            return;
+        }
+        let amplitudes = motion.at(step);
+        let mut u = [0.0; 3];
+        for (axis, u) in u.iter_mut().enumerate() {
+            let dof = 3 * node + axis;
+            let residuals = motion.complement.residuals.iter();
+            let following = residuals.map(|r| r.shape.at(asset, node)[axis] * r.force(step));
+            *u = following.sum();
+            *u += dot(&asset.modes.row(dof)[..motion.modes], amplitudes);
+        }
+        *known = (Vec3::from_array(u), step as u32 + 1);
+    }
+}
+
+/// Displacements of an element's nodes.
+struct Compute<'a> {
+    moment: &'a mut Moment,
+    asset: &'a Asset,
+    motion: &'a Motion,
+    nodes: &'a [u32; 10],
+    step: usize,
+}
+
+impl pulp::NullaryFnOnce for Compute<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        for &node in self.nodes {
+            (self.moment).compute(self.asset, self.motion, node as usize, self.step);
+        }
+    }
+}

@@ -1,0 +1,208 @@
+//! Stress at weak points straight from what the modes do, σ = S q (beyond the paper): where strain is linear, displacement, gradient,
+//! law and wall are one matrix, found once for a body. It has three rows for a point of a free surface, and is read from end to end.
+
+use super::displacement::{BATCH, Lanes, ShapeWeights};
+use super::frame::{Frame, MOST};
+use super::strain::{Elasticity, Law};
+use crate::asset::{Asset, EmbeddedPoint};
+use crate::blow::Shape;
+
+/// Rows that are summed side by side: each is a chain of sums that waits for itself.
+const GROUP: usize = 6;
+
+/// Nodes of an analysis element.
+const NODES: usize = 10;
+
+/// A weak point as its rows see it.
+pub(crate) struct RowPoint<'a> {
+    pub(crate) point: &'a EmbeddedPoint,
+    pub(crate) law: Law,
+    pub(crate) frame: Frame,
+}
+
+/// A node of a point's element, and the element's first one; what each of the point's rows has of the difference of their displacements,
+/// Pa/m.
+type NodeShares = ([usize; 2], [[f32; 3]; MOST]);
+
+impl RowPoint<'_> {
+    /// All nodes of the point's element but the first: the gradients of the shape functions add up to nothing.
+    #[inline(always)]
+    fn nodes(&self, asset: &Asset, elasticity: &Elasticity) -> [NodeShares; NODES - 1] {
+        let element = self.point.element as usize;
+        let gradients = &asset.analysis.barycentric_gradients[element];
+        let weights = ShapeWeights::gradients(self.point, gradients);
+        let nodes = &asset.analysis.elements[element];
+        let mut all = [([0; 2], [[0.0; 3]; MOST]); NODES - 1];
+        for ((to, &node), &g) in all.iter_mut().zip(&nodes[1..]).zip(&weights[1..]) {
+            let shares = elasticity.per_displacement(self.law, self.frame, g);
+            for (to, share) in to.1.iter_mut().zip(shares) {
+                *to = share.to_array();
+            }
+            to.0 = [node as usize, nodes[0] as usize];
+        }
+        all
+    }
+}
+
+/// Rows of the points of a cluster, one after the other.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Rows {
+    /// Pa per m·√kg: `[group of rows][mode, from the highest][row]`.
+    numbers: Vec<[f32; GROUP]>,
+    modes: usize,
+}
+
+impl Rows {
+    /// The rows of the first `modes` modes at some points.
+    pub(crate) fn new(
+        asset: &Asset,
+        elasticity: &Elasticity,
+        modes: usize,
+        points: &[RowPoint],
+    ) -> Self {
+        let count: usize = points.iter().map(|p| p.frame.count()).sum();
+        let mut rows = Self {
+            numbers: vec![[0.0; GROUP]; count.div_ceil(GROUP) * modes],
+            modes,
+        };
+        // With the widest vectors that this processor has; the same operations in the same order, so the same bits.
+        pulp::Arch::new().dispatch(Fill {
+            rows: &mut rows,
+            asset,
+            elasticity,
+            points,
+        });
+        rows
+    }
+
+    /// Rows of so many modes each, from the lowest.
+    pub(super) fn of(modes: usize, rows: impl ExactSizeIterator<Item = Vec<f32>>) -> Self {
+        let mut numbers = vec![[0.0; GROUP]; rows.len().div_ceil(GROUP) * modes];
+        for (i, row) in rows.enumerate() {
+            let group = &mut numbers[i / GROUP * modes..][..modes];
+            for (to, from) in group.iter_mut().zip(row.into_iter().rev()) {
+                to[i % GROUP] = from;
+            }
+        }
+        Self { numbers, modes }
+    }
+
+    /// Modes of each row.
+    pub(crate) fn modes(&self) -> usize {
+        self.modes
+    }
+
+    /// One row, from the lowest mode on.
+    pub(super) fn row(&self, row: usize) -> impl Iterator<Item = f32> {
+        let group = &self.numbers[row / GROUP * self.modes..][..self.modes];
+        group.iter().rev().map(move |numbers| numbers[row % GROUP])
+    }
+
+    /// [`Self::add`] of one row.
+    #[inline(always)]
+    pub(crate) fn add_one(&self, row: usize, amplitudes: &[Lanes], sum: &mut Lanes) {
+        let skipped = self.modes - amplitudes.len();
+        let group = &self.numbers[row / GROUP * self.modes..][..self.modes];
+        let mut own = *sum;
+        for (row_of_mode, q) in group[skipped..].iter().zip(amplitudes.iter().rev()) {
+            for k in 0..BATCH {
+                own[k] += row_of_mode[row % GROUP] * q[k];
+            }
+        }
+        *sum = own;
+    }
+
+    /// How many numbers [`Self::add`] adds to: the rows, and some that are empty.
+    pub(crate) fn padded(&self) -> usize {
+        match self.modes {
+            0 => 0,
+            modes => self.numbers.len() / modes * GROUP,
+        }
+    }
+
+    /// Adds the rows times the amplitudes of the first modes, m·√kg, highest first: high modes move little, so that a sum is large, and
+    /// rounds, only at the end.
+    #[inline(always)]
+    pub(crate) fn add(&self, amplitudes: &[Lanes], sums: &mut [Lanes]) {
+        let skipped = self.modes - amplitudes.len();
+        let groups = self.numbers.chunks_exact(self.modes.max(1));
+        for (group, sums) in groups.zip(sums.as_chunks_mut::<GROUP>().0) {
+            let mut own = *sums;
+            for (row, q) in group[skipped..].iter().zip(amplitudes.iter().rev()) {
+                for i in 0..GROUP {
+                    for k in 0..BATCH {
+                        own[i][k] += row[i] * q[k];
+                    }
+                }
+            }
+            *sums = own;
+        }
+    }
+}
+
+/// Stress of a shape of the body per newton at some points, Pa/N: row after row.
+pub(crate) fn of_shape(
+    asset: &Asset,
+    elasticity: &Elasticity,
+    shape: &Shape,
+    points: &[RowPoint],
+) -> Vec<f32> {
+    let mut rows = Vec::new();
+    for point in points {
+        let mut sums = [0.0; MOST];
+        for (nodes, shares) in point.nodes(asset, elasticity) {
+            let [here, shared] = nodes.map(|node| shape.at(asset, node));
+            for axis in 0..3 {
+                let u = here[axis] - shared[axis];
+                for (sum, share) in sums.iter_mut().zip(shares) {
+                    *sum += share[axis] * u;
+                }
+            }
+        }
+        rows.extend(&sums[..point.frame.count()]);
+    }
+    rows
+}
+
+/// Fills rows.
+struct Fill<'a> {
+    rows: &'a mut Rows,
+    asset: &'a Asset,
+    elasticity: &'a Elasticity,
+    points: &'a [RowPoint<'a>],
+}
+
+impl pulp::NullaryFnOnce for Fill<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let modes = self.rows.modes;
+        let shapes = &self.asset.modes;
+        let mut sums: [Vec<f32>; MOST] = std::array::from_fn(|_| vec![0.0; modes]);
+        let mut row = 0;
+        for point in self.points {
+            let count = point.frame.count();
+            sums[..count].iter_mut().for_each(|sum| sum.fill(0.0));
+            for ([node, first], shares) in point.nodes(self.asset, self.elasticity) {
+                for axis in 0..3 {
+                    let here = &shapes.row(3 * node + axis)[..modes];
+                    let shared = &shapes.row(3 * first + axis)[..modes];
+                    for (sum, share) in sums[..count].iter_mut().zip(&shares) {
+                        let (sum, share) = (&mut sum[..modes], share[axis]);
+                        for i in 0..modes {
+                            sum[i] += share * (here[i] - shared[i]);
+                        }
+                    }
+                }
+            }
+            for sum in &sums[..count] {
+                let group = &mut self.rows.numbers[row / GROUP * modes..][..modes];
+                for (to, &from) in group.iter_mut().zip(sum.iter().rev()) {
+                    to[row % GROUP] = from;
+                }
+                row += 1;
+            }
+        }
+    }
+}

@@ -1,0 +1,135 @@
+//! Rows of the stress at a body's weak points, cluster by cluster, each made when it is first looked at.
+
+use std::sync::OnceLock;
+
+use crate::body::Body;
+use crate::config::FractureConfig;
+use crate::crack::weak_place;
+use crate::stress::{Coarse, Elasticity, Frame, Law, RowPoint, Rows};
+
+/// Work per point where stress is found from displacements: gradient of ten nodes, law; multiplications and additions.
+const FROM_GRADIENT: usize = 348;
+
+/// Rows serve where they are no more than so many times the work of displacements: they are read from end to end.
+const WORTH: usize = 2;
+
+/// Rows by how the points' laws are chosen: by the body's surface and walls, or not.
+#[derive(Debug, Default)]
+pub(crate) struct WeakRows([OnceLock<Option<LawRows>>; 4]);
+
+/// Rows of the clusters.
+#[derive(Debug)]
+pub(crate) struct LawRows {
+    modes: usize,
+    clusters: Vec<OnceLock<ClusterRows>>,
+}
+
+/// Rows of one cluster.
+#[derive(Debug)]
+pub(crate) struct ClusterRows {
+    /// The frames of its weak points, in their order.
+    pub(crate) frames: Vec<Frame>,
+    pub(crate) rows: Rows,
+    coarse: OnceLock<Option<Coarse>>,
+}
+
+impl ClusterRows {
+    /// A few shapes in place of all modes, where they do.
+    pub(crate) fn coarse(&self, body: &Body) -> Option<&Coarse> {
+        let make = || {
+            let periods = &body.prepared.periods[..self.rows.modes()];
+            Coarse::new(&self.frames, &self.rows, periods)
+        };
+        self.coarse.get_or_init(make).as_ref()
+    }
+}
+
+impl WeakRows {
+    /// Those of a body under so many modes; none where the stress comes from displacements: where strain is not linear, and where
+    /// that is less work.
+    pub(crate) fn of<'a>(
+        &'a self,
+        body: &Body,
+        config: &FractureConfig,
+        modes: usize,
+    ) -> Option<&'a LawRows> {
+        let followed = body.asset.modes.followed();
+        if config.green_lagrange || modes > followed {
+            return None;
+        }
+        let laws = usize::from(config.surface_flaws) + 2 * usize::from(config.plane_stress_walls);
+        let make = || {
+            let clusters = body.clusters.clusters.len();
+            is_less_work(body, config, followed).then(|| LawRows {
+                modes: followed,
+                clusters: (0..clusters).map(|_| OnceLock::new()).collect(),
+            })
+        };
+        self.0[laws].get_or_init(make).as_ref()
+    }
+
+    /// Makes all that [`Self::of`] gives by and by.
+    pub(crate) fn prepare(&self, body: &Body, config: &FractureConfig) {
+        if let Some(rows) = self.of(body, config, body.asset.modes.followed()) {
+            for cluster in 0..rows.clusters.len() {
+                rows.cluster(body, config, cluster).coarse(body);
+            }
+        }
+    }
+}
+
+impl LawRows {
+    /// Rows of the cluster at a place in the body's list.
+    pub(crate) fn cluster(
+        &self,
+        body: &Body,
+        config: &FractureConfig,
+        cluster: usize,
+    ) -> &ClusterRows {
+        self.clusters[cluster].get_or_init(|| {
+            let points = row_points(body, config, cluster);
+            let elasticity = Elasticity::new(&body.asset.material);
+            ClusterRows {
+                frames: points.iter().map(|p| p.frame).collect(),
+                rows: Rows::new(&body.asset, &elasticity, self.modes, &points),
+                coarse: OnceLock::new(),
+            }
+        })
+    }
+}
+
+/// The weak points of a cluster where nothing presses.
+pub(crate) fn row_points<'a>(
+    body: &'a Body,
+    config: &FractureConfig,
+    cluster: usize,
+) -> Vec<RowPoint<'a>> {
+    let skin = &body.prepared.skin;
+    let tets = body.clusters.tets(cluster).iter();
+    tets.map(|&tet| {
+        let weak = weak_place(&body.asset, skin, config, &[], tet as usize);
+        RowPoint {
+            point: weak.point,
+            law: weak.law,
+            frame: Frame::of(weak.law, weak.wall.as_ref()),
+        }
+    })
+    .collect()
+}
+
+/// Whether rows are worth it.
+fn is_less_work(body: &Body, config: &FractureConfig, modes: usize) -> bool {
+    let (asset, skin) = (&*body.asset, &body.prepared.skin);
+    let weak = body.weak_tets();
+    let count = |&tet: &u32| {
+        let weak = weak_place(asset, skin, config, &[], tet as usize);
+        match weak.law {
+            Law::Solid => 6,
+            Law::Free(_) => 3,
+            Law::Edge(_) => 1,
+        }
+    };
+    let rows: usize = weak.iter().map(count).sum();
+    let displacements = 6 * modes * asset.analysis.nodes.len();
+    2 * modes * rows <= WORTH * (displacements + FROM_GRADIENT * weak.len())
+}
