@@ -36,6 +36,7 @@ pub(super) struct BodyTable {
     pub(super) asset: Option<String>,
     pub(super) size: Option<f64>,
     pub(super) resolution: Option<usize>,
+    pub(super) wall: Option<f64>,
     pub(super) up: Option<AxisTable>,
     pub(super) material: Option<MaterialChoice>,
     pub(super) modes: Option<usize>,
