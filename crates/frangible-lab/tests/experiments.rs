@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use frangible::glam::DVec2;
 use frangible_lab::verify::experiments::{
-    CrackPattern, CutOffLaw, Experiments, MassPlan, PowerLaw, StarPlan,
+    CrackPattern, CutOffLaw, Experiments, MassPlan, PowerLaw, RearStarPlan, StarPlan,
 };
 
 /// Straight radial lines from 3 to 40 mm, in pieces of 1 mm, at these angles, with a sideways zigzag, m.
@@ -169,7 +169,15 @@ fn pieces_that_come_in_equal_bodies_count_once() {
 
 #[test]
 fn a_small_run_gives_the_published_page_with_other_numbers_and_the_same_bits_twice() {
-    let compute = || Experiments::compute(StarPlan::tiny(), MassPlan::tiny(), &|_| {}).unwrap();
+    let compute = || {
+        Experiments::compute(
+            StarPlan::tiny(),
+            RearStarPlan::tiny(),
+            MassPlan::tiny(),
+            &|_| {},
+        )
+        .unwrap()
+    };
     let found = compute();
     let page = found.page("experiments").unwrap();
     assert_eq!(page.text, compute().page("experiments").unwrap().text);

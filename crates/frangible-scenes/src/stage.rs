@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use frangible::glam::{Quat, Vec3};
-use frangible::internals::{Fields, Preset};
+use frangible::internals::Fields;
 use frangible::{Asset, Body, Breakable, Material};
 use frangible_rapier::rapier3d::dynamics::RigidBodyHandle;
 use frangible_rapier::rapier3d::geometry::SharedShape;
@@ -263,11 +263,13 @@ fn is_convex(asset: &Asset) -> bool {
 /// # Errors
 /// A weakness that cannot be used.
 pub fn breakable(spec: &BodySpec, asset: &Arc<Asset>) -> Result<Breakable, SceneError> {
-    let of_preset = || Preset::named(&asset.material.name).map_or(0.0, |p| p.weibull_modulus);
-    let scatter = spec.weibull_modulus.unwrap_or_else(of_preset);
     let fields = Fields::from_paint(asset, &spec.paint)?
         .patched(asset, &spec.weakness)?
-        .with_weibull_modulus(scatter);
+        .scattered_as(&asset.material);
+    let fields = match spec.weibull_modulus {
+        Some(modulus) => fields.with_weibull_modulus(modulus),
+        None => fields,
+    };
     Ok(Breakable::new(Arc::clone(asset))?.with_fields(fields)?)
 }
 

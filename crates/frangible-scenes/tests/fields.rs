@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use common::{block, blow, glass, mean, pane, pane_hit, pieces, rim_hit, steel_ball, stone_floor};
 use frangible::glam::Vec3;
-use frangible::internals::{Factors, Fields, Patch, Zone, impact_traced};
+use frangible::internals::{Factors, Fields, Patch, Preset, Zone, impact_traced};
 use frangible::{Asset, Body, Breakable, Contact, FractureConfig, InputError, Outcome, impact};
 use frangible_scenes::{bake, scene};
 
@@ -105,7 +105,7 @@ fn scatter_is_of_the_seed_alone_and_fades_with_the_modulus() {
     };
     // Of n weak points the weakest has the mean strength n^(-1/m) Γ(1 + 1/m), times the typical one's.
     let n = mean(20, |seed| five.body(seed).weak_tets().len() as f64);
-    let specimen = glass().material.weak_point_density * Fields::SPECIMEN;
+    let specimen = glass().material.weak_point_density * Preset::SPECIMEN;
     for (modulus, gamma) in [(5.0, 0.9182), (20.0, 0.9735), (1e6, 1.0)] {
         let law = (specimen / n).powf(1.0 / modulus) * gamma;
         let found = weakest(modulus);

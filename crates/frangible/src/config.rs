@@ -45,6 +45,8 @@ pub struct FractureConfig {
     /// The front of a crack that was there before needs no more tension than Griffith asks for a crack of its length: a
     /// cracked body is weaker. Default: on; in the paper it needs the strain energy that a new crack's front needs.
     pub griffith_fronts: bool,
+    /// A crack forks where it has run far enough under enough tension. Default: on; the paper's never do.
+    pub branching: bool,
     /// A crack also ends inside what it meets, so that no bridge of one tetrahedron holds pieces together. Default: on;
     /// in the paper it stops at the face `[G12 §5.2.4]`.
     pub ends_inside: bool,
@@ -117,6 +119,7 @@ impl Default for FractureConfig {
             plane_stress_walls: true,
             first_element_pays: true,
             griffith_fronts: true,
+            branching: true,
             ends_inside: true,
             crumb_share: 2e-4,
         }
@@ -194,6 +197,7 @@ impl FractureConfig {
             plane_stress_walls: false,
             first_element_pays: false,
             griffith_fronts: false,
+            branching: false,
             ends_inside: false,
             ..Self::default()
         }

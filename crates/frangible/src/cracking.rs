@@ -151,6 +151,7 @@ impl<'a> Cracking<'a> {
         }
         report.stress_bound = f64::from(peak.tension.max(looked.passed_over));
         report.cracks = system.cracks.len() - system.old_cracks;
+        report.forks = system.forks;
         report.crack_area = system.area;
         report.fracture_energy = system.spent;
         let margin = report.strength / f64::from(peak.as_weakest.max(looked.as_weakest));

@@ -157,6 +157,8 @@ pub struct ImpactReport {
     pub crack_area: f64,
     /// Number of cracks that started.
     pub cracks: usize,
+    /// How many of them left another crack at a fork.
+    pub forks: usize,
     /// Number of weak points of the body.
     pub weak_points: usize,
     /// Time of the first crack after the contact began, s.

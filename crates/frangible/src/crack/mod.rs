@@ -11,6 +11,7 @@
 //! length of its front. Cracks that a piece's own modes know release nothing more.
 
 mod arrivals;
+mod branching;
 mod culling;
 mod field;
 mod initiation;

@@ -17,6 +17,7 @@
 
 use glam::Vec3;
 
+use super::branching::{forks, start};
 use super::field::StressField;
 use super::surface::crossing_area;
 use super::system::{CrackSystem, ElementCut, Front, Junction, UNCUT};
@@ -30,11 +31,11 @@ const STEERING_GATE: f64 = 0.3;
 /// A crack looks so far ahead for where it costs least (in mean edges).
 const KINK_REACH: f32 = 1.0;
 
-/// A known value this far (in mean edges) from its prediction means that the crack has met itself …
-const SELF_MEETING: f32 = 0.5;
-
-/// … and this far if the sign differs too; less is the surface's own curvature.
-const SELF_MEETING_SIGN: f32 = 0.15;
+/// A known value this far (in mean edges) from its prediction means that the crack has met another sheet of itself; less is its own
+/// curvature, and it takes the known value. Chosen by measurement: with half an edge, and less where the signs differ, neighbouring fronts
+/// of one sheet take each other for two and leave bridges (a block of porcelain on its corner at 15 m/s, cracked four times its section, keeps
+/// pieces of 0.94 of itself; with one edge 0.40 at most); with two edges the pieces are much the same.
+const SELF_MEETING: f32 = 1.0;
 
 /// Sends the stalled fronts on again from `since`, s.
 pub(crate) fn retry(system: &mut CrackSystem, since: f64) {
@@ -128,11 +129,7 @@ fn enter(system: &mut CrackSystem, field: &mut StressField, front: Front) {
             match system.values.get(front.crack, nodes[fourth]) {
                 None => values[fourth] = predicted,
                 Some(known) => {
-                    let difference = (known - predicted).abs();
-                    let opposite = (known < 0.0) != (predicted < 0.0);
-                    if difference > SELF_MEETING * system.edge
-                        || (opposite && difference > SELF_MEETING_SIGN * system.edge)
-                    {
+                    if (known - predicted).abs() > SELF_MEETING * system.edge {
                         let junction = Junction {
                             from: front.from,
                             own: true,
@@ -169,7 +166,11 @@ fn enter(system: &mut CrackSystem, field: &mut StressField, front: Front) {
                 CrackTiming::Instant => from.time,
             },
         };
+        let fork = forks(system, field, &front, &cut, &felt);
         system.fracture(front.crack, cut, area, gain);
+        if let Some(fork) = fork {
+            start(system, field, front.crack, &cut, &fork);
+        }
     } else {
         system.stalled.push(front);
     }

@@ -20,7 +20,7 @@ use memory::{Memory, Sources};
 
 use super::field::StressField;
 use super::suspects::Suspect;
-use super::system::CrackSystem;
+use super::system::{CrackSystem, Front};
 use crate::config::CrackTiming;
 use crate::stress::{
     BATCH, MARGIN, Released, STRETCHED, STRIDE, StressLanes, Symmetric3, bent, lane,
@@ -174,6 +174,29 @@ impl Releases {
         point.changed |= point.memory.update(Sources::of(system), now);
         point.memory.dark.then_some(point)
     }
+}
+
+/// What cracks leave of the stress at the weak place of the tetrahedron that a front enters, at all steps of the field's batch, as of
+/// `now`, s, without the energy; the front's own crack takes nothing. Asked once, nothing is remembered.
+pub(super) fn once(
+    system: &CrackSystem,
+    field: &mut StressField,
+    front: &Front,
+    whole: &StressLanes,
+    now: f64,
+) -> StressLanes {
+    let opposite = field.opposite_weak_point(front.tet as usize);
+    let beta = match &opposite {
+        Some(_) => bent(system.asset.material.poisson_ratio),
+        None => STRETCHED,
+    };
+    let mut memory = Memory::new(system.centroids[front.tet as usize], beta);
+    memory.update(Sources::of(system), now);
+    let mut rest = Released::new(whole, opposite.as_ref());
+    for shadow in memory.shadows_of_others(front.crack) {
+        rest.release(shadow);
+    }
+    rest.left()
 }
 
 /// What cracks leave of a suspect's stress, with the widest vectors that this processor has; the same operations in the same order,

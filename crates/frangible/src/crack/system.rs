@@ -44,6 +44,8 @@ pub(crate) struct Crack {
     grown_before: u64,
     /// Where it ran into another crack (or into itself).
     pub(crate) junctions: Vec<Junction>,
+    /// Where it forked, and when, s.
+    pub(crate) forks: Vec<(Vec3, f64)>,
     /// What feeds its front, if it was there before; and how many of its tetrahedra, from the first, were.
     pub(crate) tip: Option<Tip>,
     restored: usize,
@@ -63,6 +65,7 @@ impl Crack {
             sites: Vec::new(),
             grown_before: 0,
             junctions: Vec::new(),
+            forks: Vec::new(),
             tip: None,
             restored: 0,
         }
@@ -205,6 +208,8 @@ pub(crate) struct CrackSystem<'a> {
     front_limit: f32,
     /// Number of cracks from earlier impacts; they come first.
     pub(crate) old_cracks: usize,
+    /// How many of the others left another one at a fork.
+    pub(crate) forks: usize,
     /// Area of all cracks that this impact added, m².
     pub(crate) area: f64,
     /// What has released the weak points so far.
@@ -233,6 +238,7 @@ impl<'a> CrackSystem<'a> {
             dormant: Vec::new(),
             front_limit: front_limit(body),
             old_cracks: 0,
+            forks: 0,
             area: 0.0,
             asset,
             config,

@@ -18,7 +18,9 @@ use glam::Vec3;
 
 use crate::asset::Asset;
 use crate::error::InputError;
+use crate::material::Material;
 use crate::mesh::TriangleTree;
+use crate::presets::Preset;
 
 pub(crate) use kink::Tip;
 pub use paint::{Channel, Paint};
@@ -57,8 +59,8 @@ impl Factors {
     }
 }
 
-/// Factors on a material's numbers over a body. `Default` is none: the same everywhere.
-#[derive(Clone, Debug, Default, PartialEq)]
+/// Factors on a material's numbers over a body, and how its strength scatters. `Default` is none: the same everywhere.
+#[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Fields {
     /// Factors of each fracture tetrahedron; an empty list means one everywhere.
@@ -67,14 +69,43 @@ pub struct Fields {
     /// 5 to 10, fine ceramics 10 to 20; lower scatters more. Default 0: no scatter, every weak point has R_c.
     ///
     /// A tested specimen is as strong as the weakest of its many flaws, so a single flaw is usually much stronger. With a scatter
-    /// R_c is the strength that 63 % of specimens of [`SPECIMEN`](Self::SPECIMEN) do not survive, and 63 % of single weak points
-    /// do not survive R_c times the m-th root of the number of weak points in a specimen.
+    /// R_c is the strength that 63 % of specimens do not survive, and 63 % of single weak points do not survive R_c times the m-th root
+    /// of the number of weak points in a [`specimen`](Self::specimen).
     pub weibull_modulus: f64,
+    /// Volume of the specimen whose strength R_c is, where strength scatters, m³. Default 1e-4: a pane of 4 mm with 240 cm² under load.
+    pub specimen: f64,
+}
+
+impl Default for Fields {
+    fn default() -> Self {
+        Self {
+            of_tet: Vec::new(),
+            weibull_modulus: 0.0,
+            specimen: Preset::SPECIMEN,
+        }
+    }
 }
 
 impl Fields {
-    /// Volume of the specimen whose strength R_c is, where strength scatters, m³: a pane of 4 mm with 240 cm² under load.
-    pub const SPECIMEN: f64 = 1e-4;
+    /// The same everywhere, but for the scatter of the strength that the preset of this material's name has
+    /// ([`Preset::weibull_modulus`]); none where no preset has its name.
+    #[must_use]
+    pub fn of_material(material: &Material) -> Self {
+        Self::default().scattered_as(material)
+    }
+
+    /// With the scatter of the strength that the preset of this material's name has.
+    #[must_use]
+    pub fn scattered_as(self, material: &Material) -> Self {
+        match Preset::named(&material.name) {
+            Some(preset) => Self {
+                weibull_modulus: preset.weibull_modulus,
+                specimen: preset.specimen,
+                ..self
+            },
+            None => self,
+        }
+    }
 
     /// Factors of the place of each tetrahedron's centre: m, body frame.
     #[must_use]
@@ -210,6 +241,12 @@ impl Fields {
                     "{f:?} at tetrahedron {tet}; strength and toughness must be finite and above 0, weak points 0 or above"
                 )));
             }
+        }
+        if !(self.specimen.is_finite() && self.specimen > 0.0) {
+            return Err(InputError::Field(format!(
+                "the specimen's volume is {} m³; it must be finite and above 0",
+                self.specimen
+            )));
         }
         let m = self.weibull_modulus;
         if m.to_bits() == 0 || (m.is_finite() && m >= 1.0) {

@@ -57,6 +57,8 @@ pub struct Preset {
     /// Modulus of the scatter of its strength ([`Fields::weibull_modulus`](crate::internals::Fields::weibull_modulus)), 0 where every weak
     /// point has the same.
     pub weibull_modulus: f64,
+    /// Volume of the specimen whose strength was measured ([`Fields::specimen`](crate::Fields::specimen)), m³.
+    pub specimen: f64,
     /// How its strength rises with the rate, where that was measured.
     pub rate: Option<RateLaw>,
     numbers: Numbers,
@@ -80,6 +82,8 @@ struct Numbers {
 }
 
 impl Preset {
+    /// Volume of the specimen of which a strength is, where nothing else is said, m³: a pane of 4 mm with 240 cm² under load.
+    pub const SPECIMEN: f64 = 1e-4;
     /// Structural steel: balls, anvils.
     pub const STEEL: Self = table::STEEL;
     /// Granite: floors, kerbs.

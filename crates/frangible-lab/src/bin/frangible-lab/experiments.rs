@@ -3,7 +3,7 @@
 use std::error::Error;
 use std::fmt::Write;
 
-use frangible_lab::verify::experiments::{Experiments, Figure, MassPlan, StarPlan};
+use frangible_lab::verify::experiments::{Experiments, Figure, MassPlan, RearStarPlan, StarPlan};
 use serde_json::json;
 
 use crate::args::PageArgs;
@@ -17,7 +17,12 @@ pub(crate) fn run(args: &PageArgs) -> Result<(), Box<dyn Error>> {
     let place = Page::new(args.write.as_deref(), PAGE, PICTURES)?;
     let bar = Bar::new(args.json);
     let hear = |share: f64| bar.show("breaking plates and balls", share);
-    let found = Experiments::compute(StarPlan::full(), MassPlan::full(), &hear)?;
+    let found = Experiments::compute(
+        StarPlan::full(),
+        RearStarPlan::full(),
+        MassPlan::full(),
+        &hear,
+    )?;
     drop(bar);
     let page = found.page(PICTURES)?;
     let files = place.write(&page.text, &page.pictures)?;

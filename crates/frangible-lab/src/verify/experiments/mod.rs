@@ -10,6 +10,7 @@ mod masses_page;
 mod page;
 mod pattern;
 mod progress;
+mod rear_star;
 mod star;
 mod star_page;
 
@@ -19,6 +20,7 @@ pub(crate) use page::table;
 pub use page::{Figure, Page};
 pub use pattern::CrackPattern;
 pub use progress::Hear;
+pub use rear_star::{RearStar, RearStarPlan, RearStars};
 pub(crate) use star::preset;
 pub use star::{Count, StarImpact, StarPlan, StarRun, Stars};
 
@@ -29,12 +31,17 @@ use crate::verify::VerifyError;
 pub struct Experiments {
     /// Radial cracks of thin plates.
     pub stars: Stars,
+    /// Cracks of window glass from its rear face.
+    pub rear_stars: RearStars,
     /// Masses of pieces.
     pub masses: Masses,
 }
 
 /// Share of the work that goes into the stars.
-const STARS: f64 = 0.6;
+const STARS: f64 = 0.5;
+
+/// Share that goes into the rear stars.
+const REAR: f64 = 0.2;
 
 impl Experiments {
     /// Computes what the plans ask for; the same plans give the same bits on any number of threads. With the full plans
@@ -42,10 +49,17 @@ impl Experiments {
     ///
     /// # Errors
     /// What the bake or the impact refused.
-    pub fn compute(stars: StarPlan, masses: MassPlan, hear: Hear<'_>) -> Result<Self, VerifyError> {
+    pub fn compute(
+        stars: StarPlan,
+        rear_stars: RearStarPlan,
+        masses: MassPlan,
+        hear: Hear<'_>,
+    ) -> Result<Self, VerifyError> {
+        let before = STARS + REAR;
         Ok(Self {
             stars: Stars::compute(stars, &|share| hear(STARS * share))?,
-            masses: Masses::compute(masses, &|share| hear(STARS + (1.0 - STARS) * share))?,
+            rear_stars: RearStars::compute(rear_stars, &|share| hear(STARS + REAR * share))?,
+            masses: Masses::compute(masses, &|share| hear(before + (1.0 - before) * share))?,
         })
     }
 }

@@ -1,6 +1,6 @@
 //! The page of the experiments. Every sentence that depends on the outcome is made from the numbers.
 
-use super::{Experiments, masses_page, star_page};
+use super::{Experiments, masses_page, rear_star, star_page};
 use crate::verify::VerifyError;
 
 /// Size of a chart, and side of a drawing, pixels.
@@ -34,6 +34,7 @@ impl Experiments {
     #[must_use]
     pub fn figures(&self) -> Vec<Figure> {
         let mut figures = star_page::figures(&self.stars);
+        figures.extend(rear_star::figures(&self.rear_stars));
         figures.extend(masses_page::figures(&self.masses));
         figures
     }
@@ -46,8 +47,9 @@ impl Experiments {
         let text = format!(
             "# Experiments\n\nWritten by `frangible-lab experiments --write docs`, which computes it anew. Here nothing passes \
              or fails: there is no exact answer, only what was measured on other bodies. All sentences about outcomes are made \
-             from the computed numbers. Errors are standard errors.\n\n{}\n{}",
+             from the computed numbers. Errors are standard errors.\n\n{}\n{}\n{}",
             star_page::text(&self.stars, folder),
+            rear_star::text(&self.rear_stars),
             masses_page::text(&self.masses, folder)
         );
         let failed = |name: &str, error: image::ImageError| VerifyError::Plot {

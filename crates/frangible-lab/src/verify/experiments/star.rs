@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-use frangible::internals::{CrackTiming, Preset, impact_traced};
+use frangible::internals::{CrackTiming, Fields, Preset, impact_traced};
 use frangible::{Breakable, FractureConfig, Material};
 use frangible_bake::{BakeSpec, MeshSize, Region, Shape, Support, bake};
 use rayon::prelude::*;
@@ -59,6 +59,8 @@ pub(crate) struct Variant {
     green_lagrange: bool,
     strength: f64,
     weak_points: f64,
+    branching: bool,
+    scatter: bool,
     /// The strength is that of this rise time, s.
     rise_time: Option<f64>,
 }
@@ -69,13 +71,25 @@ const DEFAULT: Variant = Variant {
     green_lagrange: false,
     strength: 1.0,
     weak_points: 1.0,
+    branching: true,
+    scatter: true,
     rise_time: None,
 };
 
-const VARIANTS: [Variant; 5] = [
+const VARIANTS: [Variant; 7] = [
     Variant {
         name: "cracks at once, no release (`CrackTiming::Instant`)",
         instant: true,
+        ..DEFAULT
+    },
+    Variant {
+        name: "cracks do not fork (`branching`)",
+        branching: false,
+        ..DEFAULT
+    },
+    Variant {
+        name: "every weak point as strong as the others, R_c",
+        scatter: false,
         ..DEFAULT
     },
     Variant {
@@ -299,24 +313,31 @@ pub(crate) fn preset(name: &'static str) -> Result<Material, VerifyError> {
     Material::preset(name).map_err(|source| VerifyError::Material { name, source })
 }
 
+/// A square plate of this side and thickness, m, clamped on its four sides.
+pub(crate) fn clamped(
+    side: f64,
+    thickness: f64,
+    material: Material,
+    [analysis, fracture]: [f64; 2],
+    modes: usize,
+) -> BakeSpec {
+    let sides = [0, 1].into_iter().flat_map(|axis| {
+        [Region::below(axis, 0.0), Region::above(axis, side)].map(Support::clamped)
+    });
+    let size = |edge, layers| Some(MeshSize { edge, layers });
+    BakeSpec {
+        analysis: size(analysis, 1),
+        fracture: size(fracture, 0),
+        modes,
+        supports: sides.collect(),
+        ..BakeSpec::new(NAME, Shape::plate(side, side, thickness), material)
+    }
+}
+
 /// A plate clamped all round.
 fn plate(plan: &StarPlan, thickness: f64, material: Material) -> Result<Breakable, VerifyError> {
-    let sides = [0, 1].into_iter().flat_map(|axis| {
-        [Region::below(axis, 0.0), Region::above(axis, SIDE)].map(Support::clamped)
-    });
-    let spec = BakeSpec {
-        analysis: Some(MeshSize {
-            edge: plan.analysis_edge,
-            layers: 1,
-        }),
-        fracture: Some(MeshSize {
-            edge: plan.edge,
-            layers: 0,
-        }),
-        modes: plan.modes,
-        supports: sides.collect(),
-        ..BakeSpec::new(NAME, Shape::plate(SIDE, SIDE, thickness), material)
-    };
+    let edges = [plan.analysis_edge, plan.edge];
+    let spec = clamped(SIDE, thickness, material, edges, plan.modes);
     breakable(NAME, &spec)
 }
 
@@ -331,13 +352,23 @@ fn changed(plate: &Breakable, variant: Variant) -> Result<Breakable, VerifyError
         let slow = asset.material.strength;
         asset.material.strength = law.strength(slow, rise_time).map_err(refused)?;
     }
-    Breakable::new(asset).map_err(refused)
+    let fields = if variant.scatter {
+        Fields::of_material(&asset.material)
+    } else {
+        Fields::default()
+    };
+    Breakable::new(asset)
+        .and_then(|plate| plate.with_fields(fields))
+        .map_err(refused)
 }
 
 pub(crate) fn breakable(case: &'static str, spec: &BakeSpec) -> Result<Breakable, VerifyError> {
     let (asset, _) =
         bake(spec, &mut |_| {}).map_err(|source| VerifyError::Bake { case, source })?;
-    Breakable::new(Arc::new(asset)).map_err(|source| VerifyError::Impact { case, source })
+    let fields = Fields::of_material(&asset.material);
+    Breakable::new(Arc::new(asset))
+        .and_then(|body| body.with_fields(fields))
+        .map_err(|source| VerifyError::Impact { case, source })
 }
 
 fn strike(
@@ -350,6 +381,7 @@ fn strike(
 ) -> Result<StarImpact, VerifyError> {
     let mut config = FractureConfig::default();
     config.green_lagrange = variant.green_lagrange;
+    config.branching = variant.branching;
     if variant.instant {
         config.timing = CrackTiming::Instant;
     }

@@ -139,6 +139,13 @@ impl Memory {
         shadows.filter(|shadow| shadow.bent < 1.0 || shadow.stretched < 1.0)
     }
 
+    /// What has released it, without what one crack did.
+    pub(super) fn shadows_of_others(&self, crack: u32) -> impl Iterator<Item = &Shadow> {
+        let of = self.cracks.iter().zip(&self.seen);
+        of.filter(move |&(&of, _)| of != crack)
+            .map(|(_, seen)| &seen.shadow)
+    }
+
     /// Brings it to `now`, s; whether anything releases it more than before.
     pub(super) fn update(&mut self, sources: Sources, now: f64) -> bool {
         let known = self.growths;

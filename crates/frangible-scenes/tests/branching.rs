@@ -1,0 +1,59 @@
+//! Cracks that fork.
+
+mod common;
+
+use std::sync::Arc;
+
+use common::{mean, pane, pane_hit};
+use frangible::internals::Fields;
+use frangible::{Asset, Breakable, FractureConfig, ImpactReport, impact};
+
+/// A blow in the middle of a pane whose strength scatters as glass does.
+fn struck(asset: &Arc<Asset>, speed: f64, seed: u64, config: &FractureConfig) -> ImpactReport {
+    let kind = Breakable::new(Arc::clone(asset)).unwrap();
+    let fields = Fields::of_material(&asset.material);
+    let body = kind.with_fields(fields).unwrap().body(seed);
+    let outcome = impact(&body, &[pane_hit(0.0, 0.0, speed)], config).unwrap();
+    outcome.report().clone()
+}
+
+#[test]
+fn a_harder_blow_forks_more_cracks_and_the_switch_ends_it() {
+    let ours = FractureConfig::default();
+    let mut straight = ours.clone();
+    straight.branching = false;
+    let forks = |speed| mean(6, |seed| struck(pane(), speed, seed, &ours).forks as f64);
+    let [slow, middle, fast] = [3.0, 8.0, 20.0].map(forks);
+    println!("forks at 3, 8, 20 m/s: {slow:.1} {middle:.1} {fast:.1}");
+    assert!(slow < middle && middle < fast && fast >= 10.0);
+    for seed in 1..=3 {
+        let report = struck(pane(), 20.0, seed, &straight);
+        assert_eq!(report.forks, 0);
+        assert!(report.cracks > 0);
+    }
+}
+
+#[test]
+fn tougher_glass_forks_less() {
+    // The same blow, strength and feed; what a fork needs grows with the root of the toughness.
+    let config = FractureConfig::default();
+    let forks = [1.0, 4.0, 16.0].map(|factor| {
+        let mut asset = Asset::clone(pane());
+        asset.material.fracture_energy *= factor;
+        asset.material.energy_depth *= factor;
+        let asset = Arc::new(asset);
+        mean(6, |seed| struck(&asset, 12.0, seed, &config).forks as f64)
+    });
+    println!("forks at 12 m/s, G_c × 1, 4, 16: {forks:.1?}");
+    assert!(forks[0] > forks[1] && forks[1] > forks[2]);
+    assert!(forks[2] < 0.2 * forks[0]);
+}
+
+#[test]
+fn cracks_that_fork_spend_no_more_than_the_body_holds() {
+    for seed in 1..=4 {
+        let report = struck(pane(), 20.0, seed, &FractureConfig::default());
+        assert!(report.forks > 0 && report.forks < report.cracks);
+        assert!(report.fracture_energy <= report.peak_strain_energy);
+    }
+}
