@@ -209,6 +209,7 @@ pub(super) struct FractureTable {
     pub(super) plane_stress_walls: Option<bool>,
     pub(super) first_element_pays: Option<bool>,
     pub(super) griffith_fronts: Option<bool>,
+    pub(super) branching: Option<bool>,
     pub(super) ends_inside: Option<bool>,
 }
 

@@ -266,6 +266,7 @@ fn write_fracture(t: &mut Text, config: &FractureConfig) {
     t.line("plane_stress_walls", config.plane_stress_walls);
     t.line("first_element_pays", config.first_element_pays);
     t.line("griffith_fronts", config.griffith_fronts);
+    t.line("branching", config.branching);
     t.line("ends_inside", config.ends_inside);
 }
 
