@@ -6,7 +6,7 @@
 //! user's cache.
 
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::command::{Result, output, root};
@@ -28,20 +28,27 @@ pub(crate) fn state(paths: &[&str]) -> Result<Option<String>> {
 
 /// Whether the step has passed with this state.
 pub(crate) fn passed(step: &str, state: &str) -> bool {
-    file(step).is_some_and(|path| fs::read_to_string(path).is_ok_and(|known| known == state))
+    file(step).is_some_and(|file| holds(&file, state))
 }
 
 /// Notes that the step has passed with this state. A note that cannot be written costs a run, no more.
 pub(crate) fn note(step: &str, state: &str) {
-    if let Some(path) = file(step) {
-        let written = path
-            .parent()
-            .map_or(Ok(()), fs::create_dir_all)
-            .and_then(|()| fs::write(&path, state));
-        if let Err(error) = written {
-            println!("note: `{}` cannot be written: {error}", path.display());
-        }
+    if let Some(file) = file(step)
+        && let Err(error) = write(&file, state)
+    {
+        println!("note: `{}` cannot be written: {error}", file.display());
     }
+}
+
+fn holds(file: &Path, state: &str) -> bool {
+    fs::read_to_string(file).is_ok_and(|known| known == state)
+}
+
+fn write(file: &Path, state: &str) -> std::io::Result<()> {
+    if let Some(folder) = file.parent() {
+        fs::create_dir_all(folder)?;
+    }
+    fs::write(file, state)
 }
 
 fn file(step: &str) -> Option<PathBuf> {
@@ -53,4 +60,22 @@ fn file(step: &str) -> Option<PathBuf> {
         Some(cache.or(home)?.join("frangible-ci"))
     });
     Some(folder?.join("green").join(step))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{holds, write};
+
+    #[test]
+    fn only_the_state_that_was_noted_counts_as_passed() {
+        let name = format!("frangible-green-{}", std::process::id());
+        let folder = std::env::temp_dir().join(name);
+        let file = folder.join("green").join("web");
+        assert!(!holds(&file, "a"));
+        write(&file, "a").unwrap();
+        assert!(holds(&file, "a") && !holds(&file, "b"));
+        write(&file, "b").unwrap();
+        assert!(holds(&file, "b") && !holds(&file, "a"));
+        std::fs::remove_dir_all(folder).unwrap();
+    }
 }

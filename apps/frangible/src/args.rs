@@ -87,6 +87,10 @@ pub(crate) struct MeshArgs {
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub(crate) resolution: Option<i64>,
 
+    /// Make a wall of this thickness, in metres, along the mesh's surface, half on each side, instead of filling its inside
+    #[arg(long, value_name = "METRES", allow_hyphen_values = true)]
+    pub(crate) wall: Option<f64>,
+
     /// Which axis of the file is up: x, y or z [default: z in STL and PLY, else y]
     #[arg(long, value_name = "AXIS")]
     pub(crate) up: Option<String>,

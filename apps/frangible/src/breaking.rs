@@ -140,7 +140,7 @@ pub(crate) fn filled(open: &[bool], baked: &[BakedBody]) -> Vec<String> {
     open.map(|(_, body)| {
         let asset = &body.asset;
         format!(
-            "{}: the surface is open and is filled as a solid of {:.3} kg; for a thin wall, model its inside, too",
+            "{}: the surface is open and is filled as a solid of {:.3} kg; for a thin wall, give its thickness with --wall METRES",
             asset.name, asset.mass.mass
         )
     })

@@ -217,6 +217,7 @@ fn set_mesh(scene: &mut Scene, args: &MeshArgs) -> Result<(), String> {
         ("--size", args.size.is_some()),
         ("--resolution", args.resolution.is_some()),
         ("--up", axis.is_some()),
+        ("--wall", args.wall.is_some()),
     ];
     let Some((option, _)) = given.into_iter().find(|(_, given)| *given) else {
         return Ok(());
@@ -231,8 +232,12 @@ fn set_mesh(scene: &mut Scene, args: &MeshArgs) -> Result<(), String> {
             size,
             resolution,
             up,
+            wall,
             ..
         } => {
+            if args.wall.is_some() {
+                *wall = args.wall;
+            }
             if args.size.is_some() {
                 *size = args.size;
             }
@@ -242,19 +247,21 @@ fn set_mesh(scene: &mut Scene, args: &MeshArgs) -> Result<(), String> {
             *up = axis.unwrap_or(*up);
             Ok(())
         }
-        BodySource::Ready { resolution, .. } if args.size.is_none() && axis.is_none() => {
+        BodySource::Ready { resolution, .. }
+            if args.size.is_none() && axis.is_none() && args.wall.is_none() =>
+        {
             if let Some(tets) = args.resolution {
                 *resolution = Some(count(tets)?);
             }
             Ok(())
         }
-        BodySource::Shape(_) if args.size.is_none() && axis.is_none() => {
+        BodySource::Shape(_) if args.size.is_none() && axis.is_none() && args.wall.is_none() => {
             if let Some(tets) = args.resolution {
                 body.resolution = Some(count(tets)?);
             }
             Ok(())
         }
-        BodySource::Asset(_) if args.resolution.is_none() => {
+        BodySource::Asset(_) if args.resolution.is_none() && args.wall.is_none() => {
             if args.size.is_some() {
                 body.rescale.size = args.size;
             }

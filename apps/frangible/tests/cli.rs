@@ -158,6 +158,7 @@ fn help_names_every_option_and_its_unit() {
             "--size",
             "--resolution",
             "--up",
+            "--wall",
         ] {
             assert!(help.contains(option), "no {option} in: {help}");
         }

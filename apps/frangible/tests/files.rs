@@ -374,6 +374,27 @@ fn an_open_surface_is_filled_and_the_note_says_how_heavy_it_is() {
 }
 
 #[test]
+fn an_open_surface_with_a_wall_is_a_shell_of_that_thickness() {
+    let folder = Folder::new("wall");
+    let open = box_obj([0.1; 3]).replace("f 3 7 8 4\n", "");
+    let mesh = scene_file(&folder, "pot.obj", &open);
+    let args = ["--drop", "0.01", "--modes", "12", "--no-pictures"];
+    let weighed = |wall: &[&str]| {
+        let args = [&["break", &mesh], wall, &args[..]].concat();
+        let report = report(&args, &folder.0.join("out"));
+        let mass = report["mass_kg"].as_f64().expect("a mass");
+        (mass, report["notes"].to_string())
+    };
+    let (solid, _) = weighed(&["--resolution", "2000"]);
+    let (shell, notes) = weighed(&["--wall", "0.012"]);
+    // Five sides of 0.01 m² and 12 mm, beside 1 dm³; edges and rims add and take a little.
+    assert!((shell / solid - 0.6).abs() < 0.06, "{shell} of {solid} kg");
+    assert!(!notes.contains("filled"), "{notes}");
+    refused_in_a_sentence("wall", &["break", &mesh, "--wall", "-1"], &["wall"]);
+    refused_in_a_sentence("wall", &["--scene", "glass", "--wall", "0.01"], &["--wall"]);
+}
+
+#[test]
 fn size_and_up_make_a_body_in_metres_stand() {
     let folder = Folder::new("size");
     // 120 mm along z, which is up, in a file whose unit is the millimetre.

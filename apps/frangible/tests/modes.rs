@@ -1,6 +1,7 @@
 //! `frangible modes`: what it says of a body, what it writes, what it refuses.
 
 use std::fs;
+use std::process::Command;
 
 #[allow(dead_code, reason = "other tests need the rest of it")]
 mod common;
@@ -150,6 +151,23 @@ fn the_table_lists_what_was_asked_for_and_the_files_are_there() {
     left.retain(|name| name != "a.png");
     left.sort();
     assert_eq!(left, ["a.vtu", "b.vtu", "shelf.toml"]);
+}
+
+#[test]
+fn the_drivers_do_not_complain_before_the_report() {
+    let folder = Folder::new("modes-quiet");
+    let scene = file(&folder, "shelf.toml", SHELF);
+    let output = Command::new(env!("CARGO_BIN_EXE_frangible"))
+        .args(["modes", &scene, "-o", &path(&folder, "a.png")])
+        .env_remove("XDG_RUNTIME_DIR")
+        .output()
+        .expect("the program starts");
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    assert!(
+        !text(&output.stderr).contains("XDG_RUNTIME_DIR"),
+        "{}",
+        text(&output.stderr)
+    );
 }
 
 #[test]

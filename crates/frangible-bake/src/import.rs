@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use frangible::internals::asset::{RenderMaterial, RenderSurface};
 use frangible_mesh::{
-    InputMesh, MeshSolid, RepairReport, Similarity, Thickness, repair, wall_thickness,
+    InputMesh, MeshSolid, RepairReport, Similarity, SkinWall, Solid, Thickness, repair,
+    wall_thickness,
 };
 
 use crate::error::{BakeError, positive};
@@ -24,6 +25,10 @@ pub struct ImportOptions {
     pub tets: usize,
     /// Most tetrahedra, default 250 000 or three times `tets`, whichever is more.
     pub most: Option<usize>,
+    /// Thickness of a wall along the mesh's surface, m, half of it on each side, instead of filling what is inside; `None`
+    /// (default): the body is what the mesh encloses. Such a body is not drawn with its author's surface, which lies in the
+    /// middle of the wall.
+    pub wall: Option<f64>,
 }
 
 impl Default for ImportOptions {
@@ -32,6 +37,7 @@ impl Default for ImportOptions {
             size: None,
             tets: crate::shapes::FRACTURE_TETS as usize,
             most: None,
+            wall: None,
         }
     }
 }
@@ -41,14 +47,15 @@ impl Default for ImportOptions {
 pub struct Imported {
     /// The solid inside the mesh.
     pub shape: Shape,
-    /// The mesh as drawn, in the frame of the shape: hand it to [`BakeSpec::render`](crate::BakeSpec::render).
-    pub render: RenderSurface,
+    /// The mesh as drawn, in the frame of the shape, unless the body is a wall along it: hand it to
+    /// [`BakeSpec::render`](crate::BakeSpec::render).
+    pub render: Option<RenderSurface>,
     /// Its groups, objects and materials by name, in the frame of the shape: hand them to
     /// [`BakeSpec::groups`](crate::BakeSpec::groups), for supports by name.
     pub groups: Vec<Group>,
     /// What was mended.
     pub mended: RepairReport,
-    /// How thick the body is, m.
+    /// How thick what the mesh encloses is, m.
     pub thickness: Thickness,
     /// From the file's coordinates to those of the shape.
     pub similarity: Similarity,
@@ -70,15 +77,22 @@ pub fn import_mesh(mesh: &InputMesh, options: &ImportOptions) -> Result<Imported
     };
     let solid = MeshSolid::new(&surface)?;
     let thickness = wall_thickness(&solid, SAMPLES, 1);
+    let (solid, wall): (Arc<dyn Solid>, _) = match options.wall {
+        Some(wall) => {
+            positive("the thickness of the wall, in m,", wall)?;
+            (Arc::new(SkinWall::new(solid, wall)), Some(wall))
+        }
+        None => (Arc::new(solid), thickness.of_shell()),
+    };
     let shape = SolidShape {
-        wall: thickness.of_shell(),
+        wall,
         tets: options.tets,
         most: options.most.unwrap_or((3 * options.tets).max(250_000)),
-        ..SolidShape::new(Arc::new(solid))
+        ..SolidShape::new(solid)
     };
     Ok(Imported {
         shape: Shape::Solid(shape),
-        render: drawn(mesh, &similarity),
+        render: (options.wall.is_none()).then(|| drawn(mesh, &similarity)),
         groups: Group::of_mesh(mesh, &similarity),
         mended,
         thickness,

@@ -127,7 +127,7 @@ fn check(mesh: &InputMesh, tets: usize) -> [f64; 2] {
     let imported = import_mesh(mesh, &options).unwrap();
     let spec = BakeSpec {
         modes: 20,
-        render: Some(imported.render),
+        render: imported.render,
         ..BakeSpec::new(
             "body",
             imported.shape,

@@ -273,7 +273,7 @@ fn the_drawn_surface_comes_through_untouched_and_lies_on_the_body() {
         let imported = import_mesh(&mesh, &options).unwrap();
         let spec = BakeSpec {
             modes: 4,
-            render: Some(imported.render),
+            render: imported.render,
             ..BakeSpec::new("box", imported.shape, glass())
         };
         let (asset, report) = bake(&spec, &mut |_| {}).unwrap();

@@ -6,10 +6,11 @@
 //! - [`figures`]: the figures of the paper that the model is taken from, each claim with a verdict;
 //! - [`bench`]: times, memory, counted instructions;
 //! - [`reference`]: the paper's algorithms word for word, which the pipeline must agree with;
-//! - [`plot`]: the charts of all these pages.
+//! - [`page`] and [`plot`]: the tables and the charts of all these pages.
 
 pub mod bench;
 pub mod figures;
+pub mod page;
 pub mod plot;
 pub mod reference;
 pub mod verify;

@@ -52,4 +52,4 @@ pub use tetrahedralize::{
 };
 pub use tets::TetBody;
 pub use tets::features::Features;
-pub use winding::{MeshSolid, Nearest, SolidError, Thickness, wall_thickness};
+pub use winding::{MeshSolid, Nearest, SkinWall, SolidError, Thickness, wall_thickness};

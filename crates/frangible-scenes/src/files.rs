@@ -42,6 +42,7 @@ pub fn scene_of_file(path: &Path) -> Result<Scene, SceneError> {
             size: None,
             up: Axis::up_in(path),
             resolution: None,
+            wall: None,
         },
     };
     let mut body = BodySpec::new(stem(path), source, Material::preset(MATERIAL)?);

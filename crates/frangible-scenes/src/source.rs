@@ -40,6 +40,8 @@ pub enum BodySource {
         up: Axis,
         /// Tetrahedra of the fracture mesh, about; without it the bake's default.
         resolution: Option<usize>,
+        /// Thickness of a wall along the surface, m; without it the inside is filled.
+        wall: Option<f64>,
     },
     /// A baked body (.frangible).
     Asset(PathBuf),
@@ -186,14 +188,15 @@ pub fn open_source(source: &BodySource) -> Result<Opened, SceneError> {
             size,
             up,
             resolution,
+            wall,
         } => {
             check_file(path, FileKind::Mesh)?;
             if frangible_mesh::TetFormat::from_extension(path).is_some() {
-                return tets::open(path, *size, *up, *resolution);
+                return tets::open(path, *size, *up, *resolution, *wall);
             }
             let mut input = mesh::read(path)?;
             fit::fit(&mut input, path, *size, *up)?;
-            mesh::shape(&input, path, *resolution)
+            mesh::shape(&input, path, *resolution, *wall)
         }
         BodySource::Asset(path) => {
             check_file(path, FileKind::Asset)?;

@@ -18,6 +18,7 @@ fn a_file_of_tetrahedra_is_taken_as_it_is_and_refuses_a_resolution() {
         size,
         up: Axis::Z,
         resolution,
+        wall: None,
     };
     let opened = open_source(&source(Some(0.08), None));
     let unsized_ = open_source(&source(None, None));

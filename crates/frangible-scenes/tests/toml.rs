@@ -50,6 +50,7 @@ fn intricate() -> Scene {
         size: Some(0.1 + 0.02),
         up: Axis::X,
         resolution: Some(12_345),
+        wall: Some(0.003),
     };
     let mut first = BodySpec::new(
         "first",

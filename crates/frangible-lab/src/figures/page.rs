@@ -1,8 +1,7 @@
 //! The page of all figures, Markdown.
 
-use std::fmt::Write;
-
 use crate::figures::figure::{Claim, FIGURES, Figure, Findings, Table};
+use crate::page::table_of_words;
 
 /// How the part of a figure begins; the rest of the line is its title.
 const HEADING: &str = "\n## ";
@@ -35,18 +34,10 @@ pub fn part(figure: &Figure, findings: &Findings, folder: &str) -> String {
     for table in std::iter::once(&claims).chain(&findings.tables) {
         if !table.rows.is_empty() {
             text.push('\n');
-            write_table(&mut text, table);
+            text += &table_of_words(&table.heading, &table.rows);
         }
     }
     text
-}
-
-fn write_table(text: &mut String, table: &Table) {
-    let _ = writeln!(text, "| {} |", table.heading.join(" | "));
-    let _ = writeln!(text, "|{}", "---|".repeat(table.heading.len()));
-    for row in &table.rows {
-        let _ = writeln!(text, "| {} |", row.join(" | "));
-    }
 }
 
 /// The whole page: these parts, and from an older page those of figures that were not made anew.

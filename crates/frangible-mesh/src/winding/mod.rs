@@ -10,9 +10,11 @@ mod nearest;
 mod number;
 mod packet;
 mod segment;
+mod skin_wall;
 mod thickness;
 mod tree;
 
 pub use mesh_solid::{MeshSolid, SolidError};
 pub use nearest::Nearest;
+pub use skin_wall::SkinWall;
 pub use thickness::{Thickness, wall_thickness};

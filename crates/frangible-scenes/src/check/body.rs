@@ -45,9 +45,16 @@ pub(super) fn check_body(body: &BodySpec) -> Result<(), Fault> {
         ));
     }
     if let BodySource::Mesh {
-        size, resolution, ..
+        size,
+        resolution,
+        wall,
+        ..
     } = &body.source
     {
+        if let Some(wall) = *wall {
+            let must = "above 0 and at most 0.1 m";
+            range("wall", "the thickness of the wall", wall, 0.0, 0.1, must)?;
+        }
         if let Some(size) = *size {
             let must = "above 0 and at most 3 m";
             range("size", "the body's size", size, 0.0, 3.0, must)?;

@@ -16,14 +16,17 @@ pub(super) fn read(path: &Path) -> Result<InputMesh, SceneError> {
     })
 }
 
-/// A mesh in metres, y up, as a shape with a fracture mesh of about `tets` tetrahedra.
+/// A mesh in metres, y up, as a shape with a fracture mesh of about `tets` tetrahedra: what it encloses, or a wall of this
+/// thickness, m, along it.
 pub(super) fn shape(
     mesh: &InputMesh,
     path: &Path,
     tets: Option<usize>,
+    wall: Option<f64>,
 ) -> Result<Opened, SceneError> {
     let mut options = ImportOptions::default();
     options.tets = tets.unwrap_or(options.tets);
+    options.wall = wall;
     let imported = import_mesh(mesh, &options).map_err(|error| SceneError::File {
         path: path.to_path_buf(),
         problem: error.to_string(),
@@ -40,9 +43,9 @@ pub(super) fn shape(
     }
     Ok(Opened::Shape {
         shape: imported.shape,
-        render: Some(Box::new(imported.render)),
+        render: imported.render.map(Box::new),
         groups: imported.groups,
         notes,
-        open: imported.mended.open_shells > 0,
+        open: wall.is_none() && imported.mended.open_shells > 0,
     })
 }

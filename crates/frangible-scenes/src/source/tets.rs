@@ -16,6 +16,7 @@ pub(super) fn open(
     size: Option<f64>,
     up: Axis,
     resolution: Option<usize>,
+    wall: Option<f64>,
 ) -> Result<Opened, SceneError> {
     let refused = |problem: String| SceneError::File {
         path: path.to_path_buf(),
@@ -24,6 +25,11 @@ pub(super) fn open(
     if resolution.is_some() {
         let problem = "a resolution cannot be chosen: the file's tetrahedra are broken as they are; mesh it anew, or \
                        give its surface (.stl, .obj) instead";
+        return Err(refused(problem.into()));
+    }
+    if wall.is_some() {
+        let problem = "a wall cannot be chosen: the file's tetrahedra are broken as they are; give its surface (.stl, \
+                       .obj) instead";
         return Err(refused(problem.into()));
     }
     let mut input = read_tets(path).map_err(|error| refused(error.to_string()))?;

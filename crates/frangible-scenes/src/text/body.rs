@@ -47,6 +47,12 @@ pub(super) fn body(table: BodyTable, usual: String, folder: &Path) -> Result<Bod
             "`resolution` is part of a baked body; bake it again to change it",
         ),
         (
+            "wall",
+            table.wall.is_some(),
+            meshed,
+            "`wall` is for a `mesh`; other shapes have walls of their own",
+        ),
+        (
             "up",
             table.up.is_some(),
             meshed,
@@ -70,6 +76,7 @@ pub(super) fn body(table: BodyTable, usual: String, folder: &Path) -> Result<Bod
                 size: table.size,
                 up,
                 resolution: table.resolution,
+                wall: table.wall,
             }
         }
         (None, None, Some(asset)) => BodySource::Asset(folder.join(asset)),

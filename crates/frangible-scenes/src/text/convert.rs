@@ -165,6 +165,7 @@ fn fracture(table: FractureTable) -> FractureConfig {
     set(&mut config.plane_stress_walls, table.plane_stress_walls);
     set(&mut config.first_element_pays, table.first_element_pays);
     set(&mut config.griffith_fronts, table.griffith_fronts);
+    set(&mut config.branching, table.branching);
     set(&mut config.ends_inside, table.ends_inside);
     config
 }

@@ -36,6 +36,7 @@ pub(super) struct BodyTable {
     pub(super) asset: Option<String>,
     pub(super) size: Option<f64>,
     pub(super) resolution: Option<usize>,
+    pub(super) wall: Option<f64>,
     pub(super) up: Option<AxisTable>,
     pub(super) material: Option<MaterialChoice>,
     pub(super) modes: Option<usize>,
@@ -208,6 +209,7 @@ pub(super) struct FractureTable {
     pub(super) plane_stress_walls: Option<bool>,
     pub(super) first_element_pays: Option<bool>,
     pub(super) griffith_fronts: Option<bool>,
+    pub(super) branching: Option<bool>,
     pub(super) ends_inside: Option<bool>,
 }
 

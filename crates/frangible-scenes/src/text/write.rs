@@ -110,12 +110,16 @@ fn write_body(t: &mut Text, body: &BodySpec) {
             size,
             up,
             resolution,
+            wall,
         } => {
             t.line("mesh", quoted(&path.to_string_lossy()));
             if let Some(size) = size {
                 t.noted("size", number(*size), "m, the longest side");
             }
             t.line("up", quoted(up.name()));
+            if let Some(wall) = wall {
+                t.noted("wall", number(*wall), "m, thickness along the surface");
+            }
             if let Some(tets) = resolution {
                 t.noted("resolution", tets, "tetrahedra of the fracture mesh");
             }
@@ -262,6 +266,7 @@ fn write_fracture(t: &mut Text, config: &FractureConfig) {
     t.line("plane_stress_walls", config.plane_stress_walls);
     t.line("first_element_pays", config.first_element_pays);
     t.line("griffith_fronts", config.griffith_fronts);
+    t.line("branching", config.branching);
     t.line("ends_inside", config.ends_inside);
 }
 

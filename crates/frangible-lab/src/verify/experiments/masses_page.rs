@@ -3,8 +3,9 @@
 use std::fmt::Write;
 
 use super::masses::{LEAST, MassRun, Masses};
-use super::page::{Figure, apart, table, with_error};
+use super::page::{Figure, apart, with_error};
 use super::pattern::median;
+use crate::page::table;
 use crate::plot::{Axis, Chart, Marker, Series};
 
 /// Points along a curve of the chart.

@@ -16,8 +16,7 @@ mod star_page;
 
 pub use fit::{CutOffLaw, PowerLaw};
 pub use masses::{MassPlan, MassRun, Masses, Published};
-pub(crate) use page::table;
-pub use page::{Figure, Page};
+pub use page::Figure;
 pub use pattern::CrackPattern;
 pub use progress::Hear;
 pub use rear_star::{RearStar, RearStarPlan, RearStars};

@@ -1,6 +1,7 @@
 //! The page of the experiments. Every sentence that depends on the outcome is made from the numbers.
 
 use super::{Experiments, masses_page, rear_star, star_page};
+use crate::page::Page;
 use crate::verify::VerifyError;
 
 /// Size of a chart, and side of a drawing, pixels.
@@ -18,15 +19,6 @@ pub struct Figure {
     pub error: f64,
     /// What was published; none where nothing was.
     pub published: Option<f64>,
-}
-
-/// Text and pictures.
-#[derive(Clone, Debug)]
-pub struct Page {
-    /// Markdown.
-    pub text: String,
-    /// Name of each picture's file without the ending, and the PNG.
-    pub pictures: Vec<(&'static str, Vec<u8>)>,
 }
 
 impl Experiments {
@@ -95,12 +87,4 @@ pub(crate) fn with_error(value: f64, error: f64) -> String {
 /// Per cent without decimals.
 pub(crate) fn per_cent(share: Option<f64>) -> String {
     share.map_or_else(|| "–".into(), |s| format!("{:.0} %", 100.0 * s))
-}
-
-/// A table's rows.
-pub(crate) fn table(head: &[String], rows: &[Vec<String>]) -> String {
-    let line = |cells: &[String]| format!("| {} |\n", cells.join(" | "));
-    let rule = format!("|---|{}\n", "---:|".repeat(head.len().saturating_sub(1)));
-    let body: String = rows.iter().map(|row| line(row)).collect();
-    format!("{}{rule}{body}", line(head))
 }

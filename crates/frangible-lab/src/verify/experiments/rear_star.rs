@@ -13,10 +13,11 @@ use frangible::internals::impact_traced;
 use rayon::prelude::*;
 
 use super::blow::Ball;
-use super::page::{Figure, table};
+use super::page::Figure;
 use super::pattern::CrackPattern;
 use super::progress::{Counter, Hear};
 use super::star::{breakable, clamped, preset};
+use crate::page::table;
 use crate::verify::VerifyError;
 
 /// Name in errors.

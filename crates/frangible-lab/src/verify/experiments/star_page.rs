@@ -2,8 +2,9 @@
 
 use std::fmt::Write;
 
-use super::page::{Figure, apart, per_cent, table, with_error};
+use super::page::{Figure, apart, per_cent, with_error};
 use super::star::{Count, RADII, RING, SIDE, StarRun, Stars, ball};
+use crate::page::table;
 use crate::plot::{Axis, Chart, Marker, Panel, Panels, Series};
 
 /// Published exponent of the speed.

@@ -5,9 +5,9 @@ use std::fmt::Write;
 use super::edges::{SHARES, wavelength_of};
 use super::residual::MODES;
 use super::{COLUMNS, DURATION, FORCE, NearField, StressRow, TIMES};
+use crate::page::{Page, table};
 use crate::plot::{Axis, Chart, Marker, Series};
 use crate::verify::VerifyError;
-use crate::verify::experiments::{Page, table};
 
 /// Size of the picture, pixels.
 const SIZE: (u32, u32) = (800, 600);

@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use frangible_compare::{Broken, Method};
+use frangible_lab::page::table;
 use frangible_scenes::FirstBreak;
 use serde::Serialize;
 
@@ -165,12 +166,7 @@ impl CompareReport {
 
     /// As Markdown, without a heading.
     pub(crate) fn markdown(&self) -> String {
-        let mut text = format!("| {} |\n|---|", HEADINGS.join(" | "));
-        text.push_str(&"---:|".repeat(HEADINGS.len() - 1));
-        text.push('\n');
-        for row in &self.methods {
-            let _ = writeln!(text, "| {} |", row.cells().join(" | "));
-        }
-        text
+        let rows: Vec<Vec<String>> = self.methods.iter().map(|m| m.cells().into()).collect();
+        table(&HEADINGS, &rows)
     }
 }

@@ -8,9 +8,9 @@ use super::measure::NUDGE;
 use super::statistics::{Worth, decisions, quantile};
 use super::way::{FINEST, WAYS};
 use super::{PieceSample, Truth};
+use crate::page::{Page, table};
 use crate::plot::Chart;
 use crate::verify::VerifyError;
-use crate::verify::experiments::{Page, table};
 
 /// Size of a chart, pixels.
 const CHART: (u32, u32) = (800, 600);

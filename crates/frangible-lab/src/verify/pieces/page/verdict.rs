@@ -5,7 +5,7 @@ use std::fmt::Write;
 use frangible_bake::pieces::Method;
 
 use super::{milliseconds, per_cent, share, signed};
-use crate::verify::experiments::table;
+use crate::page::table;
 use crate::verify::pieces::statistics::{Worth, quantile};
 use crate::verify::pieces::way::{AUTO, FINE, PARENT_MODES, WAYS};
 use crate::verify::pieces::{PieceSample, Truth};
