@@ -73,17 +73,16 @@ pub(super) fn forks(
     let enough = constant(system.resistance.toughness.of(cut.tet), material);
     let wall = felt.wall.as_ref().map(|(wall, _)| wall);
     let thickness = wall.map(|wall| wall.distances(system.centroids[n]).iter().sum());
-    let k = lane(field.step);
-    let whole = field.at_weak_point(n);
     let tension = |stress: &Symmetric3, n: Vec3| f64::from(n.dot(stress.times(n)));
-    let before = tension(&whole.stress(k), cut.direction);
+    let before = tension(&felt.steering(cut.opens).0, cut.direction);
     let through = felt.opening(cut.direction, material.poisson_ratio) / before;
     let forks = |tension: f64| feed(tension, through, run, thickness) >= enough;
     // No release raises the tension: most fronts end here.
     if before <= 0.0 || !forks(before) {
         return None;
     }
-    let left = once(system, field, front, &whole, cut.time).stress(k);
+    let whole = field.at_weak_point(n);
+    let left = once(system, field, front, &whole, cut.time).stress(lane(field.step));
     if !forks(tension(&left, cut.direction)) {
         return None;
     }
