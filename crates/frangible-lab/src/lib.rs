@@ -4,8 +4,8 @@
 //!
 //! - [`verify`]: the physics against closed forms, published experiments and full analyses;
 //! - [`figures`]: the figures of the paper that the model is taken from, each claim with a verdict;
-//! - [`bench`]: times, memory, counted instructions;
-//! - [`reference`]: the paper's algorithms word for word, which the pipeline must agree with;
+//! - [`bench`](mod@bench): times, memory, counted instructions;
+//! - [`reference`](mod@reference): the paper's algorithms word for word, which the pipeline must agree with;
 //! - [`page`] and [`plot`]: the tables and the charts of all these pages.
 
 pub mod bench;

@@ -16,7 +16,7 @@ pub struct FractureConfig {
     /// they are left out.
     pub residual: bool,
     /// Contacts on walls have the stress right under them that no mode shows, and the wall gives way there
-    /// ([`near_field`](crate::near_field)). Default: that of an elastic layer; in the paper there is none.
+    /// ([`near_field`](crate::internals::near_field)). Default: that of an elastic layer; in the paper there is none.
     pub near_field: Option<PlateTheory>,
     /// All cracks of an impact together spend no more than its peak strain energy. Default: on.
     pub energy_ledger: bool,
@@ -59,7 +59,7 @@ pub struct FractureConfig {
 #[non_exhaustive]
 pub enum DurationModel {
     /// None: striker, Hertz' spring and the body's vibration are integrated together, and duration, force, impulse and
-    /// restitution are outcomes ([`blow`](crate::blow)).
+    /// restitution are outcomes ([`blow`](crate::internals::blow)).
     Integrated,
     /// Hertz' law for the two bodies, local curvatures and effective masses `[G12 Eq. 1]`.
     Hertz,

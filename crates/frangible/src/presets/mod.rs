@@ -57,7 +57,7 @@ pub struct Preset {
     /// Modulus of the scatter of its strength ([`Fields::weibull_modulus`](crate::internals::Fields::weibull_modulus)), 0 where every weak
     /// point has the same.
     pub weibull_modulus: f64,
-    /// Volume of the specimen whose strength was measured ([`Fields::specimen`](crate::Fields::specimen)), m³.
+    /// Volume of the specimen whose strength was measured ([`Fields::specimen`](crate::internals::Fields::specimen)), m³.
     pub specimen: f64,
     /// How its strength rises with the rate, where that was measured.
     pub rate: Option<RateLaw>,
