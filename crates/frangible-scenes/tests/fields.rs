@@ -74,7 +74,9 @@ fn no_crack_starts_where_there_are_no_weak_points() {
         ..Patch::of_strength(zone, 1.0)
     };
     let kind = kind(pane(), Fields::from_patches(pane(), &[patch]).unwrap());
-    let config = FractureConfig::default();
+    let mut config = FractureConfig::default();
+    // A crack that leaves another one at a fork needs no weak point.
+    config.branching = false;
     for seed in 1..=4 {
         let body = kind.body(seed);
         let (outcome, trace) =
@@ -254,8 +256,9 @@ fn the_chocolate_breaks_between_its_squares() {
     println!(
         "starts {starts:.3} against {plain_starts:.3}, cuts {cuts:.3} against {plain_cuts:.3}"
     );
+    // Cracks that leave others at forks start beside the grooves.
     assert!(
-        starts > 0.95 && plain_starts < 0.5,
+        starts > 0.9 && plain_starts < 0.5,
         "{starts} {plain_starts}"
     );
     assert!(cuts > 1.25 * plain_cuts, "{cuts} {plain_cuts}");

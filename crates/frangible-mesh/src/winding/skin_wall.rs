@@ -55,12 +55,16 @@ mod tests {
 
     #[test]
     fn a_point_is_inside_within_half_the_thickness_of_the_skin() {
-        // A square of 1 m at z = 0: two triangles, no inside of its own.
+        // A box of 1 m without a lid.
         let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
-        let positions = corners.map(|[x, y]| DVec3::new(x, y, 0.0)).to_vec();
+        let level = |z: f64| corners.map(|[x, y]| DVec3::new(x, y, z));
+        let mut triangles = vec![[0, 2, 1], [0, 3, 2]];
+        for [a, b] in [[0, 1], [1, 2], [2, 3], [3, 0]] {
+            triangles.extend([[a, b, b + 4], [a, b + 4, a + 4]]);
+        }
         let surface = Surface {
-            positions,
-            triangles: vec![[0, 1, 2], [0, 2, 3]],
+            positions: [level(0.0), level(1.0)].concat(),
+            triangles,
         };
         let wall = SkinWall::new(MeshSolid::new(&surface).unwrap(), 0.02);
         let distance = |x, y, z| wall.signed_distance(DVec3::new(x, y, z));
@@ -71,6 +75,6 @@ mod tests {
             assert!(away.distance(DVec3::Z * side) < 1e-12);
         }
         // The rim is round.
-        assert!((distance(1.03, 0.5, 0.04) - 0.04).abs() < 1e-12);
+        assert!((distance(1.03, 0.5, 1.04) - 0.04).abs() < 1e-12);
     }
 }
