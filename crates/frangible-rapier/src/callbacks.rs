@@ -86,7 +86,7 @@ impl Held {
                     events.handle_contact_force_event(*dt, bodies, colliders, pair, *force);
                 }
                 Said::Tear(event) => {
-                    events.handle_soft_body_tear_event(&physics.soft_bodies, event)
+                    events.handle_soft_body_tear_event(&physics.soft_bodies, event);
                 }
             }
         }
