@@ -73,7 +73,7 @@ impl BreakableWorld {
     /// `modify_solver_contacts` is asked of fragments in any case.
     ///
     /// # Errors
-    /// As [`step`](Self::step).
+    /// Those errors that [`step`](Self::step) has.
     ///
     /// [`ActiveHooks::MODIFY_SOLVER_CONTACTS`]: rapier3d::pipeline::ActiveHooks::MODIFY_SOLVER_CONTACTS
     pub fn step_with(

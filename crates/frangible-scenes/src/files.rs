@@ -55,7 +55,7 @@ pub fn scene_of_file(path: &Path) -> Result<Scene, SceneError> {
 /// The scene of a file where one is given, else the built-in scene of this name, else the first built-in one.
 ///
 /// # Errors
-/// As [`scene_of_file`] and [`scene()`](crate::scene()).
+/// Those errors that [`scene_of_file`] and [`scene()`](crate::scene()) have.
 pub fn scene_of(file: Option<&Path>, name: Option<&str>) -> Result<Scene, SceneError> {
     match file {
         Some(file) => scene_of_file(file),

@@ -9,7 +9,7 @@ use crate::weak_rows::{ClusterRows, row_points};
 /// What one motion adds to rows of the body, and room for their stress.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct WeakStress {
-    /// Of each cluster that was looked at.
+    /// What is added to each cluster that was looked at.
     added: Vec<Option<Added>>,
     /// Row after row.
     numbers: Vec<Lanes>,
@@ -19,16 +19,16 @@ pub(crate) struct WeakStress {
     left_out: Option<Lanes>,
 }
 
-/// Where more than one of so many points is in doubt, all of them are computed …
+/// Where more than one of so many points of a cluster is in doubt, all of them are computed.
 const MANY: usize = 4;
 
-/// … and in the following batches, as many as this less one.
+/// For so many batches, the present one included, all points of such a cluster are computed.
 const WAIT: u8 = 4;
 
 /// What a motion adds in a cluster.
 #[derive(Clone, Debug)]
 struct Added {
-    /// Of each shape that follows a force: its stress in each row, Pa/N.
+    /// The stress in each row of every shape that follows a force, Pa/N.
     residuals: Vec<Vec<f32>>,
     near: Vec<NearPoint>,
     /// Points, by their places in the cluster, that something presses on: rows do not hold for them.
@@ -129,7 +129,7 @@ pub(super) struct Points<'a> {
 pub(super) struct Seen<'a> {
     /// Its numbers, or of a point that was bounded what its shapes have of them.
     pub(super) numbers: &'a [Lanes],
-    /// Of a point that was bounded what to add to the tension, Pa.
+    /// What to add to the tension of a point that was bounded, Pa.
     pub(super) left_out: Option<Lanes>,
     row: usize,
     near: &'a [NearPoint],

@@ -87,7 +87,7 @@ impl Default for Fields {
 }
 
 impl Fields {
-    /// The same everywhere, but for the scatter of the strength that the preset of this material's name has
+    /// Fields that are one everywhere, with the scatter of the strength that the preset of this material's name has
     /// ([`Preset::weibull_modulus`]); none where no preset has its name.
     #[must_use]
     pub fn of_material(material: &Material) -> Self {

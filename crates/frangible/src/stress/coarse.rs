@@ -24,12 +24,12 @@ pub(crate) struct Coarse {
     shapes: Rows,
     /// The cluster's rows, of the shapes.
     rows: Rows,
-    /// Of each mode the most stress that the shapes leave out at any point, Pa per m·√kg.
+    /// The most stress of each mode that the shapes leave out at any point, Pa per m·√kg.
     rest: Vec<f32>,
 }
 
 impl Coarse {
-    /// Of the rows of a cluster's points; `periods`: how far an impulse moves each mode, in any unit. None where few shapes do not do.
+    /// The shapes of the rows of a cluster's points; `periods`: how far an impulse moves each mode, in any unit. None where few shapes do not do.
     pub(crate) fn new(frames: &[Frame], rows: &Rows, periods: &[f32]) -> Option<Self> {
         // With the widest vectors that this processor has; the same operations in the same order, so the same bits.
         pulp::Arch::new().dispatch(Find {
@@ -144,7 +144,7 @@ fn next_shape(left: &mut [f32], modes: usize) -> Option<(Vec<f32>, Vec<f32>)> {
     Some((shape, shares))
 }
 
-/// Of each mode the largest norm of a point's stress: no principal value is larger.
+/// The largest norm of a point's stress in each mode: no principal value is larger.
 #[inline(always)]
 fn largest(frames: &[Frame], rows: &[f32], modes: usize) -> Vec<f32> {
     let mut largest = vec![0.0_f32; modes];

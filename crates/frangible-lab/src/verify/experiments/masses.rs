@@ -30,7 +30,7 @@ pub struct MassPlan {
 }
 
 impl MassPlan {
-    /// As published.
+    /// The plan of the published page.
     #[must_use]
     pub const fn full() -> Self {
         Self {

@@ -48,7 +48,7 @@ pub struct RearStarPlan {
 }
 
 impl RearStarPlan {
-    /// As published.
+    /// The plan of the published page.
     #[must_use]
     pub fn full() -> Self {
         Self {
@@ -97,7 +97,7 @@ pub struct RearStar {
 pub struct RearStars {
     /// What was to be computed.
     pub plan: RearStarPlan,
-    /// By thickness, then by speed.
+    /// What came of each thickness and speed, in that order.
     pub results: Vec<RearStar>,
 }
 

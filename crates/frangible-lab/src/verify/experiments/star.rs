@@ -165,7 +165,7 @@ pub struct Stars {
 }
 
 impl StarPlan {
-    /// As published.
+    /// The plan of the published page.
     #[must_use]
     pub fn full() -> Self {
         Self {

@@ -43,7 +43,7 @@ pub struct TruthPlan {
 }
 
 impl TruthPlan {
-    /// As published.
+    /// The plan of the published page.
     #[must_use]
     pub const fn full() -> Self {
         Self {
