@@ -12,7 +12,7 @@ use rapier3d::pipeline::{
     ContactModificationContext, EventHandler, PairFilterContext, PhysicsHooks, PhysicsWorld,
 };
 
-use crate::siblings::Siblings;
+use crate::fragments::siblings::Siblings;
 
 /// What the caller wants to be asked and told.
 #[derive(Clone, Copy)]

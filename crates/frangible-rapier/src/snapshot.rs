@@ -6,7 +6,7 @@ use rapier3d::dynamics::{
 use rapier3d::geometry::{BroadPhaseBvh, ColliderSet, NarrowPhase};
 use rapier3d::pipeline::PhysicsWorld;
 
-use crate::siblings::Siblings;
+use crate::fragments::siblings::Siblings;
 
 /// Everything a step changes. Rapier's pipelines hold only workspaces, so leaving them out still gives the same bits.
 pub(crate) struct Snapshot {

@@ -12,20 +12,20 @@ use rapier3d::pipeline::PhysicsWorld;
 use rayon::ThreadPool;
 use std::sync::Arc;
 
-use crate::after::Waiting;
+use crate::bodies::floor::FloorDispatcher;
+use crate::calm::motions::Motions;
+use crate::calm::rest::Places;
 use crate::config::WorldConfig;
+use crate::contact::surface::SurfaceProperties;
 use crate::counts::LoadCounts;
 use crate::error::WorldError;
 use crate::event::{BreakEvent, HeldEvent};
-use crate::floor::FloorDispatcher;
-use crate::judge::Case;
-use crate::motions::Motions;
-use crate::pieces::Expected;
-use crate::pushes::Push;
-use crate::rest::Places;
-use crate::resting::Burden;
-use crate::siblings::Siblings;
-use crate::surface::SurfaceProperties;
+use crate::fragments::pieces::Expected;
+use crate::fragments::siblings::Siblings;
+use crate::loads::pushes::Push;
+use crate::loads::resting::Burden;
+use crate::stepping::after::Waiting;
+use crate::stepping::judge::Case;
 use crate::timings::StepTimings;
 
 /// Angular frequency of contacts × substep, against fixed bodies. Rapier lets a share c/(1+c) of the approach speed
@@ -67,37 +67,44 @@ pub struct BreakableWorld {
     pub(crate) config: WorldConfig,
     pub(crate) break_function: Arc<BreakFn>,
     pub(crate) rest_function: Box<RestFn>,
+    pub(crate) shapes: Vec<(Arc<Asset>, SharedShape)>,
+    pub(crate) siblings: Siblings,
+    pub(crate) state: State,
+    pub(crate) events: Vec<BreakEvent>,
+    pub(crate) held: Vec<HeldEvent>,
+    pub(crate) timings: StepTimings,
+    /// Blows that other threads judge, in the order in which they are due.
+    pub(crate) cases: VecDeque<Case>,
+    pub(crate) jury: Option<Option<ThreadPool>>,
+    pub(crate) piece_model: Option<Arc<dyn PieceModel>>,
+    /// Whether blows are judged by the fracture itself, whose quick bound then clears most of them.
+    pub(crate) clears_quickly: bool,
+    /// Whether loads are judged by the fracture's quick bound in the same way.
+    pub(crate) weighs_quickly: bool,
+}
+
+/// What a world knows of its bodies beside Rapier, between two steps: a clone of it and of Rapier's sets is a world put aside.
+#[derive(Clone, Default)]
+pub(crate) struct State {
     pub(crate) breakables: BTreeMap<Key, Body>,
     pub(crate) surfaces: BTreeMap<Key, SurfaceProperties>,
     pub(crate) collider_surfaces: BTreeMap<Key, SurfaceProperties>,
-    pub(crate) shapes: Vec<(Arc<Asset>, SharedShape)>,
-    pub(crate) siblings: Siblings,
     pub(crate) places: Places,
     pub(crate) burdens: BTreeMap<Key, Burden>,
     pub(crate) pushes: Vec<Push>,
     pub(crate) debris: VecDeque<RigidBodyHandle>,
     /// With the time when it was born, s.
     pub(crate) dust: VecDeque<(RigidBodyHandle, f64)>,
-    pub(crate) events: Vec<BreakEvent>,
-    pub(crate) held: Vec<HeldEvent>,
+    pub(crate) waiting: VecDeque<Waiting>,
+    /// In the order in which they are due.
+    pub(crate) expected: VecDeque<Expected>,
+    pub(crate) motions: Motions,
     pub(crate) steps: u64,
     pub(crate) refused_breaks: u64,
     pub(crate) undone_steps: u64,
     pub(crate) snapshots: u64,
     pub(crate) impact_counts: LoadCounts,
     pub(crate) rest_counts: LoadCounts,
-    pub(crate) timings: StepTimings,
-    pub(crate) waiting: VecDeque<Waiting>,
-    pub(crate) cases: VecDeque<Case>,
-    pub(crate) jury: Option<Option<ThreadPool>>,
-    pub(crate) piece_model: Option<Arc<dyn PieceModel>>,
-    /// In the order in which they are due.
-    pub(crate) expected: VecDeque<Expected>,
-    pub(crate) motions: Motions,
-    /// Whether blows are judged by the fracture itself, whose quick bound then clears most of them.
-    pub(crate) clears_quickly: bool,
-    /// Whether loads are judged by the fracture's quick bound in the same way.
-    pub(crate) weighs_quickly: bool,
 }
 
 impl BreakableWorld {
@@ -127,30 +134,14 @@ impl BreakableWorld {
             siblings: Siblings::default(),
             break_function: Arc::new(frangible::impact),
             rest_function: Box::new(frangible::internals::rest),
-            breakables: BTreeMap::new(),
-            surfaces: BTreeMap::new(),
-            collider_surfaces: BTreeMap::new(),
             shapes: Vec::new(),
-            places: Places::default(),
-            burdens: BTreeMap::new(),
-            pushes: Vec::new(),
-            debris: VecDeque::new(),
-            dust: VecDeque::new(),
+            state: State::default(),
             events: Vec::new(),
             held: Vec::new(),
-            steps: 0,
-            refused_breaks: 0,
-            undone_steps: 0,
-            snapshots: 0,
-            impact_counts: LoadCounts::default(),
-            rest_counts: LoadCounts::default(),
             timings: StepTimings::default(),
-            waiting: VecDeque::new(),
             cases: VecDeque::new(),
             jury: None,
             piece_model: None,
-            expected: VecDeque::new(),
-            motions: Motions::default(),
             clears_quickly: true,
             weighs_quickly: true,
             config,
@@ -197,13 +188,13 @@ impl BreakableWorld {
     /// Steps taken so far.
     #[must_use]
     pub fn steps(&self) -> u64 {
-        self.steps
+        self.state.steps
     }
 
     /// Simulated time, s.
     #[must_use]
     pub fn time(&self) -> f64 {
-        self.steps as f64 * f64::from(self.physics.integration_parameters.dt)
+        self.state.steps as f64 * f64::from(self.physics.integration_parameters.dt)
     }
 
     /// Breaks of the last step.
@@ -221,37 +212,38 @@ impl BreakableWorld {
     /// The breakable body behind a handle; `None` for fragments, strikers and floors.
     #[must_use]
     pub fn breakable(&self, handle: RigidBodyHandle) -> Option<&Body> {
-        self.breakables.get(&key(handle))
+        self.state.breakables.get(&key(handle))
     }
 
     /// Handles of all breakable bodies.
     pub fn breakables(&self) -> impl Iterator<Item = RigidBodyHandle> {
-        self.breakables
+        self.state
+            .breakables
             .keys()
             .map(|&(index, generation)| RigidBodyHandle::from_raw_parts(index, generation))
     }
 
     /// Debris in the world, oldest first.
     pub fn debris(&self) -> impl Iterator<Item = RigidBodyHandle> {
-        self.debris.iter().copied()
+        self.state.debris.iter().copied()
     }
 
     /// Breaks that did not happen because the fragments would exceed [`WorldConfig::max_bodies`].
     #[must_use]
     pub fn refused_breaks(&self) -> u64 {
-        self.refused_breaks
+        self.state.refused_breaks
     }
 
     /// What became of all impacts so far.
     #[must_use]
     pub fn impact_counts(&self) -> LoadCounts {
-        self.impact_counts
+        self.state.impact_counts
     }
 
     /// What became of all resting loads so far.
     #[must_use]
     pub fn rest_counts(&self) -> LoadCounts {
-        self.rest_counts
+        self.state.rest_counts
     }
 
     /// Where the time of the last step went.
@@ -263,12 +255,12 @@ impl BreakableWorld {
     /// Steps that began with a copy of the world, since a breakable body was about to be hit.
     #[must_use]
     pub fn snapshots(&self) -> u64 {
-        self.snapshots
+        self.state.snapshots
     }
 
     /// How often a step was undone and taken again with fragments.
     #[must_use]
     pub fn undone_steps(&self) -> u64 {
-        self.undone_steps
+        self.state.undone_steps
     }
 }

@@ -13,14 +13,14 @@ use frangible::Fracture;
 use rapier3d::dynamics::{ImpulseJointHandle, RigidBody, RigidBodyHandle, RigidBodySet};
 use rapier3d::math::Vector;
 
-use crate::blows::Meeting;
-use crate::contacts::Impact;
+use crate::contact::contacts::Impact;
+use crate::contact::surface::{EDGE_RADIUS, SurfaceProperties};
 use crate::event::{BreakCause, BreakEvent};
-use crate::exchange::Families;
-use crate::motion::kinetic_energy;
-use crate::replace::{Parts, is_debris, is_dust};
-use crate::surface::{EDGE_RADIUS, SurfaceProperties};
-use crate::toll::take_energy;
+use crate::fragments::replace::{Parts, is_debris, is_dust};
+use crate::impulses::blows::Meeting;
+use crate::impulses::exchange::Families;
+use crate::impulses::motion::kinetic_energy;
+use crate::impulses::toll::take_energy;
 use crate::world::{BreakableWorld, Key, key};
 
 /// A body that breaks in this step.
@@ -69,18 +69,18 @@ impl Group {
 impl BreakableWorld {
     /// Forgets the broken body, and remembers what its fragments are.
     fn hand_over(&mut self, broken: &Broken) -> Option<frangible::Body> {
-        let body = self.breakables.remove(&key(broken.parent))?;
-        self.burdens.remove(&key(broken.parent));
-        self.surfaces.remove(&key(broken.parent));
+        let body = self.state.breakables.remove(&key(broken.parent))?;
+        self.state.burdens.remove(&key(broken.parent));
+        self.state.surfaces.remove(&key(broken.parent));
         let surface = SurfaceProperties::of(&body.asset().material, EDGE_RADIUS);
         let now = self.time();
         for (&handle, fragment) in broken.fragments.iter().zip(&broken.fracture.fragments) {
-            self.surfaces.insert(key(handle), surface);
+            self.state.surfaces.insert(key(handle), surface);
             if is_debris(fragment, &self.config) {
-                self.debris.push_back(handle);
+                self.state.debris.push_back(handle);
             }
             if is_dust(fragment, &self.config) {
-                self.dust.push_back((handle, now));
+                self.state.dust.push_back((handle, now));
             }
         }
         self.expect_pieces(&body, broken);
@@ -212,7 +212,7 @@ impl BreakableWorld {
             (*b.position(), b.linvel(), b.angvel())
         });
         self.events.push(BreakEvent {
-            step: self.steps,
+            step: self.state.steps,
             parent: broken.parent,
             cause: broken.cause,
             asset: Arc::clone(body.asset()),

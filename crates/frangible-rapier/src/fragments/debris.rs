@@ -11,20 +11,24 @@ impl BreakableWorld {
     /// Removes dust that has been there for long.
     pub(crate) fn settle_dust(&mut self) {
         let now = self.time();
-        while let Some((handle, _)) = self.dust.pop_front_if(|(_, born)| now - *born > DUST_TIME) {
+        while let Some((handle, _)) = self
+            .state
+            .dust
+            .pop_front_if(|(_, born)| now - *born > DUST_TIME)
+        {
             self.physics.remove_body(handle);
-            self.surfaces.remove(&key(handle));
+            self.state.surfaces.remove(&key(handle));
         }
     }
 
     /// Removes the oldest debris until at most `limit` pieces are left.
     pub(crate) fn limit_debris(&mut self, limit: usize) {
-        while self.debris.len() > limit {
-            let Some(oldest) = self.debris.pop_front() else {
+        while self.state.debris.len() > limit {
+            let Some(oldest) = self.state.debris.pop_front() else {
                 return;
             };
             self.physics.remove_body(oldest);
-            self.surfaces.remove(&key(oldest));
+            self.state.surfaces.remove(&key(oldest));
         }
     }
 
@@ -35,9 +39,9 @@ impl BreakableWorld {
         let key_alive = |&(index, generation): &(u32, u32)| {
             alive(RigidBodyHandle::from_raw_parts(index, generation))
         };
-        self.breakables.retain(|key, _| key_alive(key));
-        self.surfaces.retain(|key, _| key_alive(key));
-        self.debris.retain(|&handle| alive(handle));
+        self.state.breakables.retain(|key, _| key_alive(key));
+        self.state.surfaces.retain(|key, _| key_alive(key));
+        self.state.debris.retain(|&handle| alive(handle));
         self.siblings.purge(alive);
     }
 }

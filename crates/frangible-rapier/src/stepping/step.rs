@@ -16,19 +16,19 @@ use frangible::{Fracture, ImpactReport, Outcome};
 use rapier3d::dynamics::{RigidBodyHandle, RigidBodySet};
 use rapier3d::pipeline::{EventHandler, PhysicsHooks};
 
-use crate::approach::candidates;
-use crate::blows::{Meeting, meetings};
 use crate::callbacks::{Callbacks, Held, Hooks};
+use crate::calm::guard::{Centres, centres, put_back};
+use crate::calm::rolling::resist_rolling;
 use crate::config::Breaking;
-use crate::contacts::{Impact, Surfaces, impact_on};
+use crate::contact::contacts::{Impact, Surfaces, impact_on};
 use crate::error::WorldError;
 use crate::event::{BreakCause, BreakEvent, HeldEvent};
-use crate::guard::{Centres, centres, put_back};
-use crate::judge::{Verdict, verdict};
-use crate::replace::Replacement;
-use crate::rolling::resist_rolling;
-use crate::settle::Broken;
+use crate::fragments::replace::Replacement;
+use crate::impulses::blows::{Meeting, meetings};
+use crate::impulses::settle::Broken;
 use crate::snapshot::Snapshot;
+use crate::stepping::approach::candidates;
+use crate::stepping::judge::{Verdict, verdict};
 use crate::timings::{StepTimings, Watch};
 use crate::world::{BreakableWorld, Key, key};
 
@@ -91,7 +91,7 @@ impl BreakableWorld {
         self.events.clear();
         self.held.clear();
         self.forget_removed();
-        self.siblings.step = self.steps;
+        self.siblings.step = self.state.steps;
         self.siblings.relaxation =
             self.config.overlap_relaxation * self.physics.integration_parameters.dt;
         self.join_pieces();
@@ -101,7 +101,7 @@ impl BreakableWorld {
             Breaking::InsideStep => self.step_breaking_inside(caller),
             Breaking::AfterStep { budget, delay } => self.step_then_break(budget, delay, caller),
         };
-        self.steps += 1;
+        self.state.steps += 1;
         pushed.and(done).map(|()| &*self.events)
     }
 
@@ -142,7 +142,9 @@ impl BreakableWorld {
             resist_rolling(&mut self.physics, self.config.rolling_arm);
         }
         if self.config.rest_drift > 0.0 {
-            self.places.rest(&mut self.physics, self.config.rest_drift);
+            self.state
+                .places
+                .rest(&mut self.physics, self.config.rest_drift);
         }
         self.part_mortar();
         self.limit_debris(self.config.max_debris);
@@ -175,7 +177,7 @@ impl BreakableWorld {
         handle: RigidBodyHandle,
         state: &BodyState,
     ) -> Result<(), WorldError> {
-        if let Some(body) = self.breakables.get_mut(&key(handle)) {
+        if let Some(body) = self.state.breakables.get_mut(&key(handle)) {
             body.set_state(state.clone())?;
             self.expect_weaker(handle);
         }
@@ -250,7 +252,7 @@ impl BreakableWorld {
     ) -> (Asked, RigidBodySet) {
         let mut watch = Watch::start();
         let base = Snapshot::take(&self.physics, &self.siblings);
-        self.snapshots += 1;
+        self.state.snapshots += 1;
         let mut asked = Asked::default();
         let mut before: Option<RigidBodySet> = None;
         let mut centres = self.guarded_centres();
@@ -267,7 +269,7 @@ impl BreakableWorld {
             }
             watch.lap();
             near.retain(|&handle| asked.broken.iter().all(|b| b.parent != handle));
-            self.undone_steps += 1;
+            self.state.undone_steps += 1;
             self.timings.undone += std::mem::take(&mut self.timings.rigid);
             said.forget();
             base.restore(&mut self.physics, &mut self.siblings);
@@ -318,9 +320,9 @@ impl BreakableWorld {
             .filter_map(|(rest, impact, v)| Some((rest, impact.contacts.len(), v.as_ref().ok()?)))
         {
             let of = if rest {
-                &mut self.rest_counts
+                &mut self.state.rest_counts
             } else {
-                &mut self.impact_counts
+                &mut self.state.impact_counts
             };
             of.count(contacts, verdict.held());
         }
@@ -384,12 +386,12 @@ impl BreakableWorld {
     ) {
         let (mut blows, mut loads, mut standing) = (Vec::new(), Vec::new(), Vec::new());
         let surfaces = Surfaces {
-            bodies: &self.surfaces,
-            colliders: &self.collider_surfaces,
-            breakables: &self.breakables,
+            bodies: &self.state.surfaces,
+            colliders: &self.state.collider_surfaces,
+            breakables: &self.state.breakables,
         };
         for &handle in near {
-            let Some(body) = self.breakables.get(&key(handle)) else {
+            let Some(body) = self.state.breakables.get(&key(handle)) else {
                 continue;
             };
             let impact = impact_on(handle, &self.physics, before, &surfaces, &self.config);
@@ -461,10 +463,10 @@ impl BreakableWorld {
         handle: RigidBodyHandle,
     ) -> bool {
         let limit = self.config.max_bodies;
-        let room = limit.saturating_sub(self.physics.bodies.len()) + self.debris.len();
+        let room = limit.saturating_sub(self.physics.bodies.len()) + self.state.debris.len();
         let fits = fracture.fragments.len() + taken <= room;
         if !fits {
-            self.refused_breaks += 1;
+            self.state.refused_breaks += 1;
             let name = self.breakable(handle).map_or("", |b| &b.asset().name);
             log::warn!(
                 "{} fragments of `{name}` exceed `max_bodies`; it stays whole",
@@ -490,7 +492,7 @@ impl BreakableWorld {
             return;
         };
         let event = HeldEvent {
-            step: self.steps,
+            step: self.state.steps,
             body,
             contacts: impact.contacts.clone(),
             margin,

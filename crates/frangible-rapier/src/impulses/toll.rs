@@ -10,8 +10,8 @@
 use frangible::glam::DVec3;
 use rapier3d::dynamics::{RigidBody, RigidBodyHandle, RigidBodySet, RigidBodyVelocity};
 
-use crate::cluster::Cluster;
-use crate::motion::{centre, world_inertia};
+use crate::impulses::cluster::Cluster;
+use crate::impulses::motion::{centre, world_inertia};
 
 /// A rigid motion: velocity at the origin `about`, and angular velocity.
 struct Motion {

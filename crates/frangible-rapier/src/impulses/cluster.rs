@@ -3,7 +3,7 @@
 use frangible::glam::{DMat3, DVec3};
 use rapier3d::dynamics::{RigidBody, RigidBodyHandle, RigidBodySet, RigidBodyVelocity};
 
-use crate::motion::{centre, world_inertia};
+use crate::impulses::motion::{centre, world_inertia};
 
 /// An impulse, N·s, and its moment about the centre of mass of what gets it, N·m·s.
 #[derive(Clone, Copy, Debug, Default)]

@@ -8,7 +8,7 @@ use rapier3d::geometry::{SharedShape, TypedShape};
 use rapier3d::math::{Pose, Vector};
 
 use crate::config::{ColliderDetail, WorldConfig};
-use crate::replace::is_debris;
+use crate::fragments::replace::is_debris;
 
 /// Smallest half extent of a stand-in box, m.
 const MIN_HALF_EXTENT: f32 = 2e-4;

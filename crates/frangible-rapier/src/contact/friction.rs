@@ -14,7 +14,7 @@ use rapier3d::geometry::{ContactManifold, TrackedContact};
 use rapier3d::math::Vector;
 use rapier3d::utils::OrthonormalBasis;
 
-use crate::contacts::{Point, inverse_effective_mass, weighted_mean};
+use crate::contact::contacts::{Point, inverse_effective_mass, weighted_mean};
 
 /// Friction impulse of a whole step on the **first** collider's body at this point, world axes, N·s, as the solver
 /// left it. Exact with the Coulomb model; with the simplified one only where all substeps are alike.

@@ -22,12 +22,12 @@ use frangible::internals::mesh::closest_on_triangle;
 use frangible::{Fracture, TriMesh};
 use rapier3d::dynamics::{RigidBody, RigidBodyHandle, RigidBodySet};
 
-use crate::blows::{Meeting, Touch, share_out};
-use crate::cluster::{Cluster, Kick, affordable};
-use crate::motion::{centre, kinetic_energy};
-use crate::motions::Before;
-use crate::settle::Broken;
-use crate::toll::take_energy;
+use crate::calm::motions::Before;
+use crate::impulses::blows::{Meeting, Touch, share_out};
+use crate::impulses::cluster::{Cluster, Kick, affordable};
+use crate::impulses::motion::{centre, kinetic_energy};
+use crate::impulses::settle::Broken;
+use crate::impulses::toll::take_energy;
 use crate::world::{BreakableWorld, Key, key};
 
 /// Pieces of bodies that broke in a step.

@@ -16,10 +16,10 @@ use rapier3d::geometry::ColliderHandle;
 use rapier3d::math::Vector;
 use rapier3d::pipeline::PhysicsWorld;
 
+use crate::calm::motions::Before;
 use crate::config::WorldConfig;
-use crate::friction::{rub, solver_friction, unexplained};
-use crate::motions::Before;
-use crate::surface::{EDGE_RADIUS, SurfaceProperties};
+use crate::contact::friction::{rub, solver_friction, unexplained};
+use crate::contact::surface::{EDGE_RADIUS, SurfaceProperties};
 use crate::world::{Key, collider_key, key};
 
 /// The contacts of one body that are impacts, and what caused them.

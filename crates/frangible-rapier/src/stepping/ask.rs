@@ -5,7 +5,7 @@ use rapier3d::dynamics::RigidBodyHandle;
 use rapier3d::math::Vector;
 
 use crate::error::{WorldError, finite, not_negative};
-use crate::judge::breakable;
+use crate::stepping::judge::breakable;
 use crate::world::BreakableWorld;
 
 impl BreakableWorld {
@@ -23,7 +23,7 @@ impl BreakableWorld {
         speed: f32,
         striker: Striker,
     ) -> Result<bool, WorldError> {
-        let body = breakable(&self.breakables, handle)?;
+        let body = breakable(&self.state.breakables, handle)?;
         let (index, generation) = handle.into_raw_parts();
         let rigid = self.physics.bodies.get(handle);
         let rigid = rigid.ok_or(WorldError::NoBody { index, generation })?;

@@ -16,12 +16,12 @@ use frangible::{Body, Contact, Outcome, Striker};
 use rapier3d::dynamics::{RigidBody, RigidBodyHandle};
 use rapier3d::pipeline::PhysicsWorld;
 
+use crate::calm::motions::Before;
 use crate::config::WorldConfig;
-use crate::contacts::{Impact, Point, approach, merged_by_partner, points_on};
+use crate::contact::contacts::{Impact, Point, approach, merged_by_partner, points_on};
 use crate::counts::held;
 use crate::error::WorldError;
 use crate::event::HeldEvent;
-use crate::motions::Before;
 use crate::world::{BreakableWorld, Key, key};
 
 /// Steps in a row that must each break a body, or crack it.
@@ -154,19 +154,19 @@ impl BreakableWorld {
     /// what is not breakable or was never asked ([`crate::WorldConfig::resting_loads`] off, or not one step yet).
     #[must_use]
     pub fn rest_margin(&self, handle: RigidBodyHandle) -> Option<f64> {
-        self.burdens.get(&key(handle)).map(|b| b.margin)
+        self.state.burdens.get(&key(handle)).map(|b| b.margin)
     }
 
     /// No load is known any more: something but the load has changed.
     pub(crate) fn weigh_anew(&mut self) {
-        for burden in self.burdens.values_mut() {
+        for burden in self.state.burdens.values_mut() {
             burden.load.gravity = Vec3::NAN;
         }
     }
 
     /// Nothing is known of this one's load any more.
     pub(crate) fn weigh_anew_one(&mut self, handle: RigidBodyHandle) {
-        if let Some(burden) = self.burdens.get_mut(&key(handle)) {
+        if let Some(burden) = self.state.burdens.get_mut(&key(handle)) {
             burden.load.gravity = Vec3::NAN;
         }
     }
@@ -174,12 +174,16 @@ impl BreakableWorld {
     /// Whether loads are looked at after the coming step.
     pub(crate) fn weighs_now(&self) -> bool {
         let stride = (INTERVAL / self.physics.integration_parameters.dt).round();
-        self.config.resting_loads && self.steps.is_multiple_of((stride as u64).max(1))
+        self.config.resting_loads && self.state.steps.is_multiple_of((stride as u64).max(1))
     }
 
     /// Bodies that the coming step may break by what they carry.
     pub(crate) fn overloaded(&self) -> impl Iterator<Item = RigidBodyHandle> {
-        let over = self.burdens.iter().filter(|(_, b)| b.over + 1 >= STEADY);
+        let over = self
+            .state
+            .burdens
+            .iter()
+            .filter(|(_, b)| b.over + 1 >= STEADY);
         over.map(|(&(i, g), _)| RigidBodyHandle::from_raw_parts(i, g))
     }
 
@@ -190,7 +194,7 @@ impl BreakableWorld {
         body: &Body,
         before: &impl Before,
     ) -> Option<Result<(Impact, Outcome), WorldError>> {
-        let burden = self.burdens.get(&key(handle))?;
+        let burden = self.state.burdens.get(&key(handle))?;
         let rigid = self.physics.bodies.get(handle)?;
         if burden.over + 1 < STEADY || !carries(body, rigid) {
             return None;
@@ -204,15 +208,15 @@ impl BreakableWorld {
     /// Asks all bodies that carry something new; gives cracks to those that cracked.
     pub(crate) fn weigh(&mut self, before: Option<&impl Before>) -> Result<(), WorldError> {
         let mut error = Ok(());
-        let mut burdens: BTreeMap<Key, Burden> = std::mem::take(&mut self.burdens);
-        burdens.retain(|key, _| self.breakables.contains_key(key));
+        let mut burdens: BTreeMap<Key, Burden> = std::mem::take(&mut self.state.burdens);
+        burdens.retain(|key, _| self.state.breakables.contains_key(key));
         let handles: Vec<RigidBodyHandle> = self.breakables().collect();
         for handle in handles {
             if let Err(problem) = self.weigh_one(handle, before, &mut burdens) {
                 error = error.and(Err(problem));
             }
         }
-        self.burdens = burdens;
+        self.state.burdens = burdens;
         error
     }
 
@@ -223,7 +227,7 @@ impl BreakableWorld {
         burdens: &mut BTreeMap<Key, Burden>,
     ) -> Result<(), WorldError> {
         let (Some(body), Some(rigid)) = (
-            self.breakables.get(&key(handle)),
+            self.state.breakables.get(&key(handle)),
             self.physics.bodies.get(handle),
         ) else {
             return Ok(());
@@ -245,7 +249,7 @@ impl BreakableWorld {
                 (false, true) => burden.hard.saturating_add(1),
             };
             if margin >= EASE {
-                self.rest_counts.count(0, Some(LookedAt::Impulses));
+                self.state.rest_counts.count(0, Some(LookedAt::Impulses));
             }
             if burden.hard < STEADY {
                 // A knock that does not last is no load.
@@ -271,7 +275,9 @@ impl BreakableWorld {
         }
         let asked = (self.rest_function)(body, &load.forces, load.gravity, &self.config.fracture);
         if let Ok(outcome) = &asked {
-            self.rest_counts.count(load.forces.len(), held(outcome));
+            self.state
+                .rest_counts
+                .count(load.forces.len(), held(outcome));
         }
         let dt = self.physics.integration_parameters.dt;
         let contacts = |load: &Load| load.cause(dt).contacts;
@@ -289,7 +295,7 @@ impl BreakableWorld {
                 if let (Some(state), true) = (state, burden.over >= STEADY) {
                     (burden.over, burden.pause) = (0, PAUSE);
                     let event = HeldEvent {
-                        step: self.steps,
+                        step: self.state.steps,
                         body: handle,
                         contacts: contacts(&load),
                         margin,

@@ -9,11 +9,11 @@ use rapier3d::math::{Pose, Vector};
 use rapier3d::parry::bounding_volume::BoundingVolume;
 use rapier3d::pipeline::ActiveHooks;
 
-use crate::collider::collision_shape;
+use crate::bodies::collider::collision_shape;
+use crate::bodies::mass::rapier_mass;
 use crate::config::WorldConfig;
 use crate::error::WorldError;
-use crate::joints::hand_over_joints;
-use crate::mass::rapier_mass;
+use crate::fragments::joints::hand_over_joints;
 use crate::world::BreakableWorld;
 
 /// Shapes and masses of a fracture's fragments: built once, though a step may be undone more than once.

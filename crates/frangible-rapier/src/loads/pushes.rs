@@ -15,13 +15,13 @@ use rapier3d::dynamics::{RigidBody, RigidBodyHandle};
 use rapier3d::geometry::ColliderSet;
 use rapier3d::math::Vector;
 
-use crate::contacts::Impact;
+use crate::contact::contacts::Impact;
 use crate::error::{WorldError, finite, positive};
 use crate::event::{BreakCause, HeldEvent};
-use crate::motion::kinetic_energy;
-use crate::replace::{Parts, Replacement};
-use crate::settle::Broken;
-use crate::toll::take_energy;
+use crate::fragments::replace::{Parts, Replacement};
+use crate::impulses::motion::kinetic_energy;
+use crate::impulses::settle::Broken;
+use crate::impulses::toll::take_energy;
 use crate::world::{BreakableWorld, key};
 
 /// Nearest that a part of the surface counts as, m: as [`frangible::internals::blast`] has it.
@@ -64,7 +64,7 @@ impl BreakableWorld {
         finite("a blast's origin", origin)?;
         positive("a blast's impulse per area at 1 m (Pa·s)", impulse_at_1m)?;
         positive("a blast's duration (s)", duration)?;
-        self.pushes.push(Push::Blast {
+        self.state.pushes.push(Push::Blast {
             origin,
             impulse: impulse_at_1m,
             duration,
@@ -91,7 +91,7 @@ impl BreakableWorld {
             let (index, generation) = body.into_raw_parts();
             return Err(WorldError::NoBody { index, generation });
         }
-        self.pushes.push(Push::Blow {
+        self.state.pushes.push(Push::Blow {
             body,
             point,
             impulse,
@@ -102,7 +102,7 @@ impl BreakableWorld {
     /// Lets the waiting loads act.
     pub(crate) fn apply_pushes(&mut self) -> Result<(), WorldError> {
         let mut error = Ok(());
-        for push in std::mem::take(&mut self.pushes) {
+        for push in std::mem::take(&mut self.state.pushes) {
             let done = match push {
                 Push::Blast {
                     origin,
@@ -138,7 +138,7 @@ impl BreakableWorld {
                 impulse,
                 duration,
             };
-            let Some(body) = self.breakables.get(&key(handle)) else {
+            let Some(body) = self.state.breakables.get(&key(handle)) else {
                 let kick = kick_on_colliders(rigid, &self.physics.colliders, &at(Vec3::ZERO));
                 self.kick(handle, kick);
                 continue;
@@ -174,7 +174,7 @@ impl BreakableWorld {
         impulse: Vector,
     ) -> Result<(), WorldError> {
         let (Some(body), Some(rigid)) = (
-            self.breakables.get(&key(handle)),
+            self.state.breakables.get(&key(handle)),
             self.physics.bodies.get(handle),
         ) else {
             return Ok(());
@@ -235,7 +235,7 @@ impl BreakableWorld {
                 }
                 if self.config.record_held {
                     self.held.push(HeldEvent {
-                        step: self.steps,
+                        step: self.state.steps,
                         body: handle,
                         contacts: Vec::new(),
                         margin,

@@ -6,10 +6,10 @@ use rapier3d::geometry::{ColliderBuilder, ColliderHandle, HalfSpace, SharedShape
 use rapier3d::math::{Pose, Vector};
 use std::sync::Arc;
 
-use crate::collider::whole_shape;
+use crate::bodies::collider::whole_shape;
+use crate::bodies::mass::{ball_mass, rapier_mass};
+use crate::contact::surface::{EDGE_RADIUS, SurfaceProperties};
 use crate::error::{WorldError, finite, positive};
-use crate::mass::{ball_mass, rapier_mass};
-use crate::surface::{EDGE_RADIUS, SurfaceProperties};
 use crate::world::{BreakableWorld, collider_key, key};
 
 /// A solid ball.
@@ -81,7 +81,7 @@ impl BreakableWorld {
             rigid = rigid.linvel(Vector::ZERO).angvel(Vector::ZERO);
         }
         let handle = self.insert_finished(rigid, shape, surface, finish);
-        self.breakables.insert(key(handle), body);
+        self.state.breakables.insert(key(handle), body);
         Ok(handle)
     }
 
@@ -177,7 +177,7 @@ impl BreakableWorld {
                 collider.set_restitution(surface.restitution);
             }
         }
-        self.surfaces.insert(key(body), surface);
+        self.state.surfaces.insert(key(body), surface);
         Ok(())
     }
 
@@ -195,7 +195,8 @@ impl BreakableWorld {
             collider.set_friction(surface.friction);
             collider.set_restitution(surface.restitution);
         }
-        self.collider_surfaces
+        self.state
+            .collider_surfaces
             .insert(collider_key(collider), surface);
         Ok(())
     }
@@ -236,7 +237,7 @@ impl BreakableWorld {
             // Rapier would do it at the next step; energy and momentum are asked for before.
             body.recompute_mass_properties_from_colliders(&self.physics.colliders);
         }
-        self.surfaces.insert(key(handle), surface);
+        self.state.surfaces.insert(key(handle), surface);
         handle
     }
 }

@@ -4,9 +4,9 @@ use rapier3d::dynamics::{RigidBodyBuilder, RigidBodyHandle};
 use rapier3d::geometry::SharedShape;
 use rapier3d::math::{Pose, Vector};
 
+use crate::bodies::insert::check_pose;
+use crate::contact::surface::SurfaceProperties;
 use crate::error::{WorldError, finite, positive};
-use crate::insert::check_pose;
-use crate::surface::SurfaceProperties;
 use crate::world::BreakableWorld;
 
 impl BreakableWorld {

@@ -13,7 +13,7 @@ use frangible::internals::piece::{Elastic, PieceModel, Portion};
 use rapier3d::dynamics::RigidBodyHandle;
 
 use crate::config::PieceConfig;
-use crate::settle::Broken;
+use crate::impulses::settle::Broken;
 use crate::world::{BreakableWorld, key};
 
 /// A body that is being made.
@@ -57,7 +57,7 @@ impl BreakableWorld {
 
     /// Bodies that are being made breakable, or better: fragments just born.
     pub fn expected_pieces(&self) -> impl Iterator<Item = RigidBodyHandle> {
-        self.expected.iter().map(|expected| expected.handle)
+        self.state.expected.iter().map(|expected| expected.handle)
     }
 
     /// Has the fragments of a body that broke made breakable.
@@ -96,7 +96,7 @@ impl BreakableWorld {
             self.piece_model
                 .clone()
                 .filter(|_| self.config.pieces.cracked),
-            self.breakables.get(&key(handle)).cloned(),
+            self.state.breakables.get(&key(handle)).cloned(),
         ) else {
             return;
         };
@@ -123,25 +123,29 @@ impl BreakableWorld {
             let _ = sender.send(make());
         };
         let steps = (delay / self.physics.integration_parameters.dt).ceil();
-        let due = self.steps + (steps as u64).max(PieceConfig::SOONEST);
+        let due = self.state.steps + (steps as u64).max(PieceConfig::SOONEST);
         match self.jury() {
             Some(pool) => pool.spawn_fifo(work),
             None => work(),
         }
         let body = Arc::new(Mutex::new(Made::Soon(body)));
-        let after = self.expected.partition_point(|e| e.due <= due);
+        let after = self.state.expected.partition_point(|e| e.due <= due);
         let expected = Expected {
             handle,
             due,
             cracks,
             body,
         };
-        self.expected.insert(after, expected);
+        self.state.expected.insert(after, expected);
     }
 
     /// Lets those join that are due. Waits for those that are not ready.
     pub(crate) fn join_pieces(&mut self) {
-        while let Some(expected) = self.expected.pop_front_if(|e| e.due <= self.steps) {
+        while let Some(expected) = self
+            .state
+            .expected
+            .pop_front_if(|e| e.due <= self.state.steps)
+        {
             let handle = expected.handle;
             if !self.physics.bodies.contains(handle) {
                 continue;
@@ -149,7 +153,7 @@ impl BreakableWorld {
             let Some(mut body) = expected.body() else {
                 continue;
             };
-            let now = self.breakables.get(&key(handle));
+            let now = self.state.breakables.get(&key(handle));
             let joins = match (&expected.cracks, now) {
                 // Gone, or cracked further meanwhile: then another one is on its way.
                 (Some(cracks), now) => now.is_some_and(|now| now.state() == cracks),
@@ -157,7 +161,7 @@ impl BreakableWorld {
                 (None, Some(now)) => body.set_state(now.state().clone()).is_ok(),
             };
             if joins {
-                self.breakables.insert(key(handle), body);
+                self.state.breakables.insert(key(handle), body);
                 self.weigh_anew();
             }
         }

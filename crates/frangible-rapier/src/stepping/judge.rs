@@ -15,10 +15,10 @@ use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use crate::config::WorldConfig;
-use crate::contacts::Impact;
+use crate::contact::contacts::Impact;
 use crate::counts::held;
 use crate::error::WorldError;
-use crate::replace::Parts;
+use crate::fragments::replace::Parts;
 use crate::world::{BreakFn, BreakableWorld, Key, key};
 
 /// What an impact does to a body.
@@ -115,7 +115,7 @@ impl BreakableWorld {
         if questions.is_empty() {
             return Vec::new();
         }
-        let (judge, breakables) = (self.judge_of_now(), &self.breakables);
+        let (judge, breakables) = (self.judge_of_now(), &self.state.breakables);
         let answer = |(handle, impact): &(RigidBodyHandle, Impact)| {
             judge.judge(breakable(breakables, *handle)?, impact)
         };
@@ -135,7 +135,7 @@ impl BreakableWorld {
         let (sender, verdict) = channel();
         let work = Arc::new(Work {
             judge: self.judge_of_now(),
-            body: breakable(&self.breakables, body)?.clone(),
+            body: breakable(&self.state.breakables, body)?.clone(),
             impact: impact.clone(),
             taken: AtomicBool::new(false),
             sender,

@@ -6,7 +6,7 @@ use frangible::internals::DurationModel;
 use rapier3d::dynamics::RigidBodyHandle;
 use rapier3d::math::Pose;
 
-use crate::contacts::Impact;
+use crate::contact::contacts::Impact;
 
 /// One contact of a blow; world axes and places at the start of the step.
 #[derive(Clone, Debug)]

@@ -12,20 +12,20 @@ use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
 use rapier3d::dynamics::{RigidBody, RigidBodyHandle};
 
-use crate::blows::{Meeting, meetings, share_out};
 use crate::callbacks::Callbacks;
-use crate::contacts::{Impact, Surfaces, impact_on};
+use crate::calm::guard::put_back;
+use crate::contact::contacts::{Impact, Surfaces, impact_on};
 use crate::counts::held;
 use crate::error::WorldError;
 use crate::event::{BreakCause, HeldEvent};
-use crate::exchange::Families;
-use crate::guard::put_back;
-use crate::judge::{Case, Verdict, verdict};
-use crate::motion::kinetic_energy;
-use crate::replace::Replacement;
-use crate::settle::Broken;
+use crate::fragments::replace::Replacement;
+use crate::impulses::blows::{Meeting, meetings, share_out};
+use crate::impulses::exchange::Families;
+use crate::impulses::motion::kinetic_energy;
+use crate::impulses::settle::Broken;
+use crate::impulses::toll::take_energy;
+use crate::stepping::judge::{Case, Verdict, verdict};
 use crate::timings::Watch;
-use crate::toll::take_energy;
 use crate::world::{BreakableWorld, Key, key};
 
 /// Bodies as they were before the step, those that were hit and what hit them.
@@ -47,7 +47,7 @@ impl BreakableWorld {
     /// [`Breaking::AfterStep`](crate::Breaking::AfterStep).
     pub fn waiting(&self) -> impl Iterator<Item = RigidBodyHandle> {
         let judged = self.cases.iter().map(|case| case.body);
-        judged.chain(self.waiting.iter().map(|w| w.body))
+        judged.chain(self.state.waiting.iter().map(|w| w.body))
     }
 
     /// A step of Rapier, and what it broke.
@@ -58,7 +58,7 @@ impl BreakableWorld {
         caller: Callbacks<'_>,
     ) -> Result<(), WorldError> {
         let mut watch = Watch::start();
-        self.motions.note(&self.physics.bodies);
+        self.state.motions.note(&self.physics.bodies);
         let weighs = self.weighs_now();
         let overloaded: Vec<RigidBodyHandle> = if weighs {
             self.overloaded().collect()
@@ -96,11 +96,14 @@ impl BreakableWorld {
     fn hit_bodies(&self, overloaded: &[RigidBodyHandle]) -> HitBodies {
         let physics = &self.physics;
         let parent = |c| physics.colliders.get(c).and_then(|c| c.parent());
-        let breakable = |h: &RigidBodyHandle| self.breakables.contains_key(&key(*h));
+        let breakable = |h: &RigidBodyHandle| self.state.breakables.contains_key(&key(*h));
         let mut hit: BTreeSet<Key> = overloaded.iter().map(|&h| key(h)).collect();
         for pair in physics.narrow_phase.contact_pairs() {
             let (a, b) = (parent(pair.collider1), parent(pair.collider2));
-            if self.motions.may_meet_at(self.config.impact_speed, a, b)
+            if self
+                .state
+                .motions
+                .may_meet_at(self.config.impact_speed, a, b)
                 && [a, b].iter().flatten().any(breakable)
                 && pair.has_any_active_contact()
             {
@@ -116,7 +119,7 @@ impl BreakableWorld {
         let mut bodies = HitBodies::new();
         let mut note = |handle: RigidBodyHandle| {
             if !bodies.contains_key(&key(handle))
-                && let Some(body) = self.motions.body_before(physics, handle)
+                && let Some(body) = self.state.motions.body_before(physics, handle)
             {
                 bodies.insert(key(handle), body);
             }
@@ -143,13 +146,13 @@ impl BreakableWorld {
     /// Blows on the breakable ones among these bodies, in the order of their handles.
     fn blows(&self, before: &HitBodies) -> Vec<Waiting> {
         let surfaces = Surfaces {
-            bodies: &self.surfaces,
-            colliders: &self.collider_surfaces,
-            breakables: &self.breakables,
+            bodies: &self.state.surfaces,
+            colliders: &self.state.collider_surfaces,
+            breakables: &self.state.breakables,
         };
         let hit = before
             .keys()
-            .filter(|key| self.breakables.contains_key(key));
+            .filter(|key| self.state.breakables.contains_key(key));
         let blows = hit.map(|&(index, generation)| {
             let body = RigidBodyHandle::from_raw_parts(index, generation);
             let impact = impact_on(body, &self.physics, before, &surfaces, &self.config);
@@ -158,7 +161,7 @@ impl BreakableWorld {
                 body,
                 impact,
                 cost,
-                step: self.steps,
+                step: self.state.steps,
             }
         });
         blows.filter(|w| !w.impact.contacts.is_empty()).collect()
@@ -168,10 +171,10 @@ impl BreakableWorld {
     fn queue(&mut self, blows: Vec<Waiting>) {
         let size = |impact: &Impact| impact.contacts.iter().map(|c| c.impulse).sum::<f32>();
         for blow in blows {
-            match self.waiting.iter_mut().find(|w| w.body == blow.body) {
+            match self.state.waiting.iter_mut().find(|w| w.body == blow.body) {
                 Some(known) if size(&blow.impact) > size(&known.impact) => *known = blow,
                 Some(_) => {}
-                None => self.waiting.push_back(blow),
+                None => self.state.waiting.push_back(blow),
             }
         }
     }
@@ -179,8 +182,8 @@ impl BreakableWorld {
     /// Puts those first in line to the fracture: at once, or elsewhere until `delay` steps from now.
     fn serve(&mut self, budget: usize, delay: usize, before: &HitBodies) -> Result<(), WorldError> {
         let mut watch = Watch::start();
-        let mut line: VecDeque<Waiting> = std::mem::take(&mut self.waiting);
-        line.retain(|w| self.breakables.contains_key(&key(w.body)));
+        let mut line: VecDeque<Waiting> = std::mem::take(&mut self.state.waiting);
+        line.retain(|w| self.state.breakables.contains_key(&key(w.body)));
         let (mut cheap, mut dear, mut later) = (Vec::new(), Vec::new(), VecDeque::new());
         let mut work = 0_usize;
         let mut fresh: BTreeSet<Key> = BTreeSet::new();
@@ -189,7 +192,7 @@ impl BreakableWorld {
             let Waiting {
                 body, cost, step, ..
             } = waiting;
-            if step == self.steps {
+            if step == self.state.steps {
                 fresh.insert(key(body));
             }
             if cost == 0 && !busy {
@@ -203,12 +206,12 @@ impl BreakableWorld {
                 later.push_back(waiting);
             }
         }
-        self.waiting = later;
+        self.state.waiting = later;
         let mut done = Ok(());
         if delay == 0 {
             cheap.extend(dear);
         } else {
-            let due = self.steps + delay as u64;
+            let due = self.state.steps + delay as u64;
             for (body, impact) in dear {
                 match self.judge_elsewhere(body, impact, due) {
                     Ok(case) => self.cases.push_back(case),
@@ -223,7 +226,7 @@ impl BreakableWorld {
         for ((body, impact), verdict) in cheap.into_iter().zip(verdicts) {
             if let Ok(verdict) = &verdict {
                 let contacts = impact.contacts.len();
-                self.impact_counts.count(contacts, verdict.held());
+                self.state.impact_counts.count(contacts, verdict.held());
             }
             let blow = blows.remove(&key(body)).unwrap_or_default();
             let obeyed = verdict.and_then(|v| {
@@ -291,16 +294,19 @@ impl BreakableWorld {
         let mut watch = Watch::start();
         let mut done = Ok(());
         // What no other thread has begun with is done here, rather than waited for.
-        let due = self.cases.iter().take_while(|case| case.due <= self.steps);
+        let due = self
+            .cases
+            .iter()
+            .take_while(|case| case.due <= self.state.steps);
         due.for_each(Case::help);
-        while let Some(case) = self.cases.pop_front_if(|case| case.due <= self.steps) {
+        while let Some(case) = self.cases.pop_front_if(|case| case.due <= self.state.steps) {
             let verdict = case.verdict();
             if let Ok(verdict) = &verdict {
                 let contacts = case.impact.contacts.len();
-                self.impact_counts.count(contacts, verdict.held());
+                self.state.impact_counts.count(contacts, verdict.held());
             }
             self.timings.fracture += watch.lap();
-            if self.breakables.contains_key(&key(case.body)) {
+            if self.state.breakables.contains_key(&key(case.body)) {
                 let (cause, late) = (BreakCause::Impact, HitBodies::new());
                 let obeyed = verdict.and_then(|v| {
                     let none = Families::new();
@@ -314,7 +320,7 @@ impl BreakableWorld {
     }
 
     fn work(&self, handle: RigidBodyHandle, impact: &Impact) -> usize {
-        let Some(body) = self.breakables.get(&key(handle)) else {
+        let Some(body) = self.state.breakables.get(&key(handle)) else {
             return 0;
         };
         let cleared = self.clears_quickly
@@ -331,14 +337,16 @@ impl BreakableWorld {
         handle: RigidBodyHandle,
         before: &HitBodies,
     ) -> Result<(), WorldError> {
-        let Some(body) = self.breakables.get(&key(handle)) else {
+        let Some(body) = self.state.breakables.get(&key(handle)) else {
             return Ok(());
         };
         let Some(asked) = self.breaking_load(handle, body, before) else {
             return Ok(());
         };
         let (load, outcome) = asked?;
-        self.rest_counts.count(load.contacts.len(), held(&outcome));
+        self.state
+            .rest_counts
+            .count(load.contacts.len(), held(&outcome));
         match verdict(outcome, &self.config)? {
             // What only cracks is dealt with when all loads are looked at.
             Verdict::Held(_) => Ok(()),
@@ -452,7 +460,7 @@ impl BreakableWorld {
         let state = state.map(|s| *s);
         if self.config.record_held {
             self.held.push(HeldEvent {
-                step: self.steps,
+                step: self.state.steps,
                 body: handle,
                 contacts: impact.contacts,
                 margin,

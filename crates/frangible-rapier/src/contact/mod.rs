@@ -1,0 +1,5 @@
+//! What Rapier says of contacts, as an impact that the fracture understands.
+
+pub(crate) mod contacts;
+pub(crate) mod friction;
+pub(crate) mod surface;
