@@ -19,6 +19,7 @@ use crate::stress::StressBounds;
 pub use file::seal;
 pub use file::{AssetFileError, FORMAT_VERSION, SaveOptions};
 pub use render::{RenderMaterial, RenderSurface};
+pub(crate) use validate::{analysis, embedded, modes};
 
 /// Everything the run time needs of one kind of object. Share it (`Arc`) among all bodies of that kind.
 ///

@@ -3,7 +3,7 @@
 use std::sync::{Arc, OnceLock};
 
 use super::Portion;
-use crate::asset::{AnalysisMesh, Asset, EmbeddedPoint, Embedding};
+use crate::asset::{self, AnalysisMesh, Asset, EmbeddedPoint, Embedding};
 use crate::body::{Body, Prepared};
 use crate::contact::PerImpulse;
 use crate::error::InputError;
@@ -26,6 +26,17 @@ pub struct Elastic {
     pub modes: ModalBasis,
 }
 
+impl Elastic {
+    /// What is wrong with its numbers, as a clause.
+    fn check(&self) -> Result<(), String> {
+        asset::analysis(&self.analysis)?;
+        let elements = self.analysis.elements.len();
+        asset::embedded("centroid", &self.tets, elements)?;
+        asset::embedded("node", &self.nodes, elements)?;
+        asset::modes(&self.modes, self.analysis.nodes.len())
+    }
+}
+
 /// Finds how pieces vibrate.
 pub trait PieceModel: Send + Sync {
     /// What serves from the break on; `None` where the piece is not to break, or not yet. `parent`: the body that broke.
@@ -46,22 +57,15 @@ impl Body {
         let (tets, nodes) = (portion.tets(), portion.nodes());
         let misfit = |problem: &str| InputError::Asset {
             asset: root.name.clone(),
-            problem: format!("the elastic body of a piece {problem}"),
+            problem: format!("the elastic body of a piece cannot be used: {problem}"),
         };
         if elastic.tets.len() != tets.len() || elastic.nodes.len() != nodes.len() {
             return Err(misfit(
-                "does not have one point for each tetrahedron and node",
+                "it does not have one point for each tetrahedron and node",
             ));
         }
-        let elements = elastic.analysis.elements.len();
-        let points = || elastic.tets.iter().chain(&elastic.nodes);
-        if points().any(|p| p.element as usize >= elements) {
-            return Err(misfit("names an element that is not there"));
-        }
+        elastic.check().map_err(|problem| misfit(&problem))?;
         let modes = elastic.modes;
-        if modes.shapes.len() != 3 * elastic.analysis.nodes.len() * modes.count() {
-            return Err(misfit("has mode shapes of another size"));
-        }
         let search = Search::new(&elastic.analysis);
         let origin = portion.origin();
         let vertices = portion.positions.iter().zip(&portion.trace.anchors);
