@@ -12,11 +12,10 @@
 
 mod arrivals;
 mod branching;
-mod culling;
+mod cuts;
 mod field;
 mod initiation;
 mod node_values;
-mod parts;
 mod propagation;
 mod release;
 mod sites;
@@ -26,13 +25,12 @@ mod system;
 mod tip;
 mod weak_stress;
 
-pub(crate) use culling::Culling;
+pub(crate) use cuts::{Cuts, EdgeCut};
 pub(crate) use field::{StressField, weak_place};
 pub(crate) use initiation::{Peak, crack};
-pub(crate) use parts::refused_by_parts;
 use propagation::{advance, retry};
 pub(crate) use surface::crossing_polygon;
 pub(crate) use suspects::Suspects;
-pub(crate) use system::{Crack, CrackSystem, ElementCut, Junction, front_limit};
+pub(crate) use system::{Crack, CrackSystem, ElementCut, Junction};
 pub use tip::CrackFront;
-pub(crate) use tip::{Tip, fronts, tips};
+pub(crate) use tip::{Tip, front_limit, fronts, tips};

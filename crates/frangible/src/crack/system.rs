@@ -9,18 +9,17 @@ use super::node_values::NodeValues;
 use super::release::Releases;
 use super::sites::{Site, Sites};
 use super::surface::CrackFrame;
-use super::tip::{Tip, is_inside, tip_limit};
+use super::tip::{Tip, front_limit, is_inside};
 use crate::asset::Asset;
 use crate::body::Body;
 use crate::config::{CrackPath, CrackTiming, FractureConfig};
 use crate::fields::Resistance;
 use crate::state::OldCrack;
-use crate::stress::MARGIN;
 
 /// No crack has fractured this tetrahedron.
 pub(crate) const UNCUT: u32 = u32::MAX;
 
-/// Of another piece than the one that cracks: no front goes there.
+/// This tetrahedron belongs to another piece than the one that cracks: no front goes there.
 pub(crate) const ELSEWHERE: u32 = u32::MAX - 1;
 
 /// The ledger is spent when it lacks the energy of this area in squares of the mean edge: a fiftieth of what a crack cuts of a
@@ -75,18 +74,6 @@ impl Crack {
             restored: 0,
         }
     }
-}
-
-/// No front of an old crack of this body moves at a stress whose every principal value is below this, Pa: of the strain energy
-/// density η ≤ (3 + 6|ν|) σ² / 2E it needs γ η > G_c, or what its [`Tip`] asks for.
-pub(crate) fn front_limit(body: &Body) -> f32 {
-    let (material, least) = (&body.asset.material, body.resistance.toughness.least);
-    let share = 3.0 + 6.0 * material.poisson_ratio.abs();
-    let energy_density = least / material.energy_depth;
-    let layer = (2.0 * material.youngs_modulus * energy_density / share).sqrt();
-    let depths = body.tips.iter().map(|tip| tip.depth(0.0));
-    let tips = depths.map(|depth| tip_limit(material, least, depth));
-    tips.fold(layer, f64::min) as f32 * (1.0 - MARGIN)
 }
 
 /// A tetrahedron fractured by a crack.
@@ -211,7 +198,7 @@ pub(crate) struct CrackSystem<'a> {
     pub(crate) area: f64,
     /// What has released the weak points so far.
     pub(crate) releases: Releases,
-    /// The crack that grew, got a site or longer, once for each time between two questions about releases.
+    /// Cracks in the order in which they grew, by a site or in length. Between two questions about releases a crack is noted once.
     pub(crate) growth: Vec<u32>,
     /// Where each crack is, and how long.
     pub(crate) extents: Vec<Extent>,

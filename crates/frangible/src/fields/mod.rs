@@ -39,7 +39,7 @@ pub struct Factors {
 }
 
 impl Factors {
-    /// As the material.
+    /// Factors that leave the material as it is.
     pub const ONE: Self = Self {
         strength: 1.0,
         toughness: 1.0,
@@ -129,10 +129,10 @@ impl Fields {
         Self::default().patched(asset, patches)
     }
 
-    /// With patches over what is there, see [`Fields::from_patches`].
+    /// These fields with patches over what is there, see [`Fields::from_patches`].
     ///
     /// # Errors
-    /// As there.
+    /// What [`Fields::from_patches`] refuses.
     pub fn patched(mut self, asset: &Asset, patches: &[Patch]) -> Result<Self, InputError> {
         patches.iter().try_for_each(|p| p.zone.check())?;
         if patches.is_empty() {

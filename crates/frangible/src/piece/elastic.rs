@@ -1,15 +1,14 @@
 //! How a piece vibrates, and the body that it makes.
 
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 
 use super::Portion;
 use crate::asset::{self, AnalysisMesh, Asset, EmbeddedPoint, Embedding};
-use crate::body::{Body, Prepared};
-use crate::contact::PerImpulse;
+use crate::body::Body;
 use crate::error::InputError;
-use crate::mesh::TriangleTree;
-use crate::modal::{ModalBasis, Reaches};
-use crate::stress::{Search, Skin, StressBounds};
+use crate::modal::ModalBasis;
+use crate::refuse::StressBounds;
+use crate::stress::Search;
 
 /// An elastic body for a [`Portion`]: elements that carry its motion, and the modes of the piece.
 ///
@@ -98,35 +97,5 @@ impl Body {
         let own = self.weak_tets().iter().copied();
         let weak_tets = own.filter(|e| tets.binary_search(e).is_ok()).collect();
         Ok(self.part(asset, weak_tets, portion.state.clone()))
-    }
-}
-
-impl Prepared {
-    /// The numbers of a piece, whose modes lack only the peak of their stress.
-    pub(crate) fn of_piece(asset: &mut Asset, portion: &Portion) -> Self {
-        let root = &portion.prepared;
-        let skin = Skin::of_piece(asset, portion, &root.skin);
-        let bounds = StressBounds::with_skin(asset, &skin);
-        let whole = bounds.root(asset.modes.count());
-        asset.modes.peak_stress.clone_from(&whole.0);
-        let reaches = Reaches::new(&asset.modes);
-        Self {
-            root: Some(Arc::clone(root)),
-            index: Arc::clone(&root.index),
-            surface: TriangleTree::new(asset.surface_positions(), &asset.surface.triangles),
-            render: None,
-            skin,
-            bounds,
-            per_impulse: PerImpulse::new(asset, &whole.0, &reaches),
-            reaches,
-            whole,
-            periods: crate::body::periods(&asset.modes),
-            weight: crate::body::weight(asset),
-            quadratic_modulus: root.quadratic_modulus,
-            per_newton: OnceLock::new(),
-            centroids: Arc::clone(&root.centroids),
-            edge: root.edge,
-            longest_edge: root.longest_edge,
-        }
     }
 }
