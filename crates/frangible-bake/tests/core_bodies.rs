@@ -1,5 +1,5 @@
-//! The small bodies that the tests of `frangible` break are what their recipes here give. With `FRANGIBLE_WRITE_BODIES=1` they are
-//! written anew: `FRANGIBLE_WRITE_BODIES=1 cargo test --release -p frangible-bake --test core_bodies`.
+//! The small bodies that the tests of `frangible` break are what their recipes here give. With `FRANGIBLE_WRITE_SEEDS=1` they are
+//! written anew; `cargo xtask rebake` does that.
 
 use std::fs;
 use std::path::Path;
@@ -69,11 +69,11 @@ fn the_bodies_that_the_core_breaks_are_what_their_recipes_give() {
             bytes.len()
         );
         assert!(bytes.len() <= MOST_BYTES, "{name}: {} bytes", bytes.len());
-        if std::env::var_os("FRANGIBLE_WRITE_BODIES").is_some() {
+        if std::env::var_os("FRANGIBLE_WRITE_SEEDS").is_some() {
             fs::write(&path, &bytes).unwrap();
         }
         let stored = Asset::load(&path)
-            .unwrap_or_else(|e| panic!("{e}: set FRANGIBLE_WRITE_BODIES=1 to write {name} anew"));
+            .unwrap_or_else(|e| panic!("{e}: set FRANGIBLE_WRITE_SEEDS=1 to write {name} anew"));
         // Another processor rounds the modes otherwise, so the bytes need not be the same.
         assert_eq!(stored.fracture.tets, asset.fracture.tets, "{name}");
         assert_eq!(stored.supported, asset.supported, "{name}");

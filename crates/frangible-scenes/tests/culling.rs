@@ -4,8 +4,9 @@ mod common;
 
 use common::{block, blow, glass, pane, steel_ball, stone_floor};
 use frangible::glam::Vec3;
-use frangible::internals::{Factors, Fields, LookedAt, Patch, Zone};
+use frangible::internals::{Factors, Fields, LookedAt};
 use frangible::{Asset, Breakable, Contact, FractureConfig, Outcome, impact, would_break};
+use frangible_bake::weakness::{self, Patch, Zone};
 use std::sync::Arc;
 
 /// Numbers in 0..1 (a linear congruential generator).
@@ -205,7 +206,7 @@ fn culling_changes_no_bit_where_the_strength_varies() {
             line: vec![Vec3::new(0.02, -0.2, 0.0), Vec3::new(0.04, 0.2, 0.0)],
             radius: 0.01,
         };
-        let scored = Fields::from_patches(asset, &[Patch::of_strength(line, 0.3)]).unwrap();
+        let scored = weakness::from_patches(asset, &[Patch::of_strength(line, 0.3)]).unwrap();
         for (k, fields) in [
             waves.clone(),
             waves.with_weibull_modulus(6.0),

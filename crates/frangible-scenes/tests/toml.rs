@@ -3,8 +3,9 @@
 use std::path::Path;
 
 use frangible::glam::{Quat, Vec3};
-use frangible::internals::{Channel, CrackPath, CrackTiming, Paint, Patch, Zone};
+use frangible::internals::{CrackPath, CrackTiming};
 use frangible::{FractureConfig, Material};
+use frangible_bake::weakness::{Channel, Paint, Patch, Zone};
 use frangible_bake::{Shape, Station};
 use frangible_scenes::{
     Axis, BodySource, BodySpec, FileWish, MaterialEdit, Place, Projectile, ProjectileKind, Region,

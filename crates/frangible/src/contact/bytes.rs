@@ -15,31 +15,9 @@ impl Contact {
     /// The contact as bytes: its numbers in the order of the fields, little-endian, four bytes each.
     #[must_use]
     pub fn to_bytes(&self) -> [u8; Self::BYTES] {
-        let s = &self.striker;
-        let of = |v: Vec3| v.to_array();
-        let ([px, py, pz], [nx, ny, nz], [fx, fy, fz]) =
-            (of(self.point), of(self.normal), of(self.friction));
-        let numbers: [f32; NUMBERS] = [
-            px,
-            py,
-            pz,
-            nx,
-            ny,
-            nz,
-            self.impulse,
-            fx,
-            fy,
-            fz,
-            self.approach_speed,
-            self.duration,
-            s.contact_modulus,
-            s.inverse_effective_mass,
-            s.curvature_radius,
-            s.restitution,
-            s.modal_duration,
-        ];
+        let mut contact = *self;
         let mut bytes = [0; Self::BYTES];
-        for (place, number) in bytes.as_chunks_mut().0.iter_mut().zip(numbers) {
+        for (place, number) in bytes.as_chunks_mut().0.iter_mut().zip(contact.numbers()) {
             *place = number.to_le_bytes();
         }
         bytes
@@ -53,46 +31,33 @@ impl Contact {
         let Ok(bytes) = <&[u8; Self::BYTES]>::try_from(bytes) else {
             return Err(InputError::ContactBytes(bytes.len()));
         };
-        let mut numbers = [0.0; NUMBERS];
-        for (number, &place) in numbers.iter_mut().zip(bytes.as_chunks().0) {
+        let mut contact = Self::new(Vec3::ZERO, Vec3::ZERO, 0.0, 0.0, Striker::rigid());
+        for (number, &place) in contact.numbers().into_iter().zip(bytes.as_chunks().0) {
             *number = f32::from_le_bytes(place);
         }
-        let [
-            px,
-            py,
-            pz,
-            nx,
-            ny,
-            nz,
-            impulse,
-            fx,
-            fy,
-            fz,
-            approach_speed,
-            duration,
-            contact_modulus,
-            inverse_effective_mass,
-            curvature_radius,
-            restitution,
-            modal_duration,
-        ] = numbers;
-        let contact = Self {
-            point: Vec3::new(px, py, pz),
-            normal: Vec3::new(nx, ny, nz),
-            impulse,
-            friction: Vec3::new(fx, fy, fz),
-            approach_speed,
-            duration,
-            striker: Striker {
-                contact_modulus,
-                inverse_effective_mass,
-                curvature_radius,
-                restitution,
-                modal_duration,
-            },
-        };
         contact.validate()?;
         Ok(contact)
+    }
+
+    /// All numbers of the contact, in the order of its fields.
+    fn numbers(&mut self) -> [&mut f32; NUMBERS] {
+        let Self {
+            point,
+            normal,
+            impulse,
+            friction,
+            approach_speed,
+            duration,
+            striker: s,
+        } = self;
+        let [[px, py, pz], [nx, ny, nz], [fx, fy, fz]] =
+            [point, normal, friction].map(|v| v.as_mut().each_mut());
+        #[rustfmt::skip]
+        let numbers = [
+            px, py, pz, nx, ny, nz, impulse, fx, fy, fz, approach_speed, duration,
+            &mut s.contact_modulus, &mut s.inverse_effective_mass, &mut s.curvature_radius, &mut s.restitution, &mut s.modal_duration,
+        ];
+        numbers
     }
 }
 

@@ -1,4 +1,4 @@
-//! Small baked bodies, and blows on them. The test `core_bodies` of `frangible-bake` says how they were baked, and bakes them anew.
+//! Small baked bodies, and blows on them. The test `core_bodies` of `frangible-bake` says how they were baked; `cargo xtask rebake` bakes them anew.
 #![allow(
     dead_code,
     unreachable_pub,
