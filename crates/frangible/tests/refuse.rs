@@ -64,12 +64,12 @@ fn compare(
 fn the_bounds_change_no_bit_of_what_breaks() {
     let mut looked = [0; 5];
     for (name, kind) in [("pane", pane()), ("block", block()), ("shelf", shelf())] {
-        let broke = compare(kind, name, 30, true, &mut looked);
-        assert!(broke > 5, "{name}: {broke} of 90 broke");
+        let broke = compare(kind, name, 16, true, &mut looked);
+        assert!(broke > 2, "{name}: {broke} of 48 broke");
     }
     let [sizes, impulses, amplitudes, clusters, stresses] = looked;
     println!("{looked:?}");
-    assert!(sizes + impulses > 20 && amplitudes + clusters > 5 && stresses > 20);
+    assert!(sizes + impulses > 10 && amplitudes + clusters > 2 && stresses > 10);
 }
 
 #[test]

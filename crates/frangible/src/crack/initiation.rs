@@ -8,9 +8,10 @@
 use glam::Vec3;
 
 use super::field::StressField;
+use super::single::ElementCut;
 use super::surface::{CrackFrame, crossing_area};
 use super::suspects::{Suspect, Suspects};
-use super::system::{CrackSystem, ElementCut, UNCUT};
+use super::system::{CrackSystem, UNCUT};
 use super::{advance, propagation::gradient, retry};
 use crate::config::CrackTiming;
 use crate::rng::{Purpose, stream, uniform};

@@ -1,4 +1,4 @@
-//! Bounds of parts of a body from the farthest that each mode moves, at any time.
+//! Bounds of the stress in each cluster that holds weak points, from the farthest that each mode moves.
 
 use super::impact::Refusal;
 use super::stress_bounds::tension_bound;

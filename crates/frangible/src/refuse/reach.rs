@@ -5,7 +5,7 @@
 
 use crate::modal::ModalBasis;
 
-/// What the bounds need of each mode.
+/// How far a blow moves each mode at most.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Reaches {
     /// λ, 1/s².

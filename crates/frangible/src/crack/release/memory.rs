@@ -3,8 +3,9 @@
 use glam::Vec3;
 
 use super::super::arrivals::{Arrivals, Queue};
+use super::super::single::{Crack, Extent};
 use super::super::sites::Site;
-use super::super::system::{Crack, CrackSystem, Extent};
+use super::super::system::CrackSystem;
 use crate::stress::{STRETCHED, Shadow, share_beside, share_left};
 
 /// A smaller fall of a share than this is passed over.
