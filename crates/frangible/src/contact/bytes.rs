@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use super::{Contact, Striker};
+use super::{Contact, SharedMass, Striker};
 use crate::error::InputError;
 
 /// Numbers of a contact.
@@ -10,7 +10,7 @@ const NUMBERS: usize = Contact::BYTES / 4;
 
 impl Contact {
     /// Length of a contact in bytes.
-    pub const BYTES: usize = 68;
+    pub const BYTES: usize = 96;
 
     /// The contact as bytes: its numbers in the order of the fields, little-endian, four bytes each.
     #[must_use]
@@ -19,6 +19,12 @@ impl Contact {
         let of = |v: Vec3| v.to_array();
         let ([px, py, pz], [nx, ny, nz], [fx, fy, fz]) =
             (of(self.point), of(self.normal), of(self.friction));
+        // A striker that shares its mass has the number of its body plus one, and 0 says that it does not.
+        let (number, velocity, spin) = (s.shared.as_ref())
+            .map_or((0, Vec3::ZERO, Vec3::ZERO), |shared| {
+                (shared.body + 1, shared.velocity, shared.spin)
+            });
+        let ([vx, vy, vz], [sx, sy, sz]) = (of(velocity), of(spin));
         let numbers: [f32; NUMBERS] = [
             px,
             py,
@@ -37,6 +43,13 @@ impl Contact {
             s.curvature_radius,
             s.restitution,
             s.modal_duration,
+            f32::from_bits(number),
+            vx,
+            vy,
+            vz,
+            sx,
+            sy,
+            sz,
         ];
         let mut bytes = [0; Self::BYTES];
         for (place, number) in bytes.as_chunks_mut().0.iter_mut().zip(numbers) {
@@ -75,7 +88,21 @@ impl Contact {
             curvature_radius,
             restitution,
             modal_duration,
+            number,
+            vx,
+            vy,
+            vz,
+            sx,
+            sy,
+            sz,
         ] = numbers;
+        let shared = SharedMass {
+            body: number.to_bits().wrapping_sub(1),
+            velocity: Vec3::new(vx, vy, vz),
+            spin: Vec3::new(sx, sy, sz),
+        };
+        let alone =
+            number.to_bits() == 0 && shared.velocity == Vec3::ZERO && shared.spin == Vec3::ZERO;
         let contact = Self {
             point: Vec3::new(px, py, pz),
             normal: Vec3::new(nx, ny, nz),
@@ -89,6 +116,7 @@ impl Contact {
                 curvature_radius,
                 restitution,
                 modal_duration,
+                shared: (!alone).then_some(shared),
             },
         };
         contact.validate()?;
@@ -112,12 +140,24 @@ mod tests {
         contact
     }
 
+    fn shared() -> Contact {
+        let mut contact = contact();
+        contact.striker.shared = Some(SharedMass {
+            body: 3,
+            velocity: Vec3::new(0.5, 0.0, -0.25),
+            spin: Vec3::new(0.0, -1.5, 0.125),
+        });
+        contact
+    }
+
     #[test]
     fn a_contact_survives_its_bytes() {
-        let bytes = contact().to_bytes();
-        let back = Contact::from_bytes(&bytes).unwrap();
-        assert_eq!(back, contact());
-        assert_eq!(back.to_bytes(), bytes);
+        for contact in [contact(), shared()] {
+            let bytes = contact.to_bytes();
+            let back = Contact::from_bytes(&bytes).unwrap();
+            assert_eq!(back, contact);
+            assert_eq!(back.to_bytes(), bytes);
+        }
     }
 
     #[test]
@@ -130,7 +170,7 @@ mod tests {
 
     #[test]
     fn hostile_bytes_are_refused_and_never_a_panic() {
-        let bytes = contact().to_bytes();
+        let bytes = shared().to_bytes();
         for length in 0..bytes.len() {
             assert_eq!(
                 Contact::from_bytes(&bytes[..length]),
