@@ -5,6 +5,7 @@ use std::sync::{Arc, OnceLock};
 
 use frangible::glam::{DVec3, Vec3};
 use frangible::internals::blow::Blow;
+use frangible::internals::contact::SharedMass;
 use frangible::internals::near_field::PlateTheory;
 use frangible::internals::stress::largest_eigenvalue;
 use frangible::{Asset, Body, Breakable, Contact, FractureConfig, Material, Striker, impact};
@@ -519,4 +520,47 @@ fn a_wall_of_any_thickness_gives_no_nonsense() {
         let blow = Blow::new(&body, &[contact], &config).unwrap().unwrap();
         assert!(blow.reports()[0].impulse > 0.0, "{what}");
     }
+}
+
+#[test]
+fn a_body_that_strikes_at_four_points_brings_its_energy_once() {
+    let body = Breakable::new(brick().clone()).unwrap().body(1);
+    let (mass, inertia, speed) = (1.5_f32, 0.02_f32, 2.0_f32);
+    let contacts = |share: bool| {
+        [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)].map(|(a, b)| {
+            let point = Vec3::new(0.08 * a, 0.03 * b, 0.025);
+            let normal = Vec3::NEG_Z;
+            let turn = point.cross(normal);
+            let shared = SharedMass {
+                body: 7,
+                velocity: normal / mass.sqrt(),
+                spin: turn / inertia.sqrt(),
+            };
+            let striker = Striker {
+                inverse_effective_mass: 1.0 / mass + turn.length_squared() / inertia,
+                shared: share.then_some(shared),
+                ..Striker::ball(&Material::preset("steel").unwrap(), 1.0, 0.01)
+            };
+            Contact::new(point, normal, 0.0, speed, striker)
+        })
+    };
+    let mut config = FractureConfig::default();
+    config.culling = false;
+    let found = |share: bool| {
+        let outcome = impact(&body, &contacts(share), &config).unwrap();
+        let report = outcome.report();
+        let impulse: f64 = report.contacts.iter().map(|c| c.impulse).sum();
+        (report.approach_energy, report.peak_strain_energy, impulse)
+    };
+    let own = brick().mass.mass;
+    let reduced = 1.0 / (1.0 / own + 1.0 / f64::from(mass));
+    let energy = 0.5 * reduced * f64::from(speed).powi(2);
+    let (approach, strain, impulse) = found(true);
+    assert!(
+        (approach / energy - 1.0).abs() < 1e-3,
+        "{approach} {energy}"
+    );
+    assert!(strain <= approach && impulse <= 2.0 * reduced * f64::from(speed));
+    // As four bodies they would bring more.
+    assert!(found(false).0 > 1.2 * energy);
 }

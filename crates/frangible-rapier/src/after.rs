@@ -22,6 +22,7 @@ use crate::exchange::Families;
 use crate::guard::put_back;
 use crate::judge::{Case, Verdict, verdict};
 use crate::motion::kinetic_energy;
+use crate::replace::Replacement;
 use crate::settle::Broken;
 use crate::timings::Watch;
 use crate::toll::take_energy;
@@ -374,7 +375,10 @@ impl BreakableWorld {
         let Some(parent) = self.physics.bodies.get(handle).cloned() else {
             return Ok(None);
         };
-        let fragments = self.replace(handle, &parts);
+        let Replacement {
+            fragments,
+            released,
+        } = self.replace(handle, &parts);
         let mut strikers = impact.strikers.clone();
         strikers.retain(|&s| self.physics.bodies.contains(s));
         // What met a body that broke before it meets that one's pieces.
@@ -412,6 +416,7 @@ impl BreakableWorld {
             parts,
             impact: Impact { strikers, ..impact },
             fragments,
+            released,
             blow: Vec::new(),
             lost,
         };

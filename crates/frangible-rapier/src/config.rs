@@ -175,6 +175,17 @@ impl Default for WorldConfig {
 }
 
 impl WorldConfig {
+    /// The default without what changes how bodies move that cannot break: no rolling resistance, and sleep left to Rapier. So steps
+    /// without breakable bodies are Rapier's own, bit for bit.
+    #[must_use]
+    pub fn plain() -> Self {
+        Self {
+            rolling_arm: 0.0,
+            rest_drift: 0.0,
+            ..Self::default()
+        }
+    }
+
     /// Checks every number.
     ///
     /// # Errors

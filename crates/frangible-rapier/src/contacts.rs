@@ -2,14 +2,14 @@
 //!
 //! Theory §2: point and direction in the body frame, the impulse on this body, the approach speed from the
 //! velocities **before** the step (Rapier keeps only those after it), and the striker's modulus, effective
-//! mass, curvature, restitution, and, when it is breakable too, how long it answers. A partner that touches at several points
-//! shares its mass among them, so that the energy of approach is counted once. Of a blow that is integrated the impulse is an
+//! mass, curvature, restitution, and, when it is breakable too, how long it answers. The contacts of a partner that touches at several
+//! points say that they share its mass, so that the energy of approach is counted once. Of a blow that is integrated the impulse is an
 //! outcome; the engine's then says only which share of it is friction.
 
 use std::collections::BTreeMap;
 
 use frangible::internals::DurationModel;
-use frangible::internals::contact::answer_duration;
+use frangible::internals::contact::{SharedMass, answer_duration};
 use frangible::{Body, Contact, Striker};
 use rapier3d::dynamics::{FrictionModel, RigidBody, RigidBodyHandle};
 use rapier3d::geometry::ColliderHandle;
@@ -73,7 +73,7 @@ pub(crate) fn impact_on(
         }
         _ => None,
     };
-    for group in groups {
+    for (number, group) in groups.into_iter().enumerate() {
         let other = group[0].other;
         let partner = other.and_then(|other| before.body(other));
         let first = impact.contacts.len();
@@ -104,7 +104,7 @@ pub(crate) fn impact_on(
             rub(added, body, partner, coefficient, rubbed);
         }
         if let Some(partner) = partner {
-            share_striker(added, body, partner);
+            share_mass(added, body, partner, number);
         }
         if let (Some(other), Some(partner)) = (other, partner) {
             let other = surfaces.breakables.get(&key(other));
@@ -293,6 +293,7 @@ fn striker(
         curvature_radius,
         restitution: point.restitution.clamp(0.0, 1.0),
         modal_duration: 0.0,
+        shared: None,
     }
 }
 
@@ -373,41 +374,41 @@ pub(crate) fn weighted_mean(contacts: &[Contact]) -> Option<(Vector, Vector, f32
     ))
 }
 
-/// Shares a partner that strikes at several points among them: w_k of its effective mass at each, half of it evenly and half as
-/// the impulses are. Each with the whole mass would count the energy of approach once per point. Where the points differ in
-/// speed the shares are smaller by (Σ w v)² / Σ w v², so that together they bring the energy ½ (Σ w v)² / (nᵀ K n) of the
-/// approach of their common push, which is never more than the motion holds.
-fn share_striker(contacts: &mut [Contact], body: &RigidBody, partner: &RigidBody) {
-    let count = contacts.len() as f32;
-    let total: f32 = contacts.iter().map(|c| c.impulse).sum();
-    if contacts.len() < 2 || !(total.is_finite() && total > 0.0) {
+/// A partner that strikes at several points does so with one mass: an impulse at one of them moves it at the others too. `number`: of the
+/// partner, among those of this impact.
+fn share_mass(contacts: &mut [Contact], body: &RigidBody, partner: &RigidBody, number: usize) {
+    if contacts.len() < 2 || !partner.is_dynamic() {
         return;
     }
-    let weight = |c: &Contact| 0.5 * (c.impulse / total + 1.0 / count);
-    let mean = |f: &dyn Fn(&Contact) -> Vector| {
-        let terms = contacts.iter().map(|c| f(c) * weight(c));
-        terms.sum::<Vector>()
-    };
-    let normal = mean(&|c| c.normal).try_normalize();
-    let speed: f32 = contacts.iter().map(|c| weight(c) * c.approach_speed).sum();
-    let square: f32 = (contacts.iter())
-        .map(|c| weight(c) * c.approach_speed * c.approach_speed)
-        .sum();
-    let even = if square > 0.0 {
-        speed * speed / square
-    } else {
-        1.0
-    };
-    // Points that push against each other have no common push: each keeps its own.
-    let common = normal.map(|normal| {
-        let point = *body.position() * mean(&|c| c.point);
-        inverse_effective_mass(partner, point, *body.rotation() * normal)
-    });
-    let shares: Vec<f32> = contacts.iter().map(|c| even * weight(c)).collect();
-    for (contact, share) in contacts.iter_mut().zip(shares) {
-        let own = contact.striker.inverse_effective_mass;
-        contact.striker.inverse_effective_mass = common.unwrap_or(own) / share;
+    let mass = partner.mass_properties();
+    let spins = lower_factor(Vector::AXES.map(|axis| mass.effective_world_inv_inertia * axis));
+    for contact in contacts {
+        let point = *body.position() * contact.point;
+        let normal = *body.rotation() * contact.normal;
+        let turn = (point - mass.world_com).cross(normal);
+        // I⁻¹ = L Lᵀ: the square of Lᵀ turn is what inverse_effective_mass has.
+        contact.striker.shared = Some(SharedMass {
+            body: number as u32,
+            velocity: mass.effective_inv_mass.map(f32::sqrt) * normal,
+            spin: Vector::from_array(spins.map(|column| column.dot(turn))),
+        });
     }
+}
+
+/// Columns of the lower triangular L with L Lᵀ = the symmetric matrix of these columns; zero where the matrix does not give way.
+fn lower_factor(columns: [Vector; 3]) -> [Vector; 3] {
+    let mut rest = columns;
+    std::array::from_fn(|k| {
+        let pivot = rest[k][k];
+        if pivot <= 0.0 {
+            return Vector::ZERO;
+        }
+        let column = rest[k] / pivot.sqrt();
+        for (l, other) in rest.iter_mut().enumerate() {
+            *other -= column * column[l];
+        }
+        column
+    })
 }
 
 /// Scales the impulses of one pair so that their sum is no more than the two bodies' meeting can give,

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use frangible::internals::BodyState;
 use frangible::{Asset, Contact, Fracture, ImpactReport};
-use rapier3d::dynamics::RigidBodyHandle;
+use rapier3d::dynamics::{ImpulseJointHandle, RigidBodyHandle};
 use rapier3d::math::{Pose, Vector};
 
 /// What broke a body.
@@ -34,6 +34,9 @@ pub struct BreakEvent {
     pub asset: Arc<Asset>,
     /// The new bodies, in the order of [`Fracture::fragments`]. Debris may be removed again later.
     pub fragments: Vec<RigidBodyHandle>,
+    /// Impulse joints of the body that no fragment holds; they are no longer in the world. The others are a fragment's now, with the same
+    /// handles.
+    pub released_joints: Vec<ImpulseJointHandle>,
     /// The pieces, their meshes and the report.
     pub fracture: Arc<Fracture>,
     /// The contacts that broke it, body frame. Of a resting load: the pushes of one step, speed 0, friction within the
@@ -50,14 +53,16 @@ pub struct BreakEvent {
     /// Energy taken from the motion for the cracks, J: what the blow took into vibration first, then a toll. At most
     /// `fracture.report.fracture_energy`, less when the pieces hardly moved against each other.
     pub energy_paid: f64,
-    /// Kinetic energy before the step, of the body and of what hit it, J; of a blast or scripted blow, of the body alone.
+    /// Kinetic energy before the step, of the body and of all that it pushed in the step, directly or through others, J; of a break after
+    /// the step, of the body and of what hit it; of a blast or scripted blow, of the body alone.
     pub kinetic_before: f64,
-    /// Kinetic energy after the step, of the fragments and of what hit the body (its fragments, if it broke too), J; of a
-    /// blast or scripted blow, of the fragments before the step moves them. At most `kinetic_before` + `work`, but for
-    /// rounding and for what others gave them in the same step.
+    /// Kinetic energy of all these after the step, J, the pieces in place of the bodies; of a blast or scripted blow, of the fragments
+    /// before the step moves them. Together with `cracks_together` at most `kinetic_before` + `work`, but for rounding.
     pub kinetic_after: f64,
     /// Work of gravity on them in the step where it speeds them up, or of the blast or scripted blow, J.
     pub work: f64,
+    /// Fracture energy of the body and of those of the others that broke in the same step, J.
+    pub cracks_together: f64,
 }
 
 /// An impact, blast or scripted blow that broke nothing, or a resting load that cracked a body without parting it;

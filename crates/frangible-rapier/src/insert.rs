@@ -1,7 +1,7 @@
 //! Ways into the world.
 
 use frangible::Body;
-use rapier3d::dynamics::{MassProperties, RigidBodyBuilder, RigidBodyHandle};
+use rapier3d::dynamics::{MassProperties, RigidBodyBuilder, RigidBodyHandle, RigidBodyType};
 use rapier3d::geometry::{ColliderBuilder, ColliderHandle, HalfSpace, SharedShape};
 use rapier3d::math::{Pose, Vector};
 use std::sync::Arc;
@@ -22,12 +22,8 @@ pub struct Ball {
 }
 
 impl BreakableWorld {
-    /// A breakable body, its centre of mass at `pose`; `linvel` in m/s, `angvel` in rad/s.
-    ///
-    /// Its collider is the compound of the asset's convex cells; mass and inertia are the asset's. A body whose asset
-    /// [is supported](frangible::Asset::is_supported) is a fixed one: it does not move, whatever the velocities, until it
-    /// breaks; then the fragments that are still supported stay where they are. Any other can be held by making it
-    /// fixed in [`BreakableWorld::physics`], or by impulse joints, but all its fragments are dynamic.
+    /// A breakable body, its centre of mass at `pose`; `linvel` in m/s, `angvel` in rad/s. [`insert_body`](Self::insert_body) has
+    /// everything else that Rapier's builders can say.
     ///
     /// # Errors
     /// A pose or velocity that is not finite, an asset whose mass is no positive number, a full world.
@@ -38,10 +34,32 @@ impl BreakableWorld {
         linvel: Vector,
         angvel: Vector,
     ) -> Result<RigidBodyHandle, WorldError> {
+        let rigid = RigidBodyBuilder::dynamic().pose(pose);
+        self.insert_body(body, rigid.linvel(linvel).angvel(angvel), |collider| {
+            collider
+        })
+    }
+
+    /// A breakable body as Rapier's own builders describe it: `rigid` says where its centre of mass is, how it moves, its user data; `finish`
+    /// gets the builder of its collider and may add groups, hooks, events. Fragments inherit all of that.
+    ///
+    /// The collider is the compound of the asset's convex cells, with the friction and restitution of its material; mass and inertia are
+    /// the asset's. A body whose asset [is supported](frangible::Asset::is_supported) becomes a fixed one: it does not move, whatever its
+    /// velocities, until it breaks; then the fragments that are still supported stay where they are. Any other can be held by a fixed
+    /// `rigid`, or by impulse joints, but all its fragments are dynamic.
+    ///
+    /// # Errors
+    /// A pose or velocity that is not finite, an asset whose mass is no positive number, a full world.
+    pub fn insert_body(
+        &mut self,
+        body: Body,
+        rigid: RigidBodyBuilder,
+        finish: impl FnOnce(ColliderBuilder) -> ColliderBuilder,
+    ) -> Result<RigidBodyHandle, WorldError> {
         self.check_room()?;
-        check_pose(pose)?;
-        finite("velocity", linvel)?;
-        finite("angular velocity", angvel)?;
+        check_pose(rigid.position)?;
+        finite("velocity", rigid.linvel)?;
+        finite("angular velocity", rigid.angvel)?;
         let mass = rapier_mass(&body.asset().mass)?;
         let shape = match self
             .shapes
@@ -57,13 +75,12 @@ impl BreakableWorld {
         };
         let surface = SurfaceProperties::of(&body.asset().material, EDGE_RADIUS);
         surface.validate()?;
-        let builder = if body.asset().is_supported() {
-            RigidBodyBuilder::fixed().pose(pose)
-        } else {
-            let builder = RigidBodyBuilder::dynamic().pose(pose);
-            builder.linvel(linvel).angvel(angvel)
-        };
-        let handle = self.insert(builder.additional_mass_properties(mass), shape, surface);
+        let mut rigid = rigid.additional_mass_properties(mass);
+        if body.asset().is_supported() {
+            rigid.body_type = RigidBodyType::Fixed;
+            rigid = rigid.linvel(Vector::ZERO).angvel(Vector::ZERO);
+        }
+        let handle = self.insert_finished(rigid, shape, surface, finish);
         self.breakables.insert(key(handle), body);
         Ok(handle)
     }
@@ -198,11 +215,22 @@ impl BreakableWorld {
         shape: SharedShape,
         surface: SurfaceProperties,
     ) -> RigidBodyHandle {
+        self.insert_finished(body, shape, surface, |collider| collider)
+    }
+
+    fn insert_finished(
+        &mut self,
+        body: RigidBodyBuilder,
+        shape: SharedShape,
+        surface: SurfaceProperties,
+        finish: impl FnOnce(ColliderBuilder) -> ColliderBuilder,
+    ) -> RigidBodyHandle {
         let handle = self.physics.bodies.insert(body);
         let collider = ColliderBuilder::new(shape)
-            .mass_properties(MassProperties::default())
             .friction(surface.friction)
             .restitution(surface.restitution);
+        // The mass is the body's, whatever is said of the collider's.
+        let collider = finish(collider).mass_properties(MassProperties::default());
         self.physics.insert_collider(collider, Some(handle));
         if let Some(body) = self.physics.bodies.get_mut(handle) {
             // Rapier would do it at the next step; energy and momentum are asked for before.

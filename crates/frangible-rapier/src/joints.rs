@@ -6,13 +6,14 @@ use rapier3d::pipeline::PhysicsWorld;
 
 /// Moves the parent's impulse joints to the nearest fragments and removes those with none within `reach` m.
 /// `fragments`: handle and centre in the parent's frame. Call while the parent is still in the world: joint
-/// handles stay valid.
+/// handles stay valid. Returns the joints that were removed.
 pub(crate) fn hand_over_joints(
     physics: &mut PhysicsWorld,
     parent: RigidBodyHandle,
     fragments: &[(RigidBodyHandle, Vector)],
     reach: f32,
-) {
+) -> Vec<ImpulseJointHandle> {
+    let mut released = Vec::new();
     let attached: Vec<(RigidBodyHandle, RigidBodyHandle, ImpulseJointHandle, Pose)> = physics
         .impulse_joints
         .attached_joints(parent)
@@ -29,6 +30,7 @@ pub(crate) fn hand_over_joints(
         let holder = holder(physics, fragments, frame.translation, reach);
         let Some((fragment, centre)) = holder else {
             physics.impulse_joints.remove(handle, true);
+            released.push(handle);
             continue;
         };
         // The fragment's axes are the parent's; only the origin moved to its centre of mass.
@@ -49,6 +51,7 @@ pub(crate) fn hand_over_joints(
             }
         }
     }
+    released
 }
 
 /// The fragment nearest to an anchor of the parent's frame, if any is within `reach`; ties go to the first.

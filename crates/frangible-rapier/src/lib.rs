@@ -20,7 +20,8 @@
 //! # Ok::<(), frangible_rapier::WorldError>(())
 //! ```
 //!
-//! `examples/glass.rs` is a whole game: a glass falls and breaks.
+//! `examples/glass.rs` is a whole game: a glass falls and breaks. A game that has a Rapier world already keeps it, and steps it by a
+//! [`Breaker`] in place of Rapier's pipeline: `examples/window.rs`.
 //!
 //! # What breaks a body
 //! Impacts, with their friction, on one body or on two breakable ones that meet. What it carries: after every step the
@@ -72,6 +73,7 @@ mod after;
 mod approach;
 mod ask;
 mod blows;
+mod breaker;
 mod callbacks;
 mod cluster;
 mod collider;
@@ -109,6 +111,7 @@ mod timings;
 mod toll;
 mod world;
 
+pub use breaker::{Breaker, Sets};
 pub use collider::collision_shape;
 pub use config::{Breaking, ColliderDetail, PieceConfig, WorldConfig};
 pub use counts::LoadCounts;

@@ -19,7 +19,7 @@ use crate::contacts::Impact;
 use crate::error::{WorldError, finite, positive};
 use crate::event::{BreakCause, HeldEvent};
 use crate::motion::kinetic_energy;
-use crate::replace::Parts;
+use crate::replace::{Parts, Replacement};
 use crate::settle::Broken;
 use crate::toll::take_energy;
 use crate::world::{BreakableWorld, key};
@@ -253,7 +253,10 @@ impl BreakableWorld {
         };
         let parts = Parts::new(&fracture, &self.config)?;
         let before = self.physics.bodies.get(handle).cloned();
-        let fragments = self.replace(handle, &parts);
+        let Replacement {
+            fragments,
+            released,
+        } = self.replace(handle, &parts);
         for (i, &fragment) in fragments.iter().enumerate() {
             self.kick(fragment, piece(&fracture, i));
         }
@@ -275,6 +278,7 @@ impl BreakableWorld {
             parts,
             impact: Impact::default(),
             fragments,
+            released,
             blow: Vec::new(),
             lost: 0.0,
         };

@@ -2,7 +2,7 @@
 
 use frangible::{Fracture, Fragment};
 use rapier3d::dynamics::{
-    MassProperties, RigidBody, RigidBodyBuilder, RigidBodyHandle, RigidBodyType,
+    ImpulseJointHandle, MassProperties, RigidBody, RigidBodyBuilder, RigidBodyHandle, RigidBodyType,
 };
 use rapier3d::geometry::{Aabb, Collider, ColliderBuilder, SharedShape};
 use rapier3d::math::{Pose, Vector};
@@ -62,17 +62,23 @@ pub(crate) fn is_debris(fragment: &Fragment, config: &WorldConfig) -> bool {
     fragment.mass.mass < f64::from(config.debris_mass.max(config.dust_mass))
 }
 
+/// What stands in the place of a body that broke.
+pub(crate) struct Replacement {
+    pub(crate) fragments: Vec<RigidBodyHandle>,
+    /// Joints of the body that no fragment holds; they are no longer in the world.
+    pub(crate) released: Vec<ImpulseJointHandle>,
+}
+
 impl BreakableWorld {
     /// Puts fragments in the place of `parent`, each moving as the piece of the rigid body it was:
     /// v + ω × r, same ω. Neither momentum nor angular momentum nor kinetic energy changes. Of a fixed parent the
     /// supported fragments are fixed, the others start from rest.
-    pub(crate) fn replace(
-        &mut self,
-        parent: RigidBodyHandle,
-        parts: &Parts,
-    ) -> Vec<RigidBodyHandle> {
+    pub(crate) fn replace(&mut self, parent: RigidBodyHandle, parts: &Parts) -> Replacement {
         let Some(body) = self.physics.bodies.get(parent).cloned() else {
-            return Vec::new();
+            return Replacement {
+                fragments: Vec::new(),
+                released: Vec::new(),
+            };
         };
         let skin = body
             .colliders()
@@ -93,7 +99,7 @@ impl BreakableWorld {
             }
             fragments.push((handle, part.centre));
         }
-        hand_over_joints(
+        let released = hand_over_joints(
             &mut self.physics,
             parent,
             &fragments,
@@ -104,7 +110,10 @@ impl BreakableWorld {
         let handles: Vec<RigidBodyHandle> =
             fragments.into_iter().map(|(handle, _)| handle).collect();
         self.siblings.born(&handles);
-        handles
+        Replacement {
+            fragments: handles,
+            released,
+        }
     }
 
     fn bounds(&self, body: &RigidBody) -> Option<Aabb> {

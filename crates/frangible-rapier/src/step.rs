@@ -25,6 +25,7 @@ use crate::error::WorldError;
 use crate::event::{BreakCause, BreakEvent, HeldEvent};
 use crate::guard::{Centres, centres, put_back};
 use crate::judge::{Verdict, verdict};
+use crate::replace::Replacement;
 use crate::rolling::resist_rolling;
 use crate::settle::Broken;
 use crate::snapshot::Snapshot;
@@ -272,7 +273,11 @@ impl BreakableWorld {
             base.restore(&mut self.physics, &mut self.siblings);
             self.timings.copies += watch.lap();
             for broken in &mut asked.broken {
-                broken.fragments = self.replace(broken.parent, &broken.parts);
+                let Replacement {
+                    fragments,
+                    released,
+                } = self.replace(broken.parent, &broken.parts);
+                (broken.fragments, broken.released) = (fragments, released);
             }
             self.pass_blows(&mut asked.broken);
             self.timings.fragments += watch.lap();
@@ -440,6 +445,7 @@ impl BreakableWorld {
             parts,
             impact: answer.impact,
             fragments: Vec::new(),
+            released: Vec::new(),
             blow,
             lost: 0.0,
         });

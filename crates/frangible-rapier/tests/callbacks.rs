@@ -16,7 +16,7 @@ use frangible_rapier::rapier3d::math::Vector;
 use frangible_rapier::rapier3d::pipeline::{
     ActiveEvents, ActiveHooks, EventHandler, PairFilterContext, PhysicsHooks, PhysicsWorld,
 };
-use frangible_rapier::{Ball, BreakableWorld, SurfaceProperties, WorldConfig};
+use frangible_rapier::{Ball, BreakableWorld, Breaker, Sets, SurfaceProperties, WorldConfig};
 
 const HALF: Vec3 = Vec3::new(0.10, 0.02, 0.05);
 
@@ -90,35 +90,41 @@ fn furnish(physics: &mut PhysicsWorld) -> Vec<RigidBodyHandle> {
 
 #[test]
 fn without_breakables_a_step_is_rapiers_own_bit_for_bit() {
-    // The two things of ours that act on bodies of the game, switched off.
-    let mut config = WorldConfig::default();
-    (config.rolling_arm, config.rest_drift) = (0.0, 0.0);
-    let mut ours = BreakableWorld::new(config).unwrap();
-    let mut theirs = PhysicsWorld {
+    let mut ours = BreakableWorld::new(WorldConfig::plain()).unwrap();
+    let mut breaker = Breaker::new();
+    let [mut theirs, mut shared] = [(); 2].map(|()| PhysicsWorld {
         gravity: ours.physics.gravity,
         integration_parameters: ours.physics.integration_parameters,
         ..PhysicsWorld::default()
-    };
-    let [balls, others] = [&mut ours.physics, &mut theirs].map(furnish);
+    });
+    let balls = furnish(&mut ours.physics);
     let ghost = Ghost(balls[1]);
-    for physics in [&mut ours.physics, &mut theirs] {
+    assert_eq!(
+        [&mut theirs, &mut shared].map(furnish),
+        [(); 2].map(|()| balls.clone())
+    );
+    for physics in [&mut ours.physics, &mut theirs, &mut shared] {
         let collider = physics.bodies[balls[1]].colliders()[0];
         physics.colliders[collider].set_active_hooks(ActiveHooks::FILTER_CONTACT_PAIRS);
     }
-    let (our_log, their_log) = (Log::default(), Log::default());
+    let [our_log, their_log, shared_log] = [(); 3].map(|()| Log::default());
     for _ in 0..120 {
         ours.step_with(&ghost, &our_log).unwrap();
         theirs.step_with_events(&ghost, &their_log);
+        let sets = Sets::from(&mut shared);
+        assert!(breaker.step(sets, &ghost, &shared_log).unwrap().is_empty());
     }
-    for (a, b) in balls.iter().zip(&others) {
-        let state = |physics: &PhysicsWorld, h: RigidBodyHandle| {
-            let rigid = &physics.bodies[h];
+    for &ball in &balls {
+        let state = |physics: &PhysicsWorld| {
+            let rigid = &physics.bodies[ball];
             format!("{:?} {:?}", rigid.position(), rigid.linvel())
         };
-        assert_eq!(state(&ours.physics, *a), state(&theirs, *b));
+        assert_eq!(state(&ours.physics), state(&theirs));
+        assert_eq!(state(&shared), state(&theirs));
     }
     assert!(our_log.lines().iter().any(|line| line.starts_with("force")));
     assert_eq!(our_log.lines(), their_log.lines());
+    assert_eq!(shared_log.lines(), their_log.lines());
     assert!(
         ours.physics.bodies[balls[1]].translation().y < -0.1,
         "the ghost fell through"

@@ -109,6 +109,7 @@ fn joints_move_to_the_fragment_that_holds_them_or_are_released() {
         world.physics.impulse_joints.get(loose).is_none(),
         "an anchor in the air holds nothing"
     );
+    assert_eq!(event.released_joints, [loose], "and the game hears of it");
     for (joint, x) in held.into_iter().zip([-0.1_f32, 0.1]) {
         let joint = world
             .physics

@@ -46,16 +46,15 @@ Written by `cargo run --release -p frangible-scenes --example energy > docs/ener
 | scene | cause | pieces | approach | peak strain | cracks | cracks / strain | kinetic before | work | kinetic after | paid by motion | lost to contacts |
 |---|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|";
 
-const FOOT: &str = "*Approach*: kinetic energy of approach that the contacts absorbed, the most that vibration may have. *Peak strain*: largest
-strain energy of the vibration at a time step, the most that all cracks together may spend. *Cracks*: fracture energy Σ A G_c.
-*Kinetic before* and *after*: of the body, or its pieces, and of what hit it, around the step of the break. *Work*: of gravity in
-that step. *Paid by motion*: what of the cracks' energy was taken from the relative motion of the pieces. *Lost to contacts*:
-the rest, before + work − after − paid; restitution and friction took it.
+const FOOT: &str = "*Approach*: the most kinetic energy that the contacts can take from the bodies' motion against each other along their normals. *Peak
+strain*: largest strain energy of the vibration at a time step. *Cracks*: fracture energy Σ A G_c, at most the peak strain and at most the
+approach. *Kinetic before* and *after*: of the body, or its pieces, and of all that it pushed in the step of the break, directly or
+through others. *Work*: of gravity in that step. *Paid by motion*: what of the cracks' energy was taken from the motion. *Lost to
+contacts*: the rest, before + work − after − paid; restitution and friction took it, and cracks of others that broke in the same step.
 
-Approach counts all that a collision absorbs up to its turning point; kinetic energy before also has what the collision leaves alone.
-So cracks ≤ peak strain ≤ approach ≤ before + work, and after + cracks ≤ before + work. *Known deviation*: not all rows keep this order where
-pieces break again (scenes `shards`, `wall`, `crockery`), since what several others bring to a piece in one step is not all counted as
-approach. The program ends with the list of them. A load that
+So cracks ≤ approach ≤ before + work, and after + all cracks of the step ≤ before + work. Without friction the peak strain is at most the
+approach too. Friction follows the normal force as the engine found it, and what it adds to the vibration comes from the sliding motion,
+which is not followed in the blow: there the strain may be larger than the approach, and cracks are not given what is above. A load that
 rests has no approach: its strain energy is the work it does on the body.";
 
 const BLOWS: &str = "## The blows

@@ -1,5 +1,6 @@
 //! What came of a scene.
 
+use frangible::glam::Vec3;
 use frangible::{Contact, ImpactReport};
 use frangible_export::Recording;
 use frangible_rapier::BreakCause;
@@ -102,46 +103,55 @@ pub struct BreakRecord {
     pub energy_paid: f64,
     /// What broke it.
     pub cause: BreakCause,
-    /// Kinetic energy of the body and of what hit it before the step of the break, J.
+    /// Kinetic energy of the body, and of all that it pushed in the step of the break, directly or through others, before that step, J.
     pub kinetic_before: f64,
-    /// Kinetic energy of the pieces and of what hit the body after that step, J.
+    /// Kinetic energy of the pieces and of the others after that step, J.
     pub kinetic_after: f64,
     /// Work of gravity on them in that step, J.
     pub work: f64,
+    /// Fracture energy of the body and of those of the others that broke in the same step, J.
+    pub cracks_together: f64,
 }
 
 /// Rounding of energies that are sums of f32, relative.
 const ROUNDING: f64 = 1e-5;
 
 impl BreakRecord {
-    /// Where the break has made energy out of nothing, if it has: of its approach the impact gives the vibration no more
-    /// than there was (with admissible durations), the vibration gives the cracks no more than its strain energy (with the
-    /// ledger), and motion and cracks together have no more than the motion had before.
+    /// Where the break has made energy out of nothing, if it has. The motion of approach holds no more than the motion, the vibration
+    /// no more than the approach brought (and friction, where there is some), the cracks no more than either; motion and cracks together
+    /// have no more than the motion had before.
     #[must_use]
     pub fn energy_created(&self) -> Option<String> {
         let r = &self.report;
         let impact = self.cause == BreakCause::Impact;
         let above = |what: f64, limit: f64| what > limit * (1.0 + ROUNDING) + f64::MIN_POSITIVE;
-        if impact && above(r.peak_strain_energy, r.approach_energy) {
-            let (strain, approach) = (r.peak_strain_energy, r.approach_energy);
+        let (strain, approach, cracks) =
+            (r.peak_strain_energy, r.approach_energy, r.fracture_energy);
+        let slides = self.contacts.iter().any(|c| c.friction != Vec3::ZERO);
+        if impact && !slides && above(strain, approach) {
             return Some(format!(
                 "{strain} J of strain energy out of {approach} J of approach"
             ));
         }
-        if above(r.fracture_energy, r.peak_strain_energy) {
-            let (cracks, strain) = (r.fracture_energy, r.peak_strain_energy);
+        if impact && above(cracks, approach) {
+            return Some(format!(
+                "{cracks} J of cracks out of {approach} J of approach"
+            ));
+        }
+        if above(cracks, strain) {
             return Some(format!(
                 "{cracks} J of cracks out of {strain} J of strain energy"
             ));
         }
         let before = self.kinetic_before + self.work.max(0.0);
+        if impact && above(r.approach_energy, before) {
+            let approach = r.approach_energy;
+            return Some(format!(
+                "{approach} J of approach out of {before} J of motion and work"
+            ));
+        }
         // What a resting load spends on cracks is the work of gravity that bent the body before.
-        let cracks = if impact {
-            r.fracture_energy
-        } else {
-            self.energy_paid
-        };
-        let after = self.kinetic_after + cracks;
+        let after = self.kinetic_after + if impact { self.cracks_together } else { 0.0 };
         above(after, before)
             .then(|| format!("{after} J of motion and cracks out of {before} J of motion and work"))
     }

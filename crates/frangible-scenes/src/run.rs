@@ -128,6 +128,7 @@ pub fn play(
                     energy_paid: event.energy_paid,
                     cause: event.cause,
                     kinetic_before: event.kinetic_before,
+                    cracks_together: event.cracks_together,
                     kinetic_after: event.kinetic_after,
                     work: event.work,
                 });

@@ -6,18 +6,15 @@ use std::sync::Arc;
 use frangible::glam::Vec3;
 use frangible::internals::mesh::TetMesh;
 use frangible::internals::modal::Motion;
-use frangible::internals::stress::largest_eigenvalue;
-use frangible::internals::{Stage, Vibration, impact_traced};
+use frangible::internals::outcome::ContactReport;
+use frangible::internals::stress::Symmetric3;
+use frangible::internals::{ShownStress, Stage, Vibration, impact_traced};
 use frangible::{Asset, Body, Contact, FractureConfig, InputError};
 
 use crate::blow::Blow;
-use frangible_bake::mode_field::motion_on_analysis_mesh;
 
 /// Modes that are plotted: those that strain the body most.
 const PLOTTED_MODES: usize = 6;
-
-/// Moments at which the body's largest tension is looked for.
-const TENSIONS: usize = 100;
 
 /// A number over time.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -66,6 +63,9 @@ pub struct Analysis {
     pub contact: f64,
     motion: Motion,
     time_step: f64,
+    body: Body,
+    config: FractureConfig,
+    pressed: Vec<u32>,
 }
 
 impl Analysis {
@@ -98,6 +98,9 @@ impl Analysis {
             contact: 0.0,
             motion: Motion::default(),
             time_step: 0.0,
+            body: body.clone(),
+            config: config.clone(),
+            pressed: Vec::new(),
             asset,
         };
         if let Stage::Vibrates(vibration) = Vibration::begin(body, contacts, &unculled)? {
@@ -106,8 +109,13 @@ impl Analysis {
             analysis.time_step = pulse.time_step;
             analysis.duration = pulse.time_step * analysis.motion.steps() as f64;
             analysis.contact = pulse.duration;
-            let impulse: f32 = contacts.iter().map(|contact| contact.impulse).sum();
-            analysis.force = force(f64::from(impulse) * pulse.amplitude, pulse.duration);
+            analysis.force = if vibration.report.contacts.is_empty() {
+                let impulse: f32 = contacts.iter().map(|contact| contact.impulse).sum();
+                half_sine(f64::from(impulse) * pulse.amplitude, pulse.duration)
+            } else {
+                force(&vibration.report.contacts, pulse.time_step)
+            };
+            analysis.pressed = vibration.pressed;
             analysis.modes = analysis.plotted_modes();
             analysis.find_tensions();
         }
@@ -117,13 +125,7 @@ impl Analysis {
     /// Amplitudes of all modes at this share of the motion's time, m·√kg; all at rest without a motion.
     #[must_use]
     pub fn amplitudes(&self, share: f64) -> &[f32] {
-        match self.motion.steps() {
-            0 => &[],
-            steps => {
-                let step = (share.clamp(0.0, 1.0) * (steps - 1) as f64).round();
-                self.motion.at(step as usize)
-            }
-        }
+        self.step(share).map_or(&[], |step| self.motion.at(step))
     }
 
     /// Time of a share of the motion, s.
@@ -163,24 +165,52 @@ impl Analysis {
     }
 
     fn find_tensions(&mut self) {
-        let steps = self.motion.steps();
+        let largest = self.stress().largest_tensions();
         let mut points = vec![[0.0, 0.0]];
-        for k in (0..steps).step_by(steps.div_ceil(TENSIONS).max(1)) {
-            let field = motion_on_analysis_mesh(&self.asset, self.motion.at(k));
-            let tensions = field.stresses.iter().map(largest_eigenvalue);
-            let largest = tensions.fold(0.0, f32::max);
-            points.push([self.time_step * (k + 1) as f64, f64::from(largest)]);
-        }
+        let times = (1..).map(|k| self.time_step * f64::from(k));
+        points.extend(
+            times
+                .zip(largest.into_iter().map(f64::from))
+                .map(<[f64; 2]>::from),
+        );
         self.peak_tension = points.iter().map(|p| p[1]).fold(0.0, f64::max);
         self.tension = Series {
             name: "largest tension".into(),
             points,
         };
     }
+
+    fn stress(&self) -> ShownStress<'_> {
+        ShownStress::new(&self.body, &self.config, &self.pressed, &self.motion)
+    }
+
+    /// Stress on triangles of the outer surface at this share of the motion's time, Pa, as cracks feel it; empty without a motion.
+    #[must_use]
+    pub fn surface_stress(&self, share: f64) -> Vec<(u32, Symmetric3)> {
+        self.step(share)
+            .map_or_else(Vec::new, |step| self.stress().on_surface(step))
+    }
+
+    /// The time step at this share of the motion's time; none without a motion.
+    fn step(&self, share: f64) -> Option<usize> {
+        let last = self.motion.steps().checked_sub(1)?;
+        Some((share.clamp(0.0, 1.0) * last as f64).round() as usize)
+    }
+}
+
+/// The force of all contacts of a blow that was integrated, N, over time steps of this length, s.
+fn force(contacts: &[ContactReport], time_step: f64) -> Series {
+    let steps = contacts.iter().map(|c| c.force.len()).max().unwrap_or(0);
+    let all = |k: usize| -> f32 { contacts.iter().filter_map(|c| c.force.get(k)).sum() };
+    let points = (0..steps).map(|k| [time_step * (k + 1) as f64, f64::from(all(k))]);
+    Series {
+        name: "force".into(),
+        points: std::iter::once([0.0, 0.0]).chain(points).collect(),
+    }
 }
 
 /// `a sin(π t / t_d)` of this peak, N, and duration, s.
-fn force(peak: f64, duration: f64) -> Series {
+fn half_sine(peak: f64, duration: f64) -> Series {
     const SAMPLES: u32 = 48;
     let point = |i: u32| {
         let share = f64::from(i) / f64::from(SAMPLES);
@@ -282,7 +312,7 @@ mod tests {
     #[test]
     fn the_pulse_carries_its_impulse() {
         let (impulse, duration) = (0.3, 2e-4);
-        let series = force(impulse * PI / (2.0 * duration), duration);
+        let series = half_sine(impulse * PI / (2.0 * duration), duration);
         let sum: f64 = series
             .points
             .windows(2)

@@ -42,6 +42,9 @@ pub enum InputError {
     /// Restitution out of 0..=1.
     #[error("restitution is {0}; it must lie between 0 (no bounce) and 1 (full bounce)")]
     Restitution(f64),
+    /// The number of a body that strikes at several points, too large.
+    #[error("the number of a striker's body is {0}; it must be below {most}", most = crate::internals::contact::SharedMass::MOST_BODIES)]
+    StrikerNumber(u32),
     /// A vector with a NaN or an infinity in it.
     #[error("{what} is ({x}, {y}, {z}); every component must be a finite number")]
     NotFinite {

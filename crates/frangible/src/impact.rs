@@ -160,12 +160,17 @@ impl Vibration {
             None => self.motion(body),
         };
         self.report.timings.response += clock.elapsed().as_secs_f64();
+        // Friction pushes as it did in the engine, and what it brings is not followed: cracks have only what the approach brought.
+        let most = match &self.blow {
+            Some(blow) if blow.is_of_strikers() => self.report.approach_energy,
+            _ => f64::INFINITY,
+        };
         Cracking {
             body,
             config,
             pressed: self.pressed,
             time_step: self.pulse.time_step,
-            budget: motion.peak_strain_energy,
+            budget: motion.peak_strain_energy.min(most),
             motion,
             blow: self.blow,
         }
@@ -286,6 +291,9 @@ fn integrated(
         Blow::of_valid(body, &scripts, config)?
     };
     let asset = &*body.asset;
+    if config.duration == DurationModel::Integrated {
+        report.approach_energy = blow.approach_energy();
+    }
     report.unadjusted_duration = blow.hertz_time();
     report.contact_duration = blow.duration();
     report.looked_at = LookedAt::Amplitudes;

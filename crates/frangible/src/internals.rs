@@ -90,7 +90,7 @@ pub mod stress {
 
 pub use crate::asset::AssetFileError;
 pub use crate::config::{CrackPath, CrackTiming, DurationModel};
-pub use crate::crack::CrackFront;
+pub use crate::crack::{CrackFront, ShownStress};
 pub use crate::fields::{Factors, Fields};
 #[doc(hidden)]
 pub use crate::fragment::{CutEdge, interfaces_of_labels, pieces_of_cuts};

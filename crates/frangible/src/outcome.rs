@@ -145,7 +145,8 @@ pub struct ImpactReport {
     pub looked_at: LookedAt,
     /// Tensile strength R_c it is compared with, Pa: where it varies over the body, that of the weakest weak point.
     pub strength: f64,
-    /// Kinetic energy of approach that the contacts absorbed, J.
+    /// The most kinetic energy that the contacts can take from the bodies' motion against each other, J. Where a bound refused the impact,
+    /// and where impulses are given: what these impulses take, Σ ½ φ v / (1 + e).
     pub approach_energy: f64,
     /// Largest modal (kinetic + elastic) energy at a time step, J.
     pub peak_elastic_energy: f64,

@@ -54,6 +54,7 @@ fn sound() -> Contact {
             curvature_radius: 0.01,
             restitution: 0.5,
             modal_duration: 0.0,
+            shared: None,
         },
     }
 }

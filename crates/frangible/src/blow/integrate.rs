@@ -119,6 +119,17 @@ impl Blow {
         Some(blow)
     }
 
+    /// The most energy that strikers and body can lose by meeting, J: what they hold of motion against each other at the contacts.
+    /// Scripts bring none.
+    pub(crate) fn approach_energy(&self) -> f64 {
+        self.plan.approach_energy()
+    }
+
+    /// Whether strikers push, and no script.
+    pub(crate) fn is_of_strikers(&self) -> bool {
+        self.plan.sites.iter().all(|site| site.script.is_none())
+    }
+
     /// Time step of the motion, s.
     #[must_use]
     pub fn time_step(&self) -> f64 {

@@ -4,7 +4,8 @@
 //! `T = ½ vᵀ B⁻¹ v`, and nothing adds to it: springs, modes and wall oscillators only store, pass on and lose. So
 //! - Hertz' spring of a contact never holds more: its force stays below that at which it holds T;
 //! - the impulses J of the contacts so far have left the approach v − B J, which holds at most T as well. So
-//!   `½ Jᵀ B J ≤ 4 T`, and where no contact's push helps another (all of B ≥ 0) `J_k ≤ √(8 T / B_kk)`; of one contact 2 v / B.
+//!   `½ Jᵀ B J ≤ 4 T`, and so `J_k ≤ √(8 T (B⁻¹)_kk)`; where no contact's push helps another (all of B ≥ 0) `J_k ≤ √(8 T / B_kk)`, which
+//!   is less; of one contact 2 v / B.
 
 use super::Spring;
 use crate::asset::Asset;
@@ -37,6 +38,7 @@ impl Limits {
         let contacts = || contacts.iter().flatten().enumerate();
         let mut inverse_mass = [0.0; MOST * MOST];
         let mut speeds = [0.0; MOST];
+        let mut helps = false;
         for (k, (a, at)) in contacts() {
             speeds[k] = f64::from(a.approach_speed);
             for (l, (b, there)) in contacts().take(k + 1) {
@@ -55,14 +57,15 @@ impl Limits {
                     if entry <= 0.0 {
                         entry = 1.0 / asset.mass.mass;
                     }
+                } else {
+                    entry += a.striker.inverse_mass_between(&b.striker);
                 }
-                if entry < 0.0 {
-                    return false;
-                }
+                helps |= entry < 0.0;
                 inverse_mass[k * MOST + l] = entry;
             }
         }
-        let energy = energy(&inverse_mass, &speeds[..count]);
+        let factor = factor(&inverse_mass, count);
+        let energy = 0.5 * square(&factor, &speeds[..count]);
         for (k, (contact, at)) in contacts() {
             if contact.is_script() {
                 // Its pulse is known.
@@ -74,8 +77,15 @@ impl Limits {
                 continue;
             }
             let radius = f64::from(asset.surface.curvature_radius[at.triangle as usize]);
+            let mass = if helps {
+                let mut unit = [0.0; MOST];
+                unit[k] = 1.0;
+                square(&factor, &unit[..count])
+            } else {
+                1.0 / inverse_mass[k * MOST + k]
+            };
             limits[k] = Self {
-                impulse: (8.0 * energy / inverse_mass[k * MOST + k]).sqrt(),
+                impulse: (8.0 * energy * mass).sqrt(),
                 force: Spring::at(asset, contact, radius).force_of_energy(energy),
             };
         }
@@ -83,12 +93,9 @@ impl Limits {
     }
 }
 
-/// ½ vᵀ B⁻¹ v, J, by Cholesky's factor of B, whose lower half is given; where B is singular, a little is added to it.
-fn energy(inverse_mass: &[f64; MOST * MOST], speeds: &[f64]) -> f64 {
-    let count = speeds.len();
+/// Cholesky's factor of B, whose lower half is given; where B is singular, a little is added to it.
+fn factor(inverse_mass: &[f64; MOST * MOST], count: usize) -> [f64; MOST * MOST] {
     let mut factor = *inverse_mass;
-    let mut solved = [0.0; MOST];
-    let mut energy = 0.0;
     for k in 0..count {
         let smallest = 1e-9 * inverse_mass[k * MOST + k];
         for l in 0..=k {
@@ -102,12 +109,21 @@ fn energy(inverse_mass: &[f64; MOST * MOST], speeds: &[f64]) -> f64 {
                 sum / factor[l * MOST + l]
             };
         }
-        let mut rest = speeds[k];
+    }
+    factor
+}
+
+/// vᵀ B⁻¹ v of Cholesky's factor of B.
+fn square(factor: &[f64; MOST * MOST], v: &[f64]) -> f64 {
+    let mut solved = [0.0; MOST];
+    let mut square = 0.0;
+    for k in 0..v.len() {
+        let mut rest = v[k];
         for j in 0..k {
             rest -= factor[k * MOST + j] * solved[j];
         }
         solved[k] = rest / factor[k * MOST + k];
-        energy += 0.5 * solved[k] * solved[k];
+        square += solved[k] * solved[k];
     }
-    energy
+    square
 }

@@ -35,6 +35,9 @@ const LEAST_EDGE: f64 = 1.0;
 /// frequencies is held between this and its inverse: beyond it something else than a plain wall is there.
 const LEAST_MATCH: f64 = 0.8;
 
+/// Rounds over all contacts until the energy of approach is known.
+const APPROACH_ROUNDS: usize = 2000;
+
 /// Cosine between the force and the wall's normal below which a blow falls along the wall.
 const ACROSS: f64 = 0.3;
 
@@ -162,6 +165,37 @@ impl Plan {
         Some(plan)
     }
 
+    /// The most energy that the contacts can take from the motion of approach, J: the largest `v · J − ½ Jᵀ B J` of impulses J ≥ 0.
+    ///
+    /// All that the springs and the vibration hold at any time is of this kind, for the impulses so far.
+    pub(super) fn approach_energy(&self) -> f64 {
+        let count = self.sites.len();
+        let speeds: Vec<f64> = (self.sites.iter())
+            .map(|s| f64::from(s.touch.contact.approach_speed))
+            .collect();
+        let mut impulses = vec![0.0; count];
+        let mut energy = 0.0;
+        for _ in 0..APPROACH_ROUNDS {
+            for k in 0..count {
+                let row = &self.inverse_mass[k * count..(k + 1) * count];
+                let taken: f64 = row.iter().zip(&impulses).map(|(b, j)| b * j).sum();
+                impulses[k] = (impulses[k] + (speeds[k] - taken) / row[k]).max(0.0);
+            }
+            let before = energy;
+            energy = (0..count)
+                .map(|k| {
+                    let row = &self.inverse_mass[k * count..(k + 1) * count];
+                    let taken: f64 = row.iter().zip(&impulses).map(|(b, j)| b * j).sum();
+                    impulses[k] * (speeds[k] - 0.5 * taken)
+                })
+                .sum();
+            if energy - before <= 1e-9 * energy {
+                break;
+            }
+        }
+        energy
+    }
+
     /// How contacts push and feel all oscillators, and each other through what follows the force.
     fn couple(&mut self, body: &Body, shapes: Vec<[Vec<f64>; 2]>) {
         let asset = &*body.asset;
@@ -212,6 +246,10 @@ fn inverse_masses(body: &Body, load: &Load) -> Vec<f64> {
             if !asset.is_supported() {
                 let place = |t: &Touch| (t.contact.point.as_dvec3(), t.contact.normal.as_dvec3());
                 matrix[k * count + l] = asset.mass.inverse_mass_between(place(a), place(b));
+            }
+            if k != l {
+                let (a, b) = (&a.contact.striker, &b.contact.striker);
+                matrix[k * count + l] += a.inverse_mass_between(b);
             }
         }
         let own = &mut matrix[k * count + k];

@@ -2,22 +2,38 @@
 
 use glam::Vec3;
 
-use super::{Contact, Striker};
+use super::{Contact, SharedMass, Striker};
 use crate::error::InputError;
 
 /// Numbers of a contact.
 const NUMBERS: usize = Contact::BYTES / 4;
 
+/// Numbers of a contact but for those of a shared mass.
+const OWN: usize = NUMBERS - 7;
+
 impl Contact {
     /// Length of a contact in bytes.
-    pub const BYTES: usize = 68;
+    pub const BYTES: usize = 96;
 
     /// The contact as bytes: its numbers in the order of the fields, little-endian, four bytes each.
     #[must_use]
     pub fn to_bytes(&self) -> [u8; Self::BYTES] {
         let mut contact = *self;
+        // A striker that shares its mass has the number of its body plus one, and 0 says that it does not.
+        let (number, velocity, spin) = (self.striker.shared.as_ref())
+            .map_or((0, Vec3::ZERO, Vec3::ZERO), |shared| {
+                (shared.body + 1, shared.velocity, shared.spin)
+            });
+        let ([vx, vy, vz], [sx, sy, sz]) = (velocity.to_array(), spin.to_array());
+        let shared = [f32::from_bits(number), vx, vy, vz, sx, sy, sz];
+        let numbers = contact.numbers().into_iter().map(|&mut number| number);
         let mut bytes = [0; Self::BYTES];
-        for (place, number) in bytes.as_chunks_mut().0.iter_mut().zip(contact.numbers()) {
+        for (place, number) in bytes
+            .as_chunks_mut()
+            .0
+            .iter_mut()
+            .zip(numbers.chain(shared))
+        {
             *place = number.to_le_bytes();
         }
         bytes
@@ -31,16 +47,26 @@ impl Contact {
         let Ok(bytes) = <&[u8; Self::BYTES]>::try_from(bytes) else {
             return Err(InputError::ContactBytes(bytes.len()));
         };
+        let mut read = (bytes.as_chunks().0.iter()).map(|&place| f32::from_le_bytes(place));
         let mut contact = Self::new(Vec3::ZERO, Vec3::ZERO, 0.0, 0.0, Striker::rigid());
-        for (number, &place) in contact.numbers().into_iter().zip(bytes.as_chunks().0) {
-            *number = f32::from_le_bytes(place);
+        for (number, read) in contact.numbers().into_iter().zip(&mut read) {
+            *number = read;
         }
+        let [number, vx, vy, vz, sx, sy, sz] = std::array::from_fn(|_| read.next().unwrap_or(0.0));
+        let shared = SharedMass {
+            body: number.to_bits().wrapping_sub(1),
+            velocity: Vec3::new(vx, vy, vz),
+            spin: Vec3::new(sx, sy, sz),
+        };
+        let alone =
+            number.to_bits() == 0 && shared.velocity == Vec3::ZERO && shared.spin == Vec3::ZERO;
+        contact.striker.shared = (!alone).then_some(shared);
         contact.validate()?;
         Ok(contact)
     }
 
-    /// All numbers of the contact, in the order of its fields.
-    fn numbers(&mut self) -> [&mut f32; NUMBERS] {
+    /// The numbers of the contact in the order of its fields, but for those of a shared mass.
+    fn numbers(&mut self) -> [&mut f32; OWN] {
         let Self {
             point,
             normal,
@@ -77,12 +103,24 @@ mod tests {
         contact
     }
 
+    fn shared() -> Contact {
+        let mut contact = contact();
+        contact.striker.shared = Some(SharedMass {
+            body: 3,
+            velocity: Vec3::new(0.5, 0.0, -0.25),
+            spin: Vec3::new(0.0, -1.5, 0.125),
+        });
+        contact
+    }
+
     #[test]
     fn a_contact_survives_its_bytes() {
-        let bytes = contact().to_bytes();
-        let back = Contact::from_bytes(&bytes).unwrap();
-        assert_eq!(back, contact());
-        assert_eq!(back.to_bytes(), bytes);
+        for contact in [contact(), shared()] {
+            let bytes = contact.to_bytes();
+            let back = Contact::from_bytes(&bytes).unwrap();
+            assert_eq!(back, contact);
+            assert_eq!(back.to_bytes(), bytes);
+        }
     }
 
     #[test]
@@ -95,7 +133,7 @@ mod tests {
 
     #[test]
     fn hostile_bytes_are_refused_and_never_a_panic() {
-        let bytes = contact().to_bytes();
+        let bytes = shared().to_bytes();
         for length in 0..bytes.len() {
             assert_eq!(
                 Contact::from_bytes(&bytes[..length]),

@@ -56,6 +56,7 @@ pub fn answer_duration(body: &Body, contact: &Contact, model: DurationModel) -> 
         striker: super::Striker {
             contact_modulus: f32::INFINITY,
             modal_duration: 0.0,
+            shared: None,
             ..contact.striker
         },
         ..*contact

@@ -41,9 +41,43 @@ pub struct Striker {
     /// Duration that the other body answers with when it vibrates itself, s: of two bodies' durations the longer holds
     /// `[G12 §4.1]`. Used by the modal models; 0 for a body that is not breakable. See [`answer_duration`](super::answer_duration).
     pub modal_duration: f32,
+    /// How the contacts of one body that strikes at several points share its mass; none for a body that strikes at this point only.
+    pub shared: Option<SharedMass>,
+}
+
+/// One body strikes at several points at once: an impulse at one of them moves it at the others too.
+///
+/// Let `a = (velocity, spin)` be how the body answers a unit impulse at a contact, mass-weighted. Then a unit impulse at contact l takes
+/// `a_k · a_l` from the speed of approach at contact k of the same body, 1/kg; at its own contact that is
+/// [`Striker::inverse_effective_mass`]. Without this each contact would strike with the whole mass, and the energy of the body would be
+/// counted once per contact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SharedMass {
+    /// Which body it is: contacts of one impact with equal numbers are of one body. Below [`SharedMass::MOST_BODIES`].
+    pub body: u32,
+    /// √M times the velocity that a unit impulse along the contact's normal gives the body, 1/√kg: `M^(−1/2) n`.
+    pub velocity: Vec3,
+    /// √I times the spin that it gives, 1/√kg: `I^(−1/2) (r × n)` for the arm r from the centre of mass.
+    pub spin: Vec3,
+}
+
+impl SharedMass {
+    /// Numbers of bodies are smaller than this.
+    pub const MOST_BODIES: u32 = 1 << 24;
 }
 
 impl Striker {
+    /// What a unit impulse at the contact of `other` takes from the speed of approach at this one's, which is another contact, 1/kg.
+    pub(crate) fn inverse_mass_between(&self, other: &Self) -> f64 {
+        match (&self.shared, &other.shared) {
+            (Some(a), Some(b)) if a.body == b.body => {
+                let velocity = a.velocity.as_dvec3().dot(b.velocity.as_dvec3());
+                velocity + a.spin.as_dvec3().dot(b.spin.as_dvec3())
+            }
+            _ => 0.0,
+        }
+    }
+
     /// A flat thing that cannot move, of this material: a floor, a wall.
     #[must_use]
     pub fn fixed(material: &Material) -> Self {
@@ -53,6 +87,7 @@ impl Striker {
             curvature_radius: f32::INFINITY,
             restitution: material.restitution as f32,
             modal_duration: 0.0,
+            shared: None,
         }
     }
 
@@ -75,6 +110,7 @@ impl Striker {
             curvature_radius: f32::INFINITY,
             restitution: 0.0,
             modal_duration: 0.0,
+            shared: None,
         }
     }
 }
@@ -203,6 +239,13 @@ impl Contact {
                     value: f64::from(value),
                     unit: "",
                 });
+            }
+        }
+        if let Some(shared) = &self.striker.shared {
+            finite("a striker's shared velocity", shared.velocity)?;
+            finite("a striker's shared spin", shared.spin)?;
+            if shared.body >= SharedMass::MOST_BODIES {
+                return Err(InputError::StrikerNumber(shared.body));
             }
         }
         if !(0.0..=1.0).contains(&self.striker.restitution) {

@@ -12,7 +12,7 @@ pub use duration::{
     answer_duration, contact_duration, hertz_duration, modal_hertz_duration, most_excited_mode,
 };
 pub(crate) use duration::{contact_radius_of_curvature, hertz_at};
-pub use kinds::{Contact, Striker};
+pub use kinds::{Contact, SharedMass, Striker};
 #[doc(hidden)]
 pub use load::each_row;
 pub use load::{Load, Touch, modal_load};
