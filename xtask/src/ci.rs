@@ -300,7 +300,16 @@ fn belongs(file: &str) -> bool {
         "build.rs",
     ];
     const FOLDERS: [&str; 4] = ["src/", "tests/", "benches/", "examples/"];
-    const KINDS: [&str; 7] = [".rs", ".md", ".wgsl", ".json", ".msh", ".obj", ".png"];
+    const KINDS: [&str; 8] = [
+        ".rs",
+        ".md",
+        ".wgsl",
+        ".json",
+        ".msh",
+        ".obj",
+        ".png",
+        ".frangible",
+    ];
     FILES.contains(&file)
         || FOLDERS.iter().any(|folder| file.starts_with(folder))
             && KINDS.iter().any(|kind| file.ends_with(kind))

@@ -24,7 +24,7 @@ cargo xtask ci [--all]        everything the continuous integration checks, with
 cargo xtask outcomes [--write FILE | --against FILE]
                               break all built-in scenes; print, store or compare pieces, areas, energies and bits
 cargo xtask counts [--write]  count the instructions of each stage; fail where they grew by over 5 %, or store them
-cargo xtask rebake            write the baked bodies and states in fuzz/corpus anew, after a change of their formats
+cargo xtask rebake            write the baked bodies and states in fuzz/corpus and those that the core's tests break anew
 cargo xtask fuzz [SECONDS]    feed each reader of files hostile bytes for so long, 30 s if not told
 cargo xtask web [--out DIR]   make the viewer's page for browsers, one static folder: target/web/page if not told
 cargo xtask web-test          make it, and break the pane in it with Chromium, drawn by the processor
@@ -45,9 +45,17 @@ fn main() -> ExitCode {
 
 /// The tests that read what is checked in also write it.
 fn rebake() -> Result {
-    let tests = ["--test", "fuzz_seeds", "--test", "hostile_state"];
-    let mut cargo = command::cargo(&["test", "--release", "-p", "frangible"]);
-    command::run(cargo.args(tests).env("FRANGIBLE_WRITE_SEEDS", "1"))
+    for (package, tests) in [
+        ("frangible", &["fuzz_seeds", "hostile_state"][..]),
+        ("frangible-bake", &["core_bodies"][..]),
+    ] {
+        let mut cargo = command::cargo(&["test", "--release", "-p", package]);
+        for test in tests {
+            cargo.args(["--test", test]);
+        }
+        command::run(cargo.env("FRANGIBLE_WRITE_SEEDS", "1"))?;
+    }
+    Ok(())
 }
 
 fn run(words: &[&str]) -> Result {

@@ -149,7 +149,7 @@ impl Analysis {
         rows
     }
 
-    /// As the asset stores it.
+    /// The mesh in the form that an asset stores.
     pub(crate) fn stored(&self) -> AnalysisMesh {
         self.mesh().stored()
     }

@@ -16,9 +16,7 @@ use frangible::glam::Vec3;
 use frangible::internals::asset::EmbeddedPoint;
 use frangible::internals::contact::hertz_duration;
 use frangible::internals::modal::Oscillator;
-use frangible::internals::stress::{
-    ShapeWeights, Symmetric3, largest_eigenvalue, largest_eigenvalue_bound,
-};
+use frangible::internals::stress::{Symmetric3, largest_eigenvalue, largest_eigenvalue_bound};
 
 use crate::random;
 
@@ -213,7 +211,7 @@ fn stress_rows(asset: &Asset, triangle: usize) -> Rows {
     let tet = asset.surface.tets[triangle] as usize;
     let point = &asset.embedding.tets[tet];
     let element = point.element as usize;
-    let gradients = ShapeWeights::gradients(point, &asset.analysis.barycentric_gradients[element]);
+    let gradients = point.shape_gradients(&asset.analysis.barycentric_gradients[element]);
     let count = asset.modes.count();
     let (lambda, mu) = (
         asset.material.lame_lambda() as f32,
@@ -221,7 +219,7 @@ fn stress_rows(asset: &Asset, triangle: usize) -> Rows {
     );
     let mut rows: Rows = std::array::from_fn(|_| vec![0.0; count]);
     for (&node, g) in asset.analysis.elements[element].iter().zip(gradients) {
-        let [x, y, z] = [0, 1, 2].map(|axis| asset.modes.row(3 * node as usize + axis));
+        let [x, y, z] = asset.modes.rows(node as usize);
         for i in 0..count {
             let u = Vec3::new(x[i], y[i], z[i]);
             let volume = lambda * u.dot(g);
@@ -245,16 +243,9 @@ fn load(asset: &Asset, triangle: usize) -> Vec<f64> {
     for v in asset.surface.triangles[triangle] {
         let point: &EmbeddedPoint = &asset.embedding.nodes[v as usize];
         let nodes = &asset.analysis.elements[point.element as usize];
-        for (&node, weight) in nodes.iter().zip(ShapeWeights::values(point)) {
-            for axis in 0..3 {
-                let weight = f64::from(weight * inwards[axis]) / 3.0;
-                for (xi, phi) in load
-                    .iter_mut()
-                    .zip(asset.modes.row(3 * node as usize + axis))
-                {
-                    *xi += weight * f64::from(*phi);
-                }
-            }
+        for (&node, weight) in nodes.iter().zip(point.shape_values()) {
+            let push = (inwards * weight).to_array().map(|p| f64::from(p) / 3.0);
+            asset.modes.add_push(node as usize, push, &mut load);
         }
     }
     load

@@ -53,7 +53,7 @@ pub(crate) struct Reach {
 }
 
 struct Near {
-    /// In the frame of the shape, m.
+    /// Where it is in the frame of the shape, m.
     position: DVec3,
     /// How near is near, m.
     reach: f64,

@@ -57,7 +57,7 @@ pub struct Imported {
     pub mended: RepairReport,
     /// How thick what the mesh encloses is, m.
     pub thickness: Thickness,
-    /// From the file's coordinates to those of the shape.
+    /// What takes the file's coordinates to those of the shape.
     pub similarity: Similarity,
 }
 

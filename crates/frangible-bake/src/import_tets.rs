@@ -16,7 +16,7 @@ pub struct ImportedTets {
     pub mend: TetMend,
     /// Groups of tetrahedra, if there are several: a body has one material, so they only name places.
     pub volumes: Vec<String>,
-    /// From the file's coordinates to those of the shape.
+    /// What takes the file's coordinates to those of the shape.
     pub similarity: Similarity,
 }
 

@@ -62,6 +62,7 @@ mod supports;
 pub mod surface;
 #[cfg(feature = "solver")]
 mod walls;
+pub mod weakness;
 
 #[cfg(feature = "solver")]
 pub use bake::{BakeSpec, bake};

@@ -5,7 +5,7 @@
 
 use frangible::glam::{Mat3, Vec3};
 use frangible::internals::asset::EmbeddedPoint;
-use frangible::internals::stress::{ShapeWeights, Symmetric3};
+use frangible::internals::stress::Symmetric3;
 use frangible::{Asset, Material};
 
 /// A mode at the nodes of a mesh, one entry per node in each list. Its sign, and so that of its stresses, is arbitrary.
@@ -52,7 +52,7 @@ fn onto_fracture_mesh(asset: &Asset, coarse: &ModeField) -> ModeField {
         field.displacements.push(value + gradient * point.offset);
         let mut stress = Symmetric3::default();
         let nodes = &asset.analysis.elements[point.element as usize];
-        for (&node, weight) in nodes.iter().zip(ShapeWeights::values(point)) {
+        for (&node, weight) in nodes.iter().zip(point.shape_values()) {
             add(&mut stress, weight, &coarse.stresses[node as usize]);
         }
         field.stresses.push(stress);
@@ -124,11 +124,11 @@ fn mode_displacements(asset: &Asset, mode: usize) -> Vec<Vec3> {
 fn value_and_gradient(asset: &Asset, field: &[Vec3], point: &EmbeddedPoint) -> (Vec3, Mat3) {
     let element = point.element as usize;
     let barycentric_gradients = &asset.analysis.barycentric_gradients[element];
-    let gradients = ShapeWeights::gradients(point, barycentric_gradients);
+    let gradients = point.shape_gradients(barycentric_gradients);
     let (mut value, mut gradient) = (Vec3::ZERO, Mat3::ZERO);
     for ((&node, n), g) in asset.analysis.elements[element]
         .iter()
-        .zip(ShapeWeights::values(point))
+        .zip(point.shape_values())
         .zip(gradients)
     {
         let u = field[node as usize];

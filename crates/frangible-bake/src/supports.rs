@@ -178,9 +178,9 @@ fn group_of<'a>(region: &Region, groups: &'a [Group]) -> Result<Option<&'a Group
 
 /// The supports of one body.
 pub(crate) struct Holder<'a> {
-    /// With the group of each that names one.
+    /// The supports, each with the group that it names, if any.
     supports: Vec<(&'a Support, Option<&'a Group>)>,
-    /// From the body's frame to that of the shape, m.
+    /// What is added to a place in the body's frame to have it in that of the shape, m.
     origin: DVec3,
     tolerance: f64,
 }

@@ -24,9 +24,9 @@ pub struct Recording {
     pub nodes: Vec<RecordedNode>,
     /// A level floor, if the scene has one.
     pub floor: Option<Floor>,
-    /// From where to look.
+    /// The view to look from.
     pub camera: View,
-    /// From where to look at the end, when what lies there would be lost in the first view.
+    /// The view to look from at the end, when what lies there would be lost in the first view.
     pub rest_camera: Option<View>,
     /// The frames worth a picture.
     pub moments: Moments,

@@ -73,7 +73,7 @@ impl Speed {
 }
 
 impl Solver {
-    /// With the CPU, the GPU, or the faster.
+    /// Makes a solver that uses the CPU, the GPU, or whichever is faster.
     ///
     /// # Errors
     /// No usable GPU, where [`Choice::Gpu`] asks for one.

@@ -94,7 +94,7 @@ impl Gpu {
     /// has the energy. Near the strength the CPU decides. Weak points on cracks from earlier impacts count as well.
     ///
     /// # Errors
-    /// As [`Self::impacts`].
+    /// What [`Self::impacts`] refuses.
     pub fn would_start(
         &self,
         impacts: &[Impact<'_>],
@@ -122,7 +122,7 @@ impl Gpu {
     /// Crack initiation of each impact; `None` for those the first bound refuses, and for bodies that have cracks.
     ///
     /// # Errors
-    /// As [`Self::impacts`].
+    /// What [`Self::impacts`] refuses.
     pub fn initiation(
         &self,
         impacts: &[Impact<'_>],
@@ -138,7 +138,7 @@ impl Gpu {
     /// Which impacts clearly held, and from which time step the CPU has to look at the others.
     ///
     /// # Errors
-    /// As [`Self::impacts`].
+    /// What [`Self::impacts`] refuses.
     pub fn verdicts(
         &self,
         impacts: &[Impact<'_>],

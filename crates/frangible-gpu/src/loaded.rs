@@ -116,7 +116,7 @@ impl Gpu {
     }
 }
 
-/// As the shader's `elements`.
+/// An analysis element in the form that the shader's `elements` has.
 fn element_words(asset: &Asset, element: usize) -> [u32; 24] {
     let mut words = [0; 24];
     words[..10].copy_from_slice(&asset.analysis.elements[element]);

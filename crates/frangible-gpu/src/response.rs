@@ -24,7 +24,7 @@ pub(crate) struct Response {
 }
 
 impl Response {
-    /// In f64, stored in f32.
+    /// The matrices and restarts of one impact, found in f64 and stored in f32.
     pub(crate) fn new(
         basis: &ModalBasis,
         material: &Material,

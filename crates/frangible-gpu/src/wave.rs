@@ -119,7 +119,7 @@ fn pressed_weak(job: &Job<'_>) -> Vec<u32> {
     tets
 }
 
-/// As the shader's `Weak`.
+/// A weak point in the form that the shader's `Weak` has.
 fn weak_words(job: &Job<'_>, config: &FractureConfig, cluster: u32, tet: u32) -> [u32; WEAK] {
     let (point, law) = job.body.weak_place(tet, config, &job.vibration.pressed);
     let (law, direction) = match law {

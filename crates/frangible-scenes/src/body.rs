@@ -2,7 +2,7 @@
 
 use frangible::Material;
 use frangible::glam::{Quat, Vec3};
-use frangible::internals::{Paint, Patch};
+use frangible_bake::weakness::{Paint, Patch};
 use frangible_bake::{Support, USUAL_MODES};
 
 use crate::rescale::Rescale;

@@ -4,7 +4,7 @@ use std::f32::consts::FRAC_PI_2;
 
 use frangible::Material;
 use frangible::glam::{Quat, Vec3};
-use frangible::internals::{Patch, Zone};
+use frangible_bake::weakness::{Patch, Zone};
 use frangible_bake::{Region, Shape, Support};
 use frangible_mesh::nearest_name;
 

@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use frangible::glam::{Quat, Vec3};
-use frangible::internals::Fields;
 use frangible::{Asset, Body, Breakable, Material};
+use frangible_bake::weakness;
 use frangible_rapier::rapier3d::dynamics::RigidBodyHandle;
 use frangible_rapier::rapier3d::geometry::SharedShape;
 use frangible_rapier::rapier3d::math::{Pose, Rotation, Vector};
@@ -263,9 +263,8 @@ fn is_convex(asset: &Asset) -> bool {
 /// # Errors
 /// A weakness that cannot be used.
 pub fn breakable(spec: &BodySpec, asset: &Arc<Asset>) -> Result<Breakable, SceneError> {
-    let fields = Fields::from_paint(asset, &spec.paint)?
-        .patched(asset, &spec.weakness)?
-        .scattered_as(&asset.material);
+    let painted = weakness::from_paint(asset, &spec.paint)?;
+    let fields = weakness::patched(painted, asset, &spec.weakness)?.scattered_as(&asset.material);
     let fields = match spec.weibull_modulus {
         Some(modulus) => fields.with_weibull_modulus(modulus),
         None => fields,

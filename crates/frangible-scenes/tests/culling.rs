@@ -2,10 +2,11 @@
 
 mod common;
 
-use common::{block, blow, glass, pane, rim_hit, steel_ball, stone_floor};
+use common::{block, blow, glass, pane, steel_ball, stone_floor};
 use frangible::glam::Vec3;
-use frangible::internals::{Factors, Fields, Force, LookedAt, Patch, Zone, rest};
+use frangible::internals::{Factors, Fields, LookedAt};
 use frangible::{Asset, Breakable, Contact, FractureConfig, Outcome, impact, would_break};
+use frangible_bake::weakness::{self, Patch, Zone};
 use std::sync::Arc;
 
 /// Numbers in 0..1 (a linear congruential generator).
@@ -191,36 +192,6 @@ fn the_hardest_blow_that_is_refused_free_of_time_leaves_the_strength_unreached()
 }
 
 #[test]
-fn a_refused_contact_allocates_nothing() {
-    let body = Breakable::new(Arc::clone(glass())).unwrap().body(1);
-    let config = FractureConfig::default();
-    let soft = rim_hit(0.0, 0.001);
-    let contacts = [
-        soft,
-        Contact {
-            friction: Vec3::Y * 1e-5,
-            ..soft
-        },
-    ];
-    let force = Force {
-        point: soft.point,
-        force: Vec3::NEG_X,
-    };
-    let refused = |outcome: Outcome| {
-        matches!(outcome, Outcome::Held { margin, report, .. }
-            if margin > 1.0 && report.looked_at <= LookedAt::Impulses)
-    };
-    let mut all = true;
-    let counted = allocation_counter::measure(|| {
-        all &= refused(impact(&body, &contacts, &config).unwrap());
-        all &= !would_break(&body, &contacts, &config).unwrap();
-        all &= refused(rest(&body, &[force], Vec3::NEG_Z, &config).unwrap());
-    });
-    assert!(all);
-    assert_eq!(counted.count_total, 0, "{counted:?}");
-}
-
-#[test]
 fn culling_changes_no_bit_where_the_strength_varies() {
     let mut numbers = Numbers(2);
     let mut looked = [0; LEVELS.len()];
@@ -235,7 +206,7 @@ fn culling_changes_no_bit_where_the_strength_varies() {
             line: vec![Vec3::new(0.02, -0.2, 0.0), Vec3::new(0.04, 0.2, 0.0)],
             radius: 0.01,
         };
-        let scored = Fields::from_patches(asset, &[Patch::of_strength(line, 0.3)]).unwrap();
+        let scored = weakness::from_patches(asset, &[Patch::of_strength(line, 0.3)]).unwrap();
         for (k, fields) in [
             waves.clone(),
             waves.with_weibull_modulus(6.0),

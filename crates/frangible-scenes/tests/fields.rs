@@ -6,8 +6,9 @@ use std::sync::Arc;
 
 use common::{block, blow, glass, mean, pane, pane_hit, pieces, rim_hit, steel_ball, stone_floor};
 use frangible::glam::Vec3;
-use frangible::internals::{Factors, Fields, Patch, Preset, Zone, impact_traced};
+use frangible::internals::{Factors, Fields, Preset, impact_traced};
 use frangible::{Asset, Body, Breakable, Contact, FractureConfig, InputError, Outcome, impact};
+use frangible_bake::weakness::{self, Patch, Zone};
 use frangible_scenes::{bake, scene};
 
 fn kind(asset: &Arc<Asset>, fields: Fields) -> Breakable {
@@ -73,7 +74,7 @@ fn no_crack_starts_where_there_are_no_weak_points() {
         weak_points: Some(0.0),
         ..Patch::of_strength(zone, 1.0)
     };
-    let kind = kind(pane(), Fields::from_patches(pane(), &[patch]).unwrap());
+    let kind = kind(pane(), weakness::from_patches(pane(), &[patch]).unwrap());
     let mut config = FractureConfig::default();
     // A crack that leaves another one at a fork needs no weak point.
     config.branching = false;
@@ -125,7 +126,7 @@ fn paint_on_a_surface_reaches_the_inside_from_the_nearest_place() {
     let asset = block();
     let mesh = &asset.fracture;
     let paint = |p: Vec3| Factors::of_strength(1.0 + p.x);
-    let fields = Fields::from_vertices(asset, &mesh.positions, &asset.surface.triangles, |v| {
+    let fields = weakness::from_vertices(asset, &mesh.positions, &asset.surface.triangles, |v| {
         paint(mesh.positions[v])
     })
     .unwrap();
@@ -144,7 +145,7 @@ fn paint_on_a_surface_reaches_the_inside_from_the_nearest_place() {
         }
     }
     let missing =
-        Fields::from_vertices(asset, &mesh.positions[..3], &[[0, 1, 3]], |_| Factors::ONE);
+        weakness::from_vertices(asset, &mesh.positions[..3], &[[0, 1, 3]], |_| Factors::ONE);
     assert!(matches!(missing, Err(InputError::Field(_))));
 }
 
@@ -182,7 +183,7 @@ fn scored(strength: f32) -> Breakable {
         Vec3::new(0.04 + HALF_WIDTH, 1.0, 1.0),
     ]);
     let patches = [Patch::of_strength(strip, strength)];
-    kind(pane(), Fields::from_patches(pane(), &patches).unwrap())
+    kind(pane(), weakness::from_patches(pane(), &patches).unwrap())
 }
 
 /// Share of the cut tetrahedra that lie in the strip.
@@ -220,7 +221,7 @@ fn the_chocolate_breaks_between_its_squares() {
     scene.bodies[0].modes = 40;
     let asset = bake(&scene, &mut |_| {}).unwrap()[0].asset.clone();
     let grooves = &scene.bodies[0].weakness;
-    let scored = kind(&asset, Fields::from_patches(&asset, grooves).unwrap());
+    let scored = kind(&asset, weakness::from_patches(&asset, grooves).unwrap());
     let plain = kind(&asset, Fields::default());
     let config = FractureConfig::default();
     // Weak enough a blow at a corner breaks the scored bar alone.

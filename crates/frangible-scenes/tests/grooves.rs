@@ -7,8 +7,9 @@ use std::sync::Arc;
 
 use common::{blow, steel_ball, stone_floor};
 use frangible::glam::Vec3;
-use frangible::internals::{CrackTrace, Fields, Patch, impact_traced};
+use frangible::internals::{CrackTrace, Fields, impact_traced};
 use frangible::{Asset, Breakable, Contact, FractureConfig};
+use frangible_bake::weakness::{self, Patch};
 use frangible_scenes::{bake, scene};
 
 /// Area over which s = 0 crosses a tetrahedron, m².
@@ -97,7 +98,7 @@ fn a_scored_bar_breaks_along_its_grooves() {
             blow(&asset, middle, Vec3::NEG_Z, 4.0, steel_ball(0.05)),
         ),
     ] {
-        let scored = Fields::from_patches(&asset, grooves).unwrap();
+        let scored = weakness::from_patches(&asset, grooves).unwrap();
         let with = share(&asset, scored, grooves, hit);
         let without = share(&asset, Fields::default(), grooves, hit);
         println!("{what}: {with:.3} of the area in grooves, {without:.3} without scores");

@@ -1,12 +1,12 @@
-//! Loads that are no impact: steady forces against beam theory, blasts, scripted blows.
+//! Loads that are no impact: steady forces against beam theory, and friction.
 
 mod common;
 
 use std::sync::Arc;
 
-use common::{blow, glass, pane, pieces, stone_floor};
+use common::{blow, glass, pieces, stone_floor};
 use frangible::glam::Vec3;
-use frangible::internals::{Blast, Force, LookedAt, blast, fracture_at, rest};
+use frangible::internals::{Force, rest};
 use frangible::{Asset, Body, Contact, FractureConfig, Material, Outcome, impact, would_break};
 use frangible_bake::{BakeSpec, Region, Shape, Support, bake};
 
@@ -114,97 +114,6 @@ fn a_shelf_holds_less_than_its_strength_and_breaks_under_more() {
     let fracture = load(breaks);
     println!("{breaks:.0} N: {} pieces", pieces(&fracture));
     assert!((2..=40).contains(&pieces(&fracture)));
-}
-
-#[test]
-fn nothing_breaks_from_merely_lying_there() {
-    let config = FractureConfig::default();
-    for (name, asset) in [("glass", glass()), ("pane", pane())] {
-        let body = Body::new(Arc::clone(asset), 1).unwrap();
-        let lowest = asset
-            .fracture
-            .positions
-            .iter()
-            .copied()
-            .min_by(|a, b| a.z.total_cmp(&b.z))
-            .unwrap();
-        let weight = Vec3::Z * (9.81 * asset.mass.mass) as f32;
-        let force = Force {
-            point: lowest,
-            force: weight,
-        };
-        let outcome = rest(&body, &[force], GRAVITY, &config).unwrap();
-        let Outcome::Held { margin, report, .. } = outcome else {
-            panic!("{name} broke under its own weight");
-        };
-        println!("{name}: margin {margin:.0}");
-        assert!(margin > 5.0, "{name}: margin {margin}");
-        assert_eq!(report.looked_at, LookedAt::Impulses);
-    }
-}
-
-#[test]
-fn a_blast_breaks_a_pane_that_is_near_and_not_one_that_is_far() {
-    let body = Body::new(Arc::clone(pane()), 1).unwrap();
-    let config = FractureConfig::default();
-    let at = |distance: f32| {
-        let pulse = Blast {
-            origin: Vec3::Z * distance,
-            impulse: 200.0,
-            duration: 2e-3,
-        };
-        blast(&body, &pulse, &config).unwrap()
-    };
-    assert!(matches!(at(300.0), Outcome::Held { .. }));
-    let near = at(0.1);
-    println!("at 0.1 m: {} pieces", pieces(&near));
-    assert!(matches!(near, Outcome::Broke(_)));
-    let bad = Blast {
-        origin: Vec3::NAN,
-        impulse: 1.0,
-        duration: 1e-3,
-    };
-    assert!(blast(&body, &bad, &config).is_err());
-    let bad = Blast {
-        origin: Vec3::ONE,
-        impulse: 0.0,
-        duration: 1e-3,
-    };
-    assert!(blast(&body, &bad, &config).is_err());
-}
-
-/// Far off, a blast is a uniform pressure on one side: by symmetry it pushes no mode that is odd in x or y, and its
-/// total impulse is pressure times area, which a free body takes up rigidly.
-#[test]
-fn a_far_blast_gives_a_symmetric_body_a_symmetric_break() {
-    let body = Body::new(Arc::clone(pane()), 1).unwrap();
-    let config = unculled();
-    let from = |side: f32| {
-        let pulse = Blast {
-            origin: Vec3::Z * side * 1e4,
-            impulse: 1e4,
-            duration: 2e-3,
-        };
-        blast(&body, &pulse, &config)
-            .unwrap()
-            .report()
-            .peak_elastic_energy
-    };
-    let (above, below) = (from(1.0), from(-1.0));
-    assert!((above / below - 1.0).abs() < 1e-3, "{above} J, {below} J");
-}
-
-#[test]
-fn a_scripted_blow_is_a_contact_with_a_rigid_thing() {
-    let body = Body::new(Arc::clone(glass()), 1).unwrap();
-    let config = FractureConfig::default();
-    let rim = common::rim_point(glass(), 0.0);
-    let broke = fracture_at(&body, rim, Vec3::NEG_X * 0.5, &config).unwrap();
-    assert!(pieces(&broke) > 1);
-    let held = fracture_at(&body, rim, Vec3::NEG_X * 1e-4, &config).unwrap();
-    assert!(matches!(held, Outcome::Held { margin, .. } if margin > 1.0));
-    assert!(fracture_at(&body, rim, Vec3::ZERO, &config).is_err());
-    assert!(fracture_at(&body, rim, Vec3::NAN, &config).is_err());
 }
 
 /// A push along −x at the rim from outside is the same load whether it comes as normal impulse or as friction.

@@ -9,8 +9,9 @@ mod common;
 
 use common::{blow, steel_ball};
 use frangible::glam::Vec3;
-use frangible::internals::{Channel, Fields, Paint, Patch, Zone, impact_traced};
+use frangible::internals::impact_traced;
 use frangible::{Asset, Breakable, FractureConfig};
+use frangible_bake::weakness::{self, Channel, Paint, Patch, Zone};
 use frangible_scenes::{Scene, bake, parse_scene, play};
 
 /// Sides of the plate, m.
@@ -129,7 +130,7 @@ fn cracked_along(kind: &Breakable, seed: u64) -> f64 {
 }
 
 fn kind(asset: &Arc<Asset>, scene: &Scene) -> Breakable {
-    let fields = Fields::from_paint(asset, &scene.bodies[0].paint).unwrap();
+    let fields = weakness::from_paint(asset, &scene.bodies[0].paint).unwrap();
     let kind = Breakable::new(Arc::clone(asset)).unwrap();
     kind.with_fields(fields).unwrap()
 }
@@ -161,8 +162,8 @@ fn a_painted_plate_breaks_along_the_paint() {
     // The colours go through a file.
     let loaded = Arc::new(Asset::from_bytes(&asset.to_bytes()).unwrap());
     assert_eq!(
-        Fields::from_paint(&loaded, &painted.bodies[0].paint).unwrap(),
-        Fields::from_paint(asset, &painted.bodies[0].paint).unwrap()
+        weakness::from_paint(&loaded, &painted.bodies[0].paint).unwrap(),
+        weakness::from_paint(asset, &painted.bodies[0].paint).unwrap()
     );
     // And the whole way, from the file to pieces.
     let run = play(&painted, &baked, &mut |_| {}).unwrap();
@@ -174,13 +175,11 @@ fn a_painted_plate_breaks_along_the_paint() {
 
     // Zones lie over paint.
     let patch = Patch::of_strength(Zone::Box([Vec3::NEG_ONE, Vec3::ONE]), 2.0);
-    let over = Fields::from_paint(asset, &painted.bodies[0].paint)
-        .unwrap()
-        .patched(asset, &[patch])
-        .unwrap();
+    let over = weakness::from_paint(asset, &painted.bodies[0].paint).unwrap();
+    let over = weakness::patched(over, asset, &[patch]).unwrap();
     assert!(over.of_tet.iter().all(|f| f.strength == 2.0));
     let bad = Paint::of_strength(Channel::Red, [1.0, 0.0]);
-    let message = Fields::from_paint(asset, &[bad]).unwrap_err().to_string();
+    let message = weakness::from_paint(asset, &[bad]).unwrap_err().to_string();
     assert!(
         message.contains("strength") && message.contains("red"),
         "{message}"
@@ -197,6 +196,6 @@ fn a_painted_plate_breaks_along_the_paint() {
     );
     let mut plain = Asset::clone(asset);
     plain.render.as_mut().unwrap().colors.clear();
-    let message = Fields::from_paint(&plain, &painted.bodies[0].paint).unwrap_err();
+    let message = weakness::from_paint(&plain, &painted.bodies[0].paint).unwrap_err();
     assert!(message.to_string().contains("vertex colours"), "{message}");
 }

@@ -298,26 +298,6 @@ pub enum Tool {
 }
 
 impl Command {
-    /// Whether the window carries it out by itself.
-    #[must_use]
-    pub fn is_for_window(&self) -> bool {
-        matches!(
-            self,
-            Self::Screenshot(_)
-                | Self::Orbit(..)
-                | Self::Pan(..)
-                | Self::Zoom(_)
-                | Self::Home
-                | Self::Click(..)
-                | Self::Pick(..)
-                | Self::GrabAt(..)
-                | Self::PullTo(..)
-                | Self::Panel(..)
-                | Self::Dark(_)
-                | Self::Quit
-        )
-    }
-
     /// Whether it changes what happens, so that a script must have it to do the same again.
     pub(crate) fn is_deed(&self) -> bool {
         matches!(

@@ -12,7 +12,7 @@ use frangible_export::{Recording, View};
 
 use crate::command::{FilmKind, FilmOptions};
 use crate::error::ViewError;
-use crate::jobs::{Job, Polled, Teller};
+use crate::jobs::{Job, Teller};
 use crate::session::Session;
 
 /// A film to be made.
@@ -77,11 +77,8 @@ impl Session {
         let Some(job) = &self.film_job else {
             return false;
         };
-        let polled = wait.map_or_else(|| job.poll(), |wait| job.wait(wait));
-        let result = match polled {
-            Polled::Running => return false,
-            Polled::Died => Err(ViewError::Worker),
-            Polled::Done(result) => result,
+        let Some(result) = job.result(wait) else {
+            return false;
         };
         let given_up = job.is_cancelled();
         self.film_job = None;

@@ -7,6 +7,7 @@ use std::time::Duration;
 
 use frangible_scenes::{BakedBody, CancelToken, SceneError};
 
+use crate::error::ViewError;
 use crate::host::Delivery;
 
 /// Whether work is done by whoever asks for its result.
@@ -122,7 +123,7 @@ impl<T: Send + 'static> Job<T> {
         progress.unwrap_or_else(PoisonError::into_inner).clone()
     }
 
-    pub(crate) fn poll(&self) -> Polled<T> {
+    fn poll(&self) -> Polled<T> {
         match self.put_off.take() {
             Some(PutOff { work, asked: true }) => work(),
             Some(PutOff { work, asked: false }) => {
@@ -147,6 +148,21 @@ impl<T: Send + 'static> Job<T> {
             Ok(result) => Polled::Done(result),
             Err(RecvTimeoutError::Timeout) => Polled::Running,
             Err(RecvTimeoutError::Disconnected) => Polled::Died,
+        }
+    }
+}
+
+impl<T, E> Job<Result<T, E>>
+where
+    T: Send + 'static,
+    E: Send + 'static + Into<ViewError>,
+{
+    /// What came of it, once there is anything; waits for a while if told to.
+    pub(crate) fn result(&self, wait: Option<Duration>) -> Option<Result<T, ViewError>> {
+        match wait.map_or_else(|| self.poll(), |wait| self.wait(wait)) {
+            Polled::Running => None,
+            Polled::Died => Some(Err(ViewError::Worker)),
+            Polled::Done(result) => Some(result.map_err(Into::into)),
         }
     }
 }

@@ -1,23 +1,20 @@
 //! Breakable bodies: what is shared by all bodies of a kind, and what is a body's own.
 
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 
 use glam::{DVec3, Vec3};
 
 use crate::asset::{Asset, EmbeddedPoint};
 use crate::config::FractureConfig;
-use crate::contact::PerImpulse;
 use crate::crack::{CrackFront, Tip, fronts, tips, weak_place};
 use crate::error::InputError;
 use crate::fields::{Fields, Resistance, Toughness};
-use crate::fragment::{MeshIndex, RenderIndex};
-use crate::loads::PerNewton;
-use crate::mesh::{SurfacePoint, TriangleTree};
-use crate::modal::{ModalBasis, Reaches};
+use crate::mesh::SurfacePoint;
+use crate::prepared::Prepared;
+use crate::refuse::{self, StressBounds, WeakClusters};
 use crate::rng::{Purpose, stream, uniform};
 use crate::state::BodyState;
-use crate::stress::{Law, ShapeWeights, Skin, StressBounds, quadratic_modulus};
-use crate::weak_clusters::WeakClusters;
+use crate::stress::Law;
 use crate::weak_rows::WeakRows;
 
 /// An asset that has been checked and made ready: one per kind of object, cheap to clone, shared by its bodies.
@@ -27,43 +24,6 @@ pub struct Breakable {
     prepared: Arc<Prepared>,
     fields: Arc<Fields>,
     toughness: Toughness,
-}
-
-/// What follows from an asset and every impact needs.
-#[derive(Debug)]
-pub(crate) struct Prepared {
-    /// What was prepared for the body as it was baked, where this is a piece of it.
-    pub(crate) root: Option<Arc<Prepared>>,
-    /// What hangs together in the fracture mesh.
-    pub(crate) index: Arc<MeshIndex>,
-    /// Over the triangles of the outer surface.
-    pub(crate) surface: TriangleTree,
-    /// Over those of the render surface; none of a piece.
-    pub(crate) render: Option<RenderIndex>,
-    /// Free surfaces: flaws and walls.
-    pub(crate) skin: Skin,
-    /// Stress bounds of the clusters.
-    pub(crate) bounds: StressBounds,
-    /// Stress bounds of the whole body: stress and gradient, one number per mode.
-    pub(crate) whole: (Vec<f32>, Vec<f32>),
-    /// 1/√λ_i of every mode, s.
-    pub(crate) periods: Vec<f32>,
-    /// How far an impulse moves each mode.
-    pub(crate) reaches: Reaches,
-    /// What an impulse does at most, by place and duration.
-    pub(crate) per_impulse: PerImpulse,
-    /// Σ φ_i dm of every mode, √kg: what a held body's weight pushes; empty for a free one, where it is zero.
-    pub(crate) weight: Vec<Vec3>,
-    /// k of the bounds' quadratic term, Pa.
-    pub(crate) quadratic_modulus: f32,
-    /// What any newton does at most; made when it is asked for.
-    pub(crate) per_newton: OnceLock<PerNewton>,
-    /// Centroid of each fracture tetrahedron, m.
-    pub(crate) centroids: Arc<[Vec3]>,
-    /// Mean edge of the fracture mesh, m.
-    pub(crate) edge: f32,
-    /// Longest edge of the fracture mesh, m.
-    pub(crate) longest_edge: f32,
 }
 
 impl Breakable {
@@ -79,44 +39,11 @@ impl Breakable {
 
     /// The kind of an asset that has been checked.
     pub(crate) fn of_sound(asset: Arc<Asset>) -> Self {
-        let modes = &asset.modes;
-        let skin = Skin::of(&asset);
-        let bounds = if asset.bounds.is_empty() {
-            StressBounds::with_skin(&asset, &skin)
-        } else {
-            asset.bounds.clone()
-        };
-        let whole = bounds.root(modes.count());
-        let reaches = Reaches::new(modes);
-        let surface = TriangleTree::new(&asset.fracture.positions, &asset.surface.triangles);
-        let prepared = Prepared {
-            root: None,
-            index: Arc::new(MeshIndex::new(&asset)),
-            render: asset
-                .render
-                .as_ref()
-                .map(|render| RenderIndex::new(render, &surface)),
-            surface,
-            per_impulse: PerImpulse::new(&asset, &whole.0, &reaches),
-            reaches,
-            whole,
-            bounds,
-            skin,
-            weight: weight(&asset),
-            periods: periods(modes),
-            per_newton: OnceLock::new(),
-            quadratic_modulus: quadratic_modulus(&asset.material),
-            centroids: (0..asset.fracture.tets.len())
-                .map(|e| asset.fracture.centroid(e))
-                .collect(),
-            edge: asset.fracture.mean_edge(),
-            longest_edge: asset.fracture.longest_edge(),
-        };
         let fields = Arc::new(Fields::default());
         Self {
             toughness: Toughness::new(&asset.material, &fields),
+            prepared: Arc::new(Prepared::of_whole(&asset)),
             asset,
-            prepared: Arc::new(prepared),
             fields,
         }
     }
@@ -187,44 +114,6 @@ impl Breakable {
     }
 }
 
-/// 1/√λ_i of every mode, s.
-pub(crate) fn periods(modes: &ModalBasis) -> Vec<f32> {
-    let eigenvalues = modes.eigenvalues.iter();
-    eigenvalues.map(|l| (1.0 / l.sqrt()) as f32).collect()
-}
-
-/// Σ φ_i dm of every mode of a held body. Of a piece the divided tetrahedra are left out and the sum scaled to its mass.
-pub(crate) fn weight(asset: &Asset) -> Vec<Vec3> {
-    let modes = asset.modes.count();
-    if !asset.is_supported() {
-        return Vec::new();
-    }
-    let mut mass_of_node = vec![0.0_f32; asset.analysis.nodes.len()];
-    let masses = asset
-        .tets()
-        .map(|tet| asset.material.density * asset.fracture.volume(tet));
-    let scale = match asset.portion {
-        Some(_) => asset.mass.mass / masses.clone().sum::<f64>(),
-        None => 1.0,
-    };
-    for (mass, point) in masses.zip(&asset.embedding.tets) {
-        let mass = (mass * scale) as f32;
-        let element = asset.analysis.elements[point.element as usize];
-        for (&node, share) in element.iter().zip(ShapeWeights::values(point)) {
-            mass_of_node[node as usize] += mass * share;
-        }
-    }
-    let mut sums = vec![Vec3::ZERO; modes];
-    for (node, &mass) in mass_of_node.iter().enumerate() {
-        for axis in 0..3 {
-            for (sum, &phi) in sums.iter_mut().zip(asset.modes.row(3 * node + axis)) {
-                sum[axis] += mass * phi;
-            }
-        }
-    }
-    sums
-}
-
 /// A body that may break: shares its asset with its like, has its own seed, weak points and cracks.
 #[derive(Clone, Debug)]
 pub struct Body {
@@ -246,7 +135,7 @@ impl Body {
     /// A body of this asset. For many bodies of one asset make the [`Breakable`] once: the checks are in it.
     ///
     /// # Errors
-    /// As [`Breakable::new`].
+    /// What [`Breakable::new`] refuses.
     pub fn new(asset: Arc<Asset>, seed: u64) -> Result<Self, InputError> {
         Ok(Breakable::new(asset)?.body(seed))
     }
@@ -271,7 +160,7 @@ impl Body {
 
     /// Works out what its first steady load would ask for, so that this does not have to wait for it.
     pub fn prepare_for_loads(&self) {
-        crate::loads::prepare(self);
+        refuse::prepare_for_loads(self);
     }
 
     /// Works out how its modes stress its weak points, so that its first blow does not have to wait for it. Else that is done part by part,

@@ -30,9 +30,9 @@ pub struct FractureConfig {
     pub timing: CrackTiming,
     /// Where cracks run. Default: [`CrackPath::Steered`].
     pub path: CrackPath,
-    /// Green and Lagrange's strain of the modes' motion `[G12 §4.4]`, with its quadratic terms. Default: off, strain is linear as
-    /// the modes are: their displacements take a turn for a stretch of half its square, which for a thin body that swings
-    /// by more than its thickness is more than it can bear.
+    /// Strain is Green and Lagrange's, with its quadratic terms `[G12 §4.4]`. Default: off, strain is linear. Modes move every point along
+    /// a straight line, so where a thin body swings they turn it and stretch it at once: a turn of 0.03 is a stretch of 5e-4, which is
+    /// the strength of glass. The quadratic terms count that stretch, the linear strain does not.
     pub green_lagrange: bool,
     /// A weak point whose tetrahedron has a free outer face lies on it, where no traction acts; strengths are then those of
     /// surfaces. Default: on; in the paper it lies at the tetrahedron's centre `[G12 §4.4]`.

@@ -9,14 +9,13 @@ use crate::blow::Blow;
 use crate::body::Body;
 use crate::config::{DurationModel, FractureConfig};
 use crate::contact::{self, Contact, Load, Pulse};
-use crate::crack::front_limit;
 use crate::cracking::{Cracked, Cracking};
 use crate::error::InputError;
 use crate::fragment::{self, Built};
 use crate::modal::{self, Motion};
 use crate::outcome::{Fracture, ImpactReport, LookedAt, Outcome};
 use crate::piece::Breakup;
-use crate::stress::MARGIN;
+use crate::refuse;
 use crate::trace::CrackTrace;
 
 /// Computes what an impact does to a body. Nothing is changed; the caller replaces a broken body by its fragments.
@@ -43,7 +42,7 @@ pub fn impact(
 /// refuses it: its motion is followed, and the report has the steps.
 ///
 /// # Errors
-/// As [`impact()`].
+/// What [`impact()`] refuses.
 pub fn impact_traced(
     body: &Body,
     contacts: &[Contact],
@@ -60,7 +59,7 @@ pub fn impact_traced(
 /// Whether an impact would break a body into pieces: [`impact`] without making them.
 ///
 /// # Errors
-/// As [`impact`].
+/// What [`impact()`] refuses.
 pub fn would_break(
     body: &Body,
     contacts: &[Contact],
@@ -70,16 +69,6 @@ pub fn would_break(
         Stage::Held(_) => false,
         Stage::Vibrates(vibration) => vibration.would_break(body, config, 0),
     })
-}
-
-/// Whether a bound that costs microseconds shows that an impact does nothing to a body; [`impact()`] asks it first. False
-/// says nothing.
-#[must_use]
-pub fn is_harmless(body: &Body, contacts: &[Contact], config: &FractureConfig) -> bool {
-    config.culling
-        && config.validate().is_ok()
-        && contacts.iter().all(|c| c.validate().is_ok())
-        && contact::refused(body, contacts, config).is_some()
 }
 
 /// What the first stage of an impact leaves to do.
@@ -202,8 +191,8 @@ fn begin(
     report.approach_energy = contact::approach_energy(contacts);
     let clock = Instant::now();
 
-    // Most contacts end here (beyond the paper: contact/refusal.rs).
-    if refuse && let Some(refusal) = contact::refused(body, contacts, config) {
+    // Most contacts end here (beyond the paper: refuse/impact.rs).
+    if refuse && let Some(refusal) = refuse::refused(body, contacts, config) {
         report.looked_at = refusal.looked_at;
         report.stress_bound = f64::from(refusal.bound);
         report.timings.response = clock.elapsed().as_secs_f64();
@@ -365,16 +354,6 @@ pub(crate) fn pieces(body: &Body, cracked: Cracked<'_>) -> Outcome {
         report,
         breakup: Some(Arc::new(breakup)),
     }))
-}
-
-/// Below this stress bound nothing happens to a body, Pa: no crack starts, and none of its old ones moves.
-pub(crate) fn harmless(body: &Body) -> f32 {
-    let strength = body.resistance.weakest as f32 * (1.0 - MARGIN);
-    if body.state().is_intact() {
-        strength
-    } else {
-        strength.min(front_limit(body))
-    }
 }
 
 /// A report with what is known of every load.

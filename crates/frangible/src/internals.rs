@@ -84,21 +84,23 @@ pub mod state {
 
 /// Stresses at weak points.
 pub mod stress {
+    pub use crate::refuse::StressBounds;
     pub use crate::stress::*;
 }
 
 pub use crate::asset::AssetFileError;
 pub use crate::config::{CrackPath, CrackTiming, DurationModel};
 pub use crate::crack::{CrackFront, ShownStress};
-pub use crate::fields::{Channel, Factors, Fields, Paint, Patch, Zone};
+pub use crate::fields::{Factors, Fields};
 #[doc(hidden)]
 pub use crate::fragment::{CutEdge, interfaces_of_labels, pieces_of_cuts};
-pub use crate::impact::{Stage, Vibration, impact_traced, is_harmless};
-pub use crate::loads::{Blast, Force, blast, follow, fracture_at, rest, rest_margin_at_least};
+pub use crate::impact::{Stage, Vibration, impact_traced};
+pub use crate::loads::{Blast, Force, blast, follow, fracture_at, rest};
 pub use crate::mesh::{MassProperties, RenderMesh, TetMesh, box_projection};
 pub use crate::onset::{Onset, OnsetSearch};
 pub use crate::outcome::{LookedAt, StageTimings};
 pub use crate::piece::{Elastic, PieceModel, Portion};
 pub use crate::presets::{Preset, RateLaw, UnknownMaterial};
+pub use crate::refuse::{is_harmless, rest_margin_at_least};
 pub use crate::state::BodyState;
 pub use crate::trace::{CrackTrace, ElementTrace};

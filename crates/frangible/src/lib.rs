@@ -34,12 +34,13 @@ mod near_field;
 mod onset;
 mod outcome;
 mod piece;
+mod prepared;
 mod presets;
+mod refuse;
 mod rng;
 mod state;
 mod stress;
 mod trace;
-mod weak_clusters;
 mod weak_rows;
 
 pub use asset::Asset;

@@ -2,9 +2,10 @@
 
 use crate::body::Body;
 use crate::config::FractureConfig;
-use crate::crack::{Culling, Peak, StressField, Suspects};
+use crate::crack::{Peak, StressField, Suspects};
 use crate::impact::Vibration;
 use crate::modal::Motion;
+use crate::refuse::Culling;
 use crate::stress::{DisplacementBatch, STRIDE, lane, largest_eigenvalue};
 
 /// What is known of the beginning of cracks in an impact.

@@ -106,7 +106,7 @@ pub struct ContactReport {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum LookedAt {
-    /// The sizes of its impulses, where they act and how long: one number of each place refused it.
+    /// Where its impulses act, how large they are and how long they last: one number per place was enough to refuse it.
     Sizes,
     /// What its impulses, and how long they act, can do to each mode at most: a bound free of time refused it, of the whole body or
     /// of all its parts.

@@ -121,7 +121,7 @@ pub fn lowest_modes(
 /// The lowest modes of a body that is held. Shapes have an entry for every unknown, zero where it is held.
 ///
 /// # Errors
-/// As [`lowest_modes`]; [`BakeError::AllHeld`] when nothing is left to move.
+/// What [`lowest_modes`] refuses, and [`BakeError::AllHeld`] when nothing is left to move.
 pub fn lowest_supported_modes(
     system: &System,
     constraints: &Constraints,
@@ -131,12 +131,11 @@ pub fn lowest_supported_modes(
     search(system, constraints, wanted, Accuracy::BAKED, progress)
 }
 
-/// The lowest modes found at once and less exactly: frequencies are right to six digits, residuals of shapes may be a few per cent. For
-/// what is found
-/// while somebody waits.
+/// The lowest modes, found at once and less exactly, where somebody waits for them: frequencies are right to six digits, residuals of
+/// shapes may be a few per cent.
 ///
 /// # Errors
-/// As [`lowest_supported_modes`], where a residual stays above a tenth.
+/// What [`lowest_supported_modes`] refuses; a residual counts as too large only above a tenth.
 pub fn quick_modes(
     system: &System,
     constraints: &Constraints,

@@ -51,7 +51,7 @@ impl QuadraticMesh {
         }
     }
 
-    /// As an asset stores it.
+    /// The mesh in the form that an asset stores.
     #[must_use]
     pub fn stored(&self) -> AnalysisMesh {
         let gradients = |e: usize| barycentric_gradients(self.corners(e)).map(|g| g.as_vec3());

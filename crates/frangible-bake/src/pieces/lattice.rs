@@ -11,7 +11,7 @@ use crate::pieces::PieceError;
 
 /// Elements over a piece, its stiffness and mass.
 pub(crate) struct Lattice {
-    /// As an asset stores them.
+    /// The elements, in the form that an asset stores.
     pub(crate) analysis: AnalysisMesh,
     /// Where the centroids of the portion's uncut tetrahedra lie.
     pub(crate) tets: Vec<EmbeddedPoint>,

@@ -11,7 +11,6 @@ use frangible::glam::{DVec3, Vec3};
 use frangible::internals::asset::{AnalysisMesh, EmbeddedPoint};
 use frangible::internals::modal::ModalBasis;
 use frangible::internals::piece::{Elastic, Portion};
-use frangible::internals::stress::ShapeWeights;
 use frangible::{Asset, Body};
 
 use crate::pieces::PieceError;
@@ -182,9 +181,8 @@ fn integrals(
         for (i, (point, volume)) in points.iter().zip(volumes).enumerate() {
             let element = point.element as usize;
             let nodes = &analysis.elements[element];
-            let weights = ShapeWeights::values(point);
-            let gradients =
-                ShapeWeights::gradients(point, &analysis.barycentric_gradients[element]);
+            let weights = point.shape_values();
+            let gradients = point.shape_gradients(&analysis.barycentric_gradients[element]);
             let weight = (volume * scale).sqrt();
             let by_mass = weight * asset.material.density.sqrt();
             let (shear, both) = (weight * mu.sqrt(), weight * (2.0 * mu).sqrt());

@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::{DistanceSolid, Node, fold, padded, primitives, smooth_max, smooth_min};
+use super::{DistanceSolid, Node, fold, nearer_first, padded, primitives, smooth_max, smooth_min};
 
 /// Step of differences, in sizes of a primitive.
 const STEP: f64 = 1e-6;
@@ -95,14 +95,9 @@ impl DistanceSolid {
     }
 }
 
-/// As the union of values.
-fn union([a, b]: &[DistanceSolid; 2], blend: f64, p: DVec3, cutoff: f64) -> Sloped {
-    let (at_a, at_b) = (a.reach.beyond(p), b.reach.beyond(p));
-    let (near, far, at_far) = if at_a <= at_b {
-        (a, b, at_b)
-    } else {
-        (b, a, at_a)
-    };
+/// The union of two parts, blended over a length, m, with its gradient: passes over a part where the union of values does.
+fn union(parts: &[DistanceSolid; 2], blend: f64, p: DVec3, cutoff: f64) -> Sloped {
+    let (near, far, at_far) = nearer_first(parts, p);
     let cutoff = padded(cutoff + 1.25 * blend);
     let first = near.sloped(p, cutoff);
     let needed = padded(first.0 + blend).min(cutoff);

@@ -147,13 +147,18 @@ impl DistanceSolid {
     }
 }
 
-fn union([a, b]: &[DistanceSolid; 2], blend: f64, p: DVec3, cutoff: f64) -> f64 {
+/// The part whose reach is nearer to a point, the other one, and how far that one's reach is away, m.
+fn nearer_first([a, b]: &[DistanceSolid; 2], p: DVec3) -> (&DistanceSolid, &DistanceSolid, f64) {
     let (at_a, at_b) = (a.reach.beyond(p), b.reach.beyond(p));
-    let (near, far, at_far) = if at_a <= at_b {
+    if at_a <= at_b {
         (a, b, at_b)
     } else {
         (b, a, at_a)
-    };
+    }
+}
+
+fn union(parts: &[DistanceSolid; 2], blend: f64, p: DVec3, cutoff: f64) -> f64 {
+    let (near, far, at_far) = nearer_first(parts, p);
     // Beyond this, a part changes no union that is below `cutoff`: the other is then less than blend/4 above that.
     let cutoff = padded(cutoff + 1.25 * blend);
     let value = near.value(p, cutoff);

@@ -15,7 +15,7 @@ pub(super) enum Coding {
 pub(super) struct Cursor<'a> {
     bytes: &'a [u8],
     at: usize,
-    /// From 1.
+    /// Number of the line it is at, counted from 1.
     line: usize,
     /// Begins a comment that ends with its line; none where zero.
     comment: u8,

@@ -9,7 +9,7 @@ pub(super) struct Tag<'a> {
     pub(super) closes: bool,
     attributes: Vec<(String, String)>,
     pub(super) text: &'a [u8],
-    /// From 1.
+    /// Number of the line it is at, counted from 1.
     line: usize,
 }
 

@@ -29,11 +29,11 @@ impl Grid {
         self.origin + self.spacing * DVec3::new(i as f64, j as f64, k as f64)
     }
 
-    /// Inside or not, per point.
-    pub(crate) fn inside(&self, solid: &dyn Solid) -> Vec<bool> {
+    /// Works through the blocks of the grid's points on all threads: `work` is given the box `low..high` of each. The results come in the
+    /// order of the blocks.
+    fn by_blocks<T: Send>(&self, work: impl Fn([usize; 3], [usize; 3]) -> T + Sync) -> Vec<T> {
         let blocks = self.counts.map(|n| n.div_ceil(BLOCK));
-        let number = blocks.iter().product::<usize>();
-        let found: Vec<Vec<Run>> = (0..number)
+        (0..blocks.iter().product::<usize>())
             .into_par_iter()
             .map(|b| {
                 let place = [
@@ -43,11 +43,18 @@ impl Grid {
                 ];
                 let low = place.map(|c| c * BLOCK);
                 let high = std::array::from_fn(|k| (low[k] + BLOCK).min(self.counts[k]));
-                let mut runs = Vec::new();
-                self.classify(solid, low, high, &mut runs);
-                runs
+                work(low, high)
             })
-            .collect();
+            .collect()
+    }
+
+    /// Inside or not, per point.
+    pub(crate) fn inside(&self, solid: &dyn Solid) -> Vec<bool> {
+        let found = self.by_blocks(|low, high| {
+            let mut runs = Vec::new();
+            self.classify(solid, low, high, &mut runs);
+            runs
+        });
         let mut inside = vec![false; self.len()];
         for run in found.iter().flatten() {
             for k in run.low[2]..run.high[2] {
@@ -127,20 +134,7 @@ pub fn counted_volume(solid: &dyn Solid, spacing: f64) -> f64 {
         spacing,
         counts,
     };
-    let blocks = counts.map(|n| n.div_ceil(BLOCK));
-    let sums: Vec<f64> = (0..blocks.iter().product::<usize>())
-        .into_par_iter()
-        .map(|b| {
-            let place = [
-                b % blocks[0],
-                b / blocks[0] % blocks[1],
-                b / blocks[0] / blocks[1],
-            ];
-            let low = place.map(|c| c * BLOCK);
-            let high = std::array::from_fn(|k| (low[k] + BLOCK).min(counts[k]));
-            grid.share_inside(solid, low, high)
-        })
-        .collect();
+    let sums = grid.by_blocks(|low, high| grid.share_inside(solid, low, high));
     sums.iter().sum::<f64>() * spacing.powi(3)
 }
 

@@ -1,11 +1,10 @@
 //! Weak places of a body.
 
-use frangible::internals::{Paint, Patch};
-
 use super::{Fault, quantity};
 use crate::body::BodySpec;
 use crate::error::SceneError;
 use crate::source::BodySource;
+use frangible_bake::weakness::{Paint, Patch};
 
 /// Most weak places of a body.
 const MOST_PATCHES: usize = 1000;

@@ -1,7 +1,7 @@
 //! Weak places of a body, from and to TOML.
 
 use frangible::glam::Vec3;
-use frangible::internals::{Channel, Paint, Patch, Zone};
+use frangible_bake::weakness::{Channel, Paint, Patch, Zone};
 use serde::Deserialize;
 
 use super::body::clash;

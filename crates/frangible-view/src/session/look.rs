@@ -12,7 +12,7 @@ use crate::camera::Ray;
 use crate::command::{Mark, Subject};
 use crate::compare;
 use crate::error::ViewError;
-use crate::jobs::{Job, Polled};
+use crate::jobs::Job;
 use crate::marks;
 use crate::picking::pick;
 use crate::picture::{Batch, Picture};
@@ -54,11 +54,8 @@ impl Session {
         let Some(job) = &self.analysis_job else {
             return false;
         };
-        let polled = wait.map_or_else(|| job.poll(), |wait| job.wait(wait));
-        let result = match polled {
-            Polled::Running => return false,
-            Polled::Died => Err(ViewError::Worker),
-            Polled::Done(result) => result.map_err(ViewError::from),
+        let Some(result) = job.result(wait) else {
+            return false;
         };
         self.analysis_job = None;
         match result {

@@ -10,7 +10,7 @@ use super::Session;
 use crate::blow::Blow;
 use crate::command::Subject;
 use crate::error::ViewError;
-use crate::jobs::{Job, Polled, Teller};
+use crate::jobs::{Job, Teller};
 use crate::methods::{FIRST, Methods, Outcome, PANES};
 
 /// Methods that are being computed, of a blow.
@@ -70,11 +70,8 @@ impl Session {
         let Some(MethodsJob { job, .. }) = &self.methods_job else {
             return false;
         };
-        let polled = wait.map_or_else(|| job.poll(), |wait| job.wait(wait));
-        let result = match polled {
-            Polled::Running => return false,
-            Polled::Died => Err(ViewError::Worker),
-            Polled::Done(result) => result.map_err(ViewError::from),
+        let Some(result) = job.result(wait) else {
+            return false;
         };
         let Some(MethodsJob { blow, chosen, .. }) = self.methods_job.take() else {
             return true;

@@ -8,7 +8,7 @@ use super::{Session, settings_of};
 use crate::baking::{bake, of_wanted_material, same_bakes};
 use crate::command::Subject;
 use crate::error::ViewError;
-use crate::jobs::{Job, Polled};
+use crate::jobs::Job;
 use crate::knobs::turn_material;
 
 /// What a host cannot do.
@@ -68,11 +68,8 @@ impl Session {
         let Some(job) = &self.bake_job else {
             return false;
         };
-        let polled = wait.map_or_else(|| job.poll(), |wait| job.wait(wait));
-        let result = match polled {
-            Polled::Running => return false,
-            Polled::Died => Err(ViewError::Worker),
-            Polled::Done(result) => result.map_err(ViewError::from),
+        let Some(result) = job.result(wait) else {
+            return false;
         };
         self.bake_job = None;
         match (result, self.wanted_scene()) {

@@ -12,7 +12,7 @@ use crate::baking::{bake, of_wanted_material};
 use crate::blow::Blow;
 use crate::command::Subject;
 use crate::error::ViewError;
-use crate::jobs::{Job, Polled, Teller};
+use crate::jobs::{Job, Teller};
 use crate::knobs::{KNOBS, Knob, Settings};
 use crate::shown::Compared;
 
@@ -118,11 +118,8 @@ impl Session {
         let Some(job) = &self.again_job else {
             return false;
         };
-        let polled = wait.map_or_else(|| job.poll(), |wait| job.wait(wait));
-        let result = match polled {
-            Polled::Running => return false,
-            Polled::Died => Err(ViewError::Worker),
-            Polled::Done(result) => result,
+        let Some(result) = job.result(wait) else {
+            return false;
         };
         self.again_job = None;
         match result {

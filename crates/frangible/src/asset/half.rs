@@ -2,7 +2,7 @@
 
 use super::Asset;
 use crate::modal::ModalBasis;
-use crate::stress::StressBounds;
+use crate::refuse::StressBounds;
 
 /// A number of half precision, by its bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,5 +1,6 @@
 //! What a bake produces and the run time needs: one immutable value per kind of object.
 
+mod embedding;
 mod file;
 mod half;
 mod render;
@@ -13,12 +14,14 @@ use crate::material::Material;
 use crate::mesh::{MassProperties, TetMesh};
 use crate::modal::ModalBasis;
 use crate::piece::Portion;
-use crate::stress::StressBounds;
+use crate::refuse::StressBounds;
 
+pub use embedding::{EmbeddedPoint, Embedding};
 #[doc(hidden)]
 pub use file::seal;
 pub use file::{AssetFileError, FORMAT_VERSION, SaveOptions};
 pub use render::{RenderMaterial, RenderSurface};
+pub(crate) use validate::{analysis, embedded, modes};
 
 /// Everything the run time needs of one kind of object. Share it (`Arc`) among all bodies of that kind.
 ///
@@ -195,27 +198,6 @@ pub struct AnalysisMesh {
     pub elements: Vec<[u32; 10]>,
     /// Gradients of the four barycentric coordinates of each element, 1/m.
     pub barycentric_gradients: Vec<[Vec3; 4]>,
-}
-
-/// A point of the body as seen by the analysis mesh.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct EmbeddedPoint {
-    /// Analysis element that holds the point (the nearest one, for a point just outside).
-    pub element: u32,
-    /// Barycentric coordinates in it of the point, or of the closest point of the element. They sum to one, and
-    /// may be slightly negative: the element's polynomials hold a little beyond its faces.
-    pub barycentric: [f32; 4],
-    /// From that closest point to the point, m; zero for a point that the coordinates give exactly.
-    pub offset: Vec3,
-}
-
-/// Where the fracture mesh lies in the analysis mesh.
-#[derive(Clone, Debug, Default)]
-pub struct Embedding {
-    /// One per fracture tetrahedron: its centroid.
-    pub tets: Vec<EmbeddedPoint>,
-    /// One per fracture node.
-    pub nodes: Vec<EmbeddedPoint>,
 }
 
 /// A convex part of the body for collision.

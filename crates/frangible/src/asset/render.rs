@@ -18,7 +18,7 @@ pub struct RenderSurface {
     /// Texture coordinates: none, or one pair per vertex.
     pub uvs: Vec<[f32; 2]>,
     /// Red, green, blue and opacity, each 0..=1: none, or one per vertex. Weakness may be painted with them, see
-    /// [`Fields::from_paint`](crate::internals::Fields::from_paint).
+    /// the module `weakness` of `frangible-bake`.
     pub colors: Vec<[f32; 4]>,
     /// Vertices of each triangle, counter-clockwise seen from outside.
     pub triangles: Vec<[u32; 3]>,

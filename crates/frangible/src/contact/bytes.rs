@@ -8,6 +8,9 @@ use crate::error::InputError;
 /// Numbers of a contact.
 const NUMBERS: usize = Contact::BYTES / 4;
 
+/// Numbers of a contact but for those of a shared mass.
+const OWN: usize = NUMBERS - 7;
+
 impl Contact {
     /// Length of a contact in bytes.
     pub const BYTES: usize = 96;
@@ -15,44 +18,22 @@ impl Contact {
     /// The contact as bytes: its numbers in the order of the fields, little-endian, four bytes each.
     #[must_use]
     pub fn to_bytes(&self) -> [u8; Self::BYTES] {
-        let s = &self.striker;
-        let of = |v: Vec3| v.to_array();
-        let ([px, py, pz], [nx, ny, nz], [fx, fy, fz]) =
-            (of(self.point), of(self.normal), of(self.friction));
+        let mut contact = *self;
         // A striker that shares its mass has the number of its body plus one, and 0 says that it does not.
-        let (number, velocity, spin) = (s.shared.as_ref())
+        let (number, velocity, spin) = (self.striker.shared.as_ref())
             .map_or((0, Vec3::ZERO, Vec3::ZERO), |shared| {
                 (shared.body + 1, shared.velocity, shared.spin)
             });
-        let ([vx, vy, vz], [sx, sy, sz]) = (of(velocity), of(spin));
-        let numbers: [f32; NUMBERS] = [
-            px,
-            py,
-            pz,
-            nx,
-            ny,
-            nz,
-            self.impulse,
-            fx,
-            fy,
-            fz,
-            self.approach_speed,
-            self.duration,
-            s.contact_modulus,
-            s.inverse_effective_mass,
-            s.curvature_radius,
-            s.restitution,
-            s.modal_duration,
-            f32::from_bits(number),
-            vx,
-            vy,
-            vz,
-            sx,
-            sy,
-            sz,
-        ];
+        let ([vx, vy, vz], [sx, sy, sz]) = (velocity.to_array(), spin.to_array());
+        let shared = [f32::from_bits(number), vx, vy, vz, sx, sy, sz];
+        let numbers = contact.numbers().into_iter().map(|&mut number| number);
         let mut bytes = [0; Self::BYTES];
-        for (place, number) in bytes.as_chunks_mut().0.iter_mut().zip(numbers) {
+        for (place, number) in bytes
+            .as_chunks_mut()
+            .0
+            .iter_mut()
+            .zip(numbers.chain(shared))
+        {
             *place = number.to_le_bytes();
         }
         bytes
@@ -66,36 +47,12 @@ impl Contact {
         let Ok(bytes) = <&[u8; Self::BYTES]>::try_from(bytes) else {
             return Err(InputError::ContactBytes(bytes.len()));
         };
-        let mut numbers = [0.0; NUMBERS];
-        for (number, &place) in numbers.iter_mut().zip(bytes.as_chunks().0) {
-            *number = f32::from_le_bytes(place);
+        let mut read = (bytes.as_chunks().0.iter()).map(|&place| f32::from_le_bytes(place));
+        let mut contact = Self::new(Vec3::ZERO, Vec3::ZERO, 0.0, 0.0, Striker::rigid());
+        for (number, read) in contact.numbers().into_iter().zip(&mut read) {
+            *number = read;
         }
-        let [
-            px,
-            py,
-            pz,
-            nx,
-            ny,
-            nz,
-            impulse,
-            fx,
-            fy,
-            fz,
-            approach_speed,
-            duration,
-            contact_modulus,
-            inverse_effective_mass,
-            curvature_radius,
-            restitution,
-            modal_duration,
-            number,
-            vx,
-            vy,
-            vz,
-            sx,
-            sy,
-            sz,
-        ] = numbers;
+        let [number, vx, vy, vz, sx, sy, sz] = std::array::from_fn(|_| read.next().unwrap_or(0.0));
         let shared = SharedMass {
             body: number.to_bits().wrapping_sub(1),
             velocity: Vec3::new(vx, vy, vz),
@@ -103,24 +60,30 @@ impl Contact {
         };
         let alone =
             number.to_bits() == 0 && shared.velocity == Vec3::ZERO && shared.spin == Vec3::ZERO;
-        let contact = Self {
-            point: Vec3::new(px, py, pz),
-            normal: Vec3::new(nx, ny, nz),
-            impulse,
-            friction: Vec3::new(fx, fy, fz),
-            approach_speed,
-            duration,
-            striker: Striker {
-                contact_modulus,
-                inverse_effective_mass,
-                curvature_radius,
-                restitution,
-                modal_duration,
-                shared: (!alone).then_some(shared),
-            },
-        };
+        contact.striker.shared = (!alone).then_some(shared);
         contact.validate()?;
         Ok(contact)
+    }
+
+    /// The numbers of the contact in the order of its fields, but for those of a shared mass.
+    fn numbers(&mut self) -> [&mut f32; OWN] {
+        let Self {
+            point,
+            normal,
+            impulse,
+            friction,
+            approach_speed,
+            duration,
+            striker: s,
+        } = self;
+        let [[px, py, pz], [nx, ny, nz], [fx, fy, fz]] =
+            [point, normal, friction].map(|v| v.as_mut().each_mut());
+        #[rustfmt::skip]
+        let numbers = [
+            px, py, pz, nx, ny, nz, impulse, fx, fy, fz, approach_speed, duration,
+            &mut s.contact_modulus, &mut s.inverse_effective_mass, &mut s.curvature_radius, &mut s.restitution, &mut s.modal_duration,
+        ];
+        numbers
     }
 }
 

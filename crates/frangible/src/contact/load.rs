@@ -6,7 +6,6 @@ use super::Contact;
 use crate::asset::Asset;
 use crate::body::Body;
 use crate::mesh::SurfacePoint;
-use crate::stress::ShapeWeights;
 
 /// A contact on the body's surface, with what its modes see of it.
 #[derive(Clone, Debug)]
@@ -94,7 +93,7 @@ pub fn modal_load<'a>(body: &Body, contacts: impl IntoIterator<Item = &'a Contac
 }
 
 /// nᵀ K n of a body there, 1/kg; zero where it is held, since it does not give way as a whole.
-pub(super) fn give(asset: &Asset, at: &SurfacePoint, normal: Vec3) -> f64 {
+pub(crate) fn give(asset: &Asset, at: &SurfacePoint, normal: Vec3) -> f64 {
     if asset.is_supported() {
         return 0.0;
     }
@@ -106,13 +105,8 @@ pub(super) fn give(asset: &Asset, at: &SurfacePoint, normal: Vec3) -> f64 {
 fn projected(asset: &Asset, at: &SurfacePoint, v: Vec3) -> Vec<f64> {
     let mut sums = vec![0.0; asset.modes.count()];
     each_row(asset, at, |node, weight| {
-        for axis in 0..3 {
-            let w = f64::from(weight * v[axis]);
-            let row = asset.modes.row(3 * node + axis);
-            for (xi, &phi) in sums.iter_mut().zip(row) {
-                *xi += w * f64::from(phi);
-            }
-        }
+        let push = (v * weight).to_array().map(f64::from);
+        asset.modes.add_push(node, push, &mut sums);
     });
     sums
 }
@@ -127,14 +121,14 @@ pub fn each_row(asset: &Asset, at: &SurfacePoint, mut visit: impl FnMut(usize, f
 }
 
 /// [`each_row`] as a list, and how long it is.
-pub(super) fn carriers(asset: &Asset, at: &SurfacePoint) -> ([(u32, f32); 30], usize) {
+pub(crate) fn carriers(asset: &Asset, at: &SurfacePoint) -> ([(u32, f32); 30], usize) {
     let triangle = asset.surface.triangles[at.triangle as usize];
     let mut carriers = [(0_u32, 0.0_f32); 30];
     let mut count = 0;
     for (&node, corner) in triangle.iter().zip(at.weights) {
         let point = &asset.embedding.nodes[node as usize];
         let element = asset.analysis.elements[point.element as usize];
-        for (&carrier, weight) in element.iter().zip(ShapeWeights::values(point)) {
+        for (&carrier, weight) in element.iter().zip(point.shape_values()) {
             let known = carriers[..count].iter_mut().find(|c| c.0 == carrier);
             match known {
                 Some(known) => known.1 += corner * weight,

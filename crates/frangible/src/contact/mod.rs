@@ -5,9 +5,7 @@ mod bytes;
 mod duration;
 mod kinds;
 mod load;
-mod per_impulse;
 mod pulse;
-mod refusal;
 
 pub use admissible::{admissible_duration, approach_energy};
 pub use duration::{
@@ -18,6 +16,5 @@ pub use kinds::{Contact, SharedMass, Striker};
 #[doc(hidden)]
 pub use load::each_row;
 pub use load::{Load, Touch, modal_load};
-pub(crate) use per_impulse::PerImpulse;
+pub(crate) use load::{carriers, give};
 pub use pulse::{Pulse, pulse};
-pub(crate) use refusal::{Pushes, Refusal, refused};

@@ -1,6 +1,9 @@
-//! Release waves on their way to a point: of each crack the sites that no nearer one precedes.
+//! Release waves on their way to a point.
+//!
+//! A wave that arrives after one from a nearer site of the same crack releases nothing more. So a point remembers, for each crack, only
+//! the sites whose waves no nearer site's wave precedes. They stand in a queue per crack: whoever arrives later in it is nearer.
 
-/// No more.
+/// The end of a queue.
 const END: u32 = u32::MAX;
 
 /// A site whose wave is on its way.
@@ -11,11 +14,11 @@ struct Arrival {
     distance: f32,
     /// s.
     time: f64,
-    /// The crack's next one: sooner, and farther.
+    /// The next site in the crack's queue, whose wave arrives sooner and comes from farther away.
     next: u32,
 }
 
-/// Those of one crack, the last first: of two that are left the later is the nearer.
+/// The waves of one crack, the one that arrives last first.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Queue {
     first: u32,
@@ -35,7 +38,7 @@ impl Queue {
     }
 }
 
-/// Those of all cracks.
+/// The waves of all cracks.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Arrivals {
     all: Vec<Arrival>,
@@ -148,7 +151,7 @@ mod tests {
     use super::*;
     use crate::rng::{Purpose, stream, uniform};
 
-    /// The same without an order.
+    /// A list that does what the queues do, without an order.
     #[derive(Default)]
     struct Plain(Vec<(u32, f32, f64)>);
 

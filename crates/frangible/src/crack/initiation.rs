@@ -8,9 +8,10 @@
 use glam::Vec3;
 
 use super::field::StressField;
+use super::single::ElementCut;
 use super::surface::{CrackFrame, crossing_area};
 use super::suspects::{Suspect, Suspects};
-use super::system::{CrackSystem, ElementCut, UNCUT};
+use super::system::{CrackSystem, UNCUT};
 use super::{advance, propagation::gradient, retry};
 use crate::config::CrackTiming;
 use crate::rng::{Purpose, stream, uniform};
@@ -19,14 +20,14 @@ use crate::stress::{Symmetric3, lane, largest_eigenvalue, perpendicular_axes, pr
 /// Below this relative gap of the two largest tensions the direction between them is rounding noise.
 const ISOTROPIC: f64 = 1e-3;
 
-/// Largest principal tension met at a weak point so far, Pa.
+/// The most stressed weak point so far.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Peak {
-    /// The tension …
+    /// The largest principal tension, Pa.
     pub(crate) tension: f32,
-    /// … and the tetrahedron of the point, where there is any tension.
+    /// Tetrahedron of the point that has it, where there is any tension.
     pub(crate) tet: u32,
-    /// That of the largest share of its point's strength, as the weakest point would feel it.
+    /// What the point nearest to its own strength feels, as the tension at which the weakest point is as near to its, Pa.
     pub(crate) as_weakest: f32,
 }
 

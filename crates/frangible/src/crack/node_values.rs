@@ -1,54 +1,35 @@
-//! What each crack's s is at the nodes that it has met: a chain per node, which knows no hash.
+//! What each crack's s is at the nodes that it has met.
 
-/// One crack's s at one node.
-#[derive(Clone, Copy, Debug)]
-struct Entry {
-    crack: u32,
-    /// m.
-    value: f32,
-    /// The node's entry before it, plus one; 0 for none.
-    before: u32,
-}
+use crate::mesh::ByNode;
 
 /// s of all cracks at the nodes of a mesh.
 #[derive(Debug)]
 pub(crate) struct NodeValues {
-    /// Each node's latest entry, plus one; 0 for none.
-    latest: Vec<u32>,
-    entries: Vec<Entry>,
+    /// Places in the values, by the node and the crack.
+    places: ByNode<u32>,
+    /// m.
+    values: Vec<f32>,
 }
 
 impl NodeValues {
     pub(crate) fn new(node_count: usize) -> Self {
         Self {
-            latest: vec![0; node_count],
-            entries: Vec::new(),
+            places: ByNode::new(node_count),
+            values: Vec::new(),
         }
     }
 
     /// A crack's s at a node, m.
     pub(crate) fn get(&self, crack: u32, node: u32) -> Option<f32> {
-        let mut at = self.latest[node as usize];
-        while at != 0 {
-            let entry = &self.entries[at as usize - 1];
-            if entry.crack == crack {
-                return Some(entry.value);
-            }
-            at = entry.before;
-        }
-        None
+        let place = self.places.find(node, crack)?;
+        Some(self.values[place as usize])
     }
 
     /// Sets a crack's s at a node, m, unless it has one: the first holds.
     pub(crate) fn keep(&mut self, crack: u32, node: u32, value: f32) {
-        if self.get(crack, node).is_none() {
-            let latest = &mut self.latest[node as usize];
-            self.entries.push(Entry {
-                crack,
-                value,
-                before: *latest,
-            });
-            *latest = self.entries.len() as u32;
+        if self.places.find(node, crack).is_none() {
+            self.places.add(node, crack);
+            self.values.push(value);
         }
     }
 }

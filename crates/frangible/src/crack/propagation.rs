@@ -19,8 +19,9 @@ use glam::Vec3;
 
 use super::branching::{forks, start};
 use super::field::{Felt, StressField};
+use super::single::{ElementCut, Front};
 use super::surface::crossing_area;
-use super::system::{CrackSystem, ElementCut, Front, UNCUT};
+use super::system::{CrackSystem, UNCUT};
 use crate::config::{CrackPath, CrackTiming};
 use crate::fields::Tip;
 use crate::stress::{Symmetric3, principal_axes};

@@ -19,8 +19,9 @@ mod memory;
 use memory::{Memory, Sources};
 
 use super::field::StressField;
+use super::single::Front;
 use super::suspects::Suspect;
-use super::system::{CrackSystem, Front};
+use super::system::CrackSystem;
 use crate::config::CrackTiming;
 use crate::stress::{
     BATCH, MARGIN, Released, STRETCHED, STRIDE, Steps, StressLanes, Symmetric3, bent, lane,

@@ -2,13 +2,12 @@
 //! arithmetic runs over the steps side by side. What cracks do in the meantime only takes suspects away: release
 //! waves never raise the largest tension (λ_max(Q σ Q) ≤ max(λ_max(σ), 0), `stress/shadow.rs`).
 
-use super::culling::limit;
 use super::field::StressField;
 use super::initiation::Peak;
 use super::system::UNCUT;
 use super::weak_stress::WeakStress;
 use crate::body::Body;
-use crate::stress::{BATCH, Frame, Lanes, Steps, StressLanes};
+use crate::stress::{BATCH, Frame, Lanes, Steps, StressLanes, limit};
 use crate::weak_rows::ClusterRows;
 
 /// A weak point whose stress may pass its strength, or the peak so far, at a step of a batch.

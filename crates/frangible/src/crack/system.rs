@@ -1,188 +1,30 @@
 //! All cracks of one impact and what they have cut.
 
-use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
 use glam::Vec3;
 
 use super::node_values::NodeValues;
 use super::release::Releases;
-use super::sites::{Site, Sites};
+use super::single::{Crack, ElementCut, Extent, Front, Junction};
+use super::sites::Site;
 use super::surface::CrackFrame;
-use super::tip::{Tip, is_inside, tip_limit};
+use super::tip::{Tip, front_limit, is_inside};
 use crate::asset::Asset;
 use crate::body::Body;
 use crate::config::{CrackPath, CrackTiming, FractureConfig};
 use crate::fields::Resistance;
 use crate::state::OldCrack;
-use crate::stress::MARGIN;
 
 /// No crack has fractured this tetrahedron.
 pub(crate) const UNCUT: u32 = u32::MAX;
 
-/// Of another piece than the one that cracks: no front goes there.
+/// This tetrahedron belongs to another piece than the one that cracks: no front goes there.
 pub(crate) const ELSEWHERE: u32 = u32::MAX - 1;
 
 /// The ledger is spent when it lacks the energy of this area in squares of the mean edge: a fiftieth of what a crack cuts of a
 /// tetrahedron on average.
 const SPENT: f64 = 0.01;
-
-/// One crack.
-pub(crate) struct Crack {
-    pub(crate) frame: CrackFrame,
-    /// Tetrahedron where it started.
-    pub(crate) start: u32,
-    /// Fractured tetrahedra in the order they joined.
-    pub(crate) elements: Vec<ElementCut>,
-    /// How many of them, from the first, had cut a piece before it was one: these cuts are settled
-    /// ([`Portion`](crate::piece::Portion)).
-    pub(crate) settled: usize,
-    /// Fracture energy spent E_f, J `[G12 Eq. 11]`.
-    pub(crate) spent: f64,
-    /// Strain energy available E_s, J `[G12 Eq. 12]`.
-    pub(crate) available: f64,
-    /// Area, m².
-    pub(crate) area: f64,
-    /// Its tetrahedra thinned to one per place: what releases the stress around it.
-    pub(crate) sites: Sites,
-    /// Question about releases that it last grew before.
-    grown_before: u64,
-    /// Where it ran into another crack (or into itself).
-    pub(crate) junctions: Vec<Junction>,
-    /// Where it forked, and when, s.
-    pub(crate) forks: Vec<(Vec3, f64)>,
-    /// What feeds its front, if it was there before; and how many of its tetrahedra, from the first, were.
-    pub(crate) tip: Option<Tip>,
-    restored: usize,
-}
-
-impl Crack {
-    /// Without tetrahedra yet.
-    pub(crate) fn new(frame: CrackFrame, start: u32) -> Self {
-        Self {
-            frame,
-            start,
-            elements: Vec::new(),
-            settled: 0,
-            spent: 0.0,
-            available: 0.0,
-            area: 0.0,
-            sites: Sites::default(),
-            grown_before: 0,
-            junctions: Vec::new(),
-            forks: Vec::new(),
-            tip: None,
-            restored: 0,
-        }
-    }
-}
-
-/// No front of an old crack of this body moves at a stress whose every principal value is below this, Pa: of the strain energy
-/// density η ≤ (3 + 6|ν|) σ² / 2E it needs γ η > G_c, or what its [`Tip`] asks for.
-pub(crate) fn front_limit(body: &Body) -> f32 {
-    let (material, least) = (&body.asset.material, body.resistance.toughness.least);
-    let share = 3.0 + 6.0 * material.poisson_ratio.abs();
-    let energy_density = least / material.energy_depth;
-    let layer = (2.0 * material.youngs_modulus * energy_density / share).sqrt();
-    let depths = body.tips.iter().map(|tip| tip.depth(0.0));
-    let tips = depths.map(|depth| tip_limit(material, least, depth));
-    tips.fold(layer, f64::min) as f32 * (1.0 - MARGIN)
-}
-
-/// A tetrahedron fractured by a crack.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct ElementCut {
-    pub(crate) tet: u32,
-    /// s at its four nodes, m.
-    pub(crate) values: [f32; 4],
-    /// Unit ∇s: the crack's normal there.
-    pub(crate) direction: Vec3,
-    /// Outward normal of the face of the wall that the crack opens from; zero in a solid, and of a crack that was there before.
-    pub(crate) opens: Vec3,
-    /// When it joined, s after the contact began.
-    pub(crate) time: f64,
-}
-
-/// Where a crack is, and how long.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Extent {
-    pub(crate) origin: Vec3,
-    /// Largest distance of a fractured tetrahedron from the start, m.
-    pub(crate) size: f32,
-    /// Two of its tetrahedra that lie far apart.
-    ends: [Vec3; 2],
-    /// Distance between those two tetrahedra, m.
-    pub(crate) chord: f32,
-    /// Where the crack comes last in [`CrackSystem::growth`].
-    pub(crate) latest_growth: u32,
-}
-
-impl Extent {
-    /// The extent of a crack that starts here.
-    pub(super) fn new(origin: Vec3) -> Self {
-        Self {
-            origin,
-            size: 0.0,
-            ends: [origin; 2],
-            chord: 0.0,
-            latest_growth: 0,
-        }
-    }
-
-    /// With a tetrahedron more; whether the crack got longer. The end nearer to a place that lies beyond both moves there.
-    pub(super) fn grow(&mut self, centre: Vec3) -> bool {
-        let size = self.size.max(centre.distance(self.origin));
-        let [first, second] = self.ends.map(|end| end.distance(centre));
-        let longer = first.max(second) > self.chord;
-        if longer {
-            self.ends[usize::from(first > second)] = centre;
-            self.chord = first.max(second);
-        }
-        let grown = longer || size > self.size;
-        self.size = size;
-        grown
-    }
-}
-
-/// A crack's front that met a tetrahedron it may not enter.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Junction {
-    /// Index of the crack's own tetrahedron at the front, into [`Crack::elements`].
-    pub(crate) from: u32,
-    /// Whether the crack met an older part of itself.
-    pub(crate) own: bool,
-}
-
-/// The front of a crack at the face of a tetrahedron it may enter.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Front {
-    /// When it gets there, s; of instant cracks only the order counts.
-    pub(crate) arrival: f64,
-    pub(crate) tet: u32,
-    pub(crate) crack: u32,
-    /// Index into the crack's elements of the one it comes from.
-    pub(crate) from: u32,
-}
-
-impl Eq for Front {}
-
-impl Ord for Front {
-    /// Reversed, so that a max-heap yields the earliest arrival, then the lowest element.
-    fn cmp(&self, other: &Self) -> Ordering {
-        other
-            .arrival
-            .total_cmp(&self.arrival)
-            .then(other.tet.cmp(&self.tet))
-            .then(other.crack.cmp(&self.crack))
-            .then(other.from.cmp(&self.from))
-    }
-}
-
-impl PartialOrd for Front {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
 
 /// All cracks of one impact.
 pub(crate) struct CrackSystem<'a> {
@@ -211,7 +53,7 @@ pub(crate) struct CrackSystem<'a> {
     pub(crate) area: f64,
     /// What has released the weak points so far.
     pub(crate) releases: Releases,
-    /// The crack that grew, got a site or longer, once for each time between two questions about releases.
+    /// Cracks in the order in which they grew, by a site or in length. Between two questions about releases a crack is noted once.
     pub(crate) growth: Vec<u32>,
     /// Where each crack is, and how long.
     pub(crate) extents: Vec<Extent>,

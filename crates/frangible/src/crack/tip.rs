@@ -14,12 +14,14 @@
 
 use glam::Vec3;
 
+use super::cuts::Cuts;
 use super::surface::crossing_area;
 use crate::asset::Asset;
-use crate::fragment::Cuts;
+use crate::body::Body;
 use crate::material::Material;
 use crate::mesh::{EDGES, FACES, NO_NEIGHBOUR};
 use crate::state::{BodyState, OldCrack, OldCut};
+use crate::stress::MARGIN;
 
 /// H over the edge of the analysis' cells. Chosen by measurement: in a bent bar (`frangible-bake/tests/fronts.rs`, 3000 elements,
 /// crack a fifth and a third of its depth) the front then gets 0.3 and 0.4 of the energy that the modes lose; with half a cell 0.13 and 0.15.
@@ -112,7 +114,7 @@ pub(crate) fn fronts(asset: &Asset, state: &BodyState, tips: &[Tip]) -> Vec<Crac
 /// What no crack of a body has cut yet.
 struct Uncut<'a> {
     asset: &'a Asset,
-    /// Of each fracture tetrahedron: whether it is the body's own, and whole.
+    /// Whether each fracture tetrahedron is the body's own, and whole.
     tets: Vec<bool>,
     /// Cuts of a piece since it is one.
     settled: Cuts,
@@ -199,6 +201,18 @@ fn cell_edge(asset: &Asset) -> f64 {
 }
 
 /// Least tension that moves a front fed from this depth, m, Pa.
-pub(crate) fn tip_limit(material: &Material, least_fracture_energy: f64, depth: f64) -> f64 {
+fn tip_limit(material: &Material, least_fracture_energy: f64, depth: f64) -> f64 {
     (2.0 * material.contact_modulus() * least_fracture_energy / depth).sqrt()
+}
+
+/// No front of an old crack of this body moves at a stress whose every principal value is below this, Pa: of the strain energy
+/// density η ≤ (3 + 6|ν|) σ² / 2E it needs γ η > G_c, or what its [`Tip`] asks for.
+pub(crate) fn front_limit(body: &Body) -> f32 {
+    let (material, least) = (&body.asset.material, body.resistance.toughness.least);
+    let share = 3.0 + 6.0 * material.poisson_ratio.abs();
+    let energy_density = least / material.energy_depth;
+    let layer = (2.0 * material.youngs_modulus * energy_density / share).sqrt();
+    let depths = body.tips.iter().map(|tip| tip.depth(0.0));
+    let tips = depths.map(|depth| tip_limit(material, least, depth));
+    tips.fold(layer, f64::min) as f32 * (1.0 - MARGIN)
 }

@@ -1,18 +1,15 @@
 //! Strength, toughness and weak points that vary over a body: factors on its material's numbers, one per fracture
 //! tetrahedron.
 //!
-//! They come from a function of the place ([`Fields::from_function`]), from zones and scored lines ([`Fields::from_patches`]),
-//! from the vertex colours of the asset's drawn surface ([`Fields::from_paint`]), or from whatever the vertices of a surface
-//! hold ([`Fields::from_vertices`]).
+//! They come from a function of the place ([`Fields::from_function`]), or from what a surface holds ([`Fields::from_surface`]). Zones,
+//! scored lines and painted vertices are made into them by the module `weakness` of `frangible-bake`.
 //!
 //! Weakness is not baked. The factors belong to a [`Breakable`](crate::Breakable), so that one asset serves scored and plain
 //! bodies; culling compares each cluster with its weakest point.
 
 mod kink;
-mod paint;
 mod resistance;
 mod scatter;
-mod zone;
 
 use glam::Vec3;
 
@@ -23,9 +20,7 @@ use crate::mesh::TriangleTree;
 use crate::presets::Preset;
 
 pub(crate) use kink::Tip;
-pub use paint::{Channel, Paint};
 pub(crate) use resistance::{Resistance, Toughness};
-pub use zone::{Patch, Zone};
 
 /// What of its material's numbers a place has; 1 is all of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,7 +34,7 @@ pub struct Factors {
 }
 
 impl Factors {
-    /// As the material.
+    /// Factors that leave the material as it is.
     pub const ONE: Self = Self {
         strength: 1.0,
         toughness: 1.0,
@@ -118,56 +113,16 @@ impl Fields {
         }
     }
 
-    /// Painted by patches, one over the other: what a later one names replaces what is below.
-    ///
-    /// A tetrahedron belongs to a patch when its centre does; a scored line needs a radius of about the fracture mesh's
-    /// edge to hang together.
+    /// Factors of the point of a surface (m, body frame) that is nearest to each tetrahedron's centre. `factors` is given the vertices of the
+    /// triangle that the point lies on, and their weights.
     ///
     /// # Errors
-    /// A zone with a number that is not finite, a radius that is not above zero, or a normal without direction.
-    pub fn from_patches(asset: &Asset, patches: &[Patch]) -> Result<Self, InputError> {
-        Self::default().patched(asset, patches)
-    }
-
-    /// With patches over what is there, see [`Fields::from_patches`].
-    ///
-    /// # Errors
-    /// As there.
-    pub fn patched(mut self, asset: &Asset, patches: &[Patch]) -> Result<Self, InputError> {
-        patches.iter().try_for_each(|p| p.zone.check())?;
-        if patches.is_empty() {
-            return Ok(self);
-        }
-        self.of_tet.resize(asset.fracture.tets.len(), Factors::ONE);
-        for (tet, factors) in self.of_tet.iter_mut().enumerate() {
-            let p = asset.fracture.centroid(tet);
-            let over = patches.iter().filter(|patch| patch.zone.contains(p));
-            over.for_each(|patch| patch.paint(factors));
-        }
-        Ok(self)
-    }
-
-    /// From the [vertex colours](crate::asset::RenderSurface::colors) of the asset's drawn surface: each tetrahedron takes
-    /// the colour of the nearest point of it. Of several entries what a later one names replaces what an earlier one says.
-    ///
-    /// Paint reaches halfway through a wall: a score right through it is painted on both sides.
-    ///
-    /// # Errors
-    /// An asset without vertex colours, or a factor that cannot be used.
-    pub fn from_paint(asset: &Asset, paint: &[Paint]) -> Result<Self, InputError> {
-        paint::fields(asset, paint)
-    }
-
-    /// Painted on the vertices of a surface (m, body frame): each tetrahedron takes the paint of the nearest point of it.
-    /// `factors` makes of a vertex's number what its colour, or whatever it holds, means.
-    ///
-    /// # Errors
-    /// A triangle with a vertex that is not there, or no triangle at all.
-    pub fn from_vertices(
+    /// A triangle with a vertex that is not there, a vertex that is not finite, or no triangle at all.
+    pub fn from_surface(
         asset: &Asset,
         positions: &[Vec3],
         triangles: &[[u32; 3]],
-        factors: impl Fn(usize) -> Factors,
+        factors: impl Fn([(usize, f32); 3]) -> Factors,
     ) -> Result<Self, InputError> {
         let there = |t: &[u32; 3]| t.iter().all(|&v| (v as usize) < positions.len());
         if triangles.is_empty() || !triangles.iter().all(there) {
@@ -181,35 +136,12 @@ impl Fields {
                 "the painted surface has a vertex that is not finite".into(),
             ));
         }
-        Ok(Self::from_surface(asset, positions, triangles, |at| {
-            let mut mean = Factors {
-                strength: 0.0,
-                toughness: 0.0,
-                weak_points: 0.0,
-            };
-            for (v, w) in at {
-                let of_vertex = factors(v);
-                mean.strength += w * of_vertex.strength;
-                mean.toughness += w * of_vertex.toughness;
-                mean.weak_points += w * of_vertex.weak_points;
-            }
-            mean
-        }))
-    }
-
-    /// Factors of the nearest point of a sound surface, given by the vertices of its triangle and their weights.
-    fn from_surface(
-        asset: &Asset,
-        positions: &[Vec3],
-        triangles: &[[u32; 3]],
-        factors: impl Fn([(usize, f32); 3]) -> Factors,
-    ) -> Self {
         let tree = TriangleTree::new(positions, triangles);
-        Self::from_function(asset, |p| {
+        Ok(Self::from_function(asset, |p| {
             let at = tree.closest(p);
             let corners = triangles[at.triangle as usize];
             factors([0, 1, 2].map(|k| (corners[k] as usize, at.weights[k])))
-        })
+        }))
     }
 
     /// With this scatter of the strength, see [`Fields::weibull_modulus`].

@@ -10,8 +10,8 @@
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-use super::cuts::Cuts;
 use super::index::MeshIndex;
+use crate::crack::Cuts;
 use crate::piece::{NOBODY, Portion};
 
 /// Nodes that a side looks at before it is asked again whether it has seen least.

@@ -2,14 +2,13 @@
 
 use glam::Vec3;
 
-use super::cuts::Cuts;
 use super::index::MeshIndex;
 use super::label::Labels;
 use super::partition::{Interface, Point, face_parts, interfaces};
 use super::points::PointTable;
 use super::render::{Part, Parts};
 use crate::asset::Asset;
-use crate::crack::{Crack, crossing_polygon};
+use crate::crack::{Crack, Cuts, crossing_polygon};
 use crate::mesh::TetMesh;
 
 /// One fragment under construction, in numbers of the point table.

@@ -1,13 +1,13 @@
 //! The partition of cuts that come from elsewhere than from cracks: what crate `frangible-compare` makes other methods' pieces by.
 
 use super::build::{Built, build_cracked};
-use super::cuts::Cuts;
 use super::draft::divided_tets;
 use super::label::{Labels, of_cuts};
 use super::partition::{Interface, interfaces};
 use super::points::PointTable;
 use super::render::draw;
 use crate::body::Body;
+use crate::crack::Cuts;
 use crate::outcome::Fragment;
 
 /// An edge of the fracture mesh, its lower node first, and the place where it is cut, from there (0) to the other node (1).

@@ -8,8 +8,7 @@
 
 use glam::Vec3;
 
-use super::cuts::Cuts;
-use crate::crack::{CrackSystem, ElementCut};
+use crate::crack::{CrackSystem, Cuts, ElementCut};
 use crate::mesh::EDGES;
 
 /// How far from its last tetrahedron a newcomer is continued, in mean edges.
@@ -109,8 +108,8 @@ impl<'a> Continued<'a> {
         }
     }
 
-    /// Cuts a tetrahedron among the corners reachable from one. What is reachable from one corner is reachable from the others
-    /// there, less what was cut since: they are done, too.
+    /// Cuts a tetrahedron's edges among the corners that can be reached from one of them without crossing a cut. From each of those
+    /// corners the same ones can be reached, but for what was cut since, so that all of them are done.
     fn cut_tet(&self, tet: &mut FracturedTet, start: usize, cuts: &mut Cuts, queue: &mut Queue) {
         let values = tet.corners.map(|w| queue.value(w, || self.value(w)));
         let below = values.map(|s| s < 0.0);

@@ -4,11 +4,10 @@ use std::collections::BTreeMap;
 
 use glam::Vec3;
 
-use super::cuts::Cuts;
 use super::junction::end_cracks;
 use super::tests::block;
 use crate::asset::Asset;
-use crate::crack::CrackSystem;
+use crate::crack::{CrackSystem, Cuts};
 use crate::mesh::{EDGES, NO_NEIGHBOUR, Rows};
 use crate::piece::Portion;
 use crate::rng::{Purpose, stream, uniform};

@@ -1,10 +1,9 @@
 //! Labels: fragments are the connected components of nodes over uncut edges `[G12 §6.1-6.2]`.
 
 use super::components::{Component, Components, DisjointSets};
-use super::cuts::Cuts;
 use super::index::MeshIndex;
 use super::junction::end_cracks;
-use crate::crack::CrackSystem;
+use crate::crack::{CrackSystem, Cuts};
 use crate::piece::Portion;
 
 /// A fragment number for every node.

@@ -4,11 +4,11 @@ use glam::Vec3;
 use rand_chacha::rand_core::Rng;
 
 use super::components::{Components, DisjointSets};
-use super::cuts::Cuts;
 use super::index::MeshIndex;
 use super::label::{Labels, of_cuts};
 use super::tests::block;
 use crate::asset::Asset;
+use crate::crack::Cuts;
 use crate::mesh::{EDGES, TetMesh};
 use crate::rng::{Purpose, stream, uniform};
 

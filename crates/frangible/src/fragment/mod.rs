@@ -1,9 +1,7 @@
 //! Fragments: labels of nodes, exact partition of tetrahedra, closed surfaces and masses `[G12 §6]`.
 
 mod build;
-mod by_node;
 mod components;
-mod cuts;
 mod draft;
 mod finish;
 mod foreign;
@@ -23,7 +21,6 @@ mod tests;
 
 pub(crate) use build::{Built, build};
 pub(crate) use components::DisjointSets;
-pub(crate) use cuts::{Cuts, EdgeCut};
 pub use foreign::{CutEdge, interfaces_of_labels, pieces_of_cuts};
 pub(crate) use index::MeshIndex;
 pub(crate) use label::{Labels, label};

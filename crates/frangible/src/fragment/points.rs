@@ -2,10 +2,9 @@
 
 use glam::DVec3;
 
-use super::by_node::ByNode;
-use super::cuts::Cuts;
 use super::partition::Point;
-use crate::mesh::{EDGES, TetMesh};
+use crate::crack::Cuts;
+use crate::mesh::{ByNode, EDGES, TetMesh};
 use crate::piece::{FixedPoints, Portion};
 
 /// Points of the partition in f64, body frame, numbered in order of first use; mesh nodes come first.

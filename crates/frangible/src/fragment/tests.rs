@@ -6,10 +6,9 @@ use glam::Vec3;
 use rand_chacha::rand_core::Rng;
 
 use super::build::build;
-use super::cuts::Cuts;
 use super::label::Labels;
 use crate::asset::{AnalysisMesh, Asset, ConvexCell, Embedding, OuterSurface};
-use crate::crack::CrackSystem;
+use crate::crack::{CrackSystem, Cuts};
 use crate::mesh::{EDGES, MassProperties, TetMesh};
 use crate::modal::ModalBasis;
 use crate::rng::{Purpose, stream, uniform};

@@ -109,12 +109,9 @@ fn modal_impulse(asset: &Asset, blast: &Blast) -> Vec<f64> {
     let nodal = nodal_impulse(asset, blast);
     let mut sums = vec![0.0; asset.modes.count()];
     for (node, push) in nodal.iter().enumerate().filter(|(_, p)| **p != Vec3::ZERO) {
-        for axis in 0..3 {
-            let w = f64::from(push[axis]);
-            for (sum, &phi) in sums.iter_mut().zip(asset.modes.row(3 * node + axis)) {
-                *sum += w * f64::from(phi);
-            }
-        }
+        asset
+            .modes
+            .add_push(node, push.to_array().map(f64::from), &mut sums);
     }
     sums
 }

@@ -5,12 +5,8 @@ mod blast;
 mod motion;
 mod rest;
 mod scripted;
-mod sum;
 
 pub use blast::{Blast, blast};
 pub use motion::follow;
 pub use rest::{Force, rest};
 pub use scripted::fracture_at;
-pub(crate) use sum::PerNewton;
-pub(crate) use sum::prepare;
-pub use sum::rest_margin_at_least;

@@ -9,13 +9,14 @@ use glam::Vec3;
 use crate::blow::SteadyNear;
 use crate::body::Body;
 use crate::config::{CrackTiming, FractureConfig};
-use crate::contact::{Pushes, each_row};
+use crate::contact::each_row;
 use crate::cracking::{Cracked, Cracking};
 use crate::error::{InputError, finite};
-use crate::impact::{harmless, pieces, report_on};
+use crate::impact::{pieces, report_on};
 use crate::mesh::SurfacePoint;
 use crate::modal::Motion;
 use crate::outcome::{LookedAt, Outcome};
+use crate::refuse::{Pushes, harmless};
 
 /// A force on the surface, body frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -93,12 +94,8 @@ pub fn rest(
         pressed.push(at.triangle);
         near.extend(near_at(&(at, force.force)));
         each_row(asset, &at, |node, share| {
-            for axis in 0..3 {
-                let w = share * force.force[axis];
-                for (sum, &phi) in amplitudes.iter_mut().zip(asset.modes.row(3 * node + axis)) {
-                    *sum += w * phi;
-                }
-            }
+            let push = (force.force * share).to_array();
+            asset.modes.add_push(node, push, &mut amplitudes);
         });
     }
     for (i, q) in amplitudes.iter_mut().enumerate() {

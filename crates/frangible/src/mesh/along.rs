@@ -15,7 +15,7 @@ pub struct AlongSurface<'a> {
 }
 
 impl<'a> AlongSurface<'a> {
-    /// Every index must name a position.
+    /// The ways along these triangles; every index must name a position.
     #[must_use]
     pub fn new(positions: &'a [Vec3], triangles: &'a [[u32; 3]]) -> Self {
         Self {

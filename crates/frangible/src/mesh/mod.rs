@@ -2,6 +2,7 @@
 
 mod along;
 mod boxes;
+mod by_node;
 mod closest;
 mod mass;
 mod render;
@@ -12,6 +13,7 @@ mod tet;
 mod tree;
 
 pub use along::AlongSurface;
+pub(crate) use by_node::ByNode;
 pub use closest::closest_on_triangle;
 pub use mass::MassProperties;
 pub use render::{RenderMesh, box_projection};

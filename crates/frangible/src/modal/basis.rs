@@ -44,6 +44,13 @@ impl ModalBasis {
         &self.shapes[dof * m..(dof + 1) * m]
     }
 
+    /// Rows of the shapes along x, y and z at an analysis node.
+    #[inline]
+    #[must_use]
+    pub fn rows(&self, node: usize) -> [&[f32]; 3] {
+        [0, 1, 2].map(|axis| self.row(3 * node + axis))
+    }
+
     /// Rayleigh damping d_i = α λ_i + β of mode `i`, 1/s.
     #[must_use]
     pub fn damping(&self, i: usize, material: &Material) -> f64 {

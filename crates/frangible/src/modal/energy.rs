@@ -51,8 +51,9 @@ impl ContactEnergy {
 
     /// The energy at the middle of the contact is at least the first, J, and never more than the second.
     ///
-    /// As in `modal/reach.rs`: √(q̇² + λ q²) is at most 1 after a unit impulse; where λ > u², with c = ½ u/(λ − u²), at
-    /// most c √λ, that of c sin(ut), and c (u + 2d), that of the rest; in the middle, where sin(ut) = 1, at least their difference.
+    /// The size √(q̇² + λ q²) of a mode's motion is at most 1 after a unit impulse (`refuse/reach.rs`). Where λ > u², the motion is
+    /// c sin(ut), c = ½ u/(λ − u²), of size c √λ at most, and a rest of size c (u + 2d) at most. In the middle, where sin(ut) = 1, its
+    /// size is at least the difference of the two.
     fn bounds(&self, u: f64) -> (f64, f64) {
         let (mut low, mut high) = (0.0, 0.0);
         for mode in &self.modes {
@@ -76,7 +77,7 @@ impl ContactEnergy {
         (low, high)
     }
 
-    /// The same, sample by sample.
+    /// Whether the energy is within the budget, J, at samples over the contact.
     fn samples_are_within(&self, duration: f64, budget: f64) -> bool {
         // The energy is evaluated exactly at the samples; 40 of them find its peak to a few per mille.
         const SAMPLES: usize = 40;

@@ -2,14 +2,13 @@
 
 mod basis;
 mod energy;
-mod reach;
+mod project;
 mod response;
 mod step;
 mod tick;
 
 pub use basis::ModalBasis;
 pub(crate) use energy::ContactEnergy;
-pub(crate) use reach::Reaches;
 pub use response::{Motion, Oscillator, respond};
 #[doc(hidden)]
 pub use tick::Tick;

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use crate::crack::CrackSystem;
-use crate::fragment::{Cuts, Labels};
+use crate::crack::{CrackSystem, Cuts};
+use crate::fragment::Labels;
 use crate::state::BodyState;
 
 /// Which node belongs to which piece, and where the cracks are.

@@ -1,15 +1,14 @@
 //! How a piece vibrates, and the body that it makes.
 
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 
 use super::Portion;
-use crate::asset::{AnalysisMesh, Asset, EmbeddedPoint, Embedding};
-use crate::body::{Body, Prepared};
-use crate::contact::PerImpulse;
+use crate::asset::{self, AnalysisMesh, Asset, EmbeddedPoint, Embedding};
+use crate::body::Body;
 use crate::error::InputError;
-use crate::mesh::TriangleTree;
-use crate::modal::{ModalBasis, Reaches};
-use crate::stress::{Search, Skin, StressBounds};
+use crate::modal::ModalBasis;
+use crate::refuse::StressBounds;
+use crate::stress::Search;
 
 /// An elastic body for a [`Portion`]: elements that carry its motion, and the modes of the piece.
 ///
@@ -24,6 +23,17 @@ pub struct Elastic {
     pub nodes: Vec<EmbeddedPoint>,
     /// Modes of the piece, without its rigid motions. [`ModalBasis::peak_stress`] may be empty.
     pub modes: ModalBasis,
+}
+
+impl Elastic {
+    /// What is wrong with its numbers, as a clause.
+    fn check(&self) -> Result<(), String> {
+        asset::analysis(&self.analysis)?;
+        let elements = self.analysis.elements.len();
+        asset::embedded("centroid", &self.tets, elements)?;
+        asset::embedded("node", &self.nodes, elements)?;
+        asset::modes(&self.modes, self.analysis.nodes.len())
+    }
 }
 
 /// Finds how pieces vibrate.
@@ -46,22 +56,15 @@ impl Body {
         let (tets, nodes) = (portion.tets(), portion.nodes());
         let misfit = |problem: &str| InputError::Asset {
             asset: root.name.clone(),
-            problem: format!("the elastic body of a piece {problem}"),
+            problem: format!("the elastic body of a piece cannot be used: {problem}"),
         };
         if elastic.tets.len() != tets.len() || elastic.nodes.len() != nodes.len() {
             return Err(misfit(
-                "does not have one point for each tetrahedron and node",
+                "it does not have one point for each tetrahedron and node",
             ));
         }
-        let elements = elastic.analysis.elements.len();
-        let points = || elastic.tets.iter().chain(&elastic.nodes);
-        if points().any(|p| p.element as usize >= elements) {
-            return Err(misfit("names an element that is not there"));
-        }
+        elastic.check().map_err(|problem| misfit(&problem))?;
         let modes = elastic.modes;
-        if modes.shapes.len() != 3 * elastic.analysis.nodes.len() * modes.count() {
-            return Err(misfit("has mode shapes of another size"));
-        }
         let search = Search::new(&elastic.analysis);
         let origin = portion.origin();
         let vertices = portion.positions.iter().zip(&portion.trace.anchors);
@@ -94,35 +97,5 @@ impl Body {
         let own = self.weak_tets().iter().copied();
         let weak_tets = own.filter(|e| tets.binary_search(e).is_ok()).collect();
         Ok(self.part(asset, weak_tets, portion.state.clone()))
-    }
-}
-
-impl Prepared {
-    /// The numbers of a piece, whose modes lack only the peak of their stress.
-    pub(crate) fn of_piece(asset: &mut Asset, portion: &Portion) -> Self {
-        let root = &portion.prepared;
-        let skin = Skin::of_piece(asset, portion, &root.skin);
-        let bounds = StressBounds::with_skin(asset, &skin);
-        let whole = bounds.root(asset.modes.count());
-        asset.modes.peak_stress.clone_from(&whole.0);
-        let reaches = Reaches::new(&asset.modes);
-        Self {
-            root: Some(Arc::clone(root)),
-            index: Arc::clone(&root.index),
-            surface: TriangleTree::new(asset.surface_positions(), &asset.surface.triangles),
-            render: None,
-            skin,
-            bounds,
-            per_impulse: PerImpulse::new(asset, &whole.0, &reaches),
-            reaches,
-            whole,
-            periods: crate::body::periods(&asset.modes),
-            weight: crate::body::weight(asset),
-            quadratic_modulus: root.quadratic_modulus,
-            per_newton: OnceLock::new(),
-            centroids: Arc::clone(&root.centroids),
-            edge: root.edge,
-            longest_edge: root.longest_edge,
-        }
     }
 }

@@ -2,7 +2,8 @@
 
 use super::{Breakup, FOREIGN};
 use crate::body::Body;
-use crate::fragment::{DisjointSets, EdgeCut};
+use crate::crack::EdgeCut;
+use crate::fragment::DisjointSets;
 use crate::mesh::EDGES;
 use crate::state::{BodyState, OldCrack};
 

@@ -7,13 +7,14 @@ use glam::{DVec3, Vec3};
 use super::lists::Lists;
 use super::{Breakup, FixedPoints, Trace};
 use crate::asset::{Asset, OuterSurface, SurfaceWalls};
-use crate::body::{Body, Prepared};
+use crate::body::Body;
 use crate::config::FractureConfig;
-use crate::crack::CrackSystem;
+use crate::crack::{CrackSystem, EdgeCut};
 use crate::error::InputError;
-use crate::fragment::{self, EdgeCut};
+use crate::fragment;
 use crate::mesh::{AlongSurface, MassProperties};
 use crate::outcome::{Fracture, Fragment};
+use crate::prepared::Prepared;
 use crate::state::BodyState;
 
 /// A part of a body that has broken, or a whole body with its cracks: which nodes and tetrahedra of the fracture mesh are
@@ -21,7 +22,7 @@ use crate::state::BodyState;
 #[derive(Debug)]
 pub struct Portion {
     pub(super) root: Arc<Asset>,
-    pub(super) prepared: Arc<Prepared>,
+    pub(crate) prepared: Arc<Prepared>,
     generation: u32,
     origin: DVec3,
     mass: MassProperties,

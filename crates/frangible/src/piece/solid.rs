@@ -6,7 +6,8 @@
 use glam::DVec3;
 
 use super::Portion;
-use crate::fragment::{Cuts, Point, PointTable, face_parts, interfaces};
+use crate::crack::Cuts;
+use crate::fragment::{Point, PointTable, face_parts, interfaces};
 use crate::mesh::{EDGES, FACES, NO_NEIGHBOUR};
 
 /// Tetrahedra that fill a piece. Those that cracks have cut are there in parts, and parts on two sides of a crack are not

@@ -1,17 +1,20 @@
-//! A few shapes in place of all modes: neighbours move alike, so that of the rows of a cluster few are independent of the others. What the
-//! shapes leave out is bounded mode by mode. Most points of most blows are far below their strength, and this is enough to know it.
+//! A few shapes in place of all modes.
+//!
+//! Neighbouring points move alike, so few of the rows of a cluster are independent of the others: all of them are nearly sums of a few
+//! *shapes*. The stress of the shapes is cheap, and what they leave out is bounded mode by mode. Most points that a blow makes one look at
+//! are far below their strength, and this is enough to know it.
 
 use super::displacement::{BATCH, Lanes};
 use super::frame::Frame;
 use super::rows::Rows;
 
-/// Shapes are tried by so many.
+/// So many shapes more are tried at a time.
 const STEP: usize = 6;
 
-/// There are enough when an impulse leaves out no more than this of what its modes could add up to.
+/// The shapes are enough when they leave out no more than this share of what the modes of an impulse could add up to.
 const ENOUGH: f32 = 0.02;
 
-/// More than one shape for so many modes, or rows, is too many: what is in doubt is computed twice.
+/// There must be so many modes, and so many rows, to each shape. With more shapes it costs too much that a point in doubt is computed twice.
 const WORTH: usize = 4;
 
 /// Rounding, relative to what the modes could add up to.

@@ -23,43 +23,6 @@ pub(crate) fn lane(step: usize) -> usize {
     step % STRIDE + 1
 }
 
-/// Values and gradients of the ten quadratic shape functions at a point of the body.
-#[derive(Clone, Copy, Debug)]
-pub struct ShapeWeights;
-
-/// Corner pairs of the six mid-edge nodes.
-const MID_EDGES: [[usize; 2]; 6] = [[0, 1], [1, 2], [0, 2], [0, 3], [1, 3], [2, 3]];
-
-impl ShapeWeights {
-    /// N_a at the embedded point's closest point of the element.
-    #[must_use]
-    pub fn values(point: &EmbeddedPoint) -> [f32; 10] {
-        let l = point.barycentric;
-        std::array::from_fn(|a| {
-            if a < 4 {
-                l[a] * (2.0 * l[a] - 1.0)
-            } else {
-                let [i, j] = MID_EDGES[a - 4];
-                4.0 * l[i] * l[j]
-            }
-        })
-    }
-
-    /// ∇N_a there, 1/m.
-    #[must_use]
-    pub fn gradients(point: &EmbeddedPoint, barycentric_gradients: &[Vec3; 4]) -> [Vec3; 10] {
-        let (l, g) = (point.barycentric, barycentric_gradients);
-        std::array::from_fn(|a| {
-            if a < 4 {
-                g[a] * (4.0 * l[a] - 1.0)
-            } else {
-                let [i, j] = MID_EDGES[a - 4];
-                (g[j] * l[i] + g[i] * l[j]) * 4.0
-            }
-        })
-    }
-}
-
 /// A value at each of the batch's steps.
 pub(crate) type Lanes = [f32; BATCH];
 
@@ -72,19 +35,19 @@ pub struct DisplacementBatch {
     residuals: Vec<(Arc<Shape>, Lanes)>,
     /// `displacements[node][axis][step]`, m.
     displacements: Vec<[Lanes; 3]>,
-    /// Batch that each node's displacements belong to …
+    /// Number of the batch that each node's displacements belong to.
     computed: Vec<u32>,
-    /// … and the one that is held, counted from 1; 0 for none.
+    /// Number of the batch that is held, counted from 1; 0 for none.
     batch: u32,
 }
 
 impl DisplacementBatch {
-    /// Steps that it holds …
+    /// Number of time steps that a batch holds.
     pub const LANES: usize = BATCH;
-    /// … and how many of them the next one does not: the first is the last of the batch before.
+    /// Number of time steps from one batch to the next: the first step of a batch is the last of the batch before.
     pub const STRIDE: usize = STRIDE;
 
-    /// Empty, for an asset.
+    /// Room for the displacements of an asset; it holds no batch yet.
     #[must_use]
     pub fn new(asset: &Asset) -> Self {
         let nodes = asset.analysis.nodes.len();
@@ -152,7 +115,7 @@ impl DisplacementBatch {
         &self.displacements[node]
     }
 
-    /// The same at all nodes of an element, two side by side: each is a chain of sums that waits for itself.
+    /// Finds u = Φ q at all nodes of an element, two of them side by side: the sum of one node is a chain that waits for itself.
     #[inline(always)]
     fn at_nodes(&mut self, asset: &Asset, nodes: &[u32; 10]) {
         let mut waiting = [0; 10];
@@ -180,8 +143,7 @@ impl DisplacementBatch {
     #[inline(always)]
     pub(crate) fn gradients(&mut self, asset: &Asset, point: &EmbeddedPoint) -> [[Wide; 3]; 3] {
         let element = point.element as usize;
-        let weights =
-            ShapeWeights::gradients(point, &asset.analysis.barycentric_gradients[element]);
+        let weights = point.shape_gradients(&asset.analysis.barycentric_gradients[element]);
         let nodes = &asset.analysis.elements[element];
         self.at_nodes(asset, nodes);
         // The gradients of the shape functions add up to nothing: what all nodes share only costs digits.
@@ -203,8 +165,7 @@ impl DisplacementBatch {
     pub fn gradient(&mut self, asset: &Asset, point: &EmbeddedPoint, step: usize) -> Mat3 {
         let k = lane(step);
         let element = point.element as usize;
-        let gradients =
-            ShapeWeights::gradients(point, &asset.analysis.barycentric_gradients[element]);
+        let gradients = point.shape_gradients(&asset.analysis.barycentric_gradients[element]);
         let nodes = &asset.analysis.elements[element];
         let at = |u: &[Lanes; 3]| Vec3::new(u[0][k], u[1][k], u[2][k]);
         let shared = at(self.at_node(asset, nodes[0] as usize));
@@ -268,7 +229,7 @@ fn product(
     residuals: &[(Arc<Shape>, Lanes)],
 ) -> [Lanes; 3] {
     let mut sums = following(asset, node, residuals);
-    let [x, y, z] = [0, 1, 2].map(|axis| asset.modes.row(3 * node + axis));
+    let [x, y, z] = asset.modes.rows(node);
     for block in blocks(amplitudes.len()) {
         let rows = amplitudes[block.clone()].iter().zip(&x[block.clone()]);
         for (((q, x), y), z) in rows.zip(&y[block.clone()]).zip(&z[block]) {
@@ -294,9 +255,7 @@ fn products(
     let modes = amplitudes.len();
     let mut rows: [[&[f32]; 3]; 2] = [[&[]; 3]; 2];
     for (rows, node) in rows.iter_mut().zip(nodes) {
-        for (axis, row) in rows.iter_mut().enumerate() {
-            *row = &asset.modes.row(3 * node + axis)[..modes];
-        }
+        *rows = asset.modes.rows(node).map(|row| &row[..modes]);
     }
     for block in blocks(modes) {
         for mode in block {

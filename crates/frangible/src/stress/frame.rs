@@ -4,7 +4,8 @@ use glam::Vec3;
 
 use super::displacement::{BATCH, Lanes};
 use super::lanes::StressLanes;
-use super::strain::{Elasticity, Law, products};
+use super::strain::{Elasticity, Law};
+use super::tensor::products;
 use super::wide::Wide;
 use super::{Wall, perpendicular_axes};
 
@@ -151,7 +152,7 @@ impl Elasticity {
         rows
     }
 
-    /// Of plane stress along unit vectors `a` and `b`: σ_aa, σ_bb, σ_ab.
+    /// Rows of plane stress along unit vectors `a` and `b`: σ_aa, σ_bb, σ_ab.
     #[inline(always)]
     fn in_surface(&self, a: Vec3, b: Vec3, g: Vec3) -> [Vec3; 3] {
         let (along_a, along_b) = (a * g.dot(a), b * g.dot(b));

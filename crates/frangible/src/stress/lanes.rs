@@ -3,7 +3,7 @@
 use glam::Vec3;
 
 use super::displacement::Lanes;
-use super::strain::{Symmetric3, products};
+use super::tensor::{Symmetric3, products};
 use super::wide::Wide;
 
 /// Stress and strain energy at a point at the steps of a batch.

@@ -2,7 +2,6 @@
 
 use glam::{Mat3, Vec3};
 
-use super::displacement::ShapeWeights;
 use super::wide::dot;
 use crate::asset::{Asset, EmbeddedPoint};
 use crate::modal::Motion;
@@ -10,7 +9,7 @@ use crate::modal::Motion;
 /// Displacements of the coarse nodes at one time step, each node computed when it is first asked for.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Moment {
-    /// Of each node, m, and the time step that it belongs to, counted from 1; empty before anything is asked for.
+    /// Displacement of each node, m, and the time step that it belongs to, counted from 1; empty before anything is asked for.
     nodes: Vec<(Vec3, u32)>,
 }
 
@@ -28,8 +27,7 @@ impl Moment {
                 .resize(asset.analysis.nodes.len(), (Vec3::ZERO, 0));
         }
         let element = point.element as usize;
-        let gradients =
-            ShapeWeights::gradients(point, &asset.analysis.barycentric_gradients[element]);
+        let gradients = point.shape_gradients(&asset.analysis.barycentric_gradients[element]);
         let nodes = &asset.analysis.elements[element];
         // With the widest vectors that this processor has; the same operations in the same order, so the same bits.
         pulp::Arch::new().dispatch(Compute {

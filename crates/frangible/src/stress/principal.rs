@@ -4,6 +4,14 @@ use glam::{DMat3, DVec3, Vec3};
 
 use super::Symmetric3;
 
+/// Bounds are compared with the strength less this share: the rounding of the bound itself.
+pub(crate) const MARGIN: f32 = 1e-4;
+
+/// Below this bound no point reaches its strength where the smallest is this one, Pa.
+pub(crate) fn limit(strength: f32) -> f32 {
+    strength * (1.0 - MARGIN)
+}
+
 /// Largest eigenvalue in closed form (the trigonometric solution of the cubic), to about 1e-6 of the tensor's norm.
 #[must_use]
 pub fn largest_eigenvalue(s: &Symmetric3) -> f32 {

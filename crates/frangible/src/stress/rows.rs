@@ -1,7 +1,7 @@
 //! Stress at weak points straight from what the modes do, σ = S q (beyond the paper): where strain is linear, displacement, gradient,
 //! law and wall are one matrix, found once for a body. It has three rows for a point of a free surface, and is read from end to end.
 
-use super::displacement::{BATCH, Lanes, ShapeWeights};
+use super::displacement::{BATCH, Lanes};
 use super::frame::{Frame, MOST};
 use super::strain::{Elasticity, Law};
 use crate::asset::{Asset, EmbeddedPoint};
@@ -30,7 +30,7 @@ impl RowPoint<'_> {
     fn nodes(&self, asset: &Asset, elasticity: &Elasticity) -> [NodeShares; NODES - 1] {
         let element = self.point.element as usize;
         let gradients = &asset.analysis.barycentric_gradients[element];
-        let weights = ShapeWeights::gradients(self.point, gradients);
+        let weights = self.point.shape_gradients(gradients);
         let nodes = &asset.analysis.elements[element];
         let mut all = [([0; 2], [[0.0; 3]; MOST]); NODES - 1];
         for ((to, &node), &g) in all.iter_mut().zip(&nodes[1..]).zip(&weights[1..]) {

@@ -22,7 +22,7 @@
 use glam::{Mat3, Vec3};
 
 use super::lanes::StressLanes;
-use super::strain::Symmetric3;
+use super::tensor::Symmetric3;
 use super::wide::Wide;
 
 /// β where a wall or a solid is stretched.

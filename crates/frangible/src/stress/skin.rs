@@ -53,7 +53,7 @@ pub struct Skin {
 }
 
 impl Skin {
-    /// Of an asset.
+    /// Finds the flaws and the walls of an asset.
     #[must_use]
     pub fn of(asset: &Asset) -> Self {
         let free = FreeFaces::of(asset);
@@ -85,7 +85,7 @@ impl Skin {
         }
     }
 
-    /// Of a piece: the flaws that its body had, where it still has them, and walls of its own.
+    /// Finds the skin of a piece: the flaws that its body had, where it still has them, and walls of its own.
     pub(crate) fn of_piece(asset: &Asset, portion: &Portion, root: &Self) -> Self {
         let search = Search::new(&asset.analysis);
         let mut flaw_of_tet = vec![NONE; portion.tets().len()];

@@ -1,87 +1,11 @@
 //! Green–Lagrange strain and Hooke's law.
 
-use std::ops::{Add, Mul, Sub};
-
 use glam::{Mat3, Vec3};
 
 use super::lanes::StressLanes;
+use super::tensor::{Real, Symmetric3, half_product, products, stretch, tangential, uniaxial};
 use super::wide::Wide;
 use crate::material::Material;
-
-/// Symmetric 3 × 3 tensor.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Symmetric3 {
-    /// xx, yy, zz.
-    pub diagonal: [f32; 3],
-    /// xy, yz, zx.
-    pub off: [f32; 3],
-}
-
-impl Symmetric3 {
-    /// xx, yy, zz, xy, yz, zx.
-    #[inline(always)]
-    fn components(self) -> [f32; 6] {
-        let ([xx, yy, zz], [xy, yz, zx]) = (self.diagonal, self.off);
-        [xx, yy, zz, xy, yz, zx]
-    }
-
-    #[inline(always)]
-    pub(super) fn from_components([xx, yy, zz, xy, yz, zx]: [f32; 6]) -> Self {
-        Self {
-            diagonal: [xx, yy, zz],
-            off: [xy, yz, zx],
-        }
-    }
-
-    /// As a full matrix.
-    #[must_use]
-    pub fn to_mat3(self) -> Mat3 {
-        let ([xx, yy, zz], [xy, yz, zx]) = (self.diagonal, self.off);
-        Mat3::from_cols(
-            Vec3::new(xx, xy, zx),
-            Vec3::new(xy, yy, yz),
-            Vec3::new(zx, yz, zz),
-        )
-    }
-
-    /// The symmetric part of a matrix.
-    #[must_use]
-    pub fn from_mat3(m: Mat3) -> Self {
-        Self {
-            diagonal: [m.x_axis.x, m.y_axis.y, m.z_axis.z],
-            off: [
-                0.5 * (m.x_axis.y + m.y_axis.x),
-                0.5 * (m.y_axis.z + m.z_axis.y),
-                0.5 * (m.z_axis.x + m.x_axis.z),
-            ],
-        }
-    }
-
-    /// Tension along unit `t`, Pa.
-    #[must_use]
-    pub fn uniaxial(tension: f32, t: Vec3) -> Self {
-        Self::from_components(uniaxial(tension, t))
-    }
-
-    /// The tensor times a number.
-    #[must_use]
-    pub fn scaled(&self, factor: f32) -> Self {
-        Self::from_components(self.components().map(|c| c * factor))
-    }
-
-    /// The sum of two tensors.
-    #[must_use]
-    pub fn plus(&self, other: &Self) -> Self {
-        let (a, b) = (self.components(), other.components());
-        Self::from_components(std::array::from_fn(|i| a[i] + b[i]))
-    }
-
-    /// The tensor times a vector.
-    #[must_use]
-    pub fn times(self, v: Vec3) -> Vec3 {
-        Vec3::from_array(times(&self.components(), v))
-    }
-}
 
 /// Lamé's parameters at run-time precision.
 #[derive(Clone, Copy, Debug)]
@@ -106,7 +30,7 @@ pub struct StressState {
 }
 
 impl Elasticity {
-    /// Of a material.
+    /// The elasticity of a material, with Green and Lagrange's strain.
     #[must_use]
     pub fn new(material: &Material) -> Self {
         let (lambda, mu) = (material.lame_lambda(), material.shear_modulus());
@@ -175,7 +99,7 @@ impl Elasticity {
         }
     }
 
-    /// By any of the laws.
+    /// Stress and energy of ∇u by one of the laws.
     #[must_use]
     #[inline(always)]
     pub fn state_by(&self, gradient: Mat3, law: Law) -> StressState {
@@ -192,15 +116,15 @@ impl Elasticity {
         self.state_by(gradient, Law::Solid)
     }
 
-    /// The same beside a free surface of unit normal `n`, where the traction σ·n is zero: the strain in the surface is
-    /// kept, the rest is what Hooke's law makes of it (plane stress). With P = I − n nᵀ and E_t = P E P:
+    /// Stress and energy of ∇u beside a free surface of unit normal `n`, where the traction σ·n is zero. The strain in the surface is
+    /// kept, and Hooke's law says the rest (plane stress). With P = I − n nᵀ and E_t = P E P:
     /// σ = λ* tr(E_t) P + 2 μ E_t, λ* = 2 λ μ / (λ + 2 μ), η = ½ σ : E_t.
     #[must_use]
     pub fn free_state(&self, gradient: Mat3, n: Vec3) -> StressState {
         self.state_by(gradient, Law::Free(n))
     }
 
-    /// By any of the laws, for the steps of a batch side by side; `[column j][row i]` = ∂u_i/∂x_j.
+    /// Stress and energy by one of the laws at all steps of a batch, side by side; `[column j][row i]` = ∂u_i/∂x_j.
     #[inline(always)]
     pub(crate) fn lanes(&self, gradient: &[[Wide; 3]; 3], law: Law) -> StressLanes {
         let (components, energy_density) = self.evaluate(gradient, law);
@@ -235,18 +159,18 @@ impl Elasticity {
     }
 
     /// σ = λ tr(E) I + 2 μ E.
-    pub(super) fn hooke(&self, strain: &Symmetric3) -> Symmetric3 {
+    pub(crate) fn hooke(&self, strain: &Symmetric3) -> Symmetric3 {
         Symmetric3::from_components(self.hooke_of(&strain.components()))
     }
 
     /// Stress beside a free surface of unit normal `n`, linear in the strain.
-    pub(super) fn free_hooke(&self, strain: &Symmetric3, n: Vec3) -> Symmetric3 {
+    pub(crate) fn free_hooke(&self, strain: &Symmetric3, n: Vec3) -> Symmetric3 {
         let in_surface = tangential(&strain.components(), n);
         Symmetric3::from_components(self.plane_stress(&in_surface, n))
     }
 
     /// Stress at an edge along unit `t`, linear in the strain: E (t·E t) t tᵀ.
-    pub(super) fn edge_hooke(&self, strain: &Symmetric3, t: Vec3) -> Symmetric3 {
+    pub(crate) fn edge_hooke(&self, strain: &Symmetric3, t: Vec3) -> Symmetric3 {
         let along = stretch(&strain.components(), t);
         Symmetric3::from_components(uniaxial(along * self.youngs_modulus, t))
     }
@@ -273,75 +197,6 @@ impl Elasticity {
         stress
     }
 }
-
-/// a_x b_x, a_y b_y, a_z b_z, and the halves of a b + b a off the diagonal: xy, yz, zx.
-#[inline(always)]
-pub(super) fn products(a: Vec3, b: Vec3) -> [f32; 6] {
-    [
-        a.x * b.x,
-        a.y * b.y,
-        a.z * b.z,
-        0.5 * (a.x * b.y + a.y * b.x),
-        0.5 * (a.y * b.z + a.z * b.y),
-        0.5 * (a.z * b.x + a.x * b.z),
-    ]
-}
-
-/// E n.
-#[inline(always)]
-fn times<T: Real>(e: &[T; 6], n: Vec3) -> [T; 3] {
-    let [xx, yy, zz, xy, yz, zx] = *e;
-    [
-        xx * n.x + xy * n.y + zx * n.z,
-        xy * n.x + yy * n.y + yz * n.z,
-        zx * n.x + yz * n.y + zz * n.z,
-    ]
-}
-
-/// t·E t.
-#[inline(always)]
-fn stretch<T: Real>(e: &[T; 6], t: Vec3) -> T {
-    let [x, y, z] = times(e, t);
-    x * t.x + y * t.y + z * t.z
-}
-
-/// Tension along unit `t`.
-#[inline(always)]
-fn uniaxial<T: Real>(tension: T, t: Vec3) -> [T; 6] {
-    products(t, t).map(|p| tension * p)
-}
-
-/// P E P, P = I − n nᵀ: E − n mᵀ − m nᵀ + (n·m) n nᵀ with m = E n.
-#[inline(always)]
-fn tangential<T: Real>(e: &[T; 6], n: Vec3) -> [T; 6] {
-    let [x, y, z] = times(e, n);
-    let across = x * n.x + y * n.y + z * n.z;
-    let [xx, yy, zz, xy, yz, zx] = *e;
-    [
-        xx - (x * 2.0 - across * n.x) * n.x,
-        yy - (y * 2.0 - across * n.y) * n.y,
-        zz - (z * 2.0 - across * n.z) * n.z,
-        xy - y * n.x - x * n.y + across * (n.x * n.y),
-        yz - z * n.y - y * n.z + across * (n.y * n.z),
-        zx - x * n.z - z * n.x + across * (n.z * n.x),
-    ]
-}
-
-/// ½ σ : E.
-#[inline(always)]
-fn half_product<T: Real>(stress: &[T; 6], strain: &[T; 6]) -> T {
-    let of = |i: usize| stress[i] * strain[i];
-    (of(0) + of(1) + of(2)) * 0.5 + (of(3) + of(4) + of(5))
-}
-
-/// A number, or one for each step of a batch: the same operations in the same order.
-pub(crate) trait Real:
-    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Mul<f32, Output = Self>
-{
-}
-
-impl Real for f32 {}
-impl Real for Wide {}
 
 /// Which law makes stress of strain at a place.
 #[derive(Clone, Copy, Debug, PartialEq)]

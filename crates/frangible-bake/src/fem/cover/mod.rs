@@ -77,7 +77,7 @@ impl Cover {
     /// thread alone, since pieces are covered side by side.
     ///
     /// # Errors
-    /// As [`Cover::new`].
+    /// What [`Cover::new`] refuses.
     pub fn of_joined(
         body: &BodyMesh,
         faces: &[[u32; 2]],

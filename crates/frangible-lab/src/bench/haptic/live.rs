@@ -67,10 +67,7 @@ impl SurfacePlace {
         self.shapes.clear();
         self.shapes.resize(asset.modes.count(), Vec3::ZERO);
         each_row(asset, &at, |node, weight| {
-            let [x, y, z] = [0, 1, 2].map(|axis| asset.modes.row(3 * node + axis));
-            for (((shape, &x), &y), &z) in self.shapes.iter_mut().zip(x).zip(y).zip(z) {
-                *shape += Vec3::new(x, y, z) * weight;
-            }
+            asset.modes.add_shape(node, weight, &mut self.shapes);
         });
         Ok(())
     }

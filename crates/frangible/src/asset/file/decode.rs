@@ -15,7 +15,7 @@ use crate::asset::{
 use crate::material::Material;
 use crate::mesh::{MassProperties, TetMesh};
 use crate::modal::ModalBasis;
-use crate::stress::StressBounds;
+use crate::refuse::StressBounds;
 
 impl Asset {
     /// Reads what [`Asset::to_bytes`] wrote. Sections of unknown number are skipped.

@@ -34,10 +34,10 @@ impl Asset {
         self.save_with(path, &SaveOptions::default())
     }
 
-    /// As [`Asset::save`], written as [`Asset::to_bytes_with`] does.
+    /// Saves the asset as [`Asset::save`] does, in the form that the options ask for.
     ///
     /// # Errors
-    /// As [`Asset::save`].
+    /// What [`Asset::save`] refuses.
     pub fn save_with(
         &self,
         path: impl AsRef<Path>,

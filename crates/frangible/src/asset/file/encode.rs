@@ -15,7 +15,7 @@ impl Asset {
         self.to_bytes_with(&SaveOptions::default())
     }
 
-    /// As [`Asset::to_bytes`]. Compact mode shapes come back as [`Asset::with_compact_shapes`] gives them.
+    /// The asset as bytes, in the form that the options ask for. Compact mode shapes come back as [`Asset::with_compact_shapes`] gives them.
     #[must_use]
     pub fn to_bytes_with(&self, options: &SaveOptions) -> Vec<u8> {
         let mut w = Writer::default();

@@ -3,35 +3,36 @@
 use glam::Vec3;
 
 use super::super::arrivals::{Arrivals, Queue};
+use super::super::single::{Crack, Extent};
 use super::super::sites::Site;
-use super::super::system::{Crack, CrackSystem, Extent};
+use super::super::system::CrackSystem;
 use crate::stress::{STRETCHED, Shadow, share_beside, share_left};
 
-/// A share falls by this much or stays.
+/// A smaller fall of a share than this is passed over.
 const LEAST: f32 = 5e-3;
 
-/// A crack that takes less than this counts as taking nothing: it is far for its length and needs no look. A rounding for time's sake:
-/// most cracks about a point are short and far.
+/// A crack that takes a smaller share than this of the stress counts as taking nothing. It is far away for its length and needs no look,
+/// which saves time, since most cracks about a point are short and far.
 const FAINT: f32 = 0.02;
 
-/// Distance over a crack's half-length a beyond which that is so: of all shares that of a stretched body falls most,
-/// 1 − (1 + a²/y²)^-1.5 < 1.5 a²/y² (√(1.5 / 0.02) = 8.66).
+/// At a distance of so many half-lengths a of a crack its share is below [`FAINT`]. A crack in a stretched body takes the most,
+/// 1 − (1 + a²/y²)^-1.5 < 1.5 a²/y² at the distance y, and √(1.5 / 0.02) = 8.66.
 const FAR: f32 = 8.67;
 
-/// What has released a point of one crack near it.
+/// What a point knows of one crack near it.
 #[derive(Clone, Copy, Debug)]
 struct Seen {
-    /// Nearest site that has, or [`NONE`].
+    /// Nearest of the crack's sites whose wave has reached the point, or [`NONE`].
     site: u32,
-    /// Its distance, m; infinite without one.
+    /// Distance of that site, m; infinite without one.
     distance: f32,
-    /// Half the crack's length when that was looked at last, m.
+    /// Half the crack's length when the point looked at it last, m.
     half_length: f32,
-    /// How many of its sites were looked at.
+    /// How many of the crack's sites the point has looked at.
     looked_at: u32,
-    /// Those still to come.
+    /// Sites whose waves have still to arrive.
     pending: Queue,
-    /// What it has left.
+    /// What the crack has left of the stress.
     shadow: Shadow,
 }
 
@@ -58,7 +59,7 @@ impl Seen {
 pub(super) struct Sources<'a> {
     pub(super) cracks: &'a [Crack],
     pub(super) extents: &'a [Extent],
-    /// The crack that grew, in the order of growth.
+    /// The number of the crack that grew, for each growth in order.
     pub(super) growth: &'a [u32],
     /// Mean edge of the fracture mesh, m.
     pub(super) edge: f32,
@@ -145,21 +146,21 @@ impl Memory {
         }
     }
 
-    /// What has released it, crack after crack.
+    /// What the cracks have left of the stress, crack after crack.
     #[inline(always)]
     pub(super) fn shadows(&self) -> impl Iterator<Item = &Shadow> {
         let shadows = self.seen.iter().map(|seen| &seen.shadow);
         shadows.filter(|shadow| shadow.bent < 1.0 || shadow.stretched < 1.0)
     }
 
-    /// What has released it, without what one crack did.
+    /// What all cracks but one have left of the stress.
     pub(super) fn shadows_of_others(&self, crack: u32) -> impl Iterator<Item = &Shadow> {
         let of = self.cracks.iter().zip(&self.seen);
         of.filter(move |&(&of, _)| of != crack)
             .map(|(_, seen)| &seen.shadow)
     }
 
-    /// Brings it to `now`, s; whether anything releases it more than before.
+    /// Brings the memory to the time `now`, s. Returns whether any crack releases the point more than before.
     pub(super) fn update(&mut self, sources: Sources, now: f64) -> bool {
         let known = self.growths;
         if known == sources.growth.len() && now <= self.next {
@@ -245,8 +246,8 @@ impl Memory {
         falls
     }
 
-    /// Lets those sites of the crack at place `i` of those seen arrive whose wave is here, each of them the nearest when it does;
-    /// whether the crack then leaves less than before.
+    /// Takes in the sites of one crack whose waves have arrived; `i` is the crack's place among those seen.
+    /// Each site is the nearest when its wave arrives. Returns whether the crack then leaves less than before.
     fn arrive(&mut self, sources: Sources, i: usize, now: f64) -> bool {
         let (crack, seen) = (self.cracks[i], &mut self.seen[i]);
         let (shadow, mut falls) = (&mut seen.shadow, false);
@@ -268,8 +269,8 @@ impl Memory {
     }
 }
 
-/// Takes over smaller shares; whether there are any. Where it bends the smallest decides the normal: in a wall bending breaks,
-/// and elsewhere the two shares are one.
+/// Takes over what of the new shares is smaller, and returns whether anything is. The normal is that of the smallest share of bending: in
+/// a wall it is bending that breaks, and elsewhere both shares are the same.
 fn darken(old: &mut Shadow, new: Shadow) -> bool {
     let falls = new.bent <= old.bent - LEAST || new.stretched <= old.stretched - LEAST;
     let falls = falls && new.bent.min(new.stretched) <= 1.0 - FAINT;
@@ -283,7 +284,7 @@ fn darken(old: &mut Shadow, new: Shadow) -> bool {
     falls
 }
 
-/// From a point to the nearest place of the part of a crack that a site stands for: as far around it as `radius`, m.
+/// The way from a point to the nearest place of the part of a crack that a site stands for: a disc of this radius, m, around the site.
 fn nearest_place(site: &Site, point: Vec3, radius: f32) -> Vec3 {
     let to_site = site.position - point;
     let across = site.direction * site.direction.dot(to_site);

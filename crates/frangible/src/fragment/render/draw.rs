@@ -4,9 +4,9 @@ use glam::DVec3;
 
 use super::Parts;
 use crate::asset::RenderSurface;
-use crate::body::Prepared;
 use crate::mesh::TetMesh;
 use crate::outcome::Fragment;
+use crate::prepared::Prepared;
 
 /// What drawing fragments needs and building them knows.
 pub(crate) struct Undrawn {

@@ -5,7 +5,7 @@ use rand_chacha::rand_core::Rng;
 
 use crate::asset::{RenderMaterial, RenderSurface};
 use crate::crack::CrackSystem;
-use crate::fragment::cuts::Cuts;
+use crate::crack::Cuts;
 use crate::fragment::label::Labels;
 use crate::fragment::tests::block;
 use crate::fragment::{Built, build, draw};

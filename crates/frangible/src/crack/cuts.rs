@@ -1,8 +1,7 @@
 //! Which mesh edges are cut, where, and by which crack `[G12 §6.3]`.
 
-use super::by_node::ByNode;
-use crate::crack::CrackSystem;
-use crate::mesh::EDGES;
+use super::system::CrackSystem;
+use crate::mesh::{ByNode, EDGES};
 
 /// Cut points stay this far (in edge lengths) from the nodes, so that no triangle has zero area.
 const CUT_MARGIN: f64 = 0.02;
@@ -84,7 +83,7 @@ impl Cuts {
     }
 
     /// Cuts of edges, each of another, its lower node first, at these places along them.
-    pub(super) fn at_places(list: &[([u32; 2], f64)], node_count: usize) -> Self {
+    pub(crate) fn at_places(list: &[([u32; 2], f64)], node_count: usize) -> Self {
         let mut cuts = Self::none(node_count);
         for &(ends, at) in list {
             let at = at.clamp(CUT_MARGIN, 1.0 - CUT_MARGIN);
@@ -131,12 +130,12 @@ impl Cuts {
     }
 
     /// Nodes with a cut edge, in the order they got one.
-    pub(super) fn nodes(&self) -> &[u32] {
+    pub(crate) fn nodes(&self) -> &[u32] {
         &self.nodes
     }
 
     /// Whether a node has a cut edge.
-    pub(super) fn touches(&self, node: u32) -> bool {
+    pub(crate) fn touches(&self, node: u32) -> bool {
         self.touched[node as usize]
     }
 }

@@ -1,42 +1,30 @@
 //! Contacts refused free of time: bounds of the stress that follow no motion, from the cheapest (beyond the paper).
 //!
 //! 1. One number per surface triangle and largest force ([`PerImpulse`](super::PerImpulse)).
-//! 2. The reach of every mode under its impulse (`modal/reach.rs`) in the bound of the whole body …
-//! 3. … and of its parts.
+//! 2. The reach of every mode under its impulse (`reach.rs`) in the bound of the whole body.
+//! 3. The same reaches in the bound of each cluster of tetrahedra.
 //!
 //! A blow that is integrated has no impulse and no duration yet: what it can bring at most follows from the energy of approach
 //! (`blow/limits.rs`). A contact on a wall is not refused here: its near field is known only once it is integrated.
 
-use glam::Vec3;
-
-use super::Contact;
-use super::duration::hertz_at;
-use super::load::{each_row, give};
-use crate::asset::Asset;
-use crate::blow::{Limits, has_near_field};
+use super::cluster_bounds::refused_by_clusters;
+use super::harmless;
+use super::pushes::{MOST_CONTACTS, Pushes};
+use crate::blow::Limits;
 use crate::body::Body;
 use crate::config::{DurationModel, FractureConfig};
-use crate::crack::refused_by_parts;
-use crate::impact::harmless;
+use crate::contact::{Contact, give, hertz_at};
 use crate::mesh::SurfacePoint;
-use crate::near_field::PlateTheory;
 use crate::outcome::LookedAt;
-use crate::stress::tension_bound;
-
-/// Most pushes that a quick bound looks at; more are rare, and go on to the full computation.
-const MOST_CONTACTS: usize = 16;
-
-/// Modes looked at together: their sums stay on the stack.
-const BLOCK: usize = 64;
 
 /// Why an impact does nothing.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Refusal {
     /// What had to be looked at.
     pub(crate) looked_at: LookedAt,
-    /// No weak point has more tension than this, Pa …
+    /// No weak point has more tension than this, Pa.
     pub(crate) bound: f32,
-    /// … and none feels more than the weakest would at this, Pa.
+    /// No weak point feels more than the weakest would at this, Pa.
     pub(crate) as_weakest: f32,
 }
 
@@ -45,96 +33,6 @@ impl Refusal {
     pub(crate) fn raise(&mut self, bound: f32, as_weakest: f32) {
         self.bound = self.bound.max(bound);
         self.as_weakest = self.as_weakest.max(as_weakest);
-    }
-}
-
-/// What pushes on a body: where, and with which impulse, N·s, or force, N.
-pub(crate) struct Pushes {
-    places: [(SurfacePoint, Vec3); MOST_CONTACTS],
-    count: usize,
-}
-
-impl Pushes {
-    /// `None` when there are too many.
-    pub(crate) fn new(body: &Body, pushes: impl Iterator<Item = (Vec3, Vec3)>) -> Option<Self> {
-        let nowhere = SurfacePoint {
-            triangle: 0,
-            weights: [0.0; 3],
-            position: Vec3::ZERO,
-        };
-        let mut found = Self {
-            places: [(nowhere, Vec3::ZERO); MOST_CONTACTS],
-            count: 0,
-        };
-        for (point, push) in pushes {
-            let place = found.places.get_mut(found.count)?;
-            *place = (body.prepared.surface.closest(point), push);
-            found.count += 1;
-        }
-        Some(found)
-    }
-
-    pub(crate) fn places(&self) -> &[(SurfacePoint, Vec3)] {
-        &self.places[..self.count]
-    }
-
-    /// Whether any of them has a near field.
-    fn any_near(&self, asset: &Asset, theory: PlateTheory) -> bool {
-        let mut places = self.places().iter();
-        places.any(|(at, _)| has_near_field(asset, at.triangle, theory))
-    }
-
-    /// Adds Σ φ_i(b) · push of some modes to `sums`, which is as long.
-    fn modal(&self, asset: &Asset, modes: std::ops::Range<usize>, sums: &mut [f32]) {
-        for place in self.places() {
-            Self::modal_of(place, asset, modes.clone(), sums);
-        }
-    }
-
-    /// Adds φ_i(b) · push of one place.
-    fn modal_of(
-        (place, push): &(SurfacePoint, Vec3),
-        asset: &Asset,
-        modes: std::ops::Range<usize>,
-        sums: &mut [f32],
-    ) {
-        each_row(asset, place, |node, weight| {
-            let w = *push * weight;
-            let [x, y, z] = [0, 1, 2].map(|k| &asset.modes.row(3 * node + k)[modes.clone()]);
-            for (((sum, x), y), z) in sums.iter_mut().zip(x).zip(y).zip(z) {
-                *sum += w.x * x + w.y * y + w.z * z;
-            }
-        });
-    }
-
-    /// The stress bound of the whole body, Pa. `amplitude` turns a mode's number and its Σ φ_i(b) · push into its amplitude, m·√kg.
-    pub(crate) fn bound(
-        &self,
-        body: &Body,
-        quadratic_modulus: f32,
-        amplitude: impl Fn(usize, f32) -> f32,
-    ) -> f32 {
-        let (asset, root) = (&*body.asset, &body.prepared.whole);
-        let modes = asset.modes.count();
-        let with_gradient = quadratic_modulus > 0.0;
-        let (mut stress, mut gradient) = (0.0, 0.0);
-        for first in (0..modes).step_by(BLOCK) {
-            let block = first..(first + BLOCK).min(modes);
-            let mut amplitudes = [0.0_f32; BLOCK];
-            let amplitudes = &mut amplitudes[..block.len()];
-            self.modal(asset, block.clone(), amplitudes);
-            for (q, mode) in amplitudes.iter_mut().zip(block.clone()) {
-                *q = amplitude(mode, *q);
-            }
-            // The quadratic term needs the sum over all blocks first.
-            let zero = [0.0; BLOCK];
-            let zero = &zero[..block.len()];
-            stress += tension_bound(amplitudes, &root.0[block.clone()], zero, 0.0);
-            if with_gradient {
-                gradient += tension_bound(amplitudes, &root.1[block], zero, 0.0);
-            }
-        }
-        stress + 0.5 * quadratic_modulus * gradient * gradient
     }
 }
 
@@ -164,7 +62,7 @@ pub(crate) fn refused(
         for (slot, hit) in hits.iter_mut().zip(hit().zip(pushes.places())) {
             *slot = Some((hit.0, hit.1.0));
         }
-        if !Limits::of(&body.asset, &hits[..pushes.count], &mut limits) {
+        if !Limits::of(&body.asset, &hits[..pushes.places().len()], &mut limits) {
             return None;
         }
     } else {
@@ -201,7 +99,7 @@ pub(crate) fn refused(
     // Forces of several contacts need not rise and fall together: the sizes of what they do add up.
     let reaches = &body.prepared.reaches;
     let modes = body.asset.modes.count();
-    if pushes.count == 1 {
+    if pushes.places().len() == 1 {
         let limit = limits[0];
         let (impulse, force) = (limit.impulse as f32, force_of(&limit));
         let reach = |mode: usize, push: f32| push * impulse * reaches.most(mode, force);
@@ -224,7 +122,7 @@ pub(crate) fn refused(
             *sum += push.abs() * impulse * reaches.most(mode, force);
         }
     }
-    refused_by_parts(body, &amplitudes, quadratic_modulus)
+    refused_by_clusters(body, &amplitudes, quadratic_modulus)
 }
 
 /// Duration of a contact whose impulse is given, s; none where it takes the modes to say.

@@ -1,23 +1,24 @@
 //! Which weak points need a look at a time step: those of clusters whose stress bound passes the strength.
 
-use super::parts::Parts;
+use super::cluster_bounds::ClusterBounds;
+use super::stress_bounds::tension_bound;
 use crate::body::Body;
 use crate::config::FractureConfig;
 use crate::modal::Motion;
-use crate::stress::{MARGIN, Steps, tension_bound};
+use crate::stress::{Steps, limit};
 
 /// Passes over clusters of weak points that cannot crack.
 pub(crate) struct Culling<'a> {
     body: &'a Body,
     on: bool,
     quadratic_modulus: f32,
-    /// Largest bound of what was passed over so far, Pa …
+    /// Largest bound of what was passed over so far, Pa.
     pub(crate) passed_over: f32,
-    /// … and as the weakest point would feel it, Pa.
+    /// Largest bound of what was passed over so far, as the weakest point would feel it, Pa.
     pub(crate) as_weakest: f32,
     /// Whether the bound of the whole body ever let a time step pass.
     pub(crate) asked_clusters: bool,
-    /// Of each cluster, a bit for each step of the batch that needs a look.
+    /// Bit k of a cluster's entry: step k of the batch needs a look at the cluster.
     survivors: Vec<Steps>,
     /// Bounds of the clusters at the step looked at last, Pa.
     bounds: Vec<f32>,
@@ -28,13 +29,14 @@ pub(crate) struct Culling<'a> {
 }
 
 impl<'a> Culling<'a> {
-    /// For motions with what this one leaves out. Without `config.culling` every cluster needs a look at every step.
+    /// Serves motions that have the same complement to the modes as this one. Without `config.culling` every cluster needs a look at
+    /// every step.
     pub(crate) fn new(body: &'a Body, config: &FractureConfig, motion: &Motion) -> Self {
         let quadratic_modulus = body.quadratic_modulus(config);
         let complement = &motion.complement;
         // What follows the force has no bound of its gradient.
         let on = config.culling && (quadratic_modulus == 0.0 || complement.is_empty());
-        let parts = Parts::new(body, quadratic_modulus);
+        let parts = ClusterBounds::new(body, quadratic_modulus);
         let count = parts.count();
         let residuals = complement.residuals.iter().filter(|_| on).map(|residual| {
             let of_part = |part| residual.bound(parts.rows(part).0);
@@ -98,7 +100,7 @@ impl<'a> Culling<'a> {
             return;
         }
         self.asked_clusters = true;
-        let parts = Parts::new(self.body, self.quadratic_modulus);
+        let parts = ClusterBounds::new(self.body, self.quadratic_modulus);
         parts.bounds(motion.at(step), &mut self.bounds);
         let complement = &motion.complement;
         for ((_, of_parts), residual) in self.residuals.iter().zip(&complement.residuals) {
@@ -137,9 +139,4 @@ impl<'a> Culling<'a> {
         let survivors = (0..).zip(self.survivors.iter().copied());
         survivors.filter(|&(_, steps)| steps != 0)
     }
-}
-
-/// Below this bound no point reaches its strength where the smallest is this one, Pa.
-pub(super) fn limit(strength: f32) -> f32 {
-    strength * (1.0 - MARGIN)
 }

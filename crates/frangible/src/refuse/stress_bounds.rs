@@ -14,22 +14,18 @@
 
 use glam::Vec3;
 
-use super::displacement::ShapeWeights;
-use super::{Elasticity, Skin, Symmetric3};
 use crate::asset::{AnalysisMesh, Asset, EmbeddedPoint};
 use crate::material::Material;
 use crate::mesh::TetMesh;
 use crate::modal::ModalBasis;
+use crate::stress::{Elasticity, Skin, Symmetric3};
 
 /// Most tetrahedra of a cluster.
 const CLUSTER: usize = 256;
 
 /// Rounding of u = Φ q and of its gradient in f32, relative to the sum of the absolute values of all terms: twenty
 /// times ε/2 = 6e-8, since the errors of a sum of n terms grow as √n, and n is about a hundred.
-pub(crate) const ROUNDING: f32 = 1.2e-6;
-
-/// Bounds are compared with the strength less this: the rounding of the bound itself.
-pub(crate) const MARGIN: f32 = 1e-4;
+const ROUNDING: f32 = 1.2e-6;
 
 /// Largest stress and gradient of each mode over clusters of neighbouring fracture tetrahedra.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -38,18 +34,18 @@ pub struct StressBounds {
     pub cluster_of_tet: Vec<u32>,
     /// Largest linear stress, Pa per m·√kg: one row per cluster, one column per mode.
     pub stress: Vec<f32>,
-    /// Largest displacement gradient, 1 per m·√kg: the same.
+    /// Largest displacement gradient, 1 per m·√kg: one row per cluster, one column per mode.
     pub gradient: Vec<f32>,
 }
 
 impl StressBounds {
-    /// Of an asset, from its own arrays.
+    /// Finds the bounds of an asset from its other arrays.
     #[must_use]
     pub fn of(asset: &Asset) -> Self {
         Self::with_skin(asset, &Skin::of(asset))
     }
 
-    /// Of an asset whose skin is known.
+    /// Finds the bounds of an asset whose skin is known.
     pub(crate) fn with_skin(asset: &Asset, skin: &Skin) -> Self {
         let numbers: Vec<usize> = asset.tets().collect();
         let (cluster_of_tet, clusters) = clusters(&asset.fracture, &numbers);
@@ -168,11 +164,10 @@ impl Rows {
         self.terms.fill(0.0);
         let m = self.terms.len();
         let element = point.element as usize;
-        let weights = ShapeWeights::gradients(point, &analysis.barycentric_gradients[element]);
+        let weights = point.shape_gradients(&analysis.barycentric_gradients[element]);
         for (&node, g) in analysis.elements[element].iter().zip(weights) {
             let size = g.abs().element_sum();
-            for row in 0..3 {
-                let phi = modes.row(3 * node as usize + row);
+            for (row, phi) in modes.rows(node as usize).into_iter().enumerate() {
                 for (t, &p) in self.terms.iter_mut().zip(phi) {
                     *t += p.abs() * size;
                 }

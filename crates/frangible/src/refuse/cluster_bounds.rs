@@ -1,18 +1,18 @@
-//! Bounds of parts of a body from the farthest that each mode moves, at any time.
+//! Bounds of the stress in each cluster that holds weak points, from the farthest that each mode moves.
 
-use super::culling::limit;
+use super::impact::Refusal;
+use super::stress_bounds::tension_bound;
 use crate::body::Body;
-use crate::contact::Refusal;
 use crate::outcome::LookedAt;
-use crate::stress::tension_bound;
+use crate::stress::limit;
 
 /// Bounds of all parts that hold weak points, asked one after another.
-pub(crate) struct Parts<'a> {
+pub(crate) struct ClusterBounds<'a> {
     body: &'a Body,
     quadratic_modulus: f32,
 }
 
-impl<'a> Parts<'a> {
+impl<'a> ClusterBounds<'a> {
     pub(crate) fn new(body: &'a Body, quadratic_modulus: f32) -> Self {
         Self {
             body,
@@ -68,7 +68,7 @@ impl<'a> Parts<'a> {
 
 /// The bounds of all parts, with the widest vectors that this processor has.
 struct AllParts<'p, 'a> {
-    parts: &'p Parts<'a>,
+    parts: &'p ClusterBounds<'a>,
     amplitudes: &'p [f32],
     bounds: &'p mut [f32],
 }
@@ -85,12 +85,12 @@ impl pulp::NullaryFnOnce for AllParts<'_, '_> {
 }
 
 /// Whether no weak point cracks when the modes move no farther than `amplitudes`, m·√kg: by the bounds of all parts.
-pub(crate) fn refused_by_parts(
+pub(crate) fn refused_by_clusters(
     body: &Body,
     amplitudes: &[f32],
     quadratic_modulus: f32,
 ) -> Option<Refusal> {
-    let parts = Parts::new(body, quadratic_modulus);
+    let parts = ClusterBounds::new(body, quadratic_modulus);
     let mut refusal = Refusal {
         looked_at: LookedAt::Impulses,
         bound: 0.0,

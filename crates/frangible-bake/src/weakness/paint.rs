@@ -2,9 +2,8 @@
 //!
 //! Paint is read off the drawn surface, since welding its vertices would mix colours at seams.
 
-use super::{Factors, Fields};
-use crate::asset::Asset;
-use crate::error::InputError;
+use frangible::internals::{Factors, Fields};
+use frangible::{Asset, InputError};
 
 /// A channel of a colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -57,7 +56,7 @@ pub struct Paint {
 }
 
 impl Paint {
-    /// With these shares of the strength, and the toughness that goes with them.
+    /// Paint with these shares of the strength, and the toughness that goes with them.
     #[must_use]
     pub const fn of_strength(channel: Channel, strength: [f32; 2]) -> Self {
         Self {
@@ -108,8 +107,14 @@ impl Paint {
     }
 }
 
-/// See [`Fields::from_paint`].
-pub(super) fn fields(asset: &Asset, paint: &[Paint]) -> Result<Fields, InputError> {
+/// Fields from the [vertex colours](frangible::internals::asset::RenderSurface::colors) of the asset's drawn surface: each tetrahedron takes
+/// the colour of the nearest point of it. Of several entries what a later one names replaces what an earlier one says.
+///
+/// Paint reaches halfway through a wall: a score right through it is painted on both sides.
+///
+/// # Errors
+/// An asset without vertex colours, or a factor that cannot be used.
+pub fn from_paint(asset: &Asset, paint: &[Paint]) -> Result<Fields, InputError> {
     paint.iter().try_for_each(Paint::check)?;
     if paint.is_empty() {
         return Ok(Fields::default());
@@ -121,7 +126,7 @@ pub(super) fn fields(asset: &Asset, paint: &[Paint]) -> Result<Fields, InputErro
             "`{name}` has no vertex colours to paint weakness with; export its mesh with them and bake it again"
         )));
     };
-    let fields = Fields::from_surface(asset, &drawn.positions, &drawn.triangles, |at| {
+    Fields::from_surface(asset, &drawn.positions, &drawn.triangles, |at| {
         let mut color = [0.0; 4];
         for (v, weight) in at {
             for (sum, x) in color.iter_mut().zip(drawn.colors[v]) {
@@ -131,6 +136,5 @@ pub(super) fn fields(asset: &Asset, paint: &[Paint]) -> Result<Fields, InputErro
         let mut factors = Factors::ONE;
         paint.iter().for_each(|p| p.lay(color, &mut factors));
         factors
-    });
-    Ok(fields)
+    })
 }

@@ -1,8 +1,8 @@
 //! Weak tetrahedra by the clusters whose stress is bounded together.
 
+use super::StressBounds;
 use crate::asset::Asset;
 use crate::fields::Resistance;
-use crate::stress::StressBounds;
 
 /// Weak tetrahedra by cluster.
 #[derive(Clone, Debug)]

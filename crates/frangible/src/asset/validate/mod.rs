@@ -1,13 +1,18 @@
 //! Whether the arrays of an asset fit together: linear in their size, since every new body asks.
 
-use glam::Vec3;
+mod elements;
+mod meshes;
+mod render;
+mod rows;
 
-use super::{Asset, EmbeddedPoint, RenderSurface, SurfaceWalls};
+pub(crate) use elements::{analysis, embedded, modes};
+use meshes::{neighbours, tetrahedra};
+use render::render;
+use rows::{Check, all, one_each};
+
+use super::{Asset, SurfaceWalls};
 use crate::error::InputError;
-use crate::mesh::{FACES, MassProperties, NO_NEIGHBOUR, TetMesh};
-
-/// What is wrong, as a clause.
-type Check = Result<(), String>;
+use crate::mesh::{FACES, MassProperties, NO_NEIGHBOUR};
 
 impl Asset {
     /// Checks that all arrays fit together, that every index names something, that every number is finite
@@ -35,8 +40,9 @@ impl Asset {
         tetrahedra(&self.fracture)?;
         neighbours(&self.fracture)?;
         self.check_surface()?;
-        self.check_analysis()?;
-        self.check_modes()?;
+        self.check_elements()?;
+        modes(&self.modes, self.analysis.nodes.len())?;
+        self.check_peak_stress()?;
         self.check_bounds()?;
         self.check_cells()?;
         self.check_supported()?;
@@ -87,24 +93,25 @@ impl Asset {
         walls(&surface.walls, count)
     }
 
-    fn check_analysis(&self) -> Check {
-        let analysis = &self.analysis;
-        let (nodes, elements) = (analysis.nodes.len(), analysis.elements.len());
-        finite("analysis node", &analysis.nodes)?;
-        below("analysis element", &analysis.elements, nodes, "node")?;
-        let gradients = analysis.barycentric_gradients.len();
-        one_each("analysis element", elements, "gradient row", gradients)?;
-        all(
-            &analysis.barycentric_gradients,
-            |g| g.iter().all(|g| g.is_finite()),
-            |e| format!("a barycentric gradient of analysis element {e} is not finite"),
-        )?;
+    fn check_elements(&self) -> Check {
+        analysis(&self.analysis)?;
+        let elements = self.analysis.elements.len();
         let (tets, centroids) = (self.fracture.tets.len(), self.embedding.tets.len());
         one_each("tetrahedron", tets, "embedded centroid", centroids)?;
         let nodes = self.fracture.positions.len();
         one_each("node", nodes, "embedded point", self.embedding.nodes.len())?;
         embedded("centroid", &self.embedding.tets, elements)?;
         embedded("node", &self.embedding.nodes, elements)
+    }
+
+    fn check_peak_stress(&self) -> Check {
+        let peaks = &self.modes.peak_stress;
+        one_each("mode", self.modes.count(), "peak stress", peaks.len())?;
+        all(
+            peaks,
+            |&p| p.is_finite() && p >= 0.0,
+            |i| format!("the peak stress of mode {i} is not a finite number, zero or above"),
+        )
     }
 
     fn check_bounds(&self) -> Check {
@@ -135,43 +142,6 @@ impl Asset {
             )?;
         }
         Ok(())
-    }
-
-    fn check_modes(&self) -> Check {
-        let modes = &self.modes;
-        let (count, rows) = (modes.count(), self.analysis.nodes.len().saturating_mul(3));
-        if modes.shapes.len() != rows.saturating_mul(count) {
-            return Err(format!(
-                "mode shapes hold {} numbers, not {rows} × {count}",
-                modes.shapes.len()
-            ));
-        }
-        one_each("mode", count, "peak stress", modes.peak_stress.len())?;
-        if modes.residual_modes > 0 && modes.residual_modes >= count {
-            return Err(format!(
-                "{} of its {count} modes are to answer statically, and none is left to follow; follow one at least",
-                modes.residual_modes
-            ));
-        }
-        all(
-            &modes.eigenvalues,
-            |&l| l.is_finite() && l > 0.0,
-            |i| format!("the eigenvalue of mode {i} is not a finite number above zero"),
-        )?;
-        if !modes.eigenvalues.is_sorted() {
-            return Err("the modes are not sorted by rising frequency".into());
-        }
-        all(
-            &modes.peak_stress,
-            |&p| p.is_finite() && p >= 0.0,
-            |i| format!("the peak stress of mode {i} is not a finite number, zero or above"),
-        )?;
-        // A fold over a row has no early exit, so that the compiler can test many numbers at once.
-        let mut shapes = modes.shapes.chunks(count.max(1));
-        let bad = shapes.position(|row| !row.iter().fold(true, |ok, x| ok & x.is_finite()));
-        bad.map_or(Ok(()), |row| {
-            Err(format!("row {row} of the mode shapes is not finite"))
-        })
     }
 
     fn check_cells(&self) -> Check {
@@ -277,149 +247,4 @@ fn mass(mass: &MassProperties) -> Check {
         return Err("its inertia is not finite and positive about every axis".into());
     }
     Ok(())
-}
-
-fn tetrahedra(mesh: &TetMesh) -> Check {
-    if mesh.tets.is_empty() {
-        return Err("it has no tetrahedra".into());
-    }
-    finite("node", &mesh.positions)?;
-    below("tetrahedron", &mesh.tets, mesh.positions.len(), "node")?;
-    let flat = (0..mesh.tets.len()).find(|&e| mesh.volume(e) <= 0.0);
-    flat.map_or(Ok(()), |e| {
-        Err(format!(
-            "the volume of tetrahedron {e} is {} m³, not above zero",
-            mesh.volume(e)
-        ))
-    })
-}
-
-/// Whoever names a neighbour is named by it, across the same three nodes.
-fn neighbours(mesh: &TetMesh) -> Check {
-    let tets = mesh.tets.len();
-    one_each("tetrahedron", tets, "neighbour row", mesh.neighbours.len())?;
-    for (e, (tet, row)) in mesh.tets.iter().zip(&mesh.neighbours).enumerate() {
-        for (face, &other) in FACES.iter().zip(row) {
-            if other == NO_NEIGHBOUR {
-                continue;
-            }
-            let o = other as usize;
-            let (Some(other_tet), Some(back)) = (mesh.tets.get(o), mesh.neighbours.get(o)) else {
-                return Err(format!("tetrahedron {e} names neighbour {o} of {tets}"));
-            };
-            let same = |f: &[usize; 3]| {
-                let theirs = f.map(|i| other_tet[i]);
-                face.iter().all(|&i| theirs.contains(&tet[i]))
-            };
-            let returned = FACES.iter().zip(back);
-            if o == e
-                || !returned
-                    .into_iter()
-                    .any(|(f, &b)| b as usize == e && same(f))
-            {
-                return Err(format!(
-                    "tetrahedra {e} and {o} do not name each other across one face"
-                ));
-            }
-        }
-    }
-    Ok(())
-}
-
-fn embedded(what: &str, points: &[EmbeddedPoint], elements: usize) -> Check {
-    all(
-        points,
-        |p| (p.element as usize) < elements,
-        |i| {
-            format!("embedded {what} {i} names an analysis element beyond the {elements} there are")
-        },
-    )?;
-    let sound =
-        |p: &EmbeddedPoint| p.barycentric.iter().all(|b| b.is_finite()) && p.offset.is_finite();
-    all(points, sound, |i| {
-        format!("embedded {what} {i} is not finite")
-    })
-}
-
-fn render(surface: &RenderSurface) -> Check {
-    let vertices = surface.positions.len();
-    finite("render vertex", &surface.positions)?;
-    finite("render normal", &surface.normals)?;
-    all(
-        &surface.uvs,
-        |uv| uv.iter().all(|x| x.is_finite()),
-        |v| format!("the texture coordinates of render vertex {v} are not finite"),
-    )?;
-    none_or_one_each("render vertex", vertices, "normal", surface.normals.len())?;
-    none_or_one_each(
-        "render vertex",
-        vertices,
-        "texture coordinate",
-        surface.uvs.len(),
-    )?;
-    none_or_one_each("render vertex", vertices, "colour", surface.colors.len())?;
-    all(
-        &surface.colors,
-        |color| color.iter().all(|x| (0.0..=1.0).contains(x)),
-        |v| format!("the colour of render vertex {v} lies outside 0 to 1"),
-    )?;
-    below("render triangle", &surface.triangles, vertices, "vertex")?;
-    let (triangles, materials) = (surface.triangles.len(), surface.materials.len());
-    let numbers = surface.material_of_triangle.len();
-    none_or_one_each("render triangle", triangles, "material number", numbers)?;
-    all(
-        &surface.material_of_triangle,
-        |&m| (m as usize) < materials,
-        |t| {
-            format!(
-                "the material number of render triangle {t} lies beyond the {materials} materials"
-            )
-        },
-    )?;
-    let unit = |x: &f32| (0.0..=1.0).contains(x);
-    all(
-        &surface.materials,
-        |m| m.base_color.iter().all(unit) && unit(&m.metallic) && unit(&m.roughness),
-        |m| format!("a number of render material {m} lies outside 0 to 1"),
-    )
-}
-
-fn all<T>(rows: &[T], sound: impl Fn(&T) -> bool, problem: impl Fn(usize) -> String) -> Check {
-    match rows.iter().position(|row| !sound(row)) {
-        Some(at) => Err(problem(at)),
-        None => Ok(()),
-    }
-}
-
-fn finite(what: &str, points: &[Vec3]) -> Check {
-    all(
-        points,
-        |p| p.is_finite(),
-        |i| format!("{what} {i} is not finite"),
-    )
-}
-
-fn below<const N: usize>(what: &str, rows: &[[u32; N]], limit: usize, named: &str) -> Check {
-    all(
-        rows,
-        |row| row.iter().all(|&v| (v as usize) < limit),
-        |i| format!("{what} {i} names a {named} beyond the {limit} there are"),
-    )
-}
-
-fn one_each(of: &str, wanted: usize, what: &str, found: usize) -> Check {
-    if found == wanted {
-        return Ok(());
-    }
-    Err(format!(
-        "it wants one {what} per {of}: {wanted}, not {found}"
-    ))
-}
-
-fn none_or_one_each(of: &str, wanted: usize, what: &str, found: usize) -> Check {
-    if found == 0 {
-        Ok(())
-    } else {
-        one_each(of, wanted, what, found)
-    }
 }

@@ -3,9 +3,9 @@
 //! From rest, q̈ + d q̇ + λ q = f(t). With w = √(q̇² + λ q²) any force gives ẇ ≤ |f|, damped or not, and √λ |q| ≤ w. Hence
 //! √λ |q| ≤ ∫ |f| dt, always. A mode that follows the force has q = f/λ, at most that of the largest force.
 
-use super::ModalBasis;
+use crate::modal::ModalBasis;
 
-/// What the bounds need of each mode.
+/// How far a blow moves each mode at most.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Reaches {
     /// λ, 1/s².

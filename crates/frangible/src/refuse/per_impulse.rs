@@ -2,18 +2,15 @@
 //! a game are refused by one multiplication.
 //!
 //! An impulse J at a point b of the surface, put on by a force that is at most P J, moves mode i at most |φ_i(b)| J D_i(P), D_i its
-//! [reach](crate::modal::Reaches), which for modes that follow the force grows with P. Over a triangle φ_i is linear and its length convex,
+//! [reach](super::Reaches), which for modes that follow the force grows with P. Over a triangle φ_i is linear and its length convex,
 //! so with s_i the largest stress of mode i in the body no stress exceeds J · max over its corners of Σ_i s_i |φ_i| D_i(P). That number
 //! is kept for values of P a factor apart, the next larger one counts; in sixteenths of octaves, rounded up, so that a triangle
 //! takes as many bytes.
 
-use glam::Vec3;
-
-use super::load::carriers;
+use super::ROUNDING;
+use super::reach::Reaches;
+use super::surface_sums::surface_sums;
 use crate::asset::Asset;
-use crate::mesh::SurfacePoint;
-use crate::modal::Reaches;
-use crate::stress::dot;
 
 /// Values of P that have numbers; below the smallest that one counts, above the largest none does.
 const RUNGS: usize = 16;
@@ -23,9 +20,6 @@ const RATIO: f32 = 1.6;
 
 /// Codes to an octave.
 const OCTAVE: f32 = 16.0;
-
-/// Share of the numbers that rounding of sums over a few thousand terms cannot reach.
-const ROUNDING: f32 = 1.0 + 1e-4;
 
 /// Largest stress per impulse, Pa per N·s, of each surface triangle and largest force per impulse.
 #[derive(Clone, Debug)]
@@ -42,14 +36,7 @@ impl PerImpulse {
     pub(crate) fn new(asset: &Asset, stress: &[f32], reaches: &Reaches) -> Self {
         let (rows, highest) = rungs(stress, reaches);
         let triangles = &asset.surface.triangles;
-        let mut sums = vec![[0.0_f32; RUNGS]; asset.surface_positions().len()];
-        if !stress.is_empty() {
-            pulp::Arch::new().dispatch(AtNodes {
-                asset,
-                rows: &rows,
-                sums: &mut sums,
-            });
-        }
+        let sums = surface_sums(asset, &rows);
         let most = sums
             .iter()
             .flatten()
@@ -92,77 +79,4 @@ fn rungs(stress: &[f32], reaches: &Reaches) -> ([Vec<f32>; RUNGS], f32) {
         stress.iter().enumerate().map(weight).collect()
     });
     (rows, highest)
-}
-
-/// The sums at all nodes of the surface.
-struct AtNodes<'a> {
-    asset: &'a Asset,
-    rows: &'a [Vec<f32>; RUNGS],
-    sums: &'a mut [[f32; RUNGS]],
-}
-
-impl pulp::NullaryFnOnce for AtNodes<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn call(self) {
-        let mut shapes = Shapes::new(self.rows[0].len());
-        let mut known = vec![false; self.sums.len()];
-        for (triangle, corners) in self.asset.surface.triangles.iter().enumerate() {
-            for (k, &node) in corners.iter().enumerate() {
-                if known[node as usize] {
-                    continue;
-                }
-                known[node as usize] = true;
-                shapes.find(self.asset, triangle as u32, k);
-                // A loop, not a map: its closure would not be compiled for the wider vectors.
-                for (sum, row) in self.sums[node as usize].iter_mut().zip(self.rows) {
-                    *sum = dot(&shapes.lengths, row);
-                }
-            }
-        }
-    }
-}
-
-/// The mode shapes at a corner of the surface.
-struct Shapes {
-    /// φ_x, φ_y, φ_z of every mode, 1/√kg.
-    axes: [Vec<f32>; 3],
-    /// |φ|.
-    lengths: Vec<f32>,
-}
-
-impl Shapes {
-    fn new(modes: usize) -> Self {
-        Self {
-            axes: std::array::from_fn(|_| vec![0.0; modes]),
-            lengths: vec![0.0; modes],
-        }
-    }
-
-    /// At a triangle's corner.
-    #[inline(always)]
-    fn find(&mut self, asset: &Asset, triangle: u32, corner: usize) {
-        self.axes.iter_mut().for_each(|axis| axis.fill(0.0));
-        let mut weights = [0.0; 3];
-        weights[corner] = 1.0;
-        let at = SurfacePoint {
-            triangle,
-            weights,
-            position: Vec3::ZERO,
-        };
-        let (carriers, count) = carriers(asset, &at);
-        for &(node, weight) in carriers[..count].iter().filter(|c| c.1 != 0.0) {
-            for (axis, sums) in self.axes.iter_mut().enumerate() {
-                let row = asset.modes.row(3 * node as usize + axis);
-                for (sum, &phi) in sums.iter_mut().zip(row) {
-                    *sum += weight * phi;
-                }
-            }
-        }
-        let [x, y, z] = &self.axes;
-        for (((length, x), y), z) in self.lengths.iter_mut().zip(x).zip(y).zip(z) {
-            *length = (x * x + y * y + z * z).sqrt();
-        }
-    }
 }

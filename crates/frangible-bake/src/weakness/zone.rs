@@ -1,9 +1,8 @@
 //! Parts of a body by where they are.
 
-use glam::Vec3;
-
-use super::Factors;
-use crate::error::{InputError, finite, positive};
+use frangible::InputError;
+use frangible::glam::Vec3;
+use frangible::internals::Factors;
 
 /// A part of space, m, body frame.
 #[derive(Clone, Debug, PartialEq)]
@@ -79,6 +78,21 @@ impl Zone {
     }
 }
 
+fn finite(what: &'static str, v: Vec3) -> Result<(), InputError> {
+    if v.is_finite() {
+        return Ok(());
+    }
+    let [x, y, z] = v.to_array();
+    Err(InputError::NotFinite { what, x, y, z })
+}
+
+fn positive(what: &'static str, value: f64, unit: &'static str) -> Result<(), InputError> {
+    if value.is_finite() && value > 0.0 {
+        return Ok(());
+    }
+    Err(InputError::NotPositive { what, value, unit })
+}
+
 /// Distance of p from the piece of a line from a to b.
 fn distance(p: Vec3, a: Vec3, b: Vec3) -> f32 {
     let along = b - a;
@@ -107,7 +121,7 @@ pub struct Patch {
 }
 
 impl Patch {
-    /// With this share of the strength, and the toughness that goes with it.
+    /// A patch with this share of the strength, and the toughness that goes with it.
     #[must_use]
     pub const fn of_strength(zone: Zone, strength: f32) -> Self {
         Self {
@@ -118,6 +132,7 @@ impl Patch {
         }
     }
 
+    /// Replaces the factors that the patch names.
     pub(super) fn paint(&self, factors: &mut Factors) {
         if let Some(strength) = self.strength {
             factors.strength = strength;

@@ -1,0 +1,215 @@
+//! Files that are damaged, absent or not to be opened.
+
+use super::*;
+
+#[test]
+fn files_outside_the_folder_are_not_opened() {
+    let folder = Folder::new("outside");
+    for uri in [
+        "../secret.bin",
+        "/etc/hostname",
+        "%2e%2e/secret.bin",
+        "http://example.org/a.bin",
+    ] {
+        let path = folder.write("a.gltf", gltf(ONE_NODE, &format!(r#","uri":"{uri}""#)));
+        assert!(read_mesh(&path).is_err(), "{uri}");
+    }
+}
+
+#[test]
+fn a_file_cut_anywhere_is_an_error_or_a_smaller_mesh() {
+    for (format, bytes) in [
+        (MeshFormat::Obj, obj().into_bytes()),
+        (MeshFormat::Stl, stl(b"")),
+        (MeshFormat::Stl, stl_text().into_bytes()),
+        (MeshFormat::Ply, ply_text()),
+        (MeshFormat::Ply, ply_binary(true)),
+        (MeshFormat::Gltf, glb(&gltf(ONE_NODE, ""))),
+    ] {
+        for end in 0..bytes.len() {
+            if let Ok(mesh) = parse(format, &bytes[..end]) {
+                assert!(mesh.triangles.len() <= 4);
+            }
+        }
+    }
+    let cut = |format, bytes: &[u8]| message(format, &bytes[..bytes.len() - 20]);
+    assert!(cut(MeshFormat::Stl, &stl(b"")).contains("cut off: it ends inside facet 4 of 4"));
+    assert!(cut(MeshFormat::Ply, &ply_binary(true)).contains("cut off: it ends inside face 3"));
+    assert!(
+        cut(MeshFormat::Gltf, &glb(&gltf(ONE_NODE, "")))
+            .contains("cut off: it ends inside the binary chunk")
+    );
+}
+
+#[test]
+fn damaged_files_say_what_is_wrong_where() {
+    let text = obj();
+    for (format, bytes, expected) in [
+        (MeshFormat::Obj, String::new(), "the file is empty"),
+        (
+            MeshFormat::Obj,
+            text.replace("f 2 3 4", "f 2 3 9"),
+            "face 4 refers to vertex 9, but there are only 4",
+        ),
+        (
+            MeshFormat::Obj,
+            text.replace("f 2 3 4", "f 2 3 -5"),
+            "face 4 refers to vertex -5",
+        ),
+        (
+            MeshFormat::Obj,
+            text.replace("f 2 3 4", "f 2 3 0"),
+            "face 4 refers to vertex 0",
+        ),
+        (
+            MeshFormat::Obj,
+            text.replace("f 2 3 4", "f 2 3 4/7"),
+            "face 4 refers to vertex 7, but there are only 0",
+        ),
+        (
+            MeshFormat::Obj,
+            text.replace("v 0 1 0", "v 0 nan 0"),
+            "vertex 3 has a coordinate",
+        ),
+        (
+            MeshFormat::Obj,
+            text.replace("v 0 1 0", "v 0 1e999 0"),
+            "vertex 3 has a coordinate",
+        ),
+        (
+            MeshFormat::Obj,
+            text.replace("v 0 1 0", "v 0 one 0"),
+            "line 5: “one” is not a number",
+        ),
+        (
+            MeshFormat::Obj,
+            text.replace("v 0 1 0", "v 0 1"),
+            "line 5: a number is missing",
+        ),
+        (
+            MeshFormat::Obj,
+            "v 0 0 0\nl 1 1\n".into(),
+            "the file has no triangles",
+        ),
+        (
+            MeshFormat::Ply,
+            "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n0\n".into(),
+            "vertices have no y",
+        ),
+        (
+            MeshFormat::Ply,
+            "ply\nformat dense 1.0\n".into(),
+            "line 2: “format dense 1.0” is no PLY header line",
+        ),
+        (
+            MeshFormat::Ply,
+            text.clone(),
+            "line 1: a PLY file begins with",
+        ),
+        (
+            MeshFormat::Gltf,
+            "{\"asset\":7}".into(),
+            "the JSON of the glTF",
+        ),
+        (
+            MeshFormat::Gltf,
+            gltf(ONE_NODE, ""),
+            "buffer 0: it has neither a uri nor a binary chunk",
+        ),
+        (
+            MeshFormat::Gltf,
+            gltf(ONE_NODE, r#","uri":"a.bin""#),
+            "which cannot be read from memory",
+        ),
+        (
+            MeshFormat::Gltf,
+            r#"{"asset":{"version":"2.0"}}"#.into(),
+            "the file has no triangles",
+        ),
+    ] {
+        let message = message(format, &bytes);
+        assert!(message.contains(expected), "{message}");
+    }
+    let huge = |kind: &str| {
+        format!(
+            "ply\nformat ascii 1.0\nelement {kind} 99999999\nproperty float x\nproperty float y\nproperty float z\nproperty list uchar int vertex_index\nend_header\n"
+        )
+    };
+    assert!(
+        message(MeshFormat::Ply, huge("face"))
+            .contains("99999999 triangles, the limit is 20000000")
+    );
+    assert!(
+        message(MeshFormat::Ply, huge("vertex"))
+            .contains("99999999 vertices, the limit is 60000000")
+    );
+}
+
+#[test]
+fn damaged_gltf_says_what_is_wrong_where() {
+    let sound = gltf(ONE_NODE, "");
+    for (from, to, expected) in [
+        (
+            r#""count":4"#,
+            r#""count":5000"#,
+            "cut off: it ends inside accessor 0",
+        ),
+        (
+            r#""count":4"#,
+            r#""count":18446744073709551615"#,
+            "vertices, the limit is",
+        ),
+        (
+            r#""byteLength":48"#,
+            r#""byteLength":4800"#,
+            "cut off: it ends inside buffer view 0",
+        ),
+        (
+            r#""count":4"#,
+            r#""count":3"#,
+            "refers to vertex 3, but there are only 3",
+        ),
+        (
+            r#""POSITION":0"#,
+            r#""POSITION":7"#,
+            "accessor 7: there is none",
+        ),
+        (
+            r#""mesh":0"#,
+            r#""mesh":0,"children":[0]"#,
+            "node 0: it is reached twice",
+        ),
+        (
+            r#""material":0"#,
+            r#""material":3"#,
+            "material 3: there is none",
+        ),
+        (
+            r#""asset""#,
+            r#""extensionsRequired":["KHR_draco_mesh_compression"],"asset""#,
+            "KHR_draco_mesh_compression, which is not supported",
+        ),
+    ] {
+        assert!(sound.contains(from));
+        let message = message(MeshFormat::Gltf, glb(&sound.replacen(from, to, 1)));
+        assert!(message.contains(expected), "{message}");
+    }
+}
+
+#[test]
+fn a_missing_file_suggests_its_neighbour() {
+    let folder = Folder::new("missing");
+    folder.write("stanford-bunny.obj", obj());
+    let message = |name: &str| {
+        read_mesh(&folder.0.join(name))
+            .expect_err("nothing there")
+            .to_string()
+    };
+    assert!(message("stanford-buny.obj").ends_with("did you mean stanford-bunny.obj?"));
+    assert!(message("teapot.ply").ends_with("teapot.ply"));
+    assert!(message(".").ends_with("is not a file; name a mesh file inside it"));
+    assert!(matches!(
+        read_mesh(Path::new("")),
+        Err(ReadError::Missing { .. })
+    ));
+}

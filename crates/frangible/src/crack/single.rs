@@ -1,0 +1,156 @@
+//! One crack: what it has cut, where it is, and its fronts.
+
+use std::cmp::Ordering;
+
+use glam::Vec3;
+
+use super::sites::Sites;
+use super::surface::CrackFrame;
+use super::tip::Tip;
+
+/// One crack.
+pub(crate) struct Crack {
+    pub(crate) frame: CrackFrame,
+    /// Tetrahedron where it started.
+    pub(crate) start: u32,
+    /// Fractured tetrahedra in the order they joined.
+    pub(crate) elements: Vec<ElementCut>,
+    /// How many of them, from the first, had cut a piece before it was one: these cuts are settled
+    /// ([`Portion`](crate::piece::Portion)).
+    pub(crate) settled: usize,
+    /// Fracture energy spent E_f, J `[G12 Eq. 11]`.
+    pub(crate) spent: f64,
+    /// Strain energy available E_s, J `[G12 Eq. 12]`.
+    pub(crate) available: f64,
+    /// Area, m².
+    pub(crate) area: f64,
+    /// Its tetrahedra thinned to one per place: what releases the stress around it.
+    pub(crate) sites: Sites,
+    /// Question about releases that it last grew before.
+    pub(super) grown_before: u64,
+    /// Where it ran into another crack (or into itself).
+    pub(crate) junctions: Vec<Junction>,
+    /// Where it forked, and when, s.
+    pub(crate) forks: Vec<(Vec3, f64)>,
+    /// What feeds its front, if it was there before this impact.
+    pub(crate) tip: Option<Tip>,
+    /// How many of its tetrahedra, from the first, were there before this impact.
+    pub(super) restored: usize,
+}
+
+impl Crack {
+    /// A crack without tetrahedra yet.
+    pub(crate) fn new(frame: CrackFrame, start: u32) -> Self {
+        Self {
+            frame,
+            start,
+            elements: Vec::new(),
+            settled: 0,
+            spent: 0.0,
+            available: 0.0,
+            area: 0.0,
+            sites: Sites::default(),
+            grown_before: 0,
+            junctions: Vec::new(),
+            forks: Vec::new(),
+            tip: None,
+            restored: 0,
+        }
+    }
+}
+
+/// A tetrahedron fractured by a crack.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ElementCut {
+    pub(crate) tet: u32,
+    /// s at its four nodes, m.
+    pub(crate) values: [f32; 4],
+    /// Unit ∇s: the crack's normal there.
+    pub(crate) direction: Vec3,
+    /// Outward normal of the face of the wall that the crack opens from; zero in a solid, and of a crack that was there before.
+    pub(crate) opens: Vec3,
+    /// When it joined, s after the contact began.
+    pub(crate) time: f64,
+}
+
+/// Where a crack is, and how long.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Extent {
+    pub(crate) origin: Vec3,
+    /// Largest distance of a fractured tetrahedron from the start, m.
+    pub(crate) size: f32,
+    /// Two of its tetrahedra that lie far apart.
+    ends: [Vec3; 2],
+    /// Distance between those two tetrahedra, m.
+    pub(crate) chord: f32,
+    /// Where the crack comes last in [`CrackSystem::growth`](super::CrackSystem::growth).
+    pub(crate) latest_growth: u32,
+}
+
+impl Extent {
+    /// The extent of a crack that starts here.
+    pub(super) fn new(origin: Vec3) -> Self {
+        Self {
+            origin,
+            size: 0.0,
+            ends: [origin; 2],
+            chord: 0.0,
+            latest_growth: 0,
+        }
+    }
+
+    /// Takes in a tetrahedron more, and returns whether the crack got longer. Where the place lies beyond both ends, the nearer end
+    /// moves there.
+    pub(super) fn grow(&mut self, centre: Vec3) -> bool {
+        let size = self.size.max(centre.distance(self.origin));
+        let [first, second] = self.ends.map(|end| end.distance(centre));
+        let longer = first.max(second) > self.chord;
+        if longer {
+            self.ends[usize::from(first > second)] = centre;
+            self.chord = first.max(second);
+        }
+        let grown = longer || size > self.size;
+        self.size = size;
+        grown
+    }
+}
+
+/// A crack's front that met a tetrahedron it may not enter.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Junction {
+    /// Index of the crack's own tetrahedron at the front, into [`Crack::elements`].
+    pub(crate) from: u32,
+    /// Whether the crack met an older part of itself.
+    pub(crate) own: bool,
+}
+
+/// The front of a crack at the face of a tetrahedron it may enter.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Front {
+    /// When it gets there, s; of instant cracks only the order counts.
+    pub(crate) arrival: f64,
+    pub(crate) tet: u32,
+    pub(crate) crack: u32,
+    /// Index into the crack's elements of the one it comes from.
+    pub(crate) from: u32,
+}
+
+impl Eq for Front {}
+
+impl Ord for Front {
+    /// Reversed, so that a max-heap yields the earliest arrival, then the lowest element.
+    fn cmp(&self, other: &Self) -> Ordering {
+        other
+            .arrival
+            .total_cmp(&self.arrival)
+            .then(other.tet.cmp(&self.tet))
+            .then(other.crack.cmp(&self.crack))
+            .then(other.from.cmp(&self.from))
+    }
+}
+
+impl PartialOrd for Front {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}

@@ -1,0 +1,151 @@
+//! What is found once for all bodies of a kind, or for a piece: search trees, free surfaces, and the tables of the bounds.
+
+use std::sync::{Arc, OnceLock};
+
+use glam::Vec3;
+
+use crate::asset::Asset;
+use crate::fragment::{MeshIndex, RenderIndex};
+use crate::mesh::TriangleTree;
+use crate::modal::ModalBasis;
+use crate::piece::Portion;
+use crate::refuse::{PerImpulse, PerNewton, Reaches, StressBounds, quadratic_modulus};
+use crate::stress::Skin;
+
+/// What follows from an asset and every impact needs.
+#[derive(Debug)]
+pub(crate) struct Prepared {
+    /// What was prepared for the body as it was baked, where this is a piece of it.
+    pub(crate) root: Option<Arc<Prepared>>,
+    /// What hangs together in the fracture mesh.
+    pub(crate) index: Arc<MeshIndex>,
+    /// Over the triangles of the outer surface.
+    pub(crate) surface: TriangleTree,
+    /// Over those of the render surface; none of a piece.
+    pub(crate) render: Option<RenderIndex>,
+    /// Free surfaces: flaws and walls.
+    pub(crate) skin: Skin,
+    /// Stress bounds of the clusters.
+    pub(crate) bounds: StressBounds,
+    /// Stress bounds of the whole body: stress and gradient, one number per mode.
+    pub(crate) whole: (Vec<f32>, Vec<f32>),
+    /// 1/√λ_i of every mode, s.
+    pub(crate) periods: Vec<f32>,
+    /// How far an impulse moves each mode.
+    pub(crate) reaches: Reaches,
+    /// What an impulse does at most, by place and duration.
+    pub(crate) per_impulse: PerImpulse,
+    /// Σ φ_i dm of every mode, √kg: what a held body's weight pushes; empty for a free one, where it is zero.
+    pub(crate) weight: Vec<Vec3>,
+    /// k of the bounds' quadratic term, Pa.
+    pub(crate) quadratic_modulus: f32,
+    /// What any newton does at most; made when it is asked for.
+    pub(crate) per_newton: OnceLock<PerNewton>,
+    /// Centroid of each fracture tetrahedron, m.
+    pub(crate) centroids: Arc<[Vec3]>,
+    /// Mean edge of the fracture mesh, m.
+    pub(crate) edge: f32,
+    /// Longest edge of the fracture mesh, m.
+    pub(crate) longest_edge: f32,
+}
+
+impl Prepared {
+    /// What is found of a body as it was baked.
+    pub(crate) fn of_whole(asset: &Asset) -> Self {
+        let modes = &asset.modes;
+        let skin = Skin::of(asset);
+        let bounds = if asset.bounds.is_empty() {
+            StressBounds::with_skin(asset, &skin)
+        } else {
+            asset.bounds.clone()
+        };
+        let whole = bounds.root(modes.count());
+        let reaches = Reaches::new(modes);
+        let surface = TriangleTree::new(&asset.fracture.positions, &asset.surface.triangles);
+        Self {
+            root: None,
+            index: Arc::new(MeshIndex::new(asset)),
+            render: asset
+                .render
+                .as_ref()
+                .map(|render| RenderIndex::new(render, &surface)),
+            surface,
+            per_impulse: PerImpulse::new(asset, &whole.0, &reaches),
+            reaches,
+            whole,
+            bounds,
+            skin,
+            weight: weight(asset),
+            periods: periods(modes),
+            per_newton: OnceLock::new(),
+            quadratic_modulus: quadratic_modulus(&asset.material),
+            centroids: (0..asset.fracture.tets.len())
+                .map(|e| asset.fracture.centroid(e))
+                .collect(),
+            edge: asset.fracture.mean_edge(),
+            longest_edge: asset.fracture.longest_edge(),
+        }
+    }
+
+    /// The numbers of a piece, whose modes lack only the peak of their stress.
+    pub(crate) fn of_piece(asset: &mut Asset, portion: &Portion) -> Self {
+        let root = &portion.prepared;
+        let skin = Skin::of_piece(asset, portion, &root.skin);
+        let bounds = StressBounds::with_skin(asset, &skin);
+        let whole = bounds.root(asset.modes.count());
+        asset.modes.peak_stress.clone_from(&whole.0);
+        let reaches = Reaches::new(&asset.modes);
+        Self {
+            root: Some(Arc::clone(root)),
+            index: Arc::clone(&root.index),
+            surface: TriangleTree::new(asset.surface_positions(), &asset.surface.triangles),
+            render: None,
+            skin,
+            bounds,
+            per_impulse: PerImpulse::new(asset, &whole.0, &reaches),
+            reaches,
+            whole,
+            periods: periods(&asset.modes),
+            weight: weight(asset),
+            quadratic_modulus: root.quadratic_modulus,
+            per_newton: OnceLock::new(),
+            centroids: Arc::clone(&root.centroids),
+            edge: root.edge,
+            longest_edge: root.longest_edge,
+        }
+    }
+}
+
+/// 1/√λ_i of every mode, s.
+fn periods(modes: &ModalBasis) -> Vec<f32> {
+    let eigenvalues = modes.eigenvalues.iter();
+    eigenvalues.map(|l| (1.0 / l.sqrt()) as f32).collect()
+}
+
+/// Σ φ_i dm of every mode of a held body. Of a piece the divided tetrahedra are left out and the sum scaled to its mass.
+fn weight(asset: &Asset) -> Vec<Vec3> {
+    let modes = asset.modes.count();
+    if !asset.is_supported() {
+        return Vec::new();
+    }
+    let mut mass_of_node = vec![0.0_f32; asset.analysis.nodes.len()];
+    let masses = asset
+        .tets()
+        .map(|tet| asset.material.density * asset.fracture.volume(tet));
+    let scale = match asset.portion {
+        Some(_) => asset.mass.mass / masses.clone().sum::<f64>(),
+        None => 1.0,
+    };
+    for (mass, point) in masses.zip(&asset.embedding.tets) {
+        let mass = (mass * scale) as f32;
+        let element = asset.analysis.elements[point.element as usize];
+        for (&node, share) in element.iter().zip(point.shape_values()) {
+            mass_of_node[node as usize] += mass * share;
+        }
+    }
+    let mut sums = vec![Vec3::ZERO; modes];
+    for (node, &mass) in mass_of_node.iter().enumerate() {
+        asset.modes.add_shape(node, mass, &mut sums);
+    }
+    sums
+}

@@ -1,0 +1,95 @@
+//! How far the surface moves with each mode, summed with weights: a table of numbers per vertex of the surface.
+
+use glam::Vec3;
+
+use crate::asset::Asset;
+use crate::contact::carriers;
+use crate::mesh::SurfacePoint;
+use crate::stress::dot;
+
+/// Σ_i |φ_i| r_i at each vertex of the surface, for rows r of one number per mode; zero at vertices without a triangle.
+pub(super) fn surface_sums<const N: usize>(asset: &Asset, rows: &[Vec<f32>; N]) -> Vec<[f32; N]> {
+    let mut sums = vec![[0.0_f32; N]; asset.surface_positions().len()];
+    if asset.modes.count() > 0 {
+        // With the widest vectors that this processor has; the same operations in the same order, so the same bits.
+        pulp::Arch::new().dispatch(AtNodes {
+            asset,
+            rows,
+            sums: &mut sums,
+        });
+    }
+    sums
+}
+
+/// The sums at all nodes of the surface.
+struct AtNodes<'a, const N: usize> {
+    asset: &'a Asset,
+    rows: &'a [Vec<f32>; N],
+    sums: &'a mut [[f32; N]],
+}
+
+impl<const N: usize> pulp::NullaryFnOnce for AtNodes<'_, N> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let mut shapes = Shapes::new(self.rows[0].len());
+        let mut known = vec![false; self.sums.len()];
+        for (triangle, corners) in self.asset.surface.triangles.iter().enumerate() {
+            for (k, &node) in corners.iter().enumerate() {
+                if known[node as usize] {
+                    continue;
+                }
+                known[node as usize] = true;
+                shapes.find(self.asset, triangle as u32, k);
+                // A loop, not a map: its closure would not be compiled for the wider vectors.
+                for (sum, row) in self.sums[node as usize].iter_mut().zip(self.rows) {
+                    *sum = dot(&shapes.lengths, row);
+                }
+            }
+        }
+    }
+}
+
+/// The mode shapes at a corner of the surface.
+struct Shapes {
+    /// φ_x, φ_y, φ_z of every mode, 1/√kg.
+    axes: [Vec<f32>; 3],
+    /// |φ|.
+    lengths: Vec<f32>,
+}
+
+impl Shapes {
+    fn new(modes: usize) -> Self {
+        Self {
+            axes: std::array::from_fn(|_| vec![0.0; modes]),
+            lengths: vec![0.0; modes],
+        }
+    }
+
+    /// At a triangle's corner.
+    #[inline(always)]
+    fn find(&mut self, asset: &Asset, triangle: u32, corner: usize) {
+        self.axes.iter_mut().for_each(|axis| axis.fill(0.0));
+        let mut weights = [0.0; 3];
+        weights[corner] = 1.0;
+        let at = SurfacePoint {
+            triangle,
+            weights,
+            position: Vec3::ZERO,
+        };
+        let (carriers, count) = carriers(asset, &at);
+        for &(node, weight) in carriers[..count].iter().filter(|c| c.1 != 0.0) {
+            let rows = asset.modes.rows(node as usize);
+            for (sums, row) in self.axes.iter_mut().zip(rows) {
+                for (sum, &phi) in sums.iter_mut().zip(row) {
+                    *sum += weight * phi;
+                }
+            }
+        }
+        let [x, y, z] = &self.axes;
+        for (((length, x), y), z) in self.lengths.iter_mut().zip(x).zip(y).zip(z) {
+            *length = (x * x + y * y + z * z).sqrt();
+        }
+    }
+}

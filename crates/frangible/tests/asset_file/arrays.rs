@@ -1,0 +1,170 @@
+//! Assets whose arrays do not fit together.
+
+use super::*;
+
+#[test]
+fn arrays_that_do_not_fit_are_refused() {
+    let nan = f32::NAN;
+    type Change = fn(&mut Asset);
+    let cases: [(Change, &str); 46] = [
+        (
+            |a| a.supported[1] = 8,
+            "supported node 1 lies beyond the 8 nodes",
+        ),
+        (|a| a.supported[1] = 1, "supported nodes do not rise"),
+        (|a| a.supported.reverse(), "supported nodes do not rise"),
+        (|a| a.material.density = f64::NAN, "density"),
+        (|a| a.mass.mass = 0.0, "its mass is 0"),
+        (|a| a.mass.volume = f64::INFINITY, "its volume is inf"),
+        (|a| a.mass.centre.y = f64::NAN, "centre of mass"),
+        (|a| a.mass.inertia.y_axis.y = -1.0, "inertia"),
+        (|a| mesh(a).tets.clear(), "no tetrahedra"),
+        (
+            |a| mesh(a).tets[2][1] = 8,
+            "tetrahedron 2 names a node beyond the 8",
+        ),
+        (|a| mesh(a).tets[3].swap(0, 1), "volume of tetrahedron 3"),
+        (
+            |a| mesh(a).tets[3][0] = mesh(a).tets[3][1],
+            "volume of tetrahedron 3",
+        ),
+        (
+            |a| mesh(a).positions[4].z = f32::NEG_INFINITY,
+            "node 4 is not finite",
+        ),
+        (|a| mesh(a).neighbours.truncate(5), "neighbour row"),
+        (|a| mesh(a).neighbours.swap(0, 1), "do not name each other"),
+        (
+            |a| mesh(a).neighbours[0] = [0; 4],
+            "tetrahedra 0 and 0 do not name each other",
+        ),
+        (
+            |a| *outside(a, 1) = 6,
+            "tetrahedron 1 names neighbour 6 of 6",
+        ),
+        (
+            |a| a.surface.triangles[1] = [0, 1, 99],
+            "surface triangle 1 is no outer face",
+        ),
+        (
+            |a| a.surface.tets[1] = 6,
+            "surface triangle 1 names tetrahedron 6",
+        ),
+        (
+            |a| a.surface.triangles.truncate(11),
+            "surface triangle per outer face",
+        ),
+        (
+            |a| a.surface.triangles[1] = [0, 0, 0],
+            "surface triangle 1 is no outer face",
+        ),
+        (
+            |a| a.surface.normals.clear(),
+            "normal row per surface triangle",
+        ),
+        (
+            |a| a.surface.curvature_radius[2] = 0.0,
+            "curvature radius of surface triangle 2",
+        ),
+        (
+            |a| a.surface.walls.margin.clear(),
+            "one wall margin per surface triangle: 12, not 0; give every list",
+        ),
+        (
+            |a| a.surface.walls.thickness[2] = 0.0,
+            "wall thickness of surface triangle 2 is 0",
+        ),
+        (
+            |a| a.surface.walls.thickness[3] = f32::NAN,
+            "wall thickness of surface triangle 3 is NaN, not above zero; give metres",
+        ),
+        (
+            |a| a.surface.walls.stiffening[4] = -1.0,
+            "wall stiffening of surface triangle 4 is -1",
+        ),
+        (
+            |a| a.surface.walls.margin[5] = f32::NAN,
+            "wall margin of surface triangle 5 is NaN",
+        ),
+        (
+            |a| a.surface.walls.margin[6] = -0.5,
+            "wall margin of surface triangle 6 is -0.5",
+        ),
+        (
+            |a| a.modes.residual_modes = 3,
+            "3 of its 3 modes are to answer statically",
+        ),
+        (
+            |a| a.analysis.elements[1][9] = 10,
+            "analysis element 1 names a node beyond",
+        ),
+        (
+            |a| a.analysis.barycentric_gradients.truncate(1),
+            "gradient row",
+        ),
+        (
+            |a| a.embedding.tets[5].element = 2,
+            "embedded centroid 5 names",
+        ),
+        (
+            |a| a.embedding.nodes[7].offset.x = f32::NAN,
+            "embedded node 7 is not finite",
+        ),
+        (|a| a.embedding.nodes.truncate(3), "embedded point per node"),
+        (|a| a.modes.eigenvalues[0] = 0.0, "eigenvalue of mode 0"),
+        (|a| a.modes.eigenvalues.reverse(), "rising frequency"),
+        (|a| a.modes.shapes[4] = f32::NAN, "row 1 of the mode shapes"),
+        (|a| a.modes.peak_stress.clear(), "peak stress per mode"),
+        (
+            |a| a.cells[0].points[1].x = f32::INFINITY,
+            "point of convex cell 0",
+        ),
+        (|a| a.cell_of_tet[1] = 1, "cell number of tetrahedron 1"),
+        (
+            |a| drawn(a).triangles[1][0] = 4,
+            "render triangle 1 names a vertex",
+        ),
+        (
+            |a| drawn(a).material_of_triangle[0] = 2,
+            "material number of render triangle 0",
+        ),
+        (|a| drawn(a).colors[2][3] = 1.5, "colour of render vertex 2"),
+        (
+            |a| {
+                drawn(a).colors.pop();
+            },
+            "one colour per render vertex",
+        ),
+        (
+            |a| drawn(a).materials[1].metallic = 1.5,
+            "render material 1",
+        ),
+    ];
+    fn drawn(asset: &mut Asset) -> &mut RenderSurface {
+        asset.render.as_mut().unwrap()
+    }
+    fn mesh(asset: &mut Asset) -> &mut frangible::internals::TetMesh {
+        std::sync::Arc::make_mut(&mut asset.fracture)
+    }
+    fn outside(asset: &mut Asset, tet: usize) -> &mut u32 {
+        let mut row = mesh(asset).neighbours[tet].iter_mut();
+        row.find(|n| **n == frangible::internals::mesh::NO_NEIGHBOUR)
+            .unwrap()
+    }
+    assert!(tiny().validate().is_ok());
+    for (change, words) in cases {
+        let mut asset = tiny();
+        change(&mut asset);
+        let error = Asset::from_bytes(&asset.to_bytes()).unwrap_err();
+        assert!(matches!(error, AssetFileError::Input(_)), "{error}");
+        assert!(
+            error.to_string().contains(words),
+            "{error}; expected: {words}"
+        );
+    }
+    let mut asset = tiny();
+    drawn(&mut asset).normals.pop();
+    drawn(&mut asset).uvs[0][1] = nan;
+    let error = asset.validate().unwrap_err();
+    assert!(matches!(&error, InputError::Asset { problem, .. } if problem.contains("texture")));
+}

@@ -1,0 +1,132 @@
+//! What must hold of every impact, whatever it does.
+
+mod bodies;
+
+use bodies::{
+    bits, block, block_hit, breaking, models, pane, pane_hit, pieces, shelf, shelf_hit, strike,
+};
+use frangible::glam::Vec3;
+use frangible::{Contact, FractureConfig, Outcome, impact, would_break};
+
+#[test]
+fn the_same_blow_gives_the_same_bits_on_any_thread() {
+    for (name, kind, contact) in breaking() {
+        for (model, config) in models() {
+            for seed in [1, 7] {
+                let first = bits(&strike(kind, seed, contact, &config));
+                let others: Vec<_> = (0..3)
+                    .map(|_| {
+                        let config = config.clone();
+                        std::thread::spawn(move || bits(&strike(kind, seed, contact, &config)))
+                    })
+                    .collect();
+                for other in others {
+                    assert!(first == other.join().unwrap(), "{name}, {model}, {seed}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn another_seed_gives_another_break() {
+    for (name, kind, contact) in breaking() {
+        let mut seen: Vec<Vec<u64>> = (1..=4)
+            .map(|seed| bits(&strike(kind, seed, contact, &FractureConfig::default())))
+            .collect();
+        seen.sort();
+        seen.dedup();
+        assert_eq!(seen.len(), 4, "{name}");
+    }
+}
+
+#[test]
+fn soft_blows_hold_and_hard_ones_break() {
+    for (model, config) in models() {
+        for seed in 1..=3 {
+            for (kind, soft, hard) in [
+                (pane(), pane_hit(0.0, 0.0, 0.1), pane_hit(0.0, 0.0, 25.0)),
+                (block(), block_hit(0.05), block_hit(20.0)),
+                (shelf(), shelf_hit(0.05), shelf_hit(20.0)),
+            ] {
+                let name = format!("{}, {model}, seed {seed}", kind.asset().name);
+                let held = strike(kind, seed, soft, &config);
+                assert!(
+                    matches!(held, Outcome::Held { margin, state: None, .. } if margin > 1.0),
+                    "{name}: {held:?}"
+                );
+                assert_eq!(held.report().cracks, 0, "{name}");
+                let broke = strike(kind, seed, hard, &config);
+                assert!(pieces(&broke) > 1, "{name} held 20 m/s");
+                let body = kind.body(seed);
+                assert!(!would_break(&body, &[soft], &config).unwrap());
+                assert!(would_break(&body, &[hard], &config).unwrap());
+            }
+        }
+    }
+}
+
+#[test]
+fn bad_contacts_are_refused_and_nothing_comes_of_nothing() {
+    let body = pane().body(1);
+    let config = FractureConfig::default();
+    let good = pane_hit(0.02, 0.01, 10.0);
+    let mut bad = [good; 5];
+    bad[0].point.x = f32::NAN;
+    bad[1].normal = Vec3::ZERO;
+    bad[2].impulse = -1.0;
+    bad[3].striker.restitution = 2.0;
+    bad[4].approach_speed = f32::NAN;
+    for (i, contact) in bad.into_iter().enumerate() {
+        let refused = impact(&body, &[good, contact], &config);
+        assert!(refused.is_err(), "bad contact {i}");
+    }
+    let nothing = Contact {
+        impulse: 0.0,
+        approach_speed: 0.0,
+        ..good
+    };
+    for contacts in [&[][..], &[nothing], &[nothing, nothing]] {
+        let outcome = impact(&body, contacts, &config).unwrap();
+        assert!(matches!(outcome, Outcome::Held { .. }));
+        assert_eq!(outcome.report().cracks, 0);
+    }
+    // A contact without impulse beside a real one changes nothing.
+    let both = impact(&body, &[good, nothing], &config).unwrap();
+    assert!(bits(&both) == bits(&impact(&body, &[good], &config).unwrap()));
+    // The length of the normal does not matter.
+    let long = Contact {
+        normal: 4.0 * good.normal,
+        ..good
+    };
+    let outcome = impact(&body, &[long], &config).unwrap();
+    assert_eq!(pieces(&outcome), pieces(&both));
+}
+
+#[test]
+fn vibration_holds_no_more_energy_than_the_blow_brought() {
+    let config = FractureConfig::with_given_impulses();
+    let mut free = config.clone();
+    free.admissible_duration = false;
+    let mut lengthened = 0;
+    for (name, kind, contact) in breaking() {
+        let outcome = strike(kind, 1, contact, &config);
+        let report = outcome.report();
+        let e = f64::from(contact.striker.restitution);
+        let brought =
+            0.5 * f64::from(contact.impulse) * f64::from(contact.approach_speed) / (1.0 + e);
+        assert!(
+            (report.approach_energy / brought - 1.0).abs() < 1e-6,
+            "{name}: {} J of {brought} J",
+            report.approach_energy
+        );
+        let share = report.peak_elastic_energy / report.approach_energy;
+        assert!(share <= 1.02, "{name}: the vibration holds {share}");
+        assert!(report.contact_duration >= report.unadjusted_duration);
+        lengthened += usize::from(report.contact_duration > report.unadjusted_duration);
+        let outcome = strike(kind, 1, contact, &free);
+        let report = outcome.report();
+        assert_eq!(report.contact_duration, report.unadjusted_duration);
+    }
+    assert!(lengthened > 0);
+}

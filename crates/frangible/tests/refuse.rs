@@ -1,0 +1,179 @@
+//! What the bounds pass over holds no crack: results with and without them are the same bits.
+
+mod bodies;
+
+use bodies::{Numbers, bits, block, breaking, models, pane, shelf};
+use frangible::glam::Vec3;
+use frangible::internals::{Blast, blast, rest_margin_at_least};
+use frangible::internals::{Factors, Fields, Force, LookedAt, is_harmless, rest};
+use frangible::{Breakable, Contact, FractureConfig, Outcome, impact, would_break};
+
+fn without_bounds(config: &FractureConfig) -> FractureConfig {
+    let mut config = config.clone();
+    config.culling = false;
+    config
+}
+
+/// Compares blows on one kind of body with and without the bounds: counts what had to be looked at, and returns how many broke. The
+/// report has one strength, so that only where it is `uniform` the margin can be compared with it.
+fn compare(
+    kind: &Breakable,
+    name: &str,
+    blows: u64,
+    uniform: bool,
+    looked: &mut [usize; 5],
+) -> usize {
+    let mut numbers = Numbers(1);
+    let mut broke = 0;
+    for k in 0..blows {
+        let body = kind.body(k);
+        let contacts: Vec<Contact> = (0..1 + k % 3).map(|_| numbers.blow(kind.asset())).collect();
+        for (model, config) in models() {
+            let what = format!("{name}, {model}, blow {k}");
+            let fast = impact(&body, &contacts, &config).unwrap();
+            let slow = impact(&body, &contacts, &without_bounds(&config)).unwrap();
+            let (a, b) = (fast.report(), slow.report());
+            assert_eq!(a.cracks, b.cracks, "{what}");
+            assert_eq!(a.crack_area.to_bits(), b.crack_area.to_bits(), "{what}");
+            assert_eq!(a.first_crack_time, b.first_crack_time, "{what}");
+            if let (Outcome::Broke(_), _) | (_, Outcome::Broke(_)) = (&fast, &slow) {
+                assert!(bits(&fast) == bits(&slow), "{what}");
+                broke += 1;
+            }
+            assert!(
+                a.stress_bound >= b.peak_stress * (1.0 - 1e-6),
+                "{what}: the bound {} is below the stress {}",
+                a.stress_bound,
+                b.peak_stress
+            );
+            if let (Outcome::Held { margin, .. }, true) = (&fast, uniform) {
+                let within = b.peak_stress <= b.strength;
+                assert_eq!(*margin >= 1.0, within, "{what}: {margin}");
+            }
+            if is_harmless(&body, &contacts, &config) {
+                assert!(b.peak_stress <= b.strength && b.cracks == 0, "{what}");
+                assert!(!would_break(&body, &contacts, &config).unwrap(), "{what}");
+            }
+            looked[a.looked_at as usize] += 1;
+        }
+    }
+    broke
+}
+
+#[test]
+fn the_bounds_change_no_bit_of_what_breaks() {
+    let mut looked = [0; 5];
+    for (name, kind) in [("pane", pane()), ("block", block()), ("shelf", shelf())] {
+        let broke = compare(kind, name, 16, true, &mut looked);
+        assert!(broke > 2, "{name}: {broke} of 48 broke");
+    }
+    let [sizes, impulses, amplitudes, clusters, stresses] = looked;
+    println!("{looked:?}");
+    assert!(sizes + impulses > 10 && amplitudes + clusters > 2 && stresses > 10);
+}
+
+#[test]
+fn the_bounds_change_no_bit_where_strength_varies() {
+    let mut looked = [0; 5];
+    for (name, kind) in [("pane", pane()), ("block", block())] {
+        let waves = Fields::from_function(kind.asset(), |p| Factors {
+            strength: 1.0 + 0.9 * (90.0 * p.x).sin(),
+            toughness: 1.0 + 0.8 * (70.0 * p.y).cos(),
+            weak_points: 1.0 + (50.0 * p.z).sin(),
+        });
+        for fields in [waves.clone(), waves.with_weibull_modulus(6.0)] {
+            let kind = kind.clone().with_fields(fields).unwrap();
+            compare(&kind, name, 8, false, &mut looked);
+        }
+    }
+    assert!(looked[4] > 10, "{looked:?}");
+}
+
+#[test]
+fn the_bounds_change_no_bit_of_breaking_blows() {
+    for (name, kind, contact) in breaking() {
+        for (model, config) in models() {
+            let body = kind.body(5);
+            let fast = impact(&body, &[contact], &config).unwrap();
+            let slow = impact(&body, &[contact], &without_bounds(&config)).unwrap();
+            assert!(bits(&fast) == bits(&slow), "{name}, {model}");
+        }
+    }
+}
+
+#[test]
+fn a_refused_contact_allocates_nothing() {
+    let body = block().body(1);
+    let config = FractureConfig::default();
+    let soft = bodies::block_hit(1e-4);
+    let contacts = [
+        soft,
+        Contact {
+            friction: Vec3::Y * 1e-5,
+            ..soft
+        },
+    ];
+    let force = Force {
+        point: soft.point,
+        force: Vec3::NEG_X,
+    };
+    let refused = |outcome: Outcome| {
+        matches!(outcome, Outcome::Held { margin, report, .. }
+            if margin > 1.0 && report.looked_at <= LookedAt::Impulses)
+    };
+    let mut all = true;
+    let counted = allocation_counter::measure(|| {
+        all &= refused(impact(&body, &contacts, &config).unwrap());
+        all &= !would_break(&body, &contacts, &config).unwrap();
+        all &= refused(rest(&body, &[force], Vec3::NEG_Z, &config).unwrap());
+    });
+    assert!(all);
+    assert_eq!(counted.count_total, 0, "{counted:?}");
+}
+
+/// The cheapest bound of steady loads is below what they do, wherever they act.
+#[test]
+fn no_steady_force_has_less_margin_than_the_bound_says() {
+    let config = without_bounds(&FractureConfig::default());
+    let mut numbers = Numbers(3);
+    for kind in [pane(), block(), shelf()] {
+        let body = kind.body(1);
+        for _ in 0..20 {
+            let at = numbers.blow(kind.asset());
+            let size = 10.0_f32.powf(4.0 * numbers.next() as f32 - 2.0);
+            let force = Force {
+                point: at.point,
+                force: at.normal * size,
+            };
+            let gravity = Vec3::NEG_Z * 9.81;
+            let least = rest_margin_at_least(&body, size, 9.81);
+            let outcome = rest(&body, &[force], gravity, &config).unwrap();
+            let report = outcome.report();
+            let found = report.strength / report.peak_stress;
+            assert!(least <= found, "{}: {least} {found}", kind.asset().name);
+            assert!(least > 0.0);
+        }
+    }
+}
+
+#[test]
+fn the_bounds_change_no_bit_of_a_blast() {
+    let body = pane().body(1);
+    let config = FractureConfig::default();
+    let mut broke = 0;
+    for distance in [0.05, 0.1, 0.3, 1.0, 10.0, 100.0] {
+        let pulse = Blast {
+            origin: Vec3::Z * distance,
+            impulse: 200.0,
+            duration: 2e-3,
+        };
+        let fast = blast(&body, &pulse, &config).unwrap();
+        let slow = blast(&body, &pulse, &without_bounds(&config)).unwrap();
+        assert_eq!(fast.report().cracks, slow.report().cracks);
+        if let Outcome::Broke(_) = slow {
+            assert!(bits(&fast) == bits(&slow), "{distance} m");
+            broke += 1;
+        }
+    }
+    assert!((1..6).contains(&broke), "{broke}");
+}
