@@ -1,0 +1,64 @@
+//! `.frangible` files as assets.
+
+use bevy::asset::io::Reader;
+use bevy::asset::{AssetLoader, LoadContext};
+use bevy::prelude::*;
+use frangible::internals::{AssetFileError, Fields};
+use frangible::{Asset as Baked, Breakable as Kind, InputError};
+use thiserror::Error;
+
+/// A baked body, ready to be broken.
+#[derive(Asset, TypePath, Clone)]
+pub struct FrangibleAsset(pub Kind);
+
+impl FrangibleAsset {
+    /// Of a body that a game has baked or loaded itself, with the scatter of strength that its material has.
+    ///
+    /// # Errors
+    /// An asset that is not sound.
+    pub fn new(baked: Baked) -> Result<Self, InputError> {
+        let fields = Fields::of_material(&baked.material);
+        Ok(Self(Kind::new(baked)?.with_fields(fields)?))
+    }
+}
+
+/// Loads `.frangible` files.
+#[derive(Default, TypePath)]
+pub struct FrangibleLoader;
+
+/// Why a file is no body.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum LoadError {
+    /// The file cannot be read.
+    #[error("the file cannot be read: {0}")]
+    Io(#[from] std::io::Error),
+    /// The file holds no baked body of this version.
+    #[error(transparent)]
+    File(#[from] AssetFileError),
+    /// The body in it is not sound.
+    #[error(transparent)]
+    Body(#[from] InputError),
+}
+
+impl AssetLoader for FrangibleLoader {
+    type Asset = FrangibleAsset;
+    type Settings = ();
+    type Error = LoadError;
+
+    async fn load(
+        &self,
+        reader: &mut dyn Reader,
+        (): &(),
+        _: &mut LoadContext<'_>,
+    ) -> Result<FrangibleAsset, LoadError> {
+        let mut bytes = Vec::new();
+        reader.read_to_end(&mut bytes).await?;
+        let baked = Baked::from_bytes(&bytes)?;
+        Ok(FrangibleAsset::new(baked)?)
+    }
+
+    fn extensions(&self) -> &[&str] {
+        &["frangible"]
+    }
+}

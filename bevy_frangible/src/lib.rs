@@ -1,0 +1,209 @@
+//! Bodies that break for physical reasons, in Bevy.
+//!
+//! A body is baked once, outside the game, into a `.frangible` file. In the game it is an entity with [`Breakable`]: when it is hit hard
+//! enough its entity loses its collider and mesh, and fragments appear as entities of their own, each with a mesh of its outer and
+//! one of its crack faces.
+//!
+//! ```no_run
+//! use bevy::prelude::*;
+//! use bevy_frangible::prelude::*;
+//! # #[cfg(feature = "avian")]
+//! # {
+//! use avian3d::prelude::*;
+//!
+//! App::new()
+//!     .add_plugins((MinimalPlugins, AssetPlugin::default(), TransformPlugin, MeshPlugin))
+//!     .add_plugins(PhysicsPlugins::default().with_collision_hooks::<FrangibleHooks>())
+//!     .add_plugins(FrangiblePlugin::default())
+//!     .add_systems(Startup, |mut commands: Commands, assets: Res<AssetServer>| {
+//!         let glass = (Breakable(assets.load("glass.frangible")), Transform::from_xyz(0.0, 1.2, 0.0));
+//!         commands.spawn(glass).observe(|broke: On<Broke>| info!("{} pieces", broke.fragments.len()));
+//!     });
+//! # use bevy::mesh::MeshPlugin;
+//! # }
+//! ```
+//!
+//! # Layers
+//! - Without an engine: the asset and its loader, [`Breakable`], [`Blow`] to send, [`Broke`], [`Held`] and [`BreakFailed`] to observe,
+//!   fragments with meshes and the relationship [`FragmentOf`].
+//! - Feature `avian` (default): colliders and masses, and bodies that break inside the physics step, by collision hooks.
+//!
+//! # Limits
+//! Fragments do not break again. What rests on a body does not break it. A body that breaks in a step of Avian is judged pair by pair:
+//! each striker alone. An entity may be scaled by its asset only: a [`Transform`] with another scale than 1 is refused.
+
+#[cfg(feature = "avian")]
+mod avian;
+mod break_apart;
+mod file;
+mod meshes;
+#[cfg(feature = "avian")]
+mod rigid;
+
+use std::sync::Arc;
+
+use bevy::prelude::*;
+use frangible::{Body, Fracture, FractureConfig, ImpactReport};
+
+#[cfg(feature = "avian")]
+pub use avian::{FrangibleHooks, MadeOf};
+pub use file::{FrangibleAsset, FrangibleLoader, LoadError};
+pub use frangible;
+
+/// What most games use.
+pub mod prelude {
+    pub use crate::{
+        Blow, BreakFailed, Breakable, Broke, FragmentOf, Fragments, FrangibleAsset,
+        FrangiblePlugin, Held, Looks, LooksPlugin, Seed,
+    };
+    #[cfg(feature = "avian")]
+    pub use crate::{FrangibleHooks, MadeOf};
+}
+
+/// Lets entities with [`Breakable`] break.
+#[derive(Default)]
+pub struct FrangiblePlugin {
+    /// Switches and numbers of the fracture.
+    pub config: FractureConfig,
+}
+
+/// Switches and numbers of the fracture, as the plugin was given them; may be changed between steps.
+#[derive(Resource, Clone, Default)]
+pub struct Fracturing(pub FractureConfig);
+
+/// An entity that can break, and the baked body that it is. Its [`Transform`] places the body's centre of mass.
+#[derive(Component, Clone, Debug)]
+#[require(Transform, Visibility, Seed)]
+pub struct Breakable(pub Handle<FrangibleAsset>);
+
+/// What of a body is left to chance: bodies of one asset with different seeds break differently, with equal ones alike.
+#[derive(Component, Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Seed(pub u64);
+
+/// The body of a [`Breakable`] whose asset is loaded, with the cracks that it has so far.
+#[derive(Component, Clone)]
+pub struct BreakableBody(pub Body);
+
+/// An entity that was broken; its [`Fragments`] are in its place.
+#[derive(Component, Clone, Copy, Debug)]
+pub struct Broken;
+
+/// A piece of an entity that broke. Its [`Transform`] places the piece's centre of mass.
+#[derive(Component, Clone, Copy, Debug)]
+#[relationship(relationship_target = Fragments)]
+#[require(Transform, Visibility)]
+pub struct FragmentOf(pub Entity);
+
+/// The pieces of an entity that broke, largest first. They go when it is despawned.
+#[derive(Component, Debug)]
+#[relationship_target(relationship = FragmentOf, linked_spawn)]
+pub struct Fragments(Vec<Entity>);
+
+impl Fragments {
+    /// The pieces, largest first.
+    pub fn iter(&self) -> impl Iterator<Item = Entity> + '_ {
+        self.0.iter().copied()
+    }
+}
+
+/// The part of a mesh that was the body's surface. It is a child of the fragment.
+#[derive(Component, Clone, Copy, Debug)]
+pub struct OuterFaces;
+
+/// The part of a mesh where the body broke. It is a child of the fragment.
+#[derive(Component, Clone, Copy, Debug)]
+pub struct CrackFaces;
+
+/// Breaks a body by script: an impulse at a point, as if a rigid thing of 1 cm radius had struck there.
+#[derive(EntityEvent, Clone, Copy, Debug)]
+pub struct Blow {
+    /// The body.
+    pub entity: Entity,
+    /// Where, m, world coordinates.
+    pub at: Vec3,
+    /// Impulse, N·s, world coordinates.
+    pub impulse: Vec3,
+}
+
+/// A [`Blow`] gives this to the body that held, or to the piece that was struck: an engine moves it.
+#[derive(EntityEvent, Clone, Copy, Debug)]
+pub struct Pushed {
+    /// What is pushed.
+    pub entity: Entity,
+    /// Where, m, world coordinates.
+    pub at: Vec3,
+    /// Impulse, N·s, world coordinates.
+    pub impulse: Vec3,
+}
+
+/// A body broke.
+#[derive(EntityEvent, Clone)]
+pub struct Broke {
+    /// The body: it is there still, [`Broken`], without collider and mesh.
+    pub entity: Entity,
+    /// Its pieces, largest first.
+    pub fragments: Vec<Entity>,
+    /// Meshes, masses and how the break came about.
+    pub fracture: Arc<Fracture>,
+}
+
+/// A body was hit and held.
+#[derive(EntityEvent, Clone)]
+pub struct Held {
+    /// The body.
+    pub entity: Entity,
+    /// Strength over the stress, or over a bound of it.
+    pub margin: f64,
+    /// How closely it was looked at, and what was found.
+    pub report: ImpactReport,
+}
+
+/// Something that should have broken cannot: a file that is no baked body, a scaled entity, a blow that is not finite.
+#[derive(EntityEvent, Clone, Debug)]
+pub struct BreakFailed {
+    /// The body.
+    pub entity: Entity,
+    /// What is wrong and how to mend it.
+    pub reason: String,
+}
+
+/// What outer and crack faces of fragments get, and the body itself: usually a material, `Looks<MeshMaterial3d<StandardMaterial>>`. Put it
+/// on the entity with [`Breakable`], and add a [`LooksPlugin`] for the same component.
+#[derive(Component, Clone, Debug)]
+pub struct Looks<C: Component + Clone> {
+    /// For what was the body's surface.
+    pub outer: C,
+    /// For where it broke.
+    pub crack: C,
+}
+
+/// Dresses bodies and fragments in [`Looks`] of a component.
+pub struct LooksPlugin<C>(std::marker::PhantomData<fn() -> C>);
+
+impl<C> Default for LooksPlugin<C> {
+    fn default() -> Self {
+        Self(std::marker::PhantomData)
+    }
+}
+
+impl<C: Component + Clone> Plugin for LooksPlugin<C> {
+    fn build(&self, app: &mut App) {
+        app.add_observer(break_apart::dress_body::<C>)
+            .add_observer(break_apart::dress_fragments::<C>);
+    }
+}
+
+impl Plugin for FrangiblePlugin {
+    fn build(&self, app: &mut App) {
+        app.insert_resource(Fracturing(self.config.clone()))
+            .init_asset::<FrangibleAsset>()
+            .register_asset_loader(FrangibleLoader)
+            .add_systems(
+                PreUpdate,
+                (break_apart::report_failures, break_apart::make_ready).chain(),
+            )
+            .add_observer(break_apart::obey);
+        #[cfg(feature = "avian")]
+        avian::build(app);
+    }
+}
