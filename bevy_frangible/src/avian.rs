@@ -12,7 +12,7 @@ use bevy::ecs::system::{ReadOnlySystemParam, StaticSystemParam, SystemParam};
 use bevy::prelude::*;
 use frangible::glam::{DMat3, DVec3};
 use frangible::internals::MassProperties;
-use frangible::internals::contact::SharedMass;
+use frangible::internals::contact::{SharedMass, first_touch_of_ball};
 use frangible::{Asset as Baked, Contact, InputError, Material, Outcome, Striker, glam, impact};
 
 use crate::break_apart::conclude;
@@ -109,8 +109,37 @@ impl<Inner: SystemParam + 'static> FrangibleHooks<'_, '_, Inner> {
             return false;
         };
         let to_body = moving.1.0.inverse();
-        let striker = self.striker(other, collider, body.0.asset());
-        let contacts: Vec<Contact> = first_touches(pair, flipped, self.time.delta_secs())
+        let ball = self.colliders.get(collider).ok();
+        let ball = ball.and_then(|c| c.shape().as_ball().map(|ball| ball.radius));
+        let striker = self.striker(other, collider, ball, body.0.asset());
+        let dt = self.time.delta_secs();
+        let mut touches = first_touches(pair, flipped, dt);
+        if let (Some(radius), Some((_, other))) =
+            (ball, other.and_then(|e| self.others.get(e).ok()))
+            && !touches.is_empty()
+        {
+            let at = moving.0.0;
+            let centre = other.0.0 + other.1.0 * other.6.0;
+            let carried = moving.2.0 + moving.3.0.cross(centre - at);
+            let against = to_body * (other.2.0 - carried);
+            let from = to_body * (centre - at);
+            let touch = first_touch_of_ball(&body.0, into(from), into(against), radius, dt);
+            if let Some((place, normal)) = touch {
+                // The ball touches the body's own surface, at one point.
+                let (place, normal) = (
+                    to_body.inverse() * out(place),
+                    to_body.inverse() * out(normal),
+                );
+                let approach = (to_body.inverse() * against).dot(-normal).abs();
+                touches = vec![FirstTouch {
+                    anchors: [place, -radius * normal],
+                    normal,
+                    approach,
+                    gap: 0.0,
+                }];
+            }
+        }
+        let contacts: Vec<Contact> = touches
             .into_iter()
             .map(|touch| {
                 let shared = self.shared(other, touch.anchors[1], touch.normal);
@@ -144,9 +173,13 @@ impl<Inner: SystemParam + 'static> FrangibleHooks<'_, '_, Inner> {
     }
 
     /// What a collider strikes a body with, but for its mass.
-    fn striker(&self, other: Option<Entity>, collider: Entity, struck: &Baked) -> Striker {
-        let ball = self.colliders.get(collider).ok();
-        let ball = ball.and_then(|c| c.shape().as_ball().map(|ball| ball.radius));
+    fn striker(
+        &self,
+        other: Option<Entity>,
+        collider: Entity,
+        ball: Option<f32>,
+        struck: &Baked,
+    ) -> Striker {
         let breakable = other.and_then(|other| self.bodies.get(other).ok());
         let own = self.made_of.get(collider).ok();
         let own = own.or_else(|| self.made_of.get(other?).ok());

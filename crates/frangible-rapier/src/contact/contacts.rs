@@ -9,7 +9,7 @@
 use std::collections::BTreeMap;
 
 use frangible::internals::DurationModel;
-use frangible::internals::contact::{SharedMass, answer_duration};
+use frangible::internals::contact::{SharedMass, answer_duration, first_touch_of_ball};
 use frangible::{Body, Contact, Striker};
 use rapier3d::dynamics::{FrictionModel, RigidBody, RigidBodyHandle};
 use rapier3d::geometry::ColliderHandle;
@@ -46,6 +46,8 @@ pub(crate) struct Point {
     pub(crate) impulse: f32,
     /// Friction impulse on the body, as the solver left it.
     pub(crate) friction: Vector,
+    /// Distance to the other body at the start of the step, m; negative where they overlap.
+    gap: f32,
     friction_coefficient: f32,
     restitution: f32,
     other_collider: ColliderHandle,
@@ -65,7 +67,20 @@ pub(crate) fn impact_on(
     };
     let mut impact = Impact::default();
     let known = physics.integration_parameters.friction_model == FrictionModel::Coulomb;
-    let groups = merged_by_partner(points_on(handle, body, physics), config.merge_distance);
+    let mut groups = merged_by_partner(points_on(handle, body, physics), config.merge_distance);
+    for group in &mut groups {
+        let partner = group[0].other.and_then(|other| before.body(other));
+        keep_first_touches(group, body, partner, config.merge_distance);
+        let other = physics.colliders.get(group[0].other_collider);
+        if let (Some(ball), Some(partner), Some(itself)) = (
+            other.and_then(|c| c.shape().as_ball()),
+            partner,
+            surfaces.breakables.get(&key(handle)),
+        ) {
+            let dt = physics.integration_parameters.dt;
+            touch_of_ball(group, (body, itself), partner, ball.radius, dt);
+        }
+    }
     let rubbed = match (&groups[..], physics.bodies.get(handle)) {
         ([only], Some(after)) if !known => {
             let dt = physics.integration_parameters.dt;
@@ -123,7 +138,8 @@ pub(crate) fn impact_on(
     impact
 }
 
-/// Where, how and by what a body is pushed after a step; `body` says where its frame was.
+/// Where, how and by what a body was pushed in the step just taken, or would have been had no other point come before; `body` says where
+/// its frame was.
 pub(crate) fn points_on(
     handle: RigidBodyHandle,
     body: &RigidBody,
@@ -165,7 +181,7 @@ pub(crate) fn points_on(
                 } else {
                     manifold.subshape_pos2()
                 };
-                for point in manifold.points.iter().filter(|p| p.data.impulse > 0.0) {
+                for point in &manifold.points {
                     let local = if first {
                         point.local_p1
                     } else {
@@ -179,6 +195,7 @@ pub(crate) fn points_on(
                         normal,
                         impulse: point.data.impulse,
                         friction: to_body * if first { friction } else { -friction },
+                        gap: point.dist,
                         friction_coefficient: manifold.data.friction,
                         restitution: manifold.data.restitution,
                         other_collider,
@@ -210,7 +227,12 @@ pub(crate) fn merged_by_partner(points: Vec<Point>, distance: f32) -> Vec<Vec<Po
         };
         if let Some(kept) = group.iter_mut().find(same_place) {
             let total = kept.impulse + point.impulse;
-            let share = point.impulse / total;
+            let share = if total > 0.0 {
+                point.impulse / total
+            } else {
+                0.5
+            };
+            kept.gap = kept.gap.min(point.gap);
             kept.position = kept.position.lerp(point.position, share);
             kept.normal = kept
                 .normal
@@ -223,6 +245,70 @@ pub(crate) fn merged_by_partner(points: Vec<Point>, distance: f32) -> Vec<Vec<Po
         }
     }
     groups
+}
+
+/// Leaves of one partner's points those that touch first, and gives them what the engine did at the others.
+///
+/// The engine speaks of all points that may come near in a step, on every convex part of a body. Where a ball flies at a flat wall of
+/// several parts, the nearest places of the parts around are such points, with tilted normals, though the ball never touches there. A
+/// point is one of the blow if at the moment of the first touch it is no farther than `apart`, m.
+fn keep_first_touches(
+    points: &mut Vec<Point>,
+    body: &RigidBody,
+    partner: Option<&RigidBody>,
+    apart: f32,
+) {
+    let speed = |p: &Point| approach(body, partner, p.position, p.normal);
+    let first = points.iter().filter_map(|p| {
+        let speed = speed(p);
+        (speed > 0.0).then(|| p.gap.max(0.0) / speed)
+    });
+    let first = first.fold(f32::INFINITY, f32::min);
+    if points.len() < 2 || !first.is_finite() {
+        return;
+    }
+    let late = |p: &Point| p.gap.max(0.0) - speed(p) * first > apart;
+    let (others, kept): (Vec<Point>, Vec<Point>) = points.drain(..).partition(late);
+    *points = kept;
+    for other in others {
+        let distance = |p: &Point| p.position.distance_squared(other.position);
+        let nearest = (points.iter_mut()).min_by(|a, b| distance(a).total_cmp(&distance(b)));
+        if let Some(nearest) = nearest {
+            let push = other.normal * other.impulse + other.friction;
+            let along = push.dot(nearest.normal).max(0.0);
+            nearest.impulse += along;
+            nearest.friction += push - nearest.normal * along;
+        }
+    }
+}
+
+/// A ball touches the body's own surface, at one point: that takes the place of the engine's points, with all that the engine did there.
+fn touch_of_ball(
+    points: &mut Vec<Point>,
+    (body, itself): (&RigidBody, &Body),
+    partner: &RigidBody,
+    radius: f32,
+    dt: f32,
+) {
+    let to_body = body.rotation().inverse();
+    let centre = body
+        .position()
+        .inverse_transform_point(partner.center_of_mass());
+    let against = partner.linvel() - body.velocity_at_point(partner.center_of_mass());
+    let touch = first_touch_of_ball(itself, centre, to_body * against, radius, dt);
+    let Some((position, normal)) = touch else {
+        return;
+    };
+    let push: Vector = points
+        .iter()
+        .map(|p| p.normal * p.impulse + p.friction)
+        .sum();
+    points.truncate(1);
+    if let Some(point) = points.first_mut() {
+        (point.position, point.normal, point.gap) = (position, normal, 0.0);
+        point.impulse = push.dot(normal).max(0.0);
+        point.friction = push - normal * point.impulse;
+    }
 }
 
 /// Speed at which the partner comes nearer along the direction of the impulse, before the step.

@@ -119,6 +119,7 @@ fn load_on(
     let before = before.filter(|b| b.body(handle).is_some());
     let frame = before.and_then(|b| b.body(handle)).unwrap_or(rigid);
     let mut points = points_on(handle, rigid, physics);
+    points.retain(|p| p.impulse > 0.0);
     if let Some(before) = before {
         points.retain(|p| {
             let partner = p.other.and_then(|other| before.body(other));

@@ -1,6 +1,7 @@
 //! From contacts to a force pulse `[G12 §4.1-4.3]`.
 
 mod admissible;
+mod ball;
 mod bytes;
 mod duration;
 mod kinds;
@@ -8,6 +9,7 @@ mod load;
 mod pulse;
 
 pub use admissible::{admissible_duration, approach_energy};
+pub use ball::first_touch_of_ball;
 pub use duration::{
     answer_duration, contact_duration, hertz_duration, modal_hertz_duration, most_excited_mode,
 };
