@@ -28,7 +28,8 @@ fn game(speed: f32) -> (PhysicsWorld, RigidBodyHandle) {
     game.integration_parameters.length_unit = 0.1;
     let start = Vector::new(0.0, 0.6, 0.0);
     let ball = RigidBodyBuilder::dynamic().translation(start);
-    let ball = ball.linvel(Vector::new(0.0, -speed, 0.0)).user_data(5);
+    let ball = ball.linvel(Vector::new(0.0, -speed, 0.0)).ccd_enabled(true);
+    let ball = ball.user_data(5);
     let ball = game.bodies.insert(ball);
     let collider = ColliderBuilder::ball(0.01).density(24_000.0);
     let (bodies, colliders) = (&mut game.bodies, &mut game.colliders);

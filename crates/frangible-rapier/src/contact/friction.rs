@@ -40,6 +40,10 @@ pub(crate) fn solver_friction(
             let total: f32 = group.map(|d| d.impulse).sum();
             let substeps = parameters.num_solver_iterations as f32;
             let whole = shared * (substeps * data.impulse / total);
+            // Where nothing slides Rapier divides zero by zero.
+            if !whole.is_finite() {
+                return Vector::ZERO;
+            }
             // A landing has most of its normal impulse early: no more than Coulomb's law gives.
             whole.clamp_length_max(manifold.data.friction * data.impulse)
         }
