@@ -276,49 +276,14 @@ fn what_cannot_break_says_why_and_nothing_panics() {
     );
 }
 
-/// The same throw in a Rapier world: pieces, and the ball's velocity afterwards, m/s.
-fn in_rapier(seed: u64) -> (usize, f32) {
-    use frangible_rapier::rapier3d::math::{Pose, Vector};
-    use frangible_rapier::{Ball, BreakableWorld, SurfaceProperties, WorldConfig};
-    let path = concat!(
-        env!("CARGO_MANIFEST_DIR"),
-        "/../crates/frangible/tests/bodies/pane.frangible"
-    );
-    let baked = frangible::Asset::load(path).unwrap();
-    let kind = bevy_frangible::FrangibleAsset::new(baked).unwrap().0;
-    let mut config = WorldConfig::default();
-    config.gravity = Vector::ZERO;
-    let mut world = BreakableWorld::new(config).unwrap();
-    world
-        .insert_breakable(kind.body(seed), Pose::IDENTITY, Vector::ZERO, Vector::ZERO)
-        .unwrap();
-    let steel = frangible::Material::preset("steel").unwrap();
-    let radius = 0.0158_f32;
-    let volume = 4.0 / 3.0 * std::f32::consts::PI * radius.powi(3);
-    let mass = steel.density as f32 * volume;
-    let start = Pose::translation(0.01, 0.005, 0.1);
-    let velocity = Vector::new(0.0, 0.0, -12.0);
-    let ball = Ball { mass, radius };
-    let ball = world
-        .insert_ball(ball, SurfaceProperties::STEEL, start, velocity)
-        .unwrap();
-    let mut pieces = 0;
-    for _ in 0..60 {
-        pieces += world
-            .step()
-            .unwrap()
-            .iter()
-            .map(|e| e.fragments.len())
-            .sum::<usize>();
-    }
-    (pieces, world.physics.bodies[ball].linvel().z)
-}
+/// The ball's velocity after the pane, m/s, in a Rapier world of `frangible-rapier` with the same body, seed and throw (its `Ball` of
+/// 129.7 g and 15.8 mm at (0.01, 0.005, 0.1) m, steel; seeds 0 to 7).
+const IN_RAPIER: [f32; 8] = [2.457, -4.184, 1.505, 2.230, 2.224, 2.248, 2.236, 2.390];
 
 #[test]
 fn a_throw_ends_in_avian_as_it_does_in_rapier() {
-    const SEEDS: u64 = 20;
     let mut sums = [0.0_f32; 2];
-    for seed in 0..SEEDS {
+    for (seed, rapier) in (0..).zip(IN_RAPIER) {
         let (mut app, log) = app();
         app.insert_resource(Gravity(Vec3::ZERO));
         let pane = body(&mut app, "pane", Transform::default());
@@ -328,18 +293,13 @@ fn a_throw_ends_in_avian_as_it_does_in_rapier() {
         for _ in 0..60 {
             app.update();
         }
-        let speed = app.world().get::<LinearVelocity>(ball).unwrap().z;
-        let (pieces, of_rapier) = in_rapier(seed);
+        let avian = app.world().get::<LinearVelocity>(ball).unwrap().z;
         println!(
-            "seed {seed}: Avian {:?}, {speed:.2} m/s; Rapier {pieces} pieces, {of_rapier:.2} m/s",
+            "seed {seed}: {:?}, {avian:.3} m/s; in Rapier {rapier:.3} m/s",
             log.lines()
         );
-        sums[0] += (speed + 12.0).abs() / SEEDS as f32;
-        sums[1] += (of_rapier + 12.0).abs() / SEEDS as f32;
+        sums[0] += avian + 12.0;
+        sums[1] += rapier + 12.0;
     }
-    println!(
-        "the ball's velocity changes by {:.2} m/s in Avian, by {:.2} m/s in Rapier",
-        sums[0], sums[1]
-    );
     assert!((sums[0] / sums[1] - 1.0).abs() < 0.05, "{sums:?}");
 }
