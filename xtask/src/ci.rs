@@ -3,6 +3,7 @@
 use std::path::Path;
 use std::time::{Duration, Instant};
 
+use crate::bevy;
 use crate::check_output::check_output;
 use crate::command::{Result, cargo, output, root, run, run_keeping, run_within, shown, succeeds};
 use crate::counts::counts;
@@ -75,7 +76,7 @@ const fn step(name: &'static str, check: Check) -> Step {
     }
 }
 
-const STEPS: [Step; 12] = [
+const STEPS: [Step; 13] = [
     step("format", || quiet(&["fmt", "--all", "--check"])),
     step("clippy", || {
         quiet(&[
@@ -99,6 +100,11 @@ const STEPS: [Step; 12] = [
         name: "web",
         check: || trial(Some(WEB_LIMIT)),
         leaf: Some(&PAGE),
+    },
+    Step {
+        name: "bevy",
+        check: bevy::bevy,
+        leaf: Some(&bevy::PATHS),
     },
     step("counts", || counts(false)),
     step("fuzz", || fuzz(USUAL_SECONDS, Some(FUZZ_LIMIT))),

@@ -1,5 +1,6 @@
 //! The project's chores. `cargo xtask help` lists them.
 
+mod bevy;
 mod check_output;
 mod ci;
 mod command;
@@ -28,6 +29,7 @@ cargo xtask rebake            write the baked bodies and states in fuzz/corpus a
 cargo xtask fuzz [SECONDS]    feed each reader of files hostile bytes for so long, 30 s if not told
 cargo xtask web [--out DIR]   make the viewer's page for browsers, one static folder: target/web/page if not told
 cargo xtask web-test          make it, and break the pane in it with Chromium, drawn by the processor
+cargo xtask bevy              lint and test the plugin for Bevy, in its own workspace
 cargo xtask setup             install the system packages that are missing, where that is allowed
 cargo xtask check-output DIR  check what `cargo run --release -- --out DIR --json > DIR/report.json` wrote";
 
@@ -82,6 +84,7 @@ fn run(words: &[&str]) -> Result {
                 "`{seconds}` is no whole number of seconds from 1; for example `cargo xtask fuzz 60`"
             )),
         },
+        ["bevy"] => bevy::bevy().map(drop),
         ["counts"] => counts::counts(false).map(drop),
         ["counts", "--write"] => counts::counts(true).map(drop),
         ["outcomes"] => outcomes(&Wish::Print),
