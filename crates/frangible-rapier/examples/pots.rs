@@ -37,7 +37,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     frames.sort_by(f64::total_cmp);
     let [median, late, longest] = [90, 178, 179].map(|k| frames[k]);
     println!(
-        "{broke} pots broke into pieces of {} bodies in all",
+        "{broke} pots broke; {} bodies are in the world",
         world.physics.bodies.len()
     );
     println!(
