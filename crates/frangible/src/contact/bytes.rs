@@ -58,8 +58,10 @@ impl Contact {
             velocity: Vec3::new(vx, vy, vz),
             spin: Vec3::new(sx, sy, sz),
         };
-        let alone =
-            number.to_bits() == 0 && shared.velocity == Vec3::ZERO && shared.spin == Vec3::ZERO;
+        // Bit for bit: a zero with a sign would not be written again.
+        let alone = [number, vx, vy, vz, sx, sy, sz]
+            .iter()
+            .all(|x| x.to_bits() == 0);
         contact.striker.shared = (!alone).then_some(shared);
         contact.validate()?;
         Ok(contact)
@@ -133,6 +135,9 @@ mod tests {
 
     #[test]
     fn hostile_bytes_are_refused_and_never_a_panic() {
+        let mut signed = contact().to_bytes();
+        signed[4 * 18 + 3] = 0x80;
+        assert!(Contact::from_bytes(&signed).is_err(), "a zero with a sign");
         let bytes = shared().to_bytes();
         for length in 0..bytes.len() {
             assert_eq!(
