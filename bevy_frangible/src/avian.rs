@@ -130,13 +130,14 @@ impl<Inner: SystemParam + 'static> FrangibleHooks<'_, '_, Inner> {
                     to_body.inverse() * out(place),
                     to_body.inverse() * out(normal),
                 );
-                let approach = (to_body.inverse() * against).dot(-normal).abs();
+                let approach = (to_body.inverse() * against).dot(normal);
                 touches = vec![FirstTouch {
                     anchors: [place, -radius * normal],
                     normal,
                     approach,
                     gap: 0.0,
                 }];
+                touches.retain(|t| t.approach > IMPACT_SPEED);
             }
         }
         let contacts: Vec<Contact> = touches

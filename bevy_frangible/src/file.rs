@@ -12,7 +12,7 @@ use thiserror::Error;
 pub struct FrangibleAsset(pub Kind);
 
 impl FrangibleAsset {
-    /// Of a body that a game has baked or loaded itself, with the scatter of strength that its material has.
+    /// Makes an asset of a body that a game has baked or loaded itself, with the scatter of strength that its material has.
     ///
     /// # Errors
     /// An asset that is not sound.

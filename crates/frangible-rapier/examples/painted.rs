@@ -13,7 +13,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let spec = BakeSpec::for_games("tile", Shape::plate(0.3, 0.2, 0.008), porcelain.clone())?;
     let asset = Arc::new(bake(&spec, &mut |_| {})?.0);
 
-    // A third of the strength along a scored line; a game would take it from vertex colours (`frangible_bake::weakness::from_paint`).
+    // A quarter of the strength along a scored line; a game would take it from vertex colours (`frangible_bake::weakness::from_paint`).
     let scored = Fields::from_function(&asset, |p| {
         let on_the_line = (p.x - 0.05).abs() < 0.012;
         if on_the_line {

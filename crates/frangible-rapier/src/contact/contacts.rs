@@ -71,14 +71,16 @@ pub(crate) fn impact_on(
     for group in &mut groups {
         let partner = group[0].other.and_then(|other| before.body(other));
         keep_first_touches(group, body, partner, config.merge_distance);
-        let other = physics.colliders.get(group[0].other_collider);
-        if let (Some(ball), Some(partner), Some(itself)) = (
-            other.and_then(|c| c.shape().as_ball()),
+        if let (Some(other), Some(partner), Some(itself)) = (
+            physics.colliders.get(group[0].other_collider),
             partner,
             surfaces.breakables.get(&key(handle)),
-        ) {
+        ) && let Some(ball) = other.shape().as_ball()
+        {
             let dt = physics.integration_parameters.dt;
-            touch_of_ball(group, (body, itself), partner, ball.radius, dt);
+            let place = other.position_wrt_parent().copied().unwrap_or_default();
+            let centre = *partner.position() * place.translation;
+            touch_of_ball(group, (body, itself), partner, (centre, ball.radius), dt);
         }
     }
     let rubbed = match (&groups[..], physics.bodies.get(handle)) {
@@ -287,15 +289,13 @@ fn touch_of_ball(
     points: &mut Vec<Point>,
     (body, itself): (&RigidBody, &Body),
     partner: &RigidBody,
-    radius: f32,
+    (centre, radius): (Vector, f32),
     dt: f32,
 ) {
     let to_body = body.rotation().inverse();
-    let centre = body
-        .position()
-        .inverse_transform_point(partner.center_of_mass());
-    let against = partner.linvel() - body.velocity_at_point(partner.center_of_mass());
-    let touch = first_touch_of_ball(itself, centre, to_body * against, radius, dt);
+    let against = partner.velocity_at_point(centre) - body.velocity_at_point(centre);
+    let from = body.position().inverse_transform_point(centre);
+    let touch = first_touch_of_ball(itself, from, to_body * against, radius, dt);
     let Some((position, normal)) = touch else {
         return;
     };

@@ -31,7 +31,7 @@ impl Symmetric3 {
         }
     }
 
-    /// As a full matrix.
+    /// The full matrix of the tensor.
     #[must_use]
     pub fn to_mat3(self) -> Mat3 {
         let ([xx, yy, zz], [xy, yz, zx]) = (self.diagonal, self.off);
