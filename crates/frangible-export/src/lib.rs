@@ -1,8 +1,10 @@
 //! Writes what broke.
 //!
 //! A [`Recording`] is plain data: meshes, one rigid node per shard with a pose
-//! per frame, materials, a camera and the frames worth looking at. It knows
-//! neither the solver nor the renderer; both meet in it.
+//! per frame, materials, a camera and the frames worth looking at; besides, each
+//! blow with its force over time and its cracks, and where pieces touched, for
+//! films between two frames and for sound. It knows neither the solver nor the
+//! renderer; both meet in it.
 //!
 //! * [`write_glb`] turns a recording into one binary glTF 2.0 file that
 //!   browsers, Blender and game engines play. The same recording gives the
@@ -30,6 +32,7 @@ pub use glam;
 pub use glb::write_glb;
 pub use place::{make_folder, try_file};
 pub use recording::{
-    Floor, MeshPart, Moments, Pose, RecordedMesh, RecordedNode, Recording, SurfaceMaterial, View,
+    Floor, MeshPart, Moments, Pose, Pulse, RecordedBlow, RecordedCrack, RecordedMesh, RecordedNode,
+    RecordedTouch, Recording, SurfaceMaterial, View,
 };
 pub use vtu::{VtuCells, VtuField, VtuMesh, VtuValues, write_vtu};

@@ -30,6 +30,74 @@ pub struct Recording {
     pub rest_camera: Option<View>,
     /// The frames worth a picture.
     pub moments: Moments,
+    /// Everything that hit a node hard enough to be asked whether it breaks, in the order of time.
+    pub blows: Vec<RecordedBlow>,
+    /// Where else things touched: pieces with each other, and with what they fell on; in the order of time.
+    pub touches: Vec<RecordedTouch>,
+}
+
+/// A blow on a node: what pushed it, and the cracks that ran. What the film of a break and its sound are made from.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct RecordedBlow {
+    /// The node that was hit.
+    pub node: usize,
+    /// When the blow began, s after the first frame.
+    pub time: f64,
+    /// The nodes of its pieces; empty where it held.
+    pub pieces: Range<usize>,
+    /// The force at each place where something pushed.
+    pub pulses: Vec<Pulse>,
+    /// The new cracks, or parts that old ones grew by.
+    pub cracks: Vec<RecordedCrack>,
+    /// Energy that the cracks took, J.
+    pub fracture_energy: f64,
+}
+
+/// A force over time at a place of a node.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Pulse {
+    /// Where it acts, m, in the frame of the node.
+    pub point: Vec3,
+    /// Unit direction of the force on the node, in its frame.
+    pub direction: Vec3,
+    /// Time between two values, s.
+    pub time_step: f64,
+    /// The force at the end of each time step, N; zero before the first.
+    pub force: Vec<f32>,
+}
+
+impl Pulse {
+    /// The impulse of the force, which is linear between its values, N·s.
+    #[must_use]
+    pub fn impulse(&self) -> f64 {
+        let last = self.force.last().copied().unwrap_or(0.0);
+        let sum: f64 = self.force.iter().map(|&force| f64::from(force)).sum();
+        self.time_step * (sum - 0.5 * f64::from(last))
+    }
+}
+
+/// Where a crack went, and when.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct RecordedCrack {
+    /// Places of the crack in the order of its growth, m, in the frame of the node.
+    pub places: Vec<Vec3>,
+    /// When the crack was at each place, s after the blow began.
+    pub times: Vec<f64>,
+}
+
+/// Two things that came together, or a thing and what does not move.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct RecordedTouch {
+    /// When, s after the first frame.
+    pub time: f64,
+    /// The node, and the other one unless it is the floor.
+    pub nodes: (usize, Option<usize>),
+    /// Where, m.
+    pub point: Vec3,
+    /// Unit direction of the push on the first node.
+    pub normal: Vec3,
+    /// Impulse along it, N·s.
+    pub impulse: f64,
 }
 
 /// How a surface looks (metallic–roughness, as in glTF).

@@ -3,7 +3,10 @@
 use glam::Vec3;
 
 use crate::RecordingError;
-use crate::recording::{Floor, RecordedMesh, RecordedNode, Recording, SurfaceMaterial, View};
+use crate::recording::{
+    Floor, RecordedBlow, RecordedMesh, RecordedNode, RecordedTouch, Recording, SurfaceMaterial,
+    View,
+};
 
 type Checked = Result<(), RecordingError>;
 
@@ -35,6 +38,12 @@ impl Recording {
             check_floor(floor)?;
         }
         self.camera.validate()?;
+        for (i, blow) in self.blows.iter().enumerate() {
+            check_blow(i, blow, self.nodes.len())?;
+        }
+        for (i, touch) in self.touches.iter().enumerate() {
+            check_touch(i, touch, self.nodes.len())?;
+        }
         let moments = self.labelled_moments();
         moments.iter().try_for_each(|(frame, label)| {
             index(*frame, self.frame_count, || {
@@ -71,6 +80,56 @@ impl View {
         }
         Ok(())
     }
+}
+
+fn check_blow(i: usize, blow: &RecordedBlow, nodes: usize) -> Checked {
+    index(blow.node, nodes, || format!("the node of blow {i}"))?;
+    if !blow.pieces.is_empty() {
+        index(blow.pieces.end - 1, nodes, || {
+            format!("the last piece of blow {i}")
+        })?;
+    }
+    finite(blow.time, || format!("the time of blow {i}"))?;
+    finite(blow.fracture_energy, || {
+        format!("the fracture energy of blow {i}")
+    })?;
+    for pulse in &blow.pulses {
+        finite_vector(pulse.point, || format!("the place of blow {i}"))?;
+        finite_vector(pulse.direction, || format!("the direction of blow {i}"))?;
+        let step = pulse.time_step;
+        let name = || format!("the time step of blow {i}");
+        finite(step, name)?;
+        in_range(step, step > 0.0, "above zero, in s", name)?;
+        for &force in &pulse.force {
+            finite(f64::from(force), || format!("a force of blow {i}"))?;
+        }
+    }
+    for crack in &blow.cracks {
+        if crack.times.len() != crack.places.len() {
+            return Err(RecordingError::BadCount {
+                what: format!("the times of a crack of blow {i}"),
+                count: crack.times.len(),
+                expected: format!("{}, one per place, are", crack.places.len()),
+            });
+        }
+        for (&place, &time) in crack.places.iter().zip(&crack.times) {
+            finite_vector(place, || format!("a place of a crack of blow {i}"))?;
+            finite(time, || format!("a time of a crack of blow {i}"))?;
+        }
+    }
+    Ok(())
+}
+
+fn check_touch(i: usize, touch: &RecordedTouch, nodes: usize) -> Checked {
+    let (first, second) = touch.nodes;
+    index(first, nodes, || format!("the node of touch {i}"))?;
+    if let Some(second) = second {
+        index(second, nodes, || format!("the other node of touch {i}"))?;
+    }
+    finite(touch.time, || format!("the time of touch {i}"))?;
+    finite_vector(touch.point, || format!("the place of touch {i}"))?;
+    finite_vector(touch.normal, || format!("the normal of touch {i}"))?;
+    finite(touch.impulse, || format!("the impulse of touch {i}"))
 }
 
 fn check_surface(surface: &SurfaceMaterial) -> Checked {

@@ -2,8 +2,8 @@
 
 use frangible_export::glam::{Quat, Vec3};
 use frangible_export::{
-    ExportError, Floor, MeshPart, Moments, Pose, RecordedMesh, RecordedNode, Recording,
-    RecordingError, SurfaceMaterial, View, write_glb,
+    ExportError, Floor, MeshPart, Moments, Pose, Pulse, RecordedBlow, RecordedCrack, RecordedMesh,
+    RecordedNode, RecordedTouch, Recording, RecordingError, SurfaceMaterial, View, write_glb,
 };
 use gltf::animation::util::ReadOutputs;
 use gltf::animation::{Interpolation, Property};
@@ -84,6 +84,7 @@ fn recording() -> Recording {
             just_after: 5,
             at_rest: 9,
         },
+        ..Recording::default()
     }
 }
 
@@ -232,7 +233,7 @@ type Spoiled = (fn(&mut Recording), &'static [&'static str]);
 
 #[test]
 fn an_unsound_recording_is_an_error_that_names_the_place() {
-    let cases: [Spoiled; 12] = [
+    let cases: [Spoiled; 16] = [
         (|r| r.frame_count = 0, &["no frame"]),
         (|r| r.frame_rate = 0.0, &["frame rate", "above zero"]),
         (
@@ -265,6 +266,47 @@ fn an_unsound_recording_is_an_error_that_names_the_place() {
             &["frame 6", "left"],
         ),
         (|r| r.moments.at_rest = 10, &["at rest", "10"]),
+        (
+            |r| {
+                r.blows.push(RecordedBlow {
+                    node: 9,
+                    ..RecordedBlow::default()
+                });
+            },
+            &["node of blow 0", "9"],
+        ),
+        (
+            |r| {
+                let pulses = vec![Pulse::default()];
+                r.blows.push(RecordedBlow {
+                    pulses,
+                    ..RecordedBlow::default()
+                });
+            },
+            &["time step of blow 0", "above zero"],
+        ),
+        (
+            |r| {
+                let crack = RecordedCrack {
+                    places: vec![Vec3::ZERO],
+                    times: Vec::new(),
+                };
+                r.blows.push(RecordedBlow {
+                    cracks: vec![crack],
+                    ..RecordedBlow::default()
+                });
+            },
+            &["times of a crack of blow 0", "one per place"],
+        ),
+        (
+            |r| {
+                r.touches.push(RecordedTouch {
+                    impulse: f64::NAN,
+                    ..RecordedTouch::default()
+                });
+            },
+            &["impulse of touch 0", "NaN"],
+        ),
         (
             |r| r.camera.up = r.camera.target - r.camera.eye,
             &["camera", "up"],

@@ -100,8 +100,7 @@ pub struct WorldConfig {
     /// How finely the collider of a whole body follows it. Default: all the convex cells of the bake, 128 points each.
     pub whole_collider: ColliderDetail,
     /// How finely the colliders follow fragments that one hull does not fit. Default: 12 parts of at most 48 points. What a heap of pieces
-    /// costs
-    /// is mostly this. Measured in `frangible-lab bench shop`, Rapier's time per frame: every share of a cell with 128 points
+    /// costs is mostly this. Measured in `frangible-lab bench shop`, Rapier's time per frame: every share of a cell with 128 points
     /// 97 ms, this 45 ms, 4 parts of 24 points with [`WorldConfig::hull_volume_ratio`] 3 13 ms.
     pub fragment_collider: ColliderDetail,
     /// Speed at which fragments of one parent part when they overlap, m/s; zero leaves overlaps alone.
@@ -182,6 +181,29 @@ impl WorldConfig {
         Self {
             rolling_arm: 0.0,
             rest_drift: 0.0,
+            ..Self::default()
+        }
+    }
+
+    /// Settings for hundreds of bodies at a game's rate: steps of 1/60 s; breaks after the step, about one body a step, which
+    /// other threads have three steps for; colliders of few parts, a single hull where a piece fills a third of it.
+    #[must_use]
+    pub fn for_games() -> Self {
+        Self {
+            dt: 1.0 / 60.0,
+            hull_volume_ratio: 3.0,
+            whole_collider: ColliderDetail {
+                parts: 16,
+                hull_points: 64,
+            },
+            fragment_collider: ColliderDetail {
+                parts: 4,
+                hull_points: 24,
+            },
+            breaking: Breaking::AfterStep {
+                budget: 2_000,
+                delay: 3,
+            },
             ..Self::default()
         }
     }

@@ -1,17 +1,26 @@
 //! Turns a running world into a [`Recording`].
 
+use std::collections::BTreeMap;
+use std::ops::Range;
+
 use frangible::glam::{Quat, Vec3};
+use frangible::{Asset, ImpactReport};
 use frangible_export::{
-    Floor, Moments, Pose, RecordedMesh, RecordedNode, Recording, SurfaceMaterial, View,
+    Floor, Moments, Pose, Pulse, RecordedBlow, RecordedCrack, RecordedMesh, RecordedNode,
+    RecordedTouch, Recording, SurfaceMaterial, View,
 };
 use frangible_rapier::BreakEvent;
 use frangible_rapier::BreakableWorld;
 use frangible_rapier::rapier3d::dynamics::RigidBodyHandle;
+use frangible_rapier::rapier3d::geometry::Collider;
 
 use crate::meshes::{BodySurfaces, piece};
 
 /// Frames per second of a recording.
 pub(crate) const FRAME_RATE: f32 = 60.0;
+
+/// A touch that changes the lighter body's speed by less than this is none, m/s.
+const AUDIBLE: f32 = 0.02;
 
 /// A node that follows a rigid body.
 struct Tracked {
@@ -36,6 +45,10 @@ pub(crate) struct Recorder {
     /// One per node.
     roles: Vec<Role>,
     tracked: Vec<Tracked>,
+    /// The node of each rigid body.
+    node_of_body: BTreeMap<(u32, u32), usize>,
+    /// Impulse of each pair of colliders in the latest step, N·s.
+    touching: BTreeMap<[(u32, u32); 2], f32>,
     break_frame: Option<usize>,
 }
 
@@ -50,6 +63,8 @@ impl Recorder {
             recording,
             roles: Vec::new(),
             tracked: Vec::new(),
+            node_of_body: BTreeMap::new(),
+            touching: BTreeMap::new(),
             break_frame: None,
         }
     }
@@ -95,21 +110,22 @@ impl Recorder {
             keep_extras: extras,
         };
         recording.nodes.push(node);
-        self.tracked.push(Tracked {
-            node: recording.nodes.len() - 1,
-            body,
-        });
+        let node = recording.nodes.len() - 1;
+        self.tracked.push(Tracked { node, body });
+        self.node_of_body.insert(body.into_raw_parts(), node);
     }
 
-    /// Puts the pieces in the place of their parent, which has this name and comes from so many breaks.
+    /// Puts the pieces in the place of their parent, which has this name and comes from so many breaks, `time` s after the first frame.
     pub(crate) fn broke(
         &mut self,
         name: &str,
         generation: u32,
         event: &BreakEvent,
         surfaces: &BodySurfaces,
+        time: f64,
     ) {
         self.break_frame.get_or_insert(self.recording.frame_count);
+        let first = self.recording.nodes.len();
         for (i, (fragment, &body)) in event
             .fracture
             .fragments
@@ -124,6 +140,99 @@ impl Recorder {
                 ("volume_m3".into(), fragment.mass.volume),
             ];
             self.track(name, mesh, body, extras, Role::Piece);
+        }
+        let pieces = first..self.recording.nodes.len();
+        self.blow(
+            event.parent,
+            &event.asset,
+            &event.fracture.report,
+            time,
+            pieces,
+        );
+    }
+
+    /// Takes in a blow on a body that was tracked when it came, `time` s after the first frame, with the nodes of its pieces.
+    pub(crate) fn blow(
+        &mut self,
+        body: RigidBodyHandle,
+        asset: &Asset,
+        report: &ImpactReport,
+        time: f64,
+        pieces: Range<usize>,
+    ) {
+        let Some(&node) = self.node_of_body.get(&body.into_raw_parts()) else {
+            return;
+        };
+        let pulses = report.contacts.iter().map(|contact| Pulse {
+            point: contact.point,
+            direction: contact.normal,
+            time_step: report.time_step,
+            force: contact.force.clone(),
+        });
+        let origin = asset.mass.centre;
+        let crack = |cuts: &Vec<(u32, f64)>| RecordedCrack {
+            places: (cuts.iter())
+                .map(|&(tet, _)| asset.root().fracture.centroid(tet as usize).as_dvec3() - origin)
+                .map(|place| place.as_vec3())
+                .collect(),
+            times: cuts.iter().map(|&(_, time)| time).collect(),
+        };
+        self.recording.blows.push(RecordedBlow {
+            node,
+            time,
+            pieces,
+            pulses: pulses.collect(),
+            cracks: report.arrivals.iter().map(crack).collect(),
+            fracture_energy: report.fracture_energy,
+        });
+    }
+
+    /// Takes in what came together in the step that ended `time` s after the first frame: where a pair of colliders pushes more than twice
+    /// as hard as in the step before, and changes the speed of the lighter body by more than [`AUDIBLE`].
+    pub(crate) fn touches(&mut self, world: &BreakableWorld, time: f64) {
+        let physics = &world.physics;
+        let before = std::mem::take(&mut self.touching);
+        let node = |collider: &Collider| {
+            let body = collider.parent()?;
+            let mass = physics.bodies.get(body)?.mass();
+            let node = self.node_of_body.get(&body.into_raw_parts())?;
+            Some((*node, mass))
+        };
+        for pair in physics.narrow_phase.contact_pairs() {
+            let colliders = [pair.collider1, pair.collider2];
+            let impulse = pair.total_impulse_magnitude();
+            if impulse <= 0.0 {
+                continue;
+            }
+            let key = colliders.map(|collider| collider.into_raw_parts());
+            self.touching.insert(key, impulse);
+            let [first, second] = colliders.map(|c| physics.colliders.get(c).and_then(node));
+            let (nodes, lightest, flip) = match (first, second) {
+                (Some(a), Some(b)) => ((a.0, Some(b.0)), a.1.min(b.1), false),
+                (Some(a), None) => ((a.0, None), a.1, false),
+                (None, Some(b)) => ((b.0, None), b.1, true),
+                (None, None) => continue,
+            };
+            let known = before.get(&key).copied().unwrap_or(0.0);
+            if impulse < (AUDIBLE * lightest).max(2.0 * known) {
+                continue;
+            }
+            let Some((manifold, contact)) = pair.find_deepest_contact() else {
+                continue;
+            };
+            let at = physics.colliders.get(pair.collider1);
+            let Some(at) = at.map(|c| c.position().transform_point(contact.local_p1)) else {
+                continue;
+            };
+            // Rapier's normal points from the first collider to the second.
+            let normal = manifold.data.normal * if flip { 1.0 } else { -1.0 };
+            self.recording.touches.push(RecordedTouch {
+                time,
+                nodes,
+                point: Vec3::from(at.to_array()),
+                normal: Vec3::from(normal.to_array()),
+                impulse: f64::from(impulse),
+            });
         }
     }
 

@@ -82,6 +82,8 @@ pub fn play(
         for _ in 0..steps {
             run.simulated += f64::from(dt);
             world.step()?;
+            // A blow begins within its step, and is known at its end.
+            recorder.touches(world, run.simulated);
             for held in world.held() {
                 let Some((body, _)) = known.get(&held.body.into_raw_parts()) else {
                     continue;
@@ -90,6 +92,9 @@ pub fn play(
                 let (contacts, report) = (&held.contacts, &held.report);
                 // What a body carries is no blow.
                 if !contacts.is_empty() {
+                    if let Some(breakable) = world.breakable(held.body) {
+                        recorder.blow(held.body, breakable.asset(), report, run.simulated, 0..0);
+                    }
                     let margin = Some(held.margin);
                     let blow =
                         BlowRecord::new(*body, generation, run.simulated, contacts, report, margin);
@@ -105,7 +110,13 @@ pub fn play(
                     continue;
                 };
                 let generation = event.asset.portion.as_ref().map_or(0, |p| p.generation());
-                recorder.broke(&name, generation, event, &bodies[body].surfaces);
+                recorder.broke(
+                    &name,
+                    generation,
+                    event,
+                    &bodies[body].surfaces,
+                    run.simulated,
+                );
                 for (i, handle) in event.fragments.iter().enumerate() {
                     let name = piece_name(&name, generation, i);
                     known.insert(handle.into_raw_parts(), (body, name));

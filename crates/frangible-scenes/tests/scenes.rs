@@ -4,7 +4,7 @@ use std::sync::{Arc, OnceLock};
 
 use frangible::Asset;
 use frangible::glam::Vec3;
-use frangible_export::{Recording, write_glb};
+use frangible_export::{RecordedTouch, Recording, write_glb};
 use frangible_scenes::{
     BakedBody, BodySource, Place, Projectile, ProjectileKind, Region, Run, SCENE_NAMES, Scene,
     SceneError, Support, bake, play, scene,
@@ -130,6 +130,50 @@ fn a_dropped_glass_breaks_comes_to_rest_and_loses_nothing() {
         .filter(|n| n.name.contains("piece"))
         .count();
     assert_eq!(pieces, masses.len());
+}
+
+#[test]
+fn a_recording_has_the_forces_the_cracks_and_the_touches() {
+    let (_, [run, other]) = glass();
+    let recording = &run.recording;
+    assert_eq!(recording.blows, other.recording.blows);
+    assert_eq!(recording.touches, other.recording.touches);
+    let (broke, record) = (recording.blows.last().unwrap(), &run.breaks[0]);
+    assert_eq!(broke.node, 0);
+    assert_eq!(broke.pieces.len(), record.masses.len());
+    assert!((broke.time - record.time).abs() < 1e-9);
+    assert_eq!(broke.fracture_energy, record.report.fracture_energy);
+    // A force is linear between its values, and its impulse the blow's, but for the substeps in between.
+    for (pulse, contact) in broke.pulses.iter().zip(&record.report.contacts) {
+        assert!((pulse.impulse() / contact.impulse - 1.0).abs() < 0.02);
+        assert!((pulse.direction.length() - 1.0).abs() < 1e-5);
+    }
+    let body = &recording.meshes[recording.nodes[0].mesh].positions;
+    let low = body.iter().copied().fold(Vec3::INFINITY, Vec3::min) - 1e-3;
+    let high = body.iter().copied().fold(Vec3::NEG_INFINITY, Vec3::max) + 1e-3;
+    let cut: usize = broke.cracks.iter().map(|crack| crack.places.len()).sum();
+    assert!(cut > 1000, "{cut}");
+    for crack in &broke.cracks {
+        assert!(crack.times.is_sorted() && crack.times[0] >= 0.0);
+        let inside = |p: &Vec3| p.cmpge(low).all() && p.cmple(high).all();
+        assert!(crack.places.iter().all(inside));
+    }
+    // Pieces fall on the floor and on each other, later than they were made.
+    let after = recording.touches.iter().filter(|t| t.time > broke.time);
+    type Touches<'a> = Vec<&'a RecordedTouch>;
+    let (floor, others): (Touches, Touches) = after.partition(|touch| touch.nodes.1.is_none());
+    println!(
+        "{} touches of the floor, {} of pieces",
+        floor.len(),
+        others.len()
+    );
+    assert!(floor.len() > 20 && !others.is_empty());
+    for touch in floor {
+        assert!(
+            touch.point.y.abs() < 5e-3 && touch.normal.y > 0.9,
+            "{touch:?}"
+        );
+    }
 }
 
 #[test]

@@ -31,6 +31,15 @@ pub(crate) struct ClusterRows {
     pub(crate) frames: Vec<Frame>,
     pub(crate) rows: Rows,
     coarse: OnceLock<Option<Coarse>>,
+    opposite: OnceLock<OppositeRows>,
+}
+
+/// Rows of the mirror images of a cluster's weak points behind the middle of the walls that they are in.
+#[derive(Debug)]
+pub(crate) struct OppositeRows {
+    pub(crate) rows: Rows,
+    /// First row of each point's image; of a point in no wall, that of the next.
+    pub(crate) first: Vec<usize>,
 }
 
 impl ClusterRows {
@@ -41,6 +50,26 @@ impl ClusterRows {
             Coarse::new(&self.frames, &self.rows, periods)
         };
         self.coarse.get_or_init(make).as_ref()
+    }
+}
+
+impl OppositeRows {
+    fn new(body: &Body, config: &FractureConfig, modes: usize, cluster: usize) -> Self {
+        let skin = &body.prepared.skin;
+        let (mut first, mut points, mut count) = (Vec::new(), Vec::new(), 0);
+        for &tet in body.clusters.tets(cluster) {
+            first.push(count);
+            let weak = weak_place(&body.asset, skin, config, &[], tet as usize);
+            if let Some((point, _, _)) = weak.opposite(body, tet as usize) {
+                count += point.frame.count();
+                points.push(point);
+            }
+        }
+        let elasticity = Elasticity::new(&body.asset.material);
+        Self {
+            rows: Rows::new(&body.asset, &elasticity, modes, &points),
+            first,
+        }
     }
 }
 
@@ -73,6 +102,7 @@ impl WeakRows {
         if let Some(rows) = self.of(body, config, body.asset.modes.followed()) {
             for cluster in 0..rows.clusters.len() {
                 rows.cluster(body, config, cluster).coarse(body);
+                rows.opposite(body, config, cluster);
             }
         }
     }
@@ -93,23 +123,31 @@ impl LawRows {
                 frames: points.iter().map(|p| p.frame).collect(),
                 rows: Rows::new(&body.asset, &elasticity, self.modes, &points),
                 coarse: OnceLock::new(),
+                opposite: OnceLock::new(),
             }
         })
+    }
+
+    /// Rows of the images of the weak points of the cluster at a place in the body's list.
+    pub(crate) fn opposite(
+        &self,
+        body: &Body,
+        config: &FractureConfig,
+        cluster: usize,
+    ) -> &OppositeRows {
+        let rows = &self.cluster(body, config, cluster).opposite;
+        rows.get_or_init(|| OppositeRows::new(body, config, self.modes, cluster))
     }
 }
 
 /// The weak points of a cluster where nothing presses.
-pub(crate) fn row_points<'a>(
-    body: &'a Body,
-    config: &FractureConfig,
-    cluster: usize,
-) -> Vec<RowPoint<'a>> {
+pub(crate) fn row_points(body: &Body, config: &FractureConfig, cluster: usize) -> Vec<RowPoint> {
     let skin = &body.prepared.skin;
     let tets = body.clusters.tets(cluster).iter();
     tets.map(|&tet| {
         let weak = weak_place(&body.asset, skin, config, &[], tet as usize);
         RowPoint {
-            point: weak.point,
+            point: *weak.point,
             law: weak.law,
             frame: Frame::of(weak.law, weak.wall.as_ref()),
         }

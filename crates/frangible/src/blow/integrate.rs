@@ -391,6 +391,8 @@ impl pulp::NullaryFnOnce for Run<'_> {
         let mut growth = vec![0.0; count];
         let mut bases = vec![0.0; count];
         let mut weakness = vec![0.0; count];
+        // Square roots of the springs' dents, m^½.
+        let mut roots = vec![0.0; count];
         // What a unit growth of force l takes from gap k within a substep.
         let mut give = vec![0.0; count * count];
         for k in 0..count {
@@ -431,7 +433,9 @@ impl pulp::NullaryFnOnce for Run<'_> {
             match self.known.get(substep * count..(substep + 1) * count) {
                 Some(known) => next.copy_from_slice(known),
                 None if parted => next.fill(0.0),
-                None => solve(plan, &bases, &give, &weakness, &forces, t, &mut next),
+                None => solve(
+                    plan, &bases, &give, &weakness, &forces, t, &mut roots, &mut next,
+                ),
             }
             for k in 0..count {
                 growth[k] = next[k] - forces[k];
@@ -562,8 +566,12 @@ fn energies(state: &BankState) -> [f64; 2] {
     [strain + 0.5 * dot(&state.v, &state.v), strain]
 }
 
-/// The forces at the end of a substep, N.
+/// The forces at the end of a substep, N. `roots`: what the springs begin with, and end with.
 #[inline(always)]
+#[expect(
+    clippy::too_many_arguments,
+    reason = "the state of one loop, taken apart"
+)]
 fn solve(
     plan: &Plan,
     bases: &[f64],
@@ -571,6 +579,7 @@ fn solve(
     weakness: &[f64],
     forces: &[f64],
     t: f64,
+    roots: &mut [f64],
     next: &mut [f64],
 ) {
     let count = bases.len();
@@ -597,7 +606,7 @@ fn solve(
                     }
                     let i = k * count + k;
                     let compliance = plan.compliance[i] + weakness[k];
-                    site.spring.force(gap, give[i] + compliance)
+                    site.spring.force(gap, give[i] + compliance, &mut roots[k])
                 }
             };
             change = change.max((found - next[k]).abs());

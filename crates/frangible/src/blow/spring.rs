@@ -48,23 +48,27 @@ impl Spring {
         (2.5 * energy * self.stiffness.powf(2.0 / 3.0)).powf(0.6)
     }
 
-    /// The force F ≥ 0 at which `dent(F) + compliance F = gap`, N: gap, m; compliance, m/N. Zero where the gap is open.
+    /// The force F ≥ 0 at which `dent(F) + compliance F = gap`, N: gap, m; compliance, m/N. Zero where the gap is open. `root`: the square
+    /// root of the dent, m^½, where the search begins, and then what was found; zero where nothing is known.
     #[must_use]
-    pub(crate) fn force(&self, gap: f64, compliance: f64) -> f64 {
+    pub(crate) fn force(&self, gap: f64, compliance: f64, root: &mut f64) -> f64 {
         if gap <= 0.0 {
             return 0.0;
         }
-        // With z = δ^½: compliance K z³ + z² = gap, convex and rising for z ≥ 0: Newton from above falls onto the root.
+        // With z = δ^½: compliance K z³ + z² = gap, convex and rising for z ≥ 0: Newton's second step and all after it fall onto the root.
         let cubic = compliance * self.stiffness;
-        let mut z = gap.sqrt().min((gap / cubic).cbrt());
-        for _ in 0..40 {
+        let most = gap.sqrt();
+        let mut z = if *root > 0.0 { *root } else { most };
+        for _ in 0..60 {
             let excess = (cubic * z + 1.0) * z * z - gap;
             let step = excess / ((3.0 * cubic * z + 2.0) * z);
-            z -= step;
-            if step.abs() <= 1e-15 * z {
+            z = (z - step).min(most);
+            // The next step would be about the square of this one.
+            if step.abs() <= 1e-9 * z {
                 break;
             }
         }
+        *root = z;
         self.stiffness * z * z * z
     }
 
@@ -101,13 +105,16 @@ mod tests {
         let spring = Spring::new(7e10, 0.01);
         for gap in [1e-12, 1e-7, 1e-5, 3e-4] {
             for compliance in [0.0, 1e-12, 1e-8, 1e-3] {
-                let force = spring.force(gap, compliance);
-                let closed = spring.dent(force) + compliance * force;
-                assert!((closed / gap - 1.0).abs() < 1e-12, "{gap} {compliance}");
+                for mut root in [0.0, 1e-9, 1e-4, 0.3] {
+                    let force = spring.force(gap, compliance, &mut root);
+                    let closed = spring.dent(force) + compliance * force;
+                    assert!((closed / gap - 1.0).abs() < 1e-12, "{gap} {compliance}");
+                    assert!((root * root / spring.dent(force) - 1.0).abs() < 1e-12);
+                }
             }
         }
-        assert_eq!(spring.force(0.0, 1.0), 0.0);
-        assert_eq!(spring.force(-1.0, 0.0), 0.0);
+        assert_eq!(spring.force(0.0, 1.0, &mut 0.1), 0.0);
+        assert_eq!(spring.force(-1.0, 0.0, &mut 0.1), 0.0);
     }
 
     #[test]

@@ -49,7 +49,7 @@ impl Star {
         // Direction and distance of places where a crack runs out from the contact, or in to it.
         let mut places: Vec<(f32, f32)> = Vec::new();
         let mut crossed = [false; SECTORS];
-        for site in system.cracks.iter().flat_map(|crack| &crack.sites) {
+        for site in system.cracks.iter().flat_map(|crack| crack.sites.list()) {
             let away = site.position - place.point;
             let away = away - away.dot(place.inwards) * place.inwards;
             let distance = away.length();

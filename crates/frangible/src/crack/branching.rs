@@ -22,7 +22,7 @@ use super::surface::{CrackFrame, crossing_area, crossing_polygon};
 use super::system::{CrackSystem, UNCUT};
 use crate::config::{CrackPath, CrackTiming};
 use crate::material::Material;
-use crate::stress::{Symmetric3, lane};
+use crate::stress::Symmetric3;
 
 /// Branching constant σ √r over K_Ic: √13 / 1.24.
 const BRANCHING: f64 = 2.908;
@@ -48,7 +48,6 @@ pub(super) struct Fork {
 /// Where the crack forks that is about to cut a tetrahedron, if it does.
 pub(super) fn forks(
     system: &CrackSystem,
-    field: &mut StressField,
     front: &Front,
     cut: &ElementCut,
     felt: &Felt,
@@ -75,15 +74,15 @@ pub(super) fn forks(
     let wall = felt.wall.as_ref().map(|(wall, _)| wall);
     let thickness = wall.map(|wall| wall.distances(system.centroids[n]).iter().sum());
     let tension = |stress: &Symmetric3, n: Vec3| f64::from(n.dot(stress.times(n)));
-    let before = tension(&felt.steering(cut.opens).0, cut.direction);
+    let (stress, opposite) = felt.on_face(cut.opens);
+    let before = tension(&stress, cut.direction);
     let through = felt.opening(cut.direction, material.poisson_ratio) / before;
     let forks = |tension: f64| feed(tension, through, run, thickness) >= enough;
     // No release raises the tension: most fronts end here.
     if before <= 0.0 || !forks(before) {
         return None;
     }
-    let whole = field.at_weak_point(n);
-    let left = once(system, field, front, &whole, cut.time).stress(lane(field.step));
+    let left = once(system, front, stress, opposite, cut.time);
     if !forks(tension(&left, cut.direction)) {
         return None;
     }

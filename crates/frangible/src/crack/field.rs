@@ -8,8 +8,8 @@ use crate::config::FractureConfig;
 use crate::modal::Motion;
 use crate::near_field::NearFields;
 use crate::stress::{
-    DisplacementBatch, Elasticity, Law, Moment, STRIDE, Skin, StressLanes, StressState, Symmetric3,
-    Wall, largest_eigenvalue,
+    DisplacementBatch, Elasticity, Frame, Lanes, Law, MOST, Moment, RowPoint, STRIDE, Skin,
+    StressLanes, StressState, Symmetric3, Wall, largest_eigenvalue, of_shape,
 };
 
 /// Cosine from which on the normals of a wall at two tetrahedra that touch belong to one face.
@@ -17,6 +17,7 @@ const SAME_FACE: f32 = 0.3;
 
 /// Stress at fracture tetrahedra at one step.
 pub(crate) struct StressField<'a> {
+    body: &'a Body,
     pub(crate) asset: &'a Asset,
     pub(crate) skin: &'a Skin,
     pub(crate) config: &'a FractureConfig,
@@ -44,6 +45,7 @@ impl<'a> StressField<'a> {
     ) -> Self {
         let asset = &*body.asset;
         Self {
+            body,
             asset,
             skin: &body.prepared.skin,
             config,
@@ -124,7 +126,7 @@ impl<'a> StressField<'a> {
         if let (Law::Free(_), Some(wall)) = (weak.law, &weak.wall)
             && !self.near.0.is_empty()
         {
-            self.add_near(&mut lanes, self.place(e, weak.on_surface), wall);
+            self.add_near(&mut lanes, weak.position(self.body, e), wall);
         }
         lanes
     }
@@ -135,13 +137,6 @@ impl<'a> StressField<'a> {
         flaw.is_some_and(|flaw| self.pressed.contains(&flaw.triangle))
     }
 
-    /// Position of a weak point, m.
-    #[inline(always)]
-    pub(super) fn place(&self, e: usize, on_surface: bool) -> Vec3 {
-        let flaw = self.skin.flaw_position(self.asset.place(e));
-        flaw.filter(|_| on_surface).unwrap_or(self.centroids[e])
-    }
-
     /// Adds the near fields to the stress at a point of a wall.
     #[inline(always)]
     fn add_near(&self, lanes: &mut StressLanes, place: Vec3, wall: &Wall) {
@@ -150,20 +145,43 @@ impl<'a> StressField<'a> {
         }
     }
 
-    /// Stress at all steps of the batch at the mirror image of the [`weak_place`] behind the middle of the wall that it is in, if it is in one: on the opposite
-    /// face, of a place on a face. Half the difference of the two is what bends the wall there.
+    /// Stress at all steps of the batch at the mirror image of the [`weak_place`] of fracture tetrahedron `e` behind the middle of the wall
+    /// that it is in, if it is in one: on the opposite face, of a place on a face. Half the difference of the two is what bends the wall there.
+    /// `place`: the tetrahedron's place among the body's weak points.
     #[inline(always)]
-    pub(crate) fn opposite_weak_point(&mut self, e: usize) -> Option<StressLanes> {
+    pub(crate) fn opposite_weak_point(&mut self, place: usize, e: usize) -> Option<StressLanes> {
         let weak = weak_place(self.asset, self.skin, self.config, self.pressed, e);
-        let wall = weak.wall?;
-        let place = self.place(e, weak.on_surface);
-        let [front, back] = wall.distances(place);
-        let across = wall.normal * (front + back);
-        let image = shifted(self.asset, weak.point, across);
-        let gradients = self.displacement.gradients(self.asset, &image);
-        let mut lanes = self.elasticity.lanes(&gradients, weak.law);
-        if let Law::Free(_) = weak.law {
-            self.add_near(&mut lanes, place + across, &wall);
+        let (image, at, wall) = weak.opposite(self.body, e)?;
+        let modes = self.displacement.amplitudes().len();
+        let laws = self.body.rows.of(self.body, self.config, modes);
+        let mut lanes = match laws {
+            // Rows are of points where nothing presses.
+            Some(laws) if !self.is_pressed(e) => {
+                let (cluster, i) = self.body.clusters.locate(place);
+                let opposite = laws.opposite(self.body, self.config, cluster);
+                let mut numbers = [Lanes::default(); MOST];
+                let numbers = &mut numbers[..image.frame.count()];
+                for (shape, force) in self.displacement.residuals() {
+                    let image = std::slice::from_ref(&image);
+                    let shares = of_shape(self.asset, &self.elasticity, shape, image);
+                    for (number, share) in numbers.iter_mut().zip(shares) {
+                        for (sum, force) in number.iter_mut().zip(force) {
+                            *sum += share * force;
+                        }
+                    }
+                }
+                for (row, number) in (opposite.first[i]..).zip(numbers.iter_mut()) {
+                    (opposite.rows).add_one(row, self.displacement.amplitudes(), number);
+                }
+                image.frame.stress(numbers)
+            }
+            _ => {
+                let gradients = self.displacement.gradients(self.asset, &image.point);
+                self.elasticity.lanes(&gradients, image.law)
+            }
+        };
+        if let Law::Free(_) = image.law {
+            self.add_near(&mut lanes, at, &wall);
         }
         Some(lanes)
     }
@@ -198,16 +216,32 @@ impl Felt {
         let Some((wall, [front, back])) = &self.wall else {
             return (self.state.stress, Vec3::ZERO);
         };
-        let side = opens.dot(wall.normal);
-        let in_front = if side.abs() > SAME_FACE {
-            side > 0.0
-        } else {
-            largest_eigenvalue(front) >= largest_eigenvalue(back)
-        };
-        if in_front {
+        if self.opens_in_front(opens) {
             (*front, wall.normal)
         } else {
             (*back, -wall.normal)
+        }
+    }
+
+    /// Stress that steers a crack, and in a wall that of the face behind the one it is taken from. `opens`: as for [`Self::steering`].
+    pub(crate) fn on_face(&self, opens: Vec3) -> (Symmetric3, Option<Symmetric3>) {
+        match self.wall {
+            None => (self.state.stress, None),
+            Some((_, [front, back])) if self.opens_in_front(opens) => (front, Some(back)),
+            Some((_, [front, back])) => (back, Some(front)),
+        }
+    }
+
+    /// Whether a crack through a wall opens from the face that the wall's normal points out of.
+    fn opens_in_front(&self, opens: Vec3) -> bool {
+        let Some((wall, [front, back])) = &self.wall else {
+            return true;
+        };
+        let side = opens.dot(wall.normal);
+        if side.abs() > SAME_FACE {
+            side > 0.0
+        } else {
+            largest_eigenvalue(front) >= largest_eigenvalue(back)
         }
     }
 
@@ -223,6 +257,31 @@ impl Felt {
         let middle = (0.5 * (front + back)).clamp(0.0, largest);
         let share = (1.0 + poisson_ratio) / (3.0 * (3.0 + poisson_ratio));
         (middle.powi(2) + share * (largest - middle).powi(2)).sqrt()
+    }
+}
+
+impl WeakPlace<'_> {
+    /// Its mirror image behind the middle of the wall that it is in, where that is, m, and the wall; none in a solid.
+    /// `e`: its tetrahedron.
+    pub(crate) fn opposite(&self, body: &Body, e: usize) -> Option<(RowPoint, Vec3, Wall)> {
+        let wall = self.wall?;
+        let place = self.position(body, e);
+        let [front, back] = wall.distances(place);
+        let across = wall.normal * (front + back);
+        let image = RowPoint {
+            point: shifted(&body.asset, self.point, across),
+            law: self.law,
+            frame: Frame::of(self.law, Some(&wall)),
+        };
+        Some((image, place + across, wall))
+    }
+
+    /// Where it is, m. `e`: its tetrahedron.
+    #[inline(always)]
+    pub(crate) fn position(&self, body: &Body, e: usize) -> Vec3 {
+        let flaw = body.prepared.skin.flaw_position(body.asset.place(e));
+        let flaw = flaw.filter(|_| self.on_surface);
+        flaw.unwrap_or(body.prepared.centroids[e])
     }
 }
 

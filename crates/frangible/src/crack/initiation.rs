@@ -93,7 +93,6 @@ fn candidates<'a>(
     let k = lane(field.step);
     let mut candidates = Vec::new();
     let mut peak = peak_so_far;
-    system.questions += 1;
     let mut releases = std::mem::take(&mut system.releases);
     for suspect in suspects.at(k) {
         let e = suspect.tet;
@@ -144,7 +143,6 @@ fn try_start(system: &mut CrackSystem, field: &mut StressField, suspect: &Suspec
     let k = lane(field.step);
     let centre = system.centroids[e as usize];
     let strength = system.resistance.strength(e);
-    system.questions += 1;
     let mut releases = std::mem::take(&mut system.releases);
     let stress = releases.released(system, field, suspect, now);
     system.releases = releases;

@@ -7,13 +7,12 @@
 //! crack through a wall opens from one face and follows the tension of that face: cracks that turned to whichever face had the larger
 //! tension curled into petals. What feeds it is the mean energy through the wall. It may leave a second crack behind (`branching.rs`).
 //!
-//! *Release* (`release.rs`). A crack unloads what lies beside it. What is released stays released, so a weak point looks at each place of a
-//! crack once, and only when what it remembers does not hold it already. Blocks of places that are farther than one it knows it passes over.
+//! *Release* (`release.rs`). A crack unloads what lies beside it. What is released stays released, so a weak point looks at the cracks
+//! only when what it remembers does not hold it already. It then looks at all places of all cracks near by, eight of them side by side.
 //!
 //! *Old cracks* (`tip.rs`). The front of a crack from an earlier impact follows Griffith: a crack of centimetres is fed from a layer of depth
 //! 2πa, where a is its area over the length of its front. Cracks that a piece's own modes know release nothing more.
 
-mod arrivals;
 mod branching;
 mod cuts;
 mod field;

@@ -24,7 +24,7 @@ use super::surface::crossing_area;
 use super::system::{CrackSystem, UNCUT};
 use crate::config::{CrackPath, CrackTiming};
 use crate::fields::Tip;
-use crate::stress::{Symmetric3, principal_axes};
+use crate::stress::{Symmetric3, largest_axis};
 
 /// Share of R_c below which tension does not steer.
 const STEERING_GATE: f64 = 0.3;
@@ -90,7 +90,7 @@ fn enter(system: &mut CrackSystem, field: &mut StressField, front: Front) {
         Payment::Refused => {}
         Payment::Later => system.stalled.push(front),
         Payment::Now { gain } => {
-            let fork = forks(system, field, &front, &cut, &felt);
+            let fork = forks(system, &front, &cut, &felt);
             system.fracture(front.crack, cut, area, gain);
             if let Some(fork) = fork {
                 start(system, field, front.crack, &cut, &fork);
@@ -232,7 +232,7 @@ fn steered(
     length: f64,
     turning_length: f64,
 ) -> Vec3 {
-    let (sigma, axes) = principal_axes(stress);
+    let (sigma, axis) = largest_axis(stress);
     if sigma[0] <= 0.0 {
         return direction;
     }
@@ -242,7 +242,7 @@ fn steered(
     // side of a bent plate it points across the plate.
     let tensile = (1.0 + sigma[2].min(0.0) / sigma[0]).max(0.0);
     let weight = (-(-length / turning_length).exp_m1() * uniaxial * gate * tensile) as f32;
-    let tension = axes[0].as_vec3();
+    let tension = axis.as_vec3();
     let tension = if tension.dot(direction) < 0.0 {
         -tension
     } else {

@@ -5,14 +5,14 @@
 //! (`stress/shadow.rs`); no constant sets how far. Crack after crack in their order: what two of them leave hangs on it.
 //!
 //! The nearest tetrahedron may lie less straight beside a point than one before it, where a crack bends. A point therefore keeps, of each crack,
-//! the smallest share that it has met: what is released stays released.
+//! the smallest share that it has met when it asked: what is released stays released.
 //!
 //! A crack's tetrahedra are thinned to *sites* about one mean edge apart, the first of each place: some ten tetrahedra
 //! lie in one such place, and the difference in distance is below what the mesh resolves. A site stands for the crack as far as half an
 //! edge around it, so that a point close to the crack does not pass between two of them.
 //!
-//! A point looks at each site once: it keeps the nearest one whose wave has reached it and, of those still to come, only the ones that no
-//! nearer one will precede. At each growth of a crack in between it looks at the crack's length alone.
+//! A point asks once or twice in an impact, so each time it looks at all sites of all cracks near by, side by side in vectors. Lists of waves
+//! on their way, which would spare it the second look, cost ten times as much as they save.
 
 mod memory;
 
@@ -83,7 +83,7 @@ impl Releases {
         let place = suspect.place as usize;
         // What it remembers may do already: since then cracks have only released more.
         if let Some(Some(point)) = self.points.get(place) {
-            if point.memory.dark && point.held_in != Some(batch) {
+            if point.memory.is_dark() && point.held_in != Some(batch) {
                 self.look(field, suspect, strength);
             }
             if self.holds(place, batch, step) {
@@ -189,29 +189,28 @@ impl Releases {
                 opposite: None,
             }
         });
-        point.changed |= point.memory.update(Sources::of(system), now);
-        point.memory.dark.then_some(point)
+        point.changed |= point.memory.update(Sources::of(system), None, now);
+        point.memory.is_dark().then_some(point)
     }
 }
 
-/// What cracks leave of the stress at the weak place of the tetrahedron that a front enters, at all steps of the field's batch, as of
-/// `now`, s, without the energy; the front's own crack takes nothing. Asked once, nothing is remembered.
+/// What all cracks but that of a front leave as of `now`, s, of a stress in the tetrahedron that the front enters; `opposite`: the stress
+/// on the other face of a wall. Nothing is remembered.
 pub(super) fn once(
     system: &CrackSystem,
-    field: &mut StressField,
     front: &Front,
-    whole: &StressLanes,
+    stress: Symmetric3,
+    opposite: Option<Symmetric3>,
     now: f64,
-) -> StressLanes {
-    let opposite = field.opposite_weak_point(front.tet as usize);
+) -> Symmetric3 {
     let beta = match &opposite {
         Some(_) => bent(system.asset.material.poisson_ratio),
         None => STRETCHED,
     };
     let mut memory = Memory::new(system.centroids[front.tet as usize], beta);
-    memory.update(Sources::of(system), now);
-    let mut rest = Released::new(whole, opposite.as_ref());
-    for shadow in memory.shadows_of_others(front.crack) {
+    memory.update(Sources::of(system), Some(front.crack), now);
+    let mut rest = Released::of_step(stress, opposite);
+    for shadow in memory.shadows() {
         rest.release(shadow);
     }
     rest.left()
@@ -236,9 +235,9 @@ impl pulp::NullaryFnOnce for Left<'_, '_> {
             opposites,
             batch,
         } = self.releases;
-        let mut rest = Released::new(&self.suspect.state, None);
+        let mut rest = Released::of_batch(&self.suspect.state, None);
         let Some(point) = &mut points[self.suspect.place as usize] else {
-            return rest.left();
+            return rest.left_of_batch();
         };
         let present = self.field.step / STRIDE;
         if *batch != present {
@@ -248,25 +247,27 @@ impl pulp::NullaryFnOnce for Left<'_, '_> {
         // Only in a wall the two shares differ.
         if point.memory.beta != STRETCHED
             && point.opposite.is_none_or(|(of, _)| of != present)
-            && let Some(opposite) = self.field.opposite_weak_point(self.suspect.tet as usize)
+            && let Some(opposite) = self
+                .field
+                .opposite_weak_point(self.suspect.place as usize, self.suspect.tet as usize)
         {
             point.opposite = Some((present, opposites.len()));
             opposites.push(opposite);
         }
         let opposite = point.opposite.filter(|&(of, _)| of == present);
         let opposite = opposite.and_then(|(_, i)| opposites.get(i));
-        rest = Released::new(&self.suspect.state, opposite);
+        rest = Released::of_batch(&self.suspect.state, opposite);
         for (k, shadow) in point.memory.shadows().enumerate() {
             rest.release(shadow);
             // What is below stays below.
             if k % BETWEEN_LOOKS == BETWEEN_LOOKS - 1
                 && let Some((limit, needed)) = self.enough
-                && holding(&rest.left(), self.suspect, limit) & needed == needed
+                && holding(&rest.left_of_batch(), self.suspect, limit) & needed == needed
             {
                 break;
             }
         }
-        rest.left()
+        rest.left_of_batch()
     }
 }
 

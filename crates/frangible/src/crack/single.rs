@@ -26,8 +26,6 @@ pub(crate) struct Crack {
     pub(crate) area: f64,
     /// Its tetrahedra thinned to one per place: what releases the stress around it.
     pub(crate) sites: Sites,
-    /// Question about releases that it last grew before.
-    pub(super) grown_before: u64,
     /// Where it ran into another crack (or into itself).
     pub(crate) junctions: Vec<Junction>,
     /// Where it forked, and when, s.
@@ -50,7 +48,6 @@ impl Crack {
             available: 0.0,
             area: 0.0,
             sites: Sites::default(),
-            grown_before: 0,
             junctions: Vec::new(),
             forks: Vec::new(),
             tip: None,
@@ -83,8 +80,6 @@ pub(crate) struct Extent {
     ends: [Vec3; 2],
     /// Distance between those two tetrahedra, m.
     pub(crate) chord: f32,
-    /// Where the crack comes last in [`CrackSystem::growth`](super::CrackSystem::growth).
-    pub(crate) latest_growth: u32,
 }
 
 impl Extent {
@@ -95,23 +90,17 @@ impl Extent {
             size: 0.0,
             ends: [origin; 2],
             chord: 0.0,
-            latest_growth: 0,
         }
     }
 
-    /// Takes in a tetrahedron more, and returns whether the crack got longer. Where the place lies beyond both ends, the nearer end
-    /// moves there.
-    pub(super) fn grow(&mut self, centre: Vec3) -> bool {
-        let size = self.size.max(centre.distance(self.origin));
+    /// Takes in a tetrahedron more. Where the place lies beyond both ends, the nearer end moves there.
+    pub(super) fn grow(&mut self, centre: Vec3) {
+        self.size = self.size.max(centre.distance(self.origin));
         let [first, second] = self.ends.map(|end| end.distance(centre));
-        let longer = first.max(second) > self.chord;
-        if longer {
+        if first.max(second) > self.chord {
             self.ends[usize::from(first > second)] = centre;
             self.chord = first.max(second);
         }
-        let grown = longer || size > self.size;
-        self.size = size;
-        grown
     }
 }
 

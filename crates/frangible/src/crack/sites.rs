@@ -1,38 +1,42 @@
-//! Places on a crack, in blocks: whoever knows a nearer place than any of a block's passes over it unseen.
-
-use std::ops::{Deref, Range};
+//! Places on a crack, side by side in blocks: a look at a block costs about as much as at one place.
 
 use glam::Vec3;
 
-/// Places of a block: a look at a block costs about as much as at one place.
+/// Places of a block.
 const BLOCK: usize = 8;
-
-/// Rounding of distances, relative.
-const ROUNDING: f32 = 1e-5;
 
 /// A place on a crack.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Site {
     pub(crate) position: Vec3,
     pub(crate) direction: Vec3,
+    /// When the crack was there, s.
     pub(crate) time: f64,
 }
 
-/// Neighbours in the order of growth.
+/// Positions and times of neighbours in the order of growth; where there is no place yet, it is infinitely far away.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Block {
-    centre: Vec3,
-    radius: f32,
-    /// When the crack was at the first of them, s.
-    pub(super) since: f64,
+struct Block {
+    position: [[f32; BLOCK]; 3],
+    time: [f32; BLOCK],
 }
 
 impl Block {
-    /// No place of it is nearer to a point than this, m.
-    #[inline]
-    pub(super) fn nearest(&self, point: Vec3) -> f32 {
-        let distance = self.centre.distance(point);
-        (distance - self.radius - ROUNDING * (distance + self.radius)).max(0.0)
+    const EMPTY: Self = Self {
+        position: [[f32::INFINITY; BLOCK]; 3],
+        time: [0.0; BLOCK],
+    };
+
+    /// Squared distances from a point, m².
+    #[inline(always)]
+    fn distances(&self, point: Vec3) -> [f32; BLOCK] {
+        let [x, y, z] = &self.position;
+        let mut squared = [0.0; BLOCK];
+        for k in 0..BLOCK {
+            let (x, y, z) = (x[k] - point.x, y[k] - point.y, z[k] - point.z);
+            squared[k] = x * x + y * y + z * z;
+        }
+        squared
     }
 }
 
@@ -44,17 +48,20 @@ pub(crate) struct Sites {
 }
 
 impl Sites {
+    pub(crate) fn list(&self) -> &[Site] {
+        &self.list
+    }
+
     pub(super) fn push(&mut self, site: Site) {
-        if self.list.len().is_multiple_of(BLOCK) {
-            self.blocks.push(Block {
-                centre: site.position,
-                radius: 0.0,
-                since: site.time,
-            });
+        let k = self.list.len() % BLOCK;
+        if k == 0 {
+            self.blocks.push(Block::EMPTY);
         }
         if let Some(block) = self.blocks.last_mut() {
-            block.radius = block.radius.max(block.centre.distance(site.position));
-            block.since = block.since.min(site.time);
+            for (places, x) in block.position.iter_mut().zip(site.position.to_array()) {
+                places[k] = x;
+            }
+            block.time[k] = site.time as f32;
         }
         self.list.push(site);
     }
@@ -63,40 +70,45 @@ impl Sites {
     pub(super) fn any_within(&self, distance: f32, point: Vec3) -> bool {
         let squared = distance * distance;
         // The latest first: a new place is next to them.
-        let mut near = self.blocks_from(0).rev();
-        near.any(|(places, block)| {
-            block.nearest(point) <= distance
-                && (self.list[places].iter())
-                    .any(|site| site.position.distance_squared(point) <= squared)
+        let mut blocks = self.blocks.iter().rev();
+        blocks.any(|block| {
+            let mut nearest = f32::INFINITY;
+            for distance in block.distances(point) {
+                nearest = if distance < nearest {
+                    distance
+                } else {
+                    nearest
+                };
+            }
+            nearest <= squared
         })
     }
 
-    /// Places from number `first` on, block by block.
-    pub(super) fn blocks_from(
-        &self,
-        first: usize,
-    ) -> impl DoubleEndedIterator<Item = (Range<usize>, &Block)> {
-        let blocks = first / BLOCK..self.blocks.len();
-        blocks.map(move |i| {
-            let end = (BLOCK * (i + 1)).min(self.list.len());
-            ((BLOCK * i).max(first)..end, &self.blocks[i])
-        })
-    }
-}
-
-impl Deref for Sites {
-    type Target = [Site];
-
-    fn deref(&self) -> &[Site] {
-        &self.list
-    }
-}
-
-impl<'a> IntoIterator for &'a Sites {
-    type Item = &'a Site;
-    type IntoIter = std::slice::Iter<'a, Site>;
-
-    fn into_iter(self) -> Self::IntoIter {
-        self.list.iter()
+    /// The nearest place whose wave, of this speed, m/s, has reached a point at time `now`, s.
+    #[inline(always)]
+    pub(super) fn nearest_heard(&self, point: Vec3, now: f64, wave: f64) -> Option<&Site> {
+        let (now, wave) = (now as f32, wave as f32);
+        let mut nearest = [f32::INFINITY; BLOCK];
+        let mut of_block = [0_u32; BLOCK];
+        for (number, block) in (0..).zip(&self.blocks) {
+            let distances = block.distances(point);
+            for k in 0..BLOCK {
+                let reach = (wave * (now - block.time[k])).max(0.0);
+                let nearer = distances[k] < nearest[k] && distances[k] < reach * reach;
+                nearest[k] = if nearer { distances[k] } else { nearest[k] };
+                of_block[k] = if nearer { number } else { of_block[k] };
+            }
+        }
+        let mut least = f32::INFINITY;
+        for distance in nearest {
+            least = if distance < least { distance } else { least };
+        }
+        if least == f32::INFINITY {
+            return None;
+        }
+        // Of equals the first.
+        let number = |k: usize| BLOCK * of_block[k] as usize + k;
+        let equals = (0..BLOCK).filter(|&k| nearest[k] == least);
+        self.list.get(equals.map(number).min()?)
     }
 }

@@ -138,7 +138,7 @@ impl<I> Look<'_, '_, I> {
         let mut doubts = 0;
         let points = (body.clusters.places(cluster)).zip(body.clusters.tets(cluster));
         for ((i, (place, &tet)), &frame) in (0..).zip(points).zip(&rows.frames) {
-            let point = seen.next(self.field, frame);
+            let point = seen.next(frame);
             if self.is_cut(tet) {
                 if next == Some(&i) {
                     next = pressed.next();
@@ -154,6 +154,11 @@ impl<I> Look<'_, '_, I> {
             let mut numbers = point.numbers;
             if let Some(left_out) = &point.left_out {
                 if self.is_below(frame, numbers, left_out, tet, steps) {
+                    continue;
+                }
+                if let Some(own) = seen.left_out_of(self.field, &point)
+                    && self.is_below(frame, numbers, &own, tet, steps)
+                {
                     continue;
                 }
                 doubts += 1;

@@ -53,12 +53,8 @@ pub(crate) struct CrackSystem<'a> {
     pub(crate) area: f64,
     /// What has released the weak points so far.
     pub(crate) releases: Releases,
-    /// Cracks in the order in which they grew, by a site or in length. Between two questions about releases a crack is noted once.
-    pub(crate) growth: Vec<u32>,
     /// Where each crack is, and how long.
     pub(crate) extents: Vec<Extent>,
-    /// Number of questions so far.
-    pub(crate) questions: u64,
     /// Centroid of each fracture tetrahedron, m.
     pub(crate) centroids: &'a [Vec3],
     /// Mean edge of the fracture mesh, m.
@@ -99,9 +95,7 @@ impl<'a> CrackSystem<'a> {
             fronts: BinaryHeap::new(),
             stalled: Vec::new(),
             releases: Releases::default(),
-            growth: Vec::new(),
             extents: Vec::new(),
-            questions: 1,
             centroids: &body.prepared.centroids,
             edge: body.prepared.edge,
         };
@@ -267,8 +261,7 @@ impl<'a> CrackSystem<'a> {
         let c = &mut self.cracks[crack as usize];
         c.area += f64::from(area);
         let centre = self.centroids[tet];
-        let extent = &mut self.extents[crack as usize];
-        let mut grown = extent.grow(centre);
+        self.extents[crack as usize].grow(centre);
         // The surface of a planar crack is the same everywhere.
         if self.config.path != CrackPath::Planar {
             for (&node, &s) in self.asset.fracture.tets[tet].iter().zip(&cut.values) {
@@ -282,13 +275,7 @@ impl<'a> CrackSystem<'a> {
                 direction: cut.direction,
                 time: cut.time,
             });
-            grown = true;
         }
         c.elements.push(cut);
-        if grown && c.grown_before != self.questions {
-            c.grown_before = self.questions;
-            extent.latest_growth = self.growth.len() as u32;
-            self.growth.push(crack);
-        }
     }
 }

@@ -15,8 +15,8 @@ pub(crate) struct WeakStress {
     numbers: Vec<Lanes>,
     /// Room for shapes.
     room: Vec<Lanes>,
-    /// What the shapes leave out, Pa, where the numbers are theirs.
-    left_out: Option<Lanes>,
+    /// What the shapes leave out, Pa, where the numbers are theirs: without the near fields, and with what they add at most to any point.
+    left_out: Option<[Lanes; 2]>,
 }
 
 /// Where more than one of so many points of a cluster is in doubt, all of them are computed.
@@ -31,6 +31,8 @@ struct Added {
     /// The stress in each row of every shape that follows a force, Pa/N.
     residuals: Vec<Vec<f32>>,
     near: Vec<NearPoint>,
+    /// Of the points in each near field the one nearest to its contact, at which it is strongest.
+    nearest: Vec<NearPoint>,
     /// Points, by their places in the cluster, that something presses on: rows do not hold for them.
     pressed: Vec<u32>,
     /// Batches until it is bounded again.
@@ -38,7 +40,7 @@ struct Added {
 }
 
 /// A point in a near field.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct NearPoint {
     /// Its first row, and how many it has.
     row: usize,
@@ -80,7 +82,12 @@ impl WeakStress {
             && added.wait == 0
             && let Some(coarse) = rows.coarse(body)
         {
-            self.left_out = Some(coarse.add(amplitudes, &mut self.room, numbers));
+            let shapes = coarse.add(amplitudes, &mut self.room, numbers);
+            let mut everything = shapes;
+            for near in &added.nearest {
+                near.add_most(field, &mut everything);
+            }
+            self.left_out = Some([shapes, everything]);
             return;
         }
         rows.rows.add(amplitudes, numbers);
@@ -129,7 +136,7 @@ pub(super) struct Points<'a> {
 pub(super) struct Seen<'a> {
     /// Its numbers, or of a point that was bounded what its shapes have of them.
     pub(super) numbers: &'a [Lanes],
-    /// What to add to the tension of a point that was bounded, Pa.
+    /// What to add at most to the tension of any point of a cluster that was bounded, Pa.
     pub(super) left_out: Option<Lanes>,
     row: usize,
     near: &'a [NearPoint],
@@ -143,26 +150,32 @@ impl<'a> Points<'a> {
 
     /// The next one.
     #[inline(always)]
-    pub(super) fn next(&mut self, field: &StressField, frame: Frame) -> Seen<'a> {
+    pub(super) fn next(&mut self, frame: Frame) -> Seen<'a> {
         let row = self.row;
         self.row += frame.count();
         let near = self.added.map_or(&[][..], |added| &added.near[self.near..]);
         let count = near.iter().take_while(|near| near.row == row).count();
         self.near += count;
-        let near = &near[..count];
-        let mut left_out = self.stress.left_out;
-        if let Some(left_out) = &mut left_out {
-            for near in near {
-                let most = field.near.0[near.field].most_lanes(&near.at, field.step / STRIDE);
-                add(left_out, 1.0, &most);
-            }
-        }
         Seen {
             numbers: &self.stress.numbers[row..self.row],
-            left_out,
+            left_out: self.stress.left_out.map(|[_, everything]| everything),
             row,
-            near,
+            near: &near[..count],
         }
+    }
+
+    /// What to add at most to the tension of a point that was bounded, Pa; none where that is what all points of its cluster have.
+    #[inline(always)]
+    pub(super) fn left_out_of(&self, field: &StressField, seen: &Seen) -> Option<Lanes> {
+        let [shapes, _] = self.stress.left_out?;
+        let bounded = self.added.is_some_and(|added| !added.nearest.is_empty());
+        bounded.then(|| {
+            let mut left_out = shapes;
+            for near in seen.near {
+                near.add_most(field, &mut left_out);
+            }
+            left_out
+        })
     }
 
     /// The numbers of a point, the same bits as where they were not bounded.
@@ -190,6 +203,13 @@ impl<'a> Points<'a> {
 }
 
 impl NearPoint {
+    /// Adds the most that the field adds to a tension there.
+    #[inline(always)]
+    fn add_most(&self, field: &StressField, to: &mut Lanes) {
+        let most = field.near.0[self.field].most_lanes(&self.at, field.step / STRIDE);
+        add(to, 1.0, &most);
+    }
+
     /// Adds the field to the point's numbers.
     #[inline(always)]
     fn add(&self, field: &StressField, numbers: &mut [Lanes]) {
@@ -222,7 +242,7 @@ impl Added {
             } else if !field.near.0.is_empty() && !matches!(frame, Frame::Edge(_)) {
                 let weak = weak_place(field.asset, field.skin, field.config, &[], tet);
                 if let Some(wall) = &weak.wall {
-                    let place = field.place(tet, weak.on_surface);
+                    let place = weak.position(body, tet);
                     let places = field.near.places(place, wall);
                     near.extend(places.map(|(field, at)| NearPoint {
                         row,
@@ -235,9 +255,18 @@ impl Added {
             }
             row += frame.count();
         }
+        let mut nearest: Vec<NearPoint> = Vec::new();
+        for point in &near {
+            match nearest.iter_mut().find(|known| known.field == point.field) {
+                Some(known) if point.at.is_nearer(&known.at) => *known = *point,
+                Some(_) => {}
+                None => nearest.push(*point),
+            }
+        }
         Self {
             residuals,
             near,
+            nearest,
             pressed,
             wait: 0,
         }

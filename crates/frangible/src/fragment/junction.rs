@@ -4,7 +4,8 @@
 //! tetrahedron the newcomer's two sides stay joined through a node, and pieces hang together. So a crack also *ends
 //! inside* what it meets: from the nodes of its last tetrahedron, in every tetrahedron n fractured by another crack
 //! (or by an older part of itself), the edges among the nodes reachable over edges that the other did not cut are cut
-//! where the newcomer's surface, continued linearly, changes sign.
+//! where the newcomer's surface, continued linearly, changes sign. It goes on from the ends of the edges that it cuts: where another of the
+//! crack's fronts has been before, it stops.
 
 use glam::Vec3;
 
@@ -125,9 +126,15 @@ impl<'a> Continued<'a> {
                 continue;
             }
             let (a, b) = (tet.corners[i], tet.corners[j]);
-            if tet.cut & (1 << k) == 0 {
-                cuts.cut(a, b, values[i], values[j], self.newcomer);
-                tet.cut |= 1 << k;
+            if tet.cut & (1 << k) != 0 {
+                continue;
+            }
+            let known = cuts.list().len();
+            cuts.cut(a, b, values[i], values[j], self.newcomer);
+            tet.cut |= 1 << k;
+            // Where it is cut already, an earlier junction has been.
+            if cuts.list().len() == known {
+                continue;
             }
             for end in [a, b] {
                 let near = || self.place(end).distance(self.centre) < REACH * self.system.edge;

@@ -52,7 +52,8 @@ fn end_plainly(system: &CrackSystem, cuts: &mut Cuts) {
                     }
                     for [i, j] in EDGES {
                         let (a, b) = (corners[i], corners[j]);
-                        if reached[i] && reached[j] && cuts.cut(a, b, values[&a], values[&b], id) {
+                        let whole = reached[i] && reached[j] && cuts.get(a, b).is_none();
+                        if whole && cuts.cut(a, b, values[&a], values[&b], id) {
                             for end in [a, b] {
                                 let gap = mesh.positions[end as usize].distance(centre);
                                 if gap < 2.5 * system.edge && !queue.contains(&end) {

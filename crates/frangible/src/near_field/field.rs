@@ -259,6 +259,11 @@ pub(crate) struct Located {
 }
 
 impl Located {
+    /// Whether the field is bounded by more here than at another place.
+    pub(crate) fn is_nearer(&self, other: &Self) -> bool {
+        self.radius < other.radius
+    }
+
     /// Unit vectors along which the field's two tensions act.
     pub(crate) fn directions(&self) -> [Vec3; 2] {
         [self.radial, self.hoop]

@@ -52,6 +52,16 @@ impl WeakClusters {
         self.starts[i] as usize..self.starts[i + 1] as usize
     }
 
+    /// The place in `clusters` of the cluster that a weak tetrahedron belongs to, and the tetrahedron's place in the cluster; `place`: its
+    /// place among all weak ones.
+    pub(crate) fn locate(&self, place: usize) -> (usize, usize) {
+        let after = self
+            .starts
+            .partition_point(|&start| start as usize <= place);
+        let cluster = after.saturating_sub(1);
+        (cluster, place - self.starts[cluster] as usize)
+    }
+
     /// Weak tetrahedra of the cluster at place `i` of `clusters`.
     pub(crate) fn tets(&self, i: usize) -> &[u32] {
         &self.tets[self.places(i)]

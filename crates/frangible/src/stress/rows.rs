@@ -14,8 +14,8 @@ const GROUP: usize = 6;
 const NODES: usize = 10;
 
 /// A weak point as its rows see it.
-pub(crate) struct RowPoint<'a> {
-    pub(crate) point: &'a EmbeddedPoint,
+pub(crate) struct RowPoint {
+    pub(crate) point: EmbeddedPoint,
     pub(crate) law: Law,
     pub(crate) frame: Frame,
 }
@@ -24,7 +24,7 @@ pub(crate) struct RowPoint<'a> {
 /// Pa/m.
 type NodeShares = ([usize; 2], [[f32; 3]; MOST]);
 
-impl RowPoint<'_> {
+impl RowPoint {
     /// All nodes of the point's element but the first: the gradients of the shape functions add up to nothing.
     #[inline(always)]
     fn nodes(&self, asset: &Asset, elasticity: &Elasticity) -> [NodeShares; NODES - 1] {
@@ -169,7 +169,7 @@ struct Fill<'a> {
     rows: &'a mut Rows,
     asset: &'a Asset,
     elasticity: &'a Elasticity,
-    points: &'a [RowPoint<'a>],
+    points: &'a [RowPoint],
 }
 
 impl pulp::NullaryFnOnce for Fill<'_> {

@@ -22,7 +22,7 @@
 use glam::{Mat3, Vec3};
 
 use super::lanes::StressLanes;
-use super::tensor::Symmetric3;
+use super::tensor::{Real, Symmetric3, times};
 use super::wide::Wide;
 
 /// β where a wall or a solid is stretched.
@@ -81,22 +81,50 @@ impl Symmetric3 {
     }
 }
 
-/// A stress that cracks release, one after the other, at all steps of a batch.
-pub(crate) struct Released {
-    whole: [Wide; 6],
+/// A stress that cracks release, one after the other: at one step, or at all steps of a batch.
+pub(crate) struct Released<T> {
+    whole: [T; 6],
     /// In a wall the part of it that bends.
-    bending: Option<[Wide; 6]>,
+    bending: Option<[T; 6]>,
 }
 
-impl Released {
-    /// Nothing yet. `opposite`: the stress behind the middle of the wall, where there is one.
+impl Released<Wide> {
+    /// Nothing is released yet. `opposite`: the stress behind the middle of the wall, where there is one.
     #[inline(always)]
-    pub(crate) fn new(stress: &StressLanes, opposite: Option<&StressLanes>) -> Self {
-        let whole = stress.components.map(Wide);
+    pub(crate) fn of_batch(stress: &StressLanes, opposite: Option<&StressLanes>) -> Self {
+        let of = |stress: &StressLanes| stress.components.map(Wide);
+        Self::new(of(stress), opposite.map(of))
+    }
+
+    /// What is left, without the energy.
+    #[inline(always)]
+    pub(crate) fn left_of_batch(&self) -> StressLanes {
+        StressLanes {
+            components: self.whole.map(|c| c.0),
+            ..StressLanes::default()
+        }
+    }
+}
+
+impl Released<f32> {
+    /// Nothing is released yet. `opposite`: the stress behind the middle of the wall, where there is one.
+    pub(crate) fn of_step(stress: Symmetric3, opposite: Option<Symmetric3>) -> Self {
+        Self::new(stress.components(), opposite.map(Symmetric3::components))
+    }
+
+    /// What is left.
+    pub(crate) fn left(&self) -> Symmetric3 {
+        Symmetric3::from_components(self.whole)
+    }
+}
+
+impl<T: Real> Released<T> {
+    #[inline(always)]
+    fn new(whole: [T; 6], opposite: Option<[T; 6]>) -> Self {
         let bending = opposite.map(|opposite| {
             let mut bending = whole;
-            for (b, behind) in bending.iter_mut().zip(opposite.components) {
-                *b = (*b - Wide(behind)) * 0.5;
+            for (b, behind) in bending.iter_mut().zip(opposite) {
+                *b = (*b - behind) * 0.5;
             }
             bending
         });
@@ -121,25 +149,12 @@ impl Released {
         contract(&mut self.whole, n, traction, across_it, taken);
         contract(bending, n, bending_traction, of_bending, taken);
     }
-
-    /// What is left, without the energy.
-    #[inline(always)]
-    pub(crate) fn left(&self) -> StressLanes {
-        StressLanes {
-            components: self.whole.map(|c| c.0),
-            ..StressLanes::default()
-        }
-    }
 }
 
 /// σn and n·σn.
 #[inline(always)]
-fn across([xx, yy, zz, xy, yz, zx]: &[Wide; 6], n: Vec3) -> ([Wide; 3], Wide) {
-    let traction = [
-        *xx * n.x + *xy * n.y + *zx * n.z,
-        *xy * n.x + *yy * n.y + *yz * n.z,
-        *zx * n.x + *yz * n.y + *zz * n.z,
-    ];
+fn across<T: Real>(stress: &[T; 6], n: Vec3) -> ([T; 3], T) {
+    let traction = times(stress, n);
     let [x, y, z] = traction;
     (traction, x * n.x + y * n.y + z * n.z)
 }
@@ -153,7 +168,7 @@ fn taken(across: f32, share: impl Fn() -> f32) -> f32 {
 
 /// Q σ Q with Q = I − k n nᵀ: σ − k (n tᵀ + t nᵀ) + k² (n·t) n nᵀ, t = σn.
 #[inline(always)]
-fn contract(stress: &mut [Wide; 6], n: Vec3, t: [Wide; 3], across: Wide, k: Wide) {
+fn contract<T: Real>(stress: &mut [T; 6], n: Vec3, t: [T; 3], across: T, k: T) {
     let [x, y, z] = t.map(|t| t * k);
     let back = across * k * k;
     let [xx, yy, zz, xy, yz, zx] = stress;

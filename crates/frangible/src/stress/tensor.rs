@@ -4,6 +4,7 @@ use std::ops::{Add, Mul, Sub};
 
 use glam::{Mat3, Vec3};
 
+use super::displacement::BATCH;
 use super::wide::Wide;
 
 /// Symmetric 3 × 3 tensor.
@@ -96,7 +97,7 @@ pub(super) fn products(a: Vec3, b: Vec3) -> [f32; 6] {
 
 /// E n.
 #[inline(always)]
-fn times<T: Real>(e: &[T; 6], n: Vec3) -> [T; 3] {
+pub(super) fn times<T: Real>(e: &[T; 6], n: Vec3) -> [T; 3] {
     let [xx, yy, zz, xy, yz, zx] = *e;
     [
         xx * n.x + xy * n.y + zx * n.z,
@@ -145,7 +146,24 @@ pub(super) fn half_product<T: Real>(stress: &[T; 6], strain: &[T; 6]) -> T {
 pub(crate) trait Real:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Mul<f32, Output = Self>
 {
+    /// A function of two numbers, step by step.
+    fn with(self, other: Self, f: impl Fn(f32, f32) -> f32) -> Self;
 }
 
-impl Real for f32 {}
-impl Real for Wide {}
+impl Real for f32 {
+    #[inline(always)]
+    fn with(self, other: Self, f: impl Fn(f32, f32) -> f32) -> Self {
+        f(self, other)
+    }
+}
+
+impl Real for Wide {
+    #[inline(always)]
+    fn with(self, other: Self, f: impl Fn(f32, f32) -> f32) -> Self {
+        let mut out = [0.0; BATCH];
+        for ((o, a), b) in out.iter_mut().zip(self.0).zip(other.0) {
+            *o = f(a, b);
+        }
+        Self(out)
+    }
+}

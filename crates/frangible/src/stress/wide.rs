@@ -3,6 +3,7 @@
 use std::ops::{Add, Mul, Sub};
 
 use super::displacement::{BATCH, Lanes};
+use super::tensor::Real;
 
 /// Numbers that [`dot`] multiplies side by side.
 const WIDTH: usize = 16;
@@ -32,15 +33,6 @@ pub(crate) fn dot(a: &[f32], b: &[f32]) -> f32 {
 pub(crate) struct Wide(pub(crate) Lanes);
 
 impl Wide {
-    #[inline(always)]
-    pub(super) fn with(self, other: Self, f: impl Fn(f32, f32) -> f32) -> Self {
-        let mut out = [0.0; BATCH];
-        for ((o, a), b) in out.iter_mut().zip(self.0).zip(other.0) {
-            *o = f(a, b);
-        }
-        Self(out)
-    }
-
     #[inline(always)]
     pub(crate) fn sqrt(self) -> Self {
         self.with(self, |a, _| a.sqrt())

@@ -36,7 +36,7 @@ Each section is written for itself by its command at the end of the page with `-
 wall-clock times, so the machine should have nothing else to do.
 
 Breaks beside three-pinata's and Blender's: [peers.md](peers.md). How near the initiation comes to the machine's peaks, and a flame graph:
-[roofline.md](roofline.md). How pieces that break again vibrate: [recursive.md](recursive.md).
+[roofline.md](roofline.md). What made breaks faster, and what did not: [speed.md](speed.md). How pieces that break again vibrate: [recursive.md](recursive.md).
 ";
 
 const HOW_TO: &str = "    cargo run --release -p frangible-lab -- bench all --write docs       # this page but for the memory: on a machine with nothing else to do

@@ -90,7 +90,7 @@ pub(super) struct Run {
 
 /// Settings of the world: for many bodies.
 pub(super) fn config() -> WorldConfig {
-    let mut config = WorldConfig::default();
+    let mut config = WorldConfig::for_games();
     config.dt = 1.0 / FRAME_RATE;
     config.fracture.samples_per_period = 4.0;
     config.breaking = Breaking::AfterStep {
@@ -102,11 +102,6 @@ pub(super) fn config() -> WorldConfig {
         // With half as many a foot has too few corners to stand on, and bottles fall over.
         hull_points: 64,
     };
-    config.fragment_collider = ColliderDetail {
-        parts: 4,
-        hull_points: 24,
-    };
-    config.hull_volume_ratio = 3.0;
     config.debris_mass = 3e-3;
     config.dust_mass = 1e-3;
     config.fracture.crumb_share = 5e-3;

@@ -121,9 +121,9 @@ fn lanes(stresses: &[Symmetric3]) -> StressLanes {
 }
 
 fn released(own: &StressLanes, opposite: Option<&StressLanes>, by: &[Shadow]) -> StressLanes {
-    let mut rest = Released::new(own, opposite);
+    let mut rest = Released::of_batch(own, opposite);
     by.iter().for_each(|shadow| rest.release(shadow));
-    rest.left()
+    rest.left_of_batch()
 }
 
 #[test]
