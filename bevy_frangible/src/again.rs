@@ -1,16 +1,16 @@
-//! Fragments that break again: how they vibrate is found on Bevy's task pool, and joined at a fixed time of the simulation.
+//! Fragments that break again: how they vibrate is found on a task pool, and joined at a fixed time of the simulation.
 //!
-//! A newborn fragment is a plain body: the blow that runs through it is the one that has just made it. From [`BreakAgain::delay`] on it is
-//! breakable with what the model has at once, from [`BreakAgain::later`] on with what takes longer. What is not ready then is waited for,
-//! so that nothing hangs on the speed of the machine.
+//! A newborn fragment is a plain body: the blow that runs through it is the one that has just made it. It is breakable from
+//! [`BreakAgain::delay`] on. What is not ready then is waited for, so that nothing hangs on the speed of the machine; how many are made at one
+//! time is limited, so that this need not happen.
 
 use std::collections::VecDeque;
 use std::sync::Arc;
 use std::time::Duration;
 
 use bevy::prelude::*;
-use bevy::tasks::{AsyncComputeTaskPool, Task, TaskPool, block_on};
-use frangible::internals::{BodyState, Elastic, PieceModel, Portion};
+use bevy::tasks::{Task, TaskPool, TaskPoolBuilder, block_on};
+use frangible::internals::{BodyState, PieceModel, Portion};
 use frangible::{Body, Fracture, FractureConfig, InputError};
 
 use crate::{BreakFailed, BreakableBody, Broken};
@@ -26,11 +26,11 @@ pub struct BreakAgain {
     pub least_mass: f64,
     /// Fragments of fewer uncut tetrahedra do not. Default 60.
     pub least_tets: usize,
-    /// From so long after its birth a fragment can break. Default 20 ms: the blow that made it is over by then.
+    /// From so long after its birth a fragment can break. Default 0.4 s; what is not ready by then is waited for.
     pub delay: Duration,
-    /// From so long after its birth it has the modes that take longer to find. Default 150 ms. What is not ready by then is waited for:
-    /// raise it where that costs a frame.
-    pub later: Duration,
+    /// Bodies that are being made at one time at most; of a break the largest fragments come first, and those that find no place stay plain.
+    /// Default 4: finding the modes of a piece takes one core some tens of milliseconds.
+    pub at_once: usize,
     /// Find new modes for bodies that are cracked but whole, too. Default on.
     pub cracked: bool,
 }
@@ -42,8 +42,8 @@ impl Default for BreakAgain {
             generations: 3,
             least_mass: 2e-3,
             least_tets: 60,
-            delay: Duration::from_millis(20),
-            later: Duration::from_millis(150),
+            delay: Duration::from_millis(400),
+            at_once: 4,
             cracked: true,
         }
     }
@@ -62,10 +62,31 @@ struct Expected {
 }
 
 /// Bodies that are being made, in the order in which they are due.
-#[derive(Resource, Default)]
-pub(crate) struct Nursery(VecDeque<Expected>);
+#[derive(Resource)]
+pub(crate) struct Nursery {
+    expected: VecDeque<Expected>,
+    /// A pool of its own: in every step Avian waits for small tasks of its own on Bevy's pool for long work, which on few cores has one
+    /// thread. Behind modes of pieces they took 280 ms.
+    pool: TaskPool,
+}
+
+impl Default for Nursery {
+    fn default() -> Self {
+        let threads = std::thread::available_parallelism().map_or(1, |n| n.get().div_ceil(4));
+        let pool = TaskPoolBuilder::new().num_threads(threads);
+        Self {
+            expected: VecDeque::new(),
+            pool: pool.thread_name("modes of pieces".into()).build(),
+        }
+    }
+}
 
 impl Nursery {
+    /// How many more may be made.
+    fn free(&self, limits: &BreakAgain) -> usize {
+        limits.at_once.saturating_sub(self.expected.len())
+    }
+
     /// Has a body made on another thread.
     fn promise(
         &mut self,
@@ -74,16 +95,15 @@ impl Nursery {
         cracks: Option<BodyState>,
         make: impl FnOnce() -> Option<Result<Body, InputError>> + Send + 'static,
     ) {
-        let pool = AsyncComputeTaskPool::get_or_init(TaskPool::new);
-        let body = pool.spawn(async move { make() });
-        let after = self.0.partition_point(|e| e.due <= due);
+        let body = self.pool.spawn(async move { make() });
+        let after = self.expected.partition_point(|e| e.due <= due);
         let expected = Expected {
             entity,
             due,
             cracks,
             body,
         };
-        self.0.insert(after, expected);
+        self.expected.insert(after, expected);
     }
 }
 
@@ -100,49 +120,44 @@ pub(crate) fn expect_pieces(
     fragments: &[Entity],
 ) {
     let limits = world.resource::<BreakAgain>().clone();
-    let Some(model) = limits.model else {
+    let Some(model) = limits.model.clone() else {
         return;
     };
     if body.generation() >= limits.generations {
         return;
     }
     let time = world.resource::<Time<Fixed>>();
-    let (soon, later) = (due(time, limits.delay), due(time, limits.later));
-    let portions = fracture.portions(body, |_, f| f.mass.mass >= limits.least_mass);
+    let due = due(time, limits.delay);
     let mut nursery = world.resource_mut::<Nursery>();
+    let free = nursery.free(&limits);
+    let portions = fracture.portions(body, |k, f| k < free && f.mass.mass >= limits.least_mass);
     for (&entity, portion) in fragments.iter().zip(portions) {
         let large = |p: &Arc<Portion>| p.tets().len() >= limits.least_tets;
         let Some(portion) = portion.filter(large) else {
             continue;
         };
-        let (parent, whole, quick) = (body.clone(), Arc::clone(&portion), Arc::clone(&model));
-        nursery.promise(entity, soon, None, move || {
-            made(&parent, &whole, quick.at_once(&whole, &parent))
-        });
-        let (parent, exact) = (body.clone(), Arc::clone(&model));
-        nursery.promise(entity, later, None, move || {
-            made(&parent, &portion, exact.later(&portion))
-        });
+        let (parent, model) = (body.clone(), Arc::clone(&model));
+        nursery.promise(entity, due, None, move || made(&parent, &portion, &*model));
     }
 }
 
 /// Has new modes found for a body that is cracked but whole.
 pub(crate) fn expect_weaker(world: &mut World, entity: Entity, body: Body, config: FractureConfig) {
-    let limits = world.resource::<BreakAgain>();
+    let limits = world.resource::<BreakAgain>().clone();
     let Some(model) = limits.model.clone().filter(|_| limits.cracked) else {
         return;
     };
-    let later = due(world.resource::<Time<Fixed>>(), limits.later);
+    let due = due(world.resource::<Time<Fixed>>(), limits.delay);
     let cracks = Some(body.state().clone());
     let mut nursery = world.resource_mut::<Nursery>();
-    nursery.promise(entity, later, cracks, move || {
-        let portion = match Portion::of_cracked(&body, &config) {
-            Ok(portion) => Arc::new(portion),
-            Err(error) => return Some(Err(error)),
-        };
-        let elastic = model.later(&portion);
-        let elastic = elastic.or_else(|| model.at_once(&portion, &body));
-        made(&body, &portion, elastic)
+    if nursery.free(&limits) == 0 {
+        return;
+    }
+    nursery.promise(entity, due, cracks, move || {
+        match Portion::of_cracked(&body, &config) {
+            Ok(portion) => made(&body, &Arc::new(portion), &*model),
+            Err(error) => Some(Err(error)),
+        }
     });
 }
 
@@ -150,9 +165,11 @@ pub(crate) fn expect_weaker(world: &mut World, entity: Entity, body: Body, confi
 fn made(
     parent: &Body,
     portion: &Arc<Portion>,
-    elastic: Option<Elastic>,
+    model: &dyn PieceModel,
 ) -> Option<Result<Body, InputError>> {
-    let body = parent.piece(portion, elastic?);
+    let elastic = model.later(portion);
+    let elastic = elastic.or_else(|| model.at_once(portion, parent))?;
+    let body = parent.piece(portion, elastic);
     if let Ok(body) = &body {
         body.prepare_for_loads();
     }
@@ -167,7 +184,7 @@ pub(crate) fn join(
     mut commands: Commands,
 ) {
     let now = time.elapsed();
-    while let Some(expected) = nursery.0.pop_front_if(|e| e.due <= now) {
+    while let Some(expected) = nursery.expected.pop_front_if(|e| e.due <= now) {
         let entity = expected.entity;
         // What is gone, or broken, is not waited for.
         let Ok(known) = bodies.get(entity) else {

@@ -42,6 +42,7 @@ mod debris;
 mod file;
 mod looks;
 mod meshes;
+mod per_asset;
 mod ready;
 #[cfg(feature = "avian")]
 mod rigid;
@@ -54,7 +55,7 @@ use frangible::{Body, Fracture, FractureConfig, ImpactReport};
 
 pub use again::BreakAgain;
 #[cfg(feature = "avian")]
-pub use avian::{Carries, FrangibleHooks, MadeOf};
+pub use avian::{Carries, ColliderDetail, FrangibleHooks, MadeOf};
 pub use debris::DebrisBudget;
 pub use file::{FrangibleAsset, FrangibleLoader, LoadError};
 pub use frangible;
@@ -67,7 +68,7 @@ pub mod prelude {
         FrangibleAsset, FrangiblePlugin, Held, Looks, LooksPlugin, Seed,
     };
     #[cfg(feature = "avian")]
-    pub use crate::{FrangibleHooks, MadeOf};
+    pub use crate::{ColliderDetail, FrangibleHooks, MadeOf};
 }
 
 /// Lets entities with [`Breakable`] break.

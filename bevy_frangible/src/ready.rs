@@ -8,6 +8,7 @@ use bevy::prelude::*;
 use frangible::{Asset as Baked, Breakable as Kind};
 
 use crate::meshes::whole;
+use crate::per_asset::PerAsset;
 use crate::{BreakFailed, Breakable, BreakableBody, Broken, FrangibleAsset, Seed};
 
 /// Scales that differ by less than this, relative to the largest, are meant to be equal.
@@ -69,14 +70,14 @@ pub(crate) fn make_ready(
     places: TransformHelper,
     (assets, server): (Res<Assets<FrangibleAsset>>, Res<AssetServer>),
     mut meshes: ResMut<Assets<Mesh>>,
-    mut drawn: Local<BTreeMap<AssetId<FrangibleAsset>, (Arc<Baked>, Handle<Mesh>)>>,
+    mut drawn: Local<PerAsset<Handle<Mesh>>>,
     mut sizes: Local<Sizes>,
 ) {
     if waiting.is_empty() {
         return;
     }
     sizes.0.retain(|(id, _), _| assets.contains(*id));
-    drawn.retain(|id, _| assets.contains(*id));
+    drawn.forget(&assets);
     for (entity, breakable, seed) in &waiting {
         let id = breakable.0.id();
         let Some(asset) = assets.get(id) else {
@@ -97,12 +98,7 @@ pub(crate) fn make_ready(
         };
         // The entity's scale is on its mesh already.
         let baked = asset.0.asset();
-        let known = drawn.get(&id).filter(|(of, _)| Arc::ptr_eq(of, baked));
-        let mesh = known.map(|(_, mesh)| mesh.clone()).unwrap_or_else(|| {
-            let mesh = meshes.add(whole(baked));
-            drawn.insert(id, (Arc::clone(baked), mesh.clone()));
-            mesh
-        });
+        let mesh = drawn.of(id, baked, || meshes.add(whole(baked)));
         commands
             .entity(entity)
             .insert_if_new(Mesh3d(mesh))

@@ -4,6 +4,7 @@
 mod common;
 
 use std::sync::Arc;
+use std::time::Duration;
 
 use avian3d::prelude::*;
 use bevy::prelude::*;
@@ -17,6 +18,7 @@ fn pieces() -> BreakAgain {
     (model.elements, model.modes) = (Some(150), 20);
     BreakAgain {
         model: Some(Arc::new(model)),
+        delay: Duration::from_millis(150),
         ..BreakAgain::default()
     }
 }

@@ -2,13 +2,14 @@
 
 use avian3d::prelude::*;
 use bevy::prelude::*;
+use frangible::Material;
 use frangible::internals::MassProperties;
-use frangible::{Material, glam};
 
+use super::colliders::{ColliderDetail, of_fragment, whole};
 use super::plain::{piece, rigid, velocities};
 use super::{Carries, MadeOf, Moving};
 use crate::break_apart::in_parallel;
-use crate::meshes::out;
+use crate::per_asset::PerAsset;
 use crate::{
     BreakFailed, Breakable, BreakableBody, Broke, Broken, DebrisBudget, FrangibleAsset, Pushed,
 };
@@ -22,7 +23,8 @@ pub(super) fn give_collider(
         Option<&ActiveCollisionHooks>,
         Option<&Breakable>,
     )>,
-    assets: Res<Assets<FrangibleAsset>>,
+    (assets, detail): (Res<Assets<FrangibleAsset>>, Res<ColliderDetail>),
+    mut made: Local<(ColliderDetail, PerAsset<Collider>)>,
     mut commands: Commands,
 ) {
     let Ok((body, known, hooks, breakable)) = bodies.get(ready.entity) else {
@@ -49,10 +51,20 @@ pub(super) fn give_collider(
     ));
     match known {
         None => {
-            // Avian scales it as the entity is.
-            let unscaled = breakable.and_then(|b| assets.get(&b.0));
-            let baked = unscaled.map_or(baked, |asset| asset.0.asset());
-            entity.insert(collider(baked.cells.iter().map(|cell| &cell.points[..])));
+            let collider = match breakable {
+                Some(breakable) => {
+                    // Avian scales it as the entity is.
+                    let id = breakable.0.id();
+                    let baked = assets.get(id).map_or(baked, |asset| asset.0.asset());
+                    if made.0 != *detail {
+                        *made = (*detail, PerAsset::default());
+                    }
+                    made.1.forget(&assets);
+                    made.1.of(id, baked, || whole(baked, detail.whole))
+                }
+                None => whole(baked, detail.whole),
+            };
+            entity.insert(collider);
         }
         // Avian notes these hooks only when a collider comes.
         Some(known) if !before.contains(ActiveCollisionHooks::MODIFY_CONTACTS) => {
@@ -86,7 +98,7 @@ type Inherited = (
 pub(super) fn give_fragments(
     broke: On<Broke>,
     moving: Query<(&RigidBody, Moving, Option<&ActiveCollisionHooks>)>,
-    budget: Res<DebrisBudget>,
+    (budget, detail): (Res<DebrisBudget>, Res<ColliderDetail>),
     mut commands: Commands,
 ) {
     let entity = broke.entity;
@@ -97,15 +109,14 @@ pub(super) fn give_fragments(
         return;
     };
     let (at, rotation) = (now.0.0, now.1.0);
-    let whole = rigid(kind, now);
+    let parent = rigid(kind, now);
     let colliders = in_parallel(&broke.fracture.fragments, |fragment| {
-        let shares = fragment.cell_shares.iter().map(|(_, points)| &points[..]);
-        (!budget.is_dust(fragment)).then(|| collider(shares))
+        (!budget.is_dust(fragment)).then(|| of_fragment(fragment, &detail))
     });
     let fragments = broke.fracture.fragments.iter().zip(colliders);
     for ((fragment, collider), &piece_entity) in fragments.zip(&broke.fragments) {
-        let supported = fragment.supported && !whole.gives_way();
-        let body = piece(&fragment.mass, supported, &whole, rotation, at);
+        let supported = fragment.supported && !parent.gives_way();
+        let body = piece(&fragment.mass, supported, &parent, rotation, at);
         let mut piece = commands.entity(piece_entity);
         piece.try_insert((
             if supported {
@@ -201,28 +212,4 @@ fn masses(mass: &MassProperties) -> impl Bundle {
         NoAutoAngularInertia,
         NoAutoCenterOfMass,
     )
-}
-
-/// Convex parts as a collider; where they are too flat for hulls, the box about them.
-fn collider<'a>(parts: impl Iterator<Item = &'a [glam::Vec3]>) -> Collider {
-    let mut all: Vec<Vec3> = Vec::new();
-    let mut hulls = Vec::new();
-    for part in parts {
-        let points: Vec<Vec3> = part.iter().map(|p| out(*p)).collect();
-        all.extend(&points);
-        if let Some(hull) = Collider::convex_hull(points) {
-            hulls.push((Vec3::ZERO, Quat::IDENTITY, hull));
-        }
-    }
-    if hulls.len() > 1 {
-        return Collider::compound(hulls);
-    }
-    if let Some((_, _, hull)) = hulls.pop() {
-        return hull;
-    }
-    let (low, high) = all.iter().fold((Vec3::ZERO, Vec3::ZERO), |(low, high), p| {
-        (low.min(*p), high.max(*p))
-    });
-    let size = (high - low).max(Vec3::splat(1e-4));
-    Collider::cuboid(size.x, size.y, size.z)
 }

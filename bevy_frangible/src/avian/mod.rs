@@ -7,6 +7,7 @@
 
 mod after;
 mod bodies;
+mod colliders;
 mod hooks;
 mod plain;
 mod resting;
@@ -18,6 +19,7 @@ use avian3d::prelude::*;
 use bevy::prelude::*;
 use frangible::{Contact, InputError, Material, Outcome};
 
+pub use colliders::ColliderDetail;
 pub use hooks::FrangibleHooks;
 pub use resting::Carries;
 
@@ -53,6 +55,7 @@ type Moving = (
 
 pub(crate) fn build(app: &mut App) {
     app.init_resource::<Verdicts>()
+        .init_resource::<ColliderDetail>()
         .add_observer(bodies::give_collider)
         .add_observer(bodies::give_fragments)
         .add_observer(bodies::miss_collider)

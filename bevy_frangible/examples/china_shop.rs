@@ -1,0 +1,164 @@
+//! A thousand breakable things on boards, and a ball thrown through them: frame times without drawing.
+//!
+//! `cargo run --release --example china_shop [THINGS [again]]` prints the median, the 99th percentile and the longest frame while the things come
+//! to rest, while they stand, and while the ball is among them. With `again` fragments break again.
+
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use avian3d::prelude::*;
+use bevy::mesh::MeshPlugin;
+use bevy::prelude::*;
+use bevy::time::TimeUpdateStrategy;
+use bevy_frangible::frangible::Material;
+use bevy_frangible::frangible::internals::PieceModel;
+use bevy_frangible::prelude::*;
+use frangible_bake::pieces::Pieces;
+use frangible_bake::{BakeSpec, Shape, bake};
+
+/// Frames per second, one step of physics each.
+const RATE: f64 = 60.0;
+/// Boards, one behind the other and one above the other, and things on each: along and across.
+const RACKS: usize = 5;
+const BOARDS: usize = 5;
+const PLACES: [usize; 2] = [20, 2];
+/// From rack to rack, board to board and thing to thing, m.
+const RACK: f32 = 1.2;
+const BOARD: f32 = 0.4;
+const PLACE: f32 = 0.17;
+/// A ball of iron, m and m/s.
+const RADIUS: f32 = 0.1;
+const SPEED: f32 = 25.0;
+
+/// How many things broke, and into how many pieces.
+#[derive(Resource, Default)]
+struct Count(usize, usize);
+
+/// A kind of thing, and how far its centre of mass is above its foot, m.
+fn baked(name: &str, shape: Shape) -> Result<(FrangibleAsset, f32), Box<dyn std::error::Error>> {
+    let spec = BakeSpec {
+        modes: 40,
+        fracture: Some(shape.size_for(1500.0)?),
+        analysis: Some(shape.size_for(1500.0)?),
+        ..BakeSpec::new(name, shape, Material::preset("porcelain")?)
+    };
+    let (asset, _) = bake(&spec, &mut |_| {})?;
+    let lowest = asset.fracture.positions.iter().map(|p| p.z);
+    let foot = -lowest.fold(f32::INFINITY, f32::min);
+    Ok((FrangibleAsset::new(asset)?, foot))
+}
+
+fn shop(app: &mut App, things: usize) -> Result<(), Box<dyn std::error::Error>> {
+    let kinds = [
+        baked("bowl", Shape::bowl())?,
+        baked("vase", Shape::vase())?,
+        baked("glass", Shape::drinking_glass())?,
+    ];
+    let mut assets = app.world_mut().resource_mut::<Assets<FrangibleAsset>>();
+    let kinds = kinds.map(|(asset, foot)| (assets.add(asset), foot));
+    let size = Vec3::new(PLACES[0] as f32 * PLACE, 0.02, PLACES[1] as f32 * PLACE);
+    let mut put = 0;
+    for (rack, board) in (0..RACKS).flat_map(|r| (0..BOARDS).map(move |b| (r, b))) {
+        let middle = Vec3::new(0.0, BOARD * board as f32, RACK * rack as f32);
+        let under = Transform::from_translation(middle - Vec3::Y * (0.5 * size.y));
+        let board_of_wood = Collider::cuboid(size.x, size.y, size.z);
+        app.world_mut()
+            .spawn((RigidBody::Static, board_of_wood, under));
+        for (i, j) in (0..PLACES[0]).flat_map(|i| (0..PLACES[1]).map(move |j| (i, j))) {
+            if put == things {
+                return Ok(());
+            }
+            let (asset, foot) = &kinds[(3 * i + j + board + rack) % kinds.len()];
+            let along = (i as f32 - 0.5 * (PLACES[0] - 1) as f32) * PLACE;
+            let across = (j as f32 - 0.5 * (PLACES[1] - 1) as f32) * PLACE;
+            let upright = Quat::from_rotation_x(-std::f32::consts::FRAC_PI_2);
+            let at = middle + Vec3::new(along, *foot, across);
+            app.world_mut().spawn((
+                Breakable(asset.clone()),
+                Seed(put as u64),
+                Transform::from_translation(at).with_rotation(upright),
+            ));
+            put += 1;
+        }
+    }
+    Ok(())
+}
+
+/// Runs frames that begin 1/60 s apart where they can, as in a game.
+fn frames(app: &mut App, what: &str, count: usize) {
+    let mut next = Instant::now();
+    let mut times: Vec<f64> = (0..count)
+        .map(|_| {
+            std::thread::sleep(next.saturating_duration_since(Instant::now()));
+            let start = Instant::now();
+            next = start.max(next) + Duration::from_secs_f64(1.0 / RATE);
+            app.update();
+            1e3 * start.elapsed().as_secs_f64()
+        })
+        .collect();
+    let longest = times.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1));
+    let longest = longest.map_or(0, |(frame, _)| frame);
+    times.sort_by(f64::total_cmp);
+    let at = |share: f64| times[((times.len() - 1) as f64 * share).round() as usize];
+    let Count(broke, pieces) = *app.world().resource::<Count>();
+    let mut awake = app
+        .world_mut()
+        .query_filtered::<&RigidBody, Without<Sleeping>>();
+    let awake = awake.iter(app.world()).filter(|b| b.is_dynamic()).count();
+    println!(
+        "{what:>10}: median {:6.2} ms, p99 {:6.2} ms, longest {:6.2} ms (frame {longest} of {count}); {broke} things broke into {pieces} \
+         pieces, {awake} bodies awake",
+        at(0.5),
+        at(0.99),
+        at(1.0),
+    );
+}
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let things = std::env::args().nth(1).map_or(Ok(1000), |n| n.parse())?;
+    let again = std::env::args().nth(2).is_some_and(|word| word == "again");
+    let mut app = App::new();
+    let step = Duration::from_secs_f64(1.0 / RATE);
+    app.add_plugins((
+        MinimalPlugins,
+        AssetPlugin::default(),
+        TransformPlugin,
+        MeshPlugin,
+    ))
+    .add_plugins(PhysicsPlugins::default().with_collision_hooks::<FrangibleHooks>())
+    .add_plugins(FrangiblePlugin::default())
+    .insert_resource(TimeUpdateStrategy::ManualDuration(step))
+    .insert_resource(Time::<Fixed>::from_duration(step))
+    .insert_resource(BreakAgain {
+        model: again.then(|| Arc::new(Pieces::default()) as Arc<dyn PieceModel>),
+        ..BreakAgain::default()
+    })
+    .init_resource::<Count>()
+    .add_observer(|broke: On<Broke>, mut count: ResMut<Count>| {
+        count.0 += 1;
+        count.1 += broke.fragments.len();
+    });
+    app.finish();
+    app.cleanup();
+    shop(&mut app, things)?;
+    frames(&mut app, "first", 1);
+    frames(&mut app, "settling", 60);
+    for _ in 0..60 {
+        app.update();
+    }
+    frames(&mut app, "standing", 240);
+    // Along the third board of each rack, from the left.
+    let iron = Material::preset("steel")?;
+    let start = Vec3::new(-3.0, 2.0 * BOARD + RADIUS + 0.01, RACK + 0.5 * PLACE);
+    app.world_mut().spawn((
+        RigidBody::Dynamic,
+        Collider::sphere(RADIUS),
+        ColliderDensity(iron.density as f32),
+        MadeOf(iron),
+        SweptCcd::default(),
+        Transform::from_translation(start),
+        LinearVelocity(Vec3::X * SPEED),
+    ));
+    frames(&mut app, "ball", 240);
+    Ok(())
+}
