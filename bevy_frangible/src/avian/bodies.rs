@@ -125,6 +125,7 @@ pub(super) fn give_fragments(
                 RigidBody::Dynamic
             },
             masses(&fragment.mass),
+            SpeculativeMargin(detail.fragments_see),
             hooks.copied().unwrap_or_default() | ActiveCollisionHooks::MODIFY_CONTACTS,
         ));
         if let Some(collider) = collider {
