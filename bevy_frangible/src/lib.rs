@@ -55,7 +55,7 @@ use frangible::{Body, Fracture, FractureConfig, ImpactReport};
 
 pub use again::BreakAgain;
 #[cfg(feature = "avian")]
-pub use avian::{Carries, ColliderDetail, FrangibleHooks, MadeOf};
+pub use avian::{Carries, ColliderDetail, FrangibleHooks, ImpactSpeed, MadeOf};
 pub use debris::DebrisBudget;
 pub use file::{FrangibleAsset, FrangibleLoader, LoadError};
 pub use frangible;

@@ -121,6 +121,35 @@ fn a_script_breaks_a_body_by_one_event() {
 }
 
 #[test]
+fn two_that_break_each_other_keep_their_momentum() {
+    let (mut app, log) = app();
+    app.insert_resource(Gravity(Vec3::ZERO));
+    let still = body(&mut app, "pane", Transform::default());
+    // It comes with its edge first.
+    let turned = Quat::from_rotation_y(std::f32::consts::FRAC_PI_2);
+    let place = Transform::from_xyz(0.01, 0.02, 0.15).with_rotation(turned);
+    let flies = body(&mut app, "pane", place);
+    for pane in [still, flies] {
+        ready(&mut app, pane);
+    }
+    app.update();
+    app.world_mut()
+        .entity_mut(flies)
+        .insert(LinearVelocity(Vec3::NEG_Z * 25.0));
+    let (energy, momentum) = motion(&mut app);
+    while app.world().get::<Broken>(still).is_none() {
+        app.update();
+    }
+    app.update();
+    let both = app.world().get::<Broken>(flies).is_some();
+    assert!(both, "{:?}", log.lines());
+    let (after, then) = motion(&mut app);
+    println!("{momentum} {then}, {energy} J {after} J");
+    assert!((then - momentum).length() < 0.02 * momentum.length());
+    assert!(after <= energy * (1.0 + 1e-3));
+}
+
+#[test]
 fn a_collider_of_the_game_s_own_breaks_as_well() {
     let (mut app, log) = app();
     app.insert_resource(Gravity(Vec3::ZERO));

@@ -4,10 +4,10 @@ use avian3d::prelude::*;
 use bevy::ecs::system::{ReadOnlySystemParam, StaticSystemParam, SystemParam};
 use bevy::prelude::*;
 use frangible::internals::contact::{SharedMass, first_touch_of_ball};
-use frangible::{Contact, Outcome, Striker, glam, impact};
+use frangible::{Contact, Outcome, Striker, impact};
 
 use super::touches::{FirstTouch, first_touches};
-use super::{IMPACT_SPEED, MadeOf, Moving, Verdict, Verdicts};
+use super::{ImpactSpeed, MadeOf, Moving, Verdict, Verdicts};
 use crate::meshes::{into, out};
 use crate::{Born, BreakableBody, Fracturing, FragmentOf};
 
@@ -32,6 +32,7 @@ pub struct FrangibleHooks<'w, 's, Inner: SystemParam + 'static = ()> {
     colliders: Query<'w, 's, &'static Collider>,
     verdicts: Res<'w, Verdicts>,
     config: Res<'w, Fracturing>,
+    impact_speed: Res<'w, ImpactSpeed>,
     time: Res<'w, Time>,
     fixed: Res<'w, Time<Fixed>>,
 }
@@ -100,7 +101,7 @@ impl<Inner: SystemParam + 'static> FrangibleHooks<'_, '_, Inner> {
         let ball = ball.and_then(|c| c.shape().as_ball().map(|ball| ball.radius));
         let striker = self.striker(other, collider, ball);
         let dt = self.time.delta_secs();
-        let mut touches = first_touches(pair, flipped, dt);
+        let mut touches = first_touches(pair, flipped, dt, self.impact_speed.0);
         if let (Some(radius), Some((_, other))) =
             (ball, other.and_then(|e| self.others.get(e).ok()))
             && !touches.is_empty()
@@ -124,7 +125,7 @@ impl<Inner: SystemParam + 'static> FrangibleHooks<'_, '_, Inner> {
                     approach,
                     gap: 0.0,
                 }];
-                touches.retain(|t| t.approach > IMPACT_SPEED);
+                touches.retain(|t| t.approach > self.impact_speed.0);
             }
         }
         let contacts: Vec<Contact> = touches
@@ -185,27 +186,7 @@ impl<Inner: SystemParam + 'static> FrangibleHooks<'_, '_, Inner> {
         let turn = into(arm.cross(normal));
         let inverse = moving.5.rotated(moving.1.0).inverse().to_mat3();
         let columns = [inverse.x_axis, inverse.y_axis, inverse.z_axis].map(into);
-        let spins = lower_factor(columns);
-        Some(SharedMass {
-            body: 0,
-            velocity: into(normal) * moving.4.inverse().sqrt(),
-            spin: glam::Vec3::from_array(spins.map(|column| column.dot(turn))),
-        })
+        let velocity = into(normal) * moving.4.inverse().sqrt();
+        Some(SharedMass::of(0, velocity, columns, turn))
     }
-}
-
-/// Columns of the lower triangular L with L Lᵀ = the symmetric matrix of these columns; zero where the matrix does not give way.
-fn lower_factor(columns: [glam::Vec3; 3]) -> [glam::Vec3; 3] {
-    let mut rest = columns;
-    std::array::from_fn(|k| {
-        let pivot = rest[k][k];
-        if pivot <= 0.0 {
-            return glam::Vec3::ZERO;
-        }
-        let column = rest[k] / pivot.sqrt();
-        for (l, other) in rest.iter_mut().enumerate() {
-            *other -= column * column[l];
-        }
-        column
-    })
 }

@@ -23,8 +23,15 @@ pub use colliders::ColliderDetail;
 pub use hooks::FrangibleHooks;
 pub use resting::Carries;
 
-/// Approach slower than this is no impact, m/s.
-const IMPACT_SPEED: f32 = 0.5;
+/// Approach slower than this is no impact, m/s. Default 0.5; raising it asks the fracture less often.
+#[derive(Resource, Clone, Copy, Debug, PartialEq)]
+pub struct ImpactSpeed(pub f32);
+
+impl Default for ImpactSpeed {
+    fn default() -> Self {
+        Self(0.5)
+    }
+}
 
 /// What an entity with a collider is made of, for what it strikes: without it a striker is rigid, and flat unless its collider is a ball.
 #[derive(Component, Clone, Debug)]
@@ -56,6 +63,7 @@ type Moving = (
 pub(crate) fn build(app: &mut App) {
     app.init_resource::<Verdicts>()
         .init_resource::<ColliderDetail>()
+        .init_resource::<ImpactSpeed>()
         .add_observer(bodies::give_collider)
         .add_observer(bodies::give_fragments)
         .add_observer(bodies::miss_collider)

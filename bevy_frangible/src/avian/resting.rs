@@ -12,7 +12,7 @@ use frangible::internals::outcome::LookedAt;
 use frangible::internals::{Force, rest, rest_margin_at_least};
 use frangible::{Outcome, glam};
 
-use super::IMPACT_SPEED;
+use super::ImpactSpeed;
 use crate::break_apart::{conclude, fail};
 use crate::meshes::into;
 use crate::{BreakableBody, Fracturing};
@@ -67,6 +67,7 @@ fn forces_on<'a>(
     to_body: Quat,
     pairs: impl Iterator<Item = &'a ContactPair>,
     substep: f32,
+    impact_speed: f32,
 ) -> Vec<Force> {
     let mut forces = Vec::new();
     for pair in pairs {
@@ -79,7 +80,7 @@ fn forces_on<'a>(
             };
             for point in &manifold.points {
                 let impulse = point.warm_start_normal_impulse;
-                if impulse > 0.0 && -point.normal_speed <= IMPACT_SPEED {
+                if impulse > 0.0 && -point.normal_speed <= impact_speed {
                     let anchor = if first { point.anchor1 } else { point.anchor2 };
                     forces.push(Force {
                         point: into(to_body * anchor),
@@ -135,7 +136,7 @@ pub(super) fn weigh(
     mut bodies: Query<Bearing>,
     collisions: Collisions,
     (gravity, substeps): (Res<Gravity>, Res<SubstepCount>),
-    (config, time): (Res<Fracturing>, Res<Time>),
+    (config, impact_speed, time): (Res<Fracturing>, Res<ImpactSpeed>, Res<Time>),
     mut since: Local<f32>,
     mut commands: Commands,
 ) {
@@ -156,7 +157,7 @@ pub(super) fn weigh(
         let gravity = to_body * gravity.0 * scale.map_or(1.0, |scale| scale.0);
         let colliders = colliders.into_iter().flat_map(|all| all.iter());
         let pairs = colliders.flat_map(|collider| collisions.collisions_with(collider));
-        let forces = forces_on(entity, to_body, pairs, substep);
+        let forces = forces_on(entity, to_body, pairs, substep, impact_speed.0);
         let total = forces.iter().map(|f| f.force.length()).sum();
         match carries.look(
             &body,

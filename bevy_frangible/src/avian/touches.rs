@@ -3,8 +3,6 @@
 use avian3d::prelude::*;
 use bevy::prelude::*;
 
-use super::IMPACT_SPEED;
-
 /// Contact points nearer than this are one contact, m, if their normals have a cosine above the second number.
 const ONE_PLACE: f32 = 5e-4;
 const ONE_DIRECTION: f32 = 0.9;
@@ -23,7 +21,12 @@ pub(super) struct FirstTouch {
 
 /// Where two bodies touch first in the coming step of `dt` s. Avian speaks of all points that might come near, on every part of a compound
 /// collider: those that touch later than the first belong to another time, and those that are one place are one contact.
-pub(super) fn first_touches(pair: &ContactPair, flipped: bool, dt: f32) -> Vec<FirstTouch> {
+pub(super) fn first_touches(
+    pair: &ContactPair,
+    flipped: bool,
+    dt: f32,
+    impact_speed: f32,
+) -> Vec<FirstTouch> {
     let mut touches: Vec<FirstTouch> = Vec::new();
     for manifold in &pair.manifolds {
         let normal = if flipped {
@@ -33,7 +36,7 @@ pub(super) fn first_touches(pair: &ContactPair, flipped: bool, dt: f32) -> Vec<F
         };
         let fast = manifold.points.iter().filter(|p| {
             let approach = -p.normal_speed;
-            approach > IMPACT_SPEED && approach * dt + p.penetration >= 0.0
+            approach > impact_speed && approach * dt + p.penetration >= 0.0
         });
         touches.extend(fast.map(|p| FirstTouch {
             anchors: match flipped {

@@ -73,10 +73,7 @@ fn spread_direction(k: usize, n: usize) -> Vec3 {
 /// The box about points.
 fn bounds(points: &[Vec3]) -> (Vec3, Vec3) {
     points.iter().fold(
-        (
-            Vec3::splat(f32::INFINITY),
-            Vec3::splat(f32::NEG_INFINITY),
-        ),
+        (Vec3::splat(f32::INFINITY), Vec3::splat(f32::NEG_INFINITY)),
         |(low, high), &p| (low.min(p), high.max(p)),
     )
 }
