@@ -166,6 +166,8 @@ fn a_collider_of_the_game_s_own_breaks_as_well() {
         "{:?}",
         log.lines()
     );
+    let lines = log.lines();
+    assert!(!lines.iter().any(|l| l.contains("removed")), "{lines:?}");
 }
 
 /// The ball's velocity after the pane, m/s, in a Rapier world of `frangible-rapier` with the same body, seed and throw (its `Ball` of

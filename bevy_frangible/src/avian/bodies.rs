@@ -68,7 +68,7 @@ pub(super) fn give_collider(
         }
         // Avian notes these hooks only when a collider comes.
         Some(known) if !before.contains(ActiveCollisionHooks::MODIFY_CONTACTS) => {
-            entity.remove::<Collider>().insert(known.clone());
+            entity.insert(known.clone());
         }
         Some(_) => {}
     }

@@ -65,7 +65,7 @@ impl Breakable {
     /// The kind of the same body `factor` times as large, with the same fields.
     ///
     /// # Errors
-    /// What [`scaled`](crate::asset::scaled) refuses.
+    /// What [`scaled`](crate::internals::asset::scaled) refuses.
     pub fn scaled(&self, factor: f64) -> Result<Self, RescaleError> {
         let asset = scaled(&self.asset, factor)?;
         let kind = Self::of_sound(Arc::new(asset));
