@@ -1,80 +1,19 @@
-//! What happens to entities, whatever engine moves them: bodies become ready, break, and fragments take their place.
+//! What happens to entities, whatever engine moves them: bodies break, and fragments take their place.
 
 use std::sync::Arc;
 
-use bevy::asset::{AssetLoadFailedEvent, LoadState};
 use bevy::prelude::*;
+use bevy::tasks::{ComputeTaskPool, TaskPool};
 use frangible::internals::fracture_at;
-use frangible::{Fracture, InputError, Outcome};
+use frangible::{Body, Fracture, InputError, Outcome};
 
-use crate::meshes::{faces, into, out, whole};
+use crate::again::{expect_pieces, expect_weaker};
+use crate::debris::remember;
+use crate::meshes::{faces, into, out};
 use crate::{
-    Blow, BreakFailed, Breakable, BreakableBody, Broke, Broken, CrackFaces, Fracturing, FragmentOf,
-    FrangibleAsset, Held, Looks, OuterFaces, Pushed, Seed,
+    Blow, Born, BreakFailed, BreakableBody, Broke, Broken, CrackFaces, Fracturing, FragmentOf,
+    Held, OuterFaces, Pushed,
 };
-
-/// Scales differ from 1 by less than this where they are meant to be 1.
-const ROUNDING: f32 = 1e-4;
-
-/// Why an entity cannot break as it stands, if it cannot.
-fn scaled(transform: &Transform) -> Option<String> {
-    let scale = transform.scale;
-    let one = (scale - Vec3::ONE).abs().max_element() <= ROUNDING;
-    (!one).then(|| {
-        format!(
-            "the entity is scaled by {scale}; a body's stress does not scale with it: bake it in the size that it has, or load it \
-             with `frangible bake --size`"
-        )
-    })
-}
-
-/// Entities whose asset is there get their body and mesh.
-pub(crate) fn make_ready(
-    mut commands: Commands,
-    waiting: Query<
-        (Entity, &Breakable, &Seed, &Transform),
-        (Without<BreakableBody>, Without<Broken>),
-    >,
-    assets: Res<Assets<FrangibleAsset>>,
-    mut meshes: ResMut<Assets<Mesh>>,
-) {
-    for (entity, breakable, seed, transform) in &waiting {
-        let Some(asset) = assets.get(&breakable.0) else {
-            continue;
-        };
-        if let Some(reason) = scaled(transform) {
-            // Said once: without the component it is an entity like others.
-            commands.entity(entity).remove::<Breakable>();
-            commands.trigger(BreakFailed { entity, reason });
-            continue;
-        }
-        let body = asset.0.body(seed.0);
-        let mesh = Mesh3d(meshes.add(whole(body.asset())));
-        commands
-            .entity(entity)
-            .insert_if_new(mesh)
-            .insert(BreakableBody(body));
-    }
-}
-
-/// Says on every entity of an asset that it cannot be loaded.
-pub(crate) fn report_failures(
-    mut commands: Commands,
-    mut failures: MessageReader<AssetLoadFailedEvent<FrangibleAsset>>,
-    entities: Query<(Entity, &Breakable), Without<BreakableBody>>,
-    server: Res<AssetServer>,
-) {
-    for failure in failures.read() {
-        let of_asset = entities.iter().filter(|(_, b)| b.0.id() == failure.id);
-        for (entity, breakable) in of_asset {
-            let reason = match server.load_state(&breakable.0) {
-                LoadState::Failed(error) => error.to_string(),
-                _ => failure.error.to_string(),
-            };
-            commands.trigger(BreakFailed { entity, reason });
-        }
-    }
-}
 
 /// A script's blow.
 pub(crate) fn obey(
@@ -130,7 +69,7 @@ pub(crate) fn conclude(
     match outcome {
         Ok(Outcome::Broke(fracture)) => {
             let fracture = Arc::new(*fracture);
-            let fragments = replace(commands, entity, pose, &fracture);
+            let fragments = replace(commands, entity, &body.0, pose, &fracture);
             commands.trigger(Broke {
                 entity,
                 fragments: fragments.clone(),
@@ -143,15 +82,22 @@ pub(crate) fn conclude(
             report,
             state,
         }) => {
-            let kept = state.map_or(Ok(()), |state| body.0.set_state(*state));
-            match kept {
-                Ok(()) => commands.trigger(Held {
-                    entity,
-                    margin,
-                    report,
-                }),
-                Err(error) => fail(commands, entity, &error),
+            if let Some(state) = state {
+                if let Err(error) = body.0.set_state(*state) {
+                    fail(commands, entity, &error);
+                    return None;
+                }
+                let cracked = body.0.clone();
+                commands.queue(move |world: &mut World| {
+                    let config = world.resource::<Fracturing>().0.clone();
+                    expect_weaker(world, entity, cracked, config);
+                });
             }
+            commands.trigger(Held {
+                entity,
+                margin,
+                report,
+            });
             None
         }
         Err(error) => {
@@ -162,15 +108,30 @@ pub(crate) fn conclude(
     }
 }
 
-fn fail(commands: &mut Commands, entity: Entity, error: &InputError) {
+pub(crate) fn fail(commands: &mut Commands, entity: Entity, error: &InputError) {
     let reason = error.to_string();
     commands.trigger(BreakFailed { entity, reason });
+}
+
+/// Does the same for each of them on Bevy's task pool; the results are in their order.
+pub(crate) fn in_parallel<T: Sync, R: Send + 'static>(
+    items: &[T],
+    work: impl Fn(&T) -> R + Sync,
+) -> Vec<R> {
+    let pool = ComputeTaskPool::get_or_init(TaskPool::default);
+    let work = &work;
+    pool.scope(|scope| {
+        for item in items {
+            scope.spawn(async move { work(item) });
+        }
+    })
 }
 
 /// Fragments in the place of a body, at its pose.
 fn replace(
     commands: &mut Commands,
     entity: Entity,
+    body: &Body,
     pose: Transform,
     fracture: &Arc<Fracture>,
 ) -> Vec<Entity> {
@@ -179,63 +140,62 @@ fn replace(
         .entity(entity)
         .try_remove::<(BreakableBody, Mesh3d)>()
         .try_insert(Broken);
-    let pieces = fracture.fragments.iter().map(|fragment| {
-        let centre = pose.transform_point(out(fragment.mass.centre.as_vec3()));
-        let place = Transform::from_translation(centre).with_rotation(pose.rotation);
-        let meshes = faces(&fragment.mesh);
-        let piece = commands.spawn(place).id();
-        commands.queue(move |world: &mut World| {
-            if world.get_entity(entity).is_err() {
+    let meshes = in_parallel(&fracture.fragments, |fragment| faces(&fragment.mesh));
+    let pieces: Vec<Entity> = (fracture.fragments.iter())
+        .map(|fragment| {
+            let centre = pose.transform_point(out(fragment.mass.centre.as_vec3()));
+            let place = Transform::from_translation(centre).with_rotation(pose.rotation);
+            commands.spawn(place).id()
+        })
+        .collect();
+    let (body, fracture, fragments) = (body.clone(), Arc::clone(fracture), pieces.clone());
+    commands.queue(move |world: &mut World| {
+        if world.get_entity(entity).is_err() {
+            for piece in fragments {
                 world.despawn(piece);
-                return;
             }
-            world.entity_mut(piece).insert(FragmentOf(entity));
-            let Some(mut known) = world.get_resource_mut::<Assets<Mesh>>() else {
-                return;
-            };
-            let [outer, crack] = meshes.map(|mesh| mesh.map(|mesh| Mesh3d(known.add(mesh))));
-            world.entity_mut(piece).with_children(|piece| {
-                if let Some(mesh) = outer {
-                    piece.spawn((mesh, OuterFaces));
-                }
-                if let Some(mesh) = crack {
-                    piece.spawn((mesh, CrackFaces));
-                }
-            });
-        });
-        piece
+            return;
+        }
+        strip(world, entity);
+        let born = world.resource::<Time<Fixed>>().elapsed();
+        for (&piece, meshes) in fragments.iter().zip(meshes) {
+            world
+                .entity_mut(piece)
+                .insert((FragmentOf(entity), Born(born)));
+            give_faces(world, piece, meshes);
+        }
+        remember(world, &fracture.fragments, &fragments);
+        expect_pieces(world, &body, &fracture, &fragments);
     });
-    pieces.collect()
+    pieces
 }
 
-/// A body gets the look of its outer faces.
-pub(crate) fn dress_body<C: Component + Clone>(
-    ready: On<Insert, BreakableBody>,
-    looks: Query<&Looks<C>>,
-    mut commands: Commands,
-) {
-    if let Ok(looks) = looks.get(ready.entity) {
-        commands.entity(ready.entity).insert(looks.outer.clone());
+/// A piece that breaks again loses its faces.
+fn strip(world: &mut World, entity: Entity) {
+    let children = world.get::<Children>(entity);
+    let faces = children
+        .into_iter()
+        .flat_map(|c| c.iter())
+        .filter(|&child| {
+            world.get::<OuterFaces>(child).is_some() || world.get::<CrackFaces>(child).is_some()
+        });
+    let faces: Vec<Entity> = faces.collect();
+    for child in faces {
+        world.despawn(child);
     }
 }
 
-/// Fragments get the looks of their body.
-pub(crate) fn dress_fragments<C: Component + Clone>(
-    broke: On<Broke>,
-    looks: Query<&Looks<C>>,
-    children: Query<&Children>,
-    (outer, crack): (Query<(), With<OuterFaces>>, Query<(), With<CrackFaces>>),
-    mut commands: Commands,
-) {
-    let Ok(looks) = looks.get(broke.entity) else {
+fn give_faces(world: &mut World, piece: Entity, meshes: [Option<Mesh>; 2]) {
+    let Some(mut known) = world.get_resource_mut::<Assets<Mesh>>() else {
         return;
     };
-    let pieces = broke.fragments.iter().filter_map(|&f| children.get(f).ok());
-    for child in pieces.flat_map(|children| children.iter()) {
-        if outer.contains(child) {
-            commands.entity(child).insert(looks.outer.clone());
-        } else if crack.contains(child) {
-            commands.entity(child).insert(looks.crack.clone());
+    let [outer, crack] = meshes.map(|mesh| mesh.map(|mesh| Mesh3d(known.add(mesh))));
+    world.entity_mut(piece).with_children(|piece| {
+        if let Some(mesh) = outer {
+            piece.spawn((mesh, OuterFaces));
         }
-    }
+        if let Some(mesh) = crack {
+            piece.spawn((mesh, CrackFaces));
+        }
+    });
 }

@@ -25,39 +25,50 @@
 //!
 //! # Layers
 //! - Without an engine: the asset and its loader, [`Breakable`], [`Blow`] to send, [`Broke`], [`Held`] and [`BreakFailed`] to observe,
-//!   fragments with meshes and the relationship [`FragmentOf`].
-//! - Feature `avian` (default): colliders and masses, and bodies that break inside the physics step, by collision hooks.
+//!   fragments with meshes and the relationship [`FragmentOf`]; [`BreakAgain`] for fragments that break again, [`DebrisBudget`] for how many
+//!   there may be.
+//! - Feature `avian` (default): colliders and masses, bodies that break inside the physics step, by collision hooks, and under what
+//!   they carry.
 //!
 //! # Limits
-//! Fragments do not break again. What rests on a body does not break it. A body that breaks in a step of Avian is judged pair by pair:
-//! each striker alone. An entity may be scaled by its asset only: a [`Transform`] with another scale than 1 is refused.
+//! A body that breaks in a step of Avian is judged pair by pair: each striker alone, and without friction. A uniform scale of the entity
+//! counts as it is when its asset is there; one that is not uniform is refused. Without a model in [`BreakAgain`] fragments are plain bodies.
 
+mod again;
 #[cfg(feature = "avian")]
 mod avian;
 mod break_apart;
+mod debris;
 mod file;
+mod looks;
 mod meshes;
+mod per_asset;
+mod ready;
 #[cfg(feature = "avian")]
 mod rigid;
 
 use std::sync::Arc;
+use std::time::Duration;
 
 use bevy::prelude::*;
 use frangible::{Body, Fracture, FractureConfig, ImpactReport};
 
+pub use again::BreakAgain;
 #[cfg(feature = "avian")]
-pub use avian::{FrangibleHooks, MadeOf};
+pub use avian::{Carries, ColliderDetail, FrangibleHooks, ImpactSpeed, MadeOf};
+pub use debris::DebrisBudget;
 pub use file::{FrangibleAsset, FrangibleLoader, LoadError};
 pub use frangible;
+pub use looks::{Looks, LooksPlugin};
 
 /// What most games use.
 pub mod prelude {
     pub use crate::{
-        Blow, BreakFailed, Breakable, Broke, FragmentOf, Fragments, FrangibleAsset,
-        FrangiblePlugin, Held, Looks, LooksPlugin, Seed,
+        Blow, BreakAgain, BreakFailed, Breakable, Broke, DebrisBudget, FragmentOf, Fragments,
+        FrangibleAsset, FrangiblePlugin, Held, Looks, LooksPlugin, Seed,
     };
     #[cfg(feature = "avian")]
-    pub use crate::{FrangibleHooks, MadeOf};
+    pub use crate::{ColliderDetail, FrangibleHooks, MadeOf};
 }
 
 /// Lets entities with [`Breakable`] break.
@@ -105,6 +116,10 @@ impl Fragments {
         self.0.iter().copied()
     }
 }
+
+/// When a piece was born, in the time of the fixed steps.
+#[derive(Component, Clone, Copy)]
+pub(crate) struct Born(pub(crate) Duration);
 
 /// The part of a mesh that was the body's surface. It is a child of the fragment.
 #[derive(Component, Clone, Copy, Debug)]
@@ -167,41 +182,17 @@ pub struct BreakFailed {
     pub reason: String,
 }
 
-/// What outer and crack faces of fragments get, and the body itself: usually a material, `Looks<MeshMaterial3d<StandardMaterial>>`. Put it
-/// on the entity with [`Breakable`], and add a [`LooksPlugin`] for the same component.
-#[derive(Component, Clone, Debug)]
-pub struct Looks<C: Component + Clone> {
-    /// For what was the body's surface.
-    pub outer: C,
-    /// For where it broke.
-    pub crack: C,
-}
-
-/// Dresses bodies and fragments in [`Looks`] of a component.
-pub struct LooksPlugin<C>(std::marker::PhantomData<fn() -> C>);
-
-impl<C> Default for LooksPlugin<C> {
-    fn default() -> Self {
-        Self(std::marker::PhantomData)
-    }
-}
-
-impl<C: Component + Clone> Plugin for LooksPlugin<C> {
-    fn build(&self, app: &mut App) {
-        app.add_observer(break_apart::dress_body::<C>)
-            .add_observer(break_apart::dress_fragments::<C>);
-    }
-}
-
 impl Plugin for FrangiblePlugin {
     fn build(&self, app: &mut App) {
         app.insert_resource(Fracturing(self.config.clone()))
+            .init_resource::<BreakAgain>()
+            .init_resource::<DebrisBudget>()
+            .init_resource::<again::Nursery>()
+            .init_resource::<debris::Heap>()
             .init_asset::<FrangibleAsset>()
             .register_asset_loader(FrangibleLoader)
-            .add_systems(
-                PreUpdate,
-                (break_apart::report_failures, break_apart::make_ready).chain(),
-            )
+            .add_systems(PreUpdate, ready::make_ready)
+            .add_systems(FixedPreUpdate, (again::join, debris::clear_up))
             .add_observer(break_apart::obey);
         #[cfg(feature = "avian")]
         avian::build(app);

@@ -22,6 +22,17 @@ pub(crate) struct Rigid {
 pub(crate) type Pushes = [(DVec3, DVec3)];
 
 impl Rigid {
+    /// What does not move.
+    pub(crate) fn earth() -> Self {
+        Self {
+            mass: f64::INFINITY,
+            inertia: DMat3::IDENTITY,
+            centre: DVec3::ZERO,
+            linear: DVec3::ZERO,
+            angular: DVec3::ZERO,
+        }
+    }
+
     pub(crate) fn gives_way(&self) -> bool {
         self.mass.is_finite()
     }
@@ -35,8 +46,13 @@ impl Rigid {
         0.5 * (self.mass * self.linear.length_squared() + spin)
     }
 
-    /// Bodies as one, with their mass, momentum and angular momentum.
+    /// Bodies that move as one, with their mass, momentum and angular momentum; none of them: the earth.
     fn together(bodies: &[Self]) -> Self {
+        match bodies {
+            [] => return Self::earth(),
+            [only] => return *only,
+            _ => {}
+        }
         let mass: f64 = bodies.iter().map(|b| b.mass).sum();
         let mean = |f: &dyn Fn(&Self) -> DVec3| -> DVec3 {
             bodies.iter().map(|b| f(b) * b.mass).sum::<DVec3>() / mass
@@ -72,12 +88,6 @@ impl Rigid {
         (linear / self.mass, self.inertia.inverse() * moment)
     }
 
-    fn push(&mut self, pushes: &Pushes, sign: f64) {
-        let (linear, angular) = self.answer(pushes, sign);
-        self.linear += linear;
-        self.angular += angular;
-    }
-
     /// The rigid motion's velocity at a point.
     fn velocity_at(&self, point: DVec3) -> DVec3 {
         self.linear + self.angular.cross(point - self.centre)
@@ -105,22 +115,37 @@ fn price(plug: &Rigid, striker: &Rigid, pushes: &Pushes) -> (f64, f64) {
     (a + c, b + d)
 }
 
-/// Puts a blow's impulses on the pieces that are nearest to it, and takes them from the striker. The pieces, in the order of their
-/// distance, take them as one body: the fewest that do not leave faster than the striker follows. Where some are held, those take the
-/// rest. Returns the energy that the motion loses, J.
-pub(crate) fn push_plug(pieces: &mut [Rigid], striker: &mut Rigid, pushes: &Pushes) -> f64 {
+/// Lets pushes act on bodies as on one; `whole` is what they are together.
+fn push_together(bodies: &mut [Rigid], whole: &Rigid, pushes: &Pushes, sign: f64) {
+    let (linear, angular) = whole.answer(pushes, sign);
+    for body in bodies {
+        let arm = body.centre - whole.centre;
+        body.linear += linear + angular.cross(arm);
+        body.angular += angular;
+    }
+}
+
+fn scaled(pushes: &Pushes, share: f64) -> Vec<(DVec3, DVec3)> {
+    pushes.iter().map(|&(p, j)| (p, j * share)).collect()
+}
+
+/// Puts a blow's impulses on the pieces that are nearest to it, and takes them from the striker: itself, the pieces that it has become, or
+/// none where it does not give way. The pieces, in the order of their distance, take them as one body: the fewest that do not leave faster
+/// than the striker follows. Where some are held, those take the rest. Returns the energy that the motion loses, J.
+pub(crate) fn push_plug(pieces: &mut [Rigid], striker: &mut [Rigid], pushes: &Pushes) -> f64 {
+    let whole = Rigid::together(striker);
     let mut lost = 0.0;
     let mut left = 1.0;
     let held = pieces.iter().any(|p| !p.gives_way());
+    let first_holds = pieces.first().is_none_or(|p| !p.gives_way());
     let loose: Vec<usize> = (0..pieces.len())
         .filter(|&i| pieces[i].gives_way())
         .collect();
-    let first_holds = pieces.first().is_none_or(|p| !p.gives_way());
     let mut count = 1;
     while !first_holds && count <= loose.len() {
-        let members: Vec<Rigid> = loose[..count].iter().map(|&i| pieces[i]).collect();
+        let mut members: Vec<Rigid> = loose[..count].iter().map(|&i| pieces[i]).collect();
         let plug = Rigid::together(&members);
-        let (work, give) = price(&plug, striker, pushes);
+        let (work, give) = price(&plug, &whole, pushes);
         if work + give > 0.0 && count < loose.len() {
             count = (count + 1 + count / 8).min(loose.len());
             continue;
@@ -132,30 +157,22 @@ pub(crate) fn push_plug(pieces: &mut [Rigid], striker: &mut Rigid, pushes: &Push
         } else {
             (-2.0 * work / give).min(1.0)
         };
-        let scaled: Vec<(DVec3, DVec3)> = pushes.iter().map(|&(p, j)| (p, j * share)).collect();
-        let (linear, angular) = plug.answer(&scaled, 1.0);
-        for &i in &loose[..count] {
-            let arm = pieces[i].centre - plug.centre;
-            pieces[i].linear += linear + angular.cross(arm);
-            pieces[i].angular += angular;
+        let scaled = scaled(pushes, share);
+        push_together(&mut members, &plug, &scaled, 1.0);
+        for (&i, member) in loose.iter().zip(members) {
+            pieces[i] = member;
         }
-        striker.push(&scaled, -1.0);
+        push_together(striker, &whole, &scaled, -1.0);
         lost -= share * work + 0.5 * share * share * give;
         left -= share;
         break;
     }
-    if (held || first_holds) && left > 0.0 && striker.gives_way() {
-        let wall = Rigid {
-            mass: f64::INFINITY,
-            linear: DVec3::ZERO,
-            angular: DVec3::ZERO,
-            ..*striker
-        };
-        let (work, give) = price(&wall, striker, pushes);
+    if (held || first_holds) && left > 0.0 && !striker.is_empty() {
+        let whole = Rigid::together(striker);
+        let (work, give) = price(&Rigid::earth(), &whole, pushes);
         if work < 0.0 {
             let share = left.min(-2.0 * work / give);
-            let scaled: Vec<(DVec3, DVec3)> = pushes.iter().map(|&(p, j)| (p, j * share)).collect();
-            striker.push(&scaled, -1.0);
+            push_together(striker, &whole, &scaled(pushes, share), -1.0);
             lost -= share * work + 0.5 * share * share * give;
         }
     }
@@ -225,7 +242,7 @@ mod tests {
             let before = all(&pieces, &striker);
             let energy = |bodies: &[Rigid]| bodies.iter().map(Rigid::energy).sum::<f64>();
             let pushes = [(DVec3::X * 0.05, DVec3::X * impulse)];
-            let lost = push_plug(&mut pieces, &mut striker, &pushes);
+            let lost = push_plug(&mut pieces, std::slice::from_mut(&mut striker), &pushes);
             let after = all(&pieces, &striker);
             assert!((momentum(&after) - momentum(&before)).length() < 1e-12);
             assert!(

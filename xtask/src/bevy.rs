@@ -5,8 +5,14 @@ use std::time::{Duration, Instant};
 
 use crate::command::{Result, cargo, root, run_within, shown};
 
-/// What the plugin is built from.
-pub(crate) const PATHS: [&str; 3] = ["bevy_frangible", "crates/frangible", "xtask/src/bevy.rs"];
+/// What the plugin and its tests are built from.
+pub(crate) const PATHS: [&str; 5] = [
+    "bevy_frangible",
+    "crates/frangible",
+    "crates/frangible-bake",
+    "crates/frangible-mesh",
+    "xtask/src/bevy.rs",
+];
 
 /// Limit of the whole step: a first build of Bevy takes most of it.
 const LIMIT: Duration = Duration::from_secs(35 * 60);

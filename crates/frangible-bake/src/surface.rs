@@ -4,7 +4,7 @@ use frangible::glam::{DVec3, Vec3};
 use frangible::internals::TetMesh;
 use frangible::internals::asset::OuterSurface;
 
-pub use crate::rescale::SMALLEST_CURVATURE_RADIUS as SMALLEST_RADIUS;
+pub use frangible::internals::asset::SMALLEST_CURVATURE_RADIUS as SMALLEST_RADIUS;
 
 /// Faces that meet at a larger angle, degrees, keep their edge sharp.
 pub const CREASE: f64 = 35.0;

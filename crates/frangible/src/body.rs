@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{DVec3, Vec3};
 
-use crate::asset::{Asset, EmbeddedPoint};
+use crate::asset::{Asset, EmbeddedPoint, RescaleError, scaled};
 use crate::config::FractureConfig;
 use crate::crack::{CrackFront, Tip, fronts, tips, weak_place};
 use crate::error::InputError;
@@ -60,6 +60,16 @@ impl Breakable {
             fields,
             ..self
         })
+    }
+
+    /// The kind of the same body `factor` times as large, with the same fields.
+    ///
+    /// # Errors
+    /// What [`scaled`](crate::internals::asset::scaled) refuses.
+    pub fn scaled(&self, factor: f64) -> Result<Self, RescaleError> {
+        let asset = scaled(&self.asset, factor)?;
+        let kind = Self::of_sound(Arc::new(asset));
+        Ok(kind.with_fields(Fields::clone(&self.fields))?)
     }
 
     /// The asset.

@@ -467,34 +467,15 @@ fn share_mass(contacts: &mut [Contact], body: &RigidBody, partner: &RigidBody, n
         return;
     }
     let mass = partner.mass_properties();
-    let spins = lower_factor(Vector::AXES.map(|axis| mass.effective_world_inv_inertia * axis));
+    let inverse_inertia = Vector::AXES.map(|axis| mass.effective_world_inv_inertia * axis);
     for contact in contacts {
         let point = *body.position() * contact.point;
         let normal = *body.rotation() * contact.normal;
         let turn = (point - mass.world_com).cross(normal);
-        // I⁻¹ = L Lᵀ: the square of Lᵀ turn is what inverse_effective_mass has.
-        contact.striker.shared = Some(SharedMass {
-            body: number as u32,
-            velocity: mass.effective_inv_mass.map(f32::sqrt) * normal,
-            spin: Vector::from_array(spins.map(|column| column.dot(turn))),
-        });
+        let velocity = mass.effective_inv_mass.map(f32::sqrt) * normal;
+        let shared = SharedMass::of(number as u32, velocity, inverse_inertia, turn);
+        contact.striker.shared = Some(shared);
     }
-}
-
-/// Columns of the lower triangular L with L Lᵀ = the symmetric matrix of these columns; zero where the matrix does not give way.
-fn lower_factor(columns: [Vector; 3]) -> [Vector; 3] {
-    let mut rest = columns;
-    std::array::from_fn(|k| {
-        let pivot = rest[k][k];
-        if pivot <= 0.0 {
-            return Vector::ZERO;
-        }
-        let column = rest[k] / pivot.sqrt();
-        for (l, other) in rest.iter_mut().enumerate() {
-            *other -= column * column[l];
-        }
-        column
-    })
 }
 
 /// Scales the impulses of one pair so that their sum is no more than the two bodies' meeting can give,

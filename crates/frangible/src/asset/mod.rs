@@ -4,6 +4,7 @@ mod embedding;
 mod file;
 mod half;
 mod render;
+mod rescale;
 mod validate;
 
 use std::sync::Arc;
@@ -21,6 +22,7 @@ pub use embedding::{EmbeddedPoint, Embedding};
 pub use file::seal;
 pub use file::{AssetFileError, FORMAT_VERSION, SaveOptions};
 pub use render::{RenderMaterial, RenderSurface};
+pub use rescale::{RescaleError, SMALLEST_CURVATURE_RADIUS, scaled, with_material};
 pub(crate) use validate::{analysis, embedded, modes};
 
 /// Everything the run time needs of one kind of object. Share it (`Arc`) among all bodies of that kind.

@@ -64,6 +64,35 @@ pub struct SharedMass {
 impl SharedMass {
     /// Numbers of bodies are smaller than this.
     pub const MOST_BODIES: u32 = 1 << 24;
+
+    /// Of body number `body`: `velocity` is its `M^(−1/2) n`, `inverse_inertia` has the columns of its I⁻¹, 1/(kg·m²), and `turn` is r × n,
+    /// all in world axes. Where I⁻¹ does not give way, nor does the spin.
+    #[must_use]
+    pub fn of(body: u32, velocity: Vec3, inverse_inertia: [Vec3; 3], turn: Vec3) -> Self {
+        // I⁻¹ = L Lᵀ: the square of Lᵀ turn is what an effective mass has of it.
+        let spins = lower_factor(inverse_inertia);
+        Self {
+            body,
+            velocity,
+            spin: Vec3::from_array(spins.map(|column| column.dot(turn))),
+        }
+    }
+}
+
+/// Columns of the lower triangular L with L Lᵀ = the symmetric matrix of these columns; zero where the matrix does not give way.
+fn lower_factor(columns: [Vec3; 3]) -> [Vec3; 3] {
+    let mut rest = columns;
+    std::array::from_fn(|k| {
+        let pivot = rest[k][k];
+        if pivot <= 0.0 {
+            return Vec3::ZERO;
+        }
+        let column = rest[k] / pivot.sqrt();
+        for (l, other) in rest.iter_mut().enumerate() {
+            *other -= column * column[l];
+        }
+        column
+    })
 }
 
 impl Striker {

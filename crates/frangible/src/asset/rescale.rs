@@ -10,11 +10,13 @@
 
 use std::sync::Arc;
 
-use frangible::glam::{DVec3, Vec3};
-use frangible::internals::MassProperties;
-use frangible::internals::asset::EmbeddedPoint;
-use frangible::{Asset, InputError, Material};
+use glam::{DVec3, Vec3};
 use thiserror::Error;
+
+use crate::asset::{Asset, EmbeddedPoint};
+use crate::error::InputError;
+use crate::material::Material;
+use crate::mesh::MassProperties;
 
 /// Smallest radius of curvature of a surface, m: edges and corners are rounded off this far in any real body, whatever
 /// its size.

@@ -1,0 +1,212 @@
+//! Fragments that break again: how they vibrate is found on a task pool, and joined at a fixed time of the simulation.
+//!
+//! A newborn fragment is a plain body: the blow that runs through it is the one that has just made it. It is breakable from
+//! [`BreakAgain::delay`] on. What is not ready then is waited for, so that nothing hangs on the speed of the machine; how many are made at one
+//! time is limited, so that this need not happen.
+
+use std::collections::VecDeque;
+use std::sync::Arc;
+use std::time::Duration;
+
+use bevy::prelude::*;
+use bevy::tasks::{Task, TaskPool, TaskPoolBuilder, block_on};
+use frangible::internals::{BodyState, PieceModel, Portion};
+use frangible::{Body, Fracture, FractureConfig, InputError};
+
+use crate::{BreakFailed, BreakableBody, Broken};
+
+/// Which fragments break again, and from when. A [`BreakableBody`] on a fragment tells that it can.
+#[derive(Resource, Clone)]
+pub struct BreakAgain {
+    /// Finds how pieces vibrate: `frangible_bake::pieces::Pieces`, or a model of the game's own. Default none: fragments are plain bodies.
+    pub model: Option<Arc<dyn PieceModel>>,
+    /// A fragment breaks again if it comes from fewer breaks than this, itself included. Default 3.
+    pub generations: u32,
+    /// Lighter fragments do not break again, kg. Default 2e-3, a shard of glass 20 mm wide.
+    pub least_mass: f64,
+    /// Fragments of fewer uncut tetrahedra do not. Default 60.
+    pub least_tets: usize,
+    /// From so long after its birth a fragment can break. Default 0.4 s; what is not ready by then is waited for.
+    pub delay: Duration,
+    /// Bodies that are being made at one time at most; of a break the largest fragments come first, and those that find no place stay plain.
+    /// Default 4: finding the modes of a piece takes one core some tens of milliseconds.
+    pub at_once: usize,
+    /// Find new modes for bodies that are cracked but whole, too. Default on.
+    pub cracked: bool,
+}
+
+impl Default for BreakAgain {
+    fn default() -> Self {
+        Self {
+            model: None,
+            generations: 3,
+            least_mass: 2e-3,
+            least_tets: 60,
+            delay: Duration::from_millis(400),
+            at_once: 4,
+            cracked: true,
+        }
+    }
+}
+
+/// Steps that a fragment is plain at least: it and its siblings part first.
+const SOONEST: u32 = 3;
+
+/// A body that is being made.
+struct Expected {
+    entity: Entity,
+    due: Duration,
+    /// The cracks of a body that is there already: it is replaced only if it still has them.
+    cracks: Option<BodyState>,
+    body: Task<Option<Result<Body, InputError>>>,
+}
+
+/// Bodies that are being made, in the order in which they are due.
+#[derive(Resource)]
+pub(crate) struct Nursery {
+    expected: VecDeque<Expected>,
+    /// A pool of its own: in every step Avian waits for small tasks of its own on Bevy's pool for long work, which on few cores has one
+    /// thread. Behind modes of pieces they took 280 ms.
+    pool: TaskPool,
+}
+
+impl Default for Nursery {
+    fn default() -> Self {
+        let threads = std::thread::available_parallelism().map_or(1, |n| n.get().div_ceil(4));
+        let pool = TaskPoolBuilder::new().num_threads(threads);
+        Self {
+            expected: VecDeque::new(),
+            pool: pool.thread_name("modes of pieces".into()).build(),
+        }
+    }
+}
+
+impl Nursery {
+    /// How many more may be made.
+    fn free(&self, limits: &BreakAgain) -> usize {
+        limits.at_once.saturating_sub(self.expected.len())
+    }
+
+    /// Has a body made on another thread.
+    fn promise(
+        &mut self,
+        entity: Entity,
+        due: Duration,
+        cracks: Option<BodyState>,
+        make: impl FnOnce() -> Option<Result<Body, InputError>> + Send + 'static,
+    ) {
+        let body = self.pool.spawn(async move { make() });
+        let after = self.expected.partition_point(|e| e.due <= due);
+        let expected = Expected {
+            entity,
+            due,
+            cracks,
+            body,
+        };
+        self.expected.insert(after, expected);
+    }
+}
+
+/// When something is due that was asked for now.
+fn due(time: &Time<Fixed>, delay: Duration) -> Duration {
+    time.elapsed() + delay.max(SOONEST * time.timestep())
+}
+
+/// Has the fragments of a body that broke made breakable.
+pub(crate) fn expect_pieces(
+    world: &mut World,
+    body: &Body,
+    fracture: &Fracture,
+    fragments: &[Entity],
+) {
+    let limits = world.resource::<BreakAgain>().clone();
+    let Some(model) = limits.model.clone() else {
+        return;
+    };
+    if body.generation() >= limits.generations {
+        return;
+    }
+    let time = world.resource::<Time<Fixed>>();
+    let due = due(time, limits.delay);
+    let mut nursery = world.resource_mut::<Nursery>();
+    let free = nursery.free(&limits);
+    let portions = fracture.portions(body, |k, f| k < free && f.mass.mass >= limits.least_mass);
+    for (&entity, portion) in fragments.iter().zip(portions) {
+        let large = |p: &Arc<Portion>| p.tets().len() >= limits.least_tets;
+        let Some(portion) = portion.filter(large) else {
+            continue;
+        };
+        let (parent, model) = (body.clone(), Arc::clone(&model));
+        nursery.promise(entity, due, None, move || made(&parent, &portion, &*model));
+    }
+}
+
+/// Has new modes found for a body that is cracked but whole.
+pub(crate) fn expect_weaker(world: &mut World, entity: Entity, body: Body, config: FractureConfig) {
+    let limits = world.resource::<BreakAgain>().clone();
+    let Some(model) = limits.model.clone().filter(|_| limits.cracked) else {
+        return;
+    };
+    let due = due(world.resource::<Time<Fixed>>(), limits.delay);
+    let cracks = Some(body.state().clone());
+    let mut nursery = world.resource_mut::<Nursery>();
+    if nursery.free(&limits) == 0 {
+        return;
+    }
+    nursery.promise(entity, due, cracks, move || {
+        match Portion::of_cracked(&body, &config) {
+            Ok(portion) => made(&body, &Arc::new(portion), &*model),
+            Err(error) => Some(Err(error)),
+        }
+    });
+}
+
+/// A body of its own, with what its first steady load would have to find out.
+fn made(
+    parent: &Body,
+    portion: &Arc<Portion>,
+    model: &dyn PieceModel,
+) -> Option<Result<Body, InputError>> {
+    let elastic = model.later(portion);
+    let elastic = elastic.or_else(|| model.at_once(portion, parent))?;
+    let body = parent.piece(portion, elastic);
+    if let Ok(body) = &body {
+        body.prepare_for_loads();
+    }
+    Some(body)
+}
+
+/// Lets those join that are due. Waits for those that are not ready.
+pub(crate) fn join(
+    mut nursery: ResMut<Nursery>,
+    time: Res<Time<Fixed>>,
+    bodies: Query<Option<&BreakableBody>, Without<Broken>>,
+    mut commands: Commands,
+) {
+    let now = time.elapsed();
+    while let Some(expected) = nursery.expected.pop_front_if(|e| e.due <= now) {
+        let entity = expected.entity;
+        // What is gone, or broken, is not waited for.
+        let Ok(known) = bodies.get(entity) else {
+            continue;
+        };
+        let mut body = match block_on(expected.body) {
+            None => continue,
+            Some(Ok(body)) => body,
+            Some(Err(error)) => {
+                let reason = format!("a piece does not break again: {error}");
+                commands.trigger(BreakFailed { entity, reason });
+                continue;
+            }
+        };
+        let joins = match (&expected.cracks, known) {
+            // Cracked further meanwhile: then another one is on its way.
+            (Some(cracks), known) => known.is_some_and(|known| known.0.state() == cracks),
+            (None, None) => true,
+            (None, Some(known)) => body.set_state(known.0.state().clone()).is_ok(),
+        };
+        if joins {
+            commands.entity(entity).try_insert(BreakableBody(body));
+        }
+    }
+}

@@ -1,0 +1,149 @@
+//! After the step: bodies that broke give way to their pieces, and the blows that broke them act.
+
+use std::collections::BTreeMap;
+use std::sync::PoisonError;
+
+use avian3d::prelude::*;
+use bevy::prelude::*;
+use frangible::glam::DVec3;
+use frangible::{Contact, Fracture, Outcome, glam};
+
+use super::plain::{double, piece, rigid, velocities};
+use super::{Moving, Verdict, Verdicts};
+use crate::BreakableBody;
+use crate::break_apart::conclude;
+use crate::meshes::{into, out};
+use crate::rigid::{Rigid, push_plug, take_energy};
+
+/// How bodies move while the breaks of a step are carried out, and what has become of those that broke.
+struct Motions<'a, 'w, 's> {
+    before: &'a Query<'w, 's, (&'static RigidBody, Moving)>,
+    now: BTreeMap<Entity, Rigid>,
+    families: BTreeMap<Entity, Vec<Entity>>,
+}
+
+impl Motions<'_, '_, '_> {
+    fn of(&self, entity: Entity) -> Option<Rigid> {
+        let known = self.now.get(&entity).copied();
+        known.or_else(|| self.before.get(entity).ok().map(|(k, m)| rigid(k, m)))
+    }
+
+    /// What a striker is now: itself, or the pieces of it that move.
+    fn parts(&self, striker: Option<Entity>) -> Vec<Entity> {
+        let Some(striker) = striker else {
+            return Vec::new();
+        };
+        let parts = self.families.get(&striker);
+        let mut parts = parts.cloned().unwrap_or_else(|| vec![striker]);
+        parts.retain(|&e| self.of(e).is_some_and(|body| body.gives_way()));
+        parts
+    }
+
+    fn all(&self, entities: &[Entity]) -> Vec<Rigid> {
+        entities.iter().filter_map(|&e| self.of(e)).collect()
+    }
+
+    fn set(&mut self, entities: &[Entity], bodies: &[Rigid]) {
+        for (&entity, body) in entities.iter().zip(bodies) {
+            self.now.insert(entity, *body);
+        }
+    }
+}
+
+/// Gives every body that was hit what came of it.
+pub(super) fn carry_out(
+    mut commands: Commands,
+    verdicts: Res<Verdicts>,
+    mut bodies: Query<&mut BreakableBody>,
+    moving: Query<(&'static RigidBody, Moving)>,
+) {
+    let mut verdicts: Vec<Verdict> = {
+        let mut list = verdicts.0.lock().unwrap_or_else(PoisonError::into_inner);
+        std::mem::take(&mut *list)
+    };
+    // Pairs come in any order; a body's own break counts before those that held.
+    let broke = |v: &Verdict| matches!(v.outcome, Ok(Outcome::Broke(_)));
+    verdicts.sort_by_key(|v| (v.body, !broke(v), v.striker));
+    verdicts.dedup_by_key(|v| v.body);
+    // Two that break each other each see the other as a rigid one: the mean of their answers counts.
+    let met: Vec<(Entity, Option<Entity>)> = (verdicts.iter())
+        .filter(|v| broke(v))
+        .map(|v| (v.body, v.striker))
+        .collect();
+    let mut motions = Motions {
+        before: &moving,
+        now: BTreeMap::new(),
+        families: BTreeMap::new(),
+    };
+    for Verdict {
+        body: entity,
+        striker,
+        contacts,
+        outcome,
+    } in verdicts
+    {
+        let (Ok(mut body), Ok((_, now)), Some(whole)) = (
+            bodies.get_mut(entity),
+            moving.get(entity),
+            motions.of(entity),
+        ) else {
+            continue;
+        };
+        let (at, rotation) = (now.0.0, now.1.0);
+        let pose = Transform::from_translation(at).with_rotation(rotation);
+        let Some((fracture, fragments)) = conclude(&mut commands, entity, &mut body, pose, outcome)
+        else {
+            continue;
+        };
+        let order = nearest_first(&fracture, &contacts);
+        let pieces: Vec<Entity> = order.iter().map(|&i| fragments[i]).collect();
+        let mut rigids: Vec<Rigid> = (order.iter().map(|&i| &fracture.fragments[i]))
+            .map(|f| {
+                let supported = f.supported && !whole.gives_way();
+                piece(&f.mass, supported, &whole, rotation, at)
+            })
+            .collect();
+        let parts = motions.parts(striker);
+        let mut others = motions.all(&parts);
+        let mirrored = striker.is_some_and(|s| met.contains(&(s, Some(entity))));
+        let share = if mirrored { 0.5 } else { 1.0 };
+        let world = |v: glam::Vec3| double(into(rotation * out(v)));
+        let pushes: Vec<(DVec3, DVec3)> = (fracture.report.contacts.iter())
+            .map(|c| {
+                let place = double(into(at)) + world(c.point);
+                (place, world(c.normal) * (share * c.impulse))
+            })
+            .collect();
+        let lost = push_plug(&mut rigids, &mut others, &pushes);
+        let count = rigids.len();
+        rigids.append(&mut others);
+        if parts.is_empty() {
+            rigids.push(Rigid::earth());
+        }
+        take_energy(&mut rigids, fracture.report.fracture_energy - lost);
+        motions.set(&pieces, &rigids[..count]);
+        motions.set(&parts, &rigids[count..]);
+        motions.families.insert(entity, pieces);
+    }
+    for (entity, body) in &motions.now {
+        commands.entity(*entity).try_insert(velocities(body));
+    }
+}
+
+/// The numbers of the fragments, from the nearest to the contacts.
+fn nearest_first(fracture: &Fracture, contacts: &[Contact]) -> Vec<usize> {
+    let gap = |i: usize| {
+        let fragment = &fracture.fragments[i];
+        let centre = fragment.mass.centre.as_vec3();
+        let corners = fragment.mesh.positions.iter();
+        let gaps = corners.flat_map(|p| {
+            contacts
+                .iter()
+                .map(move |c| (*p + centre).distance_squared(c.point))
+        });
+        gaps.fold(f32::INFINITY, f32::min)
+    };
+    let mut order: Vec<(f32, usize)> = (0..fracture.fragments.len()).map(|i| (gap(i), i)).collect();
+    order.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    order.into_iter().map(|(_, i)| i).collect()
+}

@@ -1,0 +1,97 @@
+//! Colliders of bodies and pieces: of the convex cells that a bake has made, put together until they are few. No convex decomposition
+//! happens in a game. Shapes serve contact alone; masses come from the exact pieces.
+
+use avian3d::prelude::*;
+use bevy::prelude::*;
+use frangible::internals::mesh::{merged_parts, thinned};
+use frangible::{Asset as Baked, Fragment, glam};
+
+use crate::meshes::out;
+
+/// How finely colliders follow bodies and fragments that become ready from now on. What a scene of hundreds of bodies costs is mostly this.
+/// A body that the game has given a [`Collider`] keeps it. A ball touches a body's own surface, whatever its collider.
+#[derive(Resource, Clone, Copy, Debug, PartialEq)]
+pub struct ColliderDetail {
+    /// Convex parts of a whole body at most, 1 or more, and points of each. 1 part is the convex hull. Default 12 and 48.
+    pub whole: (usize, usize),
+    /// Of a fragment that one hull does not fit. Default 4 and 24.
+    pub fragment: (usize, usize),
+    /// A fragment gets one hull where hull volume / its volume is at most this. Default 1.5.
+    pub hull_volume_ratio: f64,
+    /// How far ahead fragments see in a step what they will meet, m: Avian's [`SpeculativeMargin`]. Default 0.05. Without a bound hundreds
+    /// of pieces that fly apart at 25 m/s see half a metre each, and so each other, which is most of what they cost. Faster ones may pass
+    /// what is thinner than their step.
+    pub fragments_see: f32,
+}
+
+impl Default for ColliderDetail {
+    fn default() -> Self {
+        Self {
+            whole: (12, 48),
+            fragment: (4, 24),
+            hull_volume_ratio: 1.5,
+            fragments_see: 0.05,
+        }
+    }
+}
+
+/// Smallest extent of a stand-in box, m.
+const LEAST_EXTENT: f32 = 4e-4;
+
+/// The collider of a whole body.
+pub(super) fn whole(baked: &Baked, (parts, points): (usize, usize)) -> Collider {
+    let cells = baked.cells.iter().map(|cell| &cell.points[..]).collect();
+    compound(cells, parts, points).unwrap_or_else(|| bounding_box(baked.surface_positions()))
+}
+
+/// The collider of a fragment: one hull, the hulls of its shares of the cells, or a box.
+pub(super) fn of_fragment(fragment: &Fragment, detail: &ColliderDetail) -> Collider {
+    let (parts, points) = detail.fragment;
+    let one = hull(&fragment.mesh.positions, points);
+    if let Some(one) = &one {
+        let volume = f64::from(one.shape().mass_properties(1.0).mass());
+        if volume <= detail.hull_volume_ratio * fragment.mass.volume {
+            return one.clone();
+        }
+    }
+    let shares = fragment.cell_shares.iter().map(|(_, points)| &points[..]);
+    let shares = compound(shares.collect(), parts, points);
+    shares
+        .or(one)
+        .unwrap_or_else(|| bounding_box(&fragment.mesh.positions))
+}
+
+/// None where the points have no volume.
+fn hull(points: &[glam::Vec3], most: usize) -> Option<Collider> {
+    let points = thinned(points, most.max(4));
+    let hull = Collider::convex_hull(points.into_iter().map(out).collect())?;
+    // Flat hulls make contacts with random normals.
+    let volume = hull.shape().mass_properties(1.0).mass();
+    (volume.is_finite() && volume > 1e-15).then_some(hull)
+}
+
+fn compound(parts: Vec<&[glam::Vec3]>, most: usize, points: usize) -> Option<Collider> {
+    let parts = merged_parts(parts, most);
+    let mut hulls: Vec<Collider> = parts.iter().filter_map(|p| hull(p, points)).collect();
+    match hulls.len() {
+        0 | 1 => hulls.pop(),
+        _ => {
+            let placed = hulls.into_iter().map(|h| (Vec3::ZERO, Quat::IDENTITY, h));
+            Some(Collider::compound(placed.collect()))
+        }
+    }
+}
+
+fn bounding_box(points: &[glam::Vec3]) -> Collider {
+    let none = (glam::Vec3::INFINITY, glam::Vec3::NEG_INFINITY);
+    let (low, high) = points
+        .iter()
+        .fold(none, |(low, high), p| (low.min(*p), high.max(*p)));
+    let size = (high - low).max(glam::Vec3::splat(LEAST_EXTENT));
+    let middle = out((low + high) * 0.5);
+    Collider::compound(vec![(
+        middle,
+        Quat::IDENTITY,
+        Collider::cuboid(size.x, size.y, size.z),
+    )])
+}

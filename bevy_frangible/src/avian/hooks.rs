@@ -1,0 +1,192 @@
+//! What Avian asks about each pair of colliders that touches.
+
+use avian3d::prelude::*;
+use bevy::ecs::system::{ReadOnlySystemParam, StaticSystemParam, SystemParam};
+use bevy::prelude::*;
+use frangible::internals::contact::{SharedMass, first_touch_of_ball};
+use frangible::{Contact, Outcome, Striker, impact};
+
+use super::touches::{FirstTouch, first_touches};
+use super::{ImpactSpeed, MadeOf, Moving, Verdict, Verdicts};
+use crate::meshes::{into, out};
+use crate::{Born, BreakableBody, Fracturing, FragmentOf};
+
+/// How much of an overlap of siblings is shown to the solver, in m of each second.
+const OVERLAP_RELAXATION: f32 = 2e-3;
+
+/// Steps after their birth in which siblings do not bounce off each other.
+const NEWBORN_STEPS: f32 = 2.5;
+
+/// Smallest radius of curvature of a thing with edges, m.
+const EDGE_RADIUS: f32 = 3e-3;
+
+/// Collision hooks that break bodies: `PhysicsPlugins::default().with_collision_hooks::<FrangibleHooks>()`. A game with hooks of its own
+/// wraps them, `FrangibleHooks<MyHooks>`: its own are asked first, of the colliders that have them switched on.
+#[derive(SystemParam)]
+pub struct FrangibleHooks<'w, 's, Inner: SystemParam + 'static = ()> {
+    inner: StaticSystemParam<'w, 's, Inner>,
+    bodies: Query<'w, 's, (&'static BreakableBody, Moving)>,
+    others: Query<'w, 's, (&'static RigidBody, Moving)>,
+    made_of: Query<'w, 's, &'static MadeOf>,
+    pieces: Query<'w, 's, (&'static FragmentOf, &'static Born)>,
+    colliders: Query<'w, 's, &'static Collider>,
+    verdicts: Res<'w, Verdicts>,
+    config: Res<'w, Fracturing>,
+    impact_speed: Res<'w, ImpactSpeed>,
+    time: Res<'w, Time>,
+    fixed: Res<'w, Time<Fixed>>,
+}
+
+impl<Inner> CollisionHooks for FrangibleHooks<'_, '_, Inner>
+where
+    Inner: ReadOnlySystemParam + 'static,
+    for<'w, 's> Inner::Item<'w, 's>: CollisionHooks,
+{
+    fn filter_pairs(&self, first: Entity, second: Entity, commands: &mut Commands) -> bool {
+        self.inner.filter_pairs(first, second, commands)
+    }
+
+    fn modify_contacts(&self, contacts: &mut ContactPair, commands: &mut Commands) -> bool {
+        if !self.inner.modify_contacts(contacts, commands) {
+            return false;
+        }
+        let mut broke = false;
+        for flipped in [false, true] {
+            broke |= self.ask(contacts, flipped);
+        }
+        if !broke {
+            self.relax_siblings(contacts);
+        }
+        !broke
+    }
+}
+
+impl<Inner: SystemParam + 'static> FrangibleHooks<'_, '_, Inner> {
+    /// Fragments of one parent overlap a little at birth, by the depth of their jags; the solver would push them apart at metres per
+    /// second. Shown next to nothing of the overlap, they cannot come nearer and creep apart. And a blow that reaches a newborn piece
+    /// through many siblings at once must not bounce off each of them.
+    fn relax_siblings(&self, pair: &mut ContactPair) {
+        let piece = |body: Option<Entity>| self.pieces.get(body?).ok();
+        let (Some((a, born)), Some((b, _))) = (piece(pair.body1), piece(pair.body2)) else {
+            return;
+        };
+        if a.0 != b.0 {
+            return;
+        }
+        let age = self.fixed.elapsed().saturating_sub(born.0).as_secs_f32();
+        let newborn = age < NEWBORN_STEPS * self.fixed.timestep().as_secs_f32();
+        let shown = OVERLAP_RELAXATION * self.time.delta_secs();
+        for manifold in &mut pair.manifolds {
+            if newborn {
+                manifold.restitution = 0.0;
+            }
+            for point in &mut manifold.points {
+                point.penetration = point.penetration.min(shown);
+            }
+        }
+    }
+
+    /// Puts the first body of a pair to the fracture, or the second one; whether it breaks.
+    fn ask(&self, pair: &ContactPair, flipped: bool) -> bool {
+        let (body, other, collider) = match flipped {
+            false => (pair.body1, pair.body2, pair.collider2),
+            true => (pair.body2, pair.body1, pair.collider1),
+        };
+        let Some((entity, (body, moving))) = body.and_then(|e| Some((e, self.bodies.get(e).ok()?)))
+        else {
+            return false;
+        };
+        let to_body = moving.1.0.inverse();
+        let ball = self.colliders.get(collider).ok();
+        let ball = ball.and_then(|c| c.shape().as_ball().map(|ball| ball.radius));
+        let striker = self.striker(other, collider, ball);
+        let dt = self.time.delta_secs();
+        let mut touches = first_touches(pair, flipped, dt, self.impact_speed.0);
+        if let (Some(radius), Some((_, other))) =
+            (ball, other.and_then(|e| self.others.get(e).ok()))
+            && !touches.is_empty()
+        {
+            let at = moving.0.0;
+            let centre = other.0.0 + other.1.0 * other.6.0;
+            let carried = moving.2.0 + moving.3.0.cross(centre - at);
+            let against = to_body * (other.2.0 - carried);
+            let from = to_body * (centre - at);
+            let touch = first_touch_of_ball(&body.0, into(from), into(against), radius, dt);
+            if let Some((place, normal)) = touch {
+                // The ball touches the body's own surface, at one point.
+                let (place, normal) = (
+                    to_body.inverse() * out(place),
+                    to_body.inverse() * out(normal),
+                );
+                let approach = (to_body.inverse() * against).dot(normal);
+                touches = vec![FirstTouch {
+                    anchors: [place, -radius * normal],
+                    normal,
+                    approach,
+                    gap: 0.0,
+                }];
+                touches.retain(|t| t.approach > self.impact_speed.0);
+            }
+        }
+        let contacts: Vec<Contact> = touches
+            .into_iter()
+            .map(|touch| {
+                let shared = self.shared(other, touch.anchors[1], touch.normal);
+                let striker = Striker {
+                    inverse_effective_mass: shared.map_or(0.0, |s| {
+                        s.velocity.length_squared() + s.spin.length_squared()
+                    }),
+                    shared,
+                    ..striker
+                };
+                let at = into(to_body * touch.anchors[0]);
+                let toward = into(to_body * touch.normal);
+                Contact::new(at, toward, 0.0, touch.approach, striker)
+            })
+            .collect();
+        if contacts.is_empty() {
+            return false;
+        }
+        let outcome = impact(&body.0, &contacts, &self.config.0);
+        let broke = matches!(outcome, Ok(Outcome::Broke(_)));
+        let verdict = Verdict {
+            body: entity,
+            striker: other,
+            contacts,
+            outcome,
+        };
+        let mut verdicts = self.verdicts.0.lock();
+        let verdicts = verdicts.as_mut();
+        verdicts.map_or_else(|_| (), |list| list.push(verdict));
+        broke
+    }
+
+    /// What a collider strikes a body with, but for its mass.
+    fn striker(&self, other: Option<Entity>, collider: Entity, ball: Option<f32>) -> Striker {
+        let made_of = |entity: Entity| self.made_of.get(entity).ok();
+        let material = made_of(collider).or_else(|| made_of(other?));
+        let striker = material.map_or_else(Striker::rigid, |made| Striker::fixed(&made.0));
+        let is_body = |e: Entity| self.bodies.contains(e) || self.pieces.contains(e);
+        Striker {
+            // A body with edges strikes with one of them.
+            curvature_radius: ball.unwrap_or(match other.is_some_and(is_body) {
+                true => EDGE_RADIUS,
+                false => f32::INFINITY,
+            }),
+            ..striker
+        }
+    }
+
+    /// How a striker gives way at a contact; none where it does not.
+    fn shared(&self, other: Option<Entity>, arm: Vec3, normal: Vec3) -> Option<SharedMass> {
+        let (kind, moving) = self.others.get(other?).ok()?;
+        if !kind.is_dynamic() {
+            return None;
+        }
+        let turn = into(arm.cross(normal));
+        let inverse = moving.5.rotated(moving.1.0).inverse().to_mat3();
+        let columns = [inverse.x_axis, inverse.y_axis, inverse.z_axis].map(into);
+        let velocity = into(normal) * moving.4.inverse().sqrt();
+        Some(SharedMass::of(0, velocity, columns, turn))
+    }
+}

@@ -1,0 +1,77 @@
+//! Bodies that break inside Avian's step.
+//!
+//! Avian asks its collision hooks about each pair of colliders that touches, before it solves the contacts. A breakable body is put to the
+//! fracture there, with the speeds before the solver. If it breaks, the pair's contacts are dropped for this step, so that the striker
+//! keeps its velocity; after the step the pieces take the body's place, the blow's impulse acts between them and the striker, and the
+//! cracks' energy is taken from the motion. No step has to be undone.
+
+mod after;
+mod bodies;
+mod colliders;
+mod hooks;
+mod plain;
+mod resting;
+mod touches;
+
+use std::sync::Mutex;
+
+use avian3d::prelude::*;
+use bevy::prelude::*;
+use frangible::{Contact, InputError, Material, Outcome};
+
+pub use colliders::ColliderDetail;
+pub use hooks::FrangibleHooks;
+pub use resting::Carries;
+
+/// Approach slower than this is no impact, m/s. Default 0.5; raising it asks the fracture less often.
+#[derive(Resource, Clone, Copy, Debug, PartialEq)]
+pub struct ImpactSpeed(pub f32);
+
+impl Default for ImpactSpeed {
+    fn default() -> Self {
+        Self(0.5)
+    }
+}
+
+/// What an entity with a collider is made of, for what it strikes: without it a striker is rigid, and flat unless its collider is a ball.
+#[derive(Component, Clone, Debug)]
+pub struct MadeOf(pub Material);
+
+/// What happened to bodies in the step that runs.
+#[derive(Resource, Default)]
+struct Verdicts(Mutex<Vec<Verdict>>);
+
+struct Verdict {
+    body: Entity,
+    /// None for a collider without a body.
+    striker: Option<Entity>,
+    contacts: Vec<Contact>,
+    outcome: Result<Outcome, InputError>,
+}
+
+/// A body as Avian moves it.
+type Moving = (
+    &'static Position,
+    &'static Rotation,
+    &'static LinearVelocity,
+    &'static AngularVelocity,
+    &'static ComputedMass,
+    &'static ComputedAngularInertia,
+    &'static ComputedCenterOfMass,
+);
+
+pub(crate) fn build(app: &mut App) {
+    app.init_resource::<Verdicts>()
+        .init_resource::<ColliderDetail>()
+        .init_resource::<ImpactSpeed>()
+        .add_observer(bodies::give_collider)
+        .add_observer(bodies::give_fragments)
+        .add_observer(bodies::miss_collider)
+        .add_observer(bodies::push)
+        .add_systems(
+            FixedPostUpdate,
+            (after::carry_out, resting::weigh)
+                .chain()
+                .after(PhysicsSystems::Last),
+        );
+}

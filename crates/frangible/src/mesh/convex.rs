@@ -1,0 +1,79 @@
+//! Convex parts of a body made fewer and simpler, for colliders of engines.
+
+use glam::Vec3;
+
+/// Convex parts, neighbours put together until at most `most` are left: halved again and again at the median across the
+/// longest side of the box of their middles.
+#[must_use]
+pub fn merged_parts(parts: Vec<&[Vec3]>, most: usize) -> Vec<Vec<Vec3>> {
+    if parts.len() <= most.max(1) {
+        return parts.into_iter().map(<[_]>::to_vec).collect();
+    }
+    if most <= 1 {
+        return vec![parts.concat()];
+    }
+    let middle = |points: &[Vec3]| points.iter().sum::<Vec3>() / points.len().max(1) as f32;
+    let mut parts: Vec<(Vec3, &[Vec3])> = parts.into_iter().map(|p| (middle(p), p)).collect();
+    let middles: Vec<Vec3> = parts.iter().map(|(m, _)| *m).collect();
+    let (low, high) = bounds(&middles);
+    let axis = (high - low).max_position();
+    parts.sort_by(|(a, _), (b, _)| a[axis].total_cmp(&b[axis]));
+    let far = parts.split_off(parts.len() / 2);
+    let half = |parts: Vec<(Vec3, &[Vec3])>, most| {
+        merged_parts(parts.into_iter().map(|(_, p)| p).collect(), most)
+    };
+    let mut all = half(parts, most / 2);
+    all.extend(half(far, most - most / 2));
+    all
+}
+
+/// Points welded on a grid of 1e-5 of their extent, then at most the extreme ones along evenly spread directions:
+/// nearly coincident points are what breaks hull algorithms.
+#[must_use]
+pub fn thinned(points: &[Vec3], most: usize) -> Vec<Vec3> {
+    let (low, high) = bounds(points);
+    let grid = (high - low).max_element() * 1e-5;
+    if !(grid.is_finite() && grid > 0.0) {
+        return Vec::new();
+    }
+    let mut cells: Vec<([i32; 3], usize)> = points
+        .iter()
+        .enumerate()
+        .map(|(i, &p)| (((p - low) / grid).round().as_ivec3().to_array(), i))
+        .collect();
+    cells.sort_unstable();
+    cells.dedup_by_key(|(cell, _)| *cell);
+    let mut kept: Vec<usize> = cells.into_iter().map(|(_, i)| i).collect();
+    if kept.len() > most {
+        let candidates = std::mem::take(&mut kept);
+        for k in 0..most {
+            let direction = spread_direction(k, most);
+            let farthest = candidates.iter().copied().max_by(|&a, &b| {
+                points[a]
+                    .dot(direction)
+                    .total_cmp(&points[b].dot(direction))
+                    .then(b.cmp(&a))
+            });
+            kept.extend(farthest);
+        }
+    }
+    kept.sort_unstable();
+    kept.dedup();
+    kept.into_iter().map(|i| points[i]).collect()
+}
+
+/// The k-th of n directions spread evenly over the sphere (golden spiral).
+fn spread_direction(k: usize, n: usize) -> Vec3 {
+    let z = 1.0 - (2 * k + 1) as f32 / n as f32;
+    let (sin, cos) = (k as f32 * 2.399_963_2).sin_cos();
+    let r = (1.0 - z * z).max(0.0).sqrt();
+    Vec3::new(r * cos, r * sin, z)
+}
+
+/// The box about points.
+fn bounds(points: &[Vec3]) -> (Vec3, Vec3) {
+    points.iter().fold(
+        (Vec3::splat(f32::INFINITY), Vec3::splat(f32::NEG_INFINITY)),
+        |(low, high), &p| (low.min(p), high.max(p)),
+    )
+}
