@@ -6,7 +6,7 @@ use crate::blow::Blow;
 use crate::body::Body;
 use crate::config::FractureConfig;
 use crate::crack::{CrackSystem, Peak, StressField, Suspects, crack};
-use crate::fragment::{self, Labels};
+use crate::fragment::{self, Labels, MeshIndex};
 use crate::modal::Motion;
 use crate::outcome::{ImpactReport, LookedAt};
 use crate::refuse::Culling;
@@ -172,7 +172,8 @@ impl<'a> Cracking<'a> {
         }
         let start = Instant::now();
         let crumb_share = self.config.crumb_share;
-        let labels = fragment::label(&system, &body.prepared.index, crumb_share);
+        let index = &body.prepared.index;
+        let labels = fragment::label(&system, index, crumb_share);
         report.timings.labels = start.elapsed().as_secs_f64();
         if let Some(trace) = trace {
             *trace = CrackTrace::of(&system, &labels.of_node);
@@ -183,9 +184,47 @@ impl<'a> Cracking<'a> {
             let state = grown.then(|| Box::new(BodyState::of(&system.cracks)));
             Cracked::Held(margin, report, state)
         } else {
+            if self.blow.is_some() {
+                cut_off(&system, &labels, index, &self.pressed, &mut report);
+            }
             Cracked::Parted(system, labels, report)
         }
     }
+}
+
+/// Ends the force of each contact when the piece under it is cut free: what pushes later pushes that piece alone, which whoever moves the
+/// pieces finds out. A piece of more than half of the body bears the whole blow.
+fn cut_off(
+    system: &CrackSystem,
+    labels: &Labels,
+    index: &MeshIndex,
+    pressed: &[u32],
+    report: &mut ImpactReport,
+) {
+    let asset = system.asset;
+    // A piece's surface has no triangles of mesh nodes.
+    if asset.portion.is_some() || pressed.len() != report.contacts.len() {
+        return;
+    }
+    let label = |v: u32| labels.of_node[v as usize];
+    for (contact, &triangle) in report.contacts.iter_mut().zip(pressed) {
+        let Some(triangle) = asset.surface.triangles.get(triangle as usize) else {
+            continue;
+        };
+        let piece = label(triangle[0]);
+        if index.is_most(labels, piece) {
+            continue;
+        }
+        let cuts = system.cracks.iter().flat_map(|crack| &crack.elements);
+        let around = cuts.filter(|cut| {
+            let labels = asset.fracture.tets[cut.tet as usize].map(label);
+            labels.contains(&piece) && labels != [piece; 4]
+        });
+        let free = around.map(|cut| cut.time).fold(0.0, f64::max);
+        contact.end_at(free, report.time_step);
+    }
+    let durations = report.contacts.iter().map(|contact| contact.duration);
+    report.contact_duration = durations.fold(0.0, f64::max);
 }
 
 /// What has been met so far.

@@ -87,8 +87,10 @@ pub struct ContactReport {
     pub point: Vec3,
     /// Unit direction of the force on this body.
     pub normal: Vec3,
-    /// Impulse along the normal until the contact parted, or the wall under it was gone, N·s.
+    /// Impulse along the normal until the contact parted, or the wall or the piece under it was cut free, N·s.
     pub impulse: f64,
+    /// Speed of approach, m/s; 0 of a script.
+    pub approach_speed: f64,
     /// Largest force, N.
     pub peak_force: f64,
     /// How long the contact lasted, s.
@@ -100,6 +102,30 @@ pub struct ContactReport {
     pub departure_speed: f64,
     /// Force at the end of each [time step](ImpactReport::time_step), N.
     pub force: Vec<f32>,
+}
+
+impl ContactReport {
+    /// Lets the force end at a time, s, where it has not ended before. `time_step`: between two values of the force, s.
+    pub(crate) fn end_at(&mut self, end: f64, time_step: f64) {
+        if end >= self.duration {
+            return;
+        }
+        let sum = |force: &[f32]| force.iter().map(|&f| f64::from(f)).sum::<f64>();
+        let whole = sum(&self.force);
+        self.force.truncate((end / time_step).ceil() as usize);
+        let share = if whole > 0.0 {
+            sum(&self.force) / whole
+        } else {
+            0.0
+        };
+        let peak = self.force.iter().copied().fold(0.0, f32::max);
+        self.peak_force = self.peak_force.min(f64::from(peak));
+        self.impulse *= share;
+        self.duration = end;
+        // The speed changes as the impulse does.
+        self.departure_speed =
+            share * (self.departure_speed + self.approach_speed) - self.approach_speed;
+    }
 }
 
 /// What of an impact had to be looked at, from the cheapest.

@@ -197,6 +197,7 @@ impl Blow {
             ContactReport {
                 point: site.touch.contact.point,
                 normal: site.touch.contact.normal,
+                approach_speed: f64::from(site.touch.contact.approach_speed),
                 impulse: forces().sum::<f64>() * dt,
                 peak_force: peak,
                 duration: forces()

@@ -2,6 +2,7 @@
 //!
 //! It takes about 29 bytes per tetrahedron.
 
+use super::label::Labels;
 use crate::asset::Asset;
 use crate::mesh::{Rows, TetMesh};
 
@@ -51,6 +52,13 @@ impl MeshIndex {
     /// Nodes joined to a node by an edge, rising.
     pub(crate) fn neighbours(&self, node: u32) -> &[u32] {
         self.neighbours.of(node)
+    }
+
+    /// Whether a piece has more than half of the body.
+    pub(crate) fn is_most(&self, labels: &Labels, piece: u32) -> bool {
+        let nodes = labels.of_node.iter().zip(&self.volumes);
+        let own = nodes.filter(|(of, _)| **of == piece);
+        2 * own.map(|(_, volume)| volume).sum::<u64>() > self.whole
     }
 
     /// Volume of some nodes, in whole numbers of which 2⁶⁰ make about the body.
