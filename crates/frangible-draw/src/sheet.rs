@@ -30,8 +30,7 @@ impl Default for SheetOptions {
 const GAP: u32 = 4;
 
 /// The four moments of a break, labelled: before, first crack, just after, at
-/// rest; seen from the recording's camera, and at the end from the other one if
-/// there is one.
+/// rest; each seen from the view of its own, if the recording has such views.
 ///
 /// # Errors
 ///
@@ -42,8 +41,8 @@ pub fn contact_sheet(recording: &Recording, options: &SheetOptions) -> Result<Rg
     sheet_of_frames(&cells, options)
 }
 
-/// One labelled cell per frame, row by row; each seen from the camera of its
-/// own recording.
+/// One labelled cell per frame, row by row; each seen from the view that its
+/// own recording has for the frame.
 ///
 /// # Errors
 ///
@@ -69,11 +68,7 @@ pub fn sheet_of_frames(
     let size = (side(columns, cell_width), side(rows, cell_height));
     let mut sheet = RgbImage::from_pixel(size.0, size.1, Rgb([255; 3]));
     for (index, (recording, frame, label)) in (0..).zip(cells) {
-        let view = match &recording.rest_camera {
-            Some(rest) if *frame >= recording.moments.at_rest => rest,
-            _ => &recording.camera,
-        };
-        let cell = studio.frame(recording, *frame, view, label)?;
+        let cell = studio.frame(recording, *frame, &recording.view_of(*frame), label)?;
         let x = index % columns * (cell_width + GAP);
         let y = index / columns * (cell_height + GAP);
         imageops::replace(&mut sheet, &cell, x.into(), y.into());

@@ -26,8 +26,8 @@ pub struct Recording {
     pub floor: Option<Floor>,
     /// The view to look from.
     pub camera: View,
-    /// The view to look from at the end, when what lies there would be lost in the first view.
-    pub rest_camera: Option<View>,
+    /// The views of its own that each of the [four moments](Recording::labelled_moments) is best seen from, in their order.
+    pub views: Option<[View; 4]>,
     /// The frames worth a picture.
     pub moments: Moments,
     /// Everything that hit a node hard enough to be asked whether it breaks, in the order of time.
@@ -232,8 +232,10 @@ pub struct Moments {
     pub first_crack: usize,
     /// Shards on their way.
     pub just_after: usize,
-    /// Everything has come to rest.
+    /// The end.
     pub at_rest: usize,
+    /// Whether something still moves there.
+    pub moves_on: bool,
 }
 
 impl Recording {
@@ -255,7 +257,25 @@ impl Recording {
             (self.moments.before, "before"),
             (self.moments.first_crack, "first crack"),
             (self.moments.just_after, "just after"),
-            (self.moments.at_rest, "at rest"),
+            (
+                self.moments.at_rest,
+                if self.moments.moves_on {
+                    "at the end"
+                } else {
+                    "at rest"
+                },
+            ),
         ]
+    }
+
+    /// The view that a frame is best seen from: that of the latest moment that it comes at or after.
+    #[must_use]
+    pub fn view_of(&self, frame: usize) -> View {
+        let Some(views) = self.views else {
+            return self.camera;
+        };
+        let begun = self.labelled_moments().map(|(moment, _)| moment <= frame);
+        let latest = begun.iter().rposition(|&begun| begun);
+        views[latest.unwrap_or(0)]
     }
 }

@@ -38,6 +38,7 @@ impl Recording {
             check_floor(floor)?;
         }
         self.camera.validate()?;
+        self.views.iter().flatten().try_for_each(View::validate)?;
         for (i, blow) in self.blows.iter().enumerate() {
             check_blow(i, blow, self.nodes.len())?;
         }

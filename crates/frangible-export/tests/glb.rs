@@ -77,12 +77,12 @@ fn recording() -> Recording {
         ],
         floor: Some(Floor::default()),
         camera: View::default(),
-        rest_camera: None,
         moments: Moments {
             before: 0,
             first_crack: BREAK,
             just_after: 5,
             at_rest: 9,
+            moves_on: false,
         },
         ..Recording::default()
     }

@@ -11,9 +11,10 @@ use frangible_rapier::rapier3d::dynamics::RigidBodyHandle;
 use frangible_rapier::{BreakCause, BreakEvent};
 
 use crate::bake::BakedBody;
+use crate::cameras::view;
 use crate::error::SceneError;
 use crate::meshes::{BodySurfaces, piece, whole};
-use crate::recorder::{FRAME_RATE, view};
+use crate::recorder::FRAME_RATE;
 use crate::run::steps_of_frame;
 use crate::scene::Scene;
 use crate::stage::{Stage, set_up};

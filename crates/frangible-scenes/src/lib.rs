@@ -21,6 +21,7 @@ mod bake;
 mod body;
 mod bonds;
 mod builtin;
+mod cameras;
 mod check;
 mod error;
 mod files;

@@ -118,7 +118,7 @@ impl LiveScene {
             };
             let placed = bodies.iter().position(|placed| placed.handle == handle);
             let (kind, surfaces) = match (role, placed) {
-                (Role::Body(_), Some(i)) => (ThingKind::Body(i), Some(bodies[i].surfaces.clone())),
+                (Role::Body, Some(i)) => (ThingKind::Body(i), Some(bodies[i].surfaces.clone())),
                 _ => (ThingKind::Projectile, None),
             };
             things.push(Arc::new(Thing {

@@ -7,13 +7,14 @@ use frangible::glam::{Quat, Vec3};
 use frangible::{Asset, ImpactReport};
 use frangible_export::{
     Floor, Moments, Pose, Pulse, RecordedBlow, RecordedCrack, RecordedMesh, RecordedNode,
-    RecordedTouch, Recording, SurfaceMaterial, View,
+    RecordedTouch, Recording, SurfaceMaterial,
 };
 use frangible_rapier::BreakEvent;
 use frangible_rapier::BreakableWorld;
 use frangible_rapier::rapier3d::dynamics::RigidBodyHandle;
 use frangible_rapier::rapier3d::geometry::Collider;
 
+use crate::cameras::cameras;
 use crate::meshes::{BodySurfaces, piece};
 
 /// Frames per second of a recording.
@@ -31,8 +32,8 @@ struct Tracked {
 /// What a node is to the camera.
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) enum Role {
-    /// A breakable body within this radius of its centre of mass, m.
-    Body(f32),
+    /// A breakable body.
+    Body,
     /// A piece of one.
     Piece,
     /// What was thrown: it may leave the picture.
@@ -257,8 +258,13 @@ impl Recorder {
         recording.frame_count += 1;
     }
 
-    /// The finished recording, its camera set so that what matters fills the picture.
-    pub(crate) fn finish(mut self, look_from: Vec3, floor: Option<Floor>) -> Recording {
+    /// The finished recording, its views set so that what matters fills the picture; `at_rest`: whether nothing moves in the end.
+    pub(crate) fn finish(
+        mut self,
+        look_from: Vec3,
+        floor: Option<Floor>,
+        at_rest: bool,
+    ) -> Recording {
         let recording = &mut self.recording;
         recording.floor = floor;
         let last = recording.frame_count.saturating_sub(1);
@@ -273,8 +279,10 @@ impl Recorder {
             first_crack,
             just_after: (first_crack + 5).min(last),
             at_rest: last,
+            moves_on: !at_rest,
         };
-        (recording.camera, recording.rest_camera) = cameras(recording, &self.roles, look_from);
+        let (camera, views) = cameras(recording, &self.roles, look_from);
+        (recording.camera, recording.views) = (camera, Some(views));
         self.recording
     }
 }
@@ -284,131 +292,5 @@ pub(crate) fn piece_name(parent: &str, generation: u32, i: usize) -> String {
     match generation {
         0 => format!("{parent} piece {}", i + 1),
         _ => format!("{parent}.{}", i + 1),
-    }
-}
-
-/// A piece at rest.
-struct Resting {
-    centre: Vec3,
-    radius: f32,
-    mass: f64,
-}
-
-/// How much farther than for the body alone the camera goes to show the pieces at rest as well.
-const FARTHEST: f32 = 4.0;
-
-/// Looks so that the body just before the break and most of the pieces at rest fill the picture; from two places when
-/// the pieces came to lie so far off that the body would be small.
-fn cameras(recording: &Recording, roles: &[Role], look_from: Vec3) -> (View, Option<View>) {
-    let moments = recording.moments;
-    // Without a floor pieces fall for ever.
-    let end = match recording.floor {
-        Some(_) => moments.at_rest,
-        None => moments.just_after,
-    };
-    let mut largest = 0.0_f32;
-    let mut seen: Vec<Vec3> = Vec::new();
-    let mut at_rest: Vec<Vec3> = Vec::new();
-    let mut resting: Vec<Resting> = Vec::new();
-    for (i, (node, &role)) in recording.nodes.iter().zip(roles).enumerate() {
-        if let Role::Body(radius) = role
-            && node.visible.contains(&moments.before)
-        {
-            largest = largest.max(radius);
-            let centre = recording.pose(i, moments.before).translation;
-            let reach = |axis: Vec3| axis * radius;
-            seen.extend(
-                [Vec3::X, Vec3::Y, Vec3::Z]
-                    .into_iter()
-                    .flat_map(|a| [centre + reach(a), centre - reach(a)]),
-            );
-        }
-        if node.visible.contains(&end) && role != Role::Projectile {
-            let mesh = &recording.meshes[node.mesh];
-            let radius = mesh
-                .positions
-                .iter()
-                .map(|p| p.length())
-                .fold(0.0, f32::max);
-            let mass = node
-                .keep_extras
-                .iter()
-                .find(|e| e.0 == "mass_kg")
-                .map_or(0.0, |e| e.1);
-            resting.push(Resting {
-                centre: recording.pose(i, end).translation,
-                radius,
-                mass,
-            });
-        }
-    }
-    // The nearest pieces that make up most of the mass; strays do not move the camera.
-    let whole: f64 = resting.iter().map(|p| p.mass).sum();
-    let middle = resting
-        .iter()
-        .map(|p| p.centre * (p.mass / whole) as f32)
-        .sum::<Vec3>();
-    resting.sort_by(|a, b| {
-        a.centre
-            .distance(middle)
-            .total_cmp(&b.centre.distance(middle))
-    });
-    let mut mass = 0.0;
-    for piece in resting {
-        if mass > 0.9 * whole {
-            break;
-        }
-        mass += piece.mass;
-        let across = [Vec3::X, Vec3::NEG_X, Vec3::Z, Vec3::NEG_Z];
-        at_rest.extend(across.map(|axis| piece.centre + 0.9 * piece.radius * axis));
-        // Its foot, towards the camera: what lies in front of the middle is low in the picture.
-        let front = Vec3::new(look_from.x, 0.0, look_from.z).normalize_or_zero();
-        let mut foot = piece.centre + 0.7 * piece.radius * front;
-        foot.y = (piece.centre.y - piece.radius).max(0.0);
-        at_rest.push(foot);
-    }
-    let ground = match recording.floor {
-        Some(_) => 0.0,
-        None => f32::MIN,
-    };
-    let both: Vec<Vec3> = seen.iter().chain(&at_rest).copied().collect();
-    let whole = view(&both, ground, look_from, largest);
-    let body = view(&seen, ground, look_from, largest);
-    let distance = |v: &View| v.eye.distance(v.target);
-    if at_rest.is_empty() || distance(&whole) <= FARTHEST * distance(&body) {
-        (whole, None)
-    } else {
-        (body, Some(view(&at_rest, ground, look_from, largest)))
-    }
-}
-
-/// Looks so that these points fill the picture (4:3), from at least `nearest`, m.
-pub(crate) fn view(seen: &[Vec3], ground: f32, look_from: Vec3, nearest: f32) -> View {
-    let low = seen
-        .iter()
-        .copied()
-        .fold(Vec3::INFINITY, Vec3::min)
-        .max(Vec3::new(f32::MIN, ground, f32::MIN));
-    let high = seen.iter().copied().fold(Vec3::NEG_INFINITY, Vec3::max);
-    let target = 0.5 * (low + high);
-    let vertical_fov = 0.55_f32;
-    let back = look_from.normalize();
-    let right = Vec3::Y.cross(back).normalize_or(Vec3::X);
-    let up = back.cross(right);
-    let tangent = (0.5 * vertical_fov).tan();
-    // Far enough for every point to lie within the picture, with a margin.
-    let distance = seen
-        .iter()
-        .map(|&p| {
-            let d = p - target;
-            let across = (d.dot(right).abs() / (4.0 / 3.0)).max(d.dot(up).abs());
-            1.06 * across / tangent + d.dot(back)
-        })
-        .fold(nearest, f32::max);
-    View {
-        eye: target + back * distance,
-        target,
-        up: Vec3::Y,
-        vertical_fov,
     }
 }

@@ -163,7 +163,7 @@ pub fn play(
     run.held.sort_by_key(|held| held.body);
     run.at_rest = at_rest(&stage.world, &stage.projectiles);
     let floor = scene.floor.as_ref().map(|_| Floor::default());
-    run.recording = stage.recorder.finish(scene.look_from, floor);
+    run.recording = stage.recorder.finish(scene.look_from, floor, run.at_rest);
     let reports = run.breaks.iter().map(|b| &b.report);
     let fractured: f64 = reports.map(|r| r.timings.total()).sum();
     run.rigid_seconds = clock.elapsed().as_secs_f64() - fractured;

@@ -231,7 +231,7 @@ fn put<'a>(
         reach: farthest_point(asset),
     };
     let mesh = whole(&spec.name, asset, &surfaces);
-    let role = Role::Body(target.reach);
+    let role = Role::Body;
     recorder.track(spec.name.clone(), mesh, handle, extras, role);
     let corners = asset.fracture.positions.iter().map(|&p| centre + q * p);
     let (low, high) = corners.fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(low, high), p| {

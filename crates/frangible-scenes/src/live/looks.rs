@@ -4,7 +4,8 @@ use frangible::glam::Vec3;
 use frangible_export::{RecordedNode, Recording, View};
 
 use super::{LiveScene, ThingKind};
-use crate::recorder::{FRAME_RATE, view};
+use crate::cameras::view;
+use crate::recorder::FRAME_RATE;
 
 /// Centre of the highest body that is in view from the beginning, above the floor, in units of how far the body reaches.
 const HIGHEST: f32 = 2.2;

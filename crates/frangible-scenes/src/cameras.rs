@@ -1,0 +1,222 @@
+//! Where to look from, so that what a picture is about fills it.
+
+use frangible::glam::Vec3;
+use frangible_export::{Recording, View};
+
+use crate::recorder::Role;
+
+/// Share of the picture's height and width, at most, that is left free around what it shows.
+const MARGIN: f32 = 1.1;
+
+/// Share of the mass of pieces that is to be seen where they fly: strays do not move the camera.
+const SEEN: f64 = 0.9;
+
+/// Share of a disc around pieces at rest that their faces fill, at least: so many of them are shown.
+const FILLED: f64 = 0.2;
+
+/// Of so many of the heaviest pieces at rest one is in the middle of the picture.
+const MIDDLES: usize = 8;
+
+/// Points of a mesh, at most, that are looked at.
+const POINTS: usize = 400;
+
+/// A thing in a frame.
+struct Thing {
+    mass: f64,
+    /// What can be seen of it from anywhere, in the mean over all sides, m²: a quarter of its surface.
+    area: f64,
+    centre: Vec3,
+    points: Vec<Vec3>,
+}
+
+/// A view of the whole of it, from before the break to the end, and the views of the four moments.
+pub(crate) fn cameras(recording: &Recording, roles: &[Role], look_from: Vec3) -> (View, [View; 4]) {
+    let moments = recording.moments;
+    // Without a floor pieces fall for ever.
+    let end = match recording.floor {
+        Some(_) => moments.at_rest,
+        None => moments.just_after,
+    };
+    let broke = |node: usize| {
+        let mut blows = recording.blows.iter();
+        blows.any(|blow| blow.node == node && !blow.pieces.is_empty())
+    };
+    let bodies = things(recording, roles, moments.before, |_, role| {
+        role == Role::Body
+    });
+    // What breaks, where not all do.
+    let mut breaking = things(recording, roles, moments.before, |node, role| {
+        role == Role::Body && broke(node)
+    });
+    if breaking.is_empty() {
+        breaking = bodies;
+    }
+    let pieces = |frame: usize| {
+        let pieces = things(recording, roles, frame, |_, role| role == Role::Piece);
+        if pieces.is_empty() {
+            things(recording, roles, frame, |_, role| role != Role::Projectile)
+        } else {
+            pieces
+        }
+    };
+    let ground = match recording.floor {
+        Some(_) => 0.0,
+        None => f32::MIN,
+    };
+    let look = |points: &[Vec3]| view(points, ground, look_from, 0.0);
+    let before = all(&breaking);
+    let [first, flying, resting] = [moments.first_crack, moments.just_after, end].map(|frame| {
+        let points = most(pieces(frame));
+        if points.is_empty() {
+            before.clone()
+        } else {
+            points
+        }
+    });
+    let whole: Vec<Vec3> = before.iter().chain(&resting).copied().collect();
+    let views = [&before, &first, &flying, &resting].map(|points| look(points));
+    (look(&whole), views)
+}
+
+/// What can be seen of these roles in a frame.
+fn things(
+    recording: &Recording,
+    roles: &[Role],
+    frame: usize,
+    wanted: impl Fn(usize, Role) -> bool,
+) -> Vec<Thing> {
+    let nodes = recording.nodes.iter().zip(roles).enumerate();
+    let seen =
+        nodes.filter(|(i, (node, role))| node.visible.contains(&frame) && wanted(*i, **role));
+    seen.map(|(i, (node, _))| {
+        let pose = recording.pose(i, frame);
+        let positions = &recording.meshes[node.mesh].positions;
+        let every = positions.len().div_ceil(POINTS).max(1);
+        let points = positions.iter().step_by(every);
+        let mass = node.keep_extras.iter().find(|e| e.0 == "mass_kg");
+        let mesh = &recording.meshes[node.mesh];
+        let faces = mesh
+            .parts
+            .iter()
+            .flat_map(|part| part.indices.chunks_exact(3));
+        let area = faces.map(|face| {
+            let [a, b, c] = [0, 1, 2].map(|k| positions[face[k] as usize]);
+            0.5 * f64::from((b - a).cross(c - a).length())
+        });
+        Thing {
+            area: 0.25 * area.sum::<f64>(),
+            mass: mass.map_or(0.0, |e| e.1),
+            centre: pose.translation,
+            points: points
+                .map(|&p| pose.rotation * p + pose.translation)
+                .collect(),
+        }
+    })
+    .collect()
+}
+
+fn all(things: &[Thing]) -> Vec<Vec3> {
+    things
+        .iter()
+        .flat_map(|thing| &thing.points)
+        .copied()
+        .collect()
+}
+
+/// The points of those things, nearest to their common centre of mass first, that make up most of the mass.
+fn most(mut things: Vec<Thing>) -> Vec<Vec3> {
+    let whole: f64 = things.iter().map(|thing| thing.mass).sum();
+    if whole <= 0.0 {
+        return all(&things);
+    }
+    let shares = things.iter().map(|t| t.centre * (t.mass / whole) as f32);
+    let middle: Vec3 = shares.sum();
+    let distance = |thing: &Thing| thing.centre.distance(middle);
+    things.sort_by(|a, b| distance(a).total_cmp(&distance(b)));
+    let mut mass = 0.0;
+    let kept = things.iter().take_while(|thing| {
+        let goes_on = mass <= SEEN * whole;
+        mass += thing.mass;
+        goes_on
+    });
+    kept.flat_map(|thing| &thing.points).copied().collect()
+}
+
+/// The points of things that lie together: as much mass as can be shown so that [`FILLED`] holds.
+fn together(things: Vec<Thing>) -> Vec<Vec3> {
+    let mut order: Vec<usize> = (0..things.len()).collect();
+    order.sort_by(|&a, &b| things[b].mass.total_cmp(&things[a].mass).then(a.cmp(&b)));
+    let mut best: (f64, Vec<usize>) = (f64::NEG_INFINITY, Vec::new());
+    for &middle in order.iter().take(MIDDLES) {
+        let centre = things[middle].centre;
+        let reach = |thing: &Thing| {
+            let distances = thing.points.iter().map(|p| p.distance(centre));
+            distances.fold(0.0, f32::max)
+        };
+        let mut by_reach: Vec<(f32, usize)> = things.iter().map(reach).zip(0..).collect();
+        by_reach.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        let (mut mass, mut area, mut kept) = (0.0, 0.0, (0.0, 0));
+        for (number, &(radius, i)) in (1..).zip(&by_reach) {
+            mass += things[i].mass;
+            area += things[i].area;
+            if area >= FILLED * std::f64::consts::PI * f64::from(radius).powi(2) {
+                kept = (mass, number);
+            }
+        }
+        if kept.0 > best.0 {
+            let shown = by_reach[..kept.1].iter().map(|&(_, i)| i).collect();
+            best = (kept.0, shown);
+        }
+    }
+    let shown = best.1.iter().flat_map(|&i| &things[i].points);
+    shown.copied().collect()
+}
+
+/// Looks so that these points fill the picture (4:3), from at least `nearest`, m.
+pub(crate) fn view(seen: &[Vec3], ground: f32, look_from: Vec3, nearest: f32) -> View {
+    let vertical_fov = 0.55_f32;
+    let back = look_from.normalize();
+    let right = Vec3::Y.cross(back).normalize_or(Vec3::X);
+    let up = back.cross(right);
+    let tangent = (0.5 * vertical_fov).tan();
+    let low = seen
+        .iter()
+        .copied()
+        .fold(Vec3::INFINITY, Vec3::min)
+        .max(Vec3::new(f32::MIN, ground, f32::MIN));
+    let high = seen.iter().copied().fold(Vec3::NEG_INFINITY, Vec3::max);
+    let mut target = 0.5 * (low + high);
+    let mut distance = nearest;
+    // What is near looks large: the middle of the picture is not that of the points, and a few rounds find it.
+    for _ in 0..6 {
+        let across = |p: Vec3| {
+            let d = p - target;
+            Vec3::new(d.dot(right), d.dot(up), d.dot(back))
+        };
+        // Far enough for every point to lie within the picture, with a margin.
+        let enough = |p: &Vec3| {
+            let d = across(*p);
+            MARGIN * (d.x.abs() / (4.0 / 3.0)).max(d.y.abs()) / tangent + d.z
+        };
+        distance = seen.iter().map(enough).fold(nearest, f32::max);
+        let (mut least, mut most) = ([f32::INFINITY; 2], [f32::NEG_INFINITY; 2]);
+        for &p in seen {
+            let d = across(p);
+            let depth = (distance - d.z).max(1e-3 * distance);
+            for (k, place) in [d.x / depth, d.y / depth].into_iter().enumerate() {
+                least[k] = least[k].min(place);
+                most[k] = most[k].max(place);
+            }
+        }
+        let middle = [0, 1].map(|k| 0.5 * distance * (least[k] + most[k]));
+        if middle.iter().all(|m| m.is_finite()) {
+            target += right * middle[0] + up * middle[1];
+        }
+    }
+    View {
+        eye: target + back * distance,
+        target,
+        up: Vec3::Y,
+        vertical_fov,
+    }
+}
