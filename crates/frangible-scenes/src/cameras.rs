@@ -8,13 +8,10 @@ use crate::recorder::Role;
 /// Share of the picture's height and width, at most, that is left free around what it shows.
 const MARGIN: f32 = 1.1;
 
-/// Share of the mass of pieces that is to be seen where they fly: strays do not move the camera.
-const SEEN: f64 = 0.9;
-
-/// Share of a disc around pieces at rest that their faces fill, at least: so many of them are shown.
+/// Share of a disc around pieces that their faces fill, at least: so many of them are shown, and strays are not.
 const FILLED: f64 = 0.2;
 
-/// Of so many of the heaviest pieces at rest one is in the middle of the picture.
+/// Of so many of the heaviest pieces one is in the middle of the picture.
 const MIDDLES: usize = 8;
 
 /// Points of a mesh, at most, that are looked at.
@@ -65,8 +62,12 @@ pub(crate) fn cameras(recording: &Recording, roles: &[Role], look_from: Vec3) ->
     };
     let look = |points: &[Vec3]| view(points, ground, look_from, 0.0);
     let before = all(&breaking);
-    let [first, flying, resting] = [moments.first_crack, moments.just_after, end].map(|frame| {
-        let points = most(pieces(frame));
+    let shown = [
+        all(&pieces(moments.first_crack)),
+        together(&pieces(moments.just_after)),
+        together(&pieces(end)),
+    ];
+    let [first, flying, resting] = shown.map(|points| {
         if points.is_empty() {
             before.clone()
         } else {
@@ -123,27 +124,8 @@ fn all(things: &[Thing]) -> Vec<Vec3> {
         .collect()
 }
 
-/// The points of those things, nearest to their common centre of mass first, that make up most of the mass.
-fn most(mut things: Vec<Thing>) -> Vec<Vec3> {
-    let whole: f64 = things.iter().map(|thing| thing.mass).sum();
-    if whole <= 0.0 {
-        return all(&things);
-    }
-    let shares = things.iter().map(|t| t.centre * (t.mass / whole) as f32);
-    let middle: Vec3 = shares.sum();
-    let distance = |thing: &Thing| thing.centre.distance(middle);
-    things.sort_by(|a, b| distance(a).total_cmp(&distance(b)));
-    let mut mass = 0.0;
-    let kept = things.iter().take_while(|thing| {
-        let goes_on = mass <= SEEN * whole;
-        mass += thing.mass;
-        goes_on
-    });
-    kept.flat_map(|thing| &thing.points).copied().collect()
-}
-
 /// The points of things that lie together: as much mass as can be shown so that [`FILLED`] holds.
-fn together(things: Vec<Thing>) -> Vec<Vec3> {
+fn together(things: &[Thing]) -> Vec<Vec3> {
     let mut order: Vec<usize> = (0..things.len()).collect();
     order.sort_by(|&a, &b| things[b].mass.total_cmp(&things[a].mass).then(a.cmp(&b)));
     let mut best: (f64, Vec<usize>) = (f64::NEG_INFINITY, Vec::new());
@@ -155,7 +137,9 @@ fn together(things: Vec<Thing>) -> Vec<Vec3> {
         };
         let mut by_reach: Vec<(f32, usize)> = things.iter().map(reach).zip(0..).collect();
         by_reach.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        let (mut mass, mut area, mut kept) = (0.0, 0.0, (0.0, 0));
+        // The one in the middle, however thin it is.
+        let mut kept = (things[middle].mass, 1);
+        let (mut mass, mut area) = (0.0, 0.0);
         for (number, &(radius, i)) in (1..).zip(&by_reach) {
             mass += things[i].mass;
             area += things[i].area;
