@@ -113,8 +113,10 @@ impl ContactReport {
         let sum = |force: &[f32]| force.iter().map(|&f| f64::from(f)).sum::<f64>();
         let whole = sum(&self.force);
         self.force.truncate((end / time_step).ceil() as usize);
+        // The force is linear between its values, and ends with the last.
+        let last = self.force.last().map_or(0.0, |&f| 0.5 * f64::from(f));
         let share = if whole > 0.0 {
-            sum(&self.force) / whole
+            (sum(&self.force) - last) / whole
         } else {
             0.0
         };
