@@ -14,7 +14,7 @@ use crate::meshes::out;
 pub struct ColliderDetail {
     /// Convex parts of a whole body at most, 1 or more, and points of each. 1 part is the convex hull. Default 12 and 48.
     pub whole: (usize, usize),
-    /// Of a fragment that one hull does not fit. Default 4 and 24.
+    /// How finely the collider of a fragment follows it, where one hull does not fit. Default 4 and 24.
     pub fragment: (usize, usize),
     /// A fragment gets one hull where hull volume / its volume is at most this. Default 1.5.
     pub hull_volume_ratio: f64,

@@ -11,7 +11,7 @@ const MARGIN: f32 = 1.1;
 /// Share of a disc around pieces that their faces fill, at least: so many of them are shown, and strays are not.
 const FILLED: f64 = 0.2;
 
-/// Of so many of the heaviest pieces one is in the middle of the picture.
+/// The piece in the middle of the picture is one of so many of the heaviest.
 const MIDDLES: usize = 8;
 
 /// Points of a mesh, at most, that are looked at.

@@ -193,7 +193,8 @@ impl<'a> Cracking<'a> {
 }
 
 /// Ends the force of each contact when the piece under it is cut free: what pushes later pushes that piece alone, which whoever moves the
-/// pieces finds out. A piece of more than half of the body bears the whole blow.
+/// pieces finds out. A piece of more than half of the body bears the whole blow. The cracks themselves have run under the whole force: their motion is
+/// not found anew.
 fn cut_off(
     system: &CrackSystem,
     labels: &Labels,

@@ -65,7 +65,7 @@ impl SharedMass {
     /// Numbers of bodies are smaller than this.
     pub const MOST_BODIES: u32 = 1 << 24;
 
-    /// Of body number `body`: `velocity` is its `M^(−1/2) n`, `inverse_inertia` has the columns of its I⁻¹, 1/(kg·m²), and `turn` is r × n,
+    /// The share of body number `body` in a contact: `velocity` is its `M^(−1/2) n`, `inverse_inertia` has the columns of its I⁻¹, 1/(kg·m²), and `turn` is r × n,
     /// all in world axes. Where I⁻¹ does not give way, nor does the spin.
     #[must_use]
     pub fn of(body: u32, velocity: Vec3, inverse_inertia: [Vec3; 3], turn: Vec3) -> Self {

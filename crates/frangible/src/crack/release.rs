@@ -12,7 +12,7 @@
 //! edge around it, so that a point close to the crack does not pass between two of them.
 //!
 //! A point asks once or twice in an impact, so each time it looks at all sites of all cracks near by, side by side in vectors. Lists of waves
-//! on their way, which would spare it the second look, cost ten times as much as they save.
+//! on their way, which would spare it the second look, cost more than they save (`docs/speed.md`).
 
 mod memory;
 

@@ -31,7 +31,7 @@ struct Added {
     /// The stress in each row of every shape that follows a force, Pa/N.
     residuals: Vec<Vec<f32>>,
     near: Vec<NearPoint>,
-    /// Of the points in each near field the one nearest to its contact, at which it is strongest.
+    /// The point nearest to the contact of each near field, where the field is strongest.
     nearest: Vec<NearPoint>,
     /// Points, by their places in the cluster, that something presses on: rows do not hold for them.
     pressed: Vec<u32>,
