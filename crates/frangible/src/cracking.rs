@@ -6,7 +6,7 @@ use crate::blow::Blow;
 use crate::body::Body;
 use crate::config::FractureConfig;
 use crate::crack::{CrackSystem, Peak, StressField, Suspects, crack};
-use crate::fragment::{self, Labels, MeshIndex};
+use crate::fragment::{self, Labels};
 use crate::modal::Motion;
 use crate::outcome::{ImpactReport, LookedAt};
 use crate::refuse::Culling;
@@ -14,8 +14,11 @@ use crate::state::BodyState;
 use crate::stress::{BATCH, DisplacementBatch, STRIDE, lane};
 use crate::trace::CrackTrace;
 
-/// Time steps between two looks whether cracks have weakened the wall under a contact.
-const BETWEEN_STARS: usize = 7;
+/// Time steps between two looks whether cracks have weakened what bears a contact.
+const BETWEEN_LOOKS: usize = 7;
+
+/// Whether pieces have parted is asked again when the cracks have grown by this factor, or have stopped.
+const GREW: f64 = 1.25;
 
 /// What the cracks of an impact did to a body.
 #[expect(clippy::large_enum_variant, reason = "one at a time, never stored")]
@@ -37,8 +40,37 @@ pub(crate) struct Cracking<'a> {
     pub(crate) time_step: f64,
     /// Energy that the cracks may spend, with the ledger, J.
     pub(crate) budget: f64,
-    /// The blow that the motion comes from: it ends when the wall under it is gone.
+    /// The blow that the motion comes from: it ends when the wall under it is gone, or when cracks have cut the piece under it free.
     pub(crate) blow: Option<Box<Blow>>,
+}
+
+/// What cracks have left under contacts that still push.
+struct Weakened {
+    /// Time step from which on it counts.
+    step: usize,
+    /// The contacts, and what the body there gives way by more than it did, m/N.
+    contacts: Vec<(usize, f64)>,
+}
+
+/// How far the cracks were, m².
+#[derive(Default)]
+struct Grown {
+    /// When it was last asked whether pieces have parted.
+    asked: f64,
+    /// At the last look.
+    before: f64,
+}
+
+impl Grown {
+    /// Whether cracks of this area, m², may have parted what they had not when it was last asked.
+    fn is_due(&mut self, area: f64) -> bool {
+        let stopped = area <= std::mem::replace(&mut self.before, area);
+        let due = area > self.asked && (stopped || area > GREW * self.asked);
+        if due {
+            self.asked = area;
+        }
+        due
+    }
 }
 
 impl<'a> Cracking<'a> {
@@ -60,34 +92,42 @@ impl<'a> Cracking<'a> {
         let mut suspects = Suspects::default();
         // From the beginning of its batch, so that every batch is whole.
         let mut step = first_step / STRIDE * STRIDE;
-        while let Some((next, contact, compliance)) =
-            self.follow(step, &mut system, &mut suspects, &mut looked, &mut report)
-        {
+        let mut grown = Grown::default();
+        while let Some(weakened) = self.follow(
+            step,
+            &mut system,
+            &mut suspects,
+            &mut grown,
+            &mut looked,
+            &mut report,
+        ) {
             let Some(blow) = &mut self.blow else { break };
-            let now = next as f64 * self.time_step;
-            blow.weaken(body, contact, compliance, now);
+            step = weakened.step;
+            let now = step as f64 * self.time_step;
+            blow.weaken(body, &weakened.contacts, now);
             self.motion = std::mem::take(&mut blow.motion);
             report.contacts = blow.reports();
             report.contact_duration = blow.duration();
             report.time_steps = self.motion.steps();
+            // A shorter blow brings less.
+            system.budget = system.budget.min(self.motion.peak_strain_energy);
             system.releases.forget_batch();
-            step = next;
         }
         report.peak_elastic_energy = self.motion.peak_energy;
         report.peak_strain_energy = self.motion.peak_strain_energy;
         self.end(system, looked, report, trace)
     }
 
-    /// Runs the cracks from a time step on: to the end of the motion, or to a time step before which cracks have weakened the wall under a
-    /// contact, whose number comes with it, and what the wall then gives way by, m/N.
+    /// Runs the cracks from a time step on: to the end of the motion, or until they have weakened what bears a contact.
     fn follow(
         &mut self,
         first_step: usize,
         system: &mut CrackSystem<'a>,
         suspects: &mut Suspects,
+        grown: &mut Grown,
         looked: &mut Looked,
         report: &mut ImpactReport,
-    ) -> Option<(usize, usize, f64)> {
+    ) -> Option<Weakened> {
         let (body, config, motion) = (self.body, self.config, &self.motion);
         let mut displacement = DisplacementBatch::new(&body.asset);
         let mut culling = Culling::new(body, config, motion);
@@ -100,13 +140,15 @@ impl<'a> Cracking<'a> {
             }
             let k = lane(step);
             field.step = step;
-            if step % BETWEEN_STARS == 0
+            if step % BETWEEN_LOOKS == 0
                 && step > first_step
                 && let Some(blow) = self.blow.as_ref().filter(|b| b.pushes_at(step))
-                && let Some((contact, compliance)) = blow.weakened(system)
             {
-                weakened = Some((step, contact, compliance));
-                break;
+                let contacts = self.weakened(blow, system, grown);
+                if !contacts.is_empty() {
+                    weakened = Some(Weakened { step, contacts });
+                    break;
+                }
             }
             if step % STRIDE == 0 || step == first_step {
                 // Bounds, then the points that they leave, of all steps of the batch.
@@ -137,6 +179,29 @@ impl<'a> Cracking<'a> {
         looked.passed_over = looked.passed_over.max(culling.passed_over).max(most);
         looked.as_weakest = looked.as_weakest.max(culling.as_weakest).max(felt);
         weakened
+    }
+
+    /// The contacts whose force must be found anew: where cracks have cut the piece under them free, nothing bears them any more. What
+    /// pushes later pushes that piece alone, which whoever moves the pieces finds out. A piece of more than half of the body bears on.
+    fn weakened(
+        &self,
+        blow: &Blow,
+        system: &CrackSystem<'a>,
+        grown: &mut Grown,
+    ) -> Vec<(usize, f64)> {
+        let mut contacts: Vec<_> = blow.weakened(system).into_iter().collect();
+        if grown.is_due(system.area) {
+            let index = &self.body.prepared.index;
+            let portion = self.body.asset.portion.as_deref();
+            let labels = fragment::label(system, index, self.config.crumb_share);
+            let free = (0..).zip(blow.bearing_nodes(self.body));
+            let free = free.filter(|&(k, node)| {
+                let piece = labels.of_node[node as usize];
+                blow.bears(k) && !index.is_most(&labels, piece, portion)
+            });
+            contacts.extend(free.map(|(k, _)| (k, f64::INFINITY)));
+        }
+        contacts
     }
 
     /// What came of it.
@@ -184,48 +249,9 @@ impl<'a> Cracking<'a> {
             let state = grown.then(|| Box::new(BodyState::of(&system.cracks)));
             Cracked::Held(margin, report, state)
         } else {
-            if self.blow.is_some() {
-                cut_off(&system, &labels, index, &self.pressed, &mut report);
-            }
             Cracked::Parted(system, labels, report)
         }
     }
-}
-
-/// Ends the force of each contact when the piece under it is cut free: what pushes later pushes that piece alone, which whoever moves the
-/// pieces finds out. A piece of more than half of the body bears the whole blow. The cracks themselves have run under the whole force: their motion is
-/// not found anew.
-fn cut_off(
-    system: &CrackSystem,
-    labels: &Labels,
-    index: &MeshIndex,
-    pressed: &[u32],
-    report: &mut ImpactReport,
-) {
-    let asset = system.asset;
-    // A piece's surface has no triangles of mesh nodes.
-    if asset.portion.is_some() || pressed.len() != report.contacts.len() {
-        return;
-    }
-    let label = |v: u32| labels.of_node[v as usize];
-    for (contact, &triangle) in report.contacts.iter_mut().zip(pressed) {
-        let Some(triangle) = asset.surface.triangles.get(triangle as usize) else {
-            continue;
-        };
-        let piece = label(triangle[0]);
-        if index.is_most(labels, piece) {
-            continue;
-        }
-        let cuts = system.cracks.iter().flat_map(|crack| &crack.elements);
-        let around = cuts.filter(|cut| {
-            let labels = asset.fracture.tets[cut.tet as usize].map(label);
-            labels.contains(&piece) && labels != [piece; 4]
-        });
-        let free = around.map(|cut| cut.time).fold(0.0, f64::max);
-        contact.end_at(free, report.time_step);
-    }
-    let durations = report.contacts.iter().map(|contact| contact.duration);
-    report.contact_duration = durations.fold(0.0, f64::max);
 }
 
 /// What has been met so far.

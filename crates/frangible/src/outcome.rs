@@ -104,32 +104,6 @@ pub struct ContactReport {
     pub force: Vec<f32>,
 }
 
-impl ContactReport {
-    /// Lets the force end at a time, s, where it has not ended before. `time_step`: between two values of the force, s.
-    pub(crate) fn end_at(&mut self, end: f64, time_step: f64) {
-        if end >= self.duration {
-            return;
-        }
-        let sum = |force: &[f32]| force.iter().map(|&f| f64::from(f)).sum::<f64>();
-        let whole = sum(&self.force);
-        self.force.truncate((end / time_step).ceil() as usize);
-        // The force is linear between its values, and ends with the last.
-        let last = self.force.last().map_or(0.0, |&f| 0.5 * f64::from(f));
-        let share = if whole > 0.0 {
-            (sum(&self.force) - last) / whole
-        } else {
-            0.0
-        };
-        let peak = self.force.iter().copied().fold(0.0, f32::max);
-        self.peak_force = self.peak_force.min(f64::from(peak));
-        self.impulse *= share;
-        self.duration = end;
-        // The speed changes as the impulse does.
-        self.departure_speed =
-            share * (self.departure_speed + self.approach_speed) - self.approach_speed;
-    }
-}
-
 /// What of an impact had to be looked at, from the cheapest.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 #[non_exhaustive]

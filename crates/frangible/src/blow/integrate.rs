@@ -9,7 +9,7 @@ use super::plan::Plan;
 use super::star::Star;
 use crate::body::Body;
 use crate::config::{CrackTiming, FractureConfig};
-use crate::contact::{Contact, Pulse};
+use crate::contact::{Contact, Pulse, Touch};
 use crate::crack::{CrackSystem, StressField};
 use crate::error::InputError;
 use crate::modal::Motion;
@@ -264,15 +264,41 @@ impl Blow {
         step < self.contact_steps
     }
 
-    /// Goes on from `now`, s, with a wall under contact `k` that gives way by so much more, m/N. What was before stays as it was, bit for
-    /// bit.
-    pub(crate) fn weaken(&mut self, body: &Body, k: usize, compliance: f64, now: f64) {
+    /// Whether anything bears a contact still.
+    pub(crate) fn bears(&self, contact: usize) -> bool {
+        let known = self.stars.iter().filter(|s| s.contact == contact);
+        known.into_iter().all(|s| s.compliance.is_finite())
+    }
+
+    /// The node of the fracture mesh next to each contact, of those that are the body's own.
+    pub(crate) fn bearing_nodes(&self, body: &Body) -> Vec<u32> {
+        let asset = &*body.asset;
+        let mesh = &asset.fracture;
+        let origin = body.origin().as_vec3();
+        let node = |touch: &Touch| {
+            let point = touch.contact.point + origin;
+            let tet = asset.surface.tets[touch.triangle as usize] as usize;
+            let away = |v: u32| mesh.positions[v as usize].distance_squared(point);
+            let own = |v: &u32| asset.portion.as_ref().is_none_or(|p| p.has_node(*v));
+            let nodes = mesh.tets[tet].into_iter();
+            let nearest = nodes
+                .filter(own)
+                .min_by(|&a, &b| away(a).total_cmp(&away(b)));
+            nearest.unwrap_or(mesh.tets[tet][0])
+        };
+        self.plan.sites.iter().map(|s| node(&s.touch)).collect()
+    }
+
+    /// Goes on from `now`, s, with contacts where the body gives way by so much more than it did, m/N. What was before stays as it was,
+    /// bit for bit.
+    pub(crate) fn weaken(&mut self, body: &Body, contacts: &[(usize, f64)], now: f64) {
         let substep = (now / self.substep()).round() as usize;
-        self.stars.push(Softening {
-            contact: k,
+        let softer = contacts.iter().map(|&(contact, compliance)| Softening {
+            contact,
             substep,
             compliance,
         });
+        self.stars.extend(softer);
         let known = (substep * self.plan.sites.len()).min(self.forces.len());
         let run = self.run(&self.forces[..known]);
         self.take(body, run);
