@@ -20,8 +20,11 @@
 //!
 //! What friction there is follows the normal force: F_k pushes along n + f, f the ratio of the engine's friction and normal impulse.
 //!
-//! A star of cracks under a contact leaves cantilevers, which give way more (`star.rs`): from then on the force is found anew, and falls with
-//! what the star has cut. Where rings of cracks have cut the wall under the contact out, the blow ends.
+//! Cracks change what the contacts push against, and from then on forces, motion and cracks are found anew:
+//! - a star of three arms or more under a contact leaves cantilevers, which give way more (`star.rs`), until rings of cracks have cut the
+//!   wall under it out;
+//! - a piece that cracks have cut free under a contact bears it no longer, and its force ends. What the striker does to that piece is for
+//!   whoever moves the pieces.
 //!
 //! # Limits
 //!
@@ -30,19 +33,20 @@
 //! is followed until all its points have parted.
 //!
 //! Forces are linear over substeps of a four-hundredth of Hertz' time, every oscillator is stepped exactly, and one equation per
-//! contact and substep has one root. Steps after the blow are as long as the modes allow. Where the star of cracks under a
-//! contact has three arms or more, its sectors are cantilevers, and the blow is found anew with their give.
+//! contact and substep has one root. Steps after the blow are as long as the modes allow.
 
 mod bank;
 mod complement;
+mod course;
 mod integrate;
 mod limits;
 mod plan;
 mod spring;
 mod star;
+mod wall;
 
 pub(crate) use complement::{Complement, Residual, Shape};
-pub use integrate::Blow;
+pub use course::Blow;
 pub(crate) use limits::Limits;
-pub(crate) use plan::{SteadyNear, has_near_field};
 pub(crate) use spring::Spring;
+pub(crate) use wall::{SteadyNear, has_near_field};

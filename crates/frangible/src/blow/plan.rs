@@ -1,45 +1,21 @@
 //! What a blow is integrated with: how each contact pushes and feels the modes, the wall oscillators about it, what follows the
 //! force, and how fine the steps are.
 
-use std::f64::consts::{PI, TAU};
-use std::ops::Range;
-
 use glam::Vec3;
 
 use super::Spring;
 use super::bank::{Bank, padded};
-use crate::asset::Asset;
+use super::wall::{NearPlan, near};
 use crate::body::Body;
 use crate::config::FractureConfig;
 use crate::contact::{self, Contact, Load, Touch, hertz_at, modal_load};
-use crate::mesh::SurfacePoint;
-use crate::near_field::{Bands, NearField, NearPlace, PlateTheory, Spacing, WallMaterial};
 
 /// Hertz' time over the longest substep. Measured: the energy error then is 3e-6 of what the striker loses (`frangible-lab verify`, case
 /// `blow`), and falls with the square of the substep.
 const SUBSTEPS_PER_HERTZ_TIME: f64 = 400.0;
 
-/// Waves so much faster than Hertz' time follow the force: angular frequency times that time.
-const FOLLOWING: f64 = 120.0;
-
-/// Up to here (angular frequency times Hertz' time) a blow makes waves ring, and wall oscillators are evenly spaced.
-const RINGING: f64 = 25.0;
-
-/// Wall oscillators are so close that their echo comes this many times later than the blow is expected to last.
-const ECHO: f64 = 1.3;
-
-/// Least distance to the wall's edge for a near field, times its lowest wave number.
-const LEAST_EDGE: f64 = 1.0;
-
-/// The frequency at which the wall oscillators take over, from the modes' own motion at the contact, over that from their
-/// frequencies is held between this and its inverse: beyond it something else than a plain wall is there.
-const LEAST_MATCH: f64 = 0.8;
-
 /// Rounds over all contacts until the energy of approach is known.
 const APPROACH_ROUNDS: usize = 2000;
-
-/// Cosine between the force and the wall's normal below which a blow falls along the wall.
-const ACROSS: f64 = 0.3;
 
 /// A contact, made ready.
 #[derive(Clone, Debug)]
@@ -53,22 +29,6 @@ pub(super) struct Site {
     pub(super) near: Option<NearPlan>,
     /// φ · (n + f) of every mode that follows the force, 1/√kg; zero for those that the near field serves.
     pub(super) residual: Vec<f64>,
-}
-
-/// The near field of a contact, before its motion is known.
-#[derive(Clone, Debug)]
-pub(super) struct NearPlan {
-    pub(super) place: NearPlace,
-    pub(super) wall: WallMaterial,
-    pub(super) bands: Bands,
-    /// Its oscillators among those of the bank.
-    pub(super) oscillators: Range<usize>,
-    /// Radius a of the contact, m.
-    pub(super) contact_radius: f64,
-    /// Share of the contact's force that acts across the wall.
-    pub(super) across: f64,
-    /// Lowest angular frequency, rad/s.
-    pub(super) lowest: f64,
 }
 
 /// Everything that a blow is integrated with.
@@ -323,220 +283,4 @@ fn site(
         gap[followed..].fill(0.0);
     }
     (site, [drive, gap])
-}
-
-/// The near field of a contact on a wall, and the number of the first mode that it serves instead of.
-fn near(
-    body: &Body,
-    site: &Site,
-    mass: f64,
-    direction: Vec3,
-    theory: PlateTheory,
-) -> Option<(NearPlan, usize)> {
-    let asset = &*body.asset;
-    let touch = &site.touch;
-    let surface = asset.surface.walls.at(touch.triangle)?;
-    let inwards = inwards(asset, touch.triangle, touch.weights)?;
-    let across = f64::from(direction.dot(inwards));
-    if f64::from(touch.contact.normal.dot(inwards)) < ACROSS {
-        return None;
-    }
-    let wall = WallMaterial::new(&asset.material, &surface, theory);
-    let speed = f64::from(touch.contact.approach_speed);
-    let peak = match site.script {
-        Some([impulse, duration]) => 0.5 * PI * impulse / duration,
-        None => site.spring.peak_force(mass, speed, wall.dashpot()),
-    };
-    // Never wider than the wall's own way to its edge, nor a point.
-    let widest = surface.margin.max(surface.thickness);
-    let contact_radius = site
-        .spring
-        .contact_radius(peak)
-        .clamp(1e-3 * surface.thickness, widest);
-
-    let (first, lowest) = first_wave(asset, &wall, surface.margin, asset.modes.followed())?;
-    let lowest = matched(body, touch, &wall, inwards, first, lowest);
-    let start = wall.wave_number(lowest);
-    let duration = match site.script {
-        Some([_, duration]) => duration,
-        None => site.hertz_time + 3.0 * mass / wall.dashpot(),
-    };
-    let time = site
-        .script
-        .map_or(site.hertz_time, |[_, duration]| duration);
-    let spacing = Spacing {
-        width: TAU / (ECHO * duration),
-        even_to: RINGING / time,
-        follows_from: FOLLOWING / time,
-    };
-    let origin = body.origin().as_vec3();
-    let point = touch.contact.point + origin;
-    let reach = NearField::reach(start).min(nearest_crack(body, point));
-    let bands = Bands::new(&wall, start, contact_radius, spacing);
-    let place = NearPlace {
-        point,
-        inwards,
-        reach,
-    };
-    let plan = NearPlan {
-        place,
-        wall,
-        bands,
-        oscillators: 0..0,
-        contact_radius,
-        across,
-        lowest,
-    };
-    Some((plan, first))
-}
-
-/// A steady force on a wall: where its near field is, and what of.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct SteadyNear {
-    place: NearPlace,
-    wall: WallMaterial,
-    /// Lowest wave number, 1/m.
-    first: f64,
-    /// Force across the wall, N.
-    across: f32,
-}
-
-impl SteadyNear {
-    /// The near field of a force, N, on a place of the surface; all modes of the body serve beside it.
-    pub(crate) fn of(
-        body: &Body,
-        at: &SurfacePoint,
-        force: Vec3,
-        theory: PlateTheory,
-    ) -> Option<Self> {
-        let asset = &*body.asset;
-        let surface = asset.surface.walls.at(at.triangle)?;
-        let inwards = inwards(asset, at.triangle, at.weights)?;
-        let across = force.dot(inwards);
-        if across <= 0.0 {
-            return None;
-        }
-        let wall = WallMaterial::new(&asset.material, &surface, theory);
-        let (_, lowest) = first_wave(asset, &wall, surface.margin, asset.modes.count())?;
-        let first = wall.wave_number(lowest);
-        let point = at.position + body.origin().as_vec3();
-        let reach = NearField::reach(first).min(nearest_crack(body, point));
-        let place = NearPlace {
-            point,
-            inwards,
-            reach,
-        };
-        Some(Self {
-            place,
-            wall,
-            first,
-            across,
-        })
-    }
-
-    /// No principal stress of a steady force on a triangle of the surface exceeds this per newton, Pa/N.
-    pub(crate) fn most_per_newton(body: &Body, triangle: u32) -> Option<f32> {
-        let asset = &*body.asset;
-        let surface = asset.surface.walls.at(triangle)?;
-        let wall = WallMaterial::new(&asset.material, &surface, PlateTheory::default());
-        let (_, lowest) = first_wave(asset, &wall, surface.margin, asset.modes.count())?;
-        Some(wall.most_stress(wall.wave_number(lowest)) as f32)
-    }
-
-    /// No principal stress of it exceeds this, Pa.
-    pub(crate) fn bound(&self) -> f32 {
-        (f64::from(self.across) * self.wall.most_stress(self.first)) as f32
-    }
-
-    /// Its stress.
-    pub(crate) fn field(&self) -> NearField {
-        NearField::steady(self.place, &self.wall, self.first, self.across)
-    }
-}
-
-/// Unit normal of a wall at a place of the surface, inwards.
-fn inwards(asset: &Asset, triangle: u32, weights: [f32; 3]) -> Option<Vec3> {
-    let normals = &asset.surface.normals[triangle as usize];
-    let mixed: Vec3 = normals.iter().zip(weights).map(|(n, w)| *n * w).sum();
-    mixed.try_normalize().map(|n| -n)
-}
-
-/// Whether a contact on this triangle of the surface may have a near field.
-pub(crate) fn has_near_field(asset: &Asset, triangle: u32, theory: PlateTheory) -> bool {
-    asset.surface.walls.at(triangle).is_some_and(|surface| {
-        let wall = WallMaterial::new(&asset.material, &surface, theory);
-        first_wave(asset, &wall, surface.margin, asset.modes.followed()).is_some()
-    })
-}
-
-/// Where the near field takes over from the `followed` lowest modes: the first mode that it stands for, and its lowest angular
-/// frequency, rad/s. None at an edge, and where curvature is in the way of all waves that the modes leave out.
-///
-/// It starts at the same wave number close to an edge. Measured (`docs/near-field.md`): a quarter of the shortest mode's wavelength from a free or a held
-/// edge this is 8 % off, and 25 % where the modes up to twice the inverse distance answer statically first. Closer than a sixth of that
-/// wavelength it is off by half and more, and the residual vector serves instead.
-fn first_wave(
-    asset: &Asset,
-    wall: &WallMaterial,
-    margin: f64,
-    followed: usize,
-) -> Option<(usize, f64)> {
-    let modes = &asset.modes;
-    let count = modes.count();
-    // Between two modes; above the last one as far as it lies above its neighbour, on average.
-    let after = |i: usize| {
-        let here = modes.eigenvalues[i - 1].sqrt();
-        match modes.eigenvalues.get(i) {
-            Some(next) => 0.5 * (here + next.sqrt()),
-            None => here * (1.0 + 0.5 / i as f64),
-        }
-    };
-    if followed == 0 || margin <= 0.0 {
-        return None;
-    }
-    let wanted = wall.bending_rules_from();
-    let lowest = wall.eigenvalue(wanted).sqrt().max(after(followed));
-    let first = modes.eigenvalues.partition_point(|l| l.sqrt() < lowest);
-    let (first, lowest) = if first < count || lowest <= after(count) {
-        (first, lowest)
-    } else {
-        // The modes do not reach that far.
-        (count, after(count))
-    };
-    let k = wall.wave_number(lowest);
-    (k >= 0.999 * wanted && k * margin >= LEAST_EDGE).then_some((first, lowest))
-}
-
-/// Where the wall oscillators take over, rad/s, such that together with the modes before `first` they are the whole wall.
-///
-/// All motions of an infinite wall up to wave number k move a place by `Σ ξ² = k²/4πμ` per unit impulse, and so do the modes of a
-/// body, on average. But they come in shells: at the middle of a square plate only every fourth is felt, in pairs. What the modes
-/// really move says which k they reach, and elements that are too stiff do not mislead it. Measured: without this a wall with 120 modes
-/// and one with 300 differ twice as much, on a glass and on a bowl (`frangible-bake/tests/blow.rs`).
-fn matched(
-    body: &Body,
-    touch: &Touch,
-    wall: &WallMaterial,
-    inwards: Vec3,
-    first: usize,
-    lowest: f64,
-) -> f64 {
-    let asset = &*body.asset;
-    let shape = touch.project(body, inwards);
-    let mut moved: f64 = shape[..first].iter().map(|xi| xi * xi).sum();
-    if !asset.is_supported() {
-        let place = (touch.contact.point.as_dvec3(), inwards.as_dvec3());
-        moved += asset.mass.inverse_mass_between(place, place);
-    }
-    let k = (4.0 * PI * wall.mass_per_area * moved).sqrt();
-    let found = wall.eigenvalue(k).sqrt();
-    found.clamp(LEAST_MATCH * lowest, lowest / LEAST_MATCH)
-}
-
-/// Distance of the nearest place that a crack of the body has cut, m; infinite without cracks.
-fn nearest_crack(body: &Body, point: Vec3) -> f64 {
-    let cuts = body.state().cracks.iter().flat_map(|crack| &crack.cuts);
-    let centroids = &body.prepared.centroids;
-    let squares = cuts.map(|cut| centroids[cut.tet as usize].distance_squared(point));
-    f64::from(squares.fold(f32::INFINITY, f32::min).sqrt())
 }

@@ -1,0 +1,348 @@
+//! A blow: what its integration found, what is told of it, and how cracks change it.
+
+use std::f64::consts::PI;
+
+use super::Complement;
+use super::complement::Residual;
+use super::integrate::{Record, Run, Softening};
+use super::plan::Plan;
+use super::star::Star;
+use crate::body::Body;
+use crate::config::{CrackTiming, FractureConfig};
+use crate::contact::{Contact, Pulse, Touch};
+use crate::crack::{CrackSystem, StressField};
+use crate::error::InputError;
+use crate::modal::Motion;
+use crate::near_field::NearField;
+use crate::outcome::ContactReport;
+use crate::stress::{DisplacementBatch, Symmetric3, lane};
+
+/// A star counts anew when it gives way by this factor more.
+const GREW: f64 = 1.3;
+
+/// A blow, integrated: the forces of its contacts and the motion of the body.
+#[derive(Clone, Debug)]
+pub struct Blow {
+    plan: Plan,
+    instant: bool,
+    /// Forces after each substep, N, contact after contact.
+    forces: Vec<f64>,
+    /// Time steps until the contacts have parted.
+    contact_steps: usize,
+    /// Speed of each striker away from the body as a rigid one after it, m/s.
+    departures: Vec<f64>,
+    energy_at_parting: f64,
+    /// What cracks have made of the body under the contacts.
+    softer: Vec<Softening>,
+    /// What the body does.
+    pub(crate) motion: Motion,
+}
+
+impl Blow {
+    /// The blow of these contacts on a body, which nothing breaks; none where nothing pushes.
+    ///
+    /// # Errors
+    /// What [`Contact::validate`] and [`FractureConfig::validate`] refuse.
+    pub fn new(
+        body: &Body,
+        contacts: &[Contact],
+        config: &FractureConfig,
+    ) -> Result<Option<Self>, InputError> {
+        Self::with_substep(body, contacts, config, None)
+    }
+
+    /// [`Blow::new`] with substeps no longer than this, s: what the error of the default is measured with.
+    #[doc(hidden)]
+    pub fn with_substep(
+        body: &Body,
+        contacts: &[Contact],
+        config: &FractureConfig,
+        longest: Option<f64>,
+    ) -> Result<Option<Self>, InputError> {
+        contacts.iter().try_for_each(Contact::validate)?;
+        config.validate()?;
+        Ok(Self::integrated(body, contacts, config, longest))
+    }
+
+    /// [`Blow::new`] of contacts that have been checked.
+    pub(crate) fn of_valid(
+        body: &Body,
+        contacts: &[Contact],
+        config: &FractureConfig,
+    ) -> Option<Self> {
+        Self::integrated(body, contacts, config, None)
+    }
+
+    fn integrated(
+        body: &Body,
+        contacts: &[Contact],
+        config: &FractureConfig,
+        longest: Option<f64>,
+    ) -> Option<Self> {
+        let plan = Plan::new(body, contacts, config, longest)?;
+        let mut blow = Self {
+            plan,
+            instant: config.timing == CrackTiming::Instant,
+            forces: Vec::new(),
+            contact_steps: 0,
+            departures: Vec::new(),
+            energy_at_parting: 0.0,
+            softer: Vec::new(),
+            motion: Motion::default(),
+        };
+        let run = blow.run(&[]);
+        blow.take(body, run);
+        Some(blow)
+    }
+
+    /// The most energy that strikers and body can lose by meeting, J: what they hold of motion against each other at the contacts.
+    /// Scripts bring none.
+    pub(crate) fn approach_energy(&self) -> f64 {
+        self.plan.approach_energy()
+    }
+
+    /// Whether strikers push, and no script.
+    pub(crate) fn is_of_strikers(&self) -> bool {
+        self.plan.sites.iter().all(|site| site.script.is_none())
+    }
+
+    /// Time step of the motion, s.
+    #[must_use]
+    pub fn time_step(&self) -> f64 {
+        self.plan.time_step
+    }
+
+    /// Surface triangles that the contacts press on.
+    pub(crate) fn pressed(&self) -> Vec<u32> {
+        self.plan.sites.iter().map(|s| s.touch.triangle).collect()
+    }
+
+    /// What the contacts push each mode with, as given impulses would, N·s/√kg.
+    pub(crate) fn modal_impulse(&self) -> Vec<f64> {
+        let mut sums = vec![0.0; self.plan.modes];
+        let count = self.plan.sites.len();
+        for (k, drive) in self.plan.drive.iter().enumerate() {
+            let impulse: f64 =
+                self.forces.iter().skip(k).step_by(count).sum::<f64>() * self.substep();
+            for (sum, xi) in sums.iter_mut().zip(drive) {
+                *sum += impulse * xi;
+            }
+        }
+        sums
+    }
+
+    /// Its time steps, and a half-sine of its length.
+    pub(crate) fn pulse(&self) -> Pulse {
+        let duration = self.duration().max(self.substep());
+        Pulse {
+            duration,
+            amplitude: 0.5 * PI / duration,
+            time_step: self.plan.time_step,
+            contact_steps: self.contact_steps,
+            total_steps: self.motion.steps(),
+            longest_step: self.plan.time_step,
+        }
+    }
+
+    /// How long the contacts push, s.
+    pub(crate) fn duration(&self) -> f64 {
+        let count = self.plan.sites.len();
+        let last = self.forces.iter().rposition(|&f| f > 0.0);
+        last.map_or(0.0, |i| (i / count + 1) as f64 * self.substep())
+    }
+
+    /// Hertz' time of the contacts, the shortest, s.
+    pub(crate) fn hertz_time(&self) -> f64 {
+        let times = self.plan.sites.iter().map(|s| s.hertz_time);
+        times.fold(f64::INFINITY, f64::min)
+    }
+
+    fn substep(&self) -> f64 {
+        self.plan.time_step / self.plan.substeps as f64
+    }
+
+    /// What became of each contact.
+    #[must_use]
+    pub fn reports(&self) -> Vec<ContactReport> {
+        let count = self.plan.sites.len();
+        let dt = self.substep();
+        let of = |(k, site): (usize, &super::plan::Site)| {
+            let forces = || self.forces.iter().skip(k).step_by(count);
+            let peak = forces().copied().fold(0.0, f64::max);
+            let sampled = forces().skip(self.plan.substeps - 1);
+            ContactReport {
+                point: site.touch.contact.point,
+                normal: site.touch.contact.normal,
+                approach_speed: f64::from(site.touch.contact.approach_speed),
+                impulse: forces().sum::<f64>() * dt,
+                peak_force: peak,
+                duration: forces()
+                    .rposition(|&f| f > 0.0)
+                    .map_or(0.0, |i| (i + 1) as f64 * dt),
+                contact_radius: (site.near.as_ref())
+                    .map_or(site.spring.contact_radius(peak), |near| near.contact_radius),
+                departure_speed: self.departures[k],
+                force: sampled
+                    .step_by(self.plan.substeps)
+                    .map(|&f| f as f32)
+                    .collect(),
+            }
+        };
+        self.plan.sites.iter().enumerate().map(of).collect()
+    }
+
+    /// Energy of all modes and wall oscillators when the contact parts, and what the motion of approach has lost, J: of one contact,
+    /// without damping, the same but for the error of the substeps.
+    #[must_use]
+    pub fn energies(&self) -> [f64; 2] {
+        let mass = 1.0 / self.plan.inverse_mass[0];
+        let before = f64::from(self.plan.sites[0].touch.contact.approach_speed);
+        let after = self.departures[0];
+        [
+            self.energy_at_parting,
+            0.5 * mass * (before * before - after * after),
+        ]
+    }
+
+    /// The body's stress at the weak place of fracture tetrahedron `tet` at a time step of the blow, Pa, as cracks feel it.
+    #[must_use]
+    pub fn stress(
+        &self,
+        body: &Body,
+        tet: u32,
+        step: usize,
+        config: &FractureConfig,
+    ) -> Symmetric3 {
+        let pressed = self.pressed();
+        let mut displacement = DisplacementBatch::new(&body.asset);
+        displacement.seek(&self.motion, step);
+        let mut field = StressField::new(body, config, &self.motion, &pressed, &mut displacement);
+        field.step = step;
+        field.at_weak_point(tet as usize).stress(lane(step))
+    }
+
+    /// Whether cracks have cut the wall under a contact so far that its force must be found anew: number of the contact, and what the
+    /// star gives way by, m/N.
+    pub(crate) fn weakened(&self, system: &CrackSystem) -> Option<(usize, f64)> {
+        let sites = self.plan.sites.iter().enumerate();
+        let mut walls = sites.filter_map(|(k, site)| Some((k, site.near.as_ref()?)));
+        walls.find_map(|(k, near)| {
+            let star = Star::of(system, &near.place, near.wall.thickness)?;
+            let compliance = star.compliance(near.wall.bending_stiffness);
+            let known = self.softer.iter().rev().find(|s| s.contact == k);
+            let before = known.map_or(0.0, |s| s.compliance);
+            (compliance > GREW * before).then_some((k, compliance))
+        })
+    }
+
+    /// Whether contacts still push at a time step.
+    pub(crate) fn pushes_at(&self, step: usize) -> bool {
+        step < self.contact_steps
+    }
+
+    /// Whether anything bears a contact still.
+    pub(crate) fn bears(&self, contact: usize) -> bool {
+        let known = self.softer.iter().filter(|s| s.contact == contact);
+        known.into_iter().all(|s| s.compliance.is_finite())
+    }
+
+    /// The node of the fracture mesh next to each contact, of those that are the body's own.
+    pub(crate) fn bearing_nodes(&self, body: &Body) -> Vec<u32> {
+        let asset = &*body.asset;
+        let mesh = &asset.fracture;
+        let origin = body.origin().as_vec3();
+        let node = |touch: &Touch| {
+            let point = touch.contact.point + origin;
+            let tet = asset.surface.tets[touch.triangle as usize] as usize;
+            let away = |v: u32| mesh.positions[v as usize].distance_squared(point);
+            let own = |v: &u32| asset.portion.as_ref().is_none_or(|p| p.has_node(*v));
+            let nodes = mesh.tets[tet].into_iter();
+            let nearest = nodes
+                .filter(own)
+                .min_by(|&a, &b| away(a).total_cmp(&away(b)));
+            nearest.unwrap_or(mesh.tets[tet][0])
+        };
+        self.plan.sites.iter().map(|s| node(&s.touch)).collect()
+    }
+
+    /// Goes on from `now`, s, with contacts where the body gives way by so much more than it did, m/N. What was before stays as it was,
+    /// bit for bit.
+    pub(crate) fn weaken(&mut self, body: &Body, contacts: &[(usize, f64)], now: f64) {
+        let substep = (now / self.substep()).round() as usize;
+        let softer = contacts.iter().map(|&(contact, compliance)| Softening {
+            contact,
+            substep,
+            compliance,
+        });
+        self.softer.extend(softer);
+        let known = (substep * self.plan.sites.len()).min(self.forces.len());
+        let run = self.run(&self.forces[..known]);
+        self.take(body, run);
+    }
+
+    fn take(&mut self, body: &Body, run: Record) {
+        self.motion = self.motion_of(body, &run);
+        self.energy_at_parting = run.energy_at_parting;
+        self.contact_steps = run.contact_steps;
+        self.departures = run.speeds.iter().map(|v| -v).collect();
+        self.forces = run.forces;
+    }
+
+    /// `known`: forces from the beginning on that are known already.
+    fn run(&self, known: &[f64]) -> Record {
+        // With the widest vectors that this processor has; the same operations in the same order, so the same bits.
+        pulp::Arch::new().dispatch(Run {
+            plan: &self.plan,
+            known,
+            softer: &self.softer,
+            instant: self.instant,
+        })
+    }
+
+    fn motion_of(&self, body: &Body, run: &Record) -> Motion {
+        let plan = &self.plan;
+        let count = plan.sites.len();
+        let asset = &*body.asset;
+        let mut complement = Complement::default();
+        let mut first = 0;
+        for (k, site) in plan.sites.iter().enumerate() {
+            let sampled = run.forces.iter().skip((plan.substeps - 1) * count + k);
+            let force: Vec<f32> = sampled
+                .step_by(plan.substeps * count)
+                .map(|&f| f as f32)
+                .collect();
+            if let Some(near) = &site.near {
+                let oscillators = near.oscillators.len();
+                let rows = run.swing.chunks_exact(run.width);
+                let frequencies = &plan.oscillators[near.oscillators.clone()];
+                // From ω p of the oscillator of unit mass to ω² q of the one that the force itself drives, N.
+                let scale: Vec<f32> = (near.bands.oscillators.iter().zip(frequencies))
+                    .map(|(band, (w, _))| (w / band.give.sqrt()) as f32)
+                    .collect();
+                let mut swing = Vec::with_capacity(rows.len() * oscillators);
+                for row in rows {
+                    let own = &row[first..first + oscillators];
+                    swing.extend(own.iter().zip(&scale).map(|(x, s)| x * s));
+                }
+                first += oscillators;
+                let mut across: Vec<f32> = force.iter().map(|f| f * near.across as f32).collect();
+                across.resize(run.near_steps, 0.0);
+                let (place, wall, bands) = (near.place, &near.wall, &near.bands);
+                complement
+                    .near
+                    .push(NearField::new(place, wall, bands, &swing, &across));
+            }
+            complement
+                .residuals
+                .extend(Residual::new(asset, &site.residual, force));
+        }
+        Motion {
+            amplitudes: run.amplitudes.clone(),
+            modes: plan.modes,
+            peak_energy: run.peak_energy,
+            peak_strain_energy: run.peak_strain_energy,
+            coarse: (plan.coarser > 1.0).then_some((run.near_steps, plan.coarser)),
+            complement,
+        }
+    }
+}
