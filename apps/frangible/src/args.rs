@@ -25,6 +25,9 @@ pub(crate) enum Command {
     Bake(BakeArgs),
     /// Show how a body vibrates: table of its modes, picture of their shapes coloured by stress (PNG), files for ParaView (VTU)
     Modes(ModesArgs),
+    /// Film a break in slow motion, or the microseconds in which it happens (GIF, MP4, single pictures)
+    #[cfg(feature = "draw")]
+    Film(Box<FilmArgs>),
     /// Open a window: throw things, turn the model's knobs, look into the last contact
     #[cfg(feature = "draw")]
     View(ViewArgs),
@@ -55,14 +58,77 @@ pub(crate) struct ViewArgs {
     pub(crate) size: [u32; 2],
 }
 
+#[cfg(feature = "draw")]
+#[derive(Args, Clone, Debug)]
+pub(crate) struct FilmArgs {
+    /// File to break: a mesh, a baked body (.frangible) or a scene (.toml)
+    #[arg(value_name = "FILE", conflicts_with = "scene")]
+    pub(crate) file: Option<PathBuf>,
+
+    /// The microseconds of the first break: tension as colour on the body, and the cracks that it drives, each when it runs
+    #[arg(long, conflicts_with = "slow")]
+    pub(crate) microseconds: bool,
+
+    /// Film to write: .gif, .mp4 (which takes the program ffmpeg), or a folder of pictures [default: out/NAME.gif]
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) output: Option<PathBuf>,
+
+    /// Length of the film in seconds
+    #[arg(
+        long,
+        value_name = "SECONDS",
+        default_value_t = 6.0,
+        allow_negative_numbers = true
+    )]
+    pub(crate) seconds: f64,
+
+    /// Pictures per second
+    #[arg(
+        long,
+        value_name = "N",
+        default_value_t = 20.0,
+        allow_negative_numbers = true
+    )]
+    pub(crate) rate: f64,
+
+    /// How many times slower than it is the break is shown
+    #[arg(
+        long,
+        value_name = "TIMES",
+        default_value_t = 8.0,
+        allow_negative_numbers = true
+    )]
+    pub(crate) slow: f64,
+
+    /// Size of the pictures, pixels
+    #[arg(long = "frame", value_name = "WIDTHxHEIGHT", default_value = "640x480", value_parser = parse_frame)]
+    pub(crate) frame: [u32; 2],
+
+    #[command(flatten)]
+    pub(crate) scene: SceneArgs,
+}
+
+/// Width and height of a film.
+#[cfg(feature = "draw")]
+fn parse_frame(text: &str) -> Result<[u32; 2], String> {
+    sides(text, 64..=4096)
+        .ok_or_else(|| "give width and height in pixels, 64 to 4096, such as 640x480".into())
+}
+
+#[cfg(feature = "draw")]
+fn sides(text: &str, within: std::ops::RangeInclusive<u32>) -> Option<[u32; 2]> {
+    let (width, height) = text.split_once('x')?;
+    let sides = [width.parse::<u32>().ok()?, height.parse::<u32>().ok()?];
+    sides
+        .iter()
+        .all(|side| within.contains(side))
+        .then_some(sides)
+}
+
 /// Width and height.
 #[cfg(feature = "draw")]
 fn parse_size(text: &str) -> Result<[u32; 2], String> {
-    let sides = text.split_once('x').and_then(|(width, height)| {
-        Some([width.parse::<u32>().ok()?, height.parse::<u32>().ok()?])
-    });
-    sides
-        .filter(|sides| sides.iter().all(|side| (320..=8192).contains(side)))
+    sides(text, 320..=8192)
         .ok_or_else(|| "give width and height in pixels, 320 to 8192, such as 1280x800".into())
 }
 
@@ -191,8 +257,9 @@ pub(crate) struct ModesArgs {
     pub(crate) mesh: MeshArgs,
 }
 
+/// What is broken, and how it is hit.
 #[derive(Args, Clone, Debug)]
-pub(crate) struct BreakArgs {
+pub(crate) struct SceneArgs {
     /// Built-in scene; `frangible scenes` lists them [default: glass]
     #[arg(long, value_name = "NAME")]
     pub(crate) scene: Option<String>,
@@ -251,6 +318,12 @@ pub(crate) struct BreakArgs {
 
     #[command(flatten)]
     pub(crate) mesh: MeshArgs,
+}
+
+#[derive(Args, Clone, Debug)]
+pub(crate) struct BreakArgs {
+    #[command(flatten)]
+    pub(crate) scene: SceneArgs,
 
     /// Folder for the results, made when it is missing
     #[arg(long, default_value = "out", value_name = "DIR")]

@@ -11,12 +11,12 @@ use crate::args::BreakArgs;
 use crate::pictures;
 use crate::progress::Bar;
 use crate::report::{BodyReport, Report, frames_ms};
-use crate::request::{Request, scene_of};
+use crate::request::{Request, break_of};
 use crate::say::say;
 use frangible_export::make_folder;
 
 pub(crate) fn run(file: Option<&Path>, args: &BreakArgs) -> Result<(), Box<dyn Error>> {
-    let Request { scene, mut notes } = scene_of(file, args)?;
+    let Request { scene, mut notes } = break_of(file, args)?;
     let bar = Bar::new(args.json);
     bar.show(&format!("{}: reading", scene.name), 0.0);
     let sources = open_sources(&scene)?;

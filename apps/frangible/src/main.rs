@@ -3,6 +3,8 @@
 mod args;
 mod baking;
 mod breaking;
+#[cfg(feature = "draw")]
+mod filming;
 mod list;
 mod mode_files;
 mod mode_report;
@@ -100,6 +102,8 @@ fn main() -> ExitCode {
         Some(Command::Break(command)) => breaking::run(command.file.as_deref(), &command.args),
         Some(Command::Bake(args)) => baking::run(&args),
         Some(Command::Modes(args)) => modes::run(&args),
+        #[cfg(feature = "draw")]
+        Some(Command::Film(args)) => filming::run(&args),
         #[cfg(feature = "draw")]
         Some(Command::View(args)) => viewing::run(&args),
         Some(Command::Scenes { name: None }) => list::print(),

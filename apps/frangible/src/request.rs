@@ -8,7 +8,7 @@ use frangible::glam::{Quat, Vec3};
 use frangible_bake::{MOST_MODES, USUAL_MODES};
 use frangible_scenes::{Axis, BodySource, FileKind, FileWish, MaterialEdit, Projectile, Scene};
 
-use crate::args::{BakeArgs, BreakArgs, MeshArgs, ModesArgs};
+use crate::args::{BakeArgs, BreakArgs, MeshArgs, ModesArgs, SceneArgs};
 use crate::support::parse_support;
 
 /// A scene, and what was taken for it without being asked for.
@@ -17,8 +17,34 @@ pub(crate) struct Request {
     pub(crate) notes: Vec<String>,
 }
 
+/// The scene to break, and what is to be made of it, every number checked.
+pub(crate) fn break_of(file: Option<&Path>, args: &BreakArgs) -> Result<Request, Box<dyn Error>> {
+    let mut request = scene_of(file, &args.scene)?;
+    let wanted = &mut request.scene;
+    if let Some(n) = args.contact_sheet {
+        if args.no_pictures {
+            return Err(format!(
+                "--contact-sheet {n} draws a picture, which --no-pictures forbids; drop one of the two"
+            )
+            .into());
+        }
+        wanted.output.seeds = usize::try_from(n)
+            .ok()
+            .filter(|n| (1..=36).contains(n))
+            .ok_or_else(|| format!("--contact-sheet is {n}; it must be 1 to 36"))?;
+        if !wanted.output.contact_sheet.is_wanted() {
+            wanted.output.contact_sheet = FileWish::Yes;
+        }
+    }
+    if args.no_pictures {
+        wanted.output.picture = FileWish::No;
+        wanted.output.contact_sheet = FileWish::No;
+    }
+    Ok(request)
+}
+
 /// The scene to break, every number checked.
-pub(crate) fn scene_of(file: Option<&Path>, args: &BreakArgs) -> Result<Request, Box<dyn Error>> {
+pub(crate) fn scene_of(file: Option<&Path>, args: &SceneArgs) -> Result<Request, Box<dyn Error>> {
     let mut wanted = frangible_scenes::scene_of(file, args.scene.as_deref())?;
     let mut notes = Vec::new();
     if let Some(file) = file
@@ -64,25 +90,6 @@ pub(crate) fn scene_of(file: Option<&Path>, args: &BreakArgs) -> Result<Request,
     }
     if let Some(seed) = args.seed {
         wanted.seed = seed;
-    }
-    if let Some(n) = args.contact_sheet {
-        if args.no_pictures {
-            return Err(format!(
-                "--contact-sheet {n} draws a picture, which --no-pictures forbids; drop one of the two"
-            )
-            .into());
-        }
-        wanted.output.seeds = usize::try_from(n)
-            .ok()
-            .filter(|n| (1..=36).contains(n))
-            .ok_or_else(|| format!("--contact-sheet is {n}; it must be 1 to 36"))?;
-        if !wanted.output.contact_sheet.is_wanted() {
-            wanted.output.contact_sheet = FileWish::Yes;
-        }
-    }
-    if args.no_pictures {
-        wanted.output.picture = FileWish::No;
-        wanted.output.contact_sheet = FileWish::No;
     }
     wanted.validate()?;
     Ok(Request {

@@ -61,6 +61,24 @@ pub enum DrawError {
     /// Whoever asked for the picture does not want it any more.
     #[error("the picture was given up")]
     Cancelled,
+    /// A file that cannot be written.
+    #[error("`{}` cannot be {doing}: {source}", path.display())]
+    File {
+        /// The file.
+        path: std::path::PathBuf,
+        /// Made, written.
+        doing: &'static str,
+        /// Why not.
+        source: std::io::Error,
+    },
+    /// A picture that cannot be written.
+    #[error(transparent)]
+    Export(#[from] frangible_export::ExportError),
+    /// An MP4 without the program that makes it.
+    #[error(
+        "an MP4 takes the program `ffmpeg`, which is not there; install it (Debian: apt-get install ffmpeg, macOS: brew install ffmpeg), or make a GIF or single pictures"
+    )]
+    NoFfmpeg,
     /// The picture could not be compressed.
     #[error("the picture could not be encoded as PNG: {0}")]
     Encode(#[from] png::EncodingError),

@@ -24,6 +24,17 @@ pub(crate) struct Field {
     pub(crate) triangles: Vec<[u32; 3]>,
     /// 0..=1.
     pub(crate) values: Vec<f32>,
+    /// Dark lines on it.
+    pub(crate) lines: Vec<SurfaceLine>,
+}
+
+/// A dark line on a surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SurfaceLine {
+    /// Its ends, m.
+    pub ends: [Vec3; 2],
+    /// Unit normal of the surface there, outwards.
+    pub normal: Vec3,
 }
 
 /// Faces that meet at less than this are shaded as one, cosine of the angle: 35°.
@@ -31,6 +42,9 @@ const CREASE: f32 = 0.82;
 
 /// Colours in the palette's texture, so that they are blended along the map and not across it.
 const SHADES: usize = 256;
+
+/// Width of a line, and how far it stands out from the surface, over the height of what is seen.
+const LINE: [f32; 2] = [0.005, 0.0015];
 
 /// Half of a colour shines by itself, whatever the light: shading must not be taken for a value.
 const GLOW: f32 = 0.5;
@@ -67,7 +81,43 @@ pub(crate) fn field_scene(field: &Field, view: &View) -> SceneNode3d {
     let mesh = GpuMesh3d::new(corners, faces, Some(normals), Some(texels), false);
     let mut node = scene.add_mesh(Rc::new(RefCell::new(mesh)), Vec3::ONE);
     dress_in_values(&mut node, palette_texture());
+    if !field.lines.is_empty() {
+        let mut node = scene.add_mesh(Rc::new(RefCell::new(ribbons(field, view))), Vec3::ONE);
+        node.set_color(Color::new(0.0, 0.0, 0.0, 1.0));
+        node.set_metallic(0.0);
+        node.set_roughness(1.0);
+        node.set_reflectance(0.0);
+        node.enable_backface_culling(false);
+    }
     scene
+}
+
+/// The lines as ribbons that lie just above the surface, in the units of the stage.
+fn ribbons(field: &Field, view: &View) -> GpuMesh3d {
+    let units = StageUnits::of(view);
+    let seen = 2.0 * view.eye.distance(view.target) * (0.5 * view.vertical_fov).tan();
+    let [width, lift] = LINE.map(|share| share * seen);
+    let (mut corners, mut normals, mut faces) = (Vec::new(), Vec::new(), Vec::new());
+    for line in &field.lines {
+        let [a, b] = line.ends;
+        let along = (b - a).normalize_or_zero();
+        let across = along.cross(line.normal) * (0.5 * width);
+        let out = line.normal * lift;
+        // A little longer than it is, so that a bend has no gap.
+        let beyond = along * (0.3 * width);
+        let first = corners.len() as u32;
+        for corner in [
+            a - beyond - across,
+            b + beyond - across,
+            b + beyond + across,
+            a - beyond + across,
+        ] {
+            corners.push(units.point(corner + out));
+            normals.push(line.normal);
+        }
+        faces.extend([[first, first + 1, first + 2], [first, first + 2, first + 3]]);
+    }
+    GpuMesh3d::new(corners, faces, Some(normals), None, false)
 }
 
 /// Where the palette has a value of 0..=1: from the middle of the first texel to that of the last.

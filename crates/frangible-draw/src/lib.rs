@@ -21,9 +21,15 @@ mod camera;
 #[cfg(target_family = "wasm")]
 mod canvas;
 mod color_map;
+#[cfg(not(target_family = "wasm"))]
+mod colored;
 mod encode;
 mod error;
+#[cfg(not(target_family = "wasm"))]
+mod ffmpeg;
 mod field;
+#[cfg(not(target_family = "wasm"))]
+mod film;
 mod floor;
 mod floor_shadow;
 mod live;
@@ -46,8 +52,13 @@ pub use adapter::{has_adapter, is_software};
 pub use camera::StillCamera;
 #[cfg(target_family = "wasm")]
 pub use canvas::open_canvas;
+#[cfg(not(target_family = "wasm"))]
+pub use colored::ColoredSurface;
 pub use encode::{encode_png, encode_png_within};
 pub use error::DrawError;
+pub use field::SurfaceLine;
+#[cfg(not(target_family = "wasm"))]
+pub use film::{FilmFormat, FilmWriter};
 pub use image::RgbImage;
 pub use kiss3d;
 pub use live::{

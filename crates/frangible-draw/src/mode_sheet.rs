@@ -104,6 +104,7 @@ pub fn mode_sheet(cells: &[ModeCell], options: &ModeSheetOptions) -> Result<RgbI
                 positions: cell.positions.clone(),
                 triangles: cell.triangles.clone(),
                 values: cell.values.clone(),
+                lines: Vec::new(),
             }),
             view,
             labels: vec![
@@ -122,25 +123,35 @@ pub fn mode_sheet(cells: &[ModeCell], options: &ModeSheetOptions) -> Result<RgbI
 }
 
 fn check(number: usize, cell: &ModeCell) -> Result<(), DrawError> {
+    check_values(number, &cell.positions, &cell.triangles, &cell.values)
+}
+
+/// Refuses what does not fit together, of the shape with this number, from 0.
+pub(crate) fn check_values(
+    number: usize,
+    positions: &[Vec3],
+    triangles: &[[u32; 3]],
+    values: &[f32],
+) -> Result<(), DrawError> {
     let wrong = |problem: &'static str| DrawError::BadField {
         number: number + 1,
         problem,
     };
-    let vertices = cell.positions.len();
-    if cell.triangles.is_empty() {
+    let vertices = positions.len();
+    if triangles.is_empty() {
         return Err(wrong("it has no triangle"));
     }
-    if cell.values.len() != vertices {
+    if values.len() != vertices {
         return Err(wrong("it must have one value per vertex"));
     }
-    let mut corners = cell.triangles.iter().flatten();
+    let mut corners = triangles.iter().flatten();
     if corners.any(|&vertex| vertex as usize >= vertices) {
         return Err(wrong("a triangle has a vertex that does not exist"));
     }
-    if !cell.positions.iter().all(|p| p.is_finite()) {
+    if !positions.iter().all(|p| p.is_finite()) {
         return Err(wrong("a position is not a finite number"));
     }
-    if !cell.values.iter().all(|v| v.is_finite()) {
+    if !values.iter().all(|v| v.is_finite()) {
         return Err(wrong("a value is not a finite number"));
     }
     Ok(())

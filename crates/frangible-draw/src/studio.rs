@@ -41,6 +41,11 @@ impl Studio {
         Ok(Self { width, height })
     }
 
+    /// Width and height of its pictures, pixels.
+    pub(crate) fn size(&self) -> (u32, u32) {
+        (self.width, self.height)
+    }
+
     /// Draws one frame; a label, if not empty, stands in the upper left corner.
     ///
     /// # Errors
@@ -82,6 +87,32 @@ impl Studio {
     ) -> Result<RgbImage, DrawError> {
         let still = self.checked(recording, frame, view)?;
         self.shoot(Subject::Recording(still, Fineness::MOVING), view)
+    }
+
+    /// [`Studio::film_frame`] between two frames, where things are on their way from the one to the other: for slow motion.
+    ///
+    /// # Errors
+    ///
+    /// As [`Studio::frame`].
+    pub fn film_frame_between(
+        &self,
+        recording: &Recording,
+        frame: f64,
+        view: &View,
+    ) -> Result<RgbImage, DrawError> {
+        let first = frame.max(0.0) as usize;
+        let mut shot = self.checked(recording, first, view)?;
+        let share = (frame - first as f64).clamp(0.0, 1.0) as f32;
+        let seen = (0..recording.nodes.len())
+            .filter(|&node| recording.nodes[node].visible.contains(&first));
+        for (node, still) in seen.zip(&mut shot.nodes) {
+            if recording.nodes[node].visible.contains(&(first + 1)) {
+                let (from, to) = (still.poses[0], recording.pose(node, first + 1));
+                still.poses[0].translation = from.translation.lerp(to.translation, share);
+                still.poses[0].rotation = from.rotation.slerp(to.rotation, share);
+            }
+        }
+        self.shoot(Subject::Recording(shot, Fineness::MOVING), view)
     }
 
     /// Path-traces one frame: light goes its own ways, through glass and around corners. `go_on` gets the samples per pixel so

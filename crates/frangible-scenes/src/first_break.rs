@@ -32,7 +32,7 @@ pub struct FirstBreak {
     pub config: FractureConfig,
     /// Simulated time, s.
     pub time: f64,
-    rotation: Quat,
+    pub(crate) rotation: Quat,
     look: BodySurfaces,
     surfaces: Vec<SurfaceMaterial>,
     look_from: Vec3,

@@ -42,6 +42,7 @@ mod scene;
 mod source;
 mod stage;
 mod text;
+mod wave;
 
 pub use bake::{BakedBody, bake, bake_opened, bake_until, open_sources};
 pub use body::{BodySpec, Place};
@@ -64,3 +65,4 @@ pub use source::{
 };
 pub use stage::{breakable, intact_body};
 pub use text::{parse_scene, scene_to_toml};
+pub use wave::{SurfaceCut, Wave, WaveMoment};

@@ -8,7 +8,7 @@ use frangible::internals::mesh::TetMesh;
 use frangible::internals::modal::Motion;
 use frangible::internals::outcome::ContactReport;
 use frangible::internals::stress::Symmetric3;
-use frangible::internals::{ShownStress, Stage, Vibration, impact_traced};
+use frangible::internals::{CrackTrace, ShownStress, impact_traced};
 use frangible::{Asset, Body, Contact, FractureConfig, InputError};
 
 use crate::blow::Blow;
@@ -83,39 +83,33 @@ impl Analysis {
         config: &FractureConfig,
     ) -> Result<Self, InputError> {
         let asset = Arc::clone(body.asset());
-        // Also of a contact that a bound would refuse there is something to see.
-        let mut unculled = config.clone();
-        unculled.culling = false;
+        let (outcome, trace) = impact_traced(body, contacts, config)?;
+        let report = outcome.report();
         let mut analysis = Self {
             force: Series::default(),
             modes: Vec::new(),
             tension: Series::default(),
             strength: body.weakest(),
             peak_tension: 0.0,
-            cracks: cracks(body, contacts, config)?,
+            cracks: cracks(&asset.fracture, &trace),
             weak_points: middles(&asset.fracture, body.weak_tets()),
-            duration: 0.0,
-            contact: 0.0,
-            motion: Motion::default(),
-            time_step: 0.0,
+            duration: trace.motion.begin(trace.motion.steps(), report.time_step),
+            contact: report.contact_duration,
+            motion: trace.motion,
+            time_step: report.time_step,
             body: body.clone(),
             config: config.clone(),
-            pressed: Vec::new(),
+            pressed: trace.pressed,
             asset,
         };
-        if let Stage::Vibrates(vibration) = Vibration::begin(body, contacts, &unculled)? {
-            let pulse = vibration.pulse;
-            analysis.motion = vibration.motion(body);
-            analysis.time_step = pulse.time_step;
-            analysis.duration = pulse.time_step * analysis.motion.steps() as f64;
-            analysis.contact = pulse.duration;
-            analysis.force = if vibration.report.contacts.is_empty() {
+        if analysis.motion.steps() > 0 {
+            analysis.force = if report.contacts.is_empty() {
                 let impulse: f32 = contacts.iter().map(|contact| contact.impulse).sum();
-                half_sine(f64::from(impulse) * pulse.amplitude, pulse.duration)
+                let peak = 0.5 * PI * f64::from(impulse) / analysis.contact;
+                half_sine(peak, analysis.contact)
             } else {
-                force(&vibration.report.contacts, pulse.time_step)
+                force(&report.contacts, analysis.time_step)
             };
-            analysis.pressed = vibration.pressed;
             analysis.modes = analysis.plotted_modes();
             analysis.find_tensions();
         }
@@ -158,7 +152,7 @@ impl Analysis {
             name: format!("{}: {:.0} Hz", mode + 1, basis.frequency(mode)),
             points: (0..motion.steps())
                 .step_by(every)
-                .map(|k| [self.time_step * (k + 1) as f64, f64::from(stress(k, mode))])
+                .map(|k| [self.end_of(k), f64::from(stress(k, mode))])
                 .collect(),
         });
         series.collect()
@@ -167,7 +161,7 @@ impl Analysis {
     fn find_tensions(&mut self) {
         let largest = self.stress().largest_tensions();
         let mut points = vec![[0.0, 0.0]];
-        let times = (1..).map(|k| self.time_step * f64::from(k));
+        let times = (0..).map(|k| self.end_of(k));
         points.extend(
             times
                 .zip(largest.into_iter().map(f64::from))
@@ -193,8 +187,12 @@ impl Analysis {
 
     /// The time step at this share of the motion's time; none without a motion.
     fn step(&self, share: f64) -> Option<usize> {
-        let last = self.motion.steps().checked_sub(1)?;
-        Some((share.clamp(0.0, 1.0) * last as f64).round() as usize)
+        self.motion.step_at(self.time(share), self.time_step)
+    }
+
+    /// When a time step ends, s.
+    fn end_of(&self, step: usize) -> f64 {
+        self.motion.begin(step + 1, self.time_step)
     }
 }
 
@@ -226,13 +224,7 @@ fn middles(mesh: &TetMesh, tets: &[u32]) -> Vec<Vec3> {
     tets.iter().map(|&e| mesh.centroid(e as usize)).collect()
 }
 
-fn cracks(
-    body: &Body,
-    contacts: &[Contact],
-    config: &FractureConfig,
-) -> Result<Vec<CrackShape>, InputError> {
-    let mesh = &body.asset().fracture;
-    let (_, trace) = impact_traced(body, contacts, config)?;
+fn cracks(mesh: &TetMesh, trace: &CrackTrace) -> Vec<CrackShape> {
     let mut cracks: Vec<CrackShape> = Vec::new();
     for elements in &trace.cracks {
         let Some(first) = elements.first() else {
@@ -252,7 +244,7 @@ fn cracks(
         cracks.push(crack);
     }
     cracks.sort_by(|a, b| a.time.total_cmp(&b.time));
-    Ok(cracks)
+    cracks
 }
 
 /// The part of s = 0 within a tetrahedron, one or two triangles; zero counts as positive.

@@ -1,8 +1,6 @@
 //! Films and path-traced stills: drawn off-screen by the pictures' renderer, on a thread of its own.
 
 #[cfg(all(feature = "window", not(target_arch = "wasm32")))]
-mod ffmpeg;
-#[cfg(all(feature = "window", not(target_arch = "wasm32")))]
 mod shoot;
 
 use std::path::{Path, PathBuf};

@@ -241,7 +241,7 @@ impl<'a> Cracking<'a> {
         let labels = fragment::label(&system, index, crumb_share);
         report.timings.labels = start.elapsed().as_secs_f64();
         if let Some(trace) = trace {
-            *trace = CrackTrace::of(&system, &labels.of_node);
+            *trace = CrackTrace::of(&system, &labels.of_node, self.motion, self.pressed);
         }
         report.arrivals = system.arrivals();
         if labels.count < 2 {

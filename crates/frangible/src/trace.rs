@@ -1,14 +1,19 @@
 //! What the cracks of one impact did, element by element: a by-product for tests, off the way of [`crate::impact()`].
 
 use crate::crack::CrackSystem;
+use crate::modal::Motion;
 
 /// What the cracks of one impact did.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default)]
 pub struct CrackTrace {
     /// Fractured tetrahedra of each crack in the order they joined, cracks in the order they started.
     pub cracks: Vec<Vec<ElementTrace>>,
     /// Fragment of each node of the fracture mesh, 0 the largest; empty when no contact had an impulse.
     pub fragment_of_node: Vec<u32>,
+    /// The motion that they ran under, as it became where they weakened what bore a contact; empty when no contact had an impulse.
+    pub motion: Motion,
+    /// Triangles of the surface that the contacts pressed on.
+    pub pressed: Vec<u32>,
 }
 
 /// A tetrahedron fractured by a crack.
@@ -23,7 +28,12 @@ pub struct ElementTrace {
 }
 
 impl CrackTrace {
-    pub(crate) fn of(system: &CrackSystem, fragment_of_node: &[u32]) -> Self {
+    pub(crate) fn of(
+        system: &CrackSystem,
+        fragment_of_node: &[u32],
+        motion: Motion,
+        pressed: Vec<u32>,
+    ) -> Self {
         let elements = |crack: &crate::crack::Crack| {
             let trace = |cut: &crate::crack::ElementCut| ElementTrace {
                 tet: cut.tet,
@@ -35,6 +45,8 @@ impl CrackTrace {
         Self {
             cracks: system.cracks.iter().map(elements).collect(),
             fragment_of_node: fragment_of_node.to_vec(),
+            motion,
+            pressed,
         }
     }
 }

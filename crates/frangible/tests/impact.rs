@@ -6,7 +6,9 @@ use bodies::{
     bits, block, block_hit, breaking, models, pane, pane_hit, pieces, shelf, shelf_hit, strike,
 };
 use frangible::glam::Vec3;
-use frangible::{Contact, FractureConfig, Outcome, impact, would_break};
+use frangible::internals::blow::Blow;
+use frangible::internals::outcome::ContactReport;
+use frangible::{Body, Contact, FractureConfig, Outcome, impact, would_break};
 
 #[test]
 fn the_same_blow_gives_the_same_bits_on_any_thread() {
@@ -129,4 +131,53 @@ fn vibration_holds_no_more_energy_than_the_blow_brought() {
         assert_eq!(report.contact_duration, report.unadjusted_duration);
     }
     assert!(lengthened > 0);
+}
+
+/// The force of one contact as it would be if nothing broke.
+fn unbroken(body: &Body, contact: Contact) -> ContactReport {
+    let blow = Blow::new(body, &[contact], &FractureConfig::default()).unwrap();
+    blow.expect("something pushes").reports().remove(0)
+}
+
+#[test]
+fn a_blow_is_as_if_nothing_broke_until_the_piece_under_it_is_cut_free() {
+    let (mut shorter, mut whole) = (0, 0);
+    for seed in 1..=12 {
+        for hit in [block_hit(4.0), block_hit(10.0), block_hit(30.0)] {
+            let body = block().body(seed);
+            let alone = unbroken(&body, hit);
+            let outcome = strike(block(), seed, hit, &FractureConfig::default());
+            let contact = &outcome.report().contacts[0];
+            if contact.duration >= alone.duration {
+                assert_eq!(contact.force, alone.force);
+                whole += 1;
+                continue;
+            }
+            // It ended early, at once, and all that it left is the motion of the striker.
+            shorter += 1;
+            assert!(matches!(outcome, Outcome::Broke(_)));
+            let pushed = contact.force.iter().take_while(|&&f| f > 0.0).count();
+            assert_eq!(contact.force[..pushed], alone.force[..pushed]);
+            assert!(contact.force[pushed..].iter().all(|&f| f == 0.0));
+            assert!(contact.impulse < alone.impulse);
+            let mass = 1.0 / f64::from(hit.striker.inverse_effective_mass);
+            let slower = contact.departure_speed + contact.approach_speed;
+            assert!(
+                slower > contact.impulse / mass
+                    && slower < alone.departure_speed + alone.approach_speed
+            );
+        }
+    }
+    println!("{shorter} blows ended early, {whole} did not");
+    assert!(shorter > 3 && whole > 3);
+}
+
+#[test]
+fn cracks_spend_what_a_shortened_blow_brought_and_no_more() {
+    for seed in 1..=12 {
+        let hit = block_hit(20.0);
+        let outcome = strike(block(), seed, hit, &FractureConfig::default());
+        let report = outcome.report();
+        assert!(report.fracture_energy <= report.peak_strain_energy * (1.0 + 1e-9));
+    }
 }

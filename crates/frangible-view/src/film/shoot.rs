@@ -1,43 +1,37 @@
-//! Pictures one after the other, into a file or a folder.
+//! Pictures one after the other, of the last seconds.
 
 use std::path::Path;
 use std::sync::Arc;
 
-use frangible_draw::{DrawError, RgbImage, Studio};
+use frangible_draw::{DrawError, FilmFormat, FilmWriter, Studio, encode_png_within};
 use frangible_export::write_atomically;
-use image::codecs::gif::{GifEncoder, Repeat};
-use image::{Delay, DynamicImage, Frame, ImageFormat};
 
 use super::Take;
-use super::ffmpeg::Ffmpeg;
 use crate::command::FilmKind;
 use crate::error::ViewError;
 use crate::jobs::Teller;
-
-/// From 1, the best colours, to 30, the fastest.
-const GIF_SPEED: i32 = 10;
 
 /// Makes it.
 pub(super) fn shoot(take: &Take, teller: &Teller) -> Result<(), ViewError> {
     let [width, height] = take.options.size;
     let studio = Studio::new(width, height)?;
-    if let Some(folder) = take.path.parent().filter(|f| !f.as_os_str().is_empty()) {
-        make_folder(folder)?;
+    let format = match take.kind {
+        FilmKind::Still => return still(take, &studio, teller),
+        FilmKind::Gif => FilmFormat::Gif,
+        FilmKind::Mp4 => FilmFormat::Mp4,
+        FilmKind::Frames => FilmFormat::Frames,
+    };
+    let mut film = FilmWriter::begin(&take.path, format, take.options.size, take.options.rate)?;
+    let count = take.recording.frame_count;
+    for frame in 0..count {
+        if teller.cancel.is_cancelled() {
+            return Err(DrawError::Cancelled.into());
+        }
+        let share = frame as f64 / count as f64;
+        teller.tell(format!("film: picture {} of {count}", frame + 1), share);
+        film.add(studio.film_frame(&take.recording, frame, &take.view)?)?;
     }
-    match take.kind {
-        FilmKind::Still => still(take, &studio, teller),
-        FilmKind::Gif => gif(take, &studio, teller),
-        FilmKind::Frames => frames(take, &studio, teller),
-        FilmKind::Mp4 => mp4(take, &studio, teller),
-    }
-}
-
-fn make_folder(folder: &Path) -> Result<(), ViewError> {
-    std::fs::create_dir_all(folder).map_err(|source| ViewError::File {
-        path: folder.to_path_buf(),
-        doing: "made",
-        source,
-    })
+    Ok(film.finish()?)
 }
 
 fn still(take: &Take, studio: &Studio, teller: &Teller) -> Result<(), ViewError> {
@@ -50,74 +44,17 @@ fn still(take: &Take, studio: &Studio, teller: &Teller) -> Result<(), ViewError>
         !own.cancel.is_cancelled()
     });
     let picture = studio.traced(&take.recording, 0, &take.view, samples, go_on)?;
-    write_png(&take.path, picture)
-}
-
-/// Hands on picture after picture, until nobody wants them any more.
-fn each(
-    take: &Take,
-    studio: &Studio,
-    teller: &Teller,
-    mut hand_on: impl FnMut(usize, RgbImage) -> Result<(), ViewError>,
-) -> Result<(), ViewError> {
-    let count = take.recording.frame_count;
-    for frame in 0..count {
-        if teller.cancel.is_cancelled() {
-            return Err(DrawError::Cancelled.into());
-        }
-        let share = frame as f64 / count as f64;
-        teller.tell(format!("film: picture {} of {count}", frame + 1), share);
-        hand_on(
-            frame,
-            studio.film_frame(&take.recording, frame, &take.view)?,
-        )?;
+    if let Some(folder) = take.path.parent().filter(|f| !f.as_os_str().is_empty()) {
+        make_folder(folder)?;
     }
-    Ok(())
+    let png = encode_png_within(&picture, usize::MAX)?;
+    Ok(write_atomically(&take.path, &png)?)
 }
 
-fn gif(take: &Take, studio: &Studio, teller: &Teller) -> Result<(), ViewError> {
-    let mut bytes = Vec::new();
-    {
-        let mut encoder = GifEncoder::new_with_speed(&mut bytes, GIF_SPEED);
-        let refused = |error| refused(&take.path, error);
-        encoder.set_repeat(Repeat::Infinite).map_err(refused)?;
-        // Its unit is a hundredth of a second.
-        let delay = Delay::from_numer_denom_ms((1e3 / take.options.rate).round() as u32, 1);
-        each(take, studio, teller, |_, picture| {
-            let picture = DynamicImage::ImageRgb8(picture).into_rgba8();
-            let frame = Frame::from_parts(picture, 0, 0, delay);
-            encoder.encode_frame(frame).map_err(refused)
-        })?;
-    }
-    Ok(write_atomically(&take.path, &bytes)?)
-}
-
-fn frames(take: &Take, studio: &Studio, teller: &Teller) -> Result<(), ViewError> {
-    make_folder(&take.path)?;
-    each(take, studio, teller, |frame, picture| {
-        let name = format!("frame-{:04}.png", frame + 1);
-        write_png(&take.path.join(name), picture)
+fn make_folder(folder: &Path) -> Result<(), ViewError> {
+    std::fs::create_dir_all(folder).map_err(|source| ViewError::File {
+        path: folder.to_path_buf(),
+        doing: "made",
+        source,
     })
-}
-
-fn mp4(take: &Take, studio: &Studio, teller: &Teller) -> Result<(), ViewError> {
-    let mut ffmpeg = Ffmpeg::start(&take.path, take.options.size, take.options.rate)?;
-    each(take, studio, teller, |_, picture| ffmpeg.give(&picture))?;
-    ffmpeg.finish()
-}
-
-fn write_png(path: &Path, picture: RgbImage) -> Result<(), ViewError> {
-    let mut bytes = std::io::Cursor::new(Vec::new());
-    DynamicImage::ImageRgb8(picture)
-        .write_to(&mut bytes, ImageFormat::Png)
-        .map_err(|error| refused(path, error))?;
-    Ok(write_atomically(path, bytes.get_ref())?)
-}
-
-fn refused(path: &Path, error: image::ImageError) -> ViewError {
-    ViewError::File {
-        path: path.to_path_buf(),
-        doing: "written",
-        source: std::io::Error::other(error),
-    }
 }

@@ -129,14 +129,29 @@ impl Motion {
         self.amplitudes.len().checked_div(self.modes).unwrap_or(0)
     }
 
-    /// When a step begins, s, where the first are so long, s.
-    pub(crate) fn begin(&self, step: usize, time_step: f64) -> f64 {
+    /// When a step begins, s, where the first are so long, s: steps after a blow are longer.
+    #[must_use]
+    pub fn begin(&self, step: usize, time_step: f64) -> f64 {
         match self.coarse {
             Some((first, factor)) if step > first => {
                 (first as f64 + (step - first) as f64 * factor) * time_step
             }
             _ => step as f64 * time_step,
         }
+    }
+
+    /// The step in which a time, s, lies, where the first steps are so long, s; the last one for later times, none without steps.
+    #[must_use]
+    pub fn step_at(&self, time: f64, time_step: f64) -> Option<usize> {
+        let last = self.steps().checked_sub(1)?;
+        let at = time / time_step;
+        let step = match self.coarse {
+            Some((first, factor)) if at > first as f64 => {
+                first as f64 + (at - first as f64) / factor
+            }
+            _ => at,
+        };
+        Some((step.max(0.0) as usize).min(last))
     }
 
     /// Amplitudes of all modes at a step, m·√kg.

@@ -4,9 +4,10 @@ use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Child, ChildStdin, Command, Stdio};
 
-use frangible_draw::RgbImage;
+use image::RgbImage;
 
-use crate::error::ViewError;
+use crate::DrawError;
+use crate::film::{part_of, unwritten};
 
 /// `ffmpeg` at work on a file beside the one wanted; ended, and the file removed, when it is dropped unfinished.
 pub(super) struct Ffmpeg {
@@ -21,8 +22,8 @@ impl Ffmpeg {
         path: &Path,
         [width, height]: [u32; 2],
         rate: f64,
-    ) -> Result<Self, ViewError> {
-        let part = path.with_extension("part.mp4");
+    ) -> Result<Self, DrawError> {
+        let part = part_of(path);
         let mut child = Command::new("ffmpeg")
             .args(["-y", "-loglevel", "error", "-f", "rawvideo"])
             .args(["-pixel_format", "rgb24", "-video_size"])
@@ -37,10 +38,8 @@ impl Ffmpeg {
             .stderr(Stdio::piped())
             .spawn()
             .map_err(|error| match error.kind() {
-                std::io::ErrorKind::NotFound => ViewError::NotNow(
-                    "an MP4 takes the program `ffmpeg`, which is not there; install it (Debian: apt-get install ffmpeg, macOS: brew install ffmpeg), or save a GIF or single pictures (`save gif`, `save frames`)".into(),
-                ),
-                _ => failed(path, error),
+                std::io::ErrorKind::NotFound => DrawError::NoFfmpeg,
+                _ => unwritten(path, error),
             })?;
         Ok(Self {
             pictures: child.stdin.take(),
@@ -50,7 +49,7 @@ impl Ffmpeg {
         })
     }
 
-    pub(super) fn give(&mut self, picture: &RgbImage) -> Result<(), ViewError> {
+    pub(super) fn give(&mut self, picture: &RgbImage) -> Result<(), DrawError> {
         let given = match &mut self.pictures {
             Some(pictures) => pictures.write_all(picture.as_raw()),
             None => Ok(()),
@@ -62,24 +61,24 @@ impl Ffmpeg {
         }
     }
 
-    pub(super) fn finish(mut self) -> Result<(), ViewError> {
+    pub(super) fn finish(mut self) -> Result<(), DrawError> {
         self.close()?;
-        std::fs::rename(&self.part, &self.path).map_err(|error| failed(&self.path, error))
+        std::fs::rename(&self.part, &self.path).map_err(|error| unwritten(&self.path, error))
     }
 
     /// Waits for its end.
-    fn close(&mut self) -> Result<(), ViewError> {
+    fn close(&mut self) -> Result<(), DrawError> {
         self.pictures = None;
         let mut said = String::new();
         if let Some(mut errors) = self.child.stderr.take() {
             let _ = errors.read_to_string(&mut said);
         }
-        let status = self.child.wait().map_err(|e| failed(&self.path, e))?;
+        let status = self.child.wait().map_err(|e| unwritten(&self.path, e))?;
         if status.success() {
             return Ok(());
         }
         let said = format!("ffmpeg ended with {status}: {}", said.trim());
-        Err(failed(&self.path, std::io::Error::other(said)))
+        Err(unwritten(&self.path, std::io::Error::other(said)))
     }
 }
 
@@ -90,13 +89,5 @@ impl Drop for Ffmpeg {
         let _ = self.child.kill();
         let _ = self.child.wait();
         let _ = std::fs::remove_file(&self.part);
-    }
-}
-
-fn failed(path: &Path, source: std::io::Error) -> ViewError {
-    ViewError::File {
-        path: path.to_path_buf(),
-        doing: "written",
-        source,
     }
 }

@@ -1,0 +1,89 @@
+//! A surface coloured by a number, with a bar that says what the colours mean.
+
+use frangible_export::View;
+use frangible_export::glam::Vec3;
+use image::{Rgb, RgbImage};
+
+use crate::color_map::color_of;
+use crate::field::{Field, SurfaceLine};
+use crate::mode_sheet::check_values;
+use crate::renderer::{Label, Shot, Subject, draw};
+use crate::{DrawError, Studio};
+
+/// A surface to draw, coloured by a number.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ColoredSurface {
+    /// Vertices, m.
+    pub positions: Vec<Vec3>,
+    /// Vertices of each triangle, counter-clockwise seen from outside.
+    pub triangles: Vec<[u32; 3]>,
+    /// What colours each vertex: 0..=1, held there.
+    pub values: Vec<f32>,
+    /// Dark lines on it.
+    pub lines: Vec<SurfaceLine>,
+    /// Stands in the upper left corner, line under line.
+    pub captions: Vec<String>,
+    /// What the two ends of the colours mean, and what they show.
+    pub legend: [String; 3],
+}
+
+/// Height of a line of text, of the picture.
+const TEXT: f32 = 0.045;
+
+/// Where the colour bar begins and how wide and high it is, of the picture's height.
+const BAR: [f32; 3] = [0.045, 0.5, 0.03];
+
+impl Studio {
+    /// Draws a coloured surface on white.
+    ///
+    /// # Errors
+    /// [`DrawError::BadField`] where its lists do not fit together or hold NaN, else as [`Studio::frame`].
+    pub fn colored_frame(
+        &self,
+        surface: &ColoredSurface,
+        view: &View,
+    ) -> Result<RgbImage, DrawError> {
+        view.validate()?;
+        check_values(0, &surface.positions, &surface.triangles, &surface.values)?;
+        let (width, height) = self.size();
+        let high = height as f32;
+        let row = TEXT * high;
+        let text = |at: [f32; 2], text: &str| Label {
+            at,
+            height: row,
+            text: text.into(),
+        };
+        let captions = (0_u8..).zip(&surface.captions);
+        let mut labels: Vec<Label> = captions
+            .map(|(line, caption)| text([0.5 * row, (0.4 + 1.2 * f32::from(line)) * row], caption))
+            .collect();
+        let [left, long, thick] = BAR.map(|share| share * high);
+        let top = high - left - thick;
+        let [least, most, what] = &surface.legend;
+        labels.push(text([left, top - 1.25 * row], what));
+        labels.push(text([left + long + 0.4 * row, top - 0.1 * row], most));
+        labels.push(text([0.2 * left, top - 0.1 * row], least));
+        let mut drawn = draw(Shot {
+            subject: Subject::Field(Field {
+                positions: surface.positions.clone(),
+                triangles: surface.triangles.clone(),
+                values: surface.values.clone(),
+                lines: surface.lines.clone(),
+            }),
+            view: *view,
+            labels,
+            width,
+            height,
+        })?;
+        for column in 0..long as u32 {
+            let color = Rgb(color_of(column as f32 / (long - 1.0)));
+            for line in 0..thick as u32 {
+                let (x, y) = (left as u32 + column, top as u32 + line);
+                if x < width && y < height {
+                    drawn.put_pixel(x, y, color);
+                }
+            }
+        }
+        Ok(drawn)
+    }
+}

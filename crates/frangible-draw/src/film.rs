@@ -1,0 +1,232 @@
+//! Films: pictures one after the other, into a file or a folder.
+
+use std::fs::File;
+use std::io::BufWriter;
+use std::path::{Path, PathBuf};
+
+use frangible_export::write_atomically;
+use image::codecs::gif::{GifEncoder, Repeat};
+use image::{Delay, DynamicImage, Frame, RgbImage};
+
+use crate::ffmpeg::Ffmpeg;
+use crate::{DrawError, encode_png_within};
+
+/// From 1, the best colours, to 30, the fastest.
+const GIF_SPEED: i32 = 10;
+
+/// What a film is written as.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum FilmFormat {
+    /// A GIF, which every page plays.
+    Gif,
+    /// An MP4, which takes the program `ffmpeg`.
+    Mp4,
+    /// A folder of pictures, `frame-0001.png` and so on.
+    Frames,
+}
+
+impl FilmFormat {
+    /// The format that a file name asks for: `.gif`, `.mp4`, or none for a folder.
+    #[must_use]
+    pub fn of(path: &Path) -> Option<Self> {
+        match path.extension() {
+            None => Some(Self::Frames),
+            Some(end) if end.eq_ignore_ascii_case("gif") => Some(Self::Gif),
+            Some(end) if end.eq_ignore_ascii_case("mp4") => Some(Self::Mp4),
+            Some(_) => None,
+        }
+    }
+}
+
+/// A film that is being written. What is finished of it gets its name when [`FilmWriter::finish`] is called; dropped before that, it leaves
+/// no file, but for single pictures.
+pub struct FilmWriter {
+    path: PathBuf,
+    pictures: u32,
+    to: To,
+}
+
+enum To {
+    Gif(Gif),
+    Mp4(Ffmpeg),
+    Frames,
+}
+
+impl FilmWriter {
+    /// Begins a film of pictures of one size, `[width, height]` in pixels, so many a second. Folders above it are made.
+    ///
+    /// # Errors
+    /// [`DrawError::File`] where nothing can be written, [`DrawError::NoFfmpeg`] where an MP4 needs it.
+    pub fn begin(
+        path: &Path,
+        format: FilmFormat,
+        size: [u32; 2],
+        rate: f64,
+    ) -> Result<Self, DrawError> {
+        let folder = match format {
+            FilmFormat::Frames => Some(path),
+            _ => path
+                .parent()
+                .filter(|folder| !folder.as_os_str().is_empty()),
+        };
+        if let Some(folder) = folder {
+            std::fs::create_dir_all(folder).map_err(|source| DrawError::File {
+                path: folder.to_path_buf(),
+                doing: "made",
+                source,
+            })?;
+        }
+        Ok(Self {
+            path: path.to_path_buf(),
+            pictures: 0,
+            to: match format {
+                FilmFormat::Gif => To::Gif(Gif::begin(path, rate)?),
+                FilmFormat::Mp4 => To::Mp4(Ffmpeg::start(path, size, rate)?),
+                FilmFormat::Frames => To::Frames,
+            },
+        })
+    }
+
+    /// Adds a picture.
+    ///
+    /// # Errors
+    /// [`DrawError::File`] where it cannot be written.
+    pub fn add(&mut self, picture: RgbImage) -> Result<(), DrawError> {
+        self.pictures += 1;
+        match &mut self.to {
+            To::Gif(gif) => gif.add(picture, &self.path),
+            To::Mp4(ffmpeg) => ffmpeg.give(&picture),
+            To::Frames => {
+                let name = format!("frame-{:04}.png", self.pictures);
+                Ok(write_atomically(
+                    &self.path.join(name),
+                    &encode_png_within(&picture, usize::MAX)?,
+                )?)
+            }
+        }
+    }
+
+    /// Ends the film, which then has its name; one without pictures leaves no file.
+    ///
+    /// # Errors
+    /// [`DrawError::File`] where it cannot be written.
+    pub fn finish(self) -> Result<(), DrawError> {
+        if self.pictures == 0 {
+            return Ok(());
+        }
+        match self.to {
+            To::Gif(gif) => gif.finish(&self.path),
+            To::Mp4(ffmpeg) => ffmpeg.finish(),
+            To::Frames => Ok(()),
+        }
+    }
+}
+
+/// A GIF in a file beside the one wanted, removed when it is dropped unfinished.
+struct Gif {
+    encoder: Option<GifEncoder<BufWriter<File>>>,
+    delay: Delay,
+    part: PathBuf,
+}
+
+impl Gif {
+    fn begin(path: &Path, rate: f64) -> Result<Self, DrawError> {
+        let part = part_of(path);
+        let file = File::create(&part).map_err(|error| unwritten(path, error))?;
+        let mut gif = Self {
+            encoder: None,
+            // Its unit is a hundredth of a second.
+            delay: Delay::from_numer_denom_ms((1e3 / rate).round() as u32, 1),
+            part,
+        };
+        let mut encoder = GifEncoder::new_with_speed(BufWriter::new(file), GIF_SPEED);
+        encoder
+            .set_repeat(Repeat::Infinite)
+            .map_err(|error| unwritten(path, std::io::Error::other(error)))?;
+        gif.encoder = Some(encoder);
+        Ok(gif)
+    }
+
+    fn add(&mut self, picture: RgbImage, path: &Path) -> Result<(), DrawError> {
+        let picture = DynamicImage::ImageRgb8(picture).into_rgba8();
+        let frame = Frame::from_parts(picture, 0, 0, self.delay);
+        match &mut self.encoder {
+            Some(encoder) => (encoder.encode_frame(frame))
+                .map_err(|error| unwritten(path, std::io::Error::other(error))),
+            None => Ok(()),
+        }
+    }
+
+    fn finish(mut self, path: &Path) -> Result<(), DrawError> {
+        // Its end is written when the encoder goes.
+        self.encoder = None;
+        std::fs::rename(&self.part, path).map_err(|error| unwritten(path, error))
+    }
+}
+
+impl Drop for Gif {
+    fn drop(&mut self) {
+        self.encoder = None;
+        // In vain where it is finished.
+        let _ = std::fs::remove_file(&self.part);
+    }
+}
+
+/// The file in which a film grows: beside the one wanted, with the same ending.
+pub(crate) fn part_of(path: &Path) -> PathBuf {
+    let mut end = std::ffi::OsString::from("part.");
+    end.push(path.extension().unwrap_or_default());
+    path.with_extension(end)
+}
+
+pub(crate) fn unwritten(path: &Path, source: std::io::Error) -> DrawError {
+    DrawError::File {
+        path: path.to_path_buf(),
+        doing: "written",
+        source,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_film_has_its_name_when_it_is_finished_and_not_before() {
+        let folder = std::env::temp_dir().join(format!("frangible-film-{}", std::process::id()));
+        let path = folder.join("deep/film.gif");
+        let begin = || FilmWriter::begin(&path, FilmFormat::Gif, [16, 16], 20.0).unwrap();
+        let mut film = begin();
+        film.add(RgbImage::new(16, 16)).unwrap();
+        drop(film);
+        assert_eq!(
+            std::fs::read_dir(path.parent().unwrap()).unwrap().count(),
+            0
+        );
+        let mut film = begin();
+        for shade in [0, 90, 250] {
+            film.add(RgbImage::from_pixel(16, 16, image::Rgb([shade; 3])))
+                .unwrap();
+        }
+        assert!(!path.exists());
+        film.finish().unwrap();
+        let bytes = std::fs::read(&path).unwrap();
+        // Each picture begins with its own control block.
+        let pictures = bytes
+            .windows(3)
+            .filter(|w| *w == [0x21, 0xF9, 0x04])
+            .count();
+        assert_eq!((&bytes[..6], pictures), (&b"GIF89a"[..], 3));
+        std::fs::remove_dir_all(&folder).unwrap();
+    }
+
+    #[test]
+    fn the_name_says_the_format() {
+        let of = |name: &str| FilmFormat::of(Path::new(name));
+        assert_eq!(of("a.GIF"), Some(FilmFormat::Gif));
+        assert_eq!(of("b/c.mp4"), Some(FilmFormat::Mp4));
+        assert_eq!(of("frames"), Some(FilmFormat::Frames));
+        assert_eq!(of("a.avi"), None);
+    }
+}
