@@ -23,6 +23,9 @@ const SLOW: f64 = 0.55;
 /// Seconds for which the last picture stands.
 const END: f64 = 0.6;
 
+/// The camera's distance over that of a still.
+const NEARER: f32 = 0.8;
+
 /// The colours end at the tension that this share of all places and times stays below: that right under the contact would leave
 /// nothing for the rest.
 const WITHIN: f64 = 0.995;
@@ -216,7 +219,7 @@ fn microseconds(
         bar.show(&format!("{}: the wave", scene.name), done);
     })?;
     let most = f64::from(wave.quantile(WITHIN)).max(wave.strength);
-    let view = found.stills(&[&[]], 0.0)[0].camera;
+    let view = nearer(found.stills(&[&[]], 0.0)[0].camera);
     for picture in 0..count {
         let moment = picture.min(moments - 1);
         let surface = surface_at(&wave, moment, most, &found.name);
@@ -225,6 +228,14 @@ fn microseconds(
         }
     }
     Ok(())
+}
+
+/// A view of stills leaves room for headings and arrows; the captions of a film take less.
+fn nearer(view: View) -> View {
+    View {
+        eye: view.target + (view.eye - view.target) * NEARER,
+        ..view
+    }
 }
 
 /// What is to be drawn of a moment; the colours end at a tension of `most`, Pa.

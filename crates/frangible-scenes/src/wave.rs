@@ -118,7 +118,7 @@ impl FirstBreak {
             wave.moments.push(WaveMoment {
                 time,
                 tension: surface.spread(&of_triangle),
-                force: force.map(|&f| f64::from(f)).sum(),
+                force: force.fold(0.0, |sum, &f| sum + f64::from(f)),
             });
         }
         Ok(wave)
