@@ -109,8 +109,10 @@ impl<'a> Cracking<'a> {
             report.contacts = blow.reports();
             report.contact_duration = blow.duration();
             report.time_steps = self.motion.steps();
-            // A shorter blow brings less.
-            system.budget = system.budget.min(self.motion.peak_strain_energy);
+            // A shorter blow brings less in the end.
+            if config.energy_ledger {
+                system.budget = system.budget.min(self.motion.peak_strain_energy);
+            }
             system.releases.forget_batch();
         }
         report.peak_elastic_energy = self.motion.peak_energy;
@@ -140,6 +142,10 @@ impl<'a> Cracking<'a> {
             }
             let k = lane(step);
             field.step = step;
+            // Cracks spend nothing that has not come yet.
+            if config.energy_ledger {
+                system.brought = system.budget.min(motion.strain_energy_until(step));
+            }
             if step % BETWEEN_LOOKS == 0
                 && step > first_step
                 && let Some(blow) = self.blow.as_ref().filter(|b| b.pushes_at(step))

@@ -100,7 +100,7 @@ pub struct ContactReport {
     /// Speed at which the striker leaves the body as a rigid one, m/s; negative where it goes on into it. Over the speed of
     /// approach it is the coefficient of restitution.
     pub departure_speed: f64,
-    /// Force at the end of each [time step](ImpactReport::time_step), N.
+    /// Force at the end of each [time step](ImpactReport::time_step), N. It is linear between them, and ends with the last.
     pub force: Vec<f32>,
 }
 

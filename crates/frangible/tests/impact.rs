@@ -143,7 +143,12 @@ fn unbroken(body: &Body, contact: Contact) -> ContactReport {
 fn a_blow_is_as_if_nothing_broke_until_the_piece_under_it_is_cut_free() {
     let (mut shorter, mut whole) = (0, 0);
     for seed in 1..=12 {
-        for hit in [block_hit(4.0), block_hit(10.0), block_hit(30.0)] {
+        for hit in [
+            block_hit(0.5),
+            block_hit(1.0),
+            block_hit(4.0),
+            block_hit(20.0),
+        ] {
             let body = block().body(seed);
             let alone = unbroken(&body, hit);
             let outcome = strike(block(), seed, hit, &FractureConfig::default());

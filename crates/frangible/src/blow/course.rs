@@ -170,6 +170,12 @@ impl Blow {
             let forces = || self.forces.iter().skip(k).step_by(count);
             let peak = forces().copied().fold(0.0, f64::max);
             let sampled = forces().skip(self.plan.substeps - 1);
+            // What is let go ends at once, with its last value.
+            let free = self
+                .softer
+                .iter()
+                .find(|s| s.contact == k && s.compliance.is_infinite());
+            let samples = free.map_or(usize::MAX, |s| s.substep / self.plan.substeps);
             ContactReport {
                 point: site.touch.contact.point,
                 normal: site.touch.contact.normal,
@@ -184,6 +190,7 @@ impl Blow {
                 departure_speed: self.departures[k],
                 force: sampled
                     .step_by(self.plan.substeps)
+                    .take(samples)
                     .map(|&f| f as f32)
                     .collect(),
             }
@@ -340,7 +347,8 @@ impl Blow {
             amplitudes: run.amplitudes.clone(),
             modes: plan.modes,
             peak_energy: run.peak_energy,
-            peak_strain_energy: run.peak_strain_energy,
+            peak_strain_energy: run.strain_energy.last().copied().unwrap_or(0.0),
+            strain_energy: run.strain_energy.clone(),
             coarse: (plan.coarser > 1.0).then_some((run.near_steps, plan.coarser)),
             complement,
         }

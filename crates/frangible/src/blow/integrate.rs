@@ -44,7 +44,8 @@ pub(super) struct Record {
     /// Speed of each striker into the body after the blow, m/s.
     pub(super) speeds: Vec<f64>,
     pub(super) peak_energy: f64,
-    pub(super) peak_strain_energy: f64,
+    /// Largest strain energy until the end of each time step, J.
+    pub(super) strain_energy: Vec<f64>,
     pub(super) energy_at_parting: f64,
 }
 
@@ -149,7 +150,7 @@ impl Record {
             contact_steps: 0,
             speeds: Vec::new(),
             peak_energy: 0.0,
-            peak_strain_energy: 0.0,
+            strain_energy: Vec::new(),
             energy_at_parting: 0.0,
         }
     }
@@ -173,7 +174,8 @@ impl Record {
         }
         let [whole, strain] = energies(state);
         self.peak_energy = self.peak_energy.max(whole + held);
-        self.peak_strain_energy = self.peak_strain_energy.max(strain + held);
+        let before = self.strain_energy.last().copied().unwrap_or(0.0);
+        self.strain_energy.push(before.max(strain + held));
     }
 }
 

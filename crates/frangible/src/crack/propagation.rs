@@ -198,7 +198,7 @@ fn steers(
 enum Payment {
     /// The ledger has no more, and never will.
     Refused,
-    /// Not under the present stress.
+    /// Not under the present stress, or not before more energy has come.
     Later,
     /// Yes; the area sets so much energy free, J.
     Now { gain: f64 },
@@ -215,9 +215,9 @@ fn pays(system: &CrackSystem, felt: &Felt, front: &Front, cut: &ElementCut, area
         let density = 0.5 * opening * opening / material.contact_modulus();
         gain = gain.max(f64::from(area) * depth * density);
     }
-    if !system.affords(front.tet, area) {
+    if system.never_affords(front.tet, area) {
         Payment::Refused
-    } else if crack.spent + cost < crack.available + gain {
+    } else if system.affords(front.tet, area) && crack.spent + cost < crack.available + gain {
         Payment::Now { gain }
     } else {
         Payment::Later

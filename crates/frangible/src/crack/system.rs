@@ -61,6 +61,8 @@ pub(crate) struct CrackSystem<'a> {
     pub(crate) edge: f32,
     /// Energy that all cracks together may spend, J; infinite without a ledger.
     pub(crate) budget: f64,
+    /// How much of that has come so far, J.
+    pub(crate) brought: f64,
     /// Energy that all cracks together have spent, J.
     pub(crate) spent: f64,
 }
@@ -80,6 +82,7 @@ impl<'a> CrackSystem<'a> {
             resistance: &body.resistance,
             seed: body.seed(),
             budget,
+            brought: budget,
             spent: 0.0,
             cracks: Vec::new(),
             values: NodeValues::new(asset.fracture.positions.len()),
@@ -191,9 +194,18 @@ impl<'a> CrackSystem<'a> {
         self.spent > 0.0 && self.budget - self.spent < least
     }
 
-    /// Whether the ledger has the fracture energy of this area, m², in a tetrahedron. What it refuses it refuses for good.
+    /// Whether the ledger has the fracture energy of this area, m², in a tetrahedron, by now. What has not come may come yet.
     pub(crate) fn affords(&self, tet: u32, area: f32) -> bool {
-        self.spent + f64::from(area) * self.resistance.toughness.of(tet) <= self.budget
+        self.spent_with(tet, area) <= self.brought
+    }
+
+    /// Whether the ledger will have it at no time.
+    pub(crate) fn never_affords(&self, tet: u32, area: f32) -> bool {
+        self.spent_with(tet, area) > self.budget
+    }
+
+    fn spent_with(&self, tet: u32, area: f32) -> f64 {
+        self.spent + f64::from(area) * self.resistance.toughness.of(tet)
     }
 
     /// Depth of the layer that feeds an old crack's front with the strain energy of the tension across it, m; none where the

@@ -97,6 +97,8 @@ pub struct Motion {
     pub peak_energy: f64,
     /// Largest strain energy Σ ½ λ q² at a step, J.
     pub peak_strain_energy: f64,
+    /// Largest strain energy until the end of each step, J; empty where only the largest of all is known.
+    pub(crate) strain_energy: Vec<f64>,
     /// What the modes leave out.
     pub(crate) complement: Complement,
     /// From this step on steps are longer, by this factor: after a blow only the modes swing.
@@ -118,6 +120,7 @@ impl Motion {
             modes,
             peak_energy,
             peak_strain_energy,
+            strain_energy: Vec::new(),
             complement: Complement::default(),
             coarse: None,
         }
@@ -127,6 +130,13 @@ impl Motion {
     #[must_use]
     pub fn steps(&self) -> usize {
         self.amplitudes.len().checked_div(self.modes).unwrap_or(0)
+    }
+
+    /// The largest strain energy until the end of a step, J: what cracks may have spent by then. Where that was not followed, the largest
+    /// of all steps.
+    pub(crate) fn strain_energy_until(&self, step: usize) -> f64 {
+        let known = self.strain_energy.get(step).copied();
+        known.unwrap_or(self.peak_strain_energy)
     }
 
     /// When a step begins, s, where the first are so long, s: steps after a blow are longer.
@@ -192,6 +202,7 @@ pub fn respond(basis: &ModalBasis, material: &Material, load: &[f64], pulse: &Pu
         modes,
         peak_energy: peak(0),
         peak_strain_energy: peak(1),
+        strain_energy: Vec::new(),
         complement: Complement::default(),
         coarse: None,
     }
