@@ -30,6 +30,8 @@ mod live;
 #[cfg(not(target_family = "wasm"))]
 mod mode_sheet;
 #[cfg(not(target_family = "wasm"))]
+mod photo;
+#[cfg(not(target_family = "wasm"))]
 mod renderer;
 #[cfg(not(target_family = "wasm"))]
 mod scale;
@@ -38,8 +40,6 @@ mod sheet;
 mod stage;
 #[cfg(not(target_family = "wasm"))]
 mod studio;
-#[cfg(not(target_family = "wasm"))]
-mod traced;
 
 #[cfg(not(target_family = "wasm"))]
 pub use adapter::{has_adapter, is_software};
@@ -59,6 +59,4 @@ pub use mode_sheet::{ModeCell, ModeSheetOptions, mode_sheet};
 #[cfg(not(target_family = "wasm"))]
 pub use sheet::{SheetOptions, contact_sheet, sheet_of_frames};
 #[cfg(not(target_family = "wasm"))]
-pub use studio::{Studio, render_frame};
-#[cfg(not(target_family = "wasm"))]
-pub use traced::GoOn;
+pub use studio::{GoOn, Studio, render_frame};
