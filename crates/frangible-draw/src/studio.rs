@@ -14,6 +14,9 @@ use crate::renderer::{Label, SUPERSAMPLING, Shot, Subject, draw};
 /// Told after each path of light how many there are per pixel; says whether to go on.
 pub type GoOn = Arc<dyn Fn(u32) -> bool + Send + Sync>;
 
+/// The longest side of a picture, pixels: each pixel takes a quarter of a kilobyte while light is followed.
+const LARGEST: u32 = 4096;
+
 /// Height of a label's line, pixels of the picture.
 const LABEL_HEIGHT: f32 = 24.0;
 
@@ -33,9 +36,9 @@ impl Studio {
     /// # Errors
     ///
     /// [`DrawError::NoAdapter`] without a graphics driver,
-    /// [`DrawError::BadSize`] if the adapter cannot hold such a picture.
+    /// [`DrawError::BadSize`] if a side has less than 16 or more than 4096 pixels, or more than the adapter can hold.
     pub fn new(width: u32, height: u32) -> Result<Self, DrawError> {
-        let limit = texture_limit()? / SUPERSAMPLING;
+        let limit = (texture_limit()? / SUPERSAMPLING).min(LARGEST);
         if !(16..=limit).contains(&width) || !(16..=limit).contains(&height) {
             return Err(DrawError::BadSize {
                 width,

@@ -54,7 +54,11 @@ pub(crate) fn appearance(material: &str) -> Appearance {
             other => other,
         };
         Appearance {
-            outside: part("outside", outer, if grain == Grain::Even { 0.02 } else { 0.2 }),
+            outside: part(
+                "outside",
+                outer,
+                if grain == Grain::Even { 0.02 } else { 0.2 },
+            ),
             crack_face: SurfaceMaterial {
                 grain: broken,
                 ..part("crack face", inner, 0.25)
@@ -99,7 +103,12 @@ pub(crate) fn appearance(material: &str) -> Appearance {
         ),
         "porcelain" => opaque([0.86, 0.86, 0.84], [0.74, 0.70, 0.64], 0.16, even),
         "piggy" | "piggy-fig4" => opaque([0.85, 0.45, 0.45], [0.75, 0.62, 0.55], 0.25, even),
-        "brick" => opaque([0.46, 0.16, 0.10], [0.52, 0.20, 0.12], 0.9, [Grain::Clay; 2]),
+        "brick" => opaque(
+            [0.30, 0.088, 0.050],
+            [0.36, 0.115, 0.066],
+            0.9,
+            [Grain::Clay; 2],
+        ),
         "concrete" => opaque(
             [0.45, 0.45, 0.43],
             [0.40, 0.39, 0.37],
@@ -112,7 +121,7 @@ pub(crate) fn appearance(material: &str) -> Appearance {
             0.2,
             [Grain::Veined; 2],
         ),
-        "chocolate" => opaque([0.095, 0.036, 0.016], [0.15, 0.065, 0.032], 0.34, even),
+        "chocolate" => opaque([0.042, 0.016, 0.008], [0.062, 0.026, 0.013], 0.34, even),
         _ => opaque([0.62, 0.60, 0.57], [0.50, 0.46, 0.42], 0.6, even),
     }
 }

@@ -48,7 +48,11 @@ pub(crate) fn with_cracks(
 }
 
 /// Adds these triangles of cracks, in the frame of the mesh, m, and lines along their border.
-pub(crate) fn add_cracks(mesh: &mut RecordedMesh, triangles: &[[Vec3; 3]], surfaces: &BodySurfaces) {
+pub(crate) fn add_cracks(
+    mesh: &mut RecordedMesh,
+    triangles: &[[Vec3; 3]],
+    surfaces: &BodySurfaces,
+) {
     let none = (Vec3::INFINITY, Vec3::NEG_INFINITY);
     let points = mesh.positions.iter();
     let (low, high) = points.fold(none, |(low, high), &p| (low.min(p), high.max(p)));
@@ -68,7 +72,12 @@ pub(crate) fn add_cracks(mesh: &mut RecordedMesh, triangles: &[[Vec3; 3]], surfa
         }
     }
     let half = HALF_WIDTH * size;
-    let height = half * if surfaces.authored.is_empty() { HEIGHT } else { HEIGHT_ON_AUTHORED };
+    let height = half
+        * if surfaces.authored.is_empty() {
+            HEIGHT
+        } else {
+            HEIGHT_ON_AUTHORED
+        };
     let mut lines = Part::new(surfaces.crack_line);
     for ([from, to], inside) in border(triangles, SAME * size) {
         ridge(mesh, &mut lines, [from, to], inside, half, height);
@@ -172,8 +181,8 @@ mod tests {
 
     #[test]
     fn a_crack_has_a_line_around_it_and_none_across() {
-        let [a, b, c, d] = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]
-            .map(|[x, y]| Vec3::new(x, y, 0.0));
+        let [a, b, c, d] =
+            [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|[x, y]| Vec3::new(x, y, 0.0));
         let sides = border(&[[a, b, c], [a, c, d]], 1e-5);
         assert_eq!(sides.len(), 4);
         let across = |&([p, q], _): &([Vec3; 2], Vec3)| (p - q).length() > 1.1;
@@ -188,8 +197,8 @@ mod tests {
             uvs: vec![[0.0; 2]; 2],
             ..RecordedMesh::default()
         };
-        let [a, b, c, d] = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]
-            .map(|[x, y]| Vec3::new(x, y, 0.5));
+        let [a, b, c, d] =
+            [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|[x, y]| Vec3::new(x, y, 0.5));
         let surfaces = BodySurfaces {
             outer: 0,
             inner: 1,
@@ -212,7 +221,12 @@ mod tests {
             (low, high) = (low.min(p).min(q).min(r), high.max(p).max(q).max(r));
         }
         let out = HALF_WIDTH * HEIGHT * 3.0_f32.sqrt();
-        for (found, meant) in [(-low.x, out), (high.x - 1.0, out), (-low.y, out), (high.y - 1.0, out)] {
+        for (found, meant) in [
+            (-low.x, out),
+            (high.x - 1.0, out),
+            (-low.y, out),
+            (high.y - 1.0, out),
+        ] {
             assert!((found - meant).abs() < 1e-5, "{found} instead of {meant}");
         }
     }

@@ -313,7 +313,11 @@ impl Recorder {
             let pose = node.poses.last().copied().unwrap_or_default();
             node.poses.resize(recording.frame_count, pose);
         }
-        let first_crack = self.break_frame.or(self.crack_frame).unwrap_or(last).min(last);
+        let first_crack = self
+            .break_frame
+            .or(self.crack_frame)
+            .unwrap_or(last)
+            .min(last);
         // A frame before contact the body is near the floor; five after it the pieces are on their way.
         recording.moments = Moments {
             before: first_crack.saturating_sub(1),

@@ -9,14 +9,14 @@ use super::set::Set;
 use crate::floor_shadow::FloorShadow;
 
 /// Paths from the lamp, and how many are followed together.
-const PATHS: u32 = 80_000;
+const PATHS: u32 = 60_000;
 const TOGETHER: u32 = 4_000;
 
 /// Texels along each side.
 const SIDE: usize = 256;
 
 /// Rounds of smoothing: fewer paths than one would like to follow meet each texel.
-const SMOOTHINGS: usize = 2;
+const SMOOTHINGS: usize = 3;
 
 /// Radius of the lamp over its distance.
 const LAMP: f32 = 0.10;
@@ -53,15 +53,22 @@ impl Caustic {
                 let numbers = batch * TOGETHER..(batch + 1) * TOGETHER;
                 let follow = |number| {
                     let mut random = Random::new(hash(0x51ed_270b), number);
+                    // One after the other over all faces, so that light lands evenly.
+                    let pick = (number as f32 + random.next()) / PATHS as f32 * total;
                     let [across, along] = disc_axes(key);
                     let turn = Vec2::from_angle(std::f32::consts::TAU * random.next());
                     let [x, y] = (turn * random.next().sqrt()).to_array();
                     let from_lamp = -(key + LAMP * (x * across + y * along)).normalize();
-                    let photon = Photon::through(set, &faces, total, from_lamp, &mut random)?;
+                    let photon = Photon::through(set, &faces, from_lamp, pick, &mut random)?;
                     let at = photon.on_floor(height)?;
                     let texel = (at - corner) * texels;
                     let inside = texel.min_element() >= 0.0 && texel.max_element() < SIDE as f32;
-                    inside.then(|| (texel.y as usize * SIDE + texel.x as usize, photon.light * each))
+                    inside.then(|| {
+                        (
+                            texel.y as usize * SIDE + texel.x as usize,
+                            photon.light * each,
+                        )
+                    })
                 };
                 numbers.filter_map(follow).collect()
             })

@@ -16,7 +16,10 @@ const KEY_SHARE: f32 = 0.60;
 const ROOM_SHARE: f32 = 0.34;
 
 /// Light on the plain floor.
-const LIT: f32 = 1.25;
+const LIT: f32 = 0.70;
+
+/// A floor of no colour is as warm as this.
+const WARMTH: Vec3A = Vec3A::new(1.06, 1.0, 0.93);
 
 /// Radius of the pool of light, stage units.
 const POOL: f32 = 3.6;
@@ -92,12 +95,26 @@ impl Ground {
             return beyond;
         }
         let [key, room] = [&self.key, &self.room].map(|shadow| lookup(shadow, place));
-        let gathered = self.caustic.as_ref().map_or(Vec3A::ZERO, |c| c.at(place));
+        let gathered = self.gathered(place);
         let shade = Vec3A::splat(1.0 - KEY_SHARE * (1.0 - key) - ROOM_SHARE * (1.0 - room))
             + KEY_SHARE * gathered;
         let pool = 0.42 + 0.58 / (1.0 + (away / POOL).powi(2)).powi(2);
         let grain = self.grain(place, away);
-        (self.color * LIT * shade * (pool * grain)).lerp(beyond, far)
+        (self.color * WARMTH * LIT * shade * (pool * grain)).lerp(beyond, far)
+    }
+
+    /// The lamp's light that glass gathers at a place, of that on plain floor.
+    fn gathered(&self, place: Vec2) -> Vec3A {
+        self.caustic
+            .as_ref()
+            .map_or(Vec3A::ZERO, |caustic| caustic.at(place))
+    }
+
+    /// The lamp's light at a point of the floor that comes straight, and that glass gathers there, each of that on plain floor.
+    #[cfg(test)]
+    pub(super) fn lamp_at(&self, at: Vec3A) -> [f32; 2] {
+        let place = Vec2::new(at.x, at.z);
+        [lookup(&self.key, place), self.gathered(place).y]
     }
 
     /// Fine and broad differences in the floor's brightness, about 1.

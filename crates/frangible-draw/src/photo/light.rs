@@ -17,6 +17,12 @@ const HORIZON: Vec3A = Vec3A::new(0.30, 0.31, 0.325);
 const OVERHEAD: Vec3A = Vec3A::new(0.52, 0.55, 0.60);
 const BELOW: Vec3A = Vec3A::new(0.16, 0.155, 0.15);
 
+/// The wall that the camera looks at, where the floor ends.
+const WALL: Vec3A = Vec3A::new(0.150, 0.165, 0.190);
+
+/// How far lamps are blurred in the light on matt faces, over their distance: with sharp ones few paths would find them, and leave specks.
+const MATT: f32 = 0.7;
+
 /// A lamp that is seen in what mirrors: a panel around a direction.
 struct Panel {
     toward: Vec3A,
@@ -88,31 +94,38 @@ impl Lights {
 
     /// Light from a direction for a matt face: all but the key lamp, which is looked for on purpose.
     pub(crate) fn room(&self, toward: Vec3A) -> Vec3A {
-        let panels = self.panels[1..].iter().map(|panel| panel.seen(toward));
+        let panels = self.panels[1..]
+            .iter()
+            .map(|panel| panel.seen(toward, MATT));
         backdrop(toward) + panels.sum::<Vec3A>()
     }
 
-    /// What a mirror sees in a direction.
-    pub(crate) fn mirrored(&self, toward: Vec3A) -> Vec3A {
-        let panels = self.panels.iter().map(|panel| panel.seen(toward));
-        // Behind the camera the room is dim, so that glass does not show a veil.
+    /// What a mirror sees in a direction, blurred by so much over its distance.
+    pub(crate) fn mirrored(&self, toward: Vec3A, blur: f32) -> Vec3A {
+        let panels = self.panels.iter().map(|panel| panel.seen(toward, blur));
+        // Glass that light goes straight through shows the wall behind it. Behind the camera the room is dim, so that glass shows no veil.
+        let ahead = (-1.6 * toward.dot(self.backward)).clamp(0.0, 1.0);
         let behind = 1.0 - 0.45 * toward.dot(self.backward).max(0.0) * (1.0 - toward.y.max(0.0));
-        backdrop(toward) * behind + panels.sum::<Vec3A>()
+        let room = (backdrop(toward) * behind).lerp(backdrop_seen(toward), ahead);
+        room + panels.sum::<Vec3A>()
     }
 }
 
 impl Panel {
-    fn seen(&self, toward: Vec3A) -> Vec3A {
+    fn seen(&self, toward: Vec3A, blur: f32) -> Vec3A {
         let ahead = toward.dot(self.toward);
         if ahead <= 0.0 {
             return Vec3A::ZERO;
         }
         let at = Vec2::new(toward.dot(self.across), toward.dot(self.along)) / ahead;
-        // A soft border, and brighter in the middle than at the edge, as a soft box is.
-        let inside = (Vec2::ONE - at.abs() / self.half) * 6.0;
-        let edge = inside.min_element().clamp(0.0, 1.0);
-        let glow = 1.0 - 0.35 * (at / self.half).length_squared().min(1.0);
-        self.light * (edge * glow)
+        // A soft border, the wider the more it is blurred; as much light on a larger area.
+        let half = self.half + blur;
+        let border = 0.16 * self.half.min_element() + 1.6 * blur;
+        let edge = ((half - at.abs()) / border).clamp(Vec2::ZERO, Vec2::ONE);
+        let area = (self.half.x * self.half.y) / (half.x * half.y);
+        // Brighter in the middle than at the edge, as a soft box is.
+        let glow = 1.0 - 0.35 * (at / half).length_squared().min(1.0);
+        self.light * (edge.x * edge.y * glow * area)
     }
 }
 
@@ -128,5 +141,5 @@ pub(crate) fn backdrop(toward: Vec3A) -> Vec3A {
 
 /// The backdrop as the camera sees it: darker upwards.
 pub(crate) fn backdrop_seen(toward: Vec3A) -> Vec3A {
-    HORIZON * (1.0 - 0.9 * toward.y.max(0.0)).max(0.35)
+    WALL * (1.0 - 1.1 * toward.y.max(0.0)).max(0.4)
 }

@@ -72,7 +72,12 @@ impl Look {
     /// Share of the lamp's light that a clear face lets through to what it shades.
     pub(crate) fn passes(&self, cosine: f32) -> f32 {
         let reflected = 0.04 + 0.96 * (1.0 - cosine).clamp(0.0, 1.0).powi(5);
-        (1.0 - reflected) * if self.clear { 0.97 } else { 1.0 - 0.5 * self.opacity }
+        (1.0 - reflected)
+            * if self.clear {
+                0.97
+            } else {
+                1.0 - 0.5 * self.opacity
+            }
     }
 
     /// The skin at a place of the mesh's frame, m.
@@ -86,20 +91,20 @@ impl Look {
         match self.grain {
             Grain::Even => even,
             Grain::Broken => Skin {
-                bump: 0.30 * lean(at, 0.0016, 2) + 0.16 * lean(at, 0.00045, 1),
+                // Between the ridges a fresh face of glass is a mirror.
+                bump: if self.clear { 0.11 } else { 0.34 } * lean(at, 0.0016, 2),
                 ..even
             },
             Grain::Clay => {
                 let patch = fractal(at, 0.011, 3);
-                let speck = fractal(at, 0.0016, 2);
-                let pore = (CellDistance::default().sample3(place(at, 0.0032)) * 1.6).min(1.0);
-                let dark = smooth_step(0.02, 0.22, pore * pore);
-                let pale = smooth_step(0.42, 0.75, speck);
-                let color = self.color * (1.0 + 0.22 * patch + 0.20 * speck);
+                let speck = fractal(at, 0.0014, 3);
+                let pore = smooth_step(0.42, 0.62, fractal(at + Vec3A::splat(0.31), 0.0026, 2));
+                let pale = smooth_step(0.50, 0.72, fractal(at + Vec3A::splat(0.77), 0.0021, 2));
+                let color = self.color * (1.0 + 0.20 * patch + 0.16 * speck);
                 Skin {
-                    color: (color.lerp(Vec3A::new(0.62, 0.42, 0.30), 0.35 * pale))
-                        * (0.45 + 0.55 * dark),
-                    bump: 0.32 * lean(at, 0.0018, 2),
+                    color: color.lerp(Vec3A::new(0.60, 0.40, 0.28), 0.4 * pale)
+                        * (1.0 - 0.55 * pore),
+                    bump: 0.30 * lean(at, 0.0016, 2),
                     ..even
                 }
             }
@@ -123,9 +128,7 @@ impl Look {
                 let cloud = fractal(at, 0.03, 3);
                 let gray = self.color * Vec3A::new(0.42, 0.43, 0.46);
                 Skin {
-                    color: self
-                        .color
-                        .lerp(gray, 0.75 * vein.clamp(0.0, 1.0).powi(2))
+                    color: self.color.lerp(gray, 0.75 * vein.clamp(0.0, 1.0).powi(2))
                         * (1.0 + 0.06 * cloud),
                     ..even
                 }

@@ -16,6 +16,9 @@ mod path;
 mod random;
 mod set;
 mod smooth;
+#[cfg(test)]
+mod tests;
+mod tree;
 
 use frangible_export::glam::Vec3A;
 use frangible_export::{Recording, View};
@@ -29,14 +32,14 @@ use random::Random;
 use set::Set;
 
 /// Paths per pixel that every pixel gets, and the most that a noisy one gets.
-const FIRST_PATHS: u32 = 4;
-const MOST_PATHS: u32 = 12;
+const FIRST_PATHS: u32 = 3;
+const MOST_PATHS: u32 = 9;
 
 /// Paths between two looks at a pixel's noise.
-const ROUND: u32 = 4;
+const ROUND: u32 = 3;
 
 /// A pixel whose brightness is known to this is done, of the white of the picture.
-const QUIET: f32 = 0.015;
+const QUIET: f32 = 0.020;
 
 /// What has come together in one pixel.
 #[derive(Clone, Copy, Default)]

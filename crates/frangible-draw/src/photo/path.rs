@@ -7,10 +7,10 @@ use super::random::Random;
 use super::set::{Met, Set};
 
 /// Faces that a path may meet.
-const LONGEST: u32 = 12;
+const LONGEST: u32 = 10;
 
 /// Faces that a mirror image may meet.
-const MIRRORED: u32 = 4;
+const MIRRORED: u32 = 3;
 
 /// Times that light may be scattered by matt faces; what would come after is taken from the room.
 const SCATTERINGS: u32 = 1;
@@ -19,7 +19,7 @@ const SCATTERINGS: u32 = 1;
 const AMONG_THINGS: f32 = 0.45;
 
 /// No path is brighter: one that finds a lamp by luck would leave a spark.
-const BRIGHTEST: f32 = 6.0;
+const BRIGHTEST: f32 = 2.5;
 
 /// No face.
 const NONE: u32 = u32::MAX;
@@ -245,21 +245,17 @@ impl Traced<'_> {
         if roughness > 0.7 && met.look.metallic < 0.5 {
             return (Vec3A::ZERO, 0.0);
         }
-        let spread = roughness * roughness;
-        let about = if spread > 1e-3 {
-            let [x, z] = random.disc();
-            let [across, along] = super::random::disc_axes(normal);
-            (normal + spread * (x * across + z * along)).normalize()
-        } else {
-            normal
+        let along = outward(mirror(ray.along, normal), met.flat, ray.along);
+        let here = at(met, along);
+        // Lamps are blurred as the roughness is; things are mirrored sharply, as only what is near is seen at all.
+        let blur = roughness * roughness;
+        let near = self.set.meet(here.from, along, here.leaves);
+        let mirrored = match (self.ground_before(&here, near.as_ref()), near) {
+            (Some((_, ground)), _) => ground,
+            (None, None) => self.set.lights.mirrored(along, blur),
+            (None, Some(_)) => self.light(here, random, MIRRORED),
         };
-        let along = outward(mirror(ray.along, about), met.flat, ray.along);
-        let here = Ray {
-            from: met.at,
-            along,
-            leaves: met.face,
-        };
-        (share * self.light(here, random, MIRRORED), share)
+        (share * mirrored, share)
     }
 
     /// Light along a ray that was bent or mirrored, with at most so many more faces.
@@ -272,7 +268,7 @@ impl Traced<'_> {
                 return cut(gathered + left * ground);
             }
             let Some(met) = met else {
-                return cut(gathered + left * self.set.lights.mirrored(ray.along));
+                return cut(gathered + left * self.set.lights.mirrored(ray.along, 0.0));
             };
             let look = met.look;
             if !look.bends() && (look.opacity >= 1.0 || random.next() < look.opacity) {
@@ -315,7 +311,7 @@ impl Traced<'_> {
             let along = match bent {
                 Some(bent) => {
                     if !inside {
-                        gathered += left * reflected * self.set.lights.mirrored(mirrored);
+                        gathered += left * reflected * self.set.lights.mirrored(mirrored, 0.0);
                     }
                     left *= 1.0 - reflected;
                     bent
@@ -337,16 +333,15 @@ pub(crate) struct Photon {
 }
 
 impl Photon {
-    /// Sends light of this direction onto one of these faces, each with the sum of areas up to its own, and follows it until no glass is
-    /// in its way; none where something opaque is.
+    /// Sends light of this direction onto one of these faces, each with the sum of areas up to its own: onto that whose area holds `pick`.
+    /// Follows it until no glass is in its way; none where something opaque is.
     pub(crate) fn through(
         set: &Set,
         faces: &[(u32, f32)],
-        total: f32,
         along: Vec3A,
+        pick: f32,
         random: &mut Random,
     ) -> Option<Self> {
-        let pick = random.next() * total;
         let chosen = faces.partition_point(|&(_, sum)| sum < pick);
         let (face, _) = *faces.get(chosen)?;
         let met = set.point_of(face, [random.next(), random.next()]);
@@ -458,7 +453,7 @@ fn bumpy(met: &Met<'_>, bump: Vec3A) -> Vec3A {
 }
 
 /// Share of light that glass mirrors (Fresnel), and the way of the rest; `normal` points out of the glass.
-fn at_glass(along: Vec3A, normal: Vec3A, ior: f32) -> (f32, Option<Vec3A>) {
+pub(super) fn at_glass(along: Vec3A, normal: Vec3A, ior: f32) -> (f32, Option<Vec3A>) {
     let entering = along.dot(normal) < 0.0;
     let (normal, ratio) = if entering {
         (normal, ior.recip())
@@ -480,7 +475,7 @@ fn at_glass(along: Vec3A, normal: Vec3A, ior: f32) -> (f32, Option<Vec3A>) {
 }
 
 /// [`at_glass`] of a crack within glass: the air in it turns back what comes at a glance, and lets most of the rest go straight on.
-fn at_crack(along: Vec3A, normal: Vec3A, ior: f32) -> (f32, Option<Vec3A>) {
+pub(super) fn at_crack(along: Vec3A, normal: Vec3A, ior: f32) -> (f32, Option<Vec3A>) {
     let (reflected, bent) = at_glass(along, -facing(normal, along), ior);
     // Two faces, with all that goes to and fro between them.
     let both = 2.0 * reflected / (1.0 + reflected);

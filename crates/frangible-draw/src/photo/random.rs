@@ -42,7 +42,10 @@ impl Random {
         if self.pairs > SPREAD_PAIRS {
             return [self.next(), self.next()];
         }
-        let begin = hash(self.pixel.wrapping_add(self.pairs.wrapping_mul(0x85eb_ca6b)));
+        let begin = hash(
+            self.pixel
+                .wrapping_add(self.pairs.wrapping_mul(0x85eb_ca6b)),
+        );
         let begins = [unit(begin), unit(hash(begin))];
         std::array::from_fn(|k| (begins[k] + self.path as f32 * STEPS[k]).fract())
     }
@@ -95,7 +98,10 @@ mod tests {
             counts[(4.0 * u) as usize * 4 + (4.0 * v) as usize] += 1;
         }
         // A random set of 1600 would scatter by 10 around 100.
-        assert!(counts.iter().all(|&count| (92..=108).contains(&count)), "{counts:?}");
+        assert!(
+            counts.iter().all(|&count| (92..=108).contains(&count)),
+            "{counts:?}"
+        );
     }
 
     #[test]

@@ -2,12 +2,11 @@
 
 use frangible_export::glam::{Quat, Vec3, Vec3A};
 use frangible_export::{Recording, View};
-use parry3d::bounding_volume::Aabb;
-use parry3d::partitioning::{Bvh, BvhBuildStrategy, BvhNode};
 
 use super::ground::Ground;
 use super::light::Lights;
 use super::look::Look;
+use super::tree::{Box3, Tree};
 use crate::stage::StageUnits;
 
 /// Pieces are drawn smaller by this share: along a crack light leaves one and enters the other, and one sees where it is.
@@ -46,7 +45,7 @@ pub(crate) struct Met<'a> {
 
 /// Everything that rays may meet.
 pub(crate) struct Set {
-    tree: Bvh,
+    tree: Tree,
     triangles: Vec<Triangle>,
     /// Turn of the thing that each triangle belongs to.
     turns: Vec<Quat>,
@@ -61,7 +60,7 @@ impl Set {
     pub(crate) fn new(recording: &Recording, view: &View, units: StageUnits) -> Self {
         let staged = units.view(view);
         let mut set = Self {
-            tree: Bvh::new(),
+            tree: Tree::default(),
             triangles: Vec::new(),
             turns: Vec::new(),
             thing: Vec::new(),
@@ -85,8 +84,10 @@ impl Set {
             for part in &mesh.parts {
                 for face in part.indices.chunks_exact(3) {
                     let corners = [face[0], face[1], face[2]].map(|corner| {
-                        let (own, normal) =
-                            (mesh.positions[corner as usize], mesh.normals[corner as usize]);
+                        let (own, normal) = (
+                            mesh.positions[corner as usize],
+                            mesh.normals[corner as usize],
+                        );
                         Corner {
                             at: place(own),
                             normal: (turn * normal.normalize_or(Vec3::Y)).into(),
@@ -107,11 +108,9 @@ impl Set {
                 }
             }
         }
-        let boxes = set.triangles.iter().map(|triangle| {
-            let [a, b, c] = triangle.corners.map(|corner| Vec3::from(corner.at));
-            Aabb::new(a.min(b).min(c), a.max(b).max(c))
-        });
-        set.tree = Bvh::from_iter(BvhBuildStrategy::Binned, boxes.enumerate());
+        let around = |triangle: &Triangle| Box3::around(triangle.corners.map(|corner| corner.at));
+        let boxes: Vec<Box3> = set.triangles.iter().map(around).collect();
+        set.tree = Tree::new(&boxes);
         set.ground = recording
             .floor
             .map(|floor| Ground::new(recording, &floor, view, units, &set));
@@ -120,14 +119,20 @@ impl Set {
 
     /// Where a ray first meets a face other than the one that it leaves.
     pub(crate) fn meet(&self, from: Vec3A, along: Vec3A, leaves: u32) -> Option<Met<'_>> {
-        let boxes = way_to_box(from, along);
-        let (face, distance) = self.tree.find_best(f32::MAX, boxes, |face, best| {
+        let mut found = None;
+        self.tree.along(from, along, f32::MAX, |face, best| {
             if face == leaves {
-                return None;
+                return best;
             }
-            let distance = self.triangles[face as usize].distance(from, along)?;
-            (distance < best).then_some(distance)
-        })?;
+            match self.triangles[face as usize].distance(from, along) {
+                Some(distance) if distance < best => {
+                    found = Some((face, distance));
+                    distance
+                }
+                _ => best,
+            }
+        });
+        let (face, distance) = found?;
         Some(self.met(face, distance, from + along * distance))
     }
 
@@ -153,28 +158,28 @@ impl Set {
 
     /// How much light comes through from there: none past anything opaque, most past clear faces.
     pub(crate) fn clear_way(&self, from: Vec3A, along: Vec3A, leaves: u32) -> f32 {
-        let through = std::cell::Cell::new(1.0_f32);
-        let boxes = way_to_box(from, along);
-        self.tree.find_best(f32::MAX, boxes, |face, _| {
+        let mut through = 1.0;
+        self.tree.along(from, along, f32::MAX, |face, best| {
             if face == leaves {
-                return None;
+                return best;
             }
             let triangle = &self.triangles[face as usize];
-            let distance = triangle.distance(from, along)?;
+            let Some(distance) = triangle.distance(from, along) else {
+                return best;
+            };
             if distance < 1e-4 {
-                return None;
+                return best;
             }
             let look = &self.looks[triangle.look];
             if look.is_clear() {
-                let cosine = triangle.flat().dot(along).abs();
-                through.set(through.get() * look.passes(cosine));
-                return None;
+                through *= look.passes(triangle.flat().dot(along).abs());
+                return best;
             }
-            through.set(0.0);
+            through = 0.0;
             // Nearer than anything, so that nobody looks farther.
-            Some(f32::MIN)
+            f32::MIN
         });
-        through.get()
+        through
     }
 
     /// Whether anything lets light through and bends it.
@@ -206,18 +211,6 @@ impl Set {
         let [right, up] = triangle.sides;
         let at = triangle.corners[0].at + right * (root * (1.0 - v)) + up * (root * v);
         self.met(face, 0.0, at)
-    }
-}
-
-/// How far a ray goes until it is in the box of a node; the tree's own test is called, not inlined, and takes twice as long.
-fn way_to_box(from: Vec3A, along: Vec3A) -> impl Fn(&BvhNode, f32) -> f32 {
-    let inverse = along.recip();
-    move |node: &BvhNode, best: f32| {
-        let low = (Vec3A::from(node.mins()) - from) * inverse;
-        let high = (Vec3A::from(node.maxs()) - from) * inverse;
-        let near = low.min(high).max_element().max(0.0);
-        let far = low.max(high).min_element();
-        if far >= near && near < best { near } else { f32::MAX }
     }
 }
 

@@ -36,7 +36,11 @@ pub(super) fn smoothed(seen: &[Seen], width: usize) -> Vec<Vec3A> {
     let pixels = seen.iter().zip(&whole).zip(&light);
     pixels
         .map(|((pixel, &whole), &light)| {
-            let lit = if whole { light * pixel.albedo } else { pixel.lit };
+            let lit = if whole {
+                light * pixel.albedo
+            } else {
+                pixel.lit
+            };
             pixel.light + lit
         })
         .collect()
@@ -63,7 +67,10 @@ fn round(seen: &[Seen], whole: &[bool], light: &[Vec3A], width: usize, step: isi
                 if !whole[near] || apart > DEPTH * here.distance * step as f32 {
                     continue;
                 }
-                let cosine = here.normal.normalize_or_zero().dot(other.normal.normalize_or_zero());
+                let cosine = here
+                    .normal
+                    .normalize_or_zero()
+                    .dot(other.normal.normalize_or_zero());
                 let difference = (light[near] - light[at]).length() / EDGE;
                 let weight = WEIGHTS[row]
                     * WEIGHTS[column]
@@ -73,7 +80,11 @@ fn round(seen: &[Seen], whole: &[bool], light: &[Vec3A], width: usize, step: isi
                 weights += weight;
             }
         }
-        if weights > 0.0 { sum / weights } else { light[at] }
+        if weights > 0.0 {
+            sum / weights
+        } else {
+            light[at]
+        }
     };
     (0..seen.len()).into_par_iter().map(one).collect()
 }

@@ -166,7 +166,10 @@ fn push_lights(root: &mut json::Root, view: &View) -> [json::Index<json::Node>; 
         });
         root.push(json::Node {
             name: Some(name.into()),
-            rotation: Some(facing(along * right + up * Vec3::Y + back * backward, Vec3::Y)),
+            rotation: Some(facing(
+                along * right + up * Vec3::Y + back * backward,
+                Vec3::Y,
+            )),
             extensions: Some(json::extensions::scene::Node {
                 khr_lights_punctual: Some(KhrLightsPunctual { light }),
             }),
