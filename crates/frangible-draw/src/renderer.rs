@@ -43,7 +43,7 @@ pub(crate) struct Shot {
 /// What is on it.
 pub(crate) enum Subject {
     /// A recording of one frame, as of a film.
-    Recording(Recording),
+    Recording(Box<Recording>),
     /// A surface coloured by numbers.
     Field(Field),
 }

@@ -86,7 +86,7 @@ impl Studio {
     ) -> Result<RgbImage, DrawError> {
         let still = self.checked(recording, frame, view)?;
         draw(Shot {
-            subject: Subject::Recording(still),
+            subject: Subject::Recording(Box::new(still)),
             view: *view,
             labels: Vec::new(),
             width: self.width,

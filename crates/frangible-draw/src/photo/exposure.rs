@@ -3,8 +3,6 @@
 use frangible_export::glam::Vec3A;
 use image::{Rgb, RgbImage};
 
-use super::random::hash;
-
 /// What the light is multiplied with before it is developed.
 const EXPOSURE: f32 = 1.12;
 
@@ -14,11 +12,9 @@ const CONTRAST: f32 = 0.22;
 /// The picture of this light, row by row.
 pub(super) fn develop(light: &[Vec3A], width: u32, height: u32) -> RgbImage {
     RgbImage::from_fn(width, height, |x, y| {
-        let at = (y * width + x) as usize;
-        // Half a step of noise, so that slow changes show no bands.
-        let noise = (hash(at as u32) >> 8) as f32 / (1 << 24) as f32 - 0.5;
-        let code = |part: f32| (255.0 * tone_of(part) + 0.5 + noise).clamp(0.0, 255.0) as u8;
-        Rgb(light[at].to_array().map(code))
+        // No noise against bands: the floor has grain, and noise would double the file.
+        let code = |part: f32| (255.0 * tone_of(part) + 0.5) as u8;
+        Rgb(light[(y * width + x) as usize].to_array().map(code))
     })
 }
 

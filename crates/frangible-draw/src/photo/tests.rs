@@ -123,7 +123,10 @@ fn a_pane_on_the_floor_shades_it_by_what_it_mirrors() {
         shaded = shaded.max(straight);
         gathered += bent / 100.0;
     }
-    assert!(shaded < 0.05, "the lamp's own light is followed through the glass");
+    assert!(
+        shaded < 0.05,
+        "the lamp's own light is followed through the glass"
+    );
     // At 42° from the normal two faces let 0.91 of the light pass, and 0.92 with what goes to and fro between them.
     assert!((gathered - 0.915).abs() < 0.03, "{gathered}");
     let beside = units.point(Vec3::new(-0.9, 0.0, 0.9));
