@@ -9,8 +9,8 @@ import mathutils
 # Share of the mass that a picture shows at least; what flew off farther is left out.
 SHOWN = 0.85
 
-# Half the picture's height over the radius of what it shows.
-MARGIN = 1.12
+# Half the picture's height over the radius of what it shows, which is wider than high.
+MARGIN = 0.8
 
 
 def build(recording, times, given):
@@ -110,13 +110,13 @@ def plaster(radius):
     shader.inputs["Roughness"].default_value = 0.42
     where = nodes.new("ShaderNodeNewGeometry")
     noise = nodes.new("ShaderNodeTexNoise")
-    noise.inputs["Scale"].default_value = 26 / radius
+    noise.inputs["Scale"].default_value = 110 / radius
     noise.inputs["Detail"].default_value = 10
     links.new(where.outputs["Position"], noise.inputs["Vector"])
     ramp = nodes.new("ShaderNodeValToRGB")
     ramp.color_ramp.elements[0].position, ramp.color_ramp.elements[1].position = 0.3, 0.7
-    ramp.color_ramp.elements[0].color = (0.105, 0.108, 0.115, 1)
-    ramp.color_ramp.elements[1].color = (0.165, 0.165, 0.165, 1)
+    ramp.color_ramp.elements[0].color = (0.120, 0.122, 0.126, 1)
+    ramp.color_ramp.elements[1].color = (0.150, 0.150, 0.150, 1)
     links.new(noise.outputs["Fac"], ramp.inputs["Fac"])
     links.new(ramp.outputs["Color"], shader.inputs["Base Color"])
     bump = nodes.new("ShaderNodeBump")

@@ -6,6 +6,9 @@
 //! photograph. [`mode_sheet`] shows shapes of vibration, coloured by a number.
 //! [`encode_png`] makes a small file of the result. [`LiveStage`] draws the same stage into a window, over and over.
 //!
+//! Stills follow rays of light on the processor; films and windows are drawn by the
+//! graphics driver, in a fraction of the time.
+//!
 //! Drawing takes a graphics driver but no display: a software driver such as
 //! Mesa's lavapipe will do. [`has_adapter`] tells whether there is one; without
 //! it everything here returns [`DrawError::NoAdapter`]. On one machine the same
