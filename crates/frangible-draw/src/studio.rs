@@ -95,7 +95,7 @@ impl Studio {
     }
 
     /// Draws one frame as [`Studio::frame`] does, with so many paths of light per pixel. `go_on` gets their number so far and says
-    /// whether to go on; a processor takes about a second for a path per pixel of 1280 × 800.
+    /// whether to go on; a path per pixel of 1280 × 800 takes one to three seconds of processor time.
     ///
     /// # Errors
     ///

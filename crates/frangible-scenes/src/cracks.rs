@@ -16,7 +16,7 @@ use frangible_export::{MeshPart, RecordedMesh};
 use crate::meshes::BodySurfaces;
 
 /// Half the width of the line, of the length of the box around the body.
-const HALF_WIDTH: f32 = 0.0011;
+const HALF_WIDTH: f32 = 0.0008;
 
 /// How far the line stands out of the surface, in half widths: a surface as its author drew it lies less exactly where the crack ends.
 const HEIGHT: f32 = 0.8;

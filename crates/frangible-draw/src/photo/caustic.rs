@@ -3,7 +3,7 @@
 use frangible_export::glam::{Vec2, Vec3A};
 use rayon::prelude::*;
 
-use super::path::Photon;
+use super::photon::Photon;
 use super::random::{Random, disc_axes, hash};
 use super::set::Set;
 use crate::floor_shadow::FloorShadow;

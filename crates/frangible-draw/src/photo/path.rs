@@ -1,8 +1,9 @@
 //! The way of light, followed back from the camera.
 
-use frangible_export::glam::{Vec2, Vec3, Vec3A};
+use frangible_export::glam::Vec3A;
 
 use super::light::{backdrop, backdrop_seen};
+use super::optics::{at_crack, at_glass, bumpy, facing, mirror, outward};
 use super::random::Random;
 use super::set::{Met, Set};
 
@@ -324,83 +325,6 @@ impl Traced<'_> {
     }
 }
 
-/// Light of the lamp on its way through glass.
-pub(crate) struct Photon {
-    from: Vec3A,
-    along: Vec3A,
-    /// What is left of it, of 1.
-    pub(crate) light: Vec3A,
-}
-
-impl Photon {
-    /// Sends light of this direction onto one of these faces, each with the sum of areas up to its own: onto that whose area holds `pick`.
-    /// Follows it until no glass is in its way; none where something opaque is.
-    pub(crate) fn through(
-        set: &Set,
-        faces: &[(u32, f32)],
-        along: Vec3A,
-        pick: f32,
-        random: &mut Random,
-    ) -> Option<Self> {
-        let chosen = faces.partition_point(|&(_, sum)| sum < pick);
-        let (face, _) = *faces.get(chosen)?;
-        let met = set.point_of(face, [random.next(), random.next()]);
-        // Only the first face in the way of the lamp's light.
-        if set.meet(met.at, -along, face).is_some() {
-            return None;
-        }
-        let mut photon = Self {
-            from: met.at,
-            along,
-            light: Vec3A::ONE,
-        };
-        let mut leaves = photon.cross(&met, random)?;
-        for _ in 0..LONGEST {
-            let Some(met) = set.meet(photon.from, photon.along, leaves) else {
-                return Some(photon);
-            };
-            leaves = photon.cross(&met, random)?;
-        }
-        None
-    }
-
-    fn cross(&mut self, met: &Met<'_>, random: &mut Random) -> Option<u32> {
-        let look = met.look;
-        self.from = met.at;
-        if !look.bends() {
-            // What is drawn with some opacity lets the rest through.
-            return (random.next() >= look.opacity).then_some(met.face);
-        }
-        if self.along.dot(met.flat) > 0.0 && !look.thin {
-            self.light *= (-look.swallows * met.distance).exp();
-        }
-        let skin = look.skin(met.own);
-        if skin.cloud > 0.0 && random.next() < skin.cloud {
-            return None;
-        }
-        let normal = bumpy(met, skin.bump);
-        let (reflected, bent) = if look.thin {
-            at_crack(self.along, normal, look.ior)
-        } else {
-            at_glass(self.along, normal, look.ior)
-        };
-        self.along = match bent {
-            Some(bent) if random.next() >= reflected => bent,
-            _ => outward(mirror(self.along, normal), met.flat, self.along),
-        };
-        Some(met.face)
-    }
-
-    /// Where it comes down on a floor of this height (x, z).
-    pub(crate) fn on_floor(&self, height: f32) -> Option<Vec2> {
-        if self.along.y >= -1e-3 {
-            return None;
-        }
-        let at = self.from + self.along * ((height - self.from.y) / self.along.y);
-        Some(Vec2::new(at.x, at.z))
-    }
-}
-
 fn at(met: &Met<'_>, along: Vec3A) -> Ray {
     Ray {
         from: met.at,
@@ -412,72 +336,4 @@ fn at(met: &Met<'_>, along: Vec3A) -> Ray {
 /// The colour of a mirror image: a metal's own.
 fn specular_color(met: &Met<'_>, color: Vec3A) -> Vec3A {
     Vec3A::ONE.lerp(color, met.look.metallic)
-}
-
-fn mirror(along: Vec3A, normal: Vec3A) -> Vec3A {
-    along - 2.0 * along.dot(normal) * normal
-}
-
-/// The normal on the side that a ray comes from.
-fn facing(normal: Vec3A, along: Vec3A) -> Vec3A {
-    if normal.dot(along) > 0.0 {
-        -normal
-    } else {
-        normal
-    }
-}
-
-/// A mirrored direction kept on the side of a face that the light came from.
-fn outward(along: Vec3A, flat: Vec3A, came: Vec3A) -> Vec3A {
-    let side = -came.dot(flat).signum();
-    let above = along.dot(flat) * side;
-    if above > 0.01 {
-        along
-    } else {
-        (along + flat * (side * (0.02 - above))).normalize()
-    }
-}
-
-/// The smooth normal with the bumps of the skin.
-fn bumpy(met: &Met<'_>, bump: Vec3A) -> Vec3A {
-    if bump == Vec3A::ZERO {
-        return met.smooth;
-    }
-    let turned = met.turn * Vec3::from(bump);
-    let normal = (met.smooth + Vec3A::from(turned)).normalize_or(met.smooth);
-    if normal.dot(met.flat) < 0.05 {
-        met.flat
-    } else {
-        normal
-    }
-}
-
-/// Share of light that glass mirrors (Fresnel), and the way of the rest; `normal` points out of the glass.
-pub(super) fn at_glass(along: Vec3A, normal: Vec3A, ior: f32) -> (f32, Option<Vec3A>) {
-    let entering = along.dot(normal) < 0.0;
-    let (normal, ratio) = if entering {
-        (normal, ior.recip())
-    } else {
-        (-normal, ior)
-    };
-    let cosine = -along.dot(normal).min(0.0);
-    let sine_squared = ratio * ratio * (1.0 - cosine * cosine);
-    if sine_squared >= 1.0 {
-        return (1.0, None);
-    }
-    let behind = (1.0 - sine_squared).sqrt();
-    let bent = ratio * along + (ratio * cosine - behind) * normal;
-    // Amplitudes of both polarisations; with ratio = n1 / n2.
-    let across = (ratio * cosine - behind) / (ratio * cosine + behind);
-    let within = (cosine - ratio * behind) / (cosine + ratio * behind);
-    let reflected = 0.5 * (across * across + within * within);
-    (reflected, Some(bent.normalize()))
-}
-
-/// [`at_glass`] of a crack within glass: the air in it turns back what comes at a glance, and lets most of the rest go straight on.
-pub(super) fn at_crack(along: Vec3A, normal: Vec3A, ior: f32) -> (f32, Option<Vec3A>) {
-    let (reflected, bent) = at_glass(along, -facing(normal, along), ior);
-    // Two faces, with all that goes to and fro between them.
-    let both = 2.0 * reflected / (1.0 + reflected);
-    (both, bent.map(|_| along))
 }

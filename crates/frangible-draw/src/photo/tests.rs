@@ -5,7 +5,7 @@ use frangible_export::{
     Floor, MeshPart, Pose, RecordedMesh, RecordedNode, Recording, SurfaceMaterial, View,
 };
 
-use super::path::{at_crack, at_glass};
+use super::optics::{at_crack, at_glass};
 use super::set::Set;
 use super::{Photograph, StageUnits};
 
