@@ -31,14 +31,7 @@ mod tests {
 
     /// CIE lightness L*, 0 to 100.
     fn lightness(color: [u8; 3]) -> f32 {
-        let [r, g, b] = color.map(|code| {
-            let c = f32::from(code) / 255.0;
-            if c <= 0.04045 {
-                c / 12.92
-            } else {
-                ((c + 0.055) / 1.055).powf(2.4)
-            }
-        });
+        let [r, g, b] = linear(color);
         let luminance = 0.2126 * r + 0.7152 * g + 0.0722 * b;
         if luminance <= 0.008_856 {
             903.3 * luminance
@@ -57,6 +50,94 @@ mod tests {
             let found = lightness(color_of(value));
             // A sixteenth of the range: the table's own roundings and the straight lines between its entries.
             assert!((found - even).abs() < 4.8, "{value}: {found}, not {even}");
+        }
+    }
+
+    /// What is left of a colour for those who lack one kind of cones, linear light (Machado, Oliveira and Fernandes 2009, severity 1).
+    const LACKING: [(&str, [[f32; 3]; 3]); 3] = [
+        (
+            "protanopia",
+            [
+                [0.152_286, 1.052_583, -0.204_868],
+                [0.114_503, 0.786_281, 0.099_216],
+                [-0.003_882, -0.048_116, 1.051_998],
+            ],
+        ),
+        (
+            "deuteranopia",
+            [
+                [0.367_322, 0.860_646, -0.227_968],
+                [0.280_085, 0.672_501, 0.047_413],
+                [-0.011_820, 0.042_940, 0.968_881],
+            ],
+        ),
+        (
+            "tritanopia",
+            [
+                [1.255_528, -0.076_749, -0.178_779],
+                [-0.078_411, 0.930_809, 0.147_602],
+                [0.004_733, 0.691_367, 0.303_900],
+            ],
+        ),
+    ];
+
+    fn linear(color: [u8; 3]) -> [f32; 3] {
+        color.map(|code| {
+            let c = f32::from(code) / 255.0;
+            if c <= 0.04045 {
+                c / 12.92
+            } else {
+                ((c + 0.055) / 1.055).powf(2.4)
+            }
+        })
+    }
+
+    /// CIE L*a*b* of linear sRGB under daylight (D65).
+    fn lab(rgb: [f32; 3]) -> [f32; 3] {
+        let [r, g, b] = rgb.map(|part| part.clamp(0.0, 1.0));
+        let white = [
+            (0.4124 * r + 0.3576 * g + 0.1805 * b) / 0.9505,
+            0.2126 * r + 0.7152 * g + 0.0722 * b,
+            (0.0193 * r + 0.1192 * g + 0.9505 * b) / 1.089,
+        ];
+        let [x, y, z] = white.map(|part| {
+            if part > 0.008_856 {
+                part.cbrt()
+            } else {
+                7.787 * part + 16.0 / 116.0
+            }
+        });
+        [116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)]
+    }
+
+    #[test]
+    fn values_are_told_apart_in_order_by_the_colour_blind_and_in_grey() {
+        let steps = 16;
+        for (who, matrix) in LACKING {
+            let seen: Vec<[f32; 3]> = (0..=steps)
+                .map(|i| {
+                    let rgb = linear(color_of(i as f32 / steps as f32));
+                    lab(matrix.map(|row| row[0] * rgb[0] + row[1] * rgb[1] + row[2] * rgb[2]))
+                })
+                .collect();
+            for (i, pair) in seen.windows(2).enumerate() {
+                let [a, b] = [pair[0], pair[1]];
+                assert!(
+                    b[0] > a[0] + 1.5,
+                    "{who}: step {i} is not lighter: {a:?} {b:?}"
+                );
+            }
+            for i in 0..seen.len() {
+                for j in i + 2..seen.len() {
+                    let apart: f32 = (0..3).map(|k| (seen[i][k] - seen[j][k]).powi(2)).sum();
+                    // A difference of 2.3 is just seen; an eighth of the scale is three times that.
+                    assert!(
+                        apart.sqrt() > 7.0,
+                        "{who}: {i} and {j} are alike: {}",
+                        apart.sqrt()
+                    );
+                }
+            }
         }
     }
 

@@ -11,7 +11,7 @@ use std::f32::consts::PI;
 use frangible_export::glam::{Vec2, Vec3};
 
 /// How finely a shadow is computed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Fineness {
     /// Points of the key light; fewer leave steps in its shadow's edge.
     key_points: usize,
@@ -22,6 +22,10 @@ pub(crate) struct Fineness {
     side: usize,
     /// Rounds of smoothing, which hide what is left of the single points' edges.
     smoothings: usize,
+    /// What the key light and the room give of the light on the floor, of 1; the
+    /// rest gets everywhere.
+    key_share: f32,
+    room_share: f32,
 }
 
 impl Fineness {
@@ -31,6 +35,26 @@ impl Fineness {
         room_points: 72,
         side: 640,
         smoothings: 3,
+        key_share: 0.40,
+        room_share: 0.42,
+    };
+    /// The key light's alone, for traced pictures: how dark it is all in all is up to them.
+    pub(crate) const KEY: Self = Self {
+        key_points: 24,
+        room_points: 0,
+        side: 448,
+        key_share: 1.0,
+        room_share: 0.0,
+        ..Self::STILL
+    };
+    /// The room's alone.
+    pub(crate) const ROOM: Self = Self {
+        key_points: 0,
+        room_points: 48,
+        side: 320,
+        key_share: 0.0,
+        room_share: 1.0,
+        ..Self::STILL
     };
     /// For what moves: a twentieth of the work.
     pub(crate) const MOVING: Self = Self {
@@ -38,13 +62,9 @@ impl Fineness {
         room_points: 12,
         side: 256,
         smoothings: 5,
+        ..Self::STILL
     };
 }
-
-/// What the key light and the room give of the light on the floor, of 1; the
-/// rest gets everywhere.
-const KEY_SHARE: f32 = 0.40;
-const ROOM_SHARE: f32 = 0.42;
 
 /// The turn from one point to the next that spreads points evenly over a disc.
 const GOLDEN_TURN: f32 = 2.399_963;
@@ -236,14 +256,14 @@ fn lamps(key: Vec3, fineness: Fineness) -> impl Iterator<Item = (Vec3, f32)> {
     let bulbs = (0..key_points).map(move |index| {
         let at = disc(index, key_points);
         let toward = key / distance.max(1e-3) + (across * at.x + along * at.y) / distance.max(1.0);
-        (toward.normalize(), KEY_SHARE / key_points as f32)
+        (toward.normalize(), fineness.key_share / key_points as f32)
     });
     // Points of the disc lifted to the dome: as dense as the floor sees them.
     // The lowest would throw shadows of any length; the dome ends at 23°.
     let room = (0..room_points).map(move |index| {
         let at = disc(index, room_points) * 0.92;
         let toward = Vec3::new(at.x, (1.0 - at.length_squared()).max(0.0).sqrt(), at.y);
-        (toward, ROOM_SHARE / room_points as f32)
+        (toward, fineness.room_share / room_points as f32)
     });
     bulbs.chain(room)
 }

@@ -6,6 +6,9 @@
 //! photograph. [`mode_sheet`] shows shapes of vibration, coloured by a number.
 //! [`encode_png`] makes a small file of the result. [`LiveStage`] draws the same stage into a window, over and over.
 //!
+//! Stills follow rays of light on the processor; films and windows are drawn by the
+//! graphics driver, in a fraction of the time.
+//!
 //! Drawing takes a graphics driver but no display: a software driver such as
 //! Mesa's lavapipe will do. [`has_adapter`] tells whether there is one; without
 //! it everything here returns [`DrawError::NoAdapter`]. On one machine the same
@@ -36,6 +39,8 @@ mod live;
 #[cfg(not(target_family = "wasm"))]
 mod mode_sheet;
 #[cfg(not(target_family = "wasm"))]
+mod photo;
+#[cfg(not(target_family = "wasm"))]
 mod renderer;
 #[cfg(not(target_family = "wasm"))]
 mod scale;
@@ -44,8 +49,6 @@ mod sheet;
 mod stage;
 #[cfg(not(target_family = "wasm"))]
 mod studio;
-#[cfg(not(target_family = "wasm"))]
-mod traced;
 
 #[cfg(not(target_family = "wasm"))]
 pub use adapter::{has_adapter, is_software};
@@ -70,6 +73,4 @@ pub use mode_sheet::{ModeCell, ModeSheetOptions, mode_sheet};
 #[cfg(not(target_family = "wasm"))]
 pub use sheet::{SheetOptions, contact_sheet, sheet_of_frames};
 #[cfg(not(target_family = "wasm"))]
-pub use studio::{Studio, render_frame};
-#[cfg(not(target_family = "wasm"))]
-pub use traced::GoOn;
+pub use studio::{GoOn, Studio, render_frame};

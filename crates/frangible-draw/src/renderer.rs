@@ -15,7 +15,6 @@ use frangible_export::glam::Vec2;
 use frangible_export::{Recording, View};
 use image::RgbImage;
 use kiss3d::color::Color;
-use kiss3d::renderer::RayTracer;
 use kiss3d::text::Font;
 use kiss3d::window::{NumSamples, OffscreenSurface};
 
@@ -23,10 +22,8 @@ use crate::DrawError;
 use crate::backdrop::{furnish, surround};
 use crate::camera::StillCamera;
 use crate::field::{Field, field_scene};
-use crate::floor_shadow::Fineness;
 use crate::scale::halve;
-use crate::stage::{StageUnits, has_glass, stage};
-use crate::traced::{Tracing, trace, traced_stage};
+use crate::stage::{StageUnits, has_glass, refracts, stage};
 
 /// Pixels drawn per pixel of the picture, each way, where there is glass.
 ///
@@ -45,10 +42,8 @@ pub(crate) struct Shot {
 
 /// What is on it.
 pub(crate) enum Subject {
-    /// A recording of one frame, with the floor's shadow as fine as this.
-    Recording(Recording, Fineness),
-    /// A recording of one frame, path-traced.
-    Traced(Recording, Tracing),
+    /// A recording of one frame, as of a film.
+    Recording(Box<Recording>),
     /// A surface coloured by numbers.
     Field(Field),
 }
@@ -61,7 +56,7 @@ pub(crate) struct Label {
     pub(crate) text: String,
 }
 
-type Job = (Shot, Sender<Option<RgbImage>>);
+type Job = (Shot, Sender<RgbImage>);
 
 /// Has a picture drawn and waits for it.
 pub(crate) fn draw(shot: Shot) -> Result<RgbImage, DrawError> {
@@ -70,32 +65,28 @@ pub(crate) fn draw(shot: Shot) -> Result<RgbImage, DrawError> {
         let (queue, jobs) = channel::<Job>();
         thread::spawn(move || {
             let mut surface = None;
-            // To make one takes seconds.
-            let mut tracer = None;
             for (shot, reply) in jobs {
                 let surface = surface.get_or_insert_with(|| open(&shot));
                 // Nobody waits for a picture whose asker has gone.
-                let _ = reply.send(photograph(surface, &mut tracer, &shot));
+                let _ = reply.send(photograph(surface, &shot));
             }
         });
         queue
     });
     let (reply, picture) = channel();
     queue.send((shot, reply)).map_err(|_| DrawError::Renderer)?;
-    let drawn = picture.recv().map_err(|_| DrawError::Renderer)?;
-    drawn.ok_or(DrawError::Cancelled)
+    picture.recv().map_err(|_| DrawError::Renderer)
 }
 
 /// How the edges of a shot are smoothed.
 fn sampling(shot: &Shot) -> (u32, NumSamples) {
     let scene = match &shot.subject {
-        Subject::Recording(scene, _) => scene,
+        Subject::Recording(scene) => scene,
         Subject::Field(_) => return (1, NumSamples::Four),
-        Subject::Traced(..) => return (1, NumSamples::One),
     };
     let surfaces = &scene.surfaces;
     let mut parts = scene.meshes.iter().flat_map(|mesh| &mesh.parts);
-    if parts.any(|part| surfaces[part.surface].transmission > 0.0) {
+    if parts.any(|part| refracts(&surfaces[part.surface])) {
         (SUPERSAMPLING, NumSamples::One)
     } else {
         (1, NumSamples::Four)
@@ -108,11 +99,7 @@ fn open(shot: &Shot) -> OffscreenSurface {
     surface
 }
 
-fn photograph(
-    surface: &mut OffscreenSurface,
-    tracer: &mut Option<RayTracer>,
-    shot: &Shot,
-) -> Option<RgbImage> {
+fn photograph(surface: &mut OffscreenSurface, shot: &Shot) -> RgbImage {
     let (factor, samples) = sampling(shot);
     let (width, height) = (factor * shot.width, factor * shot.height);
     if surface.samples() != samples as u32 {
@@ -124,8 +111,8 @@ fn photograph(
     // The floor has its shadow without. On things, a map gives glass the shadow
     // of clay, and costs most of the time. Colours that stand for numbers want none.
     let shadows = match &shot.subject {
-        Subject::Recording(scene, _) => !has_glass(scene),
-        Subject::Field(_) | Subject::Traced(..) => false,
+        Subject::Recording(scene) => !has_glass(scene),
+        Subject::Field(_) => false,
     };
     surface.set_shadows_enabled(shadows);
     let view = StageUnits::of(&shot.view).view(&shot.view);
@@ -139,14 +126,9 @@ fn photograph(
         window.draw_text(&label.text, at, line.y, &Font::default(), ink);
     }
     let mut scene = match &shot.subject {
-        Subject::Recording(scene, fineness) => stage(scene, &shot.view, *fineness),
-        Subject::Traced(scene, tracing) => {
-            let mut scene = traced_stage(scene, &shot.view);
-            let tracer = tracer.get_or_insert_with(RayTracer::new);
-            return trace(surface, tracer, &mut scene, &mut camera, tracing);
-        }
+        Subject::Recording(scene) => stage(scene, &shot.view),
         Subject::Field(field) => field_scene(field, &shot.view),
     };
     let drawn = pollster::block_on(surface.render_image_3d(&mut scene, &mut camera));
-    Some(if factor == 1 { drawn } else { halve(&drawn) })
+    if factor == 1 { drawn } else { halve(&drawn) }
 }

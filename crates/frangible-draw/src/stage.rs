@@ -53,8 +53,8 @@ impl StageUnits {
     }
 }
 
-/// Builds the scene of a recording's first frame, the floor's shadow as fine as this.
-pub(crate) fn stage(recording: &Recording, view: &View, fineness: Fineness) -> SceneNode3d {
+/// Builds the scene of a recording's first frame, for a film.
+pub(crate) fn stage(recording: &Recording, view: &View) -> SceneNode3d {
     let units = StageUnits::of(view);
     let mut scene = SceneNode3d::empty();
     let view = &units.view(view);
@@ -65,7 +65,7 @@ pub(crate) fn stage(recording: &Recording, view: &View, fineness: Fineness) -> S
             &casters(recording, units),
             height,
             key_light(view),
-            fineness,
+            Fineness::MOVING,
         );
         let laid = Laid {
             height,
@@ -85,14 +85,14 @@ pub(crate) fn stage(recording: &Recording, view: &View, fineness: Fineness) -> S
 /// Faces of one surface, stage units: drawn at once, however many pieces they
 /// belong to. A draw of its own for each piece takes most of the time.
 #[derive(Default)]
-pub(crate) struct Bunch {
-    pub(crate) surface: usize,
+struct Bunch {
+    surface: usize,
     vertices: Vec<Vec3>,
     normals: Vec<Vec3>,
     faces: Vec<[u32; 3]>,
 }
 
-pub(crate) fn bunches(recording: &Recording, units: StageUnits) -> Vec<Bunch> {
+fn bunches(recording: &Recording, units: StageUnits) -> Vec<Bunch> {
     let mut bunches: Vec<Bunch> = Vec::new();
     for (index, node) in recording.nodes.iter().enumerate() {
         let pose = recording.pose(index, 0);
@@ -101,7 +101,7 @@ pub(crate) fn bunches(recording: &Recording, units: StageUnits) -> Vec<Bunch> {
         for part in mesh.parts.iter().filter(|part| !part.indices.is_empty()) {
             let surface = part.surface;
             // Glass that refracts shows through other glass, not through itself.
-            let refracts = recording.surfaces[surface].transmission > 0.0;
+            let refracts = refracts(&recording.surfaces[surface]);
             let same = |bunch: &Bunch| !refracts && bunch.surface == surface;
             let at = bunches.iter().position(same).unwrap_or_else(|| {
                 bunches.push(Bunch {
@@ -128,12 +128,6 @@ pub(crate) fn bunches(recording: &Recording, units: StageUnits) -> Vec<Bunch> {
 
 fn add_bunch(scene: &mut SceneNode3d, bunch: Bunch, surfaces: &[SurfaceMaterial]) {
     let surface = &surfaces[bunch.surface];
-    let mut node = add_faces(scene, bunch);
-    dress(&mut node, surface);
-}
-
-/// Adds the faces of a bunch, undressed.
-pub(crate) fn add_faces(scene: &mut SceneNode3d, bunch: Bunch) -> SceneNode3d {
     let mesh = GpuMesh3d::new(
         bunch.vertices,
         bunch.faces,
@@ -141,7 +135,8 @@ pub(crate) fn add_faces(scene: &mut SceneNode3d, bunch: Bunch) -> SceneNode3d {
         None,
         false,
     );
-    scene.add_mesh(Rc::new(RefCell::new(mesh)), Vec3::ONE)
+    let mut node = scene.add_mesh(Rc::new(RefCell::new(mesh)), Vec3::ONE);
+    dress(&mut node, surface);
 }
 
 /// Gives a thing the looks of a surface.
@@ -151,7 +146,7 @@ pub(crate) fn dress(node: &mut SceneNode3d, surface: &SurfaceMaterial) {
     let [red, green, blue, opacity] = surface.base_color;
     node.set_metallic(surface.metallic);
     node.set_roughness(surface.roughness);
-    if surface.transmission > 0.0 {
+    if refracts(surface) {
         // The colour of glass lies in its depth, not on its face.
         node.set_color(Color::new(red, green, blue, 1.0));
         node.set_transmission(surface.transmission);
@@ -166,6 +161,11 @@ pub(crate) fn dress(node: &mut SceneNode3d, surface: &SurfaceMaterial) {
     }
 }
 
+/// Whether a clear surface is drawn as what bends light; with some opacity it is drawn in less time, and shards are told apart better.
+pub(crate) fn refracts(surface: &SurfaceMaterial) -> bool {
+    surface.transmission > 0.0 && surface.base_color[3] >= 1.0
+}
+
 /// Whether surfaces that one looks through can be drawn; WebGL 2 lacks what the renderer sums their layers with, and would draw
 /// nothing at all.
 fn draws_clear_things() -> bool {
@@ -174,7 +174,7 @@ fn draws_clear_things() -> bool {
 }
 
 /// How far light travels through glass before it has the glass's colour, stage units.
-pub(crate) const GLASS_DEPTH: f32 = 0.12;
+const GLASS_DEPTH: f32 = 0.12;
 
 /// A large key light from the upper left of the camera, a weak fill from the
 /// right and a rim from behind that parts edges from the background. The floor

@@ -1,13 +1,21 @@
 //! One frame of a recording as a picture.
 
+use std::sync::Arc;
+
 use frangible_export::{Recording, View};
 use image::RgbImage;
 
 use crate::DrawError;
 use crate::adapter::texture_limit;
-use crate::floor_shadow::Fineness;
+use crate::field::Field;
+use crate::photo::Photograph;
 use crate::renderer::{Label, SUPERSAMPLING, Shot, Subject, draw};
-use crate::traced::{GoOn, Tracing};
+
+/// Told after each path of light how many there are per pixel; says whether to go on.
+pub type GoOn = Arc<dyn Fn(u32) -> bool + Send + Sync>;
+
+/// The longest side of a picture, pixels: each pixel takes a quarter of a kilobyte while light is followed.
+const LARGEST: u32 = 4096;
 
 /// Height of a label's line, pixels of the picture.
 const LABEL_HEIGHT: f32 = 24.0;
@@ -28,9 +36,9 @@ impl Studio {
     /// # Errors
     ///
     /// [`DrawError::NoAdapter`] without a graphics driver,
-    /// [`DrawError::BadSize`] if the adapter cannot hold such a picture.
+    /// [`DrawError::BadSize`] if a side has less than 16 or more than 4096 pixels, or more than the adapter can hold.
     pub fn new(width: u32, height: u32) -> Result<Self, DrawError> {
-        let limit = texture_limit()? / SUPERSAMPLING;
+        let limit = (texture_limit()? / SUPERSAMPLING).min(LARGEST);
         if !(16..=limit).contains(&width) || !(16..=limit).contains(&height) {
             return Err(DrawError::BadSize {
                 width,
@@ -46,7 +54,7 @@ impl Studio {
         (self.width, self.height)
     }
 
-    /// Draws one frame; a label, if not empty, stands in the upper left corner.
+    /// Draws one frame by following light, within seconds; a label, if not empty, stands in the upper left corner.
     ///
     /// # Errors
     ///
@@ -61,17 +69,13 @@ impl Studio {
         label: &str,
     ) -> Result<RgbImage, DrawError> {
         let still = self.checked(recording, frame, view)?;
-        draw(Shot {
-            subject: Subject::Recording(still, Fineness::STILL),
-            view: *view,
-            labels: vec![Label {
-                at: [0.55 * LABEL_HEIGHT; 2],
-                height: LABEL_HEIGHT,
-                text: label.into(),
-            }],
-            width: self.width,
-            height: self.height,
-        })
+        let mut photograph = Photograph::new(&still, view, self.width, self.height);
+        photograph.expose();
+        let mut picture = photograph.picture();
+        if !label.is_empty() {
+            self.write(&mut picture, label)?;
+        }
+        Ok(picture)
     }
 
     /// Draws one frame of a film: without a label, and the shadow as of things on the move, in a twentieth of the time.
@@ -85,8 +89,7 @@ impl Studio {
         frame: usize,
         view: &View,
     ) -> Result<RgbImage, DrawError> {
-        let still = self.checked(recording, frame, view)?;
-        self.shoot(Subject::Recording(still, Fineness::MOVING), view)
+        self.film_frame_between(recording, frame as f64, view)
     }
 
     /// [`Studio::film_frame`] between two frames, where things are on their way from the one to the other: for slow motion.
@@ -112,11 +115,17 @@ impl Studio {
                 still.poses[0].rotation = from.rotation.slerp(to.rotation, share);
             }
         }
-        self.shoot(Subject::Recording(shot, Fineness::MOVING), view)
+        draw(Shot {
+            subject: Subject::Recording(Box::new(shot)),
+            view: *view,
+            labels: Vec::new(),
+            width: self.width,
+            height: self.height,
+        })
     }
 
-    /// Path-traces one frame: light goes its own ways, through glass and around corners. `go_on` gets the samples per pixel so
-    /// far and says whether to go on; a software driver takes three seconds for a sample of 640 × 400 pixels.
+    /// Draws one frame as [`Studio::frame`] does, with so many paths of light per pixel. `go_on` gets their number so far and says
+    /// whether to go on; a path per pixel of 1280 × 800 takes one to three seconds of processor time.
     ///
     /// # Errors
     ///
@@ -130,17 +139,40 @@ impl Studio {
         go_on: GoOn,
     ) -> Result<RgbImage, DrawError> {
         let still = self.checked(recording, frame, view)?;
-        self.shoot(Subject::Traced(still, Tracing { samples, go_on }), view)
+        let mut photograph = Photograph::new(&still, view, self.width, self.height);
+        for path in 1..=samples.max(1) {
+            photograph.add(1, false);
+            if !go_on(path) {
+                return Err(DrawError::Cancelled);
+            }
+        }
+        Ok(photograph.picture())
     }
 
-    fn shoot(&self, subject: Subject, view: &View) -> Result<RgbImage, DrawError> {
-        draw(Shot {
-            subject,
-            view: *view,
-            labels: Vec::new(),
+    /// Writes a line into the upper left corner.
+    fn write(&self, picture: &mut RgbImage, text: &str) -> Result<(), DrawError> {
+        let height = (2.2 * LABEL_HEIGHT) as u32;
+        let drawn = draw(Shot {
+            subject: Subject::Field(Field::default()),
+            view: View::default(),
+            labels: vec![Label {
+                at: [0.55 * LABEL_HEIGHT; 2],
+                height: LABEL_HEIGHT,
+                text: text.into(),
+            }],
             width: self.width,
-            height: self.height,
-        })
+            height,
+        })?;
+        let paper = f32::from(drawn.get_pixel(self.width - 1, height - 1).0[0]);
+        for (x, y, pixel) in drawn.enumerate_pixels() {
+            let inked = (1.0 - f32::from(pixel.0[0]) / paper.max(1.0)).clamp(0.0, 1.0);
+            if inked > 0.0 && y < self.height {
+                for code in &mut picture.get_pixel_mut(x, y).0 {
+                    *code = (f32::from(*code) * (1.0 - inked) + 240.0 * inked) as u8;
+                }
+            }
+        }
+        Ok(())
     }
 
     fn checked(

@@ -32,7 +32,7 @@ pub use glam;
 pub use glb::write_glb;
 pub use place::{make_folder, try_file};
 pub use recording::{
-    Floor, MeshPart, Moments, Pose, Pulse, RecordedBlow, RecordedCrack, RecordedMesh, RecordedNode,
-    RecordedTouch, Recording, SurfaceMaterial, View,
+    Floor, Grain, MeshPart, Moments, Pose, Pulse, RecordedBlow, RecordedCrack, RecordedMesh,
+    RecordedNode, RecordedTouch, Recording, SurfaceMaterial, View,
 };
 pub use vtu::{VtuCells, VtuField, VtuMesh, VtuValues, write_vtu};

@@ -117,6 +117,33 @@ pub struct SurfaceMaterial {
     pub ior: f32,
     /// Whether back faces are drawn too.
     pub double_sided: bool,
+    /// Linear red, green, blue that is left of white light after [`attenuation_distance`](Self::attenuation_distance) in the body
+    /// behind the surface, each above 0 and at most 1.
+    pub attenuation_color: [f32; 3],
+    /// How far light goes through the body until it has that colour, m; infinite where nothing is swallowed.
+    pub attenuation_distance: f32,
+    /// Whether the body goes on behind the surface: a crack that parts nothing, with air in it.
+    pub thin: bool,
+    /// What the surface shows from close by.
+    pub grain: Grain,
+}
+
+/// What a surface shows from close by, where a renderer draws such things.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Grain {
+    /// One colour, smooth.
+    #[default]
+    Even,
+    /// Specks and pores of fired clay.
+    Clay,
+    /// Stones in mortar.
+    Aggregate,
+    /// Veins, as of marble.
+    Veined,
+    /// Clouds inside a clear body, as of ice and sugar.
+    Cloudy,
+    /// The fine roughness of a fresh face: small bumps at any angle.
+    Broken,
 }
 
 impl Default for SurfaceMaterial {
@@ -129,6 +156,10 @@ impl Default for SurfaceMaterial {
             transmission: 0.0,
             ior: 1.5,
             double_sided: false,
+            attenuation_color: [1.0; 3],
+            attenuation_distance: f32::INFINITY,
+            thin: false,
+            grain: Grain::Even,
         }
     }
 }

@@ -151,7 +151,16 @@ fn check_surface(surface: &SurfaceMaterial) -> Checked {
     let ior = f64::from(surface.ior);
     let what = || format!("the index of refraction of the surface \"{name}\"");
     finite(ior, what)?;
-    in_range(ior, ior >= 1.0, "at least 1 (glass: 1.5)", what)
+    in_range(ior, ior >= 1.0, "at least 1 (glass: 1.5)", what)?;
+    for part in surface.attenuation_color.map(f64::from) {
+        let what = || format!("the attenuation colour of the surface \"{name}\"");
+        finite(part, what)?;
+        in_range(part, part > 0.0 && part <= 1.0, "above 0, at most 1", what)?;
+    }
+    let distance = f64::from(surface.attenuation_distance);
+    let what = || format!("the attenuation distance of the surface \"{name}\"");
+    // Infinite where nothing is swallowed.
+    in_range(distance, distance > 0.0, "above zero, in m", what)
 }
 
 fn check_mesh(mesh: &RecordedMesh, surfaces: usize) -> Checked {

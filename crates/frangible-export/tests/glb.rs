@@ -60,6 +60,8 @@ fn recording() -> Recording {
             SurfaceMaterial {
                 name: "inside".into(),
                 transmission: 0.5,
+                attenuation_color: [0.5, 0.8, 0.7],
+                attenuation_distance: 0.04,
                 ..Default::default()
             },
         ],
@@ -100,12 +102,21 @@ fn every_recorded_thing_is_found_again() {
         .nodes()
         .map(|node| node.name().unwrap().to_owned())
         .collect();
-    assert_eq!(names, ["plate", "left", "right", "table", "floor", "view"]);
+    let scene = [
+        "plate", "left", "right", "table", "floor", "view", "key", "fill", "rim",
+    ];
+    assert_eq!(names, scene);
     assert_eq!(document.meshes().count(), 4, "three shapes and the floor");
     assert_eq!(document.materials().count(), 3);
     assert_eq!(document.animations().count(), 1);
     let used: Vec<_> = document.extensions_used().collect();
-    assert_eq!(used, ["KHR_materials_ior", "KHR_materials_transmission"]);
+    let extensions = [
+        "KHR_materials_ior",
+        "KHR_materials_transmission",
+        "KHR_materials_volume",
+        "KHR_lights_punctual",
+    ];
+    assert_eq!(used, extensions);
     for primitive in document
         .meshes()
         .flat_map(|mesh| mesh.primitives().collect::<Vec<_>>())
@@ -150,6 +161,16 @@ fn masses_travel_as_extras() {
     let materials = &json["materials"];
     let transmission = &materials[1]["extensions"]["KHR_materials_transmission"];
     assert_eq!(transmission["transmissionFactor"], 0.5);
+    let volume = &materials[1]["extensions"]["KHR_materials_volume"];
+    let part = |k: usize| volume["attenuationColor"][k].as_f64().unwrap() as f32;
+    assert_eq!([0, 1, 2].map(part), [0.5, 0.8, 0.7]);
+    assert_eq!(volume["attenuationDistance"].as_f64().unwrap() as f32, 0.04);
+    // The light's colour changes in the depth, so the face has none.
+    let face = &materials[1]["pbrMetallicRoughness"]["baseColorFactor"];
+    assert_eq!(
+        face.as_array().map(|parts| parts.iter().all(|p| p == 1.0)),
+        Some(true)
+    );
     assert!(
         json["asset"]["generator"]
             .as_str()

@@ -1,46 +1,134 @@
 //! How materials look: outside and crack faces.
 
 use frangible::internals::asset::RenderMaterial;
-use frangible_export::SurfaceMaterial;
+use frangible_export::{Grain, SurfaceMaterial};
 
-/// Surfaces of a material's outside and of its crack faces.
-pub(crate) fn body_surfaces(material: &str) -> [SurfaceMaterial; 2] {
+/// How the parts of a body look.
+pub(crate) struct Appearance {
+    pub(crate) outside: SurfaceMaterial,
+    pub(crate) crack_face: SurfaceMaterial,
+    /// A crack that parts nothing, seen through a clear body.
+    pub(crate) crack: SurfaceMaterial,
+    /// Where such a crack comes to the surface.
+    pub(crate) crack_line: SurfaceMaterial,
+}
+
+/// How a body of a material looks.
+pub(crate) fn appearance(material: &str) -> Appearance {
     let plain = |part: &str, base_color: [f32; 4], roughness: f32| SurfaceMaterial {
         name: format!("{material} {part}"),
         base_color,
         roughness,
         ..SurfaceMaterial::default()
     };
-    let opaque = |outer: [f32; 3], inner: [f32; 3], roughness: f32| {
+    let opaque = |outer: [f32; 3], inner: [f32; 3], roughness: f32, grains: [Grain; 2]| {
         let [a, b] = [outer, inner].map(|[r, g, b]| [r, g, b, 1.0]);
-        [plain("outside", a, roughness), plain("crack face", b, 0.85)]
-    };
-    // Clear bodies are drawn with some opacity and darker crack faces, so that shards can be told apart.
-    let clear = |outer: [f32; 4], inner: [f32; 4], ior: f32| {
-        [("outside", outer, 0.06), ("crack face", inner, 0.25)].map(|(part, color, roughness)| {
-            SurfaceMaterial {
-                ior,
-                double_sided: true,
-                ..plain(part, color, roughness)
-            }
-        })
-    };
-    match material.trim_start_matches("paper-") {
-        "glass" | "slab" | "slab-low" | "slab-moderate" | "slab-high" | "slab-very-high" => {
-            clear([0.62, 0.80, 0.78, 0.38], [0.16, 0.42, 0.38, 0.9], 1.52)
+        let [red, green, blue] = inner.map(|part| 0.12 * part);
+        let crack_face = SurfaceMaterial {
+            grain: grains[1],
+            ..plain("crack face", b, 0.85)
+        };
+        Appearance {
+            outside: SurfaceMaterial {
+                grain: grains[0],
+                ..plain("outside", a, roughness)
+            },
+            crack: crack_face.clone(),
+            crack_face,
+            crack_line: plain("crack line", [red, green, blue, 1.0], 1.0),
         }
-        "pmma" => clear([0.85, 0.88, 0.92, 0.35], [0.55, 0.62, 0.70, 0.9], 1.49),
-        "ice" => clear([0.75, 0.87, 0.95, 0.55], [0.85, 0.93, 0.98, 0.95], 1.31),
-        "sugar" => clear([0.80, 0.48, 0.16, 0.6], [0.62, 0.30, 0.06, 0.95], 1.5),
-        "porcelain" => opaque([0.86, 0.86, 0.84], [0.70, 0.66, 0.60], 0.22),
-        "piggy" | "piggy-fig4" => opaque([0.85, 0.45, 0.45], [0.75, 0.62, 0.55], 0.3),
-        "brick" => opaque([0.46, 0.16, 0.10], [0.55, 0.22, 0.14], 0.9),
-        "concrete" => opaque([0.45, 0.45, 0.43], [0.38, 0.37, 0.35], 0.95),
-        "marble" => opaque([0.82, 0.81, 0.79], [0.90, 0.90, 0.88], 0.3),
-        "chocolate" => opaque([0.13, 0.055, 0.025], [0.20, 0.095, 0.05], 0.4),
-        _ => opaque([0.62, 0.60, 0.57], [0.50, 0.46, 0.42], 0.6),
+    };
+    // Where light is not followed, clear bodies are drawn with some opacity and darker crack faces, so that shards can be told apart.
+    let clear = |outer: [f32; 4], inner: [f32; 4], ior: f32, left: [f32; 3], grain: Grain| {
+        let part = |name: &str, color: [f32; 4], roughness: f32| SurfaceMaterial {
+            transmission: 1.0,
+            ior,
+            double_sided: true,
+            attenuation_color: left,
+            attenuation_distance: COLOR_DEPTH,
+            grain,
+            ..plain(name, color, roughness)
+        };
+        let broken = match grain {
+            Grain::Even => Grain::Broken,
+            other => other,
+        };
+        Appearance {
+            outside: part(
+                "outside",
+                outer,
+                if grain == Grain::Even { 0.02 } else { 0.2 },
+            ),
+            crack_face: SurfaceMaterial {
+                grain: broken,
+                ..part("crack face", inner, 0.25)
+            },
+            crack: SurfaceMaterial {
+                thin: true,
+                grain: Grain::Broken,
+                ..part("crack", [0.9, 0.95, 0.95, 0.45], 0.25)
+            },
+            crack_line: plain("crack line", [0.75, 0.82, 0.80, 1.0], 0.6),
+        }
+    };
+    let even = [Grain::Even, Grain::Broken];
+    match material.trim_start_matches("paper-") {
+        "glass" | "slab" | "slab-low" | "slab-moderate" | "slab-high" | "slab-very-high" => clear(
+            [0.62, 0.80, 0.78, 0.38],
+            [0.16, 0.42, 0.38, 0.9],
+            1.52,
+            [0.46, 0.80, 0.68],
+            Grain::Even,
+        ),
+        "pmma" => clear(
+            [0.85, 0.88, 0.92, 0.35],
+            [0.55, 0.62, 0.70, 0.9],
+            1.49,
+            [0.82, 0.88, 0.95],
+            Grain::Even,
+        ),
+        "ice" => clear(
+            [0.75, 0.87, 0.95, 0.55],
+            [0.85, 0.93, 0.98, 0.95],
+            1.31,
+            [0.70, 0.86, 0.95],
+            Grain::Cloudy,
+        ),
+        "sugar" => clear(
+            [0.80, 0.48, 0.16, 0.6],
+            [0.62, 0.30, 0.06, 0.95],
+            1.5,
+            [0.80, 0.36, 0.06],
+            Grain::Cloudy,
+        ),
+        "porcelain" => opaque([0.86, 0.86, 0.84], [0.74, 0.70, 0.64], 0.16, even),
+        "piggy" | "piggy-fig4" => opaque([0.85, 0.45, 0.45], [0.75, 0.62, 0.55], 0.25, even),
+        "brick" => opaque(
+            [0.30, 0.088, 0.050],
+            [0.36, 0.115, 0.066],
+            0.9,
+            [Grain::Clay; 2],
+        ),
+        "concrete" => opaque(
+            [0.45, 0.45, 0.43],
+            [0.40, 0.39, 0.37],
+            0.95,
+            [Grain::Even, Grain::Aggregate],
+        ),
+        "marble" => opaque(
+            [0.82, 0.81, 0.79],
+            [0.88, 0.88, 0.86],
+            0.2,
+            [Grain::Veined; 2],
+        ),
+        "chocolate" => opaque([0.042, 0.016, 0.008], [0.062, 0.026, 0.013], 0.34, even),
+        _ => opaque([0.62, 0.60, 0.57], [0.50, 0.46, 0.42], 0.6, even),
     }
 }
+
+/// How far light goes through a clear body until it has the body's colour, m: a good deal farther than a wall is thick, so that panes are
+/// clear and their edges, along which light runs, are not.
+const COLOR_DEPTH: f32 = 0.04;
 
 /// Surface of a part of a mesh file, as its author drew it.
 pub(crate) fn authored_surface(look: &RenderMaterial) -> SurfaceMaterial {

@@ -23,6 +23,7 @@ mod bonds;
 mod builtin;
 mod cameras;
 mod check;
+mod cracks;
 mod error;
 mod files;
 mod first_break;

@@ -16,6 +16,7 @@ use frangible_rapier::rapier3d::dynamics::RigidBodyHandle;
 use frangible_rapier::{BreakEvent, BreakableWorld, SurfaceProperties};
 
 use crate::bake::BakedBody;
+use crate::cracks::with_cracks;
 use crate::error::SceneError;
 use crate::meshes::{BodySurfaces, piece};
 use crate::recorder::Role;
@@ -76,6 +77,8 @@ pub struct Thing {
     /// Where it is in [`LiveScene::world`].
     pub handle: RigidBodyHandle,
     surfaces: Option<BodySurfaces>,
+    /// Its shape without the cracks that part nothing and came later, where it has such cracks.
+    plain: Option<RecordedMesh>,
 }
 
 /// A scene on the move. The same scene, throws and number of steps give the same bits.
@@ -129,6 +132,7 @@ impl LiveScene {
                 mesh,
                 handle,
                 surfaces,
+                plain: None,
             }));
         }
         let mut live = Self {
@@ -174,6 +178,9 @@ impl LiveScene {
         }
         let cracked = self.world.held().iter().filter(|held| held.state.is_some());
         let cracked: Vec<RigidBodyHandle> = cracked.map(|held| held.body).collect();
+        for &handle in &cracked {
+            self.cracked(handle);
+        }
         self.note_whole(cracked.into_iter());
         if before / FRAME != self.ticks / FRAME {
             for (_, body) in self.world.physics.bodies.iter_mut() {
@@ -225,9 +232,31 @@ impl LiveScene {
                 volume: fragment.mass.volume,
                 handle,
                 surfaces: Some(surfaces.clone()),
+                plain: None,
             }));
         }
         self.note_whole(event.fragments.iter().copied());
+    }
+
+    /// Shows the cracks that a body got without coming apart.
+    fn cracked(&mut self, handle: RigidBodyHandle) {
+        let number = self.things.iter().rposition(|t| t.handle == handle);
+        let (Some(number), Some(body)) = (number, self.world.breakable(handle)) else {
+            return;
+        };
+        let thing = &self.things[number];
+        let plain = thing.plain.as_ref().unwrap_or(&thing.mesh);
+        let surfaces = thing.surfaces.as_ref();
+        let mesh = surfaces.and_then(|s| with_cracks(plain, body.asset(), body.state(), s));
+        if let Some(mesh) = mesh {
+            let plain = Some(plain.clone());
+            let changed = Thing {
+                mesh,
+                plain,
+                ..(**thing).clone()
+            };
+            self.things[number] = Arc::new(changed);
+        }
     }
 
     /// The shapes of the pieces of a thing, in its own frame, with where their centres of mass lay in it, m; for a break that

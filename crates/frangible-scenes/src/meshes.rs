@@ -7,12 +7,20 @@ use frangible::internals::{RenderMesh, box_projection};
 use frangible::{Asset, Fragment};
 use frangible_export::{MeshPart, RecordedMesh};
 
+use crate::cracks::add_cracks;
+
 /// Indices of the surfaces (materials) of the outside and of the crack faces.
 #[derive(Clone, Debug)]
 pub(crate) struct BodySurfaces {
     /// Surface of an outside without materials of its own.
     pub(crate) outer: usize,
     pub(crate) inner: usize,
+    /// Surface of cracks that part nothing.
+    pub(crate) crack: usize,
+    /// Surface of the lines where they end.
+    pub(crate) crack_line: usize,
+    /// Whether one looks into the body.
+    pub(crate) clear: bool,
     /// Surfaces of the materials that came with a mesh file.
     pub(crate) authored: Vec<usize>,
 }
@@ -113,17 +121,10 @@ pub(crate) fn piece(name: String, fragment: &Fragment, surfaces: &BodySurfaces) 
         }
         parts.push((surfaces.outer, outer));
     }
-    let mut loose = mesh.positions.len() as u32;
-    for &[a, b, c] in &mesh.cracks {
-        let normal = (b - a).cross(c - a).normalize_or(Vec3::Y);
-        // Two-sided: each side its own triangle with its own normal.
-        for (corners, n) in [([a, b, c], normal), ([a, c, b], -normal)] {
-            inner.extend(builder.triangle([loose, loose + 1, loose + 2], corners, [n; 3], None));
-            loose += 3;
-        }
-    }
     parts.push((surfaces.inner, inner));
-    builder.finish(name, parts)
+    let mut recorded = builder.finish(name, parts);
+    add_cracks(&mut recorded, &mesh.cracks, surfaces);
+    recorded
 }
 
 fn vertices(render: &RenderMesh) -> RecordedMesh {

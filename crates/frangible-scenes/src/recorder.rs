@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 use frangible::glam::{Quat, Vec3};
+use frangible::internals::BodyState;
 use frangible::{Asset, ImpactReport};
 use frangible_export::{
     Floor, Moments, Pose, Pulse, RecordedBlow, RecordedCrack, RecordedMesh, RecordedNode,
@@ -15,6 +16,7 @@ use frangible_rapier::rapier3d::dynamics::RigidBodyHandle;
 use frangible_rapier::rapier3d::geometry::Collider;
 
 use crate::cameras::cameras;
+use crate::cracks::with_cracks;
 use crate::meshes::{BodySurfaces, piece};
 
 /// Frames per second of a recording.
@@ -27,6 +29,10 @@ const AUDIBLE: f32 = 0.02;
 struct Tracked {
     node: usize,
     body: RigidBodyHandle,
+    /// Mesh of the body without the cracks that part nothing and came later.
+    plain: usize,
+    /// Whether another node follows the body now.
+    replaced: bool,
 }
 
 /// What a node is to the camera.
@@ -51,6 +57,8 @@ pub(crate) struct Recorder {
     /// Impulse of each pair of colliders in the latest step, N·s.
     touching: BTreeMap<[(u32, u32); 2], f32>,
     break_frame: Option<usize>,
+    /// When cracks first ran that parted nothing.
+    crack_frame: Option<usize>,
 }
 
 impl Recorder {
@@ -67,6 +75,7 @@ impl Recorder {
             node_of_body: BTreeMap::new(),
             touching: BTreeMap::new(),
             break_frame: None,
+            crack_frame: None,
         }
     }
 
@@ -112,7 +121,12 @@ impl Recorder {
         };
         recording.nodes.push(node);
         let node = recording.nodes.len() - 1;
-        self.tracked.push(Tracked { node, body });
+        self.tracked.push(Tracked {
+            node,
+            body,
+            plain: recording.nodes[node].mesh,
+            replaced: false,
+        });
         self.node_of_body.insert(body.into_raw_parts(), node);
     }
 
@@ -188,6 +202,33 @@ impl Recorder {
         });
     }
 
+    /// Shows the cracks that a body got without coming apart, from the next frame on: another node takes the place of its own.
+    pub(crate) fn cracked(
+        &mut self,
+        body: RigidBodyHandle,
+        asset: &Asset,
+        state: &BodyState,
+        surfaces: &BodySurfaces,
+    ) {
+        let Some(&node) = self.node_of_body.get(&body.into_raw_parts()) else {
+            return;
+        };
+        let recording = &self.recording;
+        let plain = self.tracked[node].plain;
+        let Some(mesh) = with_cracks(&recording.meshes[plain], asset, state, surfaces) else {
+            return;
+        };
+        self.crack_frame.get_or_insert(recording.frame_count);
+        let RecordedNode {
+            name, keep_extras, ..
+        } = recording.nodes[node].clone();
+        self.tracked[node].replaced = true;
+        self.track(name, mesh, body, keep_extras, self.roles[node]);
+        if let Some(tracked) = self.tracked.last_mut() {
+            tracked.plain = plain;
+        }
+    }
+
     /// Takes in what came together in the step that ended `time` s after the first frame: where a pair of colliders pushes more than twice
     /// as hard as in the step before, and changes the speed of the lighter body by more than [`AUDIBLE`].
     pub(crate) fn touches(&mut self, world: &BreakableWorld, time: f64) {
@@ -240,7 +281,7 @@ impl Recorder {
     /// Writes down where everything is now.
     pub(crate) fn frame(&mut self, world: &BreakableWorld) {
         let recording = &mut self.recording;
-        for tracked in &self.tracked {
+        for tracked in self.tracked.iter().filter(|tracked| !tracked.replaced) {
             let node = &mut recording.nodes[tracked.node];
             let Some(body) = world.physics.bodies.get(tracked.body) else {
                 continue;
@@ -272,7 +313,11 @@ impl Recorder {
             let pose = node.poses.last().copied().unwrap_or_default();
             node.poses.resize(recording.frame_count, pose);
         }
-        let first_crack = self.break_frame.unwrap_or(last).min(last);
+        let first_crack = self
+            .break_frame
+            .or(self.crack_frame)
+            .unwrap_or(last)
+            .min(last);
         // A frame before contact the body is near the floor; five after it the pieces are on their way.
         recording.moments = Moments {
             before: first_crack.saturating_sub(1),

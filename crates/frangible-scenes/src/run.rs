@@ -89,6 +89,10 @@ pub fn play(
                     continue;
                 };
                 let generation = world.breakable(held.body).map_or(0, |b| b.generation());
+                let surfaces = &bodies[*body].surfaces;
+                if let (Some(state), Some(body)) = (&held.state, world.breakable(held.body)) {
+                    recorder.cracked(held.body, body.asset(), state, surfaces);
+                }
                 let (contacts, report) = (&held.contacts, &held.report);
                 // What a body carries is no blow.
                 if !contacts.is_empty() {

@@ -10,7 +10,7 @@ use frangible_rapier::rapier3d::geometry::SharedShape;
 use frangible_rapier::rapier3d::math::{Pose, Rotation, Vector};
 use frangible_rapier::{BreakableWorld, ColliderDetail, SurfaceProperties, WorldConfig};
 
-use crate::appearance::{authored_surface, body_surfaces, projectile_surface};
+use crate::appearance::{appearance, authored_surface, projectile_surface};
 use crate::bake::BakedBody;
 use crate::body::{BodySpec, Place};
 use crate::bonds::bond;
@@ -213,11 +213,17 @@ fn put<'a>(
     let q = spec.rotation;
     let pose = Pose::from_parts(vector(centre), Rotation::from_xyzw(q.x, q.y, q.z, q.w));
     let handle = world.insert_breakable(body, pose, vector(spec.velocity), vector(spec.spin))?;
-    let [outer, inner] = recorder.surfaces(body_surfaces(&asset.material.name));
+    let look = appearance(&asset.material.name);
+    let clear = look.outside.transmission > 0.0;
+    let [outer, inner, crack, crack_line] =
+        recorder.surfaces([look.outside, look.crack_face, look.crack, look.crack_line]);
     let authored = asset.render.iter().flat_map(|render| &render.materials);
     let surfaces = BodySurfaces {
         outer,
         inner,
+        crack,
+        crack_line,
+        clear,
         authored: authored
             .map(|look| recorder.surface(authored_surface(look)))
             .collect(),

@@ -86,6 +86,17 @@ impl BodyState {
         cuts.map(|cut| crossing_polygon(&asset.fracture.corners(cut.tet as usize), &cut.values))
     }
 
+    /// The faces that the cracks have cut since the body was made: of a piece none that it was parted by, or had within it when it came
+    /// about. Polygons as those of [`faces`](Self::faces).
+    pub fn new_faces<'a>(
+        &'a self,
+        asset: &'a Asset,
+    ) -> impl Iterator<Item = ([Vec3; 4], usize)> + 'a {
+        let cuts = |crack: &'a OldCrack| crack.cuts.iter().skip(crack.settled as usize);
+        let cuts = self.cracks.iter().flat_map(cuts);
+        cuts.map(|cut| crossing_polygon(&asset.fracture.corners(cut.tet as usize), &cut.values))
+    }
+
     /// The state as bytes: little-endian, 12 bytes, 28 more per crack, 32 per tetrahedron cut and 4 per junction.
     #[must_use]
     pub fn to_bytes(&self) -> Vec<u8> {

@@ -9,6 +9,9 @@ use crate::{Recording, SurfaceMaterial};
 /// What glTF assumes of a material that does not say.
 const DEFAULT_IOR: f32 = 1.5;
 
+/// How far light goes through a clear body in viewers that follow no rays, m: the wall of a drinking glass.
+const VIEWER_THICKNESS: f32 = 0.003;
+
 /// Adds a material per surface, in the same order, and one for the floor.
 pub(super) fn push_materials(root: &mut json::Root, recording: &Recording) {
     let floor = recording.floor.map(|floor| {
@@ -31,10 +34,18 @@ pub(super) fn push_materials(root: &mut json::Root, recording: &Recording) {
         root.extensions_used
             .push("KHR_materials_transmission".into());
     }
+    if any(has_volume) {
+        root.extensions_used.push("KHR_materials_volume".into());
+    }
 }
 
 fn has_transmission(surface: &SurfaceMaterial) -> bool {
     surface.transmission > 0.0
+}
+
+/// Whether light is swallowed in the body behind; without transmission nobody sees it.
+fn has_volume(surface: &SurfaceMaterial) -> bool {
+    has_transmission(surface) && !surface.thin && surface.attenuation_distance.is_finite()
 }
 
 fn has_ior(surface: &SurfaceMaterial) -> bool {
@@ -45,6 +56,13 @@ fn material(surface: &SurfaceMaterial) -> json::Material {
     // Blending and transmission would each thin the surface, one on top of the
     // other; opacity below 1 only stands in where nothing is transmitted.
     let blends = surface.base_color[3] < 1.0 && !has_transmission(surface);
+    let [red, green, blue, opacity] = surface.base_color;
+    // What light passes through has its colour in its depth.
+    let base_color = if has_volume(surface) {
+        [1.0; 4]
+    } else {
+        [red, green, blue, if blends { opacity } else { 1.0 }]
+    };
     json::Material {
         name: Some(surface.name.clone()),
         alpha_mode: Valid(if blends {
@@ -54,7 +72,7 @@ fn material(surface: &SurfaceMaterial) -> json::Material {
         }),
         double_sided: surface.double_sided,
         pbr_metallic_roughness: json::material::PbrMetallicRoughness {
-            base_color_factor: json::material::PbrBaseColorFactor(surface.base_color),
+            base_color_factor: json::material::PbrBaseColorFactor(base_color),
             metallic_factor: json::material::StrengthFactor(surface.metallic),
             roughness_factor: json::material::StrengthFactor(surface.roughness),
             ..Default::default()
@@ -75,6 +93,15 @@ fn extensions(surface: &SurfaceMaterial) -> Option<extension::Material> {
     if has_ior(surface) {
         extensions.ior = Some(extension::Ior {
             ior: extension::IndexOfRefraction(surface.ior),
+            ..Default::default()
+        });
+    }
+    if has_volume(surface) {
+        extensions.volume = Some(extension::Volume {
+            // For renderers without rays, which take it for the way of light through the body.
+            thickness_factor: extension::ThicknessFactor(VIEWER_THICKNESS),
+            attenuation_distance: extension::AttenuationDistance(surface.attenuation_distance),
+            attenuation_color: extension::AttenuationColor(surface.attenuation_color),
             ..Default::default()
         });
     }

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use glam::{Mat3, Quat, Vec3};
 use gltf_json as json;
+use json::extensions::scene::khr_lights_punctual::{KhrLightsPunctual, Light, Type};
 use json::scene::UnitQuaternion;
 use json::validation::Checked::Valid;
 
@@ -41,6 +42,7 @@ pub(super) fn push_scene(
         }));
     }
     nodes.push(push_camera(root, &recording.camera, center, radius));
+    nodes.extend(push_lights(root, &recording.camera));
     let scene = root.push(json::Scene {
         extensions: None,
         extras: None,
@@ -123,15 +125,55 @@ fn push_camera(
         extensions: None,
         extras: None,
     });
-    // A glTF camera looks along its −z axis.
-    let backward = (view.eye - view.target).normalize();
-    let right = view.up.cross(backward).normalize();
-    let turn = Quat::from_mat3(&Mat3::from_cols(right, backward.cross(right), backward));
     root.push(json::Node {
         camera: Some(camera),
         name: Some("view".into()),
         translation: Some(view.eye.to_array()),
-        rotation: Some(UnitQuaternion(turn.normalize().to_array())),
+        rotation: Some(facing(view.eye - view.target, view.up)),
         ..Default::default()
+    })
+}
+
+/// The turn of a camera or light, which look along their −z axis, away from this direction.
+fn facing(backward: Vec3, up: Vec3) -> UnitQuaternion {
+    let backward = backward.normalize();
+    let right = up.cross(backward).normalize();
+    let turn = Quat::from_mat3(&Mat3::from_cols(right, backward.cross(right), backward));
+    UnitQuaternion(turn.normalize().to_array())
+}
+
+/// A key light from the upper left of the camera, a weak fill from the right and a rim from behind, all far away.
+fn push_lights(root: &mut json::Root, view: &View) -> [json::Index<json::Node>; 3] {
+    let away = view.eye - view.target;
+    let backward = Vec3::new(away.x, 0.0, away.z).normalize_or(Vec3::Z);
+    let right = Vec3::Y.cross(backward);
+    root.extensions_used.push("KHR_lights_punctual".into());
+    let lights = [
+        ("key", [-3.4, 4.6, 2.4], [1.0, 0.97, 0.93], 3.0),
+        ("fill", [4.0, 2.0, 2.5], [0.86, 0.92, 1.0], 1.0),
+        ("rim", [2.0, 2.0, -5.0], [1.0; 3], 1.5),
+    ];
+    lights.map(|(name, [along, up, back], color, intensity)| {
+        let light = root.push(Light {
+            color,
+            extensions: None,
+            extras: None,
+            intensity,
+            name: Some(name.into()),
+            range: None,
+            spot: None,
+            type_: Valid(Type::Directional),
+        });
+        root.push(json::Node {
+            name: Some(name.into()),
+            rotation: Some(facing(
+                along * right + up * Vec3::Y + back * backward,
+                Vec3::Y,
+            )),
+            extensions: Some(json::extensions::scene::Node {
+                khr_lights_punctual: Some(KhrLightsPunctual { light }),
+            }),
+            ..Default::default()
+        })
     })
 }

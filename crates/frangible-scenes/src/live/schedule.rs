@@ -67,6 +67,7 @@ impl LiveScene {
             volume: 0.0,
             handle,
             surfaces: None,
+            plain: None,
         }));
         let thrown = &mut self.schedule.thrown[number];
         thrown.handle = Some(handle);

@@ -173,6 +173,7 @@ impl LiveScene {
             volume,
             handle,
             surfaces: None,
+            plain: None,
         }));
         Ok(())
     }

@@ -96,6 +96,7 @@ impl LiveScene {
             volume: 4.0 / 3.0 * std::f64::consts::PI * throw.radius.powi(3),
             handle,
             surfaces: None,
+            plain: None,
         }));
         Ok(())
     }

@@ -19,7 +19,7 @@ use crate::output::{Bar, say};
 const PAGE: &str = "figures.md";
 const PICTURES: &str = "figures";
 /// What a picture may weigh, bytes.
-const MOST_BYTES: usize = 150_000;
+const MOST_BYTES: usize = 600_000;
 
 pub(crate) fn run(args: &FiguresArgs) -> Result<(), Box<dyn Error>> {
     let figures = figures_named(&args.names)?;

@@ -49,7 +49,7 @@ impl Panels {
             }
         });
         ui.horizontal_wrapped(|ui| {
-            let hint = "path-traced: light goes through glass and around corners; minutes without a graphics card";
+            let hint = "path-traced: light goes through glass and around corners; seconds to minutes on the processor";
             if ui.small_button("still").on_hover_text(hint).clicked() {
                 commands.push(self.film(shown, FilmKind::Still, "png"));
             }
