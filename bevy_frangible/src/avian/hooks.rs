@@ -4,10 +4,11 @@ use avian3d::prelude::*;
 use bevy::ecs::system::{ReadOnlySystemParam, StaticSystemParam, SystemParam};
 use bevy::prelude::*;
 use frangible::internals::contact::{SharedMass, first_touch_of_ball};
+use frangible::internals::is_harmless;
 use frangible::{Contact, Outcome, Striker, impact};
 
 use super::touches::{FirstTouch, first_touches};
-use super::{ImpactSpeed, MadeOf, Moving, Verdict, Verdicts};
+use super::{Breaking, ImpactSpeed, MadeOf, Moving, Ruling, Verdict, Verdicts};
 use crate::meshes::{into, out};
 use crate::{Born, BreakableBody, Fracturing, FragmentOf};
 
@@ -32,6 +33,7 @@ pub struct FrangibleHooks<'w, 's, Inner: SystemParam + 'static = ()> {
     colliders: Query<'w, 's, &'static Collider>,
     verdicts: Res<'w, Verdicts>,
     config: Res<'w, Fracturing>,
+    breaking: Res<'w, Breaking>,
     impact_speed: Res<'w, ImpactSpeed>,
     time: Res<'w, Time>,
     fixed: Res<'w, Time<Fixed>>,
@@ -147,13 +149,20 @@ impl<Inner: SystemParam + 'static> FrangibleHooks<'_, '_, Inner> {
         if contacts.is_empty() {
             return false;
         }
-        let outcome = impact(&body.0, &contacts, &self.config.0);
-        let broke = matches!(outcome, Ok(Outcome::Broke(_)));
+        let config = &self.config.0;
+        let inside = *self.breaking == Breaking::InsideStep;
+        let (ruling, broke) = if inside || is_harmless(&body.0, &contacts, config) {
+            let outcome = impact(&body.0, &contacts, config);
+            let broke = matches!(outcome, Ok(Outcome::Broke(_)));
+            (Ruling::Now(outcome.into()), broke)
+        } else {
+            (Ruling::Waits, false)
+        };
         let verdict = Verdict {
             body: entity,
             striker: other,
             contacts,
-            outcome,
+            ruling,
         };
         let mut verdicts = self.verdicts.0.lock();
         let verdicts = verdicts.as_mut();
