@@ -13,18 +13,9 @@ fn pose(start: &Start) -> Pose {
     Pose::from_parts(start.at, start.turn)
 }
 
-/// Mechanical energy, J, and momentum, N·s, of all that moves.
+/// Kinetic energy, J, and momentum, N·s, of all that moves.
 fn motion(world: &BreakableWorld) -> (f64, DVec3) {
-    let gravity = world.physics.gravity.as_dvec3();
-    let bodies = world.physics.bodies.iter().map(|(_, body)| body);
-    let height = bodies.filter(|b| b.is_dynamic()).map(|body| {
-        let place = *body.position() * body.local_center_of_mass();
-        -f64::from(body.mass()) * gravity.dot(place.as_dvec3())
-    });
-    (
-        world.kinetic_energy() + height.sum::<f64>(),
-        world.momentum(),
-    )
+    (world.kinetic_energy(), world.momentum())
 }
 
 /// Plays a scene.

@@ -58,7 +58,7 @@ fn scene(out: &mut String, scene: &Scene, played: &Played) {
     row(out, "impulse of the blow, N·s", played, of(|b| b.impulse));
     row(
         out,
-        "energy that the motion loses in the step, J",
+        "kinetic energy that goes in its step, J",
         played,
         of(|b| b.energy[0] - b.energy[1]),
     );
@@ -85,18 +85,19 @@ fn scene(out: &mut String, scene: &Scene, played: &Played) {
     );
 }
 
-/// The largest change of momentum over a break in scenes without gravity, relative to what there is, and the largest rise of energy
-/// together with the cracks', relative to the energy.
+/// The largest change of momentum over a break in scenes without gravity, relative to what there is, and the largest rise of kinetic energy
+/// together with the cracks', relative to the kinetic energy.
 fn conservation(played: &[(Scene, Played)], engine: usize) -> (f64, f64) {
     let (mut momentum, mut energy) = (0.0_f64, f64::NEG_INFINITY);
     for (scene, outcomes) in played {
         for b in breaks(&outcomes[engine]) {
             let [before, after] = b.momentum;
-            if scene.floor.is_none() {
-                momentum = momentum.max((after - before).length() / before.length());
+            if scene.floor.is_some() {
+                continue;
             }
+            momentum = momentum.max((after - before).length() / before.length());
             let [before, after] = b.energy;
-            energy = energy.max((after - before) / before);
+            energy = energy.max((after + b.cracks - before) / before);
         }
     }
     (momentum, energy)
@@ -117,8 +118,8 @@ pub fn page(played: &[(Scene, Played)]) -> String {
     let [(p, e), (q, f)] = [0, 1].map(|engine| conservation(played, engine));
     let _ = writeln!(
         out,
-        "| largest change of momentum, free bodies, relative | {p:.1e} | {q:.1e} |\n| largest gain of mechanical energy, relative (negative: \
-         always a loss) | {e:.1e} | {f:.1e} |"
+        "| largest change of momentum of ball and pane, relative | {p:.1e} | {q:.1e} |\n| largest gain of kinetic energy and the cracks' \
+         together, relative (negative: always a loss) | {e:.1e} | {f:.1e} |"
     );
     out
 }

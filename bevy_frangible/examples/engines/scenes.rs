@@ -77,7 +77,7 @@ pub struct Break {
     pub cracks: f64,
     /// Impulse of the blow, N·s.
     pub impulse: f64,
-    /// Mechanical energy before and after the step of the break, J.
+    /// Kinetic energy before and after the step of the break, J.
     pub energy: [f64; 2],
     /// Momentum before and after that step, N·s.
     pub momentum: [DVec3; 2],

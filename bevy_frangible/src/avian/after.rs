@@ -5,8 +5,7 @@ use std::sync::PoisonError;
 
 use avian3d::prelude::*;
 use bevy::prelude::*;
-use frangible::glam;
-use frangible::glam::DVec3;
+use frangible::glam::{self, DVec3};
 use frangible::internals::rigid::{Kick, Rigid, nearest_first, push_plug, take_energy};
 
 use super::plain::{double, piece, rigid, velocities};
@@ -15,17 +14,51 @@ use crate::BreakableBody;
 use crate::break_apart::conclude;
 use crate::meshes::{into, out};
 
+/// Where those that a break left without contact began the step, m, and the share of it until they touched.
+struct Touches(BTreeMap<Entity, (f32, Vec3)>);
+
+impl Touches {
+    fn new<'a>(verdicts: impl Iterator<Item = &'a Verdict>) -> Self {
+        let mut first: BTreeMap<Entity, (f32, Vec3)> = BTreeMap::new();
+        for verdict in verdicts {
+            let [body, striker] = verdict.began;
+            for (entity, began) in [(Some(verdict.body), body), (verdict.striker, striker)] {
+                let new = (verdict.touched, began);
+                let Some(entity) = entity else { continue };
+                let known = first.entry(entity).or_insert(new);
+                if new.0 < known.0 {
+                    *known = new;
+                }
+            }
+        }
+        Self(first)
+    }
+
+    /// Where an entity was when it touched, which is at `now` at the end of the step.
+    fn place(&self, entity: Entity, now: Vec3) -> Vec3 {
+        let touched = self.0.get(&entity);
+        touched.map_or(now, |&(share, began)| began.lerp(now, share))
+    }
+}
+
 /// How bodies move while the breaks of a step are carried out, and what has become of those that broke.
 struct Motions<'a, 'w, 's> {
     before: &'a Query<'w, 's, (&'static RigidBody, Moving)>,
+    touches: &'a Touches,
     now: BTreeMap<Entity, Rigid>,
     families: BTreeMap<Entity, Vec<Entity>>,
 }
 
 impl Motions<'_, '_, '_> {
     fn of(&self, entity: Entity) -> Option<Rigid> {
-        let known = self.now.get(&entity).copied();
-        known.or_else(|| self.before.get(entity).ok().map(|(k, m)| rigid(k, m)))
+        if let Some(known) = self.now.get(&entity) {
+            return Some(*known);
+        }
+        let (kind, moving) = self.before.get(entity).ok()?;
+        let at = moving.0.0;
+        let mut body = rigid(kind, moving);
+        body.centre += double(into(self.touches.place(entity, at) - at));
+        Some(body)
     }
 
     /// What a striker is now: itself, or the pieces of it that move.
@@ -66,6 +99,8 @@ pub(super) fn carry_out(
         Ruling::Now(judged) | Ruling::Late(judged) => judged.broke(),
         Ruling::Waits => false,
     };
+    let inside = |v: &&Verdict| broke(v) && matches!(v.ruling, Ruling::Now(_));
+    let touches = Touches::new(verdicts.iter().filter(inside));
     verdicts.sort_by_key(|v| (v.body, !broke(v), v.striker));
     verdicts.dedup_by_key(|v| v.body);
     // Two that break each other each see the other as a rigid one: the mean of their answers counts.
@@ -75,6 +110,7 @@ pub(super) fn carry_out(
         .collect();
     let mut motions = Motions {
         before: &moving,
+        touches: &touches,
         now: BTreeMap::new(),
         families: BTreeMap::new(),
     };
@@ -83,6 +119,7 @@ pub(super) fn carry_out(
         striker,
         contacts,
         ruling,
+        ..
     } in verdicts
     {
         let (judged, late) = match ruling {
@@ -97,7 +134,7 @@ pub(super) fn carry_out(
         ) else {
             continue;
         };
-        let (at, rotation) = (now.0.0, now.1.0);
+        let (at, rotation) = (touches.place(entity, now.0.0), now.1.0);
         let pose = Transform::from_translation(at).with_rotation(rotation);
         let Some((fracture, fragments)) = conclude(&mut commands, entity, &mut body, pose, judged)
         else {
@@ -143,5 +180,14 @@ pub(super) fn carry_out(
     }
     for (entity, body) in &motions.now {
         commands.entity(*entity).try_insert(velocities(body));
+    }
+    for &entity in touches.0.keys() {
+        if let Ok((kind, now)) = moving.get(entity)
+            && kind.is_dynamic()
+            && !motions.families.contains_key(&entity)
+        {
+            let at = Position(touches.place(entity, now.0.0));
+            commands.entity(entity).try_insert(at);
+        }
     }
 }

@@ -104,6 +104,8 @@ impl<Inner: SystemParam + 'static> FrangibleHooks<'_, '_, Inner> {
         let striker = self.striker(other, collider, ball);
         let dt = self.time.delta_secs();
         let mut touches = first_touches(pair, flipped, dt, self.impact_speed.0);
+        let times = touches.iter().map(|t| t.gap / t.approach);
+        let mut wait = times.fold(f32::INFINITY, f32::min);
         if let (Some(radius), Some((_, other))) =
             (ball, other.and_then(|e| self.others.get(e).ok()))
             && !touches.is_empty()
@@ -116,6 +118,8 @@ impl<Inner: SystemParam + 'static> FrangibleHooks<'_, '_, Inner> {
             let touch = first_touch_of_ball(&body.0, into(from), into(against), radius, dt);
             if let Some((place, normal)) = touch {
                 // The ball touches the body's own surface, at one point.
+                let flown = place - radius * normal - into(from);
+                wait = flown.length() / against.length();
                 let (place, normal) = (
                     to_body.inverse() * out(place),
                     to_body.inverse() * out(normal),
@@ -149,6 +153,8 @@ impl<Inner: SystemParam + 'static> FrangibleHooks<'_, '_, Inner> {
         if contacts.is_empty() {
             return false;
         }
+        let there = other.and_then(|e| self.others.get(e).ok());
+        let began = there.map_or(Vec3::ZERO, |(_, moving)| moving.0.0);
         let config = &self.config.0;
         let inside = *self.breaking == Breaking::InsideStep;
         let (ruling, broke) = if inside || is_harmless(&body.0, &contacts, config) {
@@ -162,6 +168,8 @@ impl<Inner: SystemParam + 'static> FrangibleHooks<'_, '_, Inner> {
             body: entity,
             striker: other,
             contacts,
+            touched: (wait / dt).clamp(0.0, 1.0),
+            began: [moving.0.0, began],
             ruling,
         };
         let mut verdicts = self.verdicts.0.lock();

@@ -211,6 +211,8 @@ pub(super) fn serve(
                 body,
                 striker: case.blow.striker,
                 contacts: case.blow.contacts,
+                touched: 1.0,
+                began: [Vec3::ZERO; 2],
                 ruling: Ruling::Late(judged),
             });
         }

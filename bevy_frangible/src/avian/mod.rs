@@ -3,7 +3,8 @@
 //! Avian asks its collision hooks about each pair of colliders that touches, before it solves the contacts. A breakable body is put to the
 //! fracture there, with the speeds before the solver. If it breaks, the pair's contacts are dropped for this step, so that the striker
 //! keeps its velocity; after the step the pieces take the body's place, the blow's impulse acts between them and the striker, and the
-//! cracks' energy is taken from the motion. No step has to be undone. With [`Breaking::AfterStep`] the hooks only take note.
+//! cracks' energy is taken from the motion. No step has to be undone, but both go back to where they touched, so that the striker meets the
+//! pieces from outside. With [`Breaking::AfterStep`] the hooks only take note.
 
 mod after;
 mod bodies;
@@ -51,6 +52,10 @@ struct Verdict {
     /// None for a collider without a body.
     striker: Option<Entity>,
     contacts: Vec<Contact>,
+    /// When in the step the two touched, as a share of it.
+    touched: f32,
+    /// Where the body and the striker were when the step began, m.
+    began: [Vec3; 2],
     ruling: Ruling,
 }
 
