@@ -40,8 +40,6 @@ mod avian;
 mod break_apart;
 mod debris;
 mod file;
-#[cfg(feature = "gizmos")]
-mod gizmos;
 mod looks;
 mod meshes;
 mod per_asset;
@@ -63,8 +61,6 @@ pub use file::{FrangibleAsset, FrangibleLoader, LoadError};
 pub use frangible;
 #[cfg(feature = "rapier")]
 pub use frangible_rapier;
-#[cfg(feature = "gizmos")]
-pub use gizmos::{FrangibleGizmos, FrangibleGizmosPlugin, LastBlow};
 pub use looks::{Looks, LooksPlugin};
 #[cfg(feature = "rapier")]
 pub use rapier::{FrangibleRapierPlugin, RapierBody, RapierWorld};
