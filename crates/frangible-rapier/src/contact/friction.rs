@@ -76,9 +76,7 @@ pub(crate) fn rub(
     let k = inverse_effective_mass(body, world, across)
         + partner.map_or(0.0, |p| inverse_effective_mass(p, world, across));
     let unexplained = unexplained.map_or(f32::INFINITY, |impulse| impulse.dot(direction));
-    let size = unexplained
-        .min(slide.length() / k)
-        .min(coefficient * total);
+    let size = unexplained.min(slide.length() / k).min(coefficient * total);
     if size.is_finite() && size > 0.0 {
         for contact in contacts {
             contact.friction = direction * (size * contact.impulse / total);
