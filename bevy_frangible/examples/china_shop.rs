@@ -1,7 +1,8 @@
 //! A thousand breakable things on boards, and a ball thrown through them: frame times without drawing.
 //!
-//! `cargo run --release --example china_shop [THINGS [again]]` prints the median, the 99th percentile and the longest frame while the things
-//! come to rest, while they stand, and while the ball is among them. With `again` fragments break again.
+//! `cargo run --release --example china_shop [THINGS] [inside] [again]` prints the median, the 99th percentile and the longest frame while the
+//! things come to rest, while they stand, and while the ball is among them. Things break after the step and within a budget; with `inside`
+//! they break inside the step. With `again` fragments break again.
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -105,7 +106,7 @@ fn frames(app: &mut App, count: usize) -> Vec<f64> {
 }
 
 /// The shop, at 60 frames per second.
-fn shop(again: bool) -> App {
+fn shop(inside: bool, again: bool) -> App {
     let mut app = App::new();
     let step = Duration::from_secs_f64(1.0 / RATE);
     app.add_plugins((
@@ -121,6 +122,10 @@ fn shop(again: bool) -> App {
     .insert_resource(BreakAgain {
         model: again.then(|| Arc::new(Pieces::default()) as Arc<dyn PieceModel>),
         ..BreakAgain::default()
+    })
+    .insert_resource(match inside {
+        true => Breaking::InsideStep,
+        false => Breaking::for_games(),
     })
     .insert_resource(ColliderDetail {
         whole: (1, 32),
@@ -163,14 +168,20 @@ fn throw(app: &mut App) -> Result<(), Box<dyn std::error::Error>> {
 }
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let things = std::env::args().nth(1).map_or(Ok(1000), |n| n.parse())?;
-    let again = std::env::args().nth(2).is_some_and(|word| word == "again");
+    let (mut things, mut inside, mut again) = (1000, false, false);
+    for word in std::env::args().skip(1) {
+        match word.as_str() {
+            "inside" => inside = true,
+            "again" => again = true,
+            number => things = number.parse()?,
+        }
+    }
     let kinds = kinds()?;
     let names = ["loading", "settling", "standing", "the ball"];
     let mut best: Vec<Vec<f64>> = Vec::new();
     let mut count = Count::default();
     for run in 0..RUNS {
-        let mut app = shop(again);
+        let mut app = shop(inside, again);
         furnish(&mut app, &kinds, things);
         let mut times = vec![frames(&mut app, 1), frames(&mut app, 60)];
         for _ in 0..60 {

@@ -12,16 +12,19 @@ use crate::debris::remember;
 use crate::meshes::{faces, into, out};
 use crate::{
     Blow, Born, BreakFailed, BreakableBody, Broke, Broken, CrackFaces, Fracturing, FragmentOf,
-    Held, OuterFaces, Pushed,
+    Held, Judges, OuterFaces, Pushed,
 };
 
 /// A script's blow.
 pub(crate) fn obey(
     blow: On<Blow>,
     mut bodies: Query<(&mut BreakableBody, &GlobalTransform)>,
-    config: Res<Fracturing>,
+    (config, judges): (Res<Fracturing>, Res<Judges>),
     mut commands: Commands,
 ) {
+    if *judges != Judges::Here {
+        return;
+    }
     let entity = blow.entity;
     let Ok((mut body, transform)) = bodies.get_mut(entity) else {
         let reason = "the entity is no breakable body, is broken, or its asset is not loaded yet; send the blow once it has \
@@ -58,18 +61,39 @@ pub(crate) fn obey(
     });
 }
 
+/// What a load does to a body.
+pub(crate) struct Judged {
+    pub(crate) outcome: Result<Outcome, InputError>,
+    /// The outer and the crack faces of the fragments, where they are made already.
+    pub(crate) faces: Option<Vec<[Option<Mesh>; 2]>>,
+}
+
+impl From<Result<Outcome, InputError>> for Judged {
+    fn from(outcome: Result<Outcome, InputError>) -> Self {
+        let faces = None;
+        Self { outcome, faces }
+    }
+}
+
+impl Judged {
+    pub(crate) fn broke(&self) -> bool {
+        matches!(self.outcome, Ok(Outcome::Broke(_)))
+    }
+}
+
 /// Does what an outcome says; returns the break.
 pub(crate) fn conclude(
     commands: &mut Commands,
     entity: Entity,
     body: &mut BreakableBody,
     pose: Transform,
-    outcome: Result<Outcome, InputError>,
+    judged: impl Into<Judged>,
 ) -> Option<(Arc<Fracture>, Vec<Entity>)> {
+    let Judged { outcome, faces } = judged.into();
     match outcome {
         Ok(Outcome::Broke(fracture)) => {
             let fracture = Arc::new(*fracture);
-            let fragments = replace(commands, entity, &body.0, pose, &fracture);
+            let fragments = replace(commands, entity, Some(&body.0), pose, &fracture, faces);
             commands.trigger(Broke {
                 entity,
                 fragments: fragments.clone(),
@@ -128,19 +152,21 @@ pub(crate) fn in_parallel<T: Sync, R: Send + 'static>(
 }
 
 /// Fragments in the place of a body, at its pose.
-fn replace(
+pub(crate) fn replace(
     commands: &mut Commands,
     entity: Entity,
-    body: &Body,
+    body: Option<&Body>,
     pose: Transform,
     fracture: &Arc<Fracture>,
+    made: Option<Vec<[Option<Mesh>; 2]>>,
 ) -> Vec<Entity> {
     // The entity may be despawned in the same frame: then its fragments go with it.
     commands
         .entity(entity)
         .try_remove::<(BreakableBody, Mesh3d)>()
         .try_insert(Broken);
-    let meshes = in_parallel(&fracture.fragments, |fragment| faces(&fragment.mesh));
+    let make = || in_parallel(&fracture.fragments, |fragment| faces(&fragment.mesh));
+    let meshes = made.unwrap_or_else(make);
     let pieces: Vec<Entity> = (fracture.fragments.iter())
         .map(|fragment| {
             let centre = pose.transform_point(out(fragment.mass.centre.as_vec3()));
@@ -148,7 +174,7 @@ fn replace(
             commands.spawn(place).id()
         })
         .collect();
-    let (body, fracture, fragments) = (body.clone(), Arc::clone(fracture), pieces.clone());
+    let (body, fracture, fragments) = (body.cloned(), Arc::clone(fracture), pieces.clone());
     commands.queue(move |world: &mut World| {
         if world.get_entity(entity).is_err() {
             for piece in fragments {
@@ -165,7 +191,9 @@ fn replace(
             give_faces(world, piece, meshes);
         }
         remember(world, &fracture.fragments, &fragments);
-        expect_pieces(world, &body, &fracture, &fragments);
+        if let Some(body) = body {
+            expect_pieces(world, &body, &fracture, &fragments);
+        }
     });
     pieces
 }

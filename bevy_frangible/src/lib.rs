@@ -43,9 +43,9 @@ mod file;
 mod looks;
 mod meshes;
 mod per_asset;
+#[cfg(feature = "rapier")]
+mod rapier;
 mod ready;
-#[cfg(feature = "avian")]
-mod rigid;
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -55,11 +55,15 @@ use frangible::{Body, Fracture, FractureConfig, ImpactReport};
 
 pub use again::BreakAgain;
 #[cfg(feature = "avian")]
-pub use avian::{Carries, ColliderDetail, FrangibleHooks, ImpactSpeed, MadeOf};
+pub use avian::{Breaking, Carries, ColliderDetail, FrangibleHooks, ImpactSpeed, MadeOf};
 pub use debris::DebrisBudget;
 pub use file::{FrangibleAsset, FrangibleLoader, LoadError};
 pub use frangible;
+#[cfg(feature = "rapier")]
+pub use frangible_rapier;
 pub use looks::{Looks, LooksPlugin};
+#[cfg(feature = "rapier")]
+pub use rapier::{FrangibleRapierPlugin, RapierBody, RapierWorld};
 
 /// What most games use.
 pub mod prelude {
@@ -68,7 +72,7 @@ pub mod prelude {
         FrangibleAsset, FrangiblePlugin, Held, Looks, LooksPlugin, Seed,
     };
     #[cfg(feature = "avian")]
-    pub use crate::{ColliderDetail, FrangibleHooks, MadeOf};
+    pub use crate::{Breaking, ColliderDetail, FrangibleHooks, MadeOf};
 }
 
 /// Lets entities with [`Breakable`] break.
@@ -182,19 +186,36 @@ pub struct BreakFailed {
     pub reason: String,
 }
 
+/// Who decides what a script's blow does.
+#[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum Judges {
+    /// The plugin itself.
+    #[default]
+    Here,
+    /// The world of Rapier.
+    #[cfg(feature = "rapier")]
+    Rapier,
+}
+
 impl Plugin for FrangiblePlugin {
     fn build(&self, app: &mut App) {
-        app.insert_resource(Fracturing(self.config.clone()))
-            .init_resource::<BreakAgain>()
-            .init_resource::<DebrisBudget>()
-            .init_resource::<again::Nursery>()
-            .init_resource::<debris::Heap>()
-            .init_asset::<FrangibleAsset>()
-            .register_asset_loader(FrangibleLoader)
-            .add_systems(PreUpdate, ready::make_ready)
-            .add_systems(FixedPreUpdate, (again::join, debris::clear_up))
-            .add_observer(break_apart::obey);
+        build(app, &self.config);
         #[cfg(feature = "avian")]
         avian::build(app);
     }
+}
+
+/// What every engine needs.
+fn build(app: &mut App, config: &FractureConfig) {
+    app.insert_resource(Fracturing(config.clone()))
+        .init_resource::<BreakAgain>()
+        .init_resource::<DebrisBudget>()
+        .init_resource::<Judges>()
+        .init_resource::<again::Nursery>()
+        .init_resource::<debris::Heap>()
+        .init_asset::<FrangibleAsset>()
+        .register_asset_loader(FrangibleLoader)
+        .add_systems(PreUpdate, ready::make_ready)
+        .add_systems(FixedPreUpdate, (again::join, debris::clear_up))
+        .add_observer(break_apart::obey);
 }

@@ -19,6 +19,8 @@ fn pieces() -> BreakAgain {
     BreakAgain {
         model: Some(Arc::new(model)),
         delay: Duration::from_millis(150),
+        // The pane has few tetrahedra, and the ball leaves many pieces of it.
+        least_tets: 20,
         ..BreakAgain::default()
     }
 }

@@ -5,27 +5,60 @@ use std::sync::PoisonError;
 
 use avian3d::prelude::*;
 use bevy::prelude::*;
-use frangible::glam::DVec3;
-use frangible::{Contact, Fracture, Outcome, glam};
+use frangible::glam::{self, DVec3};
+use frangible::internals::rigid::{Kick, Rigid, nearest_first, push_plug, take_energy};
 
 use super::plain::{double, piece, rigid, velocities};
-use super::{Moving, Verdict, Verdicts};
+use super::{Moving, Ruling, Verdict, Verdicts};
 use crate::BreakableBody;
 use crate::break_apart::conclude;
 use crate::meshes::{into, out};
-use crate::rigid::{Rigid, push_plug, take_energy};
+
+/// Where those that a break left without contact began the step, m, and the share of it until they touched.
+struct Touches(BTreeMap<Entity, (f32, Vec3)>);
+
+impl Touches {
+    fn new<'a>(verdicts: impl Iterator<Item = &'a Verdict>) -> Self {
+        let mut first: BTreeMap<Entity, (f32, Vec3)> = BTreeMap::new();
+        for verdict in verdicts {
+            let [body, striker] = verdict.began;
+            for (entity, began) in [(Some(verdict.body), body), (verdict.striker, striker)] {
+                let new = (verdict.touched, began);
+                let Some(entity) = entity else { continue };
+                let known = first.entry(entity).or_insert(new);
+                if new.0 < known.0 {
+                    *known = new;
+                }
+            }
+        }
+        Self(first)
+    }
+
+    /// Where an entity was when it touched, which is at `now` at the end of the step.
+    fn place(&self, entity: Entity, now: Vec3) -> Vec3 {
+        let touched = self.0.get(&entity);
+        touched.map_or(now, |&(share, began)| began.lerp(now, share))
+    }
+}
 
 /// How bodies move while the breaks of a step are carried out, and what has become of those that broke.
 struct Motions<'a, 'w, 's> {
     before: &'a Query<'w, 's, (&'static RigidBody, Moving)>,
+    touches: &'a Touches,
     now: BTreeMap<Entity, Rigid>,
     families: BTreeMap<Entity, Vec<Entity>>,
 }
 
 impl Motions<'_, '_, '_> {
     fn of(&self, entity: Entity) -> Option<Rigid> {
-        let known = self.now.get(&entity).copied();
-        known.or_else(|| self.before.get(entity).ok().map(|(k, m)| rigid(k, m)))
+        if let Some(known) = self.now.get(&entity) {
+            return Some(*known);
+        }
+        let (kind, moving) = self.before.get(entity).ok()?;
+        let at = moving.0.0;
+        let mut body = rigid(kind, moving);
+        body.centre += double(into(self.touches.place(entity, at) - at));
+        Some(body)
     }
 
     /// What a striker is now: itself, or the pieces of it that move.
@@ -62,7 +95,12 @@ pub(super) fn carry_out(
         std::mem::take(&mut *list)
     };
     // Pairs come in any order; a body's own break counts before those that held.
-    let broke = |v: &Verdict| matches!(v.outcome, Ok(Outcome::Broke(_)));
+    let broke = |v: &Verdict| match &v.ruling {
+        Ruling::Now(judged) | Ruling::Late(judged) => judged.broke(),
+        Ruling::Waits => false,
+    };
+    let inside = |v: &&Verdict| broke(v) && matches!(v.ruling, Ruling::Now(_));
+    let touches = Touches::new(verdicts.iter().filter(inside));
     verdicts.sort_by_key(|v| (v.body, !broke(v), v.striker));
     verdicts.dedup_by_key(|v| v.body);
     // Two that break each other each see the other as a rigid one: the mean of their answers counts.
@@ -72,6 +110,7 @@ pub(super) fn carry_out(
         .collect();
     let mut motions = Motions {
         before: &moving,
+        touches: &touches,
         now: BTreeMap::new(),
         families: BTreeMap::new(),
     };
@@ -79,9 +118,15 @@ pub(super) fn carry_out(
         body: entity,
         striker,
         contacts,
-        outcome,
+        ruling,
+        ..
     } in verdicts
     {
+        let (judged, late) = match ruling {
+            Ruling::Now(judged) => (judged, false),
+            Ruling::Late(judged) => (judged, true),
+            Ruling::Waits => continue,
+        };
         let (Ok(mut body), Ok((_, now)), Some(whole)) = (
             bodies.get_mut(entity),
             moving.get(entity),
@@ -89,13 +134,14 @@ pub(super) fn carry_out(
         ) else {
             continue;
         };
-        let (at, rotation) = (now.0.0, now.1.0);
+        let (at, rotation) = (touches.place(entity, now.0.0), now.1.0);
         let pose = Transform::from_translation(at).with_rotation(rotation);
-        let Some((fracture, fragments)) = conclude(&mut commands, entity, &mut body, pose, outcome)
+        let Some((fracture, fragments)) = conclude(&mut commands, entity, &mut body, pose, judged)
         else {
             continue;
         };
-        let order = nearest_first(&fracture, &contacts);
+        let points: Vec<glam::Vec3> = contacts.iter().map(|c| c.point).collect();
+        let order = nearest_first(&fracture, &points);
         let pieces: Vec<Entity> = order.iter().map(|&i| fragments[i]).collect();
         let mut rigids: Vec<Rigid> = (order.iter().map(|&i| &fracture.fragments[i]))
             .map(|f| {
@@ -106,7 +152,12 @@ pub(super) fn carry_out(
         let parts = motions.parts(striker);
         let mut others = motions.all(&parts);
         let mirrored = striker.is_some_and(|s| met.contains(&(s, Some(entity))));
-        let share = if mirrored { 0.5 } else { 1.0 };
+        // Of a blow that is past the whole body has what the engine gave it.
+        let share = match (late, mirrored) {
+            (true, _) => 0.0,
+            (false, true) => 0.5,
+            (false, false) => 1.0,
+        };
         let world = |v: glam::Vec3| double(into(rotation * out(v)));
         let pushes: Vec<(DVec3, DVec3)> = (fracture.report.contacts.iter())
             .map(|c| {
@@ -114,7 +165,9 @@ pub(super) fn carry_out(
                 (place, world(c.normal) * (share * c.impulse))
             })
             .collect();
-        let lost = push_plug(&mut rigids, &mut others, &pushes);
+        let about = Rigid::together(&others).centre;
+        let taken = Kick::about(about, &pushes).scaled(-1.0);
+        let lost = push_plug(&mut rigids, &mut others, &pushes, taken);
         let count = rigids.len();
         rigids.append(&mut others);
         if parts.is_empty() {
@@ -128,22 +181,13 @@ pub(super) fn carry_out(
     for (entity, body) in &motions.now {
         commands.entity(*entity).try_insert(velocities(body));
     }
-}
-
-/// The numbers of the fragments, from the nearest to the contacts.
-fn nearest_first(fracture: &Fracture, contacts: &[Contact]) -> Vec<usize> {
-    let gap = |i: usize| {
-        let fragment = &fracture.fragments[i];
-        let centre = fragment.mass.centre.as_vec3();
-        let corners = fragment.mesh.positions.iter();
-        let gaps = corners.flat_map(|p| {
-            contacts
-                .iter()
-                .map(move |c| (*p + centre).distance_squared(c.point))
-        });
-        gaps.fold(f32::INFINITY, f32::min)
-    };
-    let mut order: Vec<(f32, usize)> = (0..fracture.fragments.len()).map(|i| (gap(i), i)).collect();
-    order.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-    order.into_iter().map(|(_, i)| i).collect()
+    for &entity in touches.0.keys() {
+        if let Ok((kind, now)) = moving.get(entity)
+            && kind.is_dynamic()
+            && !motions.families.contains_key(&entity)
+        {
+            let at = Position(touches.place(entity, now.0.0));
+            commands.entity(entity).try_insert(at);
+        }
+    }
 }

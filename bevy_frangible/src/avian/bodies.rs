@@ -7,7 +7,7 @@ use frangible::internals::MassProperties;
 
 use super::colliders::{ColliderDetail, of_fragment, whole};
 use super::plain::{piece, rigid, velocities};
-use super::{Carries, MadeOf, Moving};
+use super::{Carries, MadeOf, Molds, Moving};
 use crate::break_apart::in_parallel;
 use crate::per_asset::PerAsset;
 use crate::{
@@ -98,10 +98,11 @@ type Inherited = (
 pub(super) fn give_fragments(
     broke: On<Broke>,
     moving: Query<(&RigidBody, Moving, Option<&ActiveCollisionHooks>)>,
-    (budget, detail): (Res<DebrisBudget>, Res<ColliderDetail>),
+    (budget, detail, mut molds): (Res<DebrisBudget>, Res<ColliderDetail>, ResMut<Molds>),
     mut commands: Commands,
 ) {
     let entity = broke.entity;
+    let made = molds.0.remove(&entity);
     let Ok((kind, now, hooks)) = moving.get(entity) else {
         let reason = "it breaks and has no rigid body, so its pieces have none either: leave it the `RigidBody` that it was given";
         let reason = reason.into();
@@ -110,8 +111,10 @@ pub(super) fn give_fragments(
     };
     let (at, rotation) = (now.0.0, now.1.0);
     let parent = rigid(kind, now);
-    let colliders = in_parallel(&broke.fracture.fragments, |fragment| {
-        (!budget.is_dust(fragment)).then(|| of_fragment(fragment, &detail))
+    let colliders = made.unwrap_or_else(|| {
+        in_parallel(&broke.fracture.fragments, |fragment| {
+            (!budget.is_dust(fragment)).then(|| of_fragment(fragment, &detail))
+        })
     });
     let fragments = broke.fracture.fragments.iter().zip(colliders);
     for ((fragment, collider), &piece_entity) in fragments.zip(&broke.fragments) {

@@ -4,10 +4,11 @@ use avian3d::prelude::*;
 use bevy::ecs::system::{ReadOnlySystemParam, StaticSystemParam, SystemParam};
 use bevy::prelude::*;
 use frangible::internals::contact::{SharedMass, first_touch_of_ball};
+use frangible::internals::is_harmless;
 use frangible::{Contact, Outcome, Striker, impact};
 
 use super::touches::{FirstTouch, first_touches};
-use super::{ImpactSpeed, MadeOf, Moving, Verdict, Verdicts};
+use super::{Breaking, ImpactSpeed, MadeOf, Moving, Ruling, Verdict, Verdicts};
 use crate::meshes::{into, out};
 use crate::{Born, BreakableBody, Fracturing, FragmentOf};
 
@@ -32,6 +33,7 @@ pub struct FrangibleHooks<'w, 's, Inner: SystemParam + 'static = ()> {
     colliders: Query<'w, 's, &'static Collider>,
     verdicts: Res<'w, Verdicts>,
     config: Res<'w, Fracturing>,
+    breaking: Res<'w, Breaking>,
     impact_speed: Res<'w, ImpactSpeed>,
     time: Res<'w, Time>,
     fixed: Res<'w, Time<Fixed>>,
@@ -102,6 +104,8 @@ impl<Inner: SystemParam + 'static> FrangibleHooks<'_, '_, Inner> {
         let striker = self.striker(other, collider, ball);
         let dt = self.time.delta_secs();
         let mut touches = first_touches(pair, flipped, dt, self.impact_speed.0);
+        let times = touches.iter().map(|t| t.gap / t.approach);
+        let mut wait = times.fold(f32::INFINITY, f32::min);
         if let (Some(radius), Some((_, other))) =
             (ball, other.and_then(|e| self.others.get(e).ok()))
             && !touches.is_empty()
@@ -114,6 +118,8 @@ impl<Inner: SystemParam + 'static> FrangibleHooks<'_, '_, Inner> {
             let touch = first_touch_of_ball(&body.0, into(from), into(against), radius, dt);
             if let Some((place, normal)) = touch {
                 // The ball touches the body's own surface, at one point.
+                let flown = place - radius * normal - into(from);
+                wait = flown.length() / against.length();
                 let (place, normal) = (
                     to_body.inverse() * out(place),
                     to_body.inverse() * out(normal),
@@ -147,13 +153,24 @@ impl<Inner: SystemParam + 'static> FrangibleHooks<'_, '_, Inner> {
         if contacts.is_empty() {
             return false;
         }
-        let outcome = impact(&body.0, &contacts, &self.config.0);
-        let broke = matches!(outcome, Ok(Outcome::Broke(_)));
+        let there = other.and_then(|e| self.others.get(e).ok());
+        let began = there.map_or(Vec3::ZERO, |(_, moving)| moving.0.0);
+        let config = &self.config.0;
+        let inside = *self.breaking == Breaking::InsideStep;
+        let (ruling, broke) = if inside || is_harmless(&body.0, &contacts, config) {
+            let outcome = impact(&body.0, &contacts, config);
+            let broke = matches!(outcome, Ok(Outcome::Broke(_)));
+            (Ruling::Now(outcome.into()), broke)
+        } else {
+            (Ruling::Waits, false)
+        };
         let verdict = Verdict {
             body: entity,
             striker: other,
             contacts,
-            outcome,
+            touched: (wait / dt).clamp(0.0, 1.0),
+            began: [moving.0.0, began],
+            ruling,
         };
         let mut verdicts = self.verdicts.0.lock();
         let verdicts = verdicts.as_mut();

@@ -3,25 +3,31 @@
 //! Avian asks its collision hooks about each pair of colliders that touches, before it solves the contacts. A breakable body is put to the
 //! fracture there, with the speeds before the solver. If it breaks, the pair's contacts are dropped for this step, so that the striker
 //! keeps its velocity; after the step the pieces take the body's place, the blow's impulse acts between them and the striker, and the
-//! cracks' energy is taken from the motion. No step has to be undone.
+//! cracks' energy is taken from the motion. No step has to be undone, but both go back to where they touched, so that the striker meets the
+//! pieces from outside. With [`Breaking::AfterStep`] the hooks only take note.
 
 mod after;
 mod bodies;
 mod colliders;
 mod hooks;
+mod later;
 mod plain;
 mod resting;
 mod touches;
 
+use std::collections::BTreeMap;
 use std::sync::Mutex;
 
 use avian3d::prelude::*;
 use bevy::prelude::*;
-use frangible::{Contact, InputError, Material, Outcome};
+use frangible::{Contact, Material};
 
 pub use colliders::ColliderDetail;
 pub use hooks::FrangibleHooks;
+pub use later::Breaking;
 pub use resting::Carries;
+
+use crate::break_apart::Judged;
 
 /// Approach slower than this is no impact, m/s. Default 0.5; raising it asks the fracture less often.
 #[derive(Resource, Clone, Copy, Debug, PartialEq)]
@@ -46,8 +52,26 @@ struct Verdict {
     /// None for a collider without a body.
     striker: Option<Entity>,
     contacts: Vec<Contact>,
-    outcome: Result<Outcome, InputError>,
+    /// When in the step the two touched, as a share of it.
+    touched: f32,
+    /// Where the body and the striker were when the step began, m.
+    began: [Vec3; 2],
+    ruling: Ruling,
 }
+
+/// What came of a blow.
+enum Ruling {
+    /// It was judged inside the step; where the body broke, the solver has left the pair out.
+    Now(Judged),
+    /// It is to be judged after the step.
+    Waits,
+    /// It was judged after its step, in which the whole body took the blow.
+    Late(Judged),
+}
+
+/// Colliders of the pieces of bodies that are about to break, where they are made already.
+#[derive(Resource, Default)]
+struct Molds(BTreeMap<Entity, Vec<Option<Collider>>>);
 
 /// A body as Avian moves it.
 type Moving = (
@@ -64,13 +88,16 @@ pub(crate) fn build(app: &mut App) {
     app.init_resource::<Verdicts>()
         .init_resource::<ColliderDetail>()
         .init_resource::<ImpactSpeed>()
+        .init_resource::<Breaking>()
+        .init_resource::<Molds>()
+        .init_resource::<later::Docket>()
         .add_observer(bodies::give_collider)
         .add_observer(bodies::give_fragments)
         .add_observer(bodies::miss_collider)
         .add_observer(bodies::push)
         .add_systems(
             FixedPostUpdate,
-            (after::carry_out, resting::weigh)
+            (later::serve, after::carry_out, resting::weigh)
                 .chain()
                 .after(PhysicsSystems::Last),
         );

@@ -5,10 +5,10 @@ use bevy::ecs::query::QueryData;
 use bevy::prelude::*;
 use frangible::glam::{self, DMat3, DVec3};
 use frangible::internals::MassProperties;
+use frangible::internals::rigid::Rigid;
 
 use super::Moving;
 use crate::meshes::into;
-use crate::rigid::Rigid;
 
 /// A body as plain numbers.
 pub(super) fn rigid(kind: &RigidBody, moving: <Moving as QueryData>::Item<'_, '_>) -> Rigid {
@@ -16,16 +16,13 @@ pub(super) fn rigid(kind: &RigidBody, moving: <Moving as QueryData>::Item<'_, '_
     let movable = kind.is_dynamic() && mass.inverse() > 0.0;
     let tensor = inertia.rotated(rotation.0).tensor().to_mat3();
     let columns = [tensor.x_axis, tensor.y_axis, tensor.z_axis].map(|c| double(into(c)));
-    Rigid {
-        mass: if movable {
-            f64::from(mass.value())
-        } else {
-            f64::INFINITY
-        },
-        inertia: DMat3::from_cols(columns[0], columns[1], columns[2]),
-        centre: double(into(position.0 + rotation.0 * centre.0)),
-        linear: double(into(linear.0)),
-        angular: double(into(angular.0)),
+    let motion = [position.0 + rotation.0 * centre.0, linear.0, angular.0];
+    let motion = motion.map(|v| double(into(v)));
+    if movable {
+        let tensor = DMat3::from_cols(columns[0], columns[1], columns[2]);
+        Rigid::free(f64::from(mass.value()), tensor, motion)
+    } else {
+        Rigid::immovable(motion)
     }
 }
 
@@ -44,20 +41,15 @@ pub(super) fn piece(
     let turn = DMat3::from_quat(glam::DQuat::from_array(rotation.to_array().map(f64::from)));
     let centre = double(into(at)) + turn * mass.centre;
     let (linear, angular) = if body.gives_way() {
-        (
-            body.linear + body.angular.cross(centre - body.centre),
-            body.angular,
-        )
+        (body.velocity_at(centre), body.angular)
     } else {
         (DVec3::ZERO, DVec3::ZERO)
     };
-    Rigid {
-        mass: if supported { f64::INFINITY } else { mass.mass },
-        inertia: turn * mass.inertia * turn.transpose(),
-        centre,
-        linear,
-        angular,
+    if supported {
+        return Rigid::immovable([centre, DVec3::ZERO, DVec3::ZERO]);
     }
+    let tensor = turn * mass.inertia * turn.transpose();
+    Rigid::free(mass.mass, tensor, [centre, linear, angular])
 }
 
 pub(super) fn velocities(body: &Rigid) -> (LinearVelocity, AngularVelocity) {

@@ -5,7 +5,7 @@
 //!
 //! The modules follow the way of a contact through the crate: [`asset`] and [`mesh`] (what a bake makes), [`body`], [`contact`],
 //! [`blow`], [`modal`] and [`near_field`] (the motion), [`stress`], [`loads`] (other ways to move a body), [`piece`] (a fragment as
-//! a body).
+//! a body), [`rigid`] (what a break does to the motion of bodies).
 
 /// What a bake makes of a shape, its file and its checks.
 pub mod asset {
@@ -75,6 +75,11 @@ pub mod outcome {
 /// Fragments that are bodies again.
 pub mod piece {
     pub use crate::piece::*;
+}
+
+/// What a break does to the motion of bodies.
+pub mod rigid {
+    pub use crate::rigid::*;
 }
 
 /// The cracks that a body remembers.

@@ -37,6 +37,7 @@ mod piece;
 mod prepared;
 mod presets;
 mod refuse;
+mod rigid;
 mod rng;
 mod state;
 mod stress;

@@ -186,3 +186,22 @@ fn cracks_spend_what_a_shortened_blow_brought_and_no_more() {
         assert!(report.fracture_energy <= report.peak_strain_energy * (1.0 + 1e-9));
     }
 }
+
+#[test]
+fn a_blow_hangs_on_what_strikes_and_not_on_the_impulse_that_an_engine_found() {
+    let (body, hit) = (bodies::pane().body(3), bodies::pane_hit(0.03, 0.02, 9.0));
+    let broken = |impulse: f32| {
+        let contact = Contact { impulse, ..hit };
+        let outcome = impact(&body, &[contact], &FractureConfig::default());
+        let Ok(Outcome::Broke(fracture)) = outcome else {
+            panic!("it breaks");
+        };
+        let report = &fracture.report;
+        let steps = (report.time_step, report.time_steps);
+        let cracks = (report.fracture_energy, report.first_crack_time);
+        (fracture.fragments.len(), steps, cracks)
+    };
+    assert!(hit.impulse > 0.0);
+    assert_eq!(broken(hit.impulse), broken(0.0));
+    assert_eq!(broken(hit.impulse), broken(100.0 * hit.impulse));
+}

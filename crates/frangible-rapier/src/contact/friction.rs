@@ -5,8 +5,8 @@
 //! only what the last substep gave, the same vector at each of them. For what rests, every substep is alike, so the whole
 //! is that × substeps, shared by normal impulse. A blow is over before the last substep, so its friction is found otherwise:
 //! it acts against the slide before the step (Coulomb); how large it is, a body with a single partner shows by the momentum
-//! that its normal impulses and gravity do not explain. With more partners at once it is μ × the normal impulse, or
-//! what ends the slide. (Rapier applies restitution after friction, so that the first is a little less than the second.)
+//! that its normal impulses and gravity do not explain. With more partners at once it is μ × the normal impulse. In no case is it
+//! more than what ends the slide: of what falls straight down the direction of the slide is rounding. (Rapier applies restitution after friction, so that the first is a little less than the second.)
 
 use frangible::Contact;
 use rapier3d::dynamics::{FrictionModel, IntegrationParameters, RigidBody};
@@ -73,15 +73,10 @@ pub(crate) fn rub(
         return;
     };
     let across = *body.rotation() * direction;
-    let size = unexplained.map_or_else(
-        || {
-            let k = inverse_effective_mass(body, world, across)
-                + partner.map_or(0.0, |p| inverse_effective_mass(p, world, across));
-            slide.length() / k
-        },
-        |impulse| impulse.dot(direction),
-    );
-    let size = size.min(coefficient * total);
+    let k = inverse_effective_mass(body, world, across)
+        + partner.map_or(0.0, |p| inverse_effective_mass(p, world, across));
+    let unexplained = unexplained.map_or(f32::INFINITY, |impulse| impulse.dot(direction));
+    let size = unexplained.min(slide.length() / k).min(coefficient * total);
     if size.is_finite() && size > 0.0 {
         for contact in contacts {
             contact.friction = direction * (size * contact.impulse / total);

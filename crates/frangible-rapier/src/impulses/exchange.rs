@@ -10,31 +10,27 @@
 //! back first.
 //!
 //! **A break**: before the step is taken again, the blow's impulse up to the moment when the contact parted, or the wall under it was
-//! gone. The pieces nearest to the contacts take it as one body, a plug: the fewest that do not leave faster than the striker
-//! follows, all of them where even they do. So the striker pushes a plug as heavy as the blow made it, not a single splinter
-//! with all the momentum of a wall, and what still approaches is the engine's. What the two lose by it went into vibration, and
-//! the cracks are paid from it first.
+//! gone. The pieces nearest to the contacts take it as one body, a plug ([`frangible::internals::rigid`]), and what still approaches is
+//! the engine's. What the two lose by it went into vibration, and the cracks are paid from it first.
 
 use std::collections::BTreeMap;
 
+use frangible::Fracture;
 use frangible::glam::{DVec3, Vec3};
-use frangible::internals::mesh::closest_on_triangle;
-use frangible::{Fracture, TriMesh};
-use rapier3d::dynamics::{RigidBody, RigidBodyHandle, RigidBodySet};
+use frangible::internals::rigid::{
+    Kick, Rigid, affordable, kick_together, nearest_first, push_plug,
+};
+use rapier3d::dynamics::{RigidBodyHandle, RigidBodySet};
 
 use crate::calm::motions::Before;
 use crate::impulses::blows::{Meeting, Touch, share_out};
-use crate::impulses::cluster::{Cluster, Kick, affordable};
 use crate::impulses::motion::{centre, kinetic_energy};
+use crate::impulses::plain::{Plain, take_energy};
 use crate::impulses::settle::Broken;
-use crate::impulses::toll::take_energy;
 use crate::world::{BreakableWorld, Key, key};
 
 /// Pieces of bodies that broke in a step.
 pub(crate) type Families = BTreeMap<Key, Vec<RigidBodyHandle>>;
-
-/// Impulses at points, world axes, N·s and m.
-type Pushes = Vec<(DVec3, DVec3)>;
 
 impl BreakableWorld {
     /// The engine's impulses of blows that held give way to what the blows were; `before` holds the bodies as they were before
@@ -55,7 +51,7 @@ impl BreakableWorld {
         let change = |t: &Touch| t.normal * (meeting.share * (t.blow - t.engine));
         let kicks = pair.kicks(meeting, change);
         let (work, give) = pair.price(kicks);
-        let allowed = pair.lost(bodies, meeting, before);
+        let allowed = pair.lost(meeting, before);
         let mut share = affordable(work, give, allowed);
         for touch in &meeting.touches {
             let leaves = pair.departure(touch);
@@ -64,12 +60,13 @@ impl BreakableWorld {
                 share = (leaves.max(0.0) / -gains).min(share);
             }
         }
-        let now = pair.energy(bodies);
-        pair.kick(bodies, kicks, share);
+        let now = pair.energy();
+        pair.kick(kicks, share);
         debug_assert!(
-            pair.energy(bodies) <= (now + allowed) * (1.0 + 1e-5) + 1e-9,
+            pair.energy() <= (now + allowed) * (1.0 + 1e-5) + 1e-9,
             "a blow that holds gave energy"
         );
+        pair.put_back(bodies);
     }
 
     /// Rapier's restitution at several contacts at once can gain energy: of two bodies that met nothing else in the step it is
@@ -133,10 +130,8 @@ impl BreakableWorld {
             broken.lost = 0.0;
             for meeting in &broken.blow {
                 let striker = self.what_became_of(meeting.partner, &families);
-                let pieces = nearest_first(&broken.fracture, &broken.fragments, meeting);
-                let pushes = |t: &Touch| (t.point, t.direction * (meeting.share * t.blow));
-                let pushes: Pushes = meeting.touches.iter().map(pushes).collect();
-                broken.lost += self.push_plug(&pieces, &striker, &pushes, None);
+                let pieces = nearest(&broken.fracture, &broken.fragments, meeting);
+                broken.lost += self.push_plug(&pieces, &striker, meeting, None);
             }
         }
     }
@@ -159,15 +154,14 @@ impl BreakableWorld {
         let back = |t: &Touch| t.direction * (-meeting.share * t.engine);
         let kicks = pair.kicks(meeting, back);
         let (work, give) = pair.price(kicks);
-        let share = affordable(work, give, pair.lost(bodies, meeting, before));
-        pair.kick(bodies, kicks, share);
-        let arm = pair.centres[1];
-        let pieces = nearest_first(fracture, fragments, meeting);
-        let pushes = |t: &Touch| (t.point, t.direction * (meeting.share * t.blow));
-        let pushes: Pushes = meeting.touches.iter().map(pushes).collect();
+        let share = affordable(work, give, pair.lost(meeting, before));
+        pair.kick(kicks, share);
+        pair.put_back(bodies);
         // The pieces have moved with the step; the striker keeps its arm.
-        let moved = pair.sides[0].centre - pair.centres[0];
-        self.push_plug(&pieces, &striker, &pushes, Some((moved, arm)))
+        let moved = pair.wholes[0].centre - pair.centres[0];
+        let since = Some((moved, pair.centres[1]));
+        let pieces = nearest(fracture, fragments, meeting);
+        self.push_plug(&pieces, &striker, meeting, since)
     }
 
     /// What a striker is now: itself, or its pieces; nothing where it is gone.
@@ -186,76 +180,43 @@ impl BreakableWorld {
         }
     }
 
-    /// Puts impulses on the pieces nearest to them, in this order, and takes them from the striker. `since` says how far the
-    /// pieces have moved since the pushes' points were right, and the striker's centre then. Returns what the motion loses, J.
+    /// Puts a blow's impulses on the pieces, in this order, and takes them from the striker. `since` says how far the pieces have moved
+    /// since the blow, and the striker's centre then. Returns what the motion loses, J.
     fn push_plug(
         &mut self,
         pieces: &[RigidBodyHandle],
         striker: &[RigidBodyHandle],
-        pushes: &Pushes,
+        meeting: &Meeting,
         since: Option<(DVec3, DVec3)>,
     ) -> f64 {
-        let bodies = &mut self.physics.bodies;
-        let moved = since.map_or(DVec3::ZERO, |(moved, _)| moved);
-        let mut striker = side(bodies, striker);
-        let arm = since.map_or(striker.centre, |(_, centre)| centre);
-        let taken = Kick::about(arm, pushes.iter().copied()).scaled(-1.0);
-        let given = |centre| Kick::about(centre, pushes.iter().map(|(p, j)| (*p + moved, *j)));
-        let price = |plug: &Cluster, striker: &Cluster| {
-            let kick = given(plug.centre);
-            let work = plug.work(kick) + striker.work(taken);
-            (work, plug.give(kick) + striker.give(taken), kick)
+        let set = &mut self.physics.bodies;
+        let (mut pieces, mut striker) = (Plain::of(set, pieces), Plain::of(set, striker));
+        let now = (DVec3::ZERO, Rigid::together(&striker.bodies).centre);
+        let (moved, arm) = since.unwrap_or(now);
+        let pushes = |moved: DVec3| -> Vec<(DVec3, DVec3)> {
+            let touches = meeting.touches.iter();
+            let push = |t: &Touch| (t.point + moved, t.direction * (meeting.share * t.blow));
+            touches.map(push).collect()
         };
-        let loose = |h: &&RigidBodyHandle| bodies.get(**h).is_some_and(RigidBody::is_dynamic);
-        let held = pieces.iter().any(|h| !loose(&h));
-        let holds = pieces.first().is_none_or(|h| !loose(&h));
-        let members: Vec<RigidBodyHandle> = pieces.iter().filter(loose).copied().collect();
-        let mut left = 1.0;
-        let mut lost = 0.0;
-        let mut count = 1;
-        while !holds && count <= members.len() {
-            let Some(mut plug) = Cluster::of(bodies, &members[..count]) else {
-                break;
-            };
-            let (work, give, kick) = price(&plug, &striker);
-            let all = count == members.len();
-            if work + give > 0.0 && !all {
-                count = (count + 1 + count / 8).min(members.len());
-                continue;
-            }
-            // What is held beside takes what would make all the loose ones leave faster than the striker follows.
-            let share = if work >= 0.0 {
-                0.0
-            } else if held {
-                (-work / give).min(1.0)
-            } else {
-                affordable(work, give, 0.0)
-            };
-            plug.kick(bodies, kick.scaled(share));
-            striker.kick(bodies, taken.scaled(share));
-            lost -= share * work + 0.5 * share * share * give;
-            left -= share;
-            break;
-        }
-        if (held || holds) && left > 0.0 {
-            let kick = taken.scaled(left);
-            let (work, give) = (striker.work(kick), striker.give(kick));
-            if work < 0.0 {
-                let share = affordable(work, give, 0.0);
-                striker.kick(bodies, kick.scaled(share));
-                lost -= share * work + 0.5 * share * share * give;
-            }
-        }
-        debug_assert!(lost >= -1e-9, "a blow that breaks gave {} J", -lost);
+        let taken = Kick::about(arm, &pushes(DVec3::ZERO)).scaled(-1.0);
+        let lost = push_plug(
+            &mut pieces.bodies,
+            &mut striker.bodies,
+            &pushes(moved),
+            taken,
+        );
+        pieces.put_back(set);
+        striker.put_back(set);
         lost
     }
 }
 
 /// The two sides of a meeting as they are now, and their centres of mass when they met.
 struct Pair {
-    sides: [Cluster; 2],
+    sides: [Plain; 2],
+    /// Each side as one body.
+    wholes: [Rigid; 2],
     centres: [DVec3; 2],
-    members: Vec<RigidBodyHandle>,
 }
 
 impl Pair {
@@ -273,32 +234,33 @@ impl Pair {
         meeting: &Meeting,
         before: &impl Before,
     ) -> Option<Self> {
-        let sides = [side(bodies, body), side(bodies, partner)];
+        let sides = [Plain::of(bodies, body), Plain::of(bodies, partner)];
+        let wholes = [0, 1].map(|k: usize| Rigid::together(&sides[k].bodies));
         let partner_before = meeting.partner.and_then(|p| before.body(p));
         let centres = [
             centre(before.body(meeting.body)?),
             partner_before.map_or(DVec3::ZERO, centre),
         ];
-        let members = body.iter().chain(partner).copied().collect();
         Some(Self {
             sides,
+            wholes,
             centres,
-            members,
         })
     }
 
     /// Impulses at the contacts, on both sides, with the arms of the step's start.
     fn kicks(&self, meeting: &Meeting, impulse: impl Fn(&Touch) -> DVec3) -> [Kick; 2] {
-        let pushes = || meeting.touches.iter().map(|t| (t.point, impulse(t)));
+        let touches = meeting.touches.iter();
+        let pushes: Vec<(DVec3, DVec3)> = touches.map(|t| (t.point, impulse(t))).collect();
         [
-            Kick::about(self.centres[0], pushes()),
-            Kick::about(self.centres[1], pushes()).scaled(-1.0),
+            Kick::about(self.centres[0], &pushes),
+            Kick::about(self.centres[1], &pushes).scaled(-1.0),
         ]
     }
 
     /// A share s of these kicks adds s · the first + ½ s² · the second, J.
     fn price(&self, kicks: [Kick; 2]) -> (f64, f64) {
-        let [a, b] = &self.sides;
+        let [a, b] = &self.wholes;
         (
             a.work(kicks[0]) + b.work(kicks[1]),
             a.give(kicks[0]) + b.give(kicks[1]),
@@ -308,8 +270,8 @@ impl Pair {
     /// Speed at which a contact opens now, m/s.
     fn departure(&self, touch: &Touch) -> f64 {
         let speed = |k: usize| {
-            let side = &self.sides[k];
-            side.linear + side.angular.cross(touch.point - self.centres[k])
+            let whole = &self.wholes[k];
+            whole.linear + whole.angular.cross(touch.point - self.centres[k])
         };
         touch.normal.dot(speed(0) - speed(1))
     }
@@ -317,74 +279,49 @@ impl Pair {
     /// What the kicks add to that.
     fn gain(&self, touch: &Touch, kicks: [Kick; 2]) -> f64 {
         let speed = |k: usize| {
-            let (linear, angular) = self.sides[k].answer(kicks[k]);
+            let (linear, angular) = self.wholes[k].answer(kicks[k]);
             linear + angular.cross(touch.point - self.centres[k])
         };
         touch.normal.dot(speed(0) - speed(1))
     }
 
     /// Energy that the two have lost in the step: at these contacts, and no more than altogether, J.
-    fn lost(&self, bodies: &RigidBodySet, meeting: &Meeting, before: &impl Before) -> f64 {
+    fn lost(&self, meeting: &Meeting, before: &impl Before) -> f64 {
         let at_contacts: f64 = (meeting.touches.iter())
             .map(|t| 0.5 * meeting.share * t.engine * (t.approach - self.departure(t)))
             .sum();
         let energy =
             |h: Option<RigidBodyHandle>| h.and_then(|h| before.body(h)).map_or(0.0, kinetic_energy);
         let then = energy(Some(meeting.body)) + energy(meeting.partner);
-        at_contacts.min(then - self.energy(bodies)).max(0.0)
+        at_contacts.min(then - self.energy()).max(0.0)
     }
 
-    fn energy(&self, bodies: &RigidBodySet) -> f64 {
-        let members = self.members.iter().filter_map(|&h| bodies.get(h));
-        members.map(kinetic_energy).sum()
+    fn energy(&self) -> f64 {
+        let bodies = self.sides.iter().flat_map(|side| &side.bodies);
+        bodies.map(Rigid::kinetic_energy).sum()
     }
 
-    fn kick(&mut self, bodies: &mut RigidBodySet, kicks: [Kick; 2], share: f64) {
-        for (side, kick) in self.sides.iter_mut().zip(kicks) {
-            side.kick(bodies, kick.scaled(share));
+    fn kick(&mut self, kicks: [Kick; 2], share: f64) {
+        for ((side, whole), kick) in self.sides.iter_mut().zip(&mut self.wholes).zip(kicks) {
+            kick_together(&mut side.bodies, whole, kick.scaled(share));
+        }
+    }
+
+    fn put_back(&self, bodies: &mut RigidBodySet) {
+        for side in &self.sides {
+            side.put_back(bodies);
         }
     }
 }
 
-/// Bodies as one: what of them can move; nothing where none of them can.
-fn side(bodies: &RigidBodySet, members: &[RigidBodyHandle]) -> Cluster {
-    if let [only] = members {
-        let body = bodies.get(*only);
-        return body.map_or_else(Cluster::earth, |body| Cluster::single(*only, body));
-    }
-    let mut members = members.to_vec();
-    members.retain(|&h| bodies.get(h).is_some_and(RigidBody::is_dynamic));
-    Cluster::of(bodies, &members).unwrap_or_else(Cluster::earth)
-}
-
-/// The pieces from the nearest to the contacts; of several as near, in their own order.
-fn nearest_first(
+/// The pieces from the nearest to the contacts.
+fn nearest(
     fracture: &Fracture,
     fragments: &[RigidBodyHandle],
     meeting: &Meeting,
 ) -> Vec<RigidBodyHandle> {
-    let distance = |mesh: &TriMesh, middle: Vec3| {
-        let squares = meeting.touches.iter();
-        squares
-            .map(|t| square_distance(mesh, t.local - middle))
-            .fold(f64::INFINITY, f64::min)
-    };
-    let mut order: Vec<(f64, usize)> = (fracture.fragments.iter().take(fragments.len()))
-        .enumerate()
-        .map(|(i, f)| (distance(&f.mesh, f.mass.centre.as_vec3()), i))
-        .collect();
-    order.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-    order.into_iter().map(|(_, i)| fragments[i]).collect()
-}
-
-/// From a point to the surface, m².
-fn square_distance(mesh: &TriMesh, point: Vec3) -> f64 {
-    let point = point.as_dvec3();
-    let of = |triangle: &[u32; 3]| {
-        let corners = triangle.map(|v| mesh.positions[v as usize].as_dvec3());
-        let weights = closest_on_triangle(corners, point);
-        let closest: DVec3 = corners.iter().zip(weights).map(|(c, w)| *c * w).sum();
-        closest.distance_squared(point)
-    };
-    mesh.triangles.iter().map(of).fold(f64::INFINITY, f64::min)
+    let points: Vec<Vec3> = meeting.touches.iter().map(|t| t.local).collect();
+    let order = nearest_first(fracture, &points);
+    let there = order.into_iter().filter_map(|i| fragments.get(i));
+    there.copied().collect()
 }

@@ -1,7 +1,7 @@
 //! After a break: the cracks' energy is taken from the motion, and the break is recorded.
 //!
 //! The cracks are paid first from what the motion has lost by the blow that made them (`exchange.rs`), which went into
-//! vibration, and only the rest is taken as a toll (`toll.rs`). Kinetic energy and the cracks' energy together never rise.
+//! vibration, and only the rest is taken as a toll ([`frangible::internals::rigid`]). Kinetic energy and the cracks' energy together never rise.
 //!
 //! Energy is counted over all bodies that pushed each other in the step, however far the pushes went: a ball that breaks a shelf
 //! throws the shelf's pieces against a bowl, which may break in the same step by energy that no body had that touched it before.
@@ -20,7 +20,7 @@ use crate::fragments::replace::{Parts, is_debris, is_dust};
 use crate::impulses::blows::Meeting;
 use crate::impulses::exchange::Families;
 use crate::impulses::motion::kinetic_energy;
-use crate::impulses::toll::take_energy;
+use crate::impulses::plain::take_energy;
 use crate::world::{BreakableWorld, Key, key};
 
 /// A body that breaks in this step.

@@ -20,8 +20,8 @@ use crate::error::{WorldError, finite, positive};
 use crate::event::{BreakCause, HeldEvent};
 use crate::fragments::replace::{Parts, Replacement};
 use crate::impulses::motion::kinetic_energy;
+use crate::impulses::plain::take_energy;
 use crate::impulses::settle::Broken;
-use crate::impulses::toll::take_energy;
 use crate::world::{BreakableWorld, key};
 
 /// Nearest that a part of the surface counts as, m: as [`frangible::internals::blast`] has it.

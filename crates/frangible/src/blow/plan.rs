@@ -74,11 +74,12 @@ impl Plan {
         let pushing = |c: &&Contact| c.is_script() || c.approach_speed > 0.0;
         let asset = &*body.asset;
         let modes = asset.modes.followed();
-        let load = modal_load(body, contacts.iter().filter(pushing));
+        let mut load = modal_load(body, contacts.iter().filter(pushing));
         if load.touches.is_empty() {
             return None;
         }
         let inverse_mass = inverse_masses(body, &load);
+        load.modal_impulse = stopping(body, &load, &inverse_mass);
         let count = load.touches.len();
         let mut sites: Vec<Site> = Vec::with_capacity(count);
         let mut shapes: Vec<[Vec<f64>; 2]> = Vec::with_capacity(count);
@@ -220,6 +221,24 @@ fn inverse_masses(body: &Body, load: &Load) -> Vec<f64> {
         }
     }
     matrix
+}
+
+/// Modal impulses of what stops each striker, and of scripts: which modes matter, and so the time step, must not hang on what an engine
+/// says of an impulse that is an outcome here.
+fn stopping(body: &Body, load: &Load, inverse_mass: &[f64]) -> Vec<f64> {
+    let count = load.touches.len();
+    let mut sums = vec![0.0; body.asset.modes.count()];
+    for (k, touch) in load.touches.iter().enumerate() {
+        let contact = &touch.contact;
+        let impulse = match contact.is_script() {
+            true => f64::from(contact.impulse),
+            false => f64::from(contact.approach_speed) / inverse_mass[k * count + k],
+        };
+        let shape = touch.project(body, contact.direction());
+        let pairs = sums.iter_mut().zip(shape);
+        pairs.for_each(|(sum, xi)| *sum += impulse * xi);
+    }
+    sums
 }
 
 /// One contact, and its push on and feeling of every mode that there is.

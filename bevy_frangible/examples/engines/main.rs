@@ -1,0 +1,81 @@
+//! The same scenes in two physics engines: `cargo run --release --example engines [-- --write]` plays each with twenty seeds in Rapier and in
+//! Avian, and prints a page of what came of them, or writes it to `docs/engines.md`.
+
+mod in_avian;
+mod in_rapier;
+mod page;
+mod scenes;
+
+use std::error::Error;
+use std::path::Path;
+
+use bevy_frangible::FrangibleAsset;
+use bevy_frangible::frangible::glam::Quat;
+use bevy_frangible::frangible::{Asset, Breakable, Material};
+use frangible_bake::{BakeSpec, Region, Shape, Support, bake};
+
+use scenes::{Outcome, Scene, ball_on_pane, brick_on_plate, dropped};
+
+/// Seeds of each scene.
+const SEEDS: u64 = 20;
+
+/// What came of a scene in Rapier and in Avian, seed after seed.
+type Played = [Vec<Outcome>; 2];
+
+fn kind(spec: &BakeSpec) -> Result<Breakable, Box<dyn Error>> {
+    Ok(FrangibleAsset::new(bake(spec, &mut |_| {})?.0)?.0)
+}
+
+fn all() -> Result<Vec<Scene>, Box<dyn Error>> {
+    let [steel, stone, glass, porcelain] =
+        ["steel", "stone", "glass", "porcelain"].map(Material::preset);
+    let (steel, stone) = (steel?, stone?);
+    let bodies = Path::new(env!("CARGO_MANIFEST_DIR")).join("../crates/frangible/tests/bodies");
+    let pane = FrangibleAsset::new(Asset::load(bodies.join("pane.frangible"))?)?.0;
+    let tumbler = kind(&BakeSpec::for_games(
+        "glass",
+        Shape::drinking_glass(),
+        glass?,
+    )?)?;
+    let mut plate = BakeSpec::for_games("plate", Shape::plate(0.25, 0.25, 0.006), porcelain?)?;
+    let edges = [Region::below(0, 0.01), Region::above(0, 0.24)];
+    plate.supports = edges.map(Support::clamped).to_vec();
+    let plate = kind(&plate)?;
+    // It comes down with the edge of its foot first.
+    let tilted = Quat::from_rotation_z(0.6) * Quat::from_rotation_x(-std::f32::consts::FRAC_PI_2);
+    let mut scenes: Vec<Scene> = [4.0, 6.0, 12.0, 20.0, 30.0]
+        .map(|speed| ball_on_pane(&pane, &steel, speed))
+        .to_vec();
+    scenes.extend([3.0, 5.0].map(|speed| dropped("glass", &tumbler, &stone, tilted, speed)));
+    scenes.extend([2.0, 4.0].map(|speed| brick_on_plate(&plate, &stone, speed)));
+    Ok(scenes)
+}
+
+fn play(scene: &Scene) -> Result<Played, Box<dyn Error>> {
+    let mut played = Played::default();
+    for seed in 0..SEEDS {
+        played[0].push(in_rapier::run(scene, seed)?);
+        played[1].push(in_avian::run(scene, seed));
+    }
+    Ok(played)
+}
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let mut played = Vec::new();
+    for scene in all()? {
+        eprintln!("{}", scene.name);
+        let outcomes = play(&scene)?;
+        played.push((scene, outcomes));
+    }
+    let page = page::page(&played);
+    if std::env::args().any(|word| word == "--write") {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/engines.md");
+        // Whole under its name, or not at all.
+        let draft = path.with_extension("md.new");
+        std::fs::write(&draft, page)?;
+        std::fs::rename(&draft, &path)?;
+    } else {
+        print!("{page}");
+    }
+    Ok(())
+}

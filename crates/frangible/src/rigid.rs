@@ -1,0 +1,316 @@
+//! What a break does to the motion of bodies, in plain numbers: any engine turns its bodies into [`Rigid`]s, has the blow's impulse put on
+//! the pieces and the cracks' energy taken from the motion, and takes the velocities back.
+//!
+//! **The blow.** The striker pushes a plug as heavy as the blow made it, not a single splinter with all the momentum of a wall:
+//! the pieces nearest to the contacts take the impulse as one body, the fewest that do not leave faster than the striker follows, and all
+//! of them where even they do. What the motion loses by it went into vibration.
+//!
+//! **The toll.** What the cracks cost beyond that is taken from the motion of pieces and striker against their common rigid motion, the
+//! one with their momentum and angular momentum. Every body's deviation from it is scaled by √(1 − E/T), T the deviations' kinetic
+//! energy: their sum carries neither momentum nor angular momentum, so both stay. Where one of them does not give way the common
+//! motion is its own, so that the toll comes from the fall that broke the body, or from the striker that broke what was held.
+
+use glam::{DMat3, DVec3, Vec3};
+
+use crate::mesh::{TriMesh, closest_on_triangle};
+use crate::outcome::Fracture;
+
+/// A rigid body, world axes.
+#[derive(Clone, Copy, Debug)]
+pub struct Rigid {
+    /// Mass, kg; infinite for one that does not give way.
+    pub mass: f64,
+    /// Moments of inertia about the centre, kg·m².
+    pub inertia: DMat3,
+    /// One over the mass as an impulse meets it, 1/kg: less where an engine has locked an axis.
+    pub inverse_mass: f64,
+    /// How the body answers a moment, 1/(kg·m²): less where an engine has locked an axis.
+    pub inverse_inertia: DMat3,
+    /// Centre of mass, m.
+    pub centre: DVec3,
+    /// Velocity of the centre, m/s.
+    pub linear: DVec3,
+    /// Angular velocity, rad/s.
+    pub angular: DVec3,
+}
+
+/// Impulses at points: m and N·s.
+pub type Pushes = [(DVec3, DVec3)];
+
+/// An impulse, N·s, and its moment about the centre of mass of what gets it, N·m·s.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Kick {
+    /// The impulse.
+    pub linear: DVec3,
+    /// The moment.
+    pub moment: DVec3,
+}
+
+impl Kick {
+    /// Sums up impulses at points, about a centre.
+    #[must_use]
+    pub fn about(centre: DVec3, pushes: &Pushes) -> Self {
+        let mut kick = Self::default();
+        for &(point, impulse) in pushes {
+            kick.linear += impulse;
+            kick.moment += (point - centre).cross(impulse);
+        }
+        kick
+    }
+
+    /// The kick, so many times.
+    #[must_use]
+    pub fn scaled(self, factor: f64) -> Self {
+        Self {
+            linear: self.linear * factor,
+            moment: self.moment * factor,
+        }
+    }
+}
+
+impl Rigid {
+    /// A body that is free to move; one that nothing moves where the numbers are none of a body.
+    #[must_use]
+    pub fn free(mass: f64, inertia: DMat3, [centre, linear, angular]: [DVec3; 3]) -> Self {
+        let inverse_inertia = inertia.inverse();
+        if !(mass > 0.0 && mass.is_finite() && inverse_inertia.is_finite()) {
+            return Self::immovable([centre, linear, angular]);
+        }
+        Self {
+            mass,
+            inertia,
+            inverse_mass: 1.0 / mass,
+            inverse_inertia,
+            centre,
+            linear,
+            angular,
+        }
+    }
+
+    /// A body that no impulse moves, whatever its motion.
+    #[must_use]
+    pub fn immovable([centre, linear, angular]: [DVec3; 3]) -> Self {
+        Self {
+            mass: f64::INFINITY,
+            inertia: DMat3::IDENTITY,
+            inverse_mass: 0.0,
+            inverse_inertia: DMat3::ZERO,
+            centre,
+            linear,
+            angular,
+        }
+    }
+
+    /// What stands still, whatever pushes it.
+    #[must_use]
+    pub fn earth() -> Self {
+        Self::immovable([DVec3::ZERO; 3])
+    }
+
+    /// Whether it is a body that moves freely.
+    #[must_use]
+    pub fn gives_way(&self) -> bool {
+        self.mass.is_finite()
+    }
+
+    /// Bodies taken as one, with their mass, momentum and angular momentum: the one alone, those of several that give way, and the earth
+    /// where none is left.
+    #[must_use]
+    pub fn together(bodies: &[Self]) -> Self {
+        if let [only] = bodies {
+            return *only;
+        }
+        let all = || bodies.iter().filter(|b| b.gives_way());
+        let mass: f64 = all().map(|b| b.mass).sum();
+        let mean =
+            |of: &dyn Fn(&Self) -> DVec3| all().map(|b| of(b) * b.mass).sum::<DVec3>() / mass;
+        let (centre, linear) = (mean(&|b| b.centre), mean(&|b| b.linear));
+        let (mut inertia, mut spin) = (DMat3::ZERO, DVec3::ZERO);
+        for b in all() {
+            let r = b.centre - centre;
+            // Steiner: m (r² 1 − r rᵀ).
+            let outer = DMat3::from_cols(r * r.x, r * r.y, r * r.z);
+            let steiner = DMat3::from_diagonal(DVec3::splat(r.length_squared())) - outer;
+            inertia += b.inertia + steiner * b.mass;
+            spin += b.inertia * b.angular + r.cross(b.linear - linear) * b.mass;
+        }
+        let angular = inertia.inverse() * spin;
+        if !(linear.is_finite() && angular.is_finite()) {
+            return Self::earth();
+        }
+        Self::free(mass, inertia, [centre, linear, angular])
+    }
+
+    /// Kinetic energy, J; none of what does not give way.
+    #[must_use]
+    pub fn kinetic_energy(&self) -> f64 {
+        self.deviation(DVec3::ZERO, DVec3::ZERO)
+    }
+
+    /// Kinetic energy of its motion against another, J.
+    fn deviation(&self, linear: DVec3, angular: DVec3) -> f64 {
+        if !self.gives_way() {
+            return 0.0;
+        }
+        let (u, w) = (self.linear - linear, self.angular - angular);
+        0.5 * (self.mass * u.length_squared() + w.dot(self.inertia * w))
+    }
+
+    /// Velocity of the rigid motion at a point, m/s.
+    #[must_use]
+    pub fn velocity_at(&self, point: DVec3) -> DVec3 {
+        self.linear + self.angular.cross(point - self.centre)
+    }
+
+    /// Rate at which a kick works on its motion, J.
+    #[must_use]
+    pub fn work(&self, kick: Kick) -> f64 {
+        kick.linear.dot(self.linear) + kick.moment.dot(self.angular)
+    }
+
+    /// What a kick changes velocity and angular velocity by.
+    #[must_use]
+    pub fn answer(&self, kick: Kick) -> (DVec3, DVec3) {
+        (
+            kick.linear * self.inverse_mass,
+            self.inverse_inertia * kick.moment,
+        )
+    }
+
+    /// How much it gives way to a kick: twice the energy that the kick brings to it at rest, J.
+    #[must_use]
+    pub fn give(&self, kick: Kick) -> f64 {
+        let (linear, angular) = self.answer(kick);
+        kick.linear.dot(linear) + kick.moment.dot(angular)
+    }
+}
+
+/// Lets a kick act on bodies as on one, which they are `whole`.
+pub fn kick_together(bodies: &mut [Rigid], whole: &mut Rigid, kick: Kick) {
+    let (linear, angular) = whole.answer(kick);
+    for body in bodies.iter_mut().filter(|b| b.gives_way()) {
+        body.linear += linear + angular.cross(body.centre - whole.centre);
+        body.angular += angular;
+    }
+    whole.linear += linear;
+    whole.angular += angular;
+}
+
+/// The largest share s of a kick, 0..=1, that adds at most `allowed` J: s · work + ½ s² · give.
+#[must_use]
+pub fn affordable(work: f64, give: f64, allowed: f64) -> f64 {
+    if work + 0.5 * give <= allowed {
+        return 1.0;
+    }
+    // Exact in both limits, no difference of large numbers where work is negative.
+    let root = (work * work + 2.0 * give * allowed).max(0.0).sqrt();
+    let share = if work > 0.0 {
+        2.0 * allowed / (work + root)
+    } else {
+        (root - work) / give
+    };
+    if share.is_finite() {
+        share.clamp(0.0, 1.0)
+    } else {
+        0.0
+    }
+}
+
+/// Puts a blow's impulses on the pieces, which come in the order of their distance from it, and takes them from the striker: itself, the
+/// pieces that it has become, or none where it does not give way. `taken` is what the striker gets, about its own centre. Where some
+/// pieces are held, those take what would make the loose ones leave faster than the striker follows. Returns the energy that the motion
+/// loses, J.
+pub fn push_plug(pieces: &mut [Rigid], striker: &mut [Rigid], pushes: &Pushes, taken: Kick) -> f64 {
+    let mut follower = Rigid::together(striker);
+    let held = pieces.iter().any(|p| !p.gives_way());
+    let holds = pieces.first().is_none_or(|p| !p.gives_way());
+    let loose: Vec<usize> = (0..pieces.len())
+        .filter(|&i| pieces[i].gives_way())
+        .collect();
+    let (mut left, mut lost, mut count) = (1.0, 0.0, 1);
+    while !holds && count <= loose.len() {
+        let mut members: Vec<Rigid> = loose[..count].iter().map(|&i| pieces[i]).collect();
+        let mut plug = Rigid::together(&members);
+        let kick = Kick::about(plug.centre, pushes);
+        let work = plug.work(kick) + follower.work(taken);
+        let give = plug.give(kick) + follower.give(taken);
+        if work + give > 0.0 && count < loose.len() {
+            count = (count + 1 + count / 8).min(loose.len());
+            continue;
+        }
+        let share = if held && work < 0.0 && give > 0.0 {
+            (-work / give).min(1.0)
+        } else if work < 0.0 {
+            affordable(work, give, 0.0)
+        } else {
+            0.0
+        };
+        kick_together(&mut members, &mut plug, kick.scaled(share));
+        kick_together(striker, &mut follower, taken.scaled(share));
+        for (&i, member) in loose.iter().zip(members) {
+            pieces[i] = member;
+        }
+        lost -= share * work + 0.5 * share * share * give;
+        left -= share;
+        break;
+    }
+    if (held || holds) && left > 0.0 {
+        let kick = taken.scaled(left);
+        let (work, give) = (follower.work(kick), follower.give(kick));
+        if work < 0.0 {
+            let share = affordable(work, give, 0.0);
+            kick_together(striker, &mut follower, kick.scaled(share));
+            lost -= share * work + 0.5 * share * share * give;
+        }
+    }
+    debug_assert!(lost >= -1e-9, "a blow that breaks gave {} J", -lost);
+    lost
+}
+
+/// Takes up to `energy`, J, from the motion of bodies against each other; returns what was taken.
+pub fn take_energy(bodies: &mut [Rigid], energy: f64) -> f64 {
+    if energy.is_nan() || energy <= 0.0 {
+        return 0.0;
+    }
+    let fixed = bodies.iter().find(|b| !b.gives_way()).copied();
+    let common = fixed.unwrap_or_else(|| Rigid::together(bodies));
+    let apart = |b: &Rigid| b.deviation(common.velocity_at(b.centre), common.angular);
+    let available: f64 = bodies.iter().map(apart).sum();
+    if !(available.is_finite() && available > 0.0) {
+        return 0.0;
+    }
+    let scale = (1.0 - energy / available).max(0.0).sqrt();
+    for b in bodies.iter_mut().filter(|b| b.gives_way()) {
+        let at = common.velocity_at(b.centre);
+        b.linear = at + (b.linear - at) * scale;
+        b.angular = common.angular + (b.angular - common.angular) * scale;
+    }
+    energy.min(available)
+}
+
+/// The numbers of the fragments, from the nearest to these points, m, body frame; of several as near, in their own order.
+#[must_use]
+pub fn nearest_first(fracture: &Fracture, points: &[Vec3]) -> Vec<usize> {
+    let gap = |mesh: &TriMesh, centre: Vec3| {
+        let gaps = points.iter().map(|&p| square_distance(mesh, p - centre));
+        gaps.fold(f64::INFINITY, f64::min)
+    };
+    let fragments = fracture.fragments.iter().enumerate();
+    let mut order: Vec<(f64, usize)> = fragments
+        .map(|(i, f)| (gap(&f.mesh, f.mass.centre.as_vec3()), i))
+        .collect();
+    order.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    order.into_iter().map(|(_, i)| i).collect()
+}
+
+/// From a point to the surface, m².
+fn square_distance(mesh: &TriMesh, point: Vec3) -> f64 {
+    let point = point.as_dvec3();
+    let of = |triangle: &[u32; 3]| {
+        let corners = triangle.map(|v| mesh.positions[v as usize].as_dvec3());
+        let weights = closest_on_triangle(corners, point);
+        let closest: DVec3 = corners.iter().zip(weights).map(|(c, w)| *c * w).sum();
+        closest.distance_squared(point)
+    };
+    mesh.triangles.iter().map(of).fold(f64::INFINITY, f64::min)
+}

@@ -1,0 +1,136 @@
+//! What a break does to the motion of bodies.
+
+mod bodies;
+
+use frangible::glam::{DMat3, DVec3};
+use frangible::internals::rigid::{Kick, Rigid, affordable, nearest_first, push_plug, take_energy};
+use frangible::{FractureConfig, Outcome, impact};
+
+fn ball(mass: f64, at: DVec3, velocity: DVec3) -> Rigid {
+    let inertia = DMat3::from_diagonal(DVec3::splat(0.4 * mass * 1e-4));
+    Rigid::free(mass, inertia, [at, velocity, DVec3::ZERO])
+}
+
+fn along(mass: f64, x: f64, speed: f64) -> Rigid {
+    ball(mass, DVec3::X * x, DVec3::X * speed)
+}
+
+fn energy(bodies: &[Rigid]) -> f64 {
+    bodies.iter().map(Rigid::kinetic_energy).sum()
+}
+
+/// Momentum and angular momentum about the origin.
+fn momenta(bodies: &[Rigid]) -> [DVec3; 2] {
+    let linear = bodies.iter().map(|b| b.linear * b.mass).sum();
+    let turn = |b: &Rigid| b.centre.cross(b.linear * b.mass) + b.inertia * b.angular;
+    [linear, bodies.iter().map(turn).sum()]
+}
+
+fn same(a: [DVec3; 2], b: [DVec3; 2]) {
+    for (a, b) in a.into_iter().zip(b) {
+        assert!((a - b).length() < 1e-10, "{a} and {b}");
+    }
+}
+
+/// Puts one impulse between pieces and striker; what is lost.
+fn push(pieces: &mut [Rigid], striker: &mut [Rigid], at: DVec3, impulse: DVec3) -> f64 {
+    let pushes = [(at, impulse)];
+    let centre = Rigid::together(striker).centre;
+    let taken = Kick::about(centre, &pushes).scaled(-1.0);
+    push_plug(pieces, striker, &pushes, taken)
+}
+
+#[test]
+fn the_affordable_share_of_a_kick_spends_what_is_allowed() {
+    for (work, give, allowed) in [
+        (1.0, 2.0, 0.5),
+        (-1.0, 4.0, 0.0),
+        (-1.0, 4.0, 0.3),
+        (3.0, 0.0, 1.0),
+        (2.0, 1e-9, 1.0),
+    ] {
+        let s = affordable(work, give, allowed);
+        let spent = s * work + 0.5 * s * s * give;
+        assert!((spent - allowed).abs() < 1e-9, "{s} spends {spent} J");
+    }
+    assert_eq!(affordable(-1.0, 0.5, 0.0), 1.0);
+    assert_eq!(affordable(1.0, 0.5, 0.0), 0.0);
+    assert_eq!(affordable(0.0, 0.0, 0.0), 1.0);
+}
+
+#[test]
+fn a_plug_takes_the_impulse_and_no_energy_is_made() {
+    for impulse in [0.01, 0.1, 1.0, 100.0] {
+        let places = [(0.02, 0.01), (0.05, -0.02), (0.4, 0.03)];
+        let mut pieces = places.map(|(m, y)| ball(m, DVec3::new(0.1, y, 0.0), DVec3::ZERO));
+        let mut striker = [along(0.1, 0.0, 10.0)];
+        let before = [&pieces[..], &striker].concat();
+        let at = DVec3::new(0.05, 0.004, 0.0);
+        let lost = push(&mut pieces, &mut striker, at, DVec3::X * impulse);
+        let after = [&pieces[..], &striker].concat();
+        same(momenta(&before), momenta(&after));
+        let made = energy(&after) + lost - energy(&before);
+        assert!(lost >= 0.0 && made.abs() < 1e-12, "{impulse}: {made} J");
+        assert!(striker[0].linear.x < 10.0);
+    }
+}
+
+#[test]
+fn what_is_held_takes_what_the_loose_pieces_cannot() {
+    let mut pieces = [along(0.01, 0.1, 0.0), Rigid::earth()];
+    let mut striker = [along(0.1, 0.0, 10.0)];
+    push(&mut pieces, &mut striker, DVec3::X * 0.05, DVec3::X * 1.5);
+    let [piece, striker] = [pieces[0].linear.x, striker[0].linear.x];
+    println!("the piece leaves at {piece} m/s, the striker goes at {striker} m/s");
+    assert!(piece > 5.0 && striker < 0.0, "{piece} {striker}");
+    let mut pieces = [Rigid::earth()];
+    let mut striker = [along(0.1, 0.0, 10.0)];
+    let lost = push(&mut pieces, &mut striker, DVec3::X * 0.05, DVec3::X * 1.5);
+    assert!((striker[0].linear.x + 5.0).abs() < 1e-12 && (lost - 3.75).abs() < 1e-12);
+}
+
+#[test]
+fn a_toll_takes_what_it_should_and_keeps_momentum() {
+    let mut bodies = [
+        ball(1.0, DVec3::ZERO, DVec3::new(3.0, 1.0, 0.0)),
+        ball(2.0, DVec3::X, DVec3::new(-1.0, 0.5, 2.0)),
+        ball(0.5, DVec3::Y, DVec3::NEG_X),
+    ];
+    let (before, had) = (momenta(&bodies), energy(&bodies));
+    let taken = take_energy(&mut bodies, 2.0);
+    assert!((taken - 2.0).abs() < 1e-12 && (had - energy(&bodies) - 2.0).abs() < 1e-12);
+    same(before, momenta(&bodies));
+    let most = take_energy(&mut bodies, 1e9);
+    assert!(most < had - 2.0, "no more than there is");
+    same(before, momenta(&bodies));
+}
+
+#[test]
+fn a_toll_among_held_ones_comes_from_the_motion_against_them() {
+    let mut bodies = [Rigid::earth(), along(2.0, 0.0, 3.0)];
+    assert_eq!(take_energy(&mut bodies, 5.0), 5.0);
+    assert!((energy(&bodies) - 4.0).abs() < 1e-12);
+}
+
+#[test]
+fn the_nearest_fragment_is_the_one_that_was_hit() {
+    let hit = bodies::pane_hit(0.01, 0.005, 12.0);
+    let outcome = impact(&bodies::pane().body(0), &[hit], &FractureConfig::default());
+    let Ok(Outcome::Broke(fracture)) = outcome else {
+        panic!("it breaks");
+    };
+    let order = nearest_first(&fracture, &[hit.point]);
+    let gap = |i: usize| {
+        let fragment = &fracture.fragments[i];
+        let near = hit.point - fragment.mass.centre.as_vec3();
+        let corners = fragment.mesh.positions.iter();
+        corners
+            .map(|p| p.distance(near))
+            .fold(f32::INFINITY, f32::min)
+    };
+    let mut all = order.clone();
+    all.sort_unstable();
+    assert!(all.into_iter().eq(0..fracture.fragments.len()));
+    let (first, last) = (gap(order[0]), gap(order[order.len() - 1]));
+    assert!(first < last, "{first} m, {last} m");
+}
