@@ -84,6 +84,9 @@ pub(crate) fn scene_of(file: Option<&Path>, args: &BreakArgs) -> Result<Request,
         wanted.output.picture = FileWish::No;
         wanted.output.contact_sheet = FileWish::No;
     }
+    if args.no_sound {
+        wanted.output.wav = FileWish::No;
+    }
     wanted.validate()?;
     Ok(Request {
         scene: wanted,

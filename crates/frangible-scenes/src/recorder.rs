@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 use frangible::glam::{Quat, Vec3};
-use frangible::{Asset, ImpactReport};
+use frangible::{Asset, Body, ImpactReport, Material};
 use frangible_export::{
     Floor, Moments, Pose, Pulse, RecordedBlow, RecordedCrack, RecordedMesh, RecordedNode,
     RecordedTouch, Recording, SurfaceMaterial,
@@ -29,6 +29,17 @@ struct Tracked {
     body: RigidBodyHandle,
 }
 
+/// What a node is to the ear.
+#[derive(Clone, Debug)]
+pub enum Sounding {
+    /// A body, or a piece that can break again: it rings by its modes.
+    Modes(Body),
+    /// A piece without modes of its own, by its material and mass, kg.
+    Piece(Material, f64),
+    /// What was thrown, as a ball of a radius, m, and a mass, kg, of this material.
+    Ball(Material, f64, f64),
+}
+
 /// What a node is to the camera.
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) enum Role {
@@ -45,6 +56,7 @@ pub(crate) struct Recorder {
     recording: Recording,
     /// One per node.
     roles: Vec<Role>,
+    soundings: Vec<Sounding>,
     tracked: Vec<Tracked>,
     /// The node of each rigid body.
     node_of_body: BTreeMap<(u32, u32), usize>,
@@ -63,6 +75,7 @@ impl Recorder {
         Self {
             recording,
             roles: Vec::new(),
+            soundings: Vec::new(),
             tracked: Vec::new(),
             node_of_body: BTreeMap::new(),
             touching: BTreeMap::new(),
@@ -98,8 +111,10 @@ impl Recorder {
         body: RigidBodyHandle,
         extras: Vec<(String, f64)>,
         role: Role,
+        sounding: Sounding,
     ) {
         self.roles.push(role);
+        self.soundings.push(sounding);
         let recording = &mut self.recording;
         recording.meshes.push(mesh);
         let frame = recording.frame_count;
@@ -119,6 +134,7 @@ impl Recorder {
     /// Puts the pieces in the place of their parent, which has this name and comes from so many breaks, `time` s after the first frame.
     pub(crate) fn broke(
         &mut self,
+        world: &BreakableWorld,
         name: &str,
         generation: u32,
         event: &BreakEvent,
@@ -140,7 +156,12 @@ impl Recorder {
                 ("mass_kg".into(), fragment.mass.mass),
                 ("volume_m3".into(), fragment.mass.volume),
             ];
-            self.track(name, mesh, body, extras, Role::Piece);
+            let mass = fragment.mass.mass;
+            let sounding = world.breakable(body).map_or_else(
+                || Sounding::Piece(event.asset.material.clone(), mass),
+                |body| Sounding::Modes(body.clone()),
+            );
+            self.track(name, mesh, body, extras, Role::Piece, sounding);
         }
         let pieces = first..self.recording.nodes.len();
         self.blow(
@@ -258,13 +279,14 @@ impl Recorder {
         recording.frame_count += 1;
     }
 
-    /// The finished recording, its views set so that what matters fills the picture; `at_rest`: whether nothing moves in the end.
+    /// The finished recording, its views set so that what matters fills the picture, and what each node is to the ear; `at_rest`: whether
+    /// nothing moves in the end.
     pub(crate) fn finish(
         mut self,
         look_from: Vec3,
         floor: Option<Floor>,
         at_rest: bool,
-    ) -> Recording {
+    ) -> (Recording, Vec<Sounding>) {
         let recording = &mut self.recording;
         recording.floor = floor;
         let last = recording.frame_count.saturating_sub(1);
@@ -283,7 +305,7 @@ impl Recorder {
         };
         let (camera, views) = cameras(recording, &self.roles, look_from);
         (recording.camera, recording.views) = (camera, Some(views));
-        self.recording
+        (self.recording, self.soundings)
     }
 }
 
