@@ -115,7 +115,7 @@ pub fn sound(run: &Run, scene: &Scene, config: &SynthConfig) -> Result<Sounded, 
     })
 }
 
-/// Middle of the ears' view: a place, m, in the precision of the synthesiser.
+/// A point, m, in the precision of the synthesiser.
 fn place(point: frangible::glam::Vec3) -> DVec3 {
     point.as_dvec3()
 }

@@ -47,11 +47,11 @@ impl SynthConfig {
         }
     }
 
-    /// For a game: a budget of 2000 resonators and 64 strikes per block.
+    /// For a game: a budget of 1000 resonators and 64 strikes per block.
     #[must_use]
     pub fn live(self) -> Self {
         Self {
-            budget: 2000,
+            budget: 1000,
             strikes: 64,
             ..self
         }

@@ -240,9 +240,10 @@ impl Voice {
     /// How loud a resonator is, Pa.
     pub(crate) fn level(&self, i: usize) -> f32 {
         let (lanes, k) = (&self.lanes[i / LANES], i % LANES);
-        let z = lanes.re[k].hypot(lanes.im[k]);
-        let gain = lanes.gain_re[k].hypot(lanes.gain_im[k]);
-        (z * gain).max(self.slots[i].expected)
+        let square = |re: f32, im: f32| f64::from(re).powi(2) + f64::from(im).powi(2);
+        // One root for both sizes, and in f64, where no square overflows.
+        let heard = square(lanes.re[k], lanes.im[k]) * square(lanes.gain_re[k], lanes.gain_im[k]);
+        (heard.sqrt() as f32).max(self.slots[i].expected)
     }
 
     /// Lets what goes fade out within this block.
