@@ -19,8 +19,9 @@ use crate::plot::Spectrum;
 const ELEMENTS: usize = 3000;
 const MODES: usize = 80;
 
-/// The blow that cracks the cup: a steel ball of 60 g at speeds from this on downwards, m/s, until it leaves the cup whole with cracks.
-const SPEEDS: [f64; 6] = [2.5, 2.37, 2.3, 2.23, 2.1, 2.0];
+/// The blow that cracks the cup: a steel ball of 60 g, harder and harder in steps of this, m/s, until the cup parts.
+const STEP: f64 = 1.0 / 30.0;
+const STEPS: u32 = 100;
 
 /// A cup, struck before and after it cracked.
 #[derive(Clone, Debug)]
@@ -92,19 +93,22 @@ fn crack(intact: &Body) -> Result<(f64, Body), Box<dyn Error>> {
     let config = FractureConfig::default();
     let striker = Striker::ball(&Material::preset("steel")?, 0.06, 0.0122);
     let point = Vec3::new(0.2, 0.0, 0.02);
-    for speed in SPEEDS {
+    let mut hardest = None;
+    for i in 0..STEPS {
+        let speed = 1.0 + STEP * f64::from(i);
         let hit = Contact::collision(intact.asset(), point, Vec3::NEG_X, speed, striker);
-        let Outcome::Held {
-            state: Some(state), ..
-        } = impact(intact, &[hit], &config)?
-        else {
-            continue;
-        };
-        let mut cracked = intact.clone();
-        cracked.set_state(*state)?;
-        let portion = Arc::new(Portion::of_cracked(&cracked, &config)?);
-        let piece = cracked.piece(&portion, reanalysis(&portion, ELEMENTS, MODES)?)?;
-        return Ok((speed, piece));
+        match impact(intact, &[hit], &config)? {
+            Outcome::Broke(_) => break,
+            Outcome::Held {
+                state: Some(state), ..
+            } => hardest = Some((speed, state)),
+            _ => {}
+        }
     }
-    Err("no blow leaves the cup cracked and whole".into())
+    let (speed, state) = hardest.ok_or("no blow leaves the cup cracked and whole")?;
+    let mut cracked = intact.clone();
+    cracked.set_state(*state)?;
+    let portion = Arc::new(Portion::of_cracked(&cracked, &config)?);
+    let piece = cracked.piece(&portion, reanalysis(&portion, ELEMENTS, MODES)?)?;
+    Ok((speed, piece))
 }
