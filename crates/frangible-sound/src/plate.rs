@@ -69,7 +69,7 @@ fn bar_shape(m: usize, x: f64) -> f64 {
         _ => {
             let beta = bar_root(m - 1);
             let (at, end) = (beta * x, 0.5 * beta);
-            if m % 2 == 0 {
+            if m.is_multiple_of(2) {
                 at.cos() / end.cos() + at.cosh() / end.cosh()
             } else {
                 at.sin() / end.sin() + at.sinh() / end.sinh()
