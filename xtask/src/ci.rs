@@ -23,7 +23,7 @@ const DENY_VERSION: &str = "0.20.2";
 const LICENCES: [&str; 2] = ["LICENSE-MIT", "LICENSE-APACHE"];
 
 /// What the page in a browser is built from, and what tests it.
-const PAGE: [&str; 15] = [
+const PAGE: [&str; 16] = [
     "Cargo.toml",
     "Cargo.lock",
     "apps/web",
@@ -35,6 +35,7 @@ const PAGE: [&str; 15] = [
     "crates/frangible-mesh",
     "crates/frangible-rapier",
     "crates/frangible-scenes",
+    "crates/frangible-sound",
     "crates/frangible-view",
     "xtask/src/command.rs",
     "xtask/src/web",

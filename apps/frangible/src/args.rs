@@ -19,7 +19,7 @@ pub(crate) struct Cli {
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
-    /// Break a scene, a mesh or a baked body; write the animation (GLB) and a contact sheet (PNG)
+    /// Break a scene, a mesh or a baked body; write the animation (GLB), its sound (WAV) and a contact sheet (PNG)
     Break(Box<BreakCommand>),
     /// Bake a mesh, or the body of a scene, into a file that breaks without waiting
     Bake(BakeArgs),
@@ -337,7 +337,11 @@ pub(crate) struct BreakArgs {
     #[arg(long)]
     pub(crate) json: bool,
 
-    /// No pictures (GLB and report only)
+    /// No pictures (GLB, sound and report only)
     #[arg(long)]
     pub(crate) no_pictures: bool,
+
+    /// No sound (no WAV)
+    #[arg(long)]
+    pub(crate) no_sound: bool,
 }

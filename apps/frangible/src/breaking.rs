@@ -5,7 +5,9 @@ use std::path::Path;
 use std::time::Instant;
 
 use frangible_export::{write_atomically, write_glb};
-use frangible_scenes::{BakedBody, Opened, Run, Scene, bake_opened, open_sources, play};
+use frangible_scenes::{
+    BakedBody, Opened, Run, Scene, Sounded, bake_opened, open_sources, play, sound, sound_config,
+};
 
 use crate::args::BreakArgs;
 use crate::pictures;
@@ -28,7 +30,7 @@ pub(crate) fn run(file: Option<&Path>, args: &BreakArgs) -> Result<(), Box<dyn E
         &names.iter().flatten().cloned().collect::<Vec<_>>(),
         "--out",
     )?;
-    let [glb, picture, sheet, json] = names;
+    let [glb, wav, picture, sheet, json] = names;
     let mut stages = Vec::new();
 
     let clock = Instant::now();
@@ -62,6 +64,13 @@ pub(crate) fn run(file: Option<&Path>, args: &BreakArgs) -> Result<(), Box<dyn E
         let clock = Instant::now();
         write(name, &write_glb(&run.recording)?)?;
         stages.push(("GLB".into(), 1e3 * clock.elapsed().as_secs_f64()));
+    }
+    if let Some(name) = wav {
+        bar.show(&format!("{}: sounding", scene.name), 1.0);
+        let sounded = sound(run, &scene, &sound_config(run, &scene))?;
+        write(name, &sounded.wav()?)?;
+        stages.push(("sound".into(), 1e3 * sounded.seconds.iter().sum::<f64>()));
+        notes.extend(sound_notes(&sounded));
     }
     if picture.is_some() || sheet.is_some() {
         bar.show(&format!("{}: drawing", scene.name), 1.0);
@@ -106,6 +115,32 @@ pub(crate) fn run(file: Option<&Path>, args: &BreakArgs) -> Result<(), Box<dyn E
         say(&report.table())?;
     }
     Ok(())
+}
+
+/// What to know of a sound: that there is none, or that it was too loud or too much.
+fn sound_notes(sounded: &Sounded) -> Vec<String> {
+    let (report, mut notes) = (&sounded.report, Vec::new());
+    let limiter = &report.limiter;
+    if limiter.peak == 0.0 {
+        notes.push("the sound is silent, because nothing was struck".into());
+    }
+    if limiter.limited > 0 {
+        notes.push(format!(
+            "the sound reaches {:.0} dB, more than its {:.0} dB of full scale hold: {} samples were made up to {:.1} dB softer",
+            sounded.peak_level(),
+            20.0 * (sounded.config.full_scale / 2e-5).log10(),
+            limiter.limited,
+            limiter.reduction
+        ));
+    }
+    let left_out = report.strikes_left_out;
+    if left_out + report.over_budget > 0 {
+        notes.push(format!(
+            "the sound leaves out {left_out} strikes and {} tones, the softest, because there were too many at once",
+            report.over_budget
+        ));
+    }
+    notes
 }
 
 /// What the mesher could not keep of the bodies.

@@ -40,6 +40,9 @@ pub(crate) fn break_of(file: Option<&Path>, args: &BreakArgs) -> Result<Request,
         wanted.output.picture = FileWish::No;
         wanted.output.contact_sheet = FileWish::No;
     }
+    if args.no_sound {
+        wanted.output.wav = FileWish::No;
+    }
     Ok(request)
 }
 

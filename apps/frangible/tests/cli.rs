@@ -199,7 +199,13 @@ fn a_gentle_drop_is_reported_as_json() {
     assert_eq!(report["fragments"], 1);
     assert_eq!(report["modes"], 20);
     assert_held(&report);
-    assert_eq!(folder.files(), ["glass.glb"]);
+    let mut files = folder.files();
+    files.sort();
+    assert_eq!(files, ["glass.glb", "glass.wav"]);
+    // Dropped by 3 cm it is heard, and lasts a second at least at 48 kHz and four bytes.
+    let wav = fs::read(folder.0.join("glass.wav")).expect("the WAV");
+    assert!(wav.starts_with(b"RIFF") && wav.len() > 4 * 48_000);
+    assert!(wav[44..].iter().any(|&byte| byte != 0));
     assert!(
         fs::read(folder.0.join("glass.glb"))
             .expect("the GLB")

@@ -197,6 +197,7 @@ drop = 0.02
 [output]
 glb = "animation.glb"
 picture = false
+wav = false
 json = "report.json"
 "#,
     );

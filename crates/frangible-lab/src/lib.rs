@@ -6,6 +6,7 @@
 //! - [`figures`]: the figures of the paper that the model is taken from, each claim with a verdict;
 //! - [`bench`](mod@bench): times, memory, counted instructions;
 //! - [`reference`](mod@reference): the paper's algorithms word for word, which the pipeline must agree with;
+//! - [`sound`]: what is struck and what breaks, heard and drawn, beside closed forms and published spectra;
 //! - [`page`] and [`plot`]: the tables and the charts of all these pages.
 
 pub mod bench;
@@ -13,4 +14,5 @@ pub mod figures;
 pub mod page;
 pub mod plot;
 pub mod reference;
+pub mod sound;
 pub mod verify;

@@ -40,6 +40,7 @@ mod rescale;
 mod result;
 mod run;
 mod scene;
+mod sound;
 mod source;
 mod stage;
 mod text;
@@ -56,10 +57,12 @@ pub use game::{GamePlan, GameRun, play_as_game};
 pub use live::{LiveScene, SavedScene, Swing, Thing, ThingKind, Throw};
 pub use output::{FileWish, Output};
 pub use projectile::{Projectile, ProjectileKind};
+pub use recorder::Sounding;
 pub use rescale::{MaterialEdit, Rescale};
 pub use result::{BlowRecord, BreakRecord, HeldRecord, Run};
 pub use run::play;
 pub use scene::{PieceSpec, Scene};
+pub use sound::{Sounded, sound, sound_config};
 pub use source::{
     Axis, BodySource, FileKind, Opened, axes_of, compacted, open_source, save_asset,
     save_compact_asset,

@@ -5,6 +5,8 @@
 pub struct Output {
     /// The animation, by default `NAME.glb`.
     pub glb: FileWish,
+    /// The sound, by default `NAME.wav`.
+    pub wav: FileWish,
     /// The four moments of the break, by default `NAME.png`.
     pub picture: FileWish,
     /// The end for several seeds, `NAME-seeds.png`; by default not asked for.
@@ -30,6 +32,7 @@ impl Default for Output {
     fn default() -> Self {
         Self {
             glb: FileWish::Yes,
+            wav: FileWish::Yes,
             picture: FileWish::Yes,
             contact_sheet: FileWish::No,
             json: FileWish::No,
@@ -57,11 +60,12 @@ impl FileWish {
 }
 
 impl Output {
-    /// Names of the files a scene of this name will write: animation, picture, contact sheet, report.
+    /// Names of the files a scene of this name will write: animation, sound, picture, contact sheet, report.
     #[must_use]
-    pub fn file_names(&self, scene: &str) -> [Option<String>; 4] {
+    pub fn file_names(&self, scene: &str) -> [Option<String>; 5] {
         [
             self.glb.file_name(|| format!("{scene}.glb")),
+            self.wav.file_name(|| format!("{scene}.wav")),
             self.picture.file_name(|| format!("{scene}.png")),
             self.contact_sheet
                 .file_name(|| format!("{scene}-seeds.png")),

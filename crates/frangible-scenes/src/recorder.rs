@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use frangible::glam::{Quat, Vec3};
 use frangible::internals::BodyState;
-use frangible::{Asset, ImpactReport};
+use frangible::{Asset, Body, ImpactReport, Material};
 use frangible_export::{
     Floor, Moments, Pose, Pulse, RecordedBlow, RecordedCrack, RecordedMesh, RecordedNode,
     RecordedTouch, Recording, SurfaceMaterial,
@@ -35,6 +35,17 @@ struct Tracked {
     replaced: bool,
 }
 
+/// What a node is to the ear.
+#[derive(Clone, Debug)]
+pub enum Sounding {
+    /// A body, or a piece that can break again: it rings by its modes.
+    Modes(Body),
+    /// A piece without modes of its own, by its material and mass, kg.
+    Piece(Material, f64),
+    /// What was thrown, as a ball of a radius, m, and a mass, kg, of this material.
+    Ball(Material, f64, f64),
+}
+
 /// What a node is to the camera.
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) enum Role {
@@ -51,6 +62,7 @@ pub(crate) struct Recorder {
     recording: Recording,
     /// One per node.
     roles: Vec<Role>,
+    soundings: Vec<Sounding>,
     tracked: Vec<Tracked>,
     /// The node of each rigid body.
     node_of_body: BTreeMap<(u32, u32), usize>,
@@ -71,6 +83,7 @@ impl Recorder {
         Self {
             recording,
             roles: Vec::new(),
+            soundings: Vec::new(),
             tracked: Vec::new(),
             node_of_body: BTreeMap::new(),
             touching: BTreeMap::new(),
@@ -107,8 +120,10 @@ impl Recorder {
         body: RigidBodyHandle,
         extras: Vec<(String, f64)>,
         role: Role,
+        sounding: Sounding,
     ) {
         self.roles.push(role);
+        self.soundings.push(sounding);
         let recording = &mut self.recording;
         recording.meshes.push(mesh);
         let frame = recording.frame_count;
@@ -133,6 +148,7 @@ impl Recorder {
     /// Puts the pieces in the place of their parent, which has this name and comes from so many breaks, `time` s after the first frame.
     pub(crate) fn broke(
         &mut self,
+        world: &BreakableWorld,
         name: &str,
         generation: u32,
         event: &BreakEvent,
@@ -154,7 +170,12 @@ impl Recorder {
                 ("mass_kg".into(), fragment.mass.mass),
                 ("volume_m3".into(), fragment.mass.volume),
             ];
-            self.track(name, mesh, body, extras, Role::Piece);
+            let mass = fragment.mass.mass;
+            let sounding = world.breakable(body).map_or_else(
+                || Sounding::Piece(event.asset.material.clone(), mass),
+                |body| Sounding::Modes(body.clone()),
+            );
+            self.track(name, mesh, body, extras, Role::Piece, sounding);
         }
         let pieces = first..self.recording.nodes.len();
         self.blow(
@@ -223,7 +244,8 @@ impl Recorder {
             name, keep_extras, ..
         } = recording.nodes[node].clone();
         self.tracked[node].replaced = true;
-        self.track(name, mesh, body, keep_extras, self.roles[node]);
+        let sounding = self.soundings[node].clone();
+        self.track(name, mesh, body, keep_extras, self.roles[node], sounding);
         if let Some(tracked) = self.tracked.last_mut() {
             tracked.plain = plain;
         }
@@ -299,13 +321,14 @@ impl Recorder {
         recording.frame_count += 1;
     }
 
-    /// The finished recording, its views set so that what matters fills the picture; `at_rest`: whether nothing moves in the end.
+    /// The finished recording, its views set so that what matters fills the picture, and what each node is to the ear; `at_rest`: whether
+    /// nothing moves in the end.
     pub(crate) fn finish(
         mut self,
         look_from: Vec3,
         floor: Option<Floor>,
         at_rest: bool,
-    ) -> Recording {
+    ) -> (Recording, Vec<Sounding>) {
         let recording = &mut self.recording;
         recording.floor = floor;
         let last = recording.frame_count.saturating_sub(1);
@@ -328,7 +351,7 @@ impl Recorder {
         };
         let (camera, views) = cameras(recording, &self.roles, look_from);
         (recording.camera, recording.views) = (camera, Some(views));
-        self.recording
+        (self.recording, self.soundings)
     }
 }
 

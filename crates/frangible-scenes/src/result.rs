@@ -5,11 +5,15 @@ use frangible::{Contact, ImpactReport};
 use frangible_export::Recording;
 use frangible_rapier::BreakCause;
 
+use crate::recorder::Sounding;
+
 /// What came of a scene.
 #[derive(Clone, Debug)]
 pub struct Run {
     /// The animation.
     pub recording: Recording,
+    /// What each node of it is to the ear.
+    pub soundings: Vec<Sounding>,
     /// The breaks, in the order of time.
     pub breaks: Vec<BreakRecord>,
     /// The hardest impact on each body that did not break it, if any, in the order of the bodies.

@@ -55,6 +55,7 @@ pub fn play(
     }
     let mut run = Run {
         recording: Recording::default(),
+        soundings: Vec::new(),
         breaks: Vec::new(),
         held: Vec::new(),
         blows: Vec::new(),
@@ -115,6 +116,7 @@ pub fn play(
                 };
                 let generation = event.asset.portion.as_ref().map_or(0, |p| p.generation());
                 recorder.broke(
+                    world,
                     &name,
                     generation,
                     event,
@@ -167,7 +169,7 @@ pub fn play(
     run.held.sort_by_key(|held| held.body);
     run.at_rest = at_rest(&stage.world, &stage.projectiles);
     let floor = scene.floor.as_ref().map(|_| Floor::default());
-    run.recording = stage.recorder.finish(scene.look_from, floor, run.at_rest);
+    (run.recording, run.soundings) = stage.recorder.finish(scene.look_from, floor, run.at_rest);
     let reports = run.breaks.iter().map(|b| &b.report);
     let fractured: f64 = reports.map(|r| r.timings.total()).sum();
     run.rigid_seconds = clock.elapsed().as_secs_f64() - fractured;

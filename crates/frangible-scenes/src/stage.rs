@@ -19,7 +19,7 @@ use crate::launch::{Target, launch, vector};
 use crate::meshes::{BodySurfaces, whole};
 use crate::overlap::check_overlaps;
 use crate::projectile::Projectile;
-use crate::recorder::{Recorder, Role};
+use crate::recorder::{Recorder, Role, Sounding};
 use crate::scene::Scene;
 
 /// Gap between a standing body and the floor, m.
@@ -161,8 +161,10 @@ impl Stage<'_> {
             let (handle, mesh) = launch(&mut self.world, projectile, body.target, floor, surface)?;
             let name = projectile_name(&scene.projectiles, thrown.number);
             let extras = vec![("mass_kg".into(), projectile.mass)];
+            let material = Material::preset(&projectile.material)?;
+            let sounding = Sounding::Ball(material, projectile.radius, projectile.mass);
             self.recorder
-                .track(name, mesh, handle, extras, Role::Projectile);
+                .track(name, mesh, handle, extras, Role::Projectile, sounding);
             thrown.handle = Some(handle);
             thrown.until = projectile.stays.map_or(f64::INFINITY, |stays| now + stays);
         }
@@ -212,6 +214,7 @@ fn put<'a>(
     let body = breakable(spec, asset)?.body(seed);
     let q = spec.rotation;
     let pose = Pose::from_parts(vector(centre), Rotation::from_xyzw(q.x, q.y, q.z, q.w));
+    let sounding = Sounding::Modes(body.clone());
     let handle = world.insert_breakable(body, pose, vector(spec.velocity), vector(spec.spin))?;
     let look = appearance(&asset.material.name);
     let clear = look.outside.transmission > 0.0;
@@ -238,7 +241,7 @@ fn put<'a>(
     };
     let mesh = whole(&spec.name, asset, &surfaces);
     let role = Role::Body;
-    recorder.track(spec.name.clone(), mesh, handle, extras, role);
+    recorder.track(spec.name.clone(), mesh, handle, extras, role, sounding);
     let corners = asset.fracture.positions.iter().map(|&p| centre + q * p);
     let (low, high) = corners.fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(low, high), p| {
         (low.min(p), high.max(p))

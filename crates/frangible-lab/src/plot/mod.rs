@@ -1,4 +1,4 @@
-//! Charts as PNG: points and lines over linear or logarithmic axes, with a legend; line drawings side by side.
+//! Charts as PNG: points and lines over linear or logarithmic axes, with a legend; line drawings side by side; spectrograms.
 //!
 //! The project draws them itself, strokes and letters alike, so that a report needs no font file, no system library and no graphics
 //! driver, and is the same on every machine. A library would take the place of about half of these 900 lines: those that fit
@@ -8,8 +8,11 @@
 mod canvas;
 mod chart;
 mod font;
+mod fourier;
 mod panels;
+mod spectrogram;
 mod ticks;
 
 pub use chart::{Axis, Chart, Marker, Scale, Series};
 pub use panels::{Panel, Panels};
+pub use spectrogram::{Spectrogram, Spectrum};

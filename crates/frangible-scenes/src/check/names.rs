@@ -18,6 +18,7 @@ pub(super) fn check_output(output: &Output, scene: &str) -> Result<(), Fault> {
     }
     let keys = [
         "output.glb",
+        "output.wav",
         "output.picture",
         "output.contact_sheet",
         "output.json",

@@ -178,6 +178,7 @@ fn output(table: OutputTable) -> Output {
         SwitchOrName::Name(name) => FileWish::Named(name),
     };
     set(&mut output.glb, table.glb.map(wish));
+    set(&mut output.wav, table.wav.map(wish));
     set(&mut output.picture, table.picture.map(wish));
     set(&mut output.contact_sheet, table.contact_sheet.map(wish));
     set(&mut output.json, table.json.map(wish));

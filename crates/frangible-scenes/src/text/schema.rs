@@ -267,6 +267,7 @@ pub(super) enum PathTable {
 #[serde(deny_unknown_fields)]
 pub(super) struct OutputTable {
     pub(super) glb: Option<SwitchOrName>,
+    pub(super) wav: Option<SwitchOrName>,
     pub(super) picture: Option<SwitchOrName>,
     pub(super) contact_sheet: Option<SwitchOrName>,
     pub(super) json: Option<SwitchOrName>,

@@ -277,6 +277,7 @@ fn write_output(t: &mut Text, output: &Output) {
     t.table("[output]");
     for (key, wish) in [
         ("glb", &output.glb),
+        ("wav", &output.wav),
         ("picture", &output.picture),
         ("contact_sheet", &output.contact_sheet),
         ("json", &output.json),

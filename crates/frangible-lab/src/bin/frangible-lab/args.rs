@@ -22,6 +22,8 @@ pub(crate) enum Command {
     Pieces(PiecesArgs),
     /// Tabulate the near field, the residual vector and the force of a blow (a minute; near-field.md)
     NearField(PageArgs),
+    /// Strike and break things, listen, and compare with closed forms and published spectra (minutes; sound.md)
+    Sound(PageArgs),
     /// Compute the figures of the paper this model is taken from, and judge each claim (minutes; figures.md)
     Figures(FiguresArgs),
     /// Measure how fast the bodies of the paper's Table 1 break, how fast harmless contacts are refused, and more (performance.md)

@@ -8,6 +8,7 @@ mod figures;
 mod near_field;
 mod output;
 mod pieces;
+mod sound;
 mod verify;
 
 use std::process::ExitCode;
@@ -22,6 +23,7 @@ fn main() -> ExitCode {
         Command::Experiments(args) => experiments::run(&args),
         Command::Pieces(args) => pieces::run(&args),
         Command::NearField(args) => near_field::run(&args),
+        Command::Sound(args) => sound::run(&args),
         Command::Figures(args) => figures::run(&args),
         Command::Bench(args) => bench::run(&args),
         Command::Compare(args) => compare::run(&args),

@@ -1,0 +1,57 @@
+//! Struck and broken things, heard: `frangible-lab sound`.
+//!
+//! Closed forms and published spectra stand beside what the synthesiser makes of baked bodies. The tests of `frangible-sound` check the
+//! radiation of spheres, energies and onsets; here are whole bodies.
+
+mod cup;
+mod objects;
+mod page;
+mod scenes;
+
+use std::error::Error;
+
+pub use cup::Cup;
+pub use objects::{Object, Partial};
+pub use page::SoundPage;
+pub use scenes::HeardScene;
+
+/// Samples per second.
+const RATE: f64 = 48_000.0;
+
+/// Everything on the page.
+#[derive(Clone, Debug)]
+pub struct Heard {
+    /// Bodies struck once, with their partials.
+    pub objects: Vec<Object>,
+    /// The cup before and after it cracked.
+    pub cup: Cup,
+    /// Scenes.
+    pub scenes: Vec<HeardScene>,
+    /// The glass dropped from twice two heights: height, m, energy of the sound at the ears, Pa²·s.
+    pub drops: Vec<[f64; 2]>,
+}
+
+impl Heard {
+    /// Computes it all: minutes. `hear` hears the share done, 0..=1.
+    ///
+    /// # Errors
+    /// What the bake, the scenes or the synthesiser refused.
+    pub fn compute(hear: &mut dyn FnMut(f64)) -> Result<Self, Box<dyn Error>> {
+        let objects = objects::all()?;
+        hear(0.2);
+        let cup = Cup::compute()?;
+        hear(0.35);
+        let mut scenes = Vec::new();
+        for (i, name) in scenes::NAMES.into_iter().enumerate() {
+            scenes.push(HeardScene::compute(name, None)?);
+            hear(0.35 + 0.5 * (i + 1) as f64 / scenes::NAMES.len() as f64);
+        }
+        let drops = scenes::drops()?;
+        Ok(Self {
+            objects,
+            cup,
+            scenes,
+            drops,
+        })
+    }
+}

@@ -1,0 +1,225 @@
+//! The page. Every number in it was computed.
+
+use std::error::Error;
+use std::fmt::Write;
+
+use frangible_sound::CRACK_SHARE;
+
+use super::{Heard, RATE};
+use crate::page::table;
+use crate::plot::Spectrogram;
+
+/// Size of the pictures, pixels.
+const SIZE: (u32, u32) = (760, 420);
+
+/// The page and its pictures by name.
+#[derive(Clone, Debug)]
+pub struct SoundPage {
+    /// Markdown.
+    pub text: String,
+    /// Name of each picture's file without the ending, and the PNG.
+    pub pictures: Vec<(String, Vec<u8>)>,
+}
+
+impl Heard {
+    /// The page; its pictures lie in a folder beside it. Without timings, so that the same build writes the same page.
+    ///
+    /// # Errors
+    /// A picture that could not be encoded.
+    pub fn page(&self, folder: &str) -> Result<SoundPage, Box<dyn Error>> {
+        let mut text = String::from(
+            "# Sound\n\nWritten by `frangible-lab sound --write docs`, which computes it anew. Nothing passes or fails here; the tests of \
+             `frangible-sound` check radiated power, decay, energy and onsets against closed forms.\n\n\
+             `frangible break` writes the sound of a scene beside its animation. The modes that decide where a body breaks ring on under the same \
+             forces; what they send to the air follows in closed form from an equivalent sphere; pieces without modes of their own ring as a plate of \
+             their size.\n\n",
+        );
+        self.partials(&mut text);
+        self.cup_text(&mut text, folder);
+        self.scenes_text(&mut text, folder);
+        limits(&mut text);
+        let mut pictures = Vec::new();
+        for (name, title, samples) in [
+            ("cup-whole", "porcelain cup, whole", &self.cup.samples[0]),
+            (
+                "cup-cracked",
+                "porcelain cup, cracked",
+                &self.cup.samples[1],
+            ),
+        ] {
+            let half = samples.len() / 2;
+            pictures.push(picture(name, title, &samples[..half], &[])?);
+        }
+        for scene in &self.scenes {
+            let end = (scene.long.min(4.0) * RATE) as usize;
+            let samples = &scene.samples[..end.min(scene.samples.len())];
+            pictures.push(picture(&scene.name, &scene.name, samples, &scene.blows)?);
+        }
+        Ok(SoundPage { text, pictures })
+    }
+
+    fn partials(&self, text: &mut String) {
+        text.push_str(
+            "## Partials and decay\n\nEach body is baked, struck once and listened to at 1 m. *Heard* is the peak of the sound's spectrum; \
+             *known* is the closed form or the published measurement, as a multiple of the first tone. The bodies of the last two are not those that \
+             were measured, but of their kind. Decay is the time in which the first tone falls by 60 dB, by the damping and in the sound.\n\n",
+        );
+        let mut rows = Vec::new();
+        for object in &self.objects {
+            let first = object.partials[0];
+            for (i, partial) in object.partials.iter().enumerate() {
+                let ratio = partial.heard / first.heard;
+                let cell = |s: String| if i == 0 { s } else { String::new() };
+                rows.push(vec![
+                    cell(object.name.into()),
+                    format!("{:.1}", partial.mode),
+                    format!("{:.1}", partial.heard),
+                    format!("{ratio:.3}"),
+                    format!("{:.3}", partial.known),
+                    format!("{:+.1} %", 100.0 * (ratio / partial.known - 1.0)),
+                    cell(format!("{:.2} / {:.2} s", object.decay[0], object.decay[1])),
+                ]);
+            }
+        }
+        let head = [
+            "body",
+            "mode, Hz",
+            "heard, Hz",
+            "ratio",
+            "known",
+            "off",
+            "decay, damping / sound",
+        ];
+        text.push_str(&table(&head, &rows));
+        text.push_str("\nSources:\n");
+        for object in &self.objects {
+            let _ = writeln!(text, "- {}: {}", object.name, object.source);
+        }
+        text.push('\n');
+    }
+
+    fn cup_text(&self, text: &mut String, folder: &str) {
+        let cup = &self.cup;
+        let [low, high] = cup.two_tones;
+        let _ = write!(
+            text,
+            "## A cracked cup\n\nA mug has two tones, since its handle takes part in one swing of the wall and not in the other. Struck opposite the \
+             handle this one sounds at {low:.0} Hz and an eighth of a turn away at {high:.0} Hz, {:.1} % higher; \"more than five percent\" was told of a \
+             good mug (Palmer, PHYS-L, 1999).\n\nPotters knock at a cup to hear whether it is whole. A steel ball of 60 g at {:.2} m/s leaves this one in \
+             one piece with cracks, and its modes are found anew with the cracks in it.\n\n",
+            100.0 * (high / low - 1.0),
+            cup.speed
+        );
+        let rows: Vec<Vec<String>> = ["whole", "cracked"]
+            .iter()
+            .enumerate()
+            .map(|(i, name)| {
+                let modes: Vec<String> = cup.modes[i].iter().map(|f| format!("{f:.0}")).collect();
+                vec![
+                    (*name).to_string(),
+                    modes.join(", "),
+                    format!("{:.0}", cup.strongest[i][0]),
+                    format!("{:.2}", cup.strongest[i][1]),
+                ]
+            })
+            .collect();
+        let head = [
+            "cup",
+            "lowest modes, Hz",
+            "strongest tone, Hz",
+            "its decay, s",
+        ];
+        text.push_str(&table(&head, &rows));
+        let _ = writeln!(
+            text,
+            "\n![The whole cup]({folder}/cup-whole.png)\n![The cracked cup]({folder}/cup-cracked.png)\n\nThe tones of the cracked cup are lower. That \
+             a cracked cup also clatters and dies sooner comes of faces that rub and beat on each other, and that is not in the model: its decay \
+             changes only as its frequencies do.\n"
+        );
+    }
+
+    fn scenes_text(&self, text: &mut String, folder: &str) {
+        let _ = write!(
+            text,
+            "## Scenes\n\nThe ears are where the camera is. *First sound* is when it should arrive by the time of the first contact and its way, and when \
+             it does; a body is as large as its sound is early. The limiter's share is how much the loudest sample was bent; full scale is 117 dB. Cracks \
+             give {:.0} % of their energy to the modes on both sides.\n\n",
+            100.0 * CRACK_SHARE
+        );
+        let rows: Vec<Vec<String>> = (self.scenes.iter())
+            .map(|scene| {
+                vec![
+                    scene.name.clone(),
+                    scene.pieces.to_string(),
+                    format!("{}, {}", scene.events[0], scene.events[1]),
+                    format!("{:.2} / {:.2}", 1e3 * scene.onset[0], 1e3 * scene.onset[1]),
+                    format!("{:.1}", scene.loudest[0]),
+                    format!("{:.1}", scene.loudest[1]),
+                    format!("{:.1e}", scene.offset),
+                    format!("{:.1}", scene.long),
+                    format!("{}, {}", scene.most[0], scene.most[1]),
+                ]
+            })
+            .collect();
+        let head = [
+            "scene",
+            "pieces",
+            "contacts, cracks",
+            "first sound, ms: due / heard",
+            "loudest, dB",
+            "limited by, dB",
+            "offset / RMS",
+            "60 dB down after, s",
+            "most bodies, tones",
+        ];
+        text.push_str(&table(&head, &rows));
+        for scene in &self.scenes {
+            let _ = write!(text, "\n![{0}]({folder}/{0}.png)", scene.name);
+        }
+        text.push_str("\n\nMarks above the pictures are blows.\n\n## Energy\n\n");
+        let rows: Vec<Vec<String>> = (self.drops.iter())
+            .map(|[height, energy]| {
+                let first = self.drops[0];
+                vec![
+                    format!("{height:.1}"),
+                    format!("{:+.1}", 10.0 * (height / first[0]).log10()),
+                    format!("{:+.1}", 10.0 * (energy / first[1]).log10()),
+                ]
+            })
+            .collect();
+        text.push_str(
+            "The glass dropped from three heights. The energy of the fall grows by the second column, that of its sound at the left ear by the third.\n\n",
+        );
+        let head = ["height, m", "fall, dB", "sound, dB"];
+        text.push_str(&table(&head, &rows));
+        text.push('\n');
+    }
+}
+
+fn limits(text: &mut String) {
+    text.push_str(
+        "## What is not there\n\n\
+         - Sliding and rolling make no sound: the recordings hold blows and touches, and not what goes on between.\n\
+         - The vibration that a body has when it breaks ends there; its pieces begin with what the cracks give them.\n\
+         - Pieces that cannot break again have the tones of a plate of their size and not their own.\n\
+         - No cavities (the hollow of a bottle, which one blows on), no sound that bends around other bodies, no rooms.\n\
+         - A reflection from the floor is as loud as the direct sound in its direction, and walls that stand on the floor do not shake it.\n\
+         - The damping of stone, ice, sugar, chocolate and rubber, the share of the cracks' energy, and what supports take are estimates.\n",
+    );
+}
+
+fn picture(
+    name: &str,
+    title: &str,
+    samples: &[f32],
+    marks: &[f64],
+) -> Result<(String, Vec<u8>), Box<dyn Error>> {
+    let picture = Spectrogram {
+        title: title.into(),
+        samples,
+        rate: RATE,
+        highest: 16_000.0,
+        marks: marks.to_vec(),
+    };
+    Ok((name.into(), picture.png(SIZE.0, SIZE.1)?))
+}

@@ -1,0 +1,151 @@
+//! The sound of a blow: its force on what was struck and on what struck, and its cracks.
+
+use std::sync::Arc;
+
+use frangible::glam::Vec3;
+use frangible_export::{RecordedBlow, RecordedCrack};
+use frangible_sound::{CRACK_SHARE, CRACK_SPEED, Pulse, SoundError, Strike, Synth};
+
+use super::nodes::{Nodes, carried};
+use super::place;
+use crate::recorder::Sounding;
+use crate::result::Run;
+
+/// How near to the floor a force comes from the floor, m.
+const ON_FLOOR: f32 = 0.01;
+
+/// How near to a projectile's centre a force comes from it, in radii of it. A hammer's head is longer than wide.
+const AT_PROJECTILE: f32 = 3.0;
+
+/// Cracks of one blow that sound by themselves, the longest; the energy of all is shared among these.
+const MOST_CRACKS: usize = 200;
+
+/// Lets a blow be heard.
+pub(super) fn blows(
+    synth: &mut Synth,
+    nodes: &mut Nodes<'_>,
+    run: &Run,
+    blow: &RecordedBlow,
+) -> Result<(), SoundError> {
+    let id = nodes.ready(synth, blow.node, blow.time)?;
+    let pose = nodes.pose(blow.node, blow.time);
+    for recorded in &blow.pulses {
+        let pulse = Arc::new(Pulse {
+            time_step: recorded.time_step,
+            force: recorded.force.clone(),
+        });
+        let strike = Strike {
+            pulse: Arc::clone(&pulse),
+            push: nodes.push(blow.node, recorded.point, recorded.direction),
+            direction: recorded.direction,
+        };
+        synth.strike(blow.time, id, strike)?;
+        let at = pose.rotation * recorded.point + pose.translation;
+        let direction = pose.rotation * recorded.direction;
+        answer(synth, nodes, run, blow.time, [at, direction], pulse)?;
+    }
+    cracks(synth, nodes, blow)?;
+    if !blow.pieces.is_empty() {
+        let times = blow.cracks.iter().flat_map(|crack| &crack.times);
+        let apart = times.copied().fold(0.0, f64::max);
+        synth.hush(blow.time + apart, id)?;
+    }
+    Ok(())
+}
+
+/// Lets what gave the force feel it: the floor, or something that was thrown.
+fn answer(
+    synth: &mut Synth,
+    nodes: &mut Nodes<'_>,
+    run: &Run,
+    time: f64,
+    [at, direction]: [Vec3; 2],
+    pulse: Arc<Pulse>,
+) -> Result<(), SoundError> {
+    let recording = &run.recording;
+    let floor = recording.floor.map(|floor| floor.height);
+    if floor.is_some_and(|height| (at.y - height).abs() < ON_FLOOR && direction.y > 0.5) {
+        return synth.thump(time, place(at), pulse);
+    }
+    let frame = (time * f64::from(recording.frame_rate)) as usize;
+    let mut nearest: Option<(usize, f32)> = None;
+    for (node, sounding) in run.soundings.iter().enumerate() {
+        let Sounding::Ball(_, radius, _) = sounding else {
+            continue;
+        };
+        if !recording.nodes[node].visible.contains(&frame) {
+            continue;
+        }
+        let away = (nodes.pose(node, time).translation - at).length() / *radius as f32;
+        if away < nearest.map_or(AT_PROJECTILE, |(_, away)| away) {
+            nearest = Some((node, away));
+        }
+    }
+    let Some((node, _)) = nearest else {
+        return Ok(());
+    };
+    let id = nodes.ready(synth, node, time)?;
+    let own = nodes.pose(node, time).rotation.inverse() * -direction;
+    let strike = Strike {
+        pulse,
+        push: Vec::new(),
+        direction: own,
+    };
+    synth.strike(time, id, strike)
+}
+
+/// Lets the cracks be heard, on both their sides where they parted the body.
+fn cracks(synth: &mut Synth, nodes: &mut Nodes<'_>, blow: &RecordedBlow) -> Result<(), SoundError> {
+    let mut cracks: Vec<&RecordedCrack> = (blow.cracks.iter())
+        .filter(|c| !c.places.is_empty())
+        .collect();
+    cracks.sort_by_key(|crack| std::cmp::Reverse(crack.places.len()));
+    cracks.truncate(MOST_CRACKS);
+    let all: usize = cracks.iter().map(|crack| crack.places.len()).sum();
+    let speed = CRACK_SPEED * nodes.material(blow.node).rayleigh_speed();
+    for crack in cracks {
+        let share = crack.places.len() as f64 / all as f64;
+        let energy = CRACK_SHARE * blow.fracture_energy * share;
+        let (low, high) = crack
+            .places
+            .iter()
+            .fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(low, high), &p| {
+                (low.min(p), high.max(p))
+            });
+        let duration = (f64::from((high - low).length()) / speed).max(5e-6);
+        let middle = crack.places.len() / 2;
+        let (at, time) = (crack.places[middle], blow.time + crack.times[0]);
+        let sides = sides(nodes, blow, at);
+        for &(node, local) in &sides {
+            let id = nodes.ready(synth, node, time)?;
+            let push = nodes.push_any(node, local);
+            let Some(body) = nodes.body(node) else {
+                continue;
+            };
+            let each = energy / sides.len() as f64;
+            if let Some(strike) = Strike::crack(body, push, duration, each) {
+                synth.strike(time, id, strike)?;
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The nodes on both sides of a crack at a place of the body, and where it is in them: the body itself, or the two nearest of its pieces.
+fn sides(nodes: &Nodes<'_>, blow: &RecordedBlow, at: Vec3) -> Vec<(usize, Vec3)> {
+    if blow.pieces.is_empty() {
+        return vec![(blow.node, at)];
+    }
+    let parent = nodes.pose(blow.node, blow.time);
+    let mut near: Vec<(f32, usize, Vec3)> = (blow.pieces.clone())
+        .map(|piece| {
+            let local = carried(at, &parent, &nodes.pose(piece, blow.time));
+            (nodes.distance(piece, local), piece, local)
+        })
+        .collect();
+    near.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    near.iter()
+        .take(2)
+        .map(|&(_, piece, local)| (piece, local))
+        .collect()
+}

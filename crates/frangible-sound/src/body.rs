@@ -1,0 +1,126 @@
+//! What sounds: modes, a mass, and the sphere that carries them to the air.
+
+use crate::damping::{AudibleDamping, Hold};
+use crate::error::{SoundError, finite, within};
+use crate::sphere::EquivalentSphere;
+use crate::waves::HARMONICS;
+
+/// A body that can sound, as plain data. Its frame has the origin at the centre of mass.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Body {
+    /// Name, for messages.
+    pub name: String,
+    /// Mass that moves as a whole, kg; infinite for what is held, which then sounds by its modes alone.
+    pub mass: f64,
+    /// How its motion becomes sound.
+    pub sphere: EquivalentSphere,
+    /// Its modes of vibration; may be empty, and then only its motion as a whole is heard.
+    pub modes: Vec<Mode>,
+}
+
+/// One mode of vibration, mass-normalised.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mode {
+    /// Natural frequency, Hz.
+    pub frequency: f64,
+    /// Loss of its energy, 1/s: that of the material, the air and the hold together. Amplitudes fall as e^{−loss·t/2}.
+    pub loss: f64,
+    /// Part of the loss that goes into the air, 1/s.
+    pub radiated: f64,
+    /// Normal motion of the [equivalent sphere](EquivalentSphere) per unit of modal motion, 1/√kg, one per
+    /// [harmonic](crate::harmonic).
+    pub motion: Vec<f32>,
+}
+
+impl Mode {
+    /// A mode with its losses: natural frequency, Hz; its motion on a sphere; what its body is made of and held by.
+    #[must_use]
+    pub fn new(
+        frequency: f64,
+        motion: Vec<f32>,
+        sphere: &EquivalentSphere,
+        damping: &AudibleDamping,
+        hold: Hold,
+    ) -> Self {
+        let omega = std::f64::consts::TAU * frequency;
+        let radiated = sphere.radiation_loss(&motion, omega);
+        Self {
+            frequency,
+            loss: damping.loss(omega) + hold.loss(omega) + radiated,
+            radiated,
+            motion,
+        }
+    }
+
+    /// Time in which its level falls by 60 dB, s; infinite without loss.
+    #[must_use]
+    pub fn reverberation(&self) -> f64 {
+        6.0 * std::f64::consts::LN_10 / self.loss
+    }
+}
+
+impl Body {
+    /// A ball that moves as a whole and rings above what is heard: radius, m, and mass, kg.
+    ///
+    /// # Errors
+    /// A radius or a mass that is not above zero.
+    pub fn ball(name: impl Into<String>, radius: f64, mass: f64) -> Result<Self, SoundError> {
+        let body = Self {
+            name: name.into(),
+            mass,
+            sphere: EquivalentSphere::ball(radius)?,
+            modes: Vec::new(),
+        };
+        body.validate()?;
+        Ok(body)
+    }
+
+    /// Checks every number.
+    ///
+    /// # Errors
+    /// The first number at fault.
+    pub fn validate(&self) -> Result<(), SoundError> {
+        let name = &self.name;
+        if self.mass.is_nan() || self.mass <= 0.0 {
+            let what = format!("the mass of \"{name}\"");
+            return Err(SoundError::OutOfRange {
+                what,
+                value: self.mass,
+                range: "above zero, in kg",
+            });
+        }
+        let radius = self.sphere.radius;
+        within(
+            || format!("the radius of \"{name}\""),
+            radius,
+            radius > 0.0,
+            "above zero, in m",
+        )?;
+        for (i, mode) in self.modes.iter().enumerate() {
+            let of = |what: &str| format!("the {what} of mode {i} of \"{name}\"");
+            within(
+                || of("frequency"),
+                mode.frequency,
+                mode.frequency > 0.0,
+                "above zero, in Hz",
+            )?;
+            within(
+                || of("loss"),
+                mode.loss,
+                mode.loss >= 0.0,
+                "zero or above, in 1/s",
+            )?;
+            if mode.motion.len() != HARMONICS {
+                return Err(SoundError::BadCount {
+                    what: of("motion"),
+                    count: mode.motion.len(),
+                    expected: format!("{HARMONICS}, one per harmonic, are"),
+                });
+            }
+            for &c in &mode.motion {
+                finite(|| of("motion"), f64::from(c))?;
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,79 @@
+//! What can be wrong with what is to sound.
+
+use thiserror::Error;
+
+/// Why something cannot be made to sound; each message says how to mend it.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[non_exhaustive]
+pub enum SoundError {
+    /// A number is NaN or infinite.
+    #[error("{what} is {value}, not a finite number; check the simulation step that produced it")]
+    NotFinite {
+        /// Which number, in words.
+        what: String,
+        /// Its value.
+        value: f64,
+    },
+    /// A number is finite but outside its range.
+    #[error("{what} is {value}, but must be {range}")]
+    OutOfRange {
+        /// Which number, in words.
+        what: String,
+        /// Its value.
+        value: f64,
+        /// The range, in words.
+        range: &'static str,
+    },
+    /// Two lists that belong together differ in length.
+    #[error("{what} has {count} entries, but {expected} expected")]
+    BadCount {
+        /// Which list, in words.
+        what: String,
+        /// How many entries it has.
+        count: usize,
+        /// How many it should have, in words.
+        expected: String,
+    },
+    /// A number of a body that was never added, or was removed.
+    #[error(
+        "there is no body {index}; bodies are numbered from 0 in the order in which they were added, and {count} were"
+    )]
+    NoBody {
+        /// The number.
+        index: usize,
+        /// How many bodies there are.
+        count: usize,
+    },
+    /// The samples could not be written as a WAV file.
+    #[error("the samples cannot be written as WAV: {0}")]
+    Wav(String),
+}
+
+/// Refuses a number that is not finite.
+pub(crate) fn finite(what: impl Fn() -> String, value: f64) -> Result<f64, SoundError> {
+    if value.is_finite() {
+        return Ok(value);
+    }
+    Err(SoundError::NotFinite {
+        what: what(),
+        value,
+    })
+}
+
+/// Refuses a number that is not finite or for which the condition does not hold.
+pub(crate) fn within(
+    what: impl Fn() -> String,
+    value: f64,
+    holds: bool,
+    range: &'static str,
+) -> Result<f64, SoundError> {
+    finite(&what, value)?;
+    if holds {
+        return Ok(value);
+    }
+    Err(SoundError::OutOfRange {
+        what: what(),
+        value,
+        range,
+    })
+}

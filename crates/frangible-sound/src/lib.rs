@@ -1,0 +1,83 @@
+//! The sound of what breaks, from the same vibration modes and forces that break it: plain data in, samples out.
+//!
+//! A [`Synth`] gets [bodies](Body), where they are, and what happens to them: [strikes](Strike) with their forces over time, which are those
+//! that the fracture found, cracks with their energy, breaks. It hands out samples. It knows no audio device and no threads, and the same
+//! calls give the same samples.
+//!
+//! - **Modes** are resonators, driven by the force itself, exactly between its values.
+//! - **Radiation** and direction come in closed form from an [equivalent sphere](EquivalentSphere): the motion of the surface on spherical
+//!   harmonics, times outgoing spherical waves.
+//! - **The motion as a whole** of what is struck is heard too: of small pieces, which ring too high for any ear, it is all that is.
+//! - **Damping** is [the ear's own](AudibleDamping), not the fracture's, with what is radiated and what supports take.
+//! - **Pieces** without modes of their own ring as a [free plate](Plate) of their size.
+//! - **The floor** reflects and is struck itself; the [listener](Listener) has two ears, to which sound takes its time.
+//! - **The budget** lets the loudest ring and masked ones go, without a click, and a soft limiter tells what it did.
+//!
+//! ```
+//! use std::sync::Arc;
+//! use frangible_sound::glam::{DQuat, DVec3, Vec3};
+//! use frangible_sound::{AudibleDamping, Listener, Plate, PlateMaterial, Pulse, Strike, Synth, SynthConfig, wav};
+//!
+//! # fn main() -> Result<(), frangible_sound::SoundError> {
+//! let glass = PlateMaterial {
+//!     youngs_modulus: 71e9,
+//!     poisson_ratio: 0.23,
+//!     density: 2500.0,
+//!     damping: AudibleDamping::published("glass").unwrap_or_default().0,
+//! };
+//! let (plate, body) = Plate::new("tile", [0.15, 0.1, 0.005], DQuat::IDENTITY, &glass)?;
+//! let listener = Listener::at(DVec3::new(0.0, 0.3, 1.0), DVec3::ZERO);
+//! let mut synth = Synth::new(SynthConfig::new(listener))?;
+//! let tile = synth.add(Arc::new(body), DVec3::ZERO, DQuat::IDENTITY)?;
+//! let strike = Strike {
+//!     pulse: Arc::new(Pulse::half_sine(0.01, 2e-4)),
+//!     push: plate.push(Vec3::new(0.07, 0.04, 0.0), Vec3::Z),
+//!     direction: Vec3::Z,
+//! };
+//! synth.strike(0.0, tile, strike)?;
+//! let samples = synth.render_all(5.0)?;
+//! let bytes = wav(&samples, 2, 48_000.0)?;
+//! assert!(bytes.len() > 48_000 && synth.report().limiter.peak > 0.0);
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! What is not there: sliding and rolling, whose forces the recordings do not hold; sound that bends around other bodies; rooms.
+//! Everything is in SI units, and y is up.
+
+mod air;
+mod bank;
+mod body;
+mod complex;
+mod damping;
+mod ellipsoid;
+mod error;
+mod limiter;
+mod listener;
+mod of_asset;
+mod plate;
+mod pulse;
+mod select;
+mod sphere;
+mod strike;
+mod synth;
+mod voice;
+mod wav;
+mod waves;
+
+pub use air::{AIR_DENSITY, SPEED_OF_SOUND};
+pub use body::{Body, Mode};
+pub use damping::{AudibleDamping, Hold};
+pub use ellipsoid::moved_air;
+pub use error::SoundError;
+pub use glam;
+pub use limiter::LimiterReport;
+pub use listener::{Listener, SoundFloor};
+pub use of_asset::{AssetSound, HIGHEST};
+pub use plate::{Plate, PlateMaterial};
+pub use pulse::Pulse;
+pub use sphere::{EquivalentSphere, SurfaceElement};
+pub use strike::{CRACK_SHARE, CRACK_SPEED, Strike};
+pub use synth::{Synth, SynthConfig, SynthReport};
+pub use wav::wav;
+pub use waves::{HARMONICS, MOST_DEGREE, efficiencies, harmonic, harmonics};

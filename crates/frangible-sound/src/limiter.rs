@@ -1,0 +1,58 @@
+//! A soft limiter that says what it did.
+
+/// What a limiter did so far.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct LimiterReport {
+    /// Loudest pressure that came, Pa.
+    pub peak: f64,
+    /// Samples that were made softer.
+    pub limited: u64,
+    /// By how much the loudest of them was, dB; 0 if none.
+    pub reduction: f64,
+}
+
+/// From pressure, Pa, to samples below full scale: as it is up to this share of full scale, above it bent ever more.
+const KNEE: f64 = 0.7;
+
+/// Bends what is too loud.
+#[derive(Clone, Debug)]
+pub(crate) struct Limiter {
+    /// Pressure of full scale, Pa.
+    full_scale: f64,
+    report: LimiterReport,
+}
+
+impl Limiter {
+    pub(crate) fn new(full_scale: f64) -> Self {
+        Self {
+            full_scale,
+            report: LimiterReport::default(),
+        }
+    }
+
+    pub(crate) fn report(&self) -> LimiterReport {
+        self.report
+    }
+
+    /// The sample of a pressure, Pa: inside ±1, with a continuous slope.
+    pub(crate) fn sample(&mut self, pressure: f32) -> f32 {
+        let size = f64::from(pressure.abs());
+        // A pressure that is no number can only come of an overflow, and is full scale.
+        let size = if size.is_finite() {
+            size
+        } else {
+            1e6 * self.full_scale
+        };
+        self.report.peak = self.report.peak.max(size);
+        let share = size / self.full_scale;
+        if share <= KNEE {
+            return (share as f32).copysign(pressure);
+        }
+        let room = 1.0 - KNEE;
+        let bent = KNEE + room * ((share - KNEE) / room).tanh();
+        self.report.limited += 1;
+        self.report.reduction = self.report.reduction.max(20.0 * (share / bent).log10());
+        // Below 1 also after rounding.
+        (bent.min(0.999_99) as f32).copysign(pressure)
+    }
+}

@@ -1,0 +1,148 @@
+//! The sound of a baked body: its modes, and what a push at a point gives each of them.
+//!
+//! Everything comes from the asset when it is made ready to sound, so that files grow by nothing and bakes take no longer.
+
+use frangible::Asset;
+use frangible::internals::contact::each_row;
+use glam::{DVec3, Vec3};
+
+use crate::body::{Body, Mode};
+use crate::damping::{AudibleDamping, Hold};
+use crate::error::SoundError;
+use crate::sphere::{EquivalentSphere, SurfaceElement};
+use crate::waves::HARMONICS;
+
+/// Modes above this are not kept, Hz: hardly anybody hears them.
+pub const HIGHEST: f64 = 16_000.0;
+
+/// A breakable body, or a piece that has modes of its own, with its surface to be struck.
+#[derive(Clone, Debug)]
+pub struct AssetSound {
+    body: frangible::Body,
+    /// Modes that sound.
+    count: usize,
+}
+
+impl AssetSound {
+    /// Makes a body ready to sound, as what holds it lets it: its modes up to [`HIGHEST`], their motion spread over a sphere.
+    ///
+    /// # Errors
+    /// A surface without area, or a number of the asset at fault.
+    pub fn new(
+        body: &frangible::Body,
+        damping: &AudibleDamping,
+        hold: Hold,
+    ) -> Result<(Self, Body), SoundError> {
+        let asset = body.asset();
+        let surface = elements(asset);
+        let places: Vec<SurfaceElement> = surface.iter().map(|(_, element)| *element).collect();
+        let sphere = EquivalentSphere::of(&places)?;
+        let frequencies = asset.modes.eigenvalues.iter();
+        let frequencies = frequencies.map(|l| l.max(0.0).sqrt() / std::f64::consts::TAU);
+        let heard: Vec<f64> = frequencies.take_while(|&f| f <= HIGHEST).collect();
+        let motion = motion(asset, &sphere, &surface, heard.len());
+        let modes = heard.iter().zip(motion).map(|(&frequency, motion)| {
+            // Rounding gives a loose piece modes of a fraction of a hertz, which nobody hears.
+            Mode::new(frequency.max(1.0), motion, &sphere, damping, hold)
+        });
+        let sound = Body {
+            name: asset.name.clone(),
+            mass: if asset.is_supported() {
+                f64::INFINITY
+            } else {
+                asset.mass.mass
+            },
+            modes: modes.collect(),
+            sphere,
+        };
+        sound.validate()?;
+        let own = Self {
+            body: body.clone(),
+            count: heard.len(),
+        };
+        Ok((own, sound))
+    }
+
+    /// What a force of one newton along a direction gives each mode, 1/√kg, where it acts on the surface nearest to a point, m, body
+    /// frame.
+    #[must_use]
+    pub fn push(&self, point: Vec3, direction: Vec3) -> Vec<f32> {
+        let asset = self.body.asset();
+        let at = self.body.nearest_on_surface(point);
+        let mut sums = vec![0.0_f32; asset.modes.count()];
+        each_row(asset, &at, |node, weight| {
+            let push = (direction * weight).to_array();
+            asset.modes.add_push(node, push, &mut sums);
+        });
+        sums.truncate(self.count);
+        sums
+    }
+}
+
+/// The triangles of the surface as elements, with their corners.
+fn elements(asset: &Asset) -> Vec<([u32; 3], SurfaceElement)> {
+    let positions = asset.surface_positions();
+    let element = |&triangle: &[u32; 3]| {
+        let [a, b, c] = triangle.map(|v| positions[v as usize].as_dvec3());
+        let element = SurfaceElement {
+            place: (a + b + c) / 3.0,
+            area: 0.5 * (b - a).cross(c - a),
+        };
+        (triangle, element)
+    };
+    asset.surface.triangles.iter().map(element).collect()
+}
+
+/// Motion of the first modes on the sphere: one list of harmonics for each.
+///
+/// The weights of the triangles are gathered at the nodes that carry the modes first, which are fewer.
+fn motion(
+    asset: &Asset,
+    sphere: &EquivalentSphere,
+    surface: &[([u32; 3], SurfaceElement)],
+    modes: usize,
+) -> Vec<Vec<f32>> {
+    let nodes = asset.analysis.nodes.len();
+    let mut slot = vec![usize::MAX; nodes];
+    let mut carried: Vec<(usize, [DVec3; HARMONICS])> = Vec::new();
+    let mut at_vertex = vec![None::<Box<[DVec3; HARMONICS]>>; asset.surface_positions().len()];
+    for (triangle, element) in surface {
+        let weights = sphere.weights(element);
+        for &vertex in triangle {
+            let sums = at_vertex[vertex as usize]
+                .get_or_insert_with(|| Box::new([DVec3::ZERO; HARMONICS]));
+            for (sum, weight) in sums.iter_mut().zip(weights) {
+                *sum += weight / 3.0;
+            }
+        }
+    }
+    for (vertex, sums) in at_vertex.iter().enumerate() {
+        let Some(sums) = sums else { continue };
+        let point = &asset.embedding.nodes[vertex];
+        let element = asset.analysis.elements[point.element as usize];
+        for (&node, share) in element.iter().zip(point.shape_values()) {
+            let node = node as usize;
+            if slot[node] == usize::MAX {
+                slot[node] = carried.len();
+                carried.push((node, [DVec3::ZERO; HARMONICS]));
+            }
+            let into = &mut carried[slot[node]].1;
+            for (into, sum) in into.iter_mut().zip(sums.iter()) {
+                *into += *sum * f64::from(share);
+            }
+        }
+    }
+    let mut motion = vec![vec![0.0_f32; modes]; HARMONICS];
+    for (node, weights) in &carried {
+        let rows = asset.modes.rows(*node).map(|row| &row[..modes]);
+        for (row, weight) in motion.iter_mut().zip(weights) {
+            let [x, y, z] = weight.as_vec3().to_array();
+            for (((sum, a), b), c) in row.iter_mut().zip(rows[0]).zip(rows[1]).zip(rows[2]) {
+                *sum += x * a + y * b + z * c;
+            }
+        }
+    }
+    (0..modes)
+        .map(|mode| motion.iter().map(|row| row[mode]).collect())
+        .collect()
+}
