@@ -142,8 +142,7 @@ fn step(
     }
     let entity = |handle: RigidBodyHandle| known.0.get(&handle.into_raw_parts()).copied();
     for event in world.held() {
-        let Some((body, entity)) = entity(event.body).and_then(|e| Some((bodies.get_mut(e), e)))
-        else {
+        let Some((body, entity)) = entity(event.body).map(|e| (bodies.get_mut(e), e)) else {
             continue;
         };
         let Ok(mut body) = body else { continue };
