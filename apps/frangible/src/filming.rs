@@ -14,8 +14,8 @@ use crate::progress::Bar;
 use crate::request::scene_of;
 use crate::say::say;
 
-/// Share of a film that passes before the first crack.
-const BEFORE: f64 = 0.15;
+/// Share of a film that passes before the first crack, at least: from the moment that the first view is of.
+const BEFORE: f64 = 0.1;
 
 /// Share of a film in which it is slow.
 const SLOW: f64 = 0.55;
@@ -146,12 +146,13 @@ impl Clock {
         let moments = recording.moments;
         let (crack, end) = (moments.first_crack as f64, moments.at_rest as f64);
         let moving = (seconds - END).max(0.5 * seconds);
-        let before = (BEFORE * moving).min(crack / rate);
+        let first = (moments.before as f64).min(crack);
+        let before = ((crack - first) / rate).clamp(BEFORE * moving, 0.4 * moving);
         let slowly = SLOW * moving;
         let parted = (crack + slowly * rate / slow).min(end);
         Self {
             knots: [
-                [0.0, crack - before * rate],
+                [0.0, first],
                 [before, crack],
                 [before + slowly, parted],
                 [moving, end.max(parted)],
@@ -277,7 +278,7 @@ mod tests {
             frame_rate: 60.0,
             frame_count: 400,
             moments: Moments {
-                before: 20,
+                before: 50,
                 first_crack: 60,
                 just_after: 66,
                 at_rest: 399,
@@ -289,7 +290,7 @@ mod tests {
         let frames: Vec<f64> = (0..120).map(|i| clock.frame(f64::from(i) / 20.0)).collect();
         assert!(frames.is_sorted());
         assert_eq!(frames[119], 399.0);
-        assert!(frames[0] < 60.0 && frames[0] >= 0.0);
+        assert_eq!(frames[0], 50.0);
         let at = frames.partition_point(|frame| *frame < 60.0);
         let step = frames[at + 2] - frames[at + 1];
         assert!((step - 60.0 / 8.0 / 20.0).abs() < 1e-9, "{step}");
