@@ -108,6 +108,14 @@ pub(crate) struct FilmArgs {
     pub(crate) scene: SceneArgs,
 }
 
+#[cfg(feature = "draw")]
+impl FilmArgs {
+    /// How many pictures the film has.
+    pub(crate) fn pictures(&self) -> usize {
+        (self.seconds * self.rate).round().max(2.0) as usize
+    }
+}
+
 /// Width and height of a film.
 #[cfg(feature = "draw")]
 fn parse_frame(text: &str) -> Result<[u32; 2], String> {

@@ -59,7 +59,7 @@ pub(crate) fn run(args: &FilmArgs) -> Result<(), Box<dyn Error>> {
         bar.show(&format!("{}: {}", scene.name, p.stage), p.fraction);
     })?;
     let stop = interrupted()?;
-    let count = (args.seconds * args.rate).round().max(2.0) as usize;
+    let count = args.pictures();
     let mut pictures = 0;
     let mut add = |picture: RgbImage| -> Result<bool, Box<dyn Error>> {
         bar.show(
@@ -121,7 +121,7 @@ fn slow_motion(
         bar.show(&format!("{}: breaking", scene.name), done);
     })?;
     let recording = &run.recording;
-    let count = (args.seconds * args.rate).round().max(2.0) as usize;
+    let count = args.pictures();
     let clock = Clock::of(recording, args.seconds, args.slow);
     for picture in 0..count {
         let frame = clock.frame(picture as f64 / args.rate);
@@ -214,7 +214,7 @@ fn microseconds(
         return Err("nothing breaks in this scene, so there are no microseconds to film; hit it harder (--drop, --ball)".into());
     };
     let still = ((END * args.rate) as usize).max(1);
-    let count = (args.seconds * args.rate).round().max(2.0) as usize;
+    let count = args.pictures();
     let moments = count.saturating_sub(still).max(2);
     let wave = found.wave(moments, &mut |done| {
         bar.show(&format!("{}: the wave", scene.name), done);

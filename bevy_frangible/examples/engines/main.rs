@@ -1,4 +1,4 @@
-//! The same scenes in two physics engines: `cargo run --release --example engines [-- --write]` plays each with twenty seeds in Rapier and in
+//! Two physics engines play equal scenes: `cargo run --release --example engines [-- --write]` plays each with twenty seeds in Rapier and in
 //! Avian, and prints a page of what came of them, or writes it to `docs/engines.md`.
 
 mod in_avian;

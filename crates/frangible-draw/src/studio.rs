@@ -82,7 +82,7 @@ impl Studio {
     ///
     /// # Errors
     ///
-    /// As [`Studio::frame`].
+    /// Those of [`Studio::frame`].
     pub fn film_frame(
         &self,
         recording: &Recording,
@@ -96,7 +96,7 @@ impl Studio {
     ///
     /// # Errors
     ///
-    /// As [`Studio::frame`].
+    /// Those of [`Studio::frame`].
     pub fn film_frame_between(
         &self,
         recording: &Recording,
@@ -129,7 +129,7 @@ impl Studio {
     ///
     /// # Errors
     ///
-    /// As [`Studio::frame`]; [`DrawError::Cancelled`] if `go_on` said no.
+    /// Those of [`Studio::frame`]; [`DrawError::Cancelled`] if `go_on` said no.
     pub fn traced(
         &self,
         recording: &Recording,

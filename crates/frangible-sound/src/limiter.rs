@@ -7,7 +7,7 @@ pub struct LimiterReport {
     pub peak: f64,
     /// Samples that were made softer.
     pub limited: u64,
-    /// By how much the loudest of them was, dB; 0 if none.
+    /// How much softer the loudest of them was made, dB; 0 if none.
     pub reduction: f64,
 }
 

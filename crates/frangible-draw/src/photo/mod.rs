@@ -76,7 +76,7 @@ impl Photograph {
         }
     }
 
-    /// As many paths as a quick picture takes.
+    /// Adds the paths of a quick picture.
     pub(crate) fn expose(&mut self) {
         self.add(FIRST_PATHS, false);
         for _ in (FIRST_PATHS..MOST_PATHS).step_by(ROUND as usize) {

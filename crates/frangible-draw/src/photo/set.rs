@@ -34,7 +34,7 @@ pub(crate) struct Met<'a> {
     pub(crate) at: Vec3A,
     /// Across the face itself, out of the body.
     pub(crate) flat: Vec3A,
-    /// As smooth as the face is to look, out of the body.
+    /// The normal that the face is shaded by, out of the body.
     pub(crate) smooth: Vec3A,
     /// Place in the frame of the mesh, m.
     pub(crate) own: Vec3A,

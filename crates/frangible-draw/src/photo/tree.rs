@@ -54,7 +54,7 @@ impl Box3 {
 #[derive(Clone, Copy)]
 struct Node {
     bounds: Box3,
-    /// Of a leaf the place of its first face in the order, else the number of the second of its two boxes; the first comes next.
+    /// In a leaf, the place of its first face in the order; else the number of the second of its two boxes, of which the first comes next.
     next: u32,
     /// Faces of a leaf, else none.
     faces: u32,

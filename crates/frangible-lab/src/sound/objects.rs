@@ -20,9 +20,9 @@ const LONG: f64 = 2.0;
 /// A tone of a body.
 #[derive(Clone, Copy, Debug)]
 pub struct Partial {
-    /// As a mode of the bake, Hz.
+    /// Frequency of the mode of the bake, Hz.
     pub mode: f64,
-    /// As it was found in the sound, Hz.
+    /// Frequency that was found in the sound, Hz.
     pub heard: f64,
     /// Published or in closed form, as a multiple of the first.
     pub known: f64,

@@ -147,7 +147,7 @@ impl<'a> Nodes<'a> {
         }
     }
 
-    /// The same of a force of no known direction: the root of the sum of the squares of three.
+    /// The push of a force of no known direction: the root of the sum of the squares of three directions.
     pub(super) fn push_any(&self, node: usize, point: Vec3) -> Vec<f32> {
         let pushes = Vec3::AXES.map(|axis| self.push(node, point, axis));
         let [x, y, z] = &pushes;

@@ -249,8 +249,8 @@ impl Blow {
 
     /// Whether anything bears a contact still.
     pub(crate) fn bears(&self, contact: usize) -> bool {
-        let known = self.softer.iter().filter(|s| s.contact == contact);
-        known.into_iter().all(|s| s.compliance.is_finite())
+        let mut known = self.softer.iter().filter(|s| s.contact == contact);
+        known.all(|s| s.compliance.is_finite())
     }
 
     /// The node of the fracture mesh next to each contact, of those that are the body's own.
