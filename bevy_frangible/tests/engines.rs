@@ -36,9 +36,9 @@ fn a_throw_ends_in_avian_as_it_does_in_rapier() {
     }
     let [rapier, avian] = sums.map(|sum| sum / 20.0);
     println!("the ball goes on at {rapier} m/s in Rapier, {avian} m/s in Avian");
-    // 5.5 % apart where it was measured (docs/engines.md; 0.6, 4.9 and 4.0 % at 6, 20 and 30 m/s): the goal, 5 %, is just missed. The blow
-    // and its cracks agree; what differs is how the ball then meets the pieces.
-    assert!((avian / rapier - 1.0).abs() < 0.08, "{avian} {rapier}");
+    // 2.0 % apart where it was measured (docs/engines.md; 7.7, 5.1, 12.4 and 3.6 % at 4, 6, 20 and 30 m/s). The blow and its cracks agree;
+    // what differs is how the ball then meets the pieces.
+    assert!((avian / rapier - 1.0).abs() < 0.05, "{avian} {rapier}");
 }
 
 /// Momentum stays over the step of the break, and the motion pays for the cracks.
