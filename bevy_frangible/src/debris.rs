@@ -1,4 +1,4 @@
-//! How many pieces there may be, and which of them go.
+//! How many pieces there may be, which of them go, and what becomes of those that rest.
 
 use std::collections::VecDeque;
 use std::time::Duration;
@@ -8,25 +8,50 @@ use frangible::Fragment;
 
 use crate::{Broken, FragmentOf};
 
-/// How many pieces of broken bodies there may be, and which are too small to matter. Pieces that something outside holds do not count and
-/// stay. An engine's own sleep serves the others.
+/// How many pieces of broken bodies there may be, how long a step with them may take, and which are too small to matter. Pieces that
+/// something outside holds do not count and stay.
 #[derive(Resource, Clone, Debug, PartialEq)]
 pub struct DebrisBudget {
-    /// Pieces kept at most. Default 1000. Those of the oldest break are despawned first, of one break the lightest.
+    /// Pieces kept at most. Default 1000. Those of the oldest break go first, of one break the lightest.
     pub pieces: usize,
+    /// Longest that a step of physics may take in the mean of the last ones: while it takes longer, one in fifty pieces goes in each step.
+    /// Default none. With it two runs are no longer alike, as they hang on the speed of the machine.
+    pub step_time: Option<Duration>,
     /// Lighter fragments are dust: without a collider they fall through everything, cost next to nothing, and are despawned
     /// [`DebrisBudget::dust_time`] after the break. kg, default 1e-5, a chip of glass 1.5 mm wide.
     pub dust_mass: f64,
     /// Default 1 s.
     pub dust_time: Duration,
+    /// What becomes of pieces that Avian has let sleep for [`DebrisBudget::rest_time`]. Default [`AtRest::Sleep`].
+    pub at_rest: AtRest,
+    /// Default 2 s.
+    pub rest_time: Duration,
+    /// A piece that goes loses its collider and shrinks to nothing in this time. Default zero: it is gone at once.
+    pub fade_time: Duration,
+}
+
+/// What becomes of pieces that rest.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum AtRest {
+    /// They sleep until something touches them.
+    #[default]
+    Sleep,
+    /// They become static: nothing moves them any more, and nothing has to be solved for them. They break again as others do.
+    Freeze,
+    /// They go.
+    Go,
 }
 
 impl Default for DebrisBudget {
     fn default() -> Self {
         Self {
             pieces: 1000,
+            step_time: None,
             dust_mass: 1e-5,
             dust_time: Duration::from_secs(1),
+            at_rest: AtRest::default(),
+            rest_time: Duration::from_secs(2),
+            fade_time: Duration::ZERO,
         }
     }
 }
@@ -39,12 +64,21 @@ impl DebrisBudget {
     }
 }
 
+/// One in so many pieces goes in each step that is too long.
+const SHARE: usize = 50;
+
 /// The pieces that may go, the first to go first, and dust with the time at which it goes.
 #[derive(Resource, Default)]
 pub(crate) struct Heap {
     pieces: VecDeque<Entity>,
     dust: VecDeque<(Duration, Entity)>,
+    /// What steps of physics take, in the mean of the last ones.
+    pub(crate) step_time: Duration,
 }
+
+/// A piece that goes: when it began to, in the time of the fixed steps.
+#[derive(Component)]
+pub(crate) struct Fading(Duration);
 
 /// Remembers the pieces of a break, which are sorted from the largest.
 pub(crate) fn remember(world: &mut World, fragments: &[Fragment], entities: &[Entity]) {
@@ -60,23 +94,49 @@ pub(crate) fn remember(world: &mut World, fragments: &[Fragment], entities: &[En
     }
 }
 
-/// Despawns what is too much.
+/// Lets go what is too much.
 pub(crate) fn clear_up(
     mut heap: ResMut<Heap>,
     budget: Res<DebrisBudget>,
     time: Res<Time<Fixed>>,
-    pieces: Query<(), (With<FragmentOf>, Without<Broken>)>,
+    pieces: Query<(), (With<FragmentOf>, Without<Broken>, Without<Fading>)>,
     mut commands: Commands,
 ) {
     while let Some((_, entity)) = heap.dust.pop_front_if(|(at, _)| *at <= time.elapsed()) {
         commands.entity(entity).try_despawn();
     }
-    if heap.pieces.len() <= budget.pieces {
+    let long = budget.step_time.is_some_and(|most| heap.step_time > most);
+    if heap.pieces.len() <= budget.pieces && !long {
         return;
     }
     heap.pieces.retain(|&entity| pieces.contains(entity));
-    let surplus = heap.pieces.len().saturating_sub(budget.pieces);
+    let count = heap.pieces.len();
+    let too_long = if long { count.div_ceil(SHARE) } else { 0 };
+    let surplus = count.saturating_sub(budget.pieces).max(too_long);
     for entity in heap.pieces.drain(..surplus) {
-        commands.entity(entity).try_despawn();
+        let_go(&mut commands, entity, time.elapsed());
     }
+}
+
+/// Shrinks what goes, until it is gone.
+pub(crate) fn fade(
+    mut fading: Query<(Entity, &Fading, &mut Transform)>,
+    budget: Res<DebrisBudget>,
+    time: Res<Time<Fixed>>,
+    mut commands: Commands,
+) {
+    for (entity, Fading(since), mut place) in &mut fading {
+        let age = time.elapsed().saturating_sub(*since);
+        if age >= budget.fade_time {
+            commands.entity(entity).try_despawn();
+        } else {
+            let left = 1.0 - age.as_secs_f32() / budget.fade_time.as_secs_f32();
+            place.scale = Vec3::splat(left);
+        }
+    }
+}
+
+/// Lets a piece go.
+pub(crate) fn let_go(commands: &mut Commands, piece: Entity, now: Duration) {
+    commands.entity(piece).try_insert(Fading(now));
 }

@@ -40,6 +40,8 @@ mod avian;
 mod break_apart;
 mod debris;
 mod file;
+#[cfg(feature = "gizmos")]
+mod gizmos;
 mod looks;
 mod meshes;
 mod per_asset;
@@ -56,11 +58,13 @@ use frangible::{Body, Fracture, FractureConfig, ImpactReport};
 pub use again::BreakAgain;
 #[cfg(feature = "avian")]
 pub use avian::{Breaking, Carries, ColliderDetail, FrangibleHooks, ImpactSpeed, MadeOf};
-pub use debris::DebrisBudget;
+pub use debris::{AtRest, DebrisBudget};
 pub use file::{FrangibleAsset, FrangibleLoader, LoadError};
 pub use frangible;
 #[cfg(feature = "rapier")]
 pub use frangible_rapier;
+#[cfg(feature = "gizmos")]
+pub use gizmos::{FrangibleGizmos, FrangibleGizmosPlugin, LastBlow};
 pub use looks::{Looks, LooksPlugin};
 #[cfg(feature = "rapier")]
 pub use rapier::{FrangibleRapierPlugin, RapierBody, RapierWorld};
@@ -68,8 +72,8 @@ pub use rapier::{FrangibleRapierPlugin, RapierBody, RapierWorld};
 /// What most games use.
 pub mod prelude {
     pub use crate::{
-        Blow, BreakAgain, BreakFailed, Breakable, Broke, DebrisBudget, FragmentOf, Fragments,
-        FrangibleAsset, FrangiblePlugin, Held, Looks, LooksPlugin, Seed,
+        AtRest, Blow, BreakAgain, BreakFailed, Breakable, Broke, DebrisBudget, FragmentOf,
+        Fragments, FrangibleAsset, FrangiblePlugin, Held, Looks, LooksPlugin, Seed,
     };
     #[cfg(feature = "avian")]
     pub use crate::{Breaking, ColliderDetail, FrangibleHooks, MadeOf};
@@ -216,6 +220,9 @@ fn build(app: &mut App, config: &FractureConfig) {
         .init_asset::<FrangibleAsset>()
         .register_asset_loader(FrangibleLoader)
         .add_systems(PreUpdate, ready::make_ready)
-        .add_systems(FixedPreUpdate, (again::join, debris::clear_up))
+        .add_systems(
+            FixedPreUpdate,
+            (again::join, debris::clear_up, debris::fade).chain(),
+        )
         .add_observer(break_apart::obey);
 }

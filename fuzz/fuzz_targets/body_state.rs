@@ -20,8 +20,8 @@ fn body() -> Body {
 }
 
 fuzz_target!(|data: &[u8]| {
-    if let Ok(contact) = Contact::from_bytes(&data[..data.len().min(Contact::BYTES)]) {
-        assert_eq!(contact.to_bytes()[..], data[..Contact::BYTES]);
+    if let Ok((contact, behind)) = Contact::read(data) {
+        assert_eq!(contact.to_bytes()[..], data[..data.len() - behind.len()]);
     }
     let Ok(state) = BodyState::from_bytes(data) else {
         return;

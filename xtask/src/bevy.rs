@@ -1,10 +1,11 @@
 //! The plugin for Bevy, which is a workspace of its own: lints, tests, and a project made anew that does what its page says; all without
-//! a window.
+//! a window or a renderer. Its examples with a window are a step of their own: they draw their pictures, which are compared.
 
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use crate::command::{Result, cargo, root, run_within, shown};
+use crate::setup::setup;
 
 /// What the plugin and its tests are built from.
 pub(crate) const PATHS: [&str; 6] = [
@@ -16,14 +17,54 @@ pub(crate) const PATHS: [&str; 6] = [
     "xtask/src/bevy.rs",
 ];
 
-/// Limit of the whole step: a first build of Bevy takes most of it.
+/// What the examples with a window are built from, and their pictures.
+pub(crate) const DRAWN_PATHS: [&str; 7] = [
+    "bevy_frangible",
+    "crates/frangible",
+    "crates/frangible-bake",
+    "crates/frangible-mesh",
+    "docs/bevy",
+    "xtask/src/bevy.rs",
+    "xtask/src/setup.rs",
+];
+
+/// Limit of each step: a first build of Bevy takes most of it.
 const LIMIT: Duration = Duration::from_secs(35 * 60);
+
+/// Runs cargo in the plugin's workspace, within what is left of the limit.
+fn in_workspace(commands: &[&[&str]], start: Instant) -> Result<PathBuf> {
+    let target = std::env::var_os("CARGO_TARGET_DIR").unwrap_or_else(|| "target".into());
+    let target: PathBuf = root().join(target).join("bevy");
+    for words in commands {
+        let mut command = cargo(words);
+        command.current_dir(root().join("bevy_frangible"));
+        command.env("CARGO_TARGET_DIR", &target);
+        println!("$ {}", shown(&command));
+        run_within(&mut command, LIMIT.saturating_sub(start.elapsed()))?;
+    }
+    Ok(target)
+}
+
+/// Lints the examples with a window, and has each draw its picture on a software driver.
+pub(crate) fn drawn() -> Result<Vec<String>> {
+    setup();
+    let lints: &[&str] = &[
+        "clippy",
+        "--release",
+        "--package=drawn",
+        "--all-targets",
+        "--",
+        "-D",
+        "warnings",
+    ];
+    let pictures: &[&str] = &["test", "--release", "--package=drawn"];
+    in_workspace(&[lints, pictures], Instant::now())?;
+    Ok(Vec::new())
+}
 
 /// Lints and tests the plugin.
 pub(crate) fn bevy() -> Result<Vec<String>> {
     let start = Instant::now();
-    let target = std::env::var_os("CARGO_TARGET_DIR").unwrap_or_else(|| "target".into());
-    let target: PathBuf = root().join(target).join("bevy");
     let lints: &[&str] = &[
         "clippy",
         "--release",
@@ -34,13 +75,7 @@ pub(crate) fn bevy() -> Result<Vec<String>> {
         "warnings",
     ];
     let tests: &[&str] = &["test", "--release", "--all-features"];
-    for words in [&["fmt", "--check"], lints, tests] {
-        let mut command = cargo(words);
-        command.current_dir(root().join("bevy_frangible"));
-        command.env("CARGO_TARGET_DIR", &target);
-        println!("$ {}", shown(&command));
-        run_within(&mut command, LIMIT.saturating_sub(start.elapsed()))?;
-    }
+    let target = in_workspace(&[&["fmt", "--all", "--check"], lints, tests], start)?;
     let project = fresh(&target)?;
     for program in ["bake", "game"] {
         let mut command = cargo(&["run", "--quiet", "--release", "--bin", program]);

@@ -9,8 +9,9 @@ use crate::command::{Result, cargo, output, root, run, run_keeping, run_within, 
 use crate::counts::counts;
 use crate::fuzz::{USUAL_SECONDS, fuzz};
 use crate::green;
+use crate::python;
 use crate::test::packages;
-use crate::web::trial;
+use crate::web::{package, trial};
 
 /// Building cargo-deny takes three minutes of one core; a machine that needs longer than this is stuck.
 const INSTALL_LIMIT: Duration = Duration::from_secs(20 * 60);
@@ -37,6 +38,19 @@ const PAGE: [&str; 16] = [
     "crates/frangible-scenes",
     "crates/frangible-sound",
     "crates/frangible-view",
+    "xtask/src/command.rs",
+    "xtask/src/web",
+    "xtask/web-pack",
+];
+
+/// What the npm package is built from, and what tests it.
+const NPM: [&str; 9] = [
+    "Cargo.toml",
+    "Cargo.lock",
+    "apps/npm",
+    "crates/frangible",
+    "crates/frangible-bake",
+    "crates/frangible-mesh",
     "xtask/src/command.rs",
     "xtask/src/web",
     "xtask/web-pack",
@@ -77,7 +91,7 @@ const fn step(name: &'static str, check: Check) -> Step {
     }
 }
 
-const STEPS: [Step; 13] = [
+const STEPS: &[Step] = &[
     step("format", || quiet(&["fmt", "--all", "--check"])),
     step("clippy", || {
         quiet(&[
@@ -103,9 +117,24 @@ const STEPS: [Step; 13] = [
         leaf: Some(&PAGE),
     },
     Step {
+        name: "npm",
+        check: || package(Some(WEB_LIMIT)),
+        leaf: Some(&NPM),
+    },
+    Step {
+        name: "python",
+        check: python::wheel,
+        leaf: Some(&python::PATHS),
+    },
+    Step {
         name: "bevy",
         check: bevy::bevy,
         leaf: Some(&bevy::PATHS),
+    },
+    Step {
+        name: "bevy drawn",
+        check: bevy::drawn,
+        leaf: Some(&bevy::DRAWN_PATHS),
     },
     step("counts", || counts(false)),
     step("fuzz", || fuzz(USUAL_SECONDS, Some(FUZZ_LIMIT))),
@@ -117,7 +146,7 @@ pub(crate) fn ci(all: bool) -> Result {
     let mut times = Vec::new();
     let mut kept = Vec::new();
     let mut outcome = Ok(());
-    for step in &STEPS {
+    for step in STEPS {
         let name = step.name;
         println!("\n=== {name}");
         let start = Instant::now();

@@ -9,6 +9,7 @@ mod fuzz;
 mod glb;
 mod green;
 mod outcomes;
+mod python;
 mod setup;
 mod test;
 mod web;
@@ -29,7 +30,10 @@ cargo xtask rebake            write the baked bodies and states in fuzz/corpus a
 cargo xtask fuzz [SECONDS]    feed each reader of files hostile bytes for so long, 30 s if not told
 cargo xtask web [--out DIR]   make the viewer's page for browsers, one static folder: target/web/page if not told
 cargo xtask web-test          make it, and break the pane in it with Chromium, drawn by the processor
+cargo xtask npm               make the npm package, install it in an empty project, and try it in Node and in Chromium
+cargo xtask python            make the wheel for Python, and try it in an environment of its own
 cargo xtask bevy              lint and test the plugin for Bevy, in its own workspace
+cargo xtask bevy-drawn        lint its examples with a window, and compare their pictures
 cargo xtask setup             install the system packages that are missing, where that is allowed
 cargo xtask check-output DIR  check what `cargo run --release -- --out DIR --json > DIR/report.json` wrote";
 
@@ -67,6 +71,7 @@ fn run(words: &[&str]) -> Result {
             setup::cpp_compiler();
             setup::valgrind();
             setup::browser();
+            setup::python();
             Ok(())
         }
         ["test"] => {
@@ -84,7 +89,9 @@ fn run(words: &[&str]) -> Result {
                 "`{seconds}` is no whole number of seconds from 1; for example `cargo xtask fuzz 60`"
             )),
         },
+        ["python"] => python::wheel().map(drop),
         ["bevy"] => bevy::bevy().map(drop),
+        ["bevy-drawn"] => bevy::drawn().map(drop),
         ["counts"] => counts::counts(false).map(drop),
         ["counts", "--write"] => counts::counts(true).map(drop),
         ["outcomes"] => outcomes(&Wish::Print),
@@ -92,6 +99,7 @@ fn run(words: &[&str]) -> Result {
         ["outcomes", "--against", file] => outcomes(&Wish::Against(file.as_ref())),
         ["web"] => web::web(None, None).map(drop),
         ["web", "--out", folder] => web::web(Some(folder.as_ref()), None).map(drop),
+        ["npm"] => web::package(None).map(drop),
         ["web-test"] => web::trial(None).map(drop),
         ["check-output", directory] => check_output::check_output(directory.as_ref()),
         [] | ["help" | "--help" | "-h"] => {

@@ -1,5 +1,5 @@
 //! System packages: the pictures need a Vulkan driver, the viewer's test a display, fuzzing a C++ compiler, counting instructions
-//! valgrind, and the test of the page a browser; nothing else is needed beyond a C linker.
+//! valgrind, the test of the page a browser, and the wheel Python; nothing else is needed beyond a C linker.
 
 use std::path::Path;
 use std::process::Command;
@@ -25,6 +25,8 @@ const COUNTER: &str = "valgrind";
 /// Shows the page in its test, and what runs that.
 const BROWSER: &str = "chromium";
 const NODE: [&str; 2] = ["nodejs", "npm"];
+/// Makes the environment in which the wheel is built and tried.
+const PYTHON: [&str; 2] = ["python3", "python3-venv"];
 /// Where Linux drivers announce themselves.
 const DRIVER_FOLDERS: [&str; 3] = [
     "/usr/share/vulkan/icd.d",
@@ -103,6 +105,19 @@ pub(crate) fn browser() -> Option<&'static str> {
         }
     }
     found().filter(|_| node())
+}
+
+/// A Python of 3.10 or later that can make environments, which is installed where it is missing and that is possible.
+pub(crate) fn python() -> Option<&'static str> {
+    const QUESTION: &str = "import sys, venv, ensurepip; sys.exit(sys.version_info < (3, 10))";
+    let found = || {
+        let mut names = ["python3", "python"].into_iter();
+        names.find(|name| succeeds(name, &["-c", QUESTION]))
+    };
+    if found().is_none() && cfg!(target_os = "linux") {
+        install(&PYTHON, "the wheel needs Python 3.10 or later with `venv`");
+    }
+    found()
 }
 
 /// Installs Debian packages; where that cannot be, prints the advice.

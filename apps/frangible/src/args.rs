@@ -69,9 +69,18 @@ pub(crate) struct FilmArgs {
     #[arg(long, conflicts_with = "slow")]
     pub(crate) microseconds: bool,
 
-    /// Film to write: .gif, .mp4 (which takes the program ffmpeg), or a folder of pictures [default: out/NAME.gif]
+    /// Film to write: .gif, .webp, .mp4 (which takes the program ffmpeg), or a folder of pictures [default: out/NAME.gif]. An MP4 has its sound
+    /// track, the others a WAV beside them; slowed down, the sound is as much deeper
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: Option<PathBuf>,
+
+    /// Follow light for each picture, as stills do: seconds per picture
+    #[arg(long, conflicts_with = "microseconds")]
+    pub(crate) traced: bool,
+
+    /// Leave the sound out
+    #[arg(long)]
+    pub(crate) no_sound: bool,
 
     /// Length of the film in seconds
     #[arg(

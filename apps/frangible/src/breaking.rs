@@ -117,20 +117,15 @@ pub(crate) fn run(file: Option<&Path>, args: &BreakArgs) -> Result<(), Box<dyn E
     Ok(())
 }
 
-/// What to know of a sound: that there is none, or that it was too loud or too much.
+/// What to know of a sound: how loud it is, that there is none, or that it was too much.
 fn sound_notes(sounded: &Sounded) -> Vec<String> {
     let (report, mut notes) = (&sounded.report, Vec::new());
-    let limiter = &report.limiter;
-    if limiter.peak == 0.0 {
+    if sounded.loudest() == 0.0 {
         notes.push("the sound is silent, because nothing was struck".into());
-    }
-    if limiter.limited > 0 {
+    } else {
         notes.push(format!(
-            "the sound reaches {:.0} dB, more than its {:.0} dB of full scale hold: {} samples were made up to {:.1} dB softer",
-            sounded.peak_level(),
-            20.0 * (sounded.config.full_scale / 2e-5).log10(),
-            limiter.limited,
-            limiter.reduction
+            "the sound's largest sample stands for {:.0} dB",
+            sounded.peak_level()
         ));
     }
     let left_out = report.strikes_left_out;

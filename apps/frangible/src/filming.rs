@@ -5,20 +5,19 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use frangible_draw::{ColoredSurface, FilmFormat, FilmWriter, RgbImage, Studio, SurfaceLine};
-use frangible_export::{Recording, View};
-use frangible_scenes::{BakedBody, Scene, Wave, bake_opened, first_break, open_sources, play};
+use frangible_draw::{
+    ColoredSurface, FilmFormat, FilmWriter, RgbImage, SlowMotion, Studio, SurfaceLine,
+};
+use frangible_export::View;
+use frangible_scenes::{
+    BakedBody, Scene, Sounded, Wave, bake_opened, first_break, open_sources, play,
+};
 
 use crate::args::FilmArgs;
 use crate::progress::Bar;
 use crate::request::scene_of;
 use crate::say::say;
-
-/// Share of a film that passes before the first crack, at least: from the moment that the first view is of.
-const BEFORE: f64 = 0.1;
-
-/// Share of a film in which it is slow.
-const SLOW: f64 = 0.55;
+use crate::soundtrack::soundtrack;
 
 /// Seconds for which the last picture stands.
 const END: f64 = 0.6;
@@ -45,7 +44,7 @@ pub(crate) fn run(args: &FilmArgs) -> Result<(), Box<dyn Error>> {
         .unwrap_or_else(|| PathBuf::from("out").join(format!("{}{name}", scene.name)));
     let format = FilmFormat::of(&path).ok_or_else(|| {
         format!(
-            "`{}` is no film that can be written; name a file .gif or .mp4, or a folder of pictures",
+            "`{}` is no film that can be written; name a file .gif, .webp or .mp4, or a folder of pictures",
             path.display()
         )
     })?;
@@ -70,12 +69,19 @@ pub(crate) fn run(args: &FilmArgs) -> Result<(), Box<dyn Error>> {
         film.add(picture)?;
         Ok(!stop.load(Ordering::Relaxed))
     };
-    if args.microseconds {
+    let sound = if args.microseconds {
         microseconds(&scene, &baked, &studio, args, &bar, &mut add)?;
+        None
     } else {
-        slow_motion(&scene, &baked, &studio, args, &bar, &mut add)?;
-    }
+        slow_motion(&scene, &baked, &studio, args, &bar, &mut add)?
+    };
     drop(bar);
+    if let Some(mut sound) = sound {
+        let samples = pictures as f64 / args.rate * sound.config.rate;
+        let channels = sound.config.listener.channels;
+        sound.samples.truncate(samples as usize * channels);
+        film.set_sound(sound.wav()?);
+    }
     film.finish()?;
     let cut_short = if pictures < count { ", cut short" } else { "" };
     say(&format!(
@@ -108,7 +114,7 @@ fn interrupted() -> Result<Arc<AtomicBool>, Box<dyn Error>> {
 /// Takes a picture, and says whether more are wanted.
 type Add<'a> = dyn FnMut(RgbImage) -> Result<bool, Box<dyn Error>> + 'a;
 
-/// The scene, slowed down where it breaks; the camera goes along.
+/// The scene, slowed down where it breaks; the camera goes along. Returns what it sounds like.
 fn slow_motion(
     scene: &Scene,
     baked: &[BakedBody],
@@ -116,86 +122,30 @@ fn slow_motion(
     args: &FilmArgs,
     bar: &Bar,
     add: &mut Add<'_>,
-) -> Result<(), Box<dyn Error>> {
+) -> Result<Option<Sounded>, Box<dyn Error>> {
     let run = play(scene, baked, &mut |done| {
         bar.show(&format!("{}: breaking", scene.name), done);
     })?;
     let recording = &run.recording;
     let count = args.pictures();
-    let clock = Clock::of(recording, args.seconds, args.slow);
+    let clock = SlowMotion::new(recording, args.seconds, args.slow);
     for picture in 0..count {
         let frame = clock.frame(picture as f64 / args.rate);
-        let view = view_at(recording, frame);
-        if !add(studio.film_frame_between(recording, frame, &view)?)? {
+        let view = clock.view(frame);
+        let drawn = if args.traced {
+            studio.frame_between(recording, frame, &view)?
+        } else {
+            studio.film_frame_between(recording, frame, &view)?
+        };
+        if !add(drawn)? {
             break;
         }
     }
-    Ok(())
-}
-
-/// Which frame of a recording a film shows when.
-struct Clock {
-    /// Times of the film, s, and frames of the recording: straight between them.
-    knots: [[f64; 2]; 4],
-}
-
-impl Clock {
-    /// A film of so many seconds, so many times slower than it is where things break.
-    fn of(recording: &Recording, seconds: f64, slow: f64) -> Self {
-        let rate = f64::from(recording.frame_rate);
-        let moments = recording.moments;
-        let (crack, end) = (moments.first_crack as f64, moments.at_rest as f64);
-        let moving = (seconds - END).max(0.5 * seconds);
-        let first = (moments.before as f64).min(crack);
-        let before = ((crack - first) / rate).clamp(BEFORE * moving, 0.4 * moving);
-        let slowly = SLOW * moving;
-        let parted = (crack + slowly * rate / slow).min(end);
-        Self {
-            knots: [
-                [0.0, first],
-                [before, crack],
-                [before + slowly, parted],
-                [moving, end.max(parted)],
-            ],
-        }
+    if args.no_sound {
+        return Ok(None);
     }
-
-    fn frame(&self, time: f64) -> f64 {
-        between(&self.knots, time)
-    }
-}
-
-/// The value of a line through these points, which is level before the first and after the last.
-fn between(knots: &[[f64; 2]], at: f64) -> f64 {
-    let next = knots.partition_point(|knot| knot[0] <= at);
-    match (next.checked_sub(1).map(|i| knots[i]), knots.get(next)) {
-        (None, Some(first)) => first[1],
-        (Some([from, a]), Some([to, b])) => a + (b - a) * (at - from) / (to - from),
-        (Some([_, last]), None) => last,
-        (None, None) => 0.0,
-    }
-}
-
-/// The camera on its way between the views of the moments.
-fn view_at(recording: &Recording, frame: f64) -> View {
-    let Some(views) = recording.views else {
-        return recording.camera;
-    };
-    let moments = recording.labelled_moments().map(|(frame, _)| frame as f64);
-    let next = moments
-        .partition_point(|&moment| moment <= frame)
-        .clamp(1, 3);
-    let [from, to] = [next - 1, next].map(|i| moments[i]);
-    let share = ((frame - from) / (to - from).max(1e-9)).clamp(0.0, 1.0) as f32;
-    // It starts and stops gently.
-    let share = share * share * (3.0 - 2.0 * share);
-    let [a, b] = [views[next - 1], views[next]];
-    View {
-        eye: a.eye.lerp(b.eye, share),
-        target: a.target.lerp(b.target, share),
-        up: a.up.lerp(b.up, share),
-        vertical_fov: a.vertical_fov + (b.vertical_fov - a.vertical_fov) * share,
-    }
+    bar.show(&format!("{}: listening", scene.name), 1.0);
+    soundtrack(&run, scene, &clock, args.seconds).map(Some)
 }
 
 /// The first break in its own time: the body stands still, tension runs over it, and cracks go with it.
@@ -262,64 +212,5 @@ fn surface_at(wave: &Wave, moment: usize, most: f64, name: &str) -> ColoredSurfa
             format!("{:.0} MPa", 1e-6 * most),
             format!("tension (it may tear from {:.0} MPa)", 1e-6 * wave.strength),
         ],
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use frangible::glam::Vec3;
-    use frangible_export::Moments;
-
-    use super::*;
-
-    #[test]
-    fn a_film_is_slow_where_things_break_and_ends_at_rest() {
-        let recording = Recording {
-            frame_rate: 60.0,
-            frame_count: 400,
-            moments: Moments {
-                before: 50,
-                first_crack: 60,
-                just_after: 66,
-                at_rest: 399,
-                moves_on: false,
-            },
-            ..Recording::default()
-        };
-        let clock = Clock::of(&recording, 6.0, 8.0);
-        let frames: Vec<f64> = (0..120).map(|i| clock.frame(f64::from(i) / 20.0)).collect();
-        assert!(frames.is_sorted());
-        assert_eq!(frames[119], 399.0);
-        assert_eq!(frames[0], 50.0);
-        let at = frames.partition_point(|frame| *frame < 60.0);
-        let step = frames[at + 2] - frames[at + 1];
-        assert!((step - 60.0 / 8.0 / 20.0).abs() < 1e-9, "{step}");
-        // A scene that is over before the film is slow for as long as it lasts.
-        let short = Clock::of(&recording, 6.0, 1.0);
-        assert!((0..120).all(|i| short.frame(f64::from(i) / 20.0) <= 399.0));
-    }
-
-    #[test]
-    fn the_camera_is_at_each_moment_where_its_view_is() {
-        let view = |x: f32| View {
-            eye: Vec3::X * x,
-            ..View::default()
-        };
-        let recording = Recording {
-            moments: Moments {
-                before: 0,
-                first_crack: 10,
-                just_after: 10,
-                at_rest: 30,
-                moves_on: false,
-            },
-            views: Some([0.0, 1.0, 2.0, 3.0].map(view)),
-            ..Recording::default()
-        };
-        let eye = |frame| view_at(&recording, frame).eye.x;
-        assert_eq!(
-            [eye(0.0), eye(5.0), eye(20.0), eye(30.0), eye(99.0)],
-            [0.0, 0.5, 2.5, 3.0, 3.0]
-        );
     }
 }

@@ -1,4 +1,4 @@
-//! `--support SPEC`.
+//! Supports as text: `--support SPEC`, and the same words in Python.
 
 use frangible::glam::DVec3;
 use frangible_scenes::{Region, Support, axes_of};
@@ -6,9 +6,12 @@ use frangible_scenes::{Region, Support, axes_of};
 const EXAMPLES: &str = "for example below:z:0.01, above:x:0.3, box:0,0,0,0.1,0.1,0.1, sphere:0,0,0,0.02 or group:frame, \
      each with @xy to hold it along x and y only";
 
-/// What a SPEC holds.
-pub(crate) fn parse_support(text: &str) -> Result<Support, String> {
-    let wrong = |problem: &str| format!("--support is `{text}`; {problem}, {EXAMPLES}");
+/// What a text such as `below:z:0.01` holds.
+///
+/// # Errors
+/// A text that means nothing, with examples of those that do.
+pub fn parse_support(text: &str) -> Result<Support, String> {
+    let wrong = |problem: &str| format!("the support is `{text}`; {problem}, {EXAMPLES}");
     let (region, axes) = match text.rsplit_once('@') {
         None => (text, [true; 3]),
         Some((region, letters)) => {

@@ -54,6 +54,32 @@ async function renderer() {
   return { kind: "webgl2", software: /swiftshader|llvmpipe|software/i.test(name) };
 }
 
+/** The loudspeaker. Browsers are silent until somebody touches the page, and so there is none before. */
+let speaker = null;
+/** Until when what was heard so far plays, s by the loudspeaker's clock. */
+let heard = 0;
+for (const touch of ["pointerdown", "touchend", "keydown"]) {
+  addEventListener(touch, () => (speaker ??= new AudioContext()).resume(), { capture: true });
+}
+
+/** Plays samples, left and right in turn, after those before them. */
+function hear(samples, rate) {
+  if (speaker?.state !== "running") return;
+  const frames = samples.length / 2;
+  const buffer = speaker.createBuffer(2, frames, rate);
+  for (const side of [0, 1]) {
+    const channel = buffer.getChannelData(side);
+    for (let i = 0; i < frames; i++) channel[i] = samples[2 * i + side];
+  }
+  const source = speaker.createBufferSource();
+  source.buffer = buffer;
+  source.connect(speaker.destination);
+  // The next samples come with the next picture.
+  if (heard < speaker.currentTime) heard = speaker.currentTime + 0.03;
+  source.start(heard);
+  heard += frames / rate;
+}
+
 async function start() {
   const { program, programBytes, first: usual, scenes } = await (await fetch("scenes.json")).json();
   const wanted = wishes.get("scene");
@@ -97,6 +123,7 @@ async function start() {
     scene: (name) => scenes[name]?.text,
     bodies,
     failed,
+    hear,
     times,
     save(name, content) {
       const link = document.createElement("a");

@@ -8,6 +8,7 @@
 //! | `bodies(scene, tell)` | promise of an array of bytes, one baked body each; `tell(share)` meanwhile |
 //! | `save(name, bytes)` | offers a file for download |
 //! | `drawn(frames)` | a frame is there |
+//! | `hear(samples, rate)` | plays what is heard next: left and right in turn, −1 to 1 |
 //! | `failed(text)` | the program cannot go on |
 
 use js_sys::{Array, Function, Object, Promise, Reflect, Uint8Array};

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use frangible_draw::open_canvas;
 use frangible_view::{Command, Page, PageOptions, Shown, ViewError, run_in_page};
-use js_sys::{Function, Promise, Reflect};
+use js_sys::{Float32Array, Function, Promise, Reflect};
 use serde::Serialize;
 use wasm_bindgen::closure::Closure;
 use wasm_bindgen::{JsCast, JsValue};
@@ -183,6 +183,12 @@ impl Page for Around {
             // A page that does not care how many there are has no such function.
             let _ = self.bridge.call("drawn", &[(frames as f64).into()]);
         }
+    }
+
+    fn hear(&self, samples: &[f32], rate: f64) {
+        let samples = Float32Array::from(samples);
+        // A page that plays nothing has no such function.
+        let _ = self.bridge.call("hear", &[samples.into(), rate.into()]);
     }
 
     fn next_frame(&self) -> Pin<Box<dyn Future<Output = ()>>> {

@@ -1,5 +1,5 @@
-// Opens the page in a browser, throws a ball at the pane with the mouse and waits for it to break; then lets the scene's own
-// ball fly and compares what it breaks with what the program for this machine says.
+// Opens the page in a browser, throws a ball at the pane with the mouse and waits for it to break, and to be heard to break; then lets
+// the scene's own ball fly and compares what it breaks with what the program for this machine says.
 //
 //   SECONDS=600 node page.test.mjs FOLDER BROWSER PLAYWRIGHT OUT REPORT.json RENDERER…
 //
@@ -50,10 +50,29 @@ async function serve() {
   return server;
 }
 
+/** Notes in the page what is handed to the loudspeaker: contexts, frames and the largest sample. */
+function eavesdrop() {
+  const heard = (window.heard = { contexts: 0, frames: 0, loudest: 0 });
+  window.AudioContext = class extends AudioContext {
+    constructor() {
+      super();
+      heard.contexts += 1;
+    }
+  };
+  const start = AudioBufferSourceNode.prototype.start;
+  AudioBufferSourceNode.prototype.start = function (...when) {
+    const samples = this.buffer.getChannelData(0);
+    heard.frames += samples.length;
+    heard.loudest = samples.reduce((most, sample) => Math.max(most, Math.abs(sample)), heard.loudest);
+    return start.apply(this, when);
+  };
+}
+
 /** A page with a scene that stands, and what to do with it. */
 async function open(browser, address, renderer) {
   const page = await browser.newPage({ viewport: SIZE });
   page.setDefaultTimeout(PATIENCE);
+  await page.addInitScript(eavesdrop);
   page.on("pageerror", (error) => console.log(`  page: ${error.message}`));
   page.on("console", (line) => console.log(`  console: ${line.text().slice(0, 200)}`));
   await page.goto(`${address}/?clock=stands${renderer === "webgl2" ? "&renderer=webgl2" : ""}`);
@@ -91,6 +110,10 @@ async function trial(browser, address, renderer) {
   assert.equal(whole.scene, "pane");
   assert.deepEqual([whole.whole, whole.pieces], [1, 0]);
 
+  const heard = () => page.evaluate(() => ({ ...window.heard }));
+  await command("step 10");
+  assert.deepEqual(await heard(), { contexts: 0, frames: 0, loudest: 0 }, "a page that nobody has touched is silent");
+
   await command("ball 0.2 0.01 80 steel");
   const before = (await state()).commands;
   await page.mouse.move(CLICK.x, CLICK.y);
@@ -101,6 +124,16 @@ async function trial(browser, address, renderer) {
   assert.equal(thrown.whole, 0);
   assert.ok(Math.hypot(thrown.hit[0], thrown.hit[1] - 0.2) > 0.05, `hit at ${thrown.hit}, where the scene's own ball hits`);
   console.log(`${renderer}: the ball thrown by a click broke the pane into ${thrown.pieces} pieces`);
+  const sound = await heard();
+  assert.equal(sound.contexts, 1);
+  assert.ok(sound.frames > 0 && sound.loudest > 0.01 && sound.loudest <= 1, JSON.stringify(sound));
+  console.log(`${renderer}: ${sound.frames} frames of sound were handed over, the loudest at ${sound.loudest.toFixed(2)}`);
+  await command("sound off");
+  await page.evaluate(() => Object.assign(window.heard, { frames: 0, loudest: 0 }));
+  await command("step 20");
+  const muted = await heard();
+  assert.ok(muted.frames > 0 && muted.loudest === 0, `muted: ${JSON.stringify(muted)}`);
+  await command("sound on");
   // So that they are seen to fly.
   const flying = await command("step 150");
   await until(() => JSON.parse(window.frangible_state()).done);

@@ -103,7 +103,7 @@ pub(super) fn carry_out(
     let touches = Touches::new(verdicts.iter().filter(inside));
     verdicts.sort_by_key(|v| (v.body, !broke(v), v.striker));
     verdicts.dedup_by_key(|v| v.body);
-    // Two that break each other each see the other as a rigid one: the mean of their answers counts.
+    // Two that break each other find one force, but for what else each meets and how it cracks: the mean of their answers counts.
     let met: Vec<(Entity, Option<Entity>)> = (verdicts.iter())
         .filter(|v| broke(v))
         .map(|v| (v.body, v.striker))

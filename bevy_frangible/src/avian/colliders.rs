@@ -4,7 +4,7 @@
 use avian3d::prelude::*;
 use bevy::prelude::*;
 use frangible::internals::mesh::{merged_parts, thinned};
-use frangible::{Asset as Baked, Fragment, glam};
+use frangible::{Asset as Baked, Fragment, TriMesh, glam};
 
 use crate::meshes::out;
 
@@ -14,7 +14,8 @@ use crate::meshes::out;
 pub struct ColliderDetail {
     /// Convex parts of a whole body at most, 1 or more, and points of each. 1 part is the convex hull. Default 12 and 48.
     pub whole: (usize, usize),
-    /// How finely the collider of a fragment follows it, where one hull does not fit. Default 4 and 24.
+    /// How finely the collider of a fragment follows it, where one hull does not fit. Default 4 and 24. A fragment that is held has its own
+    /// surface.
     pub fragment: (usize, usize),
     /// A fragment gets one hull where hull volume / its volume is at most this. Default 1.5.
     pub hull_volume_ratio: f64,
@@ -44,8 +45,14 @@ pub(super) fn whole(baked: &Baked, (parts, points): (usize, usize)) -> Collider 
     compound(cells, parts, points).unwrap_or_else(|| bounding_box(baked.surface_positions()))
 }
 
-/// The collider of a fragment: one hull, the hulls of its shares of the cells, or a box.
+/// The collider of a fragment: one hull, the hulls of its shares of the cells, or a box. One that is held has its own surface: what is left of
+/// a pane in its frame has a hole, which few hulls would close, and as nothing moves it, it never meets others of its kind.
 pub(super) fn of_fragment(fragment: &Fragment, detail: &ColliderDetail) -> Collider {
+    if fragment.supported
+        && let Some(surface) = surface(&fragment.mesh)
+    {
+        return surface;
+    }
     let (parts, points) = detail.fragment;
     let one = hull(&fragment.mesh.positions, points);
     if let Some(one) = &one {
@@ -59,6 +66,11 @@ pub(super) fn of_fragment(fragment: &Fragment, detail: &ColliderDetail) -> Colli
     shares
         .or(one)
         .unwrap_or_else(|| bounding_box(&fragment.mesh.positions))
+}
+
+fn surface(mesh: &TriMesh) -> Option<Collider> {
+    let corners = mesh.positions.iter().map(|&p| out(p)).collect();
+    Collider::try_trimesh(corners, mesh.triangles.clone()).ok()
 }
 
 /// None where the points have no volume.

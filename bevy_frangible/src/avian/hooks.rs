@@ -4,8 +4,8 @@ use avian3d::prelude::*;
 use bevy::ecs::system::{ReadOnlySystemParam, StaticSystemParam, SystemParam};
 use bevy::prelude::*;
 use frangible::internals::contact::{SharedMass, first_touch_of_ball};
-use frangible::internals::is_harmless;
-use frangible::{Contact, Outcome, Striker, impact};
+use frangible::internals::{DurationModel, is_harmless};
+use frangible::{Body, Contact, FractureConfig, Outcome, Striker, impact};
 
 use super::touches::{FirstTouch, first_touches};
 use super::{Breaking, ImpactSpeed, MadeOf, Moving, Ruling, Verdict, Verdicts};
@@ -17,9 +17,6 @@ const OVERLAP_RELAXATION: f32 = 2e-3;
 
 /// Steps after their birth in which siblings do not bounce off each other.
 const NEWBORN_STEPS: f32 = 2.5;
-
-/// Smallest radius of curvature of a thing with edges, m.
-const EDGE_RADIUS: f32 = 3e-3;
 
 /// Collision hooks that break bodies: `PhysicsPlugins::default().with_collision_hooks::<FrangibleHooks>()`. A game with hooks of its own
 /// wraps them, `FrangibleHooks<MyHooks>`: its own are asked first, of the colliders that have them switched on.
@@ -134,8 +131,8 @@ impl<Inner: SystemParam + 'static> FrangibleHooks<'_, '_, Inner> {
                 touches.retain(|t| t.approach > self.impact_speed.0);
             }
         }
-        let contacts: Vec<Contact> = touches
-            .into_iter()
+        let mut contacts: Vec<Contact> = touches
+            .iter()
             .map(|touch| {
                 let shared = self.shared(other, touch.anchors[1], touch.normal);
                 let striker = Striker {
@@ -143,7 +140,7 @@ impl<Inner: SystemParam + 'static> FrangibleHooks<'_, '_, Inner> {
                         s.velocity.length_squared() + s.spin.length_squared()
                     }),
                     shared,
-                    ..striker
+                    ..striker.clone()
                 };
                 let at = into(to_body * touch.anchors[0]);
                 let toward = into(to_body * touch.normal);
@@ -157,6 +154,15 @@ impl<Inner: SystemParam + 'static> FrangibleHooks<'_, '_, Inner> {
         let began = there.map_or(Vec3::ZERO, |(_, moving)| moving.0.0);
         let config = &self.config.0;
         let inside = *self.breaking == Breaking::InsideStep;
+        let met = other.and_then(|e| self.bodies.get(e).ok());
+        if let Some((other, there)) = met
+            && !is_harmless(&body.0, &contacts, config)
+        {
+            let to_other = there.1.0.inverse();
+            for (contact, touch) in contacts.iter_mut().zip(&touches) {
+                vibrate(contact, touch, &other.0, to_other, config);
+            }
+        }
         let (ruling, broke) = if inside || is_harmless(&body.0, &contacts, config) {
             let outcome = impact(&body.0, &contacts, config);
             let broke = matches!(outcome, Ok(Outcome::Broke(_)));
@@ -187,7 +193,7 @@ impl<Inner: SystemParam + 'static> FrangibleHooks<'_, '_, Inner> {
         Striker {
             // A body with edges strikes with one of them.
             curvature_radius: ball.unwrap_or(match other.is_some_and(is_body) {
-                true => EDGE_RADIUS,
+                true => Striker::EDGE_RADIUS,
                 false => f32::INFINITY,
             }),
             ..striker
@@ -205,5 +211,32 @@ impl<Inner: SystemParam + 'static> FrangibleHooks<'_, '_, Inner> {
         let columns = [inverse.x_axis, inverse.y_axis, inverse.z_axis].map(into);
         let velocity = into(normal) * moving.4.inverse().sqrt();
         Some(SharedMass::of(0, velocity, columns, turn))
+    }
+}
+
+/// The other body of a contact is breakable: it vibrates under the blow, as one body at all its contacts.
+fn vibrate(
+    contact: &mut Contact,
+    touch: &FirstTouch,
+    other: &Body,
+    to_other: Quat,
+    config: &FractureConfig,
+) {
+    let on_it = Contact {
+        point: into(to_other * touch.anchors[1]),
+        normal: into(to_other * -touch.normal),
+        ..contact.clone()
+    };
+    // What it refuses is wrong with the contact itself, which the impact says.
+    if config.duration == DurationModel::Integrated
+        && let Ok(flexible) = Striker::flexible(other, &on_it, config)
+    {
+        contact.striker.curvature_radius = flexible.curvature_radius;
+        contact.striker.receptance = flexible.receptance;
+        contact.striker.shared.get_or_insert(SharedMass {
+            body: 0,
+            velocity: into(Vec3::ZERO),
+            spin: into(Vec3::ZERO),
+        });
     }
 }

@@ -9,6 +9,7 @@
 mod after;
 mod bodies;
 mod colliders;
+mod debris;
 mod hooks;
 mod later;
 mod plain;
@@ -91,14 +92,25 @@ pub(crate) fn build(app: &mut App) {
         .init_resource::<Breaking>()
         .init_resource::<Molds>()
         .init_resource::<later::Docket>()
+        .init_resource::<debris::Began>()
         .add_observer(bodies::give_collider)
         .add_observer(bodies::give_fragments)
         .add_observer(bodies::miss_collider)
         .add_observer(bodies::push)
+        .add_observer(debris::leave)
         .add_systems(
             FixedPostUpdate,
-            (later::serve, after::carry_out, resting::weigh)
-                .chain()
-                .after(PhysicsSystems::Last),
+            (
+                debris::start_clock.before(PhysicsSystems::First),
+                (
+                    later::serve,
+                    after::carry_out,
+                    resting::weigh,
+                    debris::rest,
+                    debris::stop_clock,
+                )
+                    .chain()
+                    .after(PhysicsSystems::Last),
+            ),
         );
 }

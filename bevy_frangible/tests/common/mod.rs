@@ -40,6 +40,11 @@ pub fn bodies() -> PathBuf {
 
 /// With the files of another folder.
 pub fn app_in(folder: PathBuf) -> (App, Log) {
+    app_with(folder, |_| {})
+}
+
+/// With the files of another folder and more plugins.
+pub fn app_with(folder: PathBuf, more: impl FnOnce(&mut App)) -> (App, Log) {
     let mut app = App::new();
     let files = AssetPlugin {
         file_path: folder.to_string_lossy().into_owned(),
@@ -59,6 +64,7 @@ pub fn app_in(folder: PathBuf) -> (App, Log) {
         })
         .add_observer(|_: On<Held>, log: Res<Log>| log.say("held".into()))
         .add_observer(|failed: On<BreakFailed>, log: Res<Log>| log.say(failed.reason.clone()));
+    more(&mut app);
     app.finish();
     app.cleanup();
     (app, log)

@@ -6,7 +6,6 @@
 //! Of imported quadratic tetrahedra up to 20 000 carry their own modes; larger meshes are covered by a lattice like any solid.
 
 use std::ops::ControlFlow;
-use std::time::Instant;
 
 use frangible::glam::DVec3;
 use frangible::internals::asset::RenderSurface;
@@ -15,6 +14,7 @@ use frangible::internals::stress::StressBounds;
 use frangible::internals::{MassProperties, TetMesh};
 use frangible::{Asset, Material};
 use frangible_mesh::TetReport;
+use web_time::Instant;
 
 use crate::analysis::Analysis;
 use crate::cancel::CancelToken;
@@ -178,7 +178,7 @@ pub fn bake(
         fine.positions.iter().map(|p| p.as_vec3()).collect(),
         fine.tets.clone(),
     );
-    // Of the mesh as stored, so that the masses of its pieces sum to it exactly.
+    // The mesh as stored decides, so that the masses of its pieces sum to it exactly.
     let corners = (0..fine.tets.len()).map(|e| fracture.corners(e).map(|p| p.as_dvec3()));
     let mut mass = MassProperties::of_tetrahedra(spec.material.density, corners);
     // Zero but for rounding: the frame is defined by it.
@@ -269,6 +269,7 @@ pub fn bake(
         max_residual: modes.max_residual,
         cells: fine.cells,
         mass: mass.mass,
+        centre,
         seconds: clock.finish(),
         mode_seconds: modes.seconds,
     };

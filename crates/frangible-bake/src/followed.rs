@@ -13,6 +13,7 @@
 
 use frangible::Asset;
 use frangible::glam::Vec3;
+use frangible::internals::Preset;
 use frangible::internals::asset::EmbeddedPoint;
 use frangible::internals::contact::hertz_duration;
 use frangible::internals::modal::Oscillator;
@@ -49,8 +50,6 @@ const PAIR: f64 = 1e-2;
 
 /// The ball: share of the body's mass, radius in m, speed in m/s.
 const BALL: (f64, f64, f64) = (0.1, 0.01, 5.0);
-/// Plane-strain modulus of steel, Pa: E 210 GPa, ν 0.3.
-const STEEL: f64 = 210e9 / (1.0 - 0.3 * 0.3);
 
 /// Number of modes to follow, at least one. The asset's own choice is not looked at.
 pub(crate) fn followed(asset: &Asset) -> usize {
@@ -168,7 +167,8 @@ impl Pulse {
             true => mass,
             false => mass / (1.0 + share),
         };
-        let modulus = 1.0 / (1.0 / asset.material.contact_modulus() + 1.0 / STEEL);
+        let modulus =
+            1.0 / (1.0 / asset.material.contact_modulus() + 1.0 / Preset::STEEL.contact_modulus());
         let duration = hertz_duration(effective, modulus, radius, speed);
         let step = duration / FORCED as f64;
         let lowest = match asset.modes.count() {

@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use frangible::glam::DVec3;
 use frangible_mesh::TetReport;
 
 use crate::mesh::BodyMesh;
@@ -103,6 +104,8 @@ pub struct BakeReport {
     pub cells: usize,
     /// Mass, kg.
     pub mass: f64,
+    /// Centre of mass in the frame of the shape, m: the origin of the body frame.
+    pub centre: DVec3,
     /// Wall-clock time of each stage, s.
     pub seconds: Vec<(Stage, f64)>,
     /// Wall-clock time of each phase of [`Stage::Modes`], s.

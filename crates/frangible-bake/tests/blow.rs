@@ -138,7 +138,9 @@ fn modes_that_follow_the_force_give_the_stress_that_all_modes_do() {
         let contact = on_stone(point, normal, speed);
         let of = |modes: usize, residual: bool| {
             let (body, config) = (following(asset, modes), config(residual, None));
-            let blow = Blow::new(&body, &[contact], &config).unwrap().unwrap();
+            let blow = Blow::new(&body, std::slice::from_ref(&contact), &config)
+                .unwrap()
+                .unwrap();
             let report = blow.reports()[0].clone();
             let tets = around(&body, report.point, [0.0, 0.02], 1);
             let near: Vec<u32> = tets
@@ -189,10 +191,12 @@ fn cracks_start_from_the_stress_that_displacements_give() {
         config.culling = false;
         body.prepare_for_blows(&config);
         let contact = on_stone(point, -point, 3.0);
-        let outcome = impact(&body, &[contact], &config).unwrap();
+        let outcome = impact(&body, std::slice::from_ref(&contact), &config).unwrap();
         let report = outcome.report();
         let peak = report.peak_stress as f32;
-        let blow = Blow::new(&body, &[contact], &config).unwrap().unwrap();
+        let blow = Blow::new(&body, std::slice::from_ref(&contact), &config)
+            .unwrap()
+            .unwrap();
         let stress =
             |tet: u32, step: usize| largest_eigenvalue(&blow.stress(&body, tet, step, &config));
         let tets = around(&body, report.peak_point.unwrap(), [0.0, 1e-4], 1);
@@ -239,7 +243,9 @@ fn on_curved_walls_few_modes_and_the_near_field_are_many_modes() {
         );
         let of = |modes: usize, theory: Option<PlateTheory>| {
             let (body, config) = (following(&asset, modes), config(true, theory));
-            let blow = Blow::new(&body, &[ball], &config).unwrap().unwrap();
+            let blow = Blow::new(&body, std::slice::from_ref(&ball), &config)
+                .unwrap()
+                .unwrap();
             let report = blow.reports()[0].clone();
             let tets = around(&body, report.point, [near, 3.0 * near], 7);
             let under = around(&body, report.point, [0.0, 0.005], 1);
@@ -493,7 +499,9 @@ fn a_wall_of_any_thickness_gives_no_nonsense() {
             .unwrap()
             .body(1);
         let config = FractureConfig::default();
-        let blow = Blow::new(&body, &[contact], &config).unwrap().unwrap();
+        let blow = Blow::new(&body, std::slice::from_ref(&contact), &config)
+            .unwrap()
+            .unwrap();
         let report = &blow.reports()[0];
         assert!(
             report.impulse.is_finite() && report.impulse >= 0.0,
@@ -517,7 +525,9 @@ fn a_wall_of_any_thickness_gives_no_nonsense() {
     ] {
         let body = with(&*change).unwrap().body(1);
         let config = FractureConfig::default();
-        let blow = Blow::new(&body, &[contact], &config).unwrap().unwrap();
+        let blow = Blow::new(&body, std::slice::from_ref(&contact), &config)
+            .unwrap()
+            .unwrap();
         assert!(blow.reports()[0].impulse > 0.0, "{what}");
     }
 }

@@ -136,7 +136,7 @@ fn cracking_speed(bar: &Body, config: &FractureConfig) -> f64 {
         let striker = Striker::ball(&steel, 0.2, 0.02);
         let top = Vec3::new(PLACE, 0.0, HALF[2]);
         let contact = Contact::collision(bar.asset(), top, -Vec3::Z, speed, striker);
-        let outcome = impact(bar, &[contact], config).expect("an outcome");
+        let outcome = impact(bar, std::slice::from_ref(&contact), config).expect("an outcome");
         outcome.report().crack_area > 0.0
     };
     let mut range = [0.01, 40.0];

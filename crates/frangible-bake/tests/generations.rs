@@ -78,7 +78,12 @@ fn check(body: &Body, fracture: &Fracture, seen: &mut Seen) {
         );
         let at = fragment.mesh.positions[0];
         let hit = Contact::new(at, -at.normalize_or(Vec3::X), 0.3, 6.0, stone());
-        let outcome = impact(&piece, &[hit], &FractureConfig::default()).expect("an outcome");
+        let outcome = impact(
+            &piece,
+            std::slice::from_ref(&hit),
+            &FractureConfig::default(),
+        )
+        .expect("an outcome");
         if let Outcome::Broke(again) = outcome {
             check(&piece, &again, seen);
         }
@@ -90,7 +95,12 @@ fn pieces_of_pieces_tile_them_over_three_generations() {
     let kind = breakable(Shape::drinking_glass(), "glass", 15_000.0, 40);
     let body = kind.body(1);
     let hit = Contact::new(Vec3::new(-0.038, 0.0, 0.068), Vec3::X, 0.8, 5.0, stone());
-    let outcome = impact(&body, &[hit], &FractureConfig::default()).expect("an outcome");
+    let outcome = impact(
+        &body,
+        std::slice::from_ref(&hit),
+        &FractureConfig::default(),
+    )
+    .expect("an outcome");
     let Outcome::Broke(fracture) = outcome else {
         panic!("the glass held");
     };
@@ -139,7 +149,12 @@ fn pieces_share_the_parents_mesh_and_weak_points() {
     let kind = breakable(Shape::plate(0.2, 0.2, 0.004), "glass", 12_000.0, 40);
     let body = kind.body(3);
     let hit = Contact::new(Vec3::new(0.02, 0.01, 0.002), Vec3::NEG_Z, 0.8, 8.0, stone());
-    let outcome = impact(&body, &[hit], &FractureConfig::default()).expect("an outcome");
+    let outcome = impact(
+        &body,
+        std::slice::from_ref(&hit),
+        &FractureConfig::default(),
+    )
+    .expect("an outcome");
     let Outcome::Broke(fracture) = outcome else {
         panic!("the plate held");
     };

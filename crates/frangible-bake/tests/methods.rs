@@ -64,8 +64,8 @@ fn a_cracked_body_rings_lower() {
         let body = kind.body(seed);
         for step in 1..=20 {
             let speed = f64::from(step);
-            let hit = Contact::collision(body.asset(), middle, Vec3::NEG_Z, speed, ball);
-            let outcome = impact(&body, &[hit], &config).expect("an outcome");
+            let hit = Contact::collision(body.asset(), middle, Vec3::NEG_Z, speed, ball.clone());
+            let outcome = impact(&body, std::slice::from_ref(&hit), &config).expect("an outcome");
             let area = outcome.report().crack_area;
             if let Outcome::Held { state: Some(s), .. } = outcome
                 && area > most

@@ -41,7 +41,7 @@ fn blow(body: &Body, speed: f64) -> Contact {
 }
 
 fn begun(body: &Body, contact: Contact, config: &FractureConfig) -> Vibration {
-    match Vibration::begin(body, &[contact], config).unwrap() {
+    match Vibration::begin(body, std::slice::from_ref(&contact), config).unwrap() {
         Stage::Vibrates(vibration) => vibration,
         Stage::Held(_) => panic!("refused at once"),
     }
@@ -100,11 +100,12 @@ fn from_its_onset_on_an_impact_ends_as_a_whole_one_does() {
     let body = pane();
     let config = FractureConfig::with_given_impulses();
     let contact = blow(&body, 12.0);
-    let Outcome::Broke(whole) = impact(&body, &[contact], &config).unwrap() else {
+    let Outcome::Broke(whole) = impact(&body, std::slice::from_ref(&contact), &config).unwrap()
+    else {
         panic!("it held");
     };
     for looks in [0, 1, usize::MAX] {
-        let mut search = OnsetSearch::new(&body, begun(&body, contact, &config));
+        let mut search = OnsetSearch::new(&body, begun(&body, contact.clone(), &config));
         search.look(&body, &config, looks);
         let (vibration, first_step) = search.into_impact();
         let Outcome::Broke(parts) = vibration.end(&body, &config, first_step) else {

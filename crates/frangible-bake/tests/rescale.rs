@@ -275,7 +275,12 @@ fn hit(asset: &Asset, size: f32) -> Outcome {
     let point = size * Vec3::new(0.01, 0.005, 0.015);
     let contact = Contact::new(point, -Vec3::Z, 6.0 * size.powi(3), 12.0, striker);
     let body = Body::new(asset.clone().into(), 3).unwrap();
-    impact(&body, &[contact], &FractureConfig::default()).unwrap()
+    impact(
+        &body,
+        std::slice::from_ref(&contact),
+        &FractureConfig::default(),
+    )
+    .unwrap()
 }
 
 fn masses(outcome: &Outcome) -> Vec<f64> {

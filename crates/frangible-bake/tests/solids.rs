@@ -174,8 +174,10 @@ fn every_ready_shape_bakes() {
         let Some(Shape::Solid(mut shape)) = Shape::ready(name) else {
             panic!("{name} is no solid");
         };
-        // Fewer lose the tips of the rabbit's ears.
-        shape.tets = 16_000;
+        // Fewer lose the tips of the rabbit's ears; what asks for more than usual needs them.
+        if shape.tets == SolidShape::new(shape.solid.clone()).tets {
+            shape.tets = 16_000;
+        }
         let (asset, report) = baked(Shape::Solid(shape), 6);
         let tetrahedra = report.tetrahedra.unwrap();
         assert!(tetrahedra.kept > 0.999, "{name} falls apart: {tetrahedra}");

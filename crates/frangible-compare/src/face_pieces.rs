@@ -19,17 +19,18 @@ pub(crate) fn face_pieces(body: &Body, faces: &Faces<'_>, crumb_share: f64) -> V
     order.sort_by(|&a, &b| volumes[b].total_cmp(&volumes[a]).then(a.cmp(&b)));
     let mut place = vec![0; volumes.len()];
     for (i, &p) in order.iter().enumerate() {
-        place[p] = i;
+        place[p] = i as u32;
     }
     let mut tets_of = vec![Vec::new(); order.len()];
     for (tet, &p) in (0..).zip(&piece_of) {
-        tets_of[place[p as usize]].push(tet);
+        tets_of[place[p as usize] as usize].push(tet);
     }
     let builder = Builder {
         body,
         mesh,
         faces,
         piece_of: &piece_of,
+        place: &place,
         outer_of: outer_triangles(body),
     };
     tets_of.iter().map(|tets| builder.fragment(tets)).collect()
@@ -126,6 +127,8 @@ struct Builder<'a> {
     mesh: &'a TetMesh,
     faces: &'a Faces<'a>,
     piece_of: &'a [u32],
+    /// Number of the fragment of each piece.
+    place: &'a [u32],
     outer_of: Vec<Vec<u32>>,
 }
 
@@ -142,7 +145,7 @@ impl Builder<'_> {
             normals.push(asset.surface.normals[*outer as usize]);
         }
         let outer_triangles = triangles.len();
-        let mut cracks = Vec::new();
+        let (mut cracks, mut neighbours) = (Vec::new(), Vec::new());
         for &tet in tets {
             for k in 0..4 {
                 let other = self.mesh.neighbours[tet as usize][k];
@@ -155,6 +158,7 @@ impl Builder<'_> {
                     let flat = (b - a).cross(c - a).normalize_or(Vec3::Y);
                     triangles.push(triangle);
                     normals.push([flat; 3]);
+                    neighbours.push(self.place[self.piece_of[other as usize] as usize]);
                 } else if tet < other && self.faces.is_open(tet, k) {
                     cracks.push([a, b, c]);
                 }
@@ -173,6 +177,7 @@ impl Builder<'_> {
                 outer_triangles,
                 cracks,
             },
+            neighbours,
             render: None,
             mass,
             cell_shares: self.cell_shares(tets, mass.centre),

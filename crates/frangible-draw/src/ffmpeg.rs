@@ -61,9 +61,39 @@ impl Ffmpeg {
         }
     }
 
-    pub(super) fn finish(mut self) -> Result<(), DrawError> {
+    /// Ends the film, with a sound if there is one: the bytes of a WAV.
+    pub(super) fn finish(mut self, sound: Option<&[u8]>) -> Result<(), DrawError> {
         self.close()?;
+        if let Some(sound) = sound {
+            self.add_sound(sound)?;
+        }
         std::fs::rename(&self.part, &self.path).map_err(|error| unwritten(&self.path, error))
+    }
+
+    /// Puts a sound beside the pictures, which stay as they are.
+    fn add_sound(&self, sound: &[u8]) -> Result<(), DrawError> {
+        let failed = |error| unwritten(&self.path, error);
+        let wav = self.part.with_extension("wav");
+        let both = self.part.with_extension("sound.mp4");
+        std::fs::write(&wav, sound).map_err(failed)?;
+        let done = Command::new("ffmpeg")
+            .args(["-y", "-loglevel", "error", "-i"])
+            .arg(&self.part)
+            .arg("-i")
+            .arg(&wav)
+            .args(["-c:v", "copy", "-c:a", "aac", "-b:a", "192k", "-shortest"])
+            .args(["-movflags", "+faststart"])
+            .arg(&both)
+            .output();
+        let _ = std::fs::remove_file(&wav);
+        let done = done.map_err(failed)?;
+        if !done.status.success() {
+            let _ = std::fs::remove_file(&both);
+            let said = String::from_utf8_lossy(&done.stderr);
+            let said = format!("ffmpeg ended with {}: {}", done.status, said.trim());
+            return Err(failed(std::io::Error::other(said)));
+        }
+        std::fs::rename(&both, &self.part).map_err(failed)
     }
 
     /// Waits for its end.

@@ -9,6 +9,7 @@ use image::codecs::gif::{GifEncoder, Repeat};
 use image::{Delay, DynamicImage, Frame, RgbImage};
 
 use crate::ffmpeg::Ffmpeg;
+use crate::webp::{WEBP_QUALITY, WebP};
 use crate::{DrawError, encode_png_within};
 
 /// From 1, the best colours, to 30, the fastest.
@@ -20,6 +21,8 @@ const GIF_SPEED: i32 = 10;
 pub enum FilmFormat {
     /// A GIF, which every page plays.
     Gif,
+    /// A WebP, which browsers play: fewer bytes than a GIF, and all colours.
+    WebP,
     /// An MP4, which takes the program `ffmpeg`.
     Mp4,
     /// A folder of pictures, `frame-0001.png` and so on.
@@ -27,12 +30,13 @@ pub enum FilmFormat {
 }
 
 impl FilmFormat {
-    /// The format that a file name asks for: `.gif`, `.mp4`, or none for a folder.
+    /// The format that a file name asks for: `.gif`, `.webp`, `.mp4`, or none for a folder.
     #[must_use]
     pub fn of(path: &Path) -> Option<Self> {
         match path.extension() {
             None => Some(Self::Frames),
             Some(end) if end.eq_ignore_ascii_case("gif") => Some(Self::Gif),
+            Some(end) if end.eq_ignore_ascii_case("webp") => Some(Self::WebP),
             Some(end) if end.eq_ignore_ascii_case("mp4") => Some(Self::Mp4),
             Some(_) => None,
         }
@@ -44,11 +48,15 @@ impl FilmFormat {
 pub struct FilmWriter {
     path: PathBuf,
     pictures: u32,
+    rate: f64,
+    /// A WAV.
+    sound: Option<Vec<u8>>,
     to: To,
 }
 
 enum To {
     Gif(Gif),
+    WebP(Box<WebP>),
     Mp4(Ffmpeg),
     Frames,
 }
@@ -80,12 +88,31 @@ impl FilmWriter {
         Ok(Self {
             path: path.to_path_buf(),
             pictures: 0,
+            rate,
+            sound: None,
             to: match format {
                 FilmFormat::Gif => To::Gif(Gif::begin(path, rate)?),
+                FilmFormat::WebP => To::WebP(Box::new(WebP::begin(path, size, WEBP_QUALITY)?)),
                 FilmFormat::Mp4 => To::Mp4(Ffmpeg::start(path, size, rate)?),
                 FilmFormat::Frames => To::Frames,
             },
         })
+    }
+
+    /// From 1 to 100, how much a WebP keeps of its pictures, default 75; other formats have no such choice. Before the first picture.
+    ///
+    /// # Errors
+    /// [`DrawError::File`] where the encoder does not take it.
+    pub fn set_quality(&mut self, size: [u32; 2], quality: f32) -> Result<(), DrawError> {
+        if let To::WebP(webp) = &mut self.to {
+            **webp = WebP::begin(&self.path, size, quality)?;
+        }
+        Ok(())
+    }
+
+    /// Gives the film a sound, the bytes of a WAV: an MP4 gets a track, and beside other formats stands a file, `glass-film.wav` for `glass.gif`.
+    pub fn set_sound(&mut self, wav: Vec<u8>) {
+        self.sound = Some(wav);
     }
 
     /// Adds a picture.
@@ -96,6 +123,10 @@ impl FilmWriter {
         self.pictures += 1;
         match &mut self.to {
             To::Gif(gif) => gif.add(picture, &self.path),
+            To::WebP(webp) => {
+                let time = f64::from(self.pictures - 1) / self.rate;
+                webp.add(picture, time, &self.path)
+            }
             To::Mp4(ffmpeg) => ffmpeg.give(&picture),
             To::Frames => {
                 let name = format!("frame-{:04}.png", self.pictures);
@@ -115,12 +146,28 @@ impl FilmWriter {
         if self.pictures == 0 {
             return Ok(());
         }
+        let long = f64::from(self.pictures) / self.rate;
         match self.to {
-            To::Gif(gif) => gif.finish(&self.path),
-            To::Mp4(ffmpeg) => ffmpeg.finish(),
-            To::Frames => Ok(()),
+            To::Gif(gif) => gif.finish(&self.path)?,
+            To::WebP(webp) => webp.finish(long, &self.path)?,
+            To::Mp4(ffmpeg) => return ffmpeg.finish(self.sound.as_deref()),
+            To::Frames => {}
+        }
+        match self.sound {
+            Some(sound) => Ok(write_atomically(&sound_beside(&self.path), &sound)?),
+            None => Ok(()),
         }
     }
+}
+
+/// Where the sound of a film stands: in a folder of pictures, and beside a file under a name that is not that of a break's sound.
+fn sound_beside(film: &Path) -> PathBuf {
+    let (Some(_), Some(stem)) = (film.extension(), film.file_stem()) else {
+        return film.join("sound.wav");
+    };
+    let mut name = stem.to_os_string();
+    name.push("-film.wav");
+    film.with_file_name(name)
 }
 
 /// A GIF in a file beside the one wanted, removed when it is dropped unfinished.
@@ -222,10 +269,36 @@ mod tests {
     }
 
     #[test]
+    fn a_webp_has_its_pictures_and_a_sound_beside_it() {
+        let folder = std::env::temp_dir().join(format!("frangible-webp-{}", std::process::id()));
+        let path = folder.join("film.webp");
+        let mut film = FilmWriter::begin(&path, FilmFormat::WebP, [32, 24], 20.0).unwrap();
+        film.set_sound(b"RIFF".to_vec());
+        for shade in [0, 90, 250] {
+            film.add(RgbImage::from_pixel(32, 24, image::Rgb([shade, 40, 90])))
+                .unwrap();
+        }
+        assert!(!path.exists());
+        film.finish().unwrap();
+        let bytes = std::fs::read(&path).unwrap();
+        let pictures = bytes.windows(4).filter(|w| *w == b"ANMF").count();
+        assert_eq!(
+            (&bytes[..4], &bytes[8..12], pictures),
+            (&b"RIFF"[..], &b"WEBP"[..], 3)
+        );
+        assert_eq!(
+            std::fs::read(folder.join("film-film.wav")).unwrap(),
+            b"RIFF"
+        );
+        std::fs::remove_dir_all(&folder).unwrap();
+    }
+
+    #[test]
     fn the_name_says_the_format() {
         let of = |name: &str| FilmFormat::of(Path::new(name));
         assert_eq!(of("a.GIF"), Some(FilmFormat::Gif));
         assert_eq!(of("b/c.mp4"), Some(FilmFormat::Mp4));
+        assert_eq!(of("c.webp"), Some(FilmFormat::WebP));
         assert_eq!(of("frames"), Some(FilmFormat::Frames));
         assert_eq!(of("a.avi"), None);
     }

@@ -46,9 +46,13 @@ mod renderer;
 mod scale;
 #[cfg(not(target_family = "wasm"))]
 mod sheet;
+#[cfg(not(target_family = "wasm"))]
+mod slow_motion;
 mod stage;
 #[cfg(not(target_family = "wasm"))]
 mod studio;
+#[cfg(not(target_family = "wasm"))]
+mod webp;
 
 #[cfg(not(target_family = "wasm"))]
 pub use adapter::{has_adapter, is_software};
@@ -72,5 +76,7 @@ pub use live::{
 pub use mode_sheet::{ModeCell, ModeSheetOptions, mode_sheet};
 #[cfg(not(target_family = "wasm"))]
 pub use sheet::{SheetOptions, contact_sheet, sheet_of_frames};
+#[cfg(not(target_family = "wasm"))]
+pub use slow_motion::SlowMotion;
 #[cfg(not(target_family = "wasm"))]
 pub use studio::{GoOn, Studio, render_frame};

@@ -33,6 +33,6 @@ pub use glb::write_glb;
 pub use place::{make_folder, try_file};
 pub use recording::{
     Floor, Grain, MeshPart, Moments, Pose, Pulse, RecordedBlow, RecordedCrack, RecordedMesh,
-    RecordedNode, RecordedTouch, Recording, SurfaceMaterial, View,
+    RecordedNode, RecordedSlide, RecordedTouch, Recording, SurfaceMaterial, View,
 };
 pub use vtu::{VtuCells, VtuField, VtuMesh, VtuValues, write_vtu};

@@ -7,7 +7,21 @@ use std::ops::Range;
 
 use glam::{Quat, Vec3};
 
-/// A break, frame by frame: everything a picture or an animation needs.
+/// What happened in a scene. Pictures, films and sound are made from it.
+///
+/// | what it holds | where | of whom | when |
+/// |---|---|---|---|
+/// | poses | [`RecordedNode::poses`] | each body, piece and striker | in each frame, [`Recording::frame_rate`] per second |
+/// | which pieces took whose place | [`RecordedBlow::pieces`], [`RecordedNode::visible`] | each body that broke | at its break |
+/// | forces F(t) of blows | [`RecordedBlow::pulses`] | each impact that was asked for cracks, whether or not the body broke | in each time step of the blow, some microseconds |
+/// | cracks | [`RecordedBlow::cracks`] | each crack and each part that an old one grew by | when it was at each place, from the beginning of the blow |
+/// | energy of cracks | [`RecordedBlow::fracture_energy`] | all cracks of a blow | as a sum |
+/// | contacts that slide | [`RecordedSlide`] | each pair, or a thing and the floor, at its deepest point | 240 times per second: force, speed and power, no F(t) |
+/// | contacts of pieces | [`RecordedTouch`] | each pair, or a thing and the floor, at its deepest point | in the step in which they came together: an impulse, no F(t) |
+///
+/// Touches that change the speed of the lighter body by less than 2 cm/s are left out, slides that lose less than 0.1 mW, velocities, and
+/// contacts that rest or roll. An impact that a bound has refused unseen has no blow: it is a touch. Where F(t) is missing, sound takes the duration of Hertz' law.
+/// Modes and materials belong to the bodies: who makes a recording hands them on beside it (`frangible_scenes::Sounding`).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Recording {
     /// What the file and its scene are called.
@@ -34,6 +48,8 @@ pub struct Recording {
     pub blows: Vec<RecordedBlow>,
     /// Where else things touched: pieces with each other, and with what they fell on; in the order of time.
     pub touches: Vec<RecordedTouch>,
+    /// Where things slid along each other, in the order of time.
+    pub slides: Vec<RecordedSlide>,
 }
 
 /// A blow on a node: what pushed it, and the cracks that ran. What the film of a break and its sound are made from.
@@ -96,8 +112,29 @@ pub struct RecordedTouch {
     pub point: Vec3,
     /// Unit direction of the push on the first node.
     pub normal: Vec3,
-    /// Impulse along it, N·s.
+    /// Impulse along it, N·s. Part of it may only be passed on, from what lies on top.
     pub impulse: f64,
+    /// How fast they came together along it, m/s.
+    pub speed: f64,
+}
+
+/// Two things that slide along each other for a moment, or a thing along what does not move.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct RecordedSlide {
+    /// When it began, s after the first frame.
+    pub time: f64,
+    /// How long it is taken to go on as it began, s.
+    pub duration: f64,
+    /// The node, and the other one unless it is the floor.
+    pub nodes: (usize, Option<usize>),
+    /// Where, m.
+    pub point: Vec3,
+    /// Unit direction of the push on the first node, across the surfaces.
+    pub normal: Vec3,
+    /// How fast they slide, m/s.
+    pub speed: f64,
+    /// What friction takes from their motion, W: its coefficient times the normal force times the speed.
+    pub power: f64,
 }
 
 /// How a surface looks (metallic–roughness, as in glTF).

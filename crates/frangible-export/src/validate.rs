@@ -4,8 +4,8 @@ use glam::Vec3;
 
 use crate::RecordingError;
 use crate::recording::{
-    Floor, RecordedBlow, RecordedMesh, RecordedNode, RecordedTouch, Recording, SurfaceMaterial,
-    View,
+    Floor, RecordedBlow, RecordedMesh, RecordedNode, RecordedSlide, RecordedTouch, Recording,
+    SurfaceMaterial, View,
 };
 
 type Checked = Result<(), RecordingError>;
@@ -44,6 +44,9 @@ impl Recording {
         }
         for (i, touch) in self.touches.iter().enumerate() {
             check_touch(i, touch, self.nodes.len())?;
+        }
+        for (i, slide) in self.slides.iter().enumerate() {
+            check_slide(i, slide, self.nodes.len())?;
         }
         let moments = self.labelled_moments();
         moments.iter().try_for_each(|(frame, label)| {
@@ -131,6 +134,27 @@ fn check_touch(i: usize, touch: &RecordedTouch, nodes: usize) -> Checked {
     finite_vector(touch.point, || format!("the place of touch {i}"))?;
     finite_vector(touch.normal, || format!("the normal of touch {i}"))?;
     finite(touch.impulse, || format!("the impulse of touch {i}"))
+}
+
+fn check_slide(i: usize, slide: &RecordedSlide, nodes: usize) -> Checked {
+    let (first, second) = slide.nodes;
+    index(first, nodes, || format!("the node of slide {i}"))?;
+    if let Some(second) = second {
+        index(second, nodes, || format!("the other node of slide {i}"))?;
+    }
+    finite(slide.time, || format!("the time of slide {i}"))?;
+    let name = || format!("the duration of slide {i}");
+    finite(slide.duration, name)?;
+    in_range(
+        slide.duration,
+        slide.duration > 0.0,
+        "above zero, in s",
+        name,
+    )?;
+    finite_vector(slide.point, || format!("the place of slide {i}"))?;
+    finite_vector(slide.normal, || format!("the normal of slide {i}"))?;
+    finite(slide.speed, || format!("the speed of slide {i}"))?;
+    finite(slide.power, || format!("the power of slide {i}"))
 }
 
 fn check_surface(surface: &SurfaceMaterial) -> Checked {

@@ -3,7 +3,8 @@
 use frangible_export::glam::{Quat, Vec3};
 use frangible_export::{
     ExportError, Floor, MeshPart, Moments, Pose, Pulse, RecordedBlow, RecordedCrack, RecordedMesh,
-    RecordedNode, RecordedTouch, Recording, RecordingError, SurfaceMaterial, View, write_glb,
+    RecordedNode, RecordedSlide, RecordedTouch, Recording, RecordingError, SurfaceMaterial, View,
+    write_glb,
 };
 use gltf::animation::util::ReadOutputs;
 use gltf::animation::{Interpolation, Property};
@@ -254,7 +255,7 @@ type Spoiled = (fn(&mut Recording), &'static [&'static str]);
 
 #[test]
 fn an_unsound_recording_is_an_error_that_names_the_place() {
-    let cases: [Spoiled; 16] = [
+    let cases: [Spoiled; 17] = [
         (|r| r.frame_count = 0, &["no frame"]),
         (|r| r.frame_rate = 0.0, &["frame rate", "above zero"]),
         (
@@ -327,6 +328,10 @@ fn an_unsound_recording_is_an_error_that_names_the_place() {
                 });
             },
             &["impulse of touch 0", "NaN"],
+        ),
+        (
+            |r| r.slides.push(RecordedSlide::default()),
+            &["duration of slide 0", "above zero"],
         ),
         (
             |r| r.camera.up = r.camera.target - r.camera.eye,

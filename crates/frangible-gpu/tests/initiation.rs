@@ -221,10 +221,14 @@ fn under_a_contact_stress_is_taken_inside() {
                 let corners = asset.surface.triangles[t as usize];
                 let corners = corners.map(|v| asset.fracture.positions[v as usize]);
                 let point = (corners[0] + corners[1] + corners[2]) / 3.0;
-                vec![away, Contact { point, ..away }]
+                let there = Contact {
+                    point,
+                    ..away.clone()
+                };
+                vec![away.clone(), there]
             })
             .take(3)
-            .chain([vec![away]])
+            .chain([vec![away.clone()]])
             .collect();
         let batch: Vec<Impact<'_>> = contacts
             .iter()
@@ -289,7 +293,7 @@ fn near_the_strength_the_cpu_decides() {
         let blow = numbers.blow(kind.asset(), 2.0);
         let scaled = |factor: f64| Contact {
             impulse: (f64::from(blow.impulse) * factor) as f32,
-            ..blow
+            ..blow.clone()
         };
         let share = |factor| {
             let contacts = [scaled(factor)];
@@ -334,7 +338,7 @@ fn what_cannot_be_computed_is_refused_by_its_number() {
     let good = [Numbers(1).blow(glass.asset(), 1.0)];
     let bad = [Contact {
         impulse: f32::NAN,
-        ..good[0]
+        ..good[0].clone()
     }];
     let first = Impact::new(&loaded, &own, &good);
     let wrong = [first, Impact::new(&loaded, &other, &good)];
@@ -360,7 +364,7 @@ fn what_cannot_be_computed_is_refused_by_its_number() {
     // So strong that its cube would leave the numbers of the GPU: the CPU's.
     let absurd = [Contact {
         impulse: 1e9,
-        ..good[0]
+        ..good[0].clone()
     }];
     let verdicts = gpu.verdicts(&[Impact::new(&loaded, &own, &absurd)], &config);
     assert!(matches!(

@@ -21,7 +21,13 @@ fn broken() -> Broken {
     let ball = Striker::ball(&steel, 0.2, 0.018);
     let at = Vec3::new(0.03, 0.01, 0.0025);
     let hit = Contact::collision(body.asset(), at, Vec3::NEG_Z, 5.0, ball);
-    match impact(&body, &[hit], &FractureConfig::default()).expect("an outcome") {
+    match impact(
+        &body,
+        std::slice::from_ref(&hit),
+        &FractureConfig::default(),
+    )
+    .expect("an outcome")
+    {
         Outcome::Broke(fracture) => Broken::new("plate", body, *fracture),
         _ => panic!("the plate held"),
     }

@@ -30,7 +30,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             while breaks / holds > 1.05 {
                 let speed = (holds * breaks).sqrt();
                 let point = Vector::new(x, 0.0, 0.002);
-                match world.would_break(window, point, Vector::NEG_Z, speed, stone)? {
+                match world.would_break(window, point, Vector::NEG_Z, speed, stone.clone())? {
                     true => breaks = speed,
                     false => holds = speed,
                 }

@@ -32,8 +32,12 @@ fn main() -> Result<(), Box<dyn Error>> {
         let kind = Breakable::new(Arc::clone(&asset))?.with_fields(fields)?;
         let body = kind.body(1);
         let point = Vector::new(0.0, 0.0, 0.004);
-        let blow = frangible::Contact::collision(&asset, point, Vector::NEG_Z, 8.0, mallet);
-        let outcome = impact(&body, &[blow], &frangible::FractureConfig::default())?;
+        let blow = frangible::Contact::collision(&asset, point, Vector::NEG_Z, 8.0, mallet.clone());
+        let outcome = impact(
+            &body,
+            std::slice::from_ref(&blow),
+            &frangible::FractureConfig::default(),
+        )?;
         let report = outcome.report();
         match report.first_crack_point {
             Some(at) => println!("{name}: first crack at x = {:+.3} m", at.x),

@@ -35,8 +35,12 @@ fn main() -> Result<(), Box<dyn Error>> {
     let kind = Breakable::new(Arc::new(Asset::from_bytes(&file)?))?;
     let (seed, contacts) = message.split_at(8);
     let body = kind.body(u64::from_le_bytes(seed.try_into()?));
-    let contacts = contacts.chunks(Contact::BYTES).map(Contact::from_bytes);
-    let contacts: Vec<Contact> = contacts.collect::<Result<_, _>>()?;
+    let (mut contacts, mut left) = (Vec::new(), contacts);
+    while !left.is_empty() {
+        let (contact, behind) = Contact::read(left)?;
+        contacts.push(contact);
+        left = behind;
+    }
     let Outcome::Broke(again) = impact(&body, &contacts, &FractureConfig::default())? else {
         return Err("the client's bowl held".into());
     };

@@ -59,7 +59,7 @@
 //!
 //! # What it does not do yet
 //! Contacts that a bound refuses unseen, and blows judged in a later step than their own, keep the engine's impulse and
-//! restitution. Two breakable bodies that meet each see the other as a rigid one; the mean of their answers counts.
+//! restitution. Two breakable bodies that meet both vibrate under one force; the mean of their answers counts.
 //! Without a model fragments are plain bodies: they do not break again. Multibody joints of a broken body are released,
 //! impulse joints move to the fragment that holds them; neither loads a body. A blow of less than
 //! [`WorldConfig::impact_speed`] breaks nothing: only what presses for four steps in a row counts as carried.

@@ -47,7 +47,8 @@ fn a_blow_asked_of_the_world_is_that_of_the_body_frame_and_of_the_step() {
             ball(),
         );
         let config = FractureConfig::default();
-        let expected = frangible::would_break(body, &[contact], &config).unwrap();
+        let expected =
+            frangible::would_break(body, std::slice::from_ref(&contact), &config).unwrap();
         assert_eq!(asked.unwrap(), expected, "{speed} m/s");
         broke += usize::from(expected);
         held += usize::from(!expected);
@@ -82,4 +83,41 @@ fn a_blow_that_cannot_be_meant_is_refused() {
     assert!(ask(Vector::ZERO, nan, 1.0).contains("direction"));
     assert!(ask(Vector::ZERO, Vector::X, -1.0).contains("speed"));
     assert!(ask(Vector::ZERO, Vector::ZERO, 1.0).contains("normal"));
+}
+
+#[test]
+fn a_body_of_the_world_strikes_as_it_does_in_its_own_frame() {
+    let (mut world, handle) = world();
+    let turned = Pose::from_parts(Vector::new(7.0, 1.0, -3.0), Rotation::from_rotation_z(0.3));
+    let other = Body::new(common::baked::block().clone(), 2).unwrap();
+    let other = world.insert_breakable(other, turned, Vector::ZERO, Vector::ZERO);
+    let other = other.unwrap();
+    let corner = frangible::glam::Vec3::new(-0.1, 0.04, 0.0);
+    let (touches, toward) = (turned * corner, -Vector::X);
+    let striker = world.striker(other, touches, toward).unwrap();
+    let body = world.breakable(other).unwrap();
+    let mut on_it = Contact::new(
+        corner,
+        turned.rotation.inverse() * Vector::X,
+        0.0,
+        0.0,
+        Striker::rigid(),
+    );
+    on_it.striker.restitution = striker.restitution;
+    let expected = Striker::flexible(body, &on_it, &FractureConfig::default()).unwrap();
+    let near = |a: f32, b: f32| (a / b - 1.0).abs() < 1e-4;
+    assert!(near(
+        striker.inverse_effective_mass,
+        expected.inverse_effective_mass
+    ));
+    assert!(near(striker.curvature_radius, expected.curvature_radius));
+    assert!(striker.receptance.is_some());
+    // A fast one breaks the pane, a slow one does not.
+    let place = Vector::new(5.002, 1.05, -3.02);
+    for (speed, breaks) in [(0.05, false), (20.0, true)] {
+        let asked = world.would_break(handle, place, toward, speed, striker.clone());
+        assert_eq!(asked.unwrap(), breaks, "{speed} m/s");
+    }
+    assert!(world.striker(other, Vector::NAN, toward).is_err());
+    assert!(world.striker(other, touches, Vector::ZERO).is_err());
 }

@@ -2,11 +2,15 @@
 
 mod common;
 
+use std::sync::Arc;
+
 use common::baked::{block, pane};
 use common::{at, body, world};
 use frangible::glam::{DVec3, Vec3};
 use frangible::internals::DurationModel;
+use frangible::internals::blow::Blow;
 use frangible::internals::contact::answer_duration;
+use frangible::{Asset, FractureConfig};
 use frangible_rapier::rapier3d::dynamics::RigidBodyHandle;
 use frangible_rapier::rapier3d::math::{Pose, Vector};
 use frangible_rapier::{Ball, BreakEvent, BreakableWorld, SurfaceProperties};
@@ -134,6 +138,8 @@ fn two_panes_that_meet_both_break_and_momentum_stays() {
             for contact in &event.contacts {
                 let answered = contact.striker.modal_duration > 0.0;
                 assert_eq!(answered, model == DurationModel::ModalHertz);
+                let vibrates = contact.striker.receptance.is_some();
+                assert_eq!(vibrates, model == DurationModel::Integrated);
             }
         }
     }
@@ -184,4 +190,48 @@ fn each_of_two_bodies_knows_how_long_the_other_answers() {
             .distance(DVec3::Z * -2.0 * block().mass.mass)
             < 1e-4
     );
+}
+
+#[test]
+fn both_of_two_bodies_find_one_force() {
+    let mut world = world(false);
+    world.set_break_function(common::unbreakable());
+    // Steps so short that the engine's contacts lie on both surfaces.
+    world.physics.integration_parameters.dt = 2.5e-4;
+    let (lower, still) = (at(0.0, 0.0, 0.0), Vector::ZERO);
+    let upper = at(0.03, 0.02, 0.002 + 0.025 + 0.002);
+    let falls = Vector::new(0.0, 0.0, -2.0);
+    let bodies =
+        [(pane(), lower, still), (block(), upper, falls)].map(|(asset, pose, velocity)| {
+            let handle = world.insert_breakable(body(asset), pose, velocity, still);
+            (asset, handle.unwrap())
+        });
+    let held = (0..20).find_map(|_| {
+        world.step().unwrap();
+        Some(world.held().to_vec()).filter(|h| h.len() == 2)
+    });
+    let held = held.expect("they meet");
+    let config = FractureConfig::default();
+    let force = |(asset, handle): (&Arc<Asset>, _), vibrates: bool| -> f64 {
+        let event = held.iter().find(|h| h.body == handle).unwrap();
+        let mut contacts = event.contacts.clone();
+        assert!(contacts.iter().all(|c| c.striker.receptance.is_some()));
+        if !vibrates {
+            contacts
+                .iter_mut()
+                .for_each(|c| c.striker.receptance = None);
+        }
+        let blow = Blow::new(&body(asset), &contacts, &config).unwrap();
+        let reports = blow.unwrap().reports();
+        reports.iter().map(|r| r.peak_force).fold(0.0, f64::max)
+    };
+    let apart = |vibrates: bool| {
+        let [pane, block] = bodies.map(|body| force(body, vibrates));
+        println!("{pane} N on the pane, {block} N on the block");
+        (pane / block - 1.0).abs()
+    };
+    let (both, alone) = (apart(true), apart(false));
+    // The engine's contact is at two places, one on each surface, and its friction is not quite the same on both.
+    assert!(both < 0.05, "{both}");
+    assert!(alone > 0.5, "{alone} without the other's vibration");
 }

@@ -45,7 +45,7 @@ fn a_contact_holds_the_numbers_of_the_impact() {
         (handle, 1),
         "the four cells that meet there report one contact"
     );
-    let contact = held.contacts[0];
+    let contact = held.contacts[0].clone();
     println!("{contact:?}");
     // World z is body y after a quarter turn about x: the ball comes from −y and pushes towards +y.
     assert!(

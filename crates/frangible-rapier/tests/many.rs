@@ -287,8 +287,11 @@ fn what_is_called_harmless_is_refused_by_the_impact() {
         let speed = 1e-4 * 1.6_f32.powi(k);
         let point = Vec3::new(0.05, 0.0, 0.0);
         let contact = Contact::new(point, -Vec3::X, speed, speed, Striker::rigid());
-        let harmless = is_harmless(&body, &[contact], &config);
-        let report = impact(&body, &[contact], &config).unwrap().report().clone();
+        let harmless = is_harmless(&body, std::slice::from_ref(&contact), &config);
+        let report = impact(&body, std::slice::from_ref(&contact), &config)
+            .unwrap()
+            .report()
+            .clone();
         assert_eq!(
             harmless,
             report.looked_at <= LookedAt::Impulses,

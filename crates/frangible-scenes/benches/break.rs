@@ -33,10 +33,17 @@ fn breaks(c: &mut Criterion) {
         ),
     ] {
         let body = Body::new(asset.clone(), 1).expect("a sound asset");
-        let outcome = impact(&body, &[contact], &config).expect("a sound contact");
+        let outcome =
+            impact(&body, std::slice::from_ref(&contact), &config).expect("a sound contact");
         assert_eq!(matches!(outcome, Outcome::Held { .. }), held, "{name}");
         group.bench_function(name, |b| {
-            b.iter(|| impact(black_box(&body), &[black_box(contact)], &config));
+            b.iter(|| {
+                impact(
+                    black_box(&body),
+                    black_box(std::slice::from_ref(&contact)),
+                    &config,
+                )
+            });
         });
     }
     group.finish();

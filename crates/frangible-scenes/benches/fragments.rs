@@ -53,7 +53,11 @@ fn stages(c: &mut Criterion) {
         for (name, asset, contact) in &cases {
             let body = Body::new(Arc::clone(asset), 1).expect("a sound asset");
             let time = || {
-                let outcome = impact(black_box(&body), &[black_box(*contact)], &config);
+                let outcome = impact(
+                    black_box(&body),
+                    black_box(std::slice::from_ref(contact)),
+                    &config,
+                );
                 clock(&outcome.expect("a sound contact").report().timings)
             };
             group.bench_function(BenchmarkId::from_parameter(name), |b| {

@@ -88,7 +88,7 @@ fn change_of_impacts(exact: &Asset, compact: &Asset) -> Result<f64, InputError> 
         let mut config = FractureConfig::default();
         config.culling = false;
         let peak = |body: &Body| -> Result<f64, InputError> {
-            let outcome = impact(body, &[contact], &config)?;
+            let outcome = impact(body, std::slice::from_ref(&contact), &config)?;
             Ok(outcome.report().peak_stress)
         };
         largest = largest.max((peak(&compact)? / peak(&exact)? - 1.0).abs());

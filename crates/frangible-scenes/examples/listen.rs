@@ -25,12 +25,14 @@ fn main() -> Result<(), Box<dyn Error>> {
         let first = recording.blows.first().map_or(f64::NAN, |blow| blow.time);
         let cracks: usize = recording.blows.iter().map(|blow| blow.cracks.len()).sum();
         println!(
-            "{name}: {:.1} s, loudest {:.1} dB, first blow at {first:.4} s, {} blows, {cracks} cracks, {} touches; {:.2} s to make ready, {:.2} s of \
+            "{name}: {} pieces, {:.1} s, loudest {:.1} dB, first blow at {first:.4} s, {} blows, {cracks} cracks, {} touches, {} slides; {:.2} s to make ready, {:.2} s of \
              synthesis; {:?}",
+            run.breaks.iter().map(|b| b.masses.len()).sum::<usize>(),
             heard.duration(),
             heard.peak_level(),
             recording.blows.len(),
             recording.touches.len(),
+            recording.slides.len(),
             heard.seconds[0],
             heard.seconds[1],
             heard.report

@@ -57,13 +57,13 @@ fn main() -> Result<(), Box<dyn Error>> {
         };
         let weaker = anew(&cracked, &config)?;
         let (old, new) = (
-            impact(&cracked, &[hit], &config)?,
-            impact(&weaker, &[hit], &config)?,
+            impact(&cracked, std::slice::from_ref(&hit), &config)?,
+            impact(&weaker, std::slice::from_ref(&hit), &config)?,
         );
         let frequency = |body: &Body| body.asset().modes.frequency(0);
         let area: f64 = area_of(&cracked);
         let ends = [
-            parts_at(&cracked, hit, &config, false)?,
+            parts_at(&cracked, hit.clone(), &config, false)?,
             parts_at(&cracked, hit, &config, true)?,
         ];
         let named = ends.map(|end| end.map_or("–".into(), |blow| blow.to_string()));
@@ -111,7 +111,7 @@ fn parts_at(
         if own {
             body = anew(&body, config)?;
         }
-        match impact(&body, &[hit], config)? {
+        match impact(&body, std::slice::from_ref(&hit), config)? {
             Outcome::Broke(_) => return Ok(Some(blow)),
             Outcome::Held {
                 state: Some(state), ..
@@ -140,8 +140,8 @@ fn first_crack(
     let mut hardest = None;
     for i in 0..SPEEDS {
         let speed = SLOWEST * (1.0 + i as f64 / 30.0);
-        let hit = Contact::collision(body.asset(), point, toward, speed, striker);
-        match impact(body, &[hit], config)? {
+        let hit = Contact::collision(body.asset(), point, toward, speed, striker.clone());
+        match impact(body, std::slice::from_ref(&hit), config)? {
             Outcome::Broke(_) => break,
             Outcome::Held {
                 state: Some(state), ..

@@ -13,6 +13,7 @@ use crate::body::{BodySpec, Place};
 use crate::error::SceneError;
 use crate::projectile::Projectile;
 use crate::scene::Scene;
+use crate::showpieces;
 use crate::source::BodySource;
 
 /// What happens to the body.
@@ -22,7 +23,7 @@ enum Action {
 }
 
 /// Names of the built-in scenes; the first is the default.
-pub const SCENE_NAMES: [&str; 17] = [
+pub const SCENE_NAMES: [&str; 21] = [
     "glass",
     "pane",
     "plate",
@@ -40,6 +41,10 @@ pub const SCENE_NAMES: [&str; 17] = [
     "five-blows",
     "wall",
     "crockery",
+    "wine-glass",
+    "bottle",
+    "bulb",
+    "statue",
 ];
 
 /// Length, width and thickness of the bar of chocolate, m.
@@ -224,6 +229,10 @@ pub fn scene(name: &str) -> Result<Scene, SceneError> {
         "five-blows" => again::five_blows(),
         "wall" => again::wall(),
         "crockery" => again::crockery(),
+        "wine-glass" => showpieces::wine_glass(),
+        "bottle" => showpieces::bottle(),
+        "bulb" => showpieces::bulb(),
+        "statue" => showpieces::statue(),
         _ => {
             let hint = nearest_name(name, SCENE_NAMES)
                 .map_or(String::new(), |n| format!(", did you mean `{n}`?"));

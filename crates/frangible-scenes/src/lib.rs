@@ -40,10 +40,12 @@ mod rescale;
 mod result;
 mod run;
 mod scene;
+mod showpieces;
 mod sound;
 mod source;
 mod stage;
 mod text;
+mod touching;
 mod wave;
 
 pub use bake::{BakedBody, bake, bake_opened, bake_until, open_sources};
@@ -54,7 +56,7 @@ pub use files::{read_scene, scene_of, scene_of_file};
 pub use first_break::{FirstBreak, first_break};
 pub use frangible_bake::{CancelToken, Region, Support};
 pub use game::{GamePlan, GameRun, play_as_game};
-pub use live::{LiveScene, SavedScene, Swing, Thing, ThingKind, Throw};
+pub use live::{LiveScene, Reel, SavedScene, Swing, Thing, ThingKind, Throw};
 pub use output::{FileWish, Output};
 pub use projectile::{Projectile, ProjectileKind};
 pub use recorder::Sounding;
@@ -62,7 +64,9 @@ pub use rescale::{MaterialEdit, Rescale};
 pub use result::{BlowRecord, BreakRecord, HeldRecord, Run};
 pub use run::play;
 pub use scene::{PieceSpec, Scene};
-pub use sound::{Sounded, sound, sound_config};
+pub use sound::{
+    LiveSound, Sounded, Sources, energy_lost, energy_radiated, sound, sound_config, sound_of,
+};
 pub use source::{
     Axis, BodySource, FileKind, Opened, axes_of, compacted, open_source, save_asset,
     save_compact_asset,

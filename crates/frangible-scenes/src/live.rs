@@ -1,6 +1,7 @@
 //! A scene that runs step by step, for those who look on and throw things: what there is at the moment, with its shapes.
 
 mod looks;
+mod reel;
 mod schedule;
 mod state;
 mod swing;
@@ -10,22 +11,23 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use frangible::glam::{Quat, Vec3};
-use frangible::{Body, Fracture, Fragment, Material};
+use frangible::{Body, Fracture, Fragment};
 use frangible_export::{Floor, Pose, RecordedMesh, SurfaceMaterial};
 use frangible_rapier::rapier3d::dynamics::RigidBodyHandle;
-use frangible_rapier::{BreakEvent, BreakableWorld, SurfaceProperties};
+use frangible_rapier::{BreakEvent, BreakableWorld};
 
 use crate::bake::BakedBody;
 use crate::cracks::with_cracks;
 use crate::error::SceneError;
 use crate::meshes::{BodySurfaces, piece};
-use crate::recorder::Role;
+use crate::recorder::{Role, Sounding, piece_sounding};
 use crate::scene::Scene;
 use crate::stage::{Stage, set_up};
 
 use schedule::Schedule;
 use swing::Swung;
 
+pub use reel::Reel;
 pub use state::SavedScene;
 pub use swing::Swing;
 pub use throw::Throw;
@@ -76,6 +78,8 @@ pub struct Thing {
     pub volume: f64,
     /// Where it is in [`LiveScene::world`].
     pub handle: RigidBodyHandle,
+    /// What it is to the ear.
+    pub sounding: Sounding,
     surfaces: Option<BodySurfaces>,
     /// Its shape without the cracks that part nothing and came later, where it has such cracks.
     plain: Option<RecordedMesh>,
@@ -111,10 +115,11 @@ impl LiveScene {
             projectiles,
         } = set_up(scene, baked)?;
         let targets = bodies.iter().map(|placed| placed.target).collect();
-        let (recording, handles, roles) = recorder.into_parts();
+        let (recording, handles, roles, soundings) = recorder.into_parts();
         let nodes = recording.nodes.into_iter().zip(recording.meshes);
         let mut things = Vec::new();
-        for (((node, mesh), handle), role) in nodes.zip(handles).zip(roles) {
+        let known = nodes.zip(handles).zip(roles).zip(soundings);
+        for ((((node, mesh), handle), role), sounding) in known {
             let extra = |key: &str| {
                 let found = node.keep_extras.iter().find(|(name, _)| name == key);
                 found.map_or(0.0, |(_, value)| *value)
@@ -131,6 +136,7 @@ impl LiveScene {
                 kind,
                 mesh,
                 handle,
+                sounding,
                 surfaces,
                 plain: None,
             }));
@@ -230,6 +236,12 @@ impl LiveScene {
                 mesh,
                 mass: fragment.mass.mass,
                 volume: fragment.mass.volume,
+                sounding: piece_sounding(
+                    &self.world,
+                    handle,
+                    &event.asset.material,
+                    fragment.mass.mass,
+                ),
                 handle,
                 surfaces: Some(surfaces.clone()),
                 plain: None,
@@ -348,9 +360,4 @@ impl LiveScene {
     pub fn time(&self) -> f64 {
         self.ticks as f64 / TICKS_PER_SECOND as f64
     }
-}
-
-/// The surface properties of a ball of a preset.
-fn ball_properties(material: &str, radius: f32) -> Result<SurfaceProperties, SceneError> {
-    Ok(SurfaceProperties::of(&Material::preset(material)?, radius))
 }

@@ -8,22 +8,19 @@ use frangible::internals::BodyState;
 use frangible::{Asset, Body, ImpactReport, Material};
 use frangible_export::{
     Floor, Moments, Pose, Pulse, RecordedBlow, RecordedCrack, RecordedMesh, RecordedNode,
-    RecordedTouch, Recording, SurfaceMaterial,
+    Recording, SurfaceMaterial,
 };
 use frangible_rapier::BreakEvent;
 use frangible_rapier::BreakableWorld;
 use frangible_rapier::rapier3d::dynamics::RigidBodyHandle;
-use frangible_rapier::rapier3d::geometry::Collider;
 
 use crate::cameras::cameras;
 use crate::cracks::with_cracks;
 use crate::meshes::{BodySurfaces, piece};
+use crate::touching::Touching;
 
 /// Frames per second of a recording.
 pub(crate) const FRAME_RATE: f32 = 60.0;
-
-/// A touch that changes the lighter body's speed by less than this is none, m/s.
-const AUDIBLE: f32 = 0.02;
 
 /// A node that follows a rigid body.
 struct Tracked {
@@ -66,8 +63,7 @@ pub(crate) struct Recorder {
     tracked: Vec<Tracked>,
     /// The node of each rigid body.
     node_of_body: BTreeMap<(u32, u32), usize>,
-    /// Impulse of each pair of colliders in the latest step, N·s.
-    touching: BTreeMap<[(u32, u32); 2], f32>,
+    touching: Touching,
     break_frame: Option<usize>,
     /// When cracks first ran that parted nothing.
     crack_frame: Option<usize>,
@@ -86,7 +82,7 @@ impl Recorder {
             soundings: Vec::new(),
             tracked: Vec::new(),
             node_of_body: BTreeMap::new(),
-            touching: BTreeMap::new(),
+            touching: Touching::default(),
             break_frame: None,
             crack_frame: None,
         }
@@ -97,10 +93,10 @@ impl Recorder {
         looks.map(|look| self.surface(look))
     }
 
-    /// What was tracked so far, as plain data, and what each node follows, in the order of the nodes.
-    pub(crate) fn into_parts(self) -> (Recording, Vec<RigidBodyHandle>, Vec<Role>) {
+    /// What was tracked so far, as plain data, and what each node follows, is to the camera and to the ear, in the order of the nodes.
+    pub(crate) fn into_parts(self) -> (Recording, Vec<RigidBodyHandle>, Vec<Role>, Vec<Sounding>) {
         let bodies = self.tracked.iter().map(|tracked| tracked.body).collect();
-        (self.recording, bodies, self.roles)
+        (self.recording, bodies, self.roles, self.soundings)
     }
 
     /// Number of a surface in the recording.
@@ -171,10 +167,7 @@ impl Recorder {
                 ("volume_m3".into(), fragment.mass.volume),
             ];
             let mass = fragment.mass.mass;
-            let sounding = world.breakable(body).map_or_else(
-                || Sounding::Piece(event.asset.material.clone(), mass),
-                |body| Sounding::Modes(body.clone()),
-            );
+            let sounding = piece_sounding(world, body, &event.asset.material, mass);
             self.track(name, mesh, body, extras, Role::Piece, sounding);
         }
         let pieces = first..self.recording.nodes.len();
@@ -199,28 +192,8 @@ impl Recorder {
         let Some(&node) = self.node_of_body.get(&body.into_raw_parts()) else {
             return;
         };
-        let pulses = report.contacts.iter().map(|contact| Pulse {
-            point: contact.point,
-            direction: contact.normal,
-            time_step: report.time_step,
-            force: contact.force.clone(),
-        });
-        let origin = asset.mass.centre;
-        let crack = |cuts: &Vec<(u32, f64)>| RecordedCrack {
-            places: (cuts.iter())
-                .map(|&(tet, _)| asset.root().fracture.centroid(tet as usize).as_dvec3() - origin)
-                .map(|place| place.as_vec3())
-                .collect(),
-            times: cuts.iter().map(|&(_, time)| time).collect(),
-        };
-        self.recording.blows.push(RecordedBlow {
-            node,
-            time,
-            pieces,
-            pulses: pulses.collect(),
-            cracks: report.arrivals.iter().map(crack).collect(),
-            fracture_energy: report.fracture_energy,
-        });
+        let blow = recorded_blow(node, asset, report, time, pieces);
+        self.recording.blows.push(blow);
     }
 
     /// Shows the cracks that a body got without coming apart, from the next frame on: another node takes the place of its own.
@@ -251,53 +224,13 @@ impl Recorder {
         }
     }
 
-    /// Takes in what came together in the step that ended `time` s after the first frame: where a pair of colliders pushes more than twice
-    /// as hard as in the step before, and changes the speed of the lighter body by more than [`AUDIBLE`].
+    /// Takes in what came together or slid in the step that ended `time` s after the first frame.
     pub(crate) fn touches(&mut self, world: &BreakableWorld, time: f64) {
-        let physics = &world.physics;
-        let before = std::mem::take(&mut self.touching);
-        let node = |collider: &Collider| {
-            let body = collider.parent()?;
-            let mass = physics.bodies.get(body)?.mass();
-            let node = self.node_of_body.get(&body.into_raw_parts())?;
-            Some((*node, mass))
-        };
-        for pair in physics.narrow_phase.contact_pairs() {
-            let colliders = [pair.collider1, pair.collider2];
-            let impulse = pair.total_impulse_magnitude();
-            if impulse <= 0.0 {
-                continue;
-            }
-            let key = colliders.map(|collider| collider.into_raw_parts());
-            self.touching.insert(key, impulse);
-            let [first, second] = colliders.map(|c| physics.colliders.get(c).and_then(node));
-            let (nodes, lightest, flip) = match (first, second) {
-                (Some(a), Some(b)) => ((a.0, Some(b.0)), a.1.min(b.1), false),
-                (Some(a), None) => ((a.0, None), a.1, false),
-                (None, Some(b)) => ((b.0, None), b.1, true),
-                (None, None) => continue,
-            };
-            let known = before.get(&key).copied().unwrap_or(0.0);
-            if impulse < (AUDIBLE * lightest).max(2.0 * known) {
-                continue;
-            }
-            let Some((manifold, contact)) = pair.find_deepest_contact() else {
-                continue;
-            };
-            let at = physics.colliders.get(pair.collider1);
-            let Some(at) = at.map(|c| c.position().transform_point(contact.local_p1)) else {
-                continue;
-            };
-            // Rapier's normal points from the first collider to the second.
-            let normal = manifold.data.normal * if flip { 1.0 } else { -1.0 };
-            self.recording.touches.push(RecordedTouch {
-                time,
-                nodes,
-                point: Vec3::from(at.to_array()),
-                normal: Vec3::from(normal.to_array()),
-                impulse: f64::from(impulse),
-            });
-        }
+        let known = &self.node_of_body;
+        let node = |body: RigidBodyHandle| known.get(&body.into_raw_parts()).copied();
+        let (touches, slides) = self.touching.step(world, &node, time);
+        self.recording.touches.extend(touches);
+        self.recording.slides.extend(slides);
     }
 
     /// Writes down where everything is now.
@@ -353,6 +286,51 @@ impl Recorder {
         (recording.camera, recording.views) = (camera, Some(views));
         (self.recording, self.soundings)
     }
+}
+
+/// A blow on a node, `time` s after the first frame, as plain data.
+pub(crate) fn recorded_blow(
+    node: usize,
+    asset: &Asset,
+    report: &ImpactReport,
+    time: f64,
+    pieces: Range<usize>,
+) -> RecordedBlow {
+    let pulses = report.contacts.iter().map(|contact| Pulse {
+        point: contact.point,
+        direction: contact.normal,
+        time_step: report.time_step,
+        force: contact.force.clone(),
+    });
+    let origin = asset.mass.centre;
+    let crack = |cuts: &Vec<(u32, f64)>| RecordedCrack {
+        places: (cuts.iter())
+            .map(|&(tet, _)| asset.root().fracture.centroid(tet as usize).as_dvec3() - origin)
+            .map(|place| place.as_vec3())
+            .collect(),
+        times: cuts.iter().map(|&(_, time)| time).collect(),
+    };
+    RecordedBlow {
+        node,
+        time,
+        pieces,
+        pulses: pulses.collect(),
+        cracks: report.arrivals.iter().map(crack).collect(),
+        fracture_energy: report.fracture_energy,
+    }
+}
+
+/// What a piece of a body is to the ear: by its own modes where it can break again.
+pub(crate) fn piece_sounding(
+    world: &BreakableWorld,
+    body: RigidBodyHandle,
+    material: &Material,
+    mass: f64,
+) -> Sounding {
+    world.breakable(body).map_or_else(
+        || Sounding::Piece(material.clone(), mass),
+        |body| Sounding::Modes(body.clone()),
+    )
 }
 
 /// Name of a piece of what has this name and comes from so many breaks: `plate piece 3`, and of that `plate piece 3.1`.

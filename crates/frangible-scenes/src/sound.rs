@@ -4,18 +4,29 @@
 //! their times and energy, and where pieces touched, of which the impulse is known and the duration is Hertz'.
 
 mod blows;
+mod cast;
+mod energy;
+mod live;
 mod nodes;
+mod slides;
 mod touches;
 
 use frangible::Material;
+use frangible_export::View;
 use frangible_sound::glam::DVec3;
 use frangible_sound::{Listener, SoundError, SoundFloor, Synth, SynthConfig, SynthReport, wav};
 
 use crate::result::Run;
 use crate::scene::Scene;
 
-use blows::blows;
+pub use energy::{energy_lost, energy_radiated};
+
+pub use live::LiveSound;
+
+use blows::{blows, cracks};
+use cast::Played;
 use nodes::Nodes;
+use slides::slides;
 use touches::touches;
 
 /// How long the last tone may ring on, s.
@@ -24,7 +35,7 @@ const RINGS_ON: f64 = 6.0;
 /// What a run sounds like.
 #[derive(Clone, Debug)]
 pub struct Sounded {
-    /// Samples from −1 to 1, left and right in turn.
+    /// Pressures, Pa, left and right in turn.
     pub samples: Vec<f32>,
     /// How they were made.
     pub config: SynthConfig,
@@ -35,7 +46,7 @@ pub struct Sounded {
 }
 
 impl Sounded {
-    /// The bytes of a WAV file.
+    /// The bytes of a WAV file, as loud as fits: its full scale is the loudest of the samples, [`Sounded::loudest`].
     ///
     /// # Errors
     /// What [`wav`] refuses.
@@ -44,7 +55,18 @@ impl Sounded {
             &self.samples,
             self.config.listener.channels,
             self.config.rate,
+            self.loudest(),
         )
+    }
+
+    /// The loudest of the samples, Pa.
+    #[must_use]
+    pub fn loudest(&self) -> f64 {
+        let loudest = self
+            .samples
+            .iter()
+            .fold(0.0_f32, |most, s| most.max(s.abs()));
+        f64::from(loudest)
     }
 
     /// How long it is, s.
@@ -53,17 +75,21 @@ impl Sounded {
         self.samples.len() as f64 / (self.config.rate * self.config.listener.channels as f64)
     }
 
-    /// Level of the loudest pressure, dB over 20 µPa.
+    /// Level of the loudest of the samples, dB over 20 µPa.
     #[must_use]
     pub fn peak_level(&self) -> f64 {
-        20.0 * (self.report.limiter.peak / 2e-5).max(1e-9).log10()
+        20.0 * (self.loudest() / 2e-5).max(1e-9).log10()
     }
 }
 
 /// How a run is listened to: with the ears where the camera of its recording is, above the floor of its scene.
 #[must_use]
 pub fn sound_config(run: &Run, scene: &Scene) -> SynthConfig {
-    let camera = &run.recording.camera;
+    config_at(&run.recording.camera, scene)
+}
+
+/// How a scene is listened to from where a camera is.
+fn config_at(camera: &View, scene: &Scene) -> SynthConfig {
     let [eye, target] = [camera.eye, camera.target].map(|p| p.as_dvec3());
     let floor = scene.floor.as_ref().map(|_| {
         let stone = SoundFloor::stone(0.0);
@@ -88,21 +114,69 @@ fn floor_material(scene: &Scene) -> Option<Material> {
         .and_then(|name| Material::preset(name).ok())
 }
 
+/// What is heard of a run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Sources {
+    /// The forces of blows, on what was struck and on what struck.
+    pub blows: bool,
+    /// Cracks.
+    pub cracks: bool,
+    /// What pieces touch.
+    pub touches: bool,
+    /// What slides.
+    pub slides: bool,
+}
+
+impl Sources {
+    /// All of it.
+    pub const ALL: Self = Self {
+        blows: true,
+        cracks: true,
+        touches: true,
+        slides: true,
+    };
+}
+
 /// What a run sounds like, listened to like this.
 ///
 /// # Errors
 /// A number of the configuration, or of the recording, that cannot be used.
 pub fn sound(run: &Run, scene: &Scene, config: &SynthConfig) -> Result<Sounded, SoundError> {
+    sound_of(run, scene, config, Sources::ALL)
+}
+
+/// What these sources of a run sound like.
+///
+/// # Errors
+/// A number of the configuration, or of the recording, that cannot be used.
+pub fn sound_of(
+    run: &Run,
+    scene: &Scene,
+    config: &SynthConfig,
+    sources: Sources,
+) -> Result<Sounded, SoundError> {
     let clock = web_time::Instant::now();
     let mut synth = Synth::new(*config)?;
-    let mut nodes = Nodes::new(run);
+    let (mut nodes, cast) = (Nodes::default(), Played::new(run));
     let recording = &run.recording;
     for blow in &recording.blows {
-        blows(&mut synth, &mut nodes, run, blow)?;
+        if sources.blows {
+            blows(&mut synth, &mut nodes, &cast, blow)?;
+        }
+        if sources.cracks {
+            cracks(&mut synth, &mut nodes, &cast, blow)?;
+        }
     }
-    let floor = floor_material(scene);
-    for touch in &recording.touches {
-        touches(&mut synth, &mut nodes, run, floor.as_ref(), touch)?;
+    if sources.touches {
+        let floor = floor_material(scene);
+        for touch in &recording.touches {
+            touches(&mut synth, &mut nodes, &cast, floor.as_ref(), touch)?;
+        }
+    }
+    if sources.slides {
+        for slide in &recording.slides {
+            slides(&mut synth, &mut nodes, &cast, slide)?;
+        }
     }
     let ready = clock.elapsed().as_secs_f64();
     let frames = recording.frame_count as f64 / f64::from(recording.frame_rate.max(1.0));

@@ -158,11 +158,12 @@ fn the_hardest_blow_that_is_refused_free_of_time_leaves_the_strength_unreached()
             let body = kind.body(seed);
             let some = numbers.blow(asset);
             let mut hardest: [Option<Outcome>; 2] = [None, None];
-            let mut blows = [some; 2];
+            let mut blows = [some.clone(), some.clone()];
             for k in 0..60 {
                 let speed = 1e-3 * 1.15_f64.powi(k);
-                let blow = Contact::collision(asset, some.point, some.normal, speed, some.striker);
-                let outcome = impact(&body, &[blow], &config).unwrap();
+                let blow =
+                    Contact::collision(asset, some.point, some.normal, speed, some.striker.clone());
+                let outcome = impact(&body, std::slice::from_ref(&blow), &config).unwrap();
                 let level = outcome.report().looked_at as usize;
                 if level > LookedAt::Impulses as usize {
                     break;
@@ -172,7 +173,7 @@ fn the_hardest_blow_that_is_refused_free_of_time_leaves_the_strength_unreached()
             }
             for (level, (fast, blow)) in hardest.into_iter().zip(blows).enumerate() {
                 let Some(fast) = fast else { continue };
-                let slow = impact(&body, &[blow], &without).unwrap();
+                let slow = impact(&body, std::slice::from_ref(&blow), &without).unwrap();
                 assert!(cracks_and_pieces(&fast) == cracks_and_pieces(&slow));
                 let (bound, stress) = (fast.report().stress_bound, slow.report().peak_stress);
                 println!(

@@ -188,7 +188,8 @@ fn scored(strength: f32) -> Breakable {
 
 /// Share of the cut tetrahedra that lie in the strip.
 fn share_along_the_score(body: &Body, hit: Contact) -> f64 {
-    let (_, trace) = impact_traced(body, &[hit], &FractureConfig::default()).unwrap();
+    let (_, trace) =
+        impact_traced(body, std::slice::from_ref(&hit), &FractureConfig::default()).unwrap();
     let cut: Vec<f32> = trace
         .cracks
         .iter()
@@ -229,7 +230,7 @@ fn the_chocolate_breaks_between_its_squares() {
     let drop = blow(&asset, corner, -corner, 1.7, stone_floor());
     for (kind, breaks) in [(&scored, true), (&plain, false)] {
         let broke = mean(4, |seed| {
-            let outcome = impact(&kind.body(seed), &[drop], &config).unwrap();
+            let outcome = impact(&kind.body(seed), std::slice::from_ref(&drop), &config).unwrap();
             f64::from(u8::from(pieces(&outcome) > 1))
         });
         println!("{broke} of the dropped bars broke, scored: {breaks}");
@@ -241,7 +242,8 @@ fn the_chocolate_breaks_between_its_squares() {
     let shares = |kind: &Breakable| {
         let (mut starts, mut cuts) = ([0; 2], [0; 2]);
         for seed in 1..=6 {
-            let (_, trace) = impact_traced(&kind.body(seed), &[hit], &config).unwrap();
+            let (_, trace) =
+                impact_traced(&kind.body(seed), std::slice::from_ref(&hit), &config).unwrap();
             for crack in &trace.cracks {
                 for (i, cut) in crack.iter().enumerate() {
                     let p = asset.fracture.centroid(cut.tet as usize);

@@ -52,7 +52,8 @@ fn share(asset: &Arc<Asset>, fields: Fields, grooves: &[Patch], hit: Contact) ->
     let mut sums = [0.0; 2];
     let mut starts = Vec::new();
     for seed in 1..=4 {
-        let (outcome, trace) = impact_traced(&kind.body(seed), &[hit], &config).unwrap();
+        let (outcome, trace) =
+            impact_traced(&kind.body(seed), std::slice::from_ref(&hit), &config).unwrap();
         let [inside, all] = areas(asset, grooves, &trace);
         sums = [sums[0] + inside, sums[1] + all];
         starts.push((trace.cracks.len(), common::pieces(&outcome)));
@@ -99,7 +100,7 @@ fn a_scored_bar_breaks_along_its_grooves() {
         ),
     ] {
         let scored = weakness::from_patches(&asset, grooves).unwrap();
-        let with = share(&asset, scored, grooves, hit);
+        let with = share(&asset, scored, grooves, hit.clone());
         let without = share(&asset, Fields::default(), grooves, hit);
         println!("{what}: {with:.3} of the area in grooves, {without:.3} without scores");
         assert!(

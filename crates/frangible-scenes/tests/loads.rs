@@ -128,23 +128,23 @@ fn friction_pushes_as_a_normal_impulse_does() {
     let plain = blow(asset, point, Vec3::NEG_Z, 1.0, stone_floor());
     let rubbed = Contact {
         friction: Vec3::NEG_X * 0.5 * plain.impulse,
-        ..plain
+        ..plain.clone()
     };
     let (a, b) = (
-        impact(&body, &[plain], &config).unwrap(),
-        impact(&body, &[rubbed], &config).unwrap(),
+        impact(&body, std::slice::from_ref(&plain), &config).unwrap(),
+        impact(&body, std::slice::from_ref(&rubbed), &config).unwrap(),
     );
     assert!(b.report().peak_elastic_energy > 1.1 * a.report().peak_elastic_energy);
     let tilted = plain.push() + rubbed.friction;
     let as_normal = Contact {
         normal: tilted,
         impulse: tilted.length(),
-        ..plain
+        ..plain.clone()
     };
     let mut free = config.clone();
     free.admissible_duration = false;
     let energy = |c: Contact| {
-        impact(&body, &[c], &free)
+        impact(&body, std::slice::from_ref(&c), &free)
             .unwrap()
             .report()
             .peak_elastic_energy
@@ -156,7 +156,7 @@ fn friction_pushes_as_a_normal_impulse_does() {
             &body,
             &[Contact {
                 impulse: 0.0,
-                ..plain
+                ..plain.clone()
             }],
             &config
         )

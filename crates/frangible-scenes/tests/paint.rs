@@ -116,7 +116,7 @@ fn cracked_along(kind: &Breakable, seed: u64) -> f64 {
         steel_ball(0.13),
     );
     let config = FractureConfig::default();
-    let (_, trace) = impact_traced(&kind.body(seed), &[hit], &config).unwrap();
+    let (_, trace) = impact_traced(&kind.body(seed), std::slice::from_ref(&hit), &config).unwrap();
     const BINS: usize = 20;
     let mut cut = [false; BINS];
     for element in trace.cracks.iter().flatten() {

@@ -28,11 +28,13 @@ fn replay(
     let mut body = kind.body(u64::from_le_bytes(seed.try_into().unwrap()));
     let mut states = Vec::new();
     while let Some((&count, rest)) = message.split_first() {
-        let (contacts, rest) = rest.split_at(usize::from(count) * Contact::BYTES);
         message = rest;
-        let contacts: Vec<Contact> = contacts
-            .chunks(Contact::BYTES)
-            .map(|bytes| Contact::from_bytes(bytes).unwrap())
+        let contacts: Vec<Contact> = (0..count)
+            .map(|_| {
+                let (contact, behind) = Contact::read(message).unwrap();
+                message = behind;
+                contact
+            })
             .collect();
         match impact(&body, &contacts, config).unwrap() {
             Outcome::Held { state, .. } => {

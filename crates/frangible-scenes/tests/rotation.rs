@@ -93,14 +93,16 @@ fn a_body_turned_with_its_blow_breaks_the_same_way() {
             let config = FractureConfig::default();
             let run = |asset: Asset, contact: Contact| {
                 let body = Body::new(Arc::new(asset), k).unwrap();
-                impact_traced(&body, &[contact], &config).unwrap().1
+                impact_traced(&body, std::slice::from_ref(&contact), &config)
+                    .unwrap()
+                    .1
             };
-            let plain = run(asset.clone(), contact);
+            let plain = run(asset.clone(), contact.clone());
             for q in turns {
                 let contact = Contact {
                     point: q * contact.point,
                     normal: q * contact.normal,
-                    ..contact
+                    ..contact.clone()
                 };
                 let other = run(turned(&asset, q), contact);
                 let cuts = |trace: &frangible::internals::CrackTrace| -> Vec<Vec<u32>> {

@@ -37,7 +37,8 @@ fn a_block_that_is_cracked_through_comes_apart() {
     let config = FractureConfig::default();
     let largest: Vec<f64> = (1..=6)
         .map(|seed| {
-            let outcome = impact(&kind.body(seed), &[contact], &config).unwrap();
+            let outcome =
+                impact(&kind.body(seed), std::slice::from_ref(&contact), &config).unwrap();
             assert!(outcome.report().crack_area > 3.0 * section);
             let Outcome::Broke(fracture) = &outcome else {
                 return 1.0;

@@ -11,7 +11,7 @@ use frangible::{Asset, Contact, FractureConfig, Material, Striker};
 /// Mean crack area, cm², and mean number of pieces.
 fn damage(asset: &Arc<Asset>, contact: Contact, config: &FractureConfig, seeds: u64) -> (f64, f64) {
     let outcomes: Vec<_> = (1..=seeds)
-        .map(|seed| strike(asset, seed, &[contact], config))
+        .map(|seed| strike(asset, seed, std::slice::from_ref(&contact), config))
         .collect();
     let of = |f: &dyn Fn(usize) -> f64| mean(seeds, |seed| f(seed as usize - 1));
     (
@@ -35,7 +35,7 @@ fn tougher(
     [1.0, 3.0, 10.0].map(|k| {
         damage(
             &changed(asset, |m| m.fracture_energy *= k),
-            contact,
+            contact.clone(),
             config,
             seeds,
         )
@@ -49,7 +49,7 @@ fn with_the_same_flaws(asset: &Arc<Asset>, contact: Contact) -> [(f64, f64); 3] 
         let asset = changed(asset, |m| {
             *m = m.clone().with_fracture_energy(k * m.fracture_energy);
         });
-        damage(&asset, contact, &FractureConfig::default(), 20)
+        damage(&asset, contact.clone(), &FractureConfig::default(), 20)
     })
 }
 
@@ -132,7 +132,7 @@ fn damped(asset: &Arc<Asset>, contact: Contact, config: &FractureConfig) -> [(f6
     [0.0, 1e-7, 1e-6].map(|alpha| {
         damage(
             &changed(asset, |m| m.stiffness_damping = alpha),
-            contact,
+            contact.clone(),
             config,
             20,
         )

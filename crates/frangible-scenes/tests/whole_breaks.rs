@@ -39,7 +39,9 @@ fn breaks(mut look: impl FnMut(&str, &Arc<Asset>, &Fracture)) {
         for (name, asset, contact) in cases() {
             for (model, config) in models() {
                 for seed in 1..=3 {
-                    if let Outcome::Broke(f) = strike(asset, seed, &[contact], &config) {
+                    if let Outcome::Broke(f) =
+                        strike(asset, seed, std::slice::from_ref(&contact), &config)
+                    {
                         broke.push((format!("{name}, {model}, seed {seed}"), asset, f));
                     }
                 }
@@ -129,7 +131,7 @@ fn a_soft_hit_holds_and_a_harder_one_cracks_more() {
                 (pane(), pane_hit(0.0, 0.0, 0.3)),
                 (block(), corner_hit(0.1)),
             ] {
-                let outcome = strike(asset, seed, &[contact], &config);
+                let outcome = strike(asset, seed, std::slice::from_ref(&contact), &config);
                 assert!(
                     matches!(outcome, Outcome::Held { .. }),
                     "{}, {model}, seed {seed}",
@@ -171,7 +173,9 @@ fn a_hit_at_20_m_s_cracks_the_glass_more_than_one_at_10() {
         let [slow, fast] = [10.0, 20.0].map(|v| {
             let hit = rim_hit(20.0, v);
             1e4 * mean(20, |seed| {
-                strike(glass(), seed, &[hit], &config).report().crack_area
+                strike(glass(), seed, std::slice::from_ref(&hit), &config)
+                    .report()
+                    .crack_area
             })
         });
         println!("{model}: glass at 10 and 20 m/s, crack area: {slow:.1}, {fast:.1} cm²");
@@ -183,7 +187,9 @@ fn pane_areas(config: &FractureConfig) -> [f64; 4] {
     let areas = [2.0, 6.0, 15.0, 30.0].map(|v| {
         let hit = pane_hit(0.0, 0.0, v);
         1e4 * mean(5, |seed| {
-            strike(pane(), seed, &[hit], config).report().crack_area
+            strike(pane(), seed, std::slice::from_ref(&hit), config)
+                .report()
+                .crack_area
         })
     });
     println!("pane at 2, 6, 15, 30 m/s, crack area in cm²: {areas:.1?}");
@@ -266,7 +272,7 @@ fn cracks_follow_the_point_of_impact() {
     for seed in 1..=4 {
         let place = |x: f32, y: f32| {
             let contact = pane_hit(x, y, 15.0);
-            let outcome = strike(pane(), seed, &[contact], &config);
+            let outcome = strike(pane(), seed, std::slice::from_ref(&contact), &config);
             let Outcome::Broke(fracture) = outcome else {
                 panic!("the pane holds at ({x}, {y}), seed {seed}")
             };

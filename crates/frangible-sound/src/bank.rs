@@ -3,8 +3,9 @@
 //! Each is a rotation that shrinks, exact for any step, and needs four products per sample, with two more for what is heard. Eight
 //! go side by side in the widest vectors that the processor has; operations and their order are the same on all.
 
-/// Samples that are computed at once.
-pub(crate) const BLOCK: usize = 128;
+/// Samples that are computed at once. What a [`Synth`](crate::Synth) is told when it has been asked for this many samples less begins on its
+/// sample; what it is told later may begin as much later.
+pub const BLOCK: usize = 128;
 
 /// Resonators side by side.
 pub(crate) const LANES: usize = 8;

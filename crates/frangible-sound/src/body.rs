@@ -1,5 +1,7 @@
 //! What sounds: modes, a mass, and the sphere that carries them to the air.
 
+use glam::Vec3;
+
 use crate::damping::{AudibleDamping, Hold};
 use crate::error::{SoundError, finite, within};
 use crate::sphere::EquivalentSphere;
@@ -73,6 +75,23 @@ impl Body {
         };
         body.validate()?;
         Ok(body)
+    }
+
+    /// How fast one newton-second at a point, m, along a unit direction makes that point move along it, as if the body were rigid, m/s: 1/m and
+    /// the turning, with the inertia of a body whose second moments are those of its surface.
+    #[must_use]
+    pub fn yields(&self, point: Vec3, direction: Vec3) -> f64 {
+        if self.mass.is_infinite() {
+            return 0.0;
+        }
+        let back = self.sphere.axes.inverse();
+        let moment = (back * point.as_dvec3()).cross(back * direction.as_dvec3());
+        let squares = self.sphere.semi_axes().map(|a| a * a / 3.0);
+        let all: f64 = squares.iter().sum();
+        let turning: f64 = (moment.to_array().iter().zip(squares))
+            .map(|(m, square)| m * m / (all - square))
+            .sum();
+        (1.0 + turning) / self.mass
     }
 
     /// Checks every number.

@@ -1,7 +1,7 @@
 //! The sound of what breaks, from the same vibration modes and forces that break it: plain data in, samples out.
 //!
 //! A [`Synth`] gets [bodies](Body), where they are, and what happens to them: [strikes](Strike) with their forces over time, which are those
-//! that the fracture found, cracks with their energy, breaks. It hands out samples. It knows no audio device and no threads, and the same
+//! that the fracture found, cracks with their energy, breaks. It hands out pressures, Pa, at the ears. It knows no audio device and no threads, and the same
 //! calls give the same samples.
 //!
 //! - **Modes** are resonators, driven by the force itself, exactly between its values.
@@ -11,7 +11,9 @@
 //! - **Damping** is [the ear's own](AudibleDamping), not the fracture's, with what is radiated and what supports take.
 //! - **Pieces** without modes of their own ring as a [free plate](Plate) of their size.
 //! - **The floor** reflects and is struck itself; the [listener](Listener) has two ears, to which sound takes its time.
-//! - **The budget** lets the loudest ring and masked ones go, without a click, and a soft limiter tells what it did.
+//! - **The budget** lets the loudest ring and masked ones go, without a click.
+//! - **How loud it is played** is the caller's choice: [`wav()`] scales by a full scale, and for live play a soft [`Limiter`] bends what is too
+//!   loud and tells what it did.
 //!
 //! ```
 //! use std::sync::Arc;
@@ -36,19 +38,22 @@
 //! };
 //! synth.strike(0.0, tile, strike)?;
 //! let samples = synth.render_all(5.0)?;
-//! let bytes = wav(&samples, 2, 48_000.0)?;
-//! assert!(bytes.len() > 48_000 && synth.report().limiter.peak > 0.0);
+//! let peak = synth.report().peak; // Pa
+//! let bytes = wav(&samples, 2, 48_000.0, peak)?;
+//! assert!(bytes.len() > 48_000 && peak > 0.0);
 //! # Ok(())
 //! # }
 //! ```
 //!
-//! What is not there: sliding and rolling, whose forces the recordings do not hold; sound that bends around other bodies; rooms.
+//! What is not there: sound that bends around other bodies; rooms.
 //! Everything is in SI units, and y is up.
 
 mod air;
 mod bank;
+mod block;
 mod body;
 mod complex;
+mod config;
 mod damping;
 mod ellipsoid;
 mod error;
@@ -61,23 +66,26 @@ mod select;
 mod sphere;
 mod strike;
 mod synth;
+mod thump;
 mod voice;
 mod wav;
 mod waves;
 
 pub use air::{AIR_DENSITY, SPEED_OF_SOUND};
+pub use bank::BLOCK;
 pub use body::{Body, Mode};
+pub use config::{SynthConfig, SynthReport};
 pub use damping::{AudibleDamping, Hold};
 pub use ellipsoid::moved_air;
 pub use error::SoundError;
 pub use glam;
-pub use limiter::LimiterReport;
+pub use limiter::{Limiter, LimiterReport};
 pub use listener::{Listener, SoundFloor};
 pub use of_asset::{AssetSound, HIGHEST};
 pub use plate::{Plate, PlateMaterial};
 pub use pulse::Pulse;
 pub use sphere::{EquivalentSphere, SurfaceElement};
-pub use strike::{CRACK_SHARE, CRACK_SPEED, Strike};
-pub use synth::{Synth, SynthConfig, SynthReport};
+pub use strike::{CRACK_SHARE, CRACK_SPEED, Strike, first_push};
+pub use synth::Synth;
 pub use wav::wav;
 pub use waves::{HARMONICS, MOST_DEGREE, efficiencies, harmonic, harmonics};

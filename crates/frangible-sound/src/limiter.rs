@@ -1,4 +1,6 @@
-//! A soft limiter that says what it did.
+//! A soft limiter for live play, where nobody knows how loud the loudest will be. It says what it did.
+
+use crate::error::{SoundError, within};
 
 /// What a limiter did so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -14,28 +16,51 @@ pub struct LimiterReport {
 /// From pressure, Pa, to samples below full scale: as it is up to this share of full scale, above it bent ever more.
 const KNEE: f64 = 0.7;
 
-/// Bends what is too loud.
+/// Makes pressures fit a loudspeaker: −1 to 1, what is louder than 0.7 of full scale bent.
 #[derive(Clone, Debug)]
-pub(crate) struct Limiter {
+pub struct Limiter {
     /// Pressure of full scale, Pa.
     full_scale: f64,
     report: LimiterReport,
 }
 
-impl Limiter {
-    pub(crate) fn new(full_scale: f64) -> Self {
+impl Default for Limiter {
+    /// A full scale of 20 Pa, 117 dB: the first blow of a glass a metre away is louder and is bent, and its shards are clear.
+    fn default() -> Self {
         Self {
-            full_scale,
+            full_scale: 20.0,
             report: LimiterReport::default(),
         }
     }
+}
 
-    pub(crate) fn report(&self) -> LimiterReport {
+impl Limiter {
+    /// A limiter with a pressure of full scale, Pa; [`Limiter::default`] has 20.
+    ///
+    /// # Errors
+    /// A pressure that is not finite or not above zero.
+    pub fn new(full_scale: f64) -> Result<Self, SoundError> {
+        within(
+            || "the pressure of full scale".into(),
+            full_scale,
+            full_scale > 0.0,
+            "above zero, in Pa",
+        )?;
+        Ok(Self {
+            full_scale,
+            ..Self::default()
+        })
+    }
+
+    /// What it did so far.
+    #[must_use]
+    pub fn report(&self) -> LimiterReport {
         self.report
     }
 
     /// The sample of a pressure, Pa: inside ±1, with a continuous slope.
-    pub(crate) fn sample(&mut self, pressure: f32) -> f32 {
+    #[must_use]
+    pub fn sample(&mut self, pressure: f32) -> f32 {
         let size = f64::from(pressure.abs());
         // A pressure that is no number can only come of an overflow, and is full scale.
         let size = if size.is_finite() {

@@ -140,6 +140,8 @@ pub(crate) struct Way {
     pub(crate) delay: usize,
     /// How loud, against the sound at the middle of the head.
     pub(crate) gain: f32,
+    /// Whether it leaves towards the floor.
+    pub(crate) by_floor: bool,
 }
 
 /// Ways to an ear, and ears.
@@ -153,8 +155,8 @@ pub(crate) struct Ways {
 }
 
 impl Ways {
-    /// From a sphere of a radius, m, at a place, m, directly and by the floor. The pressure at the listener's distance from it is taken as given;
-    /// the reflection is as loud in its direction as the direct sound.
+    /// From a sphere of a radius, m, at a place, m, directly and by the floor. The pressure at the listener's distance from it is taken as given
+    /// for both.
     pub(crate) fn new(
         listener: &Listener,
         floor: Option<&SoundFloor>,
@@ -164,23 +166,24 @@ impl Ways {
     ) -> Self {
         let whole = listener.distance(place);
         let mut ways = Self::default();
-        let mut add = |channel: usize, ear: DVec3, from: DVec3, share: f64| {
+        let mut add = |channel: usize, ear: DVec3, from: DVec3, share: f64, by_floor: bool| {
             let long = (ear - from).length().clamp(NEAREST, FARTHEST);
             let delay = (long - radius).max(0.0) / SPEED_OF_SOUND;
             ways.ways[ways.count] = Way {
                 channel,
                 delay: (delay * rate).round() as usize,
                 gain: (share * whole / long) as f32,
+                by_floor,
             };
             ways.count += 1;
         };
         for (channel, ear) in listener.ears().enumerate() {
-            add(channel, ear, place, 1.0);
+            add(channel, ear, place, 1.0, false);
             if let Some(floor) = floor.filter(|f| f.reflection > 0.0) {
                 let mut image = place;
                 // What has sunk into the floor by the engine's tolerance lies on it.
                 image.y = 2.0 * floor.height - place.y.max(floor.height);
-                add(channel, ear, image, floor.reflection);
+                add(channel, ear, image, floor.reflection, true);
             }
         }
         ways

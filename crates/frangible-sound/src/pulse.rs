@@ -116,6 +116,17 @@ impl Pulse {
     }
 }
 
+/// What a half-sine of a duration, s, gives an oscillator of an angular frequency, rad/s, as a share of what a blow of no duration
+/// gives: |cos(ωτ/2) / (1 − (ωτ/π)²)|.
+pub(crate) fn half_sine_share(frequency: f64, duration: f64) -> f64 {
+    let x = frequency * duration / std::f64::consts::PI;
+    let near = 1.0 - x * x;
+    if near.abs() < 1e-6 {
+        return std::f64::consts::FRAC_PI_4;
+    }
+    ((0.5 * std::f64::consts::PI * x).cos() / near).abs()
+}
+
 /// What a pulse adds to z, ż = λ z + F, sample after sample: the integral of F e^{λ(t−τ)} over the time since the sample before, without
 /// any approximation. A corner of the force, where its slope jumps by S and itself by J, leaves a free oscillation S/λ² + J/λ from there; with
 /// the forced motion −F/λ − F'/λ² that is all of z.

@@ -1,5 +1,6 @@
 //! What makes a body sound: forces on it, and cracks through it.
 
+use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
 use glam::Vec3;
@@ -7,7 +8,8 @@ use glam::Vec3;
 use crate::body::Body;
 use crate::complex::Complex;
 use crate::error::{SoundError, finite};
-use crate::pulse::Pulse;
+use crate::of_asset::HIGHEST;
+use crate::pulse::{Pulse, half_sine_share};
 
 /// A force on a body, or several that act together.
 #[derive(Clone, Debug, PartialEq)]
@@ -63,7 +65,9 @@ impl Strike {
     /// A crack that is heard: while it opens the stress of its faces falls, on both sides alike, and that shakes what it runs through.
     ///
     /// The release is a half-sine of a duration, s: the crack's length over its speed. Its shape on the modes is the push of a force on the
-    /// crack's faces, and its size is such that the modes get this energy, J. `None` where they cannot take any.
+    /// crack's faces, and its size is such that all modes together get this energy, J; those that are heard get the part of it that a
+    /// half-sine has between the lowest mode and [`HIGHEST`](crate::HIGHEST), modes being about as many in each hertz. `None` where they
+    /// cannot take any.
     #[must_use]
     pub fn crack(body: &Body, push: Vec<f32>, duration: f64, energy: f64) -> Option<Self> {
         if duration <= 0.0 || energy <= 0.0 || !(duration * energy).is_finite() {
@@ -75,13 +79,54 @@ impl Strike {
             direction: Vec3::ZERO,
         };
         let given = unit.energy(body);
-        let scale = (energy / given).sqrt();
+        let lowest = body.modes.first().map_or(HIGHEST, |mode| mode.frequency);
+        // The square of a half-sine's spectrum is at most 1, and is π²/(16 τ) in sum over all frequencies.
+        let band = (HIGHEST - lowest).max(0.0);
+        let heard = (band * 16.0 * duration / PI.powi(2)).min(1.0);
+        let scale = (heard * energy / given).sqrt();
         (given > 0.0 && scale.is_finite()).then(|| Self {
             pulse: Arc::new(Pulse::half_sine(scale * duration, duration)),
             ..unit
         })
     }
 }
+
+/// The first push between two bodies that come together with a speed, m/s: its impulse, N·s, and how long it takes, s.
+///
+/// Rigid bodies yield so many m/s to one newton-second, [`Body::yields`] in sum. Modes that are fast enough to answer
+/// yield as well, so that less mass has to be stopped at first, and the push is both smaller and shorter. What the modes get is then never more than
+/// a quarter of the energy of the approach, where the impulse of rigid bodies could give them many times that. `takes` finds a push's
+/// duration, s, from the mass that it stops, kg.
+#[must_use]
+pub fn first_push(
+    speed: f64,
+    yields: f64,
+    bodies: &[(&Body, &[f32])],
+    takes: impl Fn(f64) -> f64,
+) -> (f64, f64) {
+    if yields <= 0.0 {
+        return (0.0, takes(f64::MAX));
+    }
+    let mut mass = 1.0 / yields;
+    let mut duration = takes(mass);
+    for _ in 0..ROUNDS {
+        let ringing: f64 = bodies
+            .iter()
+            .flat_map(|(body, push)| body.modes.iter().zip(*push))
+            .map(|(mode, &push)| {
+                let share = half_sine_share(TAU * mode.frequency, duration);
+                (f64::from(push) * share).powi(2)
+            })
+            .sum();
+        // The mean of both in their logarithm: a shorter push rings more, and that makes it shorter.
+        mass = (mass / (yields + ringing)).sqrt();
+        duration = takes(mass);
+    }
+    (speed * mass, duration)
+}
+
+/// Rounds in which a push and what answers it find each other: each halves what is missing, so that a factor of ten becomes 0.2 %.
+const ROUNDS: usize = 10;
 
 /// Share of the energy that cracks take which leaves them as waves in the body. The rest opens the surfaces and is heat. No figure for
 /// glass or porcelain was found; Boudet, Ciliberto and Steinberg (J. Phys. II France 6, 1996, 1493) heard sound from cracks in PMMA that grows
@@ -93,6 +138,6 @@ pub const CRACK_SPEED: f64 = 0.4;
 
 /// λ of a mode: frequency, Hz, and loss of energy, 1/s. `None` where it does not swing even twice before it is gone.
 pub(crate) fn pole(frequency: f64, loss: f64) -> Option<Complex> {
-    let (omega, half) = (std::f64::consts::TAU * frequency, 0.5 * loss);
+    let (omega, half) = (TAU * frequency, 0.5 * loss);
     (half < 0.3 * omega).then(|| Complex::new(-half, (omega * omega - half * half).sqrt()))
 }

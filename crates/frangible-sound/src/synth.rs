@@ -1,138 +1,49 @@
-//! The front door: bodies and what happens to them in, samples out.
+//! The front door: bodies and what happens to them in, pressures out.
 
 use std::collections::VecDeque;
 use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
 
-use crate::air::{AIR_DENSITY, SPEED_OF_SOUND};
 use crate::bank::BLOCK;
 use crate::body::Body;
+use crate::config::{SynthConfig, SynthReport};
 use crate::error::{SoundError, finite, within};
-use crate::limiter::{Limiter, LimiterReport};
-use crate::listener::{Listener, SoundFloor, Ways, longest_delay};
+use crate::listener::longest_delay;
 use crate::pulse::Pulse;
-use crate::select::select;
 use crate::strike::Strike;
+use crate::thump::Thump;
 use crate::voice::{Room, Voice};
-
-/// How sound is made.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SynthConfig {
-    /// Samples per second, 8000 to 192 000, default 48 000.
-    pub rate: f64,
-    /// Who listens.
-    pub listener: Listener,
-    /// The floor, if there is one.
-    pub floor: Option<SoundFloor>,
-    /// Pressure that fills the samples' range, Pa, default 20 (117 dB). What is louder than 0.7 of it is bent by a limiter, which tells so.
-    pub full_scale: f64,
-    /// Resonators that ring at once, default 16 384. Fewer cost less time, and the quietest are left out.
-    pub budget: usize,
-    /// Strikes that begin in one block of 128 samples, default 4096. Of more, those of the least impulse are left out.
-    pub strikes: usize,
-}
-
-impl SynthConfig {
-    /// 48 kHz without a floor.
-    #[must_use]
-    pub fn new(listener: Listener) -> Self {
-        Self {
-            rate: 48_000.0,
-            listener,
-            floor: None,
-            full_scale: 20.0,
-            budget: 16_384,
-            strikes: 4096,
-        }
-    }
-
-    /// For a game: a budget of 1000 resonators and 64 strikes per block.
-    #[must_use]
-    pub fn live(self) -> Self {
-        Self {
-            budget: 1000,
-            strikes: 64,
-            ..self
-        }
-    }
-
-    /// Checks every number.
-    ///
-    /// # Errors
-    /// The first number at fault.
-    pub fn validate(&self) -> Result<(), SoundError> {
-        let fits = (8_000.0..=192_000.0).contains(&self.rate);
-        within(
-            || "the sampling rate".into(),
-            self.rate,
-            fits,
-            "from 8000 to 192000, in 1/s",
-        )?;
-        let (name, pressure) = (|| "the pressure of full scale".into(), self.full_scale);
-        within(name, pressure, pressure > 0.0, "above zero, in Pa")?;
-        self.listener.validate()?;
-        self.floor.as_ref().map_or(Ok(()), SoundFloor::validate)
-    }
-}
-
-/// What a synthesiser did so far.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct SynthReport {
-    /// What the limiter did.
-    pub limiter: LimiterReport,
-    /// Most resonators that rang at once.
-    pub most_resonators: usize,
-    /// Most bodies that rang at once.
-    pub most_bodies: usize,
-    /// Resonators that were let go because louder ones of the same pitch mask them.
-    pub masked: u64,
-    /// Resonators that were let go because there were more than the budget.
-    pub over_budget: u64,
-    /// Strikes that were left out because too many began at once.
-    pub strikes_left_out: u64,
-}
 
 /// Something that happens at a time.
 #[derive(Clone, Debug)]
-enum Event {
+pub(crate) enum Event {
     Put(usize, DVec3, DQuat),
     Strike(usize, Strike),
     Hush(usize),
     Thump(DVec3, Arc<Pulse>),
 }
 
-/// A force on the floor.
-#[derive(Clone, Debug)]
-struct Thump {
-    start: f64,
-    pulse: Arc<Pulse>,
-    /// Pressure per growth of the force, Pa·s/N.
-    size: f64,
-    ways: Ways,
-}
-
 /// Makes sound of bodies and strikes, block by block. The same calls give the same samples, however many are asked for at a time.
 #[derive(Clone, Debug)]
 pub struct Synth {
-    config: SynthConfig,
-    arch: pulp::Arch,
-    voices: Vec<Option<Voice>>,
+    pub(crate) config: SynthConfig,
+    pub(crate) arch: pulp::Arch,
+    pub(crate) voices: Vec<Option<Voice>>,
     /// What is to come, by time, s, and by the order of the calls.
-    events: VecDeque<(f64, Event)>,
-    sorted: bool,
-    thumps: Vec<Thump>,
+    pub(crate) events: VecDeque<(f64, Event)>,
+    pub(crate) sorted: bool,
+    pub(crate) thumps: Vec<Thump>,
     /// Pressure to come, Pa: a ring for each channel.
-    coming: Vec<Vec<f32>>,
-    /// Samples that are finished and not handed out, interleaved.
-    ready: VecDeque<f32>,
+    pub(crate) coming: Vec<Vec<f32>>,
+    /// Pressures that are finished and not handed out, Pa, interleaved.
+    pub(crate) ready: VecDeque<f32>,
     /// Samples that were computed.
-    now: u64,
-    limiter: Limiter,
-    report: SynthReport,
-    levels: Vec<f32>,
+    pub(crate) now: u64,
+    pub(crate) report: SynthReport,
+    pub(crate) levels: Vec<f32>,
     /// Blocks since anything was heard.
-    silent: usize,
+    pub(crate) silent: usize,
 }
 
 impl Synth {
@@ -153,7 +64,6 @@ impl Synth {
             coming: vec![vec![0.0; long]; config.listener.channels],
             ready: VecDeque::new(),
             now: 0,
-            limiter: Limiter::new(config.full_scale),
             report: SynthReport::default(),
             levels: Vec::new(),
             silent: 0,
@@ -176,10 +86,7 @@ impl Synth {
     /// What it did so far.
     #[must_use]
     pub fn report(&self) -> SynthReport {
-        SynthReport {
-            limiter: self.limiter.report(),
-            ..self.report
-        }
+        self.report
     }
 
     /// Resonators that ring now.
@@ -251,7 +158,7 @@ impl Synth {
         self.event(time, Event::Strike(body, strike))
     }
 
-    /// Silences a body within 128 samples from a time on, s: it is no more, its pieces ring instead.
+    /// Silences a body within 32 samples from a time on, s: it is no more, its pieces ring instead.
     ///
     /// # Errors
     /// There is no such body, or the time is not finite.
@@ -296,7 +203,8 @@ impl Synth {
         self.events.is_empty() && self.silent > delays && self.ready.iter().all(|&s| s == 0.0)
     }
 
-    /// Fills `out` with the next samples, −1 to 1, left and right in turn where there are two channels.
+    /// Fills `out` with the pressures of the next samples, Pa, left and right in turn where there are two channels. A
+    /// [`Limiter`](crate::Limiter) makes them fit a loudspeaker.
     pub fn render(&mut self, out: &mut [f32]) {
         for sample in out {
             if self.ready.is_empty() {
@@ -306,7 +214,7 @@ impl Synth {
         }
     }
 
-    /// All samples until nothing is heard any more, for at most `most` seconds.
+    /// All samples, Pa, until nothing is heard any more, for at most `most` seconds.
     ///
     /// # Errors
     /// A time that is not finite or not above zero.
@@ -333,178 +241,13 @@ impl Synth {
         out.truncate(end.next_multiple_of(channels).min(out.len()));
         Ok(out)
     }
-
-    /// Computes the next block.
-    fn block(&mut self) {
-        let due = self.due();
-        for (time, event) in due {
-            self.happen(time, event);
-        }
-        let taken = select(&mut self.voices, self.config.budget, &mut self.levels);
-        self.report.masked += taken.masked;
-        self.report.over_budget += taken.over_budget;
-        let ringing = self.resonators();
-        self.report.most_resonators = self.report.most_resonators.max(ringing);
-        let (rate, now) = (self.config.rate, self.now as f64);
-        let mut bodies = 0;
-        for voice in self.voices.iter_mut().flatten() {
-            if voice.is_silent() {
-                continue;
-            }
-            bodies += 1;
-            let mut heard = [0.0; BLOCK];
-            voice.ring(self.arch, rate, now, &mut heard);
-            let (ways, before) = voice.take_ways();
-            match before {
-                None => mix(&mut self.coming, self.now, &ways, &heard),
-                Some(before) => {
-                    let rising = |n: usize| (n as f32 + 1.0) / BLOCK as f32;
-                    let new = std::array::from_fn(|n| heard[n] * rising(n));
-                    let old = std::array::from_fn(|n| heard[n] * (1.0 - rising(n)));
-                    mix(&mut self.coming, self.now, &ways, &new);
-                    mix(&mut self.coming, self.now, &before, &old);
-                }
-            }
-        }
-        self.report.most_bodies = self.report.most_bodies.max(bodies);
-        for thump in &self.thumps {
-            let heard = thump.heard(rate, now);
-            mix(&mut self.coming, self.now, &thump.ways, &heard);
-        }
-        let end = now + BLOCK as f64;
-        self.thumps
-            .retain(|t| t.start + t.pulse.duration() * rate + 1.0 >= end);
-        self.silent = if bodies == 0 && self.thumps.is_empty() {
-            self.silent.saturating_add(1)
-        } else {
-            0
-        };
-        self.hand_out();
-    }
-
-    /// Takes the events of the coming block out of the queue, and leaves out what is too much.
-    fn due(&mut self) -> Vec<(f64, Event)> {
-        if !self.sorted {
-            // Stable: what was called first happens first.
-            self.events
-                .make_contiguous()
-                .sort_by(|a, b| a.0.total_cmp(&b.0));
-            self.sorted = true;
-        }
-        let end = (self.now + BLOCK as u64) as f64 / self.config.rate;
-        let count = self.events.partition_point(|(time, _)| *time < end);
-        let mut due: Vec<(f64, Event)> = self.events.drain(..count).collect();
-        let weight = |event: &Event| match event {
-            Event::Strike(_, strike) => Some(strike.pulse.impulse().abs()),
-            Event::Thump(_, pulse) => Some(pulse.impulse().abs()),
-            _ => None,
-        };
-        let mut weights: Vec<f64> = due.iter().filter_map(|(_, e)| weight(e)).collect();
-        if weights.len() > self.config.strikes {
-            let over = weights.len() - self.config.strikes;
-            self.report.strikes_left_out += over as u64;
-            let (_, &mut bar, _) = weights.select_nth_unstable_by(over - 1, f64::total_cmp);
-            let below = weights.iter().filter(|&&w| w < bar).count();
-            let mut ties = over - below;
-            due.retain(|(_, event)| match weight(event) {
-                Some(weight) if weight < bar => false,
-                Some(weight) if weight == bar && ties > 0 => {
-                    ties -= 1;
-                    false
-                }
-                _ => true,
-            });
-        }
-        due
-    }
-
-    fn happen(&mut self, time: f64, event: Event) {
-        let room = room(&self.config);
-        let start = (time * self.config.rate).max(self.now as f64);
-        match event {
-            Event::Put(i, place, rotation) => {
-                if let Some(voice) = &mut self.voices[i] {
-                    voice.put(place, rotation, &room);
-                }
-            }
-            Event::Hush(i) => {
-                if let Some(voice) = &mut self.voices[i] {
-                    voice.hush();
-                }
-            }
-            Event::Strike(i, strike) => {
-                if let Some(voice) = &mut self.voices[i] {
-                    voice.hit(start, strike, &room);
-                }
-            }
-            Event::Thump(place, pulse) => self.begin_thump(start, place, pulse),
-        }
-    }
-
-    fn begin_thump(&mut self, start: f64, place: DVec3, pulse: Arc<Pulse>) {
-        let Some(floor) = &self.config.floor else {
-            return;
-        };
-        let listener = &self.config.listener;
-        let way = listener.place - place;
-        let sine = DVec3::new(way.x, 0.0, way.z).length() / way.length().max(1e-9);
-        let stiffness = floor.shear_modulus * sine.max(0.25) / (1.0 - floor.poisson_ratio);
-        let spread = 2.0 * std::f64::consts::PI * listener.distance(place);
-        self.thumps.push(Thump {
-            start,
-            pulse,
-            size: AIR_DENSITY * SPEED_OF_SOUND / (spread * stiffness),
-            ways: Ways::from_floor(listener, self.config.rate, place),
-        });
-    }
-
-    /// Hands out the samples of the block that has just been computed.
-    fn hand_out(&mut self) {
-        let mask = self.coming[0].len() - 1;
-        for n in 0..BLOCK {
-            let at = (self.now as usize + n) & mask;
-            for channel in &mut self.coming {
-                let pressure = std::mem::take(&mut channel[at]);
-                self.ready.push_back(self.limiter.sample(pressure));
-            }
-        }
-        self.now += BLOCK as u64;
-    }
 }
 
-impl Thump {
-    /// The block's pressure: the growth of the force over each sample.
-    fn heard(&self, rate: f64, now: f64) -> [f32; BLOCK] {
-        std::array::from_fn(|n| {
-            let time = (now + n as f64 - self.start) / rate;
-            let growth = (self.pulse.at(time).0 - self.pulse.at(time - 1.0 / rate).0) * rate;
-            (self.size * growth) as f32
-        })
-    }
-}
-
-fn room(config: &SynthConfig) -> Room<'_> {
+pub(crate) fn room(config: &SynthConfig) -> Room<'_> {
     Room {
         listener: &config.listener,
         floor: config.floor.as_ref(),
         rate: config.rate,
-    }
-}
-
-/// Adds a block that leaves now to what comes by each way.
-fn mix(coming: &mut [Vec<f32>], now: u64, ways: &Ways, heard: &[f32; BLOCK]) {
-    for way in ways.iter() {
-        let channel = &mut coming[way.channel];
-        let mask = channel.len() - 1;
-        let from = (now as usize + way.delay) & mask;
-        let first = (channel.len() - from).min(BLOCK);
-        let (before, after) = heard.split_at(first);
-        let parts = [(from, before), (0, after)];
-        for (at, part) in parts {
-            for (sum, heard) in channel[at..at + part.len()].iter_mut().zip(part) {
-                *sum += way.gain * heard;
-            }
-        }
     }
 }
 

@@ -1,37 +1,26 @@
 //! One body that sounds: its resonators, what strikes it, and its ways to the ears.
 
+mod hit;
+mod ring;
+
 use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
 
-use crate::air::{AIR_DENSITY, SPEED_OF_SOUND};
-use crate::bank::{BLOCK, LANES, Lanes, Sums, ring_block, total};
+use crate::bank::{BLOCK, LANES, Lanes};
 use crate::body::Body;
 use crate::complex::Complex;
 use crate::listener::Ways;
-use crate::pulse::Drive;
 use crate::strike::{Strike, pole};
 use crate::waves::{MOST_DEGREE, degree, harmonics};
+
+use hit::Hit;
 
 /// Quieter resonators are taken for silent, Pa: 6 dB below what a young ear hears at its best. It also keeps numbers from becoming denormal.
 pub(crate) const SILENCE: f32 = 1e-5;
 
 /// Highest frequency that is synthesised, as a share of the sampling rate.
 const NYQUIST: f64 = 0.45;
-
-/// A strike that has begun.
-#[derive(Clone, Debug)]
-struct Hit {
-    /// When it began, in samples.
-    start: f64,
-    strike: Strike,
-    /// What of the force is heard at once: Σ Im G_i φ_i / ω_i, Pa/N. It is the acceleration under the force, and a resonator, which holds a
-    /// velocity, lacks it. Known once the resonators are chosen.
-    direct: Option<f64>,
-    /// The motion as a whole: pressure per newton, Pa/N, times 1/s; and its state.
-    shaken: Complex,
-    state: Complex,
-}
 
 /// A resonator of a voice.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -61,6 +50,8 @@ pub(crate) struct Voice {
     ways: Ways,
     /// The ways before the last change of place, while they fade.
     before: Option<Ways>,
+    /// When it ends, in samples: a body that broke.
+    ends: Option<f64>,
 }
 
 /// What all voices share.
@@ -91,6 +82,7 @@ impl Voice {
             hits: Vec::new(),
             ways,
             before: None,
+            ends: None,
         }
     }
 
@@ -161,12 +153,21 @@ impl Voice {
         self.rotation.inverse() * (room.listener.place - self.place)
     }
 
+    /// The directions in the body's frame in which sound leaves to the listener: straight, and towards its image below the floor.
+    fn ways_out(&self, room: &Room<'_>) -> [DVec3; 2] {
+        let mut image = room.listener.place;
+        if let Some(floor) = room.floor {
+            image.y = 2.0 * floor.height - image.y;
+        }
+        let down = self.rotation.inverse() * (image - self.place);
+        [self.towards(room), down]
+    }
+
     /// Begins a strike at a time in samples; the modes it would make heard get a resonator.
     pub(crate) fn hit(&mut self, start: f64, strike: Strike, room: &Room<'_>) {
         if self.gains.len() != self.body.modes.len() {
             self.find_gains(room);
         }
-        let shaken = self.shaken(&strike, room);
         let mut slot_of = vec![u32::MAX; self.body.modes.len()];
         for (i, slot) in self.slots.iter().enumerate() {
             slot_of[slot.mode as usize] = i as u32;
@@ -188,13 +189,9 @@ impl Voice {
                 self.add_slot(i, pole.scaled(1.0 / room.rate).exp(), gain, expected);
             }
         }
-        self.hits.push(Hit {
-            start,
-            strike,
-            direct: None,
-            shaken,
-            state: Complex::default(),
-        });
+        let (ways, distance) = (self.ways_out(room), room.listener.distance(self.place));
+        self.hits
+            .push(Hit::new(start, strike, &body, ways, distance));
     }
 
     fn add_slot(&mut self, mode: usize, turn: Complex, gain: Complex, expected: f32) {
@@ -214,29 +211,6 @@ impl Voice {
         });
     }
 
-    /// Pressure per newton of a body that is shaken as a whole: its residue at the sphere's pole, Pa/(N·s), doubled.
-    ///
-    /// A sphere of radius a that is accelerated sends p = ρ/(2π) D·a⃗ (1/r² + s/(cr)) / (2 + 2σ + σ²), σ = sa/c, D its moved air: a resonator
-    /// at s = (c/a)(−1 ± i). Chadwick, Zheng and James (ACM TOG 31(6), 2012) call it acceleration noise. Turning is silent, as a sphere's is.
-    fn shaken(&self, strike: &Strike, room: &Room<'_>) -> Complex {
-        let sphere = &self.body.sphere;
-        if self.body.mass.is_infinite() {
-            return Complex::default();
-        }
-        let r = room.listener.distance(self.place).max(sphere.radius);
-        let towards = sphere.axes.inverse() * self.towards(room).normalize_or_zero();
-        let force = sphere.axes.inverse() * strike.direction.as_dvec3();
-        let dipole: f64 = (0..3)
-            .map(|i| sphere.moved_air[i] * force[i] * towards[i])
-            .sum();
-        let own = SPEED_OF_SOUND / sphere.radius;
-        let pole = shaken_pole(sphere.radius);
-        let near = Complex::new(1.0 / (r * r), 0.0) + pole.scaled(1.0 / (SPEED_OF_SOUND * r));
-        let size = AIR_DENSITY * dipole / (2.0 * std::f64::consts::PI * self.body.mass);
-        // (c/a)² / (λ − λ̄), λ − λ̄ = 2i c/a.
-        (near * Complex::new(0.0, -0.5 * own)).scaled(2.0 * size)
-    }
-
     /// How loud a resonator is, Pa.
     pub(crate) fn level(&self, i: usize) -> f32 {
         let (lanes, k) = (&self.lanes[i / LANES], i % LANES);
@@ -254,154 +228,13 @@ impl Voice {
         self.slots[i].goes = true;
     }
 
-    /// Lets all of it fade out within this block: the body is no more.
-    pub(crate) fn hush(&mut self) {
-        (0..self.slots.len()).for_each(|i| self.fade(i));
-        self.hits.clear();
-    }
-
-    /// Adds a block of what is heard at the middle of the head to `out`.
-    pub(crate) fn ring(&mut self, arch: pulp::Arch, rate: f64, now: f64, out: &mut [f32; BLOCK]) {
-        let mut sums: Sums = [[0.0; LANES]; BLOCK];
-        if self.hits.is_empty() {
-            ring_block(arch, &mut self.lanes, &mut sums);
-        } else {
-            self.find_direct();
-            for i in 0..self.slots.len() {
-                self.ring_struck(i, rate, now, &mut sums);
-            }
-        }
-        for (out, sum) in out.iter_mut().zip(&sums) {
-            *out += total(sum);
-        }
-        for hit in &mut self.hits {
-            hit.rings(self.body.sphere.radius, rate, now, out);
-        }
-        let end = now + BLOCK as f64;
-        let tail = 12.0 * self.body.sphere.radius / SPEED_OF_SOUND;
-        self.hits
-            .retain(|hit| hit.start + (hit.strike.pulse.duration() + tail) * rate >= end);
-        self.tidy();
-    }
-
-    fn find_direct(&mut self) {
-        let (slots, modes, gains) = (&self.slots, &self.body.modes, &self.gains);
-        for hit in self.hits.iter_mut().filter(|hit| hit.direct.is_none()) {
-            let push = &hit.strike.push;
-            let direct = slots
-                .iter()
-                .filter(|slot| !slot.goes && !push.is_empty())
-                .map(|slot| {
-                    let i = slot.mode as usize;
-                    gains[i].im * f64::from(push[i]) / (std::f64::consts::TAU * modes[i].frequency)
-                });
-            hit.direct = Some(direct.sum());
-        }
-    }
-
-    /// One resonator under what strikes the body, in f64 and sample by sample.
-    fn ring_struck(&mut self, i: usize, rate: f64, now: f64, sums: &mut Sums) {
-        let slot = self.slots[i];
-        let mode = &self.body.modes[slot.mode as usize];
-        let Some(pole) = pole(mode.frequency, mode.loss) else {
-            return;
-        };
-        let mut given = [Complex::default(); BLOCK];
-        for hit in self.hits.iter().filter(|hit| !hit.strike.push.is_empty()) {
-            let push = f64::from(hit.strike.push[slot.mode as usize]);
-            let first = (hit.start - now).ceil().max(0.0);
-            let past = (now + first - hit.start) / rate;
-            if first as usize >= BLOCK || past > hit.strike.pulse.duration() + 1.0 / rate {
-                continue;
-            }
-            let mut drive = Drive::new(&hit.strike.pulse, pole, 1.0 / rate, past);
-            for given in &mut given[first as usize..] {
-                *given = *given + drive.step().scaled(push);
-            }
-        }
-        let (lanes, k) = (&mut self.lanes[i / LANES], i % LANES);
-        let turn = pole.scaled(1.0 / rate).exp();
-        let mut z = Complex::new(f64::from(lanes.re[k]), f64::from(lanes.im[k]));
-        for (sum, given) in sums.iter_mut().zip(given) {
-            z = turn * z + given;
-            lanes.gain_re[k] += lanes.ramp_re[k];
-            lanes.gain_im[k] += lanes.ramp_im[k];
-            sum[k] += lanes.gain_re[k] * z.re as f32 - lanes.gain_im[k] * z.im as f32;
-        }
-        (lanes.re[k], lanes.im[k]) = (z.re as f32, z.im as f32);
-    }
-
-    /// Ends ramps, and takes out resonators that have faded or fallen silent.
-    fn tidy(&mut self) {
-        let struck = !self.hits.is_empty();
-        let mut kept = 0;
-        for i in 0..self.slots.len() {
-            if !struck {
-                self.slots[i].expected = 0.0;
-            }
-            let slot = self.slots[i];
-            if slot.goes || (!struck && self.level(i) < SILENCE) {
-                continue;
-            }
-            let (from, to) = ((i / LANES, i % LANES), (kept / LANES, kept % LANES));
-            let source = self.lanes[from.0];
-            let target = &mut self.lanes[to.0];
-            for (target, source) in [
-                (&mut target.re, source.re),
-                (&mut target.im, source.im),
-                (&mut target.turn_re, source.turn_re),
-                (&mut target.turn_im, source.turn_im),
-                (&mut target.gain_re, source.gain_re),
-                (&mut target.gain_im, source.gain_im),
-            ] {
-                target[to.1] = source[from.1];
-            }
-            self.slots[kept] = slot;
-            kept += 1;
-        }
-        self.slots.truncate(kept);
-        self.lanes.truncate(kept.div_ceil(LANES));
-        for lanes in &mut self.lanes {
-            (lanes.ramp_re, lanes.ramp_im) = ([0.0; LANES], [0.0; LANES]);
-        }
-        for k in kept..self.lanes.len() * LANES {
-            let lanes = &mut self.lanes[k / LANES];
-            (lanes.re[k % LANES], lanes.im[k % LANES]) = (0.0, 0.0);
-        }
-        if self.slots.is_empty() {
-            (self.slots, self.lanes) = (Vec::new(), Vec::new());
-        }
+    /// Lets all of it fade out from a time in samples on: the body is no more.
+    pub(crate) fn hush(&mut self, from: f64) {
+        self.ends = Some(self.ends.map_or(from, |ends| ends.min(from)));
     }
 
     /// The ways of this block, and those that fade in it.
     pub(crate) fn take_ways(&mut self) -> (Ways, Option<Ways>) {
         (self.ways, self.before.take())
-    }
-}
-
-/// The pole of a sphere that is shaken: (c/a)(−1 + i).
-fn shaken_pole(radius: f64) -> Complex {
-    let own = SPEED_OF_SOUND / radius;
-    Complex::new(-own, own)
-}
-
-impl Hit {
-    /// Adds what is heard of the force at once, and of the motion as a whole.
-    fn rings(&mut self, radius: f64, rate: f64, now: f64, out: &mut [f32; BLOCK]) {
-        let first = (self.start - now).ceil().max(0.0) as usize;
-        if first >= BLOCK {
-            return;
-        }
-        let past = (now + first as f64 - self.start) / rate;
-        let pole = shaken_pole(radius);
-        let turn = pole.scaled(1.0 / rate).exp();
-        let mut drive = Drive::new(&self.strike.pulse, pole, 1.0 / rate, past);
-        let direct = self.direct.unwrap_or(0.0);
-        for (n, out) in out.iter_mut().enumerate().skip(first) {
-            self.state = turn * self.state + drive.step();
-            let force = self.strike.pulse.at(past + (n - first) as f64 / rate).0;
-            let whole = self.shaken * self.state;
-            *out += (direct * force + whole.re) as f32;
-        }
     }
 }

@@ -6,11 +6,18 @@ use hound::{SampleFormat, WavSpec, WavWriter};
 
 use crate::error::{SoundError, within};
 
-/// The bytes of a WAV file with 16 bits per sample: samples from −1 to 1, channel after channel in turn, and samples per second.
+/// The bytes of a WAV file with 16 bits per sample: pressures, Pa, channel after channel in turn, samples per second, and the pressure of the
+/// file's largest number, Pa. With that of the loudest sample nothing is bent and nothing is lost; with one of their own, files can be compared.
 ///
 /// # Errors
-/// A rate that is no whole number of samples, a number of channels other than 1 and 2, samples that are not a multiple of it or not finite.
-pub fn wav(samples: &[f32], channels: usize, rate: f64) -> Result<Vec<u8>, SoundError> {
+/// A rate that is no whole number of samples, a number of channels other than 1 and 2, samples that are not a multiple of it, or not finite, or
+/// louder than full scale.
+pub fn wav(
+    samples: &[f32],
+    channels: usize,
+    rate: f64,
+    full_scale: f64,
+) -> Result<Vec<u8>, SoundError> {
     let whole = rate.fract() == 0.0 && (1.0..=1e6).contains(&rate);
     within(
         || "the sampling rate of a WAV file".into(),
@@ -28,6 +35,14 @@ pub fn wav(samples: &[f32], channels: usize, rate: f64) -> Result<Vec<u8>, Sound
             expected: format!("a multiple of {channels} is"),
         });
     }
+    // What is silent has no loudest sample.
+    let full_scale = if full_scale == 0.0 { 1.0 } else { full_scale };
+    within(
+        || "the pressure of full scale".into(),
+        full_scale,
+        full_scale > 0.0,
+        "above zero, in Pa",
+    )?;
     let spec = WavSpec {
         channels: channels as u16,
         sample_rate: rate as u32,
@@ -38,14 +53,15 @@ pub fn wav(samples: &[f32], channels: usize, rate: f64) -> Result<Vec<u8>, Sound
     let mut bytes = Cursor::new(Vec::new());
     let mut writer = WavWriter::new(&mut bytes, spec).map_err(told)?;
     for &sample in samples {
-        let fits = (-1.0..=1.0).contains(&sample);
+        let share = f64::from(sample) / full_scale;
+        // As much more than full scale as rounding can make of it.
         within(
-            || "a sample".into(),
-            f64::from(sample),
-            fits,
+            || "a sample, as a share of full scale,".into(),
+            share,
+            share.abs() <= 1.0 + 1e-6,
             "from -1 to 1",
         )?;
-        let value = (f32::from(i16::MAX) * sample).round() as i16;
+        let value = (f64::from(i16::MAX) * share).round() as i16;
         writer.write_sample(value).map_err(told)?;
     }
     writer.finalize().map_err(told)?;

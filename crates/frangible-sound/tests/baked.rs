@@ -31,11 +31,7 @@ fn heard(body: &Body, push: Vec<f32>) -> Vec<f64> {
         channels: 1,
         ..Listener::at(DVec3::new(0.5, 0.4, 0.75), DVec3::ZERO)
     };
-    let config = SynthConfig {
-        full_scale: 1e4,
-        ..SynthConfig::new(listener)
-    };
-    let mut synth = Synth::new(config).expect("a configuration");
+    let mut synth = Synth::new(SynthConfig::new(listener)).expect("a configuration");
     let id = synth
         .add(Arc::new(body.clone()), DVec3::ZERO, DQuat::IDENTITY)
         .expect("a body");
@@ -47,7 +43,7 @@ fn heard(body: &Body, push: Vec<f32>) -> Vec<f64> {
     synth.strike(0.0, id, strike).expect("a strike");
     let mut out = vec![0.0; 48_000];
     synth.render(&mut out);
-    out.iter().map(|&s| f64::from(s) * 1e4).collect()
+    out.iter().map(|&s| f64::from(s)).collect()
 }
 
 /// Amplitude at a frequency, Hz, under Hann's window.

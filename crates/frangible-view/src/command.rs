@@ -28,6 +28,10 @@ pub enum Command {
     Frames(u32),
     /// How fast simulated time runs: 1 is as in life, 0.001 a thousandth of it.
     SlowMotion(f64),
+    /// How loud it is, a share of the loudspeaker's range, 0..=1.
+    Volume(f64),
+    /// Sound, or silence.
+    Sound(bool),
     /// What is thrown from now on; a click throws it.
     Ball(BallSpec),
     /// What is swung from now on; a click swings it.
@@ -228,7 +232,7 @@ impl Default for FilmOptions {
 impl FilmOptions {
     /// Refuses what cannot be drawn, or would never end.
     pub(crate) fn check(&self) -> Result<(), ViewError> {
-        let longest = crate::reel::KEPT;
+        let longest = crate::film::KEPT;
         within("the film's length", self.seconds, [0.01, longest], "s")?;
         within("the number of pictures", self.rate, [1.0, 60.0], "1/s")?;
         within(

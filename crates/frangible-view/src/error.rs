@@ -60,6 +60,9 @@ pub enum ViewError {
     /// A body that cannot be of the material asked for.
     #[error(transparent)]
     Rescale(#[from] frangible_bake::RescaleError),
+    /// What happened cannot be made to sound.
+    #[error("there is no more sound: {0}")]
+    Sound(#[from] frangible_sound::SoundError),
     /// A file that cannot be written.
     #[error(transparent)]
     Export(#[from] frangible_export::ExportError),

@@ -13,6 +13,9 @@ use crate::error::ViewError;
 use crate::jobs::{Job, Teller};
 use crate::session::Session;
 
+/// Seconds that are kept for films.
+pub(crate) const KEPT: f64 = 20.0;
+
 /// A film to be made.
 #[cfg_attr(target_family = "wasm", allow(dead_code))]
 pub(crate) struct Take {

@@ -16,7 +16,7 @@ use crate::methods::named_methods;
 use films::{FILMS, film, write_film};
 
 /// Each command's first word, and what comes after it.
-const FORMS: [(&str, &str); 44] = [
+const FORMS: [(&str, &str); 46] = [
     ("scene", "NAME"),
     ("open", "FILE"),
     ("cancel-bake", ""),
@@ -26,6 +26,8 @@ const FORMS: [(&str, &str); 44] = [
     ("step", "N"),
     ("frames", "N"),
     ("slow-motion", "FACTOR"),
+    ("volume", "SHARE"),
+    ("sound", "on|off"),
     ("ball", "KG METRES METRES/SECOND MATERIAL"),
     ("hammer", "KG METRES/SECOND MATERIAL"),
     ("tool", "ball|hammer"),
@@ -131,6 +133,8 @@ fn read(first: &str, rest: &[&str], tail: &str) -> Result<Command, String> {
         "step" => Command::Step(whole(rest[0])?),
         "frames" => Command::Frames(whole(rest[0])?),
         "slow-motion" => Command::SlowMotion(number(0)?),
+        "volume" => Command::Volume(number(0)?),
+        "sound" => Command::Sound(one_of(rest[0], &[("on", true), ("off", false)])?),
         "ball" => Command::Ball(BallSpec {
             mass: number(0)?,
             radius: number(1)?,
@@ -282,6 +286,8 @@ impl fmt::Display for Command {
             Self::Step(n) => write!(f, "step {n}"),
             Self::Frames(n) => write!(f, "frames {n}"),
             Self::SlowMotion(x) => write!(f, "slow-motion {x}"),
+            Self::Volume(x) => write!(f, "volume {x}"),
+            Self::Sound(on) => write!(f, "sound {}", if *on { "on" } else { "off" }),
             Self::Ball(b) => write!(f, "ball {} {} {} {}", b.mass, b.radius, b.speed, b.material),
             Self::Hammer(h) => write!(f, "hammer {} {} {}", h.mass, h.speed, h.material),
             Self::Tool(tool) => write!(f, "tool {}", name_of(*tool, &TOOLS)),

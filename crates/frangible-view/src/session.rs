@@ -1,6 +1,7 @@
 //! The view model: a scene, what is done with it, and what there is to see. It has no window and no clock.
 
 mod grab;
+mod heard;
 mod look;
 mod methods;
 mod play;
@@ -16,7 +17,7 @@ use std::time::Duration;
 use frangible::FractureConfig;
 use frangible_export::View;
 use frangible_rapier::StepTimings;
-use frangible_scenes::{BakedBody, LiveScene, SavedScene, Scene, SceneError, scene};
+use frangible_scenes::{BakedBody, LiveScene, Reel, SavedScene, Scene, SceneError, scene};
 
 use crate::analysis::Analysis;
 use crate::baking::{Shelf, scene_in};
@@ -24,13 +25,13 @@ use crate::blow::Blow;
 use crate::command::{BallSpec, Command, HammerSpec, Mark, Subject, Tool};
 use crate::edges::Skins;
 use crate::error::ViewError;
+use crate::film::KEPT;
 use crate::host::Host;
 use crate::jobs::Job;
 use crate::knobs::Settings;
 use crate::mesher::Mesher;
 use crate::methods::Methods;
 use crate::picture::Picture;
-use crate::reel::Reel;
 use crate::shown::{Compared, Focus};
 use crate::times::Laps;
 
@@ -94,6 +95,7 @@ pub struct Session {
     pub(crate) reel: Reel,
     pub(crate) film_job: Option<Job<Result<PathBuf, ViewError>>>,
     look_from: Option<View>,
+    heard: Option<heard::Heard>,
 }
 
 impl Default for Session {
@@ -152,9 +154,10 @@ impl Session {
             largest_color: None,
             stale: true,
             publishing: Laps::default(),
-            reel: Reel::default(),
+            reel: Reel::keeping(KEPT),
             film_job: None,
             look_from: None,
+            heard: None,
         }
     }
 
@@ -207,7 +210,12 @@ impl Session {
             Command::CancelBake => self.cancel_bake(),
             Command::Reset => self.reset()?,
             Command::Drop(height) => self.drop_from(height)?,
-            Command::Pause => self.paused = true,
+            Command::Pause => {
+                self.paused = true;
+                self.hush();
+            }
+            Command::Volume(volume) => self.set_volume(volume)?,
+            Command::Sound(on) => self.set_muted(!on)?,
             Command::Run => self.paused = false,
             Command::Step(count) => {
                 self.running()?;

@@ -39,6 +39,8 @@ pub struct Shown {
     pub paused: bool,
     /// Simulated seconds per second.
     pub slow_motion: f64,
+    /// Volume, 0..=1, and whether it is muted; `None` where nobody listens.
+    pub sound: Option<(f64, bool)>,
     /// Bodies that have not broken.
     pub whole: usize,
     /// Pieces there are.

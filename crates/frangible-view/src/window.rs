@@ -11,6 +11,8 @@ mod page;
 mod panels;
 mod pictures;
 mod shade;
+#[cfg(all(feature = "sound", not(target_family = "wasm")))]
+mod speaker;
 
 use std::path::Path;
 use std::sync::Arc;
@@ -26,6 +28,7 @@ use frangible_export::View;
 use crate::camera::Orbit;
 use crate::command::{Command, Target, Tool};
 use crate::error::ViewError;
+use crate::outlet::Outlet;
 use crate::shown::Shown;
 use crate::times::thread_time;
 use crate::worker::Worker;
@@ -57,8 +60,11 @@ struct Viewer {
     hands: Hands,
     director: Director,
     shade: Shade,
-    /// What is around the window, in a browser.
-    page: Option<Box<dyn Page>>,
+    /// What is around the window, in a browser, and what it is to play.
+    page: Option<(Box<dyn Page>, Outlet)>,
+    /// Plays for as long as it is kept.
+    #[cfg(all(feature = "sound", not(target_family = "wasm")))]
+    _speaker: Option<speaker::Speaker>,
     /// Version of the picture that is on the stage.
     drawn: u64,
     /// Version of the shadow that is on the floor.
@@ -91,6 +97,8 @@ impl Viewer {
             director,
             shade,
             page: None,
+            #[cfg(all(feature = "sound", not(target_family = "wasm")))]
+            _speaker: None,
             drawn: 0,
             shaded: 0,
             starts: u64::MAX,
@@ -161,7 +169,7 @@ impl Viewer {
 
     async fn rest(&self) {
         match &self.page {
-            Some(page) => page.next_frame().await,
+            Some((page, _)) => page.next_frame().await,
             None => std::thread::sleep(REST),
         }
     }

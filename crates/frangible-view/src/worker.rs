@@ -11,6 +11,7 @@ use web_time::Instant;
 
 use crate::command::Command;
 use crate::host::Host;
+use crate::outlet::Outlet;
 use crate::session::Session;
 use crate::shown::Shown;
 
@@ -44,14 +45,16 @@ struct Here {
 }
 
 impl Worker {
-    /// Starts a session on a thread; with `by_clock` its scenes run in real time, else only by [`Command::Step`].
+    /// Starts a session on a thread; with `by_clock` its scenes run in real time, else only by [`Command::Step`]. What happens is heard at the
+    /// outlet, if there is one.
     #[must_use]
-    pub fn start(by_clock: bool) -> Self {
+    pub fn start(by_clock: bool, outlet: Option<Outlet>) -> Self {
         let (commands, received) = channel();
         let latest = Arc::new(Mutex::new(Arc::new(Shown::default())));
         let shared = Arc::clone(&latest);
         let thread = std::thread::spawn(move || {
-            work(Work::new(Session::new(), by_clock), &received, |shown| {
+            let work_there = Work::new(Session::new(), by_clock, outlet);
+            work(work_there, &received, |shown| {
                 *shared.lock().unwrap_or_else(PoisonError::into_inner) = shown;
             });
         });
@@ -68,11 +71,11 @@ impl Worker {
     /// Starts a session on this thread, which has to call [`Worker::advance`] for each frame. A break, an analysis and a
     /// second impact make it wait.
     #[must_use]
-    pub fn start_here(by_clock: bool, host: Box<dyn Host>) -> Self {
+    pub fn start_here(by_clock: bool, host: Box<dyn Host>, outlet: Option<Outlet>) -> Self {
         let session = Session::in_host(host);
         Self {
             place: Place::Here(Box::new(Here {
-                work: Work::new(session, by_clock),
+                work: Work::new(session, by_clock, outlet),
                 commands: VecDeque::new(),
                 latest: Arc::default(),
             })),
@@ -170,7 +173,10 @@ struct Work {
 }
 
 impl Work {
-    fn new(session: Session, by_clock: bool) -> Self {
+    fn new(mut session: Session, by_clock: bool, outlet: Option<Outlet>) -> Self {
+        if let Some(outlet) = outlet {
+            session.listen(outlet);
+        }
         Self {
             session,
             clock: Clock::new(),

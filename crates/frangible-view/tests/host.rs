@@ -122,7 +122,7 @@ fn bodies_that_do_not_come_are_a_complaint() {
 fn a_session_without_a_thread_goes_on_when_it_is_told_to() {
     let (host, kept) = OneScene::new("host-worker");
     let bodies = host.bodies();
-    let mut worker = Worker::start_here(false, Box::new(host));
+    let mut worker = Worker::start_here(false, Box::new(host), None);
     for line in ["scene pane", "step 500"] {
         worker.send(Command::parse(line).unwrap());
         worker.advance();

@@ -28,7 +28,7 @@ fn send(worker: &mut Worker, line: &str) {
 
 #[test]
 fn a_bake_and_a_break_show_on_the_way_and_are_done_at_the_end() {
-    let mut worker = Worker::start(false);
+    let mut worker = Worker::start(false, None);
     let path = common::scene_file("worker");
     send(&mut worker, &format!("open {}", path.display()));
     // While it bakes, what there is to see says so.
@@ -43,7 +43,7 @@ fn a_bake_and_a_break_show_on_the_way_and_are_done_at_the_end() {
 
 #[test]
 fn the_clock_runs_by_itself_and_stands_when_it_is_told() {
-    let mut worker = Worker::start(true);
+    let mut worker = Worker::start(true, None);
     let path = common::scene_file("clock");
     send(&mut worker, &format!("open {}", path.display()));
     wait(&worker, |shown| shown.time > 0.01);

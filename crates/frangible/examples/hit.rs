@@ -77,7 +77,11 @@ fn again(path: &str, side: Vec3, speed: f64, seconds: f64) -> Result<(), Box<dyn
     let (clock, mut times) = (Instant::now(), 0_u32);
     let mut pieces = 0;
     while clock.elapsed().as_secs_f64() < seconds {
-        pieces = count(&impact(&body, &[contact], &FractureConfig::default())?);
+        pieces = count(&impact(
+            &body,
+            std::slice::from_ref(&contact),
+            &FractureConfig::default(),
+        )?);
         times += 1;
     }
     println!("{times} blows, {pieces} pieces each");
@@ -205,7 +209,11 @@ fn measure(
     for _ in 0..runs.max(1) {
         let (clock, mut times) = (Clock::start(), 0.0);
         while clock.wall.elapsed() < RUN {
-            let outcome = impact(body, &[contact], &FractureConfig::default())?;
+            let outcome = impact(
+                body,
+                std::slice::from_ref(&contact),
+                &FractureConfig::default(),
+            )?;
             last = Some(outcome);
             times += 1.0;
         }

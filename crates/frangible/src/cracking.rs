@@ -6,7 +6,7 @@ use crate::blow::Blow;
 use crate::body::Body;
 use crate::config::FractureConfig;
 use crate::crack::{CrackSystem, Peak, StressField, Suspects, crack};
-use crate::fragment::{self, Labels};
+use crate::fragment::{self, Bearing, Labels};
 use crate::modal::Motion;
 use crate::outcome::{ImpactReport, LookedAt};
 use crate::refuse::Culling;
@@ -18,7 +18,7 @@ use crate::trace::CrackTrace;
 const BETWEEN_LOOKS: usize = 7;
 
 /// Whether pieces have parted is asked again when the cracks have grown by this factor, or have stopped.
-const GREW: f64 = 1.25;
+const GREW: f64 = 1.5;
 
 /// What the cracks of an impact did to a body.
 #[expect(clippy::large_enum_variant, reason = "one at a time, never stored")]
@@ -38,7 +38,7 @@ pub(crate) struct Cracking<'a> {
     pub(crate) pressed: Vec<u32>,
     /// Time step of the motion, s.
     pub(crate) time_step: f64,
-    /// Energy that the cracks may spend, with the ledger, J.
+    /// Energy that the cracks may spend, where a ledger is kept, J.
     pub(crate) budget: f64,
     /// The blow that the motion comes from: it ends when the wall under it is gone, or when cracks have cut the piece under it free.
     pub(crate) blow: Option<Box<Blow>>,
@@ -59,6 +59,8 @@ struct Grown {
     asked: f64,
     /// At the last look.
     before: f64,
+    /// The cracks' progress when it was last asked, and the pieces.
+    pieces: Option<([usize; 2], Labels)>,
 }
 
 impl Grown {
@@ -82,12 +84,7 @@ impl<'a> Cracking<'a> {
         trace: &mut Option<CrackTrace>,
     ) -> Cracked<'a> {
         let (body, config) = (self.body, self.config);
-        let budget = if config.energy_ledger {
-            self.budget
-        } else {
-            f64::INFINITY
-        };
-        let mut system = CrackSystem::new(body, config, budget);
+        let mut system = CrackSystem::new(body, config, self.budget);
         let mut looked = Looked::default();
         let mut suspects = Suspects::default();
         // From the beginning of its batch, so that every batch is whole.
@@ -110,14 +107,12 @@ impl<'a> Cracking<'a> {
             report.contact_duration = blow.duration();
             report.time_steps = self.motion.steps();
             // A shorter blow brings less in the end.
-            if config.energy_ledger {
-                system.budget = system.budget.min(self.motion.peak_strain_energy);
-            }
+            system.ledger.cap(self.motion.peak_strain_energy);
             system.releases.forget_batch();
         }
         report.peak_elastic_energy = self.motion.peak_energy;
         report.peak_strain_energy = self.motion.peak_strain_energy;
-        self.end(system, looked, report, trace)
+        self.end(system, grown, looked, report, trace)
     }
 
     /// Runs the cracks from a time step on: to the end of the motion, or until they have weakened what bears a contact.
@@ -142,10 +137,7 @@ impl<'a> Cracking<'a> {
             }
             let k = lane(step);
             field.step = step;
-            // Cracks spend nothing that has not come yet.
-            if config.energy_ledger {
-                system.brought = system.budget.min(motion.strain_energy_until(step));
-            }
+            system.ledger.come(motion.strain_energy_until(step));
             if step % BETWEEN_LOOKS == 0
                 && step > first_step
                 && let Some(blow) = self.blow.as_ref().filter(|b| b.pushes_at(step))
@@ -187,8 +179,9 @@ impl<'a> Cracking<'a> {
         weakened
     }
 
-    /// The contacts whose force must be found anew: where cracks have cut the piece under them free, nothing bears them any more. What
-    /// pushes later pushes that piece alone, which whoever moves the pieces finds out. A piece of more than half of the body bears on.
+    /// The contacts whose force must be found anew: where cracks have cut the piece under them free, and it leans on nothing that is more
+    /// than half of the body, nothing bears them any more. What pushes later pushes that piece alone, which whoever moves the pieces
+    /// finds out.
     fn weakened(
         &self,
         blow: &Blow,
@@ -197,15 +190,18 @@ impl<'a> Cracking<'a> {
     ) -> Vec<(usize, f64)> {
         let mut contacts: Vec<_> = blow.weakened(system).into_iter().collect();
         if grown.is_due(system.area) {
-            let index = &self.body.prepared.index;
-            let portion = self.body.asset.portion.as_deref();
+            let (index, mesh) = (&self.body.prepared.index, &self.body.asset.fracture);
             let labels = fragment::label(system, index, self.config.crumb_share);
-            let free = (0..).zip(blow.bearing_nodes(self.body));
-            let free = free.filter(|&(k, node)| {
-                let piece = labels.of_node[node as usize];
-                blow.bears(k) && !index.is_most(&labels, piece, portion)
-            });
-            contacts.extend(free.map(|(k, _)| (k, f64::INFINITY)));
+            if labels.count > 1 {
+                let bearing = Bearing::new(&labels, index, mesh);
+                for (k, (node, push)) in blow.bearings(self.body).enumerate() {
+                    let piece = labels.of_node[node as usize];
+                    if blow.bears(k) && !bearing.bears(piece, push) {
+                        contacts.push((k, f64::INFINITY));
+                    }
+                }
+            }
+            grown.pieces = Some((system.progress(), labels));
         }
         contacts
     }
@@ -214,6 +210,7 @@ impl<'a> Cracking<'a> {
     fn end(
         self,
         system: CrackSystem<'a>,
+        grown: Grown,
         looked: Looked,
         mut report: ImpactReport,
         trace: &mut Option<CrackTrace>,
@@ -236,15 +233,16 @@ impl<'a> Cracking<'a> {
         report.cracks = system.cracks.len() - system.old_cracks;
         report.forks = system.forks;
         report.crack_area = system.area;
-        report.fracture_energy = system.spent;
+        report.fracture_energy = system.ledger.spent();
         let margin = report.strength / f64::from(peak.as_weakest.max(looked.as_weakest));
         if system.area == 0.0 && trace.is_none() {
             return Cracked::Held(margin, report, None);
         }
         let start = Instant::now();
-        let crumb_share = self.config.crumb_share;
-        let index = &body.prepared.index;
-        let labels = fragment::label(&system, index, crumb_share);
+        let labels = match grown.pieces {
+            Some((progress, labels)) if progress == system.progress() => labels,
+            _ => fragment::label(&system, &body.prepared.index, self.config.crumb_share),
+        };
         report.timings.labels = start.elapsed().as_secs_f64();
         if let Some(trace) = trace {
             *trace = CrackTrace::of(&system, &labels.of_node, self.motion, self.pressed);

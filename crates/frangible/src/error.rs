@@ -63,8 +63,13 @@ pub enum InputError {
     )]
     State(&'static str),
     /// Bytes of a contact that are too few or too many.
-    #[error("a contact has {wanted} bytes and these are {0}; give what Contact::to_bytes wrote", wanted = crate::Contact::BYTES)]
+    #[error("a contact has at least {least} bytes, and more of a striker that vibrates, and these {0} are none; give what Contact::to_bytes wrote", least = crate::Contact::BYTES)]
     ContactBytes(usize),
+    /// A striker's receptance that cannot be used.
+    #[error(
+        "a striker's receptance cannot be used: {0}; make the striker anew by Striker::flexible"
+    )]
+    Receptance(&'static str),
     /// Fields of strength, toughness or weak points that cannot be used.
     #[error("fields of a body cannot be used: {0}")]
     Field(String),

@@ -280,7 +280,7 @@ fn integrated(
     } else {
         // Every contact is a half-sine of its impulse.
         let mut scripts: Vec<Contact> =
-            (contacts.iter().filter(|c| c.impulse > 0.0).copied()).collect();
+            (contacts.iter().filter(|c| c.impulse > 0.0).cloned()).collect();
         let load = contact::modal_load(body, &scripts);
         if load.touches.is_empty() {
             return None;

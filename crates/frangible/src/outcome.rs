@@ -69,6 +69,9 @@ impl Fracture {
 pub struct Fragment {
     /// Closed surface, m, in the **fragment frame**: origin at the piece's centre of mass, axes of the parent's body frame.
     pub mesh: TriMesh,
+    /// Which fragment is on the other side of each crack face, `mesh.triangles[outer_triangles..]`: its place in
+    /// [`Fracture::fragments`], where it has the same face turned round; [`Fragment::PARTED`] where an earlier break took it away.
+    pub neighbours: Vec<u32>,
     /// What to draw instead of `mesh` where the asset has the [surface its author drew](crate::Asset::render).
     pub render: Option<RenderMesh>,
     /// Mass properties; `centre` is in the **parent's body frame**.
@@ -77,6 +80,11 @@ pub struct Fragment {
     pub cell_shares: Vec<(u32, Vec<Vec3>)>,
     /// Whether it has one of the [supported nodes](crate::Asset::supported): something outside still holds it.
     pub supported: bool,
+}
+
+impl Fragment {
+    /// What a crack face of an earlier break has in [`Fragment::neighbours`]: what was there is no fragment of this break.
+    pub const PARTED: u32 = u32::MAX;
 }
 
 /// What became of one contact of a blow that was integrated: an outcome, not an input.

@@ -55,6 +55,7 @@ fn sound() -> Contact {
             restitution: 0.5,
             modal_duration: 0.0,
             shared: None,
+            receptance: None,
         },
     }
 }

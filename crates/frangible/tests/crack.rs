@@ -35,7 +35,7 @@ fn cracks_spend_no_more_than_the_strain_energy_of_the_motion() {
                 continue;
             }
             for seed in 1..=3 {
-                let outcome = strike(kind, seed, contact, &config);
+                let outcome = strike(kind, seed, contact.clone(), &config);
                 let report = outcome.report();
                 let (spends, held) = (report.fracture_energy, report.peak_strain_energy);
                 assert!(
@@ -54,7 +54,7 @@ fn cracks_spend_no_more_than_the_strain_energy_of_the_motion() {
 fn cracks_spend_no_more_than_the_blow_brought() {
     for (name, kind, contact) in breaking() {
         for seed in 1..=3 {
-            let outcome = strike(kind, seed, contact, &FractureConfig::default());
+            let outcome = strike(kind, seed, contact.clone(), &FractureConfig::default());
             let report = outcome.report();
             let give = f64::from(contact.striker.inverse_effective_mass);
             if give > 0.0 {
@@ -104,7 +104,8 @@ fn a_crack_is_one_surface_that_grows_in_time() {
     for (name, kind, contact) in breaking() {
         for (model, config) in models() {
             let body = kind.body(2);
-            let (outcome, _) = impact_traced(&body, &[contact], &config).unwrap();
+            let (outcome, _) =
+                impact_traced(&body, std::slice::from_ref(&contact), &config).unwrap();
             let tets = &body.asset().fracture.tets;
             let mut cut_by = vec![None; tets.len()];
             for (crack, arrivals) in outcome.report().arrivals.iter().enumerate() {
@@ -136,7 +137,7 @@ fn a_crack_is_one_surface_that_grows_in_time() {
 fn cracks_run_at_their_speed_or_at_once() {
     let hit = pane_hit(0.0, 0.0, 20.0);
     let lasting = |config: &FractureConfig| {
-        let outcome = strike(pane(), 1, hit, config);
+        let outcome = strike(pane(), 1, hit.clone(), config);
         let arrivals = outcome.report().arrivals.clone();
         let of = |crack: &Vec<(u32, f64)>| crack.last().unwrap().1 - crack[0].1;
         arrivals.iter().map(of).fold(0.0, f64::max)

@@ -15,10 +15,10 @@ fn the_same_blow_gives_the_same_bits_on_any_thread() {
     for (name, kind, contact) in breaking() {
         for (model, config) in models() {
             for seed in [1, 7] {
-                let first = bits(&strike(kind, seed, contact, &config));
+                let first = bits(&strike(kind, seed, contact.clone(), &config));
                 let others: Vec<_> = (0..3)
                     .map(|_| {
-                        let config = config.clone();
+                        let (contact, config) = (contact.clone(), config.clone());
                         std::thread::spawn(move || bits(&strike(kind, seed, contact, &config)))
                     })
                     .collect();
@@ -34,7 +34,14 @@ fn the_same_blow_gives_the_same_bits_on_any_thread() {
 fn another_seed_gives_another_break() {
     for (name, kind, contact) in breaking() {
         let mut seen: Vec<Vec<u64>> = (1..=4)
-            .map(|seed| bits(&strike(kind, seed, contact, &FractureConfig::default())))
+            .map(|seed| {
+                bits(&strike(
+                    kind,
+                    seed,
+                    contact.clone(),
+                    &FractureConfig::default(),
+                ))
+            })
             .collect();
         seen.sort();
         seen.dedup();
@@ -52,13 +59,13 @@ fn soft_blows_hold_and_hard_ones_break() {
                 (shelf(), shelf_hit(0.05), shelf_hit(20.0)),
             ] {
                 let name = format!("{}, {model}, seed {seed}", kind.asset().name);
-                let held = strike(kind, seed, soft, &config);
+                let held = strike(kind, seed, soft.clone(), &config);
                 assert!(
                     matches!(held, Outcome::Held { margin, state: None, .. } if margin > 1.0),
                     "{name}: {held:?}"
                 );
                 assert_eq!(held.report().cracks, 0, "{name}");
-                let broke = strike(kind, seed, hard, &config);
+                let broke = strike(kind, seed, hard.clone(), &config);
                 assert!(pieces(&broke) > 1, "{name} held 20 m/s");
                 let body = kind.body(seed);
                 assert!(!would_break(&body, &[soft], &config).unwrap());
@@ -73,29 +80,33 @@ fn bad_contacts_are_refused_and_nothing_comes_of_nothing() {
     let body = pane().body(1);
     let config = FractureConfig::default();
     let good = pane_hit(0.02, 0.01, 10.0);
-    let mut bad = [good; 5];
+    let mut bad: [_; 5] = std::array::from_fn(|_| good.clone());
     bad[0].point.x = f32::NAN;
     bad[1].normal = Vec3::ZERO;
     bad[2].impulse = -1.0;
     bad[3].striker.restitution = 2.0;
     bad[4].approach_speed = f32::NAN;
     for (i, contact) in bad.into_iter().enumerate() {
-        let refused = impact(&body, &[good, contact], &config);
+        let refused = impact(&body, &[good.clone(), contact], &config);
         assert!(refused.is_err(), "bad contact {i}");
     }
     let nothing = Contact {
         impulse: 0.0,
         approach_speed: 0.0,
-        ..good
+        ..good.clone()
     };
-    for contacts in [&[][..], &[nothing], &[nothing, nothing]] {
+    for contacts in [
+        &[][..],
+        std::slice::from_ref(&nothing),
+        &[nothing.clone(), nothing.clone()],
+    ] {
         let outcome = impact(&body, contacts, &config).unwrap();
         assert!(matches!(outcome, Outcome::Held { .. }));
         assert_eq!(outcome.report().cracks, 0);
     }
     // A contact without impulse beside a real one changes nothing.
-    let both = impact(&body, &[good, nothing], &config).unwrap();
-    assert!(bits(&both) == bits(&impact(&body, &[good], &config).unwrap()));
+    let both = impact(&body, &[good.clone(), nothing], &config).unwrap();
+    assert!(bits(&both) == bits(&impact(&body, std::slice::from_ref(&good), &config).unwrap()));
     // The length of the normal does not matter.
     let long = Contact {
         normal: 4.0 * good.normal,
@@ -112,7 +123,7 @@ fn vibration_holds_no_more_energy_than_the_blow_brought() {
     free.admissible_duration = false;
     let mut lengthened = 0;
     for (name, kind, contact) in breaking() {
-        let outcome = strike(kind, 1, contact, &config);
+        let outcome = strike(kind, 1, contact.clone(), &config);
         let report = outcome.report();
         let e = f64::from(contact.striker.restitution);
         let brought =
@@ -143,15 +154,16 @@ fn unbroken(body: &Body, contact: Contact) -> ContactReport {
 fn a_blow_is_as_if_nothing_broke_until_the_piece_under_it_is_cut_free() {
     let (mut shorter, mut whole) = (0, 0);
     for seed in 1..=12 {
-        for hit in [
-            block_hit(0.5),
-            block_hit(1.0),
-            block_hit(4.0),
-            block_hit(20.0),
+        for (kind, hit) in [
+            (block(), block_hit(1.0)),
+            (block(), block_hit(20.0)),
+            (shelf(), shelf_hit(4.0)),
+            (shelf(), shelf_hit(10.0)),
+            (shelf(), shelf_hit(20.0)),
         ] {
-            let body = block().body(seed);
-            let alone = unbroken(&body, hit);
-            let outcome = strike(block(), seed, hit, &FractureConfig::default());
+            let body = kind.body(seed);
+            let alone = unbroken(&body, hit.clone());
+            let outcome = strike(kind, seed, hit.clone(), &FractureConfig::default());
             let contact = &outcome.report().contacts[0];
             if contact.duration >= alone.duration {
                 assert_eq!(contact.force, alone.force);
@@ -168,7 +180,7 @@ fn a_blow_is_as_if_nothing_broke_until_the_piece_under_it_is_cut_free() {
             let mass = 1.0 / f64::from(hit.striker.inverse_effective_mass);
             let slower = contact.departure_speed + contact.approach_speed;
             assert!(
-                slower > contact.impulse / mass
+                slower > (1.0 - 1e-6) * contact.impulse / mass
                     && slower < alone.departure_speed + alone.approach_speed
             );
         }
@@ -191,7 +203,10 @@ fn cracks_spend_what_a_shortened_blow_brought_and_no_more() {
 fn a_blow_hangs_on_what_strikes_and_not_on_the_impulse_that_an_engine_found() {
     let (body, hit) = (bodies::pane().body(3), bodies::pane_hit(0.03, 0.02, 9.0));
     let broken = |impulse: f32| {
-        let contact = Contact { impulse, ..hit };
+        let contact = Contact {
+            impulse,
+            ..hit.clone()
+        };
         let outcome = impact(&body, &[contact], &FractureConfig::default());
         let Ok(Outcome::Broke(fracture)) = outcome else {
             panic!("it breaks");

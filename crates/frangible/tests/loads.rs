@@ -141,7 +141,9 @@ fn a_motion_from_elsewhere_cracks_as_the_impact_that_it_is_of() {
     config.culling = false;
     let body = block().body(2);
     let hit = bodies::block_hit(12.0);
-    let Stage::Vibrates(vibration) = Vibration::begin(&body, &[hit], &config).unwrap() else {
+    let Stage::Vibrates(vibration) =
+        Vibration::begin(&body, std::slice::from_ref(&hit), &config).unwrap()
+    else {
         panic!("refused");
     };
     assert!(vibration.is_pulse());

@@ -163,7 +163,8 @@ fn a_whole_body_with_its_modes_again_breaks_as_it_did() {
     assert_eq!(again.generation(), 0);
     assert_eq!(again.weak_tets(), body.weak_tets());
     let hit = pane_hit(0.02, 0.03, 15.0);
-    let [one, other] = [&body, &again].map(|b| impact(b, &[hit], &config).unwrap());
+    let [one, other] =
+        [&body, &again].map(|b| impact(b, std::slice::from_ref(&hit), &config).unwrap());
     assert_eq!(pieces(&one), pieces(&other));
     let area = |o: &Outcome| o.report().crack_area;
     assert!((area(&one) / area(&other) - 1.0).abs() < 1e-3);

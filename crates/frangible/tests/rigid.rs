@@ -115,7 +115,11 @@ fn a_toll_among_held_ones_comes_from_the_motion_against_them() {
 #[test]
 fn the_nearest_fragment_is_the_one_that_was_hit() {
     let hit = bodies::pane_hit(0.01, 0.005, 12.0);
-    let outcome = impact(&bodies::pane().body(0), &[hit], &FractureConfig::default());
+    let outcome = impact(
+        &bodies::pane().body(0),
+        std::slice::from_ref(&hit),
+        &FractureConfig::default(),
+    );
     let Ok(Outcome::Broke(fracture)) = outcome else {
         panic!("it breaks");
     };

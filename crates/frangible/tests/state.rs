@@ -22,7 +22,7 @@ fn cracked(config: &FractureConfig) -> (Body, Contact) {
     for k in 0..60 {
         let mut body = pane().body(k);
         let contact = pane_hit(0.05, 0.02, 0.5 + 0.1 * k as f64);
-        let outcome = strike(&mut body, contact, config);
+        let outcome = strike(&mut body, contact.clone(), config);
         if pieces(&outcome) == 1 && !body.state().is_intact() {
             return (body, contact);
         }
@@ -43,7 +43,11 @@ fn more_hits_finish_the_break() {
     let (mut body, contact) = cracked(&config);
     let mut cuts = body.state().faces(body.asset()).count();
     for blow in 1..=40 {
-        let outcome = strike(&mut body, faster(contact, 1.0 + 0.1 * blow as f32), &config);
+        let outcome = strike(
+            &mut body,
+            faster(contact.clone(), 1.0 + 0.1 * blow as f32),
+            &config,
+        );
         if pieces(&outcome) > 1 {
             return;
         }
@@ -68,12 +72,12 @@ fn replaying_the_impacts_rebuilds_the_state_bit_for_bit() {
     let config = FractureConfig::default();
     let (first, contact) = cracked(&config);
     let contacts: Vec<Contact> = (0..4)
-        .map(|k| faster(contact, 1.0 - 0.2 * k as f32))
+        .map(|k| faster(contact.clone(), 1.0 - 0.2 * k as f32))
         .collect();
     let play = |config: &FractureConfig| {
         let mut body = pane().body(first.seed());
-        for &contact in &contacts {
-            strike(&mut body, contact, config);
+        for contact in &contacts {
+            strike(&mut body, contact.clone(), config);
         }
         body.state().to_bytes()
     };

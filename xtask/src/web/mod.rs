@@ -2,6 +2,7 @@
 
 mod bodies;
 mod library;
+mod package;
 mod program;
 mod trial;
 
@@ -12,6 +13,7 @@ use std::time::{Duration, Instant};
 
 use crate::command::{Result, output, root};
 
+pub(crate) use package::package;
 pub(crate) use trial::trial;
 
 /// All that the page may weigh, packed, bytes.
@@ -56,7 +58,7 @@ fn make(folders: &Folders, clock: Clock) -> Result<(Vec<String>, Vec<bodies::Pac
     make_folder(&folders.out)?;
     let program = program::program(folders, clock)?;
     let bodies = bodies::bodies(folders, &program.packer, clock)?;
-    copy_page(folders)?;
+    copy_folder(&folders.page, &folders.out)?;
     write_list(folders, &program, &bodies)?;
     let line = weigh(&folders.out, &program)?;
     println!("{line}");
@@ -79,14 +81,18 @@ fn make_folder(folder: &Path) -> Result {
         .map_err(|error| format!("`{}` cannot be made: {error}", folder.display()))
 }
 
-fn copy_page(folders: &Folders) -> Result {
-    let page = folders.page.display();
-    let entries = fs::read_dir(&folders.page);
-    for entry in entries.map_err(|error| format!("`{page}` cannot be listed: {error}"))? {
+/// Copies the files of a folder into another, but for its folders.
+fn copy_folder(from: &Path, to: &Path) -> Result {
+    let name = from.display();
+    let entries = fs::read_dir(from);
+    for entry in entries.map_err(|error| format!("`{name}` cannot be listed: {error}"))? {
         let from = entry
-            .map_err(|error| format!("`{page}` cannot be listed: {error}"))?
+            .map_err(|error| format!("`{name}` cannot be listed: {error}"))?
             .path();
-        let to = folders.out.join(from.file_name().unwrap_or_default());
+        if from.is_dir() {
+            continue;
+        }
+        let to = to.join(from.file_name().unwrap_or_default());
         fs::copy(&from, &to)
             .map_err(|error| format!("`{}` cannot be written: {error}", to.display()))?;
     }

@@ -27,7 +27,7 @@ pub(super) struct Program {
 pub(super) fn program(folders: &Folders, clock: Clock) -> Result<Program> {
     same_generator()?;
     let packer = packer(folders, clock)?;
-    let built = build(folders, clock)?;
+    let built = build(folders, NAME, "web", clock)?;
     let text = output(
         Command::new(&packer)
             .arg("page")
@@ -49,9 +49,17 @@ pub(super) fn number_of(text: &[u8]) -> Result<u64> {
         .map_err(|_| format!("the packer said `{}`, no size", text.trim()))
 }
 
-/// Builds the program, its standard library too where the toolchain has none for browsers.
-fn build(folders: &Folders, clock: Clock) -> Result<PathBuf> {
-    let mut command = cargo(&["build", "--profile", "web", "--target", TARGET, "-p", NAME]);
+/// Builds a program or library, its standard library too where the toolchain has none for browsers.
+pub(super) fn build(folders: &Folders, name: &str, profile: &str, clock: Clock) -> Result<PathBuf> {
+    let mut command = cargo(&[
+        "build",
+        "--profile",
+        profile,
+        "--target",
+        TARGET,
+        "-p",
+        name,
+    ]);
     command
         .arg("--target-dir")
         .arg(&folders.target)
@@ -69,12 +77,17 @@ fn build(folders: &Folders, clock: Clock) -> Result<PathBuf> {
         }
     }
     within(&mut command, clock)?;
-    let built = folders.target.join(TARGET).join("web");
-    Ok(built.join(format!("{NAME}.wasm")))
+    let built = folders.target.join(TARGET).join(profile);
+    // A program's file is named as its package, a library's with underscores.
+    let file = built.join(format!("{name}.wasm"));
+    match file.is_file() {
+        true => Ok(file),
+        false => Ok(built.join(format!("{}.wasm", name.replace('-', "_")))),
+    }
 }
 
 /// Builds the packer.
-fn packer(folders: &Folders, clock: Clock) -> Result<PathBuf> {
+pub(super) fn packer(folders: &Folders, clock: Clock) -> Result<PathBuf> {
     let target = folders.target.join("pack");
     let mut command = cargo(&["build", "--release", "--locked", "--manifest-path"]);
     command
@@ -102,7 +115,7 @@ pub(super) fn within(command: &mut Command, clock: Clock) -> Result {
 }
 
 /// Refuses a packer of another version than what the program is built with.
-fn same_generator() -> Result {
+pub(super) fn same_generator() -> Result {
     let versions = [
         (root().join("Cargo.lock"), GENERATOR),
         (

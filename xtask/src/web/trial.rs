@@ -32,14 +32,13 @@ pub(crate) fn trial(limit: Option<Duration>) -> Result<Vec<String>> {
         lines.push(line);
         return Ok(lines);
     };
-    let out = out(&folders);
-    make_folder(&out)?;
+    let out = made_folder(&folders)?;
     let native = native(&folders, &scenes, clock)?;
     let mut command = Command::new("node");
     command
         .arg(root().join("apps/web/test/page.test.mjs"))
         .arg(&folders.out)
-        .arg(path_of(browser))
+        .arg(browser_path(browser))
         .arg(driver(&folders, clock)?)
         .arg(&out)
         .arg(native)
@@ -54,12 +53,15 @@ pub(crate) fn trial(limit: Option<Duration>) -> Result<Vec<String>> {
 }
 
 /// Where pictures go: `OUT`, or the target folder.
-fn out(folders: &Folders) -> PathBuf {
-    std::env::var_os("OUT").map_or_else(|| folders.target.join("artifacts"), PathBuf::from)
+pub(super) fn made_folder(folders: &Folders) -> Result<PathBuf> {
+    let out = std::env::var_os("OUT");
+    let out = out.map_or_else(|| folders.target.join("artifacts"), PathBuf::from);
+    make_folder(&out)?;
+    Ok(out)
 }
 
 /// The browser's path, as its driver wants it.
-fn path_of(name: &str) -> PathBuf {
+pub(super) fn browser_path(name: &str) -> PathBuf {
     let path = std::env::var_os("PATH").unwrap_or_default();
     let mut candidates = std::env::split_paths(&path).map(|folder| folder.join(name));
     candidates
@@ -68,7 +70,7 @@ fn path_of(name: &str) -> PathBuf {
 }
 
 /// The driver's package, fetched if it is not there: only that, no browser of its own.
-fn driver(folders: &Folders, clock: Clock) -> Result<PathBuf> {
+pub(super) fn driver(folders: &Folders, clock: Clock) -> Result<PathBuf> {
     let folder = folders.target.join(DRIVER);
     let there = folder.join("node_modules/playwright-core/package.json");
     if !there.is_file() {

@@ -1,9 +1,10 @@
+//! `web-pack package LIBRARY.wasm FOLDER` writes `LIBRARY.js` and `LIBRARY_bg.wasm` into a folder and prints the bytes of the latter;
 //! `web-pack page PROGRAM.wasm FOLDER` writes `PROGRAM.js` and `PROGRAM.wasm.gz` into a folder and prints the bytes of the latter
 //! unpacked; `web-pack body FILE PACKED` packs a baked body; `web-pack weigh FILE` prints the bytes of a file as servers pack it.
 
 use std::error::Error;
 use std::num::NonZeroU64;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use wasm_bindgen_cli_support::Bindgen;
@@ -12,10 +13,13 @@ fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
     let done = match words[..] {
+        ["package", library, folder] => {
+            bindings(library.as_ref(), folder.as_ref()).map(|bytes| println!("{bytes}"))
+        }
         ["page", program, folder] => page(program.as_ref(), folder.as_ref()),
         ["body", file, packed] => body(file.as_ref(), packed.as_ref()),
         ["weigh", file] => weigh(file.as_ref()),
-        _ => Err("`web-pack page PROGRAM.wasm FOLDER`, `web-pack body FILE PACKED` or `web-pack weigh FILE`".into()),
+        _ => Err("`web-pack package LIBRARY.wasm FOLDER`, `web-pack page PROGRAM.wasm FOLDER`, `web-pack body FILE PACKED` or `web-pack weigh FILE`".into()),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,
@@ -26,7 +30,8 @@ fn main() -> ExitCode {
     }
 }
 
-fn page(program: &Path, folder: &Path) -> Result<(), Box<dyn Error>> {
+/// What calls the module, and the module; its bytes.
+fn bindings(program: &Path, folder: &Path) -> Result<usize, Box<dyn Error>> {
     let mut bindgen = Bindgen::new();
     bindgen
         .input_path(program)
@@ -35,11 +40,21 @@ fn page(program: &Path, folder: &Path) -> Result<(), Box<dyn Error>> {
         .remove_name_section(true)
         .remove_producers_section(true);
     bindgen.generate(folder)?;
+    Ok(std::fs::read(module(program, folder))?.len())
+}
+
+fn module(program: &Path, folder: &Path) -> PathBuf {
     let name = program.file_stem().unwrap_or_default().to_string_lossy();
-    let plain = folder.join(format!("{name}_bg.wasm"));
+    folder.join(format!("{name}_bg.wasm"))
+}
+
+fn page(program: &Path, folder: &Path) -> Result<(), Box<dyn Error>> {
+    let bytes = bindings(program, folder)?;
+    let name = program.file_stem().unwrap_or_default().to_string_lossy();
+    let plain = module(program, folder);
     let wasm = std::fs::read(&plain)?;
     std::fs::write(folder.join(format!("{name}.wasm.gz")), packed(&wasm)?)?;
-    println!("{}", wasm.len());
+    println!("{bytes}");
     std::fs::remove_file(plain)?;
     Ok(())
 }

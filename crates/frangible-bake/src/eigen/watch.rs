@@ -1,7 +1,7 @@
 //! Where the time of the mode stage goes, how far it has come, and whether to go on.
 
 use std::ops::ControlFlow;
-use std::time::Instant;
+use web_time::Instant;
 
 use crate::error::BakeError;
 use crate::phase::Phase;

@@ -93,6 +93,14 @@ impl Shape {
         }
     }
 
+    /// Bottle of 0.33 l: Ø 61 mm, 230 mm high, wall 3 mm.
+    #[must_use]
+    pub fn bottle() -> Self {
+        Self::Revolution {
+            profile: ready::bottle(),
+        }
+    }
+
     /// Vase: 210 mm high, Ø 100 mm at the belly, wall 4 mm.
     #[must_use]
     pub fn vase() -> Self {

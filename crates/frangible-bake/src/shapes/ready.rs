@@ -22,6 +22,24 @@ pub(crate) fn drinking_glass() -> Vec<Station> {
     ]
 }
 
+/// A bottle of 0.33 l, 230 mm high, 61 mm across, with a wall of 3 mm.
+pub(crate) fn bottle() -> Vec<Station> {
+    let wall = |r: f64, z: f64| Station::smooth([r, z], [r - 0.003, z]);
+    vec![
+        Station::smooth([0.0, 0.0], [0.0, 0.005]),
+        Station::smooth([0.018, 0.0], [0.018, 0.005]),
+        Station::smooth([0.0270, 0.0008], [0.0245, 0.0058]),
+        Station::smooth([0.0305, 0.0050], [0.0272, 0.0085]),
+        wall(0.0305, 0.030),
+        wall(0.0305, 0.080),
+        wall(0.0305, 0.120),
+        wall(0.0270, 0.145),
+        wall(0.0180, 0.170),
+        wall(0.0145, 0.195),
+        wall(0.0130, 0.230),
+    ]
+}
+
 /// Round bowl, Ø 150 mm at the rim, 62 mm high, wall 4 mm.
 pub(crate) fn bowl() -> Vec<Station> {
     // An arc of the mid-line about (0, R): flat at the axis, 74° at the rim.

@@ -139,7 +139,7 @@ pub fn measure(cache: &Cache, progress: &mut dyn FnMut(&str, f64)) -> Result<Fin
         progress("finding contacts of each class", i as f64 / TRIED as f64);
         let kind = &mut found[class(&body, contact, &config)? as usize];
         if kind.len() < KEPT {
-            kind.push(*contact);
+            kind.push(contact.clone());
         }
     }
     let mut classes = Vec::new();
@@ -215,7 +215,7 @@ impl<'a> Source<'a> {
         let striker = if self.uniform() < 0.5 {
             steel_ball(0.02 + 0.2 * self.uniform())?
         } else {
-            self.stone
+            self.stone.clone()
         };
         let point: Vec3 = self.asset.fracture.positions[corner];
         Ok(Contact::collision(
@@ -229,7 +229,7 @@ impl<'a> Source<'a> {
 }
 
 fn class(body: &Body, contact: &Contact, config: &FractureConfig) -> Result<Class, BenchError> {
-    let outcome = impact(body, &[*contact], config)?;
+    let outcome = impact(body, std::slice::from_ref(contact), config)?;
     let report = outcome.report();
     Ok(match (&outcome, report.looked_at) {
         (Outcome::Broke(_), _) => Class::Breaks,

@@ -87,7 +87,12 @@ pub fn measure(
     let own = count(&mut || bodies.extend((1..=BODIES).map(|seed| kind.body(seed))));
     let mut broke = Ok(());
     let broken = count(&mut || {
-        broke = impact(&bodies[0], &[contact], &FractureConfig::default()).map(drop);
+        broke = impact(
+            &bodies[0],
+            std::slice::from_ref(&contact),
+            &FractureConfig::default(),
+        )
+        .map(drop);
     });
     broke?;
     let assets = kind.asset();

@@ -141,7 +141,7 @@ impl Bench {
     /// The blow that comes to this.
     #[must_use]
     pub fn blow(&self, depth: Depth) -> Contact {
-        self.blows[depth as usize]
+        self.blows[depth as usize].clone()
     }
 
     /// The response of all modes to the blow that breaks.

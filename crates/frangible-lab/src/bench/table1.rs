@@ -131,7 +131,12 @@ pub fn measure(
     if options.reference {
         tell("the paper word for word", 0.3);
         let clock = Instant::now();
-        fracture(&body, &[contact], Field::Embedded, &Reading::default())?;
+        fracture(
+            &body,
+            std::slice::from_ref(&contact),
+            Field::Embedded,
+            &Reading::default(),
+        )?;
         paper.reference = Some(clock.elapsed().as_secs_f64());
     }
     config.samples_per_period = 2.0;
@@ -174,7 +179,7 @@ fn in_model(
     options: &Options,
     loads: &mut Loads,
 ) -> Result<InModel, BenchError> {
-    let contacts = [*contact];
+    let contacts = [contact.clone()];
     let mut cold = Vec::new();
     for _ in 0..COLD_RUNS.min(options.runs) {
         let clock = Instant::now();

@@ -284,6 +284,7 @@ pub fn impact(case: &Case, number: u64) -> Result<(Body, Vec<Contact>), InputErr
                 curvature_radius: radius as f32,
                 restitution: 0.3,
                 modal_duration: 0.0,
+                receptance: None,
                 shared: None,
             },
         });

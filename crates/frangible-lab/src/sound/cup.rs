@@ -96,7 +96,7 @@ fn crack(intact: &Body) -> Result<(f64, Body), Box<dyn Error>> {
     let mut hardest = None;
     for i in 0..STEPS {
         let speed = 1.0 + STEP * f64::from(i);
-        let hit = Contact::collision(intact.asset(), point, Vec3::NEG_X, speed, striker);
+        let hit = Contact::collision(intact.asset(), point, Vec3::NEG_X, speed, striker.clone());
         match impact(intact, &[hit], &config)? {
             Outcome::Broke(_) => break,
             Outcome::Held {

@@ -3,6 +3,7 @@
 //! Closed forms and published spectra stand beside what the synthesiser makes of baked bodies. The tests of `frangible-sound` check the
 //! radiation of spheres, energies and onsets; here are whole bodies.
 
+mod cost;
 mod cup;
 mod objects;
 mod page;
@@ -10,6 +11,7 @@ mod scenes;
 
 use std::error::Error;
 
+pub use cost::Cost;
 pub use cup::Cup;
 pub use objects::{Object, Partial};
 pub use page::SoundPage;
@@ -29,6 +31,8 @@ pub struct Heard {
     pub scenes: Vec<HeardScene>,
     /// The glass dropped from twice two heights: height, m, energy of the sound at the ears, Pa²·s.
     pub drops: Vec<[f64; 2]>,
+    /// What a resonator costs.
+    pub cost: Cost,
 }
 
 impl Heard {
@@ -47,11 +51,14 @@ impl Heard {
             hear(0.35 + 0.5 * (i + 1) as f64 / scenes::NAMES.len() as f64);
         }
         let drops = scenes::drops()?;
+        hear(0.98);
+        let cost = Cost::measure()?;
         Ok(Self {
             objects,
             cup,
             scenes,
             drops,
+            cost,
         })
     }
 }

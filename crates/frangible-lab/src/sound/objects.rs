@@ -94,7 +94,7 @@ pub(super) fn all() -> Result<Vec<Object>, Box<dyn Error>> {
         Plan {
             name: "beer bottle",
             source: "3200, 4448 and 5632 Hz: Russell, Vibrational Behavior of an Empty Beer Bottle, 2004",
-            shape: Shape::Revolution { profile: bottle() },
+            shape: Shape::bottle(),
             material: glass,
             point: Vec3::new(0.031, 0.0, 0.0),
             direction: Vec3::NEG_X,
@@ -117,24 +117,6 @@ fn wine_glass() -> Vec<Station> {
         wall(0.0385, 0.0500, 0.0015),
         wall(0.0365, 0.0750, 0.0013),
         wall(0.0330, 0.1000, 0.0011),
-    ]
-}
-
-/// A bottle of 0.33 l, 230 mm high, 61 mm across, with a wall of 3 mm.
-fn bottle() -> Vec<Station> {
-    let wall = |r: f64, z: f64| Station::smooth([r, z], [r - 0.003, z]);
-    vec![
-        Station::smooth([0.0, 0.0], [0.0, 0.005]),
-        Station::smooth([0.018, 0.0], [0.018, 0.005]),
-        Station::smooth([0.0270, 0.0008], [0.0245, 0.0058]),
-        Station::smooth([0.0305, 0.0050], [0.0272, 0.0085]),
-        wall(0.0305, 0.030),
-        wall(0.0305, 0.080),
-        wall(0.0305, 0.120),
-        wall(0.0270, 0.145),
-        wall(0.0180, 0.170),
-        wall(0.0145, 0.195),
-        wall(0.0130, 0.230),
     ]
 }
 
@@ -191,11 +173,7 @@ pub(super) fn struck(body: &Body, push: Vec<f32>, long: f64) -> Result<Vec<f32>,
         channels: 1,
         ..Listener::at(place, DVec3::ZERO)
     };
-    let config = SynthConfig {
-        full_scale: 1e4,
-        ..SynthConfig::new(listener)
-    };
-    let mut synth = Synth::new(config)?;
+    let mut synth = Synth::new(SynthConfig::new(listener))?;
     let id = synth.add(Arc::new(body.clone()), DVec3::ZERO, DQuat::IDENTITY)?;
     let strike = Strike {
         pulse: Arc::new(Pulse::half_sine(0.01, 1e-4)),
@@ -205,7 +183,6 @@ pub(super) fn struck(body: &Body, push: Vec<f32>, long: f64) -> Result<Vec<f32>,
     synth.strike(0.0, id, strike)?;
     let mut samples = vec![0.0; (long * RATE) as usize];
     synth.render(&mut samples);
-    samples.iter_mut().for_each(|s| *s *= 1e4);
     Ok(samples)
 }
 

@@ -22,7 +22,7 @@ pub struct SoundPage {
 }
 
 impl Heard {
-    /// The page; its pictures lie in a folder beside it. Without timings, so that the same build writes the same page.
+    /// The page; its pictures lie in a folder beside it. Without timings but for what a tone costs, so that the same build writes the same page.
     ///
     /// # Errors
     /// A picture that could not be encoded.
@@ -30,7 +30,8 @@ impl Heard {
         let mut text = String::from(
             "# Sound\n\nWritten by `frangible-lab sound --write docs`, which computes it anew. Nothing passes or fails here; the tests of \
              `frangible-sound` check radiated power, decay, energy and onsets against closed forms.\n\n\
-             `frangible break` writes the sound of a scene beside its animation. The modes that decide where a body breaks ring on under the same \
+             `frangible break` writes the sound of a scene beside its animation, as loud as fits, and says how many decibels its largest number stands for; \
+             the viewer and its page play what happens as it comes, with a full scale of 117 dB and a soft limiter. The modes that decide where a body breaks ring on under the same \
              forces; what they send to the air follows in closed form from an equivalent sphere; pieces without modes of their own ring as a plate of \
              their size.\n\n",
         );
@@ -134,7 +135,10 @@ impl Heard {
             text,
             "\n![The whole cup]({folder}/cup-whole.png)\n![The cracked cup]({folder}/cup-cracked.png)\n\nThe tones of the cracked cup are lower. That \
              a cracked cup also clatters and dies sooner comes of faces that rub and beat on each other, and that is not in the model: its decay \
-             changes only as its frequencies do.\n"
+             changes only as its frequencies do. A loss by friction needs the pressure that holds a crack shut, since faces that part do not rub and faces that \
+             are clamped do not slide; the cracks here run through a body without stress of its own and are open, so that the modes of the cracked cup know \
+             nothing of it. Models of the friction (Mo and Zhou, J. Vibroengineering, June 2015) find a loss that hangs on the crack's \
+             angle and on the state of stress; a factor without these would be a choice of ours.\n"
         );
     }
 
@@ -142,8 +146,8 @@ impl Heard {
         let _ = write!(
             text,
             "## Scenes\n\nThe ears are where the camera is. *First sound* is when it should arrive by the time of the first contact and its way, and when \
-             it does; a body is as large as its sound is early. The limiter's share is how much the loudest sample was bent; full scale is 117 dB. Cracks \
-             give {:.0} % of their energy to the modes on both sides.\n\n",
+             it does; a body is as large as its sound is early. The loudest pressure is the full \
+             scale of the scene's WAV: the file is as loud as fits, and nothing in it is bent. Cracks give {:.0} % of their energy to the modes on both sides.\n\n",
             100.0 * CRACK_SHARE
         );
         let rows: Vec<Vec<String>> = (self.scenes.iter())
@@ -153,8 +157,7 @@ impl Heard {
                     scene.pieces.to_string(),
                     format!("{}, {}", scene.events[0], scene.events[1]),
                     format!("{:.2} / {:.2}", 1e3 * scene.onset[0], 1e3 * scene.onset[1]),
-                    format!("{:.1}", scene.loudest[0]),
-                    format!("{:.1}", scene.loudest[1]),
+                    format!("{:.1}", scene.loudest),
                     format!("{:.1e}", scene.offset),
                     format!("{:.1}", scene.long),
                     format!("{}, {}", scene.most[0], scene.most[1]),
@@ -167,7 +170,6 @@ impl Heard {
             "contacts, cracks",
             "first sound, ms: due / heard",
             "loudest, dB",
-            "limited by, dB",
             "offset / RMS",
             "60 dB down after, s",
             "most bodies, tones",
@@ -176,7 +178,10 @@ impl Heard {
         for scene in &self.scenes {
             let _ = write!(text, "\n![{0}]({folder}/{0}.png)", scene.name);
         }
-        text.push_str("\n\nMarks above the pictures are blows.\n\n## Energy\n\n");
+        text.push_str("\n\nMarks above the pictures are blows.\n\n");
+        self.sources_text(text);
+        self.cost_text(text);
+        text.push_str("## Energy and height\n\n");
         let rows: Vec<Vec<String>> = (self.drops.iter())
             .map(|[height, energy]| {
                 let first = self.drops[0];
@@ -196,15 +201,71 @@ impl Heard {
     }
 }
 
+impl Heard {
+    fn cost_text(&self, text: &mut String) {
+        let cost = &self.cost;
+        let _ = write!(
+            text,
+            "## What a tone costs\n\nOn the machine that wrote this page, {} resonators of ringing shards: {:.2} ns per sample and resonator, with the \
+             choice of what is heard and the ways to two ears. As many plain two-pole filters of f32, one after the other in one loop each and with \
+             nothing else, take {:.2} ns, {:.1} times as long. A filter waits for its last sample; here eight go side by side.\n\n",
+            cost.resonators,
+            cost.ours,
+            cost.plain,
+            cost.plain / cost.ours
+        );
+    }
+
+    fn sources_text(&self, text: &mut String) {
+        text.push_str(
+            "## Energy and level by source\n\nWhat a scene lost is the fall of its energy of motion and height; what it sends is found by 32 microphones on a \
+             sphere about it, without a floor. Of an impact's energy 1e-4 to 1e-2 becomes sound. Levels are 1 m away, above the floor: the loudest single pressure, \
+             which lasts a fraction of a millisecond, and what a sound level meter set to *fast* (125 ms) shows at most, without its filter A. Peaks as high are \
+             measured: 125 to 143 dB (C) at the ears of people who throw bottles into troughs all day, whose mean is 83 to 100 dB (T. Ward, Health and \
+             Safety Executive, Noise and kerbside glass collection).\n\n",
+        );
+        let rows: Vec<Vec<String>> = (self.scenes.iter())
+            .map(|scene| {
+                let mut row = vec![scene.name.clone(), format!("{:.2}", scene.lost)];
+                for [energy, ..] in scene.sources {
+                    row.push(format!("{:.1e}", energy / scene.lost));
+                }
+                for [_, peak, fast] in scene.sources {
+                    row.push(format!("{peak:.0} / {fast:.0}"));
+                }
+                row
+            })
+            .collect();
+        let head = [
+            "scene",
+            "lost, J",
+            "sent, share",
+            "blows",
+            "cracks",
+            "touches",
+            "slides",
+            "peak / fast, dB",
+            "blows",
+            "cracks",
+            "touches",
+            "slides",
+        ];
+        text.push_str(&table(&head, &rows));
+        text.push('\n');
+    }
+}
+
 fn limits(text: &mut String) {
     text.push_str(
         "## What is not there\n\n\
-         - Sliding and rolling make no sound: the recordings hold blows and touches, and not what goes on between.\n\
-         - The vibration that a body has when it breaks ends there; its pieces begin with what the cracks give them.\n\
+         - Rolling makes no sound, and the floor does not hum under what slides on it.\n\
+         - The vibration that a body has when it breaks ends there, within 32 samples; its pieces begin with what the cracks give them.\n\
+         - When within a step of the rigid bodies two things touch is not known; a moment of the step is drawn for each touch.\n\
          - Pieces that cannot break again have the tones of a plate of their size and not their own.\n\
          - No cavities (the hollow of a bottle, which one blows on), no sound that bends around other bodies, no rooms.\n\
-         - A reflection from the floor is as loud as the direct sound in its direction, and walls that stand on the floor do not shake it.\n\
-         - The damping of stone, ice, sugar, chocolate and rubber, the share of the cracks' energy, and what supports take are estimates.\n",
+         - A tone's reflection from the floor is as loud as its direct sound in its direction, and walls that stand on the floor do not shake it.\n\
+         - The damping of stone, ice, sugar, chocolate and rubber, the shares of the cracks' and of the friction's energy that become vibration, the \
+           grain of the floor, and what supports take are estimates.\n",
     );
 }
 

@@ -2,8 +2,11 @@
 
 use std::error::Error;
 
-use frangible_scenes::{bake, play, scene, sound, sound_config};
-use frangible_sound::SPEED_OF_SOUND;
+use frangible_scenes::{
+    Run, Scene, Sources, bake, energy_lost, energy_radiated, play, scene, sound, sound_config,
+    sound_of,
+};
+use frangible_sound::{Listener, SPEED_OF_SOUND, SoundError};
 
 /// The scenes.
 pub(super) const NAMES: [&str; 6] = ["glass", "plate", "brick", "chocolate", "piggy-bank", "wall"];
@@ -22,8 +25,8 @@ pub struct HeardScene {
     pub events: [usize; 2],
     /// When the first sound should arrive by the first blow and its way, and when it does, s.
     pub onset: [f64; 2],
-    /// The loudest pressure, dB over 20 µPa, and by how much the limiter bent it, dB.
-    pub loudest: [f64; 2],
+    /// The loudest pressure, dB over 20 µPa: full scale of its WAV.
+    pub loudest: f64,
     /// Mean of the samples over their root mean square.
     pub offset: f64,
     /// Time until the level of the last tenth of a second is 60 dB below the loudest, s.
@@ -36,7 +39,15 @@ pub struct HeardScene {
     pub samples: Vec<f32>,
     /// Energy at the left ear, Pa²·s.
     pub energy: f64,
+    /// Energy that the scene lost, J.
+    pub lost: f64,
+    /// All sources together, blows, cracks, touches and slides by themselves: energy that they send, J, and at 1 m the loudest pressure and the
+    /// highest level of a meter set to *fast*, dB.
+    pub sources: [[f64; 3]; 5],
 }
+
+/// Time constant of a sound level meter set to *fast*, s.
+const FAST: f64 = 0.125;
 
 impl HeardScene {
     /// Bakes, plays and hears a built-in scene; dropped from another height, m.
@@ -65,7 +76,7 @@ impl HeardScene {
             touch.time + way / SPEED_OF_SOUND
         });
         let wanted = arrives.chain(touches).fold(f64::INFINITY, f64::min);
-        let found = left.iter().position(|s| s.abs() > 1e-5).unwrap_or(0);
+        let found = left.iter().position(|s| s.abs() > 2e-4).unwrap_or(0);
         let power = |part: &[f32]| part.iter().map(|s| f64::from(s * s)).sum::<f64>();
         let all = power(&left).max(1e-30);
         let mean = left.iter().map(|&s| f64::from(s)).sum::<f64>() / left.len().max(1) as f64;
@@ -89,15 +100,52 @@ impl HeardScene {
                 recording.blows.iter().map(|b| b.cracks.len()).sum(),
             ],
             onset: [wanted, found as f64 / rate],
-            loudest: [sounded.peak_level(), sounded.report.limiter.reduction],
+            loudest: sounded.peak_level(),
             offset: mean / (all / left.len().max(1) as f64).sqrt(),
             long: (last + 1) as f64 * 0.1,
             most: [sounded.report.most_bodies, sounded.report.most_resonators],
             blows: recording.blows.iter().map(|b| b.time).collect(),
-            energy: all / rate * config.full_scale * config.full_scale,
+            energy: all / rate,
+            lost: energy_lost(&run),
+            sources: sources(&run, &scene)?,
             samples: left,
         })
     }
+}
+
+/// What the sources of a scene send, heard at 1 m from what the camera looks at.
+fn sources(run: &Run, scene: &Scene) -> Result<[[f64; 3]; 5], SoundError> {
+    let mut config = sound_config(run, scene);
+    let target = run.recording.camera.target.as_dvec3();
+    let away = (config.listener.place - target).normalize();
+    config.listener = Listener::at(target + away, target);
+    let alone = |which: usize| Sources {
+        blows: which == 1,
+        cracks: which == 2,
+        touches: which == 3,
+        slides: which == 4,
+    };
+    let mut found = [[0.0; 3]; 5];
+    for (which, found) in found.iter_mut().enumerate() {
+        let sources = match which {
+            0 => Sources::ALL,
+            _ => alone(which),
+        };
+        let heard = sound_of(run, scene, &config, sources)?;
+        let (mut mean, mut most) = (0.0_f64, 1e-20_f64);
+        let share = 1.0 - (-1.0 / (FAST * config.rate)).exp();
+        for sample in heard.samples.iter().step_by(2) {
+            mean += share * (f64::from(*sample).powi(2) - mean);
+            most = most.max(mean);
+        }
+        let fast = 10.0 * (most / 4e-10).log10();
+        *found = [
+            energy_radiated(run, scene, sources)?,
+            heard.peak_level(),
+            fast,
+        ];
+    }
+    Ok(found)
 }
 
 /// The glass dropped from some heights: height, m, and energy of the sound, Pa²·s.

@@ -8,6 +8,7 @@ mod hammer;
 mod pig;
 mod rabbit;
 mod statuette;
+mod wine_glass;
 
 pub use brick::brick_solid;
 pub use cup::coffee_cup;
@@ -15,17 +16,19 @@ pub use hammer::hammer_head;
 pub use pig::piggy_bank;
 pub use rabbit::rabbit;
 pub use statuette::statuette;
+pub use wine_glass::wine_glass;
 
 use crate::DistanceSolid;
 
 /// Names that [`ready_shape`] knows.
-pub const READY_SHAPES: [&str; 6] = [
+pub const READY_SHAPES: [&str; 7] = [
     "piggy_bank",
     "rabbit",
     "statuette",
     "coffee_cup",
     "brick_solid",
     "hammer_head",
+    "wine_glass",
 ];
 
 /// The shape of that name, if it is one of [`READY_SHAPES`].
@@ -37,6 +40,7 @@ pub fn ready_shape(name: &str) -> Option<DistanceSolid> {
         "coffee_cup" => Some(coffee_cup()),
         "brick_solid" => Some(brick_solid()),
         "hammer_head" => Some(hammer_head()),
+        "wine_glass" => Some(wine_glass()),
         _ => None,
     }
 }

@@ -15,7 +15,7 @@ struct Form {
     size: [f64; 3],
 }
 
-const FORMS: [Form; 6] = [
+const FORMS: [Form; 7] = [
     Form {
         name: "piggy_bank",
         volume: 314.6,
@@ -57,6 +57,13 @@ const FORMS: [Form; 6] = [
         holes: 1,
         thinnest: 4.9,
         size: [29.0, 124.5, 46.0],
+    },
+    Form {
+        name: "wine_glass",
+        volume: 70.3,
+        holes: 0,
+        thinnest: 2.0,
+        size: [79.8, 79.8, 187.0],
     },
 ];
 

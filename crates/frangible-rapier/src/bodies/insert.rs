@@ -1,6 +1,6 @@
 //! Ways into the world.
 
-use frangible::Body;
+use frangible::{Body, Striker};
 use rapier3d::dynamics::{MassProperties, RigidBodyBuilder, RigidBodyHandle, RigidBodyType};
 use rapier3d::geometry::{ColliderBuilder, ColliderHandle, HalfSpace, SharedShape};
 use rapier3d::math::{Pose, Vector};
@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use crate::bodies::collider::whole_shape;
 use crate::bodies::mass::{ball_mass, rapier_mass};
-use crate::contact::surface::{EDGE_RADIUS, SurfaceProperties};
+use crate::contact::surface::SurfaceProperties;
 use crate::error::{WorldError, finite, positive};
 use crate::world::{BreakableWorld, collider_key, key};
 
@@ -73,7 +73,7 @@ impl BreakableWorld {
                 shape
             }
         };
-        let surface = SurfaceProperties::of(&body.asset().material, EDGE_RADIUS);
+        let surface = SurfaceProperties::of(&body.asset().material, Striker::EDGE_RADIUS);
         surface.validate()?;
         let mut rigid = rigid.additional_mass_properties(mass);
         if body.asset().is_supported() {

@@ -2,7 +2,7 @@
 //!
 //! Theory §2: point and direction in the body frame, the impulse on this body, the approach speed from the
 //! velocities **before** the step (Rapier keeps only those after it), and the striker's modulus, effective
-//! mass, curvature, restitution, and, when it is breakable too, how long it answers. The contacts of a partner that touches at several
+//! mass, curvature, restitution, and, when it is breakable too, how it vibrates under the contact. The contacts of a partner that touches at several
 //! points say that they share its mass, so that the energy of approach is counted once. Of a blow that is integrated the impulse is an
 //! outcome; the engine's then says only which share of it is friction.
 
@@ -10,7 +10,8 @@ use std::collections::BTreeMap;
 
 use frangible::internals::DurationModel;
 use frangible::internals::contact::{SharedMass, answer_duration, first_touch_of_ball};
-use frangible::{Body, Contact, Striker};
+use frangible::internals::is_harmless;
+use frangible::{Body, Contact, FractureConfig, Striker};
 use rapier3d::dynamics::{FrictionModel, RigidBody, RigidBodyHandle};
 use rapier3d::geometry::ColliderHandle;
 use rapier3d::math::Vector;
@@ -19,7 +20,7 @@ use rapier3d::pipeline::PhysicsWorld;
 use crate::calm::motions::Before;
 use crate::config::WorldConfig;
 use crate::contact::friction::{rub, solver_friction, unexplained};
-use crate::contact::surface::{EDGE_RADIUS, SurfaceProperties};
+use crate::contact::surface::SurfaceProperties;
 use crate::world::{Key, collider_key, key};
 
 /// The contacts of one body that are impacts, and what caused them.
@@ -121,21 +122,23 @@ pub(crate) fn impact_on(
             rub(added, body, partner, coefficient, rubbed);
         }
         if let Some(partner) = partner {
-            share_mass(added, body, partner, number);
-        }
-        if let (Some(other), Some(partner)) = (other, partner) {
-            let other = surfaces.breakables.get(&key(other));
-            let itself = surfaces.breakables.get(&key(handle));
-            if let (Some(other), Some(itself)) = (other, itself) {
-                let model = config.fracture.duration;
-                answer(added, (body, itself), (partner, other), model);
-            }
+            let vibrates = other.is_some_and(|o| surfaces.breakables.contains_key(&key(o)));
+            share_mass(added, body, partner, number, vibrates);
         }
         if let (false, Some(other)) = (added.is_empty(), other)
             && !impact.strikers.contains(&other)
         {
             impact.strikers.push(other);
         }
+    }
+    if let Some(itself) = surfaces.breakables.get(&key(handle)) {
+        answer(
+            &mut impact,
+            (body, itself),
+            before,
+            surfaces,
+            &config.fracture,
+        );
     }
     impact
 }
@@ -380,6 +383,7 @@ fn striker(
         restitution: point.restitution.clamp(0.0, 1.0),
         modal_duration: 0.0,
         shared: None,
+        receptance: None,
     }
 }
 
@@ -403,23 +407,35 @@ fn curvature_at(body: &Body, point: Vector) -> f32 {
             gap(a).total_cmp(&gap(b))
         });
     nearest
-        .map_or(EDGE_RADIUS, |(_, &radius)| radius)
-        .max(EDGE_RADIUS)
+        .map_or(Striker::EDGE_RADIUS, |(_, &radius)| radius)
+        .max(Striker::EDGE_RADIUS)
 }
 
-/// Two breakable bodies meet: how long the other one answers each contact, for the models that ask. Hertz' law has both
-/// bodies in it already, and so has a blow that is integrated.
+/// Two breakable bodies meet: how the other one vibrates under each contact, for blows that are integrated, and how long it answers, for
+/// the models that ask. Hertz' law has both bodies in it already, and a blow that is refused without them asks for no modes.
 fn answer(
-    contacts: &mut [Contact],
+    impact: &mut Impact,
     (body, itself): (&RigidBody, &Body),
-    (partner, other): (&RigidBody, &Body),
-    model: DurationModel,
+    before: &impl Before,
+    surfaces: &Surfaces<'_>,
+    config: &FractureConfig,
 ) {
-    if matches!(model, DurationModel::Hertz | DurationModel::Integrated) {
+    let integrated = config.duration == DurationModel::Integrated;
+    let both = |handle: RigidBodyHandle| {
+        Some((before.body(handle)?, surfaces.breakables.get(&key(handle))?))
+    };
+    let met = (impact.partners.iter().flatten()).any(|&partner| both(partner).is_some());
+    if !met
+        || config.duration == DurationModel::Hertz
+        || (integrated && is_harmless(itself, &impact.contacts, config))
+    {
         return;
     }
-    let into = partner.position().inverse() * *body.position();
-    for contact in contacts {
+    for (contact, partner) in impact.contacts.iter_mut().zip(&impact.partners) {
+        let Some((partner, other)) = partner.and_then(both) else {
+            continue;
+        };
+        let into = partner.position().inverse() * *body.position();
         let (world, normal) = (
             *body.position() * contact.point,
             *body.rotation() * contact.normal,
@@ -427,17 +443,26 @@ fn answer(
         let mirrored = Contact {
             point: into * contact.point,
             normal: into.rotation * -contact.normal,
+            friction: into.rotation * -contact.friction,
             striker: Striker {
                 contact_modulus: itself.asset().material.contact_modulus() as f32,
                 inverse_effective_mass: inverse_effective_mass(body, world, normal),
                 curvature_radius: curvature_at(itself, contact.point),
-                ..contact.striker
+                ..contact.striker.clone()
             },
-            ..*contact
+            ..contact.clone()
         };
-        let duration = answer_duration(other, &mirrored, model) as f32;
-        // Infinite or NaN where a mode cannot be excited: then the body's own duration stands.
-        contact.striker.modal_duration = if duration.is_finite() { duration } else { 0.0 };
+        if integrated {
+            // What it refuses is wrong with the contact itself, which the impact says.
+            if let Ok(flexible) = Striker::flexible(other, &mirrored, config) {
+                contact.striker.curvature_radius = flexible.curvature_radius;
+                contact.striker.receptance = flexible.receptance;
+            }
+        } else {
+            let duration = answer_duration(other, &mirrored, config.duration) as f32;
+            // Infinite or NaN where a mode cannot be excited: then the body's own duration stands.
+            contact.striker.modal_duration = if duration.is_finite() { duration } else { 0.0 };
+        }
     }
 }
 
@@ -460,10 +485,26 @@ pub(crate) fn weighted_mean(contacts: &[Contact]) -> Option<(Vector, Vector, f32
     ))
 }
 
-/// A partner that strikes at several points does so with one mass: an impulse at one of them moves it at the others too. `number`: of the
-/// partner, among those of this impact.
-fn share_mass(contacts: &mut [Contact], body: &RigidBody, partner: &RigidBody, number: usize) {
-    if contacts.len() < 2 || !partner.is_dynamic() {
+/// A partner that strikes at several points does so with one mass: an impulse at one of them moves it at the others too, and makes it
+/// vibrate there if it `vibrates`. `number`: of the partner, among those of this impact.
+fn share_mass(
+    contacts: &mut [Contact],
+    body: &RigidBody,
+    partner: &RigidBody,
+    number: usize,
+    vibrates: bool,
+) {
+    if contacts.len() < 2 || !(partner.is_dynamic() || vibrates) {
+        return;
+    }
+    if !partner.is_dynamic() {
+        for contact in contacts {
+            contact.striker.shared = Some(SharedMass {
+                body: number as u32,
+                velocity: Vector::ZERO,
+                spin: Vector::ZERO,
+            });
+        }
         return;
     }
     let mass = partner.mass_properties();

@@ -18,9 +18,6 @@ pub struct SurfaceProperties {
     pub curvature_radius: f32,
 }
 
-/// Radius of curvature of edges and corners, m: what fragments strike with.
-pub(crate) const EDGE_RADIUS: f32 = 3e-3;
-
 impl SurfaceProperties {
     /// The steel of [`Preset::STEEL`], flat. [`crate::BreakableWorld::insert_ball`] sets the radius.
     pub const STEEL: Self = Self::flat(&Preset::STEEL);

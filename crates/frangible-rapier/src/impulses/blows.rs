@@ -88,8 +88,8 @@ impl Meeting {
     }
 }
 
-/// Two bodies that were both asked each see the other as a rigid one: the mean of their answers counts, in whichever order they
-/// are asked.
+/// Two bodies that were both asked find one force, but for what else each of them meets and how it cracks: the mean of their answers
+/// counts, in whichever order they are asked.
 pub(crate) fn share_out(meetings: &mut [&mut Meeting]) {
     for k in 0..meetings.len() {
         if (0..meetings.len()).any(|l| meetings[k].is_mirrored_by(&*meetings[l])) {

@@ -9,12 +9,12 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-use frangible::Fracture;
+use frangible::{Fracture, Striker};
 use rapier3d::dynamics::{ImpulseJointHandle, RigidBody, RigidBodyHandle, RigidBodySet};
 use rapier3d::math::Vector;
 
 use crate::contact::contacts::Impact;
-use crate::contact::surface::{EDGE_RADIUS, SurfaceProperties};
+use crate::contact::surface::SurfaceProperties;
 use crate::event::{BreakCause, BreakEvent};
 use crate::fragments::replace::{Parts, is_debris, is_dust};
 use crate::impulses::blows::Meeting;
@@ -72,7 +72,7 @@ impl BreakableWorld {
         let body = self.state.breakables.remove(&key(broken.parent))?;
         self.state.burdens.remove(&key(broken.parent));
         self.state.surfaces.remove(&key(broken.parent));
-        let surface = SurfaceProperties::of(&body.asset().material, EDGE_RADIUS);
+        let surface = SurfaceProperties::of(&body.asset().material, Striker::EDGE_RADIUS);
         let now = self.time();
         for (&handle, fragment) in broken.fragments.iter().zip(&broken.fracture.fragments) {
             self.state.surfaces.insert(key(handle), surface);

@@ -165,6 +165,7 @@ fn block(centre: Vec3, half: Vec3, overlap: f32) -> Fragment {
     let cell_shares = vec![(0, mesh.positions.clone())];
     Fragment {
         mesh,
+        neighbours: Vec::new(),
         render: None,
         mass: block_mass(centre, half),
         cell_shares,

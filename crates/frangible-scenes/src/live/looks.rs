@@ -3,7 +3,7 @@
 use frangible::glam::Vec3;
 use frangible_export::{RecordedNode, Recording, View};
 
-use super::{LiveScene, ThingKind};
+use super::{LiveScene, Thing, ThingKind};
 use crate::cameras::view;
 use crate::recorder::FRAME_RATE;
 
@@ -42,14 +42,21 @@ impl LiveScene {
         recording
     }
 
-    /// A camera that has the scene's bodies in view, and the floor below them. Bodies high above the floor come into view as
+    /// A camera that has the scene's bodies in view, or what is left of them, and the floor below them. Bodies high above the floor come into view as
     /// they fall: a glass that falls 1.2 m would be a speck in a picture of all of its way.
     #[must_use]
     pub fn view(&self, look_from: Vec3) -> View {
         let mut seen = Vec::new();
         let mut largest = 0.05_f32;
-        for thing in &self.things {
-            let (ThingKind::Body(_), Some(pose)) = (thing.kind, self.pose(thing)) else {
+        let is_body = |thing: &Thing| matches!(thing.kind, ThingKind::Body(_));
+        let there = self
+            .things
+            .iter()
+            .filter(|thing| self.pose(thing).is_some());
+        let whole = there.clone().any(|thing| is_body(thing));
+        // Where all bodies are broken, their pieces and what was thrown.
+        for thing in there.filter(|thing| is_body(thing) || !whole) {
+            let Some(pose) = self.pose(thing) else {
                 continue;
             };
             let positions = &thing.mesh.positions;

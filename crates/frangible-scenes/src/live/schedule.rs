@@ -2,11 +2,14 @@
 
 use std::sync::Arc;
 
+use frangible::Material;
+
 use super::{LiveScene, Thing, ThingKind};
 use crate::appearance::projectile_surface;
 use crate::error::SceneError;
 use crate::launch::{Target, launch};
 use crate::projectile::Projectile;
+use crate::recorder::Sounding;
 use crate::scene::Scene;
 use crate::stage::{Thrown, projectile_name};
 
@@ -66,6 +69,11 @@ impl LiveScene {
             mass: projectile.mass,
             volume: 0.0,
             handle,
+            sounding: Sounding::Ball(
+                Material::preset(&projectile.material)?,
+                projectile.radius,
+                projectile.mass,
+            ),
             surfaces: None,
             plain: None,
         }));

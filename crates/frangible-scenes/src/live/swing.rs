@@ -14,6 +14,7 @@ use crate::appearance::projectile_surface;
 use crate::error::SceneError;
 use crate::hammer::{Head, add_handle};
 use crate::launch::{hull, vector};
+use crate::recorder::Sounding;
 
 /// Radius of curvature of the striking face, m, as of the scenes' hammers.
 const CROWN: f64 = 0.06;
@@ -172,6 +173,7 @@ impl LiveScene {
             mass: swing.mass,
             volume,
             handle,
+            sounding: Sounding::Ball(material, radius, swing.mass),
             surfaces: None,
             plain: None,
         }));

@@ -2,15 +2,17 @@
 
 use std::sync::Arc;
 
+use frangible::Material;
 use frangible::glam::Vec3;
-use frangible_rapier::Ball;
 use frangible_rapier::rapier3d::math::Pose;
+use frangible_rapier::{Ball, SurfaceProperties};
 
-use super::{LiveScene, Thing, ThingKind, ball_properties};
+use super::{LiveScene, Thing, ThingKind};
 use crate::appearance::projectile_surface;
 use crate::error::SceneError;
 use crate::launch::vector;
 use crate::meshes::ball;
+use crate::recorder::Sounding;
 
 /// A ball about to be thrown.
 #[derive(Clone, Debug, PartialEq)]
@@ -62,7 +64,8 @@ impl LiveScene {
     pub fn throw(&mut self, throw: &Throw) -> Result<(), SceneError> {
         throw.check()?;
         let radius = throw.radius as f32;
-        let properties = ball_properties(&throw.material, radius)?;
+        let material = Material::preset(&throw.material)?;
+        let properties = SurfaceProperties::of(&material, radius);
         if self.floor.is_some() && throw.from.y < radius {
             return Err(SceneError::Quantity {
                 what: "the height at which the ball starts",
@@ -95,6 +98,7 @@ impl LiveScene {
             mass: throw.mass,
             volume: 4.0 / 3.0 * std::f64::consts::PI * throw.radius.powi(3),
             handle,
+            sounding: Sounding::Ball(material, throw.radius, throw.mass),
             surfaces: None,
             plain: None,
         }));

@@ -6,10 +6,10 @@ use frangible::glam::Vec3;
 use frangible_export::{RecordedBlow, RecordedCrack};
 use frangible_sound::{CRACK_SHARE, CRACK_SPEED, Pulse, SoundError, Strike, Synth};
 
+use super::cast::Cast;
 use super::nodes::{Nodes, carried};
 use super::place;
 use crate::recorder::Sounding;
-use crate::result::Run;
 
 /// How near to the floor a force comes from the floor, m.
 const ON_FLOOR: f32 = 0.01;
@@ -23,12 +23,12 @@ const MOST_CRACKS: usize = 200;
 /// Lets a blow be heard.
 pub(super) fn blows(
     synth: &mut Synth,
-    nodes: &mut Nodes<'_>,
-    run: &Run,
+    nodes: &mut Nodes,
+    cast: &dyn Cast,
     blow: &RecordedBlow,
 ) -> Result<(), SoundError> {
-    let id = nodes.ready(synth, blow.node, blow.time)?;
-    let pose = nodes.pose(blow.node, blow.time);
+    let (id, _) = nodes.ready(synth, cast, blow.node, blow.time)?;
+    let pose = cast.pose(blow.node, blow.time);
     for recorded in &blow.pulses {
         let pulse = Arc::new(Pulse {
             time_step: recorded.time_step,
@@ -42,9 +42,8 @@ pub(super) fn blows(
         synth.strike(blow.time, id, strike)?;
         let at = pose.rotation * recorded.point + pose.translation;
         let direction = pose.rotation * recorded.direction;
-        answer(synth, nodes, run, blow.time, [at, direction], pulse)?;
+        answer(synth, nodes, cast, blow.time, [at, direction], pulse)?;
     }
-    cracks(synth, nodes, blow)?;
     if !blow.pieces.is_empty() {
         let times = blow.cracks.iter().flat_map(|crack| &crack.times);
         let apart = times.copied().fold(0.0, f64::max);
@@ -56,27 +55,27 @@ pub(super) fn blows(
 /// Lets what gave the force feel it: the floor, or something that was thrown.
 fn answer(
     synth: &mut Synth,
-    nodes: &mut Nodes<'_>,
-    run: &Run,
+    nodes: &mut Nodes,
+    cast: &dyn Cast,
     time: f64,
     [at, direction]: [Vec3; 2],
     pulse: Arc<Pulse>,
 ) -> Result<(), SoundError> {
-    let recording = &run.recording;
-    let floor = recording.floor.map(|floor| floor.height);
-    if floor.is_some_and(|height| (at.y - height).abs() < ON_FLOOR && direction.y > 0.5) {
+    if cast
+        .floor()
+        .is_some_and(|height| (at.y - height).abs() < ON_FLOOR && direction.y > 0.5)
+    {
         return synth.thump(time, place(at), pulse);
     }
-    let frame = (time * f64::from(recording.frame_rate)) as usize;
     let mut nearest: Option<(usize, f32)> = None;
-    for (node, sounding) in run.soundings.iter().enumerate() {
-        let Sounding::Ball(_, radius, _) = sounding else {
+    for node in 0..cast.count() {
+        let Sounding::Ball(_, radius, _) = cast.sounding(node) else {
             continue;
         };
-        if !recording.nodes[node].visible.contains(&frame) {
+        if !cast.is_there(node, time) {
             continue;
         }
-        let away = (nodes.pose(node, time).translation - at).length() / *radius as f32;
+        let away = (cast.pose(node, time).translation - at).length() / *radius as f32;
         if away < nearest.map_or(AT_PROJECTILE, |(_, away)| away) {
             nearest = Some((node, away));
         }
@@ -84,8 +83,8 @@ fn answer(
     let Some((node, _)) = nearest else {
         return Ok(());
     };
-    let id = nodes.ready(synth, node, time)?;
-    let own = nodes.pose(node, time).rotation.inverse() * -direction;
+    let (id, _) = nodes.ready(synth, cast, node, time)?;
+    let own = cast.pose(node, time).rotation.inverse() * -direction;
     let strike = Strike {
         pulse,
         push: Vec::new(),
@@ -95,14 +94,19 @@ fn answer(
 }
 
 /// Lets the cracks be heard, on both their sides where they parted the body.
-fn cracks(synth: &mut Synth, nodes: &mut Nodes<'_>, blow: &RecordedBlow) -> Result<(), SoundError> {
+pub(super) fn cracks(
+    synth: &mut Synth,
+    nodes: &mut Nodes,
+    cast: &dyn Cast,
+    blow: &RecordedBlow,
+) -> Result<(), SoundError> {
     let mut cracks: Vec<&RecordedCrack> = (blow.cracks.iter())
         .filter(|c| !c.places.is_empty())
         .collect();
     cracks.sort_by_key(|crack| std::cmp::Reverse(crack.places.len()));
     cracks.truncate(MOST_CRACKS);
     let all: usize = cracks.iter().map(|crack| crack.places.len()).sum();
-    let speed = CRACK_SPEED * nodes.material(blow.node).rayleigh_speed();
+    let speed = CRACK_SPEED * cast.material(blow.node).rayleigh_speed();
     for crack in cracks {
         let share = crack.places.len() as f64 / all as f64;
         let energy = CRACK_SHARE * blow.fracture_energy * share;
@@ -115,15 +119,12 @@ fn cracks(synth: &mut Synth, nodes: &mut Nodes<'_>, blow: &RecordedBlow) -> Resu
         let duration = (f64::from((high - low).length()) / speed).max(5e-6);
         let middle = crack.places.len() / 2;
         let (at, time) = (crack.places[middle], blow.time + crack.times[0]);
-        let sides = sides(nodes, blow, at);
+        let sides = sides(cast, blow, at);
         for &(node, local) in &sides {
-            let id = nodes.ready(synth, node, time)?;
+            let (id, body) = nodes.ready(synth, cast, node, time)?;
             let push = nodes.push_any(node, local);
-            let Some(body) = nodes.body(node) else {
-                continue;
-            };
             let each = energy / sides.len() as f64;
-            if let Some(strike) = Strike::crack(body, push, duration, each) {
+            if let Some(strike) = Strike::crack(&body, push, duration, each) {
                 synth.strike(time, id, strike)?;
             }
         }
@@ -132,15 +133,15 @@ fn cracks(synth: &mut Synth, nodes: &mut Nodes<'_>, blow: &RecordedBlow) -> Resu
 }
 
 /// The nodes on both sides of a crack at a place of the body, and where it is in them: the body itself, or the two nearest of its pieces.
-fn sides(nodes: &Nodes<'_>, blow: &RecordedBlow, at: Vec3) -> Vec<(usize, Vec3)> {
+fn sides(cast: &dyn Cast, blow: &RecordedBlow, at: Vec3) -> Vec<(usize, Vec3)> {
     if blow.pieces.is_empty() {
         return vec![(blow.node, at)];
     }
-    let parent = nodes.pose(blow.node, blow.time);
+    let parent = cast.pose(blow.node, blow.time);
     let mut near: Vec<(f32, usize, Vec3)> = (blow.pieces.clone())
         .map(|piece| {
-            let local = carried(at, &parent, &nodes.pose(piece, blow.time));
-            (nodes.distance(piece, local), piece, local)
+            let local = carried(at, &parent, &cast.pose(piece, blow.time));
+            (cast.distance(piece, local), piece, local)
         })
         .collect();
     near.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));

@@ -3,16 +3,16 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use frangible::Asset;
 use frangible::glam::{Quat, Vec3};
-use frangible::{Asset, Material};
 use frangible_export::{Pose, RecordedMesh};
 use frangible_sound::{
     AssetSound, AudibleDamping, Body, Hold, Plate, PlateMaterial, SoundError, SurfaceElement, Synth,
 };
 
+use super::cast::Cast;
 use super::place;
 use crate::recorder::Sounding;
-use crate::result::Run;
 
 /// How a push on a node reaches its modes.
 enum Shape {
@@ -31,64 +31,42 @@ struct Ready {
 }
 
 /// Nodes are made ready when they are first struck.
-pub(super) struct Nodes<'a> {
-    run: &'a Run,
+#[derive(Default)]
+pub(super) struct Nodes {
     ready: BTreeMap<usize, Ready>,
     /// Bodies of one asset sound alike.
     assets: Vec<(Arc<Asset>, Arc<AssetSound>, Arc<Body>)>,
 }
 
-impl<'a> Nodes<'a> {
-    pub(super) fn new(run: &'a Run) -> Self {
-        Self {
-            run,
-            ready: BTreeMap::new(),
-            assets: Vec::new(),
-        }
-    }
-
-    pub(super) fn material(&self, node: usize) -> &'a Material {
-        match &self.run.soundings[node] {
-            Sounding::Modes(body) => &body.asset().material,
-            Sounding::Piece(material, _) | Sounding::Ball(material, ..) => material,
-        }
-    }
-
-    /// The body of a node, to be read.
-    pub(super) fn body(&self, node: usize) -> Option<&Arc<Body>> {
-        self.ready.get(&node).map(|ready| &ready.body)
-    }
-
-    /// Where a node is at a time.
-    pub(super) fn pose(&self, node: usize, time: f64) -> Pose {
-        let recording = &self.run.recording;
-        let first = recording.nodes[node].visible.start;
-        let frame = (time * f64::from(recording.frame_rate)).max(0.0) as usize;
-        recording.pose(node, frame.max(first))
-    }
-
-    /// Number of a node in the synthesiser, moved to where it is at a time.
+impl Nodes {
+    /// A node's number in the synthesiser and its body, moved to where it is at a time.
     pub(super) fn ready(
         &mut self,
         synth: &mut Synth,
+        cast: &dyn Cast,
         node: usize,
         time: f64,
-    ) -> Result<usize, SoundError> {
-        let pose = self.pose(node, time);
+    ) -> Result<(usize, Arc<Body>), SoundError> {
+        let pose = cast.pose(node, time);
         let (at, turned) = (place(pose.translation), pose.rotation.as_dquat());
         if let Some(ready) = self.ready.get(&node) {
             synth.put(time, ready.id, at, turned)?;
-            return Ok(ready.id);
+            return Ok((ready.id, Arc::clone(&ready.body)));
         }
-        let (shape, body) = self.make(node)?;
+        let (shape, body) = self.make(cast, node)?;
         let id = synth.add(Arc::clone(&body), at, turned)?;
-        self.ready.insert(node, Ready { id, shape, body });
-        Ok(id)
+        let ready = Ready {
+            id,
+            shape,
+            body: Arc::clone(&body),
+        };
+        self.ready.insert(node, ready);
+        Ok((id, body))
     }
 
-    fn make(&mut self, node: usize) -> Result<(Shape, Arc<Body>), SoundError> {
-        let name = self.run.recording.nodes[node].name.clone();
-        match &self.run.soundings[node] {
+    fn make(&mut self, cast: &dyn Cast, node: usize) -> Result<(Shape, Arc<Body>), SoundError> {
+        let name = cast.name(node);
+        match cast.sounding(node) {
             Sounding::Ball(_, radius, mass) => {
                 Ok((Shape::Ball, Arc::new(Body::ball(name, *radius, *mass)?)))
             }
@@ -114,28 +92,17 @@ impl<'a> Nodes<'a> {
                 Ok((Shape::Asset(sound), heard))
             }
             Sounding::Piece(material, mass) => {
-                let mesh = &self.run.recording.meshes[self.run.recording.nodes[node].mesh];
                 let plate = PlateMaterial {
                     youngs_modulus: material.youngs_modulus,
                     poisson_ratio: material.poisson_ratio,
                     density: material.density,
                     damping: AudibleDamping::of(material),
                 };
-                let (shape, body) = Plate::of_surface(name, &elements(mesh), *mass, &plate)?;
+                let (shape, body) =
+                    Plate::of_surface(name, &elements(cast.mesh(node)), *mass, &plate)?;
                 Ok((Shape::Plate(shape), Arc::new(body)))
             }
         }
-    }
-
-    /// Distance of a point, m, in the frame of a node, from the nearest vertex of its mesh.
-    pub(super) fn distance(&self, node: usize, point: Vec3) -> f32 {
-        let recording = &self.run.recording;
-        let vertices = recording.meshes[recording.nodes[node].mesh]
-            .positions
-            .iter();
-        vertices
-            .map(|v| v.distance_squared(point))
-            .fold(f32::INFINITY, f32::min)
     }
 
     /// What a newton along a direction gives each mode of a node that is ready, at a point of it, m.

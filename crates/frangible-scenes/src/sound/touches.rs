@@ -4,13 +4,13 @@ use std::f64::consts::PI;
 use std::sync::Arc;
 
 use frangible::Material;
+use frangible::glam::Vec3;
 use frangible_export::RecordedTouch;
-use frangible_sound::{Pulse, SoundError, Strike, Synth};
+use frangible_sound::{Body, Pulse, SoundError, Strike, Synth, first_push};
 
+use super::cast::Cast;
 use super::nodes::Nodes;
 use super::place;
-use crate::recorder::Sounding;
-use crate::result::Run;
 
 /// A touch so soon after a blow on the same node, s, is that blow: a step of the physics in which pieces may break.
 const SAME: f64 = 1.5 / 240.0;
@@ -19,64 +19,116 @@ const SAME: f64 = 1.5 / 240.0;
 /// its fifth root, so that a factor of ten changes it by 1.6.
 const EDGE: f64 = 0.2;
 
+/// What lasts longer makes no sound, s.
+const LONGEST: f64 = 0.02;
+
+/// One side of a touch: a node that is ready to sound, and how the push comes to it.
+struct Side {
+    id: usize,
+    body: Arc<Body>,
+    push: Vec<f32>,
+    /// Where the push acts, m, and its direction, in the node's frame.
+    point: Vec3,
+    direction: Vec3,
+}
+
 /// Lets a touch be heard by both that touch.
+///
+/// The engine's impulse is all that a touch gives in the end, also what one piece only passes on to the next. A body that rings gives way at
+/// once, so that the first push is that of the two coming together ([`first_push`]): it alone rings, and the rest comes more slowly, as long
+/// as the body swings.
 pub(super) fn touches(
     synth: &mut Synth,
-    nodes: &mut Nodes<'_>,
-    run: &Run,
+    nodes: &mut Nodes,
+    cast: &dyn Cast,
     floor: Option<&Material>,
     touch: &RecordedTouch,
 ) -> Result<(), SoundError> {
     let (first, second) = touch.nodes;
-    let recording = &run.recording;
-    let struck = recording.blows.iter().any(|blow| {
-        let same = blow.node == first || Some(blow.node) == second;
-        same && (touch.time - blow.time).abs() < SAME
+    let struck = cast.blows().iter().any(|&(node, time)| {
+        let same = node == first || Some(node) == second;
+        same && (touch.time - time).abs() < SAME
     });
     if struck || touch.impulse <= 0.0 {
         return Ok(());
     }
-    let own = [Some(first), second].map(|node| node.map(|n| (mass(run, n), nodes.material(n))));
-    let duration = hertz(touch.impulse, own, floor);
-    let pulse = Arc::new(Pulse::half_sine(touch.impulse, duration));
+    let own = [Some(first), second].map(|node| node.map(|n| (cast.mass(n), cast.material(n))));
+    let mut sides = Vec::new();
     for (node, sign) in [(Some(first), 1.0), (second, -1.0)] {
-        let Some(node) = node else {
-            synth.thump(touch.time, place(touch.point), Arc::clone(&pulse))?;
-            continue;
+        if let Some(node) = node {
+            sides.push(side(synth, nodes, cast, node, touch, sign)?);
+        }
+    }
+    let yields: f64 = sides
+        .iter()
+        .map(|side| side.body.yields(side.point, side.direction))
+        .sum();
+    let pushed: Vec<(&Body, &[f32])> = (sides.iter())
+        .map(|side| (&*side.body, side.push.as_slice()))
+        .collect();
+    let takes = |mass: f64| hertz(mass, touch.speed, own, floor);
+    let (first, duration) = first_push(touch.speed, yields, &pushed, takes);
+    let impulse = first.min(touch.impulse);
+    let sharp = Arc::new(Pulse::half_sine(impulse, duration));
+    let lowest = sides
+        .iter()
+        .filter_map(|side| side.body.modes.first())
+        .map(|mode| mode.frequency)
+        .fold(f64::INFINITY, f64::min);
+    let swing = (0.5 / lowest).clamp(duration, LONGEST);
+    let rest = Arc::new(Pulse::half_sine(touch.impulse - impulse, swing));
+    for side in sides {
+        let strike = |pulse: &Arc<Pulse>, push| Strike {
+            pulse: Arc::clone(pulse),
+            push,
+            direction: side.direction,
         };
-        let id = nodes.ready(synth, node, touch.time)?;
-        let pose = nodes.pose(node, touch.time);
-        let back = pose.rotation.normalize().inverse();
-        let (point, direction) = (
-            back * (touch.point - pose.translation),
-            back * (touch.normal * sign),
-        );
-        let strike = Strike {
-            pulse: Arc::clone(&pulse),
-            push: nodes.push(node, point, direction),
-            direction,
-        };
-        synth.strike(touch.time, id, strike)?;
+        synth.strike(touch.time, side.id, strike(&sharp, side.push))?;
+        synth.strike(touch.time, side.id, strike(&rest, Vec::new()))?;
+    }
+    if second.is_none() {
+        synth.thump(touch.time, place(touch.point), sharp)?;
+        synth.thump(touch.time, place(touch.point), rest)?;
     }
     Ok(())
 }
 
-/// Mass of a node, kg.
-fn mass(run: &Run, node: usize) -> f64 {
-    match &run.soundings[node] {
-        Sounding::Modes(body) => body.asset().mass.mass,
-        Sounding::Piece(_, mass) | Sounding::Ball(_, _, mass) => *mass,
-    }
+/// A node that feels a touch, pushed along its normal or against it.
+fn side(
+    synth: &mut Synth,
+    nodes: &mut Nodes,
+    cast: &dyn Cast,
+    node: usize,
+    touch: &RecordedTouch,
+    sign: f32,
+) -> Result<Side, SoundError> {
+    let (id, body) = nodes.ready(synth, cast, node, touch.time)?;
+    let pose = cast.pose(node, touch.time);
+    let back = pose.rotation.normalize().inverse();
+    let (point, direction) = (
+        back * (touch.point - pose.translation),
+        back * (touch.normal * sign),
+    );
+    Ok(Side {
+        id,
+        body,
+        push: nodes.push(node, point, direction),
+        point,
+        direction,
+    })
 }
 
-/// Hertz' duration of a collision with an impulse, N·s, of two bodies, or of one with the floor, s: 2.87 (m²/(E*² R v))^{1/5}, with the
-/// speed that gives the impulse when nothing bounces.
-fn hertz(impulse: f64, bodies: [Option<(f64, &Material)>; 2], floor: Option<&Material>) -> f64 {
-    let (mut weight, mut curvature, mut give) = (0.0, 0.0, 0.0);
+/// Hertz' duration, s, of a collision of a mass, kg, at a speed, m/s, of two bodies, or of one with the floor: 2.87 (m²/(E*² R v))^{1/5}.
+fn hertz(
+    mass: f64,
+    speed: f64,
+    bodies: [Option<(f64, &Material)>; 2],
+    floor: Option<&Material>,
+) -> f64 {
+    let (mut curvature, mut give) = (0.0, 0.0);
     for body in bodies {
         match body {
             Some((mass, material)) => {
-                weight += 1.0 / mass;
                 let ball = (3.0 * mass / (4.0 * PI * material.density)).cbrt();
                 curvature += 1.0 / (EDGE * ball);
                 give += 1.0 / material.contact_modulus();
@@ -84,9 +136,6 @@ fn hertz(impulse: f64, bodies: [Option<(f64, &Material)>; 2], floor: Option<&Mat
             None => give += floor.map_or(0.0, |floor| 1.0 / floor.contact_modulus()),
         }
     }
-    let mass = 1.0 / weight;
-    let speed = (impulse / mass).max(1e-3);
-    let stiff = mass * mass * give * give * curvature / speed;
-    // What lasts longer makes no sound.
-    (2.87 * stiff.powf(0.2)).clamp(5e-6, 0.02)
+    let stiff = mass * mass * give * give * curvature / speed.max(1e-3);
+    (2.87 * stiff.powf(0.2)).clamp(5e-6, LONGEST)
 }

@@ -139,6 +139,7 @@ fn shape(table: ShapeTable, resolution: Option<usize>) -> Result<BodySource, Fau
         ShapeTable::CoffeeCup => return ready("coffee_cup"),
         ShapeTable::BrickSolid => return ready("brick_solid"),
         ShapeTable::HammerHead => return ready("hammer_head"),
+        ShapeTable::WineGlass => return ready("wine_glass"),
         ShapeTable::DrinkingGlass => Shape::drinking_glass(),
         ShapeTable::Bowl => Shape::bowl(),
         ShapeTable::Vase => Shape::vase(),

@@ -67,6 +67,7 @@ pub(super) enum ShapeTable {
     CoffeeCup,
     BrickSolid,
     HammerHead,
+    WineGlass,
     Box([f64; 3]),
     Revolution(Vec<StationTable>),
 }

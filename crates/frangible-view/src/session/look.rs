@@ -131,6 +131,7 @@ impl Session {
             steps: self.steps,
             paused: self.paused,
             slow_motion: self.slow_motion,
+            sound: self.volume(),
             whole: count(|kind| matches!(kind, ThingKind::Body(_))),
             pieces: count(|kind| matches!(kind, ThingKind::Piece { .. })),
             undoable: self.undo.len(),

@@ -50,6 +50,7 @@ impl Session {
             _ => self.log.push(Command::Step(1)),
         }
         self.hear();
+        self.listen_to_step();
         Ok(stepped?)
     }
 
@@ -158,6 +159,7 @@ impl Session {
         let live = self.running()?;
         live.restore(&saved);
         self.grip = None;
+        self.listen_anew();
         self.blow = blow;
         self.recent = None;
         self.forget_analysis();

@@ -103,6 +103,7 @@ impl Session {
                 self.built = self.settings.as_ref().map(|[now, _]| now.clone());
                 self.steps = 0;
                 self.starts += 1;
+                self.listen_anew();
             }
             Err(error) => self.complain(&error),
         }

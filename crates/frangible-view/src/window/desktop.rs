@@ -15,6 +15,8 @@ use super::Viewer;
 use super::director::Director;
 use super::panels::Panels;
 use super::shade::Shade;
+#[cfg(feature = "sound")]
+use super::speaker;
 
 /// How to open the window.
 #[derive(Clone, Debug)]
@@ -76,14 +78,31 @@ fn open([width, height]: [u32; 2]) -> Result<Window, ViewError> {
 }
 
 fn viewer(options: WindowOptions) -> Viewer {
-    let mut worker = Worker::start(options.script.is_none());
+    let scripted = options.script.is_some();
+    #[cfg(feature = "sound")]
+    let (opened, why) = match (!scripted).then(speaker::open) {
+        Some(Ok((speaker, outlet))) => (Some((speaker, outlet)), None),
+        Some(Err(why)) => (None, Some(why)),
+        None => (None, None),
+    };
+    #[cfg(feature = "sound")]
+    let outlet = opened.as_ref().map(|(_, outlet)| outlet.clone());
+    #[cfg(not(feature = "sound"))]
+    let outlet = None;
+    let mut worker = Worker::start(!scripted, outlet);
     if options.script.is_none() {
         worker.send(options.first);
     }
-    let scripted = options.script.is_some();
     let panels = Panels::new(options.folder, scripted);
     let director = Director::new(options.script);
     let mut viewer = Viewer::of(worker, panels, director, Shade::start(false));
     viewer.hurries = scripted;
+    #[cfg(feature = "sound")]
+    {
+        viewer._speaker = opened.map(|(speaker, _)| speaker);
+        if let Some(why) = why {
+            viewer.panels.tell(format!("no sound: {why}"));
+        }
+    }
     viewer
 }

@@ -75,6 +75,11 @@ impl Asset {
         !self.supported.is_empty()
     }
 
+    /// Radius of the ball of the body's volume, m.
+    pub(crate) fn ball_radius(&self) -> f64 {
+        (self.mass.volume * 0.75 / std::f64::consts::PI).cbrt()
+    }
+
     /// What was baked: itself, or of a piece the body that it came from.
     #[must_use]
     pub fn root(&self) -> &Self {

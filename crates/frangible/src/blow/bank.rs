@@ -29,6 +29,12 @@ impl BankState {
             v: zeros,
         }
     }
+
+    /// Forgets all but the first so many oscillators, and those that fill up their last group.
+    pub(super) fn keep(&mut self, oscillators: usize) {
+        self.x.truncate(padded(oscillators));
+        self.v.truncate(padded(oscillators));
+    }
 }
 
 /// Number of oscillators with those that fill up the last group.

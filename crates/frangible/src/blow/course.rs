@@ -2,6 +2,8 @@
 
 use std::f64::consts::PI;
 
+use glam::Vec3;
+
 use super::Complement;
 use super::complement::Residual;
 use super::integrate::{Record, Run, Softening};
@@ -32,6 +34,7 @@ pub struct Blow {
     /// Speed of each striker away from the body as a rigid one after it, m/s.
     departures: Vec<f64>,
     energy_at_parting: f64,
+    strikers_energy: f64,
     /// What cracks have made of the body under the contacts.
     softer: Vec<Softening>,
     /// What the body does.
@@ -87,6 +90,7 @@ impl Blow {
             contact_steps: 0,
             departures: Vec::new(),
             energy_at_parting: 0.0,
+            strikers_energy: 0.0,
             softer: Vec::new(),
             motion: Motion::default(),
         };
@@ -199,7 +203,7 @@ impl Blow {
     }
 
     /// Energy of all modes and wall oscillators when the contact parts, and what the motion of approach has lost, J: of one contact,
-    /// without damping, the same but for the error of the substeps.
+    /// without damping, the same but for the error of the substeps and [what its striker takes](Self::strikers_energy).
     #[must_use]
     pub fn energies(&self) -> [f64; 2] {
         let mass = 1.0 / self.plan.inverse_mass[0];
@@ -209,6 +213,12 @@ impl Blow {
             self.energy_at_parting,
             0.5 * mass * (before * before - after * after),
         ]
+    }
+
+    /// Energy of the modes and wall oscillators of breakable strikers when the contact parts, J.
+    #[must_use]
+    pub fn strikers_energy(&self) -> f64 {
+        self.strikers_energy
     }
 
     /// The body's stress at the weak place of fracture tetrahedron `tet` at a time step of the blow, Pa, as cracks feel it.
@@ -234,8 +244,8 @@ impl Blow {
         let sites = self.plan.sites.iter().enumerate();
         let mut walls = sites.filter_map(|(k, site)| Some((k, site.near.as_ref()?)));
         walls.find_map(|(k, near)| {
-            let star = Star::of(system, &near.place, near.wall.thickness)?;
-            let compliance = star.compliance(near.wall.bending_stiffness);
+            let star = Star::of(system, &near.place, near.wall.material.thickness)?;
+            let compliance = star.compliance(near.wall.material.bending_stiffness);
             let known = self.softer.iter().rev().find(|s| s.contact == k);
             let before = known.map_or(0.0, |s| s.compliance);
             (compliance > GREW * before).then_some((k, compliance))
@@ -253,12 +263,12 @@ impl Blow {
         known.all(|s| s.compliance.is_finite())
     }
 
-    /// The node of the fracture mesh next to each contact, of those that are the body's own.
-    pub(crate) fn bearing_nodes(&self, body: &Body) -> Vec<u32> {
+    /// The node of the fracture mesh next to each contact, of those that are the body's own, and the direction of the push there.
+    pub(crate) fn bearings(&self, body: &Body) -> impl Iterator<Item = (u32, Vec3)> {
         let asset = &*body.asset;
         let mesh = &asset.fracture;
         let origin = body.origin().as_vec3();
-        let node = |touch: &Touch| {
+        let node = move |touch: &Touch| {
             let point = touch.contact.point + origin;
             let tet = asset.surface.tets[touch.triangle as usize] as usize;
             let away = |v: u32| mesh.positions[v as usize].distance_squared(point);
@@ -269,7 +279,11 @@ impl Blow {
                 .min_by(|&a, &b| away(a).total_cmp(&away(b)));
             nearest.unwrap_or(mesh.tets[tet][0])
         };
-        self.plan.sites.iter().map(|s| node(&s.touch)).collect()
+        let sites = self.plan.sites.iter();
+        sites.map(move |s| {
+            let push = s.touch.contact.normal.normalize_or_zero();
+            (node(&s.touch), push)
+        })
     }
 
     /// Goes on from `now`, s, with contacts where the body gives way by so much more than it did, m/N. What was before stays as it was,
@@ -290,6 +304,7 @@ impl Blow {
     fn take(&mut self, body: &Body, run: Record) {
         self.motion = self.motion_of(body, &run);
         self.energy_at_parting = run.energy_at_parting;
+        self.strikers_energy = run.strikers_energy;
         self.contact_steps = run.contact_steps;
         self.departures = run.speeds.iter().map(|v| -v).collect();
         self.forces = run.forces;
@@ -332,9 +347,10 @@ impl Blow {
                     swing.extend(own.iter().zip(&scale).map(|(x, s)| x * s));
                 }
                 first += oscillators;
-                let mut across: Vec<f32> = force.iter().map(|f| f * near.across as f32).collect();
+                let mut across: Vec<f32> =
+                    force.iter().map(|f| f * near.wall.across as f32).collect();
                 across.resize(run.near_steps, 0.0);
-                let (place, wall, bands) = (near.place, &near.wall, &near.bands);
+                let (place, wall, bands) = (near.place, &near.wall.material, &near.bands);
                 complement
                     .near
                     .push(NearField::new(place, wall, bands, &swing, &across));

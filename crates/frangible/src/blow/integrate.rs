@@ -1,8 +1,9 @@
 //! The integration of a blow, substep by substep.
 
 use std::f64::consts::{PI, TAU};
+use std::ops::Range;
 
-use super::bank::{BankState, dot};
+use super::bank::{BankState, dot, padded};
 use super::plan::Plan;
 
 /// A blow of so many substeps is cut off: a contact that lasts this long is none of a blow's.
@@ -47,6 +48,8 @@ pub(super) struct Record {
     /// Largest strain energy until the end of each time step, J.
     pub(super) strain_energy: Vec<f64>,
     pub(super) energy_at_parting: f64,
+    /// Energy of breakable strikers' oscillators at parting, J.
+    pub(super) strikers_energy: f64,
 }
 
 /// The integration.
@@ -94,12 +97,15 @@ impl pulp::NullaryFnOnce for Run<'_> {
             if !parted {
                 parted = contacts.have_parted(&state, t) || substep >= MOST_SUBSTEPS;
                 if parted {
-                    record.energy_at_parting = energies(&state)[0];
+                    let own = padded(plan.own);
+                    record.energy_at_parting = energies(&state, 0..own)[0];
+                    record.strikers_energy = energies(&state, own..state.x.len())[0];
                 }
             }
         }
         record.contact_steps = substep / plan.substeps;
         record.speeds = contacts.speeds;
+        state.keep(plan.own);
         self.ring(&mut record, state);
         record
     }
@@ -121,7 +127,7 @@ impl Run<'_> {
         let period = low.map_or(0.0, |i| TAU / plan.oscillators[i].0);
         // After the blow its waves leave within half a period of the lowest of them.
         let near = plan.sites.iter().filter_map(|s| s.near.as_ref());
-        let leave = near.map(|n| PI / n.lowest).fold(0.0, f64::max);
+        let leave = near.map(|n| PI / n.wall.lowest).fold(0.0, f64::max);
         let leave = ((leave / time_step).ceil() as usize).min(MOST_STEPS);
         record.near_steps = record.contact_steps + leave;
         for _ in record.contact_steps..record.near_steps {
@@ -145,19 +151,20 @@ impl Record {
             forces: Vec::new(),
             amplitudes: Vec::new(),
             swing: Vec::new(),
-            width: (plan.oscillators.len() - plan.modes).max(1),
+            width: (plan.own - plan.modes).max(1),
             near_steps: 0,
             contact_steps: 0,
             speeds: Vec::new(),
             peak_energy: 0.0,
             strain_energy: Vec::new(),
             energy_at_parting: 0.0,
+            strikers_energy: 0.0,
         }
     }
 
     #[inline(always)]
     fn sample(&mut self, plan: &Plan, state: &BankState, forces: &[f64], near: bool) {
-        let (modes, all) = (plan.modes, plan.oscillators.len());
+        let (modes, all) = (plan.modes, plan.own);
         let amplitudes = state.x[..modes].iter().zip(&plan.periods);
         self.amplitudes
             .extend(amplitudes.map(|(x, period)| (x * period) as f32));
@@ -169,10 +176,10 @@ impl Record {
         let mut held = 0.0;
         for k in 0..count {
             for l in 0..count {
-                held += 0.5 * forces[k] * plan.compliance[k * count + l] * forces[l];
+                held += 0.5 * forces[k] * plan.own_compliance[k * count + l] * forces[l];
             }
         }
-        let [whole, strain] = energies(state);
+        let [whole, strain] = energies(state, 0..padded(all));
         self.peak_energy = self.peak_energy.max(whole + held);
         let before = self.strain_energy.last().copied().unwrap_or(0.0);
         self.strain_energy.push(before.max(strain + held));
@@ -340,9 +347,10 @@ impl<'a> Contacts<'a> {
     }
 }
 
-/// Energy and strain energy of all oscillators, J.
+/// Energy and strain energy of some oscillators, in whole groups, J.
 #[inline(always)]
-fn energies(state: &BankState) -> [f64; 2] {
-    let strain = 0.5 * dot(&state.x, &state.x);
-    [strain + 0.5 * dot(&state.v, &state.v), strain]
+fn energies(state: &BankState, which: Range<usize>) -> [f64; 2] {
+    let (x, v) = (&state.x[which.clone()], &state.v[which]);
+    let strain = 0.5 * dot(x, x);
+    [strain + 0.5 * dot(v, v), strain]
 }

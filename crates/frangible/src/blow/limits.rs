@@ -1,7 +1,8 @@
 //! What a blow can do at most, known before it is integrated: what lets contacts be refused unseen.
 //!
 //! With B the inverse masses of the rigid bodies at the contacts and v the approach there, the motion of approach holds the energy
-//! `T = ½ vᵀ B⁻¹ v`, and nothing adds to it: springs, modes and wall oscillators only store, pass on and lose. So
+//! `T = ½ vᵀ B⁻¹ v`, and nothing adds to it: springs, modes and wall oscillators, those of a striker that vibrates too, are at rest before it
+//! and only store, pass on and lose. So the limits ask for no modes, and hold with and without a striker's:
 //! - Hertz' spring of a contact never holds more: its force stays below that at which it holds T;
 //! - the impulses J of the contacts so far have left the approach v − B J, which holds at most T as well. So
 //!   `½ Jᵀ B J ≤ 4 T`, and so `J_k ≤ √(8 T (B⁻¹)_kk)`; where no contact's push helps another (all of B ≥ 0) `J_k ≤ √(8 T / B_kk)`, which

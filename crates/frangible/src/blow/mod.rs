@@ -18,6 +18,10 @@
 //! `K = 4/3 E* √R` Hertz' spring. F is linear over each substep, so every oscillator is stepped exactly; the new forces solve one
 //! equation per contact, which has exactly one root, as the left side falls with F and the right side grows.
 //!
+//! A breakable striker vibrates too. What the contact feels of it is of the same kind ([`Receptance`]): its modes, its wall oscillators and what
+//! follows the force of it are driven by the same F_k, and leave the gap with the body's. St Venant's two rods and Hertz' two spheres are
+//! limits of it.
+//!
 //! What friction there is follows the normal force: F_k pushes along n + f, f the ratio of the engine's friction and normal impulse.
 //!
 //! Cracks change what the contacts push against, and from then on forces, motion and cracks are found anew:
@@ -28,9 +32,9 @@
 //!
 //! # Limits
 //!
-//! Hertz' spring has no losses; crushing and plastic dents of strikers are not in it. The contact between two bodies that both vibrate
-//! holds one body's modes, that of the body asked about; the other is rigid with Hertz' dent. A contact that chatters
-//! is followed until all its points have parted.
+//! Hertz' spring has no losses; crushing and plastic dents of strikers are not in it. A contact that chatters is followed until all its
+//! points have parted. Of two bodies that both vibrate one force comes whichever is asked, as long as they meet nothing else and
+//! neither has broken: what else touches the striker, and how its own cracks soften it, is not in the blow on the body.
 //!
 //! Forces are linear over substeps of a four-hundredth of Hertz' time, every oscillator is stepped exactly, and one equation per
 //! contact and substep has one root. Steps after the blow are as long as the modes allow.
@@ -41,6 +45,7 @@ mod course;
 mod integrate;
 mod limits;
 mod plan;
+mod receptance;
 mod spring;
 mod star;
 mod wall;
@@ -48,5 +53,6 @@ mod wall;
 pub(crate) use complement::{Complement, Residual, Shape};
 pub use course::Blow;
 pub(crate) use limits::Limits;
+pub use receptance::Receptance;
 pub(crate) use spring::Spring;
 pub(crate) use wall::{SteadyNear, has_near_field};

@@ -1,14 +1,16 @@
 //! What a blow is integrated with: how each contact pushes and feels the modes, the wall oscillators about it, what follows the
 //! force, and how fine the steps are.
 
-use glam::Vec3;
+use std::ops::Range;
+use std::sync::Arc;
 
-use super::Spring;
 use super::bank::{Bank, padded};
-use super::wall::{NearPlan, near};
+use super::wall::{NearPlan, place};
+use super::{Receptance, Spring};
 use crate::body::Body;
 use crate::config::FractureConfig;
 use crate::contact::{self, Contact, Load, Touch, hertz_at, modal_load};
+use crate::near_field::Bands;
 
 /// Hertz' time over the longest substep. Measured: the energy error then is 3e-6 of what the striker loses (`frangible-lab verify`, case
 /// `blow`), and falls with the square of the substep.
@@ -37,7 +39,9 @@ pub(super) struct Plan {
     pub(super) sites: Vec<Site>,
     /// Modes that are followed.
     pub(super) modes: usize,
-    /// ω and d of the modes and, after them, of all wall oscillators.
+    /// Oscillators of the body: its modes and, after them, its wall oscillators.
+    pub(super) own: usize,
+    /// ω and d of the body's oscillators and, after them, of those of breakable bodies that strike it.
     pub(super) oscillators: Vec<(f64, f64)>,
     /// 1/ω of the modes, s.
     pub(super) periods: Vec<f64>,
@@ -47,8 +51,10 @@ pub(super) struct Plan {
     pub(super) gap: Vec<Vec<f64>>,
     /// B of the rigid bodies, 1/kg: row-major.
     pub(super) inverse_mass: Vec<f64>,
-    /// c of what follows the force, m/N: row-major.
+    /// c of what follows the force in both bodies of each contact, m/N: row-major.
     pub(super) compliance: Vec<f64>,
+    /// The body's own part of it, m/N.
+    pub(super) own_compliance: Vec<f64>,
     /// Step at which stresses are looked at, s.
     pub(super) time_step: f64,
     /// Steps after the blow are longer by this factor.
@@ -82,7 +88,7 @@ impl Plan {
         load.modal_impulse = stopping(body, &load, &inverse_mass);
         let count = load.touches.len();
         let mut sites: Vec<Site> = Vec::with_capacity(count);
-        let mut shapes: Vec<[Vec<f64>; 2]> = Vec::with_capacity(count);
+        let mut felt: Vec<Receptance> = Vec::with_capacity(count);
         let mut oscillators: Vec<(f64, f64)> = (0..modes)
             .map(|i| {
                 let damping = asset.modes.damping(i, &asset.material);
@@ -91,9 +97,9 @@ impl Plan {
             .collect();
         for (k, touch) in load.touches.iter().enumerate() {
             let mass = 1.0 / inverse_mass[k * count + k];
-            let (site, shape) = site(body, touch, mass, config, &mut oscillators);
+            let (site, receptance) = site(body, touch, mass, config, &mut oscillators);
             sites.push(site);
-            shapes.push(shape);
+            felt.push(receptance);
         }
         let hertz_time = sites
             .iter()
@@ -103,26 +109,42 @@ impl Plan {
         let time_step = pulse.time_step;
         let longest = longest.unwrap_or(hertz_time / SUBSTEPS_PER_HERTZ_TIME);
         let substeps = (time_step / longest).ceil() as usize;
+        let width = padded(oscillators.len());
         let mut plan = Self {
             modes,
             inverse_mass,
             compliance: Vec::new(),
+            own_compliance: Vec::new(),
+            own: oscillators.len(),
             time_step,
             substeps: substeps.max(1),
             fine: Bank::default(),
             step: Bank::default(),
             coarse: Bank::default(),
             coarser: (pulse.longest_step / time_step).max(1.0),
-            drive: Vec::new(),
-            gap: Vec::new(),
+            drive: vec![vec![0.0; width]; count],
+            gap: vec![vec![0.0; width]; count],
             periods: oscillators[..modes].iter().map(|(w, _)| 1.0 / w).collect(),
             oscillators,
             sites,
         };
-        plan.couple(body, shapes);
+        let coupled: Vec<Coupled<'_>> = (felt.iter().enumerate())
+            .map(|(contact, felt)| Coupled {
+                contact,
+                felt,
+                first: 0,
+                waves: (plan.sites[contact].near.as_ref())
+                    .map(|near| (near.oscillators.clone(), near.bands.clone())),
+            })
+            .collect();
+        plan.own_compliance = plan.couple(&coupled);
+        plan.compliance = plan.own_compliance.clone();
+        plan.add_strikers();
         plan.fine = Bank::new(&plan.oscillators, time_step / plan.substeps as f64);
-        plan.step = Bank::new(&plan.oscillators, time_step);
-        plan.coarse = Bank::new(&plan.oscillators, plan.coarser * time_step);
+        // After the blow the body swings alone.
+        let own = &plan.oscillators[..plan.own];
+        plan.step = Bank::new(own, time_step);
+        plan.coarse = Bank::new(own, plan.coarser * time_step);
         Some(plan)
     }
 
@@ -157,44 +179,109 @@ impl Plan {
         energy
     }
 
-    /// How contacts push and feel all oscillators, and each other through what follows the force.
-    fn couple(&mut self, body: &Body, shapes: Vec<[Vec<f64>; 2]>) {
-        let asset = &*body.asset;
+    /// How contacts push and feel the oscillators of one body, and each other through what follows the force: the compliances, m/N, row-major.
+    fn couple(&mut self, contacts: &[Coupled<'_>]) -> Vec<f64> {
         let count = self.sites.len();
-        let width = padded(self.oscillators.len());
-        let mut felt = Vec::with_capacity(count);
-        for (site, [drive, gap]) in self.sites.iter_mut().zip(shapes) {
-            let (mut pushes, mut feels) = (vec![0.0; width], vec![0.0; width]);
-            for i in 0..self.modes {
-                pushes[i] = drive[i];
-                feels[i] = gap[i] / self.oscillators[i].0;
+        let mut compliance = vec![0.0; count * count];
+        for one in contacts {
+            let felt = one.felt;
+            let (pushes, feels) = (&mut self.drive[one.contact], &mut self.gap[one.contact]);
+            for i in 0..felt.followed {
+                let at = one.first + i;
+                pushes[at] = felt.drive[i];
+                feels[at] = felt.gap[i] / self.oscillators[at].0;
             }
-            if let Some(near) = &site.near {
-                let normal = f64::from(site.touch.contact.normal.dot(near.place.inwards));
-                for (i, band) in near.oscillators.clone().zip(&near.bands.oscillators) {
+            if let (Some(wall), Some((oscillators, bands))) = (&felt.wall, &one.waves) {
+                for (i, band) in oscillators.clone().zip(&bands.oscillators) {
                     let xi = band.give.sqrt();
-                    pushes[i] = xi * near.across;
-                    feels[i] = xi * normal / self.oscillators[i].0;
+                    pushes[i] = xi * wall.across;
+                    feels[i] = xi * wall.along_normal / self.oscillators[i].0;
                 }
             }
-            site.residual = drive[self.modes..].to_vec();
-            felt.push(gap[self.modes..].to_vec());
-            self.drive.push(pushes);
-            self.gap.push(feels);
+            for other in contacts.iter().filter(|other| other.first == one.first) {
+                let entry = &mut compliance[one.contact * count + other.contact];
+                *entry = felt.compliance(other.felt);
+            }
+            if let (Some(wall), Some((_, bands))) = (&felt.wall, &one.waves) {
+                compliance[one.contact * count + one.contact] += wall.compliance(bands);
+            }
         }
-        self.compliance = vec![0.0; count * count];
-        let eigenvalues = &asset.modes.eigenvalues[self.modes..];
-        for k in 0..count {
-            for (l, site) in self.sites.iter().enumerate() {
-                let terms = felt[k].iter().zip(&site.residual).zip(eigenvalues);
-                self.compliance[k * count + l] = terms.map(|((a, b), lambda)| a * b / lambda).sum();
-            }
-            if let Some(near) = &self.sites[k].near {
-                let normal = f64::from(self.sites[k].touch.contact.normal.dot(near.place.inwards));
-                self.compliance[k * count + k] += normal * near.across * near.bands.compliance();
-            }
+        compliance
+    }
+
+    /// Adds the oscillators of breakable bodies that strike: what contact k feels of its striker, if that vibrates. Contacts of one body
+    /// that strikes at several points push the same modes.
+    fn add_strikers(&mut self) {
+        let strikers: Vec<(usize, Arc<Receptance>)> = (self.sites.iter().enumerate())
+            .filter_map(|(k, site)| {
+                let felt = site.touch.contact.striker.receptance.as_ref()?;
+                site.script.is_none().then(|| (k, Arc::clone(felt)))
+            })
+            .collect();
+        if strikers.is_empty() {
+            return;
+        }
+        // Those of the body end with a whole group; oscillators that nothing pushes fill it up.
+        self.oscillators.resize(padded(self.own), (1.0, 0.0));
+        let mut coupled: Vec<Coupled<'_>> = Vec::with_capacity(strikers.len());
+        for (k, felt) in &strikers {
+            let (site, count) = (&self.sites[*k], self.sites.len());
+            let body = |k: usize| self.sites[k].touch.contact.striker.shared.map(|s| s.body);
+            let same = |c: &&Coupled<'_>| {
+                body(*k).is_some() && body(c.contact) == body(*k) && c.felt.swings_with(felt)
+            };
+            let first = coupled.iter().find(same).map_or_else(
+                || {
+                    let first = self.oscillators.len();
+                    self.oscillators.extend(felt.oscillators());
+                    // One that follows no mode has a number of its own all the same.
+                    if felt.followed == 0 {
+                        self.oscillators.push((1.0, 0.0));
+                    }
+                    first
+                },
+                |known| known.first,
+            );
+            let mass = 1.0 / self.inverse_mass[k * count + k];
+            let waves = felt.wall.as_ref().map(|wall| {
+                let (bands, _) = wall.bands(site, mass);
+                (add_waves(felt, &bands, &mut self.oscillators), bands)
+            });
+            coupled.push(Coupled {
+                contact: *k,
+                felt,
+                first,
+                waves,
+            });
+        }
+        let width = padded(self.oscillators.len());
+        for row in self.drive.iter_mut().chain(&mut self.gap) {
+            row.resize(width, 0.0);
+        }
+        let given = self.couple(&coupled);
+        for (sum, given) in self.compliance.iter_mut().zip(given) {
+            *sum += given;
         }
     }
+}
+
+/// A contact, and a body that vibrates under it.
+struct Coupled<'a> {
+    contact: usize,
+    felt: &'a Receptance,
+    /// Number of the body's first mode among the oscillators: contacts with the same number push the same modes.
+    first: usize,
+    /// The wall oscillators about the contact, and the bands that they stand for.
+    waves: Option<(Range<usize>, Bands)>,
+}
+
+/// Puts the wall oscillators of a contact behind the others.
+fn add_waves(felt: &Receptance, bands: &Bands, all: &mut Vec<(f64, f64)>) -> Range<usize> {
+    let first = all.len();
+    for band in &bands.oscillators {
+        all.push((band.eigenvalue.sqrt(), felt.damping(band.eigenvalue)));
+    }
+    first..all.len()
 }
 
 /// B: what a unit impulse at contact l changes the approach at contact k by, 1/kg.
@@ -241,65 +328,43 @@ fn stopping(body: &Body, load: &Load, inverse_mass: &[f64]) -> Vec<f64> {
     sums
 }
 
-/// One contact, and its push on and feeling of every mode that there is.
+/// One contact, and what it feels of the body.
 fn site(
     body: &Body,
     touch: &Touch,
     mass: f64,
     config: &FractureConfig,
     oscillators: &mut Vec<(f64, f64)>,
-) -> (Site, [Vec<f64>; 2]) {
-    let asset = &*body.asset;
+) -> (Site, Receptance) {
     let contact = &touch.contact;
-    let spring = Spring::at(asset, contact, touch.curvature_radius);
-    let hertz_time = hertz_at(
-        asset,
-        contact,
-        touch.curvature_radius,
-        touch.inverse_effective_mass,
-    );
-    let script = contact
-        .is_script()
-        .then(|| [f64::from(contact.impulse), f64::from(contact.duration)]);
     let mut site = Site {
-        spring,
-        script,
-        hertz_time,
+        spring: Spring::at(&body.asset, contact, touch.curvature_radius),
+        script: contact
+            .is_script()
+            .then(|| [f64::from(contact.impulse), f64::from(contact.duration)]),
+        hertz_time: hertz_at(
+            &body.asset,
+            contact,
+            touch.curvature_radius,
+            touch.inverse_effective_mass,
+        ),
         near: None,
         residual: Vec::new(),
         touch: touch.clone(),
     };
-    let direction = contact.direction();
-    let mut drive = touch.project(body, direction);
-    let mut gap = touch.modal_shape.clone();
-    let followed = asset.modes.followed();
-    if let Some(theory) = config.near_field
-        && let Some((near, first)) = near(body, &site, mass, direction, theory)
+    let felt = Receptance::at(body, touch, config);
+    if let Some(wall) = felt.wall
+        && let Some(place) = place(body, touch, &wall)
     {
-        let served = first;
-        // Across the wall the near field goes on where the modes end; along it they serve.
-        let inwards = near.place.inwards;
-        let along = |v: Vec3| v - v.dot(inwards) * inwards;
-        let (drive_along, gap_along) = (
-            touch.project(body, along(direction)),
-            touch.project(body, along(contact.normal)),
-        );
-        drive[served..].copy_from_slice(&drive_along[served..]);
-        gap[served..].copy_from_slice(&gap_along[served..]);
-        let first = oscillators.len();
-        for band in &near.bands.oscillators {
-            let material = &asset.material;
-            let damping = material.stiffness_damping * band.eigenvalue + material.mass_damping;
-            oscillators.push((band.eigenvalue.sqrt(), damping));
-        }
+        let (bands, contact_radius) = wall.bands(&site, mass);
         site.near = Some(NearPlan {
-            oscillators: first..oscillators.len(),
-            ..near
+            oscillators: add_waves(&felt, &bands, oscillators),
+            place,
+            wall,
+            bands,
+            contact_radius,
         });
     }
-    if !config.residual {
-        drive[followed..].fill(0.0);
-        gap[followed..].fill(0.0);
-    }
-    (site, [drive, gap])
+    site.residual = felt.drive[felt.followed..].to_vec();
+    (site, felt)
 }

@@ -1,25 +1,16 @@
 //! The near field of a contact on a wall: where it takes over from the modes, which waves it is made of, and how far it reaches.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::PI;
 use std::ops::Range;
 
 use glam::Vec3;
 
-use super::plan::Site;
+use super::receptance::WallReceptance;
 use crate::asset::Asset;
 use crate::body::Body;
 use crate::contact::Touch;
 use crate::mesh::SurfacePoint;
-use crate::near_field::{Bands, NearField, NearPlace, PlateTheory, Spacing, WallMaterial};
-
-/// Waves so much faster than Hertz' time follow the force: angular frequency times that time.
-const FOLLOWING: f64 = 120.0;
-
-/// Up to here (angular frequency times Hertz' time) a blow makes waves ring, and wall oscillators are evenly spaced.
-const RINGING: f64 = 25.0;
-
-/// Wall oscillators are so close that their echo comes this many times later than the blow is expected to last.
-const ECHO: f64 = 1.3;
+use crate::near_field::{Bands, NearField, NearPlace, PlateTheory, WallMaterial};
 
 /// Least distance to the wall's edge for a near field, times its lowest wave number.
 const LEAST_EDGE: f64 = 1.0;
@@ -35,81 +26,48 @@ const ACROSS: f64 = 0.3;
 #[derive(Clone, Debug)]
 pub(super) struct NearPlan {
     pub(super) place: NearPlace,
-    pub(super) wall: WallMaterial,
+    pub(super) wall: WallReceptance,
     pub(super) bands: Bands,
     /// Its oscillators among those of the bank.
     pub(super) oscillators: Range<usize>,
     /// Radius a of the contact, m.
     pub(super) contact_radius: f64,
-    /// Share of the contact's force that acts across the wall.
-    pub(super) across: f64,
-    /// Lowest angular frequency, rad/s.
-    pub(super) lowest: f64,
 }
 
-/// The near field of a contact on a wall, and the number of the first mode that it serves instead of.
-pub(super) fn near(
+/// The wall behind a contact, its unit normal inwards, and the number of the first mode that it serves instead of.
+pub(super) fn wall_at(
     body: &Body,
-    site: &Site,
-    mass: f64,
-    direction: Vec3,
+    touch: &Touch,
     theory: PlateTheory,
-) -> Option<(NearPlan, usize)> {
+) -> Option<(WallReceptance, Vec3, usize)> {
     let asset = &*body.asset;
-    let touch = &site.touch;
     let surface = asset.surface.walls.at(touch.triangle)?;
     let inwards = inwards(asset, touch.triangle, touch.weights)?;
-    let across = f64::from(direction.dot(inwards));
-    if f64::from(touch.contact.normal.dot(inwards)) < ACROSS {
+    let along_normal = f64::from(touch.contact.normal.dot(inwards));
+    if along_normal < ACROSS {
         return None;
     }
-    let wall = WallMaterial::new(&asset.material, &surface, theory);
-    let speed = f64::from(touch.contact.approach_speed);
-    let peak = match site.script {
-        Some([impulse, duration]) => 0.5 * PI * impulse / duration,
-        None => site.spring.peak_force(mass, speed, wall.dashpot()),
+    let material = WallMaterial::new(&asset.material, &surface, theory);
+    let (first, lowest) = first_wave(asset, &material, surface.margin, asset.modes.followed())?;
+    let wall = WallReceptance {
+        material,
+        widest: surface.margin.max(surface.thickness),
+        lowest: matched(body, touch, &material, inwards, first, lowest),
+        across: f64::from(touch.contact.direction().dot(inwards)),
+        along_normal,
     };
-    // Never wider than the wall's own way to its edge, nor a point.
-    let widest = surface.margin.max(surface.thickness);
-    let contact_radius = site
-        .spring
-        .contact_radius(peak)
-        .clamp(1e-3 * surface.thickness, widest);
+    Some((wall, inwards, first))
+}
 
-    let (first, lowest) = first_wave(asset, &wall, surface.margin, asset.modes.followed())?;
-    let lowest = matched(body, touch, &wall, inwards, first, lowest);
-    let start = wall.wave_number(lowest);
-    let duration = match site.script {
-        Some([_, duration]) => duration,
-        None => site.hertz_time + 3.0 * mass / wall.dashpot(),
-    };
-    let time = site
-        .script
-        .map_or(site.hertz_time, |[_, duration]| duration);
-    let spacing = Spacing {
-        width: TAU / (ECHO * duration),
-        even_to: RINGING / time,
-        follows_from: FOLLOWING / time,
-    };
-    let origin = body.origin().as_vec3();
-    let point = touch.contact.point + origin;
-    let reach = NearField::reach(start).min(nearest_crack(body, point));
-    let bands = Bands::new(&wall, start, contact_radius, spacing);
-    let place = NearPlace {
+/// Where the near field of a contact on a wall is.
+pub(super) fn place(body: &Body, touch: &Touch, wall: &WallReceptance) -> Option<NearPlace> {
+    let point = touch.contact.point + body.origin().as_vec3();
+    let start = wall.material.wave_number(wall.lowest);
+    Some(NearPlace {
         point,
-        inwards,
-        reach,
-    };
-    let plan = NearPlan {
-        place,
-        wall,
-        bands,
-        oscillators: 0..0,
-        contact_radius,
-        across,
-        lowest,
-    };
-    Some((plan, first))
+        inwards: inwards(&body.asset, touch.triangle, touch.weights)?,
+        reach: NearField::reach(start).min(nearest_crack(body, point)),
+    })
 }
 
 /// A steady force on a wall: where its near field is, and what of.

@@ -1,24 +1,28 @@
 //! A contact as bytes: with the body's seed all that a break needs to be replayed elsewhere.
 
+use std::sync::Arc;
+
 use glam::Vec3;
 
 use super::{Contact, SharedMass, Striker};
+use crate::blow::Receptance;
 use crate::error::InputError;
 
 /// Numbers of a contact.
 const NUMBERS: usize = Contact::BYTES / 4;
 
-/// Numbers of a contact but for those of a shared mass.
-const OWN: usize = NUMBERS - 7;
+/// Numbers of a contact but for those of a shared mass and of a receptance.
+const OWN: usize = NUMBERS - 8;
 
 impl Contact {
-    /// Length of a contact in bytes.
-    pub const BYTES: usize = 96;
+    /// Length of a contact in bytes, but for what a striker that vibrates adds.
+    pub const BYTES: usize = 100;
 
-    /// The contact as bytes: its numbers in the order of the fields, little-endian, four bytes each.
+    /// The contact as bytes: its numbers in the order of the fields, little-endian, four bytes each; then the number of modes of a striker
+    /// that vibrates plus one, or 0, and its receptance in numbers of eight bytes.
     #[must_use]
-    pub fn to_bytes(&self) -> [u8; Self::BYTES] {
-        let mut contact = *self;
+    pub fn to_bytes(&self) -> Vec<u8> {
+        let mut contact = self.clone();
         // A striker that shares its mass has the number of its body plus one, and 0 says that it does not.
         let (number, velocity, spin) = (self.striker.shared.as_ref())
             .map_or((0, Vec3::ZERO, Vec3::ZERO), |shared| {
@@ -27,14 +31,12 @@ impl Contact {
         let ([vx, vy, vz], [sx, sy, sz]) = (velocity.to_array(), spin.to_array());
         let shared = [f32::from_bits(number), vx, vy, vz, sx, sy, sz];
         let numbers = contact.numbers().into_iter().map(|&mut number| number);
-        let mut bytes = [0; Self::BYTES];
-        for (place, number) in bytes
-            .as_chunks_mut()
-            .0
-            .iter_mut()
-            .zip(numbers.chain(shared))
-        {
-            *place = number.to_le_bytes();
+        let mut bytes: Vec<u8> = numbers.chain(shared).flat_map(f32::to_le_bytes).collect();
+        let receptance = self.striker.receptance.as_ref();
+        let modes = receptance.map_or(0, |felt| felt.eigenvalues.len() as u32 + 1);
+        bytes.extend(modes.to_le_bytes());
+        if let Some(felt) = receptance {
+            bytes.extend(felt.to_numbers().into_iter().flat_map(f64::to_le_bytes));
         }
         bytes
     }
@@ -42,12 +44,24 @@ impl Contact {
     /// Reads what [`Contact::to_bytes`] wrote, and checks it.
     ///
     /// # Errors
-    /// Another number of bytes than [`Contact::BYTES`], or what [`Contact::validate`] refuses.
+    /// Bytes that are too few or too many, or what [`Contact::validate`] refuses.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, InputError> {
-        let Ok(bytes) = <&[u8; Self::BYTES]>::try_from(bytes) else {
-            return Err(InputError::ContactBytes(bytes.len()));
-        };
-        let mut read = (bytes.as_chunks().0.iter()).map(|&place| f32::from_le_bytes(place));
+        match Self::read(bytes)? {
+            (contact, []) => Ok(contact),
+            _ => Err(InputError::ContactBytes(bytes.len())),
+        }
+    }
+
+    /// Reads the first of several contacts that follow each other as bytes, and says which bytes are left.
+    ///
+    /// # Errors
+    /// Bytes that are too few, or what [`Contact::validate`] refuses.
+    pub fn read(bytes: &[u8]) -> Result<(Self, &[u8]), InputError> {
+        let short = || InputError::ContactBytes(bytes.len());
+        let (head, rest) = bytes
+            .split_first_chunk::<{ Self::BYTES }>()
+            .ok_or_else(short)?;
+        let mut read = (head.as_chunks().0.iter()).map(|&place| f32::from_le_bytes(place));
         let mut contact = Self::new(Vec3::ZERO, Vec3::ZERO, 0.0, 0.0, Striker::rigid());
         for (number, read) in contact.numbers().into_iter().zip(&mut read) {
             *number = read;
@@ -63,8 +77,19 @@ impl Contact {
             .iter()
             .all(|x| x.to_bits() == 0);
         contact.striker.shared = (!alone).then_some(shared);
+        let mut left = rest;
+        let modes = read.next().map_or(0, f32::to_bits);
+        if let Some(modes) = modes.checked_sub(1) {
+            let numbers = Receptance::numbers_of(modes as usize);
+            let (numbers, behind) =
+                (rest.split_at_checked(numbers.saturating_mul(8))).ok_or_else(short)?;
+            let numbers = numbers.as_chunks().0.iter().map(|&n| f64::from_le_bytes(n));
+            let felt = Receptance::of_numbers(&numbers.collect::<Vec<f64>>(), modes as usize)?;
+            contact.striker.receptance = Some(Arc::new(felt));
+            left = behind;
+        }
         contact.validate()?;
-        Ok(contact)
+        Ok((contact, left))
     }
 
     /// The numbers of the contact in the order of its fields, but for those of a shared mass.
@@ -115,14 +140,66 @@ mod tests {
         contact
     }
 
+    /// A striker of two modes, one of which follows the force, with a wall.
+    fn flexible() -> Contact {
+        let mut contact = shared();
+        let mut numbers = vec![1.0, 1e-7, 2.0, 0.03, 2.0];
+        numbers.extend([2e-3, 50.0, 5.0, 0.0, 4e7, 1e-5, 7e10, 0.22]);
+        numbers.extend([0.05, 3e4, 0.9, 0.8]);
+        numbers.extend([1e8, 4e8, 0.5, -0.25, 0.5, -0.3]);
+        let felt = Receptance::of_numbers(&numbers, 2).unwrap();
+        contact.striker.receptance = Some(Arc::new(felt));
+        contact.validate().unwrap();
+        contact
+    }
+
     #[test]
     fn a_contact_survives_its_bytes() {
-        for contact in [contact(), shared()] {
+        for contact in [contact(), shared(), flexible()] {
             let bytes = contact.to_bytes();
             let back = Contact::from_bytes(&bytes).unwrap();
             assert_eq!(back, contact);
             assert_eq!(back.to_bytes(), bytes);
         }
+    }
+
+    #[test]
+    fn contacts_that_follow_each_other_are_read_one_by_one() {
+        let contacts = [flexible(), contact(), flexible(), shared()];
+        let bytes: Vec<u8> = contacts.iter().flat_map(Contact::to_bytes).collect();
+        let mut left = &bytes[..];
+        for contact in &contacts {
+            let (read, behind) = Contact::read(left).unwrap();
+            assert_eq!(&read, contact);
+            left = behind;
+        }
+        assert!(left.is_empty());
+        assert!(Contact::from_bytes(&bytes).is_err(), "four are not one");
+    }
+
+    #[test]
+    fn a_receptance_of_absurd_numbers_is_refused() {
+        let bytes = flexible().to_bytes();
+        for length in Contact::BYTES..bytes.len() {
+            assert_eq!(
+                Contact::from_bytes(&bytes[..length]),
+                Err(InputError::ContactBytes(length))
+            );
+        }
+        for number in 0..Receptance::numbers_of(2) {
+            for value in [f64::NAN, f64::INFINITY, -1e300] {
+                let mut changed = bytes.clone();
+                let at = Contact::BYTES + 8 * number;
+                changed[at..at + 8].copy_from_slice(&value.to_le_bytes());
+                let read = Contact::from_bytes(&changed);
+                // A wall may be endlessly wide.
+                let meant = number == 13 && value == f64::INFINITY;
+                assert_eq!(read.is_ok(), meant, "{number}: {value}");
+            }
+        }
+        let mut many = bytes;
+        many[Contact::BYTES - 4..Contact::BYTES].fill(0xff);
+        assert!(Contact::from_bytes(&many).is_err());
     }
 
     #[test]
@@ -145,9 +222,9 @@ mod tests {
                 Err(InputError::ContactBytes(length))
             );
         }
-        for number in 0..NUMBERS {
+        for number in 0..NUMBERS - 1 {
             for value in [f32::NAN, f32::NEG_INFINITY] {
-                let mut changed = bytes;
+                let mut changed = bytes.clone();
                 changed[4 * number..4 * number + 4].copy_from_slice(&value.to_le_bytes());
                 assert!(Contact::from_bytes(&changed).is_err(), "{number}: {value}");
             }

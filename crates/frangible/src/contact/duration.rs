@@ -57,9 +57,9 @@ pub fn answer_duration(body: &Body, contact: &Contact, model: DurationModel) -> 
             contact_modulus: f32::INFINITY,
             modal_duration: 0.0,
             shared: None,
-            ..contact.striker
+            ..contact.striker.clone()
         },
-        ..*contact
+        ..contact.clone()
     }];
     contact_duration(&body.asset, &modal_load(body, &alone), model)
 }
@@ -84,8 +84,9 @@ fn touch_duration(asset: &Asset, touch: &Touch, model: DurationModel) -> f64 {
     match model {
         DurationModel::Integrated | DurationModel::Hertz => hertz,
         DurationModel::ModalHertz => {
-            let ball = (asset.mass.volume * 0.75 / std::f64::consts::PI).cbrt();
-            let radius = touch.curvature_radius.clamp(SHARPEST_RADIUS, ball);
+            let radius = touch
+                .curvature_radius
+                .clamp(SHARPEST_RADIUS, asset.ball_radius());
             // The longer of the two bodies' durations: a rigid striker answers 0, an elastic one with Hertz, one that
             // vibrates itself with its own.
             let striker = &touch.contact.striker;
@@ -138,8 +139,10 @@ pub(crate) fn contact_radius_of_curvature(
     let own = curvature_radius.max(SHARPEST_RADIUS);
     let other = f64::from(contact.striker.curvature_radius).max(1e-4);
     let curvature = 1.0 / own + 1.0 / other;
-    // Flat on flat has no Hertz contact; the ball of the body's volume stands in.
-    let ball = (asset.mass.volume * 0.75 / std::f64::consts::PI).cbrt();
+    // Flat on flat has no Hertz contact; the ball of the body's volume stands in, of two bodies that vibrate the smaller one.
+    let vibrates = contact.striker.receptance.as_ref();
+    let ball = vibrates.map_or(f64::INFINITY, |felt| felt.ball_radius);
+    let ball = ball.min(asset.ball_radius());
     if curvature > 0.0 {
         (1.0 / curvature).min(ball)
     } else {

@@ -1,13 +1,19 @@
 //! What the rigid-body engine tells us of an impact.
 
+use std::sync::Arc;
+
 use glam::Vec3;
 
+use super::modal_load;
 use crate::asset::Asset;
+use crate::blow::Receptance;
+use crate::body::Body;
+use crate::config::FractureConfig;
 use crate::error::{InputError, finite, positive};
 use crate::material::Material;
 
 /// One contact of an impact, in the body frame of the body that may break.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Contact {
     /// Where, m.
     pub point: Vec3,
@@ -28,7 +34,7 @@ pub struct Contact {
 }
 
 /// What a contact needs to know of the other body.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Striker {
     /// Plane-strain modulus E/(1−ν²), Pa; infinite for a rigid striker.
     pub contact_modulus: f32,
@@ -43,6 +49,9 @@ pub struct Striker {
     pub modal_duration: f32,
     /// How the contacts of one body that strikes at several points share its mass; none for a body that strikes at this point only.
     pub shared: Option<SharedMass>,
+    /// How a striker gives way that vibrates itself, for blows that are [integrated](crate::internals::DurationModel::Integrated);
+    /// none for one that moves as a rigid body behind Hertz' dent. [`Striker::flexible`] finds it.
+    pub receptance: Option<Arc<Receptance>>,
 }
 
 /// One body strikes at several points at once: an impulse at one of them moves it at the others too.
@@ -96,6 +105,9 @@ fn lower_factor(columns: [Vec3; 3]) -> [Vec3; 3] {
 }
 
 impl Striker {
+    /// Radius of curvature of edges and corners, m: what bodies that are no balls strike others with.
+    pub const EDGE_RADIUS: f32 = 3e-3;
+
     /// What a unit impulse at the contact of `other` takes from the speed of approach at this one's, which is another contact, 1/kg.
     pub(crate) fn inverse_mass_between(&self, other: &Self) -> f64 {
         match (&self.shared, &other.shared) {
@@ -117,6 +129,7 @@ impl Striker {
             restitution: material.restitution as f32,
             modal_duration: 0.0,
             shared: None,
+            receptance: None,
         }
     }
 
@@ -130,6 +143,30 @@ impl Striker {
         }
     }
 
+    /// A breakable body that strikes another one, and vibrates under the same force: its material, its mass, curvature and modes where it is
+    /// touched. Both bodies' blows then find one force over time. `contact`: the contact as the striker feels it, in its own body frame, with the
+    /// impulse **on the striker**; of its own striker nothing is asked but the restitution of the pair.
+    ///
+    /// # Errors
+    /// What [`Contact::validate`] and [`FractureConfig::validate`] refuse.
+    pub fn flexible(
+        body: &Body,
+        contact: &Contact,
+        config: &FractureConfig,
+    ) -> Result<Self, InputError> {
+        contact.validate()?;
+        config.validate()?;
+        let load = modal_load(body, [contact]);
+        let touch = &load.touches[0];
+        Ok(Self {
+            inverse_effective_mass: touch.inverse_effective_mass as f32,
+            curvature_radius: (touch.curvature_radius as f32).max(Self::EDGE_RADIUS),
+            restitution: contact.striker.restitution,
+            receptance: Some(Arc::new(Receptance::at(body, touch, config))),
+            ..Self::fixed(&body.asset.material)
+        })
+    }
+
     /// Rigid, flat and fixed.
     #[must_use]
     pub const fn rigid() -> Self {
@@ -140,6 +177,7 @@ impl Striker {
             restitution: 0.0,
             modal_duration: 0.0,
             shared: None,
+            receptance: None,
         }
     }
 }
@@ -276,6 +314,9 @@ impl Contact {
             if shared.body >= SharedMass::MOST_BODIES {
                 return Err(InputError::StrikerNumber(shared.body));
             }
+        }
+        if let Some(receptance) = &self.striker.receptance {
+            receptance.validate()?;
         }
         if !(0.0..=1.0).contains(&self.striker.restitution) {
             return Err(InputError::Restitution(f64::from(self.striker.restitution)));

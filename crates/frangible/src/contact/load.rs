@@ -77,7 +77,7 @@ pub fn modal_load<'a>(body: &Body, contacts: impl IntoIterator<Item = &'a Contac
             contact: Contact {
                 point: at.position,
                 normal,
-                ..*contact
+                ..contact.clone()
             },
             triangle: at.triangle,
             weights: at.weights,

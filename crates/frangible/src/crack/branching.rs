@@ -175,7 +175,10 @@ pub(super) fn start(
     let values = x.map(|p| frame.planar(p));
     let area = crossing_area(&x, &values);
     let gain = material.energy_depth * f64::from(field.at(e as usize).state.energy_density);
-    if area <= 0.0 || gain <= system.resistance.toughness.of(e) || !system.affords(e, area) {
+    if area <= 0.0
+        || gain <= system.resistance.toughness.of(e)
+        || !system.ledger.has(system.cost(e, area))
+    {
         return;
     }
     system.cracks[parent as usize]

@@ -161,7 +161,7 @@ fn try_start(system: &mut CrackSystem, field: &mut StressField, suspect: &Suspec
     let x = asset.fracture.corners(e as usize);
     let values = x.map(|p| frame.planar(p));
     let area = crossing_area(&x, &values);
-    if area <= 0.0 || !system.affords(e, area) {
+    if area <= 0.0 || !system.ledger.has(system.cost(e, area)) {
         return;
     }
     let id = system.cracks.len() as u32;

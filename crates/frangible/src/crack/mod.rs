@@ -15,8 +15,10 @@
 
 mod branching;
 mod cuts;
+mod extents;
 mod field;
 mod initiation;
+mod ledger;
 mod node_values;
 mod propagation;
 mod release;

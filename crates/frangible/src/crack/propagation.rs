@@ -208,16 +208,16 @@ enum Payment {
 fn pays(system: &CrackSystem, felt: &Felt, front: &Front, cut: &ElementCut, area: f32) -> Payment {
     let crack = &system.cracks[front.crack as usize];
     let material = &system.asset.material;
-    let cost = f64::from(area) * system.resistance.toughness.of(front.tet);
+    let cost = system.cost(front.tet, area);
     let mut gain = f64::from(area) * material.energy_depth * f64::from(felt.state.energy_density);
     if let Some(depth) = system.tip_depth(front) {
         let opening = felt.opening(cut.direction, material.poisson_ratio);
         let density = 0.5 * opening * opening / material.contact_modulus();
         gain = gain.max(f64::from(area) * depth * density);
     }
-    if system.never_affords(front.tet, area) {
+    if system.ledger.never_has(cost) {
         Payment::Refused
-    } else if system.affords(front.tet, area) && crack.spent + cost < crack.available + gain {
+    } else if system.ledger.has(cost) && crack.spent + cost < crack.available + gain {
         Payment::Now { gain }
     } else {
         Payment::Later

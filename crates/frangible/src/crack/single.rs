@@ -70,40 +70,6 @@ pub(crate) struct ElementCut {
     pub(crate) time: f64,
 }
 
-/// Where a crack is, and how long.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Extent {
-    pub(crate) origin: Vec3,
-    /// Largest distance of a fractured tetrahedron from the start, m.
-    pub(crate) size: f32,
-    /// Two of its tetrahedra that lie far apart.
-    ends: [Vec3; 2],
-    /// Distance between those two tetrahedra, m.
-    pub(crate) chord: f32,
-}
-
-impl Extent {
-    /// The extent of a crack that starts here.
-    pub(super) fn new(origin: Vec3) -> Self {
-        Self {
-            origin,
-            size: 0.0,
-            ends: [origin; 2],
-            chord: 0.0,
-        }
-    }
-
-    /// Takes in a tetrahedron more. Where the place lies beyond both ends, the nearer end moves there.
-    pub(super) fn grow(&mut self, centre: Vec3) {
-        self.size = self.size.max(centre.distance(self.origin));
-        let [first, second] = self.ends.map(|end| end.distance(centre));
-        if first.max(second) > self.chord {
-            self.ends[usize::from(first > second)] = centre;
-            self.chord = first.max(second);
-        }
-    }
-}
-
 /// A crack's front that met a tetrahedron it may not enter.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Junction {

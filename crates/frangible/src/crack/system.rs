@@ -4,9 +4,11 @@ use std::collections::BinaryHeap;
 
 use glam::Vec3;
 
+use super::extents::Extents;
+use super::ledger::Ledger;
 use super::node_values::NodeValues;
 use super::release::Releases;
-use super::single::{Crack, ElementCut, Extent, Front, Junction};
+use super::single::{Crack, ElementCut, Front, Junction};
 use super::sites::Site;
 use super::surface::CrackFrame;
 use super::tip::{Tip, front_limit, is_inside};
@@ -54,17 +56,13 @@ pub(crate) struct CrackSystem<'a> {
     /// What has released the weak points so far.
     pub(crate) releases: Releases,
     /// Where each crack is, and how long.
-    pub(crate) extents: Vec<Extent>,
+    pub(crate) extents: Extents,
     /// Centroid of each fracture tetrahedron, m.
     pub(crate) centroids: &'a [Vec3],
     /// Mean edge of the fracture mesh, m.
     pub(crate) edge: f32,
-    /// Energy that all cracks together may spend, J; infinite without a ledger.
-    pub(crate) budget: f64,
-    /// How much of that has come so far, J.
-    pub(crate) brought: f64,
-    /// Energy that all cracks together have spent, J.
-    pub(crate) spent: f64,
+    /// What all cracks together may spend.
+    pub(crate) ledger: Ledger,
 }
 
 impl<'a> CrackSystem<'a> {
@@ -81,9 +79,7 @@ impl<'a> CrackSystem<'a> {
             config,
             resistance: &body.resistance,
             seed: body.seed(),
-            budget,
-            brought: budget,
-            spent: 0.0,
+            ledger: Ledger::new(config.energy_ledger, budget),
             cracks: Vec::new(),
             values: NodeValues::new(asset.fracture.positions.len()),
             fractured_by: match &asset.portion {
@@ -98,7 +94,7 @@ impl<'a> CrackSystem<'a> {
             fronts: BinaryHeap::new(),
             stalled: Vec::new(),
             releases: Releases::default(),
-            extents: Vec::new(),
+            extents: Extents::new(body.prepared.edge),
             centroids: &body.prepared.centroids,
             edge: body.prepared.edge,
         };
@@ -188,24 +184,22 @@ impl<'a> CrackSystem<'a> {
         self.fronts.is_empty() && self.stalled.is_empty()
     }
 
+    /// How many tetrahedra all cracks have fractured, and how often they have met another: what they cut follows from it.
+    pub(crate) fn progress(&self) -> [usize; 2] {
+        let of = |crack: &Crack| [crack.elements.len(), crack.junctions.len()];
+        let add = |[a, b]: [usize; 2], [c, d]: [usize; 2]| [a + c, b + d];
+        self.cracks.iter().map(of).fold([0; 2], add)
+    }
+
     /// Whether the ledger has nothing left to speak of: no crack runs any more.
     pub(crate) fn is_spent(&self) -> bool {
         let least = SPENT * f64::from(self.edge * self.edge) * self.resistance.toughness.least;
-        self.spent > 0.0 && self.budget - self.spent < least
+        self.ledger.is_spent_to(least)
     }
 
-    /// Whether the ledger has the fracture energy of this area, m², in a tetrahedron, by now. What has not come may come yet.
-    pub(crate) fn affords(&self, tet: u32, area: f32) -> bool {
-        self.spent_with(tet, area) <= self.brought
-    }
-
-    /// Whether the ledger will have it at no time.
-    pub(crate) fn never_affords(&self, tet: u32, area: f32) -> bool {
-        self.spent_with(tet, area) > self.budget
-    }
-
-    fn spent_with(&self, tet: u32, area: f32) -> f64 {
-        self.spent + f64::from(area) * self.resistance.toughness.of(tet)
+    /// Fracture energy of this area, m², in a tetrahedron, J.
+    pub(crate) fn cost(&self, tet: u32, area: f32) -> f64 {
+        f64::from(area) * self.resistance.toughness.of(tet)
     }
 
     /// Depth of the layer that feeds an old crack's front with the strain energy of the tension across it, m; none where the
@@ -233,10 +227,10 @@ impl<'a> CrackSystem<'a> {
     pub(crate) fn fracture(&mut self, crack: u32, cut: ElementCut, area: f32, gain: f64) {
         let material = &self.asset.material;
         let tet = cut.tet as usize;
+        let cost = self.cost(cut.tet, area);
+        self.ledger.spend(cost);
         let c = &mut self.cracks[crack as usize];
-        let cost = f64::from(area) * self.resistance.toughness.of(cut.tet);
         c.spent += cost;
-        self.spent += cost;
         c.available += gain;
         self.area += f64::from(area);
         self.join(crack, cut, area);
@@ -262,7 +256,7 @@ impl<'a> CrackSystem<'a> {
 
     /// Adds a crack without tetrahedra yet, which starts in this one.
     pub(crate) fn add(&mut self, frame: CrackFrame, start: u32) {
-        self.extents.push(Extent::new(frame.origin));
+        self.extents.start(frame.origin);
         self.cracks.push(Crack::new(frame, start));
     }
 
@@ -273,7 +267,7 @@ impl<'a> CrackSystem<'a> {
         let c = &mut self.cracks[crack as usize];
         c.area += f64::from(area);
         let centre = self.centroids[tet];
-        self.extents[crack as usize].grow(centre);
+        self.extents.grow(crack as usize, centre);
         // The surface of a planar crack is the same everywhere.
         if self.config.path != CrackPath::Planar {
             for (&node, &s) in self.asset.fracture.tets[tet].iter().zip(&cut.values) {

@@ -53,7 +53,15 @@ pub(crate) fn build_cracked(
     let mut finished: Vec<(Fragment, Trace)> = finished.collect();
     // Stable: equal volumes stay in the order of their labels.
     finished.sort_by(|a, b| b.0.mass.volume.total_cmp(&a.0.mass.volume));
-    let (fragments, traces): (Vec<_>, Vec<Trace>) = finished.into_iter().unzip();
+    let (mut fragments, traces): (Vec<_>, Vec<Trace>) = finished.into_iter().unzip();
+    let mut place = vec![Fragment::PARTED; labels.count];
+    for (number, trace) in (0..).zip(&traces) {
+        place[trace.label as usize] = number;
+    }
+    for label in fragments.iter_mut().flat_map(|f| &mut f.neighbours) {
+        let own = place.get(*label as usize).copied();
+        *label = own.unwrap_or(Fragment::PARTED);
+    }
     let fixed = table.fixed();
     let undrawn = parts.map(|parts| Undrawn {
         parts,

@@ -21,6 +21,8 @@ pub(super) struct Draft {
     pub(super) inner: Vec<[u32; 3]>,
     /// Tetrahedron in which each of them lies.
     pub(super) inner_of: Vec<u32>,
+    /// Label on the other side of each of them.
+    pub(super) inner_to: Vec<u32>,
     pub(super) cracks: Vec<[Vec3; 3]>,
     /// Convex cells and the mesh nodes in them, ascending.
     pub(super) cell_nodes: Vec<(u32, u32)>,
@@ -54,10 +56,13 @@ pub(super) fn inner_faces(
                     return;
                 }
                 let [a, b, c] = points.map(|p| table.number(p));
-                for (side, face) in [(inside, [a, b, c]), (outside, [a, c, b])] {
+                for (side, other, face) in
+                    [(inside, outside, [a, b, c]), (outside, inside, [a, c, b])]
+                {
                     if let Some(draft) = drafts.get_mut(side as usize) {
                         draft.inner.push(face);
                         draft.inner_of.push(e);
+                        draft.inner_to.push(other);
                         let points = face.map(|p| u64::from(cell) << 32 | u64::from(p));
                         draft.cell_points.extend(points);
                     }

@@ -26,7 +26,7 @@ impl<'a> Finisher<'a> {
         }
     }
 
-    /// `label`: of the draft's nodes.
+    /// The fragment of a draft whose nodes have this label. Its neighbours are labels yet.
     pub(super) fn finish(
         &mut self,
         draft: Draft,
@@ -65,6 +65,7 @@ impl<'a> Finisher<'a> {
                 outer_triangles,
                 cracks: cracks.map(|t| t.map(|p| p - centre)).collect(),
             },
+            neighbours: draft.inner_to,
             render: None,
             mass,
             supported: draft.supported,

@@ -2,10 +2,8 @@
 //!
 //! It takes about 29 bytes per tetrahedron.
 
-use super::label::Labels;
 use crate::asset::Asset;
 use crate::mesh::{Rows, TetMesh};
-use crate::piece::Portion;
 
 /// The body's volume in the unit of [`MeshIndex::volumes`].
 const WHOLE: f64 = (1_u64 << 60) as f64;
@@ -53,14 +51,6 @@ impl MeshIndex {
     /// Nodes joined to a node by an edge, rising.
     pub(crate) fn neighbours(&self, node: u32) -> &[u32] {
         self.neighbours.of(node)
-    }
-
-    /// Whether a piece has more than half of the body, or of this portion of it.
-    pub(crate) fn is_most(&self, labels: &Labels, piece: u32, portion: Option<&Portion>) -> bool {
-        let nodes = labels.of_node.iter().zip(&self.volumes);
-        let own = nodes.filter(|(of, _)| **of == piece);
-        let whole = portion.map_or(self.whole, Portion::whole);
-        2 * own.map(|(_, volume)| volume).sum::<u64>() > whole
     }
 
     /// Volume of some nodes, in whole numbers of which 2⁶⁰ make about the body.

@@ -1,5 +1,6 @@
 //! Fragments: labels of nodes, exact partition of tetrahedra, closed surfaces and masses `[G12 §6]`.
 
+mod bearing;
 mod build;
 mod components;
 mod draft;
@@ -19,6 +20,7 @@ mod label_tests;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use bearing::Bearing;
 pub(crate) use build::{Built, build};
 pub(crate) use components::DisjointSets;
 pub use foreign::{CutEdge, interfaces_of_labels, pieces_of_cuts};

@@ -12,7 +12,7 @@ use crate::crack::{CrackSystem, Cuts};
 use crate::mesh::{EDGES, MassProperties, TetMesh};
 use crate::modal::ModalBasis;
 use crate::rng::{Purpose, stream, uniform};
-use crate::{Breakable, FractureConfig, Material};
+use crate::{Breakable, FractureConfig, Fragment, Material};
 
 /// A block of n³ jittered cubes, six tetrahedra each, without modes.
 pub(super) fn block(n: usize) -> Asset {
@@ -140,6 +140,7 @@ fn fragments_of_arbitrary_labels_tile_the_body_and_are_closed() {
             );
             assert!(fragment.mesh.normals.len() == fragment.mesh.triangles.len());
         }
+        assert_opposite_faces(&fragments);
         let first: glam::DVec3 = fragments.iter().map(|f| f.mass.centre * f.mass.mass).sum();
         let density = asset.material.density;
         assert!((first / (whole * density) - asset.mass.centre).length() < 1e-12);
@@ -189,6 +190,34 @@ fn the_fragment_that_holds_a_supported_node_is_supported() {
                 fragment.supported == holds || inner && !holds,
                 "node {node}"
             );
+        }
+    }
+}
+
+/// What each fragment has of crack faces towards another, that one has towards it, turned round.
+fn assert_opposite_faces(fragments: &[Fragment]) {
+    let towards = |own: usize, other: usize| {
+        let mesh = &fragments[own].mesh;
+        let faces = mesh.triangles[mesh.outer_triangles..].iter();
+        let pairs = faces.zip(&fragments[own].neighbours);
+        let own_faces = pairs.filter(|(_, n)| **n == other as u32);
+        own_faces.fold((0, glam::DVec3::ZERO), |(count, sum), (face, _)| {
+            let [a, b, c] = face.map(|v| mesh.positions[v as usize].as_dvec3());
+            (count + 1, sum + (b - a).cross(c - a))
+        })
+    };
+    for (own, fragment) in fragments.iter().enumerate() {
+        let inner = fragment.mesh.triangles.len() - fragment.mesh.outer_triangles;
+        assert_eq!(fragment.neighbours.len(), inner);
+        let all: usize = (0..fragments.len())
+            .map(|other| towards(own, other).0)
+            .sum();
+        assert_eq!(all, inner, "a neighbour that is no fragment");
+        assert_eq!(towards(own, own).0, 0);
+        for other in 0..own {
+            let ((here, sum), (there, turned)) = (towards(own, other), towards(other, own));
+            assert_eq!(here, there, "{own} and {other}");
+            assert!((sum + turned).length() < 1e-5, "{sum} and {turned}");
         }
     }
 }

@@ -60,6 +60,69 @@ impl WallMaterial {
         }
     }
 
+    /// All numbers, and the theory: what a contact's bytes keep of a wall.
+    pub(crate) fn numbers(&self) -> ([f64; 8], PlateTheory) {
+        let numbers = [
+            self.thickness,
+            self.bending_stiffness,
+            self.mass_per_area,
+            self.curvature_stiffness,
+            self.shear_stiffness,
+            self.rotary_inertia,
+            self.youngs_modulus,
+            self.poisson_ratio,
+        ];
+        (numbers, self.theory)
+    }
+
+    /// What [`Self::numbers`] gave.
+    pub(crate) fn of_numbers(numbers: [f64; 8], theory: PlateTheory) -> Self {
+        let [
+            thickness,
+            bending_stiffness,
+            mass_per_area,
+            curvature_stiffness,
+            ..,
+        ] = numbers;
+        let [
+            ..,
+            shear_stiffness,
+            rotary_inertia,
+            youngs_modulus,
+            poisson_ratio,
+        ] = numbers;
+        Self {
+            thickness,
+            bending_stiffness,
+            mass_per_area,
+            curvature_stiffness,
+            shear_stiffness,
+            rotary_inertia,
+            youngs_modulus,
+            poisson_ratio,
+            theory,
+        }
+    }
+
+    /// Whether every number can be one of a wall's.
+    pub(crate) fn is_sound(&self) -> bool {
+        let [
+            thickness,
+            bending,
+            mass,
+            held,
+            shear,
+            inertia,
+            youngs_modulus,
+            poisson_ratio,
+        ] = self.numbers().0;
+        let positive = [thickness, bending, mass, shear, inertia, youngs_modulus];
+        positive.iter().all(|x| x.is_finite() && *x > 0.0)
+            && held.is_finite()
+            && held >= 0.0
+            && (-1.0..0.5).contains(&poisson_ratio)
+    }
+
     /// Zener's dashpot of the infinite plate, 8 √(D μ), N·s/m.
     #[must_use]
     pub(crate) fn dashpot(&self) -> f64 {

@@ -113,7 +113,7 @@ pub fn breaks() -> &'static [Break] {
             for (model, config) in models() {
                 for seed in 1..=3 {
                     let body = kind.body(seed);
-                    let outcome = impact(&body, &[contact], &config).unwrap();
+                    let outcome = impact(&body, std::slice::from_ref(&contact), &config).unwrap();
                     if let Outcome::Broke(fracture) = outcome {
                         let name = format!("{name}, {model}, seed {seed}");
                         broke.push(Break {

@@ -298,7 +298,8 @@ fn integrate(body: &BodyMesh, topology: &Topology, lattice: &Lattice, piece: boo
         moments.add(corners, (filled + FICTITIOUS) * CELL_VOLUME * cube);
     }
     let mut merge = |share: &[Moments]| moments.iter_mut().zip(share).for_each(|(a, b)| a.merge(b));
-    if piece {
+    // A browser's module has one thread.
+    if piece || cfg!(target_family = "wasm") {
         (0..SHARES).for_each(|number| merge(&share(number)));
         return moments;
     }

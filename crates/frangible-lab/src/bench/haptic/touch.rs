@@ -30,7 +30,7 @@ pub const DELAY: u64 = 24;
 const LOOKS: usize = 1;
 
 /// What holds the probe's tip.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Probe {
     /// Radius of the tip, m.
     pub radius: f32,
@@ -250,7 +250,7 @@ impl Touch {
     fn blow(&mut self, velocity: Vec3) -> Result<(), InputError> {
         let (body, inward) = (&self.body, -self.place.normal);
         let speed = f64::from(velocity.dot(inward).max(0.0));
-        let striker = self.probe.striker;
+        let striker = self.probe.striker.clone();
         let hit = Contact::collision(body.asset(), self.place.position, inward, speed, striker);
         if let Stage::Vibrates(vibration) = Vibration::begin(body, &[hit], &self.config)? {
             let mut search = OnsetSearch::new(body, vibration);

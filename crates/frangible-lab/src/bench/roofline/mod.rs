@@ -240,7 +240,7 @@ fn vibration(
     contact: &frangible::Contact,
     config: &FractureConfig,
 ) -> Result<Vibration, BenchError> {
-    match Vibration::begin(body, &[*contact], config)? {
+    match Vibration::begin(body, std::slice::from_ref(contact), config)? {
         Stage::Vibrates(vibration) => Ok(vibration),
         Stage::Held(_) => Err(BenchError::NotAsMeant(
             "a blow of Table 1 is refused by its impulse; change its speed in subjects.rs".into(),

@@ -28,6 +28,8 @@ pub(crate) enum Command {
     Figures(FiguresArgs),
     /// Measure how fast the bodies of the paper's Table 1 break, how fast harmless contacts are refused, and more (performance.md)
     Bench(BenchArgs),
+    /// Draw the pictures of the documentation's gallery, and with --hero the film of its first page (a minute each)
+    Gallery(GalleryArgs),
     /// Break the same impact by several methods, side by side: ours, quasi-static, along element faces, Voronoi cells by strain
     /// energy, Voronoi cells around the impact; write a picture (PNG) and a table (Markdown, JSON)
     Compare(CompareArgs),
@@ -42,6 +44,21 @@ pub(crate) struct PageArgs {
     /// Also write the command's page and its pictures into this folder, made when it is missing
     #[arg(long, value_name = "DIR")]
     pub(crate) write: Option<PathBuf>,
+}
+
+#[derive(Args, Clone, Debug)]
+pub(crate) struct GalleryArgs {
+    /// Scenes to draw [default: all that the gallery shows]
+    #[arg(value_name = "SCENE")]
+    pub(crate) scenes: Vec<String>,
+
+    /// Make the film of five breaks (hero.webp) instead
+    #[arg(long, conflicts_with = "scenes")]
+    pub(crate) hero: bool,
+
+    /// Folder for the pictures, made when it is missing
+    #[arg(long, default_value = "docs/gallery", value_name = "DIR")]
+    pub(crate) write: PathBuf,
 }
 
 #[derive(Args, Clone, Debug)]

@@ -5,6 +5,7 @@ mod bench;
 mod compare;
 mod experiments;
 mod figures;
+mod gallery;
 mod near_field;
 mod output;
 mod pieces;
@@ -25,6 +26,7 @@ fn main() -> ExitCode {
         Command::NearField(args) => near_field::run(&args),
         Command::Sound(args) => sound::run(&args),
         Command::Figures(args) => figures::run(&args),
+        Command::Gallery(args) => gallery::run(&args),
         Command::Bench(args) => bench::run(&args),
         Command::Compare(args) => compare::run(&args),
     };

@@ -125,8 +125,11 @@ fn throw(
     let stone = Striker::fixed(&Material::preset("stone")?);
     let mut speed = SLOWEST;
     while speed < FASTEST {
-        let (outcome, trace) =
-            impact_traced(&kind.body(1), &[contact(&rabbit, speed, stone)], config)?;
+        let (outcome, trace) = impact_traced(
+            &kind.body(1),
+            &[contact(&rabbit, speed, stone.clone())],
+            config,
+        )?;
         if largest(&outcome) < LARGEST {
             return Ok(Thrown {
                 model,

@@ -99,7 +99,7 @@ fn search(
         );
         for seed in 1..=SEEDS {
             let body: Body = kind.body(seed);
-            let (outcome, trace) = impact_traced(&body, &[contact], &config())?;
+            let (outcome, trace) = impact_traced(&body, std::slice::from_ref(&contact), &config())?;
             if let Outcome::Broke(fracture) = outcome
                 && wanted(&fracture, &trace)
             {

@@ -42,7 +42,7 @@ fn compute(workshop: &mut Workshop<'_>) -> Result<Findings, FigureError> {
             let share = (DAMPING.len() * m + i) as f64 / (2 * DAMPING.len()) as f64;
             workshop.tell(&format!("{name}, {SEEDS} seeds, α {alpha:.0e} s"), share);
             let plate = changed(&slab, |material| material.stiffness_damping = alpha);
-            let damage = mean_damage(&plate, &[contact], &config)?;
+            let damage = mean_damage(&plate, std::slice::from_ref(&contact), &config)?;
             table.row([
                 name.into(),
                 shown(alpha),
@@ -120,7 +120,7 @@ fn broken(
     label: &str,
 ) -> Result<RgbImage, FigureError> {
     let body = Body::new(Arc::clone(plate), 1)?;
-    let outcome = impact(&body, &[*contact], config)?;
+    let outcome = impact(&body, std::slice::from_ref(contact), config)?;
     let mut model = Model::default();
     if let Outcome::Broke(fracture) = &outcome {
         let colours = PieceColours {

@@ -128,11 +128,11 @@ fn compute(workshop: &mut Workshop<'_>) -> Result<Findings, FigureError> {
 fn scan(body: &Body, config: &FractureConfig) -> Result<Vec<Hit>, FigureError> {
     let one = |&modulus: &f64| -> Result<Hit, FigureError> {
         let contact = contact(body.asset(), striker(modulus));
-        let outcome = impact(body, &[contact], config)?;
+        let outcome = impact(body, std::slice::from_ref(&contact), config)?;
         let mut duration = outcome.report().contact_duration;
         if duration == 0.0 {
             // Refused by its impulse alone: nothing had to be computed.
-            let load = modal_load(body, &[contact]);
+            let load = modal_load(body, std::slice::from_ref(&contact));
             duration = contact_duration(body.asset(), &load, config.duration);
         }
         let damage = damage(&outcome);

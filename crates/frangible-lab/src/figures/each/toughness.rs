@@ -49,7 +49,7 @@ fn compute(workshop: &mut Workshop<'_>) -> Result<Findings, FigureError> {
                 &format!("{name}, {SEEDS} seeds, {g} J/m²"),
                 (3 * m + i) as f64 / 6.0,
             );
-            damage.push(mean_damage(slab, &[contact], &config)?);
+            damage.push(mean_damage(slab, std::slice::from_ref(&contact), &config)?);
             cells.push(pattern(
                 slab,
                 &contact,
@@ -154,7 +154,7 @@ pub(crate) fn pattern(
     label: &str,
 ) -> Result<RgbImage, FigureError> {
     let body = Body::new(Arc::clone(slab), 1)?;
-    let (_, trace) = impact_traced(&body, &[*contact], config)?;
+    let (_, trace) = impact_traced(&body, std::slice::from_ref(contact), config)?;
     let mut model = Model::default();
     let mesh = &slab.fracture;
     for (triangle, normals) in slab.surface.triangles.iter().zip(&slab.surface.normals) {

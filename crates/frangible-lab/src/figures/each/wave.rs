@@ -120,7 +120,7 @@ fn compute(workshop: &mut Workshop<'_>) -> Result<Findings, FigureError> {
     let faces = Faces::new(&slab);
     let contact = slab_blow(&slab)?;
     let body = Body::new(slab, 1)?;
-    let waves = models().map(|(_, config)| wave(&body, contact, &config));
+    let waves = models().map(|(_, config)| wave(&body, contact.clone(), &config));
     let [paper, ours] = &waves;
 
     workshop.tell("stresses over time", 0.5);

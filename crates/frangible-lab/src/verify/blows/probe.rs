@@ -116,7 +116,7 @@ pub(crate) fn ball(at: [f64; 2], speed: f64, [mass, radius]: [f64; 2]) -> Contac
 
 /// The blow of a single contact that pushes.
 pub(crate) fn blow(body: &Body, contact: Contact, config: &FractureConfig) -> Blow {
-    Blow::new(body, &[contact], config)
+    Blow::new(body, std::slice::from_ref(&contact), config)
         .expect("a sound contact")
         .expect("a contact that pushes")
 }

@@ -192,8 +192,12 @@ fn run(
     let config = FractureConfig::default();
     let whole = breakable.asset().mass.volume;
     let hit = |seed: u64| {
-        let outcome = impact(&breakable.body(seed), &[contact], &config)
-            .map_err(|source| VerifyError::Impact { case: name, source })?;
+        let outcome = impact(
+            &breakable.body(seed),
+            std::slice::from_ref(&contact),
+            &config,
+        )
+        .map_err(|source| VerifyError::Impact { case: name, source })?;
         counter.count();
         let share = |f: &frangible::Fragment| f.mass.volume / whole;
         Ok(match outcome {

@@ -127,8 +127,9 @@ impl RearStars {
             for &speed in &plan.speeds {
                 let contact = ball.contact(&steel, thickness, speed);
                 let strike = |seed: u64| {
-                    let (outcome, trace) = impact_traced(&plate.body(seed), &[contact], &config)
-                        .map_err(|source| VerifyError::Impact { case: NAME, source })?;
+                    let (outcome, trace) =
+                        impact_traced(&plate.body(seed), std::slice::from_ref(&contact), &config)
+                            .map_err(|source| VerifyError::Impact { case: NAME, source })?;
                     // Just under the middle: a star from the rear face goes through it.
                     let pattern = CrackPattern::of(plate.asset(), &trace, -0.13 * thickness);
                     let report = outcome.report();

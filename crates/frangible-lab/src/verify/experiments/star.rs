@@ -385,7 +385,7 @@ fn strike(
     if variant.instant {
         config.timing = CrackTiming::Instant;
     }
-    let (_, trace) = impact_traced(&plate.body(seed), &[contact], &config)
+    let (_, trace) = impact_traced(&plate.body(seed), std::slice::from_ref(&contact), &config)
         .map_err(|source| VerifyError::Impact { case: NAME, source })?;
     let pattern = CrackPattern::of(plate.asset(), &trace, SECTION * thickness);
     Ok(StarImpact {

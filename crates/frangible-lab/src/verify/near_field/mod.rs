@@ -109,7 +109,7 @@ fn stress(plate: &frangible::Asset) -> (f64, Vec<StressRow>) {
             (config.near_field, config.residual) = (near, false);
             // Fine enough that a step falls on the middle.
             config.samples_per_period = 64.0;
-            let blow = probe::blow(&body, contact, &config);
+            let blow = probe::blow(&body, contact.clone(), &config);
             let report = &blow.reports()[0];
             let step = (0.5 * DURATION / blow.time_step()).round() as usize - 1;
             let along = places(&body, [0.0; 2], [1.0, 0.0], &fine);

@@ -62,11 +62,15 @@ pub(super) fn compute() -> Result<Vec<ResidualRow>, BakeError> {
     let rows = cases
         .into_iter()
         .map(|(asset, name, point, normal, followed)| {
-            let contact = Contact::new(point, normal.normalize(), 0.0, 3.0, stone);
+            let contact = Contact::new(point, normal.normalize(), 0.0, 3.0, stone.clone());
             let peak = |modes: usize, residual: bool| {
                 let mut config = FractureConfig::default();
                 (config.residual, config.near_field) = (residual, None);
-                largest(&body(following(asset.clone(), modes)), contact, &config)
+                largest(
+                    &body(following(asset.clone(), modes)),
+                    contact.clone(),
+                    &config,
+                )
             };
             let all = peak(MODES, true);
             ResidualRow {

@@ -85,11 +85,11 @@ pub(crate) struct Stress {
 }
 
 /// The stress of a blow on a piece too strong to crack; none where it has no weak point in tension.
-pub(crate) fn stress(strong: &Body, contact: Contact) -> Result<Option<Stress>, InputError> {
+pub(crate) fn stress(strong: &Body, contact: &Contact) -> Result<Option<Stress>, InputError> {
     let mut config = FractureConfig::default();
     // Every weak point at every step.
     config.culling = false;
-    let outcome = impact(strong, &[contact], &config)?;
+    let outcome = impact(strong, std::slice::from_ref(contact), &config)?;
     let report = outcome.report();
     let level = match &outcome {
         Outcome::Held { margin, .. } => f64::from(STRONGER) / margin,
@@ -109,7 +109,7 @@ pub(crate) fn speed_for(
     level: f64,
     materials: &[Material; 2],
 ) -> Result<f64, InputError> {
-    let found = stress(strong, contact(strong, at, TRIAL, materials))?;
+    let found = stress(strong, &contact(strong, at, TRIAL, materials))?;
     let trial = found.map_or(0.0, |s| s.level);
     // Nearly linear: the duration falls with the fifth root of the speed.
     let speed = if trial > 0.0 {

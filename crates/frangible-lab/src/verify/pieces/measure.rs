@@ -185,11 +185,11 @@ pub(crate) fn measure(
             let at = place(&truth.brittle, number, k + LEVELS.len() * draw);
             let speed = speed_for(&trial.strong, at, level, &materials).map_err(failed)?;
             let contact = impacts::contact(&truth.brittle, at, speed, &materials);
-            let found = stress(&truth.strong, contact).map_err(failed)?;
+            let found = stress(&truth.strong, &contact).map_err(failed)?;
             let Some(found) = found.filter(|s| s.level > ENOUGH * level) else {
                 continue;
             };
-            let (breaks, softened) = blow(&truth.brittle, contact).map_err(failed)?;
+            let (breaks, softened) = blow(&truth.brittle, &contact).map_err(failed)?;
             let nudged = nudged(&truth.brittle, at, speed, &materials).map_err(failed)?;
             let level = found.level;
             blows.push((
@@ -212,12 +212,12 @@ pub(crate) fn measure(
             return Ok(None);
         };
         let config = FractureConfig::default();
-        let blows = blows.iter().map(|&(contact, truth, _)| {
+        let blows = blows.iter().map(|(contact, truth, _)| {
             let own = stress(&bodies.strong, contact)?;
             Ok(BlowSample {
                 stress: own.map_or(0.0, |own| own.peak / truth.peak),
                 apart: own.map(|own| f64::from(truth.place.distance(own.place)) / size),
-                breaks: would_break(&bodies.brittle, &[contact], &config)?,
+                breaks: would_break(&bodies.brittle, std::slice::from_ref(contact), &config)?,
             })
         });
         let blows = blows.collect::<Result<_, _>>().map_err(failed)?;
@@ -256,15 +256,15 @@ fn nudged(
     let config = FractureConfig::default();
     let hit = |factor: f64| {
         let contact = impacts::contact(piece, at, factor * speed, materials);
-        would_break(piece, &[contact], &config)
+        would_break(piece, std::slice::from_ref(&contact), &config)
     };
     Ok([hit(1.0 - NUDGE)?, hit(1.0 + NUDGE)?])
 }
 
 /// Whether a blow breaks a piece; of one that only cracks, first frequency with the cracks over that without.
-fn blow(piece: &Body, contact: Contact) -> Result<(bool, Option<f64>), InputError> {
+fn blow(piece: &Body, contact: &Contact) -> Result<(bool, Option<f64>), InputError> {
     let config = FractureConfig::default();
-    let state = match impact(piece, &[contact], &config)? {
+    let state = match impact(piece, std::slice::from_ref(contact), &config)? {
         Outcome::Broke(_) => return Ok((true, None)),
         Outcome::Held { state, .. } => state,
         _ => None,

@@ -9,9 +9,11 @@ macro_rules! picture {
 }
 
 /// Scene and PNG; just after the break, from the pictures of the gallery.
-const PICTURES: [(&str, &[u8]); 17] = [
+const PICTURES: [(&str, &[u8]); 21] = [
+    picture!("bottle"),
     picture!("bowl"),
     picture!("brick"),
+    picture!("bulb"),
     picture!("cantilever"),
     picture!("chocolate"),
     picture!("crockery"),
@@ -24,9 +26,11 @@ const PICTURES: [(&str, &[u8]); 17] = [
     picture!("rabbit"),
     picture!("shards"),
     picture!("shelf"),
+    picture!("statue"),
     picture!("vase"),
     picture!("wall"),
     picture!("window"),
+    picture!("wine-glass"),
 ];
 
 /// The pictures, on the graphics card from the first time they are asked for.

@@ -36,6 +36,18 @@ impl Panels {
         }
         ui.separator();
         clock(ui, shown, commands);
+        if let Some((mut volume, muted)) = shown.sound {
+            ui.horizontal(|ui| {
+                let mut on = !muted;
+                if ui.checkbox(&mut on, "sound").changed() {
+                    commands.push(Command::Sound(on));
+                }
+                let slider = Slider::new(&mut volume, 0.0..=1.0).show_value(false);
+                if ui.add_enabled(on, slider.text("volume")).changed() {
+                    commands.push(Command::Volume(volume));
+                }
+            });
+        }
         ui.separator();
         tool(ui, shown, commands);
         ui.separator();

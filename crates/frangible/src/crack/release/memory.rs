@@ -2,7 +2,8 @@
 
 use glam::Vec3;
 
-use super::super::single::{Crack, Extent};
+use super::super::extents::{Extents, FAINT};
+use super::super::single::Crack;
 use super::super::sites::Site;
 use super::super::system::CrackSystem;
 use crate::stress::{STRETCHED, Shadow, share_left};
@@ -10,21 +11,11 @@ use crate::stress::{STRETCHED, Shadow, share_left};
 /// A smaller fall of a share than this is passed over.
 const LEAST: f32 = 5e-3;
 
-/// A crack that takes a smaller share than this of the stress counts as taking nothing. It is far away for its length and needs no look,
-/// which saves time, since most cracks about a point are short and far.
-const FAINT: f32 = 0.02;
-
-/// At a distance of so many half-lengths a of a crack its share is below [`FAINT`]. A crack in a stretched body takes the most,
-/// 1 − (1 + a²/y²)^-1.5 < 1.5 a²/y² at the distance y, and √(1.5 / 0.02) = 8.66.
-const FAR: f32 = 8.67;
-
 /// The cracks, as release waves leave them.
 #[derive(Clone, Copy)]
 pub(super) struct Sources<'a> {
     pub(super) cracks: &'a [Crack],
-    pub(super) extents: &'a [Extent],
-    /// Mean edge of the fracture mesh, m.
-    pub(super) edge: f32,
+    pub(super) extents: &'a Extents,
     /// Speed of the waves c_R, m/s.
     pub(super) wave: f64,
 }
@@ -34,7 +25,6 @@ impl<'a> Sources<'a> {
         Self {
             cracks: &system.cracks,
             extents: &system.extents,
-            edge: system.edge,
             wave: system.asset.material.rayleigh_speed(),
         }
     }
@@ -42,21 +32,16 @@ impl<'a> Sources<'a> {
     /// What a crack leaves at a point at time `now`, s; none where it takes nothing to speak of. `beta`: of the stress that bends.
     #[inline(always)]
     fn cast(&self, crack: usize, point: Vec3, beta: f32, now: f64) -> Option<Shadow> {
-        let extent = &self.extents[crack];
-        let half_length = 0.5 * extent.chord.max(self.edge);
-        let far = FAR * half_length;
-        let beyond = extent.size + far;
-        if point.distance_squared(extent.origin) > beyond * beyond {
-            return None;
-        }
         let site = self.cracks[crack]
             .sites
             .nearest_heard(point, now, self.wave)?;
-        let beyond = far + 0.5 * self.edge;
+        let radius = 0.5 * self.extents.edge();
+        let beyond = self.extents.far(crack) + radius;
         if point.distance_squared(site.position) > beyond * beyond {
             return None;
         }
-        let to_crack = nearest_place(site, point, 0.5 * self.edge);
+        let to_crack = nearest_place(site, point, radius);
+        let half_length = self.extents.half_length(crack);
         let share = |beta| share_left(to_crack, site.direction, half_length, beta);
         let stretched = share(STRETCHED);
         let shadow = Shadow {
@@ -135,21 +120,20 @@ impl pulp::NullaryFnOnce for Update<'_> {
         } = self.memory;
         let mut falls = false;
         let mut i = 0;
-        for crack in 0..self.sources.cracks.len() {
+        for crack in self.sources.extents.about(*place) {
             let number = crack as u32;
-            let is_known = shadows.get(i).is_some_and(|(of, _)| *of == number);
-            if self.but != Some(number)
-                && let Some(new) = self.sources.cast(crack, *place, *beta, self.now)
-            {
-                if is_known {
-                    falls |= darken(&mut shadows[i].1, new);
-                } else {
-                    shadows.insert(i, (number, new));
-                    falls = true;
-                }
-                i += 1;
+            if self.but == Some(number) {
+                continue;
+            }
+            let Some(new) = self.sources.cast(crack, *place, *beta, self.now) else {
+                continue;
+            };
+            i += shadows[i..].partition_point(|(of, _)| *of < number);
+            if shadows.get(i).is_some_and(|(of, _)| *of == number) {
+                falls |= darken(&mut shadows[i].1, new);
             } else {
-                i += usize::from(is_known);
+                shadows.insert(i, (number, new));
+                falls = true;
             }
         }
         falls

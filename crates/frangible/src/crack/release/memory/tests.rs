@@ -7,22 +7,30 @@ const EDGE: f32 = 1e-3;
 const WAVE: f64 = 3000.0;
 
 /// Cracks made by hand.
-#[derive(Default)]
 struct Cracks {
     cracks: Vec<Crack>,
-    extents: Vec<Extent>,
+    extents: Extents,
+}
+
+impl Default for Cracks {
+    fn default() -> Self {
+        Self {
+            cracks: Vec::new(),
+            extents: Extents::new(EDGE),
+        }
+    }
 }
 
 impl Cracks {
     fn start(&mut self, at: Vec3) -> u32 {
         self.cracks
             .push(Crack::new(CrackFrame::new(at, Vec3::Y, 0.0, 1.0, 1, 0), 0));
-        self.extents.push(Extent::new(at));
+        self.extents.start(at);
         self.cracks.len() as u32 - 1
     }
 
     fn grow(&mut self, crack: u32, position: Vec3, direction: Vec3, time: f64) {
-        self.extents[crack as usize].grow(position);
+        self.extents.grow(crack as usize, position);
         self.cracks[crack as usize].sites.push(Site {
             position,
             direction,
@@ -34,7 +42,6 @@ impl Cracks {
         Sources {
             cracks: &self.cracks,
             extents: &self.extents,
-            edge: EDGE,
             wave: WAVE,
         }
     }
@@ -121,7 +128,7 @@ fn plainly(cracks: &Cracks, crack: usize, memory: &Memory, now: f64) -> Option<S
     let reach = |site: &Site| WAVE as f32 * (now as f32 - site.time as f32);
     let heard = sites.filter(|site| distance(site) < reach(site));
     let nearest = heard.min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
-    let half_length = 0.5 * cracks.extents[crack].chord.max(EDGE);
+    let half_length = cracks.extents.half_length(crack);
     let to_crack = nearest_place(nearest, memory.place, 0.5 * EDGE);
     let share = |beta| share_left(to_crack, nearest.direction, half_length, beta);
     Some(Shadow {

@@ -1,0 +1,56 @@
+// What runs in the worker of worker.js.
+import { Breakable } from './index.js';
+
+const things = new Map();
+let next = 0;
+
+const keep = (thing) => {
+  next += 1;
+  things.set(next, thing);
+  return next;
+};
+
+/** What can be asked; each is told the number of the call first. */
+const tasks = {
+  async load(_, source, module) {
+    const kind = await Breakable.load(source, { module });
+    return { number: keep(kind), about: { ...kind } };
+  },
+  async bake(id, arrays, options, module) {
+    const { bake } = await import('./bake.js');
+    const onProgress = (stage, share) => port.postMessage({ id, stage, share });
+    return bake(arrays, { ...options, module, onProgress });
+  },
+  body: (_, kind, seed) => keep(things.get(kind).body(seed)),
+  impact(_, body, contacts, options) {
+    const { motions, ...outcome } = things.get(body).impact(contacts, options);
+    return motions ? { ...outcome, number: keep(motions) } : outcome;
+  },
+  motions: (_, number, before) => things.get(number)(before),
+  free(_, number) {
+    things.get(number)?.free?.();
+    things.delete(number);
+  },
+};
+
+const port = globalThis.postMessage ? globalThis : (await import('node:worker_threads')).parentPort;
+
+async function answer({ id, what, values }) {
+  try {
+    const result = await tasks[what](id, ...values);
+    port.postMessage({ id, result }, buffers(result));
+  } catch ({ name, message }) {
+    port.postMessage({ id, error: { name, message } });
+  }
+}
+
+/** The arrays of fragments move and are not copied. */
+function buffers({ fragments = [] } = {}) {
+  const views = fragments.filter(({ hulls }) => hulls).flatMap(({ centre, inertia, hulls, geometry, solid }) => [
+    centre, inertia, ...hulls, ...Object.values(geometry), ...Object.values(solid),
+  ]);
+  return [...new Set(views.filter(ArrayBuffer.isView).map(({ buffer }) => buffer))];
+}
+
+if (port === globalThis) addEventListener('message', (event) => answer(event.data));
+else port.on('message', answer);

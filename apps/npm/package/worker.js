@@ -1,0 +1,105 @@
+// Breaks and bakes in a worker, so that frames keep coming: the same as index.js, in promises. worker.d.ts tells what there is.
+
+import { arraysOf } from './arrays.js';
+
+/** A worker that holds bodies and breaks them. */
+export class Workshop {
+  #worker;
+  #waiting = new Map();
+  #next = 0;
+  #ended;
+
+  constructor() {
+    this.#begin();
+  }
+
+  async #begin() {
+    this.#worker = open(new URL('./worker-inside.js', import.meta.url));
+    const worker = await this.#worker;
+    worker.heard((answer) => this.#hear(answer));
+    worker.died((reason) => this.#end(`the worker died: ${reason}; make a new Workshop`));
+  }
+
+  #hear({ id, stage, share, result, error }) {
+    const waiting = this.#waiting.get(id);
+    if (stage !== undefined) return waiting?.tell?.(stage, share);
+    this.#waiting.delete(id);
+    if (error === undefined) waiting?.resolve(result);
+    else waiting?.reject(Object.assign(new Error(error.message), { name: error.name }));
+  }
+
+  #end(reason) {
+    this.#ended ??= reason;
+    for (const { reject } of this.#waiting.values()) reject(new Error(this.#ended));
+    this.#waiting.clear();
+  }
+
+  async #ask(what, values, tell) {
+    const worker = await this.#worker;
+    if (this.#ended) throw new Error(this.#ended);
+    const id = (this.#next += 1);
+    return new Promise((resolve, reject) => {
+      this.#waiting.set(id, { resolve, reject, tell });
+      try {
+        worker.post({ id, what, values });
+      } catch (error) {
+        this.#waiting.delete(id);
+        reject(error);
+      }
+    });
+  }
+
+  /** Bakes a mesh there, as `bake` of bake.js does. */
+  async bake(mesh, { onProgress, module, ...options } = {}) {
+    return this.#ask('bake', [arraysOf(mesh), options, module === undefined ? undefined : String(module)], onProgress);
+  }
+
+  /** Reads a baked body there: an address or bytes. */
+  async load(source, { module } = {}) {
+    const address = typeof source === 'string' || source instanceof URL;
+    const from = address ? String(new URL(source, globalThis.location?.href)) : source;
+    const { number, about } = await this.#ask('load', [from, module === undefined ? undefined : String(module)]);
+    const body = async (seed = 1) => {
+      const body = await this.#ask('body', [number, seed]);
+      return {
+        impact: (contacts, options) => this.#impact(body, contacts, options),
+        free: () => this.#ask('free', [body]),
+      };
+    };
+    return { ...about, body, free: () => this.#ask('free', [number]) };
+  }
+
+  async #impact(body, contacts, options) {
+    const { number, ...outcome } = await this.#ask('impact', [body, contacts, options]);
+    if (number !== undefined) outcome.motions = (before) => this.#ask('motions', [number, before]);
+    return outcome;
+  }
+
+  /** Ends the worker; what still waits is rejected. */
+  async close() {
+    const worker = await this.#worker;
+    this.#end('the Workshop was closed');
+    worker.stop();
+  }
+}
+
+/** A worker of the browser's or of Node's, with the same four functions. */
+async function open(address) {
+  if (globalThis.Worker) {
+    const worker = new Worker(address, { type: 'module' });
+    return {
+      post: (message) => worker.postMessage(message),
+      heard: (hear) => worker.addEventListener('message', (event) => hear(event.data)),
+      died: (tell) => worker.addEventListener('error', (event) => tell(event.message ?? 'its script could not be loaded')),
+      stop: () => worker.terminate(),
+    };
+  }
+  const { Worker: Thread } = await import('node:worker_threads');
+  const worker = new Thread(address);
+  return {
+    post: (message) => worker.postMessage(message),
+    heard: (hear) => worker.on('message', hear),
+    died: (tell) => worker.on('error', (error) => tell(error.message)).on('exit', (code) => tell(`it ended with ${code}`)),
+    stop: () => worker.terminate(),
+  };
+}

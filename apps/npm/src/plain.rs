@@ -1,0 +1,311 @@
+//! Contacts, drawn meshes, colliders and motions as rows of numbers.
+
+use frangible::glam::{DMat3, DQuat, DVec3, Vec3};
+use frangible::internals::mesh::{merged_parts, thinned};
+use frangible::internals::rigid::{Kick, Rigid, nearest_first, push_plug, take_energy};
+use frangible::internals::{Fields, Preset, RenderMesh, box_projection};
+use frangible::{Asset, Breakable, Contact, Fracture, Fragment, InputError, Striker, TriMesh};
+
+/// Numbers of a contact: point, direction of the push (m, body frame), speed of approach (m/s), one over the striker's mass at the contact
+/// (1/kg), its radius of curvature (m), plane-strain modulus (Pa), coefficient of restitution; then of a scripted push its impulse (N·s) and
+/// duration (s), zeros otherwise.
+pub const CONTACT: usize = 15;
+
+/// Numbers of a pose: position (m) and rotation (quaternion x, y, z, w).
+pub const POSE: usize = 7;
+
+/// Numbers of a motion: velocity of the centre of mass (m/s) and angular velocity (rad/s), world axes.
+pub const MOTION: usize = 6;
+
+/// Numbers of a striker: mass (kg), position of its centre of mass (m), moments of inertia about it (kg·m², world axes, column by column),
+/// and its [`MOTION`].
+pub const STRIKER: usize = 1 + 3 + 9 + MOTION;
+
+/// Convex parts of a collider at most, and points of each.
+const PARTS: [usize; 2] = [8, 32];
+
+fn vec(numbers: &[f64]) -> Vec3 {
+    double(numbers).as_vec3()
+}
+
+fn double(numbers: &[f64]) -> DVec3 {
+    DVec3::new(numbers[0], numbers[1], numbers[2])
+}
+
+/// A kind of body, ready to be broken; its strength scatters as its material's does.
+///
+/// # Errors
+/// An asset whose arrays do not fit together, or with a number that cannot be used.
+pub fn kind(asset: Asset) -> Result<Breakable, InputError> {
+    let modulus = Preset::named(&asset.material.name).map_or(0.0, |preset| preset.weibull_modulus);
+    let fields = Fields::default().with_weibull_modulus(modulus);
+    Breakable::new(asset)?.with_fields(fields)
+}
+
+/// Contacts in the body frame, of rows of [`CONTACT`] numbers.
+#[must_use]
+pub fn contacts(rows: &[f64]) -> Vec<Contact> {
+    let contact = |row: &[f64]| {
+        let [point, push] = [vec(&row[0..]), vec(&row[3..])];
+        if row[14] != 0.0 {
+            return Contact::script(point, vec(&row[11..]), row[14] as f32);
+        }
+        let mut striker = Striker::rigid();
+        striker.inverse_effective_mass = row[7] as f32;
+        striker.curvature_radius = row[8] as f32;
+        striker.contact_modulus = row[9] as f32;
+        striker.restitution = row[10] as f32;
+        Contact::new(point, push, 0.0, row[6] as f32, striker)
+    };
+    rows.chunks_exact(CONTACT).map(contact).collect()
+}
+
+/// A mesh to draw, vertices shared where position, normal and texture coordinates are.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Drawn {
+    /// m.
+    pub positions: Vec<f32>,
+    /// Unit normals.
+    pub normals: Vec<f32>,
+    /// Texture coordinates, two per vertex.
+    pub uvs: Vec<f32>,
+    /// Three per triangle, counter-clockwise seen from outside; those of the body's own outside first.
+    pub indices: Vec<u32>,
+    /// How many of the indices are of the body's own outside; the rest are crack faces.
+    pub outer_indices: usize,
+}
+
+impl Drawn {
+    /// The surface of a whole body, in its body frame.
+    #[must_use]
+    pub fn whole(asset: &Asset) -> Self {
+        let mut sheet;
+        match &asset.render {
+            Some(surface) => {
+                sheet = Sheet::new(surface.positions.len(), Vec3::ZERO);
+                for (triangle, normals) in surface.triangles.iter().zip(surface.corner_normals()) {
+                    let uvs = (!surface.uvs.is_empty())
+                        .then(|| triangle.map(|v| surface.uvs[v as usize]));
+                    sheet.add(&surface.positions, *triangle, normals, uvs);
+                }
+            }
+            None => {
+                let positions = asset.surface_positions();
+                sheet = Sheet::new(positions.len(), Vec3::ZERO);
+                let corners = asset.surface.triangles.iter().zip(&asset.surface.normals);
+                for (triangle, normals) in corners {
+                    sheet.add(positions, *triangle, *normals, None);
+                }
+            }
+        }
+        sheet.drawn.outer_indices = sheet.drawn.indices.len();
+        sheet.drawn
+    }
+
+    /// A fragment, in its own frame. Cracks that did not part it are drawn from both sides.
+    #[must_use]
+    pub fn fragment(fragment: &Fragment) -> Self {
+        match &fragment.render {
+            Some(render) => Self::rendered(render),
+            None => Self::closed(&fragment.mesh, fragment.mass.centre.as_vec3()),
+        }
+    }
+
+    fn rendered(mesh: &RenderMesh) -> Self {
+        let mut drawn = Self::default();
+        for ((place, normal), uv) in mesh.positions.iter().zip(&mesh.normals).zip(&mesh.uvs) {
+            drawn.vertex(*place, *normal, *uv);
+        }
+        drawn.indices = mesh.triangles.as_flattened().to_vec();
+        drawn.outer_indices = 3 * mesh.outer_triangles;
+        drawn
+    }
+
+    fn closed(mesh: &TriMesh, centre: Vec3) -> Self {
+        let mut sheet = Sheet::new(mesh.positions.len(), centre);
+        for (number, (triangle, normals)) in mesh.triangles.iter().zip(&mesh.normals).enumerate() {
+            if number == mesh.outer_triangles {
+                sheet.drawn.outer_indices = sheet.drawn.indices.len();
+            }
+            sheet.add(&mesh.positions, *triangle, *normals, None);
+        }
+        if mesh.outer_triangles == mesh.triangles.len() {
+            sheet.drawn.outer_indices = sheet.drawn.indices.len();
+        }
+        let mut drawn = sheet.drawn;
+        for &[a, b, c] in &mesh.cracks {
+            let normal = (b - a).cross(c - a).normalize_or_zero();
+            for (corners, normal) in [([a, b, c], normal), ([a, c, b], -normal)] {
+                for place in corners {
+                    let next = drawn.vertex(place, normal, box_projection(place + centre, normal));
+                    drawn.indices.push(next);
+                }
+            }
+        }
+        drawn
+    }
+
+    fn vertex(&mut self, place: Vec3, normal: Vec3, uv: [f32; 2]) -> u32 {
+        let number = self.positions.len() / 3;
+        self.positions.extend(place.to_array());
+        self.normals.extend(normal.to_array());
+        self.uvs.extend(uv);
+        number as u32
+    }
+}
+
+/// A surface whose corners are put together where they are alike.
+struct Sheet {
+    drawn: Drawn,
+    /// The surface's centre in the frame of the projection, m.
+    centre: Vec3,
+    /// Drawn vertices of each vertex of the surface.
+    of_vertex: Vec<Vec<u32>>,
+}
+
+impl Sheet {
+    fn new(vertices: usize, centre: Vec3) -> Self {
+        Self {
+            drawn: Drawn::default(),
+            centre,
+            of_vertex: vec![Vec::new(); vertices],
+        }
+    }
+
+    /// Adds a triangle with its corners' normals and texture coordinates; none: by box projection.
+    fn add(
+        &mut self,
+        positions: &[Vec3],
+        triangle: [u32; 3],
+        normals: [Vec3; 3],
+        uvs: Option<[[f32; 2]; 3]>,
+    ) {
+        let places = triangle.map(|v| positions[v as usize]);
+        let across = (places[1] - places[0]).cross(places[2] - places[0]);
+        let uvs = uvs.unwrap_or_else(|| places.map(|p| box_projection(p + self.centre, across)));
+        for (k, v) in triangle.into_iter().enumerate() {
+            let known = &mut self.of_vertex[v as usize];
+            let drawn = &mut self.drawn;
+            let same = |&&i: &&u32| {
+                let i = i as usize;
+                drawn.normals[3 * i..][..3] == normals[k].to_array()
+                    && drawn.uvs[2 * i..][..2] == uvs[k]
+            };
+            let index = known.iter().find(same).copied().unwrap_or_else(|| {
+                let next = drawn.vertex(places[k], normals[k], uvs[k]);
+                known.push(next);
+                next
+            });
+            drawn.indices.push(index);
+        }
+    }
+}
+
+/// Convex parts of a whole body, points in its body frame, m.
+#[must_use]
+pub fn hulls_of_body(asset: &Asset) -> Vec<Vec<f32>> {
+    hulls(asset.cells.iter().map(|cell| &cell.points[..]).collect())
+}
+
+/// Convex parts of a fragment, points in its own frame, m.
+#[must_use]
+pub fn hulls_of_fragment(fragment: &Fragment) -> Vec<Vec<f32>> {
+    let shares = fragment.cell_shares.iter();
+    hulls(shares.map(|(_, points)| &points[..]).collect())
+}
+
+fn hulls(parts: Vec<&[Vec3]>) -> Vec<Vec<f32>> {
+    let [parts_at_most, points] = PARTS;
+    let numbers = |part: Vec<Vec3>| -> Vec<f32> {
+        let part = thinned(&part, points);
+        part.iter().flat_map(|p| p.to_array()).collect()
+    };
+    let merged = merged_parts(parts, parts_at_most);
+    merged
+        .into_iter()
+        .map(numbers)
+        .filter(|part| part.len() >= 12)
+        .collect()
+}
+
+/// The motions after a break: a row of [`MOTION`] numbers for each fragment, and one for the striker where there is one. `pose` and
+/// `motion` are the body's just before, `striker` [`STRIKER`] numbers or none. Momentum and angular momentum stay, energy does not rise.
+#[must_use]
+pub fn motions(
+    asset: &Asset,
+    fracture: &Fracture,
+    pose: &[f64],
+    motion: &[f64],
+    striker: &[f64],
+) -> Vec<f64> {
+    let (at, turn) = (
+        double(pose),
+        DQuat::from_array([3, 4, 5, 6].map(|i| pose[i])),
+    );
+    let axes = DMat3::from_quat(turn);
+    let [linear, angular] = [double(motion), double(&motion[3..])];
+    let held = asset.is_supported();
+    let contacts = &fracture.report.contacts;
+    let points: Vec<Vec3> = contacts.iter().map(|c| c.point).collect();
+    let order = nearest_first(fracture, &points);
+    let piece = |&number: &usize| {
+        let fragment = &fracture.fragments[number];
+        let centre = at + axes * fragment.mass.centre;
+        let moving = linear + angular.cross(centre - at);
+        if fragment.supported && held {
+            return Rigid::immovable([centre, DVec3::ZERO, DVec3::ZERO]);
+        }
+        let inertia = axes * fragment.mass.inertia * axes.transpose();
+        let motion = if held {
+            [DVec3::ZERO; 2]
+        } else {
+            [moving, angular]
+        };
+        Rigid::free(fragment.mass.mass, inertia, [centre, motion[0], motion[1]])
+    };
+    let mut bodies: Vec<Rigid> = order.iter().map(piece).collect();
+    let mut others: Vec<Rigid> = match striker {
+        [] => Vec::new(),
+        row => vec![Rigid::free(
+            row[0],
+            DMat3::from_cols(double(&row[4..]), double(&row[7..]), double(&row[10..])),
+            [double(&row[1..]), double(&row[13..]), double(&row[16..])],
+        )],
+    };
+    let push = |c: &frangible::internals::outcome::ContactReport| {
+        let [place, normal] = [c.point, c.normal].map(|v| axes * v.as_dvec3());
+        (at + place, normal * c.impulse)
+    };
+    let pushes: Vec<(DVec3, DVec3)> = contacts.iter().map(push).collect();
+    let about = Rigid::together(&others).centre;
+    let taken = Kick::about(about, &pushes).scaled(-1.0);
+    let lost = push_plug(&mut bodies, &mut others, &pushes, taken);
+    let count = bodies.len();
+    bodies.append(&mut others);
+    if bodies.len() == count {
+        bodies.push(Rigid::earth());
+    }
+    take_energy(&mut bodies, fracture.report.fracture_energy - lost);
+    let mut rows = vec![0.0; MOTION * count];
+    let numbers = |body: &Rigid| [body.linear.to_array(), body.angular.to_array()].concat();
+    for (&number, body) in order.iter().zip(&bodies) {
+        rows[MOTION * number..][..MOTION].copy_from_slice(&numbers(body));
+    }
+    if !striker.is_empty() {
+        rows.extend(numbers(&bodies[count]));
+    }
+    rows
+}
+
+/// Rows of contacts in world axes, in the frame of a body at this [`POSE`].
+pub fn to_body_frame(rows: &mut [f64], pose: &[f64]) {
+    let at = double(pose);
+    let back = DQuat::from_array([3, 4, 5, 6].map(|i| pose[i])).inverse();
+    for row in rows.chunks_exact_mut(CONTACT) {
+        let point = back * (double(row) - at);
+        let [push, impulse] = [3, 11].map(|i| back * double(&row[i..]));
+        row[..3].copy_from_slice(&point.to_array());
+        row[3..6].copy_from_slice(&push.to_array());
+        row[11..14].copy_from_slice(&impulse.to_array());
+    }
+}

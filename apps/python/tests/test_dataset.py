@@ -1,0 +1,184 @@
+"""Datasets: what is in them, and that nothing is lost or made twice."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from dataclasses import replace
+from pathlib import Path
+
+import frangible as fr
+import numpy as np
+import pytest
+from frangible import dataset
+
+PLAN = dataset.Plan(materials=("glass", "concrete"), breaks=3, tetrahedra=1500, modes=20, val_share=0.5, pieces=(2, 40))
+
+
+def write_obj(path: Path, sides: tuple[float, float, float]) -> Path:
+    vertices, faces = fr.box(*sides)
+    lines = [f"v {x} {y} {z}" for x, y, z in vertices] + [f"f {a + 1} {b + 1} {c + 1}" for a, b, c in faces]
+    path.write_text("\n".join(lines))
+    return path
+
+
+@pytest.fixture(scope="module")
+def meshes(tmp_path_factory: pytest.TempPathFactory) -> list[Path]:
+    folder = tmp_path_factory.mktemp("meshes")
+    return [write_obj(folder / "tile.obj", (0.1, 0.08, 0.05)), write_obj(folder / "block.obj", (0.1, 0.05, 0.05))]
+
+
+@pytest.fixture(scope="module")
+def made(meshes: list[Path], tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, dataset.Summary]:
+    out = tmp_path_factory.mktemp("data")
+    return out, dataset.make(meshes, out, PLAN, quiet=True)
+
+
+def files(folder: Path) -> dict[str, bytes]:
+    return {str(f.relative_to(folder)): f.read_bytes() for f in sorted(folder.rglob("*")) if f.is_file() and "manifest" not in f.parts}
+
+
+def test_breaks_are_in_the_layout_that_loaders_list(made) -> None:
+    trimesh = pytest.importorskip("trimesh")
+    out, summary = made
+    assert (summary.made, summary.there, summary.failed) == (12, 0, [])
+    root = out / "breaking_bad"
+    lines = [line for split in ("train", "val") for line in (root / "data_split" / f"everyday.{split}.txt").read_text().split()]
+    assert len(lines) == len(set(lines)) == 12
+    for line in lines:
+        # As the loaders do: every file of the folder, those that trimesh reads, 2 to 20 of them.
+        there = sorted(os.listdir(root / line))
+        assert "fractured" in line and 2 <= len(there) <= 40
+        assert there == sorted(f"piece_{i}.obj" for i in range(len(there)))
+        pieces = [trimesh.load(root / line / name) for name in there]
+        about = json.loads((out / "meta" / f"{line}.json").read_text())
+        assert all(p.is_watertight for p in pieces)
+        volumes = [p["volume"] for p in about["pieces"]]
+        assert sorted(p.volume for p in pieces) == pytest.approx(sorted(volumes), rel=1e-4)
+        assert volumes == sorted(volumes, reverse=True)
+        assert sum(p["mass"] for p in about["pieces"]) == pytest.approx(about["mass"], rel=1e-6)
+        assert about["blow"]["speed"] > 0 and about["touching"]
+
+
+def test_an_object_is_in_one_split(made) -> None:
+    out, _ = made
+    train, val = (
+        {line.split("/")[1] for line in (out / "breaking_bad/data_split" / f"everyday.{s}.txt").read_text().split()} for s in ("train", "val")
+    )
+    assert not train & val
+    assert train | val == {"tile-glass", "tile-concrete", "block-glass", "block-concrete"}
+
+
+def test_the_manifest_has_a_row_for_each_break(made) -> None:
+    out, _ = made
+    rows = [json.loads(line) for line in (out / "manifest" / "0-of-1.jsonl").read_text().splitlines()]
+    assert len(rows) == 12 and all(row["failed"] is None and row["seconds"] > 0 for row in rows)
+    import hashlib
+
+    row = rows[0]
+    folder = out / "breaking_bad" / row["category"] / row["object"] / f"fractured_{row['break']}"
+    for name, digest in row["sha256"].items():
+        assert hashlib.sha256((folder / name).read_bytes()).hexdigest() == digest
+
+
+def test_shards_and_workers_make_the_same_bits(made, meshes, tmp_path) -> None:
+    out, _ = made
+    for shard, workers in (((1, 2), 1), ((0, 2), 2)):
+        dataset.make(meshes, tmp_path, PLAN, shard=shard, workers=workers, quiet=True)
+    mine, theirs = files(tmp_path), files(out)
+    assert mine.keys() == theirs.keys()
+    for name, content in mine.items():
+        assert content == theirs[name], name
+
+
+def test_what_is_there_is_not_made_again(made, meshes) -> None:
+    out, _ = made
+    before = files(out)
+    again = dataset.make(meshes, out, PLAN, quiet=True)
+    assert (again.made, again.there) == (0, 12)
+    assert files(out) == before
+    with pytest.raises(ValueError, match="another plan"):
+        dataset.make(meshes, out, replace(PLAN, seed=2), quiet=True)
+
+
+def test_a_run_that_is_killed_loses_nothing(made, meshes, tmp_path) -> None:
+    out, _ = made
+    words = [sys.executable, "-m", "frangible", "dataset", *map(str, meshes), "-o", str(tmp_path), "--material", "glass", "--material", "concrete"]
+    words += ["--breaks", "3", "--tetrahedra", "1500", "--pieces", "2-40", "--quiet"]
+    plan = replace(PLAN, modes=dataset.Plan().modes, val_share=dataset.Plan().val_share)
+    for wait in (1.0, 1.7, 2.3):
+        process = subprocess.Popen(words, stdout=subprocess.DEVNULL)
+        time.sleep(wait)
+        process.send_signal(signal.SIGKILL)
+        process.wait()
+        # What has its final name is whole.
+        for file in tmp_path.glob("meta/*/*/*.json"):
+            about = json.loads(file.read_text())
+            folder = tmp_path / "breaking_bad" / file.relative_to(tmp_path / "meta").with_suffix("")
+            assert len(list(folder.iterdir())) == len(about["pieces"])
+            assert np.load(file.with_suffix(".npz")).files
+    subprocess.run(words, check=True, capture_output=True)
+    fresh = tmp_path / "fresh"
+    dataset.make(meshes, fresh, plan, quiet=True)
+    killed = {name: content for name, content in files(tmp_path).items() if not name.startswith(("fresh", "parts"))}
+    assert killed == files(fresh)
+
+
+def test_hdf5_has_exact_neighbours_in_the_order_that_garf_lists(made, meshes) -> None:
+    h5py = pytest.importorskip("h5py")
+    out, _ = made
+    path = out.parent / "garf.hdf5"
+    assert dataset.write_hdf5(out, PLAN, path) == 12
+    with h5py.File(path) as file:
+        names = [n.decode() for split in ("train", "val") for n in file[f"data_split/everyday/{split}"]]
+        assert len(names) == 12
+        for name in names:
+            group = file[name]
+            keys = list(group["pieces"].keys())
+            assert keys == sorted(keys, key=int)
+            pieces = [(group["pieces"][k]["vertices"][:], group["pieces"][k]["faces"][:], group["pieces"][k]["shared_faces"][:]) for k in keys]
+            for i, (vertices, faces, shared) in enumerate(pieces):
+                assert len(shared) == len(faces) and shared.max() < len(pieces) and i not in shared
+                for j in set(shared[shared >= 0]):
+                    here = vertices[faces[shared == j]].mean(axis=1)
+                    other = pieces[j]
+                    there = other[0][other[1][other[2] == i]].mean(axis=1)
+                    assert np.linalg.norm(here[:, None] - there[None], axis=2).min(axis=1).max() < 1e-6
+            masks, order = group["removal_masks"][:], group["removal_order"][:]
+            assert masks.shape == (len(keys) - 1, len(keys)) and len(order) == len(set(order)) == len(keys) - 1
+            assert (masks.sum(axis=1) == np.arange(len(keys) - 1, 0, -1)).all()
+
+
+def test_what_cannot_be_baked_is_a_row(meshes, tmp_path) -> None:
+    (tmp_path / "flat.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    plan = replace(PLAN, materials=("glass",), breaks=1)
+    summary = dataset.make([tmp_path / "flat.obj", meshes[0]], tmp_path / "out", plan, quiet=True)
+    assert summary.made == 1
+    [row] = summary.failed
+    assert row["object"] == "flat" and row["failed"]
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"breaks": 0}, "breaks is 0"),
+        ({"pieces": (5, 3)}, "pieces is 5 to 3"),
+        ({"least_share": -1}, "least_share"),
+        ({"materials": ()}, "no material"),
+    ],
+)
+def test_plans_that_mean_nothing_are_refused(change, words) -> None:
+    with pytest.raises(ValueError, match=words):
+        replace(PLAN, **change)
+
+
+def test_meshes_of_one_name_are_refused(meshes, tmp_path) -> None:
+    twin = write_obj(tmp_path / "tile.obj", (1, 1, 1))
+    with pytest.raises(ValueError, match="one name"):
+        dataset.objects([meshes[0], twin], PLAN)
+    with pytest.raises(ValueError, match="no file"):
+        dataset.objects([tmp_path / "nothing.obj"], PLAN)
+    with pytest.raises(ValueError, match="shard"):
+        dataset.objects(meshes, PLAN, (2, 2))

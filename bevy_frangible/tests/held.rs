@@ -1,0 +1,63 @@
+//! Bodies that something holds.
+#![cfg(feature = "avian")]
+
+mod common;
+
+use avian3d::prelude::*;
+use bevy::prelude::*;
+use bevy_frangible::prelude::*;
+use common::{app, ball, ready};
+use frangible_bake::{BakeSpec, Region, Shape, Support, bake};
+
+/// A pane of glass of half a metre that is held at all its edges.
+fn window() -> FrangibleAsset {
+    let glass = bevy_frangible::frangible::Material::preset("glass").unwrap();
+    let shape = Shape::plate(0.5, 0.5, 0.004);
+    let mut spec = BakeSpec::for_games("window", shape.clone(), glass).unwrap();
+    spec.fracture = Some(shape.size_for(6000.0).unwrap());
+    let edges = [
+        Region::below(0, 0.01),
+        Region::above(0, 0.49),
+        Region::below(1, 0.01),
+        Region::above(1, 0.49),
+    ];
+    spec.supports = edges.map(Support::clamped).to_vec();
+    FrangibleAsset::new(bake(&spec, &mut |_| {}).unwrap().0).unwrap()
+}
+
+#[test]
+fn what_flies_through_a_held_pane_leaves_a_hole_that_others_fly_through() {
+    let (mut app, log) = app();
+    app.insert_resource(Gravity(Vec3::ZERO));
+    let asset = app
+        .world_mut()
+        .resource_mut::<Assets<FrangibleAsset>>()
+        .add(window());
+    let pane = app.world_mut().spawn(Breakable(asset)).id();
+    ready(&mut app, pane);
+    let speed = 20.0;
+    let first = ball(&mut app, Vec3::Z * 0.1, Vec3::NEG_Z * speed);
+    for _ in 0..120 {
+        app.update();
+    }
+    assert!(log.lines()[0].ends_with("pieces"), "{:?}", log.lines());
+    let kinds = app.world_mut().query::<(&FragmentOf, &RigidBody)>();
+    let held = { kinds }
+        .iter(app.world())
+        .filter(|(_, kind)| kind.is_static())
+        .count();
+    assert!(held > 0, "the frame holds nothing");
+    let second = ball(&mut app, Vec3::Z * 0.1, Vec3::NEG_Z * speed);
+    for _ in 0..60 {
+        app.update();
+    }
+    for ball in [first, second] {
+        let at = app.world().get::<Position>(ball).unwrap().0;
+        let velocity = app.world().get::<LinearVelocity>(ball).unwrap().0;
+        println!("{at}, {velocity} m/s; {:?}", log.lines());
+        assert!(
+            velocity.z < -0.7 * speed && at.z < 0.0,
+            "{at}, {velocity} m/s"
+        );
+    }
+}

@@ -1,0 +1,94 @@
+//! What all cracks of an impact may spend together, and what they have spent.
+
+/// All cracks together spend no more than the strain energy of the motion, and nothing before it has come.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Ledger {
+    /// Without it the cracks spend what they like, as the paper's do.
+    kept: bool,
+    /// What may be spent in the end, J.
+    budget: f64,
+    /// How much of that has come so far, J.
+    come: f64,
+    /// J.
+    spent: f64,
+}
+
+impl Ledger {
+    /// So much may be spent, J, all of it at once until [`Ledger::come`] says otherwise.
+    pub(crate) fn new(kept: bool, budget: f64) -> Self {
+        let budget = if kept { budget } else { f64::INFINITY };
+        Self {
+            kept,
+            budget,
+            come: budget,
+            spent: 0.0,
+        }
+    }
+
+    /// So much strain energy has come so far, J.
+    pub(crate) fn come(&mut self, energy: f64) {
+        if self.kept {
+            self.come = self.budget.min(energy);
+        }
+    }
+
+    /// The motion brings no more than this, J.
+    pub(crate) fn cap(&mut self, energy: f64) {
+        if self.kept {
+            self.budget = self.budget.min(energy);
+        }
+    }
+
+    pub(crate) fn spend(&mut self, energy: f64) {
+        self.spent += energy;
+    }
+
+    /// J.
+    pub(crate) fn spent(&self) -> f64 {
+        self.spent
+    }
+
+    /// Whether this energy, J, has come and is left. What has not come may come yet.
+    pub(crate) fn has(&self, energy: f64) -> bool {
+        self.spent + energy <= self.come
+    }
+
+    /// Whether this energy, J, will be left at no time.
+    pub(crate) fn never_has(&self, energy: f64) -> bool {
+        self.spent + energy > self.budget
+    }
+
+    /// Whether something was spent and less than this is left, J.
+    pub(crate) fn is_spent_to(&self, least: f64) -> bool {
+        self.spent > 0.0 && self.budget - self.spent < least
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Ledger;
+
+    #[test]
+    fn nothing_is_spent_that_has_not_come_and_nothing_beyond_the_budget() {
+        let mut ledger = Ledger::new(true, 3.0);
+        ledger.come(1.0);
+        assert!(ledger.has(1.0) && !ledger.has(1.5) && !ledger.never_has(1.5));
+        ledger.spend(1.0);
+        ledger.come(9.0);
+        assert!(ledger.has(2.0) && !ledger.has(2.5) && ledger.never_has(2.5));
+        ledger.cap(1.5);
+        ledger.come(9.0);
+        assert!(ledger.has(0.5) && ledger.never_has(0.75));
+        assert!(ledger.is_spent_to(0.75) && !ledger.is_spent_to(0.25));
+    }
+
+    #[test]
+    fn without_it_everything_is_affordable() {
+        let mut ledger = Ledger::new(false, 3.0);
+        ledger.come(0.0);
+        ledger.cap(0.0);
+        ledger.spend(1e9);
+        assert!(ledger.has(1e9) && !ledger.never_has(1e9) && !ledger.is_spent_to(1e9));
+        assert_eq!(ledger.spent(), 1e9);
+    }
+}

@@ -1,0 +1,141 @@
+//! The wheel for Python: the bindings, linted and built in their own workspace, installed in an empty environment, and tried there.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::time::{Duration, Instant};
+
+use crate::command::{Result, cargo, root, run_keeping, run_within, shown};
+use crate::setup::python;
+
+/// What the wheel is built from, and what tests it.
+pub(crate) const PATHS: [&str; 13] = [
+    "apps/python",
+    "apps/frangible",
+    "apps/npm",
+    "crates/frangible",
+    "crates/frangible-bake",
+    "crates/frangible-export",
+    "crates/frangible-mesh",
+    "crates/frangible-rapier",
+    "crates/frangible-scenes",
+    "crates/frangible-sound",
+    "xtask/src/command.rs",
+    "xtask/src/python.rs",
+    "xtask/src/setup.rs",
+];
+
+/// Limit of the whole step; building what the bindings are made of takes most of it.
+const LIMIT: Duration = Duration::from_secs(20 * 60);
+
+/// What builds the wheel and what tries it, of the versions that they are written for.
+const TOOLS: [&str; 6] = [
+    "h5py>=3.10,<4",
+    "maturin>=1.16,<1.17",
+    "numpy>=2,<3",
+    "pytest>=9,<10",
+    "trimesh>=5,<6",
+    "mypy>=2,<3",
+];
+
+/// Makes the wheel in `target/python/wheels`, tries it, and returns the lines that sum it up.
+pub(crate) fn wheel() -> Result<Vec<String>> {
+    let start = Instant::now();
+    let within = |command: &mut Command| {
+        println!("$ {}", shown(command));
+        run_within(command, LIMIT.saturating_sub(start.elapsed()))
+    };
+    let Some(interpreter) = python() else {
+        return Err(
+            "there is no Python 3.10 or later with `venv`; install python3 and python3-venv".into(),
+        );
+    };
+    let from = root().join("apps/python");
+    let target = std::env::var_os("CARGO_TARGET_DIR").unwrap_or_else(|| "target".into());
+    let target: PathBuf = root().join(target);
+    let folder = target.join("python");
+    let (environment, wheels) = (folder.join("environment"), folder.join("wheels"));
+    for command in [
+        &["fmt", "--check"][..],
+        &[
+            "clippy",
+            "--release",
+            "--all-targets",
+            "--",
+            "-D",
+            "warnings",
+        ],
+    ] {
+        let mut lint = cargo(command);
+        lint.current_dir(&from).env("CARGO_TARGET_DIR", &target);
+        within(&mut lint)?;
+    }
+    let program = |name: &str| environment.join("bin").join(name);
+    if !program("python").exists() {
+        within(
+            Command::new(interpreter)
+                .args(["-m", "venv"])
+                .arg(&environment),
+        )?;
+    }
+    let pip = |words: &[&str]| {
+        let mut pip = Command::new(program("python"));
+        pip.args([
+            "-m",
+            "pip",
+            "install",
+            "--quiet",
+            "--disable-pip-version-check",
+        ]);
+        pip.args(words);
+        pip
+    };
+    within(&mut pip(&TOOLS))?;
+    // Wheels of earlier versions are not this one.
+    if wheels.exists() {
+        std::fs::remove_dir_all(&wheels)
+            .map_err(|error| format!("`{}` cannot be emptied: {error}", wheels.display()))?;
+    }
+    let mut build = Command::new(program("maturin"));
+    build
+        .args(["build", "--release", "--quiet", "--out"])
+        .arg(&wheels);
+    build.arg("--interpreter").arg(program("python"));
+    build.current_dir(&from).env("CARGO_TARGET_DIR", &target);
+    within(&mut build)?;
+    let wheel = only_file(&wheels)?;
+    within(&mut pip(&[
+        "--force-reinstall",
+        "--no-deps",
+        &wheel.to_string_lossy(),
+    ]))?;
+    within(
+        Command::new(program("mypy"))
+            .args(["--strict", "--no-error-summary", "python/frangible"])
+            .current_dir(&from),
+    )?;
+    // Out of the checkout, so that what is tried is what was installed.
+    let mut tests = Command::new(program("python"));
+    tests.args(["-m", "pytest", "--quiet", "-p", "no:cacheprovider"]);
+    tests.arg(from.join("tests")).current_dir(&folder);
+    println!("$ {}", shown(&tests));
+    let mut lines = run_keeping(&mut tests, |line| line.contains(" passed"))?;
+    let size = std::fs::metadata(&wheel).map_or(0, |data| data.len());
+    let name = wheel.file_name().unwrap_or_default().to_string_lossy();
+    lines.insert(0, format!("python: {name} has {:.1} MB", size as f64 / 1e6));
+    println!("{}", lines[0]);
+    Ok(lines)
+}
+
+fn only_file(folder: &Path) -> Result<PathBuf> {
+    let unreadable = |error| format!("`{}` cannot be read: {error}", folder.display());
+    let entries = std::fs::read_dir(folder).map_err(unreadable)?;
+    let files: Vec<PathBuf> = entries.filter_map(|e| Some(e.ok()?.path())).collect();
+    match &files[..] {
+        [file] => Ok(file.clone()),
+        _ => Err(format!(
+            "`{}` has {} wheels in place of one",
+            folder.display(),
+            files.len()
+        )),
+    }
+}

@@ -1,0 +1,156 @@
+//! The npm package: the core for JavaScript, in a folder that can be published, and its trial in an empty project.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::time::{Duration, Instant};
+
+use super::program::{build, number_of, packer, same_generator, within};
+use super::trial::{browser_path, driver, made_folder};
+use super::{Clock, Folders, copy_folder, folders, make_folder};
+use crate::command::{Result, output, root, run_keeping, shown};
+use crate::setup::browser;
+
+/// The modules, what they are for, and what each may weigh, packed, bytes.
+const MODULES: [(&str, &str, u64); 2] = [
+    ("frangible-js", "breaks", 1_000_000),
+    ("frangible-js-bake", "bakes", 1_000_000),
+];
+/// What the examples in the browser need beside the package, and what it is compared with, of the versions that they are written for.
+const BESIDE: [&str; 3] = [
+    "three@0.187.0",
+    "@dimforge/rapier3d-compat@0.21.0",
+    "@dgreenheck/three-pinata@2.0.1",
+];
+
+/// Makes the package in `target/web/npm/frangible`, tries it in Node and in a browser, and returns the lines that sum it up.
+pub(crate) fn package(limit: Option<Duration>) -> Result<Vec<String>> {
+    let clock = Clock {
+        start: Instant::now(),
+        limit,
+    };
+    let folders = folders(None);
+    let (out, mut lines) = make(&folders, clock)?;
+    let project = install(&folders, &out, clock)?;
+    let bits = native(&folders, clock)?;
+    lines.extend(test(
+        Command::new("node")
+            .arg("test/node.test.mjs")
+            .arg(&bits)
+            .current_dir(&project),
+    )?);
+    let Some(browser) = browser() else {
+        lines.push("npm: the examples were not tried: there is no browser".to_string());
+        return Ok(lines);
+    };
+    let pictures = made_folder(&folders)?;
+    lines.extend(test(
+        Command::new("node")
+            .arg("test/browser.test.mjs")
+            .arg(browser_path(browser))
+            .arg(driver(&folders, clock)?)
+            .arg(&pictures)
+            .current_dir(&project),
+    )?);
+    println!("pictures lie in {}", pictures.display());
+    Ok(lines)
+}
+
+fn make(folders: &Folders, clock: Clock) -> Result<(PathBuf, Vec<String>)> {
+    same_generator()?;
+    let packer = packer(folders, clock)?;
+    let from = root().join("apps/npm");
+    let out = folders.target.join("npm/frangible");
+    make_folder(&out)?;
+    copy_folder(&from.join("package"), &out)?;
+    for licence in ["LICENSE-MIT", "LICENSE-APACHE"] {
+        copy(&from.join(licence), &out.join(licence))?;
+    }
+    let mut lines = Vec::new();
+    for (name, does, most) in MODULES {
+        let built = build(folders, name, "npm", clock)?;
+        let text = output(Command::new(&packer).arg("package").arg(built).arg(&out))?;
+        let unpacked = number_of(&text)?;
+        let module = out.join(format!("{}_bg.wasm", name.replace('-', "_")));
+        let packed = number_of(&output(Command::new(&packer).arg("weigh").arg(&module))?)?;
+        let line = format!(
+            "npm: the module that {does} has {:.0} kB packed ({:.0} unpacked)",
+            packed as f64 / 1e3,
+            unpacked as f64 / 1e3
+        );
+        println!("{line}");
+        if packed > most {
+            return Err(format!(
+                "{line}; find what made it grow beyond {most} bytes"
+            ));
+        }
+        lines.push(line);
+    }
+    Ok((out, lines))
+}
+
+fn copy(from: &Path, to: &Path) -> Result {
+    fs::copy(from, to)
+        .map(drop)
+        .map_err(|error| format!("`{}` cannot be written: {error}", to.display()))
+}
+
+/// Packs the folder as npm does, and installs that in an empty project, with what the examples need beside it.
+fn install(folders: &Folders, package: &Path, clock: Clock) -> Result<PathBuf> {
+    let project = folders.target.join("npm/project");
+    make_folder(&project)?;
+    let from = root().join("apps/npm");
+    for name in ["test", "pages"] {
+        make_folder(&project.join(name))?;
+        copy_folder(&from.join(name), &project.join(name))?;
+    }
+    make_folder(&project.join("bodies"))?;
+    for body in ["pane", "block"] {
+        let file = format!("{body}.frangible");
+        let baked = root().join("crates/frangible/tests/bodies").join(&file);
+        copy(&baked, &project.join("bodies").join(&file))?;
+    }
+    let file = project.join("package.json");
+    fs::write(&file, "{ \"private\": true, \"type\": \"module\" }\n")
+        .map_err(|error| format!("`{}` cannot be written: {error}", file.display()))?;
+    // It says how the file is called.
+    let packed = output(
+        Command::new("npm")
+            .args(["pack", "--silent", "--pack-destination"])
+            .arg(&project)
+            .current_dir(package),
+    )?;
+    let mut install = Command::new("npm");
+    install
+        .args(["install", "--no-audit", "--no-fund", "--ignore-scripts"])
+        .arg(format!("./{}", String::from_utf8_lossy(&packed).trim()))
+        .args(BESIDE)
+        .current_dir(&project);
+    within(&mut install, clock)?;
+    Ok(project)
+}
+
+/// What the same blows do to the same bodies outside the browser: the hashes of all numbers.
+fn native(folders: &Folders, clock: Clock) -> Result<PathBuf> {
+    let target = folders.target.join("hash");
+    let mut command = crate::command::cargo(&[
+        "run",
+        "--release",
+        "-p",
+        "frangible-js",
+        "--example",
+        "hash",
+    ]);
+    command
+        .arg("--target-dir")
+        .arg(&target)
+        .env_remove("CARGO_TARGET_DIR")
+        .env("OUT", target.join("hash.json"));
+    within(&mut command, clock)?;
+    Ok(target.join("hash.json"))
+}
+
+fn test(command: &mut Command) -> Result<Vec<String>> {
+    println!("$ {}", shown(command));
+    run_keeping(command, |line| line.starts_with("npm:"))
+}
