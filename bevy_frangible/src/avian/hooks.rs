@@ -155,15 +155,18 @@ impl<Inner: SystemParam + 'static> FrangibleHooks<'_, '_, Inner> {
         let config = &self.config.0;
         let inside = *self.breaking == Breaking::InsideStep;
         let met = other.and_then(|e| self.bodies.get(e).ok());
+        // What breaks inside the step is asked by the blow itself, unless the other body's vibration has to be found first.
+        let asked = !inside || met.is_some();
+        let harmless = asked && is_harmless(&body.0, &contacts, config);
         if let Some((other, there)) = met
-            && !is_harmless(&body.0, &contacts, config)
+            && !harmless
         {
             let to_other = there.1.0.inverse();
             for (contact, touch) in contacts.iter_mut().zip(&touches) {
                 vibrate(contact, touch, &other.0, to_other, config);
             }
         }
-        let (ruling, broke) = if inside || is_harmless(&body.0, &contacts, config) {
+        let (ruling, broke) = if inside || harmless {
             let outcome = impact(&body.0, &contacts, config);
             let broke = matches!(outcome, Ok(Outcome::Broke(_)));
             (Ruling::Now(outcome.into()), broke)
@@ -233,10 +236,7 @@ fn vibrate(
     {
         contact.striker.curvature_radius = flexible.curvature_radius;
         contact.striker.receptance = flexible.receptance;
-        contact.striker.shared.get_or_insert(SharedMass {
-            body: 0,
-            velocity: into(Vec3::ZERO),
-            spin: into(Vec3::ZERO),
-        });
+        let shared = &mut contact.striker.shared;
+        shared.get_or_insert(SharedMass::immovable(0));
     }
 }

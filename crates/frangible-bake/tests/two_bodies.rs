@@ -2,13 +2,33 @@
 
 use frangible::glam::Vec3;
 use frangible::internals::blow::Blow;
-use frangible::{Breakable, Contact, FractureConfig, Material, Striker};
+use frangible::{Body, Breakable, Contact, FractureConfig, Material, Striker};
 use frangible_bake::{BakeSpec, MeshSize, Shape, bake};
 
 const LENGTH: f64 = 0.4;
 const SIDE: f64 = 4e-3;
 const SPEED: f64 = 4.0;
 const RADIUS: f64 = 2e-3;
+
+/// Glass that rings for ever.
+fn glass() -> Material {
+    let mut glass = Material::preset("glass").unwrap();
+    (glass.stiffness_damping, glass.mass_damping) = (0.0, 0.0);
+    glass
+}
+
+/// A body of that glass, of tetrahedra of this edge, m, with so many modes.
+fn body(shape: Shape, edge: f64, modes: usize) -> Body {
+    let size = MeshSize { edge, layers: 0 };
+    let spec = BakeSpec {
+        modes,
+        analysis: Some(size),
+        fracture: Some(size),
+        ..BakeSpec::new("body", shape, glass())
+    };
+    let (asset, _) = bake(&spec, &mut |_| {}).unwrap();
+    Breakable::new(asset).unwrap().body(1)
+}
 
 /// Force of the wave that two rods send into each other behind Hertz' spring, N, at a time before the waves are back, s: each end gives way
 /// at F/ρcA (St Venant 1883).
@@ -23,20 +43,8 @@ fn law(impedance: f64, stiffness: f64, time: f64) -> f64 {
 
 #[test]
 fn two_equal_rods_exchange_their_speeds() {
-    let mut glass = Material::preset("glass").unwrap();
-    (glass.stiffness_damping, glass.mass_damping) = (0.0, 0.0);
-    let size = MeshSize {
-        edge: 0.002,
-        layers: 0,
-    };
-    let spec = BakeSpec {
-        modes: 240,
-        analysis: Some(size),
-        fracture: Some(size),
-        ..BakeSpec::new("rod", Shape::rod(LENGTH, SIDE), glass.clone())
-    };
-    let (asset, _) = bake(&spec, &mut |_| {}).unwrap();
-    let rod = Breakable::new(asset).unwrap().body(1);
+    let glass = glass();
+    let rod = body(Shape::rod(LENGTH, SIDE), 0.002, 240);
     let config = FractureConfig::default();
     let end = Vec3::new(-0.5 * LENGTH as f32, 0.0, 0.0);
     let mut contact = Contact::new(end, Vec3::X, 0.0, SPEED as f32, Striker::rigid());
@@ -78,20 +86,8 @@ fn two_equal_rods_exchange_their_speeds() {
 fn two_heavy_blocks_that_touch_softly_meet_as_hertz_says() {
     const SIDE: f64 = 0.05;
     let speed = 0.1;
-    let mut glass = Material::preset("glass").unwrap();
-    (glass.stiffness_damping, glass.mass_damping) = (0.0, 0.0);
-    let size = MeshSize {
-        edge: 0.01,
-        layers: 0,
-    };
-    let spec = BakeSpec {
-        modes: 60,
-        analysis: Some(size),
-        fracture: Some(size),
-        ..BakeSpec::new("block", Shape::block([SIDE; 3]), glass.clone())
-    };
-    let (asset, _) = bake(&spec, &mut |_| {}).unwrap();
-    let block = Breakable::new(asset).unwrap().body(1);
+    let glass = glass();
+    let block = body(Shape::block([SIDE; 3]), 0.01, 60);
     let config = FractureConfig::default();
     let radius: f64 = 0.5e-3;
     let top = Vec3::new(0.0, 0.0, 0.5 * SIDE as f32);

@@ -122,7 +122,14 @@ fn a_scene_on_the_move_sounds_as_its_recording_does() {
     // A step of the recording is 1/240 s where nothing is about to break.
     assert!(apart < 5e-3, "{apart} s");
     let energy = |samples: &[f32]| samples.iter().map(|s| f64::from(s * s)).sum::<f64>();
-    // The same blow; the pieces fly by steps of another length, touch elsewhere, and are fewer resonators.
+    // The blow is the same, and is all that is heard for 5 ms.
+    let blow = |samples: &[f32]| {
+        let from = onset(samples);
+        energy(&samples[from..from + 2 * 240])
+    };
+    let ratio = blow(&heard) / blow(known);
+    assert!((0.8..1.25).contains(&ratio), "{ratio}");
+    // Afterwards the pieces fly by steps of another length and land elsewhere: when and how the largest ones land decides the energy of all.
     let ratio = energy(&heard) / energy(known);
-    assert!((0.3..3.0).contains(&ratio), "{ratio}");
+    assert!((0.1..10.0).contains(&ratio), "{ratio}");
 }

@@ -60,6 +60,16 @@ pub(crate) fn finite(what: impl Fn() -> String, value: f64) -> Result<f64, Sound
     })
 }
 
+/// Refuses a pressure of full scale, Pa, that is not finite or not above zero.
+pub(crate) fn full_scale(pressure: f64) -> Result<f64, SoundError> {
+    within(
+        || "the pressure of full scale".into(),
+        pressure,
+        pressure > 0.0,
+        "above zero, in Pa",
+    )
+}
+
 /// Refuses a number that is not finite or for which the condition does not hold.
 pub(crate) fn within(
     what: impl Fn() -> String,

@@ -1,6 +1,6 @@
 //! A soft limiter for live play, where nobody knows how loud the loudest will be. It says what it did.
 
-use crate::error::{SoundError, within};
+use crate::error::{SoundError, full_scale as checked};
 
 /// What a limiter did so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -40,14 +40,8 @@ impl Limiter {
     /// # Errors
     /// A pressure that is not finite or not above zero.
     pub fn new(full_scale: f64) -> Result<Self, SoundError> {
-        within(
-            || "the pressure of full scale".into(),
-            full_scale,
-            full_scale > 0.0,
-            "above zero, in Pa",
-        )?;
         Ok(Self {
-            full_scale,
+            full_scale: checked(full_scale)?,
             ..Self::default()
         })
     }

@@ -199,6 +199,12 @@ impl Session {
 
     fn carry_out(&mut self, command: Command) -> Result<(), ViewError> {
         match command {
+            Command::Volume(number) | Command::SlowMotion(number) if number.is_nan() => {
+                return Err(ViewError::Command {
+                    line: command.to_string(),
+                    problem: "NaN is no number".into(),
+                });
+            }
             Command::Scene(name) => {
                 let wanted = match &self.host {
                     Some(host) => host.scene(&name)?,

@@ -3,7 +3,7 @@
 mod common;
 
 use common::{bits, give, pane};
-use frangible_view::{Outlet, Session};
+use frangible_view::{Command, Outlet, Session};
 
 const RATE: f64 = 48_000.0;
 
@@ -78,5 +78,10 @@ fn slow_motion_is_as_much_longer_and_a_muted_session_is_silent() {
     assert!(muted.iter().all(|&s| s == 0.0));
     give(&mut session, "sound on");
     give(&mut session, "volume 0.5");
+    assert_eq!(session.shown().sound, Some((0.5, false)));
+    for number in [Command::Volume(f64::NAN), Command::SlowMotion(f64::NAN)] {
+        let error = session.apply(number).expect_err("NaN");
+        assert!(error.to_string().contains("NaN"), "{error}");
+    }
     assert_eq!(session.shown().sound, Some((0.5, false)));
 }

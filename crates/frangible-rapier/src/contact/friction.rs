@@ -14,7 +14,8 @@ use rapier3d::geometry::{ContactManifold, TrackedContact};
 use rapier3d::math::Vector;
 use rapier3d::utils::OrthonormalBasis;
 
-use crate::contact::contacts::{Point, inverse_effective_mass, weighted_mean};
+use crate::contact::contacts::{Point, weighted_mean};
+use crate::contact::partner::inverse_effective_mass;
 
 /// Friction impulse of a whole step on the **first** collider's body at this point, world axes, N·s, as the solver
 /// left it. Exact with the Coulomb model; with the simplified one only where all substeps are alike.

@@ -2,4 +2,5 @@
 
 pub(crate) mod contacts;
 pub(crate) mod friction;
+pub(crate) mod partner;
 pub(crate) mod surface;

@@ -74,6 +74,17 @@ impl SharedMass {
     /// Numbers of bodies are smaller than this.
     pub const MOST_BODIES: u32 = 1 << 24;
 
+    /// The share of body number `body` in a contact when no impulse moves it: one that is held fast, or that moves as it is told. Its
+    /// contacts still belong together, for it may vibrate.
+    #[must_use]
+    pub fn immovable(body: u32) -> Self {
+        Self {
+            body,
+            velocity: Vec3::ZERO,
+            spin: Vec3::ZERO,
+        }
+    }
+
     /// The share of body number `body` in a contact: `velocity` is its `M^(−1/2) n`, `inverse_inertia` has the columns of its I⁻¹, 1/(kg·m²), and `turn` is r × n,
     /// all in world axes. Where I⁻¹ does not give way, nor does the spin.
     #[must_use]
