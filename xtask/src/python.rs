@@ -28,13 +28,15 @@ pub(crate) const PATHS: [&str; 13] = [
 const LIMIT: Duration = Duration::from_secs(20 * 60);
 
 /// What builds the wheel and what tries it, of the versions that they are written for.
-const TOOLS: [&str; 6] = [
+const TOOLS: [&str; 8] = [
     "h5py>=3.10,<4",
     "maturin>=1.16,<1.17",
+    "matplotlib>=3.9,<4",
     "numpy>=2,<3",
     "pytest>=9,<10",
     "trimesh>=5,<6",
     "mypy>=2,<3",
+    "ray>=2.40,<3",
 ];
 
 /// Makes the wheel in `target/python/wheels`, tries it, and returns the lines that sum it up.

@@ -5,6 +5,7 @@ import os
 import signal
 import subprocess
 import sys
+import threading
 import time
 from dataclasses import replace
 from pathlib import Path
@@ -58,6 +59,7 @@ def test_breaks_are_in_the_layout_that_loaders_list(made) -> None:
         volumes = [p["volume"] for p in about["pieces"]]
         assert sorted(p.volume for p in pieces) == pytest.approx(sorted(volumes), rel=1e-4)
         assert volumes == sorted(volumes, reverse=True)
+        assert volumes[-1] >= PLAN.least_share * sum(volumes)
         assert sum(p["mass"] for p in about["pieces"]) == pytest.approx(about["mass"], rel=1e-6)
         assert about["blow"]["speed"] > 0 and about["touching"]
 
@@ -124,6 +126,67 @@ def test_a_run_that_is_killed_loses_nothing(made, meshes, tmp_path) -> None:
     dataset.make(meshes, fresh, plan, quiet=True)
     killed = {name: content for name, content in files(tmp_path).items() if not name.startswith(("fresh", "parts"))}
     assert killed == files(fresh)
+
+
+def test_the_manifest_mends_itself(made, meshes) -> None:
+    out, _ = made
+    file = out / "manifest" / "0-of-1.jsonl"
+    before = file.read_text()
+    lines = before.splitlines()
+    # A row is lost, one is there twice, one is half written.
+    file.write_text("\n".join([lines[0], *lines[2:], lines[2]]) + "\n" + lines[1][:40])
+    dataset.make(meshes, out, PLAN, quiet=True)
+    settled = [json.loads(line) for line in file.read_text().splitlines()]
+    expected = [json.loads(line) for line in lines]
+    assert settled[1].pop("seconds") is None and expected[1].pop("seconds") > 0
+    assert settled == expected
+    file.write_text(before)
+
+
+def ray_workers() -> list[int]:
+    """Processes of Ray that break an object now."""
+    found = []
+    for folder in Path("/proc").iterdir():
+        try:
+            if folder.name.isdigit() and b"ray::break_all_of" in (folder / "cmdline").read_bytes():
+                found.append(int(folder.name))
+        except OSError:
+            continue
+    return found
+
+
+@pytest.mark.skipif(not Path("/proc/self/cmdline").exists(), reason="finds the workers' processes in /proc")
+def test_a_ray_worker_that_is_killed_loses_nothing(made, meshes, tmp_path) -> None:
+    ray = pytest.importorskip("ray")
+    out, _ = made
+    os.environ["RAY_USAGE_STATS_ENABLED"] = "0"
+    ray.init(num_cpus=2, include_dashboard=False, log_to_driver=False)
+    killed = []
+
+    def kill() -> None:
+        end = time.monotonic() + 60
+        while not killed and time.monotonic() < end:
+            # Once something is made: then there is something to lose.
+            if any(tmp_path.glob("meta/*/*/*.json")):
+                for worker in ray_workers()[:1]:
+                    os.kill(worker, signal.SIGKILL)
+                    killed.append(worker)
+            time.sleep(0.01)
+
+    thread = threading.Thread(target=kill)
+    thread.start()
+    try:
+        summary = dataset.make(meshes, tmp_path, PLAN, ray=True, quiet=True)
+    finally:
+        thread.join()
+        ray.shutdown()
+    assert killed
+    assert summary.failed == [] and summary.made + summary.there == 12
+    mine, theirs = ({n: c for n, c in files(f).items() if not n.startswith("parts")} for f in (tmp_path, out))
+    assert mine == theirs
+    rows = [json.loads(line) for line in (tmp_path / "manifest" / "0-of-1.jsonl").read_text().splitlines()]
+    keys = [(row["object"], row["break"]) for row in rows]
+    assert len(keys) == len(set(keys)) == 12
 
 
 def test_hdf5_has_exact_neighbours_in_the_order_that_garf_lists(made, meshes) -> None:

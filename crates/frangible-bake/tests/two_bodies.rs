@@ -66,15 +66,20 @@ fn two_equal_rods_exchange_their_speeds() {
     );
     for share in [0.1, 0.2, 0.4, 0.6, 0.8, 0.95] {
         let time = share * echo;
-        let found = f64::from(report.force[(time / blow.time_step()) as usize]);
+        // The first number is the force at the end of the first step.
+        let steps = time / blow.time_step() - 1.0;
+        let force = |i: usize| f64::from(report.force[i]);
+        let (i, rest) = (steps as usize, steps.fract());
+        let found = force(i) + rest * (force(i + 1) - force(i));
         let expected = law(impedance, stiffness, time);
         println!(
             "after {share} of it {found:.1} N, by the law {expected:.1} N, ρ c A v/2 {:.1} N",
             0.5 * impedance * SPEED
         );
-        // The ends' lateral inertia makes the plateau ripple.
+        // The ends' lateral inertia delays the rise and makes the plateau ripple.
+        let tolerance = if share < 0.15 { 0.07 } else { 0.02 };
         assert!(
-            (found / expected - 1.0).abs() < 0.05,
+            (found / expected - 1.0).abs() < tolerance,
             "{share}: {found} {expected}"
         );
     }

@@ -73,7 +73,7 @@ class Body:
 
         Args:
             contacts: All contacts of the blow, in the body's frame.
-            seed: Of the weak points and of the roughness of the cracks, default 1; a piece has that of its body.
+            seed: Draws the weak points and the roughness of the cracks, default 1; a piece has that of its body.
             least_share: A piece of less than this share of the body's volume stays with its neighbour; default 2e-4.
 
         Raises:
@@ -95,7 +95,7 @@ class Body:
 
         Args:
             contacts: Where and by what; their speeds do not matter.
-            seed: Of the weak points.
+            seed: Draws the weak points.
             tolerance: Share of the speed to which it is found.
 
         Returns:
@@ -110,7 +110,7 @@ class Body:
         Args:
             contacts: The blow.
             time: After its begin, s: the time step nearest to it. By default all of them.
-            seed: Of the weak points, which say how deep a flaw is.
+            seed: Draws the weak points, which say how deep a flaw is.
 
         Returns:
             Times (t,), s, and the largest principal tension (t, m) on each face at each of them, Pa; NaN where no flaw is.
@@ -152,14 +152,14 @@ def bake(
             ``trimesh.Trimesh``.
         faces: (m, 3) whole numbers. Splits, doubles, turned faces and holes are mended.
         material: A named material: ``glass``, ``porcelain``, ``brick``, ``concrete``, ``chocolate`` …
-        name: Of the body.
+        name: The body's name.
         size: Longest side, m. By default the mesh's unit is the metre.
         wall: Thickness, m, of a wall along the mesh, instead of what it encloses.
         tetrahedra: How many there are for cracks, about. More are finer and slower. By default 42 000; 1500 are enough for games.
         modes: Vibration modes that are kept.
         supports: What holds it, in the mesh's frame after ``size``: ``"below:z:0.01"``, ``"box:0,0,0,0.1,0.1,0.1"``,
             ``"sphere:0,0,0,0.02"``; ``"@xy"`` after one holds it along x and y only.
-        seed: Of the irregularity of the tetrahedra.
+        seed: Draws the irregularity of the tetrahedra.
         progress: Told the stage and its share that is done, meanwhile. What it raises ends the bake.
 
     Raises:

@@ -101,8 +101,8 @@ class Outcome:
         """How the fragments move just afterwards, and the striker: momentum stays, energy does not rise.
 
         Args:
-            position: Of the body's centre of mass, m, in the world.
-            rotation_xyzw: Of the body, a quaternion.
+            position: Where the body's centre of mass is in the world, m.
+            rotation_xyzw: How the body is turned, a quaternion.
             linear: Velocity of its centre of mass just before, m/s.
             angular: rad/s.
             striker: ``mass`` (kg), ``position`` (m) and, if they are not zero, ``linear`` and ``angular`` of what hit it; ``inertia`` (3, 3)

@@ -47,7 +47,7 @@ class World:
 
     Args:
         floor: Material of the floor at y = 0; None for none.
-        seed: Of all weak points.
+        seed: Draws all weak points.
         generations: How often pieces break again.
 
     Raises:

@@ -65,6 +65,7 @@ pub const CASES: &[Case] = &[
     cases::contact::CASE,
     cases::near_field::CASE,
     cases::blow::CASE,
+    cases::two_bodies::CASE,
 ];
 
 /// The case of this name.

@@ -90,8 +90,12 @@ impl Session {
         Ok(())
     }
 
+    /// Silence takes effect at once: what waits to be played goes too.
     pub(super) fn set_muted(&mut self, muted: bool) -> Result<(), ViewError> {
         self.ears()?.muted = muted;
+        if muted {
+            self.hush();
+        }
         Ok(())
     }
 

@@ -12,3 +12,4 @@ pub(crate) mod near_field;
 pub(crate) mod oscillator;
 pub(crate) mod plate;
 pub(crate) mod scaling;
+pub(crate) mod two_bodies;

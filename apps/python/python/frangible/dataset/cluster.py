@@ -1,0 +1,58 @@
+"""A dataset on a Ray cluster: a task for each object. What a machine had begun when it was lost is done by another one."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+from .files import meta_of
+from .manifest import Row
+from .plan import Object, Plan
+from .run import break_all_of, failed
+
+# So many tasks wait for each processor, so that none is idle and the cluster's memory does not fill with those to come.
+WAITING = 2
+# How often an object is begun again when the process that worked on it has died.
+RETRIES = 3
+
+
+def each_object(todo: list[Object], out: Path, plan: Plan) -> Iterator[Row | None]:
+    """Rows as they come, None for what is there. It joins the cluster that ``ray.init`` finds, or starts one on this machine."""
+    try:
+        import ray
+    except ImportError as error:
+        raise ImportError("this needs Ray: pip install frangible[ray]") from error
+    if not ray.is_initialized():
+        # Nobody is told of this run unless its owner has said so.
+        os.environ.setdefault("RAY_USAGE_STATS_ENABLED", "0")
+        ray.init(log_to_driver=False)
+    task = ray.remote(max_retries=RETRIES)(break_all_of)
+    most = WAITING * max(int(ray.cluster_resources().get("CPU", 1)), 1)
+    # The machines have other working directories.
+    out = out.resolve()
+    waiting: dict[Any, Object] = {}
+    rest = iter((mesh.resolve(), material, name) for mesh, material, name in todo)
+    while True:
+        for one in rest:
+            waiting[task.remote(one, out, plan)] = one
+            if len(waiting) >= most:
+                break
+        if not waiting:
+            return
+        [ready], _ = ray.wait(list(waiting), num_returns=1)
+        one = waiting.pop(ready)
+        try:
+            yield from ray.get(ready)
+        except ray.exceptions.RayError as error:
+            yield from _lost(one, out, plan, error)
+
+
+def _lost(one: Object, out: Path, plan: Plan, error: Exception) -> Iterator[Row | None]:
+    """Rows of an object whose task died each time it was tried: what was made before is there."""
+    mesh, material, name = one
+    row = {"category": plan.category, "object": name, "mesh": mesh.name, "material": material}
+    for k in range(plan.breaks):
+        there = meta_of(out, plan, name, k).with_suffix(".json").exists()
+        yield None if there else failed(row, k, f"the task died: {error}".splitlines()[0])

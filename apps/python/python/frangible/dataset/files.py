@@ -1,0 +1,122 @@
+"""The folders of a dataset. Whatever has its final name is whole."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import shutil
+from collections.abc import Sequence
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..arrays import Floats
+from ..bodies import Body
+from ..outcomes import Fragment, Outcome
+from .plan import Plan
+
+
+def folder_of(out: Path, plan: Plan, name: str, k: int) -> Path:
+    return out / "breaking_bad" / plan.category / name / f"fractured_{k}"
+
+
+def meta_of(out: Path, plan: Plan, name: str, k: int) -> Path:
+    return out / "meta" / plan.category / name / f"fractured_{k}"
+
+
+def write_break(out: Path, plan: Plan, body: Body, outcome: Outcome, words: dict[str, Any]) -> dict[str, Any]:
+    """Writes a break, and gives back what is written about it. Each file and folder has its final name only when it is whole; the JSON comes last."""
+    name, k = words["object"], words["break"]
+    folder, meta = folder_of(out, plan, name, k), meta_of(out, plan, name, k)
+    part = out / "parts" / f"{name}-{k}-{os.getpid()}"
+    part.mkdir(parents=True)
+    (part / "pieces").mkdir()
+    try:
+        hashes = {}
+        arrays: dict[str, Any] = {}
+        for i, fragment in enumerate(outcome.fragments):
+            text = _obj(fragment)
+            (part / "pieces" / f"piece_{i}.obj").write_bytes(text)
+            hashes[f"piece_{i}.obj"] = hashlib.sha256(text).hexdigest()
+            arrays |= {f"vertices_{i}": fragment.vertices, f"faces_{i}": fragment.faces, f"neighbour_{i}": fragment.neighbour}
+        with (part / "arrays.npz").open("wb") as file:
+            np.savez_compressed(file, **arrays)
+        about = {**words, "sha256": hashes, "pieces": [_about(f) for f in outcome.fragments], "touching": touching(outcome.fragments)}
+        numbers = {key: value for key, value in outcome.report.items() if isinstance(value, int | float) and key != "seconds"}
+        about |= {"report": numbers, "frequencies": [float(f) for f in body.frequencies], "mass": body.mass}
+        about |= {"mesh_scale": body.scale, "mesh_offset": [float(x) for x in body.offset]}
+        (part / "about.json").write_text(json.dumps(about, indent=1, sort_keys=True))
+        for place in (folder, meta):
+            place.parent.mkdir(parents=True, exist_ok=True)
+        if folder.exists():
+            # An earlier run ended between the pieces and the JSON.
+            shutil.rmtree(folder)
+        os.replace(part / "pieces", folder)
+        os.replace(part / "arrays.npz", meta.with_suffix(".npz"))
+        os.replace(part / "about.json", meta.with_suffix(".json"))
+        return about
+    finally:
+        shutil.rmtree(part, ignore_errors=True)
+
+
+def _obj(fragment: Fragment) -> bytes:
+    lines = [f"v {x!r} {y!r} {z!r}" for x, y, z in fragment.vertices.tolist()]
+    lines += [f"f {a} {b} {c}" for a, b, c in (fragment.faces + 1).tolist()]
+    return ("\n".join(lines) + "\n").encode()
+
+
+def _about(fragment: Fragment) -> dict[str, Any]:
+    return {"mass": fragment.mass, "volume": fragment.volume, "center": [float(x) for x in fragment.center]}
+
+
+def touching(fragments: Sequence[Fragment]) -> list[dict[str, Any]]:
+    """Pairs of fragments that have faces in common, and the area, m²."""
+    pairs: dict[tuple[int, int], float] = {}
+    for i, fragment in enumerate(fragments):
+        corners = fragment.vertices[fragment.faces]
+        areas: Floats = 0.5 * np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+        for j in np.unique(fragment.neighbour[fragment.neighbour > i]):
+            pairs[i, int(j)] = float(areas[fragment.neighbour == j].sum())
+    return [{"pieces": list(pair), "area": area} for pair, area in sorted(pairs.items())]
+
+
+def keep_plan(out: Path, plan: Plan) -> None:
+    """A folder is of one plan: another one would mix two kinds of breaks under one name."""
+    words = json.dumps(asdict(plan), indent=1, sort_keys=True)
+    file = out / f"plan-{plan.category}.json"
+    if file.exists():
+        if file.read_text() != words:
+            raise ValueError(f"`{file}` is of another plan; give another folder or category, or the options of then")
+        return
+    out.mkdir(parents=True, exist_ok=True)
+    part = file.with_suffix(f".{os.getpid()}.part")
+    part.write_text(words)
+    os.replace(part, file)
+
+
+def breaks(out: Path, category: str) -> list[str]:
+    """Names of all breaks that are there, as the splits have them: ``CATEGORY/OBJECT/fractured_K``."""
+    there = (out / "meta" / category).glob("*/fractured_*.json")
+    found = [(file.parent.name, int(file.stem.removeprefix("fractured_"))) for file in there]
+    return [f"{category}/{name}/fractured_{k}" for name, k in sorted(found)]
+
+
+def split_of(name: str, val_share: float) -> str:
+    """``train`` or ``val``, by the object's name alone, so that more objects change nothing."""
+    share = int.from_bytes(hashlib.sha256(name.encode()).digest()[:8], "little") / 2**64
+    return "val" if share < val_share else "train"
+
+
+def write_splits(out: Path, plan: Plan) -> None:
+    """Names the breaks that are there, each in one split."""
+    folder = out / "breaking_bad" / "data_split"
+    folder.mkdir(parents=True, exist_ok=True)
+    named = breaks(out, plan.category)
+    for split in ("train", "val"):
+        lines = [line for line in named if split_of(line.split("/")[1], plan.val_share) == split]
+        part = folder / f"{plan.category}.{split}.{os.getpid()}.part"
+        part.write_text("".join(f"{line}\n" for line in lines))
+        os.replace(part, folder / f"{plan.category}.{split}.txt")
