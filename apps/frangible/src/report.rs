@@ -280,8 +280,9 @@ impl BodyReport {
                         None => format!("at most {:.1} MPa", i.stress_bound_pa / 1e6),
                     },
                     i.strength_pa / 1e6,
-                    i.margin
-                        .map_or(String::new(), |margin| format!(", a margin of {margin:.2}"))
+                    i.margin.map_or(String::new(), |margin| format!(
+                        ", a margin of {margin:.2} at least"
+                    ))
                 ),
             );
             row(

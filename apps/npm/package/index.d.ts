@@ -100,7 +100,7 @@ export interface Motion {
 
 export interface Outcome {
   broke: boolean;
-  /** Strength over stress: above 1 nothing happened, and the larger it is, the farther from it. Of a body that broke: 0. */
+  /** Strength over a bound of the stress, which may be far above the stress itself: above 1 nothing happened. Of a body that broke: 0. */
   margin: number;
   report: Report;
   /** Largest first; together they are the body. Empty where it held. */

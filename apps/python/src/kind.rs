@@ -144,6 +144,21 @@ impl Kind {
         Ok(Impact::new(body, outcome.map_err(refused)?))
     }
 
+    /// Strength over the largest stress at a weak point, every one of which is looked at.
+    fn margin(
+        &self,
+        py: Python<'_>,
+        rows: PyReadonlyArray1<'_, f64>,
+        seed: Option<u64>,
+    ) -> PyResult<f64> {
+        let contacts = contacts(&rows)?;
+        let body = self.body(seed)?;
+        let mut config = FractureConfig::default();
+        config.culling = false;
+        let outcome = py.detach(|| impact(&body, &contacts, &config));
+        Ok(Impact::new(body, outcome.map_err(refused)?).margin())
+    }
+
     fn would_break(
         &self,
         py: Python<'_>,

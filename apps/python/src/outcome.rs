@@ -41,7 +41,7 @@ impl Impact {
 #[pymethods]
 impl Impact {
     #[getter]
-    fn margin(&self) -> f64 {
+    pub(crate) fn margin(&self) -> f64 {
         self.margin
     }
 

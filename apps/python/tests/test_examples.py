@@ -4,9 +4,9 @@ import importlib.util
 import json
 from pathlib import Path
 
-import frangible as fr
 import numpy as np
 import pytest
+from frangible import dataset
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 
@@ -43,6 +43,6 @@ def test_the_hundred_vessels_are_closed_and_break(tmp_path) -> None:
     for file in files[::7]:
         mesh = trimesh.load(file)
         assert mesh.is_watertight and mesh.volume > 1e-5
-    cup = fr.bake(tmp_path / "cup-001.obj", material="porcelain", tetrahedra=8000, modes=40)
-    lowest = cup.vertices[np.argmin(cup.vertices[:, 1])]
-    assert cup.impact(fr.Contact(lowest, (0, 1, 0), 6.0, "stone")).broke
+    plan = dataset.Plan(breaks=2, tetrahedra=8000, modes=40)
+    summary = dataset.make([tmp_path / "cup-001.obj"], tmp_path / "data", plan, quiet=True)
+    assert (summary.made, summary.failed) == (2, [])

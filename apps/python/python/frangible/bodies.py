@@ -87,8 +87,8 @@ class Body:
         return self._kind.would_break(rows_of(contacts), _seed(seed))
 
     def margin(self, contacts: Contacts, seed: int | None = None) -> float:
-        """Strength over the largest stress of a blow: above 1 no crack starts."""
-        return self.impact(contacts, seed).margin
+        """Strength over the largest stress of a blow at a weak point: above 1 no crack starts."""
+        return self._kind.margin(rows_of(contacts), _seed(seed))
 
     def minimum_speed(self, contacts: Contacts, seed: int | None = None, tolerance: float = 0.01) -> float:
         """The slowest approach at which a blow like this breaks the body.

@@ -70,7 +70,8 @@ class Outcome:
 
     Attributes:
         broke: Whether the body is in pieces now.
-        margin: Strength over stress: above 1 nothing happened, and the larger it is, the farther from it.
+        margin: Strength over a bound of the stress, which may be far above the stress itself: above 1 nothing happened. ``Body.margin``
+            takes longer and gives the margin itself.
         fragments: The pieces, largest first; none if the body held. Together they tile the body.
         report: Numbers of the blow, SI: ``peak_stress``, ``strength``, ``fracture_energy``, ``crack_area``, ``cracks``,
             ``first_crack_time``, ``first_crack_point``, ``approach_energy``, ``peak_strain_energy``, ``contact_duration``, ``time_step``,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -21,7 +22,7 @@ RETRIES = 3
 def each_object(todo: list[Object], out: Path, plan: Plan) -> Iterator[Row | None]:
     """Rows as they come, None for what is there. It joins the cluster that ``ray.init`` finds, or starts one on this machine."""
     try:
-        import ray
+        ray: Any = import_module("ray")
     except ImportError as error:
         raise ImportError("this needs Ray: pip install frangible[ray]") from error
     if not ray.is_initialized():
