@@ -135,7 +135,7 @@ fn two_that_break_each_other_keep_their_momentum() {
     app.update();
     app.world_mut()
         .entity_mut(flies)
-        .insert(LinearVelocity(Vec3::NEG_Z * 25.0));
+        .insert(LinearVelocity(Vec3::NEG_Z * 45.0));
     let (energy, momentum) = motion(&mut app);
     while app.world().get::<Broken>(still).is_none() {
         app.update();

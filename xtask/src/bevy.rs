@@ -17,17 +17,6 @@ pub(crate) const PATHS: [&str; 6] = [
     "xtask/src/bevy.rs",
 ];
 
-/// What the examples with a window are built from, and their pictures.
-pub(crate) const DRAWN_PATHS: [&str; 7] = [
-    "bevy_frangible",
-    "crates/frangible",
-    "crates/frangible-bake",
-    "crates/frangible-mesh",
-    "docs/bevy",
-    "xtask/src/bevy.rs",
-    "xtask/src/setup.rs",
-];
-
 /// Limit of each step: a first build of Bevy takes most of it.
 const LIMIT: Duration = Duration::from_secs(35 * 60);
 

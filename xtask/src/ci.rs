@@ -79,15 +79,23 @@ type Check = fn() -> Result<Vec<String>>;
 struct Step {
     name: &'static str,
     check: Check,
-    /// The step belongs to a leaf with heavy dependencies: it runs only when one of these paths has changed since it last passed.
-    leaf: Option<&'static [&'static str]>,
+    when: When,
+}
+
+/// When a step runs.
+enum When {
+    Always,
+    /// The step belongs to a leaf with heavy dependencies: it runs where one of these paths has changed since it last passed.
+    Changed(&'static [&'static str]),
+    /// Its first build takes a quarter of an hour: it runs with `--all` alone.
+    Asked,
 }
 
 const fn step(name: &'static str, check: Check) -> Step {
     Step {
         name,
         check,
-        leaf: None,
+        when: When::Always,
     }
 }
 
@@ -114,27 +122,27 @@ const STEPS: &[Step] = &[
     Step {
         name: "web",
         check: || trial(Some(WEB_LIMIT)),
-        leaf: Some(&PAGE),
+        when: When::Changed(&PAGE),
     },
     Step {
         name: "npm",
         check: || package(Some(WEB_LIMIT)),
-        leaf: Some(&NPM),
+        when: When::Changed(&NPM),
     },
     Step {
         name: "python",
         check: python::wheel,
-        leaf: Some(&python::PATHS),
+        when: When::Changed(&python::PATHS),
     },
     Step {
         name: "bevy",
         check: bevy::bevy,
-        leaf: Some(&bevy::PATHS),
+        when: When::Changed(&bevy::PATHS),
     },
     Step {
         name: "bevy drawn",
         check: bevy::drawn,
-        leaf: Some(&bevy::DRAWN_PATHS),
+        when: When::Asked,
     },
     step("counts", || counts(false)),
     step("fuzz", || fuzz(USUAL_SECONDS, Some(FUZZ_LIMIT))),
@@ -175,20 +183,26 @@ pub(crate) fn ci(all: bool) -> Result {
 }
 
 fn run_step(step: &Step, all: bool) -> Result<Vec<String>> {
-    let Some(paths) = step.leaf else {
-        return (step.check)();
+    let skipped = |why: &str| {
+        let line = format!(
+            "{}: skipped: {why}; `cargo xtask ci --all` runs it",
+            step.name
+        );
+        println!("{line}");
+        Ok(vec![line])
+    };
+    let paths = match step.when {
+        When::Always => return (step.check)(),
+        When::Asked if all => return (step.check)(),
+        When::Asked => return skipped("its first build takes long"),
+        When::Changed(paths) => paths,
     };
     // Without git there is no state, and the step runs.
     let state = green::state(paths).ok().flatten();
     if let Some(state) = state.as_ref().filter(|_| !all)
         && green::passed(step.name, state)
     {
-        let line = format!(
-            "{}: skipped: nothing it is built from has changed since it passed; `cargo xtask ci --all` runs it",
-            step.name
-        );
-        println!("{line}");
-        return Ok(vec![line]);
+        return skipped("nothing it is built from has changed since it passed");
     }
     let lines = (step.check)()?;
     if let Some(state) = state {

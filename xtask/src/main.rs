@@ -22,7 +22,7 @@ use outcomes::{Wish, outcomes};
 const HELP: &str = "\
 cargo xtask test [--fast]     setup, then all tests of the workspace in the release profile; --fast leaves out those over three seconds
 cargo xtask ci [--all]        everything the continuous integration checks, with the minutes per step; --all also runs the steps of
-                              leaves that have not changed since they passed
+                              leaves that have not changed since they passed, and the pictures of the examples in Bevy
 cargo xtask outcomes [--write FILE | --against FILE]
                               break all built-in scenes; print, store or compare pieces, areas, energies and bits
 cargo xtask counts [--write]  count the instructions of each stage; fail where they grew by over 5 %, or store them
