@@ -126,7 +126,7 @@ fn fresh(target: &Path) -> Result<PathBuf> {
     let path = |name: &str| root().join(name).display().to_string();
     let manifest = format!(
         "[package]\nname = \"fresh\"\nedition = \"2024\"\n\n[workspace]\n\n[dependencies]\n{avian}\n{bevy}\nbevy_frangible = {{ path = {:?}, \
-         features = [\"rapier\"] }}\nfrangible-bake = {{ path = {:?} }}\n",
+         features = [\"gizmos\", \"rapier\"] }}\nfrangible-bake = {{ path = {:?} }}\n",
         path("bevy_frangible"),
         path("crates/frangible-bake"),
     );

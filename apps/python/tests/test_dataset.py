@@ -46,12 +46,15 @@ def test_breaks_are_in_the_layout_that_loaders_list(made) -> None:
     out, summary = made
     assert (summary.made, summary.there, summary.failed) == (12, 0, [])
     root = out / "breaking_bad"
-    lines = [line for split in ("train", "val") for line in (root / "data_split" / f"everyday.{split}.txt").read_text().split()]
-    assert len(lines) == len(set(lines)) == 12
+    named = [line for split in ("train", "val") for line in (root / f"everyday.{split}.txt").read_text().split()]
+    assert len(named) == len(set(named)) == 4
+    assert all((root / f"everyday.{s}.txt").read_text() == (root / "data_split" / f"everyday.{s}.txt").read_text() for s in ("train", "val"))
+    # As the loaders do: each folder of an object whose name has this word, and every file of it, of which trimesh reads 2 to 20.
+    lines = [f"{name}/{folder}" for name in named for folder in os.listdir(root / name) if "fractured" in folder]
+    assert len(lines) == 12
     for line in lines:
-        # As the loaders do: every file of the folder, those that trimesh reads, 2 to 20 of them.
         there = sorted(os.listdir(root / line))
-        assert "fractured" in line and 2 <= len(there) <= 40
+        assert 2 <= len(there) <= 40
         assert there == sorted(f"piece_{i}.obj" for i in range(len(there)))
         pieces = [trimesh.load(root / line / name) for name in there]
         about = json.loads((out / "meta" / f"{line}.json").read_text())

@@ -5,7 +5,7 @@
 makes, under ``data``:
 
 - ``breaking_bad/CATEGORY/OBJECT/fractured_K/piece_N.obj`` in the layout of the Breaking Bad dataset, nothing else in these folders, pieces where they
-  were in the body, largest first; ``breaking_bad/data_split/CATEGORY.{train,val}.txt`` names them (objects in one of the two, never in both);
+  were in the body, largest first; ``breaking_bad/CATEGORY.{train,val}.txt``, and the same in ``data_split``, name the objects, each in one of the two;
 - ``meta/CATEGORY/OBJECT/fractured_K.json``: the blow, the energies, the masses, who touches whom over which area; ``.npz`` beside it: the same pieces in
   float64 with the exact neighbour of each face;
 - ``manifest/SHARD.jsonl``: a row for each break, the failed ones with the reason, with the SHA-256 of what was written.

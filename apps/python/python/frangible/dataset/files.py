@@ -98,7 +98,7 @@ def keep_plan(out: Path, plan: Plan) -> None:
 
 
 def breaks(out: Path, category: str) -> list[str]:
-    """Names of all breaks that are there, as the splits have them: ``CATEGORY/OBJECT/fractured_K``."""
+    """Names of all breaks that are there: ``CATEGORY/OBJECT/fractured_K``."""
     there = (out / "meta" / category).glob("*/fractured_*.json")
     found = [(file.parent.name, int(file.stem.removeprefix("fractured_"))) for file in there]
     return [f"{category}/{name}/fractured_{k}" for name, k in sorted(found)]
@@ -111,12 +111,16 @@ def split_of(name: str, val_share: float) -> str:
 
 
 def write_splits(out: Path, plan: Plan) -> None:
-    """Names the breaks that are there, each in one split."""
-    folder = out / "breaking_bad" / "data_split"
-    folder.mkdir(parents=True, exist_ok=True)
-    named = breaks(out, plan.category)
-    for split in ("train", "val"):
-        lines = [line for line in named if split_of(line.split("/")[1], plan.val_share) == split]
-        part = folder / f"{plan.category}.{split}.{os.getpid()}.part"
-        part.write_text("".join(f"{line}\n" for line in lines))
-        os.replace(part, folder / f"{plan.category}.{split}.txt")
+    """Names the objects of which there are breaks, each in one split: loaders look into their folders for the breaks.
+
+    Some loaders look for the lists beside the objects, others in ``data_split``: they are in both places.
+    """
+    root = out / "breaking_bad"
+    named = sorted({line.rsplit("/", 1)[0] for line in breaks(out, plan.category)})
+    for folder in (root, root / "data_split"):
+        folder.mkdir(parents=True, exist_ok=True)
+        for split in ("train", "val"):
+            lines = [line for line in named if split_of(line.split("/")[1], plan.val_share) == split]
+            part = folder / f"{plan.category}.{split}.{os.getpid()}.part"
+            part.write_text("".join(f"{line}\n" for line in lines))
+            os.replace(part, folder / f"{plan.category}.{split}.txt")
