@@ -72,6 +72,13 @@ fn slow_motion_is_as_much_longer_and_a_muted_session_is_silent() {
         (long / (4.0 * session.time()) - 1.0).abs() < 0.01,
         "{long} s"
     );
+    // In the middle of the sound, too, and at once.
+    give(&mut session, "slow-motion 1");
+    give(&mut session, "step 1");
+    give(&mut session, "sound off");
+    give(&mut session, "step 20");
+    let muted = outlet.drain();
+    assert!(!muted.is_empty() && muted.iter().all(|&s| s == 0.0));
     let (mut session, outlet) = heard("muted");
     give(&mut session, "sound off");
     let (muted, _) = listened(&mut session, &outlet);

@@ -80,8 +80,9 @@ impl Session {
 
     /// Silence now.
     pub(super) fn hush(&mut self) {
-        if let Some(heard) = &self.heard {
+        if let Some(heard) = &mut self.heard {
             heard.outlet.clear();
+            heard.tape = Tape::default();
         }
     }
 
