@@ -20,7 +20,7 @@ class Piece:
     center: np.ndarray  # (3,) its centre of mass in the world before the break, m
     linear: np.ndarray  # (3,) velocity just after the break, m/s
     angular: np.ndarray  # (3,) rad/s
-    path: list  # of (seconds after the break, place (3,) m, quaternion w, x, y, z); empty if nothing was simulated
+    path: list  # of (seconds after the blow, place (3,) m, quaternion w, x, y, z); empty if nothing was simulated
 
 
 def is_played(settings, weakness):
@@ -28,19 +28,13 @@ def is_played(settings, weakness):
     return weakness is not None or settings.motion == "KEYFRAMES"
 
 
-def pieces_of(target, blow, seed, weakness, settings, seconds=None):
-    """The pieces of a blow with a seed, largest first; none if the object holds."""
+def pieces_of(target, blow, seed, weakness, settings, seconds=SOON):
+    """The pieces of a blow with a seed, largest first; none if the object holds. Keyframes go on for so many seconds."""
     if not is_played(settings, weakness):
         return _struck(target, blow, seed)
     keyed = settings.motion == "KEYFRAMES"
-    recorded = play(target, blow, seed, weakness, settings.seconds if seconds is None else seconds, keyed)
-    begin = min((piece.times[0] for piece in recorded), default=0.0)
-    return [_of_recording(piece, target, begin, keyed) for piece in recorded]
-
-
-def glimpse(target, blow, seed, weakness, settings):
-    """As `pieces_of`, followed no longer than it takes to see the pieces."""
-    return pieces_of(target, blow, seed, weakness, settings, SOON)
+    recorded, came = play(target, blow, seed, weakness, seconds, keyed)
+    return [_of_recording(piece, target, came, keyed) for piece in recorded]
 
 
 def _struck(target, blow, seed):
@@ -60,14 +54,16 @@ def _struck(target, blow, seed):
     ]
 
 
-def _of_recording(piece, target, begin, keyed):
+def _of_recording(piece, target, came, keyed):
     linear = angular = np.zeros(3)
-    if len(piece.times) > 1:
-        passed = piece.times[1] - piece.times[0]
-        linear = (piece.places[1] - piece.places[0]) / passed
-        turned = Quaternion(piece.turns[1]) @ Quaternion(piece.turns[0]).inverted()
+    first = int(np.searchsorted(piece.times, piece.broke - 1e-6))
+    if len(piece.times) > first + 1:
+        passed = piece.times[first + 1] - piece.times[first]
+        linear = (piece.places[first + 1] - piece.places[first]) / passed
+        turned = Quaternion(piece.turns[first + 1]) @ Quaternion(piece.turns[first]).inverted()
         axis, angle = turned.to_axis_angle()
         angle = (angle + np.pi) % (2 * np.pi) - np.pi
         angular = np.array(axis) * angle / passed
-    path = [(t - begin, at, turn) for t, at, turn in zip(piece.times, piece.places, piece.turns)] if keyed else []
+    moves = zip(piece.times, piece.places, piece.turns)
+    path = [(t - came, at, turn) for t, at, turn in moves if t > came] if keyed else []
     return Piece(piece.vertices, piece.faces, piece.inner, piece.mass, target.center + piece.birth, linear, angular, path)

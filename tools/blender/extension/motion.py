@@ -7,6 +7,8 @@ from mathutils import Quaternion
 
 # Frames for which a rigid piece is led, so that it has its velocity when it is let go.
 LED = 2
+# The least mass that Blender takes, kg.
+LEAST_MASS = 1e-3
 GROUND_NAME = "Frangible ground"
 
 
@@ -16,13 +18,13 @@ def as_keyframes(scene, parts, pieces, unit):
     last = begin
     for part, piece in zip(parts, pieces):
         times = np.array([time for time, _, _ in piece.path])
-        frames = begin + 1 + times * rate
+        frames = begin + times * rate
         places = np.array([at for _, at, _ in piece.path]) / unit
         turns = np.array([turn for _, _, turn in piece.path])
         for i in range(1, len(turns)):
             if turns[i] @ turns[i - 1] < 0:
                 turns[i] = -turns[i]
-        # A piece rests in the whole until the break.
+        # A piece rests in the whole until the blow.
         frames = np.concatenate([[begin], frames])
         places = np.concatenate([[np.array(part.location)], places])
         turns = np.concatenate([[[1.0, 0, 0, 0] if turns[0][0] >= 0 else [-1.0, 0, 0, 0]], turns])
@@ -33,33 +35,49 @@ def as_keyframes(scene, parts, pieces, unit):
     return last
 
 
-def as_rigid_bodies(scene, parts, pieces, unit, material):
-    """Makes each piece a rigid body of its mass, which leaves the current frame with the velocities of the break."""
+def as_rigid_bodies(scene, thing, parts, pieces, unit, surface):
+    """Makes each piece a rigid body of its mass, which leaves its place with the velocity of the break. Returns the frame of the break.
+
+    A body that is let go keeps the velocity with which its keyframes led it. So each piece is led to its place in the last frames before
+    the break, out of sight, while the whole object is still seen.
+    """
     world = rigid_world(scene)
-    begin, step = scene.frame_current, scene.render.fps_base / scene.render.fps
-    world.point_cache.frame_start = min(world.point_cache.frame_start, begin)
+    first, step = scene.frame_current, scene.render.fps_base / scene.render.fps
+    broke = first + LED
+    world.point_cache.frame_start = min(world.point_cache.frame_start, first)
+    scene.frame_end = max(scene.frame_end, broke + 1)
     world.point_cache.frame_end = max(world.point_cache.frame_end, scene.frame_end)
+    before = np.arange(-LED, 1) * step
     for part, piece in zip(parts, pieces):
         world.collection.objects.link(part)
         rigid = part.rigid_body
         rigid.type = "ACTIVE"
-        rigid.mass = max(piece.mass, 1e-3)
+        rigid.mass = max(piece.mass, LEAST_MASS)
         rigid.collision_shape = "CONVEX_HULL"
-        rigid.friction, rigid.restitution = material
+        rigid.friction, rigid.restitution = surface
         rigid.use_margin = True
         rigid.collision_margin = 0.0
-        frames = begin + np.arange(LED + 1)
-        after = np.arange(LED + 1) * step
-        places = (piece.center + after[:, None] * piece.linear) / unit
         speed = float(np.linalg.norm(piece.angular))
         axis = piece.angular / speed if speed > 0 else np.array([0.0, 0, 1])
-        turns = np.array([Quaternion(axis, speed * time) for time in after])
-        _key(part, "location", frames, places)
-        _key(part, "rotation_quaternion", frames, turns)
+        frames = first + np.arange(LED + 1)
+        _key(part, "location", frames, (piece.center + before[:, None] * piece.linear) / unit)
+        _key(part, "rotation_quaternion", frames, np.array([Quaternion(axis, speed * time) for time in before]))
         rigid.kinematic = True
-        rigid.keyframe_insert("kinematic", frame=begin)
+        rigid.keyframe_insert("kinematic", frame=first)
         rigid.kinematic = False
-        rigid.keyframe_insert("kinematic", frame=begin + LED + 1)
+        rigid.keyframe_insert("kinematic", frame=broke + 1)
+        _hide_between(part, first, broke, hidden_first=True)
+    _hide_between(thing, first, broke, hidden_first=False)
+    scene.frame_set(broke)
+    return broke
+
+
+def _hide_between(thing, first, broke, hidden_first):
+    """Keys that hide an object before the break, or from it on."""
+    for path in ("hide_viewport", "hide_render"):
+        for frame, hidden in ((first, hidden_first), (broke, not hidden_first)):
+            setattr(thing, path, hidden)
+            thing.keyframe_insert(path, frame=frame)
 
 
 def rigid_world(scene):
@@ -80,10 +98,11 @@ def add_ground(scene, size):
         return
     half = 20 * size
     mesh = bpy.data.meshes.new(GROUND_NAME)
-    # A slab: pieces that are led fast do not pass through it.
-    corners = [(x, y, z) for z in (0.0, -2 * size) for x, y in ((-half, -half), (half, -half), (half, half), (-half, half))]
+    # A slab, which fast pieces do not pass through. Blender lays the box of a rigid body about the object's origin.
+    corners = [(x, y, z) for z in (size, -size) for x, y in ((-half, -half), (half, -half), (half, half), (-half, half))]
     mesh.from_pydata(corners, [], [(0, 1, 2, 3), (7, 6, 5, 4), (0, 4, 5, 1), (1, 5, 6, 2), (2, 6, 7, 3), (3, 7, 4, 0)])
     ground = bpy.data.objects.new(GROUND_NAME, mesh)
+    ground.location.z = -size
     ground.display_type, ground.hide_render = "WIRE", True
     scene.collection.objects.link(ground)
     rigid_world(scene).collection.objects.link(ground)

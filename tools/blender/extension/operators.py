@@ -9,6 +9,7 @@ from . import colours, motion, pieces
 from .blow import blow_of
 from .bodies import shape_of, target_body
 from .breaking import pieces_of
+from .played import SOON
 from .settings import target_of
 from .weakness import weakness_of
 
@@ -115,7 +116,7 @@ class FRANGIBLE_OT_show_stress(Step):
             f"Tension up to {stresses.max() / 1e6:.3g} MPa; strength {target.body.strength / 1e6:.3g} MPa",
         ]
         if weakness is not None:
-            lines.append(f"With the paint the surface has up to {100 * shares.max():.0f} % of its strength to bear")
+            lines.append(f"With the paint the tension is up to {shares.max():.3g} times the strength there")
         whole = "Without the paint it" if weakness is not None else "It"
         slowest = "at no speed up to 1000 m/s" if math.isinf(speed) else f"from {speed:.3g} m/s on"
         lines.append(f"{whole} breaks {slowest}; margin {margin:.3g} at {blow.speed:.3g} m/s")
@@ -144,7 +145,8 @@ class FRANGIBLE_OT_break(Step):
     def work(self, context):
         settings, scene = context.scene.frangible, context.scene
         thing, target, blow, weakness = prepared(context)
-        found = pieces_of(target, blow, settings.seed, weakness, settings)
+        seconds = settings.seconds if settings.motion == "KEYFRAMES" else SOON
+        found = pieces_of(target, blow, settings.seed, weakness, settings, seconds)
         if not found:
             self.report({"WARNING"}, held(thing, target, blow, weakness, settings.seed))
             return {"CANCELLED"}
@@ -154,14 +156,17 @@ class FRANGIBLE_OT_break(Step):
         collection = bpy.data.collections.new(thing.name)
         scene.collection.children.link(collection)
         parts = pieces.piece_objects(thing, found, outside, settings, unit, collection)
-        if settings.motion == "KEYFRAMES":
-            motion.as_keyframes(scene, parts, found, unit)
-        elif settings.motion == "RIGID":
-            motion.as_rigid_bodies(scene, parts, found, unit, SURFACE)
+        told = f"{len(found)} pieces, the largest of {found[0].mass:.3g} kg, in the collection {collection.name}"
+        if settings.motion == "RIGID":
             if settings.ground:
                 motion.add_ground(scene, target.shape.size / unit)
-        pieces.hide(thing)
-        return self.told(context, about(target), f"{len(found)} pieces, the largest of {found[0].mass:.3g} kg, in the collection {collection.name}")
+            broke = motion.as_rigid_bodies(scene, thing, parts, found, unit, SURFACE)
+            told += f"; they break off in frame {broke}"
+        else:
+            if settings.motion == "KEYFRAMES":
+                motion.as_keyframes(scene, parts, found, unit)
+            pieces.hide(thing)
+        return self.told(context, about(target), told)
 
 
 CLASSES = [FRANGIBLE_OT_bake, FRANGIBLE_OT_show_stress, FRANGIBLE_OT_hide_stress, FRANGIBLE_OT_break]

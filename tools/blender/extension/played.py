@@ -10,7 +10,7 @@ import tempfile
 import frangible as fr
 import numpy as np
 
-from .recording import TO_FILE, read_pieces, to_file
+from .recording import BODY, TO_FILE, read_pieces, to_file
 
 GRAVITY = 9.81
 # Pictures per second of a recording.
@@ -24,22 +24,23 @@ STANDING = 1e-3
 
 
 def play(target, blow, seed, weakness, seconds, ground):
-    """The pieces of a blow, and how they move; none if the body holds."""
+    """The pieces of a blow and when it came, s; no pieces if the body holds, even if its fall would break it later."""
     low = float(target.shape.world[:, 2].min())
     if ground and low < -STANDING:
         raise ValueError(f"The object reaches {-low:.3g} m below the ground at z = 0; lift it, or let rigid bodies move the pieces.")
     with tempfile.TemporaryDirectory(prefix="frangible-") as folder:
         if weakness is None:
-            path = _thrown(target, blow, seed, seconds, ground, folder)
+            came, path = 0.0, _thrown(target, blow, seed, seconds, ground, folder)
         else:
-            path = _painted(target, blow, seed, weakness, seconds, ground, low, folder)
-        return read_pieces(path)
+            came, path = _painted(target, blow, seed, weakness, seconds, ground, low, folder)
+        pieces = read_pieces(path)
+    return [piece for piece in pieces if piece.broke <= came + SOON + 1 / RATE], came
 
 
 def _thrown(target, blow, seed, seconds, ground, folder):
     """A ball begins right before the surface of a body at rest."""
     world = fr.World(floor="stone" if ground else None, seed=seed)
-    world.add(target.body, position=to_file(target.center), rotation=TO_FILE, name="body")
+    world.add(target.body, position=to_file(target.center), rotation=TO_FILE, name=BODY)
     # The ball touches the surface at the point, and goes back along its way by a little.
     touching = blow.point + blow.radius * blow.normal
     start = touching - OUTSIDE * blow.radius * blow.direction
@@ -64,7 +65,8 @@ def _painted(target, blow, seed, weakness, seconds, ground, low, folder):
     stands = ground and low <= STANDING
     if ground and not stands and low < rise:
         raise ValueError(
-            f"A painted object that hangs {low:.3g} m above the ground cannot be met by so slow a striker; set it on the ground, lift it to {rise:.3g} m, or strike faster."
+            f"A painted object that hangs {low:.3g} m above the ground is not met by so slow a striker;"
+            f" set it on the ground, lift it to {rise:.3g} m, or strike faster."
         )
     tossed = np.zeros(3) if stands else np.array([0, 0, rise])
     centers, radius, strengths = weakness.zones(target)
@@ -78,7 +80,7 @@ def _painted(target, blow, seed, weakness, seconds, ground, low, folder):
         f"duration = {(arrival + seconds):.9g}",
         'floor = "stone"' if ground else "floor = false",
         "[[body]]",
-        'name = "body"',
+        f'name = "{BODY}"',
         'asset = "body.frangible"',
         f"position = {_list(to_file(target.center - tossed))}",
         f"rotation = {{ quaternion = {_list(TO_FILE)} }}",
@@ -100,7 +102,8 @@ def _painted(target, blow, seed, weakness, seconds, ground, low, folder):
     with open(scene, "w", encoding="utf-8") as file:
         file.write("\n".join(lines) + "\n")
     _run(["break", scene, "--out", folder, "--json"])
-    return os.path.join(folder, "break.glb")
+    # The surface of the ball is there earlier than its centre would be.
+    return arrival - blow.radius / blow.speed, os.path.join(folder, "break.glb")
 
 
 def _run(words):

@@ -6,7 +6,10 @@ import struct
 from dataclasses import dataclass
 
 import numpy as np
+from mathutils import Quaternion
 
+# Name of the body that breaks.
+BODY = "body"
 # Blender's (x, y, z) is (x, z, -y) there: this takes vectors from there.
 UPRIGHT = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
 # A quarter turn about x, which takes Blender's axes to those of the file: (x, y, z, w).
@@ -25,6 +28,7 @@ class Recorded:
     inner: np.ndarray  # (m,) whether a crack made the face
     mass: float
     birth: np.ndarray  # (3,) its centre of mass in the body's frame, m
+    broke: float  # when it is first seen on its own, s after the beginning
     times: np.ndarray  # (k,) s after the beginning, rising
     places: np.ndarray  # (k, 3) of its centre of mass in the world, m, z up
     turns: np.ndarray  # (k, 4) quaternions w, x, y, z that turn the piece from where it was in the body as baked
@@ -36,18 +40,32 @@ def to_file(vector):
 
 
 def read_pieces(path):
-    """All pieces of a recording that are there at its end."""
+    """The pieces of the body in a recording, largest first. The path of each begins as a part of the whole body."""
     with open(path, "rb") as file:
         data = file.read()
     length = struct.unpack_from("<I", data, 12)[0]
     tree = json.loads(data[20 : 20 + length])
     numbers = data[28 + length :]
     moves = _moves(tree, numbers)
-    pieces = []
+    pieces, whole = [], None
     for number, node in enumerate(tree["nodes"]):
-        if " piece " in node.get("name", "") and "mesh" in node:
+        if node.get("name") == BODY:
+            whole = whole or _path(node, moves.get(number, {}), 0.0)
+        elif node.get("name", "").startswith(f"{BODY} piece "):
             pieces.append(_piece(tree, numbers, node, moves.get(number, {})))
+    for piece in pieces:
+        _begin_whole(piece, *whole)
     return sorted(pieces, key=lambda piece: -piece.mass)
+
+
+def _begin_whole(piece, times, places, turns):
+    """Puts the way of the whole body before that of a piece."""
+    kept = times < piece.broke
+    times, places, turns = times[kept], places[kept], turns[kept]
+    matrices = np.array([Quaternion(turn).to_matrix() for turn in turns]).reshape(-1, 3, 3)
+    piece.times = np.concatenate([times, piece.times])
+    piece.places = np.concatenate([places + matrices @ piece.birth, piece.places])
+    piece.turns = np.concatenate([turns, piece.turns])
 
 
 def _array(tree, numbers, index):
@@ -84,10 +102,10 @@ def _piece(tree, numbers, node, moves):
         inner.append(np.full(len(corners[-1]), cracked))
     faces, inner = np.concatenate(corners), np.concatenate(inner)
     birth = _birth(places, marks, faces)
-    first = moves.get("scale", [np.zeros(1)])[0][-1]
+    first = float(moves.get("scale", [np.zeros(1)])[0][-1])
     times, at, turns = _path(node, moves, first)
     places, faces = _joined(places, faces)
-    return Recorded(places, faces, inner, node["extras"]["mass_kg"], birth, times, at, turns)
+    return Recorded(places, faces, inner, node["extras"]["mass_kg"], birth, first, times, at, turns)
 
 
 def _path(node, moves, first):

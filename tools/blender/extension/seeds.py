@@ -5,7 +5,7 @@ import bpy
 import numpy as np
 
 from . import pieces
-from .breaking import glimpse
+from .breaking import pieces_of
 from .operators import Step, held, prepared
 
 SHEET = "Frangible seeds"
@@ -41,7 +41,7 @@ class FRANGIBLE_OT_nine_seeds(Step):
         scene, settings = context.scene, context.scene.frangible
         thing, target, blow, weakness = prepared(context)
         seeds = range(settings.seed, settings.seed + COUNT)
-        variants = {seed: glimpse(target, blow, seed, weakness, settings) for seed in seeds}
+        variants = {seed: pieces_of(target, blow, seed, weakness, settings) for seed in seeds}
         if not any(variants.values()):
             self.report({"WARNING"}, held(thing, target, blow, weakness, settings.seed))
             return {"CANCELLED"}
