@@ -135,7 +135,7 @@ def remove_collection(collection):
         data = thing.data
         bpy.data.objects.remove(thing)
         if data is not None and data.users == 0:
-            kind = {"MESH": bpy.data.meshes, "FONT": bpy.data.curves}.get(getattr(data, "id_type", ""))
+            kind = {"MESH": bpy.data.meshes, "CURVE": bpy.data.curves}.get(data.id_type)
             if kind is not None:
                 kind.remove(data)
     bpy.data.collections.remove(collection)

@@ -2,6 +2,7 @@
 """Scenes that the tests break, in Blender's Python without a window."""
 
 import os
+import re
 import sys
 from pathlib import Path
 
@@ -61,7 +62,8 @@ def add_slab(scene, z=0.4):
 
 
 def pieces_in(name):
-    return sorted((part for part in bpy.data.collections[name].objects), key=lambda part: int(part.name.split()[-1]))
+    """The pieces of a collection, by their number."""
+    return sorted(bpy.data.collections[name].objects, key=lambda part: int(re.search(r" piece (\d+)", part.name).group(1)))
 
 
 def volume(part):
