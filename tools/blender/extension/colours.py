@@ -10,6 +10,8 @@ from mathutils.kdtree import KDTree
 
 STRESS = "frangible_stress"
 COLOUR = "frangible_colour"
+# Whether the object was hidden from pictures before its stress was shown.
+WAS_HIDDEN = "frangible_was_hidden"
 VIEW_MATERIAL = "Frangible stress"
 # Shares of the strength and their colours (sRGB), from dark blue to light yellow: the lightness alone tells the order. What
 # reaches the strength is vermilion, which those who see red and green alike tell from yellow, too.
@@ -88,6 +90,8 @@ def show(context, thing, target, stresses, shares):
     view.hide_select = True
     for collection in thing.users_collection or [context.scene.collection]:
         collection.objects.link(view)
+    view[WAS_HIDDEN] = thing.hide_render
+    thing.hide_render = True
     thing.hide_set(True)
     space = context.space_data
     if space is not None and space.type == "VIEW_3D" and space.shading.type == "SOLID":
@@ -106,6 +110,7 @@ def clear(scene, thing):
     if view is None or view.type != "MESH" or view.data.attributes.get(STRESS) is None:
         return False
     mesh = view.data
+    thing.hide_render = bool(view.get(WAS_HIDDEN, False))
     bpy.data.objects.remove(view)
     if mesh.users == 0:
         bpy.data.meshes.remove(mesh)

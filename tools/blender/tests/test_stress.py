@@ -33,11 +33,11 @@ def test_the_stress_is_written_and_is_largest_near_the_blow(slab):
     far = np.linalg.norm(places - cursor, axis=1) > 0.08
     assert stress[far].mean() < 0.5 * stress.max()
     assert slab.data.attributes[colours.COLOUR].data_type == "FLOAT_COLOR"
-    assert slab.hide_get() and len(bpy.data.objects) == before + 1
+    assert slab.hide_get() and slab.hide_render and len(bpy.data.objects) == before + 1
     found = bpy.context.scene.frangible.found
     assert "margin 0." in found and "It breaks from" in found
     assert bpy.ops.frangible.hide_stress() == {"FINISHED"}
-    assert not slab.hide_get() and len(bpy.data.objects) == before
+    assert not slab.hide_get() and not slab.hide_render and len(bpy.data.objects) == before
 
 
 def test_the_coloured_surface_lies_where_the_object_is(slab):
