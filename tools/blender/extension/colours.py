@@ -122,7 +122,8 @@ def _material():
     material = bpy.data.materials.get(VIEW_MATERIAL)
     if material is None:
         material = bpy.data.materials.new(VIEW_MATERIAL)
-        material.use_nodes = True
+        if not material.use_nodes:
+            material.use_nodes = True
         nodes, links = material.node_tree.nodes, material.node_tree.links
         surface = next(node for node in nodes if node.type == "BSDF_PRINCIPLED")
         surface.inputs["Roughness"].default_value = 0.7

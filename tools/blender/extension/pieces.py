@@ -67,7 +67,8 @@ def inside_material(settings):
     if material is None:
         material = bpy.data.materials.new(INSIDE_NAME)
         material.diffuse_color = (0.75, 0.42, 0.2, 1)
-        material.use_nodes = True
+        if not material.use_nodes:
+            material.use_nodes = True
         surface = next(node for node in material.node_tree.nodes if node.type == "BSDF_PRINCIPLED")
         surface.inputs["Base Color"].default_value = material.diffuse_color
         surface.inputs["Roughness"].default_value = 0.8

@@ -15,23 +15,35 @@ sys.path.insert(0, str(HERE.parent))
 
 import extension
 
-SPEED = 6.0
-SEED = 5
+SPEED = 10.0
+SEED = 1
 FRAME = 6
 
 
 # Outside of the vase, from the foot to the lip: radius and height, m.
-PROFILE = [(0.042, 0.0), (0.046, 0.006), (0.062, 0.03), (0.084, 0.07), (0.09, 0.105), (0.08, 0.145), (0.055, 0.185), (0.042, 0.21), (0.044, 0.235), (0.056, 0.26)]
-WALL = 0.006
-AROUND = 64
+PROFILE = [(0.045, 0.0), (0.05, 0.008), (0.066, 0.035), (0.086, 0.075), (0.091, 0.11), (0.08, 0.15), (0.058, 0.185), (0.048, 0.21), (0.05, 0.235), (0.06, 0.26)]
+WALL = 0.008
+AROUND = 128
+
+
+def rounded(profile):
+    """The profile with three more points in each part, on a smooth curve (Catmull and Rom) through all."""
+    ends = [profile[0], *profile, profile[-1]]
+    found = []
+    for a, b, c, d in zip(ends, ends[1:], ends[2:], ends[3:]):
+        for t in (0, 0.25, 0.5, 0.75):
+            shares = (-0.5 * t + t**2 - 0.5 * t**3, 1 - 2.5 * t**2 + 1.5 * t**3, 0.5 * t + 2 * t**2 - 1.5 * t**3, -0.5 * t**2 + 0.5 * t**3)
+            found.append(tuple(sum(share * point[k] for share, point in zip(shares, (a, b, c, d))) for k in (0, 1)))
+    return [*found, profile[-1]]
 
 
 def vase():
     """A vase of porcelain of 0.26 m that stands on the ground, and a blow on its belly."""
     bpy.ops.wm.read_factory_settings(use_empty=True)
     scene = bpy.context.scene
-    inner = [(radius - WALL, max(height, 0.008)) for radius, height in reversed(PROFILE)][:-1]
-    rows = [(0, 0), *PROFILE, *inner, (0, 0.008)]
+    outer = rounded(PROFILE)
+    inner = [(radius - WALL, max(height, WALL)) for radius, height in reversed(outer) if height > WALL or radius == outer[0][0]]
+    rows = [(0, 0), *outer, *inner, (0, WALL)]
     places, rings = [], []
     for radius, height in rows:
         count = AROUND if radius > 0 else 1
@@ -46,7 +58,7 @@ def vase():
     mesh = bpy.data.meshes.new("Vase")
     mesh.from_pydata(places, [], faces, shade_flat=False)
     thing = bpy.data.objects.new("Vase", mesh)
-    thing.modifiers.new("smooth", "SUBSURF")
+    mesh.set_sharp_from_angle(angle=0.6)
     scene.collection.objects.link(thing)
     bpy.context.view_layer.objects.active = thing
     paint(mesh, "Glaze", (0.09, 0.25, 0.42, 1), 0.15)
@@ -54,7 +66,7 @@ def vase():
     settings.material, settings.tetrahedra, settings.modes = "porcelain", 30000, 120
     settings.mass, settings.radius, settings.speed = 0.05, 0.012, SPEED
     bpy.context.view_layer.update()
-    hit, place, *_ = scene.ray_cast(bpy.context.evaluated_depsgraph_get(), Vector((0.4, -1, 0.12)), Vector((-0.35, 1, 0)))
+    hit, place, *_ = scene.ray_cast(bpy.context.evaluated_depsgraph_get(), Vector((0.23, -1, 0.125)), Vector((-0.2, 1, 0)))
     assert hit
     scene.cursor.location = place
     return scene, thing
@@ -115,7 +127,7 @@ def stress():
     place = scene.cursor.location
     # The ball is drawn on its way, so that what it hits is seen.
     ball(place + 0.045 * Vector((place.x, place.y, 0)).normalized(), 0.012, (0.02, 0.02, 0.02, 1))
-    studio(scene, (0.03, 0, 0.128), (0.1, -1, 0.3), 0.48)
+    studio(scene, (0.02, 0, 0.128), (-0.1, -1, 0.3), 0.46)
     render(scene, "stress")
 
 
@@ -130,7 +142,6 @@ def pieces():
 
 def seeds():
     scene, thing = vase()
-    scene.frangible.motion = "STILL"
     print(bpy.ops.frangible.nine_seeds(), scene.frangible.found)
     for text in bpy.data.curves:
         paint(text, "Text", (0.9, 0.9, 0.9, 1), 0.5)
