@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Objects as bodies that break: their evaluated mesh, its bake, and the bakes that are kept."""
 
+import contextlib
 import hashlib
 import json
 import os
@@ -51,27 +52,48 @@ def metres(scene):
     return scene.unit_settings.scale_length
 
 
+@contextlib.contextmanager
+def evaluated(context, thing):
+    """The object with its modifiers, and its mesh. Blender applies none to what is hidden: such an object is shown for the moment."""
+    if context.view_layer.objects.get(thing.name) is not thing:
+        raise ValueError(f"{thing.name} is not in this view layer; link it to the scene, or show its collection.")
+    if thing.mode == "EDIT":
+        thing.update_from_editmode()
+    hidden = thing.hide_get(), thing.hide_viewport
+    try:
+        if any(hidden):
+            thing.hide_viewport = False
+            thing.hide_set(False)
+            context.view_layer.update()
+        if not thing.visible_get():
+            raise ValueError(f"{thing.name} is hidden, so that its modifiers are not known; show it and its collection first.")
+        seen = thing.evaluated_get(context.evaluated_depsgraph_get())
+        mesh = seen.to_mesh()
+        try:
+            yield seen, mesh
+        finally:
+            seen.to_mesh_clear()
+    finally:
+        if any(hidden):
+            thing.hide_set(hidden[0])
+            thing.hide_viewport = hidden[1]
+
+
 def shape_of(context, thing):
     """The mesh with its modifiers and its transform; ValueError where there is none."""
     if thing is None:
         raise ValueError("No mesh is chosen; pick one in the field Object, or make one active.")
     if thing.type != "MESH":
         raise ValueError(f"{thing.name} is no mesh; pick a mesh, or convert it to one.")
-    if thing.mode == "EDIT":
-        thing.update_from_editmode()
-    seen = thing.evaluated_get(context.evaluated_depsgraph_get())
-    mesh = seen.to_mesh()
-    try:
+    with evaluated(context, thing) as (seen, mesh):
         mesh.calc_loop_triangles()
         places = np.empty(3 * len(mesh.vertices), dtype=np.float32)
         corners = np.empty(3 * len(mesh.loop_triangles), dtype=np.int32)
         mesh.vertices.foreach_get("co", places)
         mesh.loop_triangles.foreach_get("vertices", corners)
-    finally:
-        seen.to_mesh_clear()
+        matrix = np.array(seen.matrix_world, dtype=np.float64)
     if not len(corners):
         raise ValueError(f"{thing.name} has no faces; give it a closed surface.")
-    matrix = np.array(seen.matrix_world, dtype=np.float64)
     unit = metres(context.scene)
     local = places.reshape(-1, 3).astype(np.float64)
     if not np.isfinite(local).all() or not np.isfinite(matrix).all():

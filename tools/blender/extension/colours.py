@@ -8,6 +8,8 @@ import numpy as np
 from mathutils import Vector
 from mathutils.kdtree import KDTree
 
+from .bodies import evaluated
+
 STRESS = "frangible_stress"
 COLOUR = "frangible_colour"
 # Whether the object was hidden from pictures before its stress was shown.
@@ -47,10 +49,10 @@ def tension(target, blow, seed):
 def write_stress(context, thing, target, stresses, shares):
     """Writes the stress, Pa, and its colour on each vertex of the object's mesh."""
     places = np.empty(3 * len(thing.data.vertices), dtype=np.float32)
-    seen = thing.evaluated_get(context.evaluated_depsgraph_get())
-    # Modifiers that keep the vertices may move them.
-    source = seen.data if len(seen.data.vertices) == len(thing.data.vertices) else thing.data
-    source.vertices.foreach_get("co", places)
+    with evaluated(context, thing) as (_, mesh):
+        # Modifiers that keep the vertices may move them.
+        source = mesh if len(mesh.vertices) == len(thing.data.vertices) else thing.data
+        source.vertices.foreach_get("co", places)
     matrix = np.array(thing.matrix_world)
     world = (places.reshape(-1, 3) @ matrix[:3, :3].T + matrix[:3, 3]) * target.shape.unit
     near = nearest(target.body.vertices + target.center, world)

@@ -6,6 +6,8 @@ import numpy as np
 from mathutils import Vector
 from mathutils.bvhtree import BVHTree
 
+from .bodies import evaluated
+
 # A sharp edge of a piece, radians.
 SHARP = 0.6
 # Slots of a piece's materials: what was outside, and the crack faces. Further materials of the outside follow.
@@ -21,9 +23,7 @@ class Outside:
         self.tree = BVHTree.FromPolygons([Vector(place) for place in shape.vertices], shape.triangles.tolist())
         self.places, self.triangles = shape.vertices, shape.triangles
         self.materials = [slot.material for slot in thing.material_slots]
-        seen = thing.evaluated_get(context.evaluated_depsgraph_get())
-        mesh = seen.to_mesh()
-        try:
+        with evaluated(context, thing) as (_, mesh):
             mesh.calc_loop_triangles()
             loops = np.empty(3 * len(mesh.loop_triangles), dtype=np.int32)
             polygons = np.empty(len(mesh.loop_triangles), dtype=np.int32)
@@ -39,8 +39,6 @@ class Outside:
                 values = np.empty(2 * len(mesh.loops), dtype=np.float32)
                 layer.uv.foreach_get("vector", values)
                 self.uvs[layer.name] = values.reshape(-1, 2)[loops].reshape(-1, 3, 2)
-        finally:
-            seen.to_mesh_clear()
 
     def nearest(self, places):
         """The triangle next to each of these places in the world, m."""

@@ -116,6 +116,8 @@ def _run(words):
         capture_output=True,
         text=True,
         check=False,
+        # No window of its own on Windows.
+        creationflags=getattr(subprocess, "CREATE_NO_WINDOW", 0),
     )
     if run.returncode != 0:
         said = run.stderr.strip().splitlines() or ["it gave no reason"]

@@ -77,7 +77,7 @@ def _variant(sheet, thing, seed, found, outside, inside, at, size, unit):
     text.size, text.align_x = 0.14 * size / unit, "CENTER"
     label = bpy.data.objects.new(text.name, text)
     low = float(outside.places[:, 2].min()) + outside.origin[2]
-    label.location = (at[0] / unit, (at[1] - 0.68 * size) / unit, low / unit)
+    label.location = (at[0] / unit, (at[1] - 0.6 * size) / unit, (low + 0.01 * size) / unit)
     collection.objects.link(label)
 
 

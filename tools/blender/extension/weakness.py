@@ -5,6 +5,8 @@ import numpy as np
 from mathutils import Vector
 from mathutils.bvhtree import BVHTree
 
+from .bodies import evaluated
+
 # Zones of a painted body at most, and how deep they reach, in edges of its tetrahedra.
 MOST_ZONES = 4000
 DEPTH = 1.5
@@ -62,16 +64,12 @@ def weakness_of(context, thing, shape):
     group = thing.vertex_groups.get(settings.weakness)
     if group is None:
         raise ValueError(f"{thing.name} has no vertex group {settings.weakness}; pick one of its groups, or clear the field Weak where.")
-    seen = thing.evaluated_get(context.evaluated_depsgraph_get())
-    mesh = seen.to_mesh()
-    try:
+    with evaluated(context, thing) as (_, mesh):
         weights = np.zeros(len(mesh.vertices))
         for vertex in mesh.vertices:
             for element in vertex.groups:
                 if element.group == group.index:
                     weights[vertex.index] = element.weight
-    finally:
-        seen.to_mesh_clear()
     if weights.max(initial=0) <= FAINT:
         raise ValueError(f"The vertex group {group.name} of {thing.name} has no weight anywhere; paint some, or clear the field Weak where.")
     return Weakness(shape, weights, settings.weakest)

@@ -15,9 +15,9 @@ sys.path.insert(0, str(HERE.parent))
 
 import extension
 
-SPEED = 10.0
+SPEED = 12.0
 SEED = 1
-FRAME = 6
+FRAME = 7
 
 
 # Outside of the vase, from the foot to the lip: radius and height, m.
@@ -43,7 +43,9 @@ def vase():
     scene = bpy.context.scene
     outer = rounded(PROFILE)
     inner = [(radius - WALL, max(height, WALL)) for radius, height in reversed(outer) if height > WALL or radius == outer[0][0]]
-    rows = [(0, 0), *outer, *inner, (0, WALL)]
+    middle, height = outer[-1][0] - WALL / 2, outer[-1][1]
+    lip = [(middle + WALL / 2 * math.cos(turn), height + WALL / 2 * math.sin(turn)) for turn in (math.pi * i / 8 for i in range(1, 8))]
+    rows = [(0, 0), *outer, *lip, *inner, (0, WALL)]
     places, rings = [], []
     for radius, height in rows:
         count = AROUND if radius > 0 else 1
@@ -127,7 +129,7 @@ def stress():
     place = scene.cursor.location
     # The ball is drawn on its way, so that what it hits is seen.
     ball(place + 0.045 * Vector((place.x, place.y, 0)).normalized(), 0.012, (0.02, 0.02, 0.02, 1))
-    studio(scene, (0.02, 0, 0.128), (-0.1, -1, 0.3), 0.46)
+    studio(scene, (0.02, 0, 0.128), (-0.1, -1, 0.3), 0.49)
     render(scene, "stress")
 
 
@@ -136,7 +138,7 @@ def pieces():
     scene.frangible.seconds, scene.frangible.seed = 2, SEED
     print(bpy.ops.frangible.break_object(), scene.frangible.found)
     scene.frame_set(FRAME)
-    studio(scene, (0.0, 0.0, 0.1), (0.1, -1, 0.45), 0.62)
+    studio(scene, (0.02, -0.04, 0.1), (0.1, -1, 0.45), 0.58)
     render(scene, "pieces")
 
 
@@ -147,7 +149,8 @@ def seeds():
         paint(text, "Text", (0.9, 0.9, 0.9, 1), 0.5)
     middle = bpy.data.collections["Vase seed 5"].objects[0].location
     thing.hide_render = True
-    studio(scene, (middle.x, middle.y - 0.05, 0.1), (0.0, -1, 1.1), 1.65, (800, 640))
+    bpy.context.view_layer.update()
+    studio(scene, (middle.x, middle.y - 0.04, 0.1), (0.0, -1, 2.0), 1.42, (800, 720))
     render(scene, "seeds")
 
 

@@ -81,6 +81,25 @@ def test_texture_coordinates_stay(slab):
     assert checked > 100
 
 
+@pytest.mark.parametrize("way", ["STILL", "RIGID"])
+def test_a_hidden_object_breaks_again_with_its_modifiers(scene, way):
+    thing = add_slab(scene)
+    bpy.ops.object.transform_apply(scale=True, location=False)
+    thing.modifiers.new("pair", "ARRAY").count = 1
+    thickness = thing.modifiers.new("thick", "DISPLACE")
+    thickness.strength = 0.004
+    bpy.context.view_layer.update()
+    scene.frangible.target, scene.frangible.motion = thing, way
+    bpy.ops.frangible.show_stress()
+    bpy.ops.frangible.break_object()
+    bpy.ops.frangible.break_object()
+    first, again = (sum(map(volume, pieces_in(name))) for name in ("Slab", "Slab.001"))
+    assert first == pytest.approx(again, rel=1e-6)
+    bare = 0.2 * 0.16 * 0.02
+    assert abs(first - bare) > 0.05 * bare
+    assert bodies.target_body(bpy.context, thing).fresh is False
+
+
 @pytest.mark.parametrize("way", ["STILL", "KEYFRAMES"])
 def test_the_same_seed_gives_the_same_pieces(slab, way):
     settings = bpy.context.scene.frangible
