@@ -67,7 +67,7 @@ def write_stress(context, thing, target, stresses, shares):
 
 
 def nearest(places, wanted):
-    """Of each wanted place the number of the nearest one."""
+    """The number of the place that is nearest to each wanted one."""
     tree = KDTree(len(places))
     for number, place in enumerate(places):
         tree.insert(Vector(place), number)

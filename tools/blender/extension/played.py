@@ -45,7 +45,8 @@ def _thrown(target, blow, seed, seconds, ground, folder):
     touching = blow.point + blow.radius * blow.normal
     start = touching - OUTSIDE * blow.radius * blow.direction
     if ground and start[2] < blow.radius:
-        raise ValueError(f"The striker would start {blow.radius - start[2]:.3g} m inside the ground; hit the object higher up, or with a smaller one.")
+        inside = blow.radius - start[2]
+        raise ValueError(f"The striker would start {inside:.3g} m inside the ground; hit the object higher up, or with a smaller one.")
     world.throw(to_file(start), to_file(touching), blow.speed, mass=blow.mass, radius=blow.radius, material=blow.material)
     world.step(min(SOON, seconds))
     if any(thing.kind == "piece" for thing in world.things) and seconds > SOON:

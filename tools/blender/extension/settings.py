@@ -34,7 +34,9 @@ def is_empty(_settings, candidate):
 class FrangibleSettings(bpy.types.PropertyGroup):
     """All that the panel asks for, from its top to its bottom."""
 
-    target: PointerProperty(name="Object", type=bpy.types.Object, poll=is_mesh, description="Mesh that will break. Empty: the active object")
+    target: PointerProperty(
+        name="Object", type=bpy.types.Object, poll=is_mesh, description="Mesh that will break. Empty: the active object"
+    )
     material: EnumProperty(name="Made of", items=BRITTLE, default="glass", description="What the object is made of, inside too")
     wall: FloatProperty(
         name="Wall", min=0, default=0, unit="LENGTH", precision=4, description="Thickness of a wall along the mesh. 0: the mesh encloses a solid"
@@ -47,10 +49,16 @@ class FrangibleSettings(bpy.types.PropertyGroup):
         description="Number of tetrahedra that carry the cracks. More of them are finer and slower",
     )
     modes: IntProperty(
-        name="Vibrations", min=10, max=400, default=100, description="Number of vibration modes. More of them show finer blows and are slower to bake"
+        name="Vibrations",
+        min=10,
+        max=400,
+        default=100,
+        description="Number of vibration modes. More of them follow sharper blows and are slower to bake",
     )
     keep: BoolProperty(
-        name="Keep bakes beside the .blend", default=False, description="Write each baked body into the folder frangible-bodies beside the saved .blend"
+        name="Keep bakes beside the .blend",
+        default=False,
+        description="Write each baked body into the folder frangible-bodies beside the saved .blend",
     )
     file: StringProperty(
         name="Baked body", subtype="FILE_PATH", description="A .frangible file to use instead of a bake. It must have the object's shape, size and turn"
@@ -94,4 +102,5 @@ class FrangibleSettings(bpy.types.PropertyGroup):
 
 def target_of(context):
     """The object that will break, or None."""
-    return context.scene.frangible.target or (context.active_object if context.active_object and context.active_object.type == "MESH" else None)
+    active = context.active_object
+    return context.scene.frangible.target or (active if active is not None and active.type == "MESH" else None)

@@ -21,7 +21,8 @@ FRAME = 7
 
 
 # Outside of the vase, from the foot to the lip: radius and height, m.
-PROFILE = [(0.045, 0.0), (0.05, 0.008), (0.066, 0.035), (0.086, 0.075), (0.091, 0.11), (0.08, 0.15), (0.058, 0.185), (0.048, 0.21), (0.05, 0.235), (0.06, 0.26)]
+RADII = [0.045, 0.05, 0.066, 0.086, 0.091, 0.08, 0.058, 0.048, 0.05, 0.06]
+HEIGHTS = [0, 0.008, 0.035, 0.075, 0.11, 0.15, 0.185, 0.21, 0.235, 0.26]
 WALL = 0.008
 AROUND = 128
 
@@ -41,7 +42,7 @@ def vase():
     """A vase of porcelain of 0.26 m that stands on the ground, and a blow on its belly."""
     bpy.ops.wm.read_factory_settings(use_empty=True)
     scene = bpy.context.scene
-    outer = rounded(PROFILE)
+    outer = rounded(list(zip(RADII, HEIGHTS)))
     inner = [(radius - WALL, max(height, WALL)) for radius, height in reversed(outer) if height > WALL or radius == outer[0][0]]
     middle, height = outer[-1][0] - WALL / 2, outer[-1][1]
     lip = [(middle + WALL / 2 * math.cos(turn), height + WALL / 2 * math.sin(turn)) for turn in (math.pi * i / 8 for i in range(1, 8))]

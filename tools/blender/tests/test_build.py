@@ -77,7 +77,9 @@ def test_platforms_have_the_names_that_blender_gives_them(tmp_path, tags, platfo
     assert build.describe(wheel) == ("0.1.0", platforms)
 
 
-@pytest.mark.parametrize("name", ["numpy-1.0.0-cp310-abi3-win_amd64.whl", "frangible-0.1.0-cp311-cp311-win_amd64.whl", "frangible-0.1.0-cp310-abi3-any.whl"])
+@pytest.mark.parametrize(
+    "name", ["numpy-1.0.0-cp310-abi3-win_amd64.whl", "frangible-0.1.0-cp311-cp311-win_amd64.whl", "frangible-0.1.0-cp310-abi3-any.whl"]
+)
 def test_other_wheels_are_refused(tmp_path, name):
     wheel = tmp_path / name
     wheel.touch()

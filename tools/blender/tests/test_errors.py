@@ -101,7 +101,8 @@ def test_files_that_are_no_bodies(slab, refuses, tmp_path):
     from extension.bodies import target_body
 
     whole = target_body(bpy.context, slab).body.to_bytes()
-    for name, data in (("text", b"solid cube"), ("empty", b""), ("cut", whole[: len(whole) // 2]), ("flipped", whole[:5000] + b"\xff" + whole[5001:])):
+    flipped = whole[:5000] + bytes([whole[5000] ^ 1]) + whole[5001:]
+    for name, data in (("text", b"solid cube"), ("empty", b""), ("cut", whole[: len(whole) // 2]), ("flipped", flipped)):
         path = tmp_path / f"{name}.frangible"
         path.write_bytes(data)
         settings.file = str(path)
