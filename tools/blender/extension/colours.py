@@ -124,7 +124,7 @@ def _material():
     material = bpy.data.materials.get(VIEW_MATERIAL)
     if material is None:
         material = bpy.data.materials.new(VIEW_MATERIAL)
-        if not material.use_nodes:
+        if material.node_tree is None:
             material.use_nodes = True
         nodes, links = material.node_tree.nodes, material.node_tree.links
         surface = next(node for node in nodes if node.type == "BSDF_PRINCIPLED")

@@ -65,7 +65,7 @@ def inside_material(settings):
     if material is None:
         material = bpy.data.materials.new(INSIDE_NAME)
         material.diffuse_color = (0.75, 0.42, 0.2, 1)
-        if not material.use_nodes:
+        if material.node_tree is None:
             material.use_nodes = True
         surface = next(node for node in material.node_tree.nodes if node.type == "BSDF_PRINCIPLED")
         surface.inputs["Base Color"].default_value = material.diffuse_color

@@ -61,7 +61,9 @@ class FrangibleSettings(bpy.types.PropertyGroup):
         description="Write each baked body into the folder frangible-bodies beside the saved .blend",
     )
     file: StringProperty(
-        name="Baked body", subtype="FILE_PATH", description="A .frangible file to use instead of a bake. It must have the object's shape, size and turn"
+        name="Baked body",
+        subtype="FILE_PATH",
+        description="A .frangible file to use instead of a bake. It must have the object's shape, size and turn",
     )
     place: EnumProperty(
         name="Place",
