@@ -1,0 +1,208 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Objects as bodies that break: their evaluated mesh, its bake, and the bakes that are kept."""
+
+import contextlib
+import hashlib
+import json
+import os
+import re
+from dataclasses import dataclass
+
+import bpy
+import frangible as fr
+import numpy as np
+
+# Bakes of this session, the latest last.
+_baked = {}
+MOST_KEPT = 16
+# How far the sides of a loaded body may be from those of the object, as a share of the longest.
+LIKE = 0.03
+
+
+@dataclass
+class Shape:
+    """The evaluated mesh of an object, in metres and along the world's axes."""
+
+    vertices: np.ndarray  # (n, 3) from the object's origin
+    triangles: np.ndarray  # (m, 3)
+    origin: np.ndarray  # (3,) of the object, in the world
+    unit: float  # m per unit of the scene
+
+    @property
+    def world(self):
+        return self.vertices + self.origin
+
+    @property
+    def size(self):
+        return float((self.vertices.max(axis=0) - self.vertices.min(axis=0)).max())
+
+
+@dataclass
+class Target:
+    """A baked object where it stands."""
+
+    body: fr.Body
+    shape: Shape
+    center: np.ndarray  # (3,) centre of mass in the world, m
+    fresh: bool  # whether the bake was made now
+
+
+def metres(scene):
+    """Metres in a unit of the scene."""
+    return scene.unit_settings.scale_length
+
+
+@contextlib.contextmanager
+def evaluated(context, thing):
+    """The object with its modifiers, and its mesh. Blender applies none to what is hidden: such an object is shown for the moment."""
+    if context.view_layer.objects.get(thing.name) is not thing:
+        raise ValueError(f"{thing.name} is not in this view layer; link it to the scene, or show its collection.")
+    if thing.mode == "EDIT":
+        thing.update_from_editmode()
+    hidden = thing.hide_get(), thing.hide_viewport
+    try:
+        if any(hidden):
+            thing.hide_viewport = False
+            thing.hide_set(False)
+            context.view_layer.update()
+        if not thing.visible_get():
+            raise ValueError(f"{thing.name} is hidden, so that its modifiers are not known; show it and its collection first.")
+        seen = thing.evaluated_get(context.evaluated_depsgraph_get())
+        mesh = seen.to_mesh()
+        try:
+            yield seen, mesh
+        finally:
+            seen.to_mesh_clear()
+    finally:
+        if any(hidden):
+            thing.hide_set(hidden[0])
+            thing.hide_viewport = hidden[1]
+
+
+def shape_of(context, thing):
+    """The mesh with its modifiers and its transform; ValueError where there is none."""
+    if thing is None:
+        raise ValueError("No mesh is chosen; pick one in the field Object, or make one active.")
+    if thing.type != "MESH":
+        raise ValueError(f"{thing.name} is no mesh; pick a mesh, or convert it to one.")
+    with evaluated(context, thing) as (seen, mesh):
+        mesh.calc_loop_triangles()
+        places = np.empty(3 * len(mesh.vertices), dtype=np.float32)
+        corners = np.empty(3 * len(mesh.loop_triangles), dtype=np.int32)
+        mesh.vertices.foreach_get("co", places)
+        mesh.loop_triangles.foreach_get("vertices", corners)
+        matrix = np.array(seen.matrix_world, dtype=np.float64)
+    if not len(corners):
+        raise ValueError(f"{thing.name} has no faces; give it a closed surface.")
+    unit = metres(context.scene)
+    local = places.reshape(-1, 3).astype(np.float64)
+    if not np.isfinite(local).all() or not np.isfinite(matrix).all():
+        raise ValueError(f"{thing.name} has a vertex or a transform that is not finite; mend it first.")
+    return Shape(local @ matrix[:3, :3].T * unit, corners.reshape(-1, 3), matrix[:3, 3] * unit, unit)
+
+
+def key_of(shape, settings):
+    """A text that changes whenever another bake is needed. Moving the object does not change it."""
+    words = [settings.material, f"{settings.wall * shape.unit:.9g}", settings.tetrahedra, settings.modes, fr.__version__]
+    digest = hashlib.sha256(json.dumps(words).encode())
+    digest.update(shape.vertices.astype(np.float32).tobytes())
+    digest.update(shape.triangles.tobytes())
+    return digest.hexdigest()[:24]
+
+
+def target_body(context, thing, tell=None):
+    """The object as a body: loaded, known, kept beside the .blend, or baked now."""
+    settings = context.scene.frangible
+    shape = shape_of(context, thing)
+    if settings.file:
+        body, offset = _loaded(bpy.path.abspath(settings.file), shape, thing.name)
+        return Target(body, shape, shape.origin - offset, False)
+    key = key_of(shape, settings)
+    fresh = key not in _baked
+    if fresh:
+        _remember(key, _read_kept(settings, thing, key) or _bake(shape, settings, thing.name, tell))
+    body, offset = _baked[key]
+    if settings.keep:
+        _keep(thing, key, body, offset)
+    return Target(body, shape, shape.origin - offset, fresh)
+
+
+def forget_all():
+    """Empties the memory of bakes; files stay."""
+    _baked.clear()
+
+
+def _remember(key, entry):
+    _baked[key] = entry
+    while len(_baked) > MOST_KEPT:
+        _baked.pop(next(iter(_baked)))
+
+
+def _bake(shape, settings, name, tell):
+    sides = shape.vertices.max(axis=0) - shape.vertices.min(axis=0)
+    if sides.min() <= 1e-6 * sides.max():
+        raise ValueError(f"{name} is flat and has no thickness; give it some, for example by a Solidify modifier.")
+    try:
+        body = fr.bake(
+            shape.vertices,
+            shape.triangles,
+            material=settings.material,
+            name=name,
+            wall=settings.wall * shape.unit or None,
+            tetrahedra=settings.tetrahedra,
+            modes=settings.modes,
+            progress=tell,
+        )
+    except ValueError as error:
+        raise ValueError(f"{name} cannot be baked: {error}") from error
+    return body, body.offset
+
+
+def _loaded(path, shape, name):
+    body = fr.load(path)
+    low, high = body.vertices.min(axis=0), body.vertices.max(axis=0)
+    given = shape.vertices.max(axis=0) - shape.vertices.min(axis=0)
+    if np.abs(high - low - given).max() > LIKE * given.max():
+        sizes = [" x ".join(f"{side:.3g}" for side in sides) for sides in (high - low, given)]
+        raise ValueError(
+            f"The body in {os.path.basename(path)} measures {sizes[0]} m and {name} {sizes[1]} m along the world's axes; load a body of this shape."
+        )
+    # The frame of a body begins at its centre of mass: the boxes around both show where that is in the object.
+    return body, 0.5 * (low + high) - 0.5 * (shape.vertices.min(axis=0) + shape.vertices.max(axis=0))
+
+
+def _folder():
+    return bpy.path.abspath("//frangible-bodies") if bpy.data.filepath else None
+
+
+def _paths(thing, key):
+    name = re.sub(r"[^\w-]", "_", thing.name)
+    stem = os.path.join(_folder(), f"{name}-{key}")
+    return f"{stem}.frangible", f"{stem}.json"
+
+
+def _read_kept(settings, thing, key):
+    if not settings.keep or _folder() is None:
+        return None
+    body, offset = _paths(thing, key)
+    try:
+        with open(offset, encoding="utf-8") as file:
+            return fr.load(body), np.array(json.load(file)["offset"], dtype=np.float64)
+    except (OSError, ValueError, KeyError):
+        # What is kept can be made again.
+        return None
+
+
+def _keep(thing, key, body, offset):
+    if _folder() is None:
+        raise ValueError("The .blend has no folder yet; save it before bakes can be kept beside it.")
+    paths = _paths(thing, key)
+    if all(map(os.path.exists, paths)):
+        return
+    try:
+        os.makedirs(_folder(), exist_ok=True)
+        body.save(paths[0])
+        with open(paths[1], "w", encoding="utf-8") as file:
+            json.dump({"offset": [float(x) for x in offset]}, file)
+    except OSError as error:
+        raise ValueError(f"The bake cannot be kept in {_folder()}: {error.strerror}.") from error
