@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::{Duration, Instant};
 
-use super::program::{build, number_of, packer, same_generator, within};
+use super::program::{Kind, build, number_of, packer, same_generator, within};
 use super::trial::{browser_path, driver, made_folder};
 use super::{Clock, Folders, copy_folder, folders, make_folder};
 use crate::command::{Result, output, root, run_keeping, shown};
@@ -68,7 +68,7 @@ fn make(folders: &Folders, clock: Clock) -> Result<(PathBuf, Vec<String>)> {
     }
     let mut lines = Vec::new();
     for (name, does, most) in MODULES {
-        let built = build(folders, name, "npm", clock)?;
+        let built = build(folders, name, Kind::Library, "npm", clock)?;
         let text = output(Command::new(&packer).arg("package").arg(built).arg(&out))?;
         let unpacked = number_of(&text)?;
         let module = out.join(format!("{}_bg.wasm", name.replace('-', "_")));

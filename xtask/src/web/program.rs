@@ -27,7 +27,7 @@ pub(super) struct Program {
 pub(super) fn program(folders: &Folders, clock: Clock) -> Result<Program> {
     same_generator()?;
     let packer = packer(folders, clock)?;
-    let built = build(folders, NAME, "web", clock)?;
+    let built = build(folders, NAME, Kind::Program, "web", clock)?;
     let text = output(
         Command::new(&packer)
             .arg("page")
@@ -49,10 +49,24 @@ pub(super) fn number_of(text: &[u8]) -> Result<u64> {
         .map_err(|_| format!("the packer said `{}`, no size", text.trim()))
 }
 
+/// What is built for browsers.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Kind {
+    Program,
+    Library,
+}
+
 /// Builds a program or library, its standard library too where the toolchain has none for browsers.
-pub(super) fn build(folders: &Folders, name: &str, profile: &str, clock: Clock) -> Result<PathBuf> {
+pub(super) fn build(
+    folders: &Folders,
+    name: &str,
+    kind: Kind,
+    profile: &str,
+    clock: Clock,
+) -> Result<PathBuf> {
+    let is_library = kind == Kind::Library;
     let mut command = cargo(&[
-        "build",
+        if is_library { "rustc" } else { "build" },
         "--profile",
         profile,
         "--target",
@@ -60,6 +74,9 @@ pub(super) fn build(folders: &Folders, name: &str, profile: &str, clock: Clock) 
         "-p",
         name,
     ]);
+    if is_library {
+        command.args(["--lib", "--crate-type", "cdylib"]);
+    }
     command
         .arg("--target-dir")
         .arg(&folders.target)
@@ -79,11 +96,11 @@ pub(super) fn build(folders: &Folders, name: &str, profile: &str, clock: Clock) 
     within(&mut command, clock)?;
     let built = folders.target.join(TARGET).join(profile);
     // A program's file is named as its package, a library's with underscores.
-    let file = built.join(format!("{name}.wasm"));
-    match file.is_file() {
-        true => Ok(file),
-        false => Ok(built.join(format!("{}.wasm", name.replace('-', "_")))),
-    }
+    let file = match kind {
+        Kind::Program => name.into(),
+        Kind::Library => name.replace('-', "_"),
+    };
+    Ok(built.join(format!("{file}.wasm")))
 }
 
 /// Builds the packer.
