@@ -144,6 +144,11 @@ fn a_blow_is_zeners_on_a_plate_hertzs_on_a_block_and_st_venants_on_a_rod() {
 }
 
 #[test]
+fn two_bodies_that_both_vibrate_share_one_force() {
+    holds("two-bodies");
+}
+
+#[test]
 fn every_case_is_tested_and_has_names_of_its_own() {
     let tests = include_str!("cases.rs");
     for case in CASES {
