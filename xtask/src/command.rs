@@ -2,7 +2,7 @@
 
 use std::ffi::OsString;
 use std::io::{BufRead, BufReader, IsTerminal};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
@@ -179,4 +179,15 @@ fn start_failed(command: &Command, error: &std::io::Error) -> String {
         "`{}` could not be run: {error}; is it installed and on the PATH?",
         shown(command)
     )
+}
+
+/// Runs a command and shows it first.
+pub(crate) fn announced(command: &mut Command) -> Result {
+    println!("$ {}", shown(command));
+    run(command)
+}
+
+/// The bytes of a file.
+pub(crate) fn read(path: &Path) -> Result<Vec<u8>> {
+    std::fs::read(path).map_err(|error| format!("`{}` cannot be read: {error}", path.display()))
 }

@@ -9,6 +9,7 @@ mod fuzz;
 mod glb;
 mod green;
 mod outcomes;
+mod packages;
 mod python;
 mod setup;
 mod test;

@@ -65,6 +65,20 @@ impl Kind {
         }
     }
 
+    /// What contacts do to it, without the interpreter's lock.
+    fn hit(
+        &self,
+        py: Python<'_>,
+        rows: &PyReadonlyArray1<'_, f64>,
+        seed: Option<u64>,
+        config: &FractureConfig,
+    ) -> PyResult<Impact> {
+        let contacts = contacts(rows)?;
+        let body = self.body(seed)?;
+        let outcome = py.detach(|| impact(&body, &contacts, config));
+        Ok(Impact::new(body, outcome.map_err(refused)?))
+    }
+
     /// Its asset, unless it is a piece, which cannot do what is asked.
     pub(crate) fn whole(&self, asked: &str) -> PyResult<&Arc<Asset>> {
         match &self.0 {
@@ -136,12 +150,9 @@ impl Kind {
         seed: Option<u64>,
         least_share: Option<f64>,
     ) -> PyResult<Impact> {
-        let contacts = contacts(&rows)?;
-        let body = self.body(seed)?;
         let mut config = FractureConfig::default();
         config.crumb_share = least_share.unwrap_or(config.crumb_share);
-        let outcome = py.detach(|| impact(&body, &contacts, &config));
-        Ok(Impact::new(body, outcome.map_err(refused)?))
+        self.hit(py, &rows, seed, &config)
     }
 
     /// Strength over the largest stress at a weak point, every one of which is looked at.
@@ -151,12 +162,9 @@ impl Kind {
         rows: PyReadonlyArray1<'_, f64>,
         seed: Option<u64>,
     ) -> PyResult<f64> {
-        let contacts = contacts(&rows)?;
-        let body = self.body(seed)?;
         let mut config = FractureConfig::default();
         config.culling = false;
-        let outcome = py.detach(|| impact(&body, &contacts, &config));
-        Ok(Impact::new(body, outcome.map_err(refused)?).margin())
+        Ok(self.hit(py, &rows, seed, &config)?.margin())
     }
 
     fn would_break(

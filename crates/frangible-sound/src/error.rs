@@ -61,7 +61,7 @@ pub(crate) fn finite(what: impl Fn() -> String, value: f64) -> Result<f64, Sound
 }
 
 /// Refuses a pressure of full scale, Pa, that is not finite or not above zero.
-pub(crate) fn full_scale(pressure: f64) -> Result<f64, SoundError> {
+pub(crate) fn checked_full_scale(pressure: f64) -> Result<f64, SoundError> {
     within(
         || "the pressure of full scale".into(),
         pressure,

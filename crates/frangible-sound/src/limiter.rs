@@ -1,6 +1,6 @@
 //! A soft limiter for live play, where nobody knows how loud the loudest will be. It says what it did.
 
-use crate::error::{SoundError, full_scale as checked};
+use crate::error::{SoundError, checked_full_scale};
 
 /// What a limiter did so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -41,7 +41,7 @@ impl Limiter {
     /// A pressure that is not finite or not above zero.
     pub fn new(full_scale: f64) -> Result<Self, SoundError> {
         Ok(Self {
-            full_scale: checked(full_scale)?,
+            full_scale: checked_full_scale(full_scale)?,
             ..Self::default()
         })
     }

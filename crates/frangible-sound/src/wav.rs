@@ -4,7 +4,7 @@ use std::io::Cursor;
 
 use hound::{SampleFormat, WavSpec, WavWriter};
 
-use crate::error::{SoundError, full_scale as checked, within};
+use crate::error::{SoundError, checked_full_scale, within};
 
 /// The bytes of a WAV file with 16 bits per sample: pressures, Pa, channel after channel in turn, samples per second, and the pressure of the
 /// file's largest number, Pa. With that of the loudest sample nothing is bent and nothing is lost; with one of their own, files can be compared.
@@ -36,7 +36,7 @@ pub fn wav(
         });
     }
     // What is silent has no loudest sample.
-    let full_scale = checked(if full_scale == 0.0 { 1.0 } else { full_scale })?;
+    let full_scale = checked_full_scale(if full_scale == 0.0 { 1.0 } else { full_scale })?;
     let spec = WavSpec {
         channels: channels as u16,
         sample_rate: rate as u32,

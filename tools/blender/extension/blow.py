@@ -6,7 +6,8 @@ from dataclasses import dataclass
 import frangible as fr
 import numpy as np
 from mathutils import Vector
-from mathutils.bvhtree import BVHTree
+
+from .bodies import search_tree
 
 # How far the 3D cursor may be from the surface, as a share of the object's longest side.
 NEAR = 0.1
@@ -30,11 +31,6 @@ class Blow:
         return fr.Contact(self.point - center, self.direction, speed=self.speed, striker=ball)
 
 
-def surface_tree(shape):
-    """A search tree of the surface in the world, m."""
-    return BVHTree.FromPolygons([Vector(place) for place in shape.world], shape.triangles.tolist())
-
-
 def blow_of(context, thing, shape):
     """What the panel's fields say; ValueError where that is no blow."""
     settings = context.scene.frangible
@@ -42,7 +38,7 @@ def blow_of(context, thing, shape):
         if not (np.isfinite(value) and value > 0):
             raise ValueError(f"The striker's {name} is {value:g} {unit}; give one above zero.")
     find = _by_cursor if settings.place == "CURSOR" else _by_empty
-    point, normal, direction = find(context, thing, shape, surface_tree(shape))
+    point, normal, direction = find(context, thing, shape, search_tree(shape.world, shape.triangles))
     if direction.dot(normal) > -0.05:
         raise ValueError(f"The blow goes along the surface of {thing.name} or out of it; turn it inwards.")
     arrays = (np.array(vector, dtype=np.float64) for vector in (point, direction, normal))

@@ -11,6 +11,8 @@ from dataclasses import dataclass
 import bpy
 import frangible as fr
 import numpy as np
+from mathutils import Vector
+from mathutils.bvhtree import BVHTree
 
 # Bakes of this session, the latest last.
 _baked = {}
@@ -99,6 +101,23 @@ def shape_of(context, thing):
     if not np.isfinite(local).all() or not np.isfinite(matrix).all():
         raise ValueError(f"{thing.name} has a vertex or a transform that is not finite; mend it first.")
     return Shape(local @ matrix[:3, :3].T * unit, corners.reshape(-1, 3), matrix[:3, 3] * unit, unit)
+
+
+def search_tree(places, triangles):
+    """A tree that finds the place on a surface next to a point, and what a ray meets."""
+    return BVHTree.FromPolygons([Vector(place) for place in places], triangles.tolist())
+
+
+def barycentric(places, triangles):
+    """The barycentric coordinates (k, n, 3) of places (k, n, 3) in the planes of triangles (k, 3, 3); the first corner's where one has no area."""
+    along, across = triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]
+    to = places - triangles[:, :1]
+    a, b, c = (np.einsum("ij,ij->i", *pair) for pair in ((along, along), (along, across), (across, across)))
+    d, e = np.einsum("ikj,ij->ik", to, along), np.einsum("ikj,ij->ik", to, across)
+    scale = (a * c - b * b)[:, None]
+    scale = np.where(scale < 1e-30, np.inf, scale)
+    u, v = (c[:, None] * d - b[:, None] * e) / scale, (a[:, None] * e - b[:, None] * d) / scale
+    return np.stack([1 - u - v, u, v], axis=2)
 
 
 def key_of(shape, settings):

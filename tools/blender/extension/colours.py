@@ -9,6 +9,7 @@ from mathutils import Vector
 from mathutils.kdtree import KDTree
 
 from .bodies import evaluated
+from .pieces import plain_material
 
 STRESS = "frangible_stress"
 COLOUR = "frangible_colour"
@@ -121,15 +122,9 @@ def clear(scene, thing):
 
 
 def _material():
-    material = bpy.data.materials.get(VIEW_MATERIAL)
-    if material is None:
-        material = bpy.data.materials.new(VIEW_MATERIAL)
-        if material.node_tree is None:
-            material.use_nodes = True
-        nodes, links = material.node_tree.nodes, material.node_tree.links
-        surface = next(node for node in nodes if node.type == "BSDF_PRINCIPLED")
-        surface.inputs["Roughness"].default_value = 0.7
-        attribute = nodes.new("ShaderNodeAttribute")
+    material, surface, made = plain_material(VIEW_MATERIAL, 0.7)
+    if made:
+        attribute = material.node_tree.nodes.new("ShaderNodeAttribute")
         attribute.attribute_name = COLOUR
-        links.new(attribute.outputs["Color"], surface.inputs["Base Color"])
+        material.node_tree.links.new(attribute.outputs["Color"], surface.inputs["Base Color"])
     return material

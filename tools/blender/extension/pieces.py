@@ -4,9 +4,8 @@
 import bpy
 import numpy as np
 from mathutils import Vector
-from mathutils.bvhtree import BVHTree
 
-from .bodies import evaluated
+from .bodies import barycentric, evaluated, search_tree
 
 # A sharp edge of a piece, radians.
 SHARP = 0.6
@@ -20,7 +19,7 @@ class Outside:
 
     def __init__(self, context, thing, shape):
         self.origin = shape.origin
-        self.tree = BVHTree.FromPolygons([Vector(place) for place in shape.vertices], shape.triangles.tolist())
+        self.tree = search_tree(shape.vertices, shape.triangles)
         self.places, self.triangles = shape.vertices, shape.triangles
         self.materials = [slot.material for slot in thing.material_slots]
         with evaluated(context, thing) as (_, mesh):
@@ -46,30 +45,32 @@ class Outside:
 
     def uv(self, layer, triangles, corners):
         """Texture coordinates of three corners (k, 3, 3) each, in the world, m, by the triangle next to them."""
-        frame = self.places[self.triangles[triangles]]
-        along, across = frame[:, 1] - frame[:, 0], frame[:, 2] - frame[:, 0]
-        to = corners - self.origin - frame[:, :1]
-        a, b, c = (np.einsum("ij,ij->i", *pair) for pair in ((along, along), (along, across), (across, across)))
-        d, e = np.einsum("ikj,ij->ik", to, along), np.einsum("ikj,ij->ik", to, across)
-        scale = np.maximum(a * c - b * b, 1e-30)[:, None]
-        u, v = (c[:, None] * d - b[:, None] * e) / scale, (a[:, None] * e - b[:, None] * d) / scale
-        at = self.uvs[layer][triangles].astype(np.float64)
-        return at[:, :1] * (1 - u - v)[..., None] + at[:, 1:2] * u[..., None] + at[:, 2:] * v[..., None]
+        shares = barycentric(corners - self.origin, self.places[self.triangles[triangles]])
+        return shares @ self.uvs[layer][triangles].astype(np.float64)
+
+
+def plain_material(name, roughness):
+    """The material of this name, made where there is none, its shader's node, and whether it was made."""
+    material = bpy.data.materials.get(name)
+    made = material is None
+    if made:
+        material = bpy.data.materials.new(name)
+        if material.node_tree is None:
+            material.use_nodes = True
+    surface = next((node for node in material.node_tree.nodes if node.type == "BSDF_PRINCIPLED"), None)
+    if made:
+        surface.inputs["Roughness"].default_value = roughness
+    return material, surface, made
 
 
 def inside_material(settings):
     """The chosen material of crack faces, or a plain one."""
     if settings.inside is not None:
         return settings.inside
-    material = bpy.data.materials.get(INSIDE_NAME)
-    if material is None:
-        material = bpy.data.materials.new(INSIDE_NAME)
+    material, surface, made = plain_material(INSIDE_NAME, 0.8)
+    if made:
         material.diffuse_color = (0.75, 0.42, 0.2, 1)
-        if material.node_tree is None:
-            material.use_nodes = True
-        surface = next(node for node in material.node_tree.nodes if node.type == "BSDF_PRINCIPLED")
         surface.inputs["Base Color"].default_value = material.diffuse_color
-        surface.inputs["Roughness"].default_value = 0.8
     return material
 
 

@@ -118,14 +118,8 @@ def _path(node, moves, first):
     spun = np.stack([np.interp(times, turned, turns[:, axis]) for axis in range(4)], axis=1)
     spun /= np.linalg.norm(spun, axis=1, keepdims=True)
     # The turn of a piece in Blender's axes, after that which laid the body into the file's.
-    back = (-TO_FILE[0], 0.0, 0.0, TO_FILE[3])
-    return times, at @ UPRIGHT.T, np.array([_times(back, turn)[[3, 0, 1, 2]] for turn in spun])
-
-
-def _times(p, q):
-    """The product of two quaternions x, y, z, w."""
-    (a, b, c, w), (x, y, z, v) = p, q
-    return np.array([w * x + a * v + b * z - c * y, w * y - a * z + b * v + c * x, w * z + a * y - b * x + c * v, w * v - a * x - b * y - c * z])
+    back = Quaternion((TO_FILE[3], -TO_FILE[0], 0.0, 0.0))
+    return times, at @ UPRIGHT.T, np.array([back @ Quaternion(turn) for turn in spun[:, [3, 0, 1, 2]]])
 
 
 def _birth(places, marks, faces):

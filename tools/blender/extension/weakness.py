@@ -3,9 +3,8 @@
 
 import numpy as np
 from mathutils import Vector
-from mathutils.bvhtree import BVHTree
 
-from .bodies import evaluated
+from .bodies import barycentric, evaluated, search_tree
 
 # Zones of a painted body at most, and how deep they reach, in edges of its tetrahedra.
 MOST_ZONES = 4000
@@ -19,7 +18,7 @@ class Weakness:
 
     def __init__(self, shape, weights, weakest):
         self.shape, self.weights, self.weakest = shape, weights, weakest
-        self.tree = BVHTree.FromPolygons([Vector(place) for place in shape.vertices], shape.triangles.tolist())
+        self.tree = search_tree(shape.vertices, shape.triangles)
 
     def factor(self, weight):
         """The share of the strength that is left."""
@@ -27,13 +26,11 @@ class Weakness:
 
     def at(self, places):
         """The share of the strength at places, m from the object's origin."""
-        factors = np.ones(len(places))
-        for i, place in enumerate(places):
-            point, _, face, _ = self.tree.find_nearest(Vector(place))
-            corners = self.shape.triangles[face]
-            shares = _shares(np.array(point), self.shape.vertices[corners])
-            factors[i] = self.factor(float(np.clip(shares @ self.weights[corners], 0, 1)))
-        return factors
+        found = [self.tree.find_nearest(Vector(place)) for place in places]
+        points, faces = np.array([point for point, *_ in found]), [face for _, _, face, _ in found]
+        corners = self.shape.triangles[faces]
+        shares = barycentric(points[:, None], self.shape.vertices[corners])[:, 0]
+        return self.factor(np.clip(np.einsum("ij,ij->i", shares, self.weights[corners]), 0, 1))
 
     def zones(self, target):
         """Balls that cover what is painted: centres (m, body's frame), their radius and the strength in each, the weakest last."""
@@ -73,16 +70,6 @@ def weakness_of(context, thing, shape):
     if weights.max(initial=0) <= FAINT:
         raise ValueError(f"The vertex group {group.name} of {thing.name} has no weight anywhere; paint some, or clear the field Weak where.")
     return Weakness(shape, weights, settings.weakest)
-
-
-def _shares(point, corners):
-    """The barycentric coordinates of a point of a triangle."""
-    along, across, to = corners[1] - corners[0], corners[2] - corners[0], point - corners[0]
-    gram = np.array([[along @ along, along @ across], [along @ across, across @ across]])
-    if abs(np.linalg.det(gram)) < 1e-30:
-        return np.array([1.0, 0.0, 0.0])
-    u, v = np.linalg.solve(gram, [along @ to, across @ to])
-    return np.array([1 - u - v, u, v])
 
 
 def _samples(corners, weights, apart):

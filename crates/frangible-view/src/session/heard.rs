@@ -78,7 +78,7 @@ impl Session {
         }
     }
 
-    /// Silence now.
+    /// Forgets what waits to be played.
     pub(super) fn hush(&mut self) {
         if let Some(heard) = &mut self.heard {
             heard.outlet.clear();
@@ -91,7 +91,7 @@ impl Session {
         Ok(())
     }
 
-    /// Silence takes effect at once: what waits to be played goes too.
+    /// Mutes, from the next sample on, or lets what comes be heard again.
     pub(super) fn set_muted(&mut self, muted: bool) -> Result<(), ViewError> {
         self.ears()?.muted = muted;
         if muted {

@@ -11,7 +11,7 @@ from typing import Any
 from .files import meta_of
 from .manifest import Row
 from .plan import Object, Plan
-from .run import break_all_of, failed
+from .run import break_all_of, failed, in_turn
 
 # So many tasks wait for each processor, so that none is idle and the cluster's memory does not fill with those to come.
 WAITING = 2
@@ -33,17 +33,8 @@ def each_object(todo: list[Object], out: Path, plan: Plan) -> Iterator[Row | Non
     most = WAITING * max(int(ray.cluster_resources().get("CPU", 1)), 1)
     # The machines have other working directories.
     out = out.resolve()
-    waiting: dict[Any, Object] = {}
-    rest = iter((mesh.resolve(), material, name) for mesh, material, name in todo)
-    while True:
-        for one in rest:
-            waiting[task.remote(one, out, plan)] = one
-            if len(waiting) >= most:
-                break
-        if not waiting:
-            return
-        [ready], _ = ray.wait(list(waiting), num_returns=1)
-        one = waiting.pop(ready)
+    absolute = ((mesh.resolve(), material, name) for mesh, material, name in todo)
+    for one, ready in in_turn(absolute, most, lambda one: task.remote(one, out, plan), lambda waiting: ray.wait(waiting, num_returns=1)[0]):
         try:
             yield from ray.get(ready)
         except ray.exceptions.RayError as error:

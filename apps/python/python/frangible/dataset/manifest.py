@@ -20,7 +20,8 @@ class Manifest:
     Lines are added as breaks are made. A run that is killed may leave half a line, or a break without one; :meth:`settle` mends both.
     """
 
-    def __init__(self, out: Path, shard: tuple[int, int]) -> None:
+    def __init__(self, out: Path, plan: Plan, shard: tuple[int, int]) -> None:
+        self.out, self.plan = out, plan
         self.file = out / "manifest" / f"{shard[0]}-of-{shard[1]}.jsonl"
         self.file.parent.mkdir(parents=True, exist_ok=True)
 
@@ -29,15 +30,16 @@ class Manifest:
         with self.file.open("a", encoding="utf-8") as file:
             file.write(json.dumps(row, sort_keys=True) + "\n")
 
-    def settle(self, out: Path, plan: Plan, names: Iterable[str]) -> None:
+    def settle(self, names: Iterable[str]) -> None:
         """Leaves one row for each break, the latest, and gives those of these objects that are there without a row the one they lost."""
         rows = {(row["category"], row["object"], row["break"]): row for row in self._rows()}
         for name in names:
-            for k in range(plan.breaks):
-                row = rows.get((plan.category, name, k))
-                meta = meta_of(out, plan, name, k).with_suffix(".json")
+            for k in range(self.plan.breaks):
+                key = (self.plan.category, name, k)
+                row = rows.get(key)
+                meta = meta_of(self.out, self.plan, name, k).with_suffix(".json")
                 if (row is None or row["failed"] is not None) and meta.exists():
-                    rows[plan.category, name, k] = row_of(json.loads(meta.read_text()))
+                    rows[key] = row_of(json.loads(meta.read_text()))
         part = self.file.with_suffix(f".{os.getpid()}.part")
         part.write_text("".join(json.dumps(row, sort_keys=True) + "\n" for _, row in sorted(rows.items())), encoding="utf-8")
         os.replace(part, self.file)

@@ -5,18 +5,21 @@ from __future__ import annotations
 import hashlib
 import sys
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass, field
 from multiprocessing import get_context
 from pathlib import Path
+from typing import TypeVar
 
 from ..bodies import bake
 from .blows import broken
 from .files import keep_plan, meta_of, write_break, write_splits
 from .manifest import Manifest, Row, row_of
 from .plan import Object, Plan, objects
+
+Task = TypeVar("Task")
 
 
 @dataclass
@@ -63,9 +66,9 @@ def make(
     todo = objects(meshes, plan, shard)
     keep_plan(out, plan)
     summary, begin = Summary(), time.monotonic()
-    manifest = Manifest(out, shard)
+    manifest = Manifest(out, plan, shard)
     names = [name for _, _, name in todo]
-    manifest.settle(out, plan, names)
+    manifest.settle(names)
     if ray:
         from .cluster import each_object
 
@@ -86,7 +89,7 @@ def make(
             _tell(done, len(todo) * plan.breaks, time.monotonic() - begin)
     if not quiet:
         print(file=sys.stderr)
-    manifest.settle(out, plan, names)
+    manifest.settle(names)
     write_splits(out, plan)
     return summary
 
@@ -104,24 +107,37 @@ def _each(todo: list[Object], out: Path, plan: Plan, workers: int) -> Iterator[R
         return
     # A forked process would have none of the threads that bake.
     with ProcessPoolExecutor(workers, get_context("spawn")) as pool:
-        waiting: set[Future[list[Row | None]]] = set()
-        rest = iter(todo)
-        while True:
-            # No more wait than can be worked on: a million objects are not all in memory.
-            for one in rest:
-                waiting.add(pool.submit(break_all_of, one, out, plan))
-                if len(waiting) >= 2 * workers:
-                    break
-            if not waiting:
-                return
-            ready, waiting = wait(waiting, return_when=FIRST_COMPLETED)
-            for future in ready:
-                try:
-                    yield from future.result()
-                except BrokenProcessPool as error:
-                    raise ValueError(
-                        "a worker was killed, perhaps for want of memory; what was made is kept: run this again, with fewer workers"
-                    ) from error
+
+        def submit(one: Object) -> Future[list[Row | None]]:
+            return pool.submit(break_all_of, one, out, plan)
+
+        def first(waiting: list[Future[list[Row | None]]]) -> Iterable[Future[list[Row | None]]]:
+            return wait(waiting, return_when=FIRST_COMPLETED).done
+
+        for _, future in in_turn(todo, 2 * workers, submit, first):
+            try:
+                yield from future.result()
+            except BrokenProcessPool as error:
+                raise ValueError(
+                    "a worker was killed, perhaps for want of memory; what was made is kept: run this again, with fewer workers"
+                ) from error
+
+
+def in_turn(
+    todo: Iterable[Object], most: int, submit: Callable[[Object], Task], first: Callable[[list[Task]], Iterable[Task]]
+) -> Iterator[tuple[Object, Task]]:
+    """Objects with their tasks as these end, of which so many wait at most: a million objects are not all in memory."""
+    waiting: dict[Task, Object] = {}
+    rest = iter(todo)
+    while True:
+        for one in rest:
+            waiting[submit(one)] = one
+            if len(waiting) >= most:
+                break
+        if not waiting:
+            return
+        for task in first(list(waiting)):
+            yield waiting.pop(task), task
 
 
 def break_all_of(one: Object, out: Path, plan: Plan) -> list[Row | None]:

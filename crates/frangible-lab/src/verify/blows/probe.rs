@@ -95,6 +95,23 @@ pub(crate) fn following(mut asset: Asset, modes: usize) -> Asset {
     asset
 }
 
+/// A solid of tetrahedra of this edge, m, with so many modes.
+pub(crate) fn solid(
+    shape: Shape,
+    material: &Material,
+    edge: f64,
+    modes: usize,
+) -> Result<Body, BakeError> {
+    let size = MeshSize { edge, layers: 0 };
+    let spec = BakeSpec {
+        modes,
+        analysis: Some(size),
+        fracture: Some(size),
+        ..BakeSpec::new("solid", shape, material.clone())
+    };
+    Ok(body(bake(&spec, &mut |_| {})?.0))
+}
+
 /// A body of a sound asset.
 pub(crate) fn body(asset: Asset) -> Body {
     Breakable::new(asset)

@@ -6,9 +6,9 @@ use frangible::glam::Vec3;
 use frangible::internals::blow::Blow;
 use frangible::internals::near_field::PlateTheory;
 use frangible::{Asset, Contact, FractureConfig, Material, Striker};
-use frangible_bake::{BakeError, BakeSpec, MeshSize, Shape, bake};
+use frangible_bake::{BakeError, Shape};
 
-use crate::verify::blows::probe::{BALL, PLATE, ball, blow, body, material, wide_plate};
+use crate::verify::blows::probe::{BALL, PLATE, ball, blow, body, material, solid, wide_plate};
 use crate::verify::blows::strike::{self, Strike};
 use crate::verify::case::{Case, Findings};
 use crate::verify::check::{Check, number};
@@ -172,19 +172,7 @@ fn block() -> Result<Vec<Check>, BakeError> {
     const SIDE: f64 = 0.05;
     const SPEED: f64 = 5.0;
     let glass = material(70e9, 0.23, 2500.0);
-    let spec = BakeSpec {
-        modes: 60,
-        analysis: Some(MeshSize {
-            edge: 0.01,
-            layers: 0,
-        }),
-        fracture: Some(MeshSize {
-            edge: 0.01,
-            layers: 0,
-        }),
-        ..BakeSpec::new("block", Shape::block([SIDE; 3]), glass.clone())
-    };
-    let body = body(bake(&spec, &mut |_| {})?.0);
+    let body = solid(Shape::block([SIDE; 3]), &glass, 0.01, 60)?;
     let radius: f64 = 0.5e-3;
     let mass = 7850.0 * 4.0 / 3.0 * PI * radius.powi(3);
     let k = spring(&glass, radius);
@@ -235,19 +223,7 @@ fn rod() -> Result<Vec<Check>, BakeError> {
     const SIDE: f64 = 4e-3;
     const SPEED: f64 = 4.0;
     let glass = material(70e9, 0.23, 2500.0);
-    let spec = BakeSpec {
-        modes: 240,
-        analysis: Some(MeshSize {
-            edge: 0.002,
-            layers: 0,
-        }),
-        fracture: Some(MeshSize {
-            edge: 0.002,
-            layers: 0,
-        }),
-        ..BakeSpec::new("rod", Shape::rod(LENGTH, SIDE), glass.clone())
-    };
-    let body = body(bake(&spec, &mut |_| {})?.0);
+    let body = solid(Shape::rod(LENGTH, SIDE), &glass, 0.002, 240)?;
     let area = SIDE * SIDE;
     let celerity = (glass.youngs_modulus / glass.density).sqrt();
     let impedance = glass.density * celerity * area;

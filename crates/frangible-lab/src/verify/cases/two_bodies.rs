@@ -3,10 +3,10 @@
 use frangible::glam::Vec3;
 use frangible::internals::blow::Blow;
 use frangible::{Contact, FractureConfig, Material, Striker};
-use frangible_bake::{BakeError, BakeSpec, MeshSize, Shape, bake};
+use frangible_bake::{BakeError, Shape};
 
 use super::blow::force_at;
-use crate::verify::blows::probe::{blow, body, material};
+use crate::verify::blows::probe::{blow, material, solid};
 use crate::verify::blows::strike;
 use crate::verify::case::{Case, Findings};
 use crate::verify::check::{Check, number};
@@ -40,14 +40,7 @@ fn meeting(
     radius: f64,
     speed: f64,
 ) -> Result<(Blow, f64), BakeError> {
-    let size = MeshSize { edge, layers: 0 };
-    let spec = BakeSpec {
-        modes,
-        analysis: Some(size),
-        fracture: Some(size),
-        ..BakeSpec::new("body", shape, glass())
-    };
-    let body = body(bake(&spec, &mut |_| {})?.0);
+    let body = solid(shape, &glass(), edge, modes)?;
     let config = FractureConfig::default();
     let mut contact = Contact::new(point, normal, 0.0, speed as f32, Striker::rigid());
     contact.striker = Striker::flexible(&body, &contact, &config).expect("a sound contact");
@@ -108,7 +101,7 @@ fn rods() -> Result<Vec<Check>, BakeError> {
             "rods end to end: duration",
             report.duration,
             exact.duration(),
-            0.1,
+            0.05,
             ST_VENANT,
         )
     });
