@@ -99,6 +99,7 @@ impl<'a> Cracking<'a> {
             &mut report,
         ) {
             let Some(blow) = &mut self.blow else { break };
+            let start = Instant::now();
             step = weakened.step;
             let now = step as f64 * self.time_step;
             blow.weaken(body, &weakened.contacts, now);
@@ -109,6 +110,7 @@ impl<'a> Cracking<'a> {
             // A shorter blow brings less in the end.
             system.ledger.cap(self.motion.peak_strain_energy);
             system.releases.forget_batch();
+            report.timings.response += start.elapsed().as_secs_f64();
         }
         report.peak_elastic_energy = self.motion.peak_energy;
         report.peak_strain_energy = self.motion.peak_strain_energy;
@@ -142,7 +144,9 @@ impl<'a> Cracking<'a> {
                 && step > first_step
                 && let Some(blow) = self.blow.as_ref().filter(|b| b.pushes_at(step))
             {
+                let start = Instant::now();
                 let contacts = self.weakened(blow, system, grown);
+                report.timings.labels += start.elapsed().as_secs_f64();
                 if !contacts.is_empty() {
                     weakened = Some(Weakened { step, contacts });
                     break;
@@ -243,7 +247,7 @@ impl<'a> Cracking<'a> {
             Some((progress, labels)) if progress == system.progress() => labels,
             _ => fragment::label(&system, &body.prepared.index, self.config.crumb_share),
         };
-        report.timings.labels = start.elapsed().as_secs_f64();
+        report.timings.labels += start.elapsed().as_secs_f64();
         if let Some(trace) = trace {
             *trace = CrackTrace::of(&system, &labels.of_node, self.motion, self.pressed);
         }

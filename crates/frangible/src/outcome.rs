@@ -190,13 +190,13 @@ pub struct ImpactReport {
 /// Wall-clock times of the stages of one impact, s. Not deterministic; all else is.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct StageTimings {
-    /// Duration, admissibility, modal response.
+    /// The blow: duration, force, modal response.
     pub response: f64,
     /// Displacements and stresses at weak points.
     pub stress: f64,
     /// Crack initiation and growth.
     pub cracks: f64,
-    /// What hangs together still.
+    /// What hangs together still, in the end and while a contact pushes.
     pub labels: f64,
     /// Partition, surfaces, masses.
     pub fragments: f64,

@@ -7,6 +7,7 @@
 //! - [`haptic`]: a loop of 1 kHz that feels a body, and how long its ticks take;
 //! - [`shop`]: a thousand breakable things and a bull, and how long frames take;
 //! - [`again`]: scenes whose pieces break again, played as a game does, and how long frames take;
+//! - [`gallery`]: whole breaks of the gallery's bodies beside the project's goals;
 //! - [`gpu`]: batches of impacts on the CPU and on a GPU;
 //! - [`memory`]: what a body takes in a file and in memory;
 //! - [`stages`]: single stages on a small body, for `cargo bench` and for counting instructions.
@@ -18,6 +19,7 @@ pub mod cache;
 pub mod contacts;
 mod error;
 mod fingerprint;
+pub mod gallery;
 pub mod gpu;
 mod grid;
 pub mod haptic;

@@ -170,9 +170,8 @@ impl<'a> StressField<'a> {
                         }
                     }
                 }
-                for (row, number) in (opposite.first[i]..).zip(numbers.iter_mut()) {
-                    (opposite.rows).add_one(row, self.displacement.amplitudes(), number);
-                }
+                let amplitudes = self.displacement.amplitudes();
+                (opposite.rows).add_to(opposite.first[i], amplitudes, numbers);
                 image.frame.stress(numbers)
             }
             _ => {

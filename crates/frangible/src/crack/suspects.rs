@@ -7,7 +7,7 @@ use super::initiation::Peak;
 use super::system::UNCUT;
 use super::weak_stress::WeakStress;
 use crate::body::Body;
-use crate::stress::{BATCH, Frame, Lanes, Steps, StressLanes, limit};
+use crate::stress::{BATCH, Frame, Lanes, Steps, StressLanes, Wide, limit};
 use crate::weak_rows::ClusterRows;
 
 /// A weak point whose stress may pass its strength, or the peak so far, at a step of a batch.
@@ -197,7 +197,7 @@ impl<I> Look<'_, '_, I> {
         let strength = resistance.strength(tet);
         let limit = limit(strength);
         let mut bounds = frame.tension_bounds(numbers);
-        let (mut above, mut most) = (0, 0.0_f32);
+        let mut above = 0;
         for (k, (bound, left_out)) in bounds.iter_mut().zip(left_out).enumerate() {
             *bound += left_out;
             above |= Steps::from(*bound > limit) << k;
@@ -205,9 +205,7 @@ impl<I> Look<'_, '_, I> {
         if above & steps != 0 {
             return false;
         }
-        for bound in bounds {
-            most = most.max(bound.min(limit));
-        }
+        let most = Wide(bounds).largest().clamp(0.0, limit);
         let felt = resistance.as_weakest(most, strength);
         let passed_over = &mut self.suspects.passed_over;
         *passed_over = [passed_over[0].max(most), passed_over[1].max(felt)];

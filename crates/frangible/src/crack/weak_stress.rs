@@ -189,12 +189,14 @@ impl<'a> Points<'a> {
         let mut numbers = [Lanes::default(); MOST];
         let amplitudes = field.displacement.amplitudes();
         let shapes = self.added.map_or(&[][..], |added| &added.residuals);
-        for (i, number) in numbers[..seen.numbers.len()].iter_mut().enumerate() {
-            for (shares, (_, force)) in shapes.iter().zip(field.displacement.residuals()) {
-                add(number, shares[seen.row + i], force);
+        let count = seen.numbers.len();
+        for (shares, (_, force)) in shapes.iter().zip(field.displacement.residuals()) {
+            for (number, share) in numbers.iter_mut().zip(&shares[seen.row..][..count]) {
+                add(number, *share, force);
             }
-            rows.rows.add_one(seen.row + i, amplitudes, number);
         }
+        rows.rows
+            .add_to(seen.row, amplitudes, &mut numbers[..count]);
         for near in seen.near {
             near.add(field, &mut numbers);
         }

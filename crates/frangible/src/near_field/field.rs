@@ -235,8 +235,10 @@ impl NearField {
             }
             return [radial, hoop];
         }
-        let rows = [at.radius, at.radius + 1].map(|i| i * self.steps + first);
-        let [[a, b], [c, d]] = [0, 1].map(|part| rows.map(|i| &self.table[part][i..i + BATCH]));
+        let row =
+            |part: usize, radius: usize| &self.table[part][radius * self.steps + first..][..BATCH];
+        let (a, b) = (row(0, at.radius), row(0, at.radius + 1));
+        let (c, d) = (row(1, at.radius), row(1, at.radius + 1));
         for k in 0..BATCH {
             let sum = at.height * (a[k] + (b[k] - a[k]) * at.share);
             let difference = at.height * (c[k] + (d[k] - c[k]) * at.share);

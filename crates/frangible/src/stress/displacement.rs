@@ -199,13 +199,11 @@ impl pulp::NullaryFnOnce for Fill<'_> {
 
 /// What follows the force at a node: the shapes of the highest modes, so first in the sum.
 #[inline(always)]
-fn following(asset: &Asset, node: usize, residuals: &[(Arc<Shape>, Lanes)]) -> [Lanes; 3] {
-    let mut sums = [[0.0_f32; BATCH]; 3];
+fn following(asset: &Asset, node: usize, residuals: &[(Arc<Shape>, Lanes)]) -> [Wide; 3] {
+    let mut sums = [Wide::default(); 3];
     for (shape, force) in residuals {
         for (u, sum) in shape.at(asset, node).into_iter().zip(&mut sums) {
-            for k in 0..BATCH {
-                sum[k] += u * force[k];
-            }
+            *sum = sum.plus(u, force);
         }
     }
     sums
@@ -228,19 +226,15 @@ fn product(
     amplitudes: &[Lanes],
     residuals: &[(Arc<Shape>, Lanes)],
 ) -> [Lanes; 3] {
-    let mut sums = following(asset, node, residuals);
+    let [mut a, mut b, mut c] = following(asset, node, residuals);
     let [x, y, z] = asset.modes.rows(node);
     for block in blocks(amplitudes.len()) {
         let rows = amplitudes[block.clone()].iter().zip(&x[block.clone()]);
         for (((q, x), y), z) in rows.zip(&y[block.clone()]).zip(&z[block]) {
-            for k in 0..BATCH {
-                sums[0][k] += x * q[k];
-                sums[1][k] += y * q[k];
-                sums[2][k] += z * q[k];
-            }
+            (a, b, c) = (a.plus(*x, q), b.plus(*y, q), c.plus(*z, q));
         }
     }
-    sums
+    [a.0, b.0, c.0]
 }
 
 /// The displacements of two nodes.
@@ -251,24 +245,17 @@ fn products(
     amplitudes: &[Lanes],
     residuals: &[(Arc<Shape>, Lanes)],
 ) -> [[Lanes; 3]; 2] {
-    let mut sums = nodes.map(|node| following(asset, node, residuals));
+    let [mut a, mut b, mut c] = following(asset, nodes[0], residuals);
+    let [mut d, mut e, mut f] = following(asset, nodes[1], residuals);
     let modes = amplitudes.len();
-    let mut rows: [[&[f32]; 3]; 2] = [[&[]; 3]; 2];
-    for (rows, node) in rows.iter_mut().zip(nodes) {
-        *rows = asset.modes.rows(node).map(|row| &row[..modes]);
-    }
+    let rows = nodes.map(|node| asset.modes.rows(node).map(|row| &row[..modes]));
+    let [[x, y, z], [u, v, w]] = rows;
     for block in blocks(modes) {
-        for mode in block {
-            let q = &amplitudes[mode];
-            for n in 0..2 {
-                for axis in 0..3 {
-                    let phi = rows[n][axis][mode];
-                    for k in 0..BATCH {
-                        sums[n][axis][k] += phi * q[k];
-                    }
-                }
-            }
+        for i in block {
+            let q = &amplitudes[i];
+            (a, b, c) = (a.plus(x[i], q), b.plus(y[i], q), c.plus(z[i], q));
+            (d, e, f) = (d.plus(u[i], q), e.plus(v[i], q), f.plus(w[i], q));
         }
     }
-    sums
+    [[a.0, b.0, c.0], [d.0, e.0, f.0]]
 }

@@ -5,7 +5,7 @@ use glam::Vec3;
 use super::displacement::{BATCH, Lanes};
 use super::lanes::StressLanes;
 use super::strain::{Elasticity, Law};
-use super::tensor::products;
+use super::tensor::{Symmetric3, products};
 use super::wide::Wide;
 use super::{Wall, perpendicular_axes};
 
@@ -64,14 +64,19 @@ impl Frame {
 
     /// The numbers of a tension of 1 along unit `t`.
     pub(crate) fn of_uniaxial(self, t: Vec3) -> [f32; MOST] {
+        self.numbers(&Symmetric3::uniaxial(1.0, t))
+    }
+
+    /// The numbers of a stress; those that the frame does not hold are zero.
+    pub(crate) fn numbers(self, stress: &Symmetric3) -> [f32; MOST] {
         let mut numbers = [0.0; MOST];
         match self {
             Self::Surface([a, b]) => {
-                let (a, b) = (t.dot(a), t.dot(b));
-                numbers[..3].copy_from_slice(&[a * a, b * b, a * b]);
+                let (along_a, along_b) = (stress.times(a), stress.times(b));
+                numbers[..3].copy_from_slice(&[along_a.dot(a), along_b.dot(b), along_a.dot(b)]);
             }
-            Self::Edge(along) => numbers[0] = t.dot(along).powi(2),
-            Self::Space => numbers = products(t, t),
+            Self::Edge(along) => numbers[0] = stress.times(along).dot(along),
+            Self::Space => numbers = stress.components(),
         }
         numbers
     }
@@ -98,7 +103,7 @@ impl Frame {
         let mut bounds = [0.0; BATCH];
         match self {
             Self::Surface(_) => {
-                let [aa, bb, ab] = [0, 1, 2].map(|i| Wide(numbers[i]));
+                let (aa, bb, ab) = (Wide(numbers[0]), Wide(numbers[1]), Wide(numbers[2]));
                 let (mean, half) = ((aa + bb) * 0.5, (aa - bb) * 0.5);
                 let radius = (half * half + ab * ab).sqrt();
                 bounds = (mean + radius * (1.0 + ROUNDING)).0;

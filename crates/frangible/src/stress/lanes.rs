@@ -4,7 +4,7 @@ use glam::Vec3;
 
 use super::displacement::Lanes;
 use super::tensor::{Symmetric3, products};
-use super::wide::Wide;
+use super::wide::wide;
 
 /// Stress and strain energy at a point at the steps of a batch.
 #[derive(Clone, Copy, Debug, Default)]
@@ -41,7 +41,7 @@ impl StressLanes {
     /// Upper bounds of the largest principal tension, Pa: [`largest_eigenvalue_bound`](super::largest_eigenvalue_bound).
     #[inline(always)]
     pub(crate) fn tension_bounds(&self) -> Lanes {
-        let [xx, yy, zz, xy, yz, zx] = self.components.map(Wide);
+        let [xx, yy, zz, xy, yz, zx] = wide(&self.components);
         let mean = (xx + yy + zz) * (1.0 / 3.0);
         let (a, b, c) = (xx - mean, yy - mean, zz - mean);
         let squares =

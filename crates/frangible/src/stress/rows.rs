@@ -1,9 +1,13 @@
 //! Stress at weak points straight from what the modes do, σ = S q (beyond the paper): where strain is linear, displacement, gradient,
 //! law and wall are one matrix, found once for a body. It has three rows for a point of a free surface, and is read from end to end.
 
-use super::displacement::{BATCH, Lanes};
+use glam::{Mat3, Vec3};
+
+use super::displacement::Lanes;
 use super::frame::{Frame, MOST};
 use super::strain::{Elasticity, Law};
+use super::tensor::Symmetric3;
+use super::wide::{Wide, narrow, wide};
 use crate::asset::{Asset, EmbeddedPoint};
 use crate::blow::Shape;
 
@@ -98,18 +102,36 @@ impl Rows {
         group.iter().rev().map(move |numbers| numbers[row % GROUP])
     }
 
-    /// [`Self::add`] of one row.
+    /// [`Self::add`] of the rows of one point, which are as many as there are sums.
     #[inline(always)]
-    pub(crate) fn add_one(&self, row: usize, amplitudes: &[Lanes], sum: &mut Lanes) {
+    pub(crate) fn add_to(&self, first: usize, amplitudes: &[Lanes], sums: &mut [Lanes]) {
         let skipped = self.modes - amplitudes.len();
-        let group = &self.numbers[row / GROUP * self.modes..][..self.modes];
-        let mut own = *sum;
-        for (row_of_mode, q) in group[skipped..].iter().zip(amplitudes.iter().rev()) {
-            for k in 0..BATCH {
-                own[k] += row_of_mode[row % GROUP] * q[k];
+        let row = |row: usize| {
+            let group = &self.numbers[row / GROUP * self.modes..][..self.modes];
+            let numbers = group[skipped..].iter();
+            numbers.map(move |numbers| numbers[row % GROUP])
+        };
+        let amplitudes = || amplitudes.iter().rev();
+        // Three of them side by side: each is a chain of sums that waits for itself.
+        let (threes, rest) = sums.as_chunks_mut::<3>();
+        let mut at = first;
+        for sums in threes {
+            let (mut a, mut b, mut c) = (Wide(sums[0]), Wide(sums[1]), Wide(sums[2]));
+            let rows = row(at).zip(row(at + 1)).zip(row(at + 2));
+            for (((x, y), z), q) in rows.zip(amplitudes()) {
+                (a, b, c) = (a.plus(x, q), b.plus(y, q), c.plus(z, q));
             }
+            *sums = [a.0, b.0, c.0];
+            at += 3;
         }
-        *sum = own;
+        for sum in rest {
+            let mut own = Wide(*sum);
+            for (x, q) in row(at).zip(amplitudes()) {
+                own = own.plus(x, q);
+            }
+            *sum = own.0;
+            at += 1;
+        }
     }
 
     /// How many numbers [`Self::add`] adds to: the rows, and some that are empty.
@@ -127,15 +149,16 @@ impl Rows {
         let skipped = self.modes - amplitudes.len();
         let groups = self.numbers.chunks_exact(self.modes.max(1));
         for (group, sums) in groups.zip(sums.as_chunks_mut::<GROUP>().0) {
-            let mut own = *sums;
+            let [mut a, mut b, mut c, mut d, mut e, mut f] = wide(sums);
             for (row, q) in group[skipped..].iter().zip(amplitudes.iter().rev()) {
-                for i in 0..GROUP {
-                    for k in 0..BATCH {
-                        own[i][k] += row[i] * q[k];
-                    }
-                }
+                a = a.plus(row[0], q);
+                b = b.plus(row[1], q);
+                c = c.plus(row[2], q);
+                d = d.plus(row[3], q);
+                e = e.plus(row[4], q);
+                f = f.plus(row[5], q);
             }
-            *sums = own;
+            *sums = narrow([a, b, c, d, e, f]);
         }
     }
 }
@@ -148,18 +171,26 @@ pub(crate) fn of_shape(
     points: &[RowPoint],
 ) -> Vec<f32> {
     let mut rows = Vec::new();
-    for point in points {
-        let mut sums = [0.0; MOST];
-        for (nodes, shares) in point.nodes(asset, elasticity) {
-            let [here, shared] = nodes.map(|node| shape.at(asset, node));
-            for axis in 0..3 {
-                let u = here[axis] - shared[axis];
-                for (sum, share) in sums.iter_mut().zip(shares) {
-                    *sum += share[axis] * u;
-                }
-            }
+    for RowPoint { point, law, frame } in points {
+        let element = point.element as usize;
+        let weights = point.shape_gradients(&asset.analysis.barycentric_gradients[element]);
+        let [first, others @ ..] = &asset.analysis.elements[element];
+        // The gradients of the shape functions add up to nothing.
+        let shared = Vec3::from_array(shape.at(asset, *first as usize));
+        let mut gradient = Mat3::ZERO;
+        for (&node, g) in others.iter().zip(&weights[1..]) {
+            let u = Vec3::from_array(shape.at(asset, node as usize)) - shared;
+            gradient.x_axis += u * g.x;
+            gradient.y_axis += u * g.y;
+            gradient.z_axis += u * g.z;
         }
-        rows.extend(&sums[..point.frame.count()]);
+        let strain = Symmetric3::from_mat3(gradient);
+        let stress = match *law {
+            Law::Solid => elasticity.hooke(&strain),
+            Law::Free(n) => elasticity.free_hooke(&strain, n),
+            Law::Edge(t) => elasticity.edge_hooke(&strain, t),
+        };
+        rows.extend(&frame.numbers(&stress)[..frame.count()]);
     }
     rows
 }

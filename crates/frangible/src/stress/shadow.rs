@@ -23,7 +23,7 @@ use glam::{Mat3, Vec3};
 
 use super::lanes::StressLanes;
 use super::tensor::{Real, Symmetric3, times};
-use super::wide::Wide;
+use super::wide::{Wide, narrow, wide};
 
 /// β where a wall or a solid is stretched.
 pub const STRETCHED: f32 = -1.0;
@@ -92,15 +92,15 @@ impl Released<Wide> {
     /// Nothing is released yet. `opposite`: the stress behind the middle of the wall, where there is one.
     #[inline(always)]
     pub(crate) fn of_batch(stress: &StressLanes, opposite: Option<&StressLanes>) -> Self {
-        let of = |stress: &StressLanes| stress.components.map(Wide);
-        Self::new(of(stress), opposite.map(of))
+        let opposite = opposite.map(|opposite| wide(&opposite.components));
+        Self::new(wide(&stress.components), opposite)
     }
 
     /// What is left, without the energy.
     #[inline(always)]
     pub(crate) fn left_of_batch(&self) -> StressLanes {
         StressLanes {
-            components: self.whole.map(|c| c.0),
+            components: narrow(self.whole),
             ..StressLanes::default()
         }
     }
@@ -169,7 +169,7 @@ fn taken(across: f32, share: impl Fn() -> f32) -> f32 {
 /// Q σ Q with Q = I − k n nᵀ: σ − k (n tᵀ + t nᵀ) + k² (n·t) n nᵀ, t = σn.
 #[inline(always)]
 fn contract<T: Real>(stress: &mut [T; 6], n: Vec3, t: [T; 3], across: T, k: T) {
-    let [x, y, z] = t.map(|t| t * k);
+    let (x, y, z) = (t[0] * k, t[1] * k, t[2] * k);
     let back = across * k * k;
     let [xx, yy, zz, xy, yz, zx] = stress;
     *xx = *xx - (x * 2.0 - back * n.x) * n.x;

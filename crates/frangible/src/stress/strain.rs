@@ -4,7 +4,7 @@ use glam::{Mat3, Vec3};
 
 use super::lanes::StressLanes;
 use super::tensor::{Real, Symmetric3, half_product, products, stretch, tangential, uniaxial};
-use super::wide::Wide;
+use super::wide::{Wide, narrow, wide};
 use crate::material::Material;
 
 /// Lamé's parameters at run-time precision.
@@ -129,7 +129,7 @@ impl Elasticity {
     pub(crate) fn lanes(&self, gradient: &[[Wide; 3]; 3], law: Law) -> StressLanes {
         let (components, energy_density) = self.evaluate(gradient, law);
         StressLanes {
-            components: components.map(|c| c.0),
+            components: narrow(components),
             energy_density: energy_density.0,
         }
     }
@@ -155,7 +155,7 @@ impl Elasticity {
     /// Gives stresses at the steps of a batch the energy densities that they have.
     #[inline(always)]
     pub(crate) fn set_energy(&self, lanes: &mut StressLanes) {
-        lanes.energy_density = self.energy_of(&lanes.components.map(Wide)).0;
+        lanes.energy_density = self.energy_of(&wide(&lanes.components)).0;
     }
 
     /// σ = λ tr(E) I + 2 μ E.
@@ -178,7 +178,10 @@ impl Elasticity {
     #[inline(always)]
     fn hooke_of<T: Real>(&self, strain: &[T; 6]) -> [T; 6] {
         let trace = (strain[0] + strain[1] + strain[2]) * self.lambda;
-        let mut stress = strain.map(|e| e * (2.0 * self.mu));
+        let mut stress = *strain;
+        for s in &mut stress {
+            *s = *s * (2.0 * self.mu);
+        }
         for s in &mut stress[..3] {
             *s = *s + trace;
         }
@@ -188,11 +191,11 @@ impl Elasticity {
     #[inline(always)]
     fn plane_stress<T: Real>(&self, in_surface: &[T; 6], n: Vec3) -> [T; 6] {
         let trace = (in_surface[0] + in_surface[1] + in_surface[2]) * self.plane_lambda;
-        let mut stress = in_surface.map(|e| e * (2.0 * self.mu));
         let across = products(n, n);
+        let mut stress = *in_surface;
         for (i, s) in stress.iter_mut().enumerate() {
             let part = if i < 3 { 1.0 - across[i] } else { -across[i] };
-            *s = *s + trace * part;
+            *s = *s * (2.0 * self.mu) + trace * part;
         }
         stress
     }

@@ -32,10 +32,49 @@ pub(crate) fn dot(a: &[f32], b: &[f32]) -> f32 {
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Wide(pub(crate) Lanes);
 
+/// The components of a tensor at each of a batch's steps. (`array::map` is no way to write this where time counts: of arrays that large it
+/// becomes a call, made for the plain processor, with copies to and fro.)
+#[inline(always)]
+pub(crate) fn wide([a, b, c, d, e, f]: &[Lanes; 6]) -> [Wide; 6] {
+    [Wide(*a), Wide(*b), Wide(*c), Wide(*d), Wide(*e), Wide(*f)]
+}
+
+/// The inverse of [`wide`].
+#[inline(always)]
+pub(crate) fn narrow([a, b, c, d, e, f]: [Wide; 6]) -> [Lanes; 6] {
+    [a.0, b.0, c.0, d.0, e.0, f.0]
+}
+
 impl Wide {
     #[inline(always)]
     pub(crate) fn sqrt(self) -> Self {
         self.with(self, |a, _| a.sqrt())
+    }
+
+    /// The largest of its numbers, none of which is NaN.
+    #[inline(always)]
+    pub(crate) fn largest(self) -> f32 {
+        let mut lanes = self.0;
+        let mut half = BATCH / 2;
+        while half > 0 {
+            for k in 0..half {
+                let other = lanes[k + half];
+                lanes[k] = if other > lanes[k] { other } else { lanes[k] };
+            }
+            half /= 2;
+        }
+        lanes[0]
+    }
+
+    /// self + factor × other. Sums that are kept in variables of their own, rather than in an array that is indexed, stay in vector
+    /// registers whatever their width: that is several times as fast.
+    #[inline(always)]
+    pub(crate) fn plus(self, factor: f32, other: &Lanes) -> Self {
+        let mut sum = self.0;
+        for k in 0..BATCH {
+            sum[k] += factor * other[k];
+        }
+        Self(sum)
     }
 }
 

@@ -1,6 +1,7 @@
 //! The findings as tables, for the terminal and for `docs/performance.md`.
 
 mod again;
+mod gallery;
 mod gpu;
 mod haptic;
 mod memory;
@@ -10,6 +11,7 @@ mod shop;
 use std::fmt::Write;
 
 pub use again::again;
+pub use gallery::gallery;
 pub use gpu::gpu;
 pub use haptic::haptic;
 pub use memory::memory;

@@ -14,6 +14,8 @@ pub struct Section {
 /// Headings of the sections that are measured, in their order on the page.
 pub const TABLE1: &str = "The paper's Table 1";
 /// See [`TABLE1`].
+pub const GALLERY: &str = "The bodies of the gallery";
+/// See [`TABLE1`].
 pub const CONTACTS: &str = "Refused contacts";
 /// See [`TABLE1`].
 pub const HAPTIC: &str = "A plate under a hand, a thousand times a second";
@@ -28,7 +30,9 @@ pub const MEMORY: &str = "Memory";
 /// The last one, which is always written anew.
 const HOW: &str = "How to measure it again";
 
-const ORDER: [&str; 8] = [TABLE1, CONTACTS, HAPTIC, SHOP, AGAIN, GPU, MEMORY, HOW];
+const ORDER: [&str; 9] = [
+    TABLE1, GALLERY, CONTACTS, HAPTIC, SHOP, AGAIN, GPU, MEMORY, HOW,
+];
 
 const INTRO: &str = "# Performance
 
@@ -42,6 +46,7 @@ Breaks beside three-pinata's and Blender's: [peers.md](peers.md). How near the i
 const HOW_TO: &str = "    cargo run --release -p frangible-lab -- bench all --write docs       # this page but for the memory: on a machine with nothing else to do
     cargo run --release -p frangible-lab -- bench table1 --write docs    # one section; the others stay as they are
     cargo run --release -p frangible-lab -- bench table1 --body glass    # one body; --json, --runs N, --no-reference
+    cargo run --release -p frangible-lab -- bench gallery                # also: --body pane, --runs N, --json
     cargo run --release -p frangible-lab -- bench contacts --json
     cargo run --release -p frangible-lab -- bench haptic                 # also: cargo run --release -p frangible-lab --example haptic
     cargo run --release -p frangible-lab -- bench shop                   # also: cargo run --release -p frangible-lab --example china_shop

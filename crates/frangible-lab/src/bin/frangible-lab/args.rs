@@ -91,6 +91,8 @@ pub(crate) struct FiguresArgs {
 pub(crate) enum Measured {
     /// The bodies of the paper's Table 1
     Table1,
+    /// The bodies of the gallery: whole breaks beside the project's goals
+    Gallery,
     /// Refused contacts
     Contacts,
     /// A plate under a hand, a thousand times a second
@@ -113,11 +115,11 @@ pub(crate) struct BenchArgs {
     #[arg(value_enum, default_value = "all")]
     pub(crate) what: Measured,
 
-    /// Only this body of Table 1; repeat it for several
+    /// Only this body of Table 1, or of the gallery; repeat it for several
     #[arg(long = "body", value_name = "NAME")]
     pub(crate) bodies: Vec<String>,
 
-    /// Equal runs, 1 to 10000: of Table 1 warm runs of each body (30, fewer where they take longer than ten seconds), of
+    /// Equal runs, 1 to 10000: of Table 1 and the gallery warm runs of each body (30, fewer where they take longer than ten seconds), of
     /// the plate, the shop and the scenes runs of which each tick's and frame's least time counts (5)
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=10_000))]
     pub(crate) runs: Option<u32>,

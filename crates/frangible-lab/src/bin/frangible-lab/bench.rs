@@ -8,7 +8,7 @@ use frangible_lab::bench::cache::Cache;
 use frangible_lab::bench::machine::Machine;
 use frangible_lab::bench::page::sections::{self, Section, with_sections};
 use frangible_lab::bench::subjects::chosen;
-use frangible_lab::bench::{again, contacts, haptic, page, roofline, shop, table1};
+use frangible_lab::bench::{again, contacts, gallery, haptic, page, roofline, shop, table1};
 use frangible_scenes::GamePlan;
 use serde_json::{Map, Value, json};
 
@@ -48,11 +48,14 @@ pub(crate) fn run(args: &BenchArgs) -> Result<(), Box<dyn Error>> {
         make_folder(folder, &[PAGE.into()], "--write")?;
     }
     // Names are checked before anything takes minutes.
-    chosen(&args.bodies)?;
-    if !(args.bodies.is_empty() || matches!(args.what, Measured::Table1 | Measured::All)) {
-        let problem =
-            "--body chooses among the bodies of Table 1: frangible-lab bench table1 --body NAME";
-        return Err(problem.into());
+    match args.what {
+        Measured::Table1 => _ = chosen(&args.bodies)?,
+        Measured::Gallery => _ = gallery::chosen(&args.bodies)?,
+        _ if args.bodies.is_empty() => {}
+        _ => {
+            let problem = "--body chooses among the bodies of Table 1 or of the gallery: frangible-lab bench table1 --body NAME, or bench gallery --body NAME";
+            return Err(problem.into());
+        }
     }
     let bar = Bar::new(args.json);
     let mut parts = Vec::new();
@@ -87,6 +90,7 @@ fn measured(what: Measured) -> Vec<Measured> {
     match what {
         Measured::All => vec![
             Measured::Table1,
+            Measured::Gallery,
             Measured::Contacts,
             Measured::Haptic,
             Measured::Shop,
@@ -120,6 +124,13 @@ fn measure(
             }
             let text = page::table1_section(&rows);
             ("table1", sections::TABLE1, text, json!(rows))
+        }
+        Measured::Gallery => {
+            let subjects = gallery::chosen(&args.bodies)?;
+            let runs = args.runs.map_or(WARM, |n| n as usize);
+            let found = gallery::measure(&subjects, runs, show)?;
+            let text = page::gallery(&found);
+            ("gallery", sections::GALLERY, text, json!(found))
         }
         Measured::Contacts => {
             let found = contacts::measure(&cache, show)?;

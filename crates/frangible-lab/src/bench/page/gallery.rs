@@ -1,0 +1,83 @@
+//! Whole breaks of the gallery's bodies beside their goals.
+
+use super::{grouped, ms, table};
+use crate::bench::gallery::{Asked, Findings, Row};
+
+/// A row for each body, one for each range of questions.
+#[must_use]
+pub fn gallery(found: &Findings) -> String {
+    let mut text = String::from(
+        "Each body of the gallery under the blow that breaks it first in its scene, one thread, everything in memory, surfaces and masses \
+         of the pieces included; each figure is the median of its runs. Labels: which pieces cracks have parted, asked in the end and again \
+         and again while the contact pushes. First: the first break of a body just made from its file, over the median.\n\n",
+    );
+    text += &table(
+        &[
+            "body",
+            "weak points",
+            "modes",
+            "steps",
+            "cracks",
+            "pieces",
+            "goal, ms",
+            "whole, ms",
+            "first / warm",
+            "blow",
+            "stress",
+            "cracks, ms",
+            "labels",
+            "fragments",
+            "drawing",
+        ],
+        &found.rows.iter().map(row).collect::<Vec<_>>(),
+    );
+    let within = found.rows.iter().filter(|r| r.whole <= r.goal).count();
+    text += &format!(
+        "\n{within} of {} breaks are within their goals.\n",
+        found.rows.len()
+    );
+    if !found.asked.is_empty() {
+        text +=
+            "\n`would_break` on the glass, bodies of 20 seeds at eight speeds of each range:\n\n";
+        text += &table(
+            &[
+                "speed, m/s",
+                "questions",
+                "answered yes",
+                "goal, ms",
+                "median, ms",
+                "longest, ms",
+            ],
+            &found.asked.iter().map(asked).collect::<Vec<_>>(),
+        );
+    }
+    text
+}
+
+fn row(row: &Row) -> Vec<String> {
+    let mut cells = vec![
+        row.scene.clone(),
+        grouped(row.points as f64),
+        row.modes.to_string(),
+        row.steps.to_string(),
+        row.cracks.to_string(),
+        row.pieces.to_string(),
+        ms(row.goal),
+        ms(row.whole),
+        format!("{:.2}", row.first / row.whole),
+    ];
+    cells.extend(row.stages.iter().map(|&time| ms(time)));
+    cells
+}
+
+fn asked(asked: &Asked) -> Vec<String> {
+    let [from, to] = asked.speeds;
+    vec![
+        format!("{from} to {to}"),
+        asked.questions.to_string(),
+        asked.breaks.to_string(),
+        ms(asked.goal),
+        ms(asked.median),
+        ms(asked.longest),
+    ]
+}
