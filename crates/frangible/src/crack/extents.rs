@@ -9,6 +9,9 @@ const BLOCK: usize = 8;
 /// which saves time, since most cracks about a point are short and far.
 pub(super) const FAINT: f32 = 0.02;
 
+/// Cracks no farther from a point than so many of their half-lengths are [`Ring::Close`]: they may take more than a quarter of the stress.
+const CLOSE: f32 = 2.0;
+
 /// At a distance of so many half-lengths a of a crack its share is below [`FAINT`]. A crack in a stretched body takes the most,
 /// 1 − (1 + a²/y²)^-1.5 < 1.5 a²/y² at the distance y, and √(1.5 / 0.02) = 8.66.
 const FAR: f32 = 8.67;
@@ -25,10 +28,26 @@ struct Extent {
     chord: f32,
 }
 
-/// Starts of neighbours in the list, and squares of how far from there they release, m²; negative where there is no crack yet.
+/// Cracks about a point, by how much of the stress there they may take. Few of them are close, and they often take enough.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Ring {
+    /// Those that may take much.
+    Close,
+    /// Those that may take anything to speak of, but for the close ones.
+    Far,
+}
+
+impl Ring {
+    /// Both of them: all cracks that may take anything to speak of.
+    pub(crate) const ALL: [Self; 2] = [Self::Close, Self::Far];
+}
+
+/// Starts of neighbours in the list, and squares of how far from there they release much, and anything to speak of, m²; negative where
+/// there is no crack yet.
 #[derive(Clone, Copy, Debug)]
 struct Block {
     origin: [[f32; BLOCK]; 3],
+    close: [f32; BLOCK],
     reach: [f32; BLOCK],
 }
 
@@ -57,6 +76,7 @@ impl Extents {
         if k == 0 {
             self.blocks.push(Block {
                 origin: [[0.0; BLOCK]; 3],
+                close: [-1.0; BLOCK],
                 reach: [-1.0; BLOCK],
             });
         }
@@ -87,8 +107,11 @@ impl Extents {
     }
 
     fn stretch(&mut self, crack: usize) {
-        let reach = self.list[crack].size + self.far(crack);
-        self.blocks[crack / BLOCK].reach[crack % BLOCK] = reach * reach;
+        let size = self.list[crack].size;
+        let reach = size + self.far(crack);
+        let close = size + CLOSE * self.half_length(crack);
+        let (block, k) = (&mut self.blocks[crack / BLOCK], crack % BLOCK);
+        (block.close[k], block.reach[k]) = (close * close, reach * reach);
     }
 
     /// Half the length of a crack, m, no less than that of an edge.
@@ -109,15 +132,20 @@ impl Extents {
         self.edge
     }
 
-    /// Cracks that may take anything to speak of at a point, rising.
+    /// Cracks of a ring about a point, rising.
     #[inline(always)]
-    pub(super) fn about(&self, point: Vec3) -> impl Iterator<Item = usize> {
+    pub(super) fn about(&self, point: Vec3, ring: Ring) -> impl Iterator<Item = usize> {
         self.blocks.iter().enumerate().flat_map(move |(b, block)| {
             let [x, y, z] = &block.origin;
             let mut near = [false; BLOCK];
             for k in 0..BLOCK {
                 let (x, y, z) = (point.x - x[k], point.y - y[k], point.z - z[k]);
-                near[k] = x * x + y * y + z * z <= block.reach[k];
+                let squared = x * x + y * y + z * z;
+                let close = squared <= block.close[k];
+                near[k] = match ring {
+                    Ring::Close => close,
+                    Ring::Far => !close && squared <= block.reach[k],
+                };
             }
             let mut bits = 0_u32;
             for (k, near) in near.into_iter().enumerate() {
@@ -153,7 +181,9 @@ mod tests {
         let mut found = 0;
         for _ in 0..200 {
             let point = Vec3::new(number(), number(), number());
-            let about: Vec<usize> = extents.about(point).collect();
+            let [close, far] = Ring::ALL.map(|ring| extents.about(point, ring));
+            let mut about: Vec<usize> = close.chain(far).collect();
+            about.sort_unstable();
             let plainly: Vec<usize> = (0..37)
                 .filter(|&crack| {
                     let extent = &extents.list[crack];

@@ -12,12 +12,14 @@
 //! edge around it, so that a point close to the crack does not pass between two of them.
 //!
 //! A point asks once or twice in an impact, so each time it looks at all sites of all cracks near by, side by side in vectors. Lists of waves
-//! on their way, which would spare it the second look, cost more than they save (`docs/speed.md`).
+//! on their way, which would spare it the second look, cost more than they save (`docs/speed.md`). The few cracks that are close come first:
+//! where they leave less than the strength, the others need no look.
 
 mod memory;
 
 use memory::{Memory, Sources};
 
+use super::extents::Ring;
 use super::field::StressField;
 use super::single::Front;
 use super::suspects::Suspect;
@@ -90,14 +92,18 @@ impl Releases {
                 return false;
             }
         }
-        let Some(point) = self.reached(system, field, suspect, now) else {
-            return true;
-        };
-        let again = point.held_in != Some(batch) || point.changed;
-        if again {
-            self.look(field, suspect, strength);
+        for ring in Ring::ALL {
+            let Some(point) = self.reached(system, field, suspect, ring, now) else {
+                continue;
+            };
+            if point.held_in != Some(batch) || point.changed {
+                self.look(field, suspect, strength);
+            }
+            if self.holds(place, batch, step) {
+                return false;
+            }
         }
-        !self.holds(place, batch, step)
+        true
     }
 
     /// Whether it is known that step k of a batch leaves a point below its strength.
@@ -138,7 +144,11 @@ impl Releases {
         now: f64,
     ) -> Symmetric3 {
         let k = lane(field.step);
-        if self.reached(system, field, suspect, now).is_some() {
+        let mut reached = false;
+        for ring in Ring::ALL {
+            reached = self.reached(system, field, suspect, ring, now).is_some();
+        }
+        if reached {
             self.left(field, suspect, None).stress(k)
         } else {
             suspect.state.stress(k)
@@ -161,12 +171,13 @@ impl Releases {
         })
     }
 
-    /// A suspect's point as of `now`, s, if any crack has released it.
+    /// A suspect's point as the cracks of a ring about it leave it by `now`, s, if any crack has released it.
     fn reached(
         &mut self,
         system: &CrackSystem,
         field: &StressField,
         suspect: &Suspect,
+        ring: Ring,
         now: f64,
     ) -> Option<&mut Point> {
         if system.config.timing == CrackTiming::Instant || system.cracks.is_empty() {
@@ -189,7 +200,7 @@ impl Releases {
                 opposite: None,
             }
         });
-        point.changed |= point.memory.update(Sources::of(system), None, now);
+        point.changed |= point.memory.update(Sources::of(system), ring, None, now);
         point.memory.is_dark().then_some(point)
     }
 }
@@ -208,7 +219,9 @@ pub(super) fn once(
         None => STRETCHED,
     };
     let mut memory = Memory::new(system.centroids[front.tet as usize], beta);
-    memory.update(Sources::of(system), Some(front.crack), now);
+    for ring in Ring::ALL {
+        memory.update(Sources::of(system), ring, Some(front.crack), now);
+    }
     let mut rest = Released::of_step(stress, opposite);
     for shadow in memory.shadows() {
         rest.release(shadow);

@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use super::super::extents::{Extents, FAINT};
+use super::super::extents::{Extents, FAINT, Ring};
 use super::super::single::Crack;
 use super::super::sites::Site;
 use super::super::system::CrackSystem;
@@ -88,22 +88,31 @@ impl Memory {
         self.shadows.iter().map(|(_, shadow)| shadow)
     }
 
-    /// Takes in what all cracks, but for one, leave at the time `now`, s. Returns whether any crack releases the point more than before.
-    pub(super) fn update(&mut self, sources: Sources, but: Option<u32>, now: f64) -> bool {
+    /// Takes in what all cracks of a ring about the point, but for one, leave at the time `now`, s. Returns whether any crack releases the
+    /// point more than before.
+    pub(super) fn update(
+        &mut self,
+        sources: Sources,
+        ring: Ring,
+        but: Option<u32>,
+        now: f64,
+    ) -> bool {
         // With the widest vectors that this processor has; the same operations in the same order, so the same bits.
         pulp::Arch::new().dispatch(Update {
             memory: self,
             sources,
+            ring,
             but,
             now,
         })
     }
 }
 
-/// The look of a point at all cracks.
+/// The look of a point at all cracks of a ring.
 struct Update<'a> {
     memory: &'a mut Memory,
     sources: Sources<'a>,
+    ring: Ring,
     but: Option<u32>,
     now: f64,
 }
@@ -120,7 +129,7 @@ impl pulp::NullaryFnOnce for Update<'_> {
         } = self.memory;
         let mut falls = false;
         let mut i = 0;
-        for crack in self.sources.extents.about(*place) {
+        for crack in self.sources.extents.about(*place, self.ring) {
             let number = crack as u32;
             if self.but == Some(number) {
                 continue;
