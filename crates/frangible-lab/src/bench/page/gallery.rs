@@ -9,7 +9,8 @@ pub fn gallery(found: &Findings) -> String {
     let mut text = String::from(
         "Each body of the gallery under the blow that breaks it first in its scene, one thread, everything in memory, surfaces and masses \
          of the pieces included; each figure is the median of its runs. Labels: which pieces cracks have parted, asked in the end and again \
-         and again while the contact pushes. First: the first break of a body just made from its file, over the median.\n\n",
+         and again while the contact pushes. First / warm: the first break of a body that was made ready (`Body::prepare_for_blows`, as a game does \
+         while it loads) over the median; cold / warm: the same without that.\n\n",
     );
     text += &table(
         &[
@@ -22,6 +23,7 @@ pub fn gallery(found: &Findings) -> String {
             "goal, ms",
             "whole, ms",
             "first / warm",
+            "cold / warm",
             "blow",
             "stress",
             "cracks, ms",
@@ -65,6 +67,7 @@ fn row(row: &Row) -> Vec<String> {
         ms(row.goal),
         ms(row.whole),
         format!("{:.2}", row.first / row.whole),
+        format!("{:.2}", row.cold / row.whole),
     ];
     cells.extend(row.stages.iter().map(|&time| ms(time)));
     cells
