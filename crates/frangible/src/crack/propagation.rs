@@ -71,6 +71,13 @@ fn enter(system: &mut CrackSystem, field: &mut StressField, front: Front) {
     if system.fractured_by[n] != UNCUT {
         return system.meet(&front, false);
     }
+    // Where it turns now would make its area little else, and stress is dear to find.
+    if !system.ledger.has(front.lacks) {
+        if !system.ledger.never_has(front.lacks) {
+            system.stalled.push(front);
+        }
+        return;
+    }
     let felt = field.at(n);
     let Some((direction, opens)) = steers(system, &felt, &front, &mut crossing) else {
         return system.meet(&front, true);
@@ -88,7 +95,7 @@ fn enter(system: &mut CrackSystem, field: &mut StressField, front: Front) {
     let area = crossing_area(&crossing.x, &cut.values);
     match pays(system, &felt, &front, &cut, area) {
         Payment::Refused => {}
-        Payment::Later => system.stalled.push(front),
+        Payment::Later { lacks } => system.stalled.push(Front { lacks, ..front }),
         Payment::Now { gain } => {
             let fork = forks(system, &front, &cut, &felt);
             system.fracture(front.crack, cut, area, gain);
@@ -198,8 +205,8 @@ fn steers(
 enum Payment {
     /// The ledger has no more, and never will.
     Refused,
-    /// Not under the present stress, or not before more energy has come.
-    Later,
+    /// Not under the present stress, or not before so much energy has come, J.
+    Later { lacks: f64 },
     /// Yes; the area sets so much energy free, J.
     Now { gain: f64 },
 }
@@ -217,10 +224,12 @@ fn pays(system: &CrackSystem, felt: &Felt, front: &Front, cut: &ElementCut, area
     }
     if system.ledger.never_has(cost) {
         Payment::Refused
-    } else if system.ledger.has(cost) && crack.spent + cost < crack.available + gain {
+    } else if !system.ledger.has(cost) {
+        Payment::Later { lacks: cost }
+    } else if crack.spent + cost < crack.available + gain {
         Payment::Now { gain }
     } else {
-        Payment::Later
+        Payment::Later { lacks: 0.0 }
     }
 }
 

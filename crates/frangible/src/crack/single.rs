@@ -88,6 +88,9 @@ pub(crate) struct Front {
     pub(crate) crack: u32,
     /// Index into the crack's elements of the one it comes from.
     pub(crate) from: u32,
+    /// Energy that all cracks together had no more left for it when it was last asked, J; zero where it was not asked, or lacked nothing
+    /// but stress.
+    pub(crate) lacks: f64,
 }
 
 impl Eq for Front {}

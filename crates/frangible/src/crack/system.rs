@@ -140,6 +140,7 @@ impl<'a> CrackSystem<'a> {
                 tet,
                 crack: id,
                 from: from as u32,
+                lacks: 0.0,
             }));
         }
         let crack = &mut self.cracks[id as usize];
@@ -250,6 +251,7 @@ impl<'a> CrackSystem<'a> {
                 tet: neighbour,
                 crack,
                 from,
+                lacks: 0.0,
             });
         }
     }
