@@ -34,5 +34,5 @@ export interface Placed {
  */
 export function bake(mesh: MeshInput, options?: BakeOptions): Promise<Placed & { bytes: Uint8Array }>;
 
-/** The same, ready to be broken. */
+/** The same, ready to be broken, and its pieces again. */
 export function breakable(mesh: MeshInput, options?: BakeOptions): Promise<Breakable & Placed>;

@@ -1,9 +1,7 @@
 // Makes meshes breakable. bake.d.ts tells what there is.
-import init, { bake as inside, initSync } from './frangible_js_bake.js';
 import { arraysOf } from './arrays.js';
-import { Breakable, loader, made } from './index.js';
-
-const ready = loader(new URL('./frangible_js_bake_bg.wasm', import.meta.url), init, initSync);
+import { Breakable } from './index.js';
+import { baking, made } from './modules.js';
 
 /** A mesh, three.js's BufferGeometry or plain arrays, as a baked body: the bytes of its file, and where it lies in the mesh's frame. */
 export async function bake(mesh, { material = 'glass', name = 'body', size = 0, wall = 0, tetrahedra = 1500, modes = 40, onProgress, module } = {}) {
@@ -11,16 +9,16 @@ export async function bake(mesh, { material = 'glass', name = 'body', size = 0, 
   for (const [what, x, least] of [['size', size, 0], ['wall', wall, 0], ['tetrahedra', tetrahedra, 1], ['modes', modes, 1]]) {
     if (!(x >= least && x < Infinity)) throw new RangeError(`${what} is ${x}: give a number from ${least} on`);
   }
-  await ready(module);
+  const inside = await baking(module);
   const numbers = Float64Array.of(size, wall, tetrahedra, modes);
-  const baked = made(() => inside(positions, normals, uvs, indices, numbers, material, name, onProgress ?? (() => {})));
+  const baked = made(() => inside.bake(positions, normals, uvs, indices, numbers, material, name, onProgress ?? (() => {})));
   const result = { bytes: baked.bytes(), scale: baked.scale(), offset: [...baked.offset()] };
   baked.free();
   return result;
 }
 
-/** The same, ready to be broken. */
+/** The same, ready to be broken, and its pieces again. */
 export async function breakable(mesh, options) {
   const { bytes, ...place } = await bake(mesh, options);
-  return Object.assign(await Breakable.load(bytes), place);
+  return Object.assign(await Breakable.load(bytes, { again: true }), place);
 }

@@ -116,15 +116,22 @@ export interface Outcome {
     /** What hit the body, if it gives way: kg, m (its centre of mass, and its radius for its inertia), m/s, rad/s. */
     striker?: { mass: number; position: Vector; radius?: number; inertia?: ArrayLike<number> & Iterable<number>; linear?: Vector; angular?: Vector };
   }): { fragments: (Motion & { position: [number, number, number]; rotation: [number, number, number, number] })[]; striker?: Motion };
+  /**
+   * A fragment, by its number, as a body that breaks again, in its own frame: with its share of the weak points, and vibration modes of its
+   * own, which take some tenths of a second to find (do it in a `Workshop`). Only where it broke, and the kind was loaded with `again`.
+   * `undefined`: a crumb, too small to have modes.
+   */
+  body?(fragment: number): Body | undefined;
 }
 
 /** A kind of body: what `frangible bake` made of a shape and a material. */
 export class Breakable implements Solid {
   /**
    * Reads a baked body: an address, bytes, or a response. Rejects with one sentence if it is not there, cut short, or of another version.
-   * `module`: where the WebAssembly module is, where a bundler has moved it.
+   * `module`: where the WebAssembly module is, where a bundler has moved it. `again`: pieces break again (`Outcome.body`); this takes the
+   * second, larger module in place of the first.
    */
-  static load(source: string | URL | Uint8Array | ArrayBuffer | Response, options?: { module?: WebAssembly.Module | string | URL | Response }): Promise<Breakable>;
+  static load(source: string | URL | Uint8Array | ArrayBuffer | Response, options?: { module?: WebAssembly.Module | string | URL | Response; again?: boolean }): Promise<Breakable>;
   readonly name: string;
   readonly material: string;
   readonly mass: number;
@@ -142,8 +149,9 @@ export class Breakable implements Solid {
   free(): void;
 }
 
-/** One body. It remembers cracks of blows that it held. */
+/** One body, or a piece of one. It remembers cracks of blows that it held. */
 export class Body {
+  /** The kind that it is of; of a piece that of the whole body. */
   readonly kind: Breakable;
   /**
    * What contacts do to the body. Throws where a number cannot be used, and names it. With a `pose`, contacts are in world axes.

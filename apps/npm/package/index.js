@@ -1,57 +1,31 @@
 // Bodies that break for physical reasons. index.d.ts tells what there is.
-import init, { Kind, ball, initSync, material } from './frangible_js.js';
-
-const here = new URL('./frangible_js_bg.wasm', import.meta.url);
+import { baking, breaking, made } from './modules.js';
 
 /** Loads the module; `Breakable.load` does so by itself. */
-export const ready = loader(here, init, initSync);
-
-/** A function that loads a module once, and tries again after it failed. */
-export function loader(usual, init, initSync) {
-  let loading;
-  const begin = async (given) => {
-    const found = await moduleOf(usual, given);
-    return 'bytes' in found ? initSync({ module: found.bytes }) : init({ module_or_path: found.at });
-  };
-  return (given) => {
-    loading ??= begin(given).catch((error) => {
-      loading = undefined;
-      throw new Error(`the module of frangible could not be loaded: ${error.message}`, { cause: error });
-    });
-    return loading;
-  };
-}
-
-/** What a module is made of: bytes or a module at hand, or where it is fetched from. */
-async function moduleOf(usual, given) {
-  if (given instanceof WebAssembly.Module) return { bytes: given };
-  if (given === undefined && usual.protocol === 'file:' && globalThis.process?.versions?.node) {
-    const { readFile } = await import('node:fs/promises');
-    return { bytes: await readFile(usual) };
-  }
-  return { at: given ?? usual };
-}
+export const ready = (module) => breaking(module).then(() => undefined);
 
 /** A kind of body: what a bake made of a shape and a material. */
 export class Breakable {
   #kind;
+  #inside;
 
-  constructor(kind) {
+  constructor(kind, inside) {
     this.#kind = kind;
+    this.#inside = inside;
     Object.assign(this, kind.about());
   }
 
-  static async load(source, { module } = {}) {
+  static async load(source, { module, again = false } = {}) {
     const bytes = await bytesOf(source);
-    await ready(module);
-    return new Breakable(made(() => new Kind(bytes)));
+    const inside = await (again ? baking : breaking)(module);
+    return new Breakable(made(() => new inside.Kind(bytes)), inside);
   }
 
   body(seed = 1) {
     if (!Number.isInteger(seed) || seed < 0 || seed > 0xffffffff) {
       throw new RangeError(`the seed is ${seed}: give a whole number from 0 to 4294967295`);
     }
-    return new Body(this, this.#kind.body(seed));
+    return new Body(this, this.#kind.body(seed), this.#inside);
   }
 
   free() {
@@ -59,18 +33,20 @@ export class Breakable {
   }
 }
 
-/** One body, with weak points of its own. */
+/** One body, with weak points of its own, or a piece of one. */
 export class Body {
   #body;
+  #inside;
 
-  constructor(kind, body) {
+  constructor(kind, body, inside) {
     this.kind = kind;
     this.#body = body;
+    this.#inside = inside;
   }
 
   impact(contacts, { pose } = {}) {
     const list = Array.isArray(contacts) ? contacts : [contacts];
-    const rows = Float64Array.from(list.flatMap(rowOf));
+    const rows = Float64Array.from(list.flatMap((contact, index) => rowOf(contact, index, this.#inside)));
     const found = made(() => this.#body.impact(rows, poseOf(pose)));
     const outcome = found.outcome();
     if (!outcome.broke) {
@@ -80,7 +56,16 @@ export class Body {
     // The arrays may be on their way to another thread by then.
     const centres = outcome.fragments.map(({ centre }) => [...centre]);
     outcome.motions = (motion) => motionsOf(found, centres, motion);
+    outcome.body = (number) => this.#piece(found, centres.length, number);
     return outcome;
+  }
+
+  #piece(found, count, number) {
+    if (!Number.isInteger(number) || number < 0 || number >= count) throw new RangeError(`there is no fragment ${number}: give a whole number below ${count}`);
+    const { piece } = this.#inside;
+    if (!piece) throw new Error('pieces of this body do not break again: load it with { again: true }');
+    const body = made(() => piece(found, number));
+    return body && new Body(this.kind, body, this.#inside);
   }
 
   free() {
@@ -102,22 +87,11 @@ async function bytesOf(source) {
   throw new TypeError('a baked body is an address, a Uint8Array, an ArrayBuffer or a Response');
 }
 
-/** What the module throws are strings or errors without a stack of the caller's. */
-export function made(make) {
-  try {
-    return make();
-  } catch (error) {
-    throw error instanceof WebAssembly.RuntimeError
-      ? new Error('frangible failed inside; load the page anew and report what you did', { cause: error })
-      : new Error(error.message ?? String(error), { cause: error });
-  }
-}
-
 const STEEL = 'steel';
 const strikers = new Map();
 
 /** One row of numbers for the module, of a contact. */
-function rowOf(contact, index) {
+function rowOf(contact, index, inside) {
   const at = `contacts[${index}]`;
   if (contact === null || typeof contact !== 'object') throw new TypeError(`${at} is no contact: give { point, normal, speed, striker }`);
   const point = triple(contact.point, `${at}.point`, 'm');
@@ -130,15 +104,15 @@ function rowOf(contact, index) {
   const speed = number(contact.speed, `${at}.speed`, 'm/s', (x) => x >= 0 && x < Infinity, '0 or more');
   const { material: name = STEEL, mass = Infinity, radius, restitution } = contact.striker ?? {};
   number(mass, `${at}.striker.mass`, 'kg', (x) => x > 0, 'a number above 0, or Infinity for one that does not give way');
-  const [modulus, usual] = known(name);
-  const round = radius ?? (mass < Infinity ? made(() => ball(name, mass)) : Infinity);
+  const [modulus, usual] = known(name, inside);
+  const round = radius ?? (mass < Infinity ? made(() => inside.ball(name, mass)) : Infinity);
   number(round, `${at}.striker.radius`, 'm', (x) => x > 0, 'a number above 0, or Infinity for a flat one');
   const bounce = number(restitution ?? usual, `${at}.striker.restitution`, '', (x) => x >= 0 && x <= 1, 'a number from 0 to 1');
   return [...point, ...normal, speed, 1 / mass, round, modulus, bounce, 0, 0, 0, 0];
 }
 
-function known(name) {
-  if (!strikers.has(name)) strikers.set(name, made(() => material(String(name))));
+function known(name, inside) {
+  if (!strikers.has(name)) strikers.set(name, made(() => inside.material(String(name))));
   return strikers.get(name);
 }
 

@@ -12,8 +12,8 @@ const keep = (thing) => {
 
 /** What can be asked; each is told the number of the call first. */
 const tasks = {
-  async load(_, source, module) {
-    const kind = await Breakable.load(source, { module });
+  async load(_, source, options) {
+    const kind = await Breakable.load(source, options);
     return { number: keep(kind), about: { ...kind } };
   },
   async bake(id, arrays, options, module) {
@@ -23,10 +23,14 @@ const tasks = {
   },
   body: (_, kind, seed) => keep(things.get(kind).body(seed)),
   impact(_, body, contacts, options) {
-    const { motions, ...outcome } = things.get(body).impact(contacts, options);
-    return motions ? { ...outcome, number: keep(motions) } : outcome;
+    const { motions, body: piece, ...outcome } = things.get(body).impact(contacts, options);
+    return motions ? { ...outcome, number: keep({ motions, piece }) } : outcome;
   },
-  motions: (_, number, before) => things.get(number)(before),
+  motions: (_, number, before) => things.get(number).motions(before),
+  piece(_, number, fragment) {
+    const body = things.get(number).piece(fragment);
+    return body && keep(body);
+  },
   free(_, number) {
     things.get(number)?.free?.();
     things.delete(number);

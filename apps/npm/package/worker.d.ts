@@ -4,9 +4,10 @@ import type { Body, Breakable, Contact, Outcome, Pose } from './index.js';
 type Before = Parameters<NonNullable<Outcome['motions']>>[0];
 type After = ReturnType<NonNullable<Outcome['motions']>>;
 
-/** An outcome whose motions are found in the worker. */
-export interface RemoteOutcome extends Omit<Outcome, 'motions'> {
+/** An outcome whose motions, and bodies of fragments, are found in the worker. */
+export interface RemoteOutcome extends Omit<Outcome, 'motions' | 'body'> {
   motions?(before: Before): Promise<After>;
+  body?(fragment: number): Promise<RemoteBody | undefined>;
 }
 
 /** A body in the worker. */
@@ -23,8 +24,11 @@ export interface RemoteBreakable extends Omit<Breakable, 'body' | 'free'> {
 
 /** A worker that holds bodies and breaks them, so that frames keep coming. Calls are answered in their order. */
 export class Workshop {
-  /** Reads a baked body there: an address or bytes. `module`: address of the WebAssembly module, where a bundler has moved it. */
-  load(source: string | URL | Uint8Array | ArrayBuffer, options?: { module?: string | URL }): Promise<RemoteBreakable>;
+  /**
+   * Reads a baked body there: an address or bytes. `module`: address of the WebAssembly module, where a bundler has moved it. `again`: its
+   * pieces break again, by the second module.
+   */
+  load(source: string | URL | Uint8Array | ArrayBuffer, options?: { module?: string | URL; again?: boolean }): Promise<RemoteBreakable>;
   /** Bakes a mesh there: the bytes are for `load`. */
   bake(mesh: MeshInput, options?: Omit<BakeOptions, 'module'> & { module?: string | URL }): Promise<Placed & { bytes: Uint8Array }>;
   /** Ends the worker; what still waits is rejected. */

@@ -55,23 +55,30 @@ export class Workshop {
   }
 
   /** Reads a baked body there: an address or bytes. */
-  async load(source, { module } = {}) {
+  async load(source, { module, again } = {}) {
     const address = typeof source === 'string' || source instanceof URL;
     const from = address ? String(new URL(source, globalThis.location?.href)) : source;
-    const { number, about } = await this.#ask('load', [from, module === undefined ? undefined : String(module)]);
-    const body = async (seed = 1) => {
-      const body = await this.#ask('body', [number, seed]);
-      return {
-        impact: (contacts, options) => this.#impact(body, contacts, options),
-        free: () => this.#ask('free', [body]),
-      };
-    };
+    const options = { module: module === undefined ? undefined : String(module), again };
+    const { number, about } = await this.#ask('load', [from, options]);
+    const body = async (seed = 1) => this.#body(await this.#ask('body', [number, seed]));
     return { ...about, body, free: () => this.#ask('free', [number]) };
+  }
+
+  #body(number) {
+    return {
+      impact: (contacts, options) => this.#impact(number, contacts, options),
+      free: () => this.#ask('free', [number]),
+    };
   }
 
   async #impact(body, contacts, options) {
     const { number, ...outcome } = await this.#ask('impact', [body, contacts, options]);
-    if (number !== undefined) outcome.motions = (before) => this.#ask('motions', [number, before]);
+    if (number === undefined) return outcome;
+    outcome.motions = (before) => this.#ask('motions', [number, before]);
+    outcome.body = async (fragment) => {
+      const piece = await this.#ask('piece', [number, fragment]);
+      return piece === undefined ? undefined : this.#body(piece);
+    };
     return outcome;
   }
 

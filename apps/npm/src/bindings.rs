@@ -1,7 +1,5 @@
 //! What the package's script calls. Numbers pass in rows, see [`plain`](crate::plain); the script makes sentences and objects of them.
 
-use std::sync::Arc;
-
 use frangible::{Asset, Body, Breakable, Fracture, FractureConfig, Material, Outcome, impact};
 use js_sys::{Array, Float32Array, Float64Array, Object, Reflect, Uint32Array};
 use wasm_bindgen::prelude::*;
@@ -63,9 +61,15 @@ impl Kind {
     }
 }
 
-/// One body.
+/// One body, or a piece of one.
 #[wasm_bindgen]
 pub struct WasmBody(Body);
+
+impl From<Body> for WasmBody {
+    fn from(body: Body) -> Self {
+        Self(body)
+    }
+}
 
 #[wasm_bindgen]
 impl WasmBody {
@@ -96,13 +100,13 @@ impl WasmBody {
                     self.0.set_state(*state)?;
                 }
                 Ok(Break {
-                    asset: self.0.asset().clone(),
+                    body: self.0.clone(),
                     margin,
                     fracture: Fracture::new(Vec::new(), report),
                 })
             }
             Outcome::Broke(fracture) => Ok(Break {
-                asset: self.0.asset().clone(),
+                body: self.0.clone(),
                 margin: 0.0,
                 fracture: *fracture,
             }),
@@ -114,7 +118,7 @@ impl WasmBody {
 /// What came of an impact; without fragments the body held.
 #[wasm_bindgen]
 pub struct Break {
-    asset: Arc<Asset>,
+    body: Body,
     margin: f64,
     fracture: Fracture,
 }
@@ -153,7 +157,19 @@ impl Break {
 
     /// The motions afterwards: velocity and angular velocity of each fragment, and of the striker if there is one.
     pub fn motions(&self, pose: &[f64], motion: &[f64], striker: &[f64]) -> Vec<f64> {
-        plain::motions(&self.asset, &self.fracture, pose, motion, striker)
+        plain::motions(self.body.asset(), &self.fracture, pose, motion, striker)
+    }
+}
+
+impl Break {
+    /// The body that was hit.
+    pub fn body(&self) -> &Body {
+        &self.body
+    }
+
+    /// What became of it.
+    pub fn fracture(&self) -> &Fracture {
+        &self.fracture
     }
 }
 

@@ -4,7 +4,7 @@
 //! gives it to the package's script, which is what its users meet: `package/index.d.ts` tells how.
 
 #[cfg(target_arch = "wasm32")]
-mod bindings;
+pub mod bindings;
 pub mod plain;
 #[cfg(target_arch = "wasm32")]
 mod start;

@@ -32,6 +32,7 @@ softBlowHolds();
 worldAxesAreTurned();
 refusals();
 await refusedFiles();
+await piecesBreakAgain();
 await inAWorker();
 await baked();
 console.log('npm: errors name what is wrong, a worker gives the same pieces and its end rejects what waits');
@@ -155,6 +156,36 @@ async function baked() {
   const torus = await workshop.load(bytes);
   await workshop.close();
   console.log(`npm: a ring baked in a worker of Node in ${((performance.now() - begin) / 1e3).toFixed(1)} s: ${(1e3 * torus.mass).toFixed(0)} g, ${(bytes.length / 1e3).toFixed(0)} kB`);
+}
+
+async function piecesBreakAgain() {
+  const kind = await Breakable.load(await bodyFile('pane'), { again: true });
+  const first = kind.body(3).impact(blows.pane);
+  const { seconds, ...bits } = native.pane;
+  assert.deepEqual(hashOf(first), bits, 'the second module breaks the pane as the first does');
+  const begin = performance.now();
+  const piece = first.body(0);
+  const ready = performance.now() - begin;
+  const soft = piece.impact({ ...blows.pane, speed: 0.001 });
+  assert.ok(!soft.broke && soft.margin > 1);
+  const second = piece.impact({ ...blows.pane, speed: 25 });
+  assert.ok(second.broke);
+  closed(second, first.fragments[0]);
+  assert.equal(second.motions({}).fragments.length, second.fragments.length);
+  assert.ok(second.body(0).impact({ ...blows.pane, speed: 0.001 }).margin > 1, 'and a piece of a piece is a body');
+  const small = first.fragments.length - 1;
+  assert.ok(first.body(small) === undefined || !first.body(small).impact({ ...blows.pane, speed: 0 }).broke);
+  assert.throws(() => first.body(first.fragments.length), /there is no fragment/);
+  assert.throws(() => pane.body(3).impact(blows.pane).body(0), /load it with \{ again: true \}/);
+  console.log(`npm: a piece of the pane is a body again after ${ready.toFixed(0)} ms, and breaks into ${second.fragments.length}`);
+
+  const workshop = new Workshop();
+  const there = await workshop.load(await bodyFile('pane'), { again: true });
+  const broken = await (await there.body(3)).impact(blows.pane);
+  const again = await (await broken.body(0)).impact({ ...blows.pane, speed: 25 });
+  assert.equal(again.fragments.length, second.fragments.length);
+  await assert.rejects(broken.body(-1), /there is no fragment -1/);
+  await workshop.close();
 }
 
 async function inAWorker() {

@@ -1,11 +1,13 @@
-//! Meshes made breakable, in JavaScript.
+//! Meshes made breakable, and pieces that break again, in JavaScript.
 //!
-//! [`Wish`] and [`bake`] are plain; in a browser or in Node the function `bake` of the module hands numbers to them and a file back.
+//! [`Wish`], [`bake`] and [`piece`] are plain; in a browser or in Node the module's functions of the same names hand numbers to them. The
+//! module also has all that the package's first module has, so that pieces break in the memory that they lie in.
 
 use frangible::glam::{Vec2, Vec3};
 use frangible::internals::asset::SaveOptions;
-use frangible::{Asset, Material};
+use frangible::{Asset, Body, Fracture, Material};
 use frangible_bake::frangible_mesh::{InputMesh, Similarity};
+use frangible_bake::pieces::{Method, PieceError, Pieces};
 use frangible_bake::{BakeError, BakeSpec, ImportOptions, Progress, import_mesh};
 
 /// What to make of a mesh.
@@ -84,13 +86,24 @@ pub fn file(asset: &Asset) -> Vec<u8> {
     asset.to_bytes_with(&SaveOptions::default())
 }
 
-#[cfg(target_arch = "wasm32")]
-#[path = "../../src/start.rs"]
-mod start;
+/// A fragment as a body that breaks again, with its share of the weak points, strengths and cracks, and vibration modes of its own; none
+/// where there is no such fragment. `body`: the one that broke.
+///
+/// # Errors
+/// A fragment that is a crumb: too small for elements of its own.
+pub fn piece(body: &Body, fracture: &Fracture, number: usize) -> Result<Option<Body>, PieceError> {
+    let portions = fracture.portions(body, |k, _| k == number);
+    let Some(portion) = portions.into_iter().nth(number).flatten() else {
+        return Ok(None);
+    };
+    let elastic = Pieces::default().elastic(Method::Auto, &portion, body)?;
+    Ok(Some(body.piece(&portion, elastic)?))
+}
 
 #[cfg(target_arch = "wasm32")]
 mod bindings {
     use frangible::Material;
+    use frangible_js::bindings::{Break, WasmBody};
     use js_sys::Function;
     use wasm_bindgen::prelude::*;
 
@@ -157,5 +170,12 @@ mod bindings {
             scale: placed.scale,
             offset: placed.shift.to_array().to_vec(),
         })
+    }
+
+    /// A fragment of a break as a body that breaks again; none of a crumb.
+    #[wasm_bindgen]
+    pub fn piece(found: &Break, number: usize) -> Option<WasmBody> {
+        let piece = super::piece(found.body(), found.fracture(), number);
+        piece.ok().flatten().map(WasmBody::from)
     }
 }
