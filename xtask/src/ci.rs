@@ -4,6 +4,7 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use crate::bevy;
+use crate::book;
 use crate::check_output::check_output;
 use crate::command::{
     Result, announced, cargo, output, read, root, run_keeping, run_within, shown, succeeds,
@@ -120,6 +121,11 @@ const STEPS: &[Step] = &[
     step("features", features),
     step("oldest rust", oldest_rust),
     step("main job", main_job),
+    Step {
+        name: "book",
+        check: || book::book(book::Wish::All),
+        when: When::Changed(&book::PATHS),
+    },
     Step {
         name: "web",
         check: || trial(Some(WEB_LIMIT)),

@@ -1,10 +1,12 @@
 //! The project's chores. `cargo xtask help` lists them.
 
 mod bevy;
+mod book;
 mod check_output;
 mod ci;
 mod command;
 mod counts;
+mod dist;
 mod fuzz;
 mod glb;
 mod green;
@@ -35,6 +37,11 @@ cargo xtask npm               make the npm package, install it in an empty proje
 cargo xtask python            make the wheel for Python, and try it in an environment of its own
 cargo xtask bevy              lint and test the plugin for Bevy, in its own workspace
 cargo xtask bevy-drawn        lint its examples with a window, and compare their pictures
+cargo xtask book [--write | --html | PAGE.md]
+                              run what the book shows, check its links, and make it HTML where mdBook is installed; --write also
+                              writes outputs that it shows whole, such as the reference of the command line; --html runs nothing;
+                              with a page, such as book/src/start/rapier.md, run that alone
+cargo xtask dist              pack the program as an archive, and try what comes out of it
 cargo xtask setup             install the system packages that are missing, where that is allowed
 cargo xtask check-output DIR  check what `cargo run --release -- --out DIR --json > DIR/report.json` wrote";
 
@@ -93,6 +100,11 @@ fn run(words: &[&str]) -> Result {
         ["python"] => python::wheel().map(drop),
         ["bevy"] => bevy::bevy().map(drop),
         ["bevy-drawn"] => bevy::drawn().map(drop),
+        ["book"] => book::book(book::Wish::All).map(drop),
+        ["book", "--write"] => book::book(book::Wish::Write).map(drop),
+        ["book", page] if page.ends_with(".md") => book::book(book::Wish::Page(page)).map(drop),
+        ["book", "--html"] => book::book(book::Wish::Html).map(drop),
+        ["dist"] => dist::dist().map(drop),
         ["counts"] => counts::counts(false).map(drop),
         ["counts", "--write"] => counts::counts(true).map(drop),
         ["outcomes"] => outcomes(&Wish::Print),

@@ -4,14 +4,16 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::{Duration, Instant};
 
+use crate::book;
 use crate::command::{Result, cargo, root, run_keeping, run_within, shown};
 use crate::setup::python;
 
 /// What the wheel is built from, and what tests it.
-pub(crate) const PATHS: [&str; 13] = [
+pub(crate) const PATHS: [&str; 15] = [
     "apps/python",
     "apps/frangible",
     "apps/npm",
+    book::WHEEL_PAGE,
     "crates/frangible",
     "crates/frangible-bake",
     "crates/frangible-export",
@@ -19,6 +21,7 @@ pub(crate) const PATHS: [&str; 13] = [
     "crates/frangible-rapier",
     "crates/frangible-scenes",
     "crates/frangible-sound",
+    "xtask/src/book",
     "xtask/src/command.rs",
     "xtask/src/python.rs",
     "xtask/src/setup.rs",
@@ -121,6 +124,7 @@ pub(crate) fn wheel() -> Result<Vec<String>> {
     tests.arg(from.join("tests")).current_dir(&folder);
     println!("$ {}", shown(&tests));
     let mut lines = run_keeping(&mut tests, |line| line.contains(" passed"))?;
+    lines.extend(book::wheel(&environment.join("bin"))?);
     let size = std::fs::metadata(&wheel).map_or(0, |data| data.len());
     let name = wheel.file_name().unwrap_or_default().to_string_lossy();
     lines.insert(0, format!("python: {name} has {:.1} MB", size as f64 / 1e6));

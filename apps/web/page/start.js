@@ -1,12 +1,51 @@
 // Fetches the program and the first scene's bodies, finds out what the browser draws with, and starts.
 //
-// In the address: ?scene=NAME; ?renderer=webgl2 leaves WebGPU out; ?clock=stands runs scenes by commands only.
+// In the address: ?scene=NAME; ?renderer=webgl2 leaves WebGPU out; ?clock=stands runs scenes by commands only; #do=COMMANDS, with a semicolon
+// between two, does again what was done where the link was made.
 
 const wishes = new URLSearchParams(location.search);
 const cover = document.getElementById("cover");
 const bar = document.getElementById("bar");
 const text = document.getElementById("text");
 const times = { begun: performance.now() };
+const link = document.getElementById("link");
+
+/** What the script is saved as that a link is made of. */
+const LINK = "link.txt";
+link.addEventListener("click", () => window.frangible_command(`save script ${LINK}`));
+
+/** Commands that a link may not give: they write files, or ask for some. */
+const NOT_IN_LINKS = /^(open|save|screenshot|quit|cancel-)/;
+
+/** Carries out a command and waits until all that it began is done. */
+async function carryOut(line) {
+  const problem = window.frangible_command(line);
+  if (problem) throw new Error(`the link cannot be followed: ${problem}`);
+  do await new Promise((next) => requestAnimationFrame(next));
+  while (!JSON.parse(window.frangible_state()).done);
+}
+
+/** Does what the address says; the clock stands meanwhile. */
+async function follow(commands) {
+  await carryOut("pause");
+  await carryOut("reset");
+  for (const line of commands) if (!/^(scene |run$|pause$)/.test(line) && !NOT_IN_LINKS.test(line)) await carryOut(line);
+  const last = commands.findLast((line) => line === "run" || line === "pause");
+  if (last !== "pause" && wishes.get("clock") !== "stands") await carryOut("run");
+}
+
+/** Puts what was done into the address, and into the clipboard where the browser lets the page. */
+async function share(script) {
+  const lines = script.split("\n").filter((line) => line && !line.startsWith("#"));
+  const at = new URL(location.href);
+  const scene = lines.find((line) => line.startsWith("scene "));
+  if (scene) at.searchParams.set("scene", scene.slice(6));
+  at.hash = String(new URLSearchParams({ do: lines.join(";") }));
+  history.replaceState(null, "", at);
+  const copied = await navigator.clipboard?.writeText(at.href).then(() => true, () => false);
+  link.textContent = copied ? "Copied" : "It is in the address";
+  setTimeout(() => (link.textContent = "Copy link"), 2000);
+}
 
 function failed(why) {
   cover.hidden = false;
@@ -126,6 +165,7 @@ async function start() {
     hear,
     times,
     save(name, content) {
+      if (name === LINK) return share(new TextDecoder().decode(content));
       const link = document.createElement("a");
       link.href = URL.createObjectURL(new Blob([content]));
       link.download = name;
@@ -139,6 +179,9 @@ async function start() {
       times.picture = performance.now();
       cover.style.display = "none";
       document.getElementById("stage").focus();
+      link.hidden = false;
+      const commands = new URLSearchParams(location.hash.slice(1)).get("do")?.split(";") ?? [];
+      if (commands.length) follow(commands).catch(({ message }) => failed(message)).finally(() => (times.followed = performance.now()));
     },
   };
   await init({ module_or_path: wasm });

@@ -140,6 +140,19 @@ async function trial(browser, address, renderer) {
   await page.waitForFunction((frames) => JSON.parse(window.frangible_state()).frames > frames + 1, flying.frames);
   await page.screenshot({ path: join(out, `browser-${renderer}.png`), timeout: PATIENCE });
 
+  // A link to it shows the same break, bit for bit.
+  await page.click("#link");
+  await page.waitForFunction(() => location.hash.startsWith("#do="));
+  const again = await browser.newPage({ viewport: SIZE });
+  again.setDefaultTimeout(PATIENCE);
+  await again.goto(await page.evaluate(() => location.href));
+  await again.waitForFunction(() => window.frangible?.times.followed !== undefined);
+  const followed = await again.evaluate(() => JSON.parse(window.frangible_state()));
+  const now = await state();
+  assert.deepEqual([followed.pieces, followed.steps, followed.masses], [now.pieces, now.steps, now.masses]);
+  console.log(`${renderer}: a link of ${(await page.evaluate(() => location.href.length))} characters shows the same ${now.pieces} pieces`);
+  await again.close();
+
   await command("reset");
   const own = await broken(command);
   await page.close();

@@ -16,7 +16,7 @@ use glam::{Quat, Vec3};
 /// | forces F(t) of blows | [`RecordedBlow::pulses`] | each impact that was asked for cracks, whether or not the body broke | in each time step of the blow, some microseconds |
 /// | cracks | [`RecordedBlow::cracks`] | each crack and each part that an old one grew by | when it was at each place, from the beginning of the blow |
 /// | energy of cracks | [`RecordedBlow::fracture_energy`] | all cracks of a blow | as a sum |
-/// | contacts that slide | [`RecordedSlide`] | each pair, or a thing and the floor, at its deepest point | 240 times per second: force, speed and power, no F(t) |
+/// | contacts that slide or roll | [`RecordedSlide`] | each pair, or a thing and the floor, at its deepest point | 240 times per second: force, speed and power, no F(t) |
 /// | contacts of pieces | [`RecordedTouch`] | each pair, or a thing and the floor, at its deepest point | in the step in which they came together: an impulse, no F(t) |
 ///
 /// Touches that change the speed of the lighter body by less than 2 cm/s are left out, slides that lose less than 0.1 mW, velocities, and
@@ -118,7 +118,7 @@ pub struct RecordedTouch {
     pub speed: f64,
 }
 
-/// Two things that slide along each other for a moment, or a thing along what does not move.
+/// Two things that slide along each other for a moment, or roll on each other, or a thing along or on what does not move.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct RecordedSlide {
     /// When it began, s after the first frame.
@@ -131,9 +131,9 @@ pub struct RecordedSlide {
     pub point: Vec3,
     /// Unit direction of the push on the first node, across the surfaces.
     pub normal: Vec3,
-    /// How fast they slide, m/s.
+    /// How fast they slide, or how fast the contact travels over both as they roll, m/s.
     pub speed: f64,
-    /// What friction takes from their motion, W: its coefficient times the normal force times the speed.
+    /// What friction, or the resistance to rolling, takes from their motion, W.
     pub power: f64,
 }
 

@@ -85,6 +85,7 @@ mod saved;
 mod snapshot;
 mod stepping;
 mod timings;
+mod workshop;
 mod world;
 
 pub use bodies::collider::collision_shape;

@@ -9,7 +9,6 @@ use frangible::{Asset, Body, Contact, FractureConfig, InputError, Outcome};
 use rapier3d::dynamics::RigidBodyHandle;
 use rapier3d::geometry::{ColliderHandle, SharedShape};
 use rapier3d::pipeline::PhysicsWorld;
-use rayon::ThreadPool;
 use std::sync::Arc;
 
 use crate::bodies::floor::FloorDispatcher;
@@ -27,6 +26,7 @@ use crate::loads::resting::Burden;
 use crate::stepping::after::Waiting;
 use crate::stepping::judge::Case;
 use crate::timings::StepTimings;
+use crate::workshop::Workshop;
 
 /// Angular frequency of contacts × substep, against fixed bodies. Rapier lets a share c/(1+c) of the approach speed
 /// through in a substep, c = x² / ((1+x) 4ζ²), x = 2ζ / this: its 0.4 is 11 %, so a ball of 200 m/s goes 23 mm into
@@ -75,8 +75,8 @@ pub struct BreakableWorld {
     pub(crate) timings: StepTimings,
     /// Blows that other threads judge, in the order in which they are due.
     pub(crate) cases: VecDeque<Case>,
-    pub(crate) jury: Option<Option<ThreadPool>>,
     pub(crate) piece_model: Option<Arc<dyn PieceModel>>,
+    pub(crate) workshop: Workshop,
     /// Whether blows are judged by the fracture itself, whose quick bound then clears most of them.
     pub(crate) clears_quickly: bool,
     /// Whether loads are judged by the fracture's quick bound in the same way.
@@ -98,6 +98,8 @@ pub(crate) struct State {
     pub(crate) waiting: VecDeque<Waiting>,
     /// In the order in which they are due.
     pub(crate) expected: VecDeque<Expected>,
+    /// When all pieces that were asked for are expected to be ready at the [pace](crate::PieceConfig::pace), of either kind: number of the step.
+    pub(crate) pieces_ready: [f64; 2],
     pub(crate) motions: Motions,
     pub(crate) steps: u64,
     pub(crate) refused_breaks: u64,
@@ -140,7 +142,7 @@ impl BreakableWorld {
             held: Vec::new(),
             timings: StepTimings::default(),
             cases: VecDeque::new(),
-            jury: None,
+            workshop: Workshop::default(),
             piece_model: None,
             clears_quickly: true,
             weighs_quickly: true,

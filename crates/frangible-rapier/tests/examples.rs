@@ -35,7 +35,7 @@ fn a_stone_goes_on_through_the_window_of_a_games_own_world() {
     let [pieces, speed, sounds] = found[..] else {
         panic!("{text}")
     };
-    assert!(pieces > 5.0 && speed > 5.0 && speed < 14.5 && sounds > 2.0);
+    assert!(pieces > 5.0 && speed > 2.0 && speed < 14.5 && sounds > 2.0);
 }
 
 #[test]

@@ -25,6 +25,8 @@ pub struct GamePlan {
     /// From when on a piece breaks, and with modes of its own, s after its birth: time for other threads to find them
     /// ([`PieceConfig`](frangible_rapier::PieceConfig)).
     pub pieces: [f32; 2],
+    /// Work of other threads on pieces, s per second of the game ([`PieceConfig::pace`](frangible_rapier::PieceConfig::pace)).
+    pub pace: f32,
 }
 
 impl Default for GamePlan {
@@ -34,6 +36,7 @@ impl Default for GamePlan {
             budget: 8000,
             delay: 8,
             pieces: [0.1, 0.4],
+            pace: 0.5,
         }
     }
 }
@@ -70,11 +73,18 @@ pub fn play_as_game(
         config.fracture.samples_per_period = 4.0;
         config.fracture.crumb_share = 5e-3;
         [config.pieces.delay, config.pieces.later] = plan.pieces;
+        config.pieces.pace = plan.pace;
         config.breaking = Breaking::AfterStep {
             budget: plan.budget,
             delay: plan.delay,
         };
     })?;
+    // As a game does while it loads.
+    for body in stage.world.breakables() {
+        if let Some(body) = stage.world.breakable(body) {
+            body.prepare_for_blows(&stage.world.config().fracture);
+        }
+    }
     let mut run = GameRun::default();
     let frames = (scene.duration * f64::from(FRAME_RATE)).ceil() as usize;
     let mut due = Instant::now();

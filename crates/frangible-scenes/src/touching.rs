@@ -1,4 +1,4 @@
-//! What touches and what slides, found in a world step by step.
+//! What touches, what slides and what rolls, found in a world step by step.
 
 use std::collections::BTreeMap;
 
@@ -14,8 +14,14 @@ const AUDIBLE: f32 = 0.02;
 /// What lies is pushed by its weight in every step, and when contacts come and go by a multiple of it: so many are no touch.
 const LYING: f32 = 3.0;
 
-/// Time between two looks at what slides, s.
+/// Time between two looks at what slides and rolls, s.
 const SLIDES: f64 = 1.0 / 240.0;
+
+/// What has not touched for so long touches anew, s: what rolls pushes in every second step or so.
+const LIFTED: f64 = 4.0 * SLIDES;
+
+/// A contact that rolls travels as fast as the body turns about it; faster than so many times this it has hopped from one place to another.
+const HOPPED: f32 = 2.0;
 
 /// Slower contacts rest or roll, m/s: the solver leaves about this much to what lies.
 const SLIDING: f32 = 0.02;
@@ -34,6 +40,8 @@ pub(crate) struct Touching {
     steps: u64,
     /// When what slides was looked at, s.
     looked: f64,
+    /// Where each pair touched last, m, in the frames of its two colliders, and when, s.
+    places: BTreeMap<[(u32, u32); 2], ([Vec3; 2], f64)>,
 }
 
 type Motion = [Vec3; 3];
@@ -46,6 +54,8 @@ struct Pair {
     /// Where, m, and the unit direction of the push on the first node.
     point: Vec3,
     normal: Vec3,
+    /// Where it is in the frames of the two colliders, m.
+    places: [Vec3; 2],
     /// N·s.
     impulse: f32,
     friction: f32,
@@ -54,7 +64,8 @@ struct Pair {
 }
 
 impl Touching {
-    /// What came together in the step that ended `time` s after the first frame, and what slides: `node` numbers the bodies that are followed.
+    /// What came together in the step that ended `time` s after the first frame, and what slides or rolls: `node` numbers the bodies that are
+    /// followed.
     ///
     /// A touch is where a pair of colliders pushes more than twice as hard as in the step before, and changes the speed of the lighter body by
     /// more than 2 cm/s beyond what its weight does. When within its step it came is not known. All touches of a step at its end would be heard as
@@ -78,6 +89,7 @@ impl Touching {
             self.looked = time;
         }
         let (mut touches, mut slides) = (Vec::new(), Vec::new());
+        self.places.retain(|_, (_, then)| time - *then < LIFTED);
         for contact in physics.narrow_phase.contact_pairs() {
             // A sum of vectors: what is pushed from both sides goes nowhere.
             let push = Vec3::from(contact.total_impulse().to_array());
@@ -108,7 +120,14 @@ impl Touching {
                     speed: f64::from(speed + step * gravity).max(0.0),
                 });
             } else if looks {
-                slides.extend(slide(&pair, &self.moving, f64::from(step), [time, since]));
+                let look = [time, since];
+                slides.extend(slide(&pair, &self.moving, f64::from(step), look));
+                let now = (pair.places, time);
+                if let Some((before, then)) = self.places.insert(key, now) {
+                    let arm = world.config().rolling_arm / step;
+                    let before = (before, time - then);
+                    slides.extend(roll(&pair, &self.moving, before, arm, look));
+                }
             }
         }
         (touches, slides)
@@ -133,6 +152,38 @@ fn slide(
         point: pair.point,
         normal: pair.normal,
         speed,
+        power,
+    })
+}
+
+/// What rolls, if it does: its contact travels over both surfaces, from where it was so many seconds `before`. What the resistance to rolling
+/// takes is its torque, the normal force at an arm, times how fast the two turn about each other. `arm`: that arm over the step's time, m/s.
+fn roll(
+    pair: &Pair,
+    moving: &BTreeMap<(u32, u32), Motion>,
+    (before, ago): ([Vec3; 2], f64),
+    arm: f32,
+    [time, since]: [f64; 2],
+) -> Option<RecordedSlide> {
+    let [a, b] = pair.bodies.map(|body| {
+        let motion = body.and_then(|body| moving.get(&body.into_raw_parts()));
+        motion
+            .copied()
+            .unwrap_or([Vec3::ZERO, Vec3::ZERO, pair.point])
+    });
+    let turning = (a[1] - b[1]).reject_from(pair.normal);
+    let farthest = a[2].distance(pair.point).max(b[2].distance(pair.point));
+    let travelled = [0, 1].map(|k| before[k].distance(pair.places[k]));
+    let speed = travelled[0].min(travelled[1]) / ago as f32;
+    let power = f64::from(pair.impulse * arm * turning.length());
+    let hopped = speed > HOPPED * turning.length() * farthest;
+    (speed > SLIDING && !hopped && power > LEAST_POWER).then(|| RecordedSlide {
+        time,
+        duration: since.min(2.0 * SLIDES),
+        nodes: pair.nodes,
+        point: pair.point,
+        normal: pair.normal,
+        speed: f64::from(speed),
         power,
     })
 }
@@ -165,6 +216,7 @@ fn pair(
         nodes,
         lightest,
         point: Vec3::from(at.to_array()),
+        places: [deepest.local_p1, deepest.local_p2].map(|p| Vec3::from(p.to_array())),
         // Rapier's normals point from the first collider to the second.
         normal: push / impulse * if flip { 1.0 } else { -1.0 },
         impulse,
@@ -205,4 +257,62 @@ pub(crate) fn drawn_share(key: [u64; 3]) -> f64 {
         x ^ (x >> 31)
     });
     (mixed >> 11) as f64 / (1_u64 << 53) as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use frangible_rapier::rapier3d::math::{Pose, Vector};
+    use frangible_rapier::{Ball, SurfaceProperties, WorldConfig};
+
+    use super::*;
+
+    const RADIUS: f32 = 0.02;
+    const MASS: f32 = 0.5;
+
+    /// What slides or rolls where a steel ball is thrown along a stone floor at 1 m/s, turning so fast, rad/s.
+    fn thrown(spin: f32) -> Vec<RecordedSlide> {
+        let mut world = BreakableWorld::new(WorldConfig::default()).expect("a world");
+        world
+            .insert_fixed_half_space(Vector::ZERO, Vector::Y, SurfaceProperties::STONE)
+            .expect("a floor");
+        let ball = Ball {
+            mass: MASS,
+            radius: RADIUS,
+        };
+        let at = Pose::from_translation(Vector::new(0.0, RADIUS, 0.0));
+        let ball = world.insert_ball(ball, SurfaceProperties::STEEL, at, Vector::X);
+        let ball = ball.expect("a ball");
+        let body = &mut world.physics.bodies[ball];
+        body.set_angvel(Vector::new(0.0, 0.0, -spin), true);
+        let node = |handle| (handle == ball).then_some(0);
+        let mut touching = Touching::default();
+        let mut heard = Vec::new();
+        for _ in 0..60 {
+            world.step().expect("a step");
+            heard.extend(touching.step(&world, &node, world.time()).1);
+        }
+        heard
+    }
+
+    #[test]
+    fn a_ball_that_rolls_is_recorded_with_what_its_rolling_takes() {
+        let rolls = thrown(1.0 / RADIUS);
+        assert!(rolls.len() > 10, "{}", rolls.len());
+        let arm = WorldConfig::default().rolling_arm;
+        let mut taken = 0.0;
+        for roll in &rolls {
+            assert!((0.9..1.05).contains(&roll.speed), "{roll:?}");
+            taken += roll.power * roll.duration;
+        }
+        // A quarter of a second at 1 m/s. The engine pushes now and then, and on the whole with the ball's weight.
+        let turned = 0.25 / f64::from(RADIUS);
+        let expected = f64::from(MASS * 9.81 * arm) * turned;
+        assert!(
+            (0.8..1.1).contains(&(taken / expected)),
+            "{taken} J of {expected} J"
+        );
+        // Without spin it slides first, and friction takes far more.
+        let slides = thrown(0.0);
+        assert!(slides[0].power > 5.0 * rolls[0].power, "{:?}", slides[0]);
+    }
 }

@@ -27,8 +27,8 @@ pub(crate) struct LawRows {
 /// Rows of one cluster.
 #[derive(Debug)]
 pub(crate) struct ClusterRows {
-    /// The frames of its weak points, in their order.
-    pub(crate) frames: Vec<Frame>,
+    /// Its weak points, in their order, where nothing presses.
+    pub(crate) points: Vec<RowPoint>,
     pub(crate) rows: Rows,
     coarse: OnceLock<Option<Coarse>>,
     opposite: OnceLock<OppositeRows>,
@@ -38,8 +38,8 @@ pub(crate) struct ClusterRows {
 #[derive(Debug)]
 pub(crate) struct OppositeRows {
     pub(crate) rows: Rows,
-    /// First row of each point's image; of a point in no wall, that of the next.
-    pub(crate) first: Vec<usize>,
+    /// Each point's image, and its first row; none of a point in no wall.
+    pub(crate) images: Vec<Option<(RowPoint, usize)>>,
 }
 
 impl ClusterRows {
@@ -47,7 +47,8 @@ impl ClusterRows {
     pub(crate) fn coarse(&self, body: &Body) -> Option<&Coarse> {
         let make = || {
             let periods = &body.prepared.periods[..self.rows.modes()];
-            Coarse::new(&self.frames, &self.rows, periods)
+            let frames: Vec<Frame> = self.points.iter().map(|point| point.frame).collect();
+            Coarse::new(&frames, &self.rows, periods)
         };
         self.coarse.get_or_init(make).as_ref()
     }
@@ -56,19 +57,21 @@ impl ClusterRows {
 impl OppositeRows {
     fn new(body: &Body, config: &FractureConfig, modes: usize, cluster: usize) -> Self {
         let skin = &body.prepared.skin;
-        let (mut first, mut points, mut count) = (Vec::new(), Vec::new(), 0);
-        for &tet in body.clusters.tets(cluster) {
-            first.push(count);
+        let mut count = 0;
+        let tets = body.clusters.tets(cluster).iter();
+        let image = |&tet: &u32| {
             let weak = weak_place(&body.asset, skin, config, &[], tet as usize);
-            if let Some((point, _, _)) = weak.opposite(body, tet as usize) {
-                count += point.frame.count();
-                points.push(point);
-            }
-        }
+            let image = weak.opposite(body, tet as usize)?;
+            let first = count;
+            count += image.frame.count();
+            Some((image, first))
+        };
+        let images: Vec<_> = tets.map(image).collect();
+        let points: Vec<RowPoint> = images.iter().flatten().map(|(image, _)| *image).collect();
         let elasticity = Elasticity::new(&body.asset.material);
         Self {
             rows: Rows::new(&body.asset, &elasticity, modes, &points),
-            first,
+            images,
         }
     }
 }
@@ -120,8 +123,8 @@ impl LawRows {
             let points = row_points(body, config, cluster);
             let elasticity = Elasticity::new(&body.asset.material);
             ClusterRows {
-                frames: points.iter().map(|p| p.frame).collect(),
                 rows: Rows::new(&body.asset, &elasticity, self.modes, &points),
+                points,
                 coarse: OnceLock::new(),
                 opposite: OnceLock::new(),
             }
@@ -141,16 +144,12 @@ impl LawRows {
 }
 
 /// The weak points of a cluster where nothing presses.
-pub(crate) fn row_points(body: &Body, config: &FractureConfig, cluster: usize) -> Vec<RowPoint> {
+fn row_points(body: &Body, config: &FractureConfig, cluster: usize) -> Vec<RowPoint> {
     let skin = &body.prepared.skin;
     let tets = body.clusters.tets(cluster).iter();
     tets.map(|&tet| {
         let weak = weak_place(&body.asset, skin, config, &[], tet as usize);
-        RowPoint {
-            point: *weak.point,
-            law: weak.law,
-            frame: Frame::of(weak.law, weak.wall.as_ref()),
-        }
+        weak.row_point(body, tet as usize)
     })
     .collect()
 }

@@ -8,6 +8,13 @@ use frangible::internals::piece::{Elastic, PieceModel, Portion};
 use crate::pieces::method::Method;
 use crate::pieces::{PieceError, parent_modes, reanalysis};
 
+/// Time that a thread takes for the parent's modes, for each tetrahedron, s. These three numbers are medians of `docs/recursive.md`, rounded up.
+const PARENT_MODES: f64 = 12e-6;
+
+/// Time that it takes for modes of the piece's own: for each element, and for each tetrahedron, s.
+const OWN_MODES: f64 = 0.25e-3;
+const PER_TET: f64 = 12e-6;
+
 /// Finds how pieces vibrate, by one of two methods.
 #[derive(Debug)]
 #[non_exhaustive]
@@ -96,6 +103,14 @@ impl PieceModel for Pieces {
                 told(reanalysis(portion, elements, self.modes))
             }
             _ => None,
+        }
+    }
+
+    fn expected_times(&self, tets: usize) -> [f64; 2] {
+        let own = OWN_MODES * self.elements_for(tets) as f64 + PER_TET * tets as f64;
+        match self.method_for() {
+            Method::Reanalysis => [PARENT_MODES * tets as f64, own],
+            _ => [PARENT_MODES * tets as f64, 0.0],
         }
     }
 }

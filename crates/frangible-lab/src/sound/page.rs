@@ -258,7 +258,7 @@ impl Heard {
 fn limits(text: &mut String) {
     text.push_str(
         "## What is not there\n\n\
-         - Rolling makes no sound, and the floor does not hum under what slides on it.\n\
+         - The floor does not hum under what slides or rolls on it.\n\
          - The vibration that a body has when it breaks ends there, within 32 samples; its pieces begin with what the cracks give them.\n\
          - When within a step of the rigid bodies two things touch is not known; a moment of the step is drawn for each touch.\n\
          - Pieces that cannot break again have the tones of a plate of their size and not their own.\n\

@@ -2,14 +2,15 @@
 //!
 //! A newborn fragment is a plain body: the blow that runs through it is the one that has just made it. From
 //! [`PieceConfig::delay`] on it is breakable with what the model has at once, from [`PieceConfig::later`] on with what takes
-//! longer. What is not ready then is waited for, so that nothing hangs on the speed of the machine.
+//! longer; with a [`PieceConfig::pace`], when a thread that works so much is expected to have come to it. What is not ready then is waited
+//! for, so that nothing hangs on the speed of the machine.
 
 use std::sync::mpsc::{Receiver, channel};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-use frangible::Body;
 use frangible::internals::BodyState;
 use frangible::internals::piece::{Elastic, PieceModel, Portion};
+use frangible::{Body, Fragment};
 use rapier3d::dynamics::RigidBodyHandle;
 
 use crate::config::PieceConfig;
@@ -25,6 +26,13 @@ pub(crate) struct Expected {
     /// The cracks of a body that is there already: it is replaced only if it still has them.
     cracks: Option<BodyState>,
     body: Arc<Mutex<Made>>,
+}
+
+/// Which of a model's two ways.
+#[derive(Clone, Copy)]
+enum Kind {
+    AtOnce,
+    Later,
 }
 
 /// What comes of it: asked for once, and known to all that share it from then on.
@@ -69,22 +77,38 @@ impl BreakableWorld {
         if body.generation() >= limits.generations {
             return;
         }
-        let heavy = |_: usize, fragment: &frangible::Fragment| {
-            fragment.mass.mass >= f64::from(limits.least_mass)
-        };
-        let portions = broken.fracture.portions(body, heavy);
-        for (&handle, portion) in broken.fragments.iter().zip(portions) {
-            let large = |p: &Arc<Portion>| p.tets().len() >= limits.least_tets;
-            let Some(portion) = portion.filter(large) else {
-                continue;
-            };
-            let (at_once, later) = (Arc::clone(&model), Arc::clone(&model));
-            let (parent, whole) = (body.clone(), Arc::clone(&portion));
-            self.promise(handle, limits.delay, None, move || {
-                made(&parent, &whole, at_once.at_once(&whole, &parent))
-            });
+        let least = f64::from(limits.least_mass);
+        let heavy = move |_: usize, fragment: &Fragment| fragment.mass.mass >= least;
+        // Which part of the body each fragment is takes a while: whoever needs it first finds it.
+        let portions = Arc::new(OnceLock::new());
+        let portion = |number: usize| {
+            let (portions, fracture) = (Arc::clone(&portions), Arc::clone(&broken.fracture));
             let parent = body.clone();
-            self.promise(handle, limits.later, None, move || {
+            move || {
+                let portions = portions.get_or_init(|| fracture.portions(&parent, heavy));
+                let found: Option<&Option<Arc<Portion>>> = portions.get(number);
+                let large = |p: &&Arc<Portion>| p.tets().len() >= limits.least_tets;
+                found?.as_ref().filter(large).cloned()
+            }
+        };
+        let whole = body.asset().mass.mass;
+        // Fragments are ordered by their mass.
+        let fragments = broken.fracture.fragments.iter().enumerate();
+        for (&handle, (number, fragment)) in broken.fragments.iter().zip(fragments) {
+            if !heavy(number, fragment) {
+                continue;
+            }
+            let tets = (tets_of(body) as f64 * fragment.mass.mass / whole) as usize;
+            let (at_once, parent, find) = (Arc::clone(&model), body.clone(), portion(number));
+            let due = self.due(Kind::AtOnce, tets);
+            self.promise(handle, due, None, move || {
+                let portion = find()?;
+                made(&parent, &portion, at_once.at_once(&portion, &parent))
+            });
+            let (later, parent, find) = (Arc::clone(&model), body.clone(), portion(number));
+            let due = due.max(self.due(Kind::Later, tets));
+            self.promise(handle, due, None, move || {
+                let portion = find()?;
                 made(&parent, &portion, later.later(&portion))
             });
         }
@@ -101,7 +125,8 @@ impl BreakableWorld {
             return;
         };
         let (cracks, config) = (body.state().clone(), self.config.fracture.clone());
-        self.promise(handle, self.config.pieces.later, Some(cracks), move || {
+        let due = self.due(Kind::Later, tets_of(&body));
+        self.promise(handle, due, Some(cracks), move || {
             let portion = Arc::new(Portion::of_cracked(&body, &config).ok()?);
             let elastic = model.later(&portion);
             let elastic = elastic.or_else(|| model.at_once(&portion, &body));
@@ -109,25 +134,35 @@ impl BreakableWorld {
         });
     }
 
-    /// Has a body made on another thread; it joins the world `delay` seconds from now.
+    /// The step in which a body of so many tetrahedra that is asked for now is due.
+    fn due(&mut self, kind: Kind, tets: usize) -> u64 {
+        let limits = &self.config.pieces;
+        let (delay, at) = match kind {
+            Kind::AtOnce => (limits.delay, 0),
+            Kind::Later => (limits.later, 1),
+        };
+        let times = (self.piece_model.as_ref()).map_or([0.0; 2], |m| m.expected_times(tets));
+        let dt = self.physics.integration_parameters.dt;
+        let now = self.state.steps;
+        let ready = &mut self.state.pieces_ready[at];
+        *ready = ready.max(now as f64) + times[at] / f64::from(limits.pace * dt);
+        let soonest = now + ((delay / dt).ceil() as u64).max(PieceConfig::SOONEST);
+        soonest.max(ready.ceil() as u64)
+    }
+
+    /// Has a body made on another thread; it joins the world in the step `due`.
     fn promise(
         &mut self,
         handle: RigidBodyHandle,
-        delay: f32,
+        due: u64,
         cracks: Option<BodyState>,
         make: impl FnOnce() -> Option<Body> + Send + 'static,
     ) {
         let (sender, body) = channel();
-        let work = move || {
+        self.workshop.take(due, move || {
             // Nobody hears it when the world is gone.
             let _ = sender.send(make());
-        };
-        let steps = (delay / self.physics.integration_parameters.dt).ceil();
-        let due = self.state.steps + (steps as u64).max(PieceConfig::SOONEST);
-        match self.jury() {
-            Some(pool) => pool.spawn_fifo(work),
-            None => work(),
-        }
+        });
         let body = Arc::new(Mutex::new(Made::Soon(body)));
         let after = self.state.expected.partition_point(|e| e.due <= due);
         let expected = Expected {
@@ -166,6 +201,13 @@ impl BreakableWorld {
             }
         }
     }
+}
+
+/// Tetrahedra of a body in which cracks can run.
+fn tets_of(body: &Body) -> usize {
+    let asset = body.asset();
+    let portion = asset.portion.as_ref();
+    portion.map_or(asset.fracture.tets.len(), |portion| portion.tets().len())
 }
 
 /// A body of its own, with what its first steady load would have to find out.

@@ -12,7 +12,6 @@ use frangible::internals::outcome::LookedAt;
 use frangible::{Body, Fracture, Outcome};
 use rapier3d::dynamics::RigidBodyHandle;
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
-use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use crate::config::WorldConfig;
 use crate::contact::contacts::Impact;
@@ -141,10 +140,7 @@ impl BreakableWorld {
             sender,
         });
         let elsewhere = Arc::clone(&work);
-        match self.jury() {
-            Some(pool) => pool.spawn_fifo(move || elsewhere.do_unless_taken()),
-            None => work.do_unless_taken(),
-        }
+        self.workshop.take(due, move || elsewhere.do_unless_taken());
         Ok(Case {
             body,
             impact,
@@ -159,16 +155,6 @@ impl BreakableWorld {
             function: Arc::clone(&self.break_function),
             config: Arc::new(self.config.clone()),
         }
-    }
-
-    /// Threads that judge while the world's own goes on: one less than there are cores; none where none can be had.
-    pub(crate) fn jury(&mut self) -> Option<&ThreadPool> {
-        let cores = std::thread::available_parallelism().map_or(1, usize::from);
-        let make = || {
-            let builder = ThreadPoolBuilder::new().num_threads(cores.saturating_sub(1).max(1));
-            builder.build().ok()
-        };
-        self.jury.get_or_insert_with(make).as_ref()
     }
 }
 

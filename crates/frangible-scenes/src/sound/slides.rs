@@ -1,9 +1,10 @@
-//! The sound of what slides.
+//! The sound of what slides and rolls.
 //!
-//! Roughness of both surfaces shakes what slides with a noise. Its power is a share of what friction takes, and it is white up to where the
+//! Roughness of both surfaces shakes what slides with a noise, and what rolls more quietly: what the resistance to rolling takes is less than
+//! what friction takes. Its power is a share of what friction takes, and it is white up to where the
 //! roughness passes the contact faster than the contact feels it: v over the length of its grain. Both are what van den Doel, Kry and Pai
 //! (FoleyAutomatic, SIGGRAPH 2001) take for scraping: a force whose power goes with the friction's, and a spectrum that goes with the speed.
-//! Their profile is a fractal one; a white one below the cut is its simplest case. Rolling, whose contact does not slide, is silent.
+//! Their profile is a fractal one; a white one below the cut is its simplest case.
 
 use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;

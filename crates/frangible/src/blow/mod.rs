@@ -36,8 +36,8 @@
 //! points have parted. Of two bodies that both vibrate one force comes whichever is asked, as long as they meet nothing else and
 //! neither has broken: what else touches the striker, and how its own cracks soften it, is not in the blow on the body.
 //!
-//! Forces are linear over substeps of a four-hundredth of Hertz' time, every oscillator is stepped exactly, and one equation per
-//! contact and substep has one root. Steps after the blow are as long as the modes allow.
+//! Forces are linear over substeps of a hundredth of Hertz' time (a four-hundredth where both bodies vibrate), every oscillator is stepped
+//! exactly, and one equation per contact and substep has one root. Steps after the blow are as long as the modes allow.
 
 mod bank;
 mod complement;

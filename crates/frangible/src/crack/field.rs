@@ -150,19 +150,18 @@ impl<'a> StressField<'a> {
     /// `place`: the tetrahedron's place among the body's weak points.
     #[inline(always)]
     pub(crate) fn opposite_weak_point(&mut self, place: usize, e: usize) -> Option<StressLanes> {
-        let weak = weak_place(self.asset, self.skin, self.config, self.pressed, e);
-        let (image, at, wall) = weak.opposite(self.body, e)?;
         let modes = self.displacement.amplitudes().len();
         let laws = self.body.rows.of(self.body, self.config, modes);
-        let mut lanes = match laws {
+        let (image, mut lanes) = match laws {
             // Rows are of points where nothing presses.
             Some(laws) if !self.is_pressed(e) => {
                 let (cluster, i) = self.body.clusters.locate(place);
                 let opposite = laws.opposite(self.body, self.config, cluster);
+                let (image, first) = opposite.images[i].as_ref()?;
                 let mut numbers = [Lanes::default(); MOST];
                 let numbers = &mut numbers[..image.frame.count()];
                 for (shape, force) in self.displacement.residuals() {
-                    let image = std::slice::from_ref(&image);
+                    let image = std::slice::from_ref(image);
                     let shares = of_shape(self.asset, &self.elasticity, shape, image);
                     for (number, share) in numbers.iter_mut().zip(shares) {
                         for (sum, force) in number.iter_mut().zip(force) {
@@ -171,16 +170,18 @@ impl<'a> StressField<'a> {
                     }
                 }
                 let amplitudes = self.displacement.amplitudes();
-                (opposite.rows).add_to(opposite.first[i], amplitudes, numbers);
-                image.frame.stress(numbers)
+                opposite.rows.add_to(*first, amplitudes, numbers);
+                (*image, image.frame.stress(numbers))
             }
             _ => {
+                let weak = weak_place(self.asset, self.skin, self.config, self.pressed, e);
+                let image = weak.opposite(self.body, e)?;
                 let gradients = self.displacement.gradients(self.asset, &image.point);
-                self.elasticity.lanes(&gradients, image.law)
+                (image, self.elasticity.lanes(&gradients, image.law))
             }
         };
-        if let Law::Free(_) = image.law {
-            self.add_near(&mut lanes, at, &wall);
+        if let (Law::Free(_), Some(wall)) = (image.law, &image.wall) {
+            self.add_near(&mut lanes, image.place, wall);
         }
         Some(lanes)
     }
@@ -260,19 +261,28 @@ impl Felt {
 }
 
 impl WeakPlace<'_> {
-    /// Its mirror image behind the middle of the wall that it is in, where that is, m, and the wall; none in a solid.
-    /// `e`: its tetrahedron.
-    pub(crate) fn opposite(&self, body: &Body, e: usize) -> Option<(RowPoint, Vec3, Wall)> {
-        let wall = self.wall?;
-        let place = self.position(body, e);
-        let [front, back] = wall.distances(place);
-        let across = wall.normal * (front + back);
-        let image = RowPoint {
-            point: shifted(&body.asset, self.point, across),
+    /// What rows are made of. `e`: its tetrahedron.
+    pub(crate) fn row_point(&self, body: &Body, e: usize) -> RowPoint {
+        RowPoint {
+            point: *self.point,
             law: self.law,
-            frame: Frame::of(self.law, Some(&wall)),
-        };
-        Some((image, place + across, wall))
+            frame: Frame::of(self.law, self.wall.as_ref()),
+            place: self.position(body, e),
+            wall: self.wall,
+        }
+    }
+
+    /// Its mirror image behind the middle of the wall that it is in; none in a solid. `e`: its tetrahedron.
+    pub(crate) fn opposite(&self, body: &Body, e: usize) -> Option<RowPoint> {
+        let wall = self.wall?;
+        let here = self.row_point(body, e);
+        let [front, back] = wall.distances(here.place);
+        let across = wall.normal * (front + back);
+        Some(RowPoint {
+            point: shifted(&body.asset, self.point, across),
+            place: here.place + across,
+            ..here
+        })
     }
 
     /// Where it is, m. `e`: its tetrahedron.

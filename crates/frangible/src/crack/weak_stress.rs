@@ -1,10 +1,10 @@
 //! Stress at the weak points of a cluster at the steps of a batch: rows times amplitudes, and what a motion has beside its modes.
 
-use super::field::{StressField, weak_place};
+use super::field::StressField;
 use crate::body::Body;
 use crate::near_field::Located;
 use crate::stress::{Frame, Lanes, MOST, STRIDE, of_shape};
-use crate::weak_rows::{ClusterRows, row_points};
+use crate::weak_rows::ClusterRows;
 
 /// What one motion adds to rows of the body, and room for their stress.
 #[derive(Clone, Debug, Default)]
@@ -227,33 +227,26 @@ impl NearPoint {
 impl Added {
     #[inline(never)]
     fn new(body: &Body, field: &StressField, cluster: usize, rows: &ClusterRows) -> Self {
-        let shapes = field.displacement.residuals();
-        let residuals = if shapes.is_empty() {
-            Vec::new()
-        } else {
-            let points = row_points(body, field.config, cluster);
-            let of = |shape| of_shape(field.asset, &field.elasticity, shape, &points);
-            shapes.iter().map(|(shape, _)| of(shape)).collect()
-        };
+        let of = |shape| of_shape(field.asset, &field.elasticity, shape, &rows.points);
+        let shapes = field.displacement.residuals().iter();
+        let residuals = shapes.map(|(shape, _)| of(shape)).collect();
         let (mut near, mut pressed, mut row) = (Vec::new(), Vec::new(), 0);
-        let points = body.clusters.tets(cluster).iter().zip(&rows.frames);
-        for (i, (&tet, &frame)) in (0..).zip(points) {
-            let tet = tet as usize;
-            if field.is_pressed(tet) {
+        let points = body.clusters.tets(cluster).iter().zip(&rows.points);
+        for (i, (&tet, point)) in (0..).zip(points) {
+            let frame = point.frame;
+            if field.is_pressed(tet as usize) {
                 pressed.push(i);
-            } else if !field.near.0.is_empty() && !matches!(frame, Frame::Edge(_)) {
-                let weak = weak_place(field.asset, field.skin, field.config, &[], tet);
-                if let Some(wall) = &weak.wall {
-                    let place = weak.position(body, tet);
-                    let places = field.near.places(place, wall);
-                    near.extend(places.map(|(field, at)| NearPoint {
-                        row,
-                        count: frame.count(),
-                        field,
-                        shares: at.directions().map(|along| frame.of_uniaxial(along)),
-                        at,
-                    }));
-                }
+            } else if let Some(wall) = &point.wall
+                && !matches!(frame, Frame::Edge(_))
+            {
+                let places = field.near.places(point.place, wall);
+                near.extend(places.map(|(field, at)| NearPoint {
+                    row,
+                    count: frame.count(),
+                    field,
+                    shares: at.directions().map(|along| frame.of_uniaxial(along)),
+                    at,
+                }));
             }
             row += frame.count();
         }

@@ -61,27 +61,36 @@ impl Band {
             curvature: pressure * wall.curvature(k),
         }
     }
+}
 
-    /// κ_r + κ_θ and κ_θ − κ_r at distance r per newton of ω² q, 1/(N·m).
-    fn shape(&self, bessel: &Bessel, r: f64) -> [f64; 2] {
-        let [low, high] = self.edges;
-        let integrals = |k: f64| {
-            let x = k * r;
-            // Series for small arguments, where both differences lose their digits.
-            if x < 0.1 {
-                return [
-                    0.5 * k * k * (1.0 - x * x / 8.0),
-                    // ∫₀ᵏ k J₂ dk = k⁴ r²/32 (1 − x²/18 …)
-                    k * k * x * x / 32.0 * (1.0 - x * x / 18.0),
-                ];
-            }
-            let [j0, j1] = bessel.at(x);
-            [k * j1 / r, (2.0 - x * j1 - 2.0 * j0) / (r * r)]
-        };
-        let (a, b) = (integrals(low), integrals(high));
-        let scale = self.curvature / (2.0 * PI);
-        [scale * (b[0] - a[0]), scale * (b[1] - a[1])]
+/// κ_r + κ_θ and κ_θ − κ_r of each band at distance r per newton of ω² q, 1/(N·m). A band begins where the one before it ends.
+fn shapes(bands: &[Band], bessel: Bessel, r: f64) -> impl Iterator<Item = [f64; 2]> {
+    let mut below = match bands.first() {
+        Some(band) => integrals(&bessel, band.edges[0], r),
+        None => [0.0; 2],
+    };
+    bands.iter().map(move |band| {
+        let above = integrals(&bessel, band.edges[1], r);
+        let scale = band.curvature / (2.0 * PI);
+        let shape = [0, 1].map(|i| scale * (above[i] - below[i]));
+        below = above;
+        shape
+    })
+}
+
+/// ∫ k J₀(kr) dk and ∫ k J₂(kr) dk from 0 to `k`, 1/m².
+fn integrals(bessel: &Bessel, k: f64, r: f64) -> [f64; 2] {
+    let x = k * r;
+    // Series for small arguments, where both differences lose their digits.
+    if x < 0.1 {
+        return [
+            0.5 * k * k * (1.0 - x * x / 8.0),
+            // k⁴ r²/32 (1 − x²/18 …)
+            k * k * x * x / 32.0 * (1.0 - x * x / 18.0),
+        ];
     }
+    let [j0, j1] = bessel.at(x);
+    [k * j1 / r, (2.0 - x * j1 - 2.0 * j0) / (r * r)]
 }
 
 /// All bands about one contact.
@@ -147,8 +156,7 @@ impl Bands {
         let bessel = Bessel::new();
         let at = |&r: &f64| {
             let mut sum = [0.0; 2];
-            for band in &self.following {
-                let shape = band.shape(&bessel, r);
+            for shape in shapes(&self.following, bessel, r) {
                 sum = [sum[0] + shape[0], sum[1] + shape[1]];
             }
             stress(wall, sum)
@@ -160,7 +168,7 @@ impl Bands {
     pub(super) fn swinging_stress(&self, wall: &WallMaterial, radii: &[f64]) -> Vec<Vec<[f64; 2]>> {
         let bessel = Bessel::new();
         let at = |&r: &f64| {
-            let shapes = self.oscillators.iter().map(|band| band.shape(&bessel, r));
+            let shapes = shapes(&self.oscillators, bessel, r);
             shapes.map(|shape| stress(wall, shape)).collect()
         };
         radii.iter().map(at).collect()

@@ -18,6 +18,7 @@ static TABLE: LazyLock<Vec<[f64; 2]>> = LazyLock::new(|| {
 });
 
 /// The functions at many arguments.
+#[derive(Clone, Copy)]
 pub(super) struct Bessel {
     table: &'static [[f64; 2]],
 }

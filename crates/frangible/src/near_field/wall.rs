@@ -157,26 +157,21 @@ impl WallMaterial {
     /// The wave number of an angular frequency, rad/s, 1/m; 0 below the frequency where waves begin.
     #[must_use]
     pub(crate) fn wave_number(&self, frequency: f64) -> f64 {
-        let wanted = frequency * frequency;
-        // Kirchhoff's wave is the shortest of none: shear and inertia only slow waves down.
-        let mut low = 0.0;
-        let mut high = (self.mass_per_area * wanted / self.bending_stiffness).powf(0.25);
-        while self.eigenvalue(high) < wanted {
-            low = high;
-            high *= 2.0;
-        }
-        if self.eigenvalue(0.0) >= wanted {
+        let squared = frequency * frequency;
+        let (d, s) = (self.bending_stiffness, self.shear_stiffness);
+        let free = self.mass_per_area * squared - self.curvature_stiffness;
+        if free <= 0.0 {
             return 0.0;
         }
-        for _ in 0..60 {
-            let middle = 0.5 * (low + high);
-            if self.eigenvalue(middle) < wanted {
-                low = middle;
-            } else {
-                high = middle;
-            }
+        if self.theory == PlateTheory::Kirchhoff {
+            return (free / d).sqrt().sqrt();
         }
-        0.5 * (low + high)
+        // The equation of `eigenvalue`, in k²: S D k⁴ − (S I ω² + D free) k² − free (S − I ω²) = 0, the larger root. The terms under the
+        // root that are added below are its (S I ω² + D free)² + 4 S D free (S − I ω²).
+        let turned = s * self.rotary_inertia * squared;
+        let bent = d * free;
+        let root = ((turned - bent).powi(2) + 4.0 * s * s * bent).sqrt();
+        ((turned + bent + root) / (2.0 * s * d)).sqrt()
     }
 
     /// The wave number from which on bending rules, D k⁴ ≥ 3 E h s, 1/m: longer waves are held by the wall's curvature.

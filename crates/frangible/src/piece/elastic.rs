@@ -43,6 +43,12 @@ pub trait PieceModel: Send + Sync {
 
     /// What takes its place some steps later, made by a worker meanwhile; `None` where nothing does.
     fn later(&self, portion: &Arc<Portion>) -> Option<Elastic>;
+
+    /// How long one thread is expected to take for [`PieceModel::at_once`] and for [`PieceModel::later`], s, of a piece of so many tetrahedra: a
+    /// rule that gives the same number on every machine. A world that paces its work goes by it.
+    fn expected_times(&self, _tets: usize) -> [f64; 2] {
+        [0.0; 2]
+    }
 }
 
 impl Body {

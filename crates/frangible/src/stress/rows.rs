@@ -7,6 +7,7 @@ use super::displacement::Lanes;
 use super::frame::{Frame, MOST};
 use super::strain::{Elasticity, Law};
 use super::tensor::Symmetric3;
+use super::wall::Wall;
 use super::wide::{Wide, narrow, wide};
 use crate::asset::{Asset, EmbeddedPoint};
 use crate::blow::Shape;
@@ -18,10 +19,15 @@ const GROUP: usize = 6;
 const NODES: usize = 10;
 
 /// A weak point as its rows see it.
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct RowPoint {
     pub(crate) point: EmbeddedPoint,
     pub(crate) law: Law,
     pub(crate) frame: Frame,
+    /// Where it is, m.
+    pub(crate) place: Vec3,
+    /// The wall that it is in.
+    pub(crate) wall: Option<Wall>,
 }
 
 /// A node of a point's element, and the element's first one; what each of the point's rows has of the difference of their displacements,
@@ -171,7 +177,10 @@ pub(crate) fn of_shape(
     points: &[RowPoint],
 ) -> Vec<f32> {
     let mut rows = Vec::new();
-    for RowPoint { point, law, frame } in points {
+    for RowPoint {
+        point, law, frame, ..
+    } in points
+    {
         let element = point.element as usize;
         let weights = point.shape_gradients(&asset.analysis.barycentric_gradients[element]);
         let [first, others @ ..] = &asset.analysis.elements[element];

@@ -1,0 +1,105 @@
+//! The program as an archive: for those who want to run it and not to build it.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use crate::command::{Result, cargo, output, root, run};
+
+/// What lies in the archive beside the program.
+const BESIDE: [&str; 4] = ["README.md", "CHANGELOG.md", "LICENSE-MIT", "LICENSE-APACHE"];
+
+/// Builds the program, packs it with its licences, unpacks the archive elsewhere and has what comes out of it break something. Returns
+/// lines that say what was made.
+pub(crate) fn dist() -> Result<Vec<String>> {
+    run(&mut cargo(&["build", "--release", "-p", "frangible-cli"]))?;
+    let target = target_folder();
+    let name = format!("frangible-{}-{}", version()?, host()?);
+    let out = target.join("dist");
+    let folder = out.join(&name);
+    if out.exists() {
+        fs::remove_dir_all(&out).map_err(|error| problem(&out, &error))?;
+    }
+    fs::create_dir_all(&folder).map_err(|error| problem(&folder, &error))?;
+    let program = format!("frangible{}", std::env::consts::EXE_SUFFIX);
+    copy(
+        &target.join("release").join(&program),
+        &folder.join(&program),
+    )?;
+    for file in BESIDE {
+        copy(&root().join(file), &folder.join(file))?;
+    }
+    let archive = out.join(format!("{name}.tar.gz"));
+    run(Command::new("tar")
+        .arg("-C")
+        .arg(&out)
+        .arg("-czf")
+        .arg(&archive)
+        .arg(&name))?;
+    fs::remove_dir_all(&folder).map_err(|error| problem(&folder, &error))?;
+
+    let trial = out.join("trial");
+    fs::create_dir_all(&trial).map_err(|error| problem(&trial, &error))?;
+    run(Command::new("tar")
+        .arg("-C")
+        .arg(&trial)
+        .arg("-xzf")
+        .arg(&archive))?;
+    let unpacked = trial.join(&name).join(&program);
+    run(Command::new(unpacked)
+        .args([
+            "break",
+            "--scene",
+            "cantilever",
+            "--no-pictures",
+            "--resolution",
+            "3000",
+        ])
+        .current_dir(&trial))?;
+    if !trial.join("out/cantilever.glb").is_file() {
+        return Err("the packed program wrote no out/cantilever.glb".into());
+    }
+    fs::remove_dir_all(&trial).map_err(|error| problem(&trial, &error))?;
+    let size = fs::metadata(&archive).map_err(|error| problem(&archive, &error))?;
+    let line = format!(
+        "dist: {} ({:.1} MB) runs where it is unpacked",
+        archive.display(),
+        size.len() as f64 / 1e6
+    );
+    println!("{line}");
+    Ok(vec![line])
+}
+
+/// Where cargo builds.
+fn target_folder() -> PathBuf {
+    std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root().join("target"), PathBuf::from)
+}
+
+/// The version of the workspace.
+fn version() -> Result<String> {
+    let id = output(&mut cargo(&["pkgid", "-p", "frangible-cli"]))?;
+    let id = String::from_utf8_lossy(&id);
+    let version = id.trim().rsplit(['#', '@']).next();
+    version
+        .map(str::to_owned)
+        .ok_or_else(|| format!("cargo calls the program `{id}`, which has no version"))
+}
+
+/// The system that the program is built for.
+fn host() -> Result<String> {
+    let about = output(Command::new("rustc").arg("-vV"))?;
+    let about = String::from_utf8_lossy(&about);
+    let host = about.lines().find_map(|line| line.strip_prefix("host: "));
+    host.map(str::to_owned)
+        .ok_or_else(|| "`rustc -vV` names no host; update Rust".to_owned())
+}
+
+fn copy(from: &Path, to: &Path) -> Result {
+    fs::copy(from, to)
+        .map(drop)
+        .map_err(|error| problem(from, &error))
+}
+
+fn problem(path: &Path, error: &std::io::Error) -> String {
+    format!("`{}`: {error}", path.display())
+}
