@@ -41,10 +41,12 @@ pub(crate) struct Touching {
     /// When what slides was looked at, s.
     looked: f64,
     /// Where each pair touched last, m, in the frames of its two colliders, and when, s.
-    places: BTreeMap<[(u32, u32); 2], ([Vec3; 2], f64)>,
+    places: BTreeMap<[(u32, u32); 2], Touched>,
 }
 
 type Motion = [Vec3; 3];
+
+type Touched = ([Vec3; 2], f64);
 
 /// Two things that push each other in a step.
 struct Pair {
