@@ -143,6 +143,9 @@ fn limits_hold() {
     assert_eq!(none.0.len(), 1);
     let heavy = fall(Some(Method::ParentModes), |c| c.pieces.least_mass = 10.0);
     assert_eq!(heavy.0.len(), 1);
+    // At a ten-thousandth of a thread nothing is ready in this time.
+    let slow = fall(Some(Method::ParentModes), |c| c.pieces.pace = 1e-4);
+    assert_eq!(slow.0.len(), 1);
     // What the limits keep out is there without them.
     let deepest = |breaks: &[Break]| breaks.iter().map(|b| b.generation).max();
     let free = fall(Some(Method::ParentModes), |_| {});

@@ -30,7 +30,7 @@ const SCENES: [Light; 2] = [
     Light {
         scene: "brick",
         modes: 16,
-        tetrahedra: 5_000,
+        tetrahedra: 4_000,
         compact: true,
     },
 ];
