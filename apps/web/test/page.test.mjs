@@ -152,6 +152,7 @@ async function trial(browser, address, renderer) {
   assert.deepEqual([followed.pieces, followed.steps, followed.masses], [now.pieces, now.steps, now.masses]);
   console.log(`${renderer}: a link of ${(await page.evaluate(() => location.href.length))} characters shows the same ${now.pieces} pieces`);
   await again.close();
+  await page.bringToFront();
 
   await command("reset");
   const own = await broken(command);

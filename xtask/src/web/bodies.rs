@@ -29,8 +29,8 @@ const SCENES: [Light; 2] = [
     },
     Light {
         scene: "brick",
-        modes: 16,
-        tetrahedra: 4_000,
+        modes: 14,
+        tetrahedra: 5_000,
         compact: true,
     },
 ];
