@@ -1,4 +1,4 @@
-//! Two physics engines play equal scenes: `cargo run --release --example engines [-- --write]` plays each with twenty seeds in Rapier and in
+//! Two physics engines play equal scenes: `cargo run --release --example engines [-- --write]` plays each with a hundred seeds in Rapier and in
 //! Avian, and prints a page of what came of them, or writes it to `docs/engines.md`.
 
 mod in_avian;
@@ -17,7 +17,7 @@ use frangible_bake::{BakeSpec, Region, Shape, Support, bake};
 use scenes::{Outcome, Scene, ball_on_pane, brick_on_plate, dropped};
 
 /// Seeds of each scene.
-const SEEDS: u64 = 20;
+const SEEDS: u64 = 100;
 
 /// What came of a scene in Rapier and in Avian, seed after seed.
 type Played = [Vec<Outcome>; 2];
