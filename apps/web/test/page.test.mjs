@@ -76,7 +76,7 @@ async function open(browser, address, renderer) {
   page.on("pageerror", (error) => console.log(`  page: ${error.message}`));
   page.on("console", (line) => console.log(`  console: ${line.text().slice(0, 200)}`));
   await page.goto(`${address}/?clock=stands${renderer === "webgl2" ? "&renderer=webgl2" : ""}`);
-  const failed = page.waitForSelector("#cover.failed").then(() => page.textContent("#text")).then((why) => assert.fail(why), () => {});
+  const failed = page.waitForSelector("#cover.failed", { timeout: 0 }).then(() => page.textContent("#text")).then((why) => assert.fail(why), () => {});
   const state = () => page.evaluate(() => JSON.parse(window.frangible_state()));
   const until = async (met) => {
     await Promise.race([failed, page.waitForFunction(met)]);
@@ -152,7 +152,6 @@ async function trial(browser, address, renderer) {
   assert.deepEqual([followed.pieces, followed.steps, followed.masses], [now.pieces, now.steps, now.masses]);
   console.log(`${renderer}: a link of ${(await page.evaluate(() => location.href.length))} characters shows the same ${now.pieces} pieces`);
   await again.close();
-  await page.bringToFront();
 
   await command("reset");
   const own = await broken(command);

@@ -67,7 +67,10 @@ impl Panels {
         });
         ui.separator();
         self.files(ui, shown, commands);
-        self.films(ui, shown, commands);
+        // A page makes none.
+        if !self.in_page {
+            self.films(ui, shown, commands);
+        }
         ui.separator();
         ui.horizontal(|ui| {
             for (tab, label) in [
