@@ -29,6 +29,8 @@ pub(crate) struct LawRows {
 pub(crate) struct ClusterRows {
     /// Its weak points, in their order, where nothing presses.
     pub(crate) points: Vec<RowPoint>,
+    /// Their frames: each look reads them all, so that they lie side by side.
+    pub(crate) frames: Vec<Frame>,
     pub(crate) rows: Rows,
     coarse: OnceLock<Option<Coarse>>,
     opposite: OnceLock<OppositeRows>,
@@ -47,8 +49,7 @@ impl ClusterRows {
     pub(crate) fn coarse(&self, body: &Body) -> Option<&Coarse> {
         let make = || {
             let periods = &body.prepared.periods[..self.rows.modes()];
-            let frames: Vec<Frame> = self.points.iter().map(|point| point.frame).collect();
-            Coarse::new(&frames, &self.rows, periods)
+            Coarse::new(&self.frames, &self.rows, periods)
         };
         self.coarse.get_or_init(make).as_ref()
     }
@@ -124,6 +125,7 @@ impl LawRows {
             let elasticity = Elasticity::new(&body.asset.material);
             ClusterRows {
                 rows: Rows::new(&body.asset, &elasticity, self.modes, &points),
+                frames: points.iter().map(|point| point.frame).collect(),
                 points,
                 coarse: OnceLock::new(),
                 opposite: OnceLock::new(),

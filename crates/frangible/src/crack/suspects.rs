@@ -137,8 +137,7 @@ impl<I> Look<'_, '_, I> {
         let mut next = pressed.next();
         let mut doubts = 0;
         let points = (body.clusters.places(cluster)).zip(body.clusters.tets(cluster));
-        for ((i, (place, &tet)), at) in (0..).zip(points).zip(&rows.points) {
-            let frame = at.frame;
+        for ((i, (place, &tet)), &frame) in (0..).zip(points).zip(&rows.frames) {
             let point = seen.next(frame);
             if self.is_cut(tet) {
                 if next == Some(&i) {
@@ -180,7 +179,7 @@ impl<I> Look<'_, '_, I> {
                 self.suspects.note(suspect, passing);
             }
         }
-        stress.doubted(cluster, doubts, rows.points.len());
+        stress.doubted(cluster, doubts, rows.frames.len());
         self.suspects.stress = stress;
     }
 
