@@ -4,7 +4,7 @@
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use crate::command::{Result, cargo, root, run_within, shown};
+use crate::command::{Result, cargo, root, run_within, shown, target};
 use crate::setup::setup;
 
 /// What the plugin and its tests are built from.
@@ -22,8 +22,7 @@ const LIMIT: Duration = Duration::from_secs(35 * 60);
 
 /// Runs cargo in the plugin's workspace, within what is left of the limit.
 fn in_workspace(commands: &[&[&str]], start: Instant) -> Result<PathBuf> {
-    let target = std::env::var_os("CARGO_TARGET_DIR").unwrap_or_else(|| "target".into());
-    let target: PathBuf = root().join(target).join("bevy");
+    let target = target().join("bevy");
     for words in commands {
         let mut command = cargo(words);
         command.current_dir(root().join("bevy_frangible"));

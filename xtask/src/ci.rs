@@ -7,7 +7,7 @@ use crate::bevy;
 use crate::book;
 use crate::check_output::check_output;
 use crate::command::{
-    Result, announced, cargo, output, read, root, run_keeping, run_within, shown, succeeds,
+    Result, announced, cargo, output, read, root, run_keeping, run_within, shown, succeeds, target,
 };
 use crate::counts::counts;
 use crate::fuzz::{USUAL_SECONDS, fuzz};
@@ -252,9 +252,8 @@ fn oldest_rust() -> Result<Vec<String>> {
     let mut command = std::process::Command::new("cargo");
     command.args([&toolchain, "check", "--release", "--workspace"]);
     // Its own folder, lest every run builds all dependencies twice.
-    let target = std::env::var_os("CARGO_TARGET_DIR").unwrap_or_else(|| "target".into());
     command.current_dir(root());
-    command.env("CARGO_TARGET_DIR", root().join(target).join("oldest"));
+    command.env("CARGO_TARGET_DIR", target().join("oldest"));
     announced(&mut command).map(|()| Vec::new())
 }
 

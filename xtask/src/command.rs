@@ -24,6 +24,27 @@ pub(crate) fn root() -> PathBuf {
     xtask.parent().map_or(xtask.clone(), PathBuf::from)
 }
 
+/// Where cargo builds.
+pub(crate) fn target() -> PathBuf {
+    root().join(std::env::var_os("CARGO_TARGET_DIR").unwrap_or_else(|| "target".into()))
+}
+
+/// Where the command line's program is once the workspace is built.
+pub(crate) fn program() -> PathBuf {
+    target()
+        .join("release")
+        .join(format!("frangible{}", std::env::consts::EXE_SUFFIX))
+}
+
+/// The machine as rustc names it.
+pub(crate) fn host() -> Result<String> {
+    let about = output(Command::new("rustc").arg("-vV").current_dir(root()))?;
+    String::from_utf8_lossy(&about)
+        .lines()
+        .find_map(|line| line.strip_prefix("host: ").map(String::from))
+        .ok_or_else(|| "`rustc -vV` does not name its host; update Rust".into())
+}
+
 /// The command as one would type it.
 pub(crate) fn shown(command: &Command) -> String {
     let program = PathBuf::from(command.get_program());
@@ -185,6 +206,27 @@ fn start_failed(command: &Command, error: &std::io::Error) -> String {
 pub(crate) fn announced(command: &mut Command) -> Result {
     println!("$ {}", shown(command));
     run(command)
+}
+
+/// Copies a file, or a folder and all that is in it.
+pub(crate) fn copy(from: &Path, to: &Path) -> Result {
+    let failed = |error| {
+        format!(
+            "`{}` cannot be copied to `{}`: {error}",
+            from.display(),
+            to.display()
+        )
+    };
+    if from.is_dir() {
+        for entry in std::fs::read_dir(from).map_err(failed)? {
+            let entry = entry.map_err(failed)?;
+            copy(&entry.path(), &to.join(entry.file_name()))?;
+        }
+        return Ok(());
+    }
+    std::fs::create_dir_all(to.parent().unwrap_or(to))
+        .and_then(|()| std::fs::copy(from, to).map(drop))
+        .map_err(failed)
 }
 
 /// The bytes of a file.

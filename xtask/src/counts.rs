@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-use crate::command::{Result, cargo, output, root, run_within, shown, status_within};
+use crate::command::{Result, cargo, output, root, run_within, shown, status_within, target};
 use crate::setup::valgrind;
 
 /// More than this above the stored count is a failure.
@@ -59,8 +59,7 @@ pub(crate) fn counts(write: bool) -> Result<Vec<String>> {
     // All of the workspace, so that the features are those of every other build.
     let arguments = ["build", "--release", "--workspace", "--example", PROGRAM];
     run_within(&mut cargo(&arguments), left().max(Duration::from_secs(60)))?;
-    let target = std::env::var_os("CARGO_TARGET_DIR").unwrap_or_else(|| "target".into());
-    let target = root().join(target);
+    let target = target();
     let program = target.join("release/examples").join(PROGRAM);
     let folder = target.join("counts");
     fs::create_dir_all(&folder)

@@ -1,10 +1,10 @@
 //! The program as an archive: for those who want to run it and not to build it.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::Command;
 
-use crate::command::{Result, cargo, output, root, run};
+use crate::command::{Result, cargo, copy, host, output, root, run, target};
 
 /// What lies in the archive beside the program.
 const BESIDE: [&str; 4] = ["README.md", "CHANGELOG.md", "LICENSE-MIT", "LICENSE-APACHE"];
@@ -13,7 +13,7 @@ const BESIDE: [&str; 4] = ["README.md", "CHANGELOG.md", "LICENSE-MIT", "LICENSE-
 /// lines that say what was made.
 pub(crate) fn dist() -> Result<Vec<String>> {
     run(&mut cargo(&["build", "--release", "-p", "frangible-cli"]))?;
-    let target = target_folder();
+    let target = target();
     let name = format!("frangible-{}-{}", version()?, host()?);
     let out = target.join("dist");
     let folder = out.join(&name);
@@ -70,11 +70,6 @@ pub(crate) fn dist() -> Result<Vec<String>> {
     Ok(vec![line])
 }
 
-/// Where cargo builds.
-fn target_folder() -> PathBuf {
-    std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root().join("target"), PathBuf::from)
-}
-
 /// The version of the workspace.
 fn version() -> Result<String> {
     let id = output(&mut cargo(&["pkgid", "-p", "frangible-cli"]))?;
@@ -83,21 +78,6 @@ fn version() -> Result<String> {
     version
         .map(str::to_owned)
         .ok_or_else(|| format!("cargo calls the program `{id}`, which has no version"))
-}
-
-/// The system that the program is built for.
-fn host() -> Result<String> {
-    let about = output(Command::new("rustc").arg("-vV"))?;
-    let about = String::from_utf8_lossy(&about);
-    let host = about.lines().find_map(|line| line.strip_prefix("host: "));
-    host.map(str::to_owned)
-        .ok_or_else(|| "`rustc -vV` names no host; update Rust".to_owned())
-}
-
-fn copy(from: &Path, to: &Path) -> Result {
-    fs::copy(from, to)
-        .map(drop)
-        .map_err(|error| problem(from, &error))
 }
 
 fn problem(path: &Path, error: &std::io::Error) -> String {

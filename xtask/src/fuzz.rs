@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::{Duration, Instant};
 
-use crate::command::{Result, cargo, output, root, shown, status_within, succeeds};
+use crate::command::{Result, cargo, host, output, root, shown, status_within, succeeds, target};
 use crate::setup::cpp_compiler;
 
 /// How long each target runs unless told otherwise, s.
@@ -96,18 +96,8 @@ fn skipped(reason: &str) -> Result<Vec<String>> {
     Ok(vec![line])
 }
 
-/// The machine as rustc names it.
-fn host() -> Result<String> {
-    let about = output(Command::new("rustc").arg("-vV").current_dir(root()))?;
-    String::from_utf8_lossy(&about)
-        .lines()
-        .find_map(|line| line.strip_prefix("host: ").map(String::from))
-        .ok_or_else(|| "`rustc -vV` does not name its host; update Rust".into())
-}
-
 fn folders(host: &str) -> Folders {
-    let target = std::env::var_os("CARGO_TARGET_DIR").unwrap_or_else(|| "target".into());
-    let target = root().join(target).join("fuzz");
+    let target = target().join("fuzz");
     Folders {
         fuzz: root().join("fuzz"),
         programs: target.join(host).join("release"),

@@ -2,10 +2,10 @@
 //! were, and one that changes the physics shows pieces, areas and energies before and after.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::Command;
 
-use crate::command::{Result, cargo, output, root, run};
+use crate::command::{Result, cargo, output, run, target};
 
 const PROGRAM: &str = "outcomes";
 
@@ -62,10 +62,6 @@ pub(crate) fn outcomes(wish: &Wish<'_>) -> Result {
         }
     }
     Ok(())
-}
-
-fn target() -> PathBuf {
-    root().join(std::env::var_os("CARGO_TARGET_DIR").unwrap_or_else(|| "target".into()))
 }
 
 fn read(path: &Path) -> Result<String> {

@@ -5,7 +5,7 @@ use std::process::Command;
 use std::time::{Duration, Instant};
 
 use crate::book;
-use crate::command::{Result, cargo, root, run_keeping, run_within, shown};
+use crate::command::{Result, cargo, root, run_keeping, run_within, shown, target};
 use crate::setup::python;
 
 /// What the wheel is built from, and what tests it.
@@ -55,8 +55,7 @@ pub(crate) fn wheel() -> Result<Vec<String>> {
         );
     };
     let from = root().join("apps/python");
-    let target = std::env::var_os("CARGO_TARGET_DIR").unwrap_or_else(|| "target".into());
-    let target: PathBuf = root().join(target);
+    let target = target();
     let folder = target.join("python");
     let (environment, wheels) = (folder.join("environment"), folder.join("wheels"));
     for command in [

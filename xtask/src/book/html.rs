@@ -7,8 +7,8 @@ use std::path::Path;
 use std::process::Command;
 
 use super::page::{Page, beside, target as link, text};
-use super::{fresh, target};
-use crate::command::{Result, announced, root, succeeds};
+use super::fresh;
+use crate::command::{Result, announced, copy, root, succeeds, target};
 
 /// The mdBook that the book was made with.
 const VERSION: &str = "0.5.4";
@@ -84,19 +84,4 @@ fn put(path: &Path, text: &str) -> Result {
     fs::create_dir_all(folder)
         .and_then(|()| fs::write(path, text))
         .map_err(|error| format!("`{}` cannot be written: {error}", path.display()))
-}
-
-/// Copies a file, or a folder and all that is in it.
-fn copy(from: &Path, to: &Path) -> Result {
-    let failed = |error| format!("`{}` cannot be copied: {error}", from.display());
-    if from.is_dir() {
-        for entry in fs::read_dir(from).map_err(failed)? {
-            let entry = entry.map_err(failed)?;
-            copy(&entry.path(), &to.join(entry.file_name()))?;
-        }
-        return Ok(());
-    }
-    fs::create_dir_all(to.parent().unwrap_or(to))
-        .and_then(|()| fs::copy(from, to).map(drop))
-        .map_err(failed)
 }

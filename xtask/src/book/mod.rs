@@ -22,7 +22,7 @@ mod shown;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::command::{Result, cargo, root};
+use crate::command::{self, Result, cargo, root};
 use crate::setup::setup;
 use page::{Page, chapters};
 
@@ -52,7 +52,7 @@ pub(crate) const WHEEL_PAGE: &str = "book/src/start/python.md";
 pub(crate) enum Wish<'a> {
     /// Run what it shows, check its links, make it HTML.
     All,
-    /// The same, and write whole outputs anew.
+    /// Do all of it, and write anew the outputs that the pages show whole.
     Write,
     /// Check its links and make it HTML.
     Html,
@@ -103,16 +103,8 @@ pub(crate) fn wheel(programs: &Path) -> Result<Vec<String>> {
 
 /// The program for this machine, built.
 fn program() -> Result<PathBuf> {
-    crate::command::announced(&mut cargo(&["build", "--release"]))?;
-    Ok(target()
-        .join("release")
-        .join(format!("frangible{}", std::env::consts::EXE_SUFFIX)))
-}
-
-/// Where cargo builds.
-fn target() -> PathBuf {
-    let target = std::env::var_os("CARGO_TARGET_DIR").unwrap_or_else(|| "target".into());
-    root().join(target)
+    command::announced(&mut cargo(&["build", "--release"]))?;
+    Ok(command::program())
 }
 
 /// A folder in the checkout's `target`, empty: cargo finds the workspace from it, whatever it builds into.

@@ -6,10 +6,10 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
+use super::fresh;
 use super::page::{Block, Page, text};
 use super::shown::{commands, compare, last_of, whole};
-use super::{fresh, target};
-use crate::command::{Result, root, status_within};
+use crate::command::{Result, root, status_within, target};
 
 /// A command that needs longer is stuck; the first build of an example takes most of it.
 const LIMIT: Duration = Duration::from_secs(15 * 60);

@@ -7,7 +7,7 @@ use std::process::Command;
 
 use super::program::within;
 use super::{Clock, Folders, make_folder};
-use crate::command::{Result, cargo, output, run};
+use crate::command::{Result, cargo, output, program, run};
 
 /// A scene that the page offers, of one body.
 struct Light {
@@ -108,11 +108,7 @@ impl Light {
 /// The program for this machine.
 pub(super) fn frangible(clock: Clock) -> Result<PathBuf> {
     within(&mut cargo(&["build", "--release"]), clock)?;
-    let target = std::env::var_os("CARGO_TARGET_DIR").unwrap_or_else(|| "target".into());
-    let target = crate::command::root().join(target);
-    Ok(target
-        .join("release")
-        .join(format!("frangible{}", std::env::consts::EXE_SUFFIX)))
+    Ok(program())
 }
 
 fn hash_of(file: &Path) -> Result<String> {

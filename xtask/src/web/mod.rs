@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::{Duration, Instant};
 
-use crate::command::{Result, output, root};
+use crate::command::{Result, output, root, target};
 
 pub(crate) use package::package;
 pub(crate) use trial::trial;
@@ -67,8 +67,7 @@ fn make(folders: &Folders, clock: Clock) -> Result<(Vec<String>, Vec<bodies::Pac
 }
 
 fn folders(out: Option<&Path>) -> Folders {
-    let target = std::env::var_os("CARGO_TARGET_DIR").unwrap_or_else(|| "target".into());
-    let target = root().join(target).join("web");
+    let target = target().join("web");
     Folders {
         page: root().join("apps/web/page"),
         out: out.map_or_else(|| target.join("page"), Path::to_path_buf),

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use super::program::{Kind, build, number_of, packer, same_generator, within};
 use super::trial::{browser_path, driver, made_folder};
 use super::{Clock, Folders, copy_folder, folders, make_folder};
-use crate::command::{Result, output, root, run_keeping, shown};
+use crate::command::{Result, copy, output, root, run_keeping, shown};
 use crate::setup::browser;
 
 /// The modules, what they are for, and what each may weigh, packed, bytes.
@@ -87,12 +87,6 @@ fn make(folders: &Folders, clock: Clock) -> Result<(PathBuf, Vec<String>)> {
         lines.push(line);
     }
     Ok((out, lines))
-}
-
-fn copy(from: &Path, to: &Path) -> Result {
-    fs::copy(from, to)
-        .map(drop)
-        .map_err(|error| format!("`{}` cannot be written: {error}", to.display()))
 }
 
 /// Packs the folder as npm does, and installs that in an empty project, with what the examples need beside it.

@@ -73,6 +73,11 @@ impl Accuracy {
         tolerance: 1e-4,
         residual: 0.1,
     };
+
+    /// True where the dense solver finds the modes of so many unknowns.
+    fn is_dense(&self, unknowns: usize, wanted: usize) -> bool {
+        unknowns <= self.dense || wanted as f64 > unknowns as f64 * self.share
+    }
 }
 
 /// Mass-normalised modes Φᵀ M Φ = I, by rising frequency.
@@ -149,7 +154,7 @@ pub fn quick_modes(
 }
 
 /// The lowest modes. Where one of them is not exact enough in the end, all are sought once more to a tenth of the tolerance: the check weighs
-/// nodes otherwise than the search does, which tells on meshes of very different elements.
+/// nodes otherwise than the search does, which tells on meshes of very different elements. The dense solver has no tolerance and is not asked again.
 fn search(
     system: &System,
     constraints: &Constraints,
@@ -157,8 +162,11 @@ fn search(
     accuracy: Accuracy,
     progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Modes, BakeError> {
+    let left = system
+        .unknowns()
+        .saturating_sub(constraints.unknowns().len());
     match attempt(system, constraints, wanted, accuracy, progress) {
-        Err(BakeError::Residual { .. }) => {
+        Err(BakeError::Residual { .. }) if !accuracy.is_dense(left, wanted) => {
             let finer = Accuracy {
                 tolerance: 0.1 * accuracy.tolerance,
                 ..accuracy
@@ -203,12 +211,11 @@ fn attempt(
         }
     });
     let rigid = rigid::deflation_basis(system, &remaining, reduction, &metric)?;
-    let small = n <= accuracy.dense || wanted as f64 > n as f64 * accuracy.share;
     let node_of = reduction.map_or_else(|| (0..n).map(|i| i / 3).collect(), Reduction::nodes);
     let basis = Krylov::new(&metric, &rigid);
     let shifted = Shifted::near_zero(&scaled, &node_of, &metric, &basis, &mut watch)?;
     watch.tell(0.1)?;
-    let (mut eigenvalues, mut vectors) = if small {
+    let (mut eigenvalues, mut vectors) = if accuracy.is_dense(n, wanted) {
         let matrix = factor::add_shift(&scaled, &metric, shifted.shift);
         watch.time(Phase::Solves, || {
             dense::solve_shifted(&matrix, shifted.shift, &metric, &rigid, wanted)
@@ -274,5 +281,56 @@ fn finish(eigenvalues: Vec<f64>, vectors: Block, inverse_root: &[f64]) -> Modes 
         max_residual: 0.0,
         rigid_motions: 0,
         seconds: Vec::new(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::ops::ControlFlow;
+
+    use super::{Accuracy, Constraints, attempt, search};
+    use crate::error::BakeError;
+    use crate::fem::{Elasticity, Elements, QuadraticMesh, System, assemble};
+    use crate::{MeshSize, Shape};
+
+    /// A plate whose elements grow from one end to the other, so that the check and the search weigh nodes differently.
+    fn graded_plate() -> System {
+        let (length, edge) = (0.12, 0.008);
+        let size = MeshSize { edge, layers: 1 };
+        let plate = Shape::plate(length, 0.07, 0.004);
+        let mut mesh = plate.analysis_mesh(size).unwrap();
+        for position in &mut mesh.positions {
+            position[0] = length * (position[0] / length + 0.5).powi(2);
+        }
+        let mesh = QuadraticMesh::new(&mesh);
+        let glass = Elasticity {
+            youngs_modulus: 70e9,
+            poisson_ratio: 0.23,
+            density: 2500.0,
+        };
+        assemble(&mesh.positions, Elements::Quadratic(&mesh.elements), &glass)
+    }
+
+    #[test]
+    fn modes_that_are_not_exact_enough_are_sought_once_more() {
+        let (system, free) = (graded_plate(), Constraints::default());
+        // Eight modes: 1.8e-8 at this tolerance, 1.3e-9 at a tenth of it.
+        let loose = Accuracy {
+            dense: 0,
+            share: 1.0,
+            tolerance: 1e-4,
+            residual: 5e-9,
+        };
+        let mut shares = Vec::new();
+        let mut hear = |share| {
+            shares.push(share);
+            ControlFlow::Continue(())
+        };
+        let once = attempt(&system, &free, 8, loose, &mut |_| ControlFlow::Continue(()));
+        assert!(matches!(once, Err(BakeError::Residual { .. })));
+        let modes = search(&system, &free, 8, loose, &mut hear).unwrap();
+        println!("{:e}", modes.max_residual);
+        assert!(modes.max_residual <= loose.residual);
+        assert!(shares.is_sorted() && shares.last() == Some(&1.0));
     }
 }

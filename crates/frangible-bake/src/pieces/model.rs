@@ -8,12 +8,12 @@ use frangible::internals::piece::{Elastic, PieceModel, Portion};
 use crate::pieces::method::Method;
 use crate::pieces::{PieceError, parent_modes, reanalysis};
 
-/// Time that a thread takes for the parent's modes, for each tetrahedron, s. These three numbers are medians of `docs/recursive.md`, rounded up.
-const PARENT_MODES: f64 = 12e-6;
-
-/// Time that it takes for modes of the piece's own: for each element, and for each tetrahedron, s.
-const OWN_MODES: f64 = 0.25e-3;
+/// Time that a thread takes for the parent's modes, and again for modes of the piece's own, for each tetrahedron, s. This number and the next
+/// are medians of `docs/recursive.md`, rounded up.
 const PER_TET: f64 = 12e-6;
+
+/// Time that a thread takes for modes of the piece's own besides, for each element, s.
+const PER_ELEMENT: f64 = 0.25e-3;
 
 /// Finds how pieces vibrate, by one of two methods.
 #[derive(Debug)]
@@ -107,10 +107,13 @@ impl PieceModel for Pieces {
     }
 
     fn expected_times(&self, tets: usize) -> [f64; 2] {
-        let own = OWN_MODES * self.elements_for(tets) as f64 + PER_TET * tets as f64;
+        let parents = PER_TET * tets as f64;
         match self.method_for() {
-            Method::Reanalysis => [PARENT_MODES * tets as f64, own],
-            _ => [PARENT_MODES * tets as f64, 0.0],
+            Method::Reanalysis => {
+                let elements = self.elements_for(tets) as f64;
+                [parents, parents + PER_ELEMENT * elements]
+            }
+            _ => [parents, 0.0],
         }
     }
 }

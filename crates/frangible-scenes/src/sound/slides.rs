@@ -17,8 +17,9 @@ use super::cast::Cast;
 use super::nodes::Nodes;
 use crate::touching::drawn_share;
 
-/// Share of the power that friction takes which becomes vibration. The rest is heat. No figure for shards on stone was found; the power goes
-/// with this number, and 1e-3 makes a shard of 20 g that slides at 1 m/s about as loud as speech. An estimate.
+/// Share of the power that friction takes from what slides, and the resistance to rolling from what rolls, which becomes vibration. The rest is
+/// heat. No figure for shards on stone was found; the power goes with this number, and 1e-3 makes a shard of 20 g that slides at 1 m/s about as
+/// loud as speech. One number for both, an estimate.
 const FRICTION_SHARE: f64 = 1e-3;
 
 /// Length over which the heights of a surface forget each other, m: 10 to 100 µm on ground and worn surfaces. An estimate.

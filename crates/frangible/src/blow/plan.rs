@@ -16,8 +16,8 @@ use crate::near_field::Bands;
 /// `blow`), and falls with the square of the substep.
 const SUBSTEPS_PER_HERTZ_TIME: f64 = 100.0;
 
-/// The same where both bodies vibrate: each integrates the blow for itself, and their impulses are to be one number. Measured: they differ by
-/// less than 1e-5 of it, and with a hundred substeps by 7e-5.
+/// Hertz' time over the longest substep where both bodies vibrate: each integrates the blow for itself, and their impulses are to be one
+/// number. Measured: they differ by less than 1e-5 of it, and with a hundred substeps by 7e-5.
 const SUBSTEPS_OF_PAIRS: f64 = 400.0;
 
 /// Rounds over all contacts until the energy of approach is known.
