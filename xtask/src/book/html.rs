@@ -6,8 +6,8 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use super::page::{Page, beside, target as link, text};
 use super::fresh;
+use super::page::{Page, beside, target as link, text};
 use crate::command::{Result, announced, copy, root, succeeds, target};
 
 /// The mdBook that the book was made with.
