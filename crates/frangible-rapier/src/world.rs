@@ -23,7 +23,7 @@ use crate::fragments::pieces::Expected;
 use crate::fragments::siblings::Siblings;
 use crate::loads::pushes::Push;
 use crate::loads::resting::Burden;
-use crate::stepping::after::Waiting;
+use crate::stepping::after::line::Waiting;
 use crate::stepping::judge::Case;
 use crate::timings::StepTimings;
 use crate::workshop::Workshop;

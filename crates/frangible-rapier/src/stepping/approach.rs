@@ -9,8 +9,35 @@ use rapier3d::geometry::Aabb;
 use rapier3d::parry::bounding_volume::BoundingVolume;
 use rapier3d::pipeline::PhysicsWorld;
 
+use crate::world::{BreakableWorld, key};
+
+impl BreakableWorld {
+    /// Breakable bodies that may be hit hard enough to be looked at, or give way to what they carry, within so many seconds:
+    /// as long as there are none, steps may be coarse.
+    pub fn near_within(&mut self, seconds: f32) -> Vec<RigidBodyHandle> {
+        let dt = std::mem::replace(&mut self.physics.integration_parameters.dt, seconds);
+        let near = self.near();
+        self.physics.integration_parameters.dt = dt;
+        near
+    }
+
+    /// Breakable bodies that may be hit in the coming step, or break under what they carry; in the order of handles.
+    pub(super) fn near(&self) -> Vec<RigidBodyHandle> {
+        let mut near = candidates(&self.physics, self.breakables(), self.config.impact_speed);
+        if self.weighs_now() {
+            let overloaded = self.overloaded().filter(|&h| self.breakable(h).is_some());
+            let new: Vec<RigidBodyHandle> = overloaded.filter(|h| !near.contains(h)).collect();
+            if !new.is_empty() {
+                near.extend(new);
+                near.sort_by_key(|&h| key(h));
+            }
+        }
+        near
+    }
+}
+
 /// Handles of breakables (in the given order) that may be hit at `speed` m/s or more in the next step.
-pub(crate) fn candidates(
+fn candidates(
     physics: &PhysicsWorld,
     breakables: impl Iterator<Item = RigidBodyHandle>,
     speed: f32,

@@ -1,4 +1,4 @@
-//! Impacts put to the fracture, several at once.
+//! Impacts and loads put to the fracture, several at once.
 //!
 //! Each body is a question of its own, so they are shared out among threads; the answers come back in the order of the
 //! questions, and no answer hangs on another: any number of threads gives the same bits.
@@ -8,68 +8,37 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 
-use frangible::internals::outcome::LookedAt;
-use frangible::{Body, Fracture, Outcome};
+use frangible::Body;
 use rapier3d::dynamics::RigidBodyHandle;
-use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
+use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
+use crate::calm::motions::Before;
 use crate::config::WorldConfig;
-use crate::contact::contacts::Impact;
-use crate::counts::held;
+use crate::contact::contacts::{Impact, Surfaces, impact_on};
 use crate::error::WorldError;
-use crate::fragments::replace::Parts;
+use crate::event::BreakCause;
+use crate::stepping::answer::{Answer, Verdict};
 use crate::world::{BreakFn, BreakableWorld, Key, key};
 
-/// What an impact does to a body.
-#[expect(clippy::large_enum_variant, reason = "one per impact, soon gone")]
-pub(crate) enum Verdict {
-    /// It stays whole.
-    Held(Outcome),
-    /// Its pieces, and their shapes and masses.
-    Broke(Arc<Fracture>, Parts),
-}
-
-impl Verdict {
-    /// How closely the load was looked at; none where the body broke.
-    pub(crate) fn held(&self) -> Option<LookedAt> {
-        match self {
-            Self::Held(outcome) => held(outcome),
-            Self::Broke(..) => None,
-        }
-    }
-}
-
 /// What it takes to judge, apart from the world.
-#[derive(Clone)]
-pub(crate) struct Judge {
-    pub(crate) function: Arc<BreakFn>,
-    pub(crate) config: Arc<WorldConfig>,
+struct Judge {
+    function: Arc<BreakFn>,
+    config: WorldConfig,
 }
 
 impl Judge {
     fn judge(&self, body: &Body, impact: &Impact) -> Result<Verdict, WorldError> {
         let outcome = (self.function)(body, &impact.contacts, &self.config.fracture)?;
-        verdict(outcome, &self.config)
-    }
-}
-
-/// An outcome, with shapes for its pieces.
-pub(crate) fn verdict(outcome: Outcome, config: &WorldConfig) -> Result<Verdict, WorldError> {
-    match outcome {
-        Outcome::Broke(fracture) if fracture.fragments.len() > 1 => {
-            let parts = Parts::new(&fracture, config)?;
-            Ok(Verdict::Broke(Arc::new(*fracture), parts))
-        }
-        outcome => Ok(Verdict::Held(outcome)),
+        Verdict::new(outcome, &self.config)
     }
 }
 
 /// A blow that is being judged elsewhere.
 pub(crate) struct Case {
-    pub(crate) body: RigidBodyHandle,
-    pub(crate) impact: Impact,
+    pub(super) body: RigidBodyHandle,
+    impact: Impact,
     /// When the world asks for the verdict: number of the step.
-    pub(crate) due: u64,
+    pub(super) due: u64,
     work: Arc<Work>,
     verdict: Mutex<Receiver<Result<Verdict, WorldError>>>,
 }
@@ -94,38 +63,75 @@ impl Work {
 
 impl Case {
     /// Does the work on this thread, if no other has begun with it.
-    pub(crate) fn help(&self) {
+    pub(super) fn help(&self) {
         self.work.do_unless_taken();
     }
 
     /// Waits for the verdict.
-    pub(crate) fn verdict(&self) -> Result<Verdict, WorldError> {
-        let verdict = self.verdict.lock().unwrap_or_else(PoisonError::into_inner);
-        verdict.recv().unwrap_or(Err(WorldError::JudgeFailed))
+    pub(super) fn answer(self) -> Answer {
+        // The work holds a sender: with it here, a judge that failed would be waited for without end.
+        drop(self.work);
+        let verdict = self.verdict.into_inner();
+        let verdict = verdict.unwrap_or_else(PoisonError::into_inner);
+        Answer {
+            body: self.body,
+            cause: BreakCause::Impact,
+            impact: self.impact,
+            verdict: verdict.recv().unwrap_or(Err(WorldError::JudgeFailed)),
+        }
     }
 }
 
 impl BreakableWorld {
-    /// One answer per question, in their order. A body that is not breakable is an error.
-    pub(crate) fn judge(
-        &self,
-        questions: &[(RigidBodyHandle, Impact)],
-    ) -> Vec<Result<Verdict, WorldError>> {
+    /// The impact on a body in the step just taken; `before` holds the bodies as they were before it.
+    pub(super) fn impact_on(&self, handle: RigidBodyHandle, before: &impl Before) -> Impact {
+        let surfaces = Surfaces {
+            bodies: &self.state.surfaces,
+            colliders: &self.state.collider_surfaces,
+            breakables: &self.state.breakables,
+        };
+        impact_on(handle, &self.physics, before, &surfaces, &self.config)
+    }
+
+    /// What impacts do to bodies: one answer per question, in their order. A body that is not breakable is an error.
+    pub(super) fn judge(&self, questions: Vec<(RigidBodyHandle, Impact)>) -> Vec<Answer> {
         if questions.is_empty() {
             return Vec::new();
         }
         let (judge, breakables) = (self.judge_of_now(), &self.state.breakables);
-        let answer = |(handle, impact): &(RigidBodyHandle, Impact)| {
-            judge.judge(breakable(breakables, *handle)?, impact)
+        let answer = |(body, impact): (RigidBodyHandle, Impact)| Answer {
+            body,
+            cause: BreakCause::Impact,
+            verdict: breakable(breakables, body).and_then(|b| judge.judge(b, &impact)),
+            impact,
         };
         if questions.len() < 2 || rayon::current_num_threads() < 2 {
-            return questions.iter().map(answer).collect();
+            return questions.into_iter().map(answer).collect();
         }
-        questions.par_iter().map(answer).collect()
+        questions.into_par_iter().map(answer).collect()
+    }
+
+    /// What an overloaded body's load of the step just taken does to it; none where the body is not overloaded.
+    pub(super) fn judge_load(
+        &self,
+        handle: RigidBodyHandle,
+        before: &impl Before,
+    ) -> Option<Answer> {
+        let body = self.state.breakables.get(&key(handle))?;
+        let (impact, verdict) = match self.breaking_load(handle, body, before)? {
+            Ok((load, outcome)) => (load, Verdict::new(outcome, &self.config)),
+            Err(error) => (Impact::default(), Err(error)),
+        };
+        Some(Answer {
+            body: handle,
+            cause: BreakCause::Rest,
+            impact,
+            verdict,
+        })
     }
 
     /// Has a blow judged while the world goes on, until the step `due`.
-    pub(crate) fn judge_elsewhere(
+    pub(super) fn judge_elsewhere(
         &mut self,
         body: RigidBodyHandle,
         impact: Impact,
@@ -153,12 +159,13 @@ impl BreakableWorld {
     fn judge_of_now(&self) -> Judge {
         Judge {
             function: Arc::clone(&self.break_function),
-            config: Arc::new(self.config.clone()),
+            config: self.config.clone(),
         }
     }
 }
 
-pub(crate) fn breakable(
+/// The body behind a handle, which must be breakable.
+pub(super) fn breakable(
     breakables: &BTreeMap<Key, Body>,
     handle: RigidBodyHandle,
 ) -> Result<&Body, WorldError> {

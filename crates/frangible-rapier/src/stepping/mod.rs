@@ -1,7 +1,22 @@
-//! Steps in which bodies break: inside the step, or after it within a budget; and questions about blows that have not happened.
+//! Steps in which bodies break.
+//!
+//! An engine decides in a step how two bodies part, and takes both for unbreakable. Whether one of them broke is known only after it, from
+//! the impulses it found. There are two ways out. A break *inside* the step undoes it and takes it again with fragments in the body's
+//! place, which is right in every detail and costs a copy of the world. A break *after* the step leaves it as it is and exchanges the body
+//! then, which needs no copy and can wait for its turn.
+//!
+//! - `step.rs`: the front door, and what is done around either way;
+//! - `inside`, `after`: the two ways;
+//! - `advance.rs`: the step of Rapier that both take;
+//! - `approach.rs`: which bodies may be hit in the coming step;
+//! - `judge.rs`: blows and loads put to the fracture, `answer.rs`: what it says, and what follows for a body;
+//! - `ask.rs`: questions about blows that have not happened.
 
+mod advance;
 pub(crate) mod after;
-pub(crate) mod approach;
-pub(crate) mod ask;
+mod answer;
+mod approach;
+mod ask;
+mod inside;
 pub(crate) mod judge;
-pub(crate) mod step;
+mod step;

@@ -1,0 +1,97 @@
+//! The line of blows that wait to be put to the fracture.
+//!
+//! A heap of crockery that falls over is hit in a hundred places within one frame. Who was hit first comes first, and a step takes on as
+//! much work as its budget allows, but at least one body. Blows that a quick bound refuses cost nothing and pass those that wait.
+
+use std::collections::{BTreeSet, VecDeque};
+
+use frangible::Body;
+use frangible::internals::is_harmless;
+use rapier3d::dynamics::RigidBodyHandle;
+
+use crate::contact::contacts::Impact;
+use crate::world::{BreakableWorld, Key, key};
+
+/// A body that waits to be put to the fracture, and its hardest blow so far.
+#[derive(Clone, Debug)]
+pub(crate) struct Waiting {
+    pub(super) body: RigidBodyHandle,
+    pub(super) impact: Impact,
+    /// Tetrahedra to look at; none where a quick bound refuses the impact.
+    pub(super) cost: usize,
+    /// Number of the step of the blow.
+    pub(super) step: u64,
+}
+
+/// Those whose turn it is, in the order in which they waited.
+#[derive(Default)]
+pub(super) struct Turn {
+    /// Blows that cost nothing.
+    pub(super) cheap: Vec<(RigidBodyHandle, Impact)>,
+    /// Blows that the budget is for.
+    pub(super) dear: Vec<(RigidBodyHandle, Impact)>,
+    /// Bodies that were hit in the step just taken.
+    pub(super) fresh: BTreeSet<Key>,
+}
+
+impl BreakableWorld {
+    /// Bodies that were hit and wait for their turn, the first in line first: see
+    /// [`Breaking::AfterStep`](crate::Breaking::AfterStep).
+    pub fn waiting(&self) -> impl Iterator<Item = RigidBodyHandle> {
+        let judged = self.cases.iter().map(|case| case.body);
+        judged.chain(self.state.waiting.iter().map(|w| w.body))
+    }
+
+    /// New blows go to the end of the line; a harder one on a body that waits takes the place of the old one.
+    pub(super) fn queue(&mut self, blows: Vec<Waiting>) {
+        let size = |impact: &Impact| impact.contacts.iter().map(|c| c.impulse).sum::<f32>();
+        for blow in blows {
+            match self.state.waiting.iter_mut().find(|w| w.body == blow.body) {
+                Some(known) if size(&blow.impact) > size(&known.impact) => *known = blow,
+                Some(_) => {}
+                None => self.state.waiting.push_back(blow),
+            }
+        }
+    }
+
+    /// Takes those whose turn it is out of the line, and those that are gone.
+    pub(super) fn next_in_line(&mut self, budget: usize) -> Turn {
+        let mut turn = Turn::default();
+        let mut later = VecDeque::new();
+        let mut work = 0_usize;
+        for waiting in std::mem::take(&mut self.state.waiting) {
+            let handle = waiting.body;
+            if self.breakable(handle).is_none() {
+                continue;
+            }
+            if waiting.step == self.state.steps {
+                turn.fresh.insert(key(handle));
+            }
+            let busy = self.cases.iter().any(|case| case.body == handle);
+            if busy {
+                later.push_back(waiting);
+            } else if waiting.cost == 0 {
+                turn.cheap.push((handle, waiting.impact));
+            } else if work == 0 || work.saturating_add(waiting.cost) <= budget {
+                work += waiting.cost;
+                turn.dear.push((handle, waiting.impact));
+            } else {
+                // First come, first served: whoever comes after one that must wait for the budget waits too.
+                work = usize::MAX;
+                later.push_back(waiting);
+            }
+        }
+        self.state.waiting = later;
+        turn
+    }
+
+    /// What it takes to put an impact to the fracture, tetrahedra.
+    pub(super) fn work(&self, body: &Body, impact: &Impact) -> usize {
+        let config = &self.config.fracture;
+        if self.clears_quickly && is_harmless(body, &impact.contacts, config) {
+            0
+        } else {
+            body.asset().embedding.tets.len().max(1)
+        }
+    }
+}

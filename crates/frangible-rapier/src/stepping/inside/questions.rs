@@ -1,0 +1,169 @@
+//! What is asked of the fracture in a step that may yet be undone.
+//!
+//! A step is taken up to five times, and each time the bodies in it are hit anew. A blow that comes again exactly as it was is not put to
+//! the fracture again: it is known to hold. What a body carries is asked only where no new blow is, and only of bodies that were close
+//! to breaking under it for some steps (`resting.rs`).
+
+use std::collections::BTreeMap;
+
+use rapier3d::dynamics::{RigidBodyHandle, RigidBodySet};
+
+use crate::contact::contacts::Impact;
+use crate::error::WorldError;
+use crate::event::{BreakCause, HeldEvent};
+use crate::impulses::blows::Meeting;
+use crate::impulses::settle::Broken;
+use crate::stepping::answer::{Answer, Verdict};
+use crate::timings::Watch;
+use crate::world::{BreakableWorld, Key, key};
+
+/// What was asked of the fracture in this step.
+#[derive(Default)]
+pub(super) struct Asked {
+    pub(super) broken: Vec<Broken>,
+    held: BTreeMap<Key, (Impact, HeldEvent)>,
+    /// Blows of the step last taken that held.
+    pub(super) standing: Vec<Meeting>,
+    error: Option<WorldError>,
+}
+
+/// What there is to ask after a step.
+#[derive(Default)]
+struct Questions {
+    /// To be put to the fracture.
+    blows: Vec<(RigidBodyHandle, Impact)>,
+    /// What overloads do.
+    loads: Vec<Answer>,
+    /// Bodies whose blow is known to hold.
+    known: Vec<RigidBodyHandle>,
+}
+
+impl BreakableWorld {
+    /// Puts the impacts of the step just taken to the fracture; true when a body broke.
+    pub(super) fn ask(
+        &mut self,
+        near: &[RigidBodyHandle],
+        before: &RigidBodySet,
+        asked: &mut Asked,
+    ) -> bool {
+        let mut watch = Watch::start();
+        let Questions {
+            blows,
+            loads,
+            known,
+        } = self.questions(near, before, asked);
+        let mut standing = known;
+        standing.extend(blows.iter().map(|(body, _)| *body));
+        standing.sort_by_key(|&handle| key(handle));
+        self.timings.contacts += watch.lap();
+        let mut answers = self.judge(blows);
+        answers.extend(loads);
+        answers.sort_by_key(|answer| key(answer.body));
+        self.timings.fracture += watch.lap();
+        let mut news = false;
+        for answer in answers {
+            self.count(&answer);
+            news |= self.hear(answer, before, asked);
+        }
+        asked.standing.clear();
+        if !news {
+            for handle in standing {
+                if let Some((impact, event)) = asked.held.get(&key(handle)) {
+                    let meetings = self.meetings(handle, before, impact, &event.report);
+                    asked.standing.extend(meetings);
+                }
+            }
+        }
+        news
+    }
+
+    fn questions(
+        &self,
+        near: &[RigidBodyHandle],
+        before: &RigidBodySet,
+        asked: &Asked,
+    ) -> Questions {
+        let mut questions = Questions::default();
+        for &handle in near {
+            if self.breakable(handle).is_none() {
+                continue;
+            }
+            let impact = self.impact_on(handle, before);
+            if !impact.contacts.is_empty() {
+                let held = asked.held.get(&key(handle));
+                if held.is_none_or(|(held, _)| *held != impact) {
+                    questions.blows.push((handle, impact));
+                    continue;
+                }
+                questions.known.push(handle);
+            }
+            questions.loads.extend(self.judge_load(handle, before));
+        }
+        questions
+    }
+
+    /// Takes note of an answer; true when it broke the body.
+    fn hear(&mut self, answer: Answer, before: &RigidBodySet, asked: &mut Asked) -> bool {
+        let Answer {
+            body,
+            cause,
+            impact,
+            verdict,
+        } = answer;
+        let (fracture, parts) = match verdict {
+            Ok(Verdict::Broke(fracture, parts)) => (fracture, parts),
+            Ok(Verdict::Held(outcome)) => {
+                if cause == BreakCause::Impact
+                    && let Some(event) = self.held_event(body, impact.contacts.clone(), outcome)
+                {
+                    asked.held.insert(key(body), (impact, event));
+                }
+                return false;
+            }
+            Err(error) => {
+                asked.error.get_or_insert(error);
+                return false;
+            }
+        };
+        let taken = asked.broken.iter().map(|b| b.fracture.fragments.len());
+        if !self.has_room(&fracture, taken.sum(), body) {
+            return false;
+        }
+        let blow = self.meetings(body, before, &impact, &fracture.report);
+        asked.broken.push(Broken {
+            parent: body,
+            cause,
+            fracture,
+            parts,
+            impact,
+            fragments: Vec::new(),
+            released: Vec::new(),
+            blow,
+            lost: 0.0,
+        });
+        asked.held.remove(&key(body));
+        true
+    }
+
+    /// Bodies that held keep the cracks they got.
+    ///
+    /// # Errors
+    /// The first error of the step.
+    pub(super) fn keep_cracks(&mut self, mut asked: Asked) -> Result<(), WorldError> {
+        for (_, event) in asked.held.values() {
+            if let Some(state) = &event.state
+                && let Err(error) = self.crack(event.body, state)
+            {
+                asked.error.get_or_insert(error);
+            }
+        }
+        if asked.held.values().any(|(_, event)| event.state.is_some()) {
+            self.weigh_anew();
+        }
+        if self.config.record_held {
+            self.held
+                .extend(asked.held.into_values().map(|(_, event)| event));
+        }
+        asked.error.map_or(Ok(()), Err)
+    }
+}
