@@ -30,7 +30,7 @@ use thiserror::Error;
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum VerifyError {
-    /// The bake refused what a case gave it.
+    /// The bake, or the fracture code, refused what a case gave it.
     #[error("the case `{case}` could not be computed: {source}")]
     Bake {
         /// Name of the case.

@@ -109,14 +109,12 @@ pub(crate) fn solid(
         fracture: Some(size),
         ..BakeSpec::new("solid", shape, material.clone())
     };
-    Ok(body(bake(&spec, &mut |_| {})?.0))
+    body(bake(&spec, &mut |_| {})?.0)
 }
 
-/// A body of a sound asset.
-pub(crate) fn body(asset: Asset) -> Body {
-    Breakable::new(asset)
-        .expect("what was baked is sound")
-        .body(1)
+/// A body of an asset.
+pub(crate) fn body(asset: Asset) -> Result<Body, BakeError> {
+    Ok(Breakable::new(asset)?.body(1))
 }
 
 /// A steel ball on the upper face of the plate.
@@ -132,10 +130,13 @@ pub(crate) fn ball(at: [f64; 2], speed: f64, [mass, radius]: [f64; 2]) -> Contac
 }
 
 /// The blow of a single contact that pushes.
-pub(crate) fn blow(body: &Body, contact: Contact, config: &FractureConfig) -> Blow {
-    Blow::new(body, std::slice::from_ref(&contact), config)
-        .expect("a sound contact")
-        .expect("a contact that pushes")
+pub(crate) fn blow(
+    body: &Body,
+    contact: Contact,
+    config: &FractureConfig,
+) -> Result<Blow, BakeError> {
+    let blow = Blow::new(body, std::slice::from_ref(&contact), config)?;
+    Ok(blow.expect("all contacts of the cases approach, or are scripts with an impulse"))
 }
 
 /// A weak place on the lower face.

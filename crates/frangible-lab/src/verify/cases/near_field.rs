@@ -38,10 +38,10 @@ fn compute(progress: &mut dyn FnMut(f64)) -> Result<Findings, BakeError> {
         (PlateTheory::Layer, Terms::Layer, LAYER, "layer"),
     ] {
         for (modes, tolerance) in [(50, 3.0), (100, 4.0)] {
-            let body = body(following(asset.clone(), modes));
+            let body = body(following(asset.clone(), modes))?;
             let mut config = FractureConfig::default();
             (config.near_field, config.residual) = (Some(theory), false);
-            let compared = Compared::of(&body, &config, terms, [0.0; 2]);
+            let compared = Compared::of(&body, &config, terms, [0.0; 2])?;
             checks.extend(compared.checks(&format!("{name}, {modes} modes"), tolerance, source));
         }
     }
@@ -62,8 +62,8 @@ impl Compared {
         config: &FractureConfig,
         terms: Terms,
         centre: [f64; 2],
-    ) -> Self {
-        let blow = probe::blow(body, ball(centre, 20.0, BALL), config);
+    ) -> Result<Self, BakeError> {
+        let blow = probe::blow(body, ball(centre, 20.0, BALL), config)?;
         let report = &blow.reports()[0];
         let radius = report.contact_radius;
         let half = std::f64::consts::FRAC_1_SQRT_2;
@@ -89,10 +89,10 @@ impl Compared {
             });
             row.collect()
         });
-        Self {
+        Ok(Self {
             stress: stress.collect(),
             places,
-        }
+        })
     }
 
     /// Largest difference of what `of` makes of both, over the largest that the series has.

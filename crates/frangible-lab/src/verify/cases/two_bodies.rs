@@ -43,10 +43,10 @@ fn meeting(
     let body = solid(shape, &glass(), edge, modes)?;
     let config = FractureConfig::default();
     let mut contact = Contact::new(point, normal, 0.0, speed as f32, Striker::rigid());
-    contact.striker = Striker::flexible(&body, &contact, &config).expect("a sound contact");
+    contact.striker = Striker::flexible(&body, &contact, &config)?;
     contact.striker.curvature_radius = radius as f32;
     let mass = body.asset().mass.mass;
-    Ok((blow(&body, contact, &config), mass))
+    Ok((blow(&body, contact, &config)?, mass))
 }
 
 fn glass() -> Material {

@@ -25,8 +25,8 @@ pub(super) struct EdgeRow {
 }
 
 pub(super) fn compute(plate: &Asset) -> Result<Vec<EdgeRow>, BakeError> {
-    let supported = body(plate.clone());
-    let wavelength = wavelength(plate.modes.count());
+    let supported = body(plate.clone())?;
+    let wavelength = wavelength_of(plate.modes.count());
     let mut rows = Vec::new();
     for (name, at) in [
         (
@@ -37,12 +37,12 @@ pub(super) fn compute(plate: &Asset) -> Result<Vec<EdgeRow>, BakeError> {
     ] {
         let config = FractureConfig::default();
         let errors = SHARES.iter().map(|share| {
-            let compared = Compared::of(&supported, &config, Terms::Layer, at(share * wavelength));
-            compared.error(|s| s[0] + s[1])
+            let compared = Compared::of(&supported, &config, Terms::Layer, at(share * wavelength))?;
+            Ok(compared.error(|s| s[0] + s[1]))
         });
         rows.push(EdgeRow {
             name: name.into(),
-            errors: errors.collect(),
+            errors: errors.collect::<Result<_, BakeError>>()?,
         });
     }
     for (name, held) in [("free", false), ("held", true)] {
@@ -55,15 +55,11 @@ pub(super) fn compute(plate: &Asset) -> Result<Vec<EdgeRow>, BakeError> {
             });
             rows.push(EdgeRow {
                 name: format!("{name}{suffix}"),
-                errors: errors.collect(),
+                errors: errors.collect::<Result<_, BakeError>>()?,
             });
         }
     }
     Ok(rows)
-}
-
-fn wavelength(modes: usize) -> f64 {
-    wavelength_of(modes)
 }
 
 /// 2π/k_c of so many modes of the plate: k_c² = 4πN/A.
@@ -108,16 +104,16 @@ fn other(held: bool) -> Result<Asset, BakeError> {
 }
 
 /// Few modes, the others as residual vector, and the near field, beside all modes and theirs: the total stress around the contact.
-fn many(asset: &Asset, at: [f64; 2]) -> f64 {
+fn many(asset: &Asset, at: [f64; 2]) -> Result<f64, BakeError> {
     let config = FractureConfig::default();
     let bodies = [
-        following(asset.clone(), FOLLOWED),
-        following(asset.clone(), MODES),
-    ]
-    .map(body);
-    let blows = bodies
-        .each_ref()
-        .map(|body| probe::blow(body, ball(at, 20.0, BALL), &config));
+        body(following(asset.clone(), FOLLOWED))?,
+        body(following(asset.clone(), MODES))?,
+    ];
+    let blows = [
+        probe::blow(&bodies[0], ball(at, 20.0, BALL), &config)?,
+        probe::blow(&bodies[1], ball(at, 20.0, BALL), &config)?,
+    ];
     let inwards = [-1.0, 0.0];
     let distances = [1e-3, 1.5e-3, 2e-3, 3e-3, 4e-3, 6e-3, 8e-3, 12e-3];
     let around = places(&bodies[0], at, inwards, &distances);
@@ -138,5 +134,5 @@ fn many(asset: &Asset, at: [f64; 2]) -> f64 {
             off = off.max((few - all).abs());
         }
     }
-    off / most
+    Ok(off / most)
 }

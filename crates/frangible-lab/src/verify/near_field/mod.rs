@@ -55,7 +55,7 @@ impl NearField {
     /// Computes it all: half a minute. `hear` hears the share done, 0..=1.
     ///
     /// # Errors
-    /// What the bake refused.
+    /// What the bake, or the fracture code, refused.
     pub fn compute(hear: &mut dyn FnMut(f64)) -> Result<Self, VerifyError> {
         Self::computed(hear).map_err(|source| VerifyError::Bake {
             case: "near-field",
@@ -66,14 +66,15 @@ impl NearField {
     fn computed(hear: &mut dyn FnMut(f64)) -> Result<Self, BakeError> {
         let plate = probe::plate()?;
         hear(0.15);
-        let (radius, stress) = stress(&plate);
+        let (radius, stress) = stress(&plate)?;
         let wide = probe::wide_plate()?;
         hear(0.3);
-        let (force, peak) = force_on_plate(&wide, &thin(), &TIMES);
-        let law = [0.1, 0.25, 0.5, 1.0, 2.0].map(|inelasticity| {
-            let [found, exact] = restitution_at(&wide, inelasticity, &thin());
-            [inelasticity, found, exact]
-        });
+        let (force, peak) = force_on_plate(&wide, &thin(), &TIMES)?;
+        let mut restitution = Vec::new();
+        for inelasticity in [0.1, 0.25, 0.5, 1.0, 2.0] {
+            let [found, exact] = restitution_at(&wide, inelasticity, &thin())?;
+            restitution.push([inelasticity, found, exact]);
+        }
         hear(0.4);
         let edges = edges::compute(&plate)?;
         hear(0.7);
@@ -84,7 +85,7 @@ impl NearField {
             stress,
             force,
             peak,
-            restitution: law.to_vec(),
+            restitution,
             edges,
             residual,
         })
@@ -92,7 +93,7 @@ impl NearField {
 }
 
 /// Hoop stress of the plate of the tables in the middle of a half-sine: of the series, of modes and of modes with their near field.
-fn stress(plate: &frangible::Asset) -> (f64, Vec<StressRow>) {
+fn stress(plate: &frangible::Asset) -> Result<(f64, Vec<StressRow>), BakeError> {
     let impulse = 2.0 / std::f64::consts::PI * FORCE * DURATION;
     let top = Vec3::new(0.0, 0.0, 0.5 * PLATE.thickness as f32);
     let contact = Contact::script(top, impulse as f32 * Vec3::NEG_Z, DURATION as f32);
@@ -104,12 +105,12 @@ fn stress(plate: &frangible::Asset) -> (f64, Vec<StressRow>) {
         (Some(PlateTheory::Kirchhoff), "modes and near field"),
     ] {
         for modes in [50, 100] {
-            let body = body(following(plate.clone(), modes));
+            let body = body(following(plate.clone(), modes))?;
             let mut config = FractureConfig::default();
             (config.near_field, config.residual) = (near, false);
             // Fine enough that a step falls on the middle.
             config.samples_per_period = 64.0;
-            let blow = probe::blow(&body, contact.clone(), &config);
+            let blow = probe::blow(&body, contact.clone(), &config)?;
             let report = &blow.reports()[0];
             let step = (0.5 * DURATION / blow.time_step()).round() as usize - 1;
             let along = places(&body, [0.0; 2], [1.0, 0.0], &fine);
@@ -149,5 +150,5 @@ fn stress(plate: &frangible::Asset) -> (f64, Vec<StressRow>) {
             });
         }
     }
-    (radius, rows)
+    Ok((radius, rows))
 }
