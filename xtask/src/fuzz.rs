@@ -14,8 +14,9 @@ pub(crate) const USUAL_SECONDS: u64 = 30;
 const VERSION: &str = "0.13.2";
 /// What a target may take beyond its time before it counts as stuck: starting, reading the corpus, one slow input.
 const SLACK: Duration = Duration::from_secs(60);
-/// Longest input, bytes: several times the largest seed. More memory, MiB, or seconds for one input are findings.
-const BOUNDS: [&str; 3] = ["-max_len=32768", "-rss_limit_mb=2048", "-timeout=10"];
+/// Longest input, bytes: several times the largest seed. More memory, MiB, or seconds for one input are findings; breaks of hundreds of pieces
+/// take seconds on a busy machine.
+const BOUNDS: [&str; 3] = ["-max_len=32768", "-rss_limit_mb=2048", "-timeout=30"];
 
 /// Where things are. Nothing is written into the checkout.
 struct Folders {
