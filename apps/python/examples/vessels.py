@@ -23,6 +23,8 @@ KINDS = {
 }
 # Of walls and bottoms, m.
 THICKNESS = (0.006, 0.009)
+# How far a rim leans in or out at most, as radius by height: beyond, its edge is a blade, and needs far too many tetrahedra.
+RIM = 0.6
 
 
 def vessel(kind: str, rng: np.random.Generator) -> tuple[np.ndarray, np.ndarray]:
@@ -37,6 +39,8 @@ def vessel(kind: str, rng: np.random.Generator) -> tuple[np.ndarray, np.ndarray]
     for _ in range(6):
         outside[1:-1] = (outside[:-2] + 2 * outside[1:-1] + outside[2:]) / 4
     slope = np.gradient(outside, up)
+    if abs(slope[-1]) > RIM:
+        return vessel(kind, rng)
     level = np.linspace(wall, height, ALONG)
     inside = np.interp(level, up, outside) - wall * np.sqrt(1 + np.interp(level, up, slope) ** 2)
     inside = np.maximum(inside, 0.15 * drawn.min())

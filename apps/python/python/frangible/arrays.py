@@ -12,20 +12,29 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int32]
 
 
+def shown(value: object) -> str:
+    """What was given, in one line and not at length."""
+    text = " ".join(repr(value).split())
+    return text if len(text) <= 80 else f"{text[:77]}..."
+
+
 def vector(value: ArrayLike, name: str, count: int = 3) -> Floats:
     """Three finite numbers, or as many as asked for."""
     try:
         array = np.asarray(value, dtype=np.float64)
-    except (TypeError, ValueError) as error:
-        raise ValueError(f"{name} is {value!r}; give {count} finite numbers") from error
+    except (TypeError, ValueError, OverflowError) as error:
+        raise ValueError(f"{name} is {shown(value)}; give {count} finite numbers") from error
     if array.shape != (count,) or not np.isfinite(array).all():
-        raise ValueError(f"{name} is {value!r}; give {count} finite numbers")
+        raise ValueError(f"{name} is {shown(value)}; give {count} finite numbers")
     return array
 
 
 def number(value: float, name: str, least: float = 0.0, *, above: bool = False, infinite: bool = False) -> float:
     """A number within bounds."""
-    given = float(value)
+    try:
+        given = float(value)
+    except OverflowError as error:
+        raise ValueError(f"{name} is {shown(value)}; give a number that fits into 64 bits") from error
     fits = given > least if above else given >= least
     if math.isnan(given) or not fits or (math.isinf(given) and not infinite):
         raise ValueError(f"{name} is {value!r}; give a number {'above' if above else 'from'} {least:g}")
@@ -37,13 +46,16 @@ def rotation(value: ArrayLike, name: str) -> Floats:
     array = vector(value, name, 4)
     length = float(np.linalg.norm(array))
     if abs(length - 1.0) > 1e-3:
-        raise ValueError(f"{name} is {value!r}; give a quaternion x, y, z, w of length 1")
+        raise ValueError(f"{name} is {shown(value)}; give a quaternion x, y, z, w of length 1")
     return array / length
 
 
 def mesh(vertices: ArrayLike, faces: ArrayLike) -> tuple[Floats, NDArray[np.uint32]]:
     """Vertices (n, 3) and triangles (m, 3) that name them."""
-    places = np.ascontiguousarray(vertices, dtype=np.float64)
+    try:
+        places = np.ascontiguousarray(vertices, dtype=np.float64)
+    except OverflowError as error:
+        raise ValueError("a vertex has a number that is too large; every coordinate must be a finite number") from error
     if places.ndim != 2 or places.shape[1] != 3 or len(places) == 0:
         raise ValueError(f"the vertices have the shape {places.shape}; give (n, 3)")
     if not np.isfinite(places).all():

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ._frangible import striker as material_of
-from .arrays import Floats, number, vector
+from .arrays import Floats, number, shown, vector
 
 
 @dataclass(frozen=True)
@@ -91,5 +91,5 @@ def rows_of(contacts: Contact | Iterable[Contact]) -> Floats:
         raise ValueError("there is no contact; give at least one")
     for contact in given:
         if not isinstance(contact, Contact):
-            raise ValueError(f"{contact!r} is no frangible.Contact")
+            raise ValueError(f"{shown(contact)} is no frangible.Contact")
     return np.array([c._row(f"contacts[{i}]") for i, c in enumerate(given)], dtype=np.float64).ravel()
