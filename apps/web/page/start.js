@@ -47,7 +47,9 @@ async function share(script) {
   setTimeout(() => (link.textContent = "Copy link"), 2000);
 }
 
+/** Says what went wrong first: what follows from it says less. */
 function failed(why) {
+  if (cover.classList.contains("failed")) return;
   cover.hidden = false;
   cover.style.display = "";
   cover.classList.add("failed");
@@ -153,24 +155,45 @@ async function start() {
   }
   document.documentElement.dataset.renderer = drawn.kind;
   text.textContent = "starting";
+  const module = await WebAssembly.compile(wasm);
+  const byClock = wishes.get("clock") !== "stands";
+  const save = ({ name, content }) => {
+    if (name === LINK) return share(new TextDecoder().decode(content));
+    const link = document.createElement("a");
+    link.href = URL.createObjectURL(new Blob([content]));
+    link.download = name;
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
+  };
+
+  const session = new Worker("session.js", { type: "module" });
+  const told = [];
+  const answers = {
+    news: (bytes) => told.push(bytes),
+    hear: ({ samples, rate }) => hear(samples, rate),
+    save,
+    failed,
+    bodies: ({ scene, number }) =>
+      bodies(scene, (share) => session.postMessage({ share: { number, share } })).then(
+        (arrays) => session.postMessage({ fetched: { number, bodies: arrays } }),
+        ({ message }) => session.postMessage({ fetched: { number, problem: message } }),
+      ),
+  };
+  session.addEventListener("message", ({ data }) => Object.entries(data).forEach(([what, value]) => answers[what](value)));
+  session.addEventListener("error", ({ message }) => failed(`The session has ended: ${message ?? "it could not be started"}. Reload the page.`));
+  session.postMessage({ start: { module, scenes, byClock } });
   window.frangible = {
     scenes: Object.keys(scenes),
     first,
     smooth: !drawn.software,
-    byClock: wishes.get("clock") !== "stands",
+    byClock,
     canvas: "stage",
-    scene: (name) => scenes[name]?.text,
-    bodies,
     failed,
-    hear,
     times,
-    save(name, content) {
-      if (name === LINK) return share(new TextDecoder().decode(content));
-      const link = document.createElement("a");
-      link.href = URL.createObjectURL(new Blob([content]));
-      link.download = name;
-      link.click();
-      setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
+    give: (line) => session.postMessage({ line }),
+    news() {
+      if (told.length) session.postMessage({ seen: true });
+      return told.splice(0);
     },
     drawn() {
       if (times.picture) return;
@@ -184,7 +207,7 @@ async function start() {
       if (commands.length) follow(commands).catch(({ message }) => failed(message)).finally(() => (times.followed = performance.now()));
     },
   };
-  await init({ module_or_path: wasm });
+  await init({ module_or_path: module });
   times.started = performance.now();
 }
 

@@ -3,13 +3,26 @@
 //! | | |
 //! |---|---|
 //! | `scenes` | names of the scenes there are |
+//! | `byClock` | whether scenes run by the clock |
+//! | `failed(text)` | the program cannot go on |
+//!
+//! on the page besides
+//!
+//! | | |
+//! |---|---|
+//! | `first`, `smooth`, `canvas` | how to begin, see [`PageOptions`](frangible_view::PageOptions) |
+//! | `give(line)` | gives the session a command |
+//! | `news()` | an array of bytes, each what the session told since this was asked last |
+//! | `drawn(frames)` | a frame is there |
+//!
+//! and in the worker that the session runs in
+//!
+//! | | |
+//! |---|---|
 //! | `scene(name)` | a scene, TOML |
-//! | `first`, `smooth`, `byClock`, `canvas` | how to begin, see [`PageOptions`](frangible_view::PageOptions) |
 //! | `bodies(scene, tell)` | promise of an array of bytes, one baked body each; `tell(share)` meanwhile |
 //! | `save(name, bytes)` | offers a file for download |
-//! | `drawn(frames)` | a frame is there |
 //! | `hear(samples, rate)` | plays what is heard next: left and right in turn, −1 to 1 |
-//! | `failed(text)` | the program cannot go on |
 
 use js_sys::{Array, Function, Object, Promise, Reflect, Uint8Array};
 use wasm_bindgen::{JsCast, JsValue};
@@ -23,6 +36,20 @@ impl Bridge {
     pub(crate) fn find() -> Option<Self> {
         let object = Reflect::get(&js_sys::global(), &"frangible".into()).ok()?;
         object.dyn_into().ok().map(Self)
+    }
+
+    /// Whether this is a worker of a page and not the page itself.
+    pub(crate) fn is_in_worker(&self) -> bool {
+        !Reflect::has(&js_sys::global(), &"document".into()).unwrap_or(false)
+    }
+
+    /// A panic ends the program: the page says so instead of standing still.
+    pub(crate) fn report_panics(&self) {
+        std::panic::set_hook(Box::new(|panic| {
+            if let Some(bridge) = Self::find() {
+                let _ = bridge.call("failed", &[panic.to_string().into()]);
+            }
+        }));
     }
 
     pub(crate) fn get(&self, name: &str) -> JsValue {

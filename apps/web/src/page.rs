@@ -6,16 +6,14 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 use frangible_draw::open_canvas;
-use frangible_view::{Command, Page, PageOptions, Shown, ViewError, run_in_page};
-use js_sys::{Float32Array, Function, Promise, Reflect};
+use frangible_view::{Command, Page, PageOptions, Remote, Shown, ViewError, run_in_page};
+use js_sys::{Array, Function, Promise, Reflect, Uint8Array};
 use serde::Serialize;
 use wasm_bindgen::closure::Closure;
 use wasm_bindgen::{JsCast, JsValue};
 use wasm_bindgen_futures::{JsFuture, spawn_local};
 
 use crate::bridge::Bridge;
-use crate::console;
-use crate::host::Folder;
 
 /// What the page and the window share.
 #[derive(Default)]
@@ -31,15 +29,24 @@ struct Around {
     shared: Rc<RefCell<Shared>>,
 }
 
+/// The session, in a worker of the browser.
+struct Elsewhere(Bridge);
+
+impl Remote for Elsewhere {
+    fn give(&mut self, line: String) {
+        // The page says so where its worker has failed.
+        let _ = self.0.call("give", &[line.into()]);
+    }
+
+    fn news(&mut self) -> Vec<Vec<u8>> {
+        let told = self.0.call("news", &[]).unwrap_or_default();
+        let bytes = Array::from(&told).to_vec().into_iter();
+        bytes.map(|b| Uint8Array::new(&b).to_vec()).collect()
+    }
+}
+
 /// Opens the window in the page, and gives the page `frangible_command(text)` and `frangible_state()`.
-pub(crate) fn start() {
-    let Some(bridge) = Bridge::find() else {
-        return;
-    };
-    report_panics();
-    console::start();
-    // Every browser that runs the program has vectors: their instructions are in it, used or not.
-    pulp_wasm_simd_flag::enable_simd128();
+pub(crate) fn start(bridge: Bridge) {
     let shared = Rc::new(RefCell::new(Shared::default()));
     offer(&shared);
     let scenes = bridge.scenes();
@@ -48,7 +55,7 @@ pub(crate) fn start() {
         first: Command::Scene(first.unwrap_or_default()),
         scenes,
         by_clock: bridge.get("byClock").is_truthy(),
-        host: Box::new(Folder(bridge.clone())),
+        session: Box::new(Elsewhere(bridge.clone())),
         page: Box::new(Around {
             bridge: bridge.clone(),
             shared,
@@ -65,15 +72,6 @@ async fn live(bridge: &Bridge, options: PageOptions) -> Result<(), ViewError> {
     let canvas = bridge.text("canvas").unwrap_or_else(|| "canvas".into());
     let mut window = open_canvas(&canvas, bridge.get("smooth").is_truthy()).await?;
     run_in_page(&mut window, options).await
-}
-
-/// A panic ends the program: the page says so instead of standing still.
-fn report_panics() {
-    std::panic::set_hook(Box::new(|panic| {
-        if let Some(bridge) = Bridge::find() {
-            let _ = bridge.call("failed", &[panic.to_string().into()]);
-        }
-    }));
 }
 
 /// The two functions of the page.
@@ -126,7 +124,7 @@ struct State<'a> {
     fracture_seconds: f64,
     step_seconds: f64,
     /// Masses of the pieces of the last break, kg.
-    masses: Vec<f64>,
+    masses: &'a [f64],
     /// Where the last contact that mattered was, m.
     hit: Option<[f32; 3]>,
     message: Option<&'a str>,
@@ -137,8 +135,7 @@ impl<'a> State<'a> {
     fn of(shared: &'a Shared) -> Self {
         let shown = &shared.shown;
         let step = &shown.break_step;
-        let fracture = shown.blow.as_ref().and_then(|blow| blow.fracture.as_ref());
-        let fragments = fracture.iter().flat_map(|fracture| &fracture.fragments);
+        let blow = shown.blow.as_ref();
         Self {
             scene: &shown.scene,
             commands: shown.commands,
@@ -153,11 +150,8 @@ impl<'a> State<'a> {
             triangles: shown.picture.triangles(),
             fracture_seconds: step.fracture,
             step_seconds: step.ours() + step.rigid,
-            masses: fragments.map(|fragment| fragment.mass.mass).collect(),
-            hit: shown.blow.as_ref().and_then(|blow| {
-                let point = blow.contacts.first()?.point;
-                Some((blow.pose.rotation * point + blow.pose.translation).to_array())
-            }),
+            masses: blow.map_or(&[], |blow| &blow.masses),
+            hit: blow.and_then(|blow| blow.point).map(|p| p.to_array()),
             message: shown.message.as_ref().map(|(text, _)| text.as_str()),
             complaint: shown
                 .message
@@ -183,12 +177,6 @@ impl Page for Around {
             // A page that does not care how many there are has no such function.
             let _ = self.bridge.call("drawn", &[(frames as f64).into()]);
         }
-    }
-
-    fn hear(&self, samples: &[f32], rate: f64) {
-        let samples = Float32Array::from(samples);
-        // A page that plays nothing has no such function.
-        let _ = self.bridge.call("hear", &[samples.into(), rate.into()]);
     }
 
     fn next_frame(&self) -> Pin<Box<dyn Future<Output = ()>>> {

@@ -12,18 +12,10 @@ use frangible::internals::{CrackTrace, ShownStress, impact_traced};
 use frangible::{Asset, Body, Contact, FractureConfig, InputError};
 
 use crate::blow::Blow;
+use crate::numbers::{Course, Series};
 
 /// Modes that are plotted: those that strain the body most.
 const PLOTTED_MODES: usize = 6;
-
-/// A number over time.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Series {
-    /// What it is.
-    pub name: String,
-    /// Time, s, and value.
-    pub points: Vec<[f64; 2]>,
-}
 
 /// A crack.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -43,22 +35,12 @@ pub struct CrackShape {
 pub struct Analysis {
     /// The body that was hit.
     pub asset: Arc<Asset>,
-    /// The contact's force, N.
-    pub force: Series,
-    /// The modes that strain the body most: amplitude × the largest stress of a unit of it, Pa.
-    pub modes: Vec<Series>,
-    /// Largest principal tension anywhere in the body, Pa.
-    pub tension: Series,
-    /// R_c of the weakest weak point, Pa.
-    pub strength: f64,
-    /// Largest of [`Analysis::tension`], Pa.
-    pub peak_tension: f64,
+    /// Its numbers over time.
+    pub course: Arc<Course>,
     /// Cracks in the order in which they started.
     pub cracks: Vec<CrackShape>,
     /// Middles of the weak tetrahedra, m, body frame.
     pub weak_points: Vec<Vec3>,
-    /// Length of the motion, s.
-    pub duration: f64,
     /// Length of the contact, s.
     pub contact: f64,
     motion: Motion,
@@ -86,14 +68,9 @@ impl Analysis {
         let (outcome, trace) = impact_traced(body, contacts, config)?;
         let report = outcome.report();
         let mut analysis = Self {
-            force: Series::default(),
-            modes: Vec::new(),
-            tension: Series::default(),
-            strength: body.weakest(),
-            peak_tension: 0.0,
+            course: Arc::default(),
             cracks: cracks(&asset.fracture, &trace),
             weak_points: middles(&asset.fracture, body.weak_tets()),
-            duration: trace.motion.begin(trace.motion.steps(), report.time_step),
             contact: report.contact_duration,
             motion: trace.motion,
             time_step: report.time_step,
@@ -102,18 +79,38 @@ impl Analysis {
             pressed: trace.pressed,
             asset,
         };
-        if analysis.motion.steps() > 0 {
-            analysis.force = if report.contacts.is_empty() {
-                let impulse: f32 = contacts.iter().map(|contact| contact.impulse).sum();
-                let peak = 0.5 * PI * f64::from(impulse) / analysis.contact;
-                half_sine(peak, analysis.contact)
-            } else {
-                force(&report.contacts, analysis.time_step)
-            };
-            analysis.modes = analysis.plotted_modes();
-            analysis.find_tensions();
-        }
+        let impulse = contacts.iter().map(|contact| contact.impulse).sum();
+        analysis.course = Arc::new(analysis.over_time(impulse, &report.contacts));
         Ok(analysis)
+    }
+
+    /// The numbers over time of contacts that were integrated, or of a half-sine of this impulse, N·s; without a motion there are none.
+    fn over_time(&self, impulse: f32, contacts: &[ContactReport]) -> Course {
+        let basis = &self.asset.modes;
+        let damping = |mode| basis.damping(mode, &self.asset.material);
+        let modes = 0..basis.count();
+        let rest = Course {
+            strength: self.body.weakest(),
+            cracks: self.cracks.len(),
+            duration: self.motion.begin(self.motion.steps(), self.time_step),
+            swings: modes.map(|i| [basis.frequency(i), damping(i)]).collect(),
+            ..Course::default()
+        };
+        if self.motion.steps() == 0 {
+            return rest;
+        }
+        let tension = self.tensions();
+        Course {
+            force: if contacts.is_empty() {
+                half_sine(0.5 * PI * f64::from(impulse) / self.contact, self.contact)
+            } else {
+                force(contacts, self.time_step)
+            },
+            modes: self.plotted_modes(),
+            peak_tension: tension.points.iter().map(|p| p[1]).fold(0.0, f64::max),
+            tension,
+            ..rest
+        }
     }
 
     /// Amplitudes of all modes at this share of the motion's time, m·√kg; all at rest without a motion.
@@ -122,18 +119,14 @@ impl Analysis {
         self.step(share).map_or(&[], |step| self.motion.at(step))
     }
 
-    /// Time of a share of the motion, s.
-    #[must_use]
-    pub fn time(&self, share: f64) -> f64 {
-        share.clamp(0.0, 1.0) * self.duration
-    }
-
     /// The share of the motion's time at which the tension is largest.
     #[must_use]
     pub fn worst_moment(&self) -> f64 {
-        let points = &self.tension.points;
+        let points = &self.course.tension.points;
         let worst = points.iter().max_by(|a, b| a[1].total_cmp(&b[1]));
-        worst.map_or(0.0, |point| point[0] / self.duration.max(f64::MIN_POSITIVE))
+        worst.map_or(0.0, |point| {
+            point[0] / self.course.duration.max(f64::MIN_POSITIVE)
+        })
     }
 
     fn plotted_modes(&self) -> Vec<Series> {
@@ -158,7 +151,8 @@ impl Analysis {
         series.collect()
     }
 
-    fn find_tensions(&mut self) {
+    /// Largest tension anywhere in the body, Pa.
+    fn tensions(&self) -> Series {
         let largest = self.stress().largest_tensions();
         let mut points = vec![[0.0, 0.0]];
         let times = (0..).map(|k| self.end_of(k));
@@ -167,11 +161,10 @@ impl Analysis {
                 .zip(largest.into_iter().map(f64::from))
                 .map(<[f64; 2]>::from),
         );
-        self.peak_tension = points.iter().map(|p| p[1]).fold(0.0, f64::max);
-        self.tension = Series {
+        Series {
             name: "largest tension".into(),
             points,
-        };
+        }
     }
 
     fn stress(&self) -> ShownStress<'_> {
@@ -187,7 +180,7 @@ impl Analysis {
 
     /// The time step at this share of the motion's time; none without a motion.
     fn step(&self, share: f64) -> Option<usize> {
-        self.motion.step_at(self.time(share), self.time_step)
+        self.motion.step_at(self.course.time(share), self.time_step)
     }
 
     /// When a time step ends, s.

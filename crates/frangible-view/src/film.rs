@@ -3,10 +3,8 @@
 #[cfg(all(feature = "window", not(target_arch = "wasm32")))]
 mod shoot;
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::time::Duration;
-
-use frangible_export::{Recording, View};
 
 use crate::command::{FilmKind, FilmOptions};
 use crate::error::ViewError;
@@ -16,24 +14,20 @@ use crate::session::Session;
 /// Seconds that are kept for films.
 pub(crate) const KEPT: f64 = 20.0;
 
-/// A film to be made.
-#[cfg_attr(target_family = "wasm", allow(dead_code))]
-pub(crate) struct Take {
-    pub(crate) kind: FilmKind,
-    pub(crate) options: FilmOptions,
-    pub(crate) recording: Recording,
-    pub(crate) view: View,
-    pub(crate) path: PathBuf,
-}
-
 #[cfg(all(feature = "window", not(target_arch = "wasm32")))]
 use shoot::shoot;
 
 #[cfg(not(all(feature = "window", not(target_arch = "wasm32"))))]
-fn shoot(take: &Take, _: &Teller) -> Result<(), ViewError> {
+fn shoot(
+    _: FilmKind,
+    _: &FilmOptions,
+    _: (&frangible_export::Recording, &frangible_export::View),
+    path: &Path,
+    _: &Teller,
+) -> Result<(), ViewError> {
     Err(ViewError::NotNow(format!(
         "`{}` cannot be drawn: this program was built without a renderer for films",
-        take.path.display()
+        path.display()
     )))
 }
 
@@ -61,28 +55,18 @@ impl Session {
                 .reel
                 .recording(live, options.seconds, options.rate, view),
         };
-        let take = Take {
-            kind,
-            options: options.clone(),
-            recording,
-            view,
-            path: path.to_path_buf(),
-        };
+        let (options, path) = (options.clone(), path.to_path_buf());
         self.film_job = Some(Job::start(move |teller: &Teller| {
-            shoot(&take, teller).map(|()| take.path.clone())
+            shoot(kind, &options, (&recording, &view), &path, teller).map(|()| path)
         }));
         Ok(())
     }
 
     pub(crate) fn poll_film(&mut self, wait: Option<Duration>) -> bool {
-        let Some(job) = &self.film_job else {
+        let given_up = self.film_job.as_ref().is_some_and(Job::is_cancelled);
+        let Some(result) = Job::collect(&mut self.film_job, wait) else {
             return false;
         };
-        let Some(result) = job.result(wait) else {
-            return false;
-        };
-        let given_up = job.is_cancelled();
-        self.film_job = None;
         match result {
             Err(_) if given_up => self.say("the film was given up".into()),
             Ok(path) => self.say(format!("wrote {}", path.display())),

@@ -157,6 +157,16 @@ where
     T: Send + 'static,
     E: Send + 'static + Into<ViewError>,
 {
+    /// Takes a job out of its place once it is done, and says what came of it; waits for a while if told to.
+    pub(crate) fn collect(
+        place: &mut Option<Self>,
+        wait: Option<Duration>,
+    ) -> Option<Result<T, ViewError>> {
+        let result = place.as_ref()?.result(wait)?;
+        *place = None;
+        Some(result)
+    }
+
     /// What came of it, once there is anything; waits for a while if told to.
     pub(crate) fn result(&self, wait: Option<Duration>) -> Option<Result<T, ViewError>> {
         match wait.map_or_else(|| self.poll(), |wait| self.wait(wait)) {

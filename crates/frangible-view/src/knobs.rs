@@ -2,7 +2,9 @@
 
 mod table;
 
+use frangible::internals::DurationModel;
 use frangible::{FractureConfig, Material};
+use frangible_scenes::{BakedBody, BodySource, Scene};
 
 pub use table::KNOBS;
 
@@ -19,6 +21,28 @@ pub struct Settings {
     pub seed: u64,
     /// c of the duration `[G12 Eq. 2]` as printed, m^(1/5) s^(2/5); kept while another model is chosen.
     pub printed_coefficient: f64,
+}
+
+impl Settings {
+    /// The scene's own; of a body that came baked they are its asset's. None of a scene without bodies.
+    pub(crate) fn of(scene: &Scene, baked: Option<&BakedBody>) -> Option<Self> {
+        let body = scene.bodies.first()?;
+        let asset = match body.source {
+            BodySource::Asset(_) => baked.map(|baked| &baked.asset),
+            _ => None,
+        };
+        Some(Self {
+            material: asset.map_or(&body.material, |a| &a.material).clone(),
+            fracture: scene.fracture.clone(),
+            modes: asset.map_or(body.modes, |a| a.modes.count()),
+            seed: scene.seed,
+            printed_coefficient: match scene.fracture.duration {
+                DurationModel::AsPrinted { c } => c,
+                // The right order for a hand-sized thing.
+                _ => 0.01,
+            },
+        })
+    }
 }
 
 /// How a knob is turned.

@@ -30,6 +30,7 @@ pub mod knobs;
 mod marks;
 mod mesher;
 mod methods;
+pub mod numbers;
 mod outlet;
 mod parse;
 mod picking;
@@ -41,6 +42,7 @@ mod shown;
 mod times;
 #[cfg(feature = "window")]
 mod window;
+mod wire;
 mod worker;
 
 pub use blow::Blow;
@@ -61,4 +63,5 @@ pub use times::Spread;
 pub use window::{Page, PageOptions, run_in_page};
 #[cfg(all(feature = "window", not(target_family = "wasm")))]
 pub use window::{WindowOptions, run};
-pub use worker::Worker;
+pub use wire::{Packer, Unpacker};
+pub use worker::{Remote, Worker};

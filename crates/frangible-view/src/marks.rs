@@ -56,7 +56,7 @@ pub(crate) fn strained(
 ) -> (Batch, f64) {
     let asset = &analysis.asset;
     let field = motion_on_fracture_mesh(asset, analysis.amplitudes(share));
-    let largest = analysis.peak_tension.max(1.0);
+    let largest = analysis.course.peak_tension.max(1.0);
     // Tensions jump from triangle to triangle: their means at the nodes show no blotches.
     let mut tensions = vec![(0.0_f32, 0.0_f32); asset.fracture.positions.len()];
     for (triangle, stress) in analysis.surface_stress(share) {

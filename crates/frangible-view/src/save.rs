@@ -27,7 +27,7 @@ impl Session {
     fn file(&mut self, target: Target) -> Result<Vec<u8>, ViewError> {
         Ok(match target {
             Target::Scene => {
-                let scene = self.scene_now().ok_or_else(no_scene)?;
+                let scene = self.wanted_scene().ok_or_else(no_scene)?;
                 scene_to_toml(&scene).into_bytes()
             }
             Target::Glb => {
@@ -73,7 +73,7 @@ fn json(numbers: &impl Serialize) -> Vec<u8> {
 }
 
 /// Writes numbers as JSON.
-#[cfg_attr(not(feature = "window"), allow(dead_code))]
+#[cfg(feature = "window")]
 pub(crate) fn write_json(path: &Path, numbers: &impl Serialize) -> Result<(), ViewError> {
     Ok(write_atomically(path, &json(numbers))?)
 }

@@ -3,14 +3,13 @@
 use std::sync::Arc;
 
 use frangible::glam::Vec3;
+use frangible_compare::Method;
 use frangible_export::View;
 use frangible_rapier::{LoadCounts, StepTimings};
 
-use crate::analysis::Analysis;
 use crate::blow::Blow;
 use crate::command::{BallSpec, HammerSpec, Mark, Subject, Tool};
-use crate::knobs::Settings;
-use crate::methods::Methods;
+use crate::numbers::{BlowNumbers, ComparedNumbers, Course, KnobValues, OutcomeNumbers};
 use crate::picture::Picture;
 use crate::times::Spread;
 
@@ -78,19 +77,21 @@ pub struct Shown {
     /// The mode that is looked at, from 1.
     pub mode: usize,
     /// The last contact that mattered.
-    pub blow: Option<Arc<Blow>>,
-    /// What it did, once that was asked for.
-    pub analysis: Option<Arc<Analysis>>,
+    pub blow: Option<BlowNumbers>,
+    /// What it did over time, once that was asked for.
+    pub course: Option<Arc<Course>>,
     /// Stress at the end of the colour bar, Pa; it begins at 0.
     pub largest_color: Option<f64>,
     /// What is selected.
     pub selection: Option<Selection>,
     /// Two outcomes of one impact.
-    pub compared: Option<Arc<Compared>>,
-    /// The last impact by several methods.
-    pub methods: Option<Arc<Methods>>,
-    /// The knobs as they are, and as the scene has them.
-    pub settings: Option<[Settings; 2]>,
+    pub compared: Option<ComparedNumbers>,
+    /// The methods that the last impact is shown by, once that was asked for.
+    pub chosen: Option<Vec<Method>>,
+    /// What those made of it, as far as they have come.
+    pub methods: Vec<OutcomeNumbers>,
+    /// Where the knobs are.
+    pub knobs: Option<KnobValues>,
     /// Whether the knobs were turned since the scene was set up.
     pub turned: bool,
     /// What became of the contacts so far.

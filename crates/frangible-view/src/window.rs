@@ -28,7 +28,6 @@ use frangible_export::View;
 use crate::camera::Orbit;
 use crate::command::{Command, Target, Tool};
 use crate::error::ViewError;
-use crate::outlet::Outlet;
 use crate::shown::Shown;
 use crate::times::thread_time;
 use crate::worker::Worker;
@@ -60,8 +59,8 @@ struct Viewer {
     hands: Hands,
     director: Director,
     shade: Shade,
-    /// What is around the window, in a browser, and what it is to play.
-    page: Option<(Box<dyn Page>, Outlet)>,
+    /// What is around the window, in a browser.
+    page: Option<Box<dyn Page>>,
     /// Plays for as long as it is kept.
     #[cfg(all(feature = "sound", not(target_family = "wasm")))]
     _speaker: Option<speaker::Speaker>,
@@ -169,7 +168,7 @@ impl Viewer {
 
     async fn rest(&self) {
         match &self.page {
-            Some((page, _)) => page.next_frame().await,
+            Some(page) => page.next_frame().await,
             None => std::thread::sleep(REST),
         }
     }

@@ -1,5 +1,6 @@
-//! A session that runs beside whoever draws: on a thread of its own, so that neither a step nor a break nor a bake makes
-//! anybody wait; or, where there are no threads, a little for each frame.
+//! A session that runs beside whoever draws, so that neither a step nor a break nor a bake makes anybody wait: on a thread of its own, or
+//! where there are no threads in another program, which tells in bytes what there is to see. That program runs its session on the only
+//! thread it has.
 
 use std::collections::VecDeque;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
@@ -14,6 +15,7 @@ use crate::host::Host;
 use crate::outlet::Outlet;
 use crate::session::Session;
 use crate::shown::Shown;
+use crate::wire::Unpacker;
 
 /// Longest time between two looks at what there is to see, while something moves.
 const FRAME: Duration = Duration::from_millis(16);
@@ -35,6 +37,7 @@ enum Place {
         thread: Option<JoinHandle<()>>,
     },
     Here(Box<Here>),
+    There(Box<There>),
 }
 
 /// A session on the thread of whoever draws.
@@ -42,6 +45,24 @@ struct Here {
     work: Work,
     commands: VecDeque<Command>,
     latest: Arc<Shown>,
+}
+
+/// A program in which a session runs, without any memory in common.
+pub trait Remote {
+    /// Gives it a command.
+    fn give(&mut self, line: String);
+
+    /// What its [`Packer`](crate::Packer) made since this was asked last, oldest first.
+    fn news(&mut self) -> Vec<Vec<u8>>;
+}
+
+/// A session in another program.
+struct There {
+    remote: Box<dyn Remote>,
+    unpacker: Unpacker,
+    latest: Arc<Shown>,
+    /// Whether it told what cannot be read.
+    broken: bool,
 }
 
 impl Worker {
@@ -68,7 +89,21 @@ impl Worker {
         }
     }
 
-    /// Starts a session on this thread, which has to call [`Worker::advance`] for each frame. A break, an analysis and a
+    /// A session that runs in another program; [`Worker::advance`] takes in what it tells.
+    #[must_use]
+    pub fn start_there(remote: Box<dyn Remote>) -> Self {
+        Self {
+            place: Place::There(Box::new(There {
+                remote,
+                unpacker: Unpacker::default(),
+                latest: Arc::default(),
+                broken: false,
+            })),
+            sent: 0,
+        }
+    }
+
+    /// Starts a session on this thread, which has to call [`Worker::advance`] again and again. A break, an analysis and a
     /// second impact make it wait.
     #[must_use]
     pub fn start_here(by_clock: bool, host: Box<dyn Host>, outlet: Option<Outlet>) -> Self {
@@ -83,10 +118,13 @@ impl Worker {
         }
     }
 
-    /// Lets a session of this thread go on for some milliseconds; one that has a thread needs no help.
+    /// Lets a session of this thread go on for some milliseconds, or takes in what one in another program tells; one that has a thread
+    /// needs no help.
     pub fn advance(&mut self) {
-        if let Place::Here(here) = &mut self.place {
-            here.advance();
+        match &mut self.place {
+            Place::Thread { .. } => {}
+            Place::Here(here) => here.advance(),
+            Place::There(there) => there.listen(),
         }
     }
 
@@ -102,6 +140,10 @@ impl Worker {
                 here.commands.push_back(command);
                 true
             }
+            Place::There(there) => {
+                there.remote.give(command.to_string());
+                !there.broken
+            }
         }
     }
 
@@ -113,6 +155,7 @@ impl Worker {
                 Arc::clone(&latest.lock().unwrap_or_else(PoisonError::into_inner))
             }
             Place::Here(here) => Arc::clone(&here.latest),
+            Place::There(there) => Arc::clone(&there.latest),
         }
     }
 
@@ -122,12 +165,13 @@ impl Worker {
         shown.commands == self.sent && !shown.busy
     }
 
-    /// Whether the session's thread ended by itself, which it does not unless something is wrong.
+    /// Whether the session ended by itself, which it does not unless something is wrong.
     #[must_use]
     pub fn is_dead(&self) -> bool {
         match &self.place {
             Place::Thread { thread, .. } => thread.as_ref().is_none_or(JoinHandle::is_finished),
             Place::Here(_) => false,
+            Place::There(there) => there.broken,
         }
     }
 }
@@ -144,6 +188,17 @@ impl Drop for Worker {
         if let Some(thread) = thread.take() {
             // It panicked: its message was printed then.
             let _ = thread.join();
+        }
+    }
+}
+
+impl There {
+    fn listen(&mut self) {
+        for bytes in self.remote.news() {
+            match self.unpacker.unpack(&bytes) {
+                Some(shown) => self.latest = Arc::new(shown),
+                None => self.broken = true,
+            }
         }
     }
 }

@@ -39,7 +39,7 @@ fn the_head_comes_on_an_arc_strikes_where_it_was_aimed_and_is_lifted_away() {
         assert!((at.distance(pivot) - 0.35).abs() < 0.01, "{at}");
     }
     let shown = session.shown();
-    let blow = shown.blow.expect("it struck");
+    let blow = session.blow().expect("it struck");
     let weighed = blow.contacts.iter().map(|c| c.impulse * c.point);
     let middle = weighed.sum::<Vec3>() / blow.impulse();
     let hit = blow.pose.rotation * middle + blow.pose.translation;

@@ -38,7 +38,7 @@ fn a_bake_and_a_break_show_on_the_way_and_are_done_at_the_end() {
     send(&mut worker, "look cracks");
     let shown = wait(&worker, |shown| worker.is_done(shown));
     assert_eq!(shown.steps, 500, "commands wait for the steps before them");
-    assert!(shown.pieces > 3 && shown.analysis.is_some());
+    assert!(shown.pieces > 3 && shown.course.is_some());
 }
 
 #[test]

@@ -3,52 +3,62 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use frangible_draw::{DrawError, FilmFormat, FilmWriter, Studio, encode_png_within};
-use frangible_export::write_atomically;
+use frangible_draw::{DrawError, FilmFormat, FilmWriter, GoOn, Studio, encode_png_within};
+use frangible_export::{Recording, View, write_atomically};
 
-use super::Take;
-use crate::command::FilmKind;
+use crate::command::{FilmKind, FilmOptions};
 use crate::error::ViewError;
 use crate::jobs::Teller;
 
-/// Makes it.
-pub(super) fn shoot(take: &Take, teller: &Teller) -> Result<(), ViewError> {
-    let [width, height] = take.options.size;
+/// Makes the film of a recording as it is seen from a view, or the still.
+pub(super) fn shoot(
+    kind: FilmKind,
+    options: &FilmOptions,
+    (recording, view): (&Recording, &View),
+    path: &Path,
+    teller: &Teller,
+) -> Result<(), ViewError> {
+    let [width, height] = options.size;
     let studio = Studio::new(width, height)?;
-    let format = match take.kind {
-        FilmKind::Still => return still(take, &studio, teller),
+    let format = match kind {
+        FilmKind::Still => {
+            let go_on = telling(teller, options.samples);
+            let picture = studio.traced(recording, 0, view, options.samples, go_on)?;
+            return write_still(path, &encode_png_within(&picture, usize::MAX)?);
+        }
         FilmKind::Gif => FilmFormat::Gif,
         FilmKind::Mp4 => FilmFormat::Mp4,
         FilmKind::Frames => FilmFormat::Frames,
     };
-    let mut film = FilmWriter::begin(&take.path, format, take.options.size, take.options.rate)?;
-    let count = take.recording.frame_count;
+    let mut film = FilmWriter::begin(path, format, options.size, options.rate)?;
+    let count = recording.frame_count;
     for frame in 0..count {
         if teller.cancel.is_cancelled() {
             return Err(DrawError::Cancelled.into());
         }
         let share = frame as f64 / count as f64;
         teller.tell(format!("film: picture {} of {count}", frame + 1), share);
-        film.add(studio.film_frame(&take.recording, frame, &take.view)?)?;
+        film.add(studio.film_frame(recording, frame, view)?)?;
     }
     Ok(film.finish()?)
 }
 
-fn still(take: &Take, studio: &Studio, teller: &Teller) -> Result<(), ViewError> {
-    let samples = take.options.samples;
-    let own = teller.clone();
-    own.tell("path-tracing".into(), 0.0);
-    let go_on = Arc::new(move |done: u32| {
+/// For a still: says how many samples there are, and asks whether it is still wanted.
+fn telling(teller: &Teller, samples: u32) -> GoOn {
+    let teller = teller.clone();
+    teller.tell("path-tracing".into(), 0.0);
+    Arc::new(move |done: u32| {
         let share = f64::from(done) / f64::from(samples);
-        own.tell(format!("path-tracing: {done} of {samples} samples"), share);
-        !own.cancel.is_cancelled()
-    });
-    let picture = studio.traced(&take.recording, 0, &take.view, samples, go_on)?;
-    if let Some(folder) = take.path.parent().filter(|f| !f.as_os_str().is_empty()) {
+        teller.tell(format!("path-tracing: {done} of {samples} samples"), share);
+        !teller.cancel.is_cancelled()
+    })
+}
+
+fn write_still(path: &Path, png: &[u8]) -> Result<(), ViewError> {
+    if let Some(folder) = path.parent().filter(|f| !f.as_os_str().is_empty()) {
         make_folder(folder)?;
     }
-    let png = encode_png_within(&picture, usize::MAX)?;
-    Ok(write_atomically(&take.path, &png)?)
+    Ok(write_atomically(path, png)?)
 }
 
 fn make_folder(folder: &Path) -> Result<(), ViewError> {

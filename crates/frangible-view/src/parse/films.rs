@@ -1,6 +1,6 @@
 //! Films among the commands: a file, and behind it what differs from the usual.
 
-use super::{file, number, one_of, whole};
+use super::words::{file, number, one_of, whole};
 use crate::command::{Command, FilmKind, FilmOptions};
 
 pub(super) const FILMS: [(&str, FilmKind); 4] = [

@@ -14,6 +14,7 @@ use crate::compare;
 use crate::error::ViewError;
 use crate::jobs::Job;
 use crate::marks;
+use crate::numbers::{BlowNumbers, ComparedNumbers, KnobValues, OutcomeNumbers};
 use crate::picking::pick;
 use crate::picture::{Batch, Picture};
 use crate::shown::{BakeShown, Focus, Selection, Shown};
@@ -51,13 +52,9 @@ impl Session {
     }
 
     pub(super) fn poll_analysis(&mut self, wait: Option<Duration>) -> bool {
-        let Some(job) = &self.analysis_job else {
+        let Some(result) = Job::collect(&mut self.analysis_job, wait) else {
             return false;
         };
-        let Some(result) = job.result(wait) else {
-            return false;
-        };
-        self.analysis_job = None;
         match result {
             Ok(analysis) => {
                 self.scrub = analysis.worst_moment();
@@ -161,13 +158,17 @@ impl Session {
             explode: self.explode,
             marks: self.marks.clone(),
             mode: self.mode,
-            blow: self.blow.clone(),
-            analysis: self.analysis.clone(),
+            blow: self.blow.as_deref().map(BlowNumbers::from),
+            course: self.analysis.as_ref().map(|a| Arc::clone(&a.course)),
             largest_color: self.largest_color,
             selection: self.selected(),
-            compared: self.compared.clone(),
-            methods: self.methods.clone(),
-            settings: self.settings.clone(),
+            compared: self.compared.as_deref().map(ComparedNumbers::from),
+            chosen: self.methods.as_ref().map(|m| m.chosen.clone()),
+            methods: self
+                .methods
+                .as_deref()
+                .map_or_else(Vec::new, OutcomeNumbers::of),
+            knobs: self.settings.as_ref().map(KnobValues::from),
             turned: match (&self.built, &self.settings) {
                 (Some(built), Some([now, _])) => built != now,
                 _ => false,

@@ -168,10 +168,7 @@ impl Session {
         self.methods_job = None;
         self.set_subject(Subject::World);
         self.paused = true;
-        self.message = Some((
-            "back to just before the break; the clock stands".into(),
-            false,
-        ));
+        self.say("back to just before the break; the clock stands".into());
         Ok(())
     }
 }

@@ -4,12 +4,12 @@ use std::time::Duration;
 
 use frangible_scenes::{BakedBody, BodySource, LiveScene, Scene};
 
-use super::{Session, settings_of};
+use super::Session;
 use crate::baking::{bake, of_wanted_material, same_bakes};
 use crate::command::Subject;
 use crate::error::ViewError;
 use crate::jobs::Job;
-use crate::knobs::turn_material;
+use crate::knobs::{Settings, turn_material};
 
 /// What a host cannot do.
 pub(super) const NEEDS_A_BAKE: &str = "Poisson's ratio and the number of modes need another bake, which a page cannot do: turn them back";
@@ -46,7 +46,7 @@ impl Session {
     }
 
     /// The scene with the knobs as they are.
-    pub(super) fn wanted_scene(&self) -> Option<Scene> {
+    pub(crate) fn wanted_scene(&self) -> Option<Scene> {
         let mut scene = self.scene.clone()?;
         let Some([now, own]) = &self.settings else {
             return Some(scene);
@@ -65,13 +65,9 @@ impl Session {
     }
 
     pub(super) fn poll_bake(&mut self, wait: Option<Duration>) -> bool {
-        let Some(job) = &self.bake_job else {
+        let Some(result) = Job::collect(&mut self.bake_job, wait) else {
             return false;
         };
-        let Some(result) = job.result(wait) else {
-            return false;
-        };
-        self.bake_job = None;
         match (result, self.wanted_scene()) {
             (Ok(baked), Some(wanted)) => {
                 self.shelf.keep(&wanted, baked.clone());
@@ -88,7 +84,7 @@ impl Session {
             self.settings = self
                 .scene
                 .as_ref()
-                .and_then(|scene| settings_of(scene, baked.first()))
+                .and_then(|scene| Settings::of(scene, baked.first()))
                 .map(|own| [own.clone(), own]);
         }
         let made = of_wanted_material(wanted, baked, self.settings.as_ref())
@@ -154,9 +150,9 @@ impl Session {
 
     pub(super) fn cancel_bake(&mut self) {
         if self.bake_job.take().is_some() {
-            self.message = Some(("the bake was cancelled".into(), false));
+            self.say("the bake was cancelled".into());
         } else if self.methods_job.take().is_some() {
-            self.message = Some(("the comparison was given up".into(), false));
+            self.say("the comparison was given up".into());
         }
     }
 }

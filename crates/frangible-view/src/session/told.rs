@@ -1,14 +1,59 @@
-//! What parts of the view model outside of the session ask of it.
+//! What others ask of a session: what it has, and how it stands.
 
 use std::sync::Arc;
 
 use frangible_export::View;
+use frangible_scenes::LiveScene;
 
 use super::Session;
 use crate::analysis::Analysis;
-use crate::command::{Mark, Subject};
+use crate::blow::Blow;
+use crate::command::{Command, Mark, Subject};
+use crate::methods::Methods;
 
 impl Session {
+    /// Whether the clock should run: there is a scene, and nobody stopped it.
+    #[must_use]
+    pub fn is_running(&self) -> bool {
+        self.live.is_some() && !self.paused
+    }
+
+    /// Simulated seconds per second.
+    #[must_use]
+    pub fn slow_motion(&self) -> f64 {
+        self.slow_motion
+    }
+
+    /// Simulated time, s.
+    #[must_use]
+    pub fn time(&self) -> f64 {
+        self.live.as_ref().map_or(0.0, LiveScene::time)
+    }
+
+    /// The scene on the move.
+    #[must_use]
+    pub fn live(&self) -> Option<&LiveScene> {
+        self.live.as_ref()
+    }
+
+    /// The last contact that mattered: the last break, or the hardest that something withstood.
+    #[must_use]
+    pub fn blow(&self) -> Option<&Arc<Blow>> {
+        self.blow.as_ref()
+    }
+
+    /// The last impact by several methods, once that was asked for.
+    #[must_use]
+    pub fn methods(&self) -> Option<&Arc<Methods>> {
+        self.methods.as_ref()
+    }
+
+    /// What was done since the scene was loaded: a script that does it again.
+    #[must_use]
+    pub fn log(&self) -> &[Command] {
+        &self.log
+    }
+
     pub(crate) fn is_marked(&self, mark: Mark) -> bool {
         self.marks.contains(&mark)
     }
@@ -17,7 +62,9 @@ impl Session {
         self.subject
     }
 
-    pub(crate) fn analysis(&self) -> Option<&Arc<Analysis>> {
+    /// What the last contact did, moment by moment, once that was asked for.
+    #[must_use]
+    pub fn analysis(&self) -> Option<&Arc<Analysis>> {
         self.analysis.as_ref()
     }
 

@@ -85,10 +85,7 @@ impl Session {
         if untouched {
             self.prepare();
         } else {
-            self.message = Some((
-                "H: the last impact with the new knobs; R: the scene with them".into(),
-                false,
-            ));
+            self.say("H: the last impact with the new knobs; R: the scene with them".into());
         }
     }
 
@@ -115,13 +112,9 @@ impl Session {
     }
 
     pub(super) fn poll_again(&mut self, wait: Option<Duration>) -> bool {
-        let Some(job) = &self.again_job else {
+        let Some(result) = Job::collect(&mut self.again_job, wait) else {
             return false;
         };
-        let Some(result) = job.result(wait) else {
-            return false;
-        };
-        self.again_job = None;
         match result {
             Ok(again) => {
                 if let Some((scene, baked)) = again.baked {

@@ -8,18 +8,13 @@ use frangible_draw::kiss3d::window::Window;
 
 use crate::command::Command;
 use crate::error::ViewError;
-use crate::host::Host;
-use crate::outlet::Outlet;
 use crate::shown::Shown;
-use crate::worker::Worker;
+use crate::worker::{Remote, Worker};
 
 use super::Viewer;
 use super::director::Director;
 use super::panels::Panels;
 use super::shade::Shade;
-
-/// Samples per second, of which the browser makes what its loudspeaker wants.
-const RATE: f64 = 48_000.0;
 
 /// What is around the window.
 pub trait Page {
@@ -29,9 +24,6 @@ pub trait Page {
     /// What there is to see, whether all commands are done, and how many frames were drawn.
     fn show(&self, shown: &Arc<Shown>, done: bool, frames: u64);
 
-    /// What is heard next, to be played after what was heard before: samples from −1 to 1, left and right in turn, so many per second.
-    fn hear(&self, samples: &[f32], rate: f64);
-
     /// Waits until the browser draws again.
     fn next_frame(&self) -> Pin<Box<dyn Future<Output = ()>>>;
 }
@@ -40,28 +32,27 @@ pub trait Page {
 pub struct PageOptions {
     /// What to load first.
     pub first: Command,
-    /// Names of the scenes that the host can bring.
+    /// Names of the scenes that can be chosen.
     pub scenes: Vec<String>,
     /// Whether scenes run by the clock of the page; else only by [`Command::Step`].
     pub by_clock: bool,
-    /// Brings bodies and takes files.
-    pub host: Box<dyn Host>,
+    /// Where the session runs.
+    pub session: Box<dyn Remote>,
     /// The page.
     pub page: Box<dyn Page>,
 }
 
-/// Shows a page's window (`frangible_draw::open_canvas`) for as long as the page lives. There are no threads: what takes long
+/// Shows a page's window (`frangible_draw::open_canvas`) for as long as the page lives. The session runs elsewhere, so that nothing it does
 /// makes the page wait.
 ///
 /// # Errors
-/// None yet.
+/// The session has ended.
 pub async fn run_in_page(window: &mut Window, options: PageOptions) -> Result<(), ViewError> {
-    let outlet = Outlet::new(RATE);
-    let mut worker = Worker::start_here(options.by_clock, options.host, Some(outlet.clone()));
+    let mut worker = Worker::start_there(options.session);
     worker.send(options.first);
     let panels = Panels::in_page(options.scenes);
     let mut viewer = Viewer::of(worker, panels, Director::new(None), Shade::start(true));
-    viewer.page = Some((options.page, outlet));
+    viewer.page = Some(options.page);
     viewer.hurries = !options.by_clock;
     viewer.fine_marks = has_storage_buffers();
     viewer.live(window).await
@@ -69,19 +60,15 @@ pub async fn run_in_page(window: &mut Window, options: PageOptions) -> Result<()
 
 impl Viewer {
     pub(super) fn hear_page(&mut self, window: &mut Window) {
-        let commands = self.page.as_ref().map(|(page, _)| page.commands());
+        let commands = self.page.as_ref().map(|page| page.commands());
         for command in commands.into_iter().flatten() {
             self.give(command, window);
         }
     }
 
     pub(super) fn tell_page(&self, shown: &Arc<Shown>, done: bool) {
-        if let Some((page, outlet)) = &self.page {
+        if let Some(page) = &self.page {
             page.show(shown, done, self.frames);
-            let heard = outlet.drain();
-            if !heard.is_empty() {
-                page.hear(&heard, outlet.rate());
-            }
         }
     }
 }

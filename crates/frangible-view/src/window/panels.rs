@@ -1,45 +1,40 @@
-//! The panels, and what keys mean beside what they show.
+//! The panels over the picture: what can be played with at the left, what is looked into at the right, a line of news below.
+//!
+//! Panels show what the session tells and answer with commands, as keys do (`strokes.rs`); they keep only what is open and what a person
+//! has set in them but not yet asked for. Each panel is a module of its own; `layout.rs` says where they are, `style.rs` how they look.
 
 mod films;
 mod gallery;
 mod help;
 mod inspect;
 mod knobs;
+mod layout;
 mod methods;
 mod performance;
 mod play;
 mod status;
+mod strokes;
+mod style;
 
 use std::path::PathBuf;
 
 use web_time::Instant;
 
-use egui::{Align2, Color32, Context, FontId, LayerId, Visuals};
+use egui::Align2;
 use frangible::glam::Vec2;
 use frangible_draw::kiss3d::window::Window;
 use frangible_scenes::SCENE_NAMES;
 
-use crate::command::{Command, FilmOptions, Mark, Subject, Target, Tool};
+use crate::command::{Command, FilmOptions, Subject};
 use crate::shown::Shown;
-use crate::window::input::{Said, Stroke};
+use crate::window::input::Said;
 
+use layout::{LEFT, RIGHT, side};
 use performance::FrameTimes;
+use style::write_words;
 
-/// Width of the panels at the sides, points.
-const LEFT: f32 = 244.0;
-const RIGHT: f32 = 330.0;
-
-/// Distance from the window's edges, points.
-const EDGE: f32 = 6.0;
-
-/// A window in which both panels would leave too little to see, points.
-const NARROW: f32 = 820.0;
-
-/// Size of remarks, points.
-const SMALL: f32 = 11.0;
-
-/// How far a key draws pieces apart.
-const APART: f64 = 0.6;
+/// How long one play of a motion takes, s.
+const PLAY_TIME: f64 = 4.0;
 
 /// What the panel on the right shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -70,9 +65,6 @@ pub(super) struct Panels {
     gallery: gallery::Gallery,
     film: FilmOptions,
 }
-
-/// How long one play of a motion takes, s.
-const PLAY_TIME: f64 = 4.0;
 
 impl Panels {
     pub(super) fn new(folder: PathBuf, script: bool) -> Self {
@@ -151,36 +143,6 @@ impl Panels {
         &mut self.times
     }
 
-    /// How far the picture's middle is moved out of the panels' way, in shares of half the window.
-    pub(super) fn shift(&self, window: &Window) -> [f32; 2] {
-        let points = window.width() as f32 / window.scale_factor() as f32;
-        let [left, right] = self.margins(points);
-        [(left - right) / points.max(1.0), 0.0]
-    }
-
-    /// Width over height of what the panels leave free.
-    pub(super) fn free_aspect(&self, window: &Window) -> f32 {
-        let scale = window.scale_factor() as f32;
-        let points = window.width() as f32 / scale;
-        let [left, right] = self.margins(points);
-        let free = points - left - right;
-        free.max(1.0) * scale / window.height().max(1) as f32
-    }
-
-    /// Whether the panel on the left is there: in a narrow window it makes room for the other.
-    fn shows_play(&self, window_points: f32) -> bool {
-        self.play && (self.tab.is_none() || window_points >= NARROW)
-    }
-
-    /// Width that panels take at the left and the right, points.
-    fn margins(&self, window_points: f32) -> [f32; 2] {
-        let width = |there: bool, width: f32| if there { width + 2.0 * EDGE } else { 0.0 };
-        [
-            width(self.shows_play(window_points), LEFT),
-            width(self.tab.is_some(), RIGHT),
-        ]
-    }
-
     /// Whether a motion plays.
     pub(super) fn plays(&self) -> bool {
         self.playing.is_some()
@@ -189,7 +151,7 @@ impl Panels {
     /// Moves the motion that plays on.
     fn play_on(&mut self, shown: &Shown, commands: &mut Vec<Command>) {
         let moves = matches!(shown.subject, Subject::Stress | Subject::Modes);
-        let Some(last) = self.playing.filter(|_| moves && shown.analysis.is_some()) else {
+        let Some(last) = self.playing.filter(|_| moves && shown.course.is_some()) else {
             self.playing = None;
             return;
         };
@@ -242,6 +204,11 @@ impl Panels {
         commands
     }
 
+    /// Opens what is on the right, or closes it.
+    fn flip(&mut self, tab: Tab) {
+        self.tab = (self.tab != Some(tab)).then_some(tab);
+    }
+
     fn tabs(&mut self, ui: &mut egui::Ui) {
         ui.horizontal(|ui| {
             for (tab, label) in [
@@ -261,86 +228,6 @@ impl Panels {
         });
     }
 
-    fn style(&mut self, ctx: &Context) {
-        if self.styled == Some(self.dark) {
-            return;
-        }
-        self.styled = Some(self.dark);
-        ctx.set_theme(if self.dark {
-            egui::Theme::Dark
-        } else {
-            egui::Theme::Light
-        });
-        let mut visuals = if self.dark {
-            Visuals::dark()
-        } else {
-            Visuals::light()
-        };
-        visuals.window_fill = match self.dark {
-            true => egui::Color32::from_rgba_unmultiplied(24, 26, 29, 238),
-            false => egui::Color32::from_rgba_unmultiplied(250, 250, 250, 238),
-        };
-        visuals.override_text_color = Some(match self.dark {
-            true => egui::Color32::from_gray(228),
-            false => egui::Color32::from_gray(20),
-        });
-        ctx.set_visuals(visuals);
-        // Of the usual sizes the small one is hard to read on a plain screen.
-        ctx.all_styles_mut(|style| {
-            if let Some(font) = style.text_styles.get_mut(&egui::TextStyle::Small) {
-                font.size = SMALL;
-            }
-        });
-    }
-
-    /// What a key means now.
-    fn mean(&mut self, stroke: Stroke, shown: &Shown, commands: &mut Vec<Command>) {
-        let toggle = |mark| Command::Show(mark, !shown.shows(mark));
-        commands.push(match stroke {
-            Stroke::PauseOrRun if shown.paused => Command::Run,
-            Stroke::PauseOrRun => Command::Pause,
-            Stroke::Step => Command::Step(1),
-            Stroke::Reset => Command::Reset,
-            Stroke::Undo => Command::Undo,
-            Stroke::HitAgain => Command::HitAgain,
-            Stroke::Slower => Command::SlowMotion(shown.slow_motion * 0.5),
-            Stroke::Faster => Command::SlowMotion((shown.slow_motion * 2.0).min(1.0)),
-            Stroke::World => Command::Look(Subject::World),
-            Stroke::Stress | Stroke::Cracks | Stroke::Modes => {
-                self.tab = Some(Tab::Inspect);
-                Command::Look(match stroke {
-                    Stroke::Stress => Subject::Stress,
-                    Stroke::Cracks => Subject::Cracks,
-                    _ => Subject::Modes,
-                })
-            }
-            Stroke::Compare => Command::Look(Subject::Compare),
-            Stroke::Methods => {
-                self.tab = Some(Tab::Inspect);
-                Command::CompareMethods(Vec::new())
-            }
-            Stroke::Wireframe => toggle(Mark::Wireframe),
-            Stroke::Explode if shown.explode > 0.0 => Command::Explode(0.0),
-            Stroke::Explode => Command::Explode(APART),
-            Stroke::Home => Command::Home,
-            Stroke::Screenshot => Command::Screenshot(self.file(shown, "png")),
-            Stroke::Glb => Command::Save(Target::Glb, self.file(shown, "glb")),
-            Stroke::Tool => Command::Tool(match shown.tool {
-                Tool::Ball => Tool::Hammer,
-                Tool::Hammer => Tool::Ball,
-            }),
-            Stroke::Help => return self.help = !self.help,
-            Stroke::Theme => return self.dark = !self.dark,
-            Stroke::Inspect => return self.flip(Tab::Inspect),
-            Stroke::Knobs => return self.flip(Tab::Knobs),
-            Stroke::Performance => return self.flip(Tab::Performance),
-        });
-    }
-
-    fn flip(&mut self, tab: Tab) {
-        self.tab = (self.tab != Some(tab)).then_some(tab);
-    }
-
     /// A name for a file that is not taken.
     fn file(&mut self, shown: &Shown, ending: &str) -> PathBuf {
         let scene = if shown.scene.is_empty() {
@@ -356,39 +243,4 @@ impl Panels {
             }
         }
     }
-}
-
-/// Words over the picture and under the panels, each in the middle above its place.
-fn write_words(ctx: &Context, words: &[(Vec2, String)]) {
-    let painter = ctx.layer_painter(LayerId::background());
-    let size = ctx.content_rect().size();
-    for (at, text) in words {
-        let at = egui::pos2(at.x * size.x, at.y * size.y);
-        let font = FontId::proportional(15.0);
-        let color = Color32::from_gray(20);
-        let galley = painter.layout_no_wrap(text.clone(), font, color);
-        let place = Align2::CENTER_BOTTOM.anchor_size(at, galley.size());
-        let paper = Color32::from_rgba_unmultiplied(255, 255, 255, 170);
-        painter.rect_filled(place.expand(3.0), 3.0, paper);
-        painter.galley(place.min, galley, color);
-    }
-}
-
-/// A panel at a side of the window, as high as it is.
-fn side(ctx: &Context, id: &str, at: Align2, width: f32, contents: impl FnOnce(&mut egui::Ui)) {
-    let height = ctx.content_rect().height() - 2.0 * EDGE;
-    let toward = if at == Align2::LEFT_TOP { EDGE } else { -EDGE };
-    egui::Window::new(id)
-        .title_bar(false)
-        .resizable(false)
-        .anchor(at, [toward, EDGE])
-        .fade_in(false)
-        .show(ctx, |ui| {
-            ui.set_width(width - 16.0);
-            ui.set_max_height(height - 44.0);
-            egui::ScrollArea::vertical()
-                .max_height(height - 44.0)
-                .auto_shrink([false, true])
-                .show(ui, contents);
-        });
 }

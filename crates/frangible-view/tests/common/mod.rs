@@ -76,6 +76,5 @@ pub fn bits(session: &Session) -> Vec<[u32; 7]> {
 
 /// Masses of the pieces of the last break.
 pub fn masses(shown: &Shown) -> Vec<f64> {
-    let fracture = shown.blow.as_ref().unwrap().fracture.as_ref().unwrap();
-    fracture.fragments.iter().map(|f| f.mass.mass).collect()
+    shown.blow.as_ref().unwrap().masses.clone()
 }

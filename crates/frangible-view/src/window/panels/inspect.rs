@@ -6,10 +6,9 @@ use egui::{Color32, Grid, RichText, Slider, Ui};
 use egui_plot::{HLine, Line, Plot, PlotPoints, VLine};
 use frangible_draw::value_color;
 
-use crate::analysis::Analysis;
-use crate::blow::Blow;
 use crate::command::{Command, Mark, Subject};
-use crate::shown::{Compared, Shown};
+use crate::numbers::{BlowNumbers, ComparedNumbers, Course};
+use crate::shown::Shown;
 
 pub(super) fn panel(
     ui: &mut Ui,
@@ -46,7 +45,7 @@ pub(super) fn panel(
         return;
     };
     contact(ui, blow);
-    let Some(analysis) = &shown.analysis else {
+    let Some(course) = &shown.course else {
         if shown.analysing {
             ui.spinner();
         } else {
@@ -54,16 +53,16 @@ pub(super) fn panel(
         }
         return;
     };
-    color_bar(ui, shown, analysis);
-    scrubber(ui, shown, analysis, commands);
+    color_bar(ui, shown, course);
+    scrubber(ui, shown, course, commands);
     if matches!(shown.subject, Subject::Stress | Subject::Modes) {
         let mut plays = playing.is_some();
         if ui.checkbox(&mut plays, "play").changed() {
             *playing = plays.then(Instant::now);
         }
     }
-    force(ui, shown, analysis);
-    stresses(ui, shown, analysis);
+    force(ui, shown, course);
+    stresses(ui, shown, course);
     ui.separator();
     energy(ui, blow);
 }
@@ -133,46 +132,38 @@ fn marks(ui: &mut Ui, shown: &Shown, commands: &mut Vec<Command>) {
     }
 }
 
-fn contact(ui: &mut Ui, blow: &Blow) {
-    let report = &blow.report;
+fn contact(ui: &mut Ui, blow: &BlowNumbers) {
     ui.strong(format!("{} at t = {:.4} s", blow.name, blow.time));
-    let fastest = blow
-        .contacts
-        .iter()
-        .map(|c| c.approach_speed)
-        .fold(0.0, f32::max);
     ui.label(format!(
-        "{:.3} N·s at {fastest:.1} m/s in {:.0} µs; most excited mode {:.0} Hz",
-        blow.impulse(),
-        1e6 * report.contact_duration,
-        report.most_excited_frequency
+        "{:.3} N·s at {:.1} m/s in {:.0} µs; most excited mode {:.0} Hz",
+        blow.impulse,
+        blow.speed,
+        1e6 * blow.contact_duration,
+        blow.most_excited_frequency
     ));
-    ui.label(match blow.pieces() {
+    ui.label(match blow.pieces {
         1 => format!(
             "held: {:.0} % of its strength of {:.1} MPa at most",
-            100.0 * report.stress_bound / report.strength,
-            1e-6 * report.strength
+            100.0 * blow.stress_bound / blow.strength,
+            1e-6 * blow.strength
         ),
         pieces => format!(
             "{pieces} pieces by {} cracks, {:.1} cm² of crack; first crack after {:.0} µs",
-            report.cracks,
-            1e4 * report.crack_area,
-            1e6 * report.first_crack_time.unwrap_or_default()
+            blow.cracks,
+            1e4 * blow.crack_area,
+            1e6 * blow.first_crack_time
         ),
     });
 }
 
 /// The palette, with what its ends mean.
-fn color_bar(ui: &mut Ui, shown: &Shown, analysis: &Analysis) {
+fn color_bar(ui: &mut Ui, shown: &Shown, course: &Course) {
     let ends = match shown.subject {
         Subject::Stress | Subject::Modes => {
             let largest = shown.largest_color.unwrap_or_default();
             ["0".to_string(), format!("{:.3} MPa", 1e-6 * largest)]
         }
-        Subject::Cracks => [
-            "first".into(),
-            format!("last of {} cracks", analysis.cracks.len()),
-        ],
+        Subject::Cracks => ["first".into(), format!("last of {} cracks", course.cracks)],
         _ => return,
     };
     let width = ui.available_width();
@@ -187,8 +178,8 @@ fn color_bar(ui: &mut Ui, shown: &Shown, analysis: &Analysis) {
         ui.painter()
             .rect_filled(stripe, 0.0, Color32::from_rgb(r, g, b));
     }
-    if shown.subject == Subject::Stress && analysis.strength < analysis.peak_tension {
-        let at = (analysis.strength / analysis.peak_tension) as f32;
+    if shown.subject == Subject::Stress && course.strength < course.peak_tension {
+        let at = (course.strength / course.peak_tension) as f32;
         let x = rect.left() + at * rect.width();
         let line = [
             egui::pos2(x, rect.top() - 2.0),
@@ -201,7 +192,7 @@ fn color_bar(ui: &mut Ui, shown: &Shown, analysis: &Analysis) {
         let [low, high] = ends;
         ui.small(low);
         if shown.subject == Subject::Stress {
-            let strength = format!("red: strength {:.3} MPa", 1e-6 * analysis.strength);
+            let strength = format!("red: strength {:.3} MPa", 1e-6 * course.strength);
             ui.label(
                 RichText::new(strength)
                     .small()
@@ -214,11 +205,11 @@ fn color_bar(ui: &mut Ui, shown: &Shown, analysis: &Analysis) {
     });
 }
 
-fn scrubber(ui: &mut Ui, shown: &Shown, analysis: &Analysis, commands: &mut Vec<Command>) {
+fn scrubber(ui: &mut Ui, shown: &Shown, course: &Course, commands: &mut Vec<Command>) {
     match shown.subject {
         Subject::Stress => {
             let mut share = shown.scrub;
-            let text = format!("{:.1} µs", 1e6 * analysis.time(share));
+            let text = format!("{:.1} µs", 1e6 * course.time(share));
             let slider = Slider::new(&mut share, 0.0..=1.0)
                 .show_value(false)
                 .text(text);
@@ -233,14 +224,13 @@ fn scrubber(ui: &mut Ui, shown: &Shown, analysis: &Analysis, commands: &mut Vec<
                 commands.push(Command::Exaggerate(factor));
             }
         }
-        Subject::Modes => modes(ui, shown, analysis, commands),
+        Subject::Modes => modes(ui, shown, course, commands),
         _ => {}
     }
 }
 
-fn modes(ui: &mut Ui, shown: &Shown, analysis: &Analysis, commands: &mut Vec<Command>) {
-    let basis = &analysis.asset.modes;
-    let count = basis.count().max(1);
+fn modes(ui: &mut Ui, shown: &Shown, course: &Course, commands: &mut Vec<Command>) {
+    let count = course.swings.len().max(1);
     let mut mode = shown.mode.clamp(1, count);
     if ui
         .add(Slider::new(&mut mode, 1..=count).text("mode"))
@@ -248,8 +238,8 @@ fn modes(ui: &mut Ui, shown: &Shown, analysis: &Analysis, commands: &mut Vec<Com
     {
         commands.push(Command::Mode(mode));
     }
-    let damping = basis.damping(mode - 1, &analysis.asset.material);
-    let frequency = basis.frequency(mode - 1);
+    let swing = course.swings.get(mode - 1).copied();
+    let [frequency, damping] = swing.unwrap_or_default();
     let ratio = damping / (2.0 * std::f64::consts::TAU * frequency);
     ui.label(format!(
         "{frequency:.1} Hz, damping d = {damping:.2} 1/s (ζ = {ratio:.1e})"
@@ -279,44 +269,43 @@ fn points(series: &[[f64; 2]], factor: f64) -> PlotPoints<'static> {
     PlotPoints::from(scaled.collect::<Vec<[f64; 2]>>())
 }
 
-fn moment(shown: &Shown, analysis: &Analysis) -> VLine {
-    VLine::new("moment", 1e6 * analysis.time(shown.scrub)).color(Color32::GRAY)
+fn moment(shown: &Shown, course: &Course) -> VLine {
+    VLine::new("moment", 1e6 * course.time(shown.scrub)).color(Color32::GRAY)
 }
 
-fn force(ui: &mut Ui, shown: &Shown, analysis: &Analysis) {
+fn force(ui: &mut Ui, shown: &Shown, course: &Course) {
     ui.small("force of the contact, N, over µs");
-    let moment = moment(shown, analysis);
+    let moment = moment(shown, course);
     plot("force", 70.0).show(ui, |plot| {
-        plot.line(Line::new("force, N", points(&analysis.force.points, 1.0)).width(2.0));
+        plot.line(Line::new("force, N", points(&course.force.points, 1.0)).width(2.0));
         plot.vline(moment);
     });
 }
 
-fn stresses(ui: &mut Ui, shown: &Shown, analysis: &Analysis) {
+fn stresses(ui: &mut Ui, shown: &Shown, course: &Course) {
     ui.small("largest tension (thick), modes that strain most, strength (red), MPa over µs");
-    let moment = moment(shown, analysis);
+    let moment = moment(shown, course);
     plot("stress", 130.0).show(ui, |plot| {
-        for mode in &analysis.modes {
+        for mode in &course.modes {
             plot.line(Line::new(mode.name.clone(), points(&mode.points, 1e-6)).width(1.0));
         }
-        let tension = Line::new("largest tension", points(&analysis.tension.points, 1e-6));
+        let tension = Line::new("largest tension", points(&course.tension.points, 1e-6));
         plot.line(tension.width(2.5).color(Color32::from_rgb(90, 160, 230)));
-        plot.hline(HLine::new("strength", 1e-6 * analysis.strength).color(Color32::RED));
+        plot.hline(HLine::new("strength", 1e-6 * course.strength).color(Color32::RED));
         plot.vline(moment);
     });
 }
 
-fn energy(ui: &mut Ui, blow: &Blow) {
-    let report = &blow.report;
+fn energy(ui: &mut Ui, blow: &BlowNumbers) {
     ui.strong("Energy, J");
-    let whole = report
+    let whole = blow
         .approach_energy
-        .max(report.peak_strain_energy)
+        .max(blow.peak_strain_energy)
         .max(f64::MIN_POSITIVE);
     for (label, joules) in [
-        ("of the approach", report.approach_energy),
-        ("strain, at its peak", report.peak_strain_energy),
-        ("spent on cracks", report.fracture_energy),
+        ("of the approach", blow.approach_energy),
+        ("strain, at its peak", blow.peak_strain_energy),
+        ("spent on cracks", blow.fracture_energy),
         ("taken from the motion", blow.energy_paid),
     ] {
         let share = (joules / whole) as f32;
@@ -330,9 +319,9 @@ fn energy(ui: &mut Ui, blow: &Blow) {
 }
 
 /// Label, value and decimals of a row.
-type Row = (&'static str, fn(&Blow) -> f64, usize);
+type Row = (&'static str, fn(&BlowNumbers) -> f64, usize);
 
-fn compare(ui: &mut Ui, compared: &Compared) {
+fn compare(ui: &mut Ui, compared: &ComparedNumbers) {
     ui.strong("The same impact");
     if compared.differences.is_empty() {
         ui.label("with the same knobs");
@@ -342,13 +331,17 @@ fn compare(ui: &mut Ui, compared: &Compared) {
     }
     let [old, new] = &compared.blows;
     let rows: [Row; 7] = [
-        ("pieces", |b| b.pieces() as f64, 0),
-        ("cracks", |b| b.report.cracks as f64, 0),
-        ("crack area, cm²", |b| 1e4 * b.report.crack_area, 1),
-        ("crack energy, mJ", |b| 1e3 * b.report.fracture_energy, 2),
-        ("peak tension, MPa", |b| 1e-6 * b.report.peak_stress, 2),
-        ("contact, µs", |b| 1e6 * b.report.contact_duration, 1),
-        ("computed in, ms", |b| 1e3 * b.report.timings.total(), 1),
+        ("pieces", |b| b.pieces as f64, 0),
+        ("cracks", |b| b.cracks as f64, 0),
+        ("crack area, cm²", |b| 1e4 * b.crack_area, 1),
+        ("crack energy, mJ", |b| 1e3 * b.fracture_energy, 2),
+        ("peak tension, MPa", |b| 1e-6 * b.peak_stress, 2),
+        ("contact, µs", |b| 1e6 * b.contact_duration, 1),
+        (
+            "computed in, ms",
+            |b| 1e3 * b.seconds.iter().sum::<f64>(),
+            1,
+        ),
     ];
     Grid::new("compare")
         .num_columns(3)

@@ -4,14 +4,15 @@ use egui::{ComboBox, Slider, Ui};
 use frangible::Material;
 
 use crate::command::Command;
-use crate::knobs::{KNOBS, Kind, Knob, Settings};
+use crate::knobs::{KNOBS, Kind, Knob};
 use crate::shown::Shown;
 
 pub(super) fn panel(ui: &mut Ui, shown: &Shown, commands: &mut Vec<Command>) {
-    let Some([now, own]) = &shown.settings else {
+    let Some(knobs) = &shown.knobs else {
         ui.label("load a scene first");
         return;
     };
+    let ([material, own_material], [now, own]) = (&knobs.materials, &knobs.values);
     ui.horizontal_wrapped(|ui| {
         let again = ui.add_enabled(shown.blow.is_some(), egui::Button::new("hit again"));
         if again
@@ -30,31 +31,33 @@ pub(super) fn panel(ui: &mut Ui, shown: &Shown, commands: &mut Vec<Command>) {
             commands.push(Command::Reset);
         }
         if ui
-            .add_enabled(now != own, egui::Button::new("all back"))
+            .add_enabled(
+                now != own || material != own_material,
+                egui::Button::new("all back"),
+            )
             .clicked()
         {
             commands.push(Command::ResetKnobs);
         }
     });
     ComboBox::from_label("material")
-        .selected_text(now.material.name.clone())
+        .selected_text(material.as_str())
         .height(300.0)
         .show_ui(ui, |ui| {
             for preset in Material::presets() {
-                let label = ui.selectable_label(now.material.name == preset.name, preset.name);
+                let label = ui.selectable_label(material == preset.name, preset.name);
                 if label.on_hover_text(preset.source).clicked() {
                     commands.push(Command::Material(preset.name.into()));
                 }
             }
         });
     ui.separator();
-    for knob in &KNOBS {
-        row(ui, knob, now, own, commands);
+    for (knob, (now, own)) in KNOBS.iter().zip(now.iter().zip(own)) {
+        row(ui, knob, [*now, *own], commands);
     }
 }
 
-fn row(ui: &mut Ui, knob: &Knob, now: &Settings, own: &Settings, commands: &mut Vec<Command>) {
-    let (value, own) = (knob.value(now), knob.value(own));
+fn row(ui: &mut Ui, knob: &Knob, [value, own]: [f64; 2], commands: &mut Vec<Command>) {
     let mut wanted = value;
     ui.horizontal(|ui| {
         let back = ui.add_enabled(value != own, egui::Button::new("↺").small());

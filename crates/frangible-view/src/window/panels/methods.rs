@@ -4,11 +4,12 @@ use egui::{Grid, Ui};
 use frangible_compare::Method;
 
 use crate::command::{Command, Subject};
-use crate::methods::{FIRST, Outcome, PANES};
+use crate::methods::{FIRST, PANES};
+use crate::numbers::OutcomeNumbers;
 use crate::shown::Shown;
 
 /// Label, and text of a method's cell.
-type Row = (&'static str, fn(&Outcome) -> String);
+type Row = (&'static str, fn(&OutcomeNumbers) -> String);
 
 /// Numbers of each method, a line each.
 const ROWS: [Row; 5] = [
@@ -28,9 +29,6 @@ pub(super) fn panel(ui: &mut Ui, shown: &Shown, commands: &mut Vec<Command>) {
     if shown.subject != Subject::Methods {
         return;
     }
-    let Some(methods) = &shown.methods else {
-        return;
-    };
     ui.separator();
     let columns = 1 + ROWS.len();
     Grid::new("methods")
@@ -42,7 +40,7 @@ pub(super) fn panel(ui: &mut Ui, shown: &Shown, commands: &mut Vec<Command>) {
                 ui.small(head);
             }
             ui.end_row();
-            for outcome in methods.chosen.iter().filter_map(|m| methods.outcome(*m)) {
+            for outcome in &shown.methods {
                 ui.small(short(outcome.method))
                     .on_hover_text(hint(outcome.method));
                 for (_, text) in ROWS {
@@ -56,10 +54,7 @@ pub(super) fn panel(ui: &mut Ui, shown: &Shown, commands: &mut Vec<Command>) {
 
 fn choice(ui: &mut Ui, shown: &Shown, commands: &mut Vec<Command>) {
     ui.strong("The last impact by");
-    let chosen = match &shown.methods {
-        Some(methods) => methods.chosen.clone(),
-        None => FIRST.to_vec(),
-    };
+    let chosen = shown.chosen.as_deref().unwrap_or(&FIRST);
     for method in Method::ALL {
         let mut on = chosen.contains(&method);
         let free = if on {

@@ -141,17 +141,10 @@ const PAPER: [(&str, [f64; 3], u32); 3] = [
 
 fn last_break(ui: &mut Ui, shown: &Shown) {
     ui.strong("Last break, ms");
-    let Some(blow) = shown.blow.as_ref().filter(|blow| blow.fracture.is_some()) else {
+    let Some(blow) = shown.blow.as_ref().filter(|blow| blow.broke) else {
         ui.label("nothing has broken yet");
         return;
     };
-    let t = &blow.report.timings;
-    let ours = [
-        t.response + t.stress,
-        t.cracks,
-        t.labels + t.fragments + t.drawing,
-    ];
-    let tetrahedra = blow.body.asset().fracture.tets.len();
     Grid::new("table 1")
         .num_columns(5)
         .striped(true)
@@ -161,10 +154,10 @@ fn last_break(ui: &mut Ui, shown: &Shown) {
             }
             ui.end_row();
             ui.strong(&blow.name);
-            for seconds in ours {
+            for seconds in blow.seconds {
                 ui.label(format!("{:.1}", 1e3 * seconds));
             }
-            ui.label(tetrahedra.to_string());
+            ui.label(blow.tetrahedra.to_string());
             ui.end_row();
             for (name, stages, tetrahedra) in PAPER {
                 ui.label(format!("paper: {name}"));

@@ -2,7 +2,8 @@
 
 use egui::{Align2, Color32, RichText};
 
-use super::{EDGE, Panels};
+use super::Panels;
+use super::layout::EDGE;
 use crate::command::{Command, Subject};
 use crate::shown::Shown;
 

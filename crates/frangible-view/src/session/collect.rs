@@ -1,0 +1,45 @@
+//! What is computed elsewhere: bakes, analyses, impacts taken again, comparisons and films.
+//!
+//! A command that takes long begins a job on another thread and returns. Whoever has the session asks from time to time whether something
+//! is done, or waits for all of it.
+
+use std::time::Duration;
+
+use super::Session;
+
+impl Session {
+    /// Collects what was computed elsewhere; true if there was anything.
+    pub fn poll(&mut self) -> bool {
+        let any = self.poll_all(None);
+        self.stale |= any;
+        any
+    }
+
+    /// Waits until nothing goes on elsewhere.
+    pub fn finish_jobs(&mut self) {
+        let wait = Some(Duration::from_millis(200));
+        while self.has_jobs() {
+            let any = self.poll_all(wait);
+            self.stale |= any;
+        }
+    }
+
+    fn poll_all(&mut self, wait: Option<Duration>) -> bool {
+        let first = self.poll_bake(wait) | self.poll_analysis(wait);
+        first | self.poll_again(wait) | self.poll_methods(wait) | self.poll_film(wait)
+    }
+
+    fn has_jobs(&self) -> bool {
+        self.bake_job.is_some()
+            || self.analysis_job.is_some()
+            || self.again_job.is_some()
+            || self.film_job.is_some()
+            || self.methods_job.is_some()
+    }
+
+    /// Whether a command's work still goes on.
+    #[must_use]
+    pub fn is_busy(&self) -> bool {
+        self.owes() || self.has_jobs()
+    }
+}
