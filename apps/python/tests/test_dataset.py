@@ -108,6 +108,23 @@ def test_what_is_there_is_not_made_again(made, meshes) -> None:
         dataset.make(meshes, out, replace(PLAN, seed=2), quiet=True)
 
 
+def test_a_mesh_that_has_changed_is_broken_anew(tmp_path) -> None:
+    plan = replace(PLAN, materials=("glass",), breaks=2)
+    mesh = write_obj(tmp_path / "tile.obj", (0.1, 0.08, 0.05))
+    out = tmp_path / "data"
+    dataset.make([mesh], out, plan, quiet=True)
+    before = files(out)
+    write_obj(mesh, (0.1, 0.08, 0.04))
+    changed = dataset.make([mesh], out, plan, quiet=True)
+    assert (changed.made, changed.there, changed.failed) == (2, 0, [])
+    rows = [json.loads(line) for line in (out / "manifest" / "0-of-1.jsonl").read_text().splitlines()]
+    assert len(rows) == 2
+    # As if the mesh had never been another one.
+    fresh = tmp_path / "fresh"
+    dataset.make([mesh], fresh, plan, quiet=True)
+    assert files(out) == files(fresh) != before
+
+
 def test_a_run_that_is_killed_loses_nothing(made, meshes, tmp_path) -> None:
     out, _ = made
     words = [sys.executable, "-m", "frangible", "dataset", *map(str, meshes), "-o", str(tmp_path), "--material", "glass", "--material", "concrete"]

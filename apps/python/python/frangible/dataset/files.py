@@ -27,6 +27,18 @@ def meta_of(out: Path, plan: Plan, name: str, k: int) -> Path:
     return out / "meta" / plan.category / name / f"fractured_{k}"
 
 
+def is_there(out: Path, plan: Plan, name: str, k: int, mesh_sha256: str) -> bool:
+    """Whether a break has been made of this mesh. One of another mesh of the same name is removed."""
+    meta = meta_of(out, plan, name, k).with_suffix(".json")
+    if not meta.exists():
+        return False
+    if json.loads(meta.read_text())["mesh_sha256"] == mesh_sha256:
+        return True
+    meta.unlink()
+    shutil.rmtree(folder_of(out, plan, name, k), ignore_errors=True)
+    return False
+
+
 def write_break(out: Path, plan: Plan, body: Body, outcome: Outcome, words: dict[str, Any]) -> dict[str, Any]:
     """Writes a break, and gives back what is written about it. Each file and folder has its final name only when it is whole; the JSON comes last."""
     name, k = words["object"], words["break"]

@@ -15,7 +15,7 @@ from typing import TypeVar
 
 from ..bodies import bake
 from .blows import broken
-from .files import keep_plan, meta_of, write_break, write_splits
+from .files import is_there, keep_plan, write_break, write_splits
 from .manifest import Manifest, Row, row_of
 from .plan import Object, Plan, objects
 
@@ -148,12 +148,18 @@ def break_all_of(one: Object, out: Path, plan: Plan) -> list[Row | None]:
 def break_object(one: Object, out: Path, plan: Plan) -> Iterator[Row | None]:
     """Breaks one object; a row for each break, None where it is there."""
     mesh, material, name = one
-    missing = [k for k in range(plan.breaks) if not meta_of(out, plan, name, k).with_suffix(".json").exists()]
+    row = {"category": plan.category, "object": name, "mesh": mesh.name, "material": material}
+    try:
+        digest = hashlib.sha256(mesh.read_bytes()).hexdigest()
+    except OSError as error:
+        for k in range(plan.breaks):
+            yield failed(row, k, error)
+        return
+    missing = [k for k in range(plan.breaks) if not is_there(out, plan, name, k, digest)]
     yield from [None] * (plan.breaks - len(missing))
     if not missing:
         return
     begin = time.monotonic()
-    row = {"category": plan.category, "object": name, "mesh": mesh.name, "material": material}
     try:
         body = bake(
             mesh, material=material, name=name, size=plan.size, wall=plan.wall, tetrahedra=plan.tetrahedra, modes=plan.modes, seed=plan.seed
@@ -163,7 +169,7 @@ def break_object(one: Object, out: Path, plan: Plan) -> Iterator[Row | None]:
             yield failed(row, k, error, (time.monotonic() - begin) / len(missing))
         return
     baked = (time.monotonic() - begin) / len(missing)
-    row["mesh_sha256"] = hashlib.sha256(mesh.read_bytes()).hexdigest()
+    row["mesh_sha256"] = digest
     for k in missing:
         begin = time.monotonic()
         try:
