@@ -1,4 +1,9 @@
 //! Many oscillators side by side, stepped through a tick under forces that grow linearly.
+//!
+//! A contact is coupled to few of them: to the modes, and to the wall oscillators about it and not to those about the others. So each force
+//! has *spans*, whole groups of oscillators outside of which it neither pushes nor feels anything.
+
+use std::ops::Range;
 
 use crate::modal::Tick;
 
@@ -11,6 +16,21 @@ pub(super) struct Bank {
     own: [Vec<f64>; 4],
     held: [Vec<f64>; 2],
     ramp: [Vec<f64>; 2],
+}
+
+/// How hard each force pushes each oscillator, 1/√kg, and where it pushes any.
+#[derive(Clone, Copy)]
+pub(super) struct Pushes<'a> {
+    pub(super) drive: &'a [Vec<f64>],
+    pub(super) spans: &'a [Vec<Range<usize>>],
+}
+
+impl Pushes<'_> {
+    /// Nothing pushes.
+    pub(super) const NONE: Self = Self {
+        drive: &[],
+        spans: &[],
+    };
 }
 
 /// ω q and q̇ of each oscillator.
@@ -35,6 +55,23 @@ impl BankState {
         self.x.truncate(padded(oscillators));
         self.v.truncate(padded(oscillators));
     }
+}
+
+/// The groups of oscillators that a force pushes or feels, those side by side as one.
+pub(super) fn spans(drive: &[f64], gap: &[f64]) -> Vec<Range<usize>> {
+    let mut spans: Vec<Range<usize>> = Vec::new();
+    for first in (0..drive.len()).step_by(LANES) {
+        let group = first..first + LANES;
+        let coupled = |row: &[f64]| row[group.clone()].iter().any(|&x| x != 0.0);
+        if !coupled(drive) && !coupled(gap) {
+            continue;
+        }
+        match spans.last_mut().filter(|last| last.end == first) {
+            Some(last) => last.end = group.end,
+            None => spans.push(group),
+        }
+    }
+    spans
 }
 
 /// Number of oscillators with those that fill up the last group.
@@ -65,9 +102,9 @@ impl Bank {
         bank
     }
 
-    /// A tick on, as if all forces stayed as they are. `drive`: how hard each force, N, pushes each oscillator.
+    /// A tick on, as if all forces stayed as they are.
     #[inline(always)]
-    pub(super) fn coast(&self, state: &mut BankState, drive: &[Vec<f64>], forces: &[f64]) {
+    pub(super) fn coast(&self, state: &mut BankState, pushes: &Pushes<'_>, forces: &[f64]) {
         let count = state.x.len();
         let [a, b, c, d] = self.own.each_ref().map(|row| &row[..count]);
         let (x, v) = (&mut state.x[..count], &mut state.v[..count]);
@@ -76,29 +113,31 @@ impl Bank {
             x[i] = a[i] * old_x + b[i] * old_v;
             v[i] = c[i] * old_x + d[i] * old_v;
         }
-        self.push(state, &self.held, drive, forces);
+        self.push(state, &self.held, pushes, forces);
     }
 
     /// What the tick makes of forces having grown by so much.
     #[inline(always)]
-    pub(super) fn grow(&self, state: &mut BankState, drive: &[Vec<f64>], growth: &[f64]) {
-        self.push(state, &self.ramp, drive, growth);
+    pub(super) fn grow(&self, state: &mut BankState, pushes: &Pushes<'_>, growth: &[f64]) {
+        self.push(state, &self.ramp, pushes, growth);
     }
 
     #[inline(always)]
-    fn push(&self, state: &mut BankState, by: &[Vec<f64>; 2], drive: &[Vec<f64>], forces: &[f64]) {
-        let count = state.x.len();
-        let [on_x, on_v] = by.each_ref().map(|row| &row[..count]);
-        let (x, v) = (&mut state.x[..count], &mut state.v[..count]);
-        for (drive, &force) in drive.iter().zip(forces) {
+    fn push(&self, state: &mut BankState, by: &[Vec<f64>; 2], pushes: &Pushes<'_>, forces: &[f64]) {
+        let rows = pushes.drive.iter().zip(pushes.spans);
+        for ((drive, spans), &force) in rows.zip(forces) {
             if force == 0.0 {
                 continue;
             }
-            let drive = &drive[..count];
-            for i in 0..count {
-                let push = drive[i] * force;
-                x[i] += on_x[i] * push;
-                v[i] += on_v[i] * push;
+            for span in spans {
+                let drive = &drive[span.clone()];
+                let [on_x, on_v] = by.each_ref().map(|row| &row[span.clone()]);
+                let (x, v) = (&mut state.x[span.clone()], &mut state.v[span.clone()]);
+                for i in 0..drive.len() {
+                    let push = drive[i] * force;
+                    x[i] += on_x[i] * push;
+                    v[i] += on_v[i] * push;
+                }
             }
         }
     }
@@ -113,13 +152,66 @@ impl Bank {
 /// Σ a b, in a fixed order over eight lanes.
 #[inline(always)]
 pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let (a, _) = a.as_chunks::<LANES>();
-    let (b, _) = b.as_chunks::<LANES>();
+    dot_over(a, b, std::slice::from_ref(&(0..a.len().min(b.len()))))
+}
+
+/// Σ a b over these spans, in a fixed order over eight lanes.
+#[inline(always)]
+pub(super) fn dot_over(a: &[f64], b: &[f64], spans: &[Range<usize>]) -> f64 {
     let mut sums = [0.0; LANES];
-    for (a, b) in a.iter().zip(b) {
-        for k in 0..LANES {
-            sums[k] += a[k] * b[k];
+    for span in spans {
+        let (a, _) = a[span.clone()].as_chunks::<LANES>();
+        let (b, _) = b[span.clone()].as_chunks::<LANES>();
+        for (a, b) in a.iter().zip(b) {
+            for k in 0..LANES {
+                sums[k] += a[k] * b[k];
+            }
         }
     }
     sums.iter().sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn spans_leave_out_what_a_force_does_not_reach_and_change_no_bit() {
+        let count = 10 * LANES;
+        let reaches = |i: usize| (3..20).contains(&i) || (40..56).contains(&i) || i == 79;
+        let row = |scale: f64| -> Vec<f64> {
+            let value = |i: usize| {
+                if reaches(i) {
+                    scale * (i as f64).sin()
+                } else {
+                    0.0
+                }
+            };
+            (0..count).map(value).collect()
+        };
+        let (drive, gap) = (row(1.0), row(-0.3));
+        let spans = vec![spans(&drive, &gap)];
+        assert_eq!(spans[0], [0..24, 40..56, 72..80]);
+        let oscillators: Vec<_> = (0..count).map(|i| (1e3 + 10.0 * i as f64, 5.0)).collect();
+        let bank = Bank::new(&oscillators, 1e-5);
+        let everywhere = vec![vec![0..count]];
+        let drive = [drive];
+        let swing = |spans: &[Vec<Range<usize>>]| {
+            let pushes = Pushes {
+                drive: &drive,
+                spans,
+            };
+            let mut state = BankState::rest(count);
+            let mut felt = Vec::new();
+            for tick in 0..50 {
+                bank.coast(&mut state, &pushes, &[f64::from(tick)]);
+                bank.grow(&mut state, &pushes, &[1.0]);
+                felt.push(dot_over(&gap, &state.x, &spans[0]).to_bits());
+            }
+            (state, felt)
+        };
+        let (state, felt) = swing(&spans);
+        assert!(state.x[3] != 0.0 && felt.last() != Some(&0));
+        assert_eq!((state, felt), swing(&everywhere));
+    }
 }

@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 use std::ops::Range;
 
-use super::bank::{BankState, dot, padded};
+use super::bank::{BankState, Pushes, dot, dot_over, padded};
 use super::plan::Plan;
 
 /// A blow of so many substeps is cut off: a contact that lasts this long is none of a blow's.
@@ -69,6 +69,7 @@ impl pulp::NullaryFnOnce for Run<'_> {
     fn call(self) -> Record {
         let plan = self.plan;
         let count = plan.sites.len();
+        let pushes = plan.pushes();
         let mut state = BankState::rest(plan.oscillators.len());
         let mut contacts = Contacts::new(plan);
         let mut record = Record::new(plan);
@@ -76,7 +77,7 @@ impl pulp::NullaryFnOnce for Run<'_> {
         let mut parted = false;
         while !(parted && substep % plan.substeps == 0) {
             let t = (substep + 1) as f64 * contacts.dt;
-            plan.fine.coast(&mut state, &plan.drive, &contacts.forces);
+            plan.fine.coast(&mut state, &pushes, &contacts.forces);
             contacts.foresee(&state);
             for softer in self.softer.iter().filter(|s| s.substep == substep) {
                 contacts.weakness[softer.contact] = softer.compliance;
@@ -87,7 +88,7 @@ impl pulp::NullaryFnOnce for Run<'_> {
                 None => contacts.solve(t),
             }
             contacts.grow();
-            plan.fine.grow(&mut state, &plan.drive, &contacts.growth);
+            plan.fine.grow(&mut state, &pushes, &contacts.growth);
             contacts.advance();
             record.forces.extend_from_slice(&contacts.forces);
             substep += 1;
@@ -131,7 +132,7 @@ impl Run<'_> {
         let leave = ((leave / time_step).ceil() as usize).min(MOST_STEPS);
         record.near_steps = record.contact_steps + leave;
         for _ in record.contact_steps..record.near_steps {
-            plan.step.coast(&mut state, &[], &[]);
+            plan.step.coast(&mut state, &Pushes::NONE, &[]);
             record.sample(plan, &state, &[], true);
         }
         let rest = PERIODS * period - record.near_steps as f64 * time_step;
@@ -139,7 +140,7 @@ impl Run<'_> {
         let steps = steps.min(MOST_STEPS);
         record.amplitudes.reserve_exact(steps * plan.modes);
         for _ in 0..steps {
-            plan.coarse.coast(&mut state, &[], &[]);
+            plan.coarse.coast(&mut state, &Pushes::NONE, &[]);
             record.sample(plan, &state, &[], false);
         }
     }
@@ -247,7 +248,7 @@ impl<'a> Contacts<'a> {
                 .sum();
             self.bases[k] = self.ways[k] + self.speeds[k] * dt
                 - 0.5 * fall * dt * dt
-                - dot(&plan.gap[k], &state.x);
+                - dot_over(&plan.gap[k], &state.x, &plan.spans[k]);
         }
     }
 

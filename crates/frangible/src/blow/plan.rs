@@ -4,7 +4,7 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use super::bank::{Bank, padded};
+use super::bank::{Bank, Pushes, padded, spans};
 use super::wall::{NearPlan, place};
 use super::{Receptance, Spring};
 use crate::body::Body;
@@ -53,6 +53,8 @@ pub(super) struct Plan {
     pub(super) drive: Vec<Vec<f64>>,
     /// How each contact feels each oscillator's ω q, s/√kg.
     pub(super) gap: Vec<Vec<f64>>,
+    /// The oscillators that each contact pushes or feels.
+    pub(super) spans: Vec<Vec<Range<usize>>>,
     /// B of the rigid bodies, 1/kg: row-major.
     pub(super) inverse_mass: Vec<f64>,
     /// c of what follows the force in both bodies of each contact, m/N: row-major.
@@ -133,6 +135,7 @@ impl Plan {
             coarser: (pulse.longest_step / time_step).max(1.0),
             drive: vec![vec![0.0; width]; count],
             gap: vec![vec![0.0; width]; count],
+            spans: Vec::new(),
             periods: oscillators[..modes].iter().map(|(w, _)| 1.0 / w).collect(),
             oscillators,
             sites,
@@ -149,12 +152,22 @@ impl Plan {
         plan.own_compliance = plan.couple(&coupled);
         plan.compliance = plan.own_compliance.clone();
         plan.add_strikers();
+        let rows = plan.drive.iter().zip(&plan.gap);
+        plan.spans = rows.map(|(drive, gap)| spans(drive, gap)).collect();
         plan.fine = Bank::new(&plan.oscillators, time_step / plan.substeps as f64);
         // After the blow the body swings alone.
         let own = &plan.oscillators[..plan.own];
         plan.step = Bank::new(own, time_step);
         plan.coarse = Bank::new(own, plan.coarser * time_step);
         Some(plan)
+    }
+
+    /// How the contacts push the oscillators.
+    pub(super) fn pushes(&self) -> Pushes<'_> {
+        Pushes {
+            drive: &self.drive,
+            spans: &self.spans,
+        }
     }
 
     /// The most energy that the contacts can take from the motion of approach, J: the largest `v · J − ½ Jᵀ B J` of impulses J ≥ 0.
