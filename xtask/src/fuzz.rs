@@ -1,4 +1,4 @@
-//! Hostile bytes for the readers of files: the targets in `fuzz/`, each for a short while.
+//! Hostile bytes for the readers of files, and for blows, worlds and scenes that run: the targets in `fuzz/`, each for a short while.
 
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};

@@ -30,7 +30,7 @@ cargo xtask outcomes [--write FILE | --against FILE]
                               break all built-in scenes; print, store or compare pieces, areas, energies and bits
 cargo xtask counts [--write]  count the instructions of each stage; fail where they grew by over 5 %, or store them
 cargo xtask rebake            write the baked bodies and states in fuzz/corpus and those that the core's tests break anew
-cargo xtask fuzz [SECONDS]    feed each reader of files hostile bytes for so long, 30 s if not told
+cargo xtask fuzz [SECONDS]    feed hostile bytes to each reader of files, and to blows, worlds and scenes, for so long, 30 s if not told
 cargo xtask web [--out DIR]   make the viewer's page for browsers, one static folder: target/web/page if not told
 cargo xtask web-test          make it, and break the pane in it with Chromium, drawn by the processor
 cargo xtask npm               make the npm package, install it in an empty project, and try it in Node and in Chromium
