@@ -3,9 +3,8 @@
 
 mod drawn;
 
-use std::sync::OnceLock;
-
 use drawn::Draw;
+use drawn::bodies::kinds;
 use frangible::internals::asset::{scaled, with_material};
 use frangible::internals::contact::SharedMass;
 use frangible::internals::{Blast, Factors, Fields, Force, blast, fracture_at, rest};
@@ -18,23 +17,7 @@ use libfuzzer_sys::fuzz_target;
 /// A break into more pieces is not computed again to compare.
 const MANY: usize = 60;
 
-/// A pane, a block and a held shelf.
-fn kinds() -> &'static [Breakable; 3] {
-    static KINDS: OnceLock<[Breakable; 3]> = OnceLock::new();
-    KINDS.get_or_init(|| {
-        [
-            &include_bytes!("../../crates/frangible/tests/bodies/pane.frangible")[..],
-            include_bytes!("../../crates/frangible/tests/bodies/block.frangible"),
-            include_bytes!("../../crates/frangible/tests/bodies/shelf.frangible"),
-        ]
-        .map(|bytes| {
-            let asset = Asset::from_bytes(bytes).expect("a body that this build can read");
-            Breakable::new(asset).expect("a sound body")
-        })
-    })
-}
-
-/// Of another size, of another material, with weakness, or as it is.
+/// A body of one of the kinds: of another size, of another material, with weakness, or as it is.
 fn body(draw: &mut Draw<'_>) -> Option<Body> {
     let mut kind = kinds()[draw.below(3)].clone();
     if draw.below(8) == 7 {

@@ -4,10 +4,12 @@
 //! flies 0.05 s before it hits.
 #![no_main]
 
-use std::path::Path;
-use std::sync::{Arc, OnceLock};
+mod drawn;
 
-use frangible::Asset;
+use std::path::Path;
+use std::sync::Arc;
+
+use drawn::bodies::assets;
 use frangible_scenes::{BakedBody, parse_scene, play};
 use libfuzzer_sys::fuzz_target;
 
@@ -15,19 +17,6 @@ use libfuzzer_sys::fuzz_target;
 const MOST: usize = 3;
 /// Simulated time, s.
 const DURATION: f64 = 0.06;
-
-/// A pane, a block and a held shelf.
-fn assets() -> &'static [Arc<Asset>; 3] {
-    static ASSETS: OnceLock<[Arc<Asset>; 3]> = OnceLock::new();
-    ASSETS.get_or_init(|| {
-        [
-            &include_bytes!("../../crates/frangible/tests/bodies/pane.frangible")[..],
-            include_bytes!("../../crates/frangible/tests/bodies/block.frangible"),
-            include_bytes!("../../crates/frangible/tests/bodies/shelf.frangible"),
-        ]
-        .map(|bytes| Arc::new(Asset::from_bytes(bytes).expect("a body that this build can read")))
-    })
-}
 
 fuzz_target!(|text: &str| {
     let Ok(mut scene) = parse_scene(text, Path::new("")) else {

@@ -3,10 +3,11 @@
 
 mod drawn;
 
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 
 use drawn::Draw;
-use frangible::{Asset, Breakable, Striker, impact};
+use drawn::bodies::kinds;
+use frangible::{Striker, impact};
 use frangible_bake::pieces::{Method, Pieces};
 use frangible_rapier::rapier3d::dynamics::RigidBodyHandle;
 use frangible_rapier::rapier3d::geometry::SharedShape;
@@ -27,22 +28,6 @@ const BODIES: usize = 80;
 /// Contacts of one blow that count where bodies strike each other. Each of those vibrates by itself, and the time that a blow takes grows
 /// faster than the square of their number: 35 take half a minute here.
 const CONTACTS: usize = 6;
-
-/// A pane, a block and a held shelf.
-fn kinds() -> &'static [Breakable; 3] {
-    static KINDS: OnceLock<[Breakable; 3]> = OnceLock::new();
-    KINDS.get_or_init(|| {
-        [
-            &include_bytes!("../../crates/frangible/tests/bodies/pane.frangible")[..],
-            include_bytes!("../../crates/frangible/tests/bodies/block.frangible"),
-            include_bytes!("../../crates/frangible/tests/bodies/shelf.frangible"),
-        ]
-        .map(|bytes| {
-            let asset = Asset::from_bytes(bytes).expect("a body that this build can read");
-            Breakable::new(asset).expect("a sound body")
-        })
-    })
-}
 
 fn config(draw: &mut Draw<'_>) -> WorldConfig {
     let mut config = match draw.below(3) {

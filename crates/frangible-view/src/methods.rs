@@ -13,6 +13,7 @@ use crate::blow::Blow;
 use crate::compare::place;
 use crate::marks::reach;
 use crate::mesher::numbered;
+use crate::numbers::OutcomeNumbers;
 use crate::picture::{Batch, Label};
 
 /// Methods that are shown at once, at most.
@@ -50,31 +51,24 @@ pub(crate) fn named_methods(word: &str) -> Result<Vec<Method>, String> {
 /// What one method made of the impact.
 #[derive(Clone, Debug)]
 pub struct Outcome {
-    /// The method.
-    pub method: Method,
-    /// Pieces, 1 where it held.
-    pub pieces: usize,
-    /// The largest piece's share of the volume.
-    pub largest_share: f64,
-    /// Area of its cracks, one side, m².
-    pub crack_area: f64,
-    /// What they ask for, J.
-    pub energy: f64,
-    /// From the contacts to the pieces, s.
-    pub seconds: f64,
+    /// Its numbers.
+    pub numbers: OutcomeNumbers,
     /// The pieces' shapes and where they lay in the body, m; empty where it held.
     shapes: Vec<(Vec3, RecordedMesh)>,
 }
 
 impl Outcome {
     pub(crate) fn new(broken: Broken, blow: &Blow, live: &LiveScene) -> Self {
-        let mut outcome = Self {
+        let numbers = OutcomeNumbers {
             method: broken.method,
             pieces: broken.pieces(),
             largest_share: broken.largest_share(),
             crack_area: broken.crack_area,
             energy: broken.energy,
             seconds: broken.seconds,
+        };
+        let mut outcome = Self {
+            numbers,
             shapes: Vec::new(),
         };
         if let Some(thing) = live.things().get(blow.thing) {
@@ -112,7 +106,9 @@ impl Methods {
     /// The outcome of a method, if it was computed.
     #[must_use]
     pub fn outcome(&self, method: Method) -> Option<&Arc<Outcome>> {
-        self.outcomes.iter().find(|known| known.method == method)
+        self.outcomes
+            .iter()
+            .find(|known| known.numbers.method == method)
     }
 
     /// Half the width and height of all panes, m.
@@ -174,12 +170,14 @@ impl Methods {
                 let middle = (1.0 + explode.max(APART)) * *birth;
                 place(live, mesh, blow, middle, shift, &mut batches);
             }
-            if let (true, Some(thing)) = (outcome.pieces == 1, live.things().get(blow.thing)) {
+            if let (true, Some(thing)) =
+                (outcome.numbers.pieces == 1, live.things().get(blow.thing))
+            {
                 place(live, &thing.mesh, blow, Vec3::ZERO, shift, &mut batches);
             }
             labels.push(Label {
                 at: blow.pose.translation + shift + 0.62 * height * up,
-                text: match outcome.pieces {
+                text: match outcome.numbers.pieces {
                     1 => format!("{}: held", method.title()),
                     pieces => format!("{}: {pieces} pieces", method.title()),
                 },

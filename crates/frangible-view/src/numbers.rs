@@ -174,15 +174,7 @@ impl OutcomeNumbers {
     /// Those of the methods that are shown, as far as they have come.
     pub(crate) fn of(methods: &Methods) -> Vec<Self> {
         let outcomes = methods.chosen.iter().filter_map(|m| methods.outcome(*m));
-        let numbers = |outcome: &crate::methods::Outcome| Self {
-            method: outcome.method,
-            pieces: outcome.pieces,
-            largest_share: outcome.largest_share,
-            crack_area: outcome.crack_area,
-            energy: outcome.energy,
-            seconds: outcome.seconds,
-        };
-        outcomes.map(|outcome| numbers(outcome)).collect()
+        outcomes.map(|outcome| outcome.numbers.clone()).collect()
     }
 }
 

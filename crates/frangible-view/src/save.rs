@@ -11,7 +11,7 @@ use serde::Serialize;
 use crate::blow::Blow;
 use crate::command::Target;
 use crate::error::ViewError;
-use crate::methods::Outcome;
+use crate::numbers::OutcomeNumbers;
 use crate::session::Session;
 
 impl Session {
@@ -53,7 +53,7 @@ impl Session {
                     report.methods = methods
                         .outcomes
                         .iter()
-                        .map(|o| MethodNumbers::of(o))
+                        .map(|o| MethodNumbers::of(&o.numbers))
                         .collect();
                 }
                 json(&report)
@@ -112,7 +112,7 @@ struct MethodNumbers {
 }
 
 impl MethodNumbers {
-    fn of(outcome: &Outcome) -> Self {
+    fn of(outcome: &OutcomeNumbers) -> Self {
         Self {
             method: outcome.method.name(),
             pieces: outcome.pieces,

@@ -49,7 +49,7 @@ fn other_methods_are_chosen_and_what_is_known_is_kept() {
     assert_eq!(names(&session), ["voronoi", "ours"]);
     let first = session.methods().unwrap().outcomes.clone();
     // About as many cells as pieces, in a convex pane: on either side crumbs join a neighbour.
-    let [cells, pieces] = [first[0].pieces, first[1].pieces];
+    let [cells, pieces] = [first[0].numbers.pieces, first[1].numbers.pieces];
     assert!(
         5 * cells.abs_diff(pieces) < pieces,
         "{cells} cells, {pieces} pieces"

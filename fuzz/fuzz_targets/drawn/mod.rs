@@ -4,6 +4,8 @@
 //! everything is drawn from zeros, which stand for the plainest choice.
 #![allow(dead_code, reason = "each target uses its share")]
 
+pub mod bodies;
+
 use frangible::FractureConfig;
 use frangible::glam::Vec3;
 use frangible::internals::near_field::PlateTheory;

@@ -48,15 +48,21 @@ impl Session {
             .as_ref()
             .filter(|m| Arc::ptr_eq(&m.blow, &blow));
         let known = known.map_or(Vec::new(), |methods| methods.outcomes.clone());
-        let is_known = |method: &Method| known.iter().any(|outcome| outcome.method == *method);
+        let is_known = |method: &Method| {
+            known
+                .iter()
+                .any(|outcome| outcome.numbers.method == *method)
+        };
         let missing: Vec<Method> = chosen.iter().copied().filter(|m| !is_known(m)).collect();
         if missing.is_empty() {
             self.methods_job = None;
             self.show_methods(blow, chosen, known);
             return Ok(());
         }
-        let ours = known.iter().find(|outcome| outcome.method == Method::Ours);
-        let cells = ours.map(|outcome| outcome.pieces.max(2));
+        let ours = known
+            .iter()
+            .find(|outcome| outcome.numbers.method == Method::Ours);
+        let cells = ours.map(|outcome| outcome.numbers.pieces.max(2));
         let hit = Arc::clone(&blow);
         self.methods_job = Some(MethodsJob {
             blow,
