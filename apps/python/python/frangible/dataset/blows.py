@@ -49,6 +49,9 @@ def broken(body: Body, plan: Plan, name: str, k: int) -> tuple[Outcome, dict[str
                 "speed": contact.speed,
                 "seed": seed,
             }
+            if described["kind"] == "drop":
+                # Of the fall that this speed is the end of; the one drawn may have been higher or lower.
+                described["height"] = float(contact.speed or 0.0) ** 2 / (2 * GRAVITY)
             return outcome, {"blow": described}
         speed = float(contact.speed or 0.0)
         slow, fast = (speed, fast) if count < fewest else (slow, speed)
@@ -68,7 +71,7 @@ def _drop(body: Body, rng: np.random.Generator) -> tuple[Contact, dict[str, Any]
     down /= np.linalg.norm(down)
     point = body.vertices[np.argmax(body.vertices @ down)]
     height = _between(rng, DROPS)
-    words = {"kind": "drop", "height": height, "striker": {"material": "stone"}}
+    words = {"kind": "drop", "height_drawn": height, "striker": {"material": "stone"}}
     return Contact(point, -down, math.sqrt(2 * GRAVITY * height), "stone"), words
 
 
