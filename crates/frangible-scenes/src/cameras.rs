@@ -9,7 +9,7 @@ use crate::recorder::Role;
 const MARGIN: f32 = 1.1;
 
 /// Share of a disc around pieces that their faces fill, at least: so many of them are shown, and strays are not.
-const FILLED: f64 = 0.2;
+const FILLED: f64 = 0.12;
 
 /// The piece in the middle of the picture is one of so many of the heaviest.
 const MIDDLES: usize = 8;
@@ -41,6 +41,7 @@ pub(crate) fn cameras(recording: &Recording, roles: &[Role], look_from: Vec3) ->
     let bodies = things(recording, roles, moments.before, |_, role| {
         role == Role::Body
     });
+    let count = bodies.len();
     // What breaks, where not all do.
     let mut breaking = things(recording, roles, moments.before, |node, role| {
         role == Role::Body && broke(node)
@@ -48,6 +49,7 @@ pub(crate) fn cameras(recording: &Recording, roles: &[Role], look_from: Vec3) ->
     if breaking.is_empty() {
         breaking = bodies;
     }
+    let standing = breaking.len() < count;
     let pieces = |frame: usize| {
         let pieces = things(recording, roles, frame, |_, role| role == Role::Piece);
         if pieces.is_empty() {
@@ -67,12 +69,12 @@ pub(crate) fn cameras(recording: &Recording, roles: &[Role], look_from: Vec3) ->
         together(&pieces(moments.just_after)),
         together(&pieces(end)),
     ];
-    let [first, flying, resting] = shown.map(|points| {
-        if points.is_empty() {
-            before.clone()
-        } else {
-            points
+    // Bodies that stay whole are the place where the others broke: it stays in the picture.
+    let [first, flying, resting] = shown.map(|mut points| {
+        if points.is_empty() || standing {
+            points.extend(&before);
         }
+        points
     });
     let whole: Vec<Vec3> = before.iter().chain(&resting).copied().collect();
     let views = [&before, &first, &flying, &resting].map(|points| look(points));
