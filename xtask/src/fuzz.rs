@@ -14,9 +14,12 @@ pub(crate) const USUAL_SECONDS: u64 = 30;
 const VERSION: &str = "0.13.2";
 /// What a target may take beyond its time before it counts as stuck: starting, reading the corpus, one slow input.
 const SLACK: Duration = Duration::from_secs(60);
-/// Longest input, bytes: several times the largest seed. More memory, MiB, or seconds for one input are findings; breaks of hundreds of pieces
-/// take seconds on a busy machine.
-const BOUNDS: [&str; 3] = ["-max_len=32768", "-rss_limit_mb=2048", "-timeout=30"];
+/// Longest input, bytes: several times the largest seed. More memory, MiB, is a finding.
+const BOUNDS: [&str; 2] = ["-max_len=32768", "-rss_limit_mb=2048"];
+/// What one input may take before that is a finding, s.
+const TIMEOUT: u64 = 10;
+/// Targets that break bodies, and what one of their inputs may take, s: hundreds of pieces take seconds on a busy machine.
+const BREAKING: ([&str; 3], u64) = (["impact", "run_scene", "world"], 30);
 
 /// Where things are. Nothing is written into the checkout.
 struct Folders {
@@ -148,6 +151,12 @@ fn run_target(folders: &Folders, name: &str, seconds: u64) -> Result<String> {
     let log = folders.target.join(format!("{name}.log"));
     let file = File::create(&log)
         .map_err(|error| format!("`{}` cannot be written: {error}", log.display()))?;
+    let (breaking, longer) = BREAKING;
+    let timeout = if breaking.contains(&name) {
+        longer
+    } else {
+        TIMEOUT
+    };
     let program = folders.programs.join(name);
     let mut command = Command::new(&program);
     // What is new goes into the first corpus; the others are only read.
@@ -160,6 +169,7 @@ fn run_target(folders: &Folders, name: &str, seconds: u64) -> Result<String> {
     }
     command
         .args(BOUNDS)
+        .arg(format!("-timeout={timeout}"))
         .arg(format!("-max_total_time={seconds}"))
         .arg("-print_final_stats=1")
         .arg(format!("-artifact_prefix={}/", findings.display()))

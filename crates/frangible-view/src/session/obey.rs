@@ -28,7 +28,7 @@ impl Session {
         Ok(())
     }
 
-    /// As [`Session::apply`], but steps are left to be taken one by one with [`Session::take_owed_step`].
+    /// Carries a command out as [`Session::apply`] does, but leaves its steps to be taken one by one with [`Session::take_owed_step`].
     pub(crate) fn begin(&mut self, command: Command) -> Result<(), ViewError> {
         self.commands += 1;
         self.stale = true;

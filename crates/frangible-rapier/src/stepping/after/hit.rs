@@ -1,6 +1,6 @@
 //! Who was hit in the step just taken, found without a copy of the world.
 //!
-//! Of all bodies only poses and velocities were noted before the step (`motions.rs`). They tell which pairs in contact may have met
+//! Before the step only poses and velocities of the bodies were noted (`motions.rs`). They tell which pairs in contact may have met
 //! fast enough; only of the breakable ones among these, and of what touches them, the state before the step is put together.
 
 use std::collections::{BTreeMap, BTreeSet};
