@@ -5,9 +5,10 @@ use std::fmt;
 use strsim::levenshtein;
 
 /// A way to break a body.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Method {
     /// Frangible's own: [`frangible::impact()`].
+    #[default]
     Ours,
     /// A steady state in place of the vibration, after Müller, McMillan, Dorsey and Jagnow 2001.
     QuasiStatic,

@@ -154,7 +154,7 @@ impl From<&Compared> for ComparedNumbers {
 }
 
 /// What one method made of an impact, in numbers.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct OutcomeNumbers {
     /// The method.
     pub method: Method,

@@ -34,7 +34,7 @@ pub enum BatchLooks {
 }
 
 /// A stroke over the picture.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Line {
     /// Its ends, m.
     pub ends: [Vec3; 2],
@@ -45,7 +45,7 @@ pub struct Line {
 }
 
 /// A dot over the picture.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Dot {
     /// Where, m.
     pub at: Vec3,
@@ -56,7 +56,7 @@ pub struct Dot {
 }
 
 /// Words over the picture, in the middle above a place.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Label {
     /// Where, m.
     pub at: Vec3,

@@ -309,31 +309,13 @@ fields! {
     StepTimings { rigid, undone, copies, contacts, fracture, fragments, loads, upkeep }
     Spread { count, median, p99 }
     Floor { height, base_color }
-    SurfaceMaterial {
-        name, base_color, metallic, roughness, transmission, ior, double_sided, attenuation_color, attenuation_distance, thin, grain,
-    }
-}
-
-/// A struct, field by field, all of them.
-macro_rules! whole {
-    ($($name:ident { $($field:ident),* $(,)? })*) => {$(
-        impl Wire for $name {
-            fn write(&self, out: &mut Vec<u8>) {
-                $(self.$field.write(out);)*
-            }
-
-            fn read(from: &mut Bytes<'_>) -> Option<Self> {
-                Some(Self { $($field: Wire::read(from)?),* })
-            }
-        }
-    )*};
-}
-
-whole! {
     OutcomeNumbers { method, pieces, largest_share, crack_area, energy, seconds }
     Line { ends, color, width }
     Dot { at, color, size }
     Label { at, text }
+    SurfaceMaterial {
+        name, base_color, metallic, roughness, transmission, ior, double_sided, attenuation_color, attenuation_distance, thin, grain,
+    }
 }
 
 impl Wire for BatchLooks {
