@@ -32,12 +32,13 @@ pub(crate) struct OldCrack {
 
 /// A tetrahedron that a crack has cut.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct OldCut {
-    pub(crate) tet: u32,
-    /// s at its nodes, m.
-    pub(crate) values: [f32; 4],
-    /// Unit normal of the crack.
-    pub(crate) direction: Vec3,
+pub struct OldCut {
+    /// Its number.
+    pub tet: u32,
+    /// Signed distances of its nodes from the crack, m.
+    pub values: [f32; 4],
+    /// Unit normal of the crack, towards the nodes of positive distance.
+    pub direction: Vec3,
 }
 
 impl OldCrack {
@@ -80,9 +81,14 @@ impl BodyState {
         self.cracks.len()
     }
 
+    /// The tetrahedra that the cracks have cut, crack by crack.
+    pub fn cuts(&self) -> impl Iterator<Item = &OldCut> {
+        self.cracks.iter().flat_map(|crack| &crack.cuts)
+    }
+
     /// The faces of the cracks, for drawing: a polygon of three or four corners per tetrahedron cut, m, body frame.
     pub fn faces<'a>(&'a self, asset: &'a Asset) -> impl Iterator<Item = ([Vec3; 4], usize)> + 'a {
-        let cuts = self.cracks.iter().flat_map(|c| &c.cuts);
+        let cuts = self.cuts();
         cuts.map(|cut| crossing_polygon(&asset.fracture.corners(cut.tet as usize), &cut.values))
     }
 

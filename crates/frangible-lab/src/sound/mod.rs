@@ -5,6 +5,7 @@
 
 mod cost;
 mod cup;
+mod faces;
 mod objects;
 mod page;
 mod scenes;
@@ -12,10 +13,10 @@ mod scenes;
 use std::error::Error;
 
 pub use cost::Cost;
-pub use cup::Cup;
+pub use cup::{Cup, FRICTIONS, Knocked};
 pub use objects::{Object, Partial};
 pub use page::SoundPage;
-pub use scenes::HeardScene;
+pub use scenes::{Drop, HeardScene};
 
 /// Samples per second.
 const RATE: f64 = 48_000.0;
@@ -29,8 +30,8 @@ pub struct Heard {
     pub cup: Cup,
     /// Scenes.
     pub scenes: Vec<HeardScene>,
-    /// The glass dropped from twice two heights: height, m, energy of the sound at the ears, Pa²·s.
-    pub drops: Vec<[f64; 2]>,
+    /// The glass dropped from heights that double.
+    pub drops: Vec<Drop>,
     /// What a resonator costs.
     pub cost: Cost,
 }
@@ -47,7 +48,7 @@ impl Heard {
         hear(0.35);
         let mut scenes = Vec::new();
         for (i, name) in scenes::NAMES.into_iter().enumerate() {
-            scenes.push(HeardScene::compute(name, None)?);
+            scenes.push(HeardScene::compute(name)?);
             hear(0.35 + 0.5 * (i + 1) as f64 / scenes::NAMES.len() as f64);
         }
         let drops = scenes::drops()?;

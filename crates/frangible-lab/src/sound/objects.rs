@@ -132,7 +132,7 @@ impl Plan {
         let kind = Breakable::new(Arc::new(asset))?;
         let (shape, body) = AssetSound::new(&kind.body(1), &damping, Hold::Free)?;
         let push = shape.push(self.point, self.direction);
-        let samples = struck(&body, push, LONG)?;
+        let samples = struck(&body, vec![blow(push)], LONG)?;
         let spectrum = Spectrum::of(&samples, RATE);
         let mut partials: Vec<Partial> = Vec::new();
         for &known in self.known {
@@ -166,8 +166,21 @@ fn nearest(body: &Body, frequency: f64) -> f64 {
         .unwrap_or(0.0)
 }
 
-/// The sound of a blow of 0.01 N·s and 0.1 ms at 1 m, Pa.
-pub(super) fn struck(body: &Body, push: Vec<f32>, long: f64) -> Result<Vec<f32>, Box<dyn Error>> {
+/// A blow of 0.01 N·s and 0.1 ms.
+pub(super) fn blow(push: Vec<f32>) -> Strike {
+    Strike {
+        pulse: Arc::new(Pulse::half_sine(0.01, 1e-4)),
+        push,
+        direction: Vec3::ZERO,
+    }
+}
+
+/// The sound of strikes that begin together, at 1 m, Pa, for a time, s.
+pub(super) fn struck(
+    body: &Body,
+    strikes: Vec<Strike>,
+    long: f64,
+) -> Result<Vec<f32>, Box<dyn Error>> {
     let place = DVec3::new(0.7, 0.3, 0.65);
     let listener = Listener {
         channels: 1,
@@ -175,19 +188,16 @@ pub(super) fn struck(body: &Body, push: Vec<f32>, long: f64) -> Result<Vec<f32>,
     };
     let mut synth = Synth::new(SynthConfig::new(listener))?;
     let id = synth.add(Arc::new(body.clone()), DVec3::ZERO, DQuat::IDENTITY)?;
-    let strike = Strike {
-        pulse: Arc::new(Pulse::half_sine(0.01, 1e-4)),
-        push,
-        direction: Vec3::ZERO,
-    };
-    synth.strike(0.0, id, strike)?;
+    for strike in strikes {
+        synth.strike(0.0, id, strike)?;
+    }
     let mut samples = vec![0.0; (long * RATE) as usize];
     synth.render(&mut samples);
     Ok(samples)
 }
 
 /// Time in which a tone falls by 60 dB, s, by its amplitudes in two windows of the sound.
-pub(super) fn decay(samples: &[f32], frequency: f64) -> f64 {
+fn decay(samples: &[f32], frequency: f64) -> f64 {
     let window = samples.len() / 4;
     let level = |from: usize| {
         let part = &samples[from..from + window];

@@ -37,8 +37,6 @@ pub struct HeardScene {
     pub blows: Vec<f64>,
     /// Left channel.
     pub samples: Vec<f32>,
-    /// Energy at the left ear, Pa²·s.
-    pub energy: f64,
     /// Energy that the scene lost, J.
     pub lost: f64,
     /// All sources together, blows, cracks, touches and slides by themselves: energy that they send, J, and at 1 m the loudest pressure and the
@@ -50,12 +48,9 @@ pub struct HeardScene {
 const FAST: f64 = 0.125;
 
 impl HeardScene {
-    /// Bakes, plays and hears a built-in scene; dropped from another height, m.
-    pub(super) fn compute(name: &str, height: Option<f64>) -> Result<Self, Box<dyn Error>> {
-        let mut scene = scene(name)?;
-        if let Some(height) = height {
-            scene.drop_all(height);
-        }
+    /// Bakes, plays and hears a built-in scene.
+    pub(super) fn compute(name: &str) -> Result<Self, Box<dyn Error>> {
+        let scene = scene(name)?;
         let baked = bake(&scene, &mut |_| {})?;
         let run = play(&scene, &baked, &mut |_| {})?;
         let config = sound_config(&run, &scene);
@@ -105,7 +100,6 @@ impl HeardScene {
             long: (last + 1) as f64 * 0.1,
             most: [sounded.report.most_bodies, sounded.report.most_resonators],
             blows: recording.blows.iter().map(|b| b.time).collect(),
-            energy: all / rate,
             lost: energy_lost(&run),
             sources: sources(&run, &scene)?,
             samples: left,
@@ -148,11 +142,33 @@ fn sources(run: &Run, scene: &Scene) -> Result<[[f64; 3]; 5], SoundError> {
     Ok(found)
 }
 
-/// The glass dropped from some heights: height, m, and energy of the sound, Pa²·s.
-pub(super) fn drops() -> Result<Vec<[f64; 2]>, Box<dyn Error>> {
-    let heard = |height: f64| {
-        let scene = HeardScene::compute("glass", Some(height))?;
-        Ok([height, scene.energy])
-    };
-    HEIGHTS.into_iter().map(heard).collect()
+/// Seeds of the glass for each height.
+pub(super) const SEEDS: u64 = 8;
+
+/// A height, m, and the level of the sound's energy at the left ear, dB over 1 Pa²·s: its mean over [`SEEDS`] and the standard error of that.
+pub type Drop = [f64; 3];
+
+/// The glass dropped from some heights.
+pub(super) fn drops() -> Result<Vec<Drop>, Box<dyn Error>> {
+    let mut drops = Vec::new();
+    for height in HEIGHTS {
+        let mut scene = scene("glass")?;
+        scene.drop_all(height);
+        let baked = bake(&scene, &mut |_| {})?;
+        let mut levels = Vec::new();
+        for seed in 1..=SEEDS {
+            scene.seed = seed;
+            let run = play(&scene, &baked, &mut |_| {})?;
+            let config = sound_config(&run, &scene);
+            let samples = sound(&run, &scene, &config)?.samples;
+            let left = samples.iter().step_by(2);
+            let energy: f64 = left.map(|&s| f64::from(s).powi(2)).sum();
+            levels.push(10.0 * (energy / config.rate).log10());
+        }
+        let count = levels.len() as f64;
+        let mean = levels.iter().sum::<f64>() / count;
+        let squares: f64 = levels.iter().map(|l| (l - mean).powi(2)).sum();
+        drops.push([height, mean, (squares / (count - 1.0) / count).sqrt()]);
+    }
+    Ok(drops)
 }
