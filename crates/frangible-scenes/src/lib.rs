@@ -73,4 +73,4 @@ pub use source::{
 };
 pub use stage::{breakable, intact_body};
 pub use text::{parse_scene, scene_to_toml};
-pub use wave::{SurfaceCut, Wave, WaveMoment};
+pub use wave::{SurfaceCut, Wave, WaveMoment, surface_cuts};

@@ -2,7 +2,7 @@
 
 use frangible::glam::Vec3;
 use frangible::internals::stress::largest_eigenvalue;
-use frangible::internals::{ShownStress, impact_traced};
+use frangible::internals::{ElementTrace, ShownStress, impact_traced};
 use frangible::{Asset, InputError};
 
 use crate::first_break::FirstBreak;
@@ -65,43 +65,14 @@ impl FirstBreak {
         let elements = || trace.cracks.iter().flatten().filter(|e| e.time.is_finite());
         let last = elements().map(|e| e.time).fold(0.0, f64::max);
         let length = (AFTERWARDS * last).max(report.contact_duration);
-        let place = |p: Vec3| self.rotation * p;
-        let behind = triangles_behind(asset);
-        let mut cuts: Vec<SurfaceCut> = elements()
-            .flat_map(|element| {
-                let triangles = behind[element.tet as usize].iter();
-                let nodes = asset.fracture.tets[element.tet as usize];
-                triangles.filter_map(move |&triangle| {
-                    let corners = asset.surface.triangles[triangle as usize];
-                    let value = |v: u32| {
-                        nodes
-                            .iter()
-                            .position(|&n| n == v)
-                            .map(|i| element.values[i])
-                    };
-                    let values = [value(corners[0])?, value(corners[1])?, value(corners[2])?];
-                    let corners = corners.map(|v| place(asset.fracture.positions[v as usize]));
-                    let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
-                    Some(SurfaceCut {
-                        time: element.time,
-                        ends: line(corners, values)?,
-                        normal: normal.normalize_or(Vec3::Y),
-                    })
-                })
-            })
-            .collect();
-        cuts.sort_by(|a, b| a.time.total_cmp(&b.time));
+        let place = |v: u32| self.rotation * asset.fracture.positions[v as usize];
         let surface = Surface::of(asset);
         let mut stress = ShownStress::new(&self.body, &self.config, &trace.pressed, &trace.motion);
         let mut wave = Wave {
-            positions: surface
-                .nodes
-                .iter()
-                .map(|&v| place(asset.fracture.positions[v as usize]))
-                .collect(),
+            positions: surface.nodes.iter().map(|&v| place(v)).collect(),
             triangles: surface.triangles.clone(),
             moments: Vec::with_capacity(moments),
-            cuts,
+            cuts: surface_cuts(asset, elements(), place),
             strength: self.body.weakest(),
         };
         for moment in 0..moments {
@@ -123,6 +94,39 @@ impl FirstBreak {
         }
         Ok(wave)
     }
+}
+
+/// Where these tetrahedra of cracks cut the surface of a body, in the order of time. `place`: where a node of the fracture mesh is, m.
+#[must_use]
+pub fn surface_cuts<'a>(
+    asset: &Asset,
+    elements: impl Iterator<Item = &'a ElementTrace>,
+    place: impl Fn(u32) -> Vec3,
+) -> Vec<SurfaceCut> {
+    let behind = triangles_behind(asset);
+    let mut cuts = Vec::new();
+    for element in elements {
+        let nodes = asset.fracture.tets[element.tet as usize];
+        let value = |v: u32| {
+            let at = nodes.iter().position(|&n| n == v)?;
+            Some(element.values[at])
+        };
+        for &triangle in &behind[element.tet as usize] {
+            let corners = asset.surface.triangles[triangle as usize];
+            let [Some(a), Some(b), Some(c)] = corners.map(value) else {
+                continue;
+            };
+            let corners = corners.map(&place);
+            let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+            cuts.extend(line(corners, [a, b, c]).map(|ends| SurfaceCut {
+                time: element.time,
+                ends,
+                normal: normal.normalize_or(Vec3::Y),
+            }));
+        }
+    }
+    cuts.sort_by(|a, b| a.time.total_cmp(&b.time));
+    cuts
 }
 
 impl Wave {

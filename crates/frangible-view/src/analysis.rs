@@ -8,7 +8,7 @@ use frangible::internals::mesh::TetMesh;
 use frangible::internals::modal::Motion;
 use frangible::internals::outcome::ContactReport;
 use frangible::internals::stress::Symmetric3;
-use frangible::internals::{CrackTrace, ShownStress, impact_traced};
+use frangible::internals::{CrackTrace, ElementTrace, ShownStress, impact_traced};
 use frangible::{Asset, Body, Contact, FractureConfig, InputError};
 
 use crate::blow::Blow;
@@ -20,8 +20,8 @@ const PLOTTED_MODES: usize = 6;
 /// A crack.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CrackShape {
-    /// The triangles of its surface, m, body frame.
-    pub triangles: Vec<[Vec3; 3]>,
+    /// The triangles of its surface, m, body frame, each with the time when the crack came there, s after the contact began.
+    pub triangles: Vec<([Vec3; 3], f64)>,
     /// The middle of the tetrahedron where it started, m, body frame.
     pub start: Vec3,
     /// When it started, s after the contact began.
@@ -39,6 +39,8 @@ pub struct Analysis {
     pub course: Arc<Course>,
     /// Cracks in the order in which they started.
     pub cracks: Vec<CrackShape>,
+    /// Tetrahedra that they went through while their time is known.
+    pub cut: Vec<ElementTrace>,
     /// Middles of the weak tetrahedra, m, body frame.
     pub weak_points: Vec<Vec3>,
     /// Length of the contact, s.
@@ -70,6 +72,10 @@ impl Analysis {
         let mut analysis = Self {
             course: Arc::default(),
             cracks: cracks(&asset.fracture, &trace),
+            cut: (trace.cracks.iter().flatten())
+                .filter(|element| element.time.is_finite())
+                .copied()
+                .collect(),
             weak_points: middles(&asset.fracture, body.weak_tets()),
             contact: report.contact_duration,
             motion: trace.motion,
@@ -89,10 +95,13 @@ impl Analysis {
         let basis = &self.asset.modes;
         let damping = |mode| basis.damping(mode, &self.asset.material);
         let modes = 0..basis.count();
+        let cracking = self.cracking();
+        let end = self.motion.begin(self.motion.steps(), self.time_step);
         let rest = Course {
             strength: self.body.weakest(),
             cracks: self.cracks.len(),
-            duration: self.motion.begin(self.motion.steps(), self.time_step),
+            duration: cracking[1].max(end),
+            cracking,
             swings: modes.map(|i| [basis.frequency(i), damping(i)]).collect(),
             ..Course::default()
         };
@@ -111,6 +120,13 @@ impl Analysis {
             tension,
             ..rest
         }
+    }
+
+    /// When the first crack started and the last one grew, s after the contact began; zeros without one.
+    fn cracking(&self) -> [f64; 2] {
+        let times = self.cut.iter().map(|e| e.time);
+        let first = times.clone().reduce(f64::min).unwrap_or_default();
+        [first, times.fold(0.0, f64::max)]
     }
 
     /// Amplitudes of all modes at this share of the motion's time, m·√kg; all at rest without a motion.
@@ -232,7 +248,10 @@ fn cracks(mesh: &TetMesh, trace: &CrackTrace) -> Vec<CrackShape> {
         for element in elements {
             let nodes = mesh.tets[element.tet as usize];
             let corners = nodes.map(|node| mesh.positions[node as usize]);
-            cut(corners, element.values, &mut crack.triangles);
+            let mut triangles = Vec::new();
+            cut(corners, element.values, &mut triangles);
+            let timed = triangles.into_iter().map(|t| (t, element.time));
+            crack.triangles.extend(timed);
         }
         cracks.push(crack);
     }

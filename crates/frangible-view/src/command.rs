@@ -150,7 +150,7 @@ pub enum Subject {
     World,
     /// The body during the last contact, deformed and coloured by stress.
     Stress,
-    /// The cracks of the last contact in the order in which they started.
+    /// The cracks of the last contact, and how they grew.
     Cracks,
     /// A vibration mode of the body that was hit last.
     Modes,
@@ -158,6 +158,14 @@ pub enum Subject {
     Compare,
     /// The last impact by several methods.
     Methods,
+}
+
+impl Subject {
+    /// Whether it is looked at moment by moment.
+    #[must_use]
+    pub const fn has_moments(self) -> bool {
+        matches!(self, Self::Stress | Self::Cracks | Self::Modes)
+    }
 }
 
 /// Marks over the picture.

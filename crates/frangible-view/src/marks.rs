@@ -9,15 +9,22 @@ use frangible_bake::mode_field::{
     ModeField, mode_on_fracture_mesh, motion_on_analysis_mesh, motion_on_fracture_mesh,
 };
 use frangible_export::{Pose, SurfaceMaterial};
-use frangible_scenes::Thing;
+use frangible_scenes::{Thing, surface_cuts};
 
 use crate::analysis::Analysis;
 use crate::blow::Blow;
+use crate::command::Subject;
 use crate::mesher::{apart, numbered};
 use crate::picture::{Batch, BatchLooks, Dot, Line, Picture};
 
 /// Deformations are drawn so large at first that the largest displacement is this share of the body.
 const TELLING: f32 = 0.06;
+
+/// Width of the lines that cracks make on the surface, as a share of the body's reach.
+const RIBBON: f32 = 0.008;
+
+/// Their colour, linear, with opacity.
+const CUT: [f32; 4] = [0.004, 0.004, 0.005, 1.0];
 
 /// Colours, linear.
 const ARROW: [f32; 3] = [0.9, 0.12, 0.05];
@@ -47,13 +54,13 @@ pub(crate) fn telling_exaggeration(analysis: &Analysis, share: f64) -> f64 {
 }
 
 /// The body at a moment of the contact, moved as its modes are and coloured by the largest principal tension that cracks feel on its
-/// surface, from 0 to the second number, Pa.
+/// surface, from 0 to the second number, Pa; with lines where cracks have cut the surface by then.
 pub(crate) fn strained(
     analysis: &Analysis,
     pose: Pose,
     share: f64,
     exaggeration: f64,
-) -> (Batch, f64) {
+) -> (Vec<Batch>, f64) {
     let asset = &analysis.asset;
     let field = motion_on_fracture_mesh(asset, analysis.amplitudes(share));
     let largest = analysis.course.peak_tension.max(1.0);
@@ -70,7 +77,48 @@ pub(crate) fn strained(
         let (sum, count) = tensions[node];
         sum / count.max(1.0) / largest as f32
     });
-    (batch, largest)
+    let place = |node: u32| {
+        let node = node as usize;
+        let moved = exaggeration as f32 * field.displacements[node];
+        out(pose, asset.fracture.positions[node] + moved)
+    };
+    let mut batches = vec![batch];
+    batches.extend(cuts(analysis, share, place));
+    (batches, largest)
+}
+
+/// Dark ribbons where cracks have cut the surface by a moment of the contact. `place`: where a node of the fracture mesh is drawn, m.
+fn cuts(analysis: &Analysis, share: f64, place: impl Fn(u32) -> Vec3) -> Option<Batch> {
+    let now = analysis.course.time(share);
+    let reached = analysis.cut.iter().filter(|element| element.time <= now);
+    let cuts = surface_cuts(&analysis.asset, reached, place);
+    let half = 0.5 * RIBBON * reach(&analysis.asset);
+    let (mut positions, mut normals) = (Vec::new(), Vec::new());
+    for cut in &cuts {
+        let [a, b] = cut.ends;
+        let along = (b - a).normalize_or_zero();
+        let (side, up) = (half * along.cross(cut.normal), half * cut.normal);
+        // As much longer at both ends as it is wide, so that ribbons meet without gaps.
+        let (a, b) = (a + up - half * along, b + up + half * along);
+        for corner in [a - side, b - side, b + side, a - side, b + side, a + side] {
+            positions.push(corner);
+            normals.push(cut.normal);
+        }
+    }
+    (!positions.is_empty()).then(|| Batch {
+        looks: BatchLooks::Surface(SurfaceMaterial {
+            name: "cut".into(),
+            base_color: CUT,
+            roughness: 1.0,
+            double_sided: true,
+            ..SurfaceMaterial::default()
+        }),
+        faces: Arc::new(numbered(positions.len())),
+        positions,
+        normals,
+        values: Vec::new(),
+        stamp: 0,
+    })
 }
 
 /// A vibration mode, one swing over shares of 0..=1, coloured by tension; the second number is the largest stress at the
@@ -148,8 +196,8 @@ fn surface(
     batch
 }
 
-/// The body as a ghost, and its cracks coloured from the first to the last.
-pub(crate) fn cracks(analysis: &Analysis, pose: Pose) -> Vec<Batch> {
+/// The body as a ghost, and how far its cracks have come by a moment of the contact, coloured by when they came there.
+pub(crate) fn cracks(analysis: &Analysis, pose: Pose, share: f64) -> Vec<Batch> {
     let still = ModeField {
         displacements: vec![Vec3::ZERO; analysis.asset.fracture.positions.len()],
         stresses: Vec::new(),
@@ -171,15 +219,20 @@ pub(crate) fn cracks(analysis: &Analysis, pose: Pose) -> Vec<Batch> {
         faces: Arc::default(),
         stamp: 0,
     };
-    let last = analysis.cracks.len().saturating_sub(1).max(1) as f32;
+    let now = analysis.course.moment(Subject::Cracks, share);
+    let mut times: Vec<f64> = analysis.cut.iter().map(|element| element.time).collect();
+    times.sort_by(f64::total_cmp);
     let rotation = pose.rotation.normalize();
-    for (order, crack) in analysis.cracks.iter().enumerate() {
-        for &[a, b, c] in &crack.triangles {
+    for crack in &analysis.cracks {
+        for &([a, b, c], time) in crack.triangles.iter().filter(|(_, time)| *time <= now) {
+            // The share of all that came before: most cracks run in the first microseconds.
+            let before = times.partition_point(|t| *t < time);
+            let value = before as f32 / times.len().max(1) as f32;
             let normal = (b - a).cross(c - a).normalize_or(Vec3::Y);
             for corner in [a, b, c] {
                 colored.positions.push(out(pose, corner));
                 colored.normals.push(rotation * normal);
-                colored.values.push(order as f32 / last);
+                colored.values.push(value);
             }
         }
     }

@@ -4,6 +4,7 @@ use frangible::glam::Vec3;
 use frangible_compare::Method;
 
 use crate::blow::Blow;
+use crate::command::Subject;
 use crate::knobs::{KNOBS, Settings};
 use crate::methods::Methods;
 use crate::shown::Compared;
@@ -121,7 +122,9 @@ pub struct Course {
     pub peak_tension: f64,
     /// Cracks that started.
     pub cracks: usize,
-    /// Length of the motion, s.
+    /// When the first of them started and the last one grew, s after the contact began; zeros without one.
+    pub cracking: [f64; 2],
+    /// Length of the motion, or until the last crack grew, s.
     pub duration: f64,
     /// Frequency, Hz, and damping, 1/s, of each mode of the body.
     pub swings: Vec<[f64; 2]>,
@@ -132,6 +135,15 @@ impl Course {
     #[must_use]
     pub fn time(&self, share: f64) -> f64 {
         share.clamp(0.0, 1.0) * self.duration
+    }
+
+    /// Time of a share of what a subject shows, s: cracks are there sooner than the motion ends.
+    #[must_use]
+    pub fn moment(&self, subject: Subject, share: f64) -> f64 {
+        match subject {
+            Subject::Cracks => share.clamp(0.0, 1.0) * self.cracking[1],
+            _ => self.time(share),
+        }
     }
 }
 

@@ -302,7 +302,7 @@ fields! {
         tetrahedra,
     }
     Series { name, points }
-    Course { force, modes, tension, strength, peak_tension, cracks, duration, swings }
+    Course { force, modes, tension, strength, peak_tension, cracks, cracking, duration, swings }
     ComparedNumbers { blows, differences }
     KnobValues { materials, values }
     LoadCounts { asked, contacts, by_impulses, by_amplitudes, by_clusters, by_stresses, broke }

@@ -207,7 +207,7 @@ fn cracks_have_the_area_that_the_report_says() {
         .cracks
         .iter()
         .flat_map(|crack| &crack.triangles)
-        .map(|[a, b, c]| 0.5 * (*b - *a).cross(*c - *a).length())
+        .map(|([a, b, c], _)| 0.5 * (*b - *a).cross(*c - *a).length())
         .sum();
     let reported = shown.blow.as_ref().unwrap().crack_area as f32;
     assert!(
@@ -216,6 +216,30 @@ fn cracks_have_the_area_that_the_report_says() {
     );
     // Drawn: the body and its cracks.
     assert_eq!(shown.picture.batches.len(), 2);
+}
+
+#[test]
+fn cracks_grow_along_the_timeline() {
+    let mut session = broken("timeline");
+    let drawn = |session: &mut Session, command: &str, batch: usize| {
+        give(session, command);
+        let picture = session.shown().picture;
+        picture.batches.get(batch).map_or(0, |b| b.positions.len())
+    };
+    // The cracks come first and the body after them; before they come there is the body alone.
+    let all = drawn(&mut session, "look cracks", 0);
+    let half = drawn(&mut session, "scrub 0.5", 0);
+    assert!(0 < half && half < all, "{half} of {all} corners");
+    drawn(&mut session, "scrub 0", 0);
+    assert_eq!(session.shown().picture.batches.len(), 1);
+    // Over the strained body lie the lines along which cracks have cut its surface.
+    give(&mut session, "look stress");
+    let lines = ["scrub 0", "scrub 0.5", "scrub 1"].map(|moment| drawn(&mut session, moment, 1));
+    let [none, some, most] = lines;
+    assert!(
+        none == 0 && some > 0 && some <= most,
+        "{none} {some} {most}"
+    );
 }
 
 #[test]

@@ -151,9 +151,9 @@ impl Heard {
         let _ = writeln!(
             text,
             "\n![The whole cup]({folder}/cup-whole.png)\n![The cracked cup]({folder}/cup-cracked.png)\n\nThe first two rows are the linear ones: \
-             the tones of a cup with cuts in it are lower, and it would ring on. But faces cannot run through each other. Below they touch where \
-             they close and rub where they slide: one of {} places on the cracks, each as stiff as the material between the nodes on its two sides, with Coulomb's \
-             friction, followed in steps of a microsecond through all modes that are heard. What beats shakes the modes that fade fastest, and what rubs \
+             the tones of a cup with cuts in it are lower, and it would ring on. But faces cannot run through each other. In the other rows they touch where \
+             they close and rub where they slide, at {} places on the cracks. Each place is as stiff as the material between the nodes on its two sides, friction \
+             is Coulomb's, and all modes that are heard are followed in steps of a microsecond. What beats shakes the modes that fade fastest, and what rubs \
              is lost at once: the sound of the cracked cup is lower *and* gone {:.0} times sooner than the whole cup's (20 dB less to come). Nothing here is \
              fitted; the coefficient of friction matters little between {:.2} and {:.2}. The picture is with {:.2}. Scenes do not have this: a body that holds \
              with cracks in it keeps the tones that it had.\n",

@@ -39,7 +39,17 @@ impl Session {
             Subject::Stress | Subject::Cracks | Subject::Modes => self.analyse()?,
         }
         self.set_subject(subject);
+        self.scrub_to_the_point();
         Ok(())
+    }
+
+    /// Goes to the moment that tells most of the subject: all cracks there are, or the largest tension.
+    fn scrub_to_the_point(&mut self) {
+        match (self.subject, &self.analysis) {
+            (Subject::Cracks, _) => self.scrub = 1.0,
+            (Subject::Stress, Some(analysis)) => self.scrub = analysis.worst_moment(),
+            _ => {}
+        }
     }
 
     /// Has the last contact analysed, if that is not done.
@@ -57,9 +67,11 @@ impl Session {
         };
         match result {
             Ok(analysis) => {
-                self.scrub = analysis.worst_moment();
-                self.exaggeration = marks::telling_exaggeration(&analysis, self.scrub);
+                let worst = analysis.worst_moment();
+                self.exaggeration = marks::telling_exaggeration(&analysis, worst);
+                self.scrub = worst;
                 self.analysis = Some(Arc::new(analysis));
+                self.scrub_to_the_point();
             }
             Err(error) => self.complain(&error),
         }
@@ -241,10 +253,10 @@ impl Session {
         let explode = self.explode as f32;
         let shown = match (self.subject, &self.blow, &self.analysis) {
             (Subject::Stress, Some(blow), Some(analysis)) => {
-                let (batch, largest) =
+                let (batches, largest) =
                     marks::strained(analysis, blow.pose, self.scrub, self.exaggeration);
                 self.largest_color = Some(largest);
-                Some(vec![batch])
+                Some(batches)
             }
             (Subject::Modes, Some(blow), Some(analysis)) => {
                 let mode = self.mode_of(analysis);
@@ -253,7 +265,7 @@ impl Session {
                 Some(vec![batch])
             }
             (Subject::Cracks, Some(blow), Some(analysis)) => {
-                Some(marks::cracks(analysis, blow.pose))
+                Some(marks::cracks(analysis, blow.pose, self.scrub))
             }
             (Subject::Compare, ..) => self.side_by_side(live, &mut picture),
             (Subject::Methods, ..) => self.panes(live, &mut picture),

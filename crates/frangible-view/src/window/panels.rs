@@ -150,7 +150,7 @@ impl Panels {
 
     /// Moves the motion that plays on.
     fn play_on(&mut self, shown: &Shown, commands: &mut Vec<Command>) {
-        let moves = matches!(shown.subject, Subject::Stress | Subject::Modes);
+        let moves = shown.subject.has_moments();
         let Some(last) = self.playing.filter(|_| moves && shown.course.is_some()) else {
             self.playing = None;
             return;
@@ -158,7 +158,12 @@ impl Panels {
         let now = Instant::now();
         self.playing = Some(now);
         let passed = now.duration_since(last).as_secs_f64() / PLAY_TIME;
-        commands.push(Command::Scrub((shown.scrub + passed).fract()));
+        let next = match shown.subject {
+            Subject::Modes => (shown.scrub + passed).fract(),
+            // The first microseconds, in which most happens, pass more slowly.
+            _ => (shown.scrub.cbrt() + passed).fract().powi(3),
+        };
+        commands.push(Command::Scrub(next));
     }
 
     /// Draws the panels over the next frame; what was said with mouse, keys and panels comes back.

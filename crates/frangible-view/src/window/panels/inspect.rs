@@ -55,7 +55,7 @@ pub(super) fn panel(
     };
     color_bar(ui, shown, course);
     scrubber(ui, shown, course, commands);
-    if matches!(shown.subject, Subject::Stress | Subject::Modes) {
+    if shown.subject.has_moments() {
         let mut plays = playing.is_some();
         if ui.checkbox(&mut plays, "play").changed() {
             *playing = plays.then(Instant::now);
@@ -163,7 +163,13 @@ fn color_bar(ui: &mut Ui, shown: &Shown, course: &Course) {
             let largest = shown.largest_color.unwrap_or_default();
             ["0".to_string(), format!("{:.3} MPa", 1e-6 * largest)]
         }
-        Subject::Cracks => ["first".into(), format!("last of {} cracks", course.cracks)],
+        Subject::Cracks => {
+            let [first, last] = course.cracking.map(|time| 1e6 * time);
+            [
+                format!("{first:.1} µs"),
+                format!("{last:.1} µs, {} cracks", course.cracks),
+            ]
+        }
         _ => return,
     };
     let width = ui.available_width();
@@ -207,15 +213,9 @@ fn color_bar(ui: &mut Ui, shown: &Shown, course: &Course) {
 
 fn scrubber(ui: &mut Ui, shown: &Shown, course: &Course, commands: &mut Vec<Command>) {
     match shown.subject {
+        Subject::Cracks => moment_slider(ui, shown, course, commands),
         Subject::Stress => {
-            let mut share = shown.scrub;
-            let text = format!("{:.1} µs", 1e6 * course.time(share));
-            let slider = Slider::new(&mut share, 0.0..=1.0)
-                .show_value(false)
-                .text(text);
-            if ui.add(slider).changed() {
-                commands.push(Command::Scrub(share));
-            }
+            moment_slider(ui, shown, course, commands);
             let mut factor = shown.exaggeration;
             let slider = Slider::new(&mut factor, 1.0..=1e5)
                 .logarithmic(true)
@@ -226,6 +226,20 @@ fn scrubber(ui: &mut Ui, shown: &Shown, course: &Course, commands: &mut Vec<Comm
         }
         Subject::Modes => modes(ui, shown, course, commands),
         _ => {}
+    }
+}
+
+/// The timeline of the contact, wide where most happens: in its first microseconds.
+fn moment_slider(ui: &mut Ui, shown: &Shown, course: &Course, commands: &mut Vec<Command>) {
+    let mut share = shown.scrub;
+    let text = format!("{:.1} µs", 1e6 * course.moment(shown.subject, share));
+    let slider = Slider::new(&mut share, 0.0..=1.0)
+        .logarithmic(true)
+        .smallest_positive(1e-4)
+        .show_value(false)
+        .text(text);
+    if ui.add(slider).changed() {
+        commands.push(Command::Scrub(share));
     }
 }
 
@@ -270,7 +284,7 @@ fn points(series: &[[f64; 2]], factor: f64) -> PlotPoints<'static> {
 }
 
 fn moment(shown: &Shown, course: &Course) -> VLine {
-    VLine::new("moment", 1e6 * course.time(shown.scrub)).color(Color32::GRAY)
+    VLine::new("moment", 1e6 * course.moment(shown.subject, shown.scrub)).color(Color32::GRAY)
 }
 
 fn force(ui: &mut Ui, shown: &Shown, course: &Course) {
