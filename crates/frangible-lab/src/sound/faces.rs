@@ -145,7 +145,7 @@ impl Faces {
         let (mut q, mut v) = (vec![0.0_f64; tones.len()], vec![0.0_f64; tones.len()]);
         let (mut place, mut force) = (vec![0.0_f32; self.width], vec![0.0_f32; self.width]);
         let mut slid = vec![[0.0_f32; 2]; self.rows.len()];
-        let mut noted = vec![vec![0.0_f32; self.width]; 0];
+        let mut noted: Vec<Vec<f32>> = Vec::new();
         let mut sums = vec![0.0_f32; self.width];
         let (mut energy, mut rubbed) = (0.0, 0.0);
         let steps = (long / step) as usize;
