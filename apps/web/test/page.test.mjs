@@ -165,6 +165,7 @@ async function trial(browser, address, renderer) {
 
   await played(renderer, page, command);
   await meshes(renderer, page, until, command);
+  if (renderer === renderers[0]) await all(renderer, page, command);
   await page.close();
 }
 
@@ -182,6 +183,17 @@ const firstBroken = (seen) => seen.findIndex(({ pieces }) => pieces > 0);
 
 /** Pieces that came when pieces broke again. */
 const cameLater = (seen) => Math.max(...seen.map(({ pieces }) => pieces)) - seen[firstBroken(seen)].pieces;
+
+/** Chooses every scene of the page once: its bodies are fetched, and it goes on. */
+async function all(renderer, page, command) {
+  const scenes = await page.evaluate(() => window.frangible.scenes);
+  for (const scene of scenes) {
+    await command(`scene ${scene}`);
+    const state = await command("step 10");
+    assert.deepEqual([state.scene, state.steps, state.whole > 0], [scene, 10, true]);
+  }
+  console.log(`${renderer}: all ${scenes.length} scenes can be chosen`);
+}
 
 /** The most that the masses of two breaks differ by, as a share of the whole. */
 function apart(one, other) {
@@ -272,8 +284,13 @@ async function meshes(renderer, page, until, command) {
   await refuse("letter.obj", "Dear reader,");
   await refuse("foil.obj", box(0.3, 0.2, 0.00002));
 
-  await page.evaluate(() => void (window.stages = []));
   const mesh = ring();
+  await drop(page, "ring.obj", mesh);
+  await page.waitForFunction(() => JSON.parse(window.frangible_state()).bake?.[0] === "meshing");
+  const cancelled = await command("cancel-bake");
+  assert.deepEqual([cancelled.message, cancelled.bake, cancelled.whole], ["the bake was cancelled", null, 0]);
+
+  await page.evaluate(() => void (window.stages = []));
   const began = Date.now();
   const waited = await longest(page, async () => {
     await drop(page, "ring.obj", mesh);

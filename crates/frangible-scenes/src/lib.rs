@@ -12,8 +12,8 @@
 //! [`scene()`] gives a built-in scene, [`scene_of_file`] one from a scene file, a mesh or a baked body, and
 //! [`parse_scene`] one from TOML text; [`scene_to_toml`] goes back.
 //!
-//! A browser needs no solver: without the feature `bake` the crate has neither finite elements nor faer, and baked bodies have
-//! to be given.
+//! Whoever has baked bodies needs no solver: without the feature `bake` the crate has neither finite elements nor faer, and baked bodies
+//! have to be given.
 
 mod again;
 mod appearance;

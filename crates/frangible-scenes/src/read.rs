@@ -117,7 +117,7 @@ impl Files {
             (_, Some(TetFormat::TetGen)) => {
                 let [node, ele, face] = ["node", "ele", "face"].map(|e| path.with_extension(e));
                 let face = self.has(&face).then(|| self.bytes(&face)).transpose()?;
-                parse_tetgen(&*self.bytes(&node)?, &*self.bytes(&ele)?, face.as_deref())
+                parse_tetgen(&self.bytes(&node)?, &self.bytes(&ele)?, face.as_deref())
             }
             (_, Some(format)) => parse_tets(format, &self.bytes(path)?),
             (_, None) => Err(ReadError::UnknownTetFormat {

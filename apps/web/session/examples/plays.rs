@@ -26,7 +26,7 @@ impl Baked {
         let known = self.of(name)?;
         let files = known["files"].as_array()?.iter().filter_map(Value::as_str);
         let assets: Result<Vec<_>, _> = files
-            .map(|file| Asset::load(&self.folder.join(file)).map(Arc::new))
+            .map(|file| Asset::load(self.folder.join(file)).map(Arc::new))
             .collect();
         let assets = match assets {
             Ok(assets) => assets,
