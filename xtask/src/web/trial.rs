@@ -19,7 +19,7 @@ const RENDERERS: [&str; 2] = ["webgpu", "webgl2"];
 const PLAYED: [(&str, u32, u32); 2] = [("pane", 50, 20), ("shards", 200, 20)];
 
 /// What the browser may take before it counts as stuck.
-const LONGEST: Duration = Duration::from_secs(15 * 60);
+const LONGEST: Duration = Duration::from_secs(25 * 60);
 
 /// Makes the page and tries it, and returns the lines that sum it up; one of them says so where there is no browser.
 pub(crate) fn trial(limit: Option<Duration>) -> Result<Vec<String>> {
