@@ -95,8 +95,8 @@ async function open(browser, address, renderer) {
 
 /** Steps until something is in pieces; a fall from 1.5 m takes 2124. */
 async function broken(command) {
-  for (let steps = 0; steps < 3000; steps += 50) {
-    const state = await command("step 50");
+  for (let steps = 0; steps < 3000; steps += 100) {
+    const state = await command("step 100");
     if (state.pieces > 0) return state;
   }
   return assert.fail("nothing broke");

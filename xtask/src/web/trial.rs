@@ -16,7 +16,7 @@ const DRIVER: &str = "playwright-core@1.65.1";
 const RENDERERS: [&str; 2] = ["webgpu", "webgl2"];
 
 /// Scenes that are played in the browser and without one, and how: so many steps, so many times. In the second pieces break again.
-const PLAYED: [(&str, u32, u32); 2] = [("pane", 50, 20), ("shards", 200, 20)];
+const PLAYED: [(&str, u32, u32); 2] = [("pane", 100, 5), ("shards", 400, 10)];
 
 /// What the browser may take before it counts as stuck.
 const LONGEST: Duration = Duration::from_secs(25 * 60);
