@@ -32,7 +32,7 @@ cargo xtask counts [--write]  count the instructions of each stage; fail where t
 cargo xtask rebake            write the baked bodies and states in fuzz/corpus and those that the core's tests break anew
 cargo xtask fuzz [SECONDS]    feed hostile bytes to each reader of files, and to blows, worlds and scenes, for so long, 30 s if not told
 cargo xtask web [--out DIR]   make the viewer's page for browsers, one static folder: target/web/page if not told
-cargo xtask web-test          make it, and break the pane in it with Chromium, drawn by the processor
+cargo xtask web-test          make it, and break scenes and a mesh in it with Chromium, drawn by the processor
 cargo xtask npm               make the npm package, install it in an empty project, and try it in Node and in Chromium
 cargo xtask python            make the wheel for Python, and try it in an environment of its own
 cargo xtask bevy              lint and test the plugin for Bevy, in its own workspace

@@ -1,28 +1,71 @@
 // The session runs here, in a worker of the browser: a break takes as long as it takes, and the page goes on drawing.
 
-import init from "./frangible-web.js";
+import init from "./frangible-web-session.js";
+import { bytes, fromPlanes, program } from "./fetch.js";
 
 /** How long to wait for the next turn where nothing moves, ms. */
 const REST = 8;
 
-/** Who waits for bodies, by the number of the question. */
-const waiting = new Map();
-let questions = 0;
 /** Whether the page has taken in what it was told last. */
 let seen = true;
+/** Files that the page was given, by their names. */
+const given = new Map();
+/** Promises of baked bodies, by the names of their files: each is fetched once, and again after a failure. */
+const fetched = new Map();
+
+function body(file, tell) {
+  if (!fetched.has(file.name)) {
+    const promise = bytes(file, tell).then(fromPlanes);
+    promise.catch(() => fetched.delete(file.name));
+    fetched.set(file.name, promise);
+  }
+  return fetched.get(file.name);
+}
+
+/** Baked bodies of one of the page's scenes: files, and which file is whose. */
+async function bodies({ files, of }, tell) {
+  const all = files.reduce((sum, { size }) => sum + size, 0);
+  const have = files.map(() => 0);
+  const note = (i) => (bytes) => {
+    have[i] = bytes;
+    tell(have.reduce((sum, bytes) => sum + bytes, 0) / all);
+  };
+  return [await Promise.all(files.map((file, i) => body(file, note(i)))), of];
+}
+
+/** Has another worker bake a scene's bodies, for as long as tell(what, share) returns true. */
+function bake(module, scene, tell) {
+  return new Promise((done, failed) => {
+    const baker = new Worker(new URL("baker.js", import.meta.url), { type: "module" });
+    const end = (then, what) => {
+      baker.terminate();
+      then(what);
+    };
+    baker.addEventListener("message", ({ data: { bodies, problem, what, share } }) => {
+      if (bodies) end(done, bodies);
+      else if (problem) end(failed, new Error(problem));
+      else if (!tell(what, share)) end(failed, new Error("the bake was given up"));
+    });
+    baker.addEventListener("error", ({ message }) => end(failed, new Error(`the bake has ended: ${message ?? "it could not be started"}`)));
+    baker.postMessage({ module, scene, given: [...given] });
+  });
+}
 
 const tasks = {
-  async start({ module, scenes, byClock }) {
+  async start({ file, scenes, first, byClock }) {
+    // Beside each other; what fails is asked for again, and told then.
+    bodies(scenes[first].bodies, (share) => postMessage({ share: { body: share } })).catch(() => {});
+    const module = await program(file, (bytes) => postMessage({ share: { session: bytes / file.size } }));
     globalThis.frangible = {
       scenes: Object.keys(scenes),
       scene: (name) => scenes[name]?.text,
       byClock,
-      bodies: (scene, tell) =>
-        new Promise((done, failed) => {
-          questions += 1;
-          waiting.set(questions, { tell, done, failed });
-          postMessage({ bodies: { scene, number: questions } });
+      given: () => [...given],
+      bodies: (name, tell) =>
+        bodies(scenes[name].bodies, (share) => tell(`fetching ${name}`, share)).catch(({ message }) => {
+          throw new Error(`the bodies of ${name} could not be fetched (${message}); choose the scene again`);
         }),
+      bake: (scene, tell) => bake(module, scene, tell),
       save: (name, content) => postMessage({ save: { name, content } }),
       hear: (samples, rate) => postMessage({ hear: { samples, rate } }),
       failed: (why) => postMessage({ failed: why }),
@@ -31,14 +74,8 @@ const tasks = {
     turn();
   },
   line: (text) => globalThis.frangible_take(text),
+  file: ({ name, content }) => given.set(name, content),
   seen: () => (seen = true),
-  share: ({ number, share }) => waiting.get(number)?.tell(share),
-  fetched({ number, bodies, problem }) {
-    const { done, failed } = waiting.get(number);
-    waiting.delete(number);
-    if (problem) failed(new Error(problem));
-    else done(bodies);
-  },
 };
 
 /** Lets the session go on, tells what there is to see, and comes again. */

@@ -1,7 +1,10 @@
-// Fetches the program and the first scene's bodies, finds out what the browser draws with, and starts.
+// Has a worker fetch the session's program and the first scene's bodies, fetches the window's program beside it, finds out what the browser
+// draws with, and starts.
 //
 // In the address: ?scene=NAME; ?renderer=webgl2 leaves WebGPU out; ?clock=stands runs scenes by commands only; #do=COMMANDS, with a semicolon
 // between two, does again what was done where the link was made.
+
+import { program } from "./fetch.js";
 
 const wishes = new URLSearchParams(location.search);
 const cover = document.getElementById("cover");
@@ -34,17 +37,23 @@ async function follow(commands) {
   if (last !== "pause" && wishes.get("clock") !== "stands") await carryOut("run");
 }
 
+/** Says something on the button of links, for a while. */
+function answer(words) {
+  link.textContent = words;
+  setTimeout(() => (link.textContent = "Copy link"), 3000);
+}
+
 /** Puts what was done into the address, and into the clipboard where the browser lets the page. */
 async function share(script) {
   const lines = script.split("\n").filter((line) => line && !line.startsWith("#"));
+  if (lines.some((line) => line.startsWith("open "))) return answer("A link cannot carry a file");
   const at = new URL(location.href);
   const scene = lines.find((line) => line.startsWith("scene "));
   if (scene) at.searchParams.set("scene", scene.slice(6));
   at.hash = String(new URLSearchParams({ do: lines.join(";") }));
   history.replaceState(null, "", at);
   const copied = await navigator.clipboard?.writeText(at.href).then(() => true, () => false);
-  link.textContent = copied ? "Copied" : "It is in the address";
-  setTimeout(() => (link.textContent = "Copy link"), 2000);
+  answer(copied ? "Copied" : "It is in the address");
 }
 
 /** Says what went wrong first: what follows from it says less. */
@@ -54,28 +63,6 @@ function failed(why) {
   cover.style.display = "";
   cover.classList.add("failed");
   text.textContent = why;
-}
-
-/** The bytes of a file of this folder, unpacked; tell(share) meanwhile. */
-async function bytes(name, size, tell) {
-  const answer = await fetch(name);
-  if (!answer.ok) throw new Error(`${name}: the server says ${answer.status}`);
-  const parts = [];
-  let have = 0;
-  const reader = answer.body.getReader();
-  for (;;) {
-    const { done, value } = await reader.read();
-    if (done) break;
-    parts.push(value);
-    have += value.length;
-    tell(Math.min(have / size, 1));
-  }
-  const packed = new Blob(parts);
-  // Some servers unpack by themselves what ends in .gz.
-  const [a, b] = new Uint8Array(await packed.slice(0, 2).arrayBuffer());
-  if (a !== 0x1f || b !== 0x8b) return new Uint8Array(await packed.arrayBuffer());
-  const unpacked = packed.stream().pipeThrough(new DecompressionStream("gzip"));
-  return new Uint8Array(await new Response(unpacked).arrayBuffer());
 }
 
 /** What draws: "webgpu", "webgl2" or null, and whether it is a program that draws with the processor. */
@@ -121,42 +108,59 @@ function hear(samples, rate) {
   heard += frames / rate;
 }
 
+/** Files that belong to others and cannot be opened by themselves. */
+const BESIDE = /\.(mtl|bin|ele|face|png|jpe?g)$/i;
+
+/** Gives the session files, and has it open the one that the others belong to. */
+async function openFiles(session, files) {
+  if (files.length === 0) return;
+  const names = [];
+  for (const file of files) {
+    // A command is a line.
+    const name = file.name.replace(/\s+/g, " ").trim();
+    const content = new Uint8Array(await file.arrayBuffer());
+    session.postMessage({ file: { name, content } }, [content.buffer]);
+    names.push(name);
+  }
+  const main = names.find((name) => /\.toml$/i.test(name)) ?? names.find((name) => !BESIDE.test(name)) ?? names[0];
+  window.frangible_command(`open ${main}`);
+}
+
+/** Files come by the button, or are dropped onto the page. */
+function takeFiles(session) {
+  const chosen = document.getElementById("files");
+  const button = document.getElementById("open");
+  button.addEventListener("click", () => chosen.click());
+  chosen.addEventListener("change", async () => {
+    await openFiles(session, [...chosen.files]);
+    // So that the same file can be chosen again.
+    chosen.value = "";
+  });
+  addEventListener("dragover", (event) => event.preventDefault());
+  addEventListener("drop", (event) => {
+    event.preventDefault();
+    openFiles(session, [...event.dataTransfer.files]);
+  });
+  button.hidden = false;
+}
+
 async function start() {
-  const { program, programBytes, first: usual, scenes } = await (await fetch("scenes.json")).json();
+  const { programs, first: usual, scenes } = await (await fetch("scenes.json")).json();
   const wanted = wishes.get("scene");
   const first = wanted in scenes ? wanted : usual;
-  const fetched = new Map();
-  // Each file once, whoever asks, and again after a failure.
-  const file = ({ name, size }, tell) => {
-    if (!fetched.has(name)) {
-      const promise = bytes(name, size, tell);
-      promise.catch(() => fetched.delete(name));
-      fetched.set(name, promise);
-    }
-    return fetched.get(name);
-  };
-  const bodies = (scene, tell) => Promise.all(scenes[scene].bodies.map((body) => file(body, tell)));
-
-  const shares = [0, 0];
-  const tell = (which) => (share) => {
-    shares[which] = share;
-    bar.value = 0.8 * shares[0] + 0.2 * shares[1];
-  };
-  const [wasm, drawn, { default: init }] = await Promise.all([
-    bytes(program, programBytes, tell(0)),
-    renderer(),
-    import("./frangible-web.js"),
-    bodies(first, tell(1)),
-  ]);
-  times.fetched = performance.now();
-  if (!drawn.kind) {
-    failed("This browser gives neither WebGPU nor WebGL 2, which the viewer draws with. Switch hardware acceleration on, or take a newer browser.");
-    return;
-  }
-  document.documentElement.dataset.renderer = drawn.kind;
-  text.textContent = "starting";
-  const module = await WebAssembly.compile(wasm);
   const byClock = wishes.get("clock") !== "stands";
+
+  const sizes = { window: programs.window.size, session: programs.session.size, body: 0 };
+  sizes.body = scenes[first].bodies.files.reduce((sum, { size }) => sum + size, 0);
+  const shares = { window: 0, session: 0, body: 0 };
+  const tell = (news) => {
+    Object.assign(shares, news);
+    const have = Object.keys(sizes).reduce((sum, part) => sum + sizes[part] * shares[part], 0);
+    bar.value = have / (sizes.window + sizes.session + sizes.body);
+  };
+
+  const session = new Worker("session.js", { type: "module" });
+  const told = [];
   const save = ({ name, content }) => {
     if (name === LINK) return share(new TextDecoder().decode(content));
     const link = document.createElement("a");
@@ -165,23 +169,29 @@ async function start() {
     link.click();
     setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
   };
-
-  const session = new Worker("session.js", { type: "module" });
-  const told = [];
   const answers = {
     news: (bytes) => told.push(bytes),
     hear: ({ samples, rate }) => hear(samples, rate),
+    share: tell,
     save,
     failed,
-    bodies: ({ scene, number }) =>
-      bodies(scene, (share) => session.postMessage({ share: { number, share } })).then(
-        (arrays) => session.postMessage({ fetched: { number, bodies: arrays } }),
-        ({ message }) => session.postMessage({ fetched: { number, problem: message } }),
-      ),
   };
   session.addEventListener("message", ({ data }) => Object.entries(data).forEach(([what, value]) => answers[what](value)));
   session.addEventListener("error", ({ message }) => failed(`The session has ended: ${message ?? "it could not be started"}. Reload the page.`));
-  session.postMessage({ start: { module, scenes, byClock } });
+  session.postMessage({ start: { file: programs.session, scenes, first, byClock } });
+
+  const [module, drawn, { default: init }] = await Promise.all([
+    program(programs.window, (bytes) => tell({ window: bytes / sizes.window })),
+    renderer(),
+    import("./frangible-web.js"),
+  ]);
+  times.fetched = performance.now();
+  if (!drawn.kind) {
+    failed("This browser gives neither WebGPU nor WebGL 2, which the viewer draws with. Switch hardware acceleration on, or take a newer browser.");
+    return;
+  }
+  document.documentElement.dataset.renderer = drawn.kind;
+  text.textContent = "starting";
   window.frangible = {
     scenes: Object.keys(scenes),
     first,
@@ -203,6 +213,7 @@ async function start() {
       cover.style.display = "none";
       document.getElementById("stage").focus();
       link.hidden = false;
+      takeFiles(session);
       const commands = new URLSearchParams(location.hash.slice(1)).get("do")?.split(";") ?? [];
       if (commands.length) follow(commands).catch(({ message }) => failed(message)).finally(() => (times.followed = performance.now()));
     },

@@ -13,7 +13,7 @@ use wasm_bindgen::closure::Closure;
 use wasm_bindgen::{JsCast, JsValue};
 use wasm_bindgen_futures::{JsFuture, spawn_local};
 
-use crate::bridge::Bridge;
+use frangible_web::{Bridge, offer};
 
 /// What the page and the window share.
 #[derive(Default)]
@@ -48,8 +48,8 @@ impl Remote for Elsewhere {
 /// Opens the window in the page, and gives the page `frangible_command(text)` and `frangible_state()`.
 pub(crate) fn start(bridge: Bridge) {
     let shared = Rc::new(RefCell::new(Shared::default()));
-    offer(&shared);
-    let scenes = bridge.scenes();
+    give_functions(&shared);
+    let scenes = bridge.names("scenes");
     let first = bridge.text("first").or_else(|| scenes.first().cloned());
     let options = PageOptions {
         first: Command::Scene(first.unwrap_or_default()),
@@ -75,7 +75,7 @@ async fn live(bridge: &Bridge, options: PageOptions) -> Result<(), ViewError> {
 }
 
 /// The two functions of the page.
-fn offer(shared: &Rc<RefCell<Shared>>) {
+fn give_functions(shared: &Rc<RefCell<Shared>>) {
     let inbox = Rc::clone(shared);
     let command = Closure::<dyn FnMut(String) -> String>::new(move |line: String| {
         match Command::parse(&line) {
@@ -93,14 +93,10 @@ fn offer(shared: &Rc<RefCell<Shared>>) {
         let shared = seen.borrow();
         serde_json::to_string(&State::of(&shared)).unwrap_or_default()
     });
-    let global = js_sys::global();
-    for (name, function) in [
+    offer([
         ("frangible_command", command.into_js_value()),
         ("frangible_state", state.into_js_value()),
-    ] {
-        // It fails on frozen objects only, and the window is none.
-        let _ = Reflect::set(&global, &name.into(), &function);
-    }
+    ]);
 }
 
 /// What `frangible_state()` tells, as JSON.
@@ -127,6 +123,8 @@ struct State<'a> {
     masses: &'a [f64],
     /// Where the last contact that mattered was, m.
     hit: Option<[f32; 3]>,
+    /// What is being fetched or baked, and the share of it that is done.
+    bake: Option<(&'a str, f64)>,
     message: Option<&'a str>,
     complaint: bool,
 }
@@ -152,6 +150,7 @@ impl<'a> State<'a> {
             step_seconds: step.ours() + step.rigid,
             masses: blow.map_or(&[], |blow| &blow.masses),
             hit: blow.and_then(|blow| blow.point).map(|p| p.to_array()),
+            bake: (shown.bake.as_ref()).map(|bake| (bake.what.as_str(), bake.share)),
             message: shown.message.as_ref().map(|(text, _)| text.as_str()),
             complaint: shown
                 .message

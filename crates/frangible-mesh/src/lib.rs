@@ -35,7 +35,7 @@ pub use mend_tets::{MendedTets, NodeGroup, TetInputError, TetMend, mend_tets};
 #[cfg(feature = "mesh-io")]
 pub use read::{
     MOST_BYTES, MOST_TRIANGLES, MeshFormat, ReadError, nearest_file, nearest_name, parse_mesh,
-    read_mesh,
+    parse_mesh_named, read_mesh,
 };
 #[cfg(feature = "mesh-io")]
 pub use read_tets::{TetFormat, parse_tetgen, parse_tets, read_tets};

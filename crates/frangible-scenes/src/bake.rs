@@ -8,9 +8,10 @@ use frangible_bake::{BakeReport, CancelToken, Group, Progress, Shape, check_grou
 
 use crate::body::BodySpec;
 use crate::error::SceneError;
+use crate::read::Files;
 use crate::rescale::{Rescale, rescaled};
 use crate::scene::Scene;
-use crate::source::{BodySource, Opened, open_source};
+use crate::source::{BodySource, Opened, open_source_from};
 
 /// A body ready to break.
 #[derive(Clone, Debug)]
@@ -39,6 +40,14 @@ pub fn bake(
 /// # Errors
 /// A quantity of the scene or a file that cannot be used.
 pub fn open_sources(scene: &Scene) -> Result<Vec<Opened>, SceneError> {
+    open_sources_from(scene, &Files::Disk)
+}
+
+/// Checks the scene and reads the sources of its bodies as [`open_sources`] does, with these files.
+///
+/// # Errors
+/// Those errors that [`open_sources`] has.
+pub fn open_sources_from(scene: &Scene, files: &Files) -> Result<Vec<Opened>, SceneError> {
     scene.validate()?;
     let mut opened: Vec<Opened> = Vec::with_capacity(scene.bodies.len());
     for (i, body) in scene.bodies.iter().enumerate() {
@@ -47,7 +56,7 @@ pub fn open_sources(scene: &Scene) -> Result<Vec<Opened>, SceneError> {
             .position(|b| (&b.source, &b.rescale) == (&body.source, &body.rescale));
         opened.push(match known {
             Some(same) => opened[same].clone(),
-            None => open_body(body)?,
+            None => open_body(body, files)?,
         });
         if let Some(Opened::Shape { groups, .. }) = opened.last() {
             check_groups(&body.supports, groups)?;
@@ -80,8 +89,8 @@ fn check_painted(body: &BodySpec, opened: &Opened) -> Result<(), SceneError> {
 }
 
 /// Reads a body's source; a baked one is brought to the material and size asked for.
-fn open_body(body: &BodySpec) -> Result<Opened, SceneError> {
-    match (open_source(&body.source)?, &body.source) {
+fn open_body(body: &BodySpec, files: &Files) -> Result<Opened, SceneError> {
+    match (open_source_from(&body.source, files)?, &body.source) {
         (Opened::Asset(asset), BodySource::Asset(path)) if body.rescale != Rescale::default() => {
             let asset = rescaled(Arc::unwrap_or_clone(asset), &body.rescale, path)?;
             Ok(Opened::Asset(Arc::new(asset)))

@@ -1,6 +1,5 @@
 //! Scenes from files: a scene file, or a single mesh or baked body to drop.
 
-use std::fs;
 use std::path::Path;
 
 use frangible::Material;
@@ -9,8 +8,9 @@ use crate::body::BodySpec;
 use crate::builtin::{SCENE_NAMES, scene};
 use crate::check::tame;
 use crate::error::SceneError;
+use crate::read::Files;
 use crate::scene::Scene;
-use crate::source::{Axis, BodySource, FileKind, check_file};
+use crate::source::{Axis, BodySource, FileKind};
 use crate::text::parse_named;
 
 /// Height from which a body of a file is dropped, m.
@@ -19,23 +19,28 @@ const DROP: f64 = 1.5;
 /// What a body of a mesh file is made of unless something else is asked for.
 const MATERIAL: &str = "porcelain";
 
-/// Largest scene file, bytes.
-const LARGEST: u64 = 1 << 20;
-
 /// The scene that a file stands for: a scene file is read; a mesh or a baked body is dropped from 1.5 m, a mesh as
 /// porcelain.
 ///
 /// # Errors
 /// A file that is missing, empty or of unknown kind, or a mistake in a scene file, with its line.
 pub fn scene_of_file(path: &Path) -> Result<Scene, SceneError> {
+    scene_of_file_from(path, &Files::Disk)
+}
+
+/// The scene that one of these files stands for, as [`scene_of_file`] makes it.
+///
+/// # Errors
+/// Those errors that [`scene_of_file`] has.
+pub fn scene_of_file_from(path: &Path, files: &Files) -> Result<Scene, SceneError> {
     // A folder or a missing file is said to be so, whatever its ending.
     let kind = match FileKind::of(path) {
-        Err(error) if path.is_file() => return Err(error),
+        Err(error) if files.has(path) => return Err(error),
         kind => kind.unwrap_or(FileKind::Mesh),
     };
-    check_file(path, kind)?;
+    files.check(path, kind)?;
     let source = match kind {
-        FileKind::Scene => return read_scene(path),
+        FileKind::Scene => return read_scene_from(path, files),
         FileKind::Asset => BodySource::Asset(path.to_path_buf()),
         FileKind::Mesh => BodySource::Mesh {
             path: path.to_path_buf(),
@@ -68,18 +73,11 @@ pub fn scene_of(file: Option<&Path>, name: Option<&str>) -> Result<Scene, SceneE
 /// # Errors
 /// A file that cannot be read, or the first mistake in it, with its line.
 pub fn read_scene(path: &Path) -> Result<Scene, SceneError> {
-    check_file(path, FileKind::Scene)?;
-    let wrong = |problem: String| SceneError::File {
-        path: path.to_path_buf(),
-        problem,
-    };
-    let failed = |error: std::io::Error| wrong(format!("the file cannot be read ({error})"));
-    if fs::metadata(path).map_err(failed)?.len() > LARGEST {
-        return Err(wrong("this is too large for a scene (1 MiB)".into()));
-    }
-    let bytes = fs::read(path).map_err(failed)?;
-    let text = String::from_utf8(bytes)
-        .map_err(|_| wrong("this is no TOML: it is not UTF-8 text".into()))?;
+    read_scene_from(path, &Files::Disk)
+}
+
+fn read_scene_from(path: &Path, files: &Files) -> Result<Scene, SceneError> {
+    let text = files.scene(path)?;
     let folder = path.parent().unwrap_or(Path::new(""));
     parse_named(&text, folder, &path.display().to_string(), &stem(path))
 }

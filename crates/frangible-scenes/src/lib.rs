@@ -12,8 +12,8 @@
 //! [`scene()`] gives a built-in scene, [`scene_of_file`] one from a scene file, a mesh or a baked body, and
 //! [`parse_scene`] one from TOML text; [`scene_to_toml`] goes back.
 //!
-//! A browser needs no solver: without the feature `bake` the crate has neither finite elements nor faer, and baked bodies have
-//! to be given.
+//! Whoever has baked bodies needs no solver: without the feature `bake` the crate has neither finite elements nor faer, and baked bodies
+//! have to be given.
 
 mod again;
 mod appearance;
@@ -35,6 +35,7 @@ mod meshes;
 mod output;
 mod overlap;
 mod projectile;
+mod read;
 mod recorder;
 mod rescale;
 mod result;
@@ -48,17 +49,18 @@ mod text;
 mod touching;
 mod wave;
 
-pub use bake::{BakedBody, bake, bake_opened, bake_until, open_sources};
+pub use bake::{BakedBody, bake, bake_opened, bake_until, open_sources, open_sources_from};
 pub use body::{BodySpec, Place};
 pub use builtin::{SCENE_NAMES, scene};
 pub use error::SceneError;
-pub use files::{read_scene, scene_of, scene_of_file};
+pub use files::{read_scene, scene_of, scene_of_file, scene_of_file_from};
 pub use first_break::{FirstBreak, first_break};
 pub use frangible_bake::{CancelToken, Region, Support};
 pub use game::{GamePlan, GameRun, play_as_game};
 pub use live::{LiveScene, Reel, SavedScene, Swing, Thing, ThingKind, Throw};
 pub use output::{FileWish, Output};
 pub use projectile::{Projectile, ProjectileKind};
+pub use read::Files;
 pub use recorder::Sounding;
 pub use rescale::{MaterialEdit, Rescale};
 pub use result::{BlowRecord, BreakRecord, HeldRecord, Run};

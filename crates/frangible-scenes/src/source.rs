@@ -6,7 +6,6 @@ mod mesh;
 mod ready;
 mod tets;
 
-use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -15,6 +14,7 @@ use frangible::internals::asset::RenderSurface;
 use frangible_bake::{Group, Shape};
 
 use crate::error::SceneError;
+use crate::read::Files;
 
 pub use asset::{compacted, save_asset, save_compact_asset};
 
@@ -175,11 +175,16 @@ impl Opened {
     }
 }
 
-/// Reads a body's source.
+/// Reads a body's source from the disk.
 ///
 /// # Errors
 /// A file that is missing, empty, of another kind or damaged; a mesh whose size cannot be meant.
 pub fn open_source(source: &BodySource) -> Result<Opened, SceneError> {
+    open_source_from(source, &Files::Disk)
+}
+
+/// Reads a body's source.
+pub(crate) fn open_source_from(source: &BodySource, files: &Files) -> Result<Opened, SceneError> {
     match source {
         BodySource::Shape(shape) => Ok(plain(shape.clone())),
         BodySource::Ready { name, resolution } => Ok(plain(ready::shape(name, *resolution)?)),
@@ -190,17 +195,18 @@ pub fn open_source(source: &BodySource) -> Result<Opened, SceneError> {
             resolution,
             wall,
         } => {
-            check_file(path, FileKind::Mesh)?;
+            files.check(path, FileKind::Mesh)?;
             if frangible_mesh::TetFormat::from_extension(path).is_some() {
-                return tets::open(path, *size, *up, *resolution, *wall);
+                let input = || files.tets(path);
+                return tets::open(input, path, *size, *up, *resolution, *wall);
             }
-            let mut input = mesh::read(path)?;
+            let mut input = files.mesh(path)?;
             fit::fit(&mut input, path, *size, *up)?;
             mesh::shape(&input, path, *resolution, *wall)
         }
         BodySource::Asset(path) => {
-            check_file(path, FileKind::Asset)?;
-            Ok(Opened::Asset(Arc::new(asset::load(path)?)))
+            files.check(path, FileKind::Asset)?;
+            Ok(Opened::Asset(Arc::new(files.asset(path)?)))
         }
     }
 }
@@ -214,33 +220,4 @@ const fn plain(shape: Shape) -> Opened {
         notes: Vec::new(),
         open: false,
     }
-}
-
-/// Finds out, in words, whether there is a file of this kind that holds anything.
-pub(crate) fn check_file(path: &Path, kind: FileKind) -> Result<(), SceneError> {
-    let problem = match fs::metadata(path) {
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
-            match frangible_mesh::nearest_file(path) {
-                Some(name) => format!("there is no such file (did you mean `{name}`?)"),
-                None => "there is no such file; check its path".to_string(),
-            }
-        }
-        Err(error) => format!("the file cannot be read ({error})"),
-        Ok(data) if data.is_dir() => "this is a folder; name a file in it".into(),
-        Ok(data) if !data.is_file() => "this is no ordinary file".into(),
-        Ok(data) if data.len() == 0 => "this file is empty".into(),
-        Ok(_) if FileKind::of(path)? != kind => match kind {
-            FileKind::Mesh if FileKind::of(path)? == FileKind::Asset => {
-                "this is a baked body, no mesh; in a scene file it stands under `asset`".into()
-            }
-            FileKind::Mesh => "this is no mesh (.obj, .stl, .ply, .gltf, .glb, or tetrahedra: .msh, .node, .ele, .vtk, .vtu, .mesh)".into(),
-            FileKind::Asset => "this is no baked body (.frangible)".into(),
-            FileKind::Scene => "this is no scene (.toml)".into(),
-        },
-        Ok(_) => return Ok(()),
-    };
-    Err(SceneError::File {
-        path: path.to_path_buf(),
-        problem,
-    })
 }

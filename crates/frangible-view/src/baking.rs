@@ -50,6 +50,13 @@ impl Shelf {
         found.map(|(_, baked)| &baked[..])
     }
 
+    /// Forgets what was baked from files: they may have changed.
+    pub(crate) fn forget_files(&mut self) {
+        let of_file =
+            |key: &BodyKey| matches!(key.source, BodySource::Mesh { .. } | BodySource::Asset(_));
+        self.0.retain(|(keys, _)| !keys.iter().any(of_file));
+    }
+
     pub(crate) fn keep(&mut self, scene: &Scene, baked: Vec<BakedBody>) {
         self.0.push((keys(scene), baked));
         if self.0.len() > KEPT {
@@ -58,8 +65,9 @@ impl Shelf {
     }
 }
 
-/// Whether one bake serves both.
-pub(crate) fn same_bakes(a: &Scene, b: &Scene) -> bool {
+/// Whether bodies that were baked for the one scene serve the other.
+#[must_use]
+pub fn same_bakes(a: &Scene, b: &Scene) -> bool {
     keys(a) == keys(b)
 }
 

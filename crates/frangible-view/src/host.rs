@@ -1,4 +1,4 @@
-//! What stands in for the disk and the bake where there is neither: a page in a browser.
+//! What stands in for the disk and for threads where there are neither: a page in a browser.
 
 use std::path::Path;
 use std::sync::mpsc::Sender;
@@ -8,7 +8,7 @@ use frangible_scenes::{BakedBody, Scene, SceneError};
 use crate::error::ViewError;
 use crate::jobs::Teller;
 
-/// Has scenes, brings their baked bodies and takes files.
+/// Has scenes and files, brings baked bodies and takes files.
 pub trait Host {
     /// The scene of this name.
     ///
@@ -16,7 +16,13 @@ pub trait Host {
     /// There is none, and which there are.
     fn scene(&self, name: &str) -> Result<Scene, ViewError>;
 
-    /// Has the bodies of a scene brought, as it was before any knob was turned.
+    /// The scene that a file stands for.
+    ///
+    /// # Errors
+    /// There is no such file, or it is none that can be broken.
+    fn open(&self, path: &Path) -> Result<Scene, ViewError>;
+
+    /// Has the bodies of a scene brought, ready-made or baked; it may be one of the host's scenes with knobs turned.
     fn bring(&self, scene: &Scene, delivery: Delivery);
 
     /// Takes a file.

@@ -45,6 +45,7 @@ mod window;
 mod wire;
 mod worker;
 
+pub use baking::same_bakes;
 pub use blow::Blow;
 pub use camera::{Orbit, Ray};
 pub use command::{

@@ -68,6 +68,8 @@ pub struct Session {
     compared: Option<Arc<Compared>>,
     methods: Option<Arc<Methods>>,
     bake_job: Option<Job<Result<Vec<BakedBody>, SceneError>>>,
+    /// Whether the last impact is to be taken again when the bake is done, and the scene is to go on as it is.
+    hits_again: bool,
     analysis_job: Option<Job<Result<Analysis, frangible::InputError>>>,
     again_job: Option<Job<Result<turn::Again, ViewError>>>,
     methods_job: Option<methods::MethodsJob>,
@@ -130,6 +132,7 @@ impl Session {
             compared: None,
             methods: None,
             bake_job: None,
+            hits_again: false,
             analysis_job: None,
             again_job: None,
             methods_job: None,
@@ -159,7 +162,7 @@ impl Session {
         }
     }
 
-    /// As [`Session::new`]; bodies come from this host instead of a bake, and files go to it.
+    /// As [`Session::new`]; bodies and files come from this host instead of a bake and the disk, and files go to it.
     #[must_use]
     pub fn in_host(host: Box<dyn Host>) -> Self {
         let mut session = Self::new();

@@ -264,9 +264,7 @@ impl Viewer {
                     through: ray.origin + ray.direction,
                 });
             }
-            Command::Screenshot(_) | Command::Open(_) | Command::Film(..) | Command::Quit
-                if self.page.is_some() =>
-            {
+            Command::Screenshot(_) | Command::Film(..) | Command::Quit if self.page.is_some() => {
                 self.panels.tell(page::not_here(&command));
             }
             Command::LookFrom { eye, target } => {

@@ -1,7 +1,7 @@
 //! What a session tells, as bytes, for a window that shares no memory with it: on a page the session runs in a worker of the browser.
 //!
-//! Numbers are little-endian and lists begin with their length. Both ends are one build of one program, so the bytes have no version and are
-//! never stored. Triangles that the window has already are not sent again: both ends remember the last picture, and what is in it is named by
+//! Numbers are little-endian and lists begin with their length. Both ends are built from the same sources, so the bytes have no version and
+//! are never stored. Triangles that the window has already are not sent again: both ends remember the last picture, and what is in it is named by
 //! its place there.
 
 use std::sync::Arc;

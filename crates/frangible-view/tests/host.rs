@@ -1,4 +1,4 @@
-//! A session in a host, as in a page: bodies are brought, files are taken, nothing is baked.
+//! A session in a host, as in a page: bodies are brought, files are given and taken, nothing is baked here.
 
 mod common;
 
@@ -8,13 +8,13 @@ use std::rc::Rc;
 
 use common::{bits, masses, scene_file};
 use frangible_scenes::{BakedBody, Scene, SceneError, bake, scene_of_file};
-use frangible_view::{Command, Delivery, Host, Session, ViewError, Worker};
+use frangible_view::{Command, Delivery, Host, Session, ViewError, Worker, same_bakes};
 
 /// Files, and bodies that were asked for.
 #[derive(Default)]
 struct Kept {
     files: Vec<(PathBuf, usize)>,
-    orders: Vec<Delivery>,
+    orders: Vec<(Scene, Delivery)>,
 }
 
 /// Has one scene.
@@ -39,10 +39,20 @@ impl Host for OneScene {
         }
     }
 
+    fn open(&self, path: &Path) -> Result<Scene, ViewError> {
+        match path == self.0 {
+            true => Ok(scene_of_file(path)?),
+            false => Err(ViewError::NotNow(format!(
+                "`{}` was not given",
+                path.display()
+            ))),
+        }
+    }
+
     fn bring(&self, scene: &Scene, delivery: Delivery) {
         assert_eq!(scene.name, "small-pane");
         delivery.tell("fetching", 0.5);
-        self.1.borrow_mut().orders.push(delivery);
+        self.1.borrow_mut().orders.push((scene.clone(), delivery));
     }
 
     fn save(&self, name: &Path, bytes: &[u8]) -> Result<(), ViewError> {
@@ -67,7 +77,7 @@ fn bodies_that_were_brought_break_as_those_baked_here() {
     let shown = session.shown();
     assert!(shown.busy && shown.whole == 0);
     assert_eq!(shown.bake.map(|bake| bake.share), Some(0.5));
-    let order = kept.borrow_mut().orders.pop().unwrap();
+    let (_, order) = kept.borrow_mut().orders.pop().unwrap();
     assert!(!order.is_unwanted());
     order.finish(Ok(bodies));
     session.finish_jobs();
@@ -84,24 +94,46 @@ fn bodies_that_were_brought_break_as_those_baked_here() {
 }
 
 #[test]
-fn what_would_need_a_bake_is_refused_and_the_rest_is_not() {
+fn the_host_is_asked_for_another_bake_only_where_knobs_need_one() {
     let (host, kept) = OneScene::new("host-knobs");
     let bodies = host.bodies();
     let mut session = Session::in_host(Box::new(host));
     apply(&mut session, "scene pane").unwrap();
-    kept.borrow_mut().orders.pop().unwrap().finish(Ok(bodies));
+    let (own, order) = kept.borrow_mut().orders.pop().unwrap();
+    order.finish(Ok(bodies));
     session.finish_jobs();
     apply(&mut session, "step 500").unwrap();
-    apply(&mut session, "knob poisson 0.3").unwrap();
-    let refused = apply(&mut session, "hit-again").unwrap_err().to_string();
-    assert!(refused.contains("another bake"), "{refused}");
-    apply(&mut session, "reset-knob poisson").unwrap();
     apply(&mut session, "knob strength 20").unwrap();
     apply(&mut session, "hit-again").unwrap();
     session.finish_jobs();
     let compared = session.shown().compared.unwrap();
     assert!(compared.blows[1].pieces > compared.blows[0].pieces);
     assert!(kept.borrow().orders.is_empty(), "one bake serves both");
+
+    let before = session.shown().steps;
+    apply(&mut session, "knob poisson 0.3").unwrap();
+    apply(&mut session, "hit-again").unwrap();
+    let (wanted, order) = kept.borrow_mut().orders.pop().unwrap();
+    assert!(!same_bakes(&own, &wanted));
+    order.finish(bake(&wanted, &mut |_| {}));
+    session.finish_jobs();
+    let shown = session.shown();
+    assert_eq!(shown.steps, before, "the scene was not begun again");
+    assert_eq!(shown.compared.unwrap().differences.len(), 2);
+}
+
+#[test]
+fn a_file_that_was_given_runs_and_another_is_refused_by_its_name() {
+    let (host, kept) = OneScene::new("host-open");
+    let (file, bodies) = (host.0.clone(), host.bodies());
+    let mut session = Session::in_host(Box::new(host));
+    let refused = apply(&mut session, "open teapot.obj").unwrap_err();
+    assert!(refused.to_string().contains("teapot.obj"));
+    apply(&mut session, &format!("open {}", file.display())).unwrap();
+    let (_, order) = kept.borrow_mut().orders.pop().unwrap();
+    order.finish(Ok(bodies));
+    session.finish_jobs();
+    assert_eq!(session.shown().whole, 1);
 }
 
 #[test]
@@ -109,7 +141,7 @@ fn bodies_that_do_not_come_are_a_complaint() {
     let (host, kept) = OneScene::new("host-failure");
     let mut session = Session::in_host(Box::new(host));
     apply(&mut session, "scene pane").unwrap();
-    let order = kept.borrow_mut().orders.pop().unwrap();
+    let (_, order) = kept.borrow_mut().orders.pop().unwrap();
     order.finish(Err(SceneError::NoBake {
         body: "pane".into(),
     }));
@@ -126,7 +158,7 @@ fn a_session_without_a_thread_goes_on_when_it_is_told_to() {
     for line in ["scene pane", "step 500"] {
         worker.send(Command::parse(line).unwrap());
         worker.advance();
-        if let Some(order) = kept.borrow_mut().orders.pop() {
+        if let Some((_, order)) = kept.borrow_mut().orders.pop() {
             order.finish(Ok(bodies.clone()));
         }
         // Each call does some milliseconds of the work.

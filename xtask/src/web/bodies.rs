@@ -1,114 +1,105 @@
-//! Baked bodies of the scenes that the page offers.
+//! The scenes that the page offers, and their baked bodies.
 
 use std::fs;
 use std::hash::{DefaultHasher, Hasher};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use serde_json::Value;
+
 use super::program::within;
-use super::{Clock, Folders, make_folder};
-use crate::command::{Result, cargo, output, program, run};
+use super::{Clock, Folders, make_folder, size_of};
+use crate::command::{Result, cargo, target};
 
-/// A scene that the page offers, of one body.
-struct Light {
-    scene: &'static str,
-    /// Vibration modes and tetrahedra of its body: fewer than the scene has, so that it is fetched in no time.
-    modes: u32,
-    tetrahedra: u32,
-    /// Whether half precision serves: where walls are thin it does not, as `frangible bake --compact` says.
-    compact: bool,
-}
+/// The one that the page opens with.
+pub(super) const FIRST: &str = "pane";
 
-/// The one that the page opens with first.
-const SCENES: [Light; 2] = [
-    Light {
-        scene: "pane",
-        modes: 20,
-        tetrahedra: 10_000,
-        compact: false,
-    },
-    Light {
-        scene: "brick",
-        modes: 14,
-        tetrahedra: 5_000,
-        compact: true,
-    },
-];
+/// Where bodies lie in the page's folder.
+const FOLDER: &str = "bodies";
 
-/// A scene in the page's folder.
-pub(super) struct Packed {
-    pub(super) scene: &'static str,
-    /// The scene, TOML.
-    pub(super) text: String,
-    /// The scene as a file.
-    pub(super) toml: PathBuf,
-    /// The packed body, in the page's folder.
-    pub(super) file: String,
+/// Baked bodies of all scenes.
+pub(super) struct Bodies {
+    /// What the page's list says of each scene: its text, the packed files of its bodies with their sizes, and which is whose.
+    pub(super) list: serde_json::Map<String, Value>,
+    /// Where they lie as they were baked.
+    pub(super) kept: PathBuf,
 }
 
 /// Bakes and packs them.
-pub(super) fn bodies(folders: &Folders, packer: &Path, clock: Clock) -> Result<Vec<Packed>> {
-    let program = frangible(clock)?;
-    make_folder(&folders.out.join("bodies"))?;
-    // What another program baked may be another body.
-    let kept = folders.target.join("bodies").join(hash_of(&program)?);
+pub(super) fn bodies(folders: &Folders, packer: &Path, clock: Clock) -> Result<Bodies> {
+    let baker = example("bodies", clock)?;
+    let out = folders.out.join(FOLDER);
+    make_folder(&out)?;
+    let kept = folders.target.join(FOLDER).join("baked");
     make_folder(&kept)?;
-    SCENES
-        .iter()
-        .map(|light| {
-            let text = light.text(&program)?;
-            let name = format!("{}-{}-{}", light.scene, light.modes, light.tetrahedra);
-            let toml = kept.join(format!("{name}.toml"));
-            fs::write(&toml, &text)
-                .map_err(|error| format!("`{}` cannot be written: {error}", toml.display()))?;
-            let body = kept.join(format!("{name}.frangible"));
-            if !body.is_file() {
-                light.bake(&program, &toml, &body, clock)?;
-            }
-            let packed = format!("bodies/{}.gz", light.scene);
-            run(Command::new(packer)
-                .arg("body")
-                .arg(&body)
-                .arg(folders.out.join(&packed)))?;
-            Ok(Packed {
-                scene: light.scene,
-                text,
-                toml,
-                file: packed,
-            })
-        })
-        .collect()
-}
-
-impl Light {
-    /// The scene with a lighter body, TOML.
-    fn text(&self, program: &Path) -> Result<String> {
-        let text = output(Command::new(program).args(["scenes", self.scene]))?;
-        let text = String::from_utf8_lossy(&text);
-        let lines = text.lines().map(|line| {
-            if line.starts_with("modes = ") {
-                format!("modes = {}\nresolution = {}\n", self.modes, self.tetrahedra)
-            } else {
-                format!("{line}\n")
-            }
-        });
-        Ok(lines.collect())
+    let list = kept.join("list.json");
+    // What another program baked may be another body.
+    let (stamp, hash) = (kept.join("baker"), hash_of(&baker)?);
+    if fs::read_to_string(&stamp).is_ok_and(|known| known == hash) && list.is_file() {
+        println!("the bodies are baked already");
+    } else {
+        within(Command::new(&baker).arg(&kept), clock)?;
+        fs::write(&stamp, hash)
+            .map_err(|error| format!("`{}` cannot be written: {error}", stamp.display()))?;
     }
-
-    fn bake(&self, program: &Path, scene: &Path, body: &Path, clock: Clock) -> Result {
-        let mut command = Command::new(program);
-        command.arg("bake").arg(scene).arg("-o").arg(body);
-        if self.compact {
-            command.arg("--compact");
+    let text = fs::read_to_string(&list)
+        .map_err(|error| format!("`{}` cannot be read: {error}", list.display()))?;
+    let baked: Vec<Value> = serde_json::from_str(&text)
+        .map_err(|error| format!("`{}` is damaged: {error}; delete it", list.display()))?;
+    clear(&out)?;
+    let mut list = serde_json::Map::new();
+    for scene in baked {
+        let name = scene["scene"].as_str().unwrap_or_default();
+        let files = scene["files"].as_array().into_iter().flatten();
+        let mut packed = Vec::new();
+        for file in files.filter_map(Value::as_str) {
+            packed.push(pack(&kept.join(file), &out, packer, clock)?);
         }
-        within(&mut command, clock)
+        let bodies = serde_json::json!({ "files": packed, "of": scene["of"] });
+        let about = serde_json::json!({ "text": scene["text"], "bodies": bodies });
+        list.insert(name.into(), about);
     }
+    Ok(Bodies { list, kept })
 }
 
-/// The program for this machine.
-pub(super) fn frangible(clock: Clock) -> Result<PathBuf> {
-    within(&mut cargo(&["build", "--release"]), clock)?;
-    Ok(program())
+/// Packs a body, unless one of these bytes was packed before, and puts it into the page's folder; its name there and its size.
+fn pack(body: &Path, out: &Path, packer: &Path, clock: Clock) -> Result<Value> {
+    let (packed, stamp) = (body.with_extension("gz"), body.with_extension("packed"));
+    let hash = hash_of(body)?;
+    if !fs::read_to_string(&stamp).is_ok_and(|known| known == hash) {
+        within(
+            Command::new(packer).arg("body").arg(body).arg(&packed),
+            clock,
+        )?;
+        fs::write(&stamp, hash)
+            .map_err(|error| format!("`{}` cannot be written: {error}", stamp.display()))?;
+    }
+    let name = packed.file_name().unwrap_or_default();
+    let to = out.join(name);
+    fs::copy(&packed, &to)
+        .map_err(|error| format!("`{}` cannot be written: {error}", to.display()))?;
+    let name = format!("{FOLDER}/{}", name.to_string_lossy());
+    Ok(serde_json::json!({ "name": name, "size": size_of(&to)? }))
+}
+
+/// Removes the packed bodies of a page that was made before.
+fn clear(out: &Path) -> Result {
+    let failed = |error: std::io::Error| format!("`{}` cannot be emptied: {error}", out.display());
+    for entry in fs::read_dir(out).map_err(failed)? {
+        let path = entry.map_err(failed)?.path();
+        if path.extension().is_some_and(|ending| ending == "gz") {
+            fs::remove_file(path).map_err(failed)?;
+        }
+    }
+    Ok(())
+}
+
+/// Builds one of the examples of the session's program, for this machine.
+pub(super) fn example(name: &str, clock: Clock) -> Result<PathBuf> {
+    let arguments = ["build", "--release", "-p", "frangible-web-session"];
+    within(cargo(&arguments).args(["--example", name]), clock)?;
+    let file = format!("{name}{}", std::env::consts::EXE_SUFFIX);
+    Ok(target().join("release/examples").join(file))
 }
 
 fn hash_of(file: &Path) -> Result<String> {

@@ -13,10 +13,14 @@ use std::time::{Duration, Instant};
 
 use crate::command::{Result, output, root, target};
 
+use bodies::Bodies;
+use program::Program;
+
 pub(crate) use package::package;
 pub(crate) use trial::trial;
 
-/// All that the page may weigh, packed, bytes.
+/// All that the first visit may fetch, packed, bytes: both programs, the body of the first scene, and the page itself. Bodies of the other
+/// scenes are fetched when they are chosen.
 const MOST: u64 = 8_000_000;
 
 /// Where things are. Nothing is written into the checkout but the folder that is asked for.
@@ -53,17 +57,20 @@ pub(crate) fn web(out: Option<&Path>, limit: Option<Duration>) -> Result<Vec<Str
     make(&folders(out), clock).map(|(lines, _)| lines)
 }
 
-/// The lines that sum it up, and the scenes.
-fn make(folders: &Folders, clock: Clock) -> Result<(Vec<String>, Vec<bodies::Packed>)> {
+/// The lines that sum it up, and where the baked bodies lie.
+fn make(folders: &Folders, clock: Clock) -> Result<(Vec<String>, PathBuf)> {
     make_folder(&folders.out)?;
-    let program = program::program(folders, clock)?;
-    let bodies = bodies::bodies(folders, &program.packer, clock)?;
+    let packer = program::packer(folders, clock)?;
+    let programs = program::programs(folders, &packer, clock)?;
+    let bodies = bodies::bodies(folders, &packer, clock)?;
     copy_folder(&folders.page, &folders.out)?;
-    write_list(folders, &program, &bodies)?;
-    let line = weigh(&folders.out, &program)?;
-    println!("{line}");
+    write_list(folders, &programs, &bodies)?;
+    let lines = weigh(&folders.out, &packer, &programs, &bodies)?;
+    for line in &lines {
+        println!("{line}");
+    }
     println!("serve {} with any web server", folders.out.display());
-    Ok((vec![line], bodies))
+    Ok((lines, bodies.kept))
 }
 
 fn folders(out: Option<&Path>) -> Folders {
@@ -98,24 +105,22 @@ fn copy_folder(from: &Path, to: &Path) -> Result {
     Ok(())
 }
 
-/// What the page's script fetches: the program, and files per scene, with their sizes for the bar.
-fn write_list(folders: &Folders, program: &program::Program, bodies: &[bodies::Packed]) -> Result {
-    let size = |name: &str| size_of(&folders.out.join(name));
-    let mut scenes = serde_json::Map::new();
-    for body in bodies {
-        let files = serde_json::json!([{ "name": body.file, "size": size(&body.file)? }]);
-        let scene = serde_json::json!({ "text": body.text, "bodies": files });
-        scenes.insert(body.scene.into(), scene);
+/// What the page's scripts fetch: the programs, and files per scene, with their sizes for the bar.
+fn write_list(folders: &Folders, programs: &[Program], bodies: &Bodies) -> Result {
+    let mut listed = serde_json::Map::new();
+    for program in programs {
+        let size = size_of(&folders.out.join(&program.packed))?;
+        let file = serde_json::json!({ "name": program.packed, "size": size });
+        listed.insert(program.part.into(), file);
     }
     let list = serde_json::json!({
-        "program": program.packed,
-        "programBytes": size(&program.packed)?,
+        "programs": listed,
         // Objects have no order.
-        "first": bodies.first().map(|body| body.scene),
-        "scenes": scenes,
+        "first": bodies::FIRST,
+        "scenes": bodies.list,
     });
     let path = folders.out.join("scenes.json");
-    fs::write(&path, format!("{list:#}\n"))
+    fs::write(&path, list.to_string())
         .map_err(|error| format!("`{}` cannot be written: {error}", path.display()))
 }
 
@@ -125,43 +130,64 @@ fn size_of(path: &Path) -> Result<u64> {
         .map_err(|error| format!("`{}` cannot be read: {error}", path.display()))
 }
 
-/// What the folder weighs as servers send it; an error above the limit. Program and bodies lie in it packed.
-fn weigh(out: &Path, program: &program::Program) -> Result<String> {
-    let packed = size_of(&out.join(&program.packed))?;
-    let bodies = weight(&out.join("bodies"), &program.packer)?;
-    let all = weight(out, &program.packer)?;
+/// What the page weighs as servers send it; an error where the first visit fetches more than it may. Programs and bodies lie in it packed.
+fn weigh(out: &Path, packer: &Path, programs: &[Program], bodies: &Bodies) -> Result<Vec<String>> {
     let megabytes = |bytes: u64| bytes as f64 / 1e6;
-    let line = format!(
-        "web: {:.2} MB: program {:.2} (unpacked {:.2}), bodies {:.2}, the rest {:.2}",
-        megabytes(all),
-        megabytes(packed),
-        megabytes(program.unpacked),
-        megabytes(bodies),
-        megabytes(all - packed - bodies)
-    );
-    match all <= MOST {
-        true => Ok(line),
-        false => Err(format!(
-            "{line}; that is more than {} MB: offer fewer scenes (xtask/src/web/bodies.rs), or find what made the program grow",
-            MOST / 1_000_000
-        )),
+    let mut parts = Vec::new();
+    let mut first = 0;
+    for program in programs {
+        let size = size_of(&out.join(&program.packed))?;
+        let [packed, unpacked] = [size, program.unpacked].map(megabytes);
+        parts.push(format!("{} {packed:.2} ({unpacked:.2})", program.part));
+        first += size;
     }
+    let size_of_bodies = |about: &serde_json::Value| {
+        let files = about["bodies"]["files"].as_array().into_iter().flatten();
+        files.filter_map(|file| file["size"].as_u64()).sum::<u64>()
+    };
+    let (mut all, mut each) = (0, Vec::new());
+    for (name, about) in &bodies.list {
+        let size = size_of_bodies(about);
+        each.push(format!("{name} {:.2}", megabytes(size)));
+        all += size;
+        if name == bodies::FIRST {
+            parts.push(format!("{name}'s body {:.2}", megabytes(size)));
+            first += size;
+        }
+    }
+    let rest = weight_of_rest(out, packer)?;
+    first += rest;
+    let line = format!(
+        "web: the first visit fetches {:.2} MB: {}, the rest {:.2}",
+        megabytes(first),
+        parts.join(", "),
+        megabytes(rest)
+    );
+    if first > MOST {
+        return Err(format!(
+            "{line}; that is more than {} MB: find what made it grow",
+            MOST / 1_000_000
+        ));
+    }
+    let bodies = format!(
+        "web: all bodies {:.2} MB, fetched when they are chosen: {}",
+        megabytes(all),
+        each.join(", ")
+    );
+    Ok(vec![line, bodies])
 }
 
-fn weight(folder: &Path, packer: &Path) -> Result<u64> {
-    let entries = fs::read_dir(folder);
+/// The page and its scripts, packed as servers pack them.
+fn weight_of_rest(out: &Path, packer: &Path) -> Result<u64> {
+    let entries = fs::read_dir(out);
     let mut sum = 0;
-    for entry in entries.map_err(|error| format!("`{}`: {error}", folder.display()))? {
+    for entry in entries.map_err(|error| format!("`{}`: {error}", out.display()))? {
         let path = entry
-            .map_err(|error| format!("`{}`: {error}", folder.display()))?
+            .map_err(|error| format!("`{}`: {error}", out.display()))?
             .path();
-        sum += if path.is_dir() {
-            weight(&path, packer)?
-        } else if path.extension().is_some_and(|ending| ending == "gz") {
-            size_of(&path)?
-        } else {
-            program::number_of(&output(Command::new(packer).arg("weigh").arg(path))?)?
-        };
+        if path.is_file() && path.extension().is_none_or(|ending| ending != "gz") {
+            sum += program::number_of(&output(Command::new(packer).arg("weigh").arg(path))?)?;
+        }
     }
     Ok(sum)
 }

@@ -1,4 +1,4 @@
-//! The viewer's program for browsers: built, and packed with what calls it.
+//! The page's two programs: built, and packed with what calls them.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -8,37 +8,45 @@ use super::{Clock, Folders};
 use crate::command::{Result, cargo, output, root, shown, status_within};
 
 const TARGET: &str = "wasm32-unknown-unknown";
-const NAME: &str = "frangible-web";
+/// The programs: what the page's list calls them, their names, and the profiles that they are built with. What computes is fast, what
+/// only draws is small.
+const PROGRAMS: [(&str, &str, &str); 2] = [
+    ("window", "frangible-web", "web"),
+    ("session", "frangible-web-session", "npm"),
+];
 /// Both sides of what it generates must be of one version.
 const GENERATOR: &str = "wasm-bindgen";
 /// The packer's name for the same.
 const GENERATOR_OF_PACKER: &str = "wasm-bindgen-cli-support";
 
-/// The program as it lies in the page's folder.
+/// A program as it lies in the page's folder.
 pub(super) struct Program {
+    /// What the page's list calls it.
+    pub(super) part: &'static str,
     /// Name of the packed file.
     pub(super) packed: String,
     /// Bytes, unpacked.
     pub(super) unpacked: u64,
-    /// What packs other files.
-    pub(super) packer: PathBuf,
 }
 
-pub(super) fn program(folders: &Folders, clock: Clock) -> Result<Program> {
+/// Builds the programs, and packs them.
+pub(super) fn programs(folders: &Folders, packer: &Path, clock: Clock) -> Result<Vec<Program>> {
     same_generator()?;
-    let packer = packer(folders, clock)?;
-    let built = build(folders, NAME, Kind::Program, "web", clock)?;
-    let text = output(
-        Command::new(&packer)
-            .arg("page")
-            .arg(built)
-            .arg(&folders.out),
-    )?;
-    Ok(Program {
-        packed: format!("{NAME}.wasm.gz"),
-        unpacked: number_of(&text)?,
-        packer,
-    })
+    let pack = |(part, name, profile)| {
+        let built = build(folders, name, Kind::Program, profile, clock)?;
+        let text = output(
+            Command::new(packer)
+                .arg("page")
+                .arg(built)
+                .arg(&folders.out),
+        )?;
+        Ok(Program {
+            part,
+            packed: format!("{name}.wasm.gz"),
+            unpacked: number_of(&text)?,
+        })
+    };
+    PROGRAMS.into_iter().map(pack).collect()
 }
 
 /// A number that the packer wrote.

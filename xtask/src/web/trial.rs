@@ -1,13 +1,13 @@
-//! The page in a browser: a ball is thrown at the pane, and it breaks.
+//! The page in a browser: scenes that break as they do without one, and a mesh that is baked there.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::{Duration, Instant};
 
-use super::bodies::{Packed, frangible};
+use super::bodies::example;
 use super::program::within;
 use super::{Clock, Folders, folders, make, make_folder};
-use crate::command::{Result, root, run_keeping, shown};
+use crate::command::{Result, output, root, run_keeping, shown};
 use crate::setup::browser;
 
 /// Drives the browser; the version that the test is written for.
@@ -15,8 +15,11 @@ const DRIVER: &str = "playwright-core@1.65.1";
 /// What the page draws with, the one after the other.
 const RENDERERS: [&str; 2] = ["webgpu", "webgl2"];
 
+/// Scenes that are played in the browser and without one, and how: so many steps, so many times. In the second pieces break again.
+const PLAYED: [(&str, u32, u32); 2] = [("pane", 100, 5), ("shards", 400, 10)];
+
 /// What the browser may take before it counts as stuck.
-const LONGEST: Duration = Duration::from_secs(15 * 60);
+const LONGEST: Duration = Duration::from_secs(25 * 60);
 
 /// Makes the page and tries it, and returns the lines that sum it up; one of them says so where there is no browser.
 pub(crate) fn trial(limit: Option<Duration>) -> Result<Vec<String>> {
@@ -25,7 +28,7 @@ pub(crate) fn trial(limit: Option<Duration>) -> Result<Vec<String>> {
         limit,
     };
     let folders = folders(None);
-    let (mut lines, scenes) = make(&folders, clock)?;
+    let (mut lines, baked) = make(&folders, clock)?;
     let Some(browser) = browser() else {
         let line = "web: not tried: there is no browser, or no Node".to_string();
         println!("{line}");
@@ -33,7 +36,7 @@ pub(crate) fn trial(limit: Option<Duration>) -> Result<Vec<String>> {
         return Ok(lines);
     };
     let out = made_folder(&folders)?;
-    let native = native(&folders, &scenes, clock)?;
+    let native = native(&folders, &baked, clock)?;
     let mut command = Command::new("node");
     command
         .arg(root().join("apps/web/test/page.test.mjs"))
@@ -87,21 +90,25 @@ pub(super) fn driver(folders: &Folders, clock: Clock) -> Result<PathBuf> {
     Ok(folder)
 }
 
-/// What the program for this machine breaks the page's first scene into: its report.
-fn native(folders: &Folders, scenes: &[Packed], clock: Clock) -> Result<PathBuf> {
-    let scene = scenes.first().ok_or("the page has no scene")?;
+/// What comes of the scenes on this machine, without a browser: a file for the test.
+fn native(folders: &Folders, baked: &Path, clock: Clock) -> Result<PathBuf> {
+    let plays = example("plays", clock)?;
+    let mut all = Vec::new();
+    for (scene, steps, times) in PLAYED {
+        let counts = [steps, times].map(|count| count.to_string());
+        let mut command = Command::new(&plays);
+        command.arg(baked).arg(scene).args(counts);
+        println!("$ {}", shown(&command));
+        let seen = String::from_utf8_lossy(&output(&mut command)?).into_owned();
+        // As it is: whoever reads numbers and writes them again may change their last bit.
+        all.push(format!(
+            "{{ \"scene\": \"{scene}\", \"steps\": {steps}, \"native\": {seen} }}"
+        ));
+    }
     let out = folders.target.join("native");
     make_folder(&out)?;
-    let report = out.join("report.json");
-    let file = std::fs::File::create(&report)
-        .map_err(|error| format!("`{}` cannot be written: {error}", report.display()))?;
-    let mut command = Command::new(frangible(clock)?);
-    command
-        .arg("break")
-        .arg(&scene.toml)
-        .args(["--json", "--no-pictures", "--out"])
-        .arg(&out)
-        .stdout(file);
-    within(&mut command, clock)?;
-    Ok(report)
+    let file = out.join("played.json");
+    std::fs::write(&file, format!("[{}]\n", all.join(",\n")))
+        .map_err(|error| format!("`{}` cannot be written: {error}", file.display()))?;
+    Ok(file)
 }

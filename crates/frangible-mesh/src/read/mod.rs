@@ -42,24 +42,35 @@ pub const MOST_BYTES: u64 = 2_000_000_000;
 /// # Errors
 /// See [`ReadError`]; only those about the file itself name its path.
 pub fn read_mesh(path: &Path) -> Result<InputMesh, ReadError> {
-    let bytes = read_file(path)?;
-    let by_name = MeshFormat::from_extension(path);
-    let by_content = MeshFormat::sniff(&bytes);
+    parse_mesh_named(path, &read_file(path)?, path.parent())
+}
+
+/// Reads a mesh from memory, whose format name and first bytes tell as in [`read_mesh`]; see [`parse_mesh`].
+///
+/// # Errors
+/// See [`ReadError`].
+pub fn parse_mesh_named(
+    name: &Path,
+    bytes: &[u8],
+    folder: Option<&Path>,
+) -> Result<InputMesh, ReadError> {
+    let by_name = MeshFormat::from_extension(name);
+    let by_content = MeshFormat::sniff(bytes);
     let format = match (by_name, by_content) {
         (Some(named), Some(found)) if named != found => {
             log::warn!(
                 "{} holds {found:?} data; it is read as that",
-                path.display()
+                name.display()
             );
             found
         }
         (Some(format), _) | (None, Some(format)) => format,
         (None, None) => {
-            let name = path.display().to_string();
+            let name = name.display().to_string();
             return Err(ReadError::UnknownFormat { name });
         }
     };
-    parse_mesh(format, &bytes, path.parent())
+    parse_mesh(format, bytes, folder)
 }
 
 /// Reads a mesh from memory. `folder` is where files that it refers to are looked for; without it a material library

@@ -7,11 +7,6 @@ use frangible::internals::asset::SaveOptions;
 
 use crate::error::SceneError;
 
-/// Reads a baked body.
-pub(super) fn load(path: &Path) -> Result<Asset, SceneError> {
-    Ok(Asset::load(path)?)
-}
-
 /// Writes a baked body; the file is whole or absent.
 ///
 /// # Errors

@@ -1,20 +1,12 @@
-//! Mesh files: the calls into the reader and the mesher.
+//! Mesh files: the calls into the mesher.
 
 use std::path::Path;
 
 use frangible_bake::{ImportOptions, import_mesh};
-use frangible_mesh::{InputMesh, RepairReport, read_mesh};
+use frangible_mesh::{InputMesh, RepairReport};
 
 use super::Opened;
 use crate::error::SceneError;
-
-/// Triangles of a mesh file, in its own unit and axes.
-pub(super) fn read(path: &Path) -> Result<InputMesh, SceneError> {
-    read_mesh(path).map_err(|error| SceneError::File {
-        path: path.to_path_buf(),
-        problem: error.to_string(),
-    })
-}
 
 /// A mesh in metres, y up, as a shape with a fracture mesh of about `tets` tetrahedra: what it encloses, or a wall of this
 /// thickness, m, along it.

@@ -3,15 +3,16 @@
 use std::path::Path;
 
 use frangible_bake::{AnalysisChoice, Shape, import_tets};
+use frangible_mesh::TetInput;
 use frangible_mesh::glam::DVec3;
-use frangible_mesh::read_tets;
 
 use super::fit::{scale, turned};
 use super::{Axis, Opened};
 use crate::error::SceneError;
 
-/// A body of tetrahedra in metres, y up.
+/// A body of tetrahedra in metres, y up; the file is read once it is known that nothing else was asked for.
 pub(super) fn open(
+    read: impl FnOnce() -> Result<TetInput, SceneError>,
     path: &Path,
     size: Option<f64>,
     up: Axis,
@@ -32,7 +33,7 @@ pub(super) fn open(
                        .obj) instead";
         return Err(refused(problem.into()));
     }
-    let mut input = read_tets(path).map_err(|error| refused(error.to_string()))?;
+    let mut input = read()?;
     let scale = scale(input.bounds(), path, size)?;
     for p in &mut input.positions {
         *p = scale * DVec3::from_array(turned(p.to_array(), up));

@@ -58,7 +58,14 @@ impl Session {
                 };
                 self.load(wanted);
             }
-            Command::Open(path) => self.load(scene_in(&path)?),
+            Command::Open(path) => {
+                let wanted = match &self.host {
+                    Some(host) => host.open(&path)?,
+                    None => scene_in(&path)?,
+                };
+                self.shelf.forget_files();
+                self.load(wanted);
+            }
             Command::CancelBake => self.cancel_bake(),
             Command::Reset => self.reset()?,
             Command::Drop(height) => self.drop_from(height)?,

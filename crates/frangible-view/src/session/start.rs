@@ -5,14 +5,11 @@ use std::time::Duration;
 use frangible_scenes::{BakedBody, BodySource, LiveScene, Scene};
 
 use super::Session;
-use crate::baking::{bake, of_wanted_material, same_bakes};
+use crate::baking::{bake, of_wanted_material};
 use crate::command::Subject;
 use crate::error::ViewError;
 use crate::jobs::Job;
 use crate::knobs::{Settings, turn_material};
-
-/// What a host cannot do.
-pub(super) const NEEDS_A_BAKE: &str = "Poisson's ratio and the number of modes need another bake, which a page cannot do: turn them back";
 
 impl Session {
     /// Takes another scene, its knobs as it has them.
@@ -27,6 +24,7 @@ impl Session {
     /// Sets the scene up, or has its bodies baked first.
     pub(super) fn prepare(&mut self) {
         self.bake_job = None;
+        self.hits_again = false;
         let Some(wanted) = self.wanted_scene() else {
             return;
         };
@@ -35,14 +33,15 @@ impl Session {
             self.set_up(&wanted, &baked);
             return;
         }
-        self.bake_job = match (&self.host, &self.scene) {
-            (Some(_), Some(own)) if !same_bakes(own, &wanted) => {
-                self.complain(&ViewError::NotNow(NEEDS_A_BAKE.into()));
-                None
-            }
-            (Some(host), Some(own)) => Some(Job::delivered(|delivery| host.bring(own, delivery))),
-            _ => Some(Job::start(move |teller| bake(&wanted, teller))),
-        };
+        self.begin_bake(wanted);
+    }
+
+    /// Has the bodies of a scene baked.
+    pub(super) fn begin_bake(&mut self, wanted: Scene) {
+        self.bake_job = Some(match &self.host {
+            Some(host) => Job::delivered(|delivery| host.bring(&wanted, delivery)),
+            None => Job::start(move |teller| bake(&wanted, teller)),
+        });
     }
 
     /// The scene with the knobs as they are.
@@ -71,7 +70,11 @@ impl Session {
         match (result, self.wanted_scene()) {
             (Ok(baked), Some(wanted)) => {
                 self.shelf.keep(&wanted, baked.clone());
-                self.set_up(&wanted, &baked);
+                if !std::mem::take(&mut self.hits_again) {
+                    self.set_up(&wanted, &baked);
+                } else if let Err(error) = self.hit_again() {
+                    self.complain(&error);
+                }
             }
             (Err(error), _) => self.complain(&error),
             _ => {}
@@ -150,6 +153,7 @@ impl Session {
 
     pub(super) fn cancel_bake(&mut self) {
         if self.bake_job.take().is_some() {
+            self.hits_again = false;
             self.say("the bake was cancelled".into());
         } else if self.methods_job.take().is_some() {
             self.say("the comparison was given up".into());

@@ -7,7 +7,6 @@ use frangible::{Material, Outcome, impact};
 use frangible_scenes::{BakedBody, Scene, intact_body};
 
 use super::Session;
-use super::start::NEEDS_A_BAKE;
 use crate::baking::{bake, of_wanted_material};
 use crate::blow::Blow;
 use crate::command::Subject;
@@ -102,7 +101,10 @@ impl Session {
         };
         let baked = self.shelf.find(&wanted).map(<[BakedBody]>::to_vec);
         if baked.is_none() && self.host.is_some() {
-            return Err(ViewError::NotNow(NEEDS_A_BAKE.into()));
+            // The host bakes beside the session.
+            self.begin_bake(wanted);
+            self.hits_again = true;
+            return Ok(());
         }
         let settings = self.settings.clone();
         self.again_job = Some(Job::start(move |teller| {

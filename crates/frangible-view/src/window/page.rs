@@ -76,7 +76,6 @@ impl Viewer {
 /// Why a page does not do this.
 pub(super) fn not_here(command: &Command) -> String {
     match command {
-        Command::Open(_) => "a page cannot bake: open files with `frangible view FILE`".into(),
         Command::Film(..) => "a page makes no films or stills: `frangible view` does".into(),
         Command::Screenshot(_) => "take the picture with the browser".into(),
         _ => format!("`{command}` is nothing for a page"),

@@ -156,9 +156,10 @@ impl Panels {
         if !shown.summary.is_empty() {
             ui.small(&shown.summary);
         }
-        if !self.in_page {
-            ui.small("or drop a file onto the window: a mesh, a baked body, a scene");
-        }
+        ui.small(match self.in_page {
+            true => "or drop a file onto the page: a mesh, a baked body, a scene",
+            false => "or drop a file onto the window: a mesh, a baked body, a scene",
+        });
     }
 }
 

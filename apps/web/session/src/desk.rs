@@ -1,4 +1,4 @@
-//! The session, in a worker of the browser: commands in, bytes of what there is to see out. The worker's script calls
+//! The session: commands in, bytes of what there is to see out. The worker's script calls
 //!
 //! | | |
 //! |---|---|
@@ -11,12 +11,13 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 use frangible_view::{Command, Outlet, Packer, Shown, Worker};
-use js_sys::{Float32Array, Reflect, Uint8Array};
+use js_sys::{Float32Array, Uint8Array};
 use wasm_bindgen::JsValue;
 use wasm_bindgen::closure::Closure;
 
-use crate::bridge::Bridge;
-use crate::host::Folder;
+use frangible_web::{Bridge, offer};
+
+use crate::folder::Folder;
 
 /// Samples per second, of which the browser makes what its loudspeaker wants.
 const RATE: f64 = 48_000.0;
@@ -49,15 +50,11 @@ pub(crate) fn start(bridge: Bridge) {
     let clock = Rc::clone(&desk);
     let turn = Closure::<dyn FnMut()>::new(move || clock.borrow_mut().turn());
     let news = Closure::<dyn FnMut() -> JsValue>::new(move || desk.borrow_mut().news());
-    let global = js_sys::global();
-    for (name, function) in [
+    offer([
         ("frangible_take", take.into_js_value()),
         ("frangible_turn", turn.into_js_value()),
         ("frangible_news", news.into_js_value()),
-    ] {
-        // It fails on frozen objects only, and a worker's global object is none.
-        let _ = Reflect::set(&global, &name.into(), &function);
-    }
+    ]);
 }
 
 impl Desk {

@@ -1,0 +1,27 @@
+//! The session's program in a browser: physics and bakes, without anything that draws. It runs in two kinds of workers of the page: one has
+//! the session, and others, which come and go, bake for it.
+
+#[cfg(target_arch = "wasm32")]
+mod baker;
+#[cfg(target_arch = "wasm32")]
+mod desk;
+#[cfg(target_arch = "wasm32")]
+mod folder;
+
+#[cfg(target_arch = "wasm32")]
+fn main() {
+    let Some(bridge) = frangible_web::Bridge::begin() else {
+        return;
+    };
+    // Every browser that runs the program has vectors: their instructions are in it, used or not.
+    pulp_wasm_simd_flag::enable_simd128();
+    match bridge.get("bakes").is_truthy() {
+        true => baker::start(),
+        false => desk::start(bridge),
+    }
+}
+
+#[cfg(not(target_arch = "wasm32"))]
+fn main() {
+    println!("this program runs in a page: `cargo xtask web` makes it");
+}
