@@ -8,11 +8,11 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
+use frangible_sound::Outlet;
 use web_time::Instant;
 
 use crate::command::Command;
 use crate::host::Host;
-use crate::outlet::Outlet;
 use crate::session::Session;
 use crate::shown::Shown;
 use crate::wire::Unpacker;
