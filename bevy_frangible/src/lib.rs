@@ -51,6 +51,7 @@ mod rapier;
 mod ready;
 #[cfg(feature = "sound")]
 mod sound;
+mod work;
 
 use std::sync::Arc;
 use std::time::Duration;
