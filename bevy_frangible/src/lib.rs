@@ -121,6 +121,10 @@ pub struct Broken;
 #[require(Transform, Visibility)]
 pub struct FragmentOf(pub Entity);
 
+/// Pieces of one body that came to rest, as one static body: see [`AtRest::Merge`].
+#[derive(Component, Clone, Copy, Debug)]
+pub struct Rubble;
+
 /// The pieces of an entity that broke, largest first. They go when it is despawned.
 #[derive(Component, Debug)]
 #[relationship_target(relationship = FragmentOf, linked_spawn)]
