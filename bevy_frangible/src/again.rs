@@ -1,4 +1,4 @@
-//! Fragments that break again: how they vibrate is found on a task pool, and joined at a fixed time of the simulation.
+//! Fragments that break again: how they vibrate is found on other threads, and joined at a fixed time of the simulation.
 //!
 //! A newborn fragment is a plain body: the blow that runs through it is the one that has just made it. It is breakable from
 //! [`BreakAgain::delay`] on. What is not ready then is waited for, so that nothing hangs on the speed of the machine; how many are made at one
@@ -9,10 +9,10 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use bevy::prelude::*;
-use bevy::tasks::{Task, TaskPool, TaskPoolBuilder, block_on};
 use frangible::internals::{BodyState, PieceModel, Portion};
 use frangible::{Body, Fracture, FractureConfig, InputError};
 
+use crate::work::{Promise, Workers};
 use crate::{BreakFailed, BreakableBody, Broken};
 
 /// Which fragments break again, and from when. A [`BreakableBody`] on a fragment tells that it can.
@@ -58,25 +58,21 @@ struct Expected {
     due: Duration,
     /// The cracks of a body that is there already: it is replaced only if it still has them.
     cracks: Option<BodyState>,
-    body: Task<Option<Result<Body, InputError>>>,
+    body: Promise<Option<Result<Body, InputError>>>,
 }
 
 /// Bodies that are being made, in the order in which they are due.
 #[derive(Resource)]
 pub(crate) struct Nursery {
     expected: VecDeque<Expected>,
-    /// A pool of its own: in every step Avian waits for small tasks of its own on Bevy's pool for long work, which on few cores has one
-    /// thread. Behind modes of pieces they took 280 ms.
-    pool: TaskPool,
+    workers: Workers,
 }
 
 impl Default for Nursery {
     fn default() -> Self {
-        let threads = std::thread::available_parallelism().map_or(1, |n| n.get().div_ceil(4));
-        let pool = TaskPoolBuilder::new().num_threads(threads);
         Self {
             expected: VecDeque::new(),
-            pool: pool.thread_name("modes of pieces".into()).build(),
+            workers: Workers::new("modes of pieces", |cores| cores.div_ceil(4)),
         }
     }
 }
@@ -95,7 +91,7 @@ impl Nursery {
         cracks: Option<BodyState>,
         make: impl FnOnce() -> Option<Result<Body, InputError>> + Send + 'static,
     ) {
-        let body = self.pool.spawn(async move { make() });
+        let body = self.workers.begin(make);
         let after = self.expected.partition_point(|e| e.due <= due);
         let expected = Expected {
             entity,
@@ -190,7 +186,7 @@ pub(crate) fn join(
         let Ok(known) = bodies.get(entity) else {
             continue;
         };
-        let mut body = match block_on(expected.body) {
+        let mut body = match expected.body.kept() {
             None => continue,
             Some(Ok(body)) => body,
             Some(Err(error)) => {

@@ -38,6 +38,9 @@ pub enum AtRest {
     Sleep,
     /// They become static: nothing moves them any more, and nothing has to be solved for them. They break again as others do.
     Freeze,
+    /// Those of one body become one static body, its [`Rubble`](crate::Rubble), with one collider and one mesh for its outer and one for its
+    /// crack faces. Their own entities go, and they neither break again nor count any more.
+    Merge,
     /// They go.
     Go,
 }

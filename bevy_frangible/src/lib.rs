@@ -29,6 +29,7 @@
 //!   there may be.
 //! - Feature `avian` (default): colliders and masses, bodies that break inside the physics step, by collision hooks, and under what
 //!   they carry.
+//! - Feature `sound`: what breaks is heard where an entity has `Ears`, as samples in a queue.
 //!
 //! # Limits
 //! A body that breaks in a step of Avian is judged pair by pair: each striker alone, and without friction. A uniform scale of the entity
@@ -48,6 +49,9 @@ mod per_asset;
 #[cfg(feature = "rapier")]
 mod rapier;
 mod ready;
+#[cfg(feature = "sound")]
+mod sound;
+mod work;
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -63,11 +67,15 @@ pub use file::{FrangibleAsset, FrangibleLoader, LoadError};
 pub use frangible;
 #[cfg(feature = "rapier")]
 pub use frangible_rapier;
+#[cfg(feature = "sound")]
+pub use frangible_sound;
 #[cfg(feature = "gizmos")]
 pub use gizmos::{FrangibleGizmos, FrangibleGizmosPlugin, LastBlow};
 pub use looks::{Looks, LooksPlugin};
 #[cfg(feature = "rapier")]
 pub use rapier::{FrangibleRapierPlugin, RapierBody, RapierWorld};
+#[cfg(feature = "sound")]
+pub use sound::{Ears, FrangibleSoundPlugin, Heard};
 
 /// What most games use.
 pub mod prelude {
@@ -112,6 +120,10 @@ pub struct Broken;
 #[relationship(relationship_target = Fragments)]
 #[require(Transform, Visibility)]
 pub struct FragmentOf(pub Entity);
+
+/// Pieces of one body that came to rest, as one static body: see [`AtRest::Merge`].
+#[derive(Component, Clone, Copy, Debug)]
+pub struct Rubble;
 
 /// The pieces of an entity that broke, largest first. They go when it is despawned.
 #[derive(Component, Debug)]

@@ -179,13 +179,20 @@ fn transform(pose: &Pose) -> Transform {
     Transform::from_translation(out(pose.translation)).with_rotation(turn)
 }
 
-/// Transforms follow their bodies.
+/// Transforms follow their bodies, and what goes shrinks.
 fn follow(
     world: Res<RapierWorld>,
     mut bodies: Query<(Entity, &RapierBody, &mut Transform)>,
     mut commands: Commands,
 ) {
+    let fading: BTreeMap<(u32, u32), f32> = (world.0.fading())
+        .map(|(handle, left)| (handle.into_raw_parts(), left))
+        .collect();
     for (entity, handle, mut place) in &mut bodies {
+        if let Some(&left) = fading.get(&handle.0.into_raw_parts()) {
+            place.scale = Vec3::splat(left);
+            continue;
+        }
         let Some(body) = world.0.physics.bodies.get(handle.0) else {
             commands.entity(entity).try_despawn();
             continue;

@@ -7,8 +7,8 @@ use std::time::Duration;
 
 use avian3d::prelude::*;
 use bevy::prelude::*;
-use bevy_frangible::Broken;
 use bevy_frangible::prelude::*;
+use bevy_frangible::{Broken, CrackFaces, Rubble};
 use common::{app, ball, body, ready};
 
 /// A pane that falls flat from half a metre on a floor, and its pieces.
@@ -78,6 +78,83 @@ fn what_rests_becomes_static_and_is_not_moved_any_more() {
     ball(&mut app, before[0] + Vec3::Y * 0.1, Vec3::NEG_Y * 5.0);
     steps(&mut app, 60);
     assert_eq!(places(&app), before);
+}
+
+/// Corners of all faces that a piece is drawn with, in the world, m, by whether they are crack faces.
+fn corners(app: &mut App, of: &[Entity]) -> [Vec<Vec3>; 2] {
+    let world = app.world_mut();
+    let mut faces = world.query::<(&ChildOf, &Mesh3d, Has<CrackFaces>)>();
+    let meshes = world.resource::<Assets<Mesh>>();
+    let mut corners = [Vec::new(), Vec::new()];
+    for (piece, mesh, crack) in faces.iter(world) {
+        let place = world
+            .get::<Transform>(piece.0)
+            .filter(|_| of.contains(&piece.0));
+        let (Some(place), Some(mesh)) = (place, meshes.get(&mesh.0)) else {
+            continue;
+        };
+        let positions = mesh.attribute(Mesh::ATTRIBUTE_POSITION);
+        let positions = positions.and_then(|p| p.as_float3()).unwrap_or(&[]);
+        let placed = positions.iter().map(|&p| place.transform_point(p.into()));
+        corners[usize::from(crack)].extend(placed);
+    }
+    corners
+}
+
+#[test]
+fn what_rests_is_merged_into_one_static_body_that_looks_and_collides_alike() {
+    let (mut app, pane) = fallen(DebrisBudget {
+        at_rest: AtRest::Merge,
+        rest_time: Duration::from_millis(200),
+        ..DebrisBudget::default()
+    });
+    let all = pieces(&app, pane);
+    let mut last: Vec<[Vec<Vec3>; 2]> = vec![default(); all.len()];
+    for _ in 0..8 * 240 {
+        for (piece, last) in all.iter().zip(&mut last) {
+            if app.world().get_entity(*piece).is_ok() {
+                *last = corners(&mut app, &[*piece]);
+            }
+        }
+        app.update();
+    }
+    let after = pieces(&app, pane);
+    println!("{} pieces, then {}", all.len(), after.len());
+    // Avian lets one of them creep on.
+    assert!(all.len() > 3 && after.len() <= 2);
+    let rubble = *after
+        .iter()
+        .find(|&&piece| app.world().get::<Rubble>(piece).is_some())
+        .expect("what rests is merged");
+    assert_eq!(frozen(&app, &[rubble]), 1);
+    // Each face is where it was, in the order in which its piece was merged.
+    let lies = corners(&mut app, &[rubble]);
+    for (kind, lies) in lies.iter().enumerate() {
+        let gone = all.iter().zip(&last).filter(|(p, _)| !after.contains(p));
+        let gone: Vec<&[Vec3]> = gone.map(|(_, last)| &last[kind][..]).collect();
+        assert_eq!(gone.iter().map(|g| g.len()).sum::<usize>(), lies.len());
+        for was in gone.into_iter().filter(|was| !was.is_empty()) {
+            let near = |(a, b): (&Vec3, &Vec3)| a.distance(*b) < 1e-4;
+            let mut windows = lies.windows(was.len());
+            assert!(windows.any(|now| now.iter().zip(was).all(near)));
+        }
+    }
+    let faces = app.world().get::<Children>(rubble).expect("its faces");
+    assert_eq!(faces.iter().count(), 2);
+    // A ball that falls on it stays above the floor by the height of a pane.
+    let middle: Vec3 = lies[0].iter().sum::<Vec3>() / lies[0].len() as f32;
+    let nearest = lies[0].iter().copied().filter(|p| p.y > 0.001);
+    let nearest = nearest.min_by(|a, b| a.distance(middle).total_cmp(&b.distance(middle)));
+    let on = nearest.expect("a top face");
+    let at = Vec3::new(on.x, 0.1, on.z);
+    let ball = ball(&mut app, at, Vec3::ZERO);
+    let mut lowest = f32::INFINITY;
+    for _ in 0..120 {
+        app.update();
+        lowest = lowest.min(app.world().get::<Position>(ball).unwrap().y);
+    }
+    println!("the ball of 15.8 mm came down to {lowest}");
+    assert!(lowest > 0.0158 + 0.5 * on.y, "{lowest} over {on}");
 }
 
 #[test]

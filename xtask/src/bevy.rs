@@ -8,12 +8,14 @@ use crate::command::{Result, cargo, root, run_within, shown, target};
 use crate::setup::setup;
 
 /// What the plugin and its tests are built from.
-pub(crate) const PATHS: [&str; 6] = [
+pub(crate) const PATHS: [&str; 8] = [
     "bevy_frangible",
     "crates/frangible",
     "crates/frangible-bake",
+    "crates/frangible-export",
     "crates/frangible-mesh",
     "crates/frangible-rapier",
+    "crates/frangible-sound",
     "xtask/src/bevy.rs",
 ];
 

@@ -7,6 +7,8 @@ mod arguments;
 mod looks;
 mod picture;
 mod props;
+#[cfg(any(not(target_os = "linux"), feature = "speaker"))]
+mod speaker;
 mod studio;
 
 use std::error::Error;
@@ -16,7 +18,7 @@ use bevy::input::common_conditions::input_just_pressed;
 use bevy::prelude::*;
 use bevy_frangible::frangible::Material;
 use bevy_frangible::prelude::*;
-use bevy_frangible::{FrangibleGizmos, FrangibleGizmosPlugin};
+use bevy_frangible::{FrangibleGizmos, FrangibleGizmosPlugin, FrangibleSoundPlugin};
 use frangible_bake::{BakeSpec, Shape, Support, bake};
 
 use arguments::Arguments;
@@ -54,7 +56,12 @@ pub fn app(view: &View) -> Result<App, Box<dyn Error>> {
             file.clone(),
             arguments.steps.unwrap_or(view.steps),
         ),
-        None => studio::window(&mut app, view.title),
+        None => {
+            studio::window(&mut app, view.title);
+            app.add_plugins(FrangibleSoundPlugin::default());
+            #[cfg(any(not(target_os = "linux"), feature = "speaker"))]
+            speaker::play(&mut app);
+        }
     }
     app.add_plugins((
         PhysicsPlugins::default().with_collision_hooks::<FrangibleHooks>(),

@@ -11,6 +11,7 @@ use bevy::prelude::*;
 use bevy::render::render_resource::{
     Extent3d, TextureDimension, TextureFormat, TextureViewDescriptor, TextureViewDimension,
 };
+use bevy_frangible::Ears;
 use half::f16;
 
 use crate::View;
@@ -55,7 +56,7 @@ pub(crate) fn furnish(app: &mut App, view: &View) {
         .insert_resource(GlobalAmbientLight::NONE)
         .insert_resource(DirectionalLightShadowMap { size: 4096 });
     app.world_mut().spawn((
-        Camera,
+        (Camera, Ears),
         Projection::from(PerspectiveProjection {
             fov: 0.6,
             near: 0.02,

@@ -82,7 +82,7 @@ fn surface(material: &Material) -> (Friction, Restitution) {
 }
 
 /// Components of a body that its pieces have too.
-type Inherited = (
+pub(super) type Inherited = (
     CollisionLayers,
     Friction,
     Restitution,

@@ -1,5 +1,6 @@
 //! Pieces that rest, pieces that go, and how long steps take with them.
 
+use std::collections::BTreeMap;
 use std::time::Duration;
 
 use avian3d::prelude::*;
@@ -38,7 +39,13 @@ pub(super) fn stop_clock(began: Res<Began>, mut heap: ResMut<Heap>) {
 /// Notes since when pieces sleep, and does with those that have slept for long what the budget says.
 pub(super) fn rest(
     pieces: Query<
-        (Entity, &RigidBody, Has<Sleeping>, Option<&AsleepSince>),
+        (
+            Entity,
+            &FragmentOf,
+            &RigidBody,
+            Has<Sleeping>,
+            Option<&AsleepSince>,
+        ),
         (With<FragmentOf>, Without<Broken>, Without<Fading>),
     >,
     budget: Res<DebrisBudget>,
@@ -49,7 +56,8 @@ pub(super) fn rest(
         return;
     }
     let now = time.elapsed();
-    for (entity, kind, asleep, since) in &pieces {
+    let mut merge: BTreeMap<Entity, Vec<Entity>> = BTreeMap::new();
+    for (entity, of, kind, asleep, since) in &pieces {
         match (asleep && kind.is_dynamic(), since) {
             (true, None) => {
                 commands.entity(entity).try_insert(AsleepSince(now));
@@ -58,14 +66,20 @@ pub(super) fn rest(
                 commands.entity(entity).try_remove::<AsleepSince>();
             }
             (true, Some(since)) if now.saturating_sub(since.0) >= budget.rest_time => {
-                if budget.at_rest == AtRest::Go {
-                    let_go(&mut commands, entity, now);
-                } else {
-                    commands.entity(entity).try_insert(RigidBody::Static);
+                match budget.at_rest {
+                    AtRest::Sleep => {}
+                    AtRest::Freeze => {
+                        commands.entity(entity).try_insert(RigidBody::Static);
+                    }
+                    AtRest::Merge => merge.entry(of.0).or_default().push(entity),
+                    AtRest::Go => let_go(&mut commands, entity, now),
                 }
             }
             _ => {}
         }
+    }
+    for (parent, pieces) in merge {
+        commands.queue(move |world: &mut World| super::merge::merge(world, parent, &pieces));
     }
 }
 

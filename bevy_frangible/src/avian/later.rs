@@ -9,7 +9,6 @@ use std::sync::PoisonError;
 
 use avian3d::prelude::*;
 use bevy::prelude::*;
-use bevy::tasks::{Task, TaskPool, TaskPoolBuilder, block_on};
 use frangible::internals::BodyState;
 use frangible::{Body, Contact, FractureConfig, Outcome, impact};
 
@@ -17,6 +16,7 @@ use super::colliders::{ColliderDetail, of_fragment};
 use super::{Molds, Ruling, Verdict, Verdicts};
 use crate::break_apart::Judged;
 use crate::meshes::faces;
+use crate::work::{Promise, Workers};
 use crate::{BreakableBody, DebrisBudget, Fracturing};
 
 /// When a body that breaks gives way to its fragments.
@@ -66,7 +66,7 @@ struct Case {
     /// The cracks of the body that is judged: with others it is another body.
     cracks: BodyState,
     due: u64,
-    judged: Task<(Judged, Vec<Option<Collider>>)>,
+    judged: Promise<(Judged, Vec<Option<Collider>>)>,
 }
 
 /// Blows that wait and blows that are being judged, first come, first served.
@@ -75,19 +75,16 @@ pub(super) struct Docket {
     line: VecDeque<Waiting>,
     cases: VecDeque<Case>,
     steps: u64,
-    pool: TaskPool,
+    workers: Workers,
 }
 
 impl Default for Docket {
     fn default() -> Self {
-        let cores = std::thread::available_parallelism().map_or(1, usize::from);
-        let threads = cores.saturating_sub(1).max(1);
-        let pool = TaskPoolBuilder::new().num_threads(threads);
         Self {
             line: VecDeque::new(),
             cases: VecDeque::new(),
             steps: 0,
-            pool: pool.thread_name("breaks".into()).build(),
+            workers: Workers::new("breaks", |cores| cores.saturating_sub(1)),
         }
     }
 }
@@ -124,8 +121,8 @@ impl Docket {
                 let (config, debris) = (config.clone(), debris.clone());
                 let cracks = body.state().clone();
                 let judged = self
-                    .pool
-                    .spawn(async move { judge(&body, &contacts, &config, &detail, &debris) });
+                    .workers
+                    .begin(move || judge(&body, &contacts, &config, &detail, &debris));
                 self.cases.push_back(Case {
                     blow,
                     cracks,
@@ -205,7 +202,7 @@ pub(super) fn serve(
         let body = case.blow.body;
         // What is gone, or has cracked otherwise meanwhile, is not waited for.
         if bodies.get(body).is_ok_and(|b| *b.0.state() == case.cracks) {
-            let (judged, colliders) = block_on(case.judged);
+            let (judged, colliders) = case.judged.kept();
             molds.0.insert(body, colliders);
             list.push(Verdict {
                 body,

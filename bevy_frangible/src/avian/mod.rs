@@ -12,6 +12,7 @@ mod colliders;
 mod debris;
 mod hooks;
 mod later;
+mod merge;
 mod plain;
 mod resting;
 mod touches;

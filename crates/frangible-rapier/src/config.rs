@@ -82,6 +82,19 @@ impl Default for PieceConfig {
     }
 }
 
+/// What becomes of pieces that rest.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum AtRest {
+    /// They sleep until something touches them.
+    #[default]
+    Sleep,
+    /// They become fixed: nothing moves them any more, and nothing has to be solved for them. They break again as others do.
+    Freeze,
+    /// They go.
+    Go,
+}
+
 /// How the world steps, what counts as an impact, and what becomes of fragments.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
@@ -129,6 +142,15 @@ pub struct WorldConfig {
     pub dust_mass: f32,
     /// Debris kept at most; the oldest goes first. Default 200.
     pub max_debris: usize,
+    /// Longest that a step may take in the mean of the last 32, s: while it takes longer, one in fifty pieces of debris goes in each, the oldest
+    /// first. Default infinity. With it two runs are no longer alike, as they hang on the speed of the machine.
+    pub step_time: f32,
+    /// What becomes of pieces that have slept for [`WorldConfig::rest_time`]. Default [`AtRest::Sleep`].
+    pub at_rest: AtRest,
+    /// s, default 2.
+    pub rest_time: f32,
+    /// A piece that goes loses its collider and [fades](crate::BreakableWorld::fading) in this time, s. Default zero: it is gone at once.
+    pub fade_time: f32,
     /// Bodies at most; a body whose fragments would not fit stays whole. Default 4000.
     pub max_bodies: usize,
     /// Ask after every step what bodies carry, and break those that carry too much. Default on.
@@ -169,6 +191,10 @@ impl Default for WorldConfig {
             debris_mass: 1e-4,
             dust_mass: 0.0,
             max_debris: 200,
+            step_time: f32::INFINITY,
+            at_rest: AtRest::default(),
+            rest_time: 2.0,
+            fade_time: 0.0,
             max_bodies: 4000,
             resting_loads: true,
             breaking: Breaking::default(),
@@ -244,6 +270,11 @@ impl WorldConfig {
         if self.pieces.pace != f32::INFINITY {
             positive("pace of the work on pieces (s/s)", self.pieces.pace)?;
         }
+        if self.step_time != f32::INFINITY {
+            not_negative("longest step (s)", self.step_time)?;
+        }
+        not_negative("time of rest (s)", self.rest_time)?;
+        not_negative("time of fading (s)", self.fade_time)?;
         not_negative("dust mass (kg)", self.dust_mass)?;
         not_negative("debris mass (kg)", self.debris_mass)?;
         Ok(self.fracture.validate()?)

@@ -92,7 +92,7 @@ pub use bodies::collider::collision_shape;
 pub use bodies::insert::Ball;
 pub use bodies::mortar::Mortar;
 pub use breaker::{Breaker, Sets};
-pub use config::{Breaking, ColliderDetail, PieceConfig, WorldConfig};
+pub use config::{AtRest, Breaking, ColliderDetail, PieceConfig, WorldConfig};
 pub use contact::surface::SurfaceProperties;
 pub use counts::LoadCounts;
 pub use error::WorldError;

@@ -73,6 +73,8 @@ pub struct BreakableWorld {
     pub(crate) events: Vec<BreakEvent>,
     pub(crate) held: Vec<HeldEvent>,
     pub(crate) timings: StepTimings,
+    /// What steps take, in the mean of the last ones, s.
+    pub(crate) mean_step: f64,
     /// Blows that other threads judge, in the order in which they are due.
     pub(crate) cases: VecDeque<Case>,
     pub(crate) piece_model: Option<Arc<dyn PieceModel>>,
@@ -95,6 +97,10 @@ pub(crate) struct State {
     pub(crate) debris: VecDeque<RigidBodyHandle>,
     /// With the time when it was born, s.
     pub(crate) dust: VecDeque<(RigidBodyHandle, f64)>,
+    /// With the time since when they go, s.
+    pub(crate) fading: VecDeque<(RigidBodyHandle, f64)>,
+    /// Since when pieces sleep, s.
+    pub(crate) asleep: BTreeMap<Key, f64>,
     pub(crate) waiting: VecDeque<Waiting>,
     /// In the order in which they are due.
     pub(crate) expected: VecDeque<Expected>,
@@ -141,6 +147,7 @@ impl BreakableWorld {
             events: Vec::new(),
             held: Vec::new(),
             timings: StepTimings::default(),
+            mean_step: 0.0,
             cases: VecDeque::new(),
             workshop: Workshop::default(),
             piece_model: None,

@@ -4,16 +4,14 @@ mod common;
 
 use common::{at, body, box_asset, slicer, step_to_break, world};
 use frangible::glam::Vec3;
+use frangible_rapier::rapier3d::dynamics::RigidBodyHandle;
 use frangible_rapier::rapier3d::geometry::ShapeType;
 use frangible_rapier::rapier3d::math::Vector;
-use frangible_rapier::{Ball, BreakableWorld, SurfaceProperties, WorldConfig};
+use frangible_rapier::{AtRest, Ball, BreakableWorld, SurfaceProperties, WorldConfig};
 
 const HALF: Vec3 = Vec3::new(0.02, 0.02, 0.0004);
 
-fn shoot(
-    world: &mut BreakableWorld,
-    x: f32,
-) -> Vec<frangible_rapier::rapier3d::dynamics::RigidBodyHandle> {
+fn shoot(world: &mut BreakableWorld, x: f32) -> Vec<RigidBodyHandle> {
     let asset = box_asset(HALF, [1, 1, 1]);
     world
         .insert_breakable(body(&asset), at(x, 0.0, 0.0), Vector::ZERO, Vector::ZERO)
@@ -52,6 +50,85 @@ fn debris_is_capped_and_the_oldest_goes_first() {
     };
     assert_eq!((alive(&first), alive(&second)), (36, 64));
     world.step().unwrap();
+}
+
+/// The pieces of a slab that is shot over a floor, after so many seconds in which they came to rest.
+fn rested(
+    change: impl Fn(&mut WorldConfig),
+    seconds: f32,
+) -> (BreakableWorld, Vec<RigidBodyHandle>) {
+    let mut config = WorldConfig::default();
+    config.rest_time = 0.2;
+    change(&mut config);
+    let mut world = BreakableWorld::new(config).unwrap();
+    let ground = Vector::new(0.0, -0.03, 0.0);
+    world
+        .insert_fixed_half_space(ground, Vector::Y, SurfaceProperties::STONE)
+        .unwrap();
+    world.set_break_function(slicer(HALF, [2, 2, 1], 0.0, 0.0));
+    let pieces = shoot(&mut world, 0.0);
+    for _ in 0..(seconds * 240.0) as usize {
+        world.step().unwrap();
+    }
+    (world, pieces)
+}
+
+#[test]
+fn what_rests_becomes_fixed_or_goes_or_sleeps() {
+    for at_rest in [AtRest::Sleep, AtRest::Freeze, AtRest::Go] {
+        let (world, pieces) = rested(|config| config.at_rest = at_rest, 8.0);
+        let bodies = pieces.iter().filter_map(|&h| world.physics.bodies.get(h));
+        let bodies: Vec<_> = bodies.collect();
+        let fixed = bodies.iter().filter(|b| b.is_fixed()).count();
+        let asleep = bodies.iter().filter(|b| b.is_sleeping()).count();
+        println!(
+            "{at_rest:?}: {} of {}, {fixed} fixed, {asleep} asleep",
+            bodies.len(),
+            pieces.len()
+        );
+        match at_rest {
+            AtRest::Freeze => assert_eq!((bodies.len(), fixed), (4, 4)),
+            AtRest::Go => assert!(bodies.is_empty()),
+            _ => assert_eq!((bodies.len(), fixed, asleep), (4, 0, 4)),
+        }
+    }
+}
+
+#[test]
+fn what_goes_fades_without_a_collider() {
+    let fade = |config: &mut WorldConfig| {
+        config.at_rest = AtRest::Go;
+        config.fade_time = 0.25;
+    };
+    let (mut world, pieces) = rested(fade, 0.0);
+    let (mut seen, mut smallest) = (0, 1.0_f32);
+    for _ in 0..8 * 240 {
+        world.step().unwrap();
+        for (handle, left) in world.fading() {
+            assert!(world.physics.bodies[handle].colliders().is_empty());
+            (seen, smallest) = (seen + 1, smallest.min(left));
+        }
+    }
+    // A quarter of a second of each of four pieces.
+    assert!((236..=248).contains(&seen), "{seen}");
+    assert!(smallest < 0.05, "{smallest}");
+    assert!(pieces.iter().all(|&h| !world.physics.bodies.contains(h)));
+    assert_eq!(world.fading().count(), 0);
+}
+
+#[test]
+fn steps_that_take_too_long_cost_debris() {
+    for (step_time, all_go) in [(0.0, true), (1e3, false)] {
+        let change = |config: &mut WorldConfig| {
+            config.step_time = step_time;
+            // All pieces are debris.
+            config.debris_mass = 1e-2;
+        };
+        let (world, pieces) = rested(change, 1.0);
+        let there = pieces.iter().filter(|&&h| world.physics.bodies.contains(h));
+        let there = there.count();
+        assert_eq!(there == 0, all_go, "{there} of {}", pieces.len());
+    }
 }
 
 #[test]

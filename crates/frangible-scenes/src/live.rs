@@ -20,9 +20,10 @@ use crate::bake::BakedBody;
 use crate::cracks::with_cracks;
 use crate::error::SceneError;
 use crate::meshes::{BodySurfaces, piece};
-use crate::recorder::{Role, Sounding, piece_sounding};
+use crate::recorder::{Role, piece_sounding};
 use crate::scene::Scene;
 use crate::stage::{Stage, set_up};
+use frangible_sound::Sounding;
 
 use schedule::Schedule;
 use swing::Swung;

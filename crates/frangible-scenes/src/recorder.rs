@@ -5,19 +5,19 @@ use std::ops::Range;
 
 use frangible::glam::{Quat, Vec3};
 use frangible::internals::BodyState;
-use frangible::{Asset, Body, ImpactReport, Material};
+use frangible::{Asset, ImpactReport, Material};
 use frangible_export::{
-    Floor, Moments, Pose, Pulse, RecordedBlow, RecordedCrack, RecordedMesh, RecordedNode,
-    Recording, SurfaceMaterial,
+    Floor, Moments, Pose, RecordedMesh, RecordedNode, Recording, SurfaceMaterial,
 };
 use frangible_rapier::BreakEvent;
 use frangible_rapier::BreakableWorld;
 use frangible_rapier::rapier3d::dynamics::RigidBodyHandle;
+use frangible_sound::{Sounding, recorded_blow};
 
 use crate::cameras::cameras;
 use crate::cracks::with_cracks;
 use crate::meshes::{BodySurfaces, piece};
-use crate::touching::Touching;
+use crate::touching::WorldTouching;
 
 /// Frames per second of a recording.
 pub(crate) const FRAME_RATE: f32 = 60.0;
@@ -30,17 +30,6 @@ struct Tracked {
     plain: usize,
     /// Whether another node follows the body now.
     replaced: bool,
-}
-
-/// What a node is to the ear.
-#[derive(Clone, Debug)]
-pub enum Sounding {
-    /// A body, or a piece that can break again: it rings by its modes.
-    Modes(Body),
-    /// A piece without modes of its own, by its material and mass, kg.
-    Piece(Material, f64),
-    /// What was thrown, as a ball of a radius, m, and a mass, kg, of this material.
-    Ball(Material, f64, f64),
 }
 
 /// What a node is to the camera.
@@ -63,7 +52,7 @@ pub(crate) struct Recorder {
     tracked: Vec<Tracked>,
     /// The node of each rigid body.
     node_of_body: BTreeMap<(u32, u32), usize>,
-    touching: Touching,
+    touching: WorldTouching,
     break_frame: Option<usize>,
     /// When cracks first ran that parted nothing.
     crack_frame: Option<usize>,
@@ -82,7 +71,7 @@ impl Recorder {
             soundings: Vec::new(),
             tracked: Vec::new(),
             node_of_body: BTreeMap::new(),
-            touching: Touching::default(),
+            touching: WorldTouching::default(),
             break_frame: None,
             crack_frame: None,
         }
@@ -285,38 +274,6 @@ impl Recorder {
         let (camera, views) = cameras(recording, &self.roles, look_from);
         (recording.camera, recording.views) = (camera, Some(views));
         (self.recording, self.soundings)
-    }
-}
-
-/// A blow on a node, `time` s after the first frame, as plain data.
-pub(crate) fn recorded_blow(
-    node: usize,
-    asset: &Asset,
-    report: &ImpactReport,
-    time: f64,
-    pieces: Range<usize>,
-) -> RecordedBlow {
-    let pulses = report.contacts.iter().map(|contact| Pulse {
-        point: contact.point,
-        direction: contact.normal,
-        time_step: report.time_step,
-        force: contact.force.clone(),
-    });
-    let origin = asset.mass.centre;
-    let crack = |cuts: &Vec<(u32, f64)>| RecordedCrack {
-        places: (cuts.iter())
-            .map(|&(tet, _)| asset.root().fracture.centroid(tet as usize).as_dvec3() - origin)
-            .map(|place| place.as_vec3())
-            .collect(),
-        times: cuts.iter().map(|&(_, time)| time).collect(),
-    };
-    RecordedBlow {
-        node,
-        time,
-        pieces,
-        pulses: pulses.collect(),
-        cracks: report.arrivals.iter().map(crack).collect(),
-        fracture_energy: report.fracture_energy,
     }
 }
 

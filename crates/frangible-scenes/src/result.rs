@@ -5,7 +5,7 @@ use frangible::{Contact, ImpactReport};
 use frangible_export::Recording;
 use frangible_rapier::BreakCause;
 
-use crate::recorder::Sounding;
+use frangible_sound::Sounding;
 
 /// What came of a scene.
 #[derive(Clone, Debug)]

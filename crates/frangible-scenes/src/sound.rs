@@ -3,18 +3,13 @@
 //! Each node is a body of the synthesiser. What struck it is in the recording: the force of each blow as the fracture found it, the cracks with
 //! their times and energy, and where pieces touched, of which the impulse is known and the duration is Hertz'.
 
-mod blows;
-mod cast;
 mod energy;
 mod live;
-mod nodes;
-mod slides;
-mod touches;
+mod played;
 
 use frangible::Material;
 use frangible_export::View;
-use frangible_sound::glam::DVec3;
-use frangible_sound::{Listener, SoundError, SoundFloor, Synth, SynthConfig, SynthReport, wav};
+use frangible_sound::{Hearing, Listener, SoundError, SoundFloor, SynthConfig, SynthReport, wav};
 
 use crate::result::Run;
 use crate::scene::Scene;
@@ -23,11 +18,7 @@ pub use energy::{energy_lost, energy_radiated};
 
 pub use live::LiveSound;
 
-use blows::{blows, cracks};
-use cast::Played;
-use nodes::Nodes;
-use slides::slides;
-use touches::touches;
+use played::Played;
 
 /// How long the last tone may ring on, s.
 const RINGS_ON: f64 = 6.0;
@@ -92,13 +83,11 @@ pub fn sound_config(run: &Run, scene: &Scene) -> SynthConfig {
 fn config_at(camera: &View, scene: &Scene) -> SynthConfig {
     let [eye, target] = [camera.eye, camera.target].map(|p| p.as_dvec3());
     let floor = scene.floor.as_ref().map(|_| {
-        let stone = SoundFloor::stone(0.0);
         let material = floor_material(scene);
-        material.map_or(stone, |material| SoundFloor {
-            shear_modulus: material.shear_modulus(),
-            poisson_ratio: material.poisson_ratio,
-            ..stone
-        })
+        material.map_or_else(
+            || SoundFloor::stone(0.0),
+            |material| SoundFloor::of(&material, 0.0),
+        )
     });
     SynthConfig {
         floor,
@@ -156,40 +145,35 @@ pub fn sound_of(
     sources: Sources,
 ) -> Result<Sounded, SoundError> {
     let clock = web_time::Instant::now();
-    let mut synth = Synth::new(*config)?;
-    let (mut nodes, cast) = (Nodes::default(), Played::new(run));
+    let mut hearing = Hearing::new(*config, floor_material(scene))?;
+    let cast = Played(run);
     let recording = &run.recording;
+    recording.blows.iter().for_each(|blow| hearing.note(blow));
     for blow in &recording.blows {
         if sources.blows {
-            blows(&mut synth, &mut nodes, &cast, blow)?;
+            hearing.blow(&cast, blow)?;
         }
         if sources.cracks {
-            cracks(&mut synth, &mut nodes, &cast, blow)?;
+            hearing.cracks(&cast, blow)?;
         }
     }
     if sources.touches {
-        let floor = floor_material(scene);
         for touch in &recording.touches {
-            touches(&mut synth, &mut nodes, &cast, floor.as_ref(), touch)?;
+            hearing.touch(&cast, touch)?;
         }
     }
     if sources.slides {
         for slide in &recording.slides {
-            slides(&mut synth, &mut nodes, &cast, slide)?;
+            hearing.slide(&cast, slide)?;
         }
     }
     let ready = clock.elapsed().as_secs_f64();
     let frames = recording.frame_count as f64 / f64::from(recording.frame_rate.max(1.0));
-    let samples = synth.render_all(frames + RINGS_ON)?;
+    let samples = hearing.until_silence(frames + RINGS_ON)?;
     Ok(Sounded {
         samples,
         config: *config,
-        report: synth.report(),
+        report: hearing.synth().report(),
         seconds: [ready, clock.elapsed().as_secs_f64() - ready],
     })
-}
-
-/// A point, m, in the precision of the synthesiser.
-fn place(point: frangible::glam::Vec3) -> DVec3 {
-    point.as_dvec3()
 }

@@ -19,8 +19,9 @@ use crate::launch::{Target, launch, vector};
 use crate::meshes::{BodySurfaces, whole};
 use crate::overlap::check_overlaps;
 use crate::projectile::Projectile;
-use crate::recorder::{Recorder, Role, Sounding};
+use crate::recorder::{Recorder, Role};
 use crate::scene::Scene;
+use frangible_sound::Sounding;
 
 /// Gap between a standing body and the floor, m.
 const STANDING_GAP: f32 = 1e-4;

@@ -12,6 +12,7 @@
 //! - **Pieces** without modes of their own ring as a [free plate](Plate) of their size.
 //! - **The floor** reflects and is struck itself; the [listener](Listener) has two ears, to which sound takes its time.
 //! - **The budget** lets the loudest ring and masked ones go, without a click.
+//! - **A scene** of such bodies, or a game's world, is heard by a [`Hearing`], which needs to be told what happened and nothing else.
 //! - **How loud it is played** is the caller's choice: [`wav()`] scales by a full scale, and for live play a soft [`Limiter`] bends what is too
 //!   loud and tells what it did.
 //!
@@ -60,8 +61,10 @@ mod error;
 mod limiter;
 mod listener;
 mod of_asset;
+mod outlet;
 mod plate;
 mod pulse;
+mod scene;
 mod select;
 mod sphere;
 mod strike;
@@ -78,12 +81,15 @@ pub use config::{SynthConfig, SynthReport};
 pub use damping::{AudibleDamping, Hold};
 pub use ellipsoid::moved_air;
 pub use error::SoundError;
+pub use frangible_export::{Pose, RecordedBlow, RecordedSlide, RecordedTouch};
 pub use glam;
 pub use limiter::{Limiter, LimiterReport};
 pub use listener::{Listener, SoundFloor};
 pub use of_asset::{AssetSound, HIGHEST};
+pub use outlet::Outlet;
 pub use plate::{Plate, PlateMaterial};
 pub use pulse::Pulse;
+pub use scene::{Cast, EngineStep, Hearing, Motion, Push, Sounding, Touching, recorded_blow};
 pub use sphere::{EquivalentSphere, SurfaceElement};
 pub use strike::{CRACK_SHARE, CRACK_SPEED, Strike, first_push};
 pub use synth::Synth;

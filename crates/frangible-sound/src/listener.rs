@@ -1,5 +1,6 @@
 //! Who listens, from where, and by which ways the sound comes.
 
+use frangible::Material;
 use glam::DVec3;
 
 use crate::air::SPEED_OF_SOUND;
@@ -96,6 +97,16 @@ impl SoundFloor {
             reflection: 0.97,
             shear_modulus: 22e9,
             poisson_ratio: 0.25,
+        }
+    }
+
+    /// A floor of a material at this height, m; it reflects as stone does.
+    #[must_use]
+    pub fn of(material: &Material, height: f64) -> Self {
+        Self {
+            shear_modulus: material.shear_modulus(),
+            poisson_ratio: material.poisson_ratio,
+            ..Self::stone(height)
         }
     }
 

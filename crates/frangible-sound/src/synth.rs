@@ -9,7 +9,7 @@ use crate::bank::BLOCK;
 use crate::body::Body;
 use crate::config::{SynthConfig, SynthReport};
 use crate::error::{SoundError, finite, within};
-use crate::listener::longest_delay;
+use crate::listener::{Listener, longest_delay};
 use crate::pulse::Pulse;
 use crate::strike::Strike;
 use crate::thump::Thump;
@@ -22,6 +22,7 @@ pub(crate) enum Event {
     Strike(usize, Strike),
     Hush(usize),
     Thump(DVec3, Arc<Pulse>),
+    Listen(Listener),
 }
 
 /// Makes sound of bodies and strikes, block by block. The same calls give the same samples, however many are asked for at a time.
@@ -127,7 +128,7 @@ impl Synth {
         self.voices[body] = None;
         let at = |event: &Event| match event {
             Event::Put(i, ..) | Event::Strike(i, _) | Event::Hush(i) => *i == body,
-            Event::Thump(..) => false,
+            Event::Thump(..) | Event::Listen(_) => false,
         };
         self.events.retain(|(_, event)| !at(event));
         Ok(())
@@ -179,6 +180,23 @@ impl Synth {
         pulse.validate()?;
         placed(place, DQuat::IDENTITY)?;
         self.event(time, Event::Thump(place, pulse))
+    }
+
+    /// Moves who listens at a time, s: what rings is heard from the new place within 128 samples.
+    ///
+    /// # Errors
+    /// A place or a direction that cannot be used, or another number of channels than the synthesiser has.
+    pub fn listen(&mut self, time: f64, listener: Listener) -> Result<(), SoundError> {
+        listener.validate()?;
+        let channels = self.config.listener.channels;
+        if listener.channels != channels {
+            return Err(SoundError::BadCount {
+                what: "the listener's list of channels".into(),
+                count: listener.channels,
+                expected: format!("{channels}, as the synthesiser was made with, are"),
+            });
+        }
+        self.event(time, Event::Listen(listener))
     }
 
     fn body(&self, index: usize) -> Result<&Body, SoundError> {

@@ -118,6 +118,11 @@ impl Voice {
         }
     }
 
+    /// Takes in that who listens has moved.
+    pub(crate) fn heard_from(&mut self, room: &Room<'_>) {
+        self.put(self.place, self.rotation, room);
+    }
+
     /// G of all modes towards the listener.
     fn find_gains(&mut self, room: &Room<'_>) {
         let (body, distance) = (&self.body, room.listener.distance(self.place));

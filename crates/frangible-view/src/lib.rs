@@ -31,7 +31,6 @@ mod marks;
 mod mesher;
 mod methods;
 pub mod numbers;
-mod outlet;
 mod parse;
 mod picking;
 mod picture;
@@ -39,6 +38,7 @@ mod save;
 mod script;
 mod session;
 mod shown;
+mod tape;
 mod times;
 #[cfg(feature = "window")]
 mod window;
@@ -52,9 +52,9 @@ pub use command::{
     BallSpec, Command, FilmKind, FilmOptions, HammerSpec, Mark, Subject, Target, Tool,
 };
 pub use error::ViewError;
+pub use frangible_sound::Outlet;
 pub use host::{Delivery, Host};
 pub use methods::{Methods, Outcome};
-pub use outlet::Outlet;
 pub use picture::{Batch, BatchLooks, Dot, Label, Line, Picture};
 pub use script::Script;
 pub use session::Session;

@@ -9,9 +9,10 @@ mod work;
 
 use std::sync::Arc;
 
+use frangible_sound::Outlet;
+
 use crate::command::Command;
 use crate::host::Host;
-use crate::outlet::Outlet;
 use crate::shown::Shown;
 
 use here::Here;

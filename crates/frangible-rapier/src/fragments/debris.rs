@@ -27,8 +27,7 @@ impl BreakableWorld {
             let Some(oldest) = self.state.debris.pop_front() else {
                 return;
             };
-            self.physics.remove_body(oldest);
-            self.state.surfaces.remove(&key(oldest));
+            self.let_go(oldest);
         }
     }
 
@@ -42,6 +41,8 @@ impl BreakableWorld {
         self.state.breakables.retain(|key, _| key_alive(key));
         self.state.surfaces.retain(|key, _| key_alive(key));
         self.state.debris.retain(|&handle| alive(handle));
+        self.state.fading.retain(|&(handle, _)| alive(handle));
+        self.state.asleep.retain(|key, _| key_alive(key));
         self.siblings.purge(alive);
     }
 }

@@ -4,4 +4,5 @@ pub(crate) mod debris;
 pub(crate) mod joints;
 pub(crate) mod pieces;
 pub(crate) mod replace;
+pub(crate) mod rest;
 pub(crate) mod siblings;

@@ -43,7 +43,7 @@ impl BreakableWorld {
     }
 
     fn step_for(&mut self, caller: Callbacks<'_>) -> Result<&[BreakEvent], WorldError> {
-        let mut watch = Watch::start();
+        let (mut watch, mut whole) = (Watch::start(), Watch::start());
         self.timings = StepTimings::default();
         self.events.clear();
         self.held.clear();
@@ -59,10 +59,11 @@ impl BreakableWorld {
             Breaking::AfterStep { budget, delay } => self.step_then_break(budget, delay, caller),
         };
         self.state.steps += 1;
+        self.note_step_time(whole.lap());
         pushed.and(done).map(|()| &*self.events)
     }
 
-    /// Rolling, rest, debris.
+    /// Rolling, rest, debris and what goes.
     pub(super) fn upkeep(&mut self) {
         let mut watch = Watch::start();
         // A break's impulses are a blow, not a weight that rolls; its energy is settled already.
@@ -77,6 +78,8 @@ impl BreakableWorld {
         self.part_mortar();
         self.limit_debris(self.config.max_debris);
         self.settle_dust();
+        self.retire();
+        self.fade();
         self.timings.upkeep += watch.lap();
     }
 }

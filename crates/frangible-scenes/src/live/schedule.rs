@@ -9,9 +9,9 @@ use crate::appearance::projectile_surface;
 use crate::error::SceneError;
 use crate::launch::{Target, launch};
 use crate::projectile::Projectile;
-use crate::recorder::Sounding;
 use crate::scene::Scene;
 use crate::stage::{Thrown, projectile_name};
+use frangible_sound::Sounding;
 
 /// What is thrown when, and what of it was.
 pub(super) struct Schedule {

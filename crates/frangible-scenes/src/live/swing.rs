@@ -14,7 +14,7 @@ use crate::appearance::projectile_surface;
 use crate::error::SceneError;
 use crate::hammer::{Head, add_handle};
 use crate::launch::{hull, vector};
-use crate::recorder::Sounding;
+use frangible_sound::Sounding;
 
 /// Radius of curvature of the striking face, m, as of the scenes' hammers.
 const CROWN: f64 = 0.06;

@@ -12,7 +12,7 @@ use crate::appearance::projectile_surface;
 use crate::error::SceneError;
 use crate::launch::vector;
 use crate::meshes::ball;
-use crate::recorder::Sounding;
+use frangible_sound::Sounding;
 
 /// A ball about to be thrown.
 #[derive(Clone, Debug, PartialEq)]

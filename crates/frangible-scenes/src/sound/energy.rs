@@ -6,7 +6,6 @@ use frangible::glam::Vec3;
 use frangible_sound::glam::DVec3;
 use frangible_sound::{AIR_DENSITY, Listener, SPEED_OF_SOUND, SoundError, SynthConfig};
 
-use super::cast::mass;
 use super::{Sources, sound_of};
 use crate::result::Run;
 use crate::scene::Scene;
@@ -70,7 +69,7 @@ fn energy(run: &Run, frame: usize) -> f64 {
         };
         let speed = f64::from(moved.length() * recording.frame_rate);
         let height = f64::from(at(frame).y);
-        sum += mass(&run.soundings[i]) * (0.5 * speed * speed + GRAVITY * height);
+        sum += run.soundings[i].mass() * (0.5 * speed * speed + GRAVITY * height);
     }
     sum
 }

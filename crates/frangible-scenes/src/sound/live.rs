@@ -2,64 +2,65 @@
 
 use std::collections::BTreeMap;
 
-use frangible::Material;
-use frangible_export::{Pose, RecordedMesh, View};
+use frangible::glam::Vec3;
+use frangible_export::{Pose, View};
 use frangible_rapier::rapier3d::dynamics::RigidBodyHandle;
-use frangible_sound::{BLOCK, SoundError, Synth, SynthConfig, SynthReport};
+use frangible_sound::{
+    Cast, Hearing, SoundError, Sounding, SynthConfig, SynthReport, recorded_blow,
+};
 
-use super::blows::{blows, cracks};
-use super::cast::Cast;
-use super::nodes::Nodes;
-use super::slides::slides;
-use super::touches::touches;
+use super::played::triangles;
 use super::{config_at, floor_material};
-use crate::live::{LiveScene, ThingKind};
-use crate::recorder::{Sounding, recorded_blow};
+use crate::live::{LiveScene, Thing, ThingKind};
 use crate::scene::Scene;
-use crate::touching::Touching;
-
-/// Blows are remembered for so long, s: what touches then is part of them.
-const REMEMBERED: f64 = 0.02;
+use crate::touching::WorldTouching;
 
 /// Hears a scene step by step: pressures, Pa, in simulated time. The same steps give the same samples.
 pub struct LiveSound {
-    synth: Synth,
-    nodes: Nodes,
-    touching: Touching,
-    floor: Option<Material>,
+    hearing: Hearing,
+    touching: WorldTouching,
     /// Where each thing is, or was last.
     poses: Vec<Pose>,
     /// The thing of each rigid body.
     numbers: BTreeMap<(u32, u32), usize>,
-    blows: Vec<(usize, f64)>,
 }
 
 /// The things of a scene on the move.
 struct Moving<'a> {
     live: &'a LiveScene,
     poses: &'a [Pose],
-    blows: &'a [(usize, f64)],
+}
+
+impl Moving<'_> {
+    fn thing(&self, node: usize) -> &Thing {
+        &self.live.things()[node]
+    }
 }
 
 impl Cast for Moving<'_> {
-    fn count(&self) -> usize {
-        self.live.things().len()
-    }
-
     fn name(&self, node: usize) -> &str {
-        &self.live.things()[node].name
+        &self.thing(node).name
     }
 
     fn sounding(&self, node: usize) -> &Sounding {
-        &self.live.things()[node].sounding
+        &self.thing(node).sounding
     }
 
-    fn mesh(&self, node: usize) -> &RecordedMesh {
-        &self.live.things()[node].mesh
+    fn vertices(&self, node: usize) -> &[Vec3] {
+        &self.thing(node).mesh.positions
     }
 
-    fn is_there(&self, node: usize, _time: f64) -> bool {
-        self.live.pose(&self.live.things()[node]).is_some()
+    fn triangles(&self, node: usize) -> Vec<[u32; 3]> {
+        triangles(&self.thing(node).mesh)
+    }
+
+    fn balls(&self, _time: f64) -> Vec<usize> {
+        let things = self.live.things().iter().enumerate();
+        let there = |thing: &Thing| self.live.pose(thing).is_some();
+        things
+            .filter(|(_, thing)| matches!(thing.sounding, Sounding::Ball(..)) && there(thing))
+            .map(|(node, _)| node)
+            .collect()
     }
 
     fn pose(&self, node: usize, _time: f64) -> Pose {
@@ -69,10 +70,6 @@ impl Cast for Moving<'_> {
     fn floor(&self) -> Option<f32> {
         self.live.floor().map(|floor| floor.height)
     }
-
-    fn blows(&self) -> &[(usize, f64)] {
-        self.blows
-    }
 }
 
 impl LiveSound {
@@ -81,27 +78,19 @@ impl LiveSound {
     /// # Errors
     /// A number of the scene or of the camera that cannot be used.
     pub fn new(live: &LiveScene, scene: &Scene, camera: &View) -> Result<Self, SoundError> {
+        let config = config_at(camera, scene).live();
         let mut sound = Self {
-            synth: Synth::new(config_at(camera, scene).live())?,
-            nodes: Nodes::default(),
-            touching: Touching::default(),
-            floor: floor_material(scene),
+            hearing: Hearing::new(config, floor_material(scene))?,
+            touching: WorldTouching::default(),
             poses: Vec::new(),
             numbers: BTreeMap::new(),
-            blows: Vec::new(),
         };
         sound.find_poses(live);
-        let Self {
-            synth,
-            nodes,
-            poses,
-            blows,
-            ..
-        } = &mut sound;
-        let cast = Moving { live, poses, blows };
+        let Self { hearing, poses, .. } = &mut sound;
+        let cast = Moving { live, poses };
         for (node, thing) in live.things().iter().enumerate() {
             if matches!(thing.kind, ThingKind::Body(_)) {
-                nodes.ready(synth, &cast, node, live.time())?;
+                hearing.ready(&cast, node, live.time())?;
             }
         }
         Ok(sound)
@@ -110,29 +99,24 @@ impl LiveSound {
     /// How it listens.
     #[must_use]
     pub fn config(&self) -> &SynthConfig {
-        self.synth.config()
+        self.hearing.synth().config()
     }
 
     /// What it did so far.
     #[must_use]
     pub fn report(&self) -> SynthReport {
-        self.synth.report()
+        self.hearing.synth().report()
     }
 
     /// Takes in the step that was just taken, and adds what is heard until its end to `out`: pressures, Pa, left and right in turn. The last
-    /// [`BLOCK`] samples come with the next step, so that what happens then begins on its sample.
+    /// [`BLOCK`](frangible_sound::BLOCK) samples come with the next step, so that what happens then begins on its sample.
     ///
     /// # Errors
     /// A number of what happened that cannot be used; the rest is heard.
     pub fn step(&mut self, live: &LiveScene, out: &mut Vec<f32>) -> Result<(), SoundError> {
         self.find_poses(live);
         let happened = self.hear(live);
-        let (rate, channels) = (self.config().rate, self.config().listener.channels);
-        let behind = (live.time() - self.synth.time()) * rate;
-        let count = (behind - BLOCK as f64).max(0.0) as usize;
-        let from = out.len();
-        out.resize(from + count * channels, 0.0);
-        self.synth.render(&mut out[from..]);
+        self.hearing.until(live.time(), out);
         happened
     }
 
@@ -170,33 +154,9 @@ impl LiveSound {
             Some(recorded_blow(parent, &event.asset, report, now, pieces))
         });
         let struck: Vec<_> = held.chain(broke).collect();
-        self.blows.retain(|(_, time)| now - time < REMEMBERED);
-        let new = struck.iter().map(|blow| (blow.node, blow.time));
-        self.blows.extend(new);
         let (came, slid) = self.touching.step(world, &number, now);
-        let Self {
-            synth,
-            nodes,
-            poses,
-            blows: known,
-            floor,
-            ..
-        } = self;
-        let cast = Moving {
-            live,
-            poses,
-            blows: known,
-        };
-        for blow in &struck {
-            blows(synth, nodes, &cast, blow)?;
-            cracks(synth, nodes, &cast, blow)?;
-        }
-        for touch in &came {
-            touches(synth, nodes, &cast, floor.as_ref(), touch)?;
-        }
-        for slide in &slid {
-            slides(synth, nodes, &cast, slide)?;
-        }
-        Ok(())
+        let poses = &self.poses;
+        let cast = Moving { live, poses };
+        self.hearing.happened(&cast, &struck, (&came, &slid))
     }
 }

@@ -1,11 +1,11 @@
 //! What is heard of the scene, on its way to whoever listens.
 
 use frangible_scenes::LiveSound;
-use frangible_sound::Limiter;
+use frangible_sound::{Limiter, Outlet};
 
 use super::Session;
 use crate::error::ViewError;
-use crate::outlet::{Outlet, Tape};
+use crate::tape::Tape;
 
 /// Somebody listens.
 pub(super) struct Heard {

@@ -1,6 +1,6 @@
 //! The loudspeaker of a desktop: PulseAudio's protocol on Linux, which PipeWire speaks too, and the system's own elsewhere.
 
-use crate::outlet::Outlet;
+use frangible_sound::Outlet;
 
 /// Plays what is put into its outlet for as long as it lives.
 pub(super) struct Speaker {

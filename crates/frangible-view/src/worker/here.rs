@@ -5,9 +5,11 @@ use std::sync::Arc;
 
 use super::Place;
 use super::work::Work;
+
+use frangible_sound::Outlet;
+
 use crate::command::Command;
 use crate::host::Host;
-use crate::outlet::Outlet;
 use crate::session::Session;
 use crate::shown::Shown;
 

@@ -7,8 +7,10 @@ use std::time::Duration;
 
 use super::Place;
 use super::work::Work;
+
+use frangible_sound::Outlet;
+
 use crate::command::Command;
-use crate::outlet::Outlet;
 use crate::session::Session;
 use crate::shown::Shown;
 

@@ -3,10 +3,10 @@
 use std::sync::Arc;
 use std::time::Duration;
 
+use frangible_sound::Outlet;
 use web_time::Instant;
 
 use crate::command::Command;
-use crate::outlet::Outlet;
 use crate::session::Session;
 use crate::shown::Shown;
 

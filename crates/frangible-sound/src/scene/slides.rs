@@ -9,13 +9,17 @@
 use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
 
-use frangible::glam::Vec3;
 use frangible_export::RecordedSlide;
-use frangible_sound::{HIGHEST, Pulse, SoundError, Strike, Synth};
+use glam::Vec3;
 
 use super::cast::Cast;
 use super::nodes::Nodes;
-use crate::touching::drawn_share;
+use super::touching::drawn_share;
+use crate::error::SoundError;
+use crate::of_asset::HIGHEST;
+use crate::pulse::Pulse;
+use crate::strike::Strike;
+use crate::synth::Synth;
 
 /// Share of the power that friction takes from what slides, and the resistance to rolling from what rolls, which becomes vibration. The rest is
 /// heat. No figure for shards on stone was found; the power goes with this number, and 1e-3 makes a shard of 20 g that slides at 1 m/s about as

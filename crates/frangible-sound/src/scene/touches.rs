@@ -4,13 +4,17 @@ use std::f64::consts::PI;
 use std::sync::Arc;
 
 use frangible::Material;
-use frangible::glam::Vec3;
 use frangible_export::RecordedTouch;
-use frangible_sound::{Body, Pulse, SoundError, Strike, Synth, first_push};
+use glam::Vec3;
 
 use super::cast::Cast;
 use super::nodes::Nodes;
 use super::place;
+use crate::body::Body;
+use crate::error::SoundError;
+use crate::pulse::Pulse;
+use crate::strike::{Strike, first_push};
+use crate::synth::Synth;
 
 /// A touch so soon after a blow on the same node, s, is that blow: a step of the physics in which pieces may break.
 const SAME: f64 = 1.5 / 240.0;
@@ -41,18 +45,19 @@ pub(super) fn touches(
     synth: &mut Synth,
     nodes: &mut Nodes,
     cast: &dyn Cast,
-    floor: Option<&Material>,
+    (floor, blows): (Option<&Material>, &[(usize, f64)]),
     touch: &RecordedTouch,
 ) -> Result<(), SoundError> {
     let (first, second) = touch.nodes;
-    let struck = cast.blows().iter().any(|&(node, time)| {
+    let struck = blows.iter().any(|&(node, time)| {
         let same = node == first || Some(node) == second;
         same && (touch.time - time).abs() < SAME
     });
     if struck || touch.impulse <= 0.0 {
         return Ok(());
     }
-    let own = [Some(first), second].map(|node| node.map(|n| (cast.mass(n), cast.material(n))));
+    let own = [Some(first), second]
+        .map(|node| node.map(|n| (cast.sounding(n).mass(), cast.sounding(n).material())));
     let mut sides = Vec::new();
     for (node, sign) in [(Some(first), 1.0), (second, -1.0)] {
         if let Some(node) = node {

@@ -1,15 +1,19 @@
 //! The sound of a blow: its force on what was struck and on what struck, and its cracks.
 
+use std::ops::Range;
 use std::sync::Arc;
 
-use frangible::glam::Vec3;
+use frangible::{Asset, ImpactReport};
 use frangible_export::{RecordedBlow, RecordedCrack};
-use frangible_sound::{CRACK_SHARE, CRACK_SPEED, Pulse, SoundError, Strike, Synth};
+use glam::Vec3;
 
-use super::cast::Cast;
+use super::cast::{Cast, Sounding};
 use super::nodes::{Nodes, carried};
 use super::place;
-use crate::recorder::Sounding;
+use crate::error::SoundError;
+use crate::pulse::Pulse;
+use crate::strike::{CRACK_SHARE, CRACK_SPEED, Strike};
+use crate::synth::Synth;
 
 /// How near to the floor a force comes from the floor, m.
 const ON_FLOOR: f32 = 0.01;
@@ -19,6 +23,42 @@ const AT_PROJECTILE: f32 = 3.0;
 
 /// Cracks of one blow that sound by themselves, the longest; the energy of all is shared among these.
 const MOST_CRACKS: usize = 200;
+
+/// A blow on a thing, `time` s after the first frame, as plain data: what was found of it, and the numbers of the pieces where it broke.
+#[must_use]
+pub fn recorded_blow(
+    node: usize,
+    asset: &Asset,
+    report: &ImpactReport,
+    time: f64,
+    pieces: Range<usize>,
+) -> RecordedBlow {
+    let pulses = report
+        .contacts
+        .iter()
+        .map(|contact| frangible_export::Pulse {
+            point: contact.point,
+            direction: contact.normal,
+            time_step: report.time_step,
+            force: contact.force.clone(),
+        });
+    let origin = asset.mass.centre;
+    let crack = |cuts: &Vec<(u32, f64)>| RecordedCrack {
+        places: (cuts.iter())
+            .map(|&(tet, _)| asset.root().fracture.centroid(tet as usize).as_dvec3() - origin)
+            .map(|place| place.as_vec3())
+            .collect(),
+        times: cuts.iter().map(|&(_, time)| time).collect(),
+    };
+    RecordedBlow {
+        node,
+        time,
+        pieces,
+        pulses: pulses.collect(),
+        cracks: report.arrivals.iter().map(crack).collect(),
+        fracture_energy: report.fracture_energy,
+    }
+}
 
 /// Lets a blow be heard.
 pub(super) fn blows(
@@ -68,13 +108,10 @@ fn answer(
         return synth.thump(time, place(at), pulse);
     }
     let mut nearest: Option<(usize, f32)> = None;
-    for node in 0..cast.count() {
+    for node in cast.balls(time) {
         let Sounding::Ball(_, radius, _) = cast.sounding(node) else {
             continue;
         };
-        if !cast.is_there(node, time) {
-            continue;
-        }
         let away = (cast.pose(node, time).translation - at).length() / *radius as f32;
         if away < nearest.map_or(AT_PROJECTILE, |(_, away)| away) {
             nearest = Some((node, away));
@@ -106,7 +143,7 @@ pub(super) fn cracks(
     cracks.sort_by_key(|crack| std::cmp::Reverse(crack.places.len()));
     cracks.truncate(MOST_CRACKS);
     let all: usize = cracks.iter().map(|crack| crack.places.len()).sum();
-    let speed = CRACK_SPEED * cast.material(blow.node).rayleigh_speed();
+    let speed = CRACK_SPEED * cast.sounding(blow.node).material().rayleigh_speed();
     for crack in cracks {
         let share = crack.places.len() as f64 / all as f64;
         let energy = CRACK_SHARE * blow.fracture_energy * share;

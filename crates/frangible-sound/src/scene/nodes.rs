@@ -1,18 +1,21 @@
-//! The nodes of a recording as bodies of a synthesiser.
+//! The things of a scene as bodies of a synthesiser.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use frangible::Asset;
-use frangible::glam::{Quat, Vec3};
-use frangible_export::{Pose, RecordedMesh};
-use frangible_sound::{
-    AssetSound, AudibleDamping, Body, Hold, Plate, PlateMaterial, SoundError, SurfaceElement, Synth,
-};
+use frangible_export::Pose;
+use glam::{Quat, Vec3};
 
-use super::cast::Cast;
+use super::cast::{Cast, Sounding};
 use super::place;
-use crate::recorder::Sounding;
+use crate::body::Body;
+use crate::damping::{AudibleDamping, Hold};
+use crate::error::SoundError;
+use crate::of_asset::AssetSound;
+use crate::plate::{Plate, PlateMaterial};
+use crate::sphere::SurfaceElement;
+use crate::synth::Synth;
 
 /// How a push on a node reaches its modes.
 enum Shape {
@@ -64,6 +67,29 @@ impl Nodes {
         Ok((id, body))
     }
 
+    /// Makes what bodies of one asset share, lest the first blow on one of them waits.
+    pub(super) fn prepare(&mut self, cast: &dyn Cast, node: usize) -> Result<(), SoundError> {
+        self.make(cast, node).map(drop)
+    }
+
+    /// Forgets a thing that is gone, and returns its number in the synthesiser.
+    pub(super) fn forget(&mut self, node: usize) -> Option<usize> {
+        let gone = self.ready.remove(&node)?;
+        let id = gone.id;
+        drop(gone);
+        // What only this list and its own sound know of is the asset of a piece that is gone.
+        let used = |asset: &Arc<Asset>, sound: &Arc<AssetSound>| {
+            Arc::strong_count(sound) > 1 || Arc::strong_count(asset) > 2
+        };
+        self.assets.retain(|(asset, sound, _)| used(asset, sound));
+        Some(id)
+    }
+
+    /// The number of a thing in the synthesiser, if it is ready.
+    pub(super) fn id(&self, node: usize) -> Option<usize> {
+        self.ready.get(&node).map(|ready| ready.id)
+    }
+
     fn make(&mut self, cast: &dyn Cast, node: usize) -> Result<(Shape, Arc<Body>), SoundError> {
         let name = cast.name(node);
         match cast.sounding(node) {
@@ -98,8 +124,7 @@ impl Nodes {
                     density: material.density,
                     damping: AudibleDamping::of(material),
                 };
-                let (shape, body) =
-                    Plate::of_surface(name, &elements(cast.mesh(node)), *mass, &plate)?;
+                let (shape, body) = Plate::of_surface(name, &elements(cast, node), *mass, &plate)?;
                 Ok((Shape::Plate(shape), Arc::new(body)))
             }
         }
@@ -124,21 +149,17 @@ impl Nodes {
     }
 }
 
-/// The triangles of a closed mesh.
-fn elements(mesh: &RecordedMesh) -> Vec<SurfaceElement> {
-    let triangles = mesh
-        .parts
-        .iter()
-        .flat_map(|part| part.indices.chunks_exact(3));
-    let element = |corners: &[u32]| {
-        let corner = |k: usize| place(mesh.positions[corners[k] as usize]);
-        let [a, b, c] = [0, 1, 2].map(corner);
+/// The closed surface of a thing.
+fn elements(cast: &dyn Cast, node: usize) -> Vec<SurfaceElement> {
+    let vertices = cast.vertices(node);
+    let element = |corners: [u32; 3]| {
+        let [a, b, c] = corners.map(|corner| place(vertices[corner as usize]));
         SurfaceElement {
             place: (a + b + c) / 3.0,
             area: 0.5 * (b - a).cross(c - a),
         }
     };
-    triangles.map(element).collect()
+    cast.triangles(node).into_iter().map(element).collect()
 }
 
 /// A point of one node in the frame of another, m, by their poses.

@@ -1,0 +1,87 @@
+//! Pieces that rest, pieces that go, and how long steps take with them.
+
+use rapier3d::dynamics::{RigidBodyHandle, RigidBodyType};
+
+use crate::config::AtRest;
+use crate::world::{BreakableWorld, key};
+
+/// Steps over which their time is averaged.
+const STEPS: f64 = 32.0;
+
+/// One in so many pieces of debris goes in each step that is too long.
+const SHARE: usize = 50;
+
+impl BreakableWorld {
+    /// Pieces that go, with what is left of their size as one that shows them shrinks them: from 1 to 0 within
+    /// [`WorldConfig::fade_time`](crate::WorldConfig::fade_time). They have no collider and do not move.
+    pub fn fading(&self) -> impl Iterator<Item = (RigidBodyHandle, f32)> {
+        let (now, time) = (self.time(), f64::from(self.config.fade_time));
+        let left = move |since: f64| (1.0 - (now - since) / time).clamp(0.0, 1.0) as f32;
+        let fading = self.state.fading.iter();
+        fading.map(move |&(handle, since)| (handle, left(since)))
+    }
+
+    /// Does with pieces that have slept for long what [`AtRest`] says.
+    pub(crate) fn retire(&mut self) {
+        if self.config.at_rest == AtRest::Sleep {
+            return;
+        }
+        let now = self.time();
+        let pieces: Vec<RigidBodyHandle> = self.siblings.fragments().collect();
+        for handle in pieces {
+            let body = self.physics.bodies.get(handle);
+            if !body.is_some_and(|b| b.is_dynamic() && b.is_sleeping()) {
+                self.state.asleep.remove(&key(handle));
+                continue;
+            }
+            let since = *self.state.asleep.entry(key(handle)).or_insert(now);
+            if now - since < f64::from(self.config.rest_time) {
+                continue;
+            }
+            self.state.asleep.remove(&key(handle));
+            if self.config.at_rest == AtRest::Go {
+                self.let_go(handle);
+            } else if let Some(body) = self.physics.bodies.get_mut(handle) {
+                body.set_body_type(RigidBodyType::Fixed, false);
+            }
+        }
+    }
+
+    /// Lets a piece go: at once, or it is no body any more and fades.
+    pub(crate) fn let_go(&mut self, handle: RigidBodyHandle) {
+        self.state.surfaces.remove(&key(handle));
+        self.state.breakables.remove(&key(handle));
+        if self.config.fade_time <= 0.0 {
+            self.physics.remove_body(handle);
+            return;
+        }
+        let Some(body) = self.physics.bodies.get_mut(handle) else {
+            return;
+        };
+        body.set_body_type(RigidBodyType::Fixed, false);
+        let colliders = body.colliders().to_vec();
+        for collider in colliders {
+            self.physics.remove_collider(collider);
+        }
+        let now = self.time();
+        self.state.fading.push_back((handle, now));
+    }
+
+    /// Removes what has faded.
+    pub(crate) fn fade(&mut self) {
+        let (now, time) = (self.time(), f64::from(self.config.fade_time));
+        let faded = |&mut (_, since): &mut (RigidBodyHandle, f64)| now - since >= time;
+        while let Some((handle, _)) = self.state.fading.pop_front_if(faded) {
+            self.physics.remove_body(handle);
+        }
+    }
+
+    /// Takes note of how long a step took, s. While steps take too long in the mean, one in fifty pieces of debris goes in each.
+    pub(crate) fn note_step_time(&mut self, seconds: f64) {
+        self.mean_step += (seconds - self.mean_step) / STEPS;
+        if self.mean_step > f64::from(self.config.step_time) {
+            let count = self.state.debris.len();
+            self.limit_debris(count - count.div_ceil(SHARE));
+        }
+    }
+}

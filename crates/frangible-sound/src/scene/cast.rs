@@ -1,0 +1,62 @@
+//! Whose sound is made: the things of a scene, by numbers that the caller gives them.
+
+use frangible::{Body, Material};
+use frangible_export::Pose;
+use glam::Vec3;
+
+/// What a thing is to the ear.
+#[derive(Clone, Debug)]
+pub enum Sounding {
+    /// A body, or a piece that can break again: it rings by its modes.
+    Modes(Body),
+    /// A piece without modes of its own, by its material and mass, kg.
+    Piece(Material, f64),
+    /// What was thrown, as a ball of a radius, m, and a mass, kg, of this material.
+    Ball(Material, f64, f64),
+}
+
+impl Sounding {
+    /// What it is made of.
+    #[must_use]
+    pub fn material(&self) -> &Material {
+        match self {
+            Self::Modes(body) => &body.asset().material,
+            Self::Piece(material, _) | Self::Ball(material, ..) => material,
+        }
+    }
+
+    /// Mass, kg.
+    #[must_use]
+    pub fn mass(&self) -> f64 {
+        match self {
+            Self::Modes(body) => body.asset().mass.mass,
+            Self::Piece(_, mass) | Self::Ball(_, _, mass) => *mass,
+        }
+    }
+}
+
+/// The things of a scene: a run that is over, or a world on the move.
+pub trait Cast {
+    /// What a thing is called.
+    fn name(&self, node: usize) -> &str;
+    /// What it is to the ear.
+    fn sounding(&self, node: usize) -> &Sounding;
+    /// The corners of its surface in its own frame, m.
+    fn vertices(&self, node: usize) -> &[Vec3];
+    /// The triangles of its closed surface, as numbers of corners.
+    fn triangles(&self, node: usize) -> Vec<[u32; 3]>;
+    /// The [balls](Sounding::Ball) that are there at a time, s.
+    fn balls(&self, time: f64) -> Vec<usize>;
+    /// Where a thing is at a time, s.
+    fn pose(&self, node: usize, time: f64) -> Pose;
+    /// Height of the floor, m, if there is one.
+    fn floor(&self) -> Option<f32>;
+
+    /// Distance of a point, m, in the frame of a thing, from the nearest corner of its surface.
+    fn distance(&self, node: usize, point: Vec3) -> f32 {
+        let vertices = self.vertices(node).iter();
+        vertices
+            .map(|v| v.distance_squared(point))
+            .fold(f32::INFINITY, f32::min)
+    }
+}

@@ -1,0 +1,215 @@
+//! What touches, what slides and what rolls, found step by step in what an engine says of its contacts.
+
+use std::collections::BTreeMap;
+
+use frangible_export::{RecordedSlide, RecordedTouch};
+use glam::Vec3;
+
+/// A touch that changes the lighter body's speed by less than this is none, m/s.
+const AUDIBLE: f32 = 0.02;
+
+/// What lies is pushed by its weight in every step, and when contacts come and go by a multiple of it: so many are no touch.
+const LYING: f32 = 3.0;
+
+/// Time between two looks at what slides and rolls, s.
+const SLIDES: f64 = 1.0 / 240.0;
+
+/// What has not touched for so long touches anew, s: what rolls pushes in every second step or so.
+const LIFTED: f64 = 4.0 * SLIDES;
+
+/// A contact that rolls travels as fast as the body turns about it; faster than so many times this it has hopped from one place to another.
+const HOPPED: f32 = 2.0;
+
+/// Slower contacts rest or roll, m/s: the solver leaves about this much to what lies.
+const SLIDING: f32 = 0.02;
+
+/// Friction that takes less is not heard, W: of 0.1 mW a ten-millionth is sound at best, which are 10 dB a metre away.
+const LEAST_POWER: f64 = 1e-4;
+
+/// How a body moves: velocity, m/s, angular velocity, rad/s, and centre of mass, m.
+pub type Motion = [Vec3; 3];
+
+/// Two things that push each other in a step: one that is followed, and another one or what does not move. Engines name bodies and
+/// colliders by numbers of their own.
+#[derive(Clone, Copy, Debug)]
+pub struct Push {
+    /// Names of the two colliders, which are the same in the next step.
+    pub colliders: [u64; 2],
+    /// Numbers of the things, and nothing for what is not followed.
+    pub nodes: (usize, Option<usize>),
+    /// Names of the bodies, in the order of the things; none for what has none.
+    pub bodies: [Option<u64>; 2],
+    /// Mass of the lighter one that moves, kg.
+    pub lightest: f32,
+    /// Where, m.
+    pub point: Vec3,
+    /// Unit direction of the push on the first thing.
+    pub normal: Vec3,
+    /// Where it is in the frames of the two colliders, m, in the order of the things.
+    pub places: [Vec3; 2],
+    /// Impulse along the normal in the step, N·s.
+    pub impulse: f32,
+    /// Coefficient of friction.
+    pub friction: f32,
+}
+
+/// A step that an engine took.
+#[derive(Clone, Copy, Debug)]
+pub struct EngineStep {
+    /// When it ended, s.
+    pub time: f64,
+    /// How long it was, s.
+    pub length: f32,
+    /// Acceleration of gravity, m/s².
+    pub gravity: f32,
+    /// How far ahead of a contact's normal the pressure of a rolling body acts, m; zero where nothing resists rolling.
+    pub rolling_arm: f32,
+}
+
+/// Notices what comes together, by what pushed in the step before.
+#[derive(Clone, Debug, Default)]
+pub struct Touching {
+    /// Impulse of each pair of colliders in the latest step, N·s.
+    pushed: BTreeMap<[u64; 2], f32>,
+    /// How each body moved after the latest step.
+    moving: BTreeMap<u64, Motion>,
+    /// Steps so far.
+    steps: u64,
+    /// When what slides was looked at, s.
+    looked: f64,
+    /// Where each pair touched last, m, in the frames of its two colliders, and when, s.
+    places: BTreeMap<[u64; 2], Touched>,
+}
+
+type Touched = ([Vec3; 2], f64);
+
+impl Touching {
+    /// What came together in a step, and what slides or rolls: by all that pushed in it, and how the bodies move after it.
+    ///
+    /// A touch is where a pair of colliders pushes more than twice as hard as in the step before, and changes the speed of the lighter body by
+    /// more than 2 cm/s beyond what its weight does. When within its step it came is not known. All touches of a step at its end would be heard as
+    /// one loud clap, and steps as a tone of their own, so that each is put at a moment of the step that is drawn for it.
+    pub fn step(
+        &mut self,
+        step: &EngineStep,
+        pushes: &[Push],
+        motions: BTreeMap<u64, Motion>,
+    ) -> (Vec<RecordedTouch>, Vec<RecordedSlide>) {
+        let (time, length) = (step.time, step.length);
+        let before = std::mem::take(&mut self.pushed);
+        let moving = std::mem::replace(&mut self.moving, motions);
+        self.steps += 1;
+        let since = time - self.looked;
+        let looks = since > SLIDES - 1e-9;
+        if looks {
+            self.looked = time;
+        }
+        let (mut touches, mut slides) = (Vec::new(), Vec::new());
+        self.places.retain(|_, (_, then)| time - *then < LIFTED);
+        for push in pushes {
+            let known = before.get(&push.colliders).copied().unwrap_or(0.0);
+            self.pushed.insert(push.colliders, push.impulse);
+            let [a, b] = push.bodies.map(|body| speed_at(&moving, body, push.point));
+            let least = (AUDIBLE + LYING * length * step.gravity) * push.lightest;
+            if push.impulse >= least.max(2.0 * known) {
+                let speed = (b - a).dot(push.normal);
+                let drawn = [
+                    self.steps,
+                    push.nodes.0 as u64,
+                    push.nodes.1.map_or(0, |n| n as u64 + 1),
+                ];
+                touches.push(RecordedTouch {
+                    time: time - f64::from(length) * drawn_share(drawn),
+                    nodes: push.nodes,
+                    point: push.point,
+                    normal: push.normal,
+                    impulse: f64::from(push.impulse),
+                    speed: f64::from(speed + length * step.gravity).max(0.0),
+                });
+            } else if looks {
+                let look = [time, since];
+                slides.extend(slide(push, &self.moving, f64::from(length), look));
+                let now = (push.places, time);
+                if let Some((before, then)) = self.places.insert(push.colliders, now) {
+                    let arm = step.rolling_arm / length;
+                    let before = (before, time - then);
+                    slides.extend(roll(push, &self.moving, before, arm, look));
+                }
+            }
+        }
+        (touches, slides)
+    }
+}
+
+/// What slides, if it does: by Coulomb's law, from the normal force and the speed along the surfaces.
+fn slide(
+    push: &Push,
+    moving: &BTreeMap<u64, Motion>,
+    step: f64,
+    [time, since]: [f64; 2],
+) -> Option<RecordedSlide> {
+    let [a, b] = push.bodies.map(|body| speed_at(moving, body, push.point));
+    let along = (a - b).reject_from(push.normal);
+    let speed = f64::from(along.length());
+    let power = f64::from(push.friction * push.impulse) / step * speed;
+    (along.length() > SLIDING && power > LEAST_POWER).then(|| RecordedSlide {
+        time,
+        duration: since.min(2.0 * SLIDES),
+        nodes: push.nodes,
+        point: push.point,
+        normal: push.normal,
+        speed,
+        power,
+    })
+}
+
+/// What rolls, if it does: its contact travels over both surfaces, from where it was so many seconds `before`. What the resistance to rolling
+/// takes is its torque, the normal force at an arm, times how fast the two turn about each other. `arm`: that arm over the step's time, m/s.
+fn roll(
+    push: &Push,
+    moving: &BTreeMap<u64, Motion>,
+    (before, ago): ([Vec3; 2], f64),
+    arm: f32,
+    [time, since]: [f64; 2],
+) -> Option<RecordedSlide> {
+    let [a, b] = push.bodies.map(|body| {
+        let motion = body.and_then(|body| moving.get(&body));
+        motion
+            .copied()
+            .unwrap_or([Vec3::ZERO, Vec3::ZERO, push.point])
+    });
+    let turning = (a[1] - b[1]).reject_from(push.normal);
+    let farthest = a[2].distance(push.point).max(b[2].distance(push.point));
+    let travelled = [0, 1].map(|k| before[k].distance(push.places[k]));
+    let speed = travelled[0].min(travelled[1]) / ago as f32;
+    let power = f64::from(push.impulse * arm * turning.length());
+    let hopped = speed > HOPPED * turning.length() * farthest;
+    (speed > SLIDING && !hopped && power > LEAST_POWER).then(|| RecordedSlide {
+        time,
+        duration: since.min(2.0 * SLIDES),
+        nodes: push.nodes,
+        point: push.point,
+        normal: push.normal,
+        speed: f64::from(speed),
+        power,
+    })
+}
+
+/// Velocity of a body at a point, m/s; of what does not move, zero.
+fn speed_at(moving: &BTreeMap<u64, Motion>, body: Option<u64>, point: Vec3) -> Vec3 {
+    let motion = body.and_then(|body| moving.get(&body));
+    motion.map_or(Vec3::ZERO, |[velocity, spin, centre]| {
+        *velocity + spin.cross(point - *centre)
+    })
+}
+
+/// A number from 0 to 1 that hangs on these alone: rounds of splitmix64.
+pub(crate) fn drawn_share(key: [u64; 3]) -> f64 {
+    let mixed = key.iter().fold(0, |state: u64, &k| {
+        let x = (state ^ k).wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        x ^ (x >> 31)
+    });
+    (mixed >> 11) as f64 / (1_u64 << 53) as f64
+}
