@@ -3,10 +3,10 @@
 use std::collections::VecDeque;
 use std::sync::Arc;
 
+use frangible_sound::Outlet;
+
 use super::Place;
 use super::work::Work;
-
-use frangible_sound::Outlet;
 
 use crate::command::Command;
 use crate::host::Host;

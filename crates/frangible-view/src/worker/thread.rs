@@ -5,10 +5,10 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
+use frangible_sound::Outlet;
+
 use super::Place;
 use super::work::Work;
-
-use frangible_sound::Outlet;
 
 use crate::command::Command;
 use crate::session::Session;
