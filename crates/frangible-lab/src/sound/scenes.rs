@@ -145,7 +145,7 @@ fn sources(run: &Run, scene: &Scene) -> Result<[[f64; 3]; 5], SoundError> {
 /// Seeds of the glass for each height.
 pub(super) const SEEDS: u64 = 8;
 
-/// A height, m, and the level of the sound's energy at the left ear, dB over 1 Pa²·s: its mean over [`SEEDS`] and the standard error of that.
+/// A height, m, and the level of the sound's energy at the left ear, dB over 1 Pa²·s: its mean over some seeds and the standard error of that.
 pub type Drop = [f64; 3];
 
 /// The glass dropped from some heights.
