@@ -15,7 +15,7 @@ pub(crate) struct Promise<T>(
 
 #[cfg(not(target_family = "wasm"))]
 impl Workers {
-    /// As many threads as a count of cores gives.
+    /// A pool of threads with a name. Their number follows from that of the machine's cores, and is at least one.
     pub(crate) fn new(name: &str, threads: fn(usize) -> usize) -> Self {
         let cores = std::thread::available_parallelism().map_or(1, usize::from);
         let pool = TaskPoolBuilder::new().num_threads(threads(cores).max(1));

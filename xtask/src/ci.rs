@@ -20,7 +20,7 @@ use crate::web::{package, trial};
 const INSTALL_LIMIT: Duration = Duration::from_secs(20 * 60);
 /// Limit of the whole step of fuzzing; its first build with instrumentation takes most of it.
 const FUZZ_LIMIT: Duration = Duration::from_secs(8 * 60);
-/// Limit of the whole step of the page; its first build for browsers takes most of it, the browser itself ten minutes.
+/// Limit of the whole step of the page; its first build for browsers takes most of it, the bodies and the browser the rest.
 const WEB_LIMIT: Duration = Duration::from_secs(40 * 60);
 /// The cargo-deny that `deny.toml` is written for.
 const DENY_VERSION: &str = "0.20.2";

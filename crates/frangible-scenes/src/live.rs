@@ -15,6 +15,7 @@ use frangible::{Body, Fracture, Fragment};
 use frangible_export::{Floor, Pose, RecordedMesh, SurfaceMaterial};
 use frangible_rapier::rapier3d::dynamics::RigidBodyHandle;
 use frangible_rapier::{BreakEvent, BreakableWorld};
+use frangible_sound::Sounding;
 
 use crate::bake::BakedBody;
 use crate::cracks::with_cracks;
@@ -23,7 +24,6 @@ use crate::meshes::{BodySurfaces, piece};
 use crate::recorder::{Role, piece_sounding};
 use crate::scene::Scene;
 use crate::stage::{Stage, set_up};
-use frangible_sound::Sounding;
 
 use schedule::Schedule;
 use swing::Swung;

@@ -17,6 +17,9 @@ use crate::source::FileKind;
 /// Largest scene file, bytes.
 const LARGEST: u64 = 1 << 20;
 
+/// What is wrong with a file in memory that is not there.
+const NOT_GIVEN: &str = "this file was not given; give it together with the file that names it";
+
 /// Files that scenes are made of.
 #[derive(Clone, Debug, Default)]
 pub enum Files {
@@ -48,28 +51,24 @@ impl Files {
 
     /// Bytes of an ordinary file, or in words why there is none.
     fn length(&self, path: &Path) -> Result<u64, String> {
-        let given = match self {
-            Self::Given(files) => files.get(path).map(|bytes| bytes.len() as u64),
-            Self::Disk => {
-                return match fs::metadata(path) {
-                    Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
-                        Err(match frangible_mesh::nearest_file(path) {
-                            Some(name) => {
-                                format!("there is no such file (did you mean `{name}`?)")
-                            }
-                            None => "there is no such file; check its path".to_string(),
-                        })
-                    }
-                    Err(error) => Err(format!("the file cannot be read ({error})")),
-                    Ok(data) if data.is_dir() => Err("this is a folder; name a file in it".into()),
-                    Ok(data) if !data.is_file() => Err("this is no ordinary file".into()),
-                    Ok(data) => Ok(data.len()),
-                };
+        match self {
+            Self::Given(files) => {
+                let given = files.get(path).map(|bytes| bytes.len() as u64);
+                given.ok_or_else(|| NOT_GIVEN.into())
             }
-        };
-        given.ok_or_else(|| {
-            "this file was not given; give it together with the file that names it".into()
-        })
+            Self::Disk => match fs::metadata(path) {
+                Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
+                    Err(match frangible_mesh::nearest_file(path) {
+                        Some(name) => format!("there is no such file (did you mean `{name}`?)"),
+                        None => "there is no such file; check its path".to_string(),
+                    })
+                }
+                Err(error) => Err(format!("the file cannot be read ({error})")),
+                Ok(data) if data.is_dir() => Err("this is a folder; name a file in it".into()),
+                Ok(data) if !data.is_file() => Err("this is no ordinary file".into()),
+                Ok(data) => Ok(data.len()),
+            },
+        }
     }
 
     /// Whether there is such a file.
@@ -81,14 +80,16 @@ impl Files {
     }
 
     fn bytes(&self, path: &Path) -> Result<Cow<'_, [u8]>, SceneError> {
-        if let Self::Given(files) = self {
-            self.length(path).map_err(|problem| wrong(path, problem))?;
-            return Ok(files.get(path).map_or(&[][..], Vec::as_slice).into());
+        match self {
+            Self::Given(files) => match files.get(path) {
+                Some(bytes) => Ok(bytes.into()),
+                None => Err(wrong(path, NOT_GIVEN.into())),
+            },
+            Self::Disk => match fs::read(path) {
+                Ok(bytes) => Ok(bytes.into()),
+                Err(error) => Err(wrong(path, format!("the file cannot be read ({error})"))),
+            },
         }
-        let read = fs::read(path);
-        let bytes =
-            read.map_err(|error| wrong(path, format!("the file cannot be read ({error})")))?;
-        Ok(bytes.into())
     }
 
     /// The text of a scene file.

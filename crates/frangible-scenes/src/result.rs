@@ -4,7 +4,6 @@ use frangible::glam::Vec3;
 use frangible::{Contact, ImpactReport};
 use frangible_export::Recording;
 use frangible_rapier::BreakCause;
-
 use frangible_sound::Sounding;
 
 /// What came of a scene.

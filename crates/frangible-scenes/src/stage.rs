@@ -9,6 +9,7 @@ use frangible_rapier::rapier3d::dynamics::RigidBodyHandle;
 use frangible_rapier::rapier3d::geometry::SharedShape;
 use frangible_rapier::rapier3d::math::{Pose, Rotation, Vector};
 use frangible_rapier::{BreakableWorld, ColliderDetail, SurfaceProperties, WorldConfig};
+use frangible_sound::Sounding;
 
 use crate::appearance::{appearance, authored_surface, projectile_surface};
 use crate::bake::BakedBody;
@@ -21,7 +22,6 @@ use crate::overlap::check_overlaps;
 use crate::projectile::Projectile;
 use crate::recorder::{Recorder, Role};
 use crate::scene::Scene;
-use frangible_sound::Sounding;
 
 /// Gap between a standing body and the floor, m.
 const STANDING_GAP: f32 = 1e-4;

@@ -100,7 +100,7 @@ impl FirstBreak {
 #[must_use]
 pub fn surface_cuts<'a>(
     asset: &Asset,
-    elements: impl Iterator<Item = &'a ElementTrace>,
+    elements: impl IntoIterator<Item = &'a ElementTrace>,
     place: impl Fn(u32) -> Vec3,
 ) -> Vec<SurfaceCut> {
     let behind = triangles_behind(asset);

@@ -95,11 +95,6 @@ impl Synth {
     fn happen(&mut self, time: f64, event: Event) {
         if let Event::Listen(listener) = event {
             self.config.listener = listener;
-            let room = room(&self.config);
-            for voice in self.voices.iter_mut().flatten() {
-                voice.heard_from(&room);
-            }
-            return;
         }
         let room = room(&self.config);
         let start = (time * self.config.rate).max(self.now as f64);
@@ -123,7 +118,11 @@ impl Synth {
                 let thump = Thump::new(&self.config, start, place, pulse);
                 self.thumps.extend(thump);
             }
-            Event::Listen(_) => {}
+            Event::Listen(_) => {
+                for voice in self.voices.iter_mut().flatten() {
+                    voice.heard_from(&room);
+                }
+            }
         }
     }
 

@@ -39,7 +39,7 @@ pub struct Analysis {
     pub course: Arc<Course>,
     /// Cracks in the order in which they started.
     pub cracks: Vec<CrackShape>,
-    /// Tetrahedra that they went through while their time is known.
+    /// Tetrahedra that they went through, by the time when they did.
     pub cut: Vec<ElementTrace>,
     /// Middles of the weak tetrahedra, m, body frame.
     pub weak_points: Vec<Vec3>,
@@ -68,14 +68,15 @@ impl Analysis {
     ) -> Result<Self, InputError> {
         let asset = Arc::clone(body.asset());
         let (outcome, trace) = impact_traced(body, contacts, config)?;
+        let known = |element: &&ElementTrace| element.time.is_finite();
+        let cut = trace.cracks.iter().flatten().filter(known);
+        let mut cut: Vec<ElementTrace> = cut.copied().collect();
+        cut.sort_by(|a, b| a.time.total_cmp(&b.time));
         let report = outcome.report();
         let mut analysis = Self {
             course: Arc::default(),
             cracks: cracks(&asset.fracture, &trace),
-            cut: (trace.cracks.iter().flatten())
-                .filter(|element| element.time.is_finite())
-                .copied()
-                .collect(),
+            cut,
             weak_points: middles(&asset.fracture, body.weak_tets()),
             contact: report.contact_duration,
             motion: trace.motion,
@@ -124,9 +125,7 @@ impl Analysis {
 
     /// When the first crack started and the last one grew, s after the contact began; zeros without one.
     fn cracking(&self) -> [f64; 2] {
-        let times = self.cut.iter().map(|e| e.time);
-        let first = times.clone().reduce(f64::min).unwrap_or_default();
-        [first, times.fold(0.0, f64::max)]
+        [self.cut.first(), self.cut.last()].map(|cut| cut.map_or(0.0, |cut| cut.time))
     }
 
     /// Amplitudes of all modes at this share of the motion's time, m·√kg; all at rest without a motion.

@@ -90,8 +90,8 @@ pub(crate) fn strained(
 /// Dark ribbons where cracks have cut the surface by a moment of the contact. `place`: where a node of the fracture mesh is drawn, m.
 fn cuts(analysis: &Analysis, share: f64, place: impl Fn(u32) -> Vec3) -> Option<Batch> {
     let now = analysis.course.time(share);
-    let reached = analysis.cut.iter().filter(|element| element.time <= now);
-    let cuts = surface_cuts(&analysis.asset, reached, place);
+    let reached = analysis.cut.partition_point(|cut| cut.time <= now);
+    let cuts = surface_cuts(&analysis.asset, &analysis.cut[..reached], place);
     let half = 0.5 * RIBBON * reach(&analysis.asset);
     let (mut positions, mut normals) = (Vec::new(), Vec::new());
     for cut in &cuts {
@@ -220,14 +220,12 @@ pub(crate) fn cracks(analysis: &Analysis, pose: Pose, share: f64) -> Vec<Batch> 
         stamp: 0,
     };
     let now = analysis.course.moment(Subject::Cracks, share);
-    let mut times: Vec<f64> = analysis.cut.iter().map(|element| element.time).collect();
-    times.sort_by(f64::total_cmp);
     let rotation = pose.rotation.normalize();
     for crack in &analysis.cracks {
         for &([a, b, c], time) in crack.triangles.iter().filter(|(_, time)| *time <= now) {
             // The share of all that came before: most cracks run in the first microseconds.
-            let before = times.partition_point(|t| *t < time);
-            let value = before as f32 / times.len().max(1) as f32;
+            let before = analysis.cut.partition_point(|cut| cut.time < time);
+            let value = before as f32 / analysis.cut.len().max(1) as f32;
             let normal = (b - a).cross(c - a).normalize_or(Vec3::Y);
             for corner in [a, b, c] {
                 colored.positions.push(out(pose, corner));

@@ -162,7 +162,7 @@ impl Session {
         }
     }
 
-    /// As [`Session::new`]; bodies and files come from this host instead of a bake and the disk, and files go to it.
+    /// A session without a scene yet. Bodies and files come from this host instead of a bake and the disk, and what is saved goes to it.
     #[must_use]
     pub fn in_host(host: Box<dyn Host>) -> Self {
         let mut session = Self::new();

@@ -11,11 +11,10 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 use frangible_view::{Command, Outlet, Packer, Shown, Worker};
+use frangible_web::{Bridge, offer};
 use js_sys::{Float32Array, Uint8Array};
 use wasm_bindgen::JsValue;
 use wasm_bindgen::closure::Closure;
-
-use frangible_web::{Bridge, offer};
 
 use crate::folder::Folder;
 

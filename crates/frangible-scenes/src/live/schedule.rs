@@ -5,13 +5,14 @@ use std::sync::Arc;
 use frangible::Material;
 
 use super::{LiveScene, Thing, ThingKind};
+use frangible_sound::Sounding;
+
 use crate::appearance::projectile_surface;
 use crate::error::SceneError;
 use crate::launch::{Target, launch};
 use crate::projectile::Projectile;
 use crate::scene::Scene;
 use crate::stage::{Thrown, projectile_name};
-use frangible_sound::Sounding;
 
 /// What is thrown when, and what of it was.
 pub(super) struct Schedule {

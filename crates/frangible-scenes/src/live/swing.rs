@@ -10,11 +10,12 @@ use frangible_rapier::rapier3d::dynamics::RigidBodyHandle;
 use frangible_rapier::rapier3d::math::{Pose, Rotation};
 
 use super::{LiveScene, TICKS_PER_SECOND, Thing, ThingKind};
+use frangible_sound::Sounding;
+
 use crate::appearance::projectile_surface;
 use crate::error::SceneError;
 use crate::hammer::{Head, add_handle};
 use crate::launch::{hull, vector};
-use frangible_sound::Sounding;
 
 /// Radius of curvature of the striking face, m, as of the scenes' hammers.
 const CROWN: f64 = 0.06;

@@ -8,11 +8,12 @@ use frangible_rapier::rapier3d::math::Pose;
 use frangible_rapier::{Ball, SurfaceProperties};
 
 use super::{LiveScene, Thing, ThingKind};
+use frangible_sound::Sounding;
+
 use crate::appearance::projectile_surface;
 use crate::error::SceneError;
 use crate::launch::vector;
 use crate::meshes::ball;
-use frangible_sound::Sounding;
 
 /// A ball about to be thrown.
 #[derive(Clone, Debug, PartialEq)]

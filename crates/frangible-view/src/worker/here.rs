@@ -7,7 +7,6 @@ use frangible_sound::Outlet;
 
 use super::Place;
 use super::work::Work;
-
 use crate::command::Command;
 use crate::host::Host;
 use crate::session::Session;

@@ -9,7 +9,6 @@ use frangible_sound::Outlet;
 
 use super::Place;
 use super::work::Work;
-
 use crate::command::Command;
 use crate::session::Session;
 use crate::shown::Shown;
