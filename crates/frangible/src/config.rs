@@ -93,9 +93,9 @@ pub enum CrackPath {
     /// A plane with noise, fixed when the crack starts `[G12 Eq. 6-10]`; it enters every neighbour that it crosses, even
     /// where it misses the face between them `[G12 §5.2.2]`.
     Planar,
-    /// A plane that turns towards the largest tension as it goes.
+    /// A plane that turns as it goes until no shear acts across it.
     Steered {
-        /// Length over which the crack turns fully towards the tension, m. Default 0.0067.
+        /// Length over which the crack turns fully, m. Default 0.0067.
         turning_length: f64,
     },
 }

@@ -9,10 +9,11 @@
 //! - *finite speed*: fronts arrive along the crack's own path at a share of the Rayleigh speed; a front that lacks
 //!   energy waits and is tried again with the stress of the next step, so cracks follow the wave outwards;
 //! - *steering*: s is kept at the nodes. The fourth node of n gets the mean over the three shared ones of
-//!   `s_i + (x_v − x_i)·d − A (N(x_v) − N(x_i))`, d the crack's direction turned towards the largest tension at n.
+//!   `s_i + (x_v − x_i)·d − A (N(x_v) − N(x_i))`, d the crack's normal at n, turned towards the traction σd across the crack.
+//!   A crack grows so that no shear acts across its tip (R. V. Goldstein, R. L. Salganik, Int. J. Fracture 10 (1974) 507): tension along it does
+//!   not turn it, however large, so that the arms of a star run straight on through the rings of tension about a blow. Where nothing pulls
+//!   across a crack it does not turn: on the compressed side of a bent wall it would peel the wall along its middle.
 //!   Where toughness varies the crack then kinks to where it costs least for what it releases (`fields/kink.rs`).
-//!   The turn is gated by tension, absolute and against the largest compression: on the compressed side of a bent wall
-//!   the largest principal direction points across it, and an ungated crack would peel the wall along its middle.
 //!   Cracks in thin walls stand upright (`stress/wall.rs`): no traction acts on the wall's faces.
 
 use glam::Vec3;
@@ -24,9 +25,9 @@ use super::surface::crossing_area;
 use super::system::{CrackSystem, UNCUT};
 use crate::config::{CrackPath, CrackTiming};
 use crate::fields::Tip;
-use crate::stress::{Symmetric3, largest_axis};
+use crate::stress::{Symmetric3, largest_eigenvalue};
 
-/// Share of R_c below which tension does not steer.
+/// Share of R_c below which the tension across a crack does not steer it.
 const STEERING_GATE: f64 = 0.3;
 
 /// A crack looks so far ahead for where it costs least (in mean edges).
@@ -233,31 +234,22 @@ fn pays(system: &CrackSystem, felt: &Felt, front: &Front, cut: &ElementCut, area
     }
 }
 
-/// The crack's direction, turned towards the largest tension over a length of path.
+/// The crack's normal, turned over a length of path towards the traction across the crack.
 fn steered(
-    direction: Vec3,
+    normal: Vec3,
     stress: &Symmetric3,
     strength: f64,
     length: f64,
     turning_length: f64,
 ) -> Vec3 {
-    let (sigma, axis) = largest_axis(stress);
-    if sigma[0] <= 0.0 {
-        return direction;
-    }
-    let uniaxial = ((sigma[0] - sigma[1].max(0.0)) / sigma[0]).clamp(0.0, 1.0);
-    let gate = (sigma[0] / strength - STEERING_GATE).clamp(0.0, 1.0);
-    // Beside a larger compression the direction of the tension is that of a small difference: on the compressed
-    // side of a bent plate it points across the plate.
-    let tensile = (1.0 + sigma[2].min(0.0) / sigma[0]).max(0.0);
-    let weight = (-(-length / turning_length).exp_m1() * uniaxial * gate * tensile) as f32;
-    let tension = axis.as_vec3();
-    let tension = if tension.dot(direction) < 0.0 {
-        -tension
-    } else {
-        tension
-    };
-    (direction * (1.0 - weight) + tension * weight).normalize_or(direction)
+    let traction = stress.times(normal);
+    let tension = f64::from(normal.dot(traction));
+    let gate = (tension / strength - STEERING_GATE).clamp(0.0, 1.0);
+    let weight = (-(-length / turning_length).exp_m1() * gate) as f32;
+    // Added to the stress in all directions, the largest compression leaves its axes where they are, and no turn goes past them.
+    let compression = largest_eigenvalue(&stress.scaled(-1.0)).max(0.0);
+    let toward = (traction + compression * normal).normalize_or(normal);
+    (normal * (1.0 - weight) + toward * weight).normalize_or(normal)
 }
 
 /// A direction turned into a wall of this normal: no traction acts on the faces, so nothing opens a crack that lies askew.
@@ -288,4 +280,50 @@ pub(crate) fn gradient(x: &[Vec3; 4], s: &[f32; 4]) -> Option<Vec3> {
     let edges = glam::Mat3::from_cols(x[1] - x[0], x[2] - x[0], x[3] - x[0]);
     let differences = Vec3::new(s[1] - s[0], s[2] - s[0], s[3] - s[0]);
     (edges.transpose().inverse() * differences).try_normalize()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const STRENGTH: f32 = 4e7;
+
+    /// The angle between the crack's normal and x at the end, rad, where it begins at `angle` in the plane of x and y, and runs five turning
+    /// lengths under a stress of these principal values, Pa.
+    fn settles(angle: f32, stress: [f32; 3]) -> f32 {
+        let stress = Symmetric3 {
+            diagonal: stress,
+            off: [0.0; 3],
+        };
+        let normal = Vec3::new(angle.cos(), angle.sin(), 0.0);
+        let end = (0..20).fold(normal, |normal, _| {
+            steered(normal, &stress, f64::from(STRENGTH), 0.25, 1.0)
+        });
+        end.angle_between(Vec3::X)
+    }
+
+    #[test]
+    fn a_crack_turns_across_the_tension_and_stays_there() {
+        for angle in [0.2, 0.7, 1.0] {
+            assert!(settles(angle, [3.0 * STRENGTH, 0.0, 0.0]) < 0.02, "{angle}");
+        }
+        // Shear is tension one way and as much pressure across it.
+        assert!(settles(0.5, [3.0 * STRENGTH, -3.0 * STRENGTH, 0.0]) < 0.02);
+        // Nor does it swing about the tension where the pressure is many times as large.
+        assert!(settles(0.1, [3.0 * STRENGTH, -30.0 * STRENGTH, 0.0]) < 0.02);
+    }
+
+    #[test]
+    fn tension_along_a_crack_does_not_turn_it() {
+        let along = settles(0.0, [2.0 * STRENGTH, 9.0 * STRENGTH, 0.0]);
+        assert!(along < 1e-3, "{along}");
+    }
+
+    #[test]
+    fn a_crack_that_is_closed_or_hardly_pulled_runs_on_as_it_did() {
+        for stress in [[-STRENGTH, 9.0 * STRENGTH, 0.0], [0.2 * STRENGTH, 0.0, 0.0]] {
+            let angle = settles(0.2, stress);
+            assert!((angle - 0.2).abs() < 1e-3, "{angle} {stress:?}");
+        }
+    }
 }

@@ -3,7 +3,7 @@
 //! `s(p) = p_y − A (N(p_x/ℓ, p_z/ℓ) − N(0))` in the crack's frame: origin at the centre of the element where it
 //! started, y along its normal, N a 2D simplex noise with seeded offset; subtracting N(0) makes the start crossed.
 //! Changes versus the paper: a steered crack (beyond the paper) keeps s at the nodes and extrapolates it from
-//! element to element, turning towards the largest tension; then only the noise comes from here.
+//! element to element, turning until no shear acts across it; then only the noise comes from here.
 
 use glam::Vec3;
 use noise_functions::{Noise, Simplex};

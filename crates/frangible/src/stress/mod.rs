@@ -37,7 +37,7 @@ pub(crate) use displacement::{BATCH, Lanes, STRIDE, Steps, lane};
 pub(crate) use frame::{Frame, MOST};
 pub(crate) use lanes::StressLanes;
 pub(crate) use moment::Moment;
-pub(crate) use principal::{MARGIN, largest_axis, limit, perpendicular_axes};
+pub(crate) use principal::{MARGIN, limit, perpendicular_axes};
 pub use principal::{largest_eigenvalue, largest_eigenvalue_bound, principal_axes};
 pub(crate) use rows::{RowPoint, Rows, of_shape};
 pub(crate) use shadow::{Released, Shadow};

@@ -86,40 +86,6 @@ pub fn principal_axes(s: &Symmetric3) -> ([f64; 3], [DVec3; 3]) {
     )
 }
 
-/// Principal values, falling, and the axis of the largest, in closed form: as exact as that axis is sharp, and three times as fast as
-/// [`principal_axes`]. The axis is zero where the two largest values are equal.
-pub(crate) fn largest_axis(s: &Symmetric3) -> ([f64; 3], DVec3) {
-    let a = s.to_mat3().as_dmat3();
-    let mean = (a.x_axis.x + a.y_axis.y + a.z_axis.z) / 3.0;
-    let b = a - DMat3::from_diagonal(DVec3::splat(mean));
-    let squares = b.x_axis.length_squared() + b.y_axis.length_squared() + b.z_axis.length_squared();
-    let p = (squares / 6.0).sqrt();
-    if p <= f64::MIN_POSITIVE {
-        return ([mean; 3], DVec3::ZERO);
-    }
-    let half = (0.5 * (b * (1.0 / p)).determinant()).clamp(-1.0, 1.0);
-    let (sine, cosine) = libm::sincos(libm::acos(half) / 3.0);
-    let first = 2.0 * p * cosine;
-    // cos(angle + 120°).
-    let last = -p * (cosine + 3.0_f64.sqrt() * sine);
-    let b = b - DMat3::from_diagonal(DVec3::splat(first));
-    let normals = [
-        b.x_axis.cross(b.y_axis),
-        b.y_axis.cross(b.z_axis),
-        b.z_axis.cross(b.x_axis),
-    ];
-    let longest = |a: DVec3, b: DVec3| {
-        if b.length_squared() > a.length_squared() {
-            b
-        } else {
-            a
-        }
-    };
-    let axis = normals.into_iter().fold(DVec3::ZERO, longest);
-    let values = [first, -first - last, last].map(|value| mean + value);
-    (values, axis.normalize_or_zero())
-}
-
 /// The sign with the largest component positive: an axis has none of its own.
 fn oriented(v: DVec3) -> DVec3 {
     let a = v.abs();
@@ -146,37 +112,4 @@ pub(crate) fn perpendicular_axes(n: Vec3) -> (Vec3, Vec3) {
     };
     let first = n.cross(helper).normalize();
     (first, first.cross(n))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::rng::{Purpose, stream, uniform};
-
-    #[test]
-    fn the_largest_axis_in_closed_form_is_that_of_rotations() {
-        let mut rng = stream(5, Purpose::WeakPoints, 0);
-        let mut number = || (2e8 * uniform(&mut rng) - 1e8) as f32;
-        for _ in 0..2000 {
-            let stress = Symmetric3 {
-                diagonal: [number(), number(), number()],
-                off: [number(), number(), number()],
-            };
-            let ((values, axis), (exact, axes)) = (largest_axis(&stress), principal_axes(&stress));
-            let size = exact[0].abs().max(exact[2].abs());
-            for (value, exact) in values.iter().zip(exact) {
-                assert!((value - exact).abs() < 1e-7 * size, "{values:?} {exact}");
-            }
-            let sharp = (exact[0] - exact[1]) / size;
-            let turned = axis.cross(axes[0]).length();
-            assert!(turned < 1e-7 / sharp, "{stress:?} {turned} {sharp}");
-        }
-        for value in [-3e6, 0.0, 5e6] {
-            let stress = Symmetric3 {
-                diagonal: [value; 3],
-                off: [0.0; 3],
-            };
-            assert_eq!(largest_axis(&stress), ([f64::from(value); 3], DVec3::ZERO));
-        }
-    }
 }
