@@ -8,11 +8,13 @@ use crate::command::{Result, cargo, root, run_within, shown, target};
 use crate::setup::setup;
 
 /// What the plugin and its tests are built from.
-pub(crate) const PATHS: [&str; 8] = [
+pub(crate) const PATHS: [&str; 10] = [
     "bevy_frangible",
     "crates/frangible",
     "crates/frangible-bake",
     "crates/frangible-export",
+    "crates/frangible-geometry",
+    "crates/frangible-material",
     "crates/frangible-mesh",
     "crates/frangible-rapier",
     "crates/frangible-sound",

@@ -26,7 +26,7 @@ const WEB_LIMIT: Duration = Duration::from_secs(40 * 60);
 const DENY_VERSION: &str = "0.20.2";
 
 /// What the page in a browser is built from, and what tests it.
-const PAGE: [&str; 16] = [
+const PAGE: [&str; 18] = [
     "Cargo.toml",
     "Cargo.lock",
     "apps/web",
@@ -35,6 +35,8 @@ const PAGE: [&str; 16] = [
     "crates/frangible-compare",
     "crates/frangible-draw",
     "crates/frangible-export",
+    "crates/frangible-geometry",
+    "crates/frangible-material",
     "crates/frangible-mesh",
     "crates/frangible-rapier",
     "crates/frangible-scenes",
@@ -46,12 +48,14 @@ const PAGE: [&str; 16] = [
 ];
 
 /// What the npm package is built from, and what tests it.
-const NPM: [&str; 9] = [
+const NPM: [&str; 11] = [
     "Cargo.toml",
     "Cargo.lock",
     "apps/npm",
     "crates/frangible",
     "crates/frangible-bake",
+    "crates/frangible-geometry",
+    "crates/frangible-material",
     "crates/frangible-mesh",
     "xtask/src/command.rs",
     "xtask/src/web",

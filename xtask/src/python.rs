@@ -9,7 +9,7 @@ use crate::command::{Result, cargo, root, run_keeping, run_within, shown, target
 use crate::setup::python;
 
 /// What the wheel is built from, and what tests it.
-pub(crate) const PATHS: [&str; 15] = [
+pub(crate) const PATHS: [&str; 17] = [
     "apps/python",
     "apps/frangible",
     "apps/npm",
@@ -17,6 +17,8 @@ pub(crate) const PATHS: [&str; 15] = [
     "crates/frangible",
     "crates/frangible-bake",
     "crates/frangible-export",
+    "crates/frangible-geometry",
+    "crates/frangible-material",
     "crates/frangible-mesh",
     "crates/frangible-rapier",
     "crates/frangible-scenes",

@@ -12,7 +12,7 @@ use frangible::internals::asset::RenderSurface;
 use frangible::internals::modal::ModalBasis;
 use frangible::internals::stress::StressBounds;
 use frangible::internals::{MassProperties, TetMesh};
-use frangible::{Asset, Material};
+use frangible::{Asset, InputError, Material};
 use frangible_mesh::TetReport;
 use web_time::Instant;
 
@@ -125,7 +125,7 @@ pub fn bake(
     spec: &BakeSpec,
     progress: &mut dyn FnMut(Progress),
 ) -> Result<(Asset, BakeReport), BakeError> {
-    spec.material.validate()?;
+    spec.material.validate().map_err(InputError::from)?;
     if spec.modes == 0 {
         return Err(BakeError::Modes {
             wanted: 0,

@@ -4,12 +4,12 @@
 
 use std::fmt;
 
+use frangible_geometry::{EDGES, FACES};
 use glam::DVec3;
 use thiserror::Error;
 
 use crate::quality::volume;
 use crate::tet_input::TetInput;
-use crate::tets::adjacency::FACES;
 use crate::tets::{TetBody, pieces};
 
 /// Below this share of the longest edge's cube a tetrahedron has no volume: its height is lost in rounding.
@@ -24,9 +24,6 @@ const STRAIGHT: f64 = 1e-4;
 
 /// Smaller pieces than the rest of this share are dropped, as the mesher does.
 const MAIN_PIECE: f64 = 0.9;
-
-/// Corners of the six middle nodes.
-const MID_EDGES: [[usize; 2]; 6] = [[0, 1], [1, 2], [0, 2], [0, 3], [1, 3], [2, 3]];
 
 /// Why tetrahedra from a file are no body. Elements are named by their numbers in the file.
 #[derive(Clone, Debug, Error, PartialEq)]
@@ -181,7 +178,7 @@ pub fn mend_tets(input: &TetInput) -> Result<MendedTets, TetInputError> {
     for (e, tet) in tets.iter_mut().enumerate() {
         let signed = volume(tet.map(at));
         let x = tet.map(at);
-        let longest = MID_EDGES.iter().map(|&[i, j]| x[i].distance(x[j]));
+        let longest = EDGES.iter().map(|&[i, j]| x[i].distance(x[j]));
         let longest = longest.fold(0.0, f64::max);
         if signed.is_nan() || signed.abs() <= FLAT * longest.powi(3) {
             let element = number(input, e);
@@ -266,7 +263,7 @@ fn curvature(input: &TetInput) -> Result<f64, TetInputError> {
             let length = x[ends[0]].distance(x[ends[1]]);
             at(v).distance(middle(ends)) / length
         };
-        let usual = six.iter().zip(MID_EDGES).map(|(&v, ends)| off(v, ends));
+        let usual = six.iter().zip(EDGES).map(|(&v, ends)| off(v, ends));
         let worst = usual.fold(0.0, f64::max);
         if worst.is_nan() || worst > MOST_CURVED {
             let element = number(input, e);

@@ -121,7 +121,8 @@ impl MaterialEdit {
             let law = law
                 .filter(|_| rise_time.is_finite() && rise_time > 0.0)
                 .ok_or_else(wrong)?;
-            m.strength = law.strength(m.strength, rise_time)?;
+            m.strength =
+                (law.strength(m.strength, rise_time)).map_err(frangible::InputError::from)?;
         }
         Ok(m)
     }

@@ -1,6 +1,7 @@
 //! Switches and numbers of the fracture model.
 
 use crate::error::InputError;
+use crate::material::OutOfRange;
 use crate::near_field::PlateTheory;
 
 /// How an impact is turned into cracks. `Default` is our model; [`FractureConfig::as_in_the_paper`] is the paper's.
@@ -132,31 +133,49 @@ impl FractureConfig {
     /// # Errors
     /// Names the first field that is out of its range, and the range.
     pub fn validate(&self) -> Result<(), InputError> {
-        let within = |field, value: f64, most: f64, must| match value > 0.0 && value <= most {
-            true => Ok(()),
-            false => Err(InputError::Configuration { field, value, must }),
+        let within = |field, value: f64, most: f64, must| {
+            OutOfRange::unless(value > 0.0 && value <= most, field, value, must)
         };
         let samples = self.samples_per_period;
         let must = "above 0 and at most 1000";
-        within("samples_per_period", samples, 1000.0, must)?;
+        within(
+            "`samples_per_period` of the fracture configuration",
+            samples,
+            1000.0,
+            must,
+        )?;
         if let DurationModel::AsPrinted { c } = self.duration {
-            within("duration: AsPrinted.c", c, 1000.0, must)?;
+            within(
+                "`duration: AsPrinted.c` of the fracture configuration",
+                c,
+                1000.0,
+                must,
+            )?;
         }
         if let CrackTiming::TimeResolved { speed } = self.timing {
-            let must = "above 0 and at most 1";
-            within("timing: TimeResolved.speed", speed, 1.0, must)?;
+            within(
+                "`timing: TimeResolved.speed` of the fracture configuration",
+                speed,
+                1.0,
+                "above 0 and at most 1",
+            )?;
         }
         if let CrackPath::Steered { turning_length } = self.path {
-            let must = "above 0 and at most 10 m";
-            within("path: Steered.turning_length", turning_length, 10.0, must)?;
+            within(
+                "`path: Steered.turning_length` of the fracture configuration",
+                turning_length,
+                10.0,
+                "above 0 and at most 10 m",
+            )?;
         }
-        if !(0.0..1.0).contains(&self.crumb_share) {
-            return Err(InputError::Configuration {
-                field: "crumb_share",
-                value: self.crumb_share,
-                must: "0 or more and below 1",
-            });
-        }
+        let share = self.crumb_share;
+        let fits = (0.0..1.0).contains(&share);
+        OutOfRange::unless(
+            fits,
+            "`crumb_share` of the fracture configuration",
+            share,
+            "0 or more and below 1",
+        )?;
         Ok(())
     }
 

@@ -1,50 +1,17 @@
 //! Errors of the run time: each names what is wrong and how to mend it.
 
+use frangible_material::OutOfRange;
 use thiserror::Error;
+
+pub use frangible_material::{not_negative, positive};
 
 /// A number or an array given by the caller that cannot be used.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum InputError {
-    /// A quantity that must be finite and above zero is not.
-    #[error("{what} is {value}{}{unit}; it must be a finite number above zero", if unit.is_empty() { "" } else { " " })]
-    NotPositive {
-        /// The quantity.
-        what: &'static str,
-        /// What was given.
-        value: f64,
-        /// Its unit; empty where it has none.
-        unit: &'static str,
-    },
-    /// A quantity that must be finite and not negative is not.
-    #[error("{what} is {value}; it must be a finite number, zero or above")]
-    Negative {
-        /// The quantity.
-        what: &'static str,
-        /// What was given.
-        value: f64,
-    },
-    /// A number of a [`FractureConfig`](crate::FractureConfig) that is out of its range.
-    #[error("`{field}` of the fracture configuration is {value}; it must be {must}")]
-    Configuration {
-        /// The field.
-        field: &'static str,
-        /// What was given.
-        value: f64,
-        /// Its range.
-        must: &'static str,
-    },
-    /// Poisson's ratio out of (−1, 0.5).
-    #[error(
-        "Poisson's ratio is {0}; it must lie between -1 and 0.5 (glass 0.23, rubber just under 0.5)"
-    )]
-    PoissonRatio(f64),
-    /// Restitution out of 0..=1.
-    #[error("restitution is {0}; it must lie between 0 (no bounce) and 1 (full bounce)")]
-    Restitution(f64),
-    /// The number of a body that strikes at several points, too large.
-    #[error("the number of a striker's body is {0}; it must be below {most}", most = crate::internals::contact::SharedMass::MOST_BODIES)]
-    StrikerNumber(u32),
+    /// A number that is out of its range.
+    #[error(transparent)]
+    Number(#[from] OutOfRange),
     /// A vector with a NaN or an infinity in it.
     #[error("{what} is ({x}, {y}, {z}); every component must be a finite number")]
     NotFinite {
@@ -86,19 +53,11 @@ pub enum InputError {
     },
 }
 
-pub(crate) fn positive(
-    what: &'static str,
-    value: f64,
-    unit: &'static str,
-) -> Result<(), InputError> {
-    if value.is_finite() && value > 0.0 {
-        Ok(())
-    } else {
-        Err(InputError::NotPositive { what, value, unit })
-    }
-}
-
-pub(crate) fn finite(what: &'static str, v: glam::Vec3) -> Result<(), InputError> {
+/// Checks that a vector has neither a NaN nor an infinity in it.
+///
+/// # Errors
+/// A vector that has.
+pub fn finite(what: &'static str, v: glam::Vec3) -> Result<(), InputError> {
     if v.is_finite() {
         Ok(())
     } else {

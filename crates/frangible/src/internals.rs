@@ -49,12 +49,12 @@ pub mod loads {
 
 /// Materials.
 pub mod material {
-    pub use crate::material::*;
+    pub use frangible_material::*;
 }
 
 /// Tetrahedra and surfaces.
 pub mod mesh {
-    pub use crate::mesh::*;
+    pub use frangible_geometry::*;
 }
 
 /// The modes and how they move.
@@ -102,10 +102,9 @@ pub use crate::fragment::{CutEdge, interfaces_of_labels, pieces_of_cuts};
 pub use crate::impact::{Stage, Vibration, impact_traced};
 pub use crate::loads::{Blast, Force, blast, follow, fracture_at, rest};
 pub use crate::mesh::{MassProperties, RenderMesh, TetMesh, box_projection};
-pub use crate::onset::{Onset, OnsetSearch};
 pub use crate::outcome::{LookedAt, StageTimings};
 pub use crate::piece::{Elastic, PieceModel, Portion};
-pub use crate::presets::{Preset, RateLaw, UnknownMaterial};
 pub use crate::refuse::{is_harmless, rest_margin_at_least};
 pub use crate::state::BodyState;
 pub use crate::trace::{CrackTrace, ElementTrace};
+pub use frangible_material::{Preset, RateLaw, UnknownMaterial};

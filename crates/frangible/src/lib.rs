@@ -27,15 +27,11 @@ mod fragment;
 mod impact;
 pub mod internals;
 mod loads;
-mod material;
-mod mesh;
 mod modal;
 mod near_field;
-mod onset;
 mod outcome;
 mod piece;
 mod prepared;
-mod presets;
 mod refuse;
 mod rigid;
 mod rng;
@@ -43,6 +39,9 @@ mod state;
 mod stress;
 mod trace;
 mod weak_rows;
+
+use frangible_geometry as mesh;
+use frangible_material as material;
 
 pub use asset::Asset;
 pub use body::{Body, Breakable};

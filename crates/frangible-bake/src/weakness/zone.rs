@@ -3,6 +3,7 @@
 use frangible::InputError;
 use frangible::glam::Vec3;
 use frangible::internals::Factors;
+use frangible::internals::error::{finite, positive};
 
 /// A part of space, m, body frame.
 #[derive(Clone, Debug, PartialEq)]
@@ -55,7 +56,9 @@ impl Zone {
     /// # Errors
     /// A number that is not finite, a radius that is not above zero, a normal without direction, a line without points.
     pub fn check(&self) -> Result<(), InputError> {
-        let radius_of = |radius: f32| positive("the radius of a weak zone", f64::from(radius), "m");
+        let radius_of = |radius: f32| {
+            positive("the radius of a weak zone", f64::from(radius), "m").map_err(InputError::from)
+        };
         let place = |p: &Vec3| finite("a point of a weak zone", *p);
         match self {
             Self::Box(corners) => corners.iter().try_for_each(place),
@@ -64,7 +67,7 @@ impl Zone {
                 place(point)?;
                 finite("the normal of a weak zone", *normal)?;
                 let length = f64::from(normal.length());
-                positive("the length of a weak zone's normal", length, "")
+                Ok(positive("the length of a weak zone's normal", length, "")?)
             }
             Self::Tube { line, radius } => {
                 if line.is_empty() {
@@ -76,21 +79,6 @@ impl Zone {
             }
         }
     }
-}
-
-fn finite(what: &'static str, v: Vec3) -> Result<(), InputError> {
-    if v.is_finite() {
-        return Ok(());
-    }
-    let [x, y, z] = v.to_array();
-    Err(InputError::NotFinite { what, x, y, z })
-}
-
-fn positive(what: &'static str, value: f64, unit: &'static str) -> Result<(), InputError> {
-    if value.is_finite() && value > 0.0 {
-        return Ok(());
-    }
-    Err(InputError::NotPositive { what, value, unit })
 }
 
 /// Distance of p from the piece of a line from a to b.

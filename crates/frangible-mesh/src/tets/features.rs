@@ -4,12 +4,13 @@
 //! follows from the tangent planes around the vertex [Kobbelt et al. 2001, "Feature sensitive surface extraction"]:
 //! it is where they meet, in the least-squares sense.
 
+use frangible_geometry::Rows;
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 
 use crate::solid::{Solid, SurfacePoint};
 use crate::tets::Draft;
-use crate::tets::adjacency::{Around, boundary};
+use crate::tets::adjacency::boundary;
 use crate::tets::improve::relocate;
 use crate::tets::local::sharpest_around;
 
@@ -54,7 +55,7 @@ pub(crate) fn snap(
     if features.sharp == 0 {
         return features;
     }
-    let around = Around::new(draft.body.positions.len(), &draft.body.tets);
+    let around = Rows::inverse(draft.body.positions.len(), &draft.body.tets);
     let limit = angle.to_radians().cos();
     let mut refused = vec![0_u32; snapped.len()];
     // Each round moves the vertex nearest to its feature first; a move settles all straddling edges at that vertex.
@@ -121,7 +122,7 @@ struct Candidate {
 /// The boundary with the surface's tangent planes.
 struct Shape {
     faces: Vec<[u32; 3]>,
-    around: Around,
+    around: Rows,
     edges: Vec<(u32, u32)>,
     /// Tangent plane next to each face's centroid.
     planes: Vec<SurfacePoint>,
@@ -151,7 +152,7 @@ impl Shape {
             .for_each(|&v| on_boundary[v as usize] = true);
         let mut shape = Self {
             faces: faces.to_vec(),
-            around: Around::new(vertices, faces),
+            around: Rows::inverse(vertices, faces),
             edges,
             planes: Vec::new(),
             at_vertex: Vec::new(),
@@ -360,7 +361,7 @@ fn symmetric_eigen(mut a: DMat3) -> ([f64; 3], [DVec3; 3]) {
 fn make_room(
     draft: &mut Draft,
     solid: &dyn Solid,
-    around: &Around,
+    around: &Rows,
     snapped: &[bool],
     c: &Candidate,
     cell: f64,

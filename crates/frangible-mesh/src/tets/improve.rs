@@ -1,11 +1,11 @@
 //! Moves vertices of bad tetrahedra to where their worst angle is better: interior ones freely, those of the surface
 //! along it, those on sharp features not at all.
 
+use frangible_geometry::Rows;
 use glam::DVec3;
 
 use crate::solid::Solid;
 use crate::tets::Draft;
-use crate::tets::adjacency::Around;
 use crate::tets::local::{badness, badness_around};
 
 /// Sweeps over the bad tetrahedra; later ones change nothing that can be seen.
@@ -35,7 +35,7 @@ const DIRECTIONS: [DVec3; 14] = [
 /// Works on tetrahedra with an angle below `angle` (or above 180° − `angle`), degrees; `cell` is the size of a step, m.
 pub(crate) fn improve(draft: &mut Draft, fixed: &[bool], solid: &dyn Solid, cell: f64, angle: f64) {
     let limit = angle.to_radians().cos();
-    let around = Around::new(draft.body.positions.len(), &draft.body.tets);
+    let around = Rows::inverse(draft.body.positions.len(), &draft.body.tets);
     for sweep in 0..SWEEPS {
         let bad = (0..draft.body.tets.len()).filter(|&e| badness(draft.body.corners(e)) > limit);
         let mut vertices: Vec<u32> = bad.flat_map(|e| draft.body.tets[e]).collect();
@@ -57,7 +57,7 @@ pub(crate) fn improve(draft: &mut Draft, fixed: &[bool], solid: &dyn Solid, cell
 pub(crate) fn relocate(
     draft: &mut Draft,
     solid: &dyn Solid,
-    around: &Around,
+    around: &Rows,
     v: u32,
     step: f64,
 ) -> bool {

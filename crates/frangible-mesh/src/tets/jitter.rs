@@ -1,10 +1,10 @@
 //! Takes the lattice out of the mesh: cracks start and end at elements, so a lattice would show in them.
 
+use frangible_geometry::Rows;
 use glam::DVec3;
 
 use crate::solid::Solid;
 use crate::tets::Draft;
-use crate::tets::adjacency::Around;
 use crate::tets::local::badness_around;
 
 /// Largest move, as a share of the cell.
@@ -14,7 +14,7 @@ const ANGLE: f64 = 16.0;
 
 /// Moves every vertex that is not `fixed` by up to a fifth of a cell, those of the surface along it.
 pub(crate) fn jitter(draft: &mut Draft, fixed: &[bool], solid: &dyn Solid, cell: f64, seed: u64) {
-    let around = Around::new(draft.body.positions.len(), &draft.body.tets);
+    let around = Rows::inverse(draft.body.positions.len(), &draft.body.tets);
     let limit = ANGLE.to_radians().cos();
     for v in (0..draft.body.positions.len() as u32).filter(|&v| !fixed[v as usize]) {
         let here = draft.body.positions[v as usize];

@@ -1,10 +1,10 @@
 //! The worst angle around a vertex, for a place it might move to.
 
+use frangible_geometry::Rows;
 use glam::DVec3;
 
 use crate::quality::dihedral_cosines;
 use crate::tets::TetBody;
-use crate::tets::adjacency::Around;
 
 /// How bad tetrahedra are: the cosine of the smallest dihedral angle, or of 180° minus the largest, whichever is worse.
 /// Lies in −1..=1; smaller is better.
@@ -16,7 +16,7 @@ pub(crate) fn badness(x: [DVec3; 4]) -> f64 {
 /// Badness of all tetrahedra around `v` when it is moved to `place`; stops early once it exceeds `limit`.
 pub(crate) fn badness_around(
     body: &TetBody,
-    around: &Around,
+    around: &Rows,
     v: u32,
     place: DVec3,
     limit: f64,
@@ -40,7 +40,7 @@ pub(crate) fn badness_around(
 }
 
 /// Cosine of the smallest dihedral angle alone, around `v` moved to `place`.
-pub(crate) fn sharpest_around(body: &TetBody, around: &Around, v: u32, place: DVec3) -> f64 {
+pub(crate) fn sharpest_around(body: &TetBody, around: &Rows, v: u32, place: DVec3) -> f64 {
     around
         .of(v)
         .iter()

@@ -3,9 +3,11 @@
 //! Where two parts of the body touch along a mere edge, the smaller fan of tetrahedra at that edge goes; where they
 //! touch at a mere vertex, each part gets its own.
 
+use frangible_geometry::{FACES, NO_NEIGHBOUR, Rows};
+
 use crate::error::TetError;
 use crate::quality::volume;
-use crate::tets::adjacency::{Around, FACES, OUTSIDE, neighbours};
+use crate::tets::adjacency::neighbours;
 use crate::tets::{Draft, TetBody};
 
 /// Rounds after which the rest is given up; two have always been enough.
@@ -52,7 +54,7 @@ pub(crate) fn pinched_edges(tets: &[[u32; 4]]) -> usize {
 fn surface_edges(tets: &[[u32; 4]], near: &[[u32; 4]]) -> Vec<(u32, u32)> {
     let mut edges: Vec<(u32, u32)> = Vec::new();
     for (e, n) in near.iter().enumerate() {
-        for k in (0..4).filter(|&k| n[k] == OUTSIDE) {
+        for k in (0..4).filter(|&k| n[k] == NO_NEIGHBOUR) {
             let f = FACES[k].map(|i| tets[e][i]);
             edges.extend(
                 [(f[0], f[1]), (f[1], f[2]), (f[2], f[0])].map(|(a, b)| (a.min(b), a.max(b))),
@@ -76,7 +78,7 @@ fn pinched_fans(draft: &Draft) -> Vec<u32> {
     if pinched.is_empty() {
         return Vec::new();
     }
-    let around = Around::new(draft.body.positions.len(), tets);
+    let around = Rows::inverse(draft.body.positions.len(), tets);
     let mut doomed = Vec::new();
     for (a, b) in pinched {
         let ring: Vec<u32> = around
@@ -141,10 +143,10 @@ fn split_vertices(draft: &mut Draft) -> Vec<(u32, u32)> {
     let mut copies = Vec::new();
     let near = neighbours(&draft.body.tets);
     let vertices = draft.body.positions.len();
-    let around = Around::new(vertices, &draft.body.tets);
+    let around = Rows::inverse(vertices, &draft.body.tets);
     let mut outer = vec![false; vertices];
     for (e, n) in near.iter().enumerate() {
-        for k in (0..4).filter(|&k| n[k] == OUTSIDE) {
+        for k in (0..4).filter(|&k| n[k] == NO_NEIGHBOUR) {
             FACES[k]
                 .iter()
                 .for_each(|&i| outer[draft.body.tets[e][i] as usize] = true);

@@ -2,7 +2,8 @@
 
 use crate::quality::volume;
 use crate::tets::Draft;
-use crate::tets::adjacency::{OUTSIDE, neighbours};
+use crate::tets::adjacency::neighbours;
+use frangible_geometry::NO_NEIGHBOUR;
 
 /// What was left of a body in several pieces.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -46,7 +47,7 @@ pub(crate) fn label(tets: &[[u32; 4]]) -> (Vec<u32>, usize) {
         label[start] = pieces;
         stack.push(start);
         while let Some(e) = stack.pop() {
-            for &n in near[e].iter().filter(|n| **n != OUTSIDE) {
+            for &n in near[e].iter().filter(|n| **n != NO_NEIGHBOUR) {
                 if label[n as usize] == u32::MAX {
                     label[n as usize] = pieces;
                     stack.push(n as usize);

@@ -24,7 +24,7 @@ pub(super) fn check_body(body: &BodySpec) -> Result<(), Fault> {
     }
     body.material
         .validate()
-        .map_err(|e| Fault::new("material", e))?;
+        .map_err(|e| Fault::new("material", frangible::InputError::from(e)))?;
     range(
         "modes",
         "the number of modes",

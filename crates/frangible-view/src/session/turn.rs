@@ -70,7 +70,7 @@ impl Session {
         let [now, _] = self.settings_mut()?;
         if let Err(error) = now.material.validate() {
             *now = before;
-            return Err(error.into());
+            return Err(frangible::InputError::from(error).into());
         }
         Ok(*now != before)
     }

@@ -2,6 +2,8 @@
 
 use glam::Vec3;
 
+use crate::mesh::EDGES;
+
 /// A point of the body as seen by the analysis mesh.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EmbeddedPoint {
@@ -23,9 +25,6 @@ pub struct Embedding {
     pub nodes: Vec<EmbeddedPoint>,
 }
 
-/// Corner pairs of the six mid-edge nodes.
-const MID_EDGES: [[usize; 2]; 6] = [[0, 1], [1, 2], [0, 2], [0, 3], [1, 3], [2, 3]];
-
 impl EmbeddedPoint {
     /// N_a of the element's ten quadratic shape functions at its point closest to this one.
     #[must_use]
@@ -35,7 +34,7 @@ impl EmbeddedPoint {
             if a < 4 {
                 l[a] * (2.0 * l[a] - 1.0)
             } else {
-                let [i, j] = MID_EDGES[a - 4];
+                let [i, j] = EDGES[a - 4];
                 4.0 * l[i] * l[j]
             }
         })
@@ -49,7 +48,7 @@ impl EmbeddedPoint {
             if a < 4 {
                 g[a] * (4.0 * l[a] - 1.0)
             } else {
-                let [i, j] = MID_EDGES[a - 4];
+                let [i, j] = EDGES[a - 4];
                 (g[j] * l[i] + g[i] * l[j]) * 4.0
             }
         })

@@ -14,7 +14,7 @@ use glam::{DVec3, Vec3};
 use thiserror::Error;
 
 use crate::asset::{Asset, EmbeddedPoint};
-use crate::error::InputError;
+use crate::error::{InputError, positive};
 use crate::material::Material;
 use crate::mesh::MassProperties;
 
@@ -66,7 +66,7 @@ pub enum RescaleError {
 /// # Errors
 /// [`RescaleError::PoissonRatio`] for a material of another ratio; a number of the material out of its range.
 pub fn with_material(asset: &Asset, material: &Material) -> Result<Asset, RescaleError> {
-    material.validate()?;
+    material.validate().map_err(InputError::from)?;
     let old = &asset.material;
     if (material.poisson_ratio - old.poisson_ratio).abs() > SAME_RATIO {
         return Err(RescaleError::PoissonRatio {
@@ -102,13 +102,7 @@ pub fn with_material(asset: &Asset, material: &Material) -> Result<Asset, Rescal
 /// # Errors
 /// A factor that is not above zero, or so far from one that numbers leave the range of f32.
 pub fn scaled(asset: &Asset, factor: f64) -> Result<Asset, RescaleError> {
-    if !(factor.is_finite() && factor > 0.0) {
-        Err(InputError::NotPositive {
-            what: "the factor of the size",
-            value: factor,
-            unit: "times",
-        })?;
-    }
+    positive("the factor of the size", factor, "times").map_err(InputError::from)?;
     let mut asset = asset.clone();
     let scale = |v: &mut Vec3| *v = (v.as_dvec3() * factor).as_vec3();
     let fracture = Arc::make_mut(&mut asset.fracture);

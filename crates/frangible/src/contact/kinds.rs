@@ -9,8 +9,8 @@ use crate::asset::Asset;
 use crate::blow::Receptance;
 use crate::body::Body;
 use crate::config::FractureConfig;
-use crate::error::{InputError, finite, positive};
-use crate::material::Material;
+use crate::error::{InputError, finite, not_negative, positive};
+use crate::material::{Material, OutOfRange};
 
 /// One contact of an impact, in the body frame of the body that may break.
 #[derive(Clone, Debug, PartialEq)]
@@ -296,12 +296,7 @@ impl Contact {
                 self.striker.modal_duration,
             ),
         ] {
-            if !(value.is_finite() && value >= 0.0) {
-                return Err(InputError::Negative {
-                    what,
-                    value: f64::from(value),
-                });
-            }
+            not_negative(what, f64::from(value))?;
         }
         // Infinity is meant here: a rigid or a flat striker.
         for (what, value) in [
@@ -311,27 +306,22 @@ impl Contact {
                 self.striker.curvature_radius,
             ),
         ] {
-            if value.is_nan() || value <= 0.0 {
-                return Err(InputError::NotPositive {
-                    what,
-                    value: f64::from(value),
-                    unit: "",
-                });
-            }
+            let must = "above zero, and may be infinite";
+            OutOfRange::unless(value > 0.0, what, f64::from(value), must)?;
         }
         if let Some(shared) = &self.striker.shared {
             finite("a striker's shared velocity", shared.velocity)?;
             finite("a striker's shared spin", shared.spin)?;
-            if shared.body >= SharedMass::MOST_BODIES {
-                return Err(InputError::StrikerNumber(shared.body));
-            }
+            let (what, body) = ("the number of a striker's body", shared.body);
+            let fits = body < SharedMass::MOST_BODIES;
+            OutOfRange::unless(fits, what, f64::from(body), "below 16777216")?;
         }
         if let Some(receptance) = &self.striker.receptance {
             receptance.validate()?;
         }
-        if !(0.0..=1.0).contains(&self.striker.restitution) {
-            return Err(InputError::Restitution(f64::from(self.striker.restitution)));
-        }
+        let e = f64::from(self.striker.restitution);
+        let fits = (0.0..=1.0).contains(&e);
+        OutOfRange::unless(fits, "restitution", e, OutOfRange::RESTITUTION)?;
         Ok(())
     }
 }

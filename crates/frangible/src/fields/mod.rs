@@ -15,9 +15,8 @@ use glam::Vec3;
 
 use crate::asset::Asset;
 use crate::error::InputError;
-use crate::material::Material;
+use crate::material::{Material, Preset};
 use crate::mesh::TriangleTree;
-use crate::presets::Preset;
 
 pub(crate) use kink::Tip;
 pub(crate) use resistance::{Resistance, Toughness};

@@ -12,6 +12,7 @@ use std::collections::BinaryHeap;
 
 use super::index::MeshIndex;
 use crate::crack::Cuts;
+use crate::mesh::DisjointSets;
 use crate::piece::{NOBODY, Portion};
 
 /// Nodes that a side looks at before it is asked again whether it has seen least.
@@ -339,34 +340,5 @@ impl Side {
         self.looked_at += other.looked_at;
         self.lowest = self.lowest.min(other.lowest);
         self.volume += other.volume;
-    }
-}
-
-/// Union-find with path halving; the lower number becomes the root.
-pub(crate) struct DisjointSets {
-    parent: Vec<u32>,
-}
-
-impl DisjointSets {
-    pub(crate) fn new(count: usize) -> Self {
-        Self {
-            parent: (0..count as u32).collect(),
-        }
-    }
-
-    pub(crate) fn find(&mut self, mut v: u32) -> u32 {
-        while self.parent[v as usize] != v {
-            let above = self.parent[self.parent[v as usize] as usize];
-            self.parent[v as usize] = above;
-            v = above;
-        }
-        v
-    }
-
-    /// The root of both from now on.
-    pub(crate) fn join(&mut self, a: u32, b: u32) -> u32 {
-        let (a, b) = (self.find(a), self.find(b));
-        self.parent[a.max(b) as usize] = a.min(b);
-        a.min(b)
     }
 }

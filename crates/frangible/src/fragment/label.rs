@@ -1,9 +1,10 @@
 //! Labels: fragments are the connected components of nodes over uncut edges `[G12 §6.1-6.2]`.
 
-use super::components::{Component, Components, DisjointSets};
+use super::components::{Component, Components};
 use super::index::MeshIndex;
 use super::junction::end_cracks;
 use crate::crack::{CrackSystem, Cuts};
+use crate::mesh::DisjointSets;
 use crate::piece::Portion;
 
 /// A fragment number for every node.

@@ -4,12 +4,13 @@ use glam::Vec3;
 use rand_chacha::rand_core::Rng;
 
 use super::bearing::Bearing;
-use super::components::{Components, DisjointSets};
+use super::components::Components;
 use super::index::MeshIndex;
 use super::label::{Labels, of_cuts};
 use super::tests::block;
 use crate::asset::Asset;
 use crate::crack::Cuts;
+use crate::mesh::DisjointSets;
 use crate::mesh::{EDGES, TetMesh};
 use crate::rng::{Purpose, stream, uniform};
 

@@ -22,7 +22,6 @@ mod tests;
 
 pub(crate) use bearing::Bearing;
 pub(crate) use build::{Built, build};
-pub(crate) use components::DisjointSets;
 pub use foreign::{CutEdge, interfaces_of_labels, pieces_of_cuts};
 pub(crate) use index::MeshIndex;
 pub(crate) use label::{Labels, label};

@@ -3,8 +3,7 @@
 use super::{Breakup, FOREIGN};
 use crate::body::Body;
 use crate::crack::EdgeCut;
-use crate::fragment::DisjointSets;
-use crate::mesh::EDGES;
+use crate::mesh::{DisjointSets, EDGES};
 use crate::state::{BodyState, OldCrack};
 
 /// What a portion lists.

@@ -6,6 +6,7 @@
 //! models, SIGGRAPH 2009.
 
 use frangible::glam::DVec3;
+use frangible::internals::mesh::DisjointSets;
 
 use crate::fem::cover::cut::{Parts, cut};
 use crate::fem::cover::lattice::{Cell, Lattice, Quarters};
@@ -91,12 +92,14 @@ impl Topology {
             while i < self.starts[t + 1] && j < self.starts[u + 1] {
                 let (a, b) = (self.fragments[i].cell, self.fragments[j].cell);
                 if a == b {
-                    sets.join(i, j);
+                    sets.join(i as u32, j as u32);
                 }
                 (i, j) = (i + usize::from(a <= b), j + usize::from(b <= a));
             }
         }
-        let roots: Vec<usize> = (0..self.fragments.len()).map(|i| sets.find(i)).collect();
+        let roots: Vec<usize> = (0..self.fragments.len())
+            .map(|i| sets.find(i as u32) as usize)
+            .collect();
         let mut order: Vec<(Cell, usize)> = (0..roots.len())
             .filter(|&i| roots[i] == i)
             .map(|i| (self.fragments[i].cell, i))
@@ -160,7 +163,7 @@ impl Topology {
             let (a, b) = (a as usize, b as usize);
             for (i, point) in points[a].iter().enumerate() {
                 if let Some(j) = points[b].iter().position(|p| p == point) {
-                    sets.join(10 * a + i, 10 * b + j);
+                    sets.join((10 * a + i) as u32, (10 * b + j) as u32);
                 }
             }
         }
@@ -169,7 +172,7 @@ impl Topology {
         for locals in [0..4, 4..10] {
             for (e, points) in points.iter().enumerate() {
                 for a in locals.clone() {
-                    let root = sets.find(10 * e + a);
+                    let root = sets.find((10 * e + a) as u32) as usize;
                     if number[root] == u32::MAX {
                         number[root] = positions.len() as u32;
                         positions.push(points[a]);
@@ -178,7 +181,7 @@ impl Topology {
             }
         }
         let elements = (0..points.len())
-            .map(|e| std::array::from_fn(|a| number[sets.find(10 * e + a)]))
+            .map(|e| std::array::from_fn(|a| number[sets.find((10 * e + a) as u32) as usize]))
             .collect();
         (elements, positions)
     }
@@ -200,32 +203,4 @@ fn pairs(fragments: &[Fragment]) -> impl Iterator<Item = (&Fragment, &Fragment)>
         .iter()
         .enumerate()
         .flat_map(move |(i, a)| fragments[..i].iter().map(move |b| (b, a)))
-}
-
-/// Union-find; the lowest member stands for its set.
-struct DisjointSets {
-    parent: Vec<u32>,
-}
-
-impl DisjointSets {
-    fn new(count: usize) -> Self {
-        Self {
-            parent: (0..count as u32).collect(),
-        }
-    }
-
-    fn find(&mut self, i: usize) -> usize {
-        let mut i = i as u32;
-        while self.parent[i as usize] != i {
-            let up = self.parent[self.parent[i as usize] as usize];
-            self.parent[i as usize] = up;
-            i = up;
-        }
-        i as usize
-    }
-
-    fn join(&mut self, i: usize, j: usize) {
-        let (a, b) = (self.find(i), self.find(j));
-        self.parent[a.max(b)] = a.min(b) as u32;
-    }
 }

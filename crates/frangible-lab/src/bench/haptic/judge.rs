@@ -10,8 +10,8 @@ use frangible::{Body, FractureConfig, InputError, Outcome};
 
 /// What is to be decided about a body.
 pub enum Case {
-    /// An impact, from the first time step on at which a crack can start.
-    Impact(Box<Vibration>, usize),
+    /// An impact that has begun.
+    Impact(Box<Vibration>),
     /// A force that presses.
     Press(Force),
 }
@@ -39,9 +39,7 @@ impl Judge {
         let thread = std::thread::spawn(move || {
             for (body, case) in to_judge {
                 let verdict = match case {
-                    Case::Impact(vibration, first_step) => {
-                        Ok(vibration.end(&body, &config, first_step))
-                    }
+                    Case::Impact(vibration) => Ok(vibration.end(&body, &config, 0)),
                     Case::Press(force) => rest(&body, &[force], Vec3::ZERO, &config),
                 };
                 // Whoever asked may be gone.

@@ -12,6 +12,7 @@
 
 use frangible::glam::Vec3;
 use frangible::internals::contact::each_row;
+use frangible::internals::error::{finite, positive};
 use frangible::internals::modal::Tick;
 use frangible::{Body, InputError};
 
@@ -49,14 +50,7 @@ impl SurfacePlace {
     /// # Errors
     /// A point that is not finite; the place stays where it was.
     pub fn seek(&mut self, body: &Body, point: Vec3) -> Result<(), InputError> {
-        if !point.is_finite() {
-            return Err(InputError::NotFinite {
-                what: "a point to be touched",
-                x: point.x,
-                y: point.y,
-                z: point.z,
-            });
-        }
+        finite("a point to be touched", point)?;
         let asset = &**body.asset();
         let at = body.nearest_on_surface(point);
         let normals = &asset.surface.normals[at.triangle as usize];
@@ -123,13 +117,7 @@ impl LiveModes {
     /// # Errors
     /// A tick that is not above zero, or not finite.
     pub fn new(body: &Body, tick: f64) -> Result<Self, InputError> {
-        if !(tick.is_finite() && tick > 0.0) {
-            return Err(InputError::NotPositive {
-                what: "the length of a tick",
-                value: tick,
-                unit: "s",
-            });
-        }
+        positive("the length of a tick", tick, "s")?;
         let (basis, material) = (&body.asset().modes, &body.asset().material);
         let modes = (0..basis.count()).map(|i| {
             let frequency = basis.eigenvalues[i].sqrt();

@@ -99,13 +99,12 @@ pub struct Findings {
     pub fingerprint: String,
 }
 
-const KINDS: [(Kind, &str); 6] = [
+const KINDS: [(Kind, &str); 5] = [
     (Kind::Free, "no contact"),
     (Kind::Contact, "contact"),
-    (Kind::Blow, "a blow"),
-    (Kind::Looking, "a blow is looked at"),
-    (Kind::Cracks, "a crack can start"),
-    (Kind::Verdict, "the pieces are there"),
+    (Kind::Blow, "a blow, refused"),
+    (Kind::Asked, "a crack may start"),
+    (Kind::Verdict, "the answer is there"),
 ];
 
 /// Bakes the plate, or reads it, and runs the loop.

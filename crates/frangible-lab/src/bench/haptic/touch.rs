@@ -5,16 +5,15 @@
 //!   is not looked for anew, so that it is not pushed out on the other side of a thin body.
 //! - The surface gives way by its vibration under that force: quasi-static and dynamic, exact over the tick ([`LiveModes`]).
 //! - The first tick of a contact is a blow: the impulse that rigid bodies exchange at the speed of approach, in the time that two
-//!   elastic bodies take. Most are refused at once. Else the ticks that follow look for the first moment at which a crack can
-//!   start, a bounded piece of work each ([`OnsetSearch`]), and if there is one, cracks and pieces are made on another thread, to be
-//!   there [`DELAY`] ticks later.
+//!   elastic bodies take. Most are refused at once. Else cracks and pieces are made on another thread, to be there [`DELAY`] ticks
+//!   later.
 //! - One question at a time: until it is answered the body is whole, and no other blow is asked about.
 //! - In the other ticks of a contact the force presses. One number per body clears that nearly always.
 
 use std::sync::Arc;
 
 use frangible::glam::Vec3;
-use frangible::internals::{Force, Onset, OnsetSearch, Stage, Vibration, rest_margin_at_least};
+use frangible::internals::{Force, Stage, Vibration, rest_margin_at_least};
 use frangible::{Body, Contact, Fracture, FractureConfig, InputError, Outcome, Striker};
 
 use super::judge::{Case, Judge};
@@ -23,11 +22,8 @@ use super::live::{LiveModes, SurfacePlace};
 /// Length of a tick, s.
 pub const TICK: f64 = 1e-3;
 
-/// Ticks from the first moment at which a crack can start to the pieces: twice what a break of 8 000 tetrahedra takes one core.
+/// Ticks from a blow to its pieces: twice what a break of 8 000 tetrahedra takes one core.
 pub const DELAY: u64 = 24;
-
-/// Batches of time steps that a tick looks at: 0.2 to 0.5 ms.
-const LOOKS: usize = 1;
 
 /// What holds the probe's tip.
 #[derive(Clone, Debug)]
@@ -49,13 +45,11 @@ pub enum Kind {
     Free,
     /// It presses or slides.
     Contact,
-    /// It has just met the surface.
+    /// It has just met the surface, too softly for any crack.
     Blow,
-    /// A blow is being looked at.
-    Looking,
-    /// A crack can start: cracks and pieces are on their way.
-    Cracks,
-    /// Cracks and pieces are there.
+    /// A crack may start: another thread looks for cracks and pieces.
+    Asked,
+    /// The other thread's answer is there.
     Verdict,
 }
 
@@ -97,8 +91,6 @@ pub struct Touch {
     /// It broke: there is nothing left to touch.
     gone: bool,
     tick: u64,
-    /// A blow that is being looked at.
-    search: Option<OnsetSearch>,
     judge: Judge,
 }
 
@@ -119,7 +111,6 @@ impl Touch {
             inside: false,
             gone: false,
             tick: 0,
-            search: None,
             judge: Judge::new(config.clone(), DELAY),
         })
     }
@@ -205,34 +196,18 @@ impl Touch {
         }
     }
 
-    /// Goes on with an open question, or asks a new one; what came of it.
+    /// Asks whether a crack starts, where none is looked for yet; what came of it.
     fn question(
         &mut self,
         first: bool,
         velocity: Vec3,
         force: Vec3,
     ) -> Result<Option<Kind>, InputError> {
-        if let Some(mut search) = self.search.take() {
-            return Ok(Some(match search.look(&self.body, &self.config, LOOKS) {
-                Onset::Never => Kind::Looking,
-                Onset::NotBefore(_) if self.body.state().is_intact() => {
-                    self.search = Some(search);
-                    Kind::Looking
-                }
-                _ => {
-                    let (vibration, first_step) = search.into_impact();
-                    let case = Case::Impact(Box::new(vibration), first_step);
-                    self.judge.ask(self.tick, &self.body, case);
-                    Kind::Cracks
-                }
-            }));
-        }
         if !self.inside || self.judge.is_busy() {
             return Ok(None);
         }
         if first {
-            self.blow(velocity)?;
-            return Ok(Some(Kind::Blow));
+            return Ok(Some(self.blow(velocity)?));
         }
         // One number per body clears nearly all that presses.
         if rest_margin_at_least(&self.body, force.length(), 0.0) > 1.0 {
@@ -243,22 +218,23 @@ impl Touch {
             force: -force,
         };
         self.judge.ask(self.tick, &self.body, Case::Press(press));
-        Ok(Some(Kind::Cracks))
+        Ok(Some(Kind::Asked))
     }
 
-    /// Asks about a blow: refused at once, or to be looked at.
-    fn blow(&mut self, velocity: Vec3) -> Result<(), InputError> {
+    /// Asks about a blow, which is mostly refused at once.
+    fn blow(&mut self, velocity: Vec3) -> Result<Kind, InputError> {
         let (body, inward) = (&self.body, -self.place.normal);
         let speed = f64::from(velocity.dot(inward).max(0.0));
         let striker = self.probe.striker.clone();
         let hit = Contact::collision(body.asset(), self.place.position, inward, speed, striker);
-        if let Stage::Vibrates(vibration) = Vibration::begin(body, &[hit], &self.config)? {
-            let mut search = OnsetSearch::new(body, vibration);
-            // The bounds alone, in this tick.
-            let onset = search.look(body, &self.config, 0);
-            self.search = (onset != Onset::Never).then_some(search);
+        match Vibration::begin(body, &[hit], &self.config)? {
+            Stage::Held(_) => Ok(Kind::Blow),
+            Stage::Vibrates(vibration) => {
+                let case = Case::Impact(Box::new(vibration));
+                self.judge.ask(self.tick, &self.body, case);
+                Ok(Kind::Asked)
+            }
         }
-        Ok(())
     }
 
     /// The pieces, or the body's own cracks.

@@ -37,8 +37,7 @@ pub fn haptic(found: &Findings) -> String {
     let mut text = format!(
         "A hammer's head of 130 g taps plates of {}, 100 × 100 × 5 mm, {} tetrahedra, {} modes, at 0.1 to 7 m/s, and slides on them. Every tick of \
          1 ms takes the head's position and velocity and gives the contact's force and the displacement of the surface, by all modes, \
-         exact over the tick. At the first tick of a contact the impact's pulse and the motion of the modes are found, and mostly refused; else \
-         the ticks that follow look at the stresses, a bounded number of time steps each. When a crack can start, cracks, pieces and surfaces are \
+         exact over the tick. At the first tick of a contact the impact begins, and is mostly refused; else cracks, pieces and surfaces are \
          made on another thread, which is woken after the tick, and taken {} ticks later.\n\n",
         found.material,
         found.tets,

@@ -350,7 +350,9 @@ fn changed(plate: &Breakable, variant: Variant) -> Result<Breakable, VerifyError
     let refused = |source| VerifyError::Impact { case: NAME, source };
     if let (Some(rise_time), Some(law)) = (variant.rise_time, law) {
         let slow = asset.material.strength;
-        asset.material.strength = law.strength(slow, rise_time).map_err(refused)?;
+        asset.material.strength = law
+            .strength(slow, rise_time)
+            .map_err(|error| refused(error.into()))?;
     }
     let fields = if variant.scatter {
         Fields::of_material(&asset.material)

@@ -54,10 +54,10 @@ pub struct Preset {
     pub source: &'static str,
     /// Fracture toughness K_Ic, Pa·√m; 0 where the source gives only the fracture energy.
     pub fracture_toughness: f64,
-    /// Modulus of the scatter of its strength ([`Fields::weibull_modulus`](crate::internals::Fields::weibull_modulus)), 0 where every weak
+    /// Modulus of the scatter of its strength (`Fields::weibull_modulus` of `frangible`), 0 where every weak
     /// point has the same.
     pub weibull_modulus: f64,
-    /// Volume of the specimen whose strength was measured ([`Fields::specimen`](crate::internals::Fields::specimen)), m³.
+    /// Volume of the specimen whose strength was measured (`Fields::specimen` of `frangible`), m³.
     pub specimen: f64,
     /// How its strength rises with the rate, where that was measured.
     pub rate: Option<RateLaw>,

@@ -3,7 +3,7 @@
 /// Entries by their lowest node and what else names them: a chain per node, numbered in the order they came. Costs
 /// what is in it, not what the mesh has, and knows no hash.
 #[derive(Debug)]
-pub(crate) struct ByNode<K> {
+pub struct ByNode<K> {
     /// Number plus one of each node's latest entry, 0 for none.
     latest: Vec<u32>,
     /// Each entry's key, and the node's entry before it.
@@ -11,14 +11,18 @@ pub(crate) struct ByNode<K> {
 }
 
 impl<K: Copy + PartialEq> ByNode<K> {
-    pub(crate) fn new(node_count: usize) -> Self {
+    /// A table of no entries, for so many nodes.
+    #[must_use]
+    pub fn new(node_count: usize) -> Self {
         Self {
             latest: vec![0; node_count],
             entries: Vec::new(),
         }
     }
 
-    pub(crate) fn find(&self, node: u32, key: K) -> Option<u32> {
+    /// Number of the entry at a node with a key.
+    #[must_use]
+    pub fn find(&self, node: u32, key: K) -> Option<u32> {
         let mut at = self.latest[node as usize];
         while at != 0 {
             let (known, before) = self.entries[at as usize - 1];
@@ -31,7 +35,7 @@ impl<K: Copy + PartialEq> ByNode<K> {
     }
 
     /// Adds an entry that is not there yet.
-    pub(crate) fn add(&mut self, node: u32, key: K) {
+    pub fn add(&mut self, node: u32, key: K) {
         let latest = &mut self.latest[node as usize];
         self.entries.push((key, *latest));
         *latest = self.entries.len() as u32;

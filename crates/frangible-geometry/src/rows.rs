@@ -2,14 +2,14 @@
 
 /// Rows of numbers, compressed: where each row starts, and all rows one behind another.
 #[derive(Clone, Debug)]
-pub(crate) struct Rows {
+pub struct Rows {
     starts: Vec<u32>,
     items: Vec<u32>,
 }
 
 impl Rows {
     /// No row yet.
-    pub(crate) fn new() -> Self {
+    pub fn new() -> Self {
         Self {
             starts: vec![0],
             items: Vec::new(),
@@ -17,7 +17,7 @@ impl Rows {
     }
 
     /// Row r lists, ascending, the keys' places where r stands: for the nodes of tetrahedra, the tetrahedra of a node.
-    pub(crate) fn inverse<const N: usize>(count: usize, keys: &[[u32; N]]) -> Self {
+    pub fn inverse<const N: usize>(count: usize, keys: &[[u32; N]]) -> Self {
         let mut starts = vec![0_u32; count + 1];
         for &r in keys.iter().flatten() {
             starts[r as usize + 1] += 1;
@@ -37,26 +37,26 @@ impl Rows {
     }
 
     /// Adds a row, ascending.
-    pub(crate) fn push(&mut self, row: &mut [u32]) {
+    pub fn push(&mut self, row: &mut [u32]) {
         row.sort_unstable();
         self.items.extend_from_slice(row);
         self.starts.push(self.items.len() as u32);
     }
 
     /// Gives back what memory it has too much.
-    pub(crate) fn shrunk(mut self) -> Self {
+    pub fn shrunk(mut self) -> Self {
         self.starts.shrink_to_fit();
         self.items.shrink_to_fit();
         self
     }
 
     /// Number of rows.
-    pub(crate) fn len(&self) -> usize {
+    pub fn len(&self) -> usize {
         self.starts.len() - 1
     }
 
     /// A row.
-    pub(crate) fn of(&self, row: u32) -> &[u32] {
+    pub fn of(&self, row: u32) -> &[u32] {
         let r = row as usize;
         &self.items[self.starts[r] as usize..self.starts[r + 1] as usize]
     }

@@ -19,10 +19,10 @@ pub struct TetMesh {
 }
 
 /// Local nodes of the face opposite node `k`, counter-clockwise seen from outside.
-pub(crate) const FACES: [[usize; 3]; 4] = [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]];
+pub const FACES: [[usize; 3]; 4] = [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]];
 
 /// Local end nodes of the six edges.
-pub(crate) const EDGES: [[usize; 2]; 6] = [[0, 1], [1, 2], [0, 2], [0, 3], [1, 3], [2, 3]];
+pub const EDGES: [[usize; 2]; 6] = [[0, 1], [1, 2], [0, 2], [0, 3], [1, 3], [2, 3]];
 
 impl TetMesh {
     /// Builds the face adjacency. Tetrahedra must be right-handed and share whole faces.

@@ -6,7 +6,7 @@ use glam::Vec3;
 const SMOOTH_COSINE: f32 = 0.6;
 
 /// Corner normals: area-weighted vertex means, flat at sharp turns.
-pub(crate) fn smooth_normals(vertices: &[Vec3], triangles: &[[u32; 3]]) -> Vec<[Vec3; 3]> {
+pub fn smooth_normals(vertices: &[Vec3], triangles: &[[u32; 3]]) -> Vec<[Vec3; 3]> {
     let flat = |t: &[u32; 3]| {
         let [a, b, c] = t.map(|v| vertices[v as usize]);
         (b - a).cross(c - a)

@@ -1,7 +1,7 @@
 //! Mass properties against closed forms.
 
-use frangible::glam::DVec3;
-use frangible::internals::MassProperties;
+use frangible_geometry::MassProperties;
+use frangible_geometry::glam::DVec3;
 
 /// Five tetrahedra of an axis-aligned box from `low` to `high`.
 fn box_tetrahedra(low: DVec3, high: DVec3) -> Vec<[DVec3; 4]> {

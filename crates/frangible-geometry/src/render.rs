@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-/// What to draw of a piece of a body that has a [`RenderSurface`](crate::asset::RenderSurface): its part of that
+/// What to draw of a piece of a body that has a surface that its author drew: its part of that
 /// surface and its crack faces, m, fragment frame.
 ///
 /// A mesh for the eye: it need not be closed, and is no input to physics. Triangles that cracks divide meet their
@@ -21,7 +21,7 @@ pub struct RenderMesh {
     pub triangles: Vec<[u32; 3]>,
     /// How many of the triangles, from the first, are the author's surface.
     pub outer_triangles: usize,
-    /// Index into [`RenderSurface::materials`](crate::asset::RenderSurface::materials) of each outer triangle; empty
+    /// Index into the surface's materials of each outer triangle; empty
     /// where the author gave none. Crack faces take a material of the user's own.
     pub material_of_triangle: Vec<u32>,
 }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use frangible::Material;
+use frangible_material::Material;
 
 #[test]
 fn every_preset_is_a_valid_material() {

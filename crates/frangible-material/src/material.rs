@@ -1,12 +1,11 @@
 //! What a body is made of: elasticity, damping, strength, toughness.
 
-use crate::error::{InputError, positive};
+use crate::error::{OutOfRange, not_negative, positive};
 
 /// Material of a breakable body. SI units.
 ///
 /// Presets with their sources are in [`Material::presets`]; every number may be changed.
 #[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
 pub struct Material {
     /// Name shown in reports.
     pub name: String,
@@ -43,7 +42,7 @@ impl Material {
     ///
     /// # Errors
     /// The first field that is not finite or out of its range.
-    pub fn validate(&self) -> Result<(), InputError> {
+    pub fn validate(&self) -> Result<(), OutOfRange> {
         positive("Young's modulus", self.youngs_modulus, "Pa")?;
         positive("density", self.density, "kg/m³")?;
         positive("tensile strength", self.strength, "Pa")?;
@@ -57,17 +56,13 @@ impl Material {
             ("roughness amplitude", self.roughness_amplitude),
             ("friction", self.friction),
         ] {
-            if !(value.is_finite() && value >= 0.0) {
-                return Err(InputError::Negative { what, value });
-            }
+            not_negative(what, value)?;
         }
-        if !(self.poisson_ratio > -1.0 && self.poisson_ratio < 0.5) {
-            return Err(InputError::PoissonRatio(self.poisson_ratio));
-        }
-        if !(0.0..=1.0).contains(&self.restitution) {
-            return Err(InputError::Restitution(self.restitution));
-        }
-        Ok(())
+        let (nu, e) = (self.poisson_ratio, self.restitution);
+        let must = "between -1 and 0.5 (glass 0.23, rubber just under 0.5)";
+        OutOfRange::unless(nu > -1.0 && nu < 0.5, "Poisson's ratio", nu, must)?;
+        let fits = (0.0..=1.0).contains(&e);
+        OutOfRange::unless(fits, "restitution", e, OutOfRange::RESTITUTION)
     }
 
     /// Gives the material another tensile strength, Pa. Its flaws are others then, so the energy depth is derived again:

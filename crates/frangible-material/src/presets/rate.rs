@@ -1,6 +1,6 @@
 //! How strength rises with the rate at which stress rises.
 
-use crate::error::{InputError, positive};
+use crate::error::{OutOfRange, positive};
 
 /// Strength at a high rate of stress over the strength of a slow test, `min((σ̇/σ̇₀)^m, limit)`.
 ///
@@ -24,7 +24,7 @@ impl RateLaw {
     ///
     /// # Errors
     /// A strength or a rise time that is not a finite number above zero.
-    pub fn strength(&self, strength: f64, rise_time: f64) -> Result<f64, InputError> {
+    pub fn strength(&self, strength: f64, rise_time: f64) -> Result<f64, OutOfRange> {
         positive("the strength of a slow test", strength, "Pa")?;
         positive("the time in which the stress rises", rise_time, "s")?;
         let rate = strength / rise_time;

@@ -47,7 +47,7 @@ impl MassProperties {
 
     /// Mass properties of what a closed surface encloses, of one density, kg/m³, given the corners of its triangles: the tetrahedra of
     /// the triangles with the origin.
-    pub(crate) fn of_surface(density: f64, triangles: impl Iterator<Item = [DVec3; 3]>) -> Self {
+    pub fn of_surface(density: f64, triangles: impl Iterator<Item = [DVec3; 3]>) -> Self {
         let (mut volume, mut first) = (0.0, DVec3::ZERO);
         // xx, yy, zz and yz, zx, xy of the second moments.
         let (mut squares, mut products) = (DVec3::ZERO, DVec3::ZERO);

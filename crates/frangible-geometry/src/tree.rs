@@ -24,7 +24,7 @@ struct Node {
 
 /// Boxes over the triangles of a surface.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct TriangleTree {
+pub struct TriangleTree {
     nodes: Vec<Node>,
     order: Vec<u32>,
     /// Corner positions in the tree's order, m.
@@ -43,7 +43,9 @@ pub struct SurfacePoint {
 }
 
 impl TriangleTree {
-    pub(crate) fn new(positions: &[Vec3], triangles: &[[u32; 3]]) -> Self {
+    /// The tree of these triangles; every index must name a position.
+    #[must_use]
+    pub fn new(positions: &[Vec3], triangles: &[[u32; 3]]) -> Self {
         let corners: Vec<[Vec3; 3]> = triangles
             .iter()
             .map(|t| t.map(|v| positions[v as usize]))
@@ -107,7 +109,7 @@ impl TriangleTree {
     }
 
     /// Calls for every triangle whose own box meets this one, in the tree's order.
-    pub(crate) fn in_box(&self, low: Vec3, high: Vec3, mut found: impl FnMut(u32)) {
+    pub fn in_box(&self, low: Vec3, high: Vec3, mut found: impl FnMut(u32)) {
         let mut stack = [0_u32; STACK];
         let mut waiting = usize::from(!self.nodes.is_empty());
         while waiting > 0 {
@@ -129,7 +131,7 @@ impl TriangleTree {
     }
 
     /// The closest point of the surface; of equally close triangles the one with the lowest number.
-    pub(crate) fn closest(&self, point: Vec3) -> SurfacePoint {
+    pub fn closest(&self, point: Vec3) -> SurfacePoint {
         let mut best = SurfacePoint {
             triangle: 0,
             weights: [1.0, 0.0, 0.0],
@@ -273,7 +275,7 @@ fn halve(corners: &[[Vec3; 3]], order: &mut [u32], part: Range<usize>, halves: &
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::rng::{Purpose, stream, uniform};
+    use crate::random::numbers;
 
     fn brute_force(corners: &[[Vec3; 3]], point: Vec3) -> (f32, usize) {
         let mut best = (f32::INFINITY, 0);
@@ -289,8 +291,8 @@ mod tests {
 
     #[test]
     fn the_tree_finds_what_looking_at_all_triangles_finds() {
-        let mut rng = stream(1, Purpose::WeakPoints, 0);
-        let mut random = || Vec3::from_array(std::array::from_fn(|_| uniform(&mut rng) as f32));
+        let mut numbers = numbers();
+        let mut random = || Vec3::from_array(std::array::from_fn(|_| numbers()));
         for count in [1, 2, 9, 300] {
             // Flat in z, so that many are equally far; shared corners, as in a mesh.
             let positions: Vec<Vec3> = (0..count + 2)

@@ -115,12 +115,12 @@ fn across([w, a, b]: [DVec3; 3], [of_a, of_b]: [f64; 2]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::rng::{Purpose, stream, uniform};
+    use crate::random::numbers;
 
     /// A square sheet of `n` × `n` cells in the unit square, its inner vertices moved about.
     fn sheet(n: u32) -> (Vec<Vec3>, Vec<[u32; 3]>) {
-        let mut rng = stream(1, Purpose::WeakPoints, 0);
-        let mut random = || 0.5 * (uniform(&mut rng) as f32 - 0.5) / n as f32;
+        let mut numbers = numbers();
+        let mut random = || 0.5 * (numbers() - 0.5) / n as f32;
         let mut positions = Vec::new();
         for j in 0..=n {
             for i in 0..=n {

@@ -1,0 +1,34 @@
+//! Sets that are joined.
+
+/// Union-find with path halving; the lower number becomes the root.
+#[derive(Clone, Debug)]
+pub struct DisjointSets {
+    parent: Vec<u32>,
+}
+
+impl DisjointSets {
+    /// So many numbers, each a set of its own.
+    #[must_use]
+    pub fn new(count: usize) -> Self {
+        Self {
+            parent: (0..count as u32).collect(),
+        }
+    }
+
+    /// The root of the set that a number is in.
+    pub fn find(&mut self, mut v: u32) -> u32 {
+        while self.parent[v as usize] != v {
+            let above = self.parent[self.parent[v as usize] as usize];
+            self.parent[v as usize] = above;
+            v = above;
+        }
+        v
+    }
+
+    /// Makes one set of two. Returns the root of both from now on.
+    pub fn join(&mut self, a: u32, b: u32) -> u32 {
+        let (a, b) = (self.find(a), self.find(b));
+        self.parent[a.max(b) as usize] = a.min(b);
+        a.min(b)
+    }
+}

@@ -1,0 +1,38 @@
+//! The meshes of bodies and of their pieces, and what is asked of them.
+//!
+//! - [`TetMesh`]: linear tetrahedra with their neighbours; [`TriMesh`]: the closed surface of a piece; [`RenderMesh`]: what is drawn of it;
+//! - [`TriangleTree`]: the closest point of a surface; [`AlongSurface`]: distances along one; [`MassProperties`]: mass, centre and inertia;
+//! - [`merged_parts`] and [`thinned`]: convex parts made fewer and simpler for colliders;
+//! - [`Rows`], [`ByNode`], [`DisjointSets`]: lists, tables and sets of numbered things.
+//!
+//! It is a crate of its own because the core, the bake and the mesher share it. It knows neither physics nor files.
+
+mod along;
+mod boxes;
+mod by_node;
+mod closest;
+mod convex;
+mod disjoint;
+mod mass;
+#[cfg(test)]
+mod random;
+mod render;
+mod rows;
+mod smooth;
+mod surface;
+mod tet;
+mod tree;
+
+pub use along::AlongSurface;
+pub use by_node::ByNode;
+pub use closest::closest_on_triangle;
+pub use convex::{merged_parts, thinned};
+pub use disjoint::DisjointSets;
+pub use glam;
+pub use mass::MassProperties;
+pub use render::{RenderMesh, box_projection};
+pub use rows::Rows;
+pub use smooth::smooth_normals;
+pub use surface::TriMesh;
+pub use tet::{EDGES, FACES, NO_NEIGHBOUR, TetMesh};
+pub use tree::{SurfacePoint, TriangleTree};

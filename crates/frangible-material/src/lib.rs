@@ -1,0 +1,11 @@
+//! What a brittle body is made of: [`Material`], and materials by name as [`Preset`]s with their sources.
+//!
+//! It is a crate of its own because a table of published numbers is no part of the computation of a break.
+
+mod error;
+mod material;
+mod presets;
+
+pub use error::{OutOfRange, not_negative, positive};
+pub use material::Material;
+pub use presets::{Preset, RateLaw, UnknownMaterial};
