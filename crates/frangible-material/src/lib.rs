@@ -8,4 +8,4 @@ mod presets;
 
 pub use error::{OutOfRange, not_negative, positive};
 pub use material::Material;
-pub use presets::{Preset, RateLaw, UnknownMaterial};
+pub use presets::{Preset, UnknownMaterial};

@@ -6,7 +6,7 @@ use frangible_export::{Recording, View};
 use crate::recorder::Role;
 
 /// Share of the picture's height and width, at most, that is left free around what it shows.
-const MARGIN: f32 = 1.1;
+const MARGIN: f32 = 1.08;
 
 /// Share of a disc around pieces that their faces fill, at least: so many of them are shown, and strays are not.
 const FILLED: f64 = 0.12;

@@ -171,17 +171,4 @@ pub enum SceneError {
     /// No such material.
     #[error(transparent)]
     Material(#[from] frangible::internals::UnknownMaterial),
-    /// A rise time that is no time, or a material whose strength at high rates is not known.
-    #[error(
-        "`rise_time = {rise_time}` of material `{name}`: it must be above 0 s, and the preset one of {known}; remove it to keep the strength of slow tests"
-    )]
-    #[non_exhaustive]
-    RiseTime {
-        /// What was given, s.
-        rise_time: f64,
-        /// The material.
-        name: String,
-        /// Presets with a rate law.
-        known: String,
-    },
 }

@@ -3,7 +3,6 @@
 use std::path::Path;
 
 use frangible::glam::Vec3;
-use frangible::internals::Preset;
 use frangible::{Asset, Material};
 use frangible_bake::{RescaleError, scaled, with_material};
 
@@ -27,9 +26,6 @@ pub struct MaterialEdit {
     pub name: Option<String>,
     /// The numbers of [`MaterialEdit::KEYS`], where another.
     pub numbers: [Option<f64>; 13],
-    /// Time in which stress rises to the strength, s: the strength is then what the preset's
-    /// [rate law](frangible::internals::RateLaw) makes of it.
-    pub rise_time: Option<f64>,
 }
 
 impl MaterialEdit {
@@ -63,7 +59,7 @@ impl MaterialEdit {
     /// alone is that of a tougher material with the same flaws, whose strength follows ([`Material::with_fracture_energy`]).
     ///
     /// # Errors
-    /// An unknown preset; a rise time that is not above zero, or of a material whose rate law is not known.
+    /// An unknown preset.
     pub fn apply(&self, at_hand: &Material) -> Result<Material, SceneError> {
         let mut m = match &self.preset {
             Some(preset) => Material::preset(preset)?,
@@ -110,31 +106,8 @@ impl MaterialEdit {
         for (place, number) in places.into_iter().zip(self.numbers) {
             *place = number.unwrap_or(*place);
         }
-        if let Some(rise_time) = self.rise_time {
-            let wrong = || SceneError::RiseTime {
-                rise_time,
-                name: m.name.clone(),
-                known: with_rates().join(", "),
-            };
-            let name = self.preset.as_ref().unwrap_or(&m.name);
-            let law = Preset::named(name).and_then(|preset| preset.rate);
-            let law = law
-                .filter(|_| rise_time.is_finite() && rise_time > 0.0)
-                .ok_or_else(wrong)?;
-            m.strength =
-                (law.strength(m.strength, rise_time)).map_err(frangible::InputError::from)?;
-        }
         Ok(m)
     }
-}
-
-/// Presets whose strength is known at high rates.
-fn with_rates() -> Vec<&'static str> {
-    let presets = Material::presets().iter();
-    presets
-        .filter(|p| p.rate.is_some())
-        .map(|p| p.name)
-        .collect()
 }
 
 /// The asset of a file with what is to be another.

@@ -19,7 +19,7 @@ fn window_hit_at(speed: f64) -> Run {
 
 #[test]
 fn a_body_that_cracks_and_holds_is_shown_with_its_cracks_from_then_on() {
-    let cracked = [2.4, 2.8, 3.5].into_iter().find_map(|speed| {
+    let cracked = [3.2, 3.6, 4.0].into_iter().find_map(|speed| {
         let run = window_hit_at(speed);
         let area: f64 = run.held.iter().map(|held| held.report.crack_area).sum();
         println!(

@@ -25,6 +25,8 @@ fn covered(recording: &Recording, frame: usize, view: &View, word: &str) -> (f64
             let depth = d.dot(forward);
             let place = Vec3::new(d.dot(right) * 0.75, d.dot(up), 0.0) / (depth * tangent);
             within &= depth > 0.0 && place.x.abs() <= 1.0 && place.y.abs() <= 1.0;
+            // Behind the eye nothing is seen.
+            let place = if depth > 0.0 { place } else { Vec3::NAN };
             let (x, y) = (0.5 + 0.5 * place.x, 0.5 - 0.5 * place.y);
             Vec3::new(x * WIDTH as f32, y * HEIGHT as f32, 0.0)
         });
@@ -35,6 +37,9 @@ fn covered(recording: &Recording, frame: usize, view: &View, word: &str) -> (f64
             .flat_map(|part| part.indices.chunks_exact(3))
         {
             let [a, b, c] = [0, 1, 2].map(|k| corners[face[k] as usize]);
+            if !(a + b + c).is_finite() {
+                continue;
+            }
             let (low, high) = (a.min(b).min(c), a.max(b).max(c));
             let range = |low: f32, high: f32, end: usize| {
                 (low.floor().max(0.0) as usize)..(high.ceil().clamp(0.0, end as f32) as usize)

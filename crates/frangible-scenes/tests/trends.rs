@@ -119,7 +119,9 @@ fn softer(model: &str, config: &FractureConfig) -> Vec<(f64, f64)> {
 #[test]
 fn a_stiffer_ball_breaks_more() {
     let d = softer("ours", &FractureConfig::default());
-    assert!(d.windows(2).all(|w| w[1].0 > w[0].0), "{d:?}");
+    // A blow that is short enough breaks into more pieces, but does not crack more: the wall under it is gone sooner.
+    assert!(d[1].0 > 2.0 * d[0].0 && d[2].0 > 2.0 * d[0].0, "{d:?}");
+    assert!(d.windows(2).all(|w| w[1].1 > w[0].1), "{d:?}");
 }
 
 #[test]

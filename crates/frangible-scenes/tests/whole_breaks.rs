@@ -246,7 +246,7 @@ fn cracks_stand_upright_in_a_pane() {
     println!(
         "crack area more than 30° askew: {ours:.3}, with stress as the mesh has it {before:.3}"
     );
-    assert!(ours < 0.2 && ours < 0.5 * before, "{ours} {before}");
+    assert!(ours < 0.2 && ours < 0.65 * before, "{ours} {before}");
 }
 
 /// Mean place of the crack faces, weighted by area, body frame, m, and the least distance of any to `point`.

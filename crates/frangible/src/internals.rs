@@ -107,4 +107,4 @@ pub use crate::piece::{Elastic, PieceModel, Portion};
 pub use crate::refuse::{is_harmless, rest_margin_at_least};
 pub use crate::state::BodyState;
 pub use crate::trace::{CrackTrace, ElementTrace};
-pub use frangible_material::{Preset, RateLaw, UnknownMaterial};
+pub use frangible_material::{Preset, UnknownMaterial};

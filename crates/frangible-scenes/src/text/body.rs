@@ -178,7 +178,6 @@ fn edit(table: MaterialTable) -> MaterialEdit {
             table.restitution,
             table.friction,
         ],
-        rise_time: table.rise_time,
     }
 }
 

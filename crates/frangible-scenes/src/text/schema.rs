@@ -133,7 +133,6 @@ pub(super) struct MaterialTable {
     pub(super) roughness_wavelength: Option<f64>,
     pub(super) restitution: Option<f64>,
     pub(super) friction: Option<f64>,
-    pub(super) rise_time: Option<f64>,
 }
 
 /// A rotation: about an axis by an angle, or a unit quaternion (x, y, z, w).

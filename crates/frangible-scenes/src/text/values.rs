@@ -41,7 +41,6 @@ pub(super) fn edit_text(edit: &MaterialEdit) -> String {
     let texts = [("preset", &edit.preset), ("name", &edit.name)].into_iter();
     let texts = texts.filter_map(|(key, text)| Some(format!("{key} = {}", quoted(text.as_ref()?))));
     let numbers = MaterialEdit::KEYS.iter().zip(edit.numbers);
-    let numbers = numbers.chain([(&"rise_time", edit.rise_time)]);
     let numbers = numbers.filter_map(|(key, value)| Some(format!("{key} = {}", number(value?))));
     let parts: Vec<String> = texts.chain(numbers).collect();
     format!("{{ {} }}", parts.join(", "))

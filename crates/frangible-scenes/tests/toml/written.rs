@@ -83,7 +83,6 @@ pub(crate) fn intricate() -> Scene {
     let mut edit = MaterialEdit::preset("stone");
     edit.name = Some("soft “stone”".into());
     (edit.numbers[0], edit.numbers[5]) = (Some(1e9 / 3.0), Some(1e6));
-    edit.rise_time = Some(1e-5);
     third.rescale.material = Some(edit);
     let mut scene = Scene::one_body(first);
     scene.name = "intricate".into();
