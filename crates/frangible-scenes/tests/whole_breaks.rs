@@ -8,6 +8,7 @@ use std::sync::{Arc, OnceLock};
 use common::{block, corner_hit, glass, mean, pane, pane_hit, rim_hit, strike};
 use frangible::glam::Vec3;
 use frangible::{Asset, Breakable, Contact, Fracture, FractureConfig, Outcome, TriMesh, impact};
+use frangible_scenes::{bake, breakable, first_break, scene};
 
 type Case = (&'static str, &'static Arc<Asset>, Contact);
 
@@ -247,6 +248,51 @@ fn cracks_stand_upright_in_a_pane() {
         "crack area more than 30° askew: {ours:.3}, with stress as the mesh has it {before:.3}"
     );
     assert!(ours < 0.2 && ours < 0.65 * before, "{ours} {before}");
+}
+
+/// Share of the crack faces' area between 60 and 190 mm from the blow whose normals lie within 45° of the direction around it, in panes that
+/// are hit in their middle: cracks that run away from the blow.
+fn arms(pane: &Breakable, hit: &Contact, speed: f32) -> f64 {
+    let (mut all, mut away) = (0.0, 0.0);
+    let hit = Contact {
+        approach_speed: speed,
+        ..hit.clone()
+    };
+    for seed in 1..=6 {
+        let hit = std::slice::from_ref(&hit);
+        let outcome = impact(&pane.body(seed), hit, &FractureConfig::default()).unwrap();
+        let Outcome::Broke(fracture) = outcome else {
+            panic!("the pane holds, seed {seed}")
+        };
+        for f in &fracture.fragments {
+            let centre = f.mass.centre.as_vec3();
+            for triangle in &f.mesh.triangles[f.mesh.outer_triangles..] {
+                let [a, b, c] = triangle.map(|v| f.mesh.positions[v as usize] + centre);
+                let across = (b - a).cross(c - a);
+                let out = ((a + b + c) / 3.0 - hit[0].point).reject_from(hit[0].normal);
+                if !(0.06..0.19).contains(&out.length()) {
+                    continue;
+                }
+                let around = hit[0].normal.cross(out).normalize();
+                all += f64::from(across.length());
+                if across.normalize_or_zero().dot(around).abs() > 0.707 {
+                    away += f64::from(across.length());
+                }
+            }
+        }
+    }
+    away / all
+}
+
+#[test]
+fn a_pane_that_is_hit_hard_has_a_star_whose_arms_run_through_the_rings() {
+    let scene = scene("pane").unwrap();
+    let bodies = bake(&scene, &mut |_| {}).unwrap();
+    let first = first_break(&scene, &bodies, &mut |_| {}).unwrap().unwrap();
+    let pane = breakable(&scene.bodies[0], first.body.asset()).unwrap();
+    let [slow, fast] = [10.0, 20.0].map(|speed| arms(&pane, &first.contacts[0], speed));
+    println!("cracks that run away from the blow: {slow:.2} at 10 m/s, {fast:.2} at 20 m/s");
+    assert!(slow > 0.9 && fast > 0.5, "{slow} {fast}");
 }
 
 /// Mean place of the crack faces, weighted by area, body frame, m, and the least distance of any to `point`.

@@ -46,7 +46,8 @@ pub struct FractureConfig {
     /// The front of a crack that was there before needs no more tension than Griffith asks for a crack of its length: a
     /// cracked body is weaker. Default: on; in the paper it needs the strain energy that a new crack's front needs.
     pub griffith_fronts: bool,
-    /// A crack forks where it has run far enough under enough tension. Default: on; the paper's never do.
+    /// A crack leaves another one: at a fork, where that has run far enough under enough tension, and behind one that it has met and that opens
+    /// from the other face of a wall. Default: on; the paper's never do.
     pub branching: bool,
     /// A crack also ends inside what it meets, so that no bridge of one tetrahedron holds pieces together. Default: on;
     /// in the paper it stops at the face `[G12 §5.2.4]`.

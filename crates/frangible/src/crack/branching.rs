@@ -31,18 +31,18 @@ const BRANCHING: f64 = 2.908;
 const ANGLE: f32 = std::f32::consts::FRAC_PI_3;
 
 /// A crack does not fork nearer than this to where it started or forked, and the new one starts so far from the old, in mean edges.
-const APART: f32 = 1.0;
+pub(super) const APART: f32 = 1.0;
 
 /// A crack that took this many times as long as it needs at its speed has waited for energy: it is slow, and does not fork.
 const SLOWEST: f64 = 2.0;
 
-/// A place where a crack forks.
+/// A place where a crack leaves another one.
 pub(super) struct Fork {
-    place: Vec3,
+    pub(super) place: Vec3,
     /// Tetrahedron where the new crack starts.
-    start: u32,
+    pub(super) start: u32,
     /// The new crack's normal.
-    normal: Vec3,
+    pub(super) normal: Vec3,
 }
 
 /// Where the crack forks that is about to cut a tetrahedron, if it does.
@@ -107,7 +107,7 @@ pub(super) fn forks(
 }
 
 /// How far a place lies from where its crack started or forked last, m, and when that was, s.
-fn latest(crack: &Crack, place: Vec3) -> (f32, f64) {
+pub(super) fn latest(crack: &Crack, place: Vec3) -> (f32, f64) {
     let start = (crack.frame.origin, crack.elements[0].time);
     let distances = std::iter::once(&start).chain(&crack.forks);
     let nearest = distances.map(|&(from, time)| (from.distance(place), time));
@@ -130,7 +130,7 @@ fn feed(tension: f64, through: f64, run: f32, thickness: Option<f32>) -> f64 {
 }
 
 /// The uncut tetrahedron about a place that is reached from another one by always coming nearer.
-fn nearest(system: &CrackSystem, from: u32, goal: Vec3) -> Option<u32> {
+pub(super) fn nearest(system: &CrackSystem, from: u32, goal: Vec3) -> Option<u32> {
     let distance = |tet: u32| system.centroids[tet as usize].distance_squared(goal);
     let mut tet = from;
     loop {
@@ -147,21 +147,21 @@ fn nearest(system: &CrackSystem, from: u32, goal: Vec3) -> Option<u32> {
     (tet != from && system.fractured_by[tet as usize] == UNCUT).then_some(tet)
 }
 
-/// Starts the crack that leaves another one at a fork which that one reached with `cut`.
+/// Starts the crack that leaves another one at a place which that one reached with `cut`, if it can be paid.
 pub(super) fn start(
     system: &mut CrackSystem,
     field: &mut StressField,
     parent: u32,
     cut: &ElementCut,
     fork: &Fork,
-) {
+) -> bool {
     let CrackTiming::TimeResolved { speed } = system.config.timing else {
-        return;
+        return false;
     };
     let material = &system.asset.material;
     let (e, mesh) = (fork.start, &system.asset.fracture);
     if system.fractured_by[e as usize] != UNCUT {
-        return;
+        return false;
     }
     let frame = CrackFrame::new(
         fork.place,
@@ -179,12 +179,11 @@ pub(super) fn start(
         || gain <= system.resistance.toughness.of(e)
         || !system.ledger.has(system.cost(e, area))
     {
-        return;
+        return false;
     }
     system.cracks[parent as usize]
         .forks
         .push((fork.place, cut.time));
-    system.forks += 1;
     let id = system.cracks.len() as u32;
     system.add(frame, e);
     let distance = fork.place.distance(system.centroids[e as usize]);
@@ -196,6 +195,7 @@ pub(super) fn start(
         time: cut.time + f64::from(distance) / (speed * material.rayleigh_speed()),
     };
     system.fracture(id, new, area, f64::from(area) * gain);
+    true
 }
 
 #[cfg(test)]

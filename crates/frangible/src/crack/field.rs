@@ -13,7 +13,7 @@ use crate::stress::{
 };
 
 /// Cosine from which on the normals of a wall at two tetrahedra that touch belong to one face.
-const SAME_FACE: f32 = 0.3;
+pub(super) const SAME_FACE: f32 = 0.3;
 
 /// Stress at fracture tetrahedra at one step.
 pub(crate) struct StressField<'a> {

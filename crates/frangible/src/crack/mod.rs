@@ -5,7 +5,8 @@
 //!
 //! *Run* (`propagation.rs`). A front enters a neighbouring tetrahedron if the crack crosses it, meets nothing there and can pay for it. A
 //! crack through a wall opens from one face and follows the tension of that face: cracks that turned to whichever face had the larger
-//! tension curled into petals. What feeds it is the mean energy through the wall. It may leave a second crack behind (`branching.rs`).
+//! tension curled into petals. What feeds it is the mean energy through the wall. It may leave a second crack behind (`branching.rs`), and
+//! passes one that opens from the other face of the wall (`passing.rs`).
 //!
 //! *Release* (`release.rs`). A crack unloads what lies beside it. What is released stays released, so a weak point looks at the cracks
 //! only when what it remembers does not hold it already. It then looks at all places of all cracks near by, eight of them side by side.
@@ -20,6 +21,7 @@ mod field;
 mod initiation;
 mod ledger;
 mod node_values;
+mod passing;
 mod propagation;
 mod release;
 mod shown;

@@ -20,6 +20,7 @@ use glam::Vec3;
 
 use super::branching::{forks, start};
 use super::field::{Felt, StressField};
+use super::passing::passes;
 use super::single::{ElementCut, Front};
 use super::surface::crossing_area;
 use super::system::{CrackSystem, UNCUT};
@@ -70,7 +71,11 @@ fn enter(system: &mut CrackSystem, field: &mut StressField, front: Front) {
         return;
     };
     if system.fractured_by[n] != UNCUT {
-        return system.meet(&front, false);
+        system.meet(&front, false);
+        if let Some(beyond) = passes(system, &front, &crossing.from) {
+            start(system, field, front.crack, &crossing.from, &beyond);
+        }
+        return;
     }
     // Where it turns now would make its area little else, and stress is dear to find.
     if !system.ledger.has(front.lacks) {
@@ -100,8 +105,10 @@ fn enter(system: &mut CrackSystem, field: &mut StressField, front: Front) {
         Payment::Now { gain } => {
             let fork = forks(system, &front, &cut, &felt);
             system.fracture(front.crack, cut, area, gain);
-            if let Some(fork) = fork {
-                start(system, field, front.crack, &cut, &fork);
+            if let Some(fork) = fork
+                && start(system, field, front.crack, &cut, &fork)
+            {
+                system.forks += 1;
             }
         }
     }
