@@ -42,8 +42,7 @@ fn tougher(
     })
 }
 
-/// Materials of 1, 3 and 10 times the toughness whose flaws are the same, so that they are stronger, too. (At the same strength short
-/// cracks release less, and more of them start.)
+/// Materials of 1, 3 and 10 times the toughness whose flaws are the same, so that they are stronger, too.
 fn with_the_same_flaws(asset: &Arc<Asset>, contact: Contact) -> [(f64, f64); 3] {
     [1.0, 3.0, 10.0].map(|k| {
         let asset = changed(asset, |m| {
@@ -59,9 +58,7 @@ fn a_tougher_glass_cracks_less_near_the_threshold() {
     let d = with_the_same_flaws(glass(), rim_hit(20.0, 5.0));
     println!("glass at 5 m/s, ours, G_c × 1, 3, 10: (cm², pieces) {d:.1?}");
     assert!(d[0].1 > d[1].1 && d[1].1 > d[2].1, "{d:?}");
-    // Known deviation: the area of the first two should fall, too (32.1, 36.2, 13.6 cm²). A tougher glass parts later, and until then the
-    // blow goes on.
-    assert!(d[1].0 < 1.2 * d[0].0 && d[2].0 < 0.5 * d[1].0, "{d:?}");
+    assert!(d[0].0 > d[1].0 && d[1].0 > d[2].0, "{d:?}");
 }
 
 #[test]
@@ -80,6 +77,14 @@ fn a_tougher_glass_cracks_less_in_the_papers_model_too() {
         20,
     );
     println!("glass, paper, G_c × 1, 3, 10: (cm², pieces) {d:.1?}");
+    assert!(d[0].0 > d[1].0 && d[1].0 > d[2].0, "{d:?}");
+}
+
+#[test]
+fn a_tougher_pane_of_the_same_strength_cracks_less() {
+    let hit = pane_hit(0.0, 0.0, 12.0);
+    let d = tougher(pane(), hit, &FractureConfig::default(), 20);
+    println!("pane, ours, G_c × 1, 3, 10, same strength: (cm², pieces) {d:.1?}");
     assert!(d[0].0 > d[1].0 && d[1].0 > d[2].0, "{d:?}");
 }
 
@@ -136,32 +141,31 @@ fn damped(asset: &Arc<Asset>, contact: Contact, config: &FractureConfig) -> [(f6
             &changed(asset, |m| m.stiffness_damping = alpha),
             contact.clone(),
             config,
-            20,
+            100,
         )
     })
 }
 
-/// Known deviation: the paper's Fig. 12 shows fewer pieces at α = 1e-6 s than without damping. Here the blow is over before the modes that
-/// α damps have lost their energy. In our model there is then even a little more crack, 17 % in the mean of a hundred seeds, and a third
-/// more pieces: under a steadier stress cracks wait less for energy, and fork more.
-fn hardly_changes(d: [(f64, f64); 3], most: f64) {
-    assert!((d[2].0 / d[0].0 - 1.0).abs() < most, "{d:?}");
-}
-
+/// As in the paper's Fig. 12.
 #[test]
-fn damping_of_high_frequencies_hardly_matters_to_the_glass() {
+fn a_glass_that_damps_high_frequencies_cracks_less() {
     let d = damped(glass(), rim_hit(20.0, 10.0), &FractureConfig::default());
     println!("glass, ours, α 0, 1e-7, 1e-6 s: (cm², pieces) {d:.1?}");
-    hardly_changes(d, 0.3);
+    assert!(
+        d.windows(2).all(|w| w[1].0 < w[0].0 && w[1].1 < w[0].1),
+        "{d:?}"
+    );
 }
 
+/// Known deviation: Fig. 12 shows fewer pieces at α = 1e-6 s than without damping. In the paper's model, as it is printed, the blow is over before
+/// the modes that α damps have lost their energy.
 #[test]
-fn damping_of_high_frequencies_hardly_matters_in_the_papers_model_either() {
+fn damping_of_high_frequencies_hardly_matters_in_the_papers_model() {
     let d = damped(
         glass(),
         rim_hit(20.0, 10.0),
         &FractureConfig::as_in_the_paper(),
     );
     println!("glass, paper, α 0, 1e-7, 1e-6 s: (cm², pieces) {d:.1?}");
-    hardly_changes(d, 0.15);
+    assert!((d[2].0 / d[0].0 - 1.0).abs() < 0.15, "{d:?}");
 }
