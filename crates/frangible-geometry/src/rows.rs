@@ -7,15 +7,17 @@ pub struct Rows {
     items: Vec<u32>,
 }
 
-impl Rows {
+impl Default for Rows {
     /// No row yet.
-    pub fn new() -> Self {
+    fn default() -> Self {
         Self {
             starts: vec![0],
             items: Vec::new(),
         }
     }
+}
 
+impl Rows {
     /// Row r lists, ascending, the keys' places where r stands: for the nodes of tetrahedra, the tetrahedra of a node.
     pub fn inverse<const N: usize>(count: usize, keys: &[[u32; N]]) -> Self {
         let mut starts = vec![0_u32; count + 1];
@@ -51,7 +53,7 @@ impl Rows {
     }
 
     /// Number of rows.
-    pub fn len(&self) -> usize {
+    pub fn count(&self) -> usize {
         self.starts.len() - 1
     }
 

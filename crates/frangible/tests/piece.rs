@@ -153,7 +153,9 @@ fn modes_that_do_not_fit_a_piece_are_refused_by_name() {
     for (word, spoil) in cases {
         let mut elastic = as_before(portion);
         spoil(&mut elastic);
-        let error = body.piece(portion, elastic).err().expect(word);
+        let Err(error) = body.piece(portion, elastic) else {
+            panic!("{word}")
+        };
         assert!(matches!(error, InputError::Asset { .. }));
         assert!(error.to_string().contains(word), "{word}: {error}");
     }

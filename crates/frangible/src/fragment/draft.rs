@@ -182,7 +182,7 @@ fn interpolated_normal(point: Point, nodes: &[u32; 3], normals: &[Vec3; 3], cuts
 /// Mesh nodes of the convex cells, and who is supported.
 pub(super) fn nodes(asset: &Asset, index: &MeshIndex, labels: &Labels, drafts: &mut [Draft]) {
     let label = |v: u32| labels.of_node[v as usize] as usize;
-    for cell in 0..index.nodes_of_cell.len() as u32 {
+    for cell in 0..index.nodes_of_cell.count() as u32 {
         for &v in index.nodes_of_cell.of(cell) {
             if let Some(draft) = drafts.get_mut(label(v)) {
                 draft.cell_nodes.push((cell, v));

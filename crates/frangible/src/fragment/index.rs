@@ -89,7 +89,7 @@ impl Once {
 
 fn neighbours(mesh: &TetMesh, tets: &Rows) -> Rows {
     let nodes = mesh.positions.len();
-    let (mut rows, mut row, mut once) = (Rows::new(), Vec::new(), Once::new(nodes));
+    let (mut rows, mut row, mut once) = (Rows::default(), Vec::new(), Once::new(nodes));
     for v in 0..nodes as u32 {
         once.begin();
         once.is_new(v);
@@ -105,7 +105,7 @@ fn nodes_of_cell(asset: &Asset) -> Rows {
     let cells: Vec<[u32; 1]> = asset.cell_of_tet.iter().map(|&c| [c]).collect();
     let tets_of_cell = Rows::inverse(asset.cells.len(), &cells);
     let mut once = Once::new(asset.fracture.positions.len());
-    let (mut rows, mut row) = (Rows::new(), Vec::new());
+    let (mut rows, mut row) = (Rows::default(), Vec::new());
     for cell in 0..asset.cells.len() as u32 {
         once.begin();
         row.clear();
@@ -129,9 +129,9 @@ fn volumes(mesh: &TetMesh, of_tets: &[f64], total: f64) -> Vec<u64> {
 }
 
 fn first_nodes(neighbours: &Rows) -> Vec<u32> {
-    let mut seen = vec![false; neighbours.len()];
+    let mut seen = vec![false; neighbours.count()];
     let (mut first, mut waiting) = (Vec::new(), Vec::new());
-    for v in 0..neighbours.len() as u32 {
+    for v in 0..neighbours.count() as u32 {
         if seen[v as usize] {
             continue;
         }
