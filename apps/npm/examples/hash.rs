@@ -11,10 +11,11 @@ fn blows() -> [(&'static str, [f64; plain::CONTACT]); 2] {
     let steel = frangible::Material::preset("steel").expect("it is built in");
     let (modulus, bounce) = (steel.contact_modulus(), steel.restitution);
     let radius = (0.13 / steel.density * 0.75 / std::f64::consts::PI).cbrt();
-    let ball = [1.0 / 0.13, radius, modulus, bounce, 0.0, 0.0, 0.0, 0.0];
-    let block = [0.0, f64::INFINITY, modulus, bounce, 0.0, 0.0, 0.0, 0.0];
-    let row = |place: [f64; 7], striker: [f64; 8]| {
-        let numbers = [&place[..], &striker[..]].concat();
+    let surface = [modulus, steel.crushing_pressure, bounce];
+    let ball = [1.0 / 0.13, radius];
+    let block = [0.0, f64::INFINITY];
+    let row = |place: [f64; 7], striker: [f64; 2]| {
+        let numbers = [&place[..], &striker, &surface, &[0.0; 4]].concat();
         std::array::from_fn(|i| numbers[i])
     };
     [

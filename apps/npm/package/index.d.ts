@@ -89,7 +89,7 @@ export interface Report {
   /** How long the computation took, s. */
   seconds: number;
   /** What became of each contact: N·s, N, s, m/s. */
-  contacts: { impulse: number; peakForce: number; duration: number; departureSpeed: number }[];
+  contacts: { impulse: number; peakForce: number; duration: number; departureSpeed: number; crushingEnergy: number }[];
 }
 
 /** How something moves: m/s and rad/s, world axes. */

@@ -98,17 +98,17 @@ function rowOf(contact, index, inside) {
   if (contact.impulse !== undefined) {
     const impulse = triple(contact.impulse, `${at}.impulse`, 'N·s');
     const duration = number(contact.duration, `${at}.duration`, 's', (x) => x > 0 && x < Infinity, 'a number above 0');
-    return [...point, ...impulse, 0, 0, Infinity, Infinity, 0, ...impulse, duration];
+    return [...point, ...impulse, 0, 0, Infinity, Infinity, Infinity, 0, ...impulse, duration];
   }
   const normal = triple(contact.normal, `${at}.normal`, 'the direction of the push on the body');
   const speed = number(contact.speed, `${at}.speed`, 'm/s', (x) => x >= 0 && x < Infinity, '0 or more');
   const { material: name = STEEL, mass = Infinity, radius, restitution } = contact.striker ?? {};
   number(mass, `${at}.striker.mass`, 'kg', (x) => x > 0, 'a number above 0, or Infinity for one that does not give way');
-  const [modulus, usual] = known(name, inside);
+  const [modulus, pressure, usual] = known(name, inside);
   const round = radius ?? (mass < Infinity ? made(() => inside.ball(name, mass)) : Infinity);
   number(round, `${at}.striker.radius`, 'm', (x) => x > 0, 'a number above 0, or Infinity for a flat one');
   const bounce = number(restitution ?? usual, `${at}.striker.restitution`, '', (x) => x >= 0 && x <= 1, 'a number from 0 to 1');
-  return [...point, ...normal, speed, 1 / mass, round, modulus, bounce, 0, 0, 0, 0];
+  return [...point, ...normal, speed, 1 / mass, round, modulus, pressure, bounce, 0, 0, 0, 0];
 }
 
 function known(name, inside) {

@@ -6,14 +6,18 @@ use wasm_bindgen::prelude::*;
 
 use crate::plain::{self, Drawn};
 
-/// Plane-strain modulus, Pa, and coefficient of restitution of a named material.
+/// Plane-strain modulus, Pa, crushing pressure, Pa, and coefficient of restitution of a named material.
 ///
 /// # Errors
 /// A name that no material has.
 #[wasm_bindgen]
 pub fn material(name: &str) -> Result<Vec<f64>, JsError> {
     let material = Material::preset(name)?;
-    Ok(vec![material.contact_modulus(), material.restitution])
+    Ok(vec![
+        material.contact_modulus(),
+        material.crushing_pressure,
+        material.restitution,
+    ])
 }
 
 /// Radius, m, of a ball of this mass, kg, and named material.
@@ -180,6 +184,7 @@ fn contact(report: &frangible::internals::outcome::ContactReport) -> JsValue {
         ("peakForce", report.peak_force),
         ("duration", report.duration),
         ("departureSpeed", report.departure_speed),
+        ("crushingEnergy", report.crushing_energy),
     ] {
         set(&object, name, number);
     }

@@ -7,9 +7,9 @@ use frangible::internals::{Fields, Preset, RenderMesh, box_projection};
 use frangible::{Asset, Breakable, Contact, Fracture, Fragment, InputError, Striker, TriMesh};
 
 /// Numbers of a contact: point, direction of the push (m, body frame), speed of approach (m/s), one over the striker's mass at the contact
-/// (1/kg), its radius of curvature (m), plane-strain modulus (Pa), coefficient of restitution; then of a scripted push its impulse (N·s) and
-/// duration (s), zeros otherwise.
-pub const CONTACT: usize = 15;
+/// (1/kg), its radius of curvature (m), plane-strain modulus (Pa), crushing pressure (Pa), coefficient of restitution; then of a scripted push
+/// its impulse (N·s) and duration (s), zeros otherwise.
+pub const CONTACT: usize = 16;
 
 /// Numbers of a pose: position (m) and rotation (quaternion x, y, z, w).
 pub const POSE: usize = 7;
@@ -47,14 +47,15 @@ pub fn kind(asset: Asset) -> Result<Breakable, InputError> {
 pub fn contacts(rows: &[f64]) -> Vec<Contact> {
     let contact = |row: &[f64]| {
         let [point, push] = [vec(&row[0..]), vec(&row[3..])];
-        if row[14] != 0.0 {
-            return Contact::script(point, vec(&row[11..]), row[14] as f32);
+        if row[15] != 0.0 {
+            return Contact::script(point, vec(&row[12..]), row[15] as f32);
         }
         let mut striker = Striker::rigid();
         striker.inverse_effective_mass = row[7] as f32;
         striker.curvature_radius = row[8] as f32;
         striker.contact_modulus = row[9] as f32;
-        striker.restitution = row[10] as f32;
+        striker.crushing_pressure = row[10] as f32;
+        striker.restitution = row[11] as f32;
         Contact::new(point, push, 0.0, row[6] as f32, striker)
     };
     rows.chunks_exact(CONTACT).map(contact).collect()
@@ -303,9 +304,9 @@ pub fn to_body_frame(rows: &mut [f64], pose: &[f64]) {
     let back = DQuat::from_array([3, 4, 5, 6].map(|i| pose[i])).inverse();
     for row in rows.chunks_exact_mut(CONTACT) {
         let point = back * (double(row) - at);
-        let [push, impulse] = [3, 11].map(|i| back * double(&row[i..]));
+        let [push, impulse] = [3, 12].map(|i| back * double(&row[i..]));
         row[..3].copy_from_slice(&point.to_array());
         row[3..6].copy_from_slice(&push.to_array());
-        row[11..14].copy_from_slice(&impulse.to_array());
+        row[12..15].copy_from_slice(&impulse.to_array());
     }
 }

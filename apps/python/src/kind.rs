@@ -18,12 +18,17 @@ use crate::{numbers, refused};
 /// Fastest approach that is tried, m/s.
 const FASTEST: f64 = 1000.0;
 
-/// Plane-strain modulus, Pa, coefficient of restitution and density, kg/m³, of a named material.
+/// Plane-strain modulus, Pa, crushing pressure, Pa, coefficient of restitution and density, kg/m³, of a named material.
 #[pyfunction]
-pub(crate) fn striker(material: &str) -> PyResult<(f64, f64, f64)> {
+pub(crate) fn striker(material: &str) -> PyResult<(f64, f64, f64, f64)> {
     let material = Material::preset(material).map_err(refused)?;
     let modulus = material.contact_modulus();
-    Ok((modulus, material.restitution, material.density))
+    Ok((
+        modulus,
+        material.crushing_pressure,
+        material.restitution,
+        material.density,
+    ))
 }
 
 /// Where a body comes from.

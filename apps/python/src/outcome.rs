@@ -117,6 +117,7 @@ fn contact<'py>(py: Python<'py>, report: &ContactReport) -> PyResult<Bound<'py, 
         ("duration", report.duration),
         ("contact_radius", report.contact_radius),
         ("departure_speed", report.departure_speed),
+        ("crushing_energy", report.crushing_energy),
     ] {
         dict.set_item(name, number)?;
     }

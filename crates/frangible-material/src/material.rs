@@ -31,6 +31,9 @@ pub struct Material {
     pub roughness_amplitude: f64,
     /// Wavelength of the roughness of crack surfaces, m.
     pub roughness_wavelength: f64,
+    /// Pressure p that crushes the material under a contact, or makes it flow there, Pa: its hardness. Infinite where no pressure of a contact
+    /// does.
+    pub crushing_pressure: f64,
     /// Coefficient of restitution of the material against a hard surface, 0..=1.
     pub restitution: f64,
     /// Coulomb friction coefficient.
@@ -58,6 +61,9 @@ impl Material {
         ] {
             not_negative(what, value)?;
         }
+        let must = "above zero, and may be infinite";
+        let pressure = self.crushing_pressure;
+        OutOfRange::unless(pressure > 0.0, "crushing pressure", pressure, must)?;
         let (nu, e) = (self.poisson_ratio, self.restitution);
         let must = "between -1 and 0.5 (glass 0.23, rubber just under 0.5)";
         OutOfRange::unless(nu > -1.0 && nu < 0.5, "Poisson's ratio", nu, must)?;

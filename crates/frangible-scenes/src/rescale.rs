@@ -25,12 +25,12 @@ pub struct MaterialEdit {
     /// Its name, if another.
     pub name: Option<String>,
     /// The numbers of [`MaterialEdit::KEYS`], where another.
-    pub numbers: [Option<f64>; 13],
+    pub numbers: [Option<f64>; 14],
 }
 
 impl MaterialEdit {
     /// Names of the numbers: the fields of [`Material`] in their order.
-    pub const KEYS: [&'static str; 13] = [
+    pub const KEYS: [&'static str; 14] = [
         "youngs_modulus",
         "poisson_ratio",
         "density",
@@ -42,6 +42,7 @@ impl MaterialEdit {
         "weak_point_density",
         "roughness_amplitude",
         "roughness_wavelength",
+        "crushing_pressure",
         "restitution",
         "friction",
     ];
@@ -80,6 +81,7 @@ impl MaterialEdit {
             _,
             _,
             _,
+            _,
         ] = self.numbers;
         m.youngs_modulus = youngs_modulus.unwrap_or(m.youngs_modulus);
         if let Some(fracture_energy) = fracture_energy {
@@ -100,6 +102,7 @@ impl MaterialEdit {
             &mut m.weak_point_density,
             &mut m.roughness_amplitude,
             &mut m.roughness_wavelength,
+            &mut m.crushing_pressure,
             &mut m.restitution,
             &mut m.friction,
         ];

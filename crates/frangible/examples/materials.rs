@@ -6,16 +6,22 @@ use frangible::Material;
 const WIDTH: usize = 110;
 
 fn main() {
-    println!("name                  E, GPa     ν   density  strength     K_Ic      G_c");
-    println!("                                      kg/m³       MPa    MPa√m     J/m²");
+    println!(
+        "name                  E, GPa     ν   density  strength     K_Ic      G_c  crushed at"
+    );
+    println!("                                      kg/m³       MPa    MPa√m     J/m²         MPa");
     for preset in Material::presets() {
         let m = preset.material();
         let toughness = match preset.fracture_toughness {
             0.0 => "–".to_owned(),
             known => format!("{:.3}", 1e-6 * known),
         };
+        let crushed = match m.crushing_pressure {
+            f64::INFINITY => "–".to_owned(),
+            known => format!("{:.0}", 1e-6 * known),
+        };
         println!(
-            "{:20} {:7.3} {:5.2} {:9.0} {:9.2} {toughness:>8} {:8.1}",
+            "{:20} {:7.3} {:5.2} {:9.0} {:9.2} {toughness:>8} {:8.1} {crushed:>11}",
             m.name,
             1e-9 * m.youngs_modulus,
             m.poisson_ratio,

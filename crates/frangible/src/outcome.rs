@@ -108,6 +108,10 @@ pub struct ContactReport {
     /// Speed at which the striker leaves the body as a rigid one, m/s; negative where it goes on into it. Over the speed of
     /// approach it is the coefficient of restitution.
     pub departure_speed: f64,
+    /// Energy that went into crushing the weaker of the two bodies where they touched, J.
+    pub crushing_energy: f64,
+    /// Volume that was crushed, m³: that energy over the pressure that crushes.
+    pub crushed_volume: f64,
     /// Force at the end of each [time step](ImpactReport::time_step), N. It is linear between them, and ends with the last.
     pub force: Vec<f32>,
 }

@@ -50,6 +50,7 @@ fn sound() -> Contact {
         duration: 0.0,
         striker: Striker {
             contact_modulus: 2e11,
+            crushing_pressure: 5e9,
             inverse_effective_mass: 10.0,
             curvature_radius: 0.01,
             restitution: 0.5,

@@ -72,7 +72,7 @@ fn check(parent: &Body, fracture: &Fracture, breaks: &mut [usize; 4]) {
 fn pieces_of_pieces_tile_them() {
     let mut generations = [0; 4];
     for seed in 1..=6 {
-        for speed in [3.0, 5.0, 8.0] {
+        for speed in [5.0, 10.0, 16.0] {
             for (kind, hit) in [
                 (pane(), pane_hit(0.05, 0.0, speed)),
                 (block(), block_hit(speed)),

@@ -30,14 +30,14 @@ class Striker:
     restitution: float | None = None
 
     def _numbers(self) -> list[float]:
-        modulus, usual, density = material_of(self.material)
+        modulus, pressure, usual, density = material_of(self.material)
         mass = number(self.mass, "the striker's mass", above=True, infinite=True)
         ball = (mass / density * 0.75 / math.pi) ** (1 / 3)
         radius = number(ball if self.radius is None else self.radius, "the striker's radius", above=True, infinite=True)
         bounce = number(usual if self.restitution is None else self.restitution, "the striker's restitution")
         if bounce > 1:
             raise ValueError(f"the striker's restitution is {bounce}; give a number from 0 to 1")
-        return [1 / mass, radius, modulus, bounce]
+        return [1 / mass, radius, modulus, pressure, bounce]
 
 
 @dataclass(frozen=True)
@@ -74,7 +74,7 @@ class Contact:
                 raise ValueError(f"{name} has an impulse and no duration; give it, s")
             push = direction * number(self.impulse, f"{name}.impulse", above=True)
             lasting = number(self.duration, f"{name}.duration", above=True)
-            return [*point, *direction, 0, 0, math.inf, math.inf, 0, *push, lasting]
+            return [*point, *direction, 0, 0, math.inf, math.inf, math.inf, 0, *push, lasting]
         if self.speed is None:
             raise ValueError(f"{name} has no speed; give it, m/s, or an impulse and a duration")
         if self.duration is not None:

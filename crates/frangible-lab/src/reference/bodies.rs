@@ -280,6 +280,7 @@ pub fn impact(case: &Case, number: u64) -> Result<(Body, Vec<Contact>), InputErr
             duration: 0.0,
             striker: Striker {
                 contact_modulus: modulus as f32,
+                crushing_pressure: f32::INFINITY,
                 inverse_effective_mass: inverse_mass as f32,
                 curvature_radius: radius as f32,
                 restitution: 0.3,

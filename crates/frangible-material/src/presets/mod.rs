@@ -25,6 +25,8 @@
 //!   [`Material::with_fracture_energy`] keeps it and lets the strength follow.
 //! - **weak points** per m³: one per grain or flaw that matters, spaced about 3 mm in glass, 5 mm in brick, 10 mm in concrete.
 //! - **roughness**: grain-like amplitude and wavelength; glass breaks smooth and conchoidal, concrete follows its aggregate.
+//! - **crushing pressure**: a hardness, as the pressure under a contact is what crushes. Where a text gives none at the rate of a blow, and where
+//!   strikers are meant to stay whole, it is infinite.
 //! - **restitution** and **friction**: for whole bodies meeting a hard floor at metres per second, dry. A polished glass
 //!   sphere keeps 0.97 of its speed, a drinking glass does not: the vibration takes it.
 //!
@@ -80,6 +82,7 @@ struct Numbers {
     energy_depth: f64,
     weak_point_density: f64,
     roughness: [f64; 2],
+    crushing_pressure: f64,
     restitution: f64,
     friction: f64,
 }
@@ -106,6 +109,12 @@ impl Preset {
     pub const fn contact_modulus(&self) -> f64 {
         self.numbers.youngs_modulus
             / (1.0 - self.numbers.poisson_ratio * self.numbers.poisson_ratio)
+    }
+
+    /// Pressure that crushes it, Pa; see [`Material::crushing_pressure`].
+    #[must_use]
+    pub const fn crushing_pressure(&self) -> f64 {
+        self.numbers.crushing_pressure
     }
 
     /// Coefficient of restitution, 0 to 1.
@@ -137,6 +146,7 @@ impl Preset {
             weak_point_density: n.weak_point_density,
             roughness_amplitude: n.roughness[0],
             roughness_wavelength: n.roughness[1],
+            crushing_pressure: n.crushing_pressure,
             restitution: n.restitution,
             friction: n.friction,
         }

@@ -21,6 +21,8 @@ struct Published {
     weak_point_density: f64,
     /// Amplitude and wavelength, m.
     roughness: [f64; 2],
+    /// Pa.
+    crushing_pressure: f64,
     restitution: f64,
     friction: f64,
 }
@@ -59,6 +61,7 @@ const fn real(p: Published) -> Preset {
             energy_depth: energy_depth(p.youngs_modulus, fracture_energy, p.strength),
             weak_point_density: p.weak_point_density,
             roughness: p.roughness,
+            crushing_pressure: p.crushing_pressure,
             restitution: p.restitution,
             friction: p.friction,
         },
@@ -116,6 +119,7 @@ const fn paper(row: Table1, rest: &Preset) -> Preset {
             mass_damping: row.mass_damping,
             strength: row.strength,
             fracture_energy: row.fracture_energy,
+            crushing_pressure: f64::INFINITY,
             ..rest.numbers
         },
     }
@@ -129,7 +133,8 @@ const GLASS: Preset = real(Published {
              The first page also gives 100 MPa in bending: the strength of glass is that of its surface. \
              A handled surface bears 1.52 times as much where stress rises by 5.6e6 MPa/s, as under a blow, as where it rises by 2 MPa/s \
              (ring on ring; 1.85 times as received: Meyland et al., Glass Structures & Engineering, 10.1007/s40940-018-0089-2, abstract): 62 MPa. \
-             Weibull modulus 7: annealed float glass scatters with 5 to 9 (Haldimann, Luible, Overend, Structural Use of Glass, 2008, not re-checked).",
+             Weibull modulus 7: annealed float glass scatters with 5 to 9 (Haldimann, Luible, Overend, Structural Use of Glass, 2008, not re-checked). \
+             Crushing pressure 5.5 GPa, its Vickers hardness (usual for soda-lime glass, not re-checked).",
     youngs_modulus: 71e9,
     poisson_ratio: 0.23,
     density: 2500.0,
@@ -138,6 +143,7 @@ const GLASS: Preset = real(Published {
     loss_factor: 6e-4,
     weak_point_density: 4e7,
     roughness: [0.1e-3, 6e-3],
+    crushing_pressure: 5.5e9,
     restitution: 0.5,
     friction: 0.4,
 });
@@ -149,7 +155,8 @@ const PORCELAIN: Preset = real(Published {
              as tabled in Dental Materials 24 (2008) 1477, Table 1; tensile strength 40 MPa (diametral, gingival; opaque 29 MPa, bending 88 MPa): \
              The shear strength of dental porcelain, J. Dent. Res. 59 (1980) 1409; ρ 2400 kg/m³: material-properties.org, Porcelain; \
              ν 0.22: usual for whiteware, an estimate. G_c = K²(1−ν²)/E = 19.3 J/m². The loss factor is taken a little below glass. \
-             Weibull modulus 10, an estimate: fine ceramics have 10 to 20; its specimen is the disc of the diametral test, 6 × 3 mm.",
+             Weibull modulus 10, an estimate: fine ceramics have 10 to 20; its specimen is the disc of the diametral test, 6 × 3 mm. \
+             Crushing pressure 6.5 GPa: feldspathic porcelain has a Vickers hardness of 6 to 7 GPa (not re-checked).",
     youngs_modulus: 70e9,
     poisson_ratio: 0.22,
     density: 2400.0,
@@ -158,6 +165,7 @@ const PORCELAIN: Preset = real(Published {
     loss_factor: 5e-4,
     weak_point_density: 4e7,
     roughness: [0.3e-3, 5e-3],
+    crushing_pressure: 6.5e9,
     restitution: 0.5,
     friction: 0.45,
 });
@@ -169,7 +177,8 @@ const BRICK: Preset = real(Published {
              (Masonry International); tensile strength 2.5 MPa and G_c 73 J/m² = 0.029 mm × strength, the ductility index recommended by \
              Lourenço, Almeida, Barros, Experimental investigation of bricks under uniaxial tensile testing, Masonry International 18 (2005) \
              (van der Pluijm 1999: 1.5–3.5 MPa, 60–130 J/m²; both not re-checked against these texts); ρ 1900 kg/m³ and ν 0.15: usual, estimates. \
-             The corresponding K_Ic = √(G_c E/(1−ν²)) is 0.95 MPa√m.",
+             The corresponding K_Ic = √(G_c E/(1−ν²)) is 0.95 MPa√m. \
+             Crushing pressure 390 MPa, an estimate: the law that concrete follows, at the strength in compression above.",
     youngs_modulus: 12e9,
     poisson_ratio: 0.15,
     density: 1900.0,
@@ -178,6 +187,7 @@ const BRICK: Preset = real(Published {
     loss_factor: 1e-2,
     weak_point_density: 8e6,
     roughness: [1e-3, 8e-3],
+    crushing_pressure: 3.9e8,
     restitution: 0.3,
     friction: 0.6,
 });
@@ -188,7 +198,9 @@ const CONCRETE: Preset = real(Published {
     source: "fib Model Code 2010, f_ck 30 MPa, f_cm 38 MPa: E = 21.5 GPa (f_cm/10)^⅓ = 33.6 GPa, mean tensile strength 0.3 f_ck^⅔ = 2.9 MPa, \
              G_F = 73 f_cm^0.18 = 140 J/m², ν 0.2, ρ 2400 kg/m³. The corresponding K_Ic = √(G_F E/(1−ν²)) is 2.2 MPa√m \
              (small laboratory specimens give 0.2–1.4). Under a blow 1.3 times the strength: (σ̇ / 0.03 MPa/s)^0.018 of the same code at 6e4 MPa/s \
-             (not re-checked); its cube-root branch above is mostly inertia, which is computed here.",
+             (not re-checked); its cube-root branch above is mostly inertia, which is computed here. \
+             Crushing pressure 434 MPa = 82.6 (f_cm/MPa)^−0.544 f_cm, the resistance of concrete to a rigid projectile: Forrestal et al., \
+             Int. J. Impact Eng. 15 (1994) 395 (not re-checked).",
     youngs_modulus: 33.6e9,
     poisson_ratio: 0.2,
     density: 2400.0,
@@ -197,6 +209,7 @@ const CONCRETE: Preset = real(Published {
     loss_factor: 6e-3,
     weak_point_density: 1e6,
     roughness: [2e-3, 8e-3],
+    crushing_pressure: 4.34e8,
     restitution: 0.3,
     friction: 0.6,
 });
@@ -207,7 +220,8 @@ const MARBLE: Preset = real(Published {
     source: "E 54 GPa, ν 0.2, tensile strength 9 MPa, ρ 2700 kg/m³: makeitfrom.com, Marble (Carrara in bending: 14.9 MPa, Spagnoli et al., \
              Frattura ed Integrità Strutturale 33 (2015) 80, Table 1); K_Ic 0.9 MPa√m: middle of about 0.6–1.3 for Carrara in Atkinson & Meredith, \
              Experimental fracture mechanics data for rocks and minerals, 1987 (not re-checked). G_c = K²(1−ν²)/E = 14.4 J/m². \
-             Loss factor from Q ≈ 300, an estimate.",
+             Loss factor from Q ≈ 300, an estimate. \
+             Crushing pressure 1.2 GPa: calcite has a Vickers hardness of 1.0 to 1.3 GPa (not re-checked).",
     youngs_modulus: 54e9,
     poisson_ratio: 0.2,
     density: 2700.0,
@@ -216,6 +230,7 @@ const MARBLE: Preset = real(Published {
     loss_factor: 3e-3,
     weak_point_density: 4e7,
     roughness: [0.6e-3, 5e-3],
+    crushing_pressure: 1.2e9,
     restitution: 0.4,
     friction: 0.5,
 });
@@ -225,7 +240,9 @@ const ICE: Preset = real(Published {
     summary: "polycrystalline fresh-water ice at about −10 °C",
     source: "tensile strength 1.5 MPa (0.7–3.1) and K_Ic 0.1 MPa√m (0.05–0.15): Petrovic, Mechanical properties of ice and snow, \
              J. Mater. Sci. 38 (2003) 1; E 9.3 GPa, ν 0.33 (isotropic polycrystal at high rate), ρ 917 kg/m³: Schulson & Duval, Creep and Fracture of Ice, 2009 \
-             (not re-checked). G_c = K²(1−ν²)/E = 0.96 J/m². Loss factor an estimate.",
+             (not re-checked). G_c = K²(1−ν²)/E = 0.96 J/m². Loss factor an estimate. \
+             Crushing pressure 33 MPa: under a falling striker the peak pressures were 25 MPa at −0.5 °C and 41 MPa at −14.5 °C in the mean \
+             (Gagnon & Gammon, J. Glaciology 43 (1997), abstract).",
     youngs_modulus: 9.3e9,
     poisson_ratio: 0.33,
     density: 917.0,
@@ -234,6 +251,7 @@ const ICE: Preset = real(Published {
     loss_factor: 1e-2,
     weak_point_density: 4e7,
     roughness: [0.3e-3, 6e-3],
+    crushing_pressure: 3.3e7,
     restitution: 0.3,
     friction: 0.05,
 });
@@ -243,7 +261,8 @@ const SUGAR: Preset = real(Published {
     summary: "hard sugar glass: boiled sweets, stunt bottles",
     source: "no measurements of the glass were found; estimates from sucrose crystals (E 33–38 GPa: Ramos & Bahr, J. Mater. Res. 22 (2007), nanoindentation; \
              K_Ic 0.08 MPa√m: Duncan-Hewitt & Weatherly, J. Mater. Sci. Lett. 8 (1989) 1350, not re-checked): E 8 GPa, between glassy polymers and the crystal; \
-             ν 0.3; ρ 1500 kg/m³; K_Ic as the crystal's; tensile strength 4 MPa from K_Ic and a flaw of 0.1 mm. G_c = K²(1−ν²)/E = 0.73 J/m². Loss factor an estimate.",
+             ν 0.3; ρ 1500 kg/m³; K_Ic as the crystal's; tensile strength 4 MPa from K_Ic and a flaw of 0.1 mm. G_c = K²(1−ν²)/E = 0.73 J/m². Loss factor an estimate. \
+             Crushing pressure 640 MPa, that of sucrose crystals in the last source; Ramos & Bahr have 1.5 GPa under a needle.",
     youngs_modulus: 8e9,
     poisson_ratio: 0.3,
     density: 1500.0,
@@ -252,6 +271,7 @@ const SUGAR: Preset = real(Published {
     loss_factor: 5e-3,
     weak_point_density: 4e7,
     roughness: [0.1e-3, 6e-3],
+    crushing_pressure: 6.4e8,
     restitution: 0.3,
     friction: 0.5,
 });
@@ -262,7 +282,8 @@ const CHOCOLATE: Preset = real(Published {
     source: "estimates of the right order: E 1 GPa, tensile strength 1.5 MPa (Brazilian test; it grows with the loading rate: Nedomová et al., J. Texture Stud. 2025, \
              10.1111/jtxs.70021), K_Ic 0.2 MPa√m (fracture energies fall with temperature: Samaras et al., Soft Matter 2024, 10.1039/d4sm00264d), \
              ν 0.3, ρ 1300 kg/m³; both papers were read in abstract only and published moduli differ by a factor of ten between methods. \
-             G_c = K²(1−ν²)/E = 36.4 J/m². Loss factor as for a soft plastic.",
+             G_c = K²(1−ν²)/E = 36.4 J/m². Loss factor as for a soft plastic. \
+             Crushing pressure 15 MPa, an estimate: three times some 5 MPa in compression.",
     youngs_modulus: 1e9,
     poisson_ratio: 0.3,
     density: 1300.0,
@@ -271,6 +292,7 @@ const CHOCOLATE: Preset = real(Published {
     loss_factor: 5e-2,
     weak_point_density: 2e7,
     roughness: [0.4e-3, 3e-3],
+    crushing_pressure: 1.5e7,
     restitution: 0.2,
     friction: 0.5,
 });
@@ -282,7 +304,8 @@ const PMMA: Preset = real(Published {
              ρ 1190 kg/m³: designerdata.nl, PMMA (cast). G_c = K²(1−ν²)/E = 391 J/m². \
              Weibull modulus 13, derived: bars of 80 mm³ bent at three points break at 125.2 ± 6.8 MPa where they are milled from factory blocks \
              (109.7 ± 14.1 cured by hand; 10 bars each: Eur. J. Dent. 2024, 10.1055/s-0044-1791965, abstract), tension bars of 3.2 cm³ at the strength above, \
-             and (3.2 cm³ · 2 (m+1)² / 80 mm³)^(1/m) = 125.2/59.8 gives 13; the scatter, m = 1.10 mean/deviation (Appl. Sci. 9 (2019) 1575, abstract), gives 20 and 9.",
+             and (3.2 cm³ · 2 (m+1)² / 80 mm³)^(1/m) = 125.2/59.8 gives 13; the scatter, m = 1.10 mean/deviation (Appl. Sci. 9 (2019) 1575, abstract), gives 20 and 9. \
+             No crushing pressure: its hardness of 0.2 GPa is that of slow tests, and none at the rate of a blow was found.",
     youngs_modulus: 3.204e9,
     poisson_ratio: 0.374,
     density: 1190.0,
@@ -293,6 +316,7 @@ const PMMA: Preset = real(Published {
     // of 1 mm 3.8 arms at 80 m/s and four times as many 7.0.
     weak_point_density: 4e9,
     roughness: [0.1e-3, 6e-3],
+    crushing_pressure: f64::INFINITY,
     restitution: 0.5,
     friction: 0.4,
 });
@@ -301,7 +325,8 @@ pub(super) const STEEL: Preset = real(Published {
     name: "steel",
     summary: "structural steel: balls, anvils; a striker",
     source: "E 210 GPa, ν 0.3, ultimate strength 360 MPa (S235): EN 1993-1-1; ρ 7850 kg/m³: EN 1991-1-1; K_Ic 140 MPa√m (mild steel): \
-             Ashby & Jones, Engineering Materials 1 (not re-checked). G_c = K²(1−ν²)/E = 84933 J/m².",
+             Ashby & Jones, Engineering Materials 1 (not re-checked). G_c = K²(1−ν²)/E = 84933 J/m². \
+             No crushing pressure: balls and hammers that strike are hardened.",
     youngs_modulus: 210e9,
     poisson_ratio: 0.3,
     density: 7850.0,
@@ -310,6 +335,7 @@ pub(super) const STEEL: Preset = real(Published {
     loss_factor: 2e-4,
     weak_point_density: 1e7,
     roughness: [0.2e-3, 3e-3],
+    crushing_pressure: f64::INFINITY,
     restitution: 0.6,
     friction: 0.4,
 });
@@ -328,6 +354,7 @@ const RUBBER: Preset = real(Published {
     loss_factor: 1e-1,
     weak_point_density: 1e7,
     roughness: [0.2e-3, 3e-3],
+    crushing_pressure: f64::INFINITY,
     restitution: 0.75,
     friction: 0.9,
 });
@@ -337,7 +364,8 @@ pub(super) const WOOD: Preset = real(Published {
     summary: "white oak, loaded across the grain: floors, table tops; a striker",
     source: "Forest Products Laboratory, Wood Handbook, 2010 (FPL-GTR-190), white oak at 12 % moisture: E 2.2 GPa = 0.163 × 13.5 GPa (radial), ν 0.37 (LR), \
              ρ 760 kg/m³, tension across the grain 5.5 MPa, K_Ic 0.45 MPa√m (mode I along the grain, 0.22–0.55; not re-checked). \
-             G_c = K²(1−ν²)/E = 79.4 J/m². Wood is orthotropic; this stands for its contact only.",
+             G_c = K²(1−ν²)/E = 79.4 J/m². Wood is orthotropic; this stands for its contact only. \
+             Crushing pressure 60 MPa: its side hardness is 6 kN on 1 cm².",
     youngs_modulus: 2.2e9,
     poisson_ratio: 0.37,
     density: 760.0,
@@ -346,6 +374,7 @@ pub(super) const WOOD: Preset = real(Published {
     loss_factor: 1e-2,
     weak_point_density: 1e7,
     roughness: [0.5e-3, 4e-3],
+    crushing_pressure: 6e7,
     restitution: 0.4,
     friction: 0.5,
 });
@@ -356,7 +385,8 @@ pub(super) const STONE: Preset = real(Published {
     source: "E 55 GPa, modulus of rupture 10–70 MPa, E 30–60 GPa for granites: Conservation of Historic Stone Buildings and Monuments, National Academy Press 1982, p. 64; \
              tensile strength 10 MPa: its lower end, as Westerly granite in direct tension; ν 0.25: makeitfrom.com, Granite; ρ 2650 kg/m³; \
              K_Ic 1.7 MPa√m: Westerly granite in Atkinson & Meredith, 1987 (not re-checked; see Schmidt & Lutz, ASTM STP 678 (1979) 166). \
-             G_c = K²(1−ν²)/E = 49.3 J/m². Loss factor from Q ≈ 200, an estimate.",
+             G_c = K²(1−ν²)/E = 49.3 J/m². Loss factor from Q ≈ 200, an estimate. \
+             No crushing pressure: its minerals are harder than what is dropped on them.",
     youngs_modulus: 55e9,
     poisson_ratio: 0.25,
     density: 2650.0,
@@ -365,6 +395,7 @@ pub(super) const STONE: Preset = real(Published {
     loss_factor: 5e-3,
     weak_point_density: 4e7,
     roughness: [0.8e-3, 5e-3],
+    crushing_pressure: f64::INFINITY,
     restitution: 0.4,
     friction: 0.6,
 });

@@ -48,6 +48,7 @@ pub(super) fn striker(
     };
     Striker {
         contact_modulus: surface.map_or(f32::INFINITY, |s| s.contact_modulus),
+        crushing_pressure: surface.map_or(f32::INFINITY, |s| s.crushing_pressure),
         inverse_effective_mass: partner.map_or(0.0, |p| inverse_effective_mass(p, world, normal)),
         curvature_radius,
         restitution: point.restitution.clamp(0.0, 1.0),
@@ -115,10 +116,10 @@ pub(super) fn answer(
             normal: into.rotation * -contact.normal,
             friction: into.rotation * -contact.friction,
             striker: Striker {
-                contact_modulus: itself.asset().material.contact_modulus() as f32,
                 inverse_effective_mass: inverse_effective_mass(body, world, normal),
                 curvature_radius: curvature_at(itself, contact.point),
-                ..contact.striker.clone()
+                restitution: contact.striker.restitution,
+                ..Striker::fixed(&itself.asset().material)
             },
             ..contact.clone()
         };

@@ -10,6 +10,8 @@ use crate::error::{WorldError, not_negative};
 pub struct SurfaceProperties {
     /// Plane-strain modulus E/(1−ν²), Pa; infinite for a rigid body.
     pub contact_modulus: f32,
+    /// Pressure that crushes it where it is touched, or dents it for good, Pa; infinite where none does.
+    pub crushing_pressure: f32,
     /// Coefficient of restitution, 0..=1. Rapier takes the mean of the two bodies.
     pub restitution: f32,
     /// Coulomb friction coefficient. Rapier takes the mean of the two bodies.
@@ -31,6 +33,7 @@ impl SurfaceProperties {
     pub const fn flat(preset: &Preset) -> Self {
         Self {
             contact_modulus: preset.contact_modulus() as f32,
+            crushing_pressure: preset.crushing_pressure() as f32,
             restitution: preset.restitution() as f32,
             friction: preset.friction() as f32,
             curvature_radius: f32::INFINITY,
@@ -42,6 +45,7 @@ impl SurfaceProperties {
     pub fn of(material: &Material, curvature_radius: f32) -> Self {
         Self {
             contact_modulus: material.contact_modulus() as f32,
+            crushing_pressure: material.crushing_pressure as f32,
             restitution: material.restitution as f32,
             friction: material.friction as f32,
             curvature_radius,
@@ -51,10 +55,11 @@ impl SurfaceProperties {
     /// Checks every number.
     ///
     /// # Errors
-    /// The first field out of its range; infinite modulus and radius are allowed, NaN is not.
+    /// The first field out of its range; infinite modulus, pressure and radius are allowed, NaN is not.
     pub fn validate(&self) -> Result<(), WorldError> {
         for (what, value) in [
             ("contact modulus (Pa)", self.contact_modulus),
+            ("crushing pressure (Pa)", self.crushing_pressure),
             ("curvature radius (m)", self.curvature_radius),
         ] {
             if value.is_nan() || value <= 0.0 {

@@ -175,6 +175,7 @@ fn edit(table: MaterialTable) -> MaterialEdit {
             table.weak_point_density,
             table.roughness_amplitude,
             table.roughness_wavelength,
+            table.crushing_pressure,
             table.restitution,
             table.friction,
         ],

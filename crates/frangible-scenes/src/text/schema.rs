@@ -131,6 +131,7 @@ pub(super) struct MaterialTable {
     pub(super) weak_point_density: Option<f64>,
     pub(super) roughness_amplitude: Option<f64>,
     pub(super) roughness_wavelength: Option<f64>,
+    pub(super) crushing_pressure: Option<f64>,
     pub(super) restitution: Option<f64>,
     pub(super) friction: Option<f64>,
 }

@@ -75,6 +75,7 @@ pub(super) fn material_text(material: &Material) -> String {
             ("weak_point_density", m.weak_point_density),
             ("roughness_amplitude", m.roughness_amplitude),
             ("roughness_wavelength", m.roughness_wavelength),
+            ("crushing_pressure", m.crushing_pressure),
             ("restitution", m.restitution),
             ("friction", m.friction),
         ]

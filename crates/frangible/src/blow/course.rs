@@ -180,6 +180,10 @@ impl Blow {
                 .iter()
                 .find(|s| s.contact == k && s.compliance.is_infinite());
             let samples = free.map_or(usize::MAX, |s| s.substep / self.plan.substeps);
+            let crushing_energy = match site.script {
+                Some(_) => 0.0,
+                None => site.spring.crushing_energy(peak),
+            };
             ContactReport {
                 point: site.touch.contact.point,
                 normal: site.touch.contact.normal,
@@ -192,6 +196,8 @@ impl Blow {
                 contact_radius: (site.near.as_ref())
                     .map_or(site.spring.contact_radius(peak), |near| near.contact_radius),
                 departure_speed: self.departures[k],
+                crushing_energy,
+                crushed_volume: crushing_energy / site.spring.crushing_pressure,
                 force: sampled
                     .step_by(self.plan.substeps)
                     .take(samples)
@@ -203,7 +209,8 @@ impl Blow {
     }
 
     /// Energy of all modes and wall oscillators when the contact parts, and what the motion of approach has lost, J: of one contact,
-    /// without damping, the same but for the error of the substeps and [what its striker takes](Self::strikers_energy).
+    /// without damping, the same but for the error of the substeps, [what its striker takes](Self::strikers_energy)
+    /// and [what crushing takes](ContactReport::crushing_energy).
     #[must_use]
     pub fn energies(&self) -> [f64; 2] {
         let mass = 1.0 / self.plan.inverse_mass[0];

@@ -205,6 +205,8 @@ struct Contacts<'a> {
     weakness: Vec<f64>,
     /// Square roots of the springs' dents, m^½.
     roots: Vec<f64>,
+    /// The largest forces so far, N.
+    largest: Vec<f64>,
     /// What a unit growth of one force takes from a gap within a substep, m/N: row-major, gap by gap.
     give: Vec<f64>,
 }
@@ -233,6 +235,7 @@ impl<'a> Contacts<'a> {
             bases: vec![0.0; count],
             weakness: vec![0.0; count],
             roots: vec![0.0; count],
+            largest: vec![0.0; count],
             give,
         }
     }
@@ -296,7 +299,8 @@ impl<'a> Contacts<'a> {
                 let i = k * count + k;
                 let compliance = plan.compliance[i] + self.weakness[k];
                 let spring = &plan.sites[k].spring;
-                spring.force(gap, self.give[i] + compliance, &mut self.roots[k])
+                let give = self.give[i] + compliance;
+                spring.force(gap, give, self.largest[k], &mut self.roots[k])
             }
         }
     }
@@ -323,6 +327,9 @@ impl<'a> Contacts<'a> {
             self.speeds[k] -= mean * self.dt;
         }
         self.forces.copy_from_slice(&self.next);
+        for (largest, &force) in self.largest.iter_mut().zip(&self.forces) {
+            *largest = force.max(*largest);
+        }
     }
 
     /// Whether every contact is open and opening further, or has nothing left to push.

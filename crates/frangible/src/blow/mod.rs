@@ -15,8 +15,9 @@
 //!
 //! where y is the striker's way against the body as a rigid one, B the rigid bodies' inverse masses at the contacts, with rotation, q the
 //! modes that are followed and, on a wall, the wall oscillators (`near_field`), c what the modes left out give way by, statically, and
-//! `K = 4/3 E* √R` Hertz' spring. F is linear over each substep, so every oscillator is stepped exactly; the new forces solve one
-//! equation per contact, which has exactly one root, as the left side falls with F and the right side grows.
+//! `K = 4/3 E* √R` Hertz' spring, which gives way where the pressure under it crushes the weaker body (`spring.rs`). F is linear over each
+//! substep, so every oscillator is stepped exactly; the new forces solve one equation per contact, which has exactly one root, as the left
+//! side falls with F and the right side grows.
 //!
 //! A breakable striker vibrates too. What the contact feels of it is of the same kind ([`Receptance`]): its modes, its wall oscillators and what
 //! follows the force of it are driven by the same F_k, and leave the gap with the body's. St Venant's two rods and Hertz' two spheres are
@@ -32,8 +33,8 @@
 //!
 //! # Limits
 //!
-//! Hertz' spring has no losses; crushing and plastic dents of strikers are not in it. A contact that chatters is followed until all its
-//! points have parted. Of two bodies that both vibrate one force comes whichever is asked, as long as they meet nothing else and
+//! Crushing is a dent and a loss of energy: no powder flies, and the crushed place keeps its mass and stiffness. Steel strikers do not dent. A
+//! contact that chatters is followed until all its points have parted. Of two bodies that both vibrate one force comes whichever is asked, as long as they meet nothing else and
 //! neither has broken: what else touches the striker, and how its own cracks soften it, is not in the blow on the body.
 //!
 //! Forces are linear over substeps of a hundredth of Hertz' time (a four-hundredth where both bodies vibrate), every oscillator is stepped

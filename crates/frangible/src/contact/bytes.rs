@@ -16,7 +16,7 @@ const OWN: usize = NUMBERS - 8;
 
 impl Contact {
     /// Length of a contact in bytes, but for what a striker that vibrates adds.
-    pub const BYTES: usize = 100;
+    pub const BYTES: usize = 104;
 
     /// The contact as bytes: its numbers in the order of the fields, little-endian, four bytes each; then the number of modes of a striker
     /// that vibrates plus one, or 0, and its receptance in numbers of eight bytes.
@@ -108,7 +108,7 @@ impl Contact {
         #[rustfmt::skip]
         let numbers = [
             px, py, pz, nx, ny, nz, impulse, fx, fy, fz, approach_speed, duration,
-            &mut s.contact_modulus, &mut s.inverse_effective_mass, &mut s.curvature_radius, &mut s.restitution, &mut s.modal_duration,
+            &mut s.contact_modulus, &mut s.crushing_pressure, &mut s.inverse_effective_mass, &mut s.curvature_radius, &mut s.restitution, &mut s.modal_duration,
         ];
         numbers
     }
@@ -213,7 +213,7 @@ mod tests {
     #[test]
     fn hostile_bytes_are_refused_and_never_a_panic() {
         let mut signed = contact().to_bytes();
-        signed[4 * 18 + 3] = 0x80;
+        signed[4 * 19 + 3] = 0x80;
         assert!(Contact::from_bytes(&signed).is_err(), "a zero with a sign");
         let bytes = shared().to_bytes();
         for length in 0..bytes.len() {

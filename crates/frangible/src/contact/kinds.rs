@@ -38,6 +38,8 @@ pub struct Contact {
 pub struct Striker {
     /// Plane-strain modulus E/(1−ν²), Pa; infinite for a rigid striker.
     pub contact_modulus: f32,
+    /// Pressure that crushes its surface, or dents it for good, Pa ([`Material::crushing_pressure`]); infinite where none does.
+    pub crushing_pressure: f32,
     /// nᵀ K n of the striker at the contact, 1/kg; zero for one that cannot move.
     pub inverse_effective_mass: f32,
     /// Radius of curvature at the contact, m; infinite for a flat one.
@@ -135,6 +137,7 @@ impl Striker {
     pub fn fixed(material: &Material) -> Self {
         Self {
             contact_modulus: material.contact_modulus() as f32,
+            crushing_pressure: material.crushing_pressure as f32,
             inverse_effective_mass: 0.0,
             curvature_radius: f32::INFINITY,
             restitution: material.restitution as f32,
@@ -183,6 +186,7 @@ impl Striker {
     pub const fn rigid() -> Self {
         Self {
             contact_modulus: f32::INFINITY,
+            crushing_pressure: f32::INFINITY,
             inverse_effective_mass: 0.0,
             curvature_radius: f32::INFINITY,
             restitution: 0.0,
@@ -301,6 +305,10 @@ impl Contact {
         // Infinity is meant here: a rigid or a flat striker.
         for (what, value) in [
             ("a striker's contact modulus", self.striker.contact_modulus),
+            (
+                "a striker's crushing pressure",
+                self.striker.crushing_pressure,
+            ),
             (
                 "a striker's radius of curvature",
                 self.striker.curvature_radius,

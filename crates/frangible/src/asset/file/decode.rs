@@ -72,7 +72,7 @@ impl Asset {
     }
 }
 
-fn material(name: &str, numbers: [f64; 13]) -> Material {
+fn material(name: &str, numbers: [f64; 14]) -> Material {
     let [
         youngs_modulus,
         poisson_ratio,
@@ -85,6 +85,7 @@ fn material(name: &str, numbers: [f64; 13]) -> Material {
         weak_point_density,
         roughness_amplitude,
         roughness_wavelength,
+        crushing_pressure,
         restitution,
         friction,
     ] = numbers;
@@ -101,6 +102,7 @@ fn material(name: &str, numbers: [f64; 13]) -> Material {
         weak_point_density,
         roughness_amplitude,
         roughness_wavelength,
+        crushing_pressure,
         restitution,
         friction,
     }

@@ -82,7 +82,7 @@ impl Asset {
     }
 }
 
-fn material_numbers(m: &Material) -> [f64; 13] {
+fn material_numbers(m: &Material) -> [f64; 14] {
     [
         m.youngs_modulus,
         m.poisson_ratio,
@@ -95,6 +95,7 @@ fn material_numbers(m: &Material) -> [f64; 13] {
         m.weak_point_density,
         m.roughness_amplitude,
         m.roughness_wavelength,
+        m.crushing_pressure,
         m.restitution,
         m.friction,
     ]
