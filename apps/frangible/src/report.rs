@@ -78,6 +78,9 @@ pub(crate) struct Impact {
     pub(crate) crack_area_m2: f64,
     pub(crate) approach_energy_j: f64,
     pub(crate) fracture_energy_j: f64,
+    /// What crushing took where the body was touched, and the volume that was crushed.
+    pub(crate) crushing_energy_j: f64,
+    pub(crate) crushed_volume_m3: f64,
     pub(crate) first_crack_s: Option<f64>,
     pub(crate) volume_error: f64,
 }
@@ -135,6 +138,8 @@ impl Impact {
             crack_area_m2: report.crack_area,
             approach_energy_j: report.approach_energy,
             fracture_energy_j: report.fracture_energy,
+            crushing_energy_j: report.contacts.iter().map(|c| c.crushing_energy).sum(),
+            crushed_volume_m3: report.contacts.iter().map(|c| c.crushed_volume).sum(),
             first_crack_s: report.first_crack_time,
             volume_error: report.volume_error,
         }
@@ -271,6 +276,16 @@ impl BodyReport {
                     1e6 * i.time_step_s
                 ),
             );
+            if i.crushing_energy_j > 0.0 {
+                row(
+                    "crushed",
+                    format!(
+                        "{:.3} mm³ under the contact, which took {:.3} J",
+                        1e9 * i.crushed_volume_m3,
+                        i.crushing_energy_j
+                    ),
+                );
+            }
             row(
                 "stress",
                 format!(

@@ -27,7 +27,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             problems.extend(problem.map(|problem| format!("{name}: {problem}")));
         }
         if run.breaks.is_empty() {
-            println!("| {name} | held | | | | | | | | | | |");
+            println!("| {name} | held | | | | | | | | | | | |");
         }
     }
     println!("\n{FOOT}\n\n{BLOWS}\n{}", blows.join("\n"));
@@ -43,14 +43,15 @@ const HEAD: &str = "# Energy of the built-in scenes' breaks
 Written by `cargo run --release -p frangible-scenes --example energy > docs/energy.md`, which fails where energy is made;
 `crates/frangible-scenes/tests/energy.rs` checks the same of some scenes. Energies in J.
 
-| scene | cause | pieces | approach | peak strain | cracks | cracks / strain | kinetic before | work | kinetic after | paid by motion | lost to contacts |
-|---|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|";
+| scene | cause | pieces | approach | peak strain | cracks | cracks / strain | kinetic before | work | kinetic after | paid by motion | lost to contacts | of it crushing |
+|---|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|";
 
 const FOOT: &str = "*Approach*: the most kinetic energy that the contacts can take from the bodies' motion against each other along their normals. *Peak
 strain*: largest strain energy of the vibration at a time step. *Cracks*: fracture energy Σ A G_c, at most the peak strain and at most the
 approach. *Kinetic before* and *after*: of the body, or its pieces, and of all that it pushed in the step of the break, directly or
 through others. *Work*: of gravity in that step. *Paid by motion*: what of the cracks' energy was taken from the motion. *Lost to
 contacts*: the rest, before + work − after − paid; restitution and friction took it, and cracks of others that broke in the same step.
+*Of it crushing*: what the blow put into crushing the weaker body where it was touched.
 
 So cracks ≤ approach ≤ before + work, and after + all cracks of the step ≤ before + work. Without friction the peak strain is at most the
 approach too. Friction follows the normal force as the engine found it, and what it adds to the vibration comes from the sliding motion,
@@ -95,10 +96,11 @@ fn row(name: &str, b: &BreakRecord) -> String {
         _ => "script",
     };
     let lost = b.kinetic_before + b.work - b.kinetic_after - b.energy_paid;
+    let crushing: f64 = r.contacts.iter().map(|c| c.crushing_energy).sum();
     let share = 100.0 * r.fracture_energy / r.peak_strain_energy;
     let j = short;
     format!(
-        "| {name} | {cause} | {} | {} | {} | {} | {share:.0} % | {} | {} | {} | {} | {} |",
+        "| {name} | {cause} | {} | {} | {} | {} | {share:.0} % | {} | {} | {} | {} | {} | {} |",
         b.masses.len(),
         j(r.approach_energy),
         j(r.peak_strain_energy),
@@ -108,6 +110,7 @@ fn row(name: &str, b: &BreakRecord) -> String {
         j(b.kinetic_after),
         j(b.energy_paid),
         j(lost),
+        j(crushing),
     )
 }
 
