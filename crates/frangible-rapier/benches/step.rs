@@ -1,12 +1,13 @@
-//! Cost of a step: plain, with the copy of the world, with a break into 100 fragments, and of asking what bodies carry.
+//! Cost of a step: plain, with the copy of the world, with a break into 100 fragments, of asking what bodies carry, and of a heap of pieces
+//! that sleep, are fixed or are merged.
 
 use std::hint::black_box;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use criterion::{BatchSize, Criterion, criterion_group, criterion_main};
 use frangible::glam::Vec3;
 use frangible_rapier::rapier3d::math::Vector;
-use frangible_rapier::{Ball, BreakableWorld, SurfaceProperties, WorldConfig};
+use frangible_rapier::{AtRest, Ball, BreakableWorld, SurfaceProperties, WorldConfig};
 
 #[path = "../tests/common/mod.rs"]
 mod common;
@@ -153,5 +154,94 @@ fn resting(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, steps, resting);
+/// Twelve slabs that fell on each other and broke into 25 pieces each, at rest; beside them a block that holds.
+fn heap(at_rest: AtRest) -> BreakableWorld {
+    let mut config = WorldConfig::default();
+    config.at_rest = at_rest;
+    config.rest_time = 0.5;
+    let mut world = BreakableWorld::new(config).unwrap();
+    world
+        .insert_fixed_half_space(Vector::ZERO, Vector::Y, SurfaceProperties::STONE)
+        .unwrap();
+    world.set_break_function(common::slicer(SLAB, [5, 1, 5], 0.0, 0.0));
+    let slab = common::box_asset(SLAB, [1, 1, 1]);
+    let still = Vector::ZERO;
+    for i in 0..12 {
+        let (x, z) = (0.15 * (i % 2) as f32, 0.15 * (i / 2 % 2) as f32);
+        let pose = common::at(x, 0.3 + 0.1 * (i / 4) as f32, z);
+        let slab = common::body(&slab);
+        world.insert_breakable(slab, pose, still, still).unwrap();
+    }
+    for _ in 0..8 * 240 {
+        world.step().unwrap();
+    }
+    world.set_break_function(common::unbreakable());
+    let block = common::box_asset(Vec3::splat(0.05), [2, 2, 2]);
+    let aside = common::at(3.0, 0.05, 0.0);
+    let block = common::body(&block);
+    world.insert_breakable(block, aside, still, still).unwrap();
+    for _ in 0..240 {
+        world.step().unwrap();
+    }
+    world
+}
+
+/// Half sides of a slab, m.
+const SLAB: Vec3 = Vec3::new(0.1, 0.005, 0.1);
+
+/// A step of a heap: while nothing moves, while a ball goes through it, and while a ball hits the block beside it.
+fn heaps(c: &mut Criterion) {
+    let mut group = c.benchmark_group("heap of 300 pieces");
+    group
+        .sample_size(10)
+        .measurement_time(Duration::from_secs(2))
+        .warm_up_time(Duration::from_millis(200));
+    for at_rest in [AtRest::Sleep, AtRest::Freeze, AtRest::Merge] {
+        let mut world = heap(at_rest);
+        let moving = world.physics.bodies.iter();
+        let moving = moving.filter(|(_, b)| b.is_dynamic()).count();
+        println!(
+            "{at_rest:?}: {moving} dynamic, {} merged",
+            world.merged().count()
+        );
+        group.bench_function(format!("{at_rest:?}, at rest"), |b| {
+            b.iter(|| world.step().map(<[_]>::len));
+        });
+        let ball = Ball {
+            mass: 0.5,
+            radius: 0.03,
+        };
+        let steel = SurfaceProperties::STEEL;
+        for (what, from, steps) in [
+            ("a ball goes through", common::at(-0.4, 0.031, 0.07), 30),
+            ("a ball hits the block", common::at(2.918, 0.05, 0.0), 1),
+        ] {
+            let saved = world.save();
+            let fast = Vector::new(5.0, 0.0, 0.0);
+            world.insert_ball(ball, steel, from, fast).unwrap();
+            let begun = world.save();
+            let mut snapshots = 0;
+            group.bench_function(format!("{at_rest:?}, {what}"), |b| {
+                b.iter_custom(|times| {
+                    let mut took = Duration::ZERO;
+                    for _ in 0..times {
+                        world.restore(&begun);
+                        let start = Instant::now();
+                        for _ in 0..steps {
+                            world.step().unwrap();
+                        }
+                        took += start.elapsed() / steps;
+                        snapshots = world.snapshots();
+                    }
+                    took
+                });
+            });
+            world.restore(&saved);
+            println!("{} copies of the world", snapshots - world.snapshots());
+        }
+    }
+    group.finish();
+}
+
+criterion_group!(benches, steps, resting, heaps);
 criterion_main!(benches);

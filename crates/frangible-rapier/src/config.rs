@@ -91,6 +91,11 @@ pub enum AtRest {
     Sleep,
     /// They become fixed: nothing moves them any more, and nothing has to be solved for them. They break again as others do.
     Freeze,
+    /// Those of one body become one fixed body, its rubble, with one compound collider: see [`merged`](crate::BreakableWorld::merged). A copy of
+    /// the world, its broad phase and its contacts have that collider in the place of all of theirs, and they do not count for
+    /// [`WorldConfig::max_bodies`]. What can break and may be hit at [`WorldConfig::impact_speed`] or more comes loose before the step that hits
+    /// it, with what lies on it; the others stay where they are, as the floor does.
+    Merge,
     /// They go.
     Go,
 }
@@ -145,7 +150,9 @@ pub struct WorldConfig {
     /// Longest that a step may take in the mean of the last 32, s: while it takes longer, one in fifty pieces of debris goes in each, the oldest
     /// first. Default infinity. With it two runs are no longer alike, as they hang on the speed of the machine.
     pub step_time: f32,
-    /// What becomes of pieces that have slept for [`WorldConfig::rest_time`]. Default [`AtRest::Sleep`].
+    /// What becomes of pieces that have rested for [`WorldConfig::rest_time`]: slept, or stayed within [`WorldConfig::rest_drift`] of their
+    /// place, whatever the others of their heap do. Those that touch a body that can move and is no piece sleep on. Default
+    /// [`AtRest::Sleep`].
     pub at_rest: AtRest,
     /// s, default 2.
     pub rest_time: f32,

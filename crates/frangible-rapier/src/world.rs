@@ -20,6 +20,7 @@ use crate::counts::LoadCounts;
 use crate::error::WorldError;
 use crate::event::{BreakEvent, HeldEvent};
 use crate::fragments::pieces::Expected;
+use crate::fragments::rubble::Rubbles;
 use crate::fragments::siblings::Siblings;
 use crate::loads::pushes::Push;
 use crate::loads::resting::Burden;
@@ -101,6 +102,7 @@ pub(crate) struct State {
     pub(crate) fading: VecDeque<(RigidBodyHandle, f64)>,
     /// Since when pieces sleep, s.
     pub(crate) asleep: BTreeMap<Key, f64>,
+    pub(crate) rubble: Rubbles,
     pub(crate) waiting: VecDeque<Waiting>,
     /// In the order in which they are due.
     pub(crate) expected: VecDeque<Expected>,

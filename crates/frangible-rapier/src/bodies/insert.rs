@@ -203,7 +203,7 @@ impl BreakableWorld {
 
     pub(crate) fn check_room(&self) -> Result<(), WorldError> {
         let limit = self.config.max_bodies;
-        if self.physics.bodies.len() < limit {
+        if self.body_count() < limit {
             Ok(())
         } else {
             Err(WorldError::Full(limit))

@@ -36,6 +36,21 @@ pub(crate) struct Places {
 }
 
 impl Places {
+    /// How long a body has touched something and stayed in its place, s, up to now or until it fell asleep.
+    pub(crate) fn stayed(&self, body: RigidBodyHandle) -> f32 {
+        self.places.get(&key(body)).map_or(0.0, |place| place.since)
+    }
+
+    /// A body begins to rest anew.
+    pub(crate) fn disturb(&mut self, physics: &mut PhysicsWorld, handle: RigidBodyHandle) {
+        let Some(place) = self.places.remove(&key(handle)) else {
+            return;
+        };
+        if let (Some(threshold), Some(body)) = (place.threshold, physics.bodies.get_mut(handle)) {
+            body.activation_mut().normalized_linear_threshold = threshold;
+        }
+    }
+
     /// Lets sleep what stayed in its place; `drift` in m. Rapier puts a heap to sleep when all of it may: a body that
     /// slept among moving ones would not be held up by the floor.
     pub(crate) fn rest(&mut self, physics: &mut PhysicsWorld, drift: f32) {

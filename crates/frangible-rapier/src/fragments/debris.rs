@@ -44,5 +44,6 @@ impl BreakableWorld {
         self.state.fading.retain(|&(handle, _)| alive(handle));
         self.state.asleep.retain(|key, _| key_alive(key));
         self.siblings.purge(alive);
+        self.keep_rubble_true();
     }
 }

@@ -1,8 +1,10 @@
-//! What becomes of a body that broke: fragments in its place, their joints, and those that break again.
+//! What becomes of a body that broke: fragments in its place, their joints, those that break again, and those that rest.
 
 pub(crate) mod debris;
 pub(crate) mod joints;
+pub(crate) mod loosen;
 pub(crate) mod pieces;
 pub(crate) mod replace;
 pub(crate) mod rest;
+pub(crate) mod rubble;
 pub(crate) mod siblings;

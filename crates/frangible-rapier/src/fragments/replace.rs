@@ -109,7 +109,7 @@ impl BreakableWorld {
         self.wake_around(bounds);
         let handles: Vec<RigidBodyHandle> =
             fragments.into_iter().map(|(handle, _)| handle).collect();
-        self.siblings.born(&handles);
+        self.siblings.born(parent, &handles);
         Replacement {
             fragments: handles,
             released,

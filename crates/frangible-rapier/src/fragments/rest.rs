@@ -1,6 +1,6 @@
 //! Pieces that rest, pieces that go, and how long steps take with them.
 
-use rapier3d::dynamics::{RigidBodyHandle, RigidBodyType};
+use rapier3d::dynamics::{RigidBody, RigidBodyHandle, RigidBodyType};
 
 use crate::config::AtRest;
 use crate::world::{BreakableWorld, key};
@@ -21,36 +21,76 @@ impl BreakableWorld {
         fading.map(move |&(handle, since)| (handle, left(since)))
     }
 
-    /// Does with pieces that have slept for long what [`AtRest`] says.
+    /// Does with pieces that have rested for long what [`AtRest`] says.
     pub(crate) fn retire(&mut self) {
         if self.config.at_rest == AtRest::Sleep {
             return;
         }
         let now = self.time();
         let pieces: Vec<RigidBodyHandle> = self.siblings.fragments().collect();
+        let mut rested = Vec::new();
         for handle in pieces {
-            let body = self.physics.bodies.get(handle);
-            if !body.is_some_and(|b| b.is_dynamic() && b.is_sleeping()) {
+            let Some(body) = self.physics.bodies.get(handle).filter(|b| b.is_dynamic()) else {
                 self.state.asleep.remove(&key(handle));
                 continue;
-            }
-            let since = *self.state.asleep.entry(key(handle)).or_insert(now);
-            if now - since < f64::from(self.config.rest_time) {
-                continue;
-            }
-            self.state.asleep.remove(&key(handle));
-            if self.config.at_rest == AtRest::Go {
-                self.let_go(handle);
-            } else if let Some(body) = self.physics.bodies.get_mut(handle) {
-                body.set_body_type(RigidBodyType::Fixed, false);
+            };
+            let slept = if body.is_sleeping() {
+                now - *self.state.asleep.entry(key(handle)).or_insert(now)
+            } else {
+                self.state.asleep.remove(&key(handle));
+                0.0
+            };
+            // A heap sleeps when all of it may; one that creeps keeps the others awake.
+            let stayed = f64::from(self.state.places.stayed(handle));
+            if slept.max(stayed) >= f64::from(self.config.rest_time)
+                && !self.leans_on_what_moves(body)
+            {
+                rested.push(handle);
             }
         }
+        for &handle in &rested {
+            self.state.asleep.remove(&key(handle));
+            match self.config.at_rest {
+                AtRest::Go => self.let_go(handle),
+                AtRest::Merge => {}
+                _ => {
+                    if let Some(body) = self.physics.bodies.get_mut(handle) {
+                        body.set_body_type(RigidBodyType::Fixed, false);
+                    }
+                }
+            }
+        }
+        if self.config.at_rest == AtRest::Merge {
+            self.merge(&rested);
+        }
+    }
+
+    /// Whether a piece touches a body that can move and is no piece itself: it would stay in the air when that body leaves.
+    fn leans_on_what_moves(&self, piece: &RigidBody) -> bool {
+        let physics = &self.physics;
+        piece.colliders().iter().any(|&own| {
+            let mut pairs = physics.narrow_phase.contact_pairs_with(own);
+            pairs.any(|pair| {
+                let other = if pair.collider1 == own {
+                    pair.collider2
+                } else {
+                    pair.collider1
+                };
+                let body = physics.colliders.get(other).and_then(|c| c.parent());
+                pair.has_any_active_contact()
+                    && body.is_some_and(|handle| {
+                        let moves = physics.bodies.get(handle).is_some_and(|b| !b.is_fixed());
+                        moves && self.siblings.origin(handle).is_none()
+                    })
+            })
+        })
     }
 
     /// Lets a piece go: at once, or it is no body any more and fades.
     pub(crate) fn let_go(&mut self, handle: RigidBodyHandle) {
         self.state.surfaces.remove(&key(handle));
         self.state.breakables.remove(&key(handle));
+        self.state.rubble.strike_off(handle);
         if self.config.fade_time <= 0.0 {
             self.physics.remove_body(handle);
             return;

@@ -16,9 +16,15 @@ const NEWBORN_STEPS: u64 = 2;
 #[derive(Clone, Copy, Debug)]
 struct Birth {
     handle: RigidBodyHandle,
+    /// Number of the body that broke; [`RUBBLE`] of what is pieces of several.
     parent: u64,
+    /// Number of the body that was no piece yet, from which it comes.
+    origin: u64,
     step: u64,
 }
+
+/// Parent of a rubble, whose parts are siblings of all pieces of its origin.
+const RUBBLE: u64 = 0;
 
 /// Who is whose sibling.
 #[derive(Clone, Debug, Default)]
@@ -34,19 +40,40 @@ pub(crate) struct Siblings {
 
 impl Siblings {
     /// These bodies are the fragments of one parent, born in the current step.
-    pub(crate) fn born(&mut self, fragments: &[RigidBodyHandle]) {
+    pub(crate) fn born(&mut self, parent: RigidBodyHandle, fragments: &[RigidBodyHandle]) {
         self.parents += 1;
+        let origin = self.origin(parent).unwrap_or(self.parents);
         for &handle in fragments {
-            let index = handle.into_raw_parts().0 as usize;
-            if self.births.len() <= index {
-                self.births.resize(index + 1, None);
-            }
-            self.births[index] = Some(Birth {
+            self.note(Birth {
                 handle,
                 parent: self.parents,
+                origin,
                 step: self.step,
             });
         }
+    }
+
+    /// This body is the rubble of an origin.
+    pub(crate) fn lies(&mut self, handle: RigidBodyHandle, origin: u64) {
+        self.note(Birth {
+            handle,
+            parent: RUBBLE,
+            origin,
+            step: 0,
+        });
+    }
+
+    fn note(&mut self, birth: Birth) {
+        let index = birth.handle.into_raw_parts().0 as usize;
+        if self.births.len() <= index {
+            self.births.resize(index + 1, None);
+        }
+        self.births[index] = Some(birth);
+    }
+
+    /// Number of the body that was no piece yet, from which a piece comes.
+    pub(crate) fn origin(&self, piece: RigidBodyHandle) -> Option<u64> {
+        self.birth(piece).map(|birth| birth.origin)
     }
 
     /// Forgets bodies that are gone.
@@ -58,7 +85,8 @@ impl Siblings {
 
     /// All fragments, in the order of their handles.
     pub(crate) fn fragments(&self) -> impl Iterator<Item = RigidBodyHandle> {
-        self.births.iter().flatten().map(|birth| birth.handle)
+        let pieces = self.births.iter().flatten().filter(|b| b.parent != RUBBLE);
+        pieces.map(|birth| birth.handle)
     }
 
     fn birth(&self, body: RigidBodyHandle) -> Option<Birth> {
@@ -66,10 +94,12 @@ impl Siblings {
         birth.filter(|b| b.handle == body)
     }
 
-    /// Birth of two bodies of one parent.
-    fn common_birth(&self, a: RigidBodyHandle, b: RigidBodyHandle) -> Option<Birth> {
+    /// Step in which the younger of two siblings was born.
+    fn common_birth(&self, a: RigidBodyHandle, b: RigidBodyHandle) -> Option<u64> {
         let (a, b) = (self.birth(a)?, self.birth(b)?);
-        (a.parent == b.parent).then_some(a)
+        let rubble = a.parent == RUBBLE || b.parent == RUBBLE;
+        let siblings = a.parent == b.parent || rubble && a.origin == b.origin;
+        siblings.then(|| a.step.max(b.step))
     }
 }
 
@@ -84,7 +114,7 @@ impl PhysicsHooks for Siblings {
         let Some(rigid) = context.rigid_mut() else {
             return;
         };
-        if self.step < birth.step + NEWBORN_STEPS {
+        if self.step < birth + NEWBORN_STEPS {
             // The blow reaches a piece through its siblings, many contacts at once; Newton's restitution applied to
             // each of them can gain energy.
             *rigid.restitution = 0.0;

@@ -4,7 +4,7 @@
 //! A blast pushes every dynamic body too. Of a breakable body, and of its fragments, the outer triangles that face the
 //! origin are lit, each with the impulse per area of [`frangible::internals::Blast`]; hidden crack faces are not. Of any other body
 //! only colliders are known: a ball is lit over its near half, 2/3 of its cross-section's worth; any other shape is taken
-//! for its local bounding box. Nothing casts a shadow on anything else.
+//! for its local bounding box. Nothing casts a shadow on anything else. Merged pieces that are pushed to the impact speed come loose.
 
 use std::sync::Arc;
 
@@ -127,6 +127,16 @@ impl BreakableWorld {
         duration: f32,
     ) -> Result<(), WorldError> {
         let mut error = Ok(());
+        let fast = self.config.impact_speed;
+        self.loosen_where(|rigid, colliders| {
+            let blast = Blast {
+                origin: rigid.position().inverse_transform_point(origin),
+                impulse,
+                duration,
+            };
+            let push = kick_on_colliders(rigid, colliders, &blast).linear;
+            push.length() >= fast * rigid.mass()
+        });
         let handles: Vec<RigidBodyHandle> = self.physics.bodies.iter().map(|(h, _)| h).collect();
         for handle in handles {
             let Some(rigid) = self.physics.bodies.get(handle).filter(|b| b.is_enabled()) else {
@@ -173,6 +183,7 @@ impl BreakableWorld {
         point: Vector,
         impulse: Vector,
     ) -> Result<(), WorldError> {
+        self.loosen(handle);
         let (Some(body), Some(rigid)) = (
             self.state.breakables.get(&key(handle)),
             self.physics.bodies.get(handle),

@@ -81,7 +81,9 @@ impl BreakableWorld {
         handle: RigidBodyHandle,
     ) -> bool {
         let limit = self.config.max_bodies;
-        let room = limit.saturating_sub(self.physics.bodies.len()) + self.state.debris.len();
+        let debris = self.state.debris.iter();
+        let may_go = debris.filter(|&&piece| !self.state.rubble.contains(piece));
+        let room = limit.saturating_sub(self.body_count()) + may_go.count();
         let fits = fracture.fragments.len() + taken <= room;
         if !fits {
             self.state.refused_breaks += 1;

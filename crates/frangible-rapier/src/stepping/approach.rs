@@ -42,19 +42,11 @@ fn candidates(
     breakables: impl Iterator<Item = RigidBodyHandle>,
     speed: f32,
 ) -> Vec<RigidBodyHandle> {
-    let fast = |body: &RigidBody| {
-        let points =
-            body.linvel().length() + body.angvel().length() * body.mass_properties().max_extent();
-        // NaN counts as fast: whatever meets it is looked at.
-        points.is_nan() || points >= 0.5 * speed
-    };
-    let moving = |body: &RigidBody| {
-        body.is_dynamic_or_kinematic() && body.is_enabled() && !body.is_sleeping()
-    };
+    let fast = |body: &RigidBody| is_fast(body, 0.5 * speed);
     let movers: Vec<(RigidBodyHandle, Option<Aabb>)> = physics
         .bodies
         .iter()
-        .filter(|(_, body)| moving(body) && fast(body))
+        .filter(|(_, body)| moves(body) && fast(body))
         .map(|(handle, body)| (handle, swept_bounds(physics, body)))
         .collect();
     if movers.is_empty() {
@@ -80,14 +72,27 @@ fn candidates(
         .collect()
 }
 
-/// Bounds of the body's colliders over the coming step, widened by what Rapier looks ahead.
-fn swept_bounds(physics: &PhysicsWorld, body: &RigidBody) -> Option<Aabb> {
+/// Whether the next step moves a body.
+pub(crate) fn moves(body: &RigidBody) -> bool {
+    body.is_dynamic_or_kinematic() && body.is_enabled() && !body.is_sleeping()
+}
+
+/// Whether a body has a point that may be so fast, m/s.
+pub(crate) fn is_fast(body: &RigidBody, speed: f32) -> bool {
+    let points =
+        body.linvel().length() + body.angvel().length() * body.mass_properties().max_extent();
+    // NaN counts as fast: whatever meets it is looked at.
+    points.is_nan() || points >= speed
+}
+
+/// Bounds of the body's enabled colliders over the coming step, widened by what Rapier looks ahead.
+pub(crate) fn swept_bounds(physics: &PhysicsWorld, body: &RigidBody) -> Option<Aabb> {
     let parameters = &physics.integration_parameters;
     let margin = 2.0 * (parameters.prediction_distance() + parameters.allowed_linear_error());
     let next = body.predict_position_using_velocity_and_forces(parameters.dt);
     let mut bounds: Option<Aabb> = None;
     for &handle in body.colliders() {
-        let Some(collider) = physics.colliders.get(handle) else {
+        let Some(collider) = physics.colliders.get(handle).filter(|c| c.is_enabled()) else {
             continue;
         };
         let local = collider.position_wrt_parent().copied().unwrap_or_default();

@@ -15,7 +15,7 @@
 mod advance;
 pub(crate) mod after;
 mod answer;
-mod approach;
+pub(crate) mod approach;
 mod ask;
 mod inside;
 pub(crate) mod judge;

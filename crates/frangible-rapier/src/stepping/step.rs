@@ -1,7 +1,7 @@
 //! The front door: one time step of a world whose bodies can break.
 //!
-//! A step has three parts. Before it, pieces that are ready join the bodies that can break, and blasts and scripted blows act
-//! (`pushes.rs`). Then Rapier takes its step, and bodies break inside it or after it, as [`Breaking`] says. After it, what rolls is slowed,
+//! A step has three parts. Before it, pieces that are ready join the bodies that can break, merged ones that may be hit
+//! come loose (`loosen.rs`), and blasts and scripted blows act (`pushes.rs`). Then Rapier takes its step, and bodies break inside it or after it, as [`Breaking`] says. After it, what rolls is slowed,
 //! what rests is kept at its place, and debris beyond its limit is removed; what bodies carry is looked at then (`resting.rs`).
 
 use rapier3d::pipeline::{EventHandler, PhysicsHooks};
@@ -52,6 +52,7 @@ impl BreakableWorld {
         self.siblings.relaxation =
             self.config.overlap_relaxation * self.physics.integration_parameters.dt;
         self.join_pieces();
+        self.loosen_hit();
         let pushed = self.apply_pushes();
         self.timings.upkeep += watch.lap();
         let done = match self.config.breaking {
@@ -79,6 +80,7 @@ impl BreakableWorld {
         self.limit_debris(self.config.max_debris);
         self.settle_dust();
         self.retire();
+        self.rebuild_rubble();
         self.fade();
         self.timings.upkeep += watch.lap();
     }
