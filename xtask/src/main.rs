@@ -33,6 +33,7 @@ cargo xtask rebake            write the baked bodies and states in fuzz/corpus a
 cargo xtask fuzz [SECONDS]    feed hostile bytes to each reader of files, and to blows, worlds and scenes, for so long, 30 s if not told
 cargo xtask web [--out DIR]   make the viewer's page for browsers, one static folder: target/web/page if not told
 cargo xtask web-test          make it, and break scenes and a mesh in it with Chromium, drawn by the processor
+cargo xtask web-bits          play scenes in the part of it that computes, in Node, and compare every bit with a run without it
 cargo xtask npm               make the npm package, install it in an empty project, and try it in Node and in Chromium
 cargo xtask python            make the wheel for Python, and try it in an environment of its own
 cargo xtask bevy              lint and test the plugin for Bevy, in its own workspace
@@ -114,6 +115,7 @@ fn run(words: &[&str]) -> Result {
         ["web", "--out", folder] => web::web(Some(folder.as_ref()), None).map(drop),
         ["npm"] => web::package(None).map(drop),
         ["web-test"] => web::trial(None).map(drop),
+        ["web-bits"] => web::bits(),
         ["check-output", directory] => check_output::check_output(directory.as_ref()),
         [] | ["help" | "--help" | "-h"] => {
             println!("{HELP}");

@@ -115,6 +115,8 @@ struct State<'a> {
     paused: bool,
     whole: usize,
     pieces: usize,
+    /// The bits of where all things are, how they move and what they weigh: one number, which JavaScript has no type for.
+    fingerprint: String,
     triangles: usize,
     /// How long the last break took, s: the impact here, the whole step in the next field.
     fracture_seconds: f64,
@@ -145,6 +147,7 @@ impl<'a> State<'a> {
             paused: shown.paused,
             whole: shown.whole,
             pieces: shown.pieces,
+            fingerprint: format!("{:016x}", shown.fingerprint),
             triangles: shown.picture.triangles(),
             fracture_seconds: step.fracture,
             step_seconds: step.ours() + step.rigid,

@@ -65,7 +65,7 @@ pub fn thinned(points: &[Vec3], most: usize) -> Vec<Vec3> {
 /// The k-th of n directions spread evenly over the sphere (golden spiral).
 fn spread_direction(k: usize, n: usize) -> Vec3 {
     let z = 1.0 - (2 * k + 1) as f32 / n as f32;
-    let (sin, cos) = (k as f32 * 2.399_963_2).sin_cos();
+    let (sin, cos) = libm::sincosf(k as f32 * 2.399_963_2);
     let r = (1.0 - z * z).max(0.0).sqrt();
     Vec3::new(r * cos, r * sin, z)
 }

@@ -7,6 +7,8 @@
 //!
 //! It is a crate of its own because the core, the bake and the mesher share it. It knows neither physics nor files.
 
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
+
 mod along;
 mod boxes;
 mod by_node;

@@ -35,7 +35,8 @@
 //! - Impulses of blows are equal and opposite on body and striker, and never give energy.
 //! - The cracks' energy is taken from what the blow took, then from the motion of fragments and striker relative to each other.
 //! - No fragment's centre of mass passes through a fixed body, and no ball through anything.
-//! - Two runs give the same bits.
+//! - Two runs give the same bits, with the feature `portable`, which is on by default, on any two machines: [`BreakableWorld::fingerprint`]
+//!   tells.
 //!
 //! # What it costs
 //! A step copies the world only when a breakable body may be hit at [`WorldConfig::impact_speed`] or more
@@ -77,6 +78,8 @@
 //! impulse at the arms of the step's start: chips that would spin faster lose angular momentum, and a blow during which
 //! bodies move centimetres per step changes the total by some percent. Shorter steps cure both.
 
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
+
 mod bodies;
 mod breaker;
 mod callbacks;
@@ -86,6 +89,7 @@ mod contact;
 mod counts;
 mod error;
 mod event;
+mod fingerprint;
 mod fragments;
 mod impulses;
 mod loads;

@@ -52,7 +52,7 @@ impl Head {
 
     /// Radius of the sphere about the origin that holds it, m.
     pub(crate) fn reach(&self) -> f32 {
-        let lengths = self.profile.iter().map(|[r, z]| r.hypot(*z));
+        let lengths = self.profile.iter().map(|[r, z]| libm::hypotf(*r, *z));
         lengths.fold(0.0, f32::max)
     }
 
@@ -137,7 +137,8 @@ pub(crate) fn add_handle(mesh: &mut RecordedMesh, radius: f32, length: f32, surf
 
 fn around(r: f32, z: f32, sector: u16) -> Vec3 {
     let turn = std::f32::consts::TAU * f32::from(sector % SECTORS) / f32::from(SECTORS);
-    Vec3::new(r * turn.cos(), r * turn.sin(), z)
+    let (sin, cos) = libm::sincosf(turn);
+    Vec3::new(r * cos, r * sin, z)
 }
 
 #[cfg(test)]

@@ -44,6 +44,8 @@ pub struct Shown {
     pub whole: usize,
     /// Pieces there are.
     pub pieces: usize,
+    /// A number of the bits of where all things are, how they move and what they weigh; 0 without a scene.
+    pub fingerprint: u64,
     /// Breaks that can be undone.
     pub undoable: usize,
     /// What is thrown.

@@ -286,8 +286,8 @@ macro_rules! fields {
 fields! {
     // The course and the picture go by themselves.
     Shown {
-        commands, busy, scene, summary, starts, home, focus, time, steps, paused, slow_motion, sound, whole, pieces, undoable, ball,
-        hammer, tool, bake, filming, reel, analysing, message, subject, scrub, exaggeration, explode, marks, mode, blow, largest_color,
+        commands, busy, scene, summary, starts, home, focus, time, steps, paused, slow_motion, sound, whole, pieces, fingerprint,
+        undoable, ball, hammer, tool, bake, filming, reel, analysing, message, subject, scrub, exaggeration, explode, marks, mode, blow, largest_color,
         selection, compared, chosen, methods, knobs, turned, contacts, break_step, publishing,
     }
     View { eye, target, up, vertical_fov }

@@ -97,7 +97,7 @@ impl Breakable {
                 let expected = asset.material.weak_point_density
                     * asset.fracture.volume(e)
                     * self.fields.weak_points(e);
-                uniform(&mut rng) < -(-expected).exp_m1()
+                uniform(&mut rng) < -libm::expm1(-expected)
             })
             .map(|e| e as u32)
             .collect();

@@ -14,6 +14,8 @@
 //! [`internals`] has the rest; its names may change in any release.
 //! Everything is in SI units and in the body frame (origin at the centre of mass). The same input gives the same bits.
 
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
+
 mod asset;
 mod blow;
 mod body;

@@ -17,7 +17,7 @@ use bodies::Bodies;
 use program::Program;
 
 pub(crate) use package::package;
-pub(crate) use trial::trial;
+pub(crate) use trial::{bits, trial};
 
 /// All that the first visit may fetch, packed, bytes: both programs, the body of the first scene, and the page itself. Bodies of the other
 /// scenes are fetched when they are chosen.

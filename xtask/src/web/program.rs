@@ -12,8 +12,10 @@ const TARGET: &str = "wasm32-unknown-unknown";
 /// only draws is small.
 const PROGRAMS: [(&str, &str, &str); 2] = [
     ("window", "frangible-web", "web"),
-    ("session", "frangible-web-session", "npm"),
+    ("session", SESSION, "npm"),
 ];
+/// The one that computes.
+pub(super) const SESSION: &str = "frangible-web-session";
 /// Both sides of what it generates must be of one version.
 const GENERATOR: &str = "wasm-bindgen";
 /// The packer's name for the same.
@@ -47,6 +49,12 @@ pub(super) fn programs(folders: &Folders, packer: &Path, clock: Clock) -> Result
         })
     };
     PROGRAMS.into_iter().map(pack).collect()
+}
+
+/// Builds the one that computes.
+pub(super) fn session(folders: &Folders, clock: Clock) -> Result<PathBuf> {
+    same_generator()?;
+    build(folders, SESSION, Kind::Program, "npm", clock)
 }
 
 /// A number that the packer wrote.

@@ -5,9 +5,9 @@ use std::process::Command;
 use std::time::{Duration, Instant};
 
 use super::bodies::example;
-use super::program::within;
+use super::program::{SESSION, packer, session, within};
 use super::{Clock, Folders, folders, make, make_folder};
-use crate::command::{Result, output, root, run_keeping, shown};
+use crate::command::{Result, output, root, run_keeping, shown, succeeds};
 use crate::setup::browser;
 
 /// Drives the browser; the version that the test is written for.
@@ -21,6 +21,43 @@ const PLAYED: [(&str, u32, u32); 2] = [("pane", 100, 5), ("shards", 400, 10)];
 /// What the browser may take before it counts as stuck.
 const LONGEST: Duration = Duration::from_secs(25 * 60);
 
+/// Makes the session's program and the bodies that are played, and compares what comes of them in Node with what comes of them natively: a
+/// part of the page's trial that asks for no browser.
+pub(crate) fn bits() -> Result {
+    let clock = Clock {
+        start: Instant::now(),
+        limit: None,
+    };
+    let folders = folders(None);
+    let out = folders.target.join("bits");
+    let baked = out.join("baked");
+    make_folder(&baked)?;
+    let built = session(&folders, clock)?;
+    let packer = packer(&folders, clock)?;
+    output(Command::new(packer).arg("package").arg(built).arg(&out))?;
+    let scenes = PLAYED.map(|(scene, ..)| scene);
+    within(
+        Command::new(example("bodies", clock)?)
+            .arg(&baked)
+            .args(scenes),
+        clock,
+    )?;
+    let native = native(&folders, &baked, clock)?;
+    let module = out.join(format!("{SESSION}_bg.wasm"));
+    in_node(&out, &module, &baked, &native).map(drop)
+}
+
+/// Plays the scenes in Node.
+fn in_node(scripts: &Path, program: &Path, baked: &Path, native: &Path) -> Result<Vec<String>> {
+    let mut command = Command::new("node");
+    command
+        .arg(root().join("apps/web/test/session.test.mjs"))
+        .arg(scripts.join(format!("{SESSION}.js")))
+        .args([program, baked, native]);
+    println!("$ {}", shown(&command));
+    run_keeping(&mut command, |line| line.starts_with("node:"))
+}
+
 /// Makes the page and tries it, and returns the lines that sum it up; one of them says so where there is no browser.
 pub(crate) fn trial(limit: Option<Duration>) -> Result<Vec<String>> {
     let clock = Clock {
@@ -29,6 +66,11 @@ pub(crate) fn trial(limit: Option<Duration>) -> Result<Vec<String>> {
     };
     let folders = folders(None);
     let (mut lines, baked) = make(&folders, clock)?;
+    let native = native(&folders, &baked, clock)?;
+    if succeeds("node", &["--version"]) {
+        let program = folders.out.join(format!("{SESSION}.wasm.gz"));
+        lines.extend(in_node(&folders.out, &program, &baked, &native)?);
+    }
     let Some(browser) = browser() else {
         let line = "web: not tried: there is no browser, or no Node".to_string();
         println!("{line}");
@@ -36,7 +78,6 @@ pub(crate) fn trial(limit: Option<Duration>) -> Result<Vec<String>> {
         return Ok(lines);
     };
     let out = made_folder(&folders)?;
-    let native = native(&folders, &baked, clock)?;
     let mut command = Command::new("node");
     command
         .arg(root().join("apps/web/test/page.test.mjs"))

@@ -1,4 +1,5 @@
-//! `bodies FOLDER`: the built-in scenes with lighter bodies, so that a page fetches them in no time, and their baked bodies, into a folder.
+//! `bodies FOLDER [SCENE …]`: the built-in scenes, or those named, with lighter bodies, so that a page fetches them in no time, and their
+//! baked bodies, into a folder.
 //! What was baked is written down in `list.json` there: for each scene its text, the files of its bodies, each once, and the number of
 //! the file of each body.
 
@@ -36,10 +37,16 @@ const USUAL: (usize, usize) = (30, 12_000);
 const MOST_CHANGE: f64 = 0.01;
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let folder = std::env::args_os().nth(1).map(PathBuf::from);
-    let folder = folder.ok_or("name the folder: bodies FOLDER")?;
+    let mut words = std::env::args().skip(1);
+    let folder = words.next().map(PathBuf::from);
+    let folder = folder.ok_or("name the folder: bodies FOLDER [SCENE …]")?;
+    let named: Vec<String> = words.collect();
+    let wanted = |name: &str| match named.is_empty() {
+        true => name != LEFT_OUT,
+        false => named.iter().any(|named| named == name),
+    };
     let mut list = Vec::new();
-    for name in SCENE_NAMES.into_iter().filter(|&name| name != LEFT_OUT) {
+    for name in SCENE_NAMES.into_iter().filter(|&name| wanted(name)) {
         let (scene, baked) = lightly_baked(name)?;
         let mut known: Vec<Arc<_>> = Vec::new();
         let (mut files, mut of) = (Vec::new(), Vec::new());

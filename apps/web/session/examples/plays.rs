@@ -1,6 +1,6 @@
 //! `plays FOLDER SCENE STEPS TIMES`: what the page's test sees in a browser, without one. Of the scenes and bodies that `bodies` left in the
-//! folder one runs for so many steps, so many times; after each time it is said how many bodies are whole, how many pieces there are, and
-//! what those of the last break weigh, kg, as JSON. In the end comes the time that the last break took, s.
+//! folder one runs for so many steps, so many times; after each time it is said how many bodies are whole, how many pieces there are,
+//! what those of the last break weigh, kg, and the fingerprint of all that moves, as JSON. In the end comes the time that the last break took, s.
 
 use std::error::Error;
 use std::path::{Path, PathBuf};
@@ -84,7 +84,10 @@ fn main() -> Result<(), Box<dyn Error>> {
         let shown = session.shown();
         let masses = shown.blow.as_ref().map_or(&[][..], |blow| &blow.masses);
         let (whole, pieces) = (shown.whole, shown.pieces);
-        seen.push(json!({ "whole": whole, "pieces": pieces, "masses": masses }));
+        let fingerprint = format!("{:016x}", shown.fingerprint);
+        seen.push(json!({
+            "whole": whole, "pieces": pieces, "masses": masses, "fingerprint": fingerprint,
+        }));
     }
     let seconds = session.shown().break_step.fracture;
     println!("{}", json!({ "seen": seen, "fracture_seconds": seconds }));

@@ -5,6 +5,7 @@
 //! | `frangible_take(line)` | a command |
 //! | `frangible_turn()` | lets the session go on for some milliseconds, or for as long as a break takes |
 //! | `frangible_news()` | bytes of what there is to see, if that is not what it was |
+//! | `frangible_told()` | whether all is done, bodies that are whole, pieces, masses of those of the last break, kg, and the fingerprint of all that moves |
 
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -12,7 +13,7 @@ use std::sync::Arc;
 
 use frangible_view::{Command, Outlet, Packer, Shown, Worker};
 use frangible_web::{Bridge, offer};
-use js_sys::{Float32Array, Uint8Array};
+use js_sys::{Array, Float32Array, Float64Array, Uint8Array};
 use wasm_bindgen::JsValue;
 use wasm_bindgen::closure::Closure;
 
@@ -48,11 +49,14 @@ pub(crate) fn start(bridge: Bridge) {
         Closure::<dyn FnMut(String)>::new(move |line: String| inbox.borrow_mut().take(&line));
     let clock = Rc::clone(&desk);
     let turn = Closure::<dyn FnMut()>::new(move || clock.borrow_mut().turn());
+    let told = Rc::clone(&desk);
+    let told = Closure::<dyn FnMut() -> JsValue>::new(move || told.borrow().told());
     let news = Closure::<dyn FnMut() -> JsValue>::new(move || desk.borrow_mut().news());
     offer([
         ("frangible_take", take.into_js_value()),
         ("frangible_turn", turn.into_js_value()),
         ("frangible_news", news.into_js_value()),
+        ("frangible_told", told.into_js_value()),
     ]);
 }
 
@@ -75,6 +79,20 @@ impl Desk {
                 .bridge
                 .call("hear", &[samples.into(), self.outlet.rate().into()]);
         }
+    }
+
+    fn told(&self) -> JsValue {
+        let shown = self.worker.latest();
+        let masses = shown.blow.as_ref().map_or(&[][..], |blow| &blow.masses);
+        let fingerprint = format!("{:016x}", shown.fingerprint);
+        let list: [JsValue; 5] = [
+            self.worker.is_done(&shown).into(),
+            (shown.whole as f64).into(),
+            (shown.pieces as f64).into(),
+            Float64Array::from(masses).into(),
+            fingerprint.into(),
+        ];
+        list.into_iter().collect::<Array>().into()
     }
 
     fn news(&mut self) -> JsValue {

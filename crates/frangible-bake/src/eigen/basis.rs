@@ -1,5 +1,7 @@
 //! Columns of numbers and what Lanczos does with them.
 
+use std::ops::{Index, IndexMut};
+
 use faer::{MatMut, MatRef};
 
 /// A dense matrix stored column after column.
@@ -17,6 +19,25 @@ impl Block {
             data: vec![0.0; rows * columns],
             rows,
         }
+    }
+
+    /// A matrix of these numbers.
+    pub(crate) fn from_fn(
+        rows: usize,
+        columns: usize,
+        entry: impl Fn(usize, usize) -> f64,
+    ) -> Self {
+        let entry = &entry;
+        Self {
+            data: (0..columns)
+                .flat_map(|j| (0..rows).map(move |i| entry(i, j)))
+                .collect(),
+            rows,
+        }
+    }
+
+    pub(crate) fn transposed(&self) -> Self {
+        Self::from_fn(self.columns(), self.rows, |i, j| self[(j, i)])
     }
 
     pub(crate) fn columns(&self) -> usize {
@@ -41,6 +62,21 @@ impl Block {
     }
 }
 
+impl Index<(usize, usize)> for Block {
+    type Output = f64;
+
+    fn index(&self, (row, column): (usize, usize)) -> &f64 {
+        &self.data[column * self.rows + row]
+    }
+}
+
+impl IndexMut<(usize, usize)> for Block {
+    fn index_mut(&mut self, (row, column): (usize, usize)) -> &mut f64 {
+        &mut self.data[column * self.rows + row]
+    }
+}
+
+#[inline(always)]
 pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
     // Four running sums: fast, and in a fixed order.
     let mut sums = [0.0; 4];

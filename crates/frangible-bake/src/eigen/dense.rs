@@ -15,8 +15,9 @@ use faer::linalg::triangular_solve::{
 use faer::sparse::SparseColMat;
 use faer::{Accum, Mat, MatMut, MatRef, Par, Spec};
 
-use crate::eigen::basis::Block;
+use crate::eigen::basis::{Block, dot};
 use crate::eigen::metric::{Basis, Metric};
+use crate::eigen::portable::{self, Sums};
 use crate::error::BakeError;
 
 /// Rising eigenvalues of a symmetric matrix, from its lower triangle, on the calling thread alone; its eigenvectors are written
@@ -52,7 +53,12 @@ pub(crate) fn eigen_into(
 }
 
 /// All eigenvalues, rising, and eigenvectors of a symmetric matrix (lower triangle used).
-pub(crate) fn symmetric_eigen(matrix: &Block) -> Result<(Vec<f64>, Block), BakeError> {
+pub(crate) fn symmetric_eigen(sums: Sums, matrix: &Block) -> Result<(Vec<f64>, Block), BakeError> {
+    if sums == Sums::Portable {
+        return portable::symmetric(matrix).ok_or_else(|| BakeError::Factorization {
+            reason: "dense eigenvalues: the matrix holds what is no number".into(),
+        });
+    }
     let mut vectors = Block::zeros(matrix.rows, matrix.rows);
     let values =
         eigen_into(matrix.view(), vectors.view_mut()).map_err(|e| BakeError::Factorization {
@@ -69,45 +75,26 @@ pub(crate) fn solve_shifted(
     metric: &Metric,
     rigid: &Basis,
     wanted: usize,
+    sums: Sums,
 ) -> Result<(Vec<f64>, Block), BakeError> {
     let n = matrix.ncols();
-    let mut factor = full_lower(matrix);
-    let params = Spec::default();
-    let mut memory = MemBuffer::new(cholesky_in_place_scratch::<f64>(n, Par::Seq, params));
-    cholesky_in_place(
-        factor.view_mut(),
-        LltRegularization::default(),
-        Par::Seq,
-        MemStack::new(&mut memory),
-        params,
-    )
-    .map_err(|e| BakeError::Factorization {
-        reason: format!("{e:?}"),
-    })?;
+    let factor = Triangle::new(full_lower(matrix), sums)?;
     let mut unit = Block::zeros(n, n);
     for j in 0..n {
         unit.data[j * n + j] = 1.0;
     }
     let mut inverse = metric.image(&unit).into_owned();
     // B − (B r)(B r)ᵀ: rigid motions r go to zero.
-    let images = rigid.image_view();
-    matmul(
-        inverse.view_mut(),
-        Accum::Add,
-        images,
-        images.transpose(),
-        -1.0,
-        Par::Seq,
-    );
-    solve_lower_triangular_in_place(factor.view(), inverse.view_mut(), Par::Seq);
+    take_outer(&mut inverse, rigid, sums);
+    factor.solve(&mut inverse);
     let mut inverse = Block {
         data: (0..n * n)
             .map(|i| inverse.data[(i % n) * n + i / n])
             .collect(),
         rows: n,
     };
-    solve_lower_triangular_in_place(factor.view(), inverse.view_mut(), Par::Seq);
-    let (values, vectors) = symmetric_eigen(&inverse)?;
+    factor.solve(&mut inverse);
+    let (values, vectors) = symmetric_eigen(sums, &inverse)?;
     let mut out = Block::zeros(n, wanted);
     let mut eigenvalues = Vec::with_capacity(wanted);
     for i in 0..wanted {
@@ -117,8 +104,93 @@ pub(crate) fn solve_shifted(
             *to = from / theta.sqrt();
         }
     }
-    solve_upper_triangular_in_place(factor.view().transpose(), out.view_mut(), Par::Seq);
+    factor.solve_transposed(&mut out);
     Ok((eigenvalues, out))
+}
+
+/// A Cholesky factor, and how sums are taken with it.
+struct Triangle {
+    factor: Block,
+    sums: Sums,
+}
+
+impl Triangle {
+    /// The factor of a matrix, from its lower triangle.
+    fn new(mut matrix: Block, sums: Sums) -> Result<Self, BakeError> {
+        let n = matrix.rows;
+        let refused = |reason: String| BakeError::Factorization { reason };
+        if sums == Sums::Portable {
+            if !portable::factorise_panel(&mut matrix.data, n, n) {
+                return Err(refused("not positive definite".into()));
+            }
+        } else {
+            let params = Spec::default();
+            let mut memory = MemBuffer::new(cholesky_in_place_scratch::<f64>(n, Par::Seq, params));
+            cholesky_in_place(
+                matrix.view_mut(),
+                LltRegularization::default(),
+                Par::Seq,
+                MemStack::new(&mut memory),
+                params,
+            )
+            .map_err(|e| refused(format!("{e:?}")))?;
+        }
+        Ok(Self {
+            factor: matrix,
+            sums,
+        })
+    }
+
+    /// X ← L⁻¹ X.
+    fn solve(&self, x: &mut Block) {
+        if self.sums == Sums::Fast {
+            return solve_lower_triangular_in_place(self.factor.view(), x.view_mut(), Par::Seq);
+        }
+        let n = self.factor.rows;
+        for x in x.data.chunks_exact_mut(n) {
+            for j in 0..n {
+                let column = &self.factor.column(j)[j..];
+                x[j] /= column[0];
+                let solved = x[j];
+                for (x, l) in x[j + 1..].iter_mut().zip(&column[1..]) {
+                    *x -= solved * l;
+                }
+            }
+        }
+    }
+
+    /// X ← L⁻ᵀ X.
+    fn solve_transposed(&self, x: &mut Block) {
+        if self.sums == Sums::Fast {
+            let upper = self.factor.view().transpose();
+            return solve_upper_triangular_in_place(upper, x.view_mut(), Par::Seq);
+        }
+        let n = self.factor.rows;
+        for x in x.data.chunks_exact_mut(n) {
+            for j in (0..n).rev() {
+                let column = &self.factor.column(j)[j..];
+                x[j] = (x[j] - dot(&column[1..], &x[j + 1..])) / column[0];
+            }
+        }
+    }
+}
+
+/// X −= (B r)(B r)ᵀ.
+fn take_outer(x: &mut Block, rigid: &Basis, sums: Sums) {
+    let images = rigid.image_view();
+    if sums == Sums::Fast {
+        let transposed = images.transpose();
+        return matmul(x.view_mut(), Accum::Add, images, transposed, -1.0, Par::Seq);
+    }
+    let n = x.rows;
+    for r in 0..rigid.columns() {
+        for (j, column) in x.data.chunks_exact_mut(n).enumerate() {
+            let factor = images[(j, r)];
+            for (i, x) in column.iter_mut().enumerate() {
+                *x -= images[(i, r)] * factor;
+            }
+        }
+    }
 }
 
 /// A sparse lower triangle as a dense one.

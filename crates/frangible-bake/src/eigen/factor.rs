@@ -14,6 +14,7 @@ use crate::eigen::krylov::Krylov;
 use crate::eigen::metric::Metric;
 use crate::eigen::ordering;
 use crate::eigen::panel::Row;
+use crate::eigen::portable::{self, Sums};
 use crate::eigen::substitution;
 use crate::eigen::watch::Watch;
 use crate::error::BakeError;
@@ -85,6 +86,7 @@ fn highest(scaled: &SparseColMat<usize, f64>, metric: &Metric) -> f64 {
 pub(crate) struct Shifted {
     symbolic: SymbolicCholesky<usize>,
     values: Vec<f64>,
+    sums: Sums,
     /// The shift s, 1/s².
     pub(crate) shift: f64,
 }
@@ -106,6 +108,7 @@ impl Shifted {
         let mut factor = Self {
             symbolic,
             values,
+            sums: rigid.sums,
             shift: 1e-10 * largest,
         };
         watch.time(Phase::Factorization, || factor.refactorize(scaled, metric))?;
@@ -125,6 +128,17 @@ impl Shifted {
         metric: &Metric,
     ) -> Result<(), BakeError> {
         let shifted = add_shift(scaled, metric, self.shift);
+        if self.sums == Sums::Portable {
+            let (_, place) = self.order();
+            let place = place.to_vec();
+            let SymbolicCholeskyRaw::Supernodal(symbolic) = self.symbolic.raw() else {
+                unreachable!("a supernodal factor was asked for");
+            };
+            return match portable::factorise(symbolic, &place, &shifted, &mut self.values) {
+                true => Ok(()),
+                false => Err(failed("not positive definite")),
+            };
+        }
         let params = Spec::default();
         let mut memory = MemBuffer::new(
             self.symbolic
@@ -154,14 +168,23 @@ impl Shifted {
         let SymbolicCholeskyRaw::Supernodal(symbolic) = self.symbolic.raw() else {
             unreachable!("a supernodal factor was asked for");
         };
-        let factor = SupernodalLltRef::new(symbolic, &self.values);
+        let (order, place) = self.order();
+        let mut permuted: Vec<Row> = order.iter().map(|&i| x[i]).collect();
+        match self.sums {
+            Sums::Portable => portable::solve(symbolic, &self.values, &mut permuted),
+            Sums::Fast => {
+                substitution::solve(SupernodalLltRef::new(symbolic, &self.values), &mut permuted);
+            }
+        }
+        place.iter().map(|&i| permuted[i]).collect()
+    }
+
+    /// The unknowns in the factor's order, and where each comes in it.
+    fn order(&self) -> (&[usize], &[usize]) {
         let Some(order) = self.symbolic.perm() else {
             unreachable!("an order was given");
         };
-        let (order, place) = order.arrays();
-        let mut permuted: Vec<Row> = order.iter().map(|&i| x[i]).collect();
-        substitution::solve(factor, &mut permuted);
-        place.iter().map(|&i| permuted[i]).collect()
+        order.arrays()
     }
 }
 

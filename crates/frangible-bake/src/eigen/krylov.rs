@@ -7,6 +7,7 @@ use crate::eigen::metric::{Basis, Metric};
 use crate::eigen::panel::{
     Row, Square, WIDTH, cholesky, inner, multiply, panel_of_columns, product, subtract,
 };
+use crate::eigen::portable::Sums;
 use crate::eigen::watch::Watch;
 use crate::error::BakeError;
 use crate::phase::Phase;
@@ -34,10 +35,12 @@ pub(crate) struct Krylov<'a> {
     /// The rigid motions, if any, padded with zeros.
     rigid: Vec<Pair>,
     pub(crate) blocks: Vec<Pair>,
+    /// How sums are taken.
+    pub(crate) sums: Sums,
 }
 
 impl<'a> Krylov<'a> {
-    pub(crate) fn new(metric: &'a Metric, rigid: &Basis) -> Self {
+    pub(crate) fn new(metric: &'a Metric, rigid: &Basis, sums: Sums) -> Self {
         let mut pairs = Vec::new();
         if rigid.columns() > 0 {
             let vectors = panel_of_columns(&rigid.vectors.data, rigid.vectors.rows);
@@ -48,6 +51,7 @@ impl<'a> Krylov<'a> {
             metric,
             rigid: pairs,
             blocks: Vec::new(),
+            sums,
         }
     }
 
@@ -58,8 +62,8 @@ impl<'a> Krylov<'a> {
     /// w −= V Vᵀ B w with all panels.
     fn project_out_all(&self, w: &mut [Row]) {
         for pair in self.rigid.iter().chain(&self.blocks) {
-            let c = inner(pair.images(), w);
-            subtract(w, &pair.vectors, &c);
+            let c = inner(self.sums, pair.images(), w);
+            subtract(self.sums, w, &pair.vectors, &c);
         }
     }
 
@@ -77,11 +81,11 @@ impl<'a> Krylov<'a> {
             let mut images = self.image(&w, watch);
             let (again, r) = watch.time(Phase::Orthogonalisation, || {
                 let mut once = |w: &mut Vec<Row>| {
-                    let gram = inner(images.as_deref().unwrap_or(w), w);
+                    let gram = inner(self.sums, images.as_deref().unwrap_or(w), w);
                     let (r, inverse, least) = cholesky(&gram)?;
-                    multiply(w, &inverse);
+                    multiply(self.sums, w, &inverse);
                     if let Some(images) = &mut images {
-                        multiply(images, &inverse);
+                        multiply(self.sums, images, &inverse);
                     }
                     Some((r, least))
                 };
@@ -123,10 +127,10 @@ impl<'a> Krylov<'a> {
             watch.tell(0.05)?;
             let w = watch.time(Phase::Solves, || shifted.solve(block.images()));
             let projected = Block {
-                data: inner(block.images(), &w).concat(),
+                data: inner(self.sums, block.images(), &w).concat(),
                 rows: WIDTH,
             };
-            theta = symmetric_eigen(&projected)?.0.last().copied();
+            theta = symmetric_eigen(self.sums, &projected)?.0.last().copied();
             match self.orthonormalise(w, watch) {
                 Some((next, _)) => block = next,
                 None => break,
@@ -171,7 +175,7 @@ impl<'a> Krylov<'a> {
                 part.clear();
                 part.resize(end - start, [0.0; WIDTH]);
                 for (pair, square) in self.blocks.iter().chain([last]).zip(squares) {
-                    subtract(&mut part, &pair.vectors[start..end], square);
+                    subtract(self.sums, &mut part, &pair.vectors[start..end], square);
                 }
                 let from = group * WIDTH;
                 for (l, column) in (from..(from + WIDTH).min(wanted)).enumerate() {

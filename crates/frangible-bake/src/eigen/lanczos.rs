@@ -42,10 +42,10 @@ pub(crate) fn solve(
         // Three-term recurrence first, so that the full pass afterwards only removes rounding.
         diagonal.push(watch.time(Phase::Orthogonalisation, || {
             if let (Some(last), Some(triangle)) = (basis.blocks.last(), below.last()) {
-                subtract(&mut w, &last.vectors, &transposed(triangle));
+                subtract(basis.sums, &mut w, &last.vectors, &transposed(triangle));
             }
-            let along = inner(next.images(), &w);
-            subtract(&mut w, &next.vectors, &along);
+            let along = inner(basis.sums, next.images(), &w);
+            subtract(basis.sums, &mut w, &next.vectors, &along);
             along
         }));
         basis.blocks.push(next);
@@ -56,7 +56,7 @@ pub(crate) fn solve(
         next = pair;
         if size >= check_at || size >= limit {
             let (values, vectors) = watch.time(Phase::Projected, || {
-                symmetric_eigen(&projected(&diagonal, &below))
+                symmetric_eigen(basis.sums, &projected(&diagonal, &below))
             })?;
             // The wanted end of the inverse's spectrum is the top.
             let found = |i: &usize| {

@@ -4,6 +4,8 @@ use faer::linalg::matmul::matmul;
 use faer::traits::ComplexField;
 use faer::{Accum, MatMut, MatRef, Par};
 
+use crate::eigen::portable::{self, Sums};
+
 /// Vectors per panel. Reading the factor and the basis from memory takes most of the time, so that several at once are
 /// much cheaper than one by one; but larger blocks need a larger basis. Processor seconds for 120 modes of a glass, a rabbit
 /// and a slab, 15 000 to 33 000 unknowns: 8 takes 0.90, 1.20, 1.27; 16 takes 1.00, 1.53, 1.39; 32 takes 1.11, 1.85, 1.98.
@@ -40,7 +42,10 @@ pub(crate) fn across_mut(panel: &mut [Row]) -> MatMut<'_, f64> {
 }
 
 /// Vᵀ W.
-pub(crate) fn inner(v: &[Row], w: &[Row]) -> Square {
+pub(crate) fn inner(sums: Sums, v: &[Row], w: &[Row]) -> Square {
+    if sums == Sums::Portable {
+        return portable::inner(v, w);
+    }
     let mut out = [[0.0; WIDTH]; WIDTH];
     matmul(
         across_mut(&mut out),
@@ -54,7 +59,10 @@ pub(crate) fn inner(v: &[Row], w: &[Row]) -> Square {
 }
 
 /// W −= V C.
-pub(crate) fn subtract(w: &mut [Row], v: &[Row], c: &Square) {
+pub(crate) fn subtract(sums: Sums, w: &mut [Row], v: &[Row], c: &Square) {
+    if sums == Sums::Portable {
+        return portable::subtract(w, v, c);
+    }
     matmul(
         across_mut(w),
         Accum::Add,
@@ -66,7 +74,10 @@ pub(crate) fn subtract(w: &mut [Row], v: &[Row], c: &Square) {
 }
 
 /// W ← W C.
-pub(crate) fn multiply(w: &mut [Row], c: &Square) {
+pub(crate) fn multiply(sums: Sums, w: &mut [Row], c: &Square) {
+    if sums == Sums::Portable {
+        return portable::multiply(w, c);
+    }
     /// Rows at a time.
     const PART: usize = 64;
     let mut copy = [[0.0; WIDTH]; PART];

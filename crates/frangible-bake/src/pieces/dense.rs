@@ -1,10 +1,8 @@
 //! Small dense matrices on the calling thread alone: pieces are solved side by side, and their bits are not to depend on how
-//! many threads there are.
+//! many threads there are, nor on the machine.
 
-use faer::linalg::matmul::matmul;
-use faer::{Accum, Mat, MatRef, Par};
-
-use crate::eigen::dense::eigen_into;
+use crate::eigen::basis::Block;
+use crate::eigen::portable::{self, Entries, symmetric};
 use crate::pieces::PieceError;
 
 /// Why a matrix could not be solved, in the solver's words.
@@ -14,15 +12,39 @@ pub(crate) fn refused(reason: impl std::fmt::Debug) -> PieceError {
     }
 }
 
+/// The sum of products, compiled for each kind of vectors.
+struct AddProduct<'a> {
+    to: &'a mut Block,
+    a: &'a Block,
+    b: &'a Block,
+}
+
+impl pulp::NullaryFnOnce for AddProduct<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let Self { to, a, b } = self;
+        let (rows, inner) = (a.rows, b.rows);
+        let sizes = [rows, inner, b.columns()];
+        let right = Entries {
+            data: &b.data,
+            down: 1,
+            across: inner,
+        };
+        portable::add_product((&mut to.data, rows), (&a.data, rows), right, sizes, 1.0);
+    }
+}
+
 /// Adds a · b.
-pub(crate) fn add_product(to: &mut Mat<f64>, a: MatRef<'_, f64>, b: MatRef<'_, f64>) {
-    matmul(to.as_mut(), Accum::Add, a, b, 1.0, Par::Seq);
+pub(crate) fn add_product(to: &mut Block, a: &Block, b: &Block) {
+    pulp::Arch::new().dispatch(AddProduct { to, a, b });
 }
 
 /// a · b.
-pub(crate) fn product(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> Mat<f64> {
-    let mut product = Mat::zeros(a.nrows(), b.ncols());
-    matmul(product.as_mut(), Accum::Replace, a, b, 1.0, Par::Seq);
+pub(crate) fn product(a: &Block, b: &Block) -> Block {
+    let mut product = Block::zeros(a.rows, b.columns());
+    add_product(&mut product, a, b);
     product
 }
 
@@ -30,8 +52,6 @@ pub(crate) fn product(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> Mat<f64> {
 ///
 /// # Errors
 /// NaN in the matrix.
-pub(crate) fn eigen(matrix: MatRef<'_, f64>) -> Result<(Vec<f64>, Mat<f64>), PieceError> {
-    let mut vectors = Mat::zeros(matrix.nrows(), matrix.nrows());
-    let values = eigen_into(matrix, vectors.as_mut()).map_err(refused)?;
-    Ok((values, vectors))
+pub(crate) fn eigen(matrix: &Block) -> Result<(Vec<f64>, Block), PieceError> {
+    symmetric(matrix).ok_or_else(|| refused("the matrix holds what is no number"))
 }

@@ -6,13 +6,13 @@
 
 use std::sync::Arc;
 
-use faer::Mat;
 use frangible::glam::{DVec3, Vec3};
 use frangible::internals::asset::{AnalysisMesh, EmbeddedPoint};
 use frangible::internals::modal::ModalBasis;
 use frangible::internals::piece::{Elastic, Portion};
 use frangible::{Asset, Body};
 
+use crate::eigen::basis::Block;
 use crate::pieces::PieceError;
 use crate::pieces::dense::{add_product, eigen, product, refused};
 
@@ -35,7 +35,7 @@ pub fn parent_modes(portion: &Arc<Portion>, parent: &Body) -> Result<Elastic, Pi
     let (eigenvalues, combinations) = ritz(&stiffness, &mass, if held { 0 } else { 6 })?;
     let rows = 3 * analysis.nodes.len();
     let count = eigenvalues.len();
-    let shapes = product(trial.as_ref(), combinations.as_ref());
+    let shapes = product(&trial, &combinations);
     let shapes = (0..rows)
         .flat_map(|row| (0..count).map(move |mode| (row, mode)))
         .map(|at| shapes[at] as f32)
@@ -130,10 +130,10 @@ fn trial_shapes(
     old: &[u32],
     held: bool,
     centre: DVec3,
-) -> Mat<f64> {
+) -> Block {
     let rigid = if held { 0 } else { 6 };
     let modes = asset.modes.count().min(MOST);
-    Mat::from_fn(3 * old.len(), rigid + modes, |row, column| {
+    Block::from_fn(3 * old.len(), rigid + modes, |row, column| {
         let (node, axis) = (row / 3, row % 3);
         if column >= rigid {
             let dof = 3 * old[node] as usize + axis;
@@ -153,21 +153,25 @@ fn integrals(
     asset: &Asset,
     analysis: &AnalysisMesh,
     tets: &[EmbeddedPoint],
-    trial: &Mat<f64>,
-) -> (Mat<f64>, Mat<f64>) {
+    trial: &Block,
+) -> (Block, Block) {
     /// Tetrahedra multiplied at once.
-    const BLOCK: usize = 64;
+    const AT_ONCE: usize = 64;
     /// Most tetrahedra looked at, about.
     const SAMPLES: usize = 2000;
-    let m = trial.ncols();
-    let (mut stiffness, mut mass) = (Mat::<f64>::zeros(m, m), Mat::<f64>::zeros(m, m));
+    let m = trial.columns();
+    let (mut stiffness, mut mass) = (Block::zeros(m, m), Block::zeros(m, m));
     let mesh = &portion.root().fracture;
     // Of many tetrahedra some: the shapes vary over the coarse elements only.
     // One of each run, but not always the same: meshes repeat themselves every few tetrahedra.
     let stride = tets.len().div_ceil(SAMPLES).max(1);
-    let scattered = |first: usize| (first / stride).wrapping_mul(0x9e37_79b9) >> 7;
+    let scattered = |first: usize| {
+        // In 64 bits also where addresses have 32.
+        let number = ((first / stride) as u64).wrapping_mul(0x9e37_79b9) >> 7;
+        (number % stride as u64) as usize
+    };
     let chosen = (0..tets.len()).step_by(stride);
-    let chosen = chosen.map(|first| (first + scattered(first) % stride).min(tets.len() - 1));
+    let chosen = chosen.map(|first| (first + scattered(first)).min(tets.len() - 1));
     let chosen: Vec<usize> = chosen.collect();
     let own = chosen.iter().map(|&i| portion.tets()[i]);
     let volumes: Vec<f64> = own.map(|e| mesh.volume(e as usize)).collect();
@@ -175,9 +179,9 @@ fn integrals(
     // Those left out, and those that are cut, count with the others.
     let scale = portion.mass().volume / volumes.iter().sum::<f64>();
     let (lambda, mu) = (asset.material.lame_lambda(), asset.material.shear_modulus());
-    for (points, volumes) in tets.chunks(BLOCK).zip(volumes.chunks(BLOCK)) {
-        let mut strains = Mat::<f64>::zeros(7 * points.len(), m);
-        let mut places = Mat::<f64>::zeros(3 * points.len(), m);
+    for (points, volumes) in tets.chunks(AT_ONCE).zip(volumes.chunks(AT_ONCE)) {
+        let mut strains = Block::zeros(7 * points.len(), m);
+        let mut places = Block::zeros(3 * points.len(), m);
         for (i, (point, volume)) in points.iter().zip(volumes).enumerate() {
             let element = point.element as usize;
             let nodes = &analysis.elements[element];
@@ -209,43 +213,42 @@ fn integrals(
             }
         }
         let sign = lambda.signum();
-        let signed = Mat::from_fn(strains.nrows(), m, |i, j| {
+        let signed = Block::from_fn(strains.rows, m, |i, j| {
             strains[(i, j)] * if i % 7 == 6 { sign } else { 1.0 }
         });
-        add_product(&mut stiffness, strains.transpose(), signed.as_ref());
-        add_product(&mut mass, places.transpose(), places.as_ref());
+        add_product(&mut stiffness, &strains.transposed(), &signed);
+        add_product(&mut mass, &places.transposed(), &places);
     }
     (stiffness, mass)
 }
 
 /// Eigenvalues and combinations of the trial shapes, without the `rigid` lowest ones.
-fn ritz(
-    stiffness: &Mat<f64>,
-    mass: &Mat<f64>,
-    rigid: usize,
-) -> Result<(Vec<f64>, Mat<f64>), PieceError> {
-    let m = mass.nrows();
+fn ritz(stiffness: &Block, mass: &Block, rigid: usize) -> Result<(Vec<f64>, Block), PieceError> {
+    let m = mass.rows;
     let scale: Vec<f64> = (0..m)
         .map(|i| 1.0 / mass[(i, i)].max(f64::MIN_POSITIVE).sqrt())
         .collect();
-    let unit = Mat::from_fn(m, m, |i, j| mass[(i, j)] * scale[i] * scale[j]);
-    let (values, vectors) = eigen(unit.as_ref())?;
+    let unit = Block::from_fn(m, m, |i, j| mass[(i, j)] * scale[i] * scale[j]);
+    let (values, vectors) = eigen(&unit)?;
     let kept: Vec<usize> = (0..m)
         .filter(|&i| values[i] > DEPENDENT * m as f64)
         .collect();
-    let white = Mat::from_fn(m, kept.len(), |i, j| {
+    if kept.is_empty() {
+        return Err(refused("the parent's modes do not move it"));
+    }
+    let white = Block::from_fn(m, kept.len(), |i, j| {
         scale[i] * vectors[(i, kept[j])] / values[kept[j]].sqrt()
     });
-    let half = product(stiffness.as_ref(), white.as_ref());
-    let reduced = product(white.transpose(), half.as_ref());
-    let (values, vectors) = eigen(reduced.as_ref())?;
+    let half = product(stiffness, &white);
+    let reduced = product(&white.transposed(), &half);
+    let (values, vectors) = eigen(&reduced)?;
     let elastic: Vec<usize> = (rigid.min(kept.len())..kept.len())
         .filter(|&i| values[i] > 0.0)
         .collect();
     if elastic.is_empty() {
         return Err(refused("the parent's modes do not tell how it bends"));
     }
-    let chosen = Mat::from_fn(kept.len(), elastic.len(), |i, j| vectors[(i, elastic[j])]);
+    let chosen = Block::from_fn(kept.len(), elastic.len(), |i, j| vectors[(i, elastic[j])]);
     let eigenvalues = elastic.iter().map(|&i| values[i]).collect();
-    Ok((eigenvalues, product(white.as_ref(), chosen.as_ref())))
+    Ok((eigenvalues, product(&white, &chosen)))
 }

@@ -98,7 +98,7 @@ fn fitted_box(points: &[Vector], volume: f64) -> SharedShape {
     let (low, high) = bounds(points);
     let half = (0.5 * (high - low)).max(Vector::splat(MIN_HALF_EXTENT));
     let box_volume = 8.0 * f64::from(half.x) * f64::from(half.y) * f64::from(half.z);
-    let scale = (volume / box_volume).cbrt().min(1.0) as f32;
+    let scale = libm::cbrt(volume / box_volume).min(1.0) as f32;
     let half = if half.is_finite() && scale > 0.0 {
         half * scale
     } else {

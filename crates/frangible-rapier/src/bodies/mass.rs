@@ -54,8 +54,8 @@ fn principal_axes(inertia: DMat3) -> (DVec3, DMat3) {
                 continue;
             }
             let theta = (a[q][q] - a[p][p]) / (2.0 * a[p][q]);
-            let t = theta.signum() / (theta.abs() + theta.hypot(1.0));
-            let c = 1.0 / t.hypot(1.0);
+            let t = theta.signum() / (theta.abs() + libm::hypot(theta, 1.0));
+            let c = 1.0 / libm::hypot(t, 1.0);
             let s = t * c;
             for k in 0..3 {
                 let (x, y) = (a[k][p], a[k][q]);

@@ -129,7 +129,7 @@ impl LiveScene {
         let blow = swing.check()?;
         let material = Material::preset(&swing.material)?;
         let volume = swing.mass / material.density;
-        let radius = (volume / (SLENDERNESS * std::f64::consts::PI)).cbrt();
+        let radius = libm::cbrt(volume / (SLENDERNESS * std::f64::consts::PI));
         let mut head = Head::new(radius, CROWN.max(radius), swing.mass, material.density);
         head.shift(-hull(&head, radius)?.mass_properties(1.0).local_com.z);
         let hand = toward_hand(blow);

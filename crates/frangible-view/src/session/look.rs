@@ -143,6 +143,7 @@ impl Session {
             sound: self.volume(),
             whole: count(|kind| matches!(kind, ThingKind::Body(_))),
             pieces: count(|kind| matches!(kind, ThingKind::Piece { .. })),
+            fingerprint: live.map_or(0, |live| live.world().fingerprint()),
             undoable: self.undo.len(),
             ball: self.ball.clone(),
             hammer: self.hammer.clone(),

@@ -56,8 +56,8 @@ pub(super) fn half_scales(modes: &ModalBasis) -> Vec<f32> {
     }
     let scale = |l: f32| {
         // Within the normal numbers of f32, whatever the largest is.
-        let exponent = f64::from(l).log2().ceil().clamp(-100.0, 127.0) - 15.0;
-        exponent.exp2() as f32
+        let exponent = libm::log2(f64::from(l)).ceil().clamp(-100.0, 127.0) - 15.0;
+        libm::exp2(exponent) as f32
     };
     largest.into_iter().map(scale).collect()
 }

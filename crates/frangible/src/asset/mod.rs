@@ -77,7 +77,7 @@ impl Asset {
 
     /// Radius of the ball of the body's volume, m.
     pub(crate) fn ball_radius(&self) -> f64 {
-        (self.mass.volume * 0.75 / std::f64::consts::PI).cbrt()
+        libm::cbrt(self.mass.volume * 0.75 / std::f64::consts::PI)
     }
 
     /// What was baked: itself, or of a piece the body that it came from.

@@ -122,7 +122,7 @@ impl Run<'_> {
             record.near_steps = record.contact_steps;
             return;
         }
-        let amplitude = |i: usize| state.x[i].hypot(state.v[i]) / plan.oscillators[i].0;
+        let amplitude = |i: usize| libm::hypot(state.x[i], state.v[i]) / plan.oscillators[i].0;
         let largest = (0..plan.modes).map(amplitude).fold(0.0, f64::max);
         let low = (0..plan.modes).find(|&i| amplitude(i) >= SIGNIFICANT * largest);
         let period = low.map_or(0.0, |i| TAU / plan.oscillators[i].0);
@@ -284,7 +284,7 @@ impl<'a> Contacts<'a> {
         }
         match plan.sites[k].script {
             Some([impulse, duration]) if t < duration => {
-                0.5 * PI * impulse / duration * (PI * t / duration).sin()
+                0.5 * PI * impulse / duration * libm::sin(PI * t / duration)
             }
             Some(_) => 0.0,
             None => {

@@ -41,7 +41,7 @@ impl Spring {
             stiffness: 4.0 / 3.0 * modulus * radius.sqrt(),
             radius,
             crushing_pressure: pressure,
-            crushing_force: 4.0 / 3.0 * modulus * radius * radius * root.powi(3),
+            crushing_force: 4.0 / 3.0 * modulus * radius * radius * root * root * root,
             crushing_stiffness: PI * pressure * radius,
         }
     }
@@ -61,7 +61,7 @@ impl Spring {
 
     /// Dent δ of Hertz' spring under a force, N, m.
     fn elastic_dent(&self, force: f64) -> f64 {
-        (force.max(0.0) / self.stiffness).cbrt().powi(2)
+        libm::cbrt(force.max(0.0) / self.stiffness).powi(2)
     }
 
     /// Dent δ when a force is there for the first time, N, m.
@@ -76,7 +76,7 @@ impl Spring {
 
     /// The force that makes a dent δ, m, for the first time, N.
     fn force_of_dent(&self, dent: f64) -> f64 {
-        let elastic = self.stiffness * dent.max(0.0).powf(1.5);
+        let elastic = self.stiffness * dent.max(0.0) * dent.max(0.0).sqrt();
         if elastic <= self.crushing_force {
             return elastic;
         }
@@ -102,7 +102,7 @@ impl Spring {
     /// Force at which this energy, J, has been brought to press for the first time, N.
     #[must_use]
     pub(crate) fn force_of_energy(&self, energy: f64) -> f64 {
-        let elastic = (2.5 * energy * self.stiffness.powf(2.0 / 3.0)).powf(0.6);
+        let elastic = libm::pow(2.5 * energy * libm::cbrt(self.stiffness).powi(2), 0.6);
         if elastic <= self.crushing_force {
             return elastic;
         }

@@ -56,7 +56,7 @@ impl Star {
             if !site.time.is_finite() || distance <= nearest || distance >= place.reach as f32 {
                 continue;
             }
-            let angle = away.dot(v).atan2(away.dot(u));
+            let angle = libm::atan2f(away.dot(v), away.dot(u));
             if site.direction.dot(away).abs() < 0.5 * distance {
                 places.push((angle, distance));
             } else {
@@ -99,7 +99,7 @@ impl Star {
             return f64::INFINITY;
         };
         let n = arms as f64;
-        let tips = 1.0 / (4.0 * n * (PI / n).tan());
+        let tips = 1.0 / (4.0 * n * libm::tan(PI / n));
         let whole = 1.0 / (16.0 * PI);
         length * length * (tips - whole) / bending_stiffness
     }

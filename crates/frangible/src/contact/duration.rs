@@ -26,13 +26,13 @@ const SLOWEST_APPROACH: f64 = 1e-3;
 /// `2.868 (m*²/(E*² r* v))^(1/5)`, s, from effective mass (kg), modulus (Pa), radius (m), approach speed (m/s) `[G12 Eq. 1]`.
 #[must_use]
 pub fn hertz_duration(mass: f64, modulus: f64, radius: f64, speed: f64) -> f64 {
-    HERTZ * (mass * mass / (modulus * modulus * radius * speed)).powf(0.2)
+    HERTZ * libm::pow(mass * mass / (modulus * modulus * radius * speed), 0.2)
 }
 
 /// `2.868 (r/(λ² v))^(1/5)`, s: `[G12 Eq. 2]` with consistent dimensions.
 #[must_use]
 pub fn modal_hertz_duration(eigenvalue: f64, radius: f64, speed: f64) -> f64 {
-    HERTZ * (radius / (eigenvalue * eigenvalue * speed)).powf(0.2)
+    HERTZ * libm::pow(radius / (eigenvalue * eigenvalue * speed), 0.2)
 }
 
 /// The mode that an impulse displaces most, `argmax |ξ_i|/√λ_i`, among those with a damping ratio below 0.9
@@ -102,7 +102,7 @@ fn touch_duration(asset: &Asset, touch: &Touch, model: DurationModel) -> f64 {
         DurationModel::AsPrinted { c } => {
             let damping = asset.modes.damping(mode, &asset.material);
             let frequency = (eigenvalue - 0.25 * damping * damping).sqrt();
-            let own = c * ((std::f64::consts::TAU / frequency).powi(2) / speed).powf(0.2);
+            let own = c * libm::pow((std::f64::consts::TAU / frequency).powi(2) / speed, 0.2);
             own.max(f64::from(touch.contact.striker.modal_duration))
         }
     }

@@ -12,7 +12,7 @@
 //! The new crack starts one edge of the mesh away, on a plane through the place of the fork, and grows both ways: back it ends where
 //! it meets the old one. A fork nearer than one edge is finer than the mesh, and is left out.
 
-use glam::{Quat, Vec3};
+use glam::Vec3;
 
 use super::field::{Felt, StressField};
 use super::propagation::gradient;
@@ -94,16 +94,22 @@ pub(super) fn forks(
     };
     let along = cut.direction.cross(axis).try_normalize()?;
     let along = along * ahead.dot(along).signum();
-    let sides = [ANGLE, -ANGLE].map(|angle| Quat::from_axis_angle(axis, angle));
-    let [first, second] = sides.map(|side| tension(&left, side * cut.direction));
-    let side = sides[usize::from(second > first)];
-    let goal = place + (side * along) * (APART * system.edge);
+    let angles = [ANGLE, -ANGLE];
+    let [first, second] = angles.map(|angle| tension(&left, turned(cut.direction, axis, angle)));
+    let angle = angles[usize::from(second > first)];
+    let goal = place + turned(along, axis, angle) * (APART * system.edge);
     let start = nearest(system, cut.tet, goal)?;
     Some(Fork {
         place,
         start,
-        normal: side * cut.direction,
+        normal: turned(cut.direction, axis, angle),
     })
+}
+
+/// A vector turned about a unit axis by an angle, rad.
+fn turned(v: Vec3, axis: Vec3, angle: f32) -> Vec3 {
+    let (sin, cos) = libm::sincosf(angle);
+    v * cos + axis.cross(v) * sin + axis * (axis.dot(v) * (1.0 - cos))
 }
 
 /// How far a place lies from where its crack started or forked last, m, and when that was, s.

@@ -195,7 +195,8 @@ fn opening_direction(stress: &Symmetric3, seed: u64, e: u32) -> Vec3 {
     // Of the two axes only their plane is known: the angle counts from a fixed direction in it.
     let (a, b) = perpendicular_axes(axes[2].as_vec3());
     let angle = uniform(&mut stream(seed, Purpose::CrackDirection, e)) * std::f64::consts::PI;
-    a * angle.cos() as f32 + b * angle.sin() as f32
+    let (sin, cos) = libm::sincos(angle);
+    a * cos as f32 + b * sin as f32
 }
 
 #[cfg(test)]

@@ -252,7 +252,7 @@ fn steered(
     let traction = stress.times(normal);
     let tension = f64::from(normal.dot(traction));
     let gate = (tension / strength - STEERING_GATE).clamp(0.0, 1.0);
-    let weight = (-(-length / turning_length).exp_m1() * gate) as f32;
+    let weight = (-libm::expm1(-length / turning_length) * gate) as f32;
     // Added to the stress in all directions, the largest compression leaves its axes where they are, and no turn goes past them.
     let compression = largest_eigenvalue(&stress.scaled(-1.0)).max(0.0);
     let toward = (traction + compression * normal).normalize_or(normal);

@@ -197,7 +197,7 @@ fn cell_edge(asset: &Asset) -> f64 {
         (b - a).cross(c - a).dot(d - a).abs() / 6.0
     };
     let whole: f64 = analysis.elements.iter().map(volume).sum();
-    (6.0 * whole / analysis.elements.len().max(1) as f64).cbrt()
+    libm::cbrt(6.0 * whole / analysis.elements.len().max(1) as f64)
 }
 
 /// Least tension that moves a front fed from this depth, m, Pa.

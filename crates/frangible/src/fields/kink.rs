@@ -37,9 +37,10 @@ impl Toughness {
             return tip.normal;
         };
         let cost = |radians: f32| {
-            let to = along * radians.cos() + tip.normal * radians.sin();
+            let (sin, cos) = libm::sincosf(radians);
+            let to = along * cos + tip.normal * sin;
             let place = tet_towards(mesh, tip.tet, centre + to * tip.reach);
-            self.of(place) / f64::from((0.5 * radians).cos().powi(4))
+            self.of(place) / f64::from(libm::cosf(0.5 * radians).powi(4))
         };
         let mut best = (cost(0.0), 0.0);
         for degrees in ANGLES {
@@ -53,7 +54,8 @@ impl Toughness {
         if best.1 == 0.0 {
             return tip.normal;
         }
-        tip.normal * best.1.cos() - along * best.1.sin()
+        let (sin, cos) = libm::sincosf(best.1);
+        tip.normal * cos - along * sin
     }
 }
 

@@ -73,7 +73,7 @@ impl Resistance {
         let mut of_tet: Vec<f32> = (0..tets).map(|e| body.painted(e as u32) as f32).collect();
         if fields.weibull_modulus > 0.0 {
             let flaws = (material.weak_point_density * fields.specimen).max(1.0);
-            let single = flaws.powf(1.0 / fields.weibull_modulus);
+            let single = libm::pow(flaws, 1.0 / fields.weibull_modulus);
             for &e in weak_tets {
                 let factor = single * scatter(seed, e, fields.weibull_modulus);
                 of_tet[e as usize] = (body.painted(e) * factor) as f32;

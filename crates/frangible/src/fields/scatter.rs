@@ -8,7 +8,7 @@ const LEAST: f64 = 0.01;
 /// Factor on the strength of a weak tetrahedron: the share of those that do not survive a factor f is 1 − exp(−f^m).
 pub(super) fn scatter(seed: u64, tet: u32, modulus: f64) -> f64 {
     let share = uniform(&mut stream(seed, Purpose::Strength, tet));
-    (-(-share).ln_1p()).powf(1.0 / modulus).max(LEAST)
+    libm::pow(-libm::log1p(-share), 1.0 / modulus).max(LEAST)
 }
 
 #[cfg(test)]

@@ -55,7 +55,7 @@ pub fn blast(body: &Body, blast: &Blast, config: &FractureConfig) -> Result<Outc
         // The modes left out follow the half-sine of unit impulse.
         let force = (1..=pulse.contact_steps).map(|step| {
             let t = step as f64 * pulse.time_step;
-            (pulse.amplitude * (pulse.frequency() * t).sin()) as f32
+            (pulse.amplitude * libm::sin(pulse.frequency() * t)) as f32
         });
         let residual = Residual::new(asset, still, force.collect());
         motion.complement.residuals.extend(residual);

@@ -86,7 +86,7 @@ impl Step {
     pub(super) fn exponential(&self) -> Self {
         let norm = self.norm();
         let squarings = if norm > 0.5 {
-            (norm / 0.5).log2().ceil() as i32
+            libm::log2(norm / 0.5).ceil() as i32
         } else {
             0
         };

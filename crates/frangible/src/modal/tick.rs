@@ -26,8 +26,8 @@ impl Tick {
             return Self::by_series(frequency, damping, tick);
         }
         let (w, lambda) = (swings.sqrt(), frequency * frequency);
-        let (sin, cos) = (w * tick).sin_cos();
-        let decay = (-half * tick).exp();
+        let (sin, cos) = libm::sincos(w * tick);
+        let decay = libm::exp(-half * tick);
         // q and q̇ of a free motion from q = 1, q̇ = 0, and from q = 0, q̇ = 1.
         let a = [decay * (cos + half / w * sin), -decay * lambda / w * sin];
         let b = [decay * sin / w, decay * (cos - half / w * sin)];

@@ -177,7 +177,9 @@ impl WallMaterial {
     /// The wave number from which on bending rules, D k⁴ ≥ 3 E h s, 1/m: longer waves are held by the wall's curvature.
     #[must_use]
     pub(crate) fn bending_rules_from(&self) -> f64 {
-        (3.0 * self.curvature_stiffness / self.bending_stiffness).powf(0.25)
+        (3.0 * self.curvature_stiffness / self.bending_stiffness)
+            .sqrt()
+            .sqrt()
     }
 
     /// How far the contact gives way in waves of wave number k, m per Pa at the crest, beyond what Hertz' half-space does.
@@ -209,7 +211,7 @@ impl WallMaterial {
     /// No principal stress of a steady near field of waves from wave number `first`, 1/m, on exceeds this per newton, Pa/N.
     pub(crate) fn most_stress(&self, first: f64) -> f64 {
         // ½ (|σ_r + σ_θ| + |σ_θ − σ_r|) with |J₀| ≤ 1, |J₂| ≤ 0.49, p̂ ≤ 1, C ≤ 1.07.
-        let waves = (12.0 / (self.thickness * first)).ln().max(0.0);
+        let waves = libm::log(12.0 / (self.thickness * first)).max(0.0);
         let sum = 1.07 * self.stress_of_sum() * waves / (2.0 * std::f64::consts::PI);
         let difference = 0.49 * sum * self.stress_of_difference() / self.stress_of_sum();
         0.5 * (sum + difference) / self.bending_stiffness
@@ -233,7 +235,7 @@ fn layer_factor(x: f64) -> f64 {
         return 1.0 + x * x / 30.0;
     }
     let x = x.min(60.0);
-    let sinh = x.sinh();
+    let sinh = libm::sinh(x);
     x.powi(3) * sinh / (3.0 * (sinh * sinh - x * x))
 }
 
@@ -246,8 +248,9 @@ fn layer_compliance(x: f64) -> f64 {
         return 1.0 + 0.2 * x * x - x.powi(3) / 6.0;
     }
     let x = x.min(40.0);
-    let bends = (x.cosh() + 1.0) / (x.sinh() - x);
-    let squeezed = (x.cosh() - 1.0) / (x.sinh() + x);
+    let (sinh, cosh) = (libm::sinh(x), libm::cosh(x));
+    let bends = (cosh + 1.0) / (sinh - x);
+    let squeezed = (cosh - 1.0) / (sinh + x);
     x.powi(3) / 12.0 * (bends + squeezed - 2.0)
 }
 
@@ -256,7 +259,7 @@ pub(super) fn hertz_disc(x: f64) -> f64 {
     if x < 1e-2 {
         1.0 - x * x / 10.0
     } else {
-        3.0 * (x.sin() - x * x.cos()) / x.powi(3)
+        3.0 * (libm::sin(x) - x * libm::cos(x)) / x.powi(3)
     }
 }
 

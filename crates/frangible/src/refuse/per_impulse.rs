@@ -42,13 +42,13 @@ impl PerImpulse {
             .flatten()
             .fold(f32::MIN_POSITIVE, |a, &b| a.max(b))
             * ROUNDING;
-        let numbers = (0..=u8::MAX).map(|code| most * (-f32::from(code) / OCTAVE).exp2());
+        let numbers = (0..=u8::MAX).map(|code| most * libm::exp2f(-f32::from(code) / OCTAVE));
         let codes = triangles.iter().map(|corners| {
             std::array::from_fn(|rung| {
                 let of = corners.map(|node| sums[node as usize][rung]);
                 let here = of.into_iter().fold(f32::MIN_POSITIVE, f32::max) * ROUNDING;
                 // Towards zero: to a larger number.
-                (OCTAVE * (most / here).log2()) as u8
+                (OCTAVE * libm::log2f(most / here)) as u8
             })
         });
         Self {
@@ -64,7 +64,7 @@ impl PerImpulse {
             return f32::INFINITY;
         }
         // The first logarithm rounds, so that a whole number may be the next one: each rung stands for a little more.
-        let rung = (self.highest / force).log2() * RATIO.log2().recip();
+        let rung = libm::log2f(self.highest / force) * libm::log2f(RATIO).recip();
         let code = self.codes[triangle as usize][(rung as usize).min(RUNGS - 1)];
         self.numbers[usize::from(code)]
     }

@@ -237,9 +237,9 @@ fn spectral_norm([xx, yy, zz, yz, zx, xy]: [f64; 6]) -> f64 {
         return mean.abs();
     }
     let determinant = a * (b * c - yz * yz) - xy * (xy * c - yz * zx) + zx * (xy * yz - b * zx);
-    let angle = (determinant / (2.0 * p * p * p)).clamp(-1.0, 1.0).acos() / 3.0;
-    let largest = mean + 2.0 * p * angle.cos();
-    let smallest = mean + 2.0 * p * (angle + std::f64::consts::TAU / 3.0).cos();
+    let angle = libm::acos((determinant / (2.0 * p * p * p)).clamp(-1.0, 1.0)) / 3.0;
+    let largest = mean + 2.0 * p * libm::cos(angle);
+    let smallest = mean + 2.0 * p * libm::cos(angle + std::f64::consts::TAU / 3.0);
     largest.abs().max(smallest.abs())
 }
 

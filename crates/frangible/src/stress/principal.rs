@@ -25,7 +25,7 @@ pub fn largest_eigenvalue(s: &Symmetric3) -> f32 {
     }
     let determinant = a * (b * c - yz * yz) - xy * (xy * c - yz * zx) + zx * (xy * yz - b * zx);
     let half = (determinant / (2.0 * p * p2)).clamp(-1.0, 1.0);
-    mean + 2.0 * p * (half.acos() / 3.0).cos()
+    mean + 2.0 * p * libm::cosf(libm::acosf(half) / 3.0)
 }
 
 /// An upper bound of the largest eigenvalue without trigonometry: mean + 2 p, reached where the two smaller are equal.

@@ -49,7 +49,7 @@ pub(crate) fn choose_lattice(
     };
     let counted = |side: f64| attempt(side).1.cells.len() as f64;
     // Elements that fill a solid body; a thin one takes more of them.
-    let mut side = (volume / (CELL_VOLUME * wanted as f64)).cbrt();
+    let mut side = libm::cbrt(volume / (CELL_VOLUME * wanted as f64));
     if points.len() < ENOUGH * wanted {
         side = side_for(&counted, side, wanted as f64, near);
         return attempt(side);
@@ -76,7 +76,7 @@ pub(crate) fn choose_lattice(
 
 /// Side at which `count` is near `target`, starting from `side`.
 fn side_for(count: &dyn Fn(f64) -> f64, side: f64, target: f64, near: f64) -> f64 {
-    let excess = |side: f64| (count(side) / target).ln();
+    let excess = |side: f64| libm::log(count(side) / target);
     let (mut best, mut power) = ((side, excess(side)), 2.0);
     let mut last = best;
     for _ in 0..COUNTS {
@@ -84,9 +84,9 @@ fn side_for(count: &dyn Fn(f64) -> f64, side: f64, target: f64, near: f64) -> f6
             break;
         }
         // The count falls with a power of the side: about 3 for a solid, 2 for a sheet.
-        let side = last.0 * (last.1 / power).exp();
+        let side = last.0 * libm::exp(last.1 / power);
         let next = (side, excess(side));
-        let measured = (last.1 - next.1) / (side / last.0).ln();
+        let measured = (last.1 - next.1) / libm::log(side / last.0);
         if measured.is_finite() {
             power = measured.clamp(1.0, 4.0);
         }

@@ -123,7 +123,7 @@ impl Topology {
         }
         let met = (0..self.starts.len() - 1).flat_map(|t| {
             pairs(self.of(t)).map(|(a, b)| {
-                let area = a.volume.min(b.volume).cbrt().powi(2);
+                let area = libm::cbrt(a.volume.min(b.volume)).powi(2);
                 (a.element, b.element, area)
             })
         });
