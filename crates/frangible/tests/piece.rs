@@ -60,7 +60,7 @@ fn check(parent: &Body, fracture: &Fracture, breaks: &mut [usize; 4]) {
         assert!((piece.asset().mass.mass / fragment.mass.mass - 1.0).abs() < 1e-12);
         let at = fragment.mesh.positions[0];
         let toward = -at.normalize_or(Vec3::X);
-        let hit = Contact::new(at, toward, 1.0, 8.0, bodies::steel_ball(0.13));
+        let hit = Contact::new(at, toward, 1.0, 16.0, bodies::steel_ball(0.13));
         let outcome = impact(&piece, &[hit], &FractureConfig::default()).expect("an outcome");
         if let Outcome::Broke(again) = outcome {
             check(&piece, &again, breaks);
@@ -72,7 +72,7 @@ fn check(parent: &Body, fracture: &Fracture, breaks: &mut [usize; 4]) {
 fn pieces_of_pieces_tile_them() {
     let mut generations = [0; 4];
     for seed in 1..=6 {
-        for speed in [5.0, 10.0, 16.0] {
+        for speed in [5.0, 12.0, 20.0] {
             for (kind, hit) in [
                 (pane(), pane_hit(0.05, 0.0, speed)),
                 (block(), block_hit(speed)),
