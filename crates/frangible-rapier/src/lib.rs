@@ -76,7 +76,9 @@
 //! and balls only, not against each other. A merged piece breaks by blows, blasts and scripts, but not
 //! under what is laid on it. Rapier limits spin to an eighth of a turn per step, and applies a contact's
 //! impulse at the arms of the step's start: chips that would spin faster lose angular momentum, and a blow during which
-//! bodies move centimetres per step changes the total by some percent. Shorter steps cure both.
+//! bodies move centimetres per step changes the total by some percent. Shorter steps cure both. A ball that breaks a pane at 20 m/s
+//! goes on with 12.1 m/s at 240 steps per second and with 13.6 at 1920, as contacts with the pieces are found once in a step
+//! (`examples/passage.rs`).
 
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
