@@ -67,19 +67,23 @@ impl Cuts {
         if (value_a < 0.0) == (value_b < 0.0) {
             return false;
         }
+        if self.place(a.min(b), a.max(b)).is_none() {
+            self.cut_whole(a, b, value_a, value_b, crack);
+        }
+        true
+    }
+
+    /// Cuts an edge that is whole, where the crack's values have opposite signs at its ends.
+    pub(crate) fn cut_whole(&mut self, a: u32, b: u32, value_a: f32, value_b: f32, crack: u32) {
         let (low, high, s, t) = if a < b {
             (a, b, value_a, value_b)
         } else {
             (b, a, value_b, value_a)
         };
-        if self.place(low, high).is_some() {
-            return true;
-        }
         let (s, t) = (f64::from(s), f64::from(t));
         let at = (s / (s - t)).clamp(CUT_MARGIN, 1.0 - CUT_MARGIN);
         let ends = [low, high];
         self.add(EdgeCut { ends, at, crack });
-        true
     }
 
     /// Cuts of edges, each of another, its lower node first, at these places along them.

@@ -41,6 +41,6 @@ pub use shown::ShownStress;
 pub(crate) use single::{Crack, ElementCut, Junction};
 pub(crate) use surface::crossing_polygon;
 pub(crate) use suspects::Suspects;
-pub(crate) use system::CrackSystem;
+pub(crate) use system::{CrackSystem, ELSEWHERE, UNCUT};
 pub use tip::CrackFront;
 pub(crate) use tip::{Tip, front_limit, fronts, tips};

@@ -9,14 +9,12 @@
 
 use glam::Vec3;
 
+use super::fractured::{ALL, Fractured, crossed, reachable};
 use crate::crack::{CrackSystem, Cuts, ElementCut};
 use crate::mesh::EDGES;
 
 /// How far from its last tetrahedron a newcomer is continued, in mean edges.
 const REACH: f32 = 2.5;
-
-/// All corners of a tetrahedron, a bit each.
-const ALL: u8 = 0b1111;
 
 /// Ends every crack inside what it met, cracks in order, junctions in the order they happened.
 pub(crate) fn end_cracks(system: &CrackSystem, cuts: &mut Cuts) {
@@ -24,6 +22,7 @@ pub(crate) fn end_cracks(system: &CrackSystem, cuts: &mut Cuts) {
         return;
     }
     let mut fractured = Fractured::of(system);
+    let mut queue = Queue::new(system.asset.fracture.positions.len());
     for (id, crack) in (0..).zip(&system.cracks) {
         // A front that met several tetrahedra from one of its own ends the same way in all of them.
         let mut ended = vec![[false; 2]; crack.elements.len()];
@@ -31,7 +30,8 @@ pub(crate) fn end_cracks(system: &CrackSystem, cuts: &mut Cuts) {
             let ended = &mut ended[junction.from as usize][usize::from(junction.own)];
             if !std::mem::replace(ended, true) {
                 let last = &crack.elements[junction.from as usize];
-                Continued::new(system, id, last, junction.own).cut(cuts, &mut fractured);
+                let continued = Continued::new(system, id, last, junction.own);
+                continued.cut(cuts, &mut fractured, &mut queue);
             }
         }
     }
@@ -81,61 +81,59 @@ impl<'a> Continued<'a> {
         self.level + (self.place(node) - self.centre).dot(self.last.direction)
     }
 
-    fn cut(&self, cuts: &mut Cuts, fractured: &mut Fractured) {
-        let Fractured {
-            tets,
-            first,
-            queue,
-            round,
-        } = fractured;
-        *round += 1;
-        queue.begin(*round, &self.nodes, &self.last.values);
+    fn cut(&self, cuts: &mut Cuts, fractured: &mut Fractured, queue: &mut Queue) {
+        queue.begin(&self.nodes, &self.last.values);
         while let Some(v) = queue.pop() {
-            let mut at = first[v as usize];
-            while at != 0 {
-                let tet = &mut tets[at as usize - 1];
-                let corner = tet.corner(v);
-                if tet.round != *round {
-                    (tet.round, tet.done) = (*round, 0);
-                    if tet.tet == self.last.tet || (tet.by == self.newcomer && !self.own) {
-                        tet.done = ALL;
-                    }
+            for at in fractured.around(v) {
+                let (place, corner) = fractured.at(at);
+                let look = &mut fractured.looks[place];
+                if look.round != queue.round {
+                    let passed_over = look.tet == self.last.tet
+                        || (fractured.by[place] == self.newcomer && !self.own);
+                    (look.round, look.done) = (queue.round, if passed_over { ALL } else { 0 });
                 }
-                if tet.done & (1 << corner) == 0 {
-                    self.cut_tet(tet, corner, cuts, queue);
+                if look.done & (1 << corner) == 0 {
+                    let done = self.cut_tet(place, corner, cuts, fractured, queue);
+                    fractured.looks[place].done |= done;
                 }
-                at = tet.next[corner];
             }
         }
     }
 
     /// Cuts a tetrahedron's edges among the corners that can be reached from one of them without crossing a cut. From each of those
-    /// corners the same ones can be reached, but for what was cut since, so that all of them are done.
-    fn cut_tet(&self, tet: &mut FracturedTet, start: usize, cuts: &mut Cuts, queue: &mut Queue) {
-        let values = tet.corners.map(|w| queue.value(w, || self.value(w)));
-        let below = values.map(|s| s < 0.0);
-        if below == [below[0]; 4] {
-            tet.done = ALL;
-            return;
+    /// corners the same ones can be reached, but for what was cut since, so that all of them are done: they are returned, a bit each.
+    fn cut_tet(
+        &self,
+        place: usize,
+        start: usize,
+        cuts: &mut Cuts,
+        fractured: &mut Fractured,
+        queue: &mut Queue,
+    ) -> u8 {
+        let corners = fractured.corners[place];
+        let mut below = 0;
+        for (k, &w) in corners.iter().enumerate() {
+            below |= u8::from(queue.is_below(w, || self.value(w))) << k;
         }
-        let reachable = reachable(start, tet.blocked(self.newcomer, self.own, cuts));
-        tet.done |= reachable;
+        if below == 0 || below == ALL {
+            return ALL;
+        }
+        let edges = fractured.edges(place, cuts);
+        let (cut, blocked) = fractured.cut_and_blocked(edges, self.newcomer, self.own);
+        let whole = crossed(below) & !cut;
+        if whole == 0 {
+            return ALL;
+        }
+        let reachable = reachable(start, blocked);
         for (k, [i, j]) in EDGES.into_iter().enumerate() {
             let both = 1 << i | 1 << j;
-            if reachable & both != both || below[i] == below[j] {
+            if whole & (1 << k) == 0 || reachable & both != both {
                 continue;
             }
-            let (a, b) = (tet.corners[i], tet.corners[j]);
-            if tet.cut & (1 << k) != 0 {
-                continue;
-            }
-            let known = cuts.list().len();
-            cuts.cut(a, b, values[i], values[j], self.newcomer);
-            tet.cut |= 1 << k;
-            // Where it is cut already, an earlier junction has been.
-            if cuts.list().len() == known {
-                continue;
-            }
+            let (a, b) = (corners[i], corners[j]);
+            let [s, t] = [a, b].map(|end| queue.values[end as usize]);
+            cuts.cut_whole(a, b, s, t, self.newcomer);
+            fractured.cut(edges[k], self.newcomer);
             for end in [a, b] {
                 let near = || self.place(end).distance(self.centre) < REACH * self.system.edge;
                 if !queue.has(end) && near() {
@@ -143,128 +141,7 @@ impl<'a> Continued<'a> {
                 }
             }
         }
-    }
-}
-
-/// Corners of a tetrahedron that hang together with one over edges that are not blocked, a bit each.
-fn reachable(start: usize, blocked: u8) -> u8 {
-    let mut seen = 1_u8 << start;
-    loop {
-        let before = seen;
-        for (k, [i, j]) in EDGES.into_iter().enumerate() {
-            let both = 1 << i | 1 << j;
-            if blocked & (1 << k) == 0 && seen & both != 0 {
-                seen |= both;
-            }
-        }
-        if seen == before {
-            return seen;
-        }
-    }
-}
-
-/// A fractured tetrahedron and what is known of it.
-struct FracturedTet {
-    tet: u32,
-    /// Its crack.
-    by: u32,
-    corners: [u32; 4],
-    /// For each corner the next fractured tetrahedron around it, plus one; 0 for none.
-    next: [u32; 4],
-    /// Edges known to be cut, a bit each.
-    cut: u8,
-    /// Edges that others than the newcomer below have cut, a bit each.
-    blocked: u8,
-    /// That newcomer plus one, 0 for none.
-    blocked_for: u32,
-    /// How many edges of the body were cut when this one's were looked at.
-    cuts_then: u32,
-    /// Corners that need no look any more in the round below, a bit each.
-    done: u8,
-    round: u32,
-}
-
-impl FracturedTet {
-    fn corner(&self, node: u32) -> usize {
-        let [a, b, c, _] = self.corners.map(|v| v == node);
-        if a {
-            0
-        } else if b {
-            1
-        } else if c {
-            2
-        } else {
-            3
-        }
-    }
-
-    /// Edges that a newcomer does not pass, a bit each: those that others have cut, or for one that met itself any that are cut.
-    fn blocked(&mut self, newcomer: u32, own: bool, cuts: &Cuts) -> u8 {
-        let cuts_now = cuts.list().len();
-        if self.blocked_for != newcomer + 1 {
-            (self.blocked, self.blocked_for) = (0, newcomer + 1);
-            self.look(0, newcomer, cuts);
-        } else if own && self.cuts_then != cuts_now as u32 {
-            // While one newcomer's junctions are looked at no other crack cuts anything.
-            self.look(self.cut, newcomer, cuts);
-        }
-        self.cuts_then = cuts_now as u32;
-        if own { self.cut } else { self.blocked }
-    }
-
-    /// Finds out which edges are cut, and by whom, but for those that are known.
-    fn look(&mut self, known: u8, newcomer: u32, cuts: &Cuts) {
-        for (k, [i, j]) in EDGES.into_iter().enumerate() {
-            if known & (1 << k) == 0
-                && let Some(cut) = cuts.get(self.corners[i], self.corners[j])
-            {
-                self.cut |= 1 << k;
-                self.blocked |= u8::from(cut.crack != newcomer) << k;
-            }
-        }
-    }
-}
-
-/// All fractured tetrahedra by their nodes.
-struct Fractured {
-    tets: Vec<FracturedTet>,
-    /// For each node the first fractured tetrahedron around it, plus one; 0 for none. They rise along the chain.
-    first: Vec<u32>,
-    queue: Queue,
-    /// Number of junctions so far.
-    round: u32,
-}
-
-impl Fractured {
-    fn of(system: &CrackSystem) -> Self {
-        let mesh = &system.asset.fracture;
-        let cracks = (0..).zip(&system.cracks);
-        let mut order: Vec<(u32, u32)> = cracks
-            .flat_map(|(id, crack)| crack.elements.iter().map(move |e| (e.tet, id)))
-            .collect();
-        order.sort_unstable_by(|a, b| b.cmp(a));
-        let mut first = vec![0; mesh.positions.len()];
-        let fractured = |(place, (tet, by)): (u32, (u32, u32))| {
-            let corners = mesh.tets[tet as usize];
-            FracturedTet {
-                tet,
-                by,
-                corners,
-                next: corners.map(|v| std::mem::replace(&mut first[v as usize], place)),
-                cut: 0,
-                blocked: 0,
-                blocked_for: 0,
-                cuts_then: 0,
-                done: 0,
-                round: 0,
-            }
-        };
-        Self {
-            tets: (1..).zip(order).map(fractured).collect(),
-            queue: Queue::new(mesh.positions.len()),
-            first,
-            round: 0,
-        }
+        reachable
     }
 }
 
@@ -274,8 +151,11 @@ struct Queue {
     next: usize,
     /// Latest round in which each node was added.
     added: Vec<u32>,
-    /// Latest round in which each node got its s, and s, m.
-    values: Vec<(u32, f32)>,
+    /// Twice the latest round in which each node got its s, and one more where s is negative.
+    sides: Vec<u32>,
+    /// s, m.
+    values: Vec<f32>,
+    /// Number of junctions so far.
     round: u32,
 }
 
@@ -285,28 +165,34 @@ impl Queue {
             nodes: Vec::new(),
             next: 0,
             added: vec![0; node_count],
-            values: vec![(0, 0.0); node_count],
+            sides: vec![0; node_count],
+            values: vec![0.0; node_count],
             round: 0,
         }
     }
 
-    fn begin(&mut self, round: u32, nodes: &[u32], values: &[f32]) {
+    /// Begins the round of a newcomer whose s is known at these nodes, m.
+    fn begin(&mut self, nodes: &[u32], values: &[f32]) {
         self.nodes.clear();
         self.next = 0;
-        self.round = round;
+        self.round += 1;
         for (&v, &s) in nodes.iter().zip(values) {
             self.add(v);
-            self.values[v as usize] = (round, s);
+            self.set(v, s);
         }
     }
 
-    /// s at a node, worked out once.
-    fn value(&mut self, node: u32, s: impl FnOnce() -> f32) -> f32 {
-        let value = &mut self.values[node as usize];
-        if value.0 != self.round {
-            *value = (self.round, s());
+    fn set(&mut self, node: u32, s: f32) {
+        self.sides[node as usize] = 2 * self.round + u32::from(s < 0.0);
+        self.values[node as usize] = s;
+    }
+
+    /// Whether s, m, is negative at a node; it is worked out once.
+    fn is_below(&mut self, node: u32, s: impl FnOnce() -> f32) -> bool {
+        if self.sides[node as usize] / 2 != self.round {
+            self.set(node, s());
         }
-        value.1
+        self.sides[node as usize] % 2 == 1
     }
 
     fn has(&self, node: u32) -> bool {

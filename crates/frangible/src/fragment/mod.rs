@@ -6,6 +6,7 @@ mod components;
 mod draft;
 mod finish;
 mod foreign;
+mod fractured;
 mod index;
 mod junction;
 mod label;

@@ -1,0 +1,187 @@
+//! Fractured tetrahedra by their nodes and edges, for cracks that end inside them.
+//!
+//! Thousands of fronts end in a break, and each looks at all fractured tetrahedra about four nodes or more. So what most of these looks need
+//! lies close together: which tetrahedron it is and whether this round has been there. The edges of a tetrahedron get numbers when they are
+//! first asked for, so that a cut is found by a number and not by the two ends of the edge.
+
+use crate::crack::{CrackSystem, Cuts, ELSEWHERE, UNCUT};
+use crate::mesh::{ByNode, EDGES};
+
+/// All corners of a tetrahedron, a bit each.
+pub(super) const ALL: u8 = 0b1111;
+
+/// In place of a crack: the edge is whole. Also of an edge's number: it has none yet.
+const NONE: u32 = u32::MAX;
+
+/// What a round of looks knows of a fractured tetrahedron.
+pub(super) struct Look {
+    pub(super) tet: u32,
+    /// Latest round that was here.
+    pub(super) round: u32,
+    /// Corners that need no look any more in that round, a bit each.
+    pub(super) done: u8,
+}
+
+/// All fractured tetrahedra, by rising number.
+pub(super) struct Fractured {
+    pub(super) looks: Vec<Look>,
+    /// Their corners.
+    pub(super) corners: Vec<[u32; 4]>,
+    /// Their cracks.
+    pub(super) by: Vec<u32>,
+    /// Where the list of those around each node starts.
+    starts: Vec<u32>,
+    /// Those around each node: four times the place, and which corner the node is.
+    around: Vec<u32>,
+    /// Numbers of their edges, all or none of them given.
+    edges: Vec<[u32; 6]>,
+    /// Numbers of edges by the lower end and the higher.
+    numbers: ByNode<u32>,
+    /// The crack that has cut each numbered edge.
+    cut_by: Vec<u32>,
+}
+
+impl Fractured {
+    pub(super) fn of(system: &CrackSystem) -> Self {
+        let mesh = &system.asset.fracture;
+        let nodes = mesh.positions.len();
+        let (mut looks, mut corners, mut by) = (Vec::new(), Vec::new(), Vec::new());
+        for (tet, &crack) in (0..).zip(&system.fractured_by) {
+            if crack != UNCUT && crack != ELSEWHERE {
+                let (round, done) = (0, 0);
+                looks.push(Look { tet, round, done });
+                corners.push(mesh.tets[tet as usize]);
+                by.push(crack);
+            }
+        }
+        let (starts, around) = around(nodes, &corners);
+        Self {
+            edges: vec![[NONE; 6]; looks.len()],
+            looks,
+            corners,
+            by,
+            starts,
+            around,
+            numbers: ByNode::new(nodes),
+            cut_by: Vec::new(),
+        }
+    }
+
+    /// Where the fractured tetrahedra around a node are listed, rising.
+    pub(super) fn around(&self, node: u32) -> std::ops::Range<usize> {
+        let v = node as usize;
+        self.starts[v] as usize..self.starts[v + 1] as usize
+    }
+
+    /// The place of a listed tetrahedron, and which of its corners the node is.
+    pub(super) fn at(&self, listed: usize) -> (usize, usize) {
+        let listed = self.around[listed] as usize;
+        (listed / 4, listed % 4)
+    }
+
+    /// Numbers of a tetrahedron's edges.
+    pub(super) fn edges(&mut self, place: usize, cuts: &Cuts) -> [u32; 6] {
+        if self.edges[place][0] == NONE {
+            let corners = self.corners[place];
+            for (k, [i, j]) in EDGES.into_iter().enumerate() {
+                self.edges[place][k] = self.number(corners[i], corners[j], cuts);
+            }
+        }
+        self.edges[place]
+    }
+
+    /// Number of an edge.
+    fn number(&mut self, a: u32, b: u32, cuts: &Cuts) -> u32 {
+        let (low, high) = (a.min(b), a.max(b));
+        if let Some(number) = self.numbers.find(low, high) {
+            return number;
+        }
+        self.numbers.add(low, high);
+        let cut = cuts.get(low, high);
+        self.cut_by.push(cut.map_or(NONE, |cut| cut.crack));
+        self.cut_by.len() as u32 - 1
+    }
+
+    /// A crack cuts an edge.
+    pub(super) fn cut(&mut self, edge: u32, crack: u32) {
+        self.cut_by[edge as usize] = crack;
+    }
+
+    /// Which of a tetrahedron's edges are cut, and which of them a newcomer does not pass, a bit each: those that others have cut, or for one
+    /// that met itself all that are cut.
+    pub(super) fn cut_and_blocked(&self, edges: [u32; 6], newcomer: u32, own: bool) -> (u8, u8) {
+        let (mut cut, mut others) = (0, 0);
+        for (k, edge) in edges.into_iter().enumerate() {
+            let by = self.cut_by[edge as usize];
+            cut |= u8::from(by != NONE) << k;
+            others |= u8::from(by != newcomer) << k;
+        }
+        (cut, if own { cut } else { cut & others })
+    }
+}
+
+/// Which tetrahedra of these corners have each node: where each node's list starts, and all lists.
+fn around(nodes: usize, corners: &[[u32; 4]]) -> (Vec<u32>, Vec<u32>) {
+    let mut starts = vec![0_u32; nodes + 1];
+    for &v in corners.iter().flatten() {
+        starts[v as usize + 1] += 1;
+    }
+    for v in 0..nodes {
+        starts[v + 1] += starts[v];
+    }
+    let mut next = starts.clone();
+    let mut around = vec![0; 4 * corners.len()];
+    for (listed, &v) in (0..).zip(corners.iter().flatten()) {
+        around[next[v as usize] as usize] = listed;
+        next[v as usize] += 1;
+    }
+    (starts, around)
+}
+
+/// Edges of a tetrahedron between a corner of these, a bit each, and one that is none of them, a bit each.
+pub(super) fn crossed(corners: u8) -> u8 {
+    const OF: [u8; 16] = {
+        let mut of = [0; 16];
+        let mut k = 0;
+        while k < 16 * EDGES.len() {
+            let (corners, edge) = (k / EDGES.len(), k % EDGES.len());
+            let [i, j] = EDGES[edge];
+            of[corners] |= (((corners >> i ^ corners >> j) & 1) << edge) as u8;
+            k += 1;
+        }
+        of
+    };
+    OF[usize::from(corners & ALL)]
+}
+
+/// Corners of a tetrahedron that hang together with one over edges that are not blocked, a bit each.
+pub(super) fn reachable(start: usize, blocked: u8) -> u8 {
+    const OF: [[u8; 64]; 4] = {
+        let mut of = [[0; 64]; 4];
+        let mut k = 0;
+        while k < 4 * 64 {
+            of[k / 64][k % 64] = flood(k / 64, (k % 64) as u8);
+            k += 1;
+        }
+        of
+    };
+    OF[start % 4][usize::from(blocked % 64)]
+}
+
+const fn flood(start: usize, blocked: u8) -> u8 {
+    let mut seen = 1_u8 << start;
+    loop {
+        let before = seen;
+        let mut k = 0;
+        while k < EDGES.len() {
+            let both = 1 << EDGES[k][0] | 1 << EDGES[k][1];
+            if blocked & (1 << k) == 0 && seen & both != 0 {
+                seen |= both;
+            }
+            k += 1;
+        }
+        if seen == before {
+            return seen;
+        }
+    }
+}
