@@ -8,12 +8,13 @@ use frangible::internals::piece::{Elastic, PieceModel, Portion};
 use crate::pieces::method::Method;
 use crate::pieces::{PieceError, parent_modes, reanalysis};
 
-/// Time that a thread takes for the parent's modes, and again for modes of the piece's own, for each tetrahedron, s. This number and the next
-/// are medians of `docs/recursive.md`, rounded up.
+/// Time that a thread takes for the parent's modes, and again for modes of the piece's own, for each tetrahedron, s: the median of
+/// `docs/recursive.md`, rounded up.
 const PER_TET: f64 = 12e-6;
 
-/// Time that a thread takes for modes of the piece's own besides, for each element, s.
-const PER_ELEMENT: f64 = 0.25e-3;
+/// Time that a thread takes for modes of the piece's own besides, for each element, s: the median there, 0.25 ms, times what portable sums
+/// take longer, rounded up.
+const PER_ELEMENT: f64 = 0.4e-3;
 
 /// Finds how pieces vibrate, by one of two methods.
 #[derive(Debug)]

@@ -16,9 +16,9 @@ pub(crate) use symmetric::symmetric;
 /// Which of two ways sums are taken.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Sums {
-    /// As fast as this machine takes them.
+    /// They are taken as fast as this machine can.
     Fast,
-    /// With the same bits everywhere.
+    /// They have the same bits everywhere.
     Portable,
 }
 
