@@ -113,7 +113,7 @@ fn any_pair_finds_one_force_from_both_sides() {
 }
 
 #[test]
-fn what_the_motion_loses_is_in_the_vibration_of_both() {
+fn what_the_motion_loses_is_in_the_vibration_of_both_and_what_was_crushed() {
     for (k, (one, here)) in places().into_iter().enumerate() {
         for (other, there) in places().into_iter().skip(k) {
             let [a, b] = [one, other].map(|kind| undamped(kind).body(3));
@@ -121,7 +121,10 @@ fn what_the_motion_loses_is_in_the_vibration_of_both() {
             let from_b = blow(&b, met(&b, there, &a, here, 5.0));
             let [held, lost] = from_a.energies();
             let [theirs, _] = from_b.energies();
-            let whole = held + from_a.strikers_energy();
+            let [crushed, theirs_crushed] =
+                [&from_a, &from_b].map(|blow| blow.reports()[0].crushing_energy);
+            assert!((crushed - theirs_crushed).abs() < 1e-3 * lost);
+            let whole = held + from_a.strikers_energy() + crushed;
             assert!((whole / lost - 1.0).abs() < 1e-3, "{whole} J of {lost} J");
             // Each takes as much as the other says it does.
             assert!((theirs - from_a.strikers_energy()).abs() < 1e-3 * lost);
