@@ -16,6 +16,16 @@ pub enum BakeError {
         /// What was given.
         value: f64,
     },
+    /// A number above the largest one that there can be.
+    #[error("{what} is {value}; it must be at most {most}")]
+    TooLarge {
+        /// The quantity, with its unit.
+        what: &'static str,
+        /// What was given.
+        value: f64,
+        /// The largest that is allowed.
+        most: f64,
+    },
     /// A material or an asset the run time refuses.
     #[error(transparent)]
     Input(#[from] InputError),

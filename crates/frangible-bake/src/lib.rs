@@ -75,7 +75,9 @@ pub use import_tets::{ImportedTets, import_tets};
 pub use mesh::BodyMesh;
 pub use mode_field::ModeField;
 pub use report::{BakeReport, MeshReport, Progress, Stage};
-pub use shapes::{AnalysisChoice, MeshSize, READY_SHAPES, Shape, SolidShape, Station, TetShape};
+pub use shapes::{
+    AnalysisChoice, MeshSize, PaneShape, READY_SHAPES, Shape, SolidShape, Station, TetShape,
+};
 pub use supports::{Region, Support, check_groups, check_supports};
 
 /// Most modes that an asset keeps: the bake of a drinking glass with so many takes three times as long as with 120, and its file

@@ -2,7 +2,7 @@
 
 use frangible::internals::TetMesh;
 use frangible::internals::mesh::NO_NEIGHBOUR;
-use frangible_bake::{BakeError, BodyMesh, MeshSize, Shape, Station};
+use frangible_bake::{BakeError, BodyMesh, MeshSize, PaneShape, Shape, Station};
 
 fn built_in() -> Vec<(&'static str, Shape)> {
     vec![
@@ -11,9 +11,55 @@ fn built_in() -> Vec<(&'static str, Shape)> {
         ("vase", Shape::vase()),
         ("dinner plate", Shape::dinner_plate()),
         ("pane", Shape::plate(0.3, 0.2, 0.004)),
+        ("round pane", Shape::Pane(pane(0.03, 0.0))),
+        ("bent pane", Shape::Pane(pane(0.02, 0.04))),
         ("rod", Shape::rod(0.25, 0.01)),
         ("block", Shape::block([0.1, 0.12, 0.08])),
     ]
+}
+
+/// A pane with corners of this radius and this bow, m.
+fn pane(corner: f64, bow: f64) -> PaneShape {
+    PaneShape {
+        size: [0.3, 0.2, 0.004],
+        corner,
+        bow,
+    }
+}
+
+#[test]
+fn a_pane_reaches_as_high_as_its_bow_and_leaves_its_corners_out() {
+    let shape = Shape::Pane(pane(0.03, 0.02));
+    let mesh = shape
+        .fracture_mesh(shape.fracture_size().unwrap(), 1)
+        .unwrap();
+    let highest = mesh.positions.iter().map(|p| p.z).fold(0.0, f64::max);
+    assert!((highest - 0.024).abs() < 2e-4, "{highest} m");
+    // A round corner stays (√2 − 1) radii away from the sharp one.
+    let corner = mesh
+        .positions
+        .iter()
+        .map(|p| p.x.hypot(p.y))
+        .fold(1.0, f64::min);
+    let expected = (2.0_f64.sqrt() - 1.0) * 0.03;
+    assert!(
+        (corner - expected).abs() < 1e-3,
+        "{corner} m, not {expected} m"
+    );
+}
+
+#[test]
+fn a_pane_that_cannot_be_is_refused_by_its_number() {
+    for (corner, bow, word) in [
+        (-0.01, 0.0, "corners"),
+        (0.11, 0.0, "corners"),
+        (0.0, 0.2, "bow"),
+        (0.0, f64::NAN, "bow"),
+    ] {
+        let error = Shape::Pane(pane(corner, bow)).volume().unwrap_err();
+        let message = error.to_string();
+        assert!(message.contains(word), "{message}");
+    }
 }
 
 fn topology(mesh: &BodyMesh) -> TetMesh {

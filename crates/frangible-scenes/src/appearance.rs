@@ -122,6 +122,7 @@ pub(crate) fn appearance(material: &str) -> Appearance {
             [Grain::Veined; 2],
         ),
         "chocolate" => opaque([0.042, 0.016, 0.008], [0.062, 0.026, 0.013], 0.34, even),
+        "casing" => opaque([0.012, 0.012, 0.014], [0.10, 0.10, 0.11], 0.35, even),
         _ => opaque([0.62, 0.60, 0.57], [0.50, 0.46, 0.42], 0.6, even),
     }
 }

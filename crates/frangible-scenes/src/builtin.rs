@@ -13,6 +13,7 @@ use crate::body::{BodySpec, Place};
 use crate::error::SceneError;
 use crate::projectile::Projectile;
 use crate::scene::Scene;
+use crate::sheets;
 use crate::showpieces;
 use crate::source::BodySource;
 
@@ -23,7 +24,7 @@ enum Action {
 }
 
 /// Names of the built-in scenes; the first is the default.
-pub const SCENE_NAMES: [&str; 21] = [
+pub const SCENE_NAMES: [&str; 24] = [
     "glass",
     "pane",
     "plate",
@@ -45,6 +46,9 @@ pub const SCENE_NAMES: [&str; 21] = [
     "bottle",
     "bulb",
     "statue",
+    "phone",
+    "tiles",
+    "windscreen",
 ];
 
 /// Length, width and thickness of the bar of chocolate, m.
@@ -233,6 +237,9 @@ pub fn scene(name: &str) -> Result<Scene, SceneError> {
         "bottle" => showpieces::bottle(),
         "bulb" => showpieces::bulb(),
         "statue" => showpieces::statue(),
+        "phone" => sheets::phone(),
+        "tiles" => sheets::tiles(),
+        "windscreen" => sheets::windscreen(),
         _ => {
             let hint = nearest_name(name, SCENE_NAMES)
                 .map_or(String::new(), |n| format!(", did you mean `{n}`?"));

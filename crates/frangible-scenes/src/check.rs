@@ -8,7 +8,7 @@ mod quantity;
 mod weakness;
 
 use crate::error::SceneError;
-use crate::scene::Scene;
+use crate::scene::{Adhesive, Scene};
 use body::check_body;
 use fracture::check_fracture;
 use frangible::Material;
@@ -26,6 +26,9 @@ const MOST_ITEMS: usize = 100;
 
 /// Most generations of pieces that break again.
 const MOST_GENERATIONS: u32 = 20;
+
+/// Smallest patch of an adhesive, m: each is a joint.
+const LEAST_PATCH: f64 = 1e-3;
 
 /// Most tetrahedra of a fracture mesh.
 pub(crate) const MOST_TETS: usize = 2_000_000;
@@ -141,6 +144,17 @@ impl Scene {
                 1e9,
                 must,
             )?;
+        }
+        if let Some(Adhesive { strength, patch }) = self.adhesive {
+            let (key, what) = ("adhesive.strength", "the strength of the adhesive");
+            range(key, what, strength, 0.0, 1e9, "above 0 and at most 1e9 Pa")?;
+            let (key, what) = ("adhesive.patch", "the side of its patches");
+            let value = if patch >= LEAST_PATCH {
+                patch
+            } else {
+                f64::NAN
+            };
+            range(key, what, value, 0.0, 10.0, "1e-3 to 10 m")?;
         }
         check_output(&self.output, &self.name)
     }

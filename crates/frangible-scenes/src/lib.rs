@@ -15,6 +15,7 @@
 //! Whoever has baked bodies needs no solver: without the feature `bake` the crate has neither finite elements nor faer, and baked bodies
 //! have to be given.
 
+mod adhesive;
 mod again;
 mod appearance;
 mod bake;
@@ -41,6 +42,7 @@ mod rescale;
 mod result;
 mod run;
 mod scene;
+mod sheets;
 mod showpieces;
 mod sound;
 mod source;
@@ -65,7 +67,7 @@ pub use read::Files;
 pub use rescale::{MaterialEdit, Rescale};
 pub use result::{BlowRecord, BreakRecord, HeldRecord, Run};
 pub use run::play;
-pub use scene::{PieceSpec, Scene};
+pub use scene::{Adhesive, PieceSpec, Scene};
 pub use sound::{
     LiveSound, Sounded, Sources, energy_lost, energy_radiated, sound, sound_config, sound_of,
 };

@@ -29,12 +29,24 @@ pub struct Scene {
     pub pieces: PieceSpec,
     /// What bonds bodies whose faces touch, if anything does: tensile strength of the mortar, Pa.
     pub mortar: Option<f64>,
+    /// What bonds bodies over the faces that lie close to each other, if anything does.
+    pub adhesive: Option<Adhesive>,
     /// Longest simulated time, s; the scene ends sooner when everything rests.
     pub duration: f64,
     /// Direction from what is looked at towards the camera.
     pub look_from: Vec3,
     /// Files it asks for.
     pub output: Output,
+}
+
+/// A thin layer between bodies: glue, the film in laminated glass. It holds patch by patch, so that the pieces of a broken body stay where
+/// each of them is bonded. The vibrations of the bodies do not know of it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Adhesive {
+    /// Stress of pull, bending or shear at which a patch gives way, Pa.
+    pub strength: f64,
+    /// Side of a patch, m. Smaller patches hold smaller pieces, and cost more.
+    pub patch: f64,
 }
 
 /// Which pieces break again, and how they are found to vibrate.
@@ -72,6 +84,7 @@ impl Scene {
             fracture: FractureConfig::default(),
             pieces: PieceSpec::default(),
             mortar: None,
+            adhesive: None,
             duration: 8.0,
             look_from: Vec3::new(0.55, 0.5, 1.0),
             output: Output::default(),

@@ -1,11 +1,12 @@
 //! Built-in scenes for the eye: things that everybody has seen break.
 //!
-//! A phone's cover glass on its corner, a tiled wall under a hammer and a sheet of ice under a weight were tried as well; their pictures did
-//! not show what happened, and they are not here.
+//! A sheet of ice held at its rim was tried as well, and is not here: one of 80 cm and 40 mm falls into 626 pieces under 6.5 J, all over,
+//! where a real one would have a hole and a few long cracks.
 //!
 //! The glass here is annealed. Two other kinds need more than this model has:
-//! - **Laminated glass** (windscreens) is two panes on a sheet of plastic that holds the pieces. It takes bodies that are joined over a face by
-//!   a soft layer that dissipates, in the modes as well as between the pieces, and a layer that tears last.
+//! - **Laminated glass** (windscreens) is two panes on a sheet of plastic that holds the pieces. The scene `windscreen` has the panes, and an
+//!   [`Adhesive`](crate::Adhesive) that holds the pieces. What is left out is a soft layer that dissipates, in the modes as well as between the
+//!   pieces, and that tears last.
 //! - **Tempered and chemically strengthened glass** (side windows, phones) is under stress before anything touches it. It takes that
 //!   stress as an initial state of every element, added to the one of the blow, and the energy that it holds paid into the cracks: they then
 //!   run on by themselves and fork until all is dice.
@@ -69,7 +70,7 @@ pub(crate) fn bulb() -> Result<Scene, SceneError> {
         ..body("bulb", BodySource::Shape(bulb_shape()), "glass")?
     };
     Ok(Scene {
-        seed: 2,
+        seed: 3,
         ..dropped(
             bulb,
             "the glass of a light bulb, dropped on a stone floor",

@@ -11,6 +11,7 @@ use frangible_rapier::rapier3d::math::{Pose, Rotation, Vector};
 use frangible_rapier::{BreakableWorld, ColliderDetail, SurfaceProperties, WorldConfig};
 use frangible_sound::Sounding;
 
+use crate::adhesive::glue;
 use crate::appearance::{appearance, authored_surface, projectile_surface};
 use crate::bake::BakedBody;
 use crate::body::{BodySpec, Place};
@@ -117,6 +118,9 @@ pub(crate) fn set_up_as<'a>(
     check_overlaps(&bodies, &assets)?;
     if let Some(strength) = scene.mortar {
         bond(&mut world, &bodies, strength)?;
+    }
+    if let Some(adhesive) = &scene.adhesive {
+        glue(&mut world, &bodies, &assets, adhesive)?;
     }
     #[cfg(feature = "bake")]
     if scene.pieces.generations > 0 {

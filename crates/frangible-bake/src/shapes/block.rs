@@ -1,4 +1,4 @@
-//! Boxes, plates and rods.
+//! Boxes, plates and rods, and what a box is bent into.
 
 use frangible::glam::DVec3;
 
@@ -35,8 +35,20 @@ pub(crate) fn validate(size: [f64; 3]) -> Result<(), BakeError> {
         .try_for_each(|&s| positive("a side of the box, in m,", s))
 }
 
+/// Where a place of the box is in the body, m.
+pub(crate) type Warp<'a> = &'a dyn Fn(DVec3) -> DVec3;
+
+/// The box as it is.
+pub(crate) fn straight(p: DVec3) -> DVec3 {
+    p
+}
+
 /// Regular mesh for the analysis: `size[0] × size[1]` grid of squares, two triangles each.
-pub(crate) fn regular(size: [f64; 3], mesh: MeshSize) -> Result<BodyMesh, BakeError> {
+pub(crate) fn regular(
+    size: [f64; 3],
+    mesh: MeshSize,
+    warp: Warp<'_>,
+) -> Result<BodyMesh, BakeError> {
     let (nx, ny) = (divisions(size[0], mesh.edge), divisions(size[1], mesh.edge));
     let mut sheet = Sheet::default();
     for j in 0..=ny {
@@ -62,16 +74,23 @@ pub(crate) fn regular(size: [f64; 3], mesh: MeshSize) -> Result<BodyMesh, BakeEr
                 .push([v(i, j), v(i + 1, j + 1), v(i, j + 1)]);
         }
     }
+    // Squares of a box are left alone; where a corner is round, the diagonal goes that would cut it off.
+    sheet.flip(&|c| warp(DVec3::new(c[0], c[1], 0.0)));
     let layers = layers(size, mesh);
     let position = |v: usize, layer: usize| {
         let [x, y] = sheet.coords[v];
-        DVec3::new(x, y, layer as f64 * size[2] / layers as f64)
+        warp(DVec3::new(x, y, layer as f64 * size[2] / layers as f64))
     };
     extrude(&sheet, layers, None, &position, &|_, c| cell(size, c))
 }
 
 /// Irregular mesh for cracks: rows of nearly equilateral triangles, jittered and relaxed.
-pub(crate) fn irregular(size: [f64; 3], mesh: MeshSize, seed: u64) -> Result<BodyMesh, BakeError> {
+pub(crate) fn irregular(
+    size: [f64; 3],
+    mesh: MeshSize,
+    seed: u64,
+    warp: Warp<'_>,
+) -> Result<BodyMesh, BakeError> {
     let nx = divisions(size[0], mesh.edge);
     let ny = divisions(size[1], mesh.edge * 0.75_f64.sqrt());
     let step = size[0] / nx as f64;
@@ -97,7 +116,7 @@ pub(crate) fn irregular(size: [f64; 3], mesh: MeshSize, seed: u64) -> Result<Bod
         }
         previous = row;
     }
-    let lift = |c: [f64; 2]| DVec3::new(c[0], c[1], 0.0);
+    let lift = |c: [f64; 2]| warp(DVec3::new(c[0], c[1], 0.0));
     sheet.disorder(mesh.edge, seed, &lift);
     sheet.relax(2, &lift);
     sheet.flip(&lift);
@@ -120,7 +139,7 @@ pub(crate) fn irregular(size: [f64; 3], mesh: MeshSize, seed: u64) -> Result<Bod
                 }
             }
         }
-        p
+        warp(p)
     };
     extrude(&sheet, layers, Some(seed), &position, &|_, c| cell(size, c))
 }

@@ -3,6 +3,7 @@
 //! `frangible-mesh`.
 
 mod block;
+mod pane;
 mod profile;
 mod ready;
 mod revolution;
@@ -10,6 +11,7 @@ pub(crate) mod solid;
 pub(crate) mod tets;
 
 pub use frangible_mesh::READY_SHAPES;
+pub use pane::PaneShape;
 pub use profile::Station;
 pub use solid::SolidShape;
 pub use tets::{AnalysisChoice, TetShape};
@@ -43,6 +45,8 @@ pub enum Shape {
         /// Sides along x, y, z, m.
         size: [f64; 3],
     },
+    /// A pane with round corners, bent or flat.
+    Pane(PaneShape),
     /// A profile turned about the z-axis, from the axis at the bottom to the rim.
     Revolution {
         /// Stations; the first has r = 0 for both points.
@@ -130,6 +134,7 @@ impl Shape {
     pub fn volume(&self) -> Result<f64, BakeError> {
         match self {
             Self::Box { size } => block::validate(*size).map(|()| size.iter().product()),
+            Self::Pane(pane) => pane.volume(),
             Self::Revolution { profile } => Ok(Profile::new(profile)?.area_and_volume().1),
             Self::Solid(shape) => solid::volume(shape),
             Self::Tets(shape) => Ok(shape.body.volume()),
@@ -172,7 +177,9 @@ impl Shape {
 
     fn estimate(&self, size: MeshSize) -> Result<f64, BakeError> {
         Ok(match self {
-            Self::Box { size: sides } => block::estimate(*sides, size),
+            Self::Box { size: sides } | Self::Pane(PaneShape { size: sides, .. }) => {
+                block::estimate(*sides, size)
+            }
             Self::Revolution { profile } => revolution::estimate(&Profile::new(profile)?, size),
             Self::Solid(shape) => solid::estimate(solid::volume(shape)?, size),
             Self::Tets(shape) => shape.body.tets.len() as f64,
@@ -186,7 +193,8 @@ impl Shape {
     pub fn analysis_mesh(&self, size: MeshSize) -> Result<BodyMesh, BakeError> {
         self.check(size)?;
         match self {
-            Self::Box { size: sides } => block::regular(*sides, size),
+            Self::Box { size: sides } => block::regular(*sides, size, &block::straight),
+            Self::Pane(pane) => block::regular(pane.size, size, &|p| pane.place(p)),
             Self::Revolution { profile } => revolution::mesh(&Profile::new(profile)?, size, None),
             Self::Solid(shape) => {
                 solid::mesh(shape, Some(size.edge), None, &mut solid::unwatched).map(|m| m.0)
@@ -202,7 +210,8 @@ impl Shape {
     pub fn fracture_mesh(&self, size: MeshSize, seed: u64) -> Result<BodyMesh, BakeError> {
         self.check(size)?;
         match self {
-            Self::Box { size: sides } => block::irregular(*sides, size, seed),
+            Self::Box { size: sides } => block::irregular(*sides, size, seed, &block::straight),
+            Self::Pane(pane) => block::irregular(pane.size, size, seed, &|p| pane.place(p)),
             Self::Revolution { profile } => {
                 revolution::mesh(&Profile::new(profile)?, size, Some(seed))
             }

@@ -3,11 +3,11 @@
 use std::path::Path;
 
 use frangible::glam::{Quat, Vec3};
-use frangible_bake::{Shape, Station};
+use frangible_bake::{PaneShape, Shape, Station};
 
 use super::convert::{did_you_mean, preset, set, short, vector};
 use super::either::{AxisTable, MaterialChoice, RotationChoice};
-use super::schema::{BodyTable, MaterialTable, RotationTable, ShapeTable};
+use super::schema::{BodyTable, MaterialTable, PaneTable, RotationTable, ShapeTable};
 use super::support::support;
 use crate::body::{BodySpec, Place};
 use crate::check::Fault;
@@ -145,6 +145,9 @@ fn shape(table: ShapeTable, resolution: Option<usize>) -> Result<BodySource, Fau
         ShapeTable::Vase => Shape::vase(),
         ShapeTable::DinnerPlate => Shape::dinner_plate(),
         ShapeTable::Box(size) => Shape::Box { size },
+        ShapeTable::Pane(PaneTable { size, corner, bow }) => {
+            Shape::Pane(PaneShape { size, corner, bow })
+        }
         ShapeTable::Revolution(stations) => Shape::Revolution {
             profile: stations
                 .into_iter()

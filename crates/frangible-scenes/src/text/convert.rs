@@ -20,7 +20,7 @@ use crate::check::Fault;
 use crate::error::SceneError;
 use crate::output::{FileWish, Output};
 use crate::projectile::{Projectile, ProjectileKind};
-use crate::scene::{PieceSpec, Scene};
+use crate::scene::{Adhesive, PieceSpec, Scene};
 use frangible_bake::pieces::Method;
 
 pub(super) fn scene(table: SceneTable, folder: &Path, name: &str) -> Result<Scene, Fault> {
@@ -63,6 +63,10 @@ pub(super) fn scene(table: SceneTable, folder: &Path, name: &str) -> Result<Scen
             .map_or_else(FractureConfig::default, fracture),
         pieces: table.pieces.map_or_else(PieceSpec::default, pieces),
         mortar: table.mortar,
+        adhesive: table.adhesive.map(|layer| Adhesive {
+            strength: layer.strength,
+            patch: layer.patch,
+        }),
         duration: table.duration.unwrap_or(8.0),
         look_from: table.look_from.map_or(Vec3::new(0.55, 0.5, 1.0), vector),
         output: table.output.map_or_else(Output::default, output),

@@ -23,6 +23,7 @@ pub(super) struct SceneTable {
     pub(super) fracture: Option<FractureTable>,
     pub(super) pieces: Option<PiecesTable>,
     pub(super) mortar: Option<f64>,
+    pub(super) adhesive: Option<AdhesiveTable>,
     pub(super) output: Option<OutputTable>,
 }
 
@@ -53,7 +54,7 @@ pub(super) struct BodyTable {
     pub(super) weibull_modulus: Option<f64>,
 }
 
-/// A ready shape by name, or `{ box = … }`, `{ revolution = … }`.
+/// A ready shape by name, or `{ box = … }`, `{ pane = … }`, `{ revolution = … }`.
 #[derive(Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum ShapeTable {
@@ -69,7 +70,27 @@ pub(super) enum ShapeTable {
     HammerHead,
     WineGlass,
     Box([f64; 3]),
+    Pane(PaneTable),
     Revolution(Vec<StationTable>),
+}
+
+/// A pane with round corners, bent or flat.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct PaneTable {
+    pub(super) size: [f64; 3],
+    #[serde(default)]
+    pub(super) corner: f64,
+    #[serde(default)]
+    pub(super) bow: f64,
+}
+
+/// What bonds bodies over their faces.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct AdhesiveTable {
+    pub(super) strength: f64,
+    pub(super) patch: f64,
 }
 
 /// A station of a profile.

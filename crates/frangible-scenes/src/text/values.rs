@@ -31,6 +31,12 @@ pub(super) fn shape_text(shape: &Shape) -> String {
             format!("{{ revolution = [ # (r, z), m\n{}] }}", stations.concat())
         }
         Shape::Box { size } => format!("{{ box = {} }}", numbers(size)),
+        Shape::Pane(pane) => format!(
+            "{{ pane = {{ size = {}, corner = {}, bow = {} }} }}",
+            numbers(&pane.size),
+            number(pane.corner),
+            number(pane.bow),
+        ),
         // Shapes of meshes have no text of their own: a scene names their file.
         _ => quoted("mesh"),
     }

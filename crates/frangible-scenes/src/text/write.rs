@@ -13,7 +13,7 @@ use super::weakness::{paint_text, patch_text};
 use crate::body::{BodySpec, Place};
 use crate::output::{FileWish, Output};
 use crate::projectile::{Projectile, ProjectileKind};
-use crate::scene::{PieceSpec, Scene};
+use crate::scene::{Adhesive, PieceSpec, Scene};
 use crate::source::BodySource;
 use frangible_bake::pieces::Method;
 
@@ -31,6 +31,14 @@ pub fn scene_to_toml(scene: &Scene) -> String {
     }
     if let Some(strength) = scene.mortar {
         t.noted("mortar", number(strength), "Pa, bonds bodies that touch");
+    }
+    if let Some(Adhesive { strength, patch }) = scene.adhesive {
+        let layer = format!(
+            "{{ strength = {}, patch = {} }}",
+            number(strength),
+            number(patch)
+        );
+        t.noted("adhesive", layer, "Pa and m, bonds faces patch by patch");
     }
     t.noted(
         "look_from",

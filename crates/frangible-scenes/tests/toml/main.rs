@@ -8,8 +8,9 @@ use frangible::{FractureConfig, Material};
 use frangible_bake::weakness::{Channel, Paint, Patch, Zone};
 use frangible_bake::{Shape, Station};
 use frangible_scenes::{
-    Axis, BodySource, BodySpec, FileWish, MaterialEdit, Place, Projectile, ProjectileKind, Region,
-    SCENE_NAMES, Scene, Support, parse_scene, read_scene, scene, scene_of_file, scene_to_toml,
+    Adhesive, Axis, BodySource, BodySpec, FileWish, MaterialEdit, Place, Projectile,
+    ProjectileKind, Region, SCENE_NAMES, Scene, Support, parse_scene, read_scene, scene,
+    scene_of_file, scene_to_toml,
 };
 
 mod refused;

@@ -99,6 +99,10 @@ pub(crate) fn intricate() -> Scene {
             ..Projectile::ball(1.0 / 7.0, 0.02, 9.0)
         },
     ];
+    scene.adhesive = Some(Adhesive {
+        strength: 1e7 / 3.0,
+        patch: 0.1 + 0.2,
+    });
     scene.floor = None;
     scene.seed = u64::MAX;
     scene.duration = 1.0 / 7.0;

@@ -9,7 +9,7 @@ macro_rules! picture {
 }
 
 /// Scene and PNG; just after the break, from the pictures of the gallery.
-const PICTURES: [(&str, &[u8]); 21] = [
+const PICTURES: [(&str, &[u8]); 24] = [
     picture!("bottle"),
     picture!("bowl"),
     picture!("brick"),
@@ -21,15 +21,18 @@ const PICTURES: [(&str, &[u8]); 21] = [
     picture!("glass"),
     picture!("hammer"),
     picture!("pane"),
+    picture!("phone"),
     picture!("piggy-bank"),
     picture!("plate"),
     picture!("rabbit"),
     picture!("shards"),
     picture!("shelf"),
     picture!("statue"),
+    picture!("tiles"),
     picture!("vase"),
     picture!("wall"),
     picture!("window"),
+    picture!("windscreen"),
     picture!("wine-glass"),
 ];
 

@@ -1,0 +1,108 @@
+//! An adhesive holds the pieces of what it bonds.
+
+use frangible::Material;
+use frangible::glam::Vec3;
+use frangible_bake::Shape;
+use frangible_scenes::{
+    Adhesive, BodySource, BodySpec, Place, Projectile, Region, Run, Scene, Support, bake, play,
+    scene,
+};
+
+/// A tile in front of a block that is held, hit by a ball.
+fn tile_on_a_block() -> Scene {
+    let body = |name: &str, size: [f64; 3], material: &str| {
+        let shape = BodySource::Shape(Shape::Box { size });
+        BodySpec {
+            modes: 20,
+            resolution: Some(3000),
+            ..BodySpec::new(name, shape, Material::preset(material).unwrap())
+        }
+    };
+    let tile = BodySpec {
+        place: Place::Centre(Vec3::new(0.0, 0.3, 0.0232)),
+        ..body("tile", [0.1, 0.1, 0.006], "porcelain")
+    };
+    let block = BodySpec {
+        place: Place::Centre(Vec3::new(0.0, 0.3, 0.0)),
+        supports: vec![Support::clamped(Region::below(2, 0.01))],
+        ..body("block", [0.12, 0.12, 0.04], "steel")
+    };
+    let mut scene = Scene::one_body(tile);
+    scene.bodies.push(block);
+    scene.projectiles = vec![Projectile::ball(0.1, 0.0145, 6.0)];
+    scene.duration = 0.25;
+    scene
+}
+
+/// Share of the mass of pieces that ends within 5 mm of where it broke.
+fn stays(run: &Run) -> f64 {
+    let recording = &run.recording;
+    let last = recording.frame_count - 1;
+    let (mut stays, mut all) = (0.0, 0.0);
+    for (i, node) in recording.nodes.iter().enumerate() {
+        if !node.name.contains("piece") {
+            continue;
+        }
+        let mass = node.keep_extras.iter().find(|extra| extra.0 == "mass_kg");
+        let mass = mass.map_or(0.0, |extra| extra.1);
+        all += mass;
+        let end = last.min(node.visible.end - 1);
+        let [from, to] =
+            [node.visible.start, end].map(|frame| recording.pose(i, frame).translation);
+        if end == last && from.distance(to) < 5e-3 {
+            stays += mass;
+        }
+    }
+    assert!(all > 0.0, "nothing broke");
+    stays / all
+}
+
+#[test]
+fn pieces_of_a_glued_tile_stay_and_those_of_a_loose_one_fall() {
+    let mut scene = tile_on_a_block();
+    let baked = bake(&scene, &mut |_| {}).unwrap();
+    let mut share = |strength: Option<f64>| {
+        scene.adhesive = strength.map(|strength| Adhesive {
+            strength,
+            patch: 0.02,
+        });
+        stays(&play(&scene, &baked, &mut |_| {}).unwrap())
+    };
+    let [loose, glued] = [None, Some(5e7)].map(&mut share);
+    println!("loose {loose:.2}, glued {glued:.2}");
+    assert!(loose < 0.1, "{loose}");
+    assert!(glued > 0.8, "{glued}");
+}
+
+#[test]
+fn an_adhesive_without_strength_or_patches_is_refused() {
+    for (strength, patch, word) in [
+        (0.0, 0.02, "strength"),
+        (1e6, 0.0, "patches"),
+        (1e6, f64::NAN, "patches"),
+    ] {
+        let mut scene = tile_on_a_block();
+        scene.adhesive = Some(Adhesive { strength, patch });
+        let message = scene.validate().unwrap_err().to_string();
+        assert!(message.contains(word), "{message}");
+    }
+}
+
+#[test]
+fn the_scenes_of_glued_sheets_break_and_keep_most_of_their_pieces() {
+    // The pieces of a telephone fly with it.
+    for (name, least) in [
+        ("phone", None),
+        ("tiles", Some(0.5)),
+        ("windscreen", Some(0.5)),
+    ] {
+        let mut scene = scene(name).unwrap();
+        scene.duration = scene.duration.min(1.0);
+        let baked = bake(&scene, &mut |_| {}).unwrap();
+        let run = play(&scene, &baked, &mut |_| {}).unwrap();
+        let pieces = run.breaks.iter().map(|b| b.masses.len()).sum::<usize>();
+        println!("{name}: {pieces} pieces, {:.2} stays", stays(&run));
+        assert!(pieces > 10, "{name}: {pieces}");
+        assert!(least.is_none_or(|least| stays(&run) >= least), "{name}");
+    }
+}
