@@ -243,7 +243,7 @@ fn box_obj([x, y, z]: [f64; 3]) -> String {
 /// Breaks quickly, and does break.
 const QUICK: [&str; 9] = [
     "--drop",
-    "8",
+    "20",
     "--resolution",
     "2000",
     "--modes",
@@ -293,7 +293,7 @@ fn a_mesh_breaks_and_so_does_its_bake_into_the_same_pieces() {
         None,
     );
     assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
-    let args = ["break", &baked, "--drop", "8", "--no-pictures"];
+    let args = ["break", &baked, "--drop", "20", "--no-pictures"];
     let loaded = report(&args, &folder.0.join("loaded"));
     for figure in [
         "fragments",
