@@ -1,6 +1,5 @@
 //! The viewer as a page: one static folder.
 
-mod bevy;
 mod bodies;
 mod library;
 mod package;
@@ -17,7 +16,6 @@ use crate::command::{Result, output, root, target};
 use bodies::Bodies;
 use program::Program;
 
-pub(crate) use bevy::bevy_page;
 pub(crate) use package::package;
 pub(crate) use trial::{bits, trial};
 
