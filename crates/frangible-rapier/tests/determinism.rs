@@ -82,3 +82,18 @@ fn a_world_put_back_goes_on_as_it_did() {
         assert_eq!(run(&mut world, 60), *end);
     }
 }
+
+#[test]
+fn the_fingerprint_tells_worlds_apart_that_differ_in_a_bit() {
+    let [mut one, mut other] = [four_panes_and_a_ball(), four_panes_and_a_ball()];
+    for world in [&mut one, &mut other] {
+        run(world, 60);
+    }
+    assert_eq!(one.fingerprint(), other.fingerprint());
+    let handle = one.physics.bodies.iter().last().unwrap().0;
+    let body = one.physics.bodies.get_mut(handle).unwrap();
+    let v = body.linvel();
+    let next = f32::from_bits(v.x.to_bits() + 1);
+    body.set_linvel(Vector::new(next, v.y, v.z), true);
+    assert_ne!(one.fingerprint(), other.fingerprint());
+}
