@@ -15,6 +15,8 @@ pub(super) struct Finisher<'a> {
     density: f64,
     /// Vertex plus one of each point in the fragment at work, 0 for none.
     vertex_of_point: Vec<u32>,
+    /// Cell plus one in which each point of the fragment at work was met last, 0 for none.
+    cell_of_point: Vec<u32>,
 }
 
 impl<'a> Finisher<'a> {
@@ -23,6 +25,7 @@ impl<'a> Finisher<'a> {
             table,
             density,
             vertex_of_point: vec![0; table.len()],
+            cell_of_point: vec![0; table.len()],
         }
     }
 
@@ -96,11 +99,20 @@ impl<'a> Finisher<'a> {
 
     /// Points of each convex cell: its mesh nodes, then those of the partition. Wherever there are such, there are nodes.
     fn shares(
-        &self,
+        &mut self,
         nodes: &[(u32, u32)],
         mut points: Vec<u64>,
         centre: DVec3,
     ) -> Vec<(u32, Vec<Vec3>)> {
+        // The triangles about a point repeat it; nearly all of that goes without sorting.
+        let parts = |p: u64| ((p >> 32) as u32 + 1, p as u32 as usize);
+        points.retain(|&p| {
+            let (cell, point) = parts(p);
+            std::mem::replace(&mut self.cell_of_point[point], cell) != cell
+        });
+        for &p in &points {
+            self.cell_of_point[parts(p).1] = 0;
+        }
         points.sort_unstable();
         points.dedup();
         let mut points = points.as_slice();
