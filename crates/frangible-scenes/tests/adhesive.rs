@@ -58,23 +58,6 @@ fn stays(run: &Run) -> f64 {
 }
 
 #[test]
-fn pieces_of_a_glued_tile_stay_and_those_of_a_loose_one_fall() {
-    let mut scene = tile_on_a_block();
-    let baked = bake(&scene, &mut |_| {}).unwrap();
-    let mut share = |strength: Option<f64>| {
-        scene.adhesive = strength.map(|strength| Adhesive {
-            strength,
-            patch: 0.02,
-        });
-        stays(&play(&scene, &baked, &mut |_| {}).unwrap())
-    };
-    let [loose, glued] = [None, Some(5e7)].map(&mut share);
-    println!("loose {loose:.2}, glued {glued:.2}");
-    assert!(loose < 0.1, "{loose}");
-    assert!(glued > 0.8, "{glued}");
-}
-
-#[test]
 fn an_adhesive_without_strength_or_patches_is_refused() {
     for (strength, patch, word) in [
         (0.0, 0.02, "strength"),
