@@ -3,7 +3,7 @@
 use glam::Vec3;
 
 /// Cracks of a block.
-const BLOCK: usize = 8;
+pub(super) const BLOCK: usize = 8;
 
 /// A crack that takes a smaller share than this of the stress counts as taking nothing. It is far away for its length and needs no look,
 /// which saves time, since most cracks about a point are short and far.
@@ -26,6 +26,49 @@ struct Extent {
     ends: [Vec3; 2],
     /// Distance between those two tetrahedra, m.
     chord: f32,
+    /// When the latest of its tetrahedra joined, s.
+    latest: f64,
+    change: Change,
+}
+
+/// The last change of a crack, or of a block of them.
+#[derive(Clone, Copy, Debug)]
+struct Change {
+    /// Number of the change, counted over all cracks.
+    number: u64,
+    /// When its waves have gone wherever it takes anything to speak of, s.
+    heard: f64,
+}
+
+impl Change {
+    /// None yet.
+    const NONE: Self = Self {
+        number: 0,
+        heard: f64::NEG_INFINITY,
+    };
+
+    /// Whether a look that was done at that state of all cracks and time, and one at time `now`, s, hear the same of it.
+    #[inline(always)]
+    fn is_known(self, seen: Seen, now: f64) -> bool {
+        self.number <= seen.change && self.heard <= seen.now.min(now)
+    }
+}
+
+/// When a point last looked at the cracks of a ring.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Seen {
+    /// Number of the last change of a crack before.
+    change: u64,
+    /// The time of the look, s.
+    now: f64,
+}
+
+impl Seen {
+    /// It never did.
+    pub(crate) const NEVER: Self = Self {
+        change: 0,
+        now: f64::NEG_INFINITY,
+    };
 }
 
 /// Cracks about a point, by how much of the stress there they may take. Few of them are close, and they often take enough.
@@ -49,6 +92,27 @@ struct Block {
     origin: [[f32; BLOCK]; 3],
     close: [f32; BLOCK],
     reach: [f32; BLOCK],
+    change: Change,
+}
+
+impl Block {
+    /// Which of the cracks have a point in their ring, a bit each.
+    #[inline(always)]
+    fn near(&self, point: Vec3, ring: Ring) -> u32 {
+        let [x, y, z] = &self.origin;
+        let mut bits = 0;
+        for k in 0..BLOCK {
+            let (x, y, z) = (point.x - x[k], point.y - y[k], point.z - z[k]);
+            let squared = x * x + y * y + z * z;
+            let close = squared <= self.close[k];
+            let near = match ring {
+                Ring::Close => close,
+                Ring::Far => !close & (squared <= self.reach[k]),
+            };
+            bits |= u32::from(near) << k;
+        }
+        bits
+    }
 }
 
 /// Where all cracks are.
@@ -56,15 +120,21 @@ struct Block {
 pub(crate) struct Extents {
     /// Mean edge of the fracture mesh, m.
     edge: f32,
+    /// Speed of the waves c_R, m/s.
+    wave: f64,
+    /// How many changes there were.
+    changes: u64,
     list: Vec<Extent>,
     blocks: Vec<Block>,
 }
 
 impl Extents {
-    /// No crack, in a mesh of this mean edge, m.
-    pub(super) fn new(edge: f32) -> Self {
+    /// No crack, in a mesh of this mean edge, m, and a material of this wave speed, m/s.
+    pub(super) fn new(edge: f32, wave: f64) -> Self {
         Self {
             edge,
+            wave,
+            changes: 0,
             list: Vec::new(),
             blocks: Vec::new(),
         }
@@ -78,6 +148,7 @@ impl Extents {
                 origin: [[0.0; BLOCK]; 3],
                 close: [-1.0; BLOCK],
                 reach: [-1.0; BLOCK],
+                change: Change::NONE,
             });
         }
         if let Some(block) = self.blocks.last_mut() {
@@ -90,13 +161,17 @@ impl Extents {
             size: 0.0,
             ends: [origin; 2],
             chord: 0.0,
+            latest: f64::NEG_INFINITY,
+            change: Change::NONE,
         });
         self.stretch(self.list.len() - 1);
     }
 
-    /// Takes in a tetrahedron more of a crack. Where the place lies beyond both ends, the nearer end moves there.
-    pub(super) fn grow(&mut self, crack: usize, centre: Vec3) {
+    /// Takes in a tetrahedron more of a crack, which joined it at a time, s. Where the place lies beyond both ends, the nearer end moves
+    /// there.
+    pub(super) fn grow(&mut self, crack: usize, centre: Vec3, time: f64) {
         let extent = &mut self.list[crack];
+        extent.latest = extent.latest.max(time);
         extent.size = extent.size.max(centre.distance(extent.origin));
         let [first, second] = extent.ends.map(|end| end.distance(centre));
         if first.max(second) > extent.chord {
@@ -110,8 +185,28 @@ impl Extents {
         let size = self.list[crack].size;
         let reach = size + self.far(crack);
         let close = size + CLOSE * self.half_length(crack);
+        self.changes += 1;
+        // From any point within reach no place on the crack is farther than this; rounding of places and times is far below the margin.
+        let farthest = 1.01 * f64::from(reach + size + self.edge);
+        let extent = &mut self.list[crack];
+        extent.change = Change {
+            number: self.changes,
+            heard: extent.latest + farthest / self.wave,
+        };
         let (block, k) = (&mut self.blocks[crack / BLOCK], crack % BLOCK);
         (block.close[k], block.reach[k]) = (close * close, reach * reach);
+        block.change = Change {
+            number: self.changes,
+            heard: block.change.heard.max(extent.change.heard),
+        };
+    }
+
+    /// What is to be remembered of a look at time `now`, s.
+    pub(super) fn seen(&self, now: f64) -> Seen {
+        Seen {
+            change: self.changes,
+            now,
+        }
     }
 
     /// Half the length of a crack, m, no less than that of an edge.
@@ -132,31 +227,28 @@ impl Extents {
         self.edge
     }
 
-    /// Cracks of a ring about a point, rising.
+    /// How many blocks of cracks there are.
     #[inline(always)]
-    pub(super) fn about(&self, point: Vec3, ring: Ring) -> impl Iterator<Item = usize> {
-        self.blocks.iter().enumerate().flat_map(move |(b, block)| {
-            let [x, y, z] = &block.origin;
-            let mut near = [false; BLOCK];
-            for k in 0..BLOCK {
-                let (x, y, z) = (point.x - x[k], point.y - y[k], point.z - z[k]);
-                let squared = x * x + y * y + z * z;
-                let close = squared <= block.close[k];
-                near[k] = match ring {
-                    Ring::Close => close,
-                    Ring::Far => !close && squared <= block.reach[k],
-                };
-            }
-            let mut bits = 0_u32;
-            for (k, near) in near.into_iter().enumerate() {
-                bits |= u32::from(near) << k;
-            }
-            std::iter::from_fn(move || {
-                let k = bits.trailing_zeros() as usize;
-                bits &= bits.wrapping_sub(1);
-                (k < BLOCK).then_some(BLOCK * b + k)
-            })
-        })
+    pub(super) fn blocks(&self) -> usize {
+        self.blocks.len()
+    }
+
+    /// Cracks of a block, a bit each, that lie in a ring about a point which hears at time `now`, s, what it has not `seen` of them.
+    #[inline(always)]
+    pub(super) fn about(&self, b: usize, point: Vec3, ring: Ring, seen: Seen, now: f64) -> u32 {
+        let block = &self.blocks[b];
+        if block.change.is_known(seen, now) {
+            return 0;
+        }
+        let near = block.near(point, ring);
+        let (mut left, mut about) = (near, near);
+        while left != 0 {
+            let k = left.trailing_zeros();
+            left &= left - 1;
+            let known = self.list[BLOCK * b + k as usize].change.is_known(seen, now);
+            about &= !(u32::from(known) << k);
+        }
+        about
     }
 }
 
@@ -169,20 +261,29 @@ mod tests {
     fn cracks_about_a_point_are_those_whose_reach_it_is_in() {
         let mut rng = stream(5, Purpose::WeakPoints, 0);
         let mut number = move || uniform(&mut rng) as f32;
-        let mut extents = Extents::new(1e-3);
+        let mut extents = Extents::new(1e-3, 3e3);
         for crack in 0..37 {
             let start = Vec3::new(number(), number(), number());
             extents.start(start);
             for _ in 0..crack % 5 {
                 let step = 0.02 * Vec3::new(number(), number(), number());
-                extents.grow(crack, start + step);
+                extents.grow(crack, start + step, 0.0);
             }
         }
         let mut found = 0;
         for _ in 0..200 {
             let point = Vec3::new(number(), number(), number());
-            let [close, far] = Ring::ALL.map(|ring| extents.about(point, ring));
-            let mut about: Vec<usize> = close.chain(far).collect();
+            let mut about = Vec::new();
+            for ring in Ring::ALL {
+                for b in 0..extents.blocks() {
+                    let bits = extents.about(b, point, ring, Seen::NEVER, 1.0);
+                    about.extend(
+                        (0..BLOCK)
+                            .filter(|k| bits >> k & 1 == 1)
+                            .map(|k| BLOCK * b + k),
+                    );
+                }
+            }
             about.sort_unstable();
             let plainly: Vec<usize> = (0..37)
                 .filter(|&crack| {

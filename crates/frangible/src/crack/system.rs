@@ -94,7 +94,7 @@ impl<'a> CrackSystem<'a> {
             fronts: BinaryHeap::new(),
             stalled: Vec::new(),
             releases: Releases::default(),
-            extents: Extents::new(body.prepared.edge),
+            extents: Extents::new(body.prepared.edge, asset.material.rayleigh_speed()),
             centroids: &body.prepared.centroids,
             edge: body.prepared.edge,
         };
@@ -269,7 +269,7 @@ impl<'a> CrackSystem<'a> {
         let c = &mut self.cracks[crack as usize];
         c.area += f64::from(area);
         let centre = self.centroids[tet];
-        self.extents.grow(crack as usize, centre);
+        self.extents.grow(crack as usize, centre, cut.time);
         // The surface of a planar crack is the same everywhere.
         if self.config.path != CrackPath::Planar {
             for (&node, &s) in self.asset.fracture.tets[tet].iter().zip(&cut.values) {

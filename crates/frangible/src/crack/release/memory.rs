@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use super::super::extents::{Extents, FAINT, Ring};
+use super::super::extents::{BLOCK, Extents, FAINT, Ring, Seen};
 use super::super::single::Crack;
 use super::super::sites::Site;
 use super::super::system::CrackSystem;
@@ -65,6 +65,8 @@ pub(super) struct Memory {
     pub(super) beta: f32,
     /// What each crack has left of the stress, by the crack's number, rising; cracks that have taken nothing are left out.
     shadows: Vec<(u32, Shadow)>,
+    /// When it last looked at each ring.
+    seen: [Seen; 2],
 }
 
 impl Memory {
@@ -74,6 +76,7 @@ impl Memory {
             place,
             beta,
             shadows: Vec::new(),
+            seen: [Seen::NEVER; 2],
         }
     }
 
@@ -88,8 +91,8 @@ impl Memory {
         self.shadows.iter().map(|(_, shadow)| shadow)
     }
 
-    /// Takes in what all cracks of a ring about the point, but for one, leave at the time `now`, s. Returns whether any crack releases the
-    /// point more than before.
+    /// Takes in what all cracks of a ring about the point, but for one, which is always the same, leave at the time `now`, s. Returns whether
+    /// any crack releases the point more than before.
     pub(super) fn update(
         &mut self,
         sources: Sources,
@@ -126,23 +129,33 @@ impl pulp::NullaryFnOnce for Update<'_> {
             place,
             beta,
             shadows,
+            seen,
         } = self.memory;
         let mut falls = false;
         let mut i = 0;
-        for crack in self.sources.extents.about(*place, self.ring) {
-            let number = crack as u32;
-            if self.but == Some(number) {
-                continue;
-            }
-            let Some(new) = self.sources.cast(crack, *place, *beta, self.now) else {
-                continue;
-            };
-            i += shadows[i..].partition_point(|(of, _)| *of < number);
-            if shadows.get(i).is_some_and(|(of, _)| *of == number) {
-                falls |= darken(&mut shadows[i].1, new);
-            } else {
-                shadows.insert(i, (number, new));
-                falls = true;
+        let Sources { extents, .. } = self.sources;
+        // What has not changed, and was heard to the end, leaves what it left.
+        let seen = std::mem::replace(&mut seen[self.ring as usize], extents.seen(self.now));
+        // Loops and no closures, which would be compiled for the plain processor.
+        for b in 0..extents.blocks() {
+            let mut about = extents.about(b, *place, self.ring, seen, self.now);
+            while about != 0 {
+                let crack = BLOCK * b + about.trailing_zeros() as usize;
+                about &= about - 1;
+                let number = crack as u32;
+                if self.but == Some(number) {
+                    continue;
+                }
+                let Some(new) = self.sources.cast(crack, *place, *beta, self.now) else {
+                    continue;
+                };
+                i += shadows[i..].partition_point(|(of, _)| *of < number);
+                if shadows.get(i).is_some_and(|(of, _)| *of == number) {
+                    falls |= darken(&mut shadows[i].1, new);
+                } else {
+                    shadows.insert(i, (number, new));
+                    falls = true;
+                }
             }
         }
         falls

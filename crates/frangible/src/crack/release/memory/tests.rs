@@ -16,7 +16,7 @@ impl Default for Cracks {
     fn default() -> Self {
         Self {
             cracks: Vec::new(),
-            extents: Extents::new(EDGE),
+            extents: Extents::new(EDGE, WAVE),
         }
     }
 }
@@ -30,7 +30,7 @@ impl Cracks {
     }
 
     fn grow(&mut self, crack: u32, position: Vec3, direction: Vec3, time: f64) {
-        self.extents.grow(crack as usize, position);
+        self.extents.grow(crack as usize, position, time);
         self.cracks[crack as usize].sites.push(Site {
             position,
             direction,
@@ -166,7 +166,8 @@ fn what_is_released_stays_released_and_is_what_plain_lists_say() {
                 let crack = cracks.start(at);
                 tips.push((crack, at, 6.3 * number(), 4.0 * number() - 2.0));
             }
-            for (crack, at, angle, turn) in &mut tips {
+            // In the end they rest, while their waves are still on their way.
+            for (crack, at, angle, turn) in tips.iter_mut().filter(|_| step < 50) {
                 // Curved: a nearer place may lie less straight beside a point.
                 *angle += 0.2 * *turn;
                 let ahead = Vec3::new(angle.cos(), angle.sin(), 0.0);
