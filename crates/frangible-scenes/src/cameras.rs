@@ -11,6 +11,15 @@ const MARGIN: f32 = 1.08;
 /// Share of a disc around pieces that their faces fill, at least: so many of them are shown, and strays are not.
 const FILLED: f64 = 0.12;
 
+/// A body that moves less far than this stays where it is, m.
+const STAYS: f32 = 0.01;
+
+/// What is no higher than this share of its width lies flat.
+const FLAT: f32 = 0.4;
+
+/// Least height of the eye over what lies flat, as a share of its distance along the floor.
+const ABOVE: f32 = 0.9;
+
 /// The piece in the middle of the picture is one of so many of the heaviest.
 const MIDDLES: usize = 8;
 
@@ -41,7 +50,6 @@ pub(crate) fn cameras(recording: &Recording, roles: &[Role], look_from: Vec3) ->
     let bodies = things(recording, roles, moments.before, |_, role| {
         role == Role::Body
     });
-    let count = bodies.len();
     // What breaks, where not all do.
     let mut breaking = things(recording, roles, moments.before, |node, role| {
         role == Role::Body && broke(node)
@@ -49,7 +57,12 @@ pub(crate) fn cameras(recording: &Recording, roles: &[Role], look_from: Vec3) ->
     if breaking.is_empty() {
         breaking = bodies;
     }
-    let standing = breaking.len() < count;
+    let stays = |node: usize| {
+        let [from, to] = [moments.before, end].map(|frame| recording.pose(node, frame));
+        from.translation.distance(to.translation) < STAYS
+    };
+    let mut others = (0..roles.len()).filter(|&node| roles[node] == Role::Body && !broke(node));
+    let standing = others.any(stays);
     let pieces = |frame: usize| {
         let pieces = things(recording, roles, frame, |_, role| role == Role::Piece);
         if pieces.is_empty() {
@@ -69,7 +82,7 @@ pub(crate) fn cameras(recording: &Recording, roles: &[Role], look_from: Vec3) ->
         together(&pieces(moments.just_after)),
         together(&pieces(end)),
     ];
-    // Bodies that stay whole are the place where the others broke: it stays in the picture.
+    // Bodies that stay whole, and where they are, are the place where the others broke: it stays in the picture.
     let [first, flying, resting] = shown.map(|mut points| {
         if points.is_empty() || standing {
             points.extend(&before);
@@ -77,8 +90,20 @@ pub(crate) fn cameras(recording: &Recording, roles: &[Role], look_from: Vec3) ->
         points
     });
     let whole: Vec<Vec3> = before.iter().chain(&resting).copied().collect();
-    let views = [&before, &first, &flying, &resting].map(|points| look(points));
-    (look(&whole), views)
+    let [before, first, flying] = [&before, &first, &flying].map(|points| look(points));
+    let resting = view(&resting, ground, over(&resting, look_from), 0.0);
+    (look(&whole), [before, first, flying, resting])
+}
+
+/// The direction to look from, but from higher up at what lies flat.
+fn over(seen: &[Vec3], look_from: Vec3) -> Vec3 {
+    let low = seen.iter().copied().fold(Vec3::INFINITY, Vec3::min);
+    let size = seen.iter().copied().fold(Vec3::NEG_INFINITY, Vec3::max) - low;
+    let along = Vec3::new(look_from.x, 0.0, look_from.z).length();
+    if look_from.y < 0.0 || size.y > FLAT * size.x.max(size.z) {
+        return look_from;
+    }
+    look_from.with_y(look_from.y.max(ABOVE * along))
 }
 
 /// What can be seen of these roles in a frame.
