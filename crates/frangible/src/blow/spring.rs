@@ -26,13 +26,7 @@ pub(crate) struct Spring {
 }
 
 impl Spring {
-    /// Between two bodies with together this modulus E*, Pa, and radius, m, that are never crushed.
-    #[must_use]
-    pub(crate) fn new(modulus: f64, radius: f64) -> Self {
-        Self::crushed_at(f64::INFINITY, modulus, radius)
-    }
-
-    /// [`Spring::new`] of bodies one of which is crushed at this pressure, Pa.
+    /// Between two bodies with together this modulus E*, Pa, and radius, m, one of which is crushed at this pressure, Pa; it may be infinite.
     #[must_use]
     pub(crate) fn crushed_at(pressure: f64, modulus: f64, radius: f64) -> Self {
         // The pressure in the middle is 2 E* √(δ/R) / π.
@@ -203,7 +197,7 @@ mod tests {
 
     #[test]
     fn the_force_closes_the_gap() {
-        let spring = Spring::new(7e10, 0.01);
+        let spring = Spring::crushed_at(f64::INFINITY, 7e10, 0.01);
         for gap in [1e-12, 1e-7, 1e-5, 3e-4] {
             for compliance in [0.0, 1e-12, 1e-8, 1e-3] {
                 for mut root in [0.0, 1e-9, 1e-4, 0.3] {
@@ -220,7 +214,7 @@ mod tests {
 
     #[test]
     fn a_rigid_wall_stops_the_mass_where_the_spring_holds_its_energy() {
-        let spring = Spring::new(3e9, 2e-3);
+        let spring = Spring::crushed_at(f64::INFINITY, 3e9, 2e-3);
         let (mass, speed) = (2.6e-4, 20.0);
         let stiff = spring.peak_force(mass, speed, 1e9);
         let rigid = spring.peak_force(mass, speed, f64::INFINITY);
