@@ -43,6 +43,7 @@ impl BreakableWorld {
             // A heap sleeps when all of it may; one that creeps keeps the others awake.
             let stayed = f64::from(self.state.places.stayed(handle));
             if slept.max(stayed) >= f64::from(self.config.rest_time)
+                && !self.falls(body)
                 && !self.leans_on_what_moves(body)
             {
                 rested.push(handle);
@@ -63,6 +64,12 @@ impl BreakableWorld {
         if self.config.at_rest == AtRest::Merge {
             self.merge(&rested);
         }
+    }
+
+    /// Whether a piece moves as one whose support has gone does after a step: it has not left its place yet.
+    fn falls(&self, piece: &RigidBody) -> bool {
+        let a_step = self.physics.gravity.length() * self.config.dt;
+        piece.linvel().length() > 0.5 * a_step
     }
 
     /// Whether a piece touches a body that can move and is no piece itself: it would stay in the air when that body leaves.
