@@ -57,9 +57,11 @@ pub(crate) fn cameras(recording: &Recording, roles: &[Role], look_from: Vec3) ->
     if breaking.is_empty() {
         breaking = bodies;
     }
+    // What has cracked and holds is another node from then on.
     let stays = |node: usize| {
         let [from, to] = [moments.before, end].map(|frame| recording.pose(node, frame));
-        from.translation.distance(to.translation) < STAYS
+        let seen = recording.nodes[node].visible.contains(&end);
+        seen && from.translation.distance(to.translation) < STAYS
     };
     let mut others = (0..roles.len()).filter(|&node| roles[node] == Role::Body && !broke(node));
     let standing = others.any(stays);
