@@ -16,7 +16,7 @@ use frangible_scenes::{
 /// Scenes with other vibration modes and tetrahedra than [`USUAL`].
 const OTHERS: [(&str, usize, usize); 6] = [
     // The one that the page opens with.
-    ("pane", 20, 10_000),
+    ("pane", 18, 10_000),
     ("brick", 14, 5_000),
     ("hammer", 14, 5_000),
     // Two dozen of them.
