@@ -11,7 +11,7 @@ use bevy_frangible::prelude::*;
 use bevy_frangible::{Broken, CrackFaces, Rubble};
 use common::{app, ball, body, ready};
 
-/// A pane that falls flat from half a metre on a floor, and its pieces.
+/// A pane that falls flat from a metre on a floor, and its pieces.
 fn fallen(budget: DebrisBudget) -> (App, Entity) {
     let (mut app, log) = app();
     app.insert_resource(DebrisBudget {
@@ -21,7 +21,7 @@ fn fallen(budget: DebrisBudget) -> (App, Entity) {
     let floor = (RigidBody::Static, Collider::half_space(Vec3::Y));
     app.world_mut().spawn(floor);
     let flat = Quat::from_rotation_x(-std::f32::consts::FRAC_PI_2);
-    let place = Transform::from_xyz(0.0, 0.5, 0.0).with_rotation(flat);
+    let place = Transform::from_xyz(0.0, 1.0, 0.0).with_rotation(flat);
     let pane = body(&mut app, "pane", place);
     ready(&mut app, pane);
     steps(&mut app, 120);

@@ -35,7 +35,7 @@ fn what_flies_through_a_held_pane_leaves_a_hole_that_others_fly_through() {
         .add(window());
     let pane = app.world_mut().spawn(Breakable(asset)).id();
     ready(&mut app, pane);
-    let speed = 20.0;
+    let speed = 40.0;
     let first = ball(&mut app, Vec3::Z * 0.1, Vec3::NEG_Z * speed);
     for _ in 0..120 {
         app.update();
@@ -56,7 +56,7 @@ fn what_flies_through_a_held_pane_leaves_a_hole_that_others_fly_through() {
         let velocity = app.world().get::<LinearVelocity>(ball).unwrap().0;
         println!("{at}, {velocity} m/s; {:?}", log.lines());
         assert!(
-            velocity.z < -0.7 * speed && at.z < 0.0,
+            velocity.z < -0.3 * speed && at.z < 0.0,
             "{at}, {velocity} m/s"
         );
     }
