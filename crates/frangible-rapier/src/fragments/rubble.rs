@@ -36,7 +36,7 @@ pub(crate) struct Rubble {
 /// All rubble of a world.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Rubbles {
-    /// By the number of the origin.
+    /// What is merged, by the number of the body that it is of.
     pub(crate) all: BTreeMap<u64, Rubble>,
     /// The origin of each merged piece.
     origins: BTreeMap<Key, u64>,
