@@ -159,17 +159,30 @@ const STEPS: &[Step] = &[
     step("fuzz", || fuzz(USUAL_SECONDS, Some(FUZZ_LIMIT))),
 ];
 
-/// Runs all steps, stops at the first that fails, and ends with the times and the tests' summary. With `all` the steps of leaves run
-/// even if nothing changed.
-pub(crate) fn ci(all: bool) -> Result {
+/// Runs all steps, or those named, stops at the first that fails, and ends with the times and the tests' summary. With `all` the steps
+/// of leaves run even if nothing changed, and so does a step that is named.
+pub(crate) fn ci(all: bool, named: &[&str]) -> Result {
+    if let Some(unknown) = named
+        .iter()
+        .find(|name| STEPS.iter().all(|step| step.name != **name))
+    {
+        let names: Vec<&str> = STEPS.iter().map(|step| step.name).collect();
+        return Err(format!(
+            "there is no step `{unknown}`; the steps are {}",
+            names.join(", ")
+        ));
+    }
     let mut times = Vec::new();
     let mut kept = Vec::new();
     let mut outcome = Ok(());
     for step in STEPS {
         let name = step.name;
+        if !named.is_empty() && !named.contains(&name) {
+            continue;
+        }
         println!("\n=== {name}");
         let start = Instant::now();
-        let result = run_step(step, all);
+        let result = run_step(step, all || !named.is_empty());
         times.push((name, start.elapsed(), result.is_ok()));
         match result {
             Ok(lines) => kept.extend(lines),
