@@ -26,7 +26,7 @@ const HELP: &str = "\
 cargo xtask test [--fast]     setup, then all tests of the workspace in the release profile; --fast leaves out those over three seconds
 cargo xtask ci [--all]        everything the continuous integration checks, with the minutes per step; --all also runs the steps of
                               leaves that have not changed since they passed, and the pictures of the examples in Bevy
-cargo xtask ci STEP...        these steps alone, whether or not anything has changed: cargo xtask ci clippy "oldest rust"
+cargo xtask ci STEP...        these steps alone, whether or not anything has changed: cargo xtask ci clippy 'oldest rust'
 cargo xtask outcomes [--write FILE | --against FILE]
                               break all built-in scenes; print, store or compare pieces, areas, energies and bits
 cargo xtask counts [--write]  count the instructions of each stage; fail where they grew by over 5 %, or store them
@@ -90,7 +90,7 @@ fn run(words: &[&str]) -> Result {
         }
         ["test", "--fast"] => test::fast(),
         ["ci", "--all"] => ci::ci(true, &[]),
-        ["ci", ref steps @ ..] => ci::ci(false, steps),
+        ["ci", steps @ ..] => ci::ci(false, steps),
         ["rebake"] => rebake(),
         ["fuzz"] => fuzz::fuzz(fuzz::USUAL_SECONDS, None).map(drop),
         ["fuzz", seconds] => match seconds.parse() {
