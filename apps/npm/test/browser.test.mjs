@@ -55,11 +55,11 @@ async function broken({ page, errors }, name, more) {
 
 const rapier = await broken(await open('rapier', DESK), 'rapier', 30);
 console.log(`npm: with Rapier in a page: ${rapier} pieces`);
-for (const [name, size] of [['desk', DESK], ['phone', PHONE]]) {
-  const shown = await open('three', size);
+for (const [page, name, size] of [['three', 'desk', DESK], ['three', 'phone', PHONE], ['fiber', 'desk', DESK]]) {
+  const shown = await open(page, size);
   await shown.page.mouse.click(size.viewport.width / 2, size.viewport.height / 2);
-  const pieces = await broken(shown, `three-${name}`, 12);
-  console.log(`npm: touched in a page of three.js, ${name}: ${pieces} pieces`);
+  const pieces = await broken(shown, `${page}-${name}`, 12);
+  console.log(`npm: touched in a page of ${page === 'fiber' ? 'react-three-fiber' : 'three.js'}, ${name}: ${pieces} pieces`);
 }
 
 // The same in a worker of the page: frames keep coming meanwhile, and what a dead worker owes is rejected.

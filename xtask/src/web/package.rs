@@ -17,8 +17,12 @@ const MODULES: [(&str, &str, u64); 2] = [
     ("frangible-js-bake", "bakes", 1_000_000),
 ];
 /// What the examples in the browser need beside the package, and what it is compared with, of the versions that they are written for.
-const BESIDE: [&str; 3] = [
+const BESIDE: [&str; 7] = [
     "three@0.187.0",
+    "react@19.3.1",
+    "react-dom@19.3.1",
+    "@react-three/fiber@9.8.2",
+    "esbuild@0.28.2",
     "@dimforge/rapier3d-compat@0.21.0",
     "@dgreenheck/three-pinata@2.0.1",
 ];
@@ -121,7 +125,21 @@ fn install(folders: &Folders, package: &Path, clock: Clock) -> Result<PathBuf> {
         .args(BESIDE)
         .current_dir(&project);
     within(&mut install, clock)?;
+    bundle(&project, clock)?;
     Ok(project)
+}
+
+/// Bundles the example in React, whose packages browsers cannot import as they are: React itself is no module of JavaScript.
+fn bundle(project: &Path, clock: Clock) -> Result {
+    let mut command = Command::new("npx");
+    command
+        .args(["--no-install", "esbuild", "pages/fiber.jsx", "--bundle"])
+        .args(["--format=esm", "--jsx=automatic", "--minify"])
+        .arg("--define:process.env.NODE_ENV=\"production\"")
+        .args(["three", "frangible", "frangible/three"].map(|name| format!("--external:{name}")))
+        .arg("--outfile=pages/fiber.js")
+        .current_dir(project);
+    within(&mut command, clock)
 }
 
 /// What the same blows do to the same bodies outside the browser: the hashes of all numbers.
