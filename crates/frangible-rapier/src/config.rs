@@ -94,7 +94,8 @@ pub enum AtRest {
     /// Those of one body become one fixed body, its rubble, with one compound collider: see [`merged`](crate::BreakableWorld::merged). A copy of
     /// the world, its broad phase and its contacts have that collider in the place of all of theirs, and they do not count for
     /// [`WorldConfig::max_bodies`]. What can break and may be hit at [`WorldConfig::impact_speed`] or more comes loose before the step that hits
-    /// it, with what lies on it; the others stay where they are, as the floor does.
+    /// it, with what lies on it; the others stay where they are, as the floor does. A rubble has the surface, the collision groups and the user
+    /// data of its first piece. Pieces that lie on what can move, or on a held body that can break, go on sleeping.
     Merge,
     /// They go.
     Go,

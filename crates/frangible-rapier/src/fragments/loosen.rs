@@ -3,6 +3,8 @@
 //! A piece in a rubble has no contacts of its own that could be judged. So before the step that may hit it, it becomes a body again, and
 //! the step is one like any other. Pieces that cannot break stay where they are, as the floor does.
 
+use std::collections::BTreeMap;
+
 use rapier3d::dynamics::{RigidBody, RigidBodyHandle};
 use rapier3d::geometry::{Aabb, ColliderSet};
 use rapier3d::parry::bounding_volume::BoundingVolume;
@@ -11,9 +13,8 @@ use crate::stepping::approach::{is_fast, moves, swept_bounds};
 use crate::world::{BreakableWorld, key};
 
 impl BreakableWorld {
-    /// Makes a merged piece a body of its own again, with those that lie on it; whether it was merged.
-    ///
-    /// To let one piece alone come loose, make it dynamic in [`BreakableWorld::physics`].
+    /// Makes a merged piece a body of its own again, with those that lie on it; whether it was merged. A piece that is removed from
+    /// [`BreakableWorld::physics`], or is no longer fixed there, comes loose in the same way at the next step.
     pub fn loosen(&mut self, piece: RigidBodyHandle) -> bool {
         let merged = self.state.rubble.contains(piece);
         self.loosen_with_load(vec![piece]);
@@ -22,7 +23,7 @@ impl BreakableWorld {
     }
 
     /// Makes a piece a body again that is in a rubble, but leaves the rubble as it is.
-    pub(super) fn loosen_one(&mut self, piece: RigidBodyHandle) {
+    fn loosen_one(&mut self, piece: RigidBodyHandle) {
         if self.state.rubble.strike_off(piece) {
             self.state.places.disturb(&mut self.physics, piece);
             self.set_collides(piece, true);
@@ -35,13 +36,16 @@ impl BreakableWorld {
             return;
         }
         let bodies = &self.physics.bodies;
+        // The step itself makes a body that falls faster.
+        let speed = self.config.impact_speed - self.physics.gravity.length() * self.config.dt;
         // What it may hit is fixed. Chips break nothing.
-        let counts = |body: &RigidBody| {
+        let counts = |(handle, body): &(RigidBodyHandle, &RigidBody)| {
             moves(body)
-                && is_fast(body, self.config.impact_speed)
-                && (!body.is_dynamic() || body.mass() >= self.config.debris_mass)
+                && is_fast(body, speed)
+                && (body.mass() >= self.config.debris_mass
+                    || self.siblings.origin(*handle).is_none())
         };
-        let ways = bodies.iter().filter(|(_, body)| counts(body));
+        let ways = bodies.iter().filter(counts);
         let ways = ways.filter_map(|(_, body)| swept_bounds(&self.physics, body));
         let breakables = &self.state.breakables;
         let mut hit = Vec::new();
@@ -67,35 +71,34 @@ impl BreakableWorld {
         self.rebuild_rubble();
     }
 
-    /// Loosens pieces, and those that lie on them.
-    fn loosen_with_load(&mut self, mut pieces: Vec<RigidBodyHandle>) {
-        let up = -self.physics.gravity;
-        let margin = 2.0 * self.physics.integration_parameters.prediction_distance();
+    /// Makes a merged piece that goes a body again, and loosens what lies on it; nothing, where it is not merged.
+    pub(super) fn loosen_load(&mut self, piece: RigidBodyHandle) {
+        self.loosen_with_load(vec![piece]);
+    }
+
+    /// Loosens pieces, and those that lie on them. Pieces that are no longer in the world leave the rubble in the same way.
+    pub(super) fn loosen_with_load(&mut self, mut pieces: Vec<RigidBodyHandle>) {
+        let parameters = &self.physics.integration_parameters;
+        let margin = 2.0 * parameters.prediction_distance();
+        let error = parameters.allowed_linear_error();
+        let up = -self.physics.gravity.normalize_or_zero();
+        let top = |b: Aabb| b.center().dot(up) + b.half_extents().dot(up.abs());
         while let Some(piece) = pieces.pop() {
-            if !self.state.rubble.contains(piece) {
+            let Some(bounds) = self.state.rubble.bounds(piece) else {
                 continue;
-            }
+            };
             self.loosen_one(piece);
-            let bodies = &self.physics.bodies;
-            let height = |piece| {
-                bodies
-                    .get(piece)
-                    .map(|b: &RigidBody| b.center_of_mass().dot(up))
-            };
-            let own = bodies
-                .get(piece)
-                .and_then(|b| swept_bounds(&self.physics, b));
-            let (Some(bounds), Some(here)) = (own, height(piece)) else {
-                continue;
-            };
+            // A long piece that leans on a small one may have its centre below that one's, but not its upper end.
+            let height = top(bounds) + error;
             let near = self.merged_in(&bounds.loosened(margin)).into_iter();
-            pieces.extend(near.filter(|&other| height(other).is_some_and(|there| there > here)));
+            let rubble = &self.state.rubble;
+            pieces.extend(near.filter(|&p| rubble.bounds(p).is_some_and(|b| top(b) > height)));
         }
     }
 
     /// Merged pieces whose bounds meet these.
     fn merged_in(&self, bounds: &Aabb) -> Vec<RigidBodyHandle> {
-        let mut found = Vec::new();
+        let mut found = BTreeMap::new();
         for rubble in self.state.rubble.all.values() {
             let collider = self.physics.colliders.get(rubble.collider);
             let Some((collider, compound)) =
@@ -107,13 +110,10 @@ impl BreakableWorld {
             let shift = -collider.translation();
             let local = Aabb::new(bounds.mins + shift, bounds.maxs + shift);
             let parts = compound.bvh().intersect_aabb(&local);
-            for piece in parts.filter_map(|part| rubble.parts.get(part as usize)) {
-                if self.state.rubble.contains(*piece) && !found.contains(piece) {
-                    found.push(*piece);
-                }
-            }
+            let pieces = parts.filter_map(|part| rubble.parts.get(part as usize));
+            let merged = pieces.filter(|&&piece| self.state.rubble.contains(piece));
+            found.extend(merged.map(|&piece| (key(piece), piece)));
         }
-        found.sort_by_key(|&piece| key(piece));
-        found
+        found.into_values().collect()
     }
 }

@@ -1,12 +1,20 @@
 //! Pieces that rest, pieces that go, and how long steps take with them.
 
+use std::collections::BTreeSet;
+
 use rapier3d::dynamics::{RigidBody, RigidBodyHandle, RigidBodyType};
 
 use crate::config::AtRest;
-use crate::world::{BreakableWorld, key};
+use crate::world::{BreakableWorld, Key, key};
 
 /// Steps over which their time is averaged.
 const STEPS: f64 = 32.0;
+
+/// Time between two looks at what can be merged, s.
+const MERGE_TIME: f64 = 0.1;
+
+/// A contact whose normal points down by more than this, as the sine of an angle, presses on a piece from above and does not carry it.
+const FROM_ABOVE: f32 = -0.5;
 
 /// One in so many pieces of debris goes in each step that is too long.
 const SHARE: usize = 50;
@@ -23,47 +31,75 @@ impl BreakableWorld {
 
     /// Does with pieces that have rested for long what [`AtRest`] says.
     pub(crate) fn retire(&mut self) {
-        if self.config.at_rest == AtRest::Sleep {
-            return;
-        }
-        let now = self.time();
-        let pieces: Vec<RigidBodyHandle> = self.siblings.fragments().collect();
-        let mut rested = Vec::new();
-        for handle in pieces {
-            let Some(body) = self.physics.bodies.get(handle).filter(|b| b.is_dynamic()) else {
-                self.state.asleep.remove(&key(handle));
-                continue;
-            };
-            let slept = if body.is_sleeping() {
-                now - *self.state.asleep.entry(key(handle)).or_insert(now)
-            } else {
-                self.state.asleep.remove(&key(handle));
-                0.0
-            };
-            // A heap sleeps when all of it may; one that creeps keeps the others awake.
-            let stayed = f64::from(self.state.places.stayed(handle));
-            if slept.max(stayed) >= f64::from(self.config.rest_time)
-                && !self.falls(body)
-                && !self.leans_on_what_moves(body)
-            {
-                rested.push(handle);
-            }
-        }
+        let rested = match self.config.at_rest {
+            AtRest::Sleep => return,
+            // A heap that settles piece by piece would be made anew in each step.
+            AtRest::Merge if !self.is_time_to_merge() => return,
+            _ => self.rested(),
+        };
         for &handle in &rested {
             self.state.asleep.remove(&key(handle));
-            match self.config.at_rest {
-                AtRest::Go => self.let_go(handle),
-                AtRest::Merge => {}
-                _ => {
+        }
+        match self.config.at_rest {
+            AtRest::Go => rested.into_iter().for_each(|handle| self.let_go(handle)),
+            AtRest::Merge => self.merge(&rested),
+            _ => {
+                for handle in rested {
                     if let Some(body) = self.physics.bodies.get_mut(handle) {
                         body.set_body_type(RigidBodyType::Fixed, false);
                     }
                 }
             }
         }
-        if self.config.at_rest == AtRest::Merge {
-            self.merge(&rested);
+    }
+
+    /// Whether the step that has just been done crosses a multiple of [`MERGE_TIME`].
+    fn is_time_to_merge(&self) -> bool {
+        let turn = |time: f64| (time / MERGE_TIME).floor();
+        turn(self.time()) != turn(self.time() - f64::from(self.config.dt))
+    }
+
+    /// Pieces that have lain still for [`WorldConfig::rest_time`](crate::WorldConfig::rest_time) on what stays where it is.
+    fn rested(&mut self) -> Vec<RigidBodyHandle> {
+        let pieces: Vec<RigidBodyHandle> = self.siblings.fragments().collect();
+        let mut still: Vec<RigidBodyHandle> = (pieces.into_iter())
+            .filter(|&handle| self.lies_still(handle))
+            .collect();
+        let mut resting: BTreeSet<Key> = still.iter().map(|&handle| key(handle)).collect();
+        // One that stays behind may carry others, which then stay behind as well.
+        loop {
+            let count = still.len();
+            still.retain(|&handle| {
+                let rests = !self.is_carried_by_what_may_go(handle, &resting);
+                if !rests {
+                    resting.remove(&key(handle));
+                }
+                rests
+            });
+            if still.len() == count {
+                return still;
+            }
         }
+    }
+
+    /// Whether a piece has been asleep, or in its place, for long.
+    fn lies_still(&mut self, handle: RigidBodyHandle) -> bool {
+        let now = self.time();
+        let Some(body) = self.physics.bodies.get(handle).filter(|b| b.is_dynamic()) else {
+            self.state.asleep.remove(&key(handle));
+            return false;
+        };
+        let slept = if body.is_sleeping() {
+            now - *self.state.asleep.entry(key(handle)).or_insert(now)
+        } else {
+            self.state.asleep.remove(&key(handle));
+            0.0
+        };
+        // A heap sleeps when all of it may; one that creeps keeps the others awake.
+        let stayed = f64::from(self.state.places.stayed(handle));
+        slept.max(stayed) >= f64::from(self.config.rest_time)
+            && !self.falls(body)
+            && (self.config.at_rest != AtRest::Merge || self.can_merge(handle))
     }
 
     /// Whether a piece moves as one whose support has gone does after a step: it has not left its place yet.
@@ -72,32 +108,42 @@ impl BreakableWorld {
         piece.linvel().length() > 0.5 * a_step
     }
 
-    /// Whether a piece touches a body that can move and is no piece itself: it would stay in the air when that body leaves.
-    fn leans_on_what_moves(&self, piece: &RigidBody) -> bool {
+    /// Whether a piece lies on, or leans against, what may leave it in the air: a body that can move and does not rest itself, or one that
+    /// is held and can break. What only lies on top of it does not count.
+    fn is_carried_by_what_may_go(&self, piece: RigidBodyHandle, resting: &BTreeSet<Key>) -> bool {
         let physics = &self.physics;
-        piece.colliders().iter().any(|&own| {
+        let up = -physics.gravity.normalize_or_zero();
+        let may_go = |handle: RigidBodyHandle| {
+            let fixed = physics.bodies.get(handle).is_none_or(RigidBody::is_fixed);
+            if fixed {
+                self.state.breakables.contains_key(&key(handle))
+            } else {
+                !resting.contains(&key(handle))
+            }
+        };
+        let own = physics.bodies.get(piece).map_or(&[][..], |b| b.colliders());
+        own.iter().any(|&own| {
             let mut pairs = physics.narrow_phase.contact_pairs_with(own);
             pairs.any(|pair| {
-                let other = if pair.collider1 == own {
-                    pair.collider2
+                let (other, side) = if pair.collider1 == own {
+                    (pair.collider2, -1.0)
                 } else {
-                    pair.collider1
+                    (pair.collider1, 1.0)
                 };
+                let carries = pair.manifolds().iter().any(|manifold| {
+                    !manifold.points.is_empty() && side * manifold.data.normal.dot(up) > FROM_ABOVE
+                });
                 let body = physics.colliders.get(other).and_then(|c| c.parent());
-                pair.has_any_active_contact()
-                    && body.is_some_and(|handle| {
-                        let moves = physics.bodies.get(handle).is_some_and(|b| !b.is_fixed());
-                        moves && self.siblings.origin(handle).is_none()
-                    })
+                pair.has_any_active_contact() && carries && body.is_some_and(may_go)
             })
         })
     }
 
     /// Lets a piece go: at once, or it is no body any more and fades.
     pub(crate) fn let_go(&mut self, handle: RigidBodyHandle) {
+        self.loosen_load(handle);
         self.state.surfaces.remove(&key(handle));
         self.state.breakables.remove(&key(handle));
-        self.state.rubble.strike_off(handle);
         if self.config.fade_time <= 0.0 {
             self.physics.remove_body(handle);
             return;

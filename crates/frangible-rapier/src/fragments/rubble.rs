@@ -7,8 +7,9 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use rapier3d::dynamics::{RigidBodyBuilder, RigidBodyHandle, RigidBodyType};
-use rapier3d::geometry::{Collider, ColliderHandle, SharedShape};
+use rapier3d::geometry::{Aabb, Collider, ColliderHandle, SharedShape};
 use rapier3d::math::Pose;
+use rapier3d::parry::bounding_volume::BoundingVolume;
 
 use crate::world::{BreakableWorld, Key, key};
 
@@ -33,13 +34,22 @@ pub(crate) struct Rubble {
     pub(crate) parts: Vec<RigidBodyHandle>,
 }
 
+/// Where a merged piece lies.
+#[derive(Clone, Copy, Debug)]
+struct Place {
+    /// Number of the body that it comes from, whose rubble it is a part of.
+    origin: u64,
+    /// Bounds of its colliders in the world, where it stays.
+    bounds: Aabb,
+}
+
 /// All rubble of a world.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Rubbles {
     /// What is merged, by the number of the body that it is of.
     pub(crate) all: BTreeMap<u64, Rubble>,
-    /// The origin of each merged piece.
-    origins: BTreeMap<Key, u64>,
+    /// The place of each merged piece.
+    places: BTreeMap<Key, Place>,
     /// Rubble whose compound no longer is what its pieces are.
     stale: BTreeSet<u64>,
 }
@@ -47,27 +57,28 @@ pub(crate) struct Rubbles {
 impl Rubbles {
     /// Number of merged pieces.
     pub(crate) fn len(&self) -> usize {
-        self.origins.len()
+        self.places.len()
     }
 
     pub(crate) fn contains(&self, piece: RigidBodyHandle) -> bool {
-        self.origins.contains_key(&key(piece))
+        self.places.contains_key(&key(piece))
+    }
+
+    /// Bounds of a merged piece in the world.
+    pub(super) fn bounds(&self, piece: RigidBodyHandle) -> Option<Aabb> {
+        Some(self.places.get(&key(piece))?.bounds)
     }
 
     pub(super) fn pieces(&self) -> impl Iterator<Item = RigidBodyHandle> {
-        self.all.values().flat_map(|r| &r.pieces).copied()
+        let pieces = self.all.values().flat_map(|r| &r.pieces).copied();
+        pieces.filter(|&piece| self.contains(piece))
     }
 
-    /// Strikes a piece off the list; whether it was on it.
+    /// Strikes a piece off the list, whose rubble keeps it until it is rebuilt; whether it was on it.
     pub(crate) fn strike_off(&mut self, piece: RigidBodyHandle) -> bool {
-        let Some(origin) = self.origins.remove(&key(piece)) else {
-            return false;
-        };
-        if let Some(rubble) = self.all.get_mut(&origin) {
-            rubble.pieces.retain(|&other| other != piece);
-        }
-        self.stale.insert(origin);
-        true
+        let place = self.places.remove(&key(piece));
+        self.stale.extend(place.map(|place| place.origin));
+        place.is_some()
     }
 }
 
@@ -81,6 +92,7 @@ impl BreakableWorld {
         rubble.flat_map(move |rubble| {
             let frame = bodies.get(rubble.body).map(|b| b.position().inverse());
             let pieces = rubble.pieces.iter();
+            let pieces = pieces.filter(|&&piece| self.state.rubble.contains(piece));
             pieces.filter_map(move |&piece| {
                 Some(Merged {
                     piece,
@@ -94,8 +106,8 @@ impl BreakableWorld {
     /// The rubble that a piece lies in; none of a piece that is a body of its own.
     #[must_use]
     pub fn rubble_of(&self, piece: RigidBodyHandle) -> Option<RigidBodyHandle> {
-        let origin = self.state.rubble.origins.get(&key(piece))?;
-        Some(self.state.rubble.all.get(origin)?.body)
+        let place = self.state.rubble.places.get(&key(piece))?;
+        Some(self.state.rubble.all.get(&place.origin)?.body)
     }
 
     /// The piece that is a part of a rubble's compound collider, by the number of the part, which contacts call `subshape`.
@@ -121,17 +133,18 @@ impl BreakableWorld {
             let Some(origin) = self.siblings.origin(piece) else {
                 continue;
             };
-            let Some(collider) = self.skin_to_merge(piece) else {
+            let skin = self.skin_to_merge(piece).cloned();
+            let (Some(skin), Some(bounds)) = (skin, self.bounds_of(piece)) else {
                 continue;
             };
             let known = self.state.rubble.all.contains_key(&origin);
-            if !known && !self.begin_rubble(origin, piece, collider) {
+            if !known && !self.begin_rubble(origin, piece, skin) {
                 continue;
             }
             let rubble = &mut self.state.rubble;
             if let Some(own) = rubble.all.get_mut(&origin) {
                 own.pieces.push(piece);
-                rubble.origins.insert(key(piece), origin);
+                rubble.places.insert(key(piece), Place { origin, bounds });
                 rubble.stale.insert(origin);
             }
             self.set_collides(piece, false);
@@ -139,8 +152,20 @@ impl BreakableWorld {
         self.rebuild_rubble();
     }
 
-    /// A copy of a piece's first collider, of a piece that can be merged.
-    fn skin_to_merge(&self, piece: RigidBodyHandle) -> Option<Collider> {
+    /// Bounds of a piece's colliders where it lies.
+    fn bounds_of(&self, piece: RigidBodyHandle) -> Option<Aabb> {
+        let colliders = self.physics.bodies.get(piece)?.colliders().iter();
+        let colliders = colliders.filter_map(|&c| self.physics.colliders.get(c));
+        (colliders.map(Collider::compute_aabb)).reduce(|a, b| a.merged(&b))
+    }
+
+    /// Whether a piece can be a part of a rubble.
+    pub(super) fn can_merge(&self, piece: RigidBodyHandle) -> bool {
+        self.siblings.origin(piece).is_some() && self.skin_to_merge(piece).is_some()
+    }
+
+    /// The first collider of a piece that can be merged.
+    fn skin_to_merge(&self, piece: RigidBodyHandle) -> Option<&Collider> {
         let body = self.physics.bodies.get(piece)?;
         let hangs = (self.physics.impulse_joints.attached_joints(piece))
             .next()
@@ -155,7 +180,7 @@ impl BreakableWorld {
             })
         };
         let first = colliders.next().filter(fits).flatten()?;
-        (!hangs && colliders.all(|c| fits(&c))).then(|| first.clone())
+        (!hangs && colliders.all(|c| fits(&c))).then_some(first)
     }
 
     /// A fixed body without parts yet, where a piece is, that rubs and collides as that piece.
@@ -191,12 +216,12 @@ impl BreakableWorld {
         let Some(body) = self.physics.bodies.get_mut(piece) else {
             return;
         };
-        let kind = if collides {
-            RigidBodyType::Dynamic
-        } else {
-            RigidBodyType::Fixed
-        };
-        body.set_body_type(kind, collides);
+        if !collides {
+            body.set_body_type(RigidBodyType::Fixed, false);
+        } else if body.is_fixed() {
+            // Somebody may have made it kinematic to carry it away.
+            body.set_body_type(RigidBodyType::Dynamic, true);
+        }
         for &collider in body.colliders() {
             if let Some(collider) = self.physics.colliders.get_mut(collider) {
                 collider.set_enabled(collides);
@@ -207,11 +232,14 @@ impl BreakableWorld {
     /// Makes the compounds what their pieces are. Rubble without pieces goes.
     pub(crate) fn rebuild_rubble(&mut self) {
         for origin in std::mem::take(&mut self.state.rubble.stale) {
-            let Some(rubble) = self.state.rubble.all.get(&origin) else {
+            let Rubbles { all, places, .. } = &mut self.state.rubble;
+            let Some(rubble) = all.get_mut(&origin) else {
                 continue;
             };
+            let lies = |piece| places.get(&key(piece)).is_some_and(|p| p.origin == origin);
+            rubble.pieces.retain(|&piece| lies(piece));
             let body = rubble.body;
-            let (shapes, parts) = self.parts_of(rubble);
+            let (shapes, parts) = self.parts_of(origin);
             if shapes.is_empty() {
                 self.state.rubble.all.remove(&origin);
                 self.state.surfaces.remove(&key(body));
@@ -228,8 +256,11 @@ impl BreakableWorld {
     }
 
     /// The convex parts of a rubble in its frame, and the piece of each.
-    fn parts_of(&self, rubble: &Rubble) -> (Vec<(Pose, SharedShape)>, Vec<RigidBodyHandle>) {
+    fn parts_of(&self, origin: u64) -> (Vec<(Pose, SharedShape)>, Vec<RigidBodyHandle>) {
         let (mut shapes, mut parts) = (Vec::new(), Vec::new());
+        let Some(rubble) = self.state.rubble.all.get(&origin) else {
+            return (shapes, parts);
+        };
         let bodies = &self.physics.bodies;
         let frame = bodies.get(rubble.body).map(|b| b.position().inverse());
         let frame = frame.unwrap_or(Pose::IDENTITY);
@@ -270,7 +301,7 @@ impl BreakableWorld {
                 continue;
             };
             for piece in rubble.pieces {
-                self.state.rubble.origins.remove(&key(piece));
+                self.state.rubble.places.remove(&key(piece));
                 self.physics.remove_body(piece);
             }
             self.physics.remove_body(rubble.body);
@@ -278,9 +309,7 @@ impl BreakableWorld {
         let bodies = &self.physics.bodies;
         let moved = |&piece: &RigidBodyHandle| bodies.get(piece).is_none_or(|b| !b.is_fixed());
         let moved: Vec<RigidBodyHandle> = self.state.rubble.pieces().filter(moved).collect();
-        for piece in moved {
-            self.loosen_one(piece);
-        }
+        self.loosen_with_load(moved);
         self.rebuild_rubble();
     }
 }

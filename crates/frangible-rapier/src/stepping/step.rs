@@ -52,8 +52,8 @@ impl BreakableWorld {
         self.siblings.relaxation =
             self.config.overlap_relaxation * self.physics.integration_parameters.dt;
         self.join_pieces();
-        self.loosen_hit();
         let pushed = self.apply_pushes();
+        self.loosen_hit();
         self.timings.upkeep += watch.lap();
         let done = match self.config.breaking {
             Breaking::InsideStep => self.step_breaking_inside(caller),
