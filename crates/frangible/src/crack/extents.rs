@@ -100,19 +100,33 @@ impl Block {
     #[inline(always)]
     fn near(&self, point: Vec3, ring: Ring) -> u32 {
         let [x, y, z] = &self.origin;
-        let mut bits = 0;
+        let mut squared = [0.0; BLOCK];
         for k in 0..BLOCK {
             let (x, y, z) = (point.x - x[k], point.y - y[k], point.z - z[k]);
-            let squared = x * x + y * y + z * z;
-            let close = squared <= self.close[k];
-            let near = match ring {
-                Ring::Close => close,
-                Ring::Far => !close & (squared <= self.reach[k]),
-            };
-            bits |= u32::from(near) << k;
+            squared[k] = x * x + y * y + z * z;
         }
-        bits
+        let close = no_more_than(&squared, &self.close);
+        match ring {
+            Ring::Close => close,
+            Ring::Far => no_more_than(&squared, &self.reach) & !close,
+        }
     }
+}
+
+/// Which numbers are no larger than their limits, a bit each. Each number that is larger takes its bit away: so compilers keep the
+/// numbers side by side, which they do not where each number that is smaller adds its bit.
+#[inline(always)]
+fn no_more_than(numbers: &[f32; BLOCK], limits: &[f32; BLOCK]) -> u32 {
+    let mut without = [0_u32; BLOCK];
+    for k in 0..BLOCK {
+        let within = numbers[k] <= limits[k];
+        without[k] = if within { u32::MAX } else { !(1 << k) };
+    }
+    let mut bits = (1 << BLOCK) - 1;
+    for without in without {
+        bits &= without;
+    }
+    bits
 }
 
 /// Where all cracks are.

@@ -38,6 +38,37 @@ impl Block {
         }
         squared
     }
+
+    /// Squares of how far waves of this speed, m/s, have come from each place by `now`, s: m².
+    #[inline(always)]
+    fn heard_within(&self, now: f32, wave: f32) -> [f32; BLOCK] {
+        let mut squared = [0.0; BLOCK];
+        for k in 0..BLOCK {
+            let way = wave * (now - self.time[k]);
+            let way = if way > 0.0 { way } else { 0.0 };
+            squared[k] = way * way;
+        }
+        squared
+    }
+}
+
+/// The smaller of two numbers, neither of which is NaN.
+#[inline(always)]
+fn smaller<T: Copy + PartialOrd>(a: T, b: T) -> T {
+    if a < b { a } else { b }
+}
+
+/// The least of a block's numbers, none of which is NaN. Halves are compared side by side: three comparisons follow each other, and not seven.
+#[inline(always)]
+fn least<T: Copy + PartialOrd>(mut numbers: [T; BLOCK]) -> T {
+    let mut half = BLOCK / 2;
+    while half > 0 {
+        for k in 0..half {
+            numbers[k] = smaller(numbers[k + half], numbers[k]);
+        }
+        half /= 2;
+    }
+    numbers[0]
 }
 
 /// Places on a crack in the order of growth.
@@ -71,17 +102,7 @@ impl Sites {
         let squared = distance * distance;
         // The latest first: a new place is next to them.
         let mut blocks = self.blocks.iter().rev();
-        blocks.any(|block| {
-            let mut nearest = f32::INFINITY;
-            for distance in block.distances(point) {
-                nearest = if distance < nearest {
-                    distance
-                } else {
-                    nearest
-                };
-            }
-            nearest <= squared
-        })
+        blocks.any(|block| least(block.distances(point)) <= squared)
     }
 
     /// The nearest place whose wave, of this speed, m/s, has reached a point at time `now`, s.
@@ -92,23 +113,28 @@ impl Sites {
         let mut of_block = [0_u32; BLOCK];
         for (number, block) in (0..).zip(&self.blocks) {
             let distances = block.distances(point);
+            let limits = block.heard_within(now, wave);
             for k in 0..BLOCK {
-                let reach = (wave * (now - block.time[k])).max(0.0);
-                let nearer = distances[k] < nearest[k] && distances[k] < reach * reach;
+                let limit = smaller(limits[k], nearest[k]);
+                let nearer = distances[k] < limit;
                 nearest[k] = if nearer { distances[k] } else { nearest[k] };
                 of_block[k] = if nearer { number } else { of_block[k] };
             }
         }
-        let mut least = f32::INFINITY;
-        for distance in nearest {
-            least = if distance < least { distance } else { least };
-        }
-        if least == f32::INFINITY {
+        let distance = least(nearest);
+        if distance == f32::INFINITY {
             return None;
         }
         // Of equals the first.
-        let number = |k: usize| BLOCK * of_block[k] as usize + k;
-        let equals = (0..BLOCK).filter(|&k| nearest[k] == least);
-        self.list.get(equals.map(number).min()?)
+        let mut numbers = [u32::MAX; BLOCK];
+        for k in 0..BLOCK {
+            let number = (BLOCK as u32) * of_block[k] + k as u32;
+            numbers[k] = if nearest[k] == distance {
+                number
+            } else {
+                u32::MAX
+            };
+        }
+        self.list.get(least(numbers) as usize)
     }
 }
