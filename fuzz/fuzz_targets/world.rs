@@ -111,6 +111,7 @@ fn surface(draw: &mut Draw<'_>) -> SurfaceProperties {
             restitution: draw.between(0.0, 1.0) as f32,
             friction: draw.between(0.0, 2.0) as f32,
             curvature_radius: draw.size(1e-4, 10.0) as f32,
+            crushing_pressure: draw.size(1e5, 1e12) as f32,
         },
     }
 }

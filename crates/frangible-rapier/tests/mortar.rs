@@ -30,13 +30,17 @@ fn bonded(side: f32, strength: f32, swap: bool) -> (usize, f32) {
             Vector::ZERO,
         )
         .unwrap();
+    let (one, two, across) = if swap {
+        (ball, block, -side)
+    } else {
+        (block, ball, side)
+    };
     let mortar = Mortar {
         centre: Vector::new(0.0, 1.0 + side * 0.05, 0.0),
-        normal: Vector::new(0.0, side, 0.0),
+        normal: Vector::new(0.0, across, 0.0),
         area: 1e-4,
         strength,
     };
-    let (one, two) = if swap { (ball, block) } else { (block, ball) };
     world.insert_mortar(one, two, mortar).unwrap();
     for _ in 0..120 {
         world.step().unwrap();

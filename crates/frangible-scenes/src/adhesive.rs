@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use frangible::Asset;
-use frangible::glam::{DVec3, Quat, Vec3};
+use frangible::glam::{DVec3, Vec3};
 use frangible_mesh::{MeshSolid, Surface};
 use frangible_rapier::{BreakableWorld, Mortar};
 
@@ -19,28 +19,34 @@ use crate::stage::Placed;
 /// Thickest layer, m.
 const THICKEST: f32 = 3e-3;
 
-/// Cosine of the angle between a face and the way to the other body, at least.
+/// Cosine of the angle between a face and the turned face of the other body, at least.
 const FACING: f32 = 0.7;
 
-/// Smallest patch, as a share of a whole one: smaller ones lie at the rim.
+/// Smallest patch, as a share of a whole one, or of all that the two bodies share where that is less: smaller ones lie at the rim.
 const LEAST_SHARE: f32 = 0.02;
 
 /// Sums over a patch.
 #[derive(Clone, Copy, Default)]
 struct Patch {
+    /// m².
     area: f32,
-    /// Place and way across the layer, times the area, m³.
+    /// Place of the middle of the layer times the area, m³.
     place: Vec3,
-    across: Vec3,
+    /// Outward normal of the first body times the area, m².
+    normal: Vec3,
 }
 
-/// Bonds all bodies over the faces that lie within the thickest layer of each other.
+/// Bonds all bodies over the faces that lie within the thickest layer of each other, touch, or overlap by as little.
+///
+/// # Errors
+/// An adhesive that bonds nothing.
 pub(crate) fn glue(
     world: &mut BreakableWorld,
     bodies: &[Placed<'_>],
     assets: &[Arc<Asset>],
     adhesive: &Adhesive,
 ) -> Result<(), SceneError> {
+    let mut count = 0;
     for i in 0..bodies.len() {
         for j in i + 1..bodies.len() {
             let (one, two) = (bodies[i].bounds, bodies[j].bounds);
@@ -49,22 +55,30 @@ pub(crate) fn glue(
                 continue;
             }
             // The finer surface says where the patches are.
-            let finer = if triangle(&assets[i]) <= triangle(&assets[j]) {
-                [i, j]
+            let (fine, coarse) = if triangle(&assets[i]) <= triangle(&assets[j]) {
+                (i, j)
             } else {
-                [j, i]
+                (j, i)
             };
-            let [fine, coarse] = finer.map(|k| (&bodies[k], &*assets[k]));
-            for patch in patches(fine, coarse, adhesive.patch as f32) {
+            let pair = [fine, coarse].map(|k| (&bodies[k], &*assets[k]));
+            let patches = patches(pair, adhesive.patch as f32);
+            count += patches.len();
+            for patch in patches {
                 let mortar = Mortar {
                     centre: vector(patch.place / patch.area),
-                    normal: vector(patch.across),
+                    normal: vector(patch.normal),
                     area: patch.area,
                     strength: adhesive.strength as f32,
                 };
-                world.insert_mortar(bodies[i].handle, bodies[j].handle, mortar)?;
+                world.insert_mortar(bodies[fine].handle, bodies[coarse].handle, mortar)?;
             }
         }
+    }
+    if count == 0 {
+        return Err(SceneError::Clash(format!(
+            "the adhesive bonds nothing: no two bodies have faces within {} mm of each other; bring them closer or leave the adhesive out",
+            1e3 * THICKEST
+        )));
     }
     Ok(())
 }
@@ -85,11 +99,7 @@ fn area([a, b, c]: [Vec3; 3]) -> Vec3 {
 }
 
 /// Where the first body's surface faces the second one's, in squares of this side.
-fn patches(
-    (one, asset): (&Placed<'_>, &Asset),
-    (two, other): (&Placed<'_>, &Asset),
-    side: f32,
-) -> Vec<Patch> {
+fn patches([(one, asset), (two, other)]: [(&Placed<'_>, &Asset); 2], side: f32) -> Vec<Patch> {
     let Ok(solid) = MeshSolid::new(&surface(other)) else {
         return Vec::new();
     };
@@ -103,31 +113,31 @@ fn patches(
         if (low - place).max(place - high).max_element() > THICKEST {
             continue;
         }
-        let normal = turn * area(corners);
-        let Some(across) = way(&solid, back, place - two.target.centre) else {
+        let there = (back * (place - two.target.centre)).as_dvec3();
+        let Some(nearest) = solid.nearest(there, f64::from(THICKEST)) else {
             continue;
         };
-        if normal.dot(across) < FACING * normal.length() * across.length() {
+        // The way to the nearest place says nothing where the bodies touch or overlap by rounding; the two normals do.
+        let (normal, opposite) = (
+            turn * area(corners),
+            two.spec.rotation * nearest.normal.as_vec3(),
+        );
+        let area = normal.length();
+        if -normal.dot(opposite) < FACING * area {
             continue;
         }
+        let across = two.spec.rotation * (nearest.position - there).as_vec3();
         let square = (middle / side).floor().as_ivec3().to_array();
         let patch = squares.entry(square).or_default();
-        let area = normal.length();
         patch.area += area;
         patch.place += area * (place + 0.5 * across);
-        patch.across += normal;
+        patch.normal += normal;
     }
-    let least = LEAST_SHARE * side * side;
     let mut patches: Vec<Patch> = squares.into_values().collect();
+    let all: f32 = patches.iter().map(|patch| patch.area).sum();
+    let least = LEAST_SHARE * (side * side).min(all);
     patches.retain(|patch| patch.area >= least);
     patches
-}
-
-/// From a place, m from the second body's centre, to the nearest place of its surface, if that is near enough.
-fn way(solid: &MeshSolid, back: Quat, place: Vec3) -> Option<Vec3> {
-    let there = (back * place).as_dvec3();
-    let nearest = solid.nearest(there, f64::from(THICKEST))?;
-    Some(back.inverse() * (nearest.position - there).as_vec3())
 }
 
 fn surface(asset: &Asset) -> Surface {

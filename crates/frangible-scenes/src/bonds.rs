@@ -1,7 +1,6 @@
 //! Mortar between bodies whose faces touch.
 
 use frangible::glam::Vec3;
-use frangible_rapier::rapier3d::math::Vector;
 use frangible_rapier::{BreakableWorld, Mortar};
 
 use crate::error::SceneError;
@@ -26,9 +25,15 @@ pub(crate) fn bond(
             let Some((centre, axis, area)) = face(one, two) else {
                 continue;
             };
+            let ahead = two[0][axis] + two[1][axis] >= one[0][axis] + one[1][axis];
+            let across = if ahead {
+                Vec3::AXES[axis]
+            } else {
+                -Vec3::AXES[axis]
+            };
             let mortar = Mortar {
                 centre: vector(centre),
-                normal: Vector::from_array(Vec3::AXES[axis].to_array()),
+                normal: vector(across),
                 area,
                 strength: strength as f32,
             };

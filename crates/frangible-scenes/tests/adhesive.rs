@@ -71,6 +71,54 @@ fn an_adhesive_without_strength_or_patches_is_refused() {
     }
 }
 
+/// The tile without a ball, so far from the block, bonded or not.
+fn hung(gap: f32, patch: Option<f64>) -> Scene {
+    let mut scene = tile_on_a_block();
+    scene.projectiles.clear();
+    scene.duration = 0.1;
+    scene.bodies[0].place = Place::Centre(Vec3::new(0.0, 0.3, 0.023 + gap));
+    scene.adhesive = patch.map(|patch| Adhesive {
+        strength: 1e6,
+        patch,
+    });
+    scene
+}
+
+#[test]
+fn bodies_that_touch_or_overlap_by_rounding_are_bonded() {
+    let baked = bake(&hung(0.0, None), &mut |_| {}).unwrap();
+    let fall = |scene: &Scene| {
+        let recording = play(scene, &baked, &mut |_| {}).unwrap().recording;
+        let last = recording.frame_count - 1;
+        let tile = recording.nodes.iter().position(|node| node.name == "tile");
+        let tile = tile.expect("it is drawn");
+        let [from, to] = [0, last].map(|frame| recording.pose(tile, frame).translation);
+        from.distance(to)
+    };
+    let free = fall(&hung(2e-3, None));
+    assert!(free > 0.03, "without an adhesive it falls {free} m");
+    // A patch may be wider than the tile.
+    for (gap, patch) in [
+        (2e-3, 0.05),
+        (0.0, 0.05),
+        (1e-9, 0.5),
+        (-1e-6, 0.05),
+        (-2e-5, 0.5),
+    ] {
+        let fallen = fall(&hung(gap, Some(patch)));
+        assert!(fallen < 1e-3, "a gap of {gap} m: it fell {fallen} m");
+    }
+}
+
+#[test]
+fn an_adhesive_that_bonds_nothing_is_refused() {
+    let scene = hung(0.01, Some(0.02));
+    let baked = bake(&scene, &mut |_| {}).unwrap();
+    let refused = play(&scene, &baked, &mut |_| {}).err();
+    let message = refused.expect("10 mm are no layer").to_string();
+    assert!(message.contains("bonds nothing"), "{message}");
+}
+
 #[test]
 fn the_scenes_of_glued_sheets_break_and_keep_most_of_their_pieces() {
     // The pieces of a telephone fly with it.

@@ -21,7 +21,7 @@ const MARK: u128 = 0x6d6f_7274_6172_0001 << 64;
 pub struct Mortar {
     /// Middle of the face, m, world.
     pub centre: Vector,
-    /// Unit normal of the face.
+    /// Normal of the face, from the first body to the second: what moves the second one that way pulls.
     pub normal: Vector,
     /// Area of the face, m².
     pub area: f32,
@@ -46,13 +46,7 @@ impl BreakableWorld {
         positive("strength of the mortar (Pa)", mortar.strength)?;
         let normal = mortar.normal.try_normalize();
         let normal = normal.ok_or(WorldError::NoNormal(mortar.normal))?;
-        let place = |handle: RigidBodyHandle| {
-            let body = self.physics.bodies.get(handle);
-            body.map_or(mortar.centre, |body| body.translation())
-        };
         // Axis x of the joint's frame from the first body to the second, so that a pull has one sign.
-        let ahead = (place(two) - place(one)).dot(normal) >= 0.0;
-        let normal = if ahead { normal } else { -normal };
         let face = Pose::from_parts(
             mortar.centre,
             Rotation::from_rotation_arc(Vector::X, normal),

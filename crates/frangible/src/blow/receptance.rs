@@ -268,7 +268,7 @@ impl WallReceptance {
             Some([impulse, duration]) => (duration, duration, 0.5 * PI * impulse / duration),
             None => (
                 site.hertz_time,
-                site.hertz_time + 3.0 * mass / wall.dashpot(),
+                site.hertz_time * site.spring.stretch(mass, speed) + 3.0 * mass / wall.dashpot(),
                 site.spring.peak_force(mass, speed, wall.dashpot()),
             ),
         };

@@ -145,28 +145,63 @@ impl Spring {
         along / (1.0 / self.crushing_stiffness + compliance)
     }
 
+    /// How much longer crushing makes the blow of a mass on a rigid wall, kg, m/s, than Hertz' spring alone would: twice the time to the deepest
+    /// dent over Hertz' time. What was crushed parts faster than it met, so this is an upper bound; 1 where nothing is crushed.
+    #[must_use]
+    pub(crate) fn stretch(&self, mass: f64, speed: f64) -> f64 {
+        let energy = 0.5 * mass * speed * speed;
+        if self.force_of_energy(energy) <= self.crushing_force {
+            return 1.0;
+        }
+        let elastic = Self {
+            crushing_force: f64::INFINITY,
+            ..*self
+        };
+        let time = |spring: &Self| spring.loading(mass, speed, f64::INFINITY).time;
+        time(self) / time(&elastic)
+    }
+
     /// The blow of a mass on this spring behind a dashpot (Zener 1941), kg, m/s, N·s/m: its peak force, N. An infinite
     /// dashpot is a rigid wall.
     #[must_use]
     pub(crate) fn peak_force(&self, mass: f64, speed: f64, dashpot: f64) -> f64 {
-        let rigid = self.force_of_energy(0.5 * mass * speed * speed);
         if !dashpot.is_finite() {
-            return rigid;
+            return self.force_of_energy(0.5 * mass * speed * speed);
         }
+        self.loading(mass, speed, dashpot).peak
+    }
+
+    /// The first half of such a blow, step by step.
+    fn loading(&self, mass: f64, speed: f64, dashpot: f64) -> Loading {
+        let rigid = self.force_of_energy(0.5 * mass * speed * speed);
         // A two-hundredth of the time to the deepest dent on a rigid wall is fine for a per cent.
         let step = self.dent(rigid) / speed / 200.0;
-        let (mut dent, mut moving, mut peak) = (0.0_f64, speed, 0.0_f64);
+        let (mut dent, mut moving) = (0.0_f64, speed);
+        let mut loading = Loading {
+            peak: 0.0,
+            time: 0.0,
+        };
         for _ in 0..4000 {
             let force = self.force_of_dent(dent);
-            if force < peak {
+            if force < loading.peak {
                 break;
             }
-            peak = force;
+            loading.peak = force;
+            loading.time += step;
             dent += (moving - force / dashpot) * step;
             moving -= force / mass * step;
         }
-        peak
+        loading
     }
+}
+
+/// What a blow does until its force is largest.
+#[derive(Clone, Copy, Debug)]
+struct Loading {
+    /// N.
+    peak: f64,
+    /// s.
+    time: f64,
 }
 
 /// The force F ≥ 0 of Hertz' spring at which `(F/K)^(2/3) + compliance F = gap`, N; see [`Spring::force`].
@@ -247,6 +282,24 @@ mod tests {
                 assert_eq!(half < first * (1.0 - 1e-9), share > 1.0, "{share}");
             }
         }
+    }
+
+    #[test]
+    fn crushing_makes_a_blow_longer() {
+        let (mass, speed, pressure, radius) = (0.2, 8.0, 3.3e6, 0.0183);
+        let spring = |pressure| Spring::crushed_at(pressure, 9e9, radius);
+        assert_eq!(spring(f64::INFINITY).stretch(mass, speed), 1.0);
+        assert_eq!(spring(1e12).stretch(mass, speed), 1.0);
+        // Where nearly all is crushed the spring is linear, and Hertz' takes 1.47 δ / v to its deepest dent.
+        let linear = 0.5 * PI * (mass / (PI * pressure * radius)).sqrt();
+        let hertz = spring(f64::INFINITY);
+        let deepest = hertz.dent(hertz.force_of_energy(0.5 * mass * speed * speed));
+        let stretch = spring(pressure).stretch(mass, speed);
+        let closed = linear / (1.472 * deepest / speed);
+        assert!(
+            stretch > 3.0 && (stretch / closed - 1.0).abs() < 0.03,
+            "{stretch} {closed}"
+        );
     }
 
     #[test]
