@@ -88,8 +88,23 @@ export interface Report {
   firstCrackTime?: number;
   /** How long the computation took, s. */
   seconds: number;
-  /** What became of each contact: N·s, N, s, m/s. */
-  contacts: { impulse: number; peakForce: number; duration: number; departureSpeed: number; crushingEnergy: number }[];
+  /** What became of each contact. */
+  contacts: ContactReport[];
+}
+
+/** What became of a contact. */
+export interface ContactReport {
+  /** N·s. */
+  impulse: number;
+  /** N. */
+  peakForce: number;
+  /** s. */
+  duration: number;
+  /** How fast striker and body part, m/s. */
+  departureSpeed: number;
+  /** What crushing took, J, and the volume that it crushed, m³. */
+  crushingEnergy: number;
+  crushedVolume: number;
 }
 
 /** How something moves: m/s and rad/s, world axes. */

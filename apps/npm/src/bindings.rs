@@ -185,6 +185,7 @@ fn contact(report: &frangible::internals::outcome::ContactReport) -> JsValue {
         ("duration", report.duration),
         ("departureSpeed", report.departure_speed),
         ("crushingEnergy", report.crushing_energy),
+        ("crushedVolume", report.crushed_volume),
     ] {
         set(&object, name, number);
     }

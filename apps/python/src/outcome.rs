@@ -118,6 +118,7 @@ fn contact<'py>(py: Python<'py>, report: &ContactReport) -> PyResult<Bound<'py, 
         ("contact_radius", report.contact_radius),
         ("departure_speed", report.departure_speed),
         ("crushing_energy", report.crushing_energy),
+        ("crushed_volume", report.crushed_volume),
     ] {
         dict.set_item(name, number)?;
     }

@@ -19,6 +19,8 @@ pub struct OutOfRange {
 impl OutOfRange {
     /// The range of a coefficient of restitution.
     pub const RESTITUTION: &'static str = "between 0 (no bounce) and 1 (full bounce)";
+    /// The range of a crushing pressure.
+    pub const CRUSHING_PRESSURE: &'static str = "10 kPa or more, and may be infinite";
 
     /// Checks a number that has no unit.
     ///

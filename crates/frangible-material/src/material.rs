@@ -41,6 +41,9 @@ pub struct Material {
 }
 
 impl Material {
+    /// Lowest [`crushing_pressure`](Self::crushing_pressure), Pa: what is crushed by less, as snow is, is pressed for longer than a blow is followed.
+    pub const LEAST_CRUSHING_PRESSURE: f64 = 1e4;
+
     /// Checks every number, naming the one at fault.
     ///
     /// # Errors
@@ -61,9 +64,9 @@ impl Material {
         ] {
             not_negative(what, value)?;
         }
-        let must = "above zero, and may be infinite";
-        let pressure = self.crushing_pressure;
-        OutOfRange::unless(pressure > 0.0, "crushing pressure", pressure, must)?;
+        let (must, pressure) = (OutOfRange::CRUSHING_PRESSURE, self.crushing_pressure);
+        let fits = pressure >= Self::LEAST_CRUSHING_PRESSURE;
+        OutOfRange::unless(fits, "crushing pressure", pressure, must)?;
         let (nu, e) = (self.poisson_ratio, self.restitution);
         let must = "between -1 and 0.5 (glass 0.23, rubber just under 0.5)";
         OutOfRange::unless(nu > -1.0 && nu < 0.5, "Poisson's ratio", nu, must)?;

@@ -27,6 +27,9 @@ pub enum WorldError {
         /// What was given.
         value: f32,
     },
+    /// A crushing pressure of which contacts would last longer than they are followed, Pa.
+    #[error("crushing pressure is {0} Pa; it must be 10 kPa or more, and may be infinite")]
+    CrushingPressure(f32),
     /// Restitution out of 0..=1.
     #[error("restitution is {0}; it must lie between 0 (no bounce) and 1 (full bounce)")]
     Restitution(f32),

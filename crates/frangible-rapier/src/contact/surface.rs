@@ -59,12 +59,15 @@ impl SurfaceProperties {
     pub fn validate(&self) -> Result<(), WorldError> {
         for (what, value) in [
             ("contact modulus (Pa)", self.contact_modulus),
-            ("crushing pressure (Pa)", self.crushing_pressure),
             ("curvature radius (m)", self.curvature_radius),
         ] {
             if value.is_nan() || value <= 0.0 {
                 return Err(WorldError::NotPositive { what, value });
             }
+        }
+        let pressure = f64::from(self.crushing_pressure);
+        if pressure.is_nan() || pressure < Material::LEAST_CRUSHING_PRESSURE {
+            return Err(WorldError::CrushingPressure(self.crushing_pressure));
         }
         not_negative("friction", self.friction)?;
         if !(0.0..=1.0).contains(&self.restitution) {

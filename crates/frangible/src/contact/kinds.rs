@@ -306,10 +306,6 @@ impl Contact {
         for (what, value) in [
             ("a striker's contact modulus", self.striker.contact_modulus),
             (
-                "a striker's crushing pressure",
-                self.striker.crushing_pressure,
-            ),
-            (
                 "a striker's radius of curvature",
                 self.striker.curvature_radius,
             ),
@@ -317,6 +313,13 @@ impl Contact {
             let must = "above zero, and may be infinite";
             OutOfRange::unless(value > 0.0, what, f64::from(value), must)?;
         }
+        let pressure = f64::from(self.striker.crushing_pressure);
+        let fits = pressure >= Material::LEAST_CRUSHING_PRESSURE;
+        let (what, must) = (
+            "a striker's crushing pressure",
+            OutOfRange::CRUSHING_PRESSURE,
+        );
+        OutOfRange::unless(fits, what, pressure, must)?;
         if let Some(shared) = &self.striker.shared {
             finite("a striker's shared velocity", shared.velocity)?;
             finite("a striker's shared spin", shared.spin)?;
