@@ -20,6 +20,9 @@ const FLAT: f32 = 0.4;
 /// Least height of the eye over what lies flat, as a share of its distance along the floor.
 const ABOVE: f32 = 0.9;
 
+/// Pieces are looked at from no nearer than so much of the distance of the whole body.
+const NEARER: f32 = 0.6;
+
 /// The piece in the middle of the picture is one of so many of the heaviest.
 const MIDDLES: usize = 8;
 
@@ -92,8 +95,11 @@ pub(crate) fn cameras(recording: &Recording, roles: &[Role], look_from: Vec3) ->
         points
     });
     let whole: Vec<Vec3> = before.iter().chain(&resting).copied().collect();
-    let [before, first, flying] = [&before, &first, &flying].map(|points| look(points));
-    let resting = view(&resting, ground, over(&resting, look_from), 0.0);
+    let [before, first] = [&before, &first].map(|points| look(points));
+    // One large piece alone, closer than the whole body was, is not seen for what it is.
+    let nearest = NEARER * before.eye.distance(before.target);
+    let flying = view(&flying, ground, look_from, nearest);
+    let resting = view(&resting, ground, over(&resting, look_from), nearest);
     (look(&whole), [before, first, flying, resting])
 }
 
