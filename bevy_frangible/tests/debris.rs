@@ -143,7 +143,7 @@ fn what_rests_is_merged_into_one_static_body_that_looks_and_collides_alike() {
     assert_eq!(faces.iter().count(), 2);
     // A ball that falls on it stays above the floor by the height of a pane.
     let middle: Vec3 = lies[0].iter().sum::<Vec3>() / lies[0].len() as f32;
-    let nearest = lies[0].iter().copied().filter(|p| p.y > 0.001);
+    let nearest = lies[0].iter().copied().filter(|p| p.y > 0.0015);
     let nearest = nearest.min_by(|a, b| a.distance(middle).total_cmp(&b.distance(middle)));
     let on = nearest.expect("a top face");
     let at = Vec3::new(on.x, 0.1, on.z);
