@@ -71,11 +71,6 @@ impl BreakableWorld {
         self.rebuild_rubble();
     }
 
-    /// Makes a merged piece that goes a body again, and loosens what lies on it; nothing, where it is not merged.
-    pub(super) fn loosen_load(&mut self, piece: RigidBodyHandle) {
-        self.loosen_with_load(vec![piece]);
-    }
-
     /// Loosens pieces, and those that lie on them. Pieces that are no longer in the world leave the rubble in the same way.
     pub(super) fn loosen_with_load(&mut self, mut pieces: Vec<RigidBodyHandle>) {
         let parameters = &self.physics.integration_parameters;

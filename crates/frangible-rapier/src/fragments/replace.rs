@@ -116,7 +116,8 @@ impl BreakableWorld {
         }
     }
 
-    fn bounds(&self, body: &RigidBody) -> Option<Aabb> {
+    /// Bounds of a body's colliders where it is.
+    pub(super) fn bounds(&self, body: &RigidBody) -> Option<Aabb> {
         let colliders = body
             .colliders()
             .iter()

@@ -141,7 +141,7 @@ impl BreakableWorld {
 
     /// Lets a piece go: at once, or it is no body any more and fades.
     pub(crate) fn let_go(&mut self, handle: RigidBodyHandle) {
-        self.loosen_load(handle);
+        self.loosen_with_load(vec![handle]);
         self.state.surfaces.remove(&key(handle));
         self.state.breakables.remove(&key(handle));
         if self.config.fade_time <= 0.0 {

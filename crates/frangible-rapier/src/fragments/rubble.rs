@@ -9,7 +9,6 @@ use std::collections::{BTreeMap, BTreeSet};
 use rapier3d::dynamics::{RigidBodyBuilder, RigidBodyHandle, RigidBodyType};
 use rapier3d::geometry::{Aabb, Collider, ColliderHandle, SharedShape};
 use rapier3d::math::Pose;
-use rapier3d::parry::bounding_volume::BoundingVolume;
 
 use crate::world::{BreakableWorld, Key, key};
 
@@ -134,7 +133,8 @@ impl BreakableWorld {
                 continue;
             };
             let skin = self.skin_to_merge(piece).cloned();
-            let (Some(skin), Some(bounds)) = (skin, self.bounds_of(piece)) else {
+            let body = self.physics.bodies.get(piece);
+            let (Some(skin), Some(bounds)) = (skin, body.and_then(|body| self.bounds(body))) else {
                 continue;
             };
             let known = self.state.rubble.all.contains_key(&origin);
@@ -150,13 +150,6 @@ impl BreakableWorld {
             self.set_collides(piece, false);
         }
         self.rebuild_rubble();
-    }
-
-    /// Bounds of a piece's colliders where it lies.
-    fn bounds_of(&self, piece: RigidBodyHandle) -> Option<Aabb> {
-        let colliders = self.physics.bodies.get(piece)?.colliders().iter();
-        let colliders = colliders.filter_map(|&c| self.physics.colliders.get(c));
-        (colliders.map(Collider::compute_aabb)).reduce(|a, b| a.merged(&b))
     }
 
     /// Whether a piece can be a part of a rubble.
