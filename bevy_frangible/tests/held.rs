@@ -25,15 +25,15 @@ fn window() -> FrangibleAsset {
     FrangibleAsset::new(bake(&spec, &mut |_| {}).unwrap().0).unwrap()
 }
 
-#[test]
-fn what_flies_through_a_held_pane_leaves_a_hole_that_others_fly_through() {
+/// Shoots two balls through a held pane, one after the other; shares of their speed along their way that they keep.
+fn two_balls_through(window: &FrangibleAsset, seed: u64) -> [f32; 2] {
     let (mut app, log) = app();
     app.insert_resource(Gravity(Vec3::ZERO));
     let asset = app
         .world_mut()
         .resource_mut::<Assets<FrangibleAsset>>()
-        .add(window());
-    let pane = app.world_mut().spawn(Breakable(asset)).id();
+        .add(window.clone());
+    let pane = app.world_mut().spawn((Breakable(asset), Seed(seed))).id();
     ready(&mut app, pane);
     let speed = 40.0;
     let first = ball(&mut app, Vec3::Z * 0.1, Vec3::NEG_Z * speed);
@@ -51,13 +51,24 @@ fn what_flies_through_a_held_pane_leaves_a_hole_that_others_fly_through() {
     for _ in 0..60 {
         app.update();
     }
-    for ball in [first, second] {
+    [first, second].map(|ball| {
         let at = app.world().get::<Position>(ball).unwrap().0;
         let velocity = app.world().get::<LinearVelocity>(ball).unwrap().0;
-        println!("{at}, {velocity} m/s; {:?}", log.lines());
-        assert!(
-            velocity.z < -0.2 * speed && at.z < 0.0,
-            "{at}, {velocity} m/s"
-        );
+        println!("seed {seed}: {at}, {velocity} m/s");
+        if at.z < 0.0 { -velocity.z / speed } else { 0.0 }
+    })
+}
+
+#[test]
+fn what_flies_through_a_held_pane_leaves_a_hole_that_others_fly_through() {
+    let window = window();
+    let kept: Vec<[f32; 2]> = (1..=8)
+        .map(|seed| two_balls_through(&window, seed))
+        .collect();
+    for ball in 0..2 {
+        let through = kept.iter().filter(|kept| kept[ball] > 0.0).count();
+        let mean = kept.iter().map(|kept| kept[ball]).sum::<f32>() / kept.len() as f32;
+        println!("ball {ball}: {through} of 8 fly through and keep {mean} of their speed");
+        assert!(through == 8 && mean > 0.5, "{through} of 8, {mean}");
     }
 }

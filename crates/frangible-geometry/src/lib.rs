@@ -2,7 +2,7 @@
 //!
 //! - [`TetMesh`]: linear tetrahedra with their neighbours; [`TriMesh`]: the closed surface of a piece; [`RenderMesh`]: what is drawn of it;
 //! - [`TriangleTree`]: the closest point of a surface; [`AlongSurface`]: distances along one; [`MassProperties`]: mass, centre and inertia;
-//! - [`merged_parts`] and [`thinned`]: convex parts made fewer and simpler for colliders;
+//! - [`merged_parts`], [`thinned`] and [`box_of`]: convex parts made fewer and simpler for colliders;
 //! - [`Rows`], [`ByNode`], [`DisjointSets`]: lists, tables and sets of numbered things.
 //!
 //! It is a crate of its own because the core, the bake and the mesher share it. It knows neither physics nor files.
@@ -28,7 +28,7 @@ mod tree;
 pub use along::AlongSurface;
 pub use by_node::ByNode;
 pub use closest::closest_on_triangle;
-pub use convex::{merged_parts, thinned};
+pub use convex::{box_of, merged_parts, thinned};
 pub use disjoint::DisjointSets;
 pub use glam;
 pub use mass::MassProperties;

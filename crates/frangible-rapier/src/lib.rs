@@ -103,6 +103,7 @@ mod workshop;
 mod world;
 
 pub use bodies::collider::collision_shape;
+pub use bodies::dispatch::PieceContacts;
 pub use bodies::insert::Ball;
 pub use bodies::mortar::Mortar;
 pub use breaker::{Breaker, Sets};

@@ -11,7 +11,7 @@ use rapier3d::geometry::{ColliderHandle, SharedShape};
 use rapier3d::pipeline::PhysicsWorld;
 use std::sync::Arc;
 
-use crate::bodies::floor::FloorDispatcher;
+use crate::bodies::dispatch::PieceContacts;
 use crate::calm::motions::Motions;
 use crate::calm::rest::Places;
 use crate::config::WorldConfig;
@@ -128,7 +128,7 @@ impl BreakableWorld {
             gravity: config.gravity,
             ..PhysicsWorld::default()
         };
-        physics.narrow_phase.set_query_dispatcher(FloorDispatcher);
+        physics.narrow_phase.set_query_dispatcher(PieceContacts);
         let parameters = &mut physics.integration_parameters;
         parameters.dt = config.dt;
         parameters.min_ccd_dt = config.dt / 100.0;

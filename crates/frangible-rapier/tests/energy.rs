@@ -104,9 +104,15 @@ fn two_panes_that_meet_both_break_and_momentum_stays() {
         let mut world = world(false);
         world.fracture_config_mut().duration = model;
         let bodies = [(-1.0_f32, 0.0), (1.0, 1.2)].map(|(side, turn)| {
-            // One flat, the other edge on.
-            let x = if turn > 0.0 { 0.2 } else { -0.01 };
-            let pose = Pose::new(Vector::new(0.02, 0.01, x), Vector::new(turn, 0.0, 0.1));
+            // One flat, the other edge on and 1 mm above it: they come nearer by a quarter of a metre in a step.
+            let turned = Pose::new(Vector::new(0.02, 0.01, 0.0), Vector::new(turn, 0.0, 0.1));
+            let up = (turned.rotation.inverse() * Vector::Z).abs();
+            let z = up.dot(Vector::new(0.15, 0.15, 0.002)) + 0.003;
+            let pose = turned.append_translation(if turn > 0.0 {
+                at(0.0, 0.0, z).translation
+            } else {
+                Vector::ZERO
+            });
             let velocity = Vector::new(0.0, 0.0, -30.0 * side);
             world
                 .insert_breakable(body(pane()), pose, velocity, Vector::ZERO)

@@ -2,6 +2,8 @@
 
 mod common;
 
+use std::sync::Arc;
+
 use common::baked::{block, shelf};
 use common::{at, body, box_asset, relative, slicer};
 use frangible::glam::Vec3;
@@ -236,9 +238,19 @@ fn a_collider_has_no_more_parts_than_asked_for() {
             let hull_points = 48;
             config.whole_collider = ColliderDetail { parts, hull_points };
         });
-        let pane = firing_squad(&mut world, 1)[0];
-        let collider = world.physics.bodies[pane].colliders()[0];
-        let found = world.physics.colliders[collider].shape();
+        let boxed = box_asset(HALF, CELLS);
+        // What fills less of its bounds is no box, whatever its cells.
+        let mut hollow = (*boxed).clone();
+        hollow.mass.volume *= 0.9;
+        let [pane, hollow] = [boxed, Arc::new(hollow)].map(|asset| {
+            let still = Vector::ZERO;
+            let handle = world.insert_breakable(body(&asset), at(0.0, 0.0, 0.0), still, still);
+            world.physics.bodies[handle.unwrap()].colliders()[0]
+        });
+        let found = world.physics.colliders[pane].shape();
+        assert_eq!(found.shape_type(), ShapeType::Cuboid);
+        assert!((found.compute_local_aabb().half_extents() - HALF).length() < 1e-6);
+        let found = world.physics.colliders[hollow].shape();
         assert_eq!(found.shape_type(), shape);
         if let Some(compound) = found.as_compound() {
             assert_eq!(compound.shapes().len(), parts.min(9));

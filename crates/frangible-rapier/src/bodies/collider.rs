@@ -3,7 +3,7 @@
 //! No convex decomposition happens at run time: the bake cut the body into convex cells, a crack only shares
 //! them out. Shapes serve contact alone; masses always come from the exact pieces.
 
-use frangible::internals::mesh::{merged_parts, thinned};
+use frangible::internals::mesh::{box_of, merged_parts, thinned};
 use frangible::{Asset, Fragment};
 use rapier3d::geometry::{SharedShape, TypedShape};
 use rapier3d::math::{Pose, Vector};
@@ -24,8 +24,12 @@ pub fn collision_shape(fragment: &Fragment, config: &WorldConfig) -> SharedShape
     }
 }
 
-/// Compound of the asset's cells, in the body frame.
+/// A box, or a compound of the asset's cells, in the body frame.
 pub(crate) fn whole_shape(asset: &Asset, detail: ColliderDetail) -> SharedShape {
+    // Boxes touch each other exactly, and quickly.
+    if let Some(half) = box_of(&asset.fracture.positions, asset.mass.volume) {
+        return SharedShape::cuboid(half.x, half.y, half.z);
+    }
     let cells = asset.cells.iter().map(|cell| &*cell.points).collect();
     let parts = merged_parts(cells, detail.parts);
     let hulls = parts.iter().filter_map(|points| hull(points, detail));

@@ -7,12 +7,7 @@
 
 use rapier3d::geometry::{ContactData, ContactManifoldData};
 use rapier3d::math::{Pose, Real, Vector};
-use rapier3d::parry::query::details::NormalConstraints;
-use rapier3d::parry::query::{
-    ClosestPoints, Contact, ContactManifold, ContactManifoldsWorkspace, DefaultQueryDispatcher,
-    NonlinearRigidMotion, PersistentQueryDispatcher, QueryDispatcher, ShapeCastHit,
-    ShapeCastOptions, TrackedContact, Unsupported,
-};
+use rapier3d::parry::query::{ContactManifold, TrackedContact, Unsupported};
 use rapier3d::parry::shape::{HalfSpace, PackedFeatureId, Shape, TypedShape};
 
 /// A corner higher than the lowest one by h counts as nearer by this × h: a base is spanned by corners that touch,
@@ -104,7 +99,7 @@ fn base(near: &[Corner], up: Vector) -> Vec<Corner> {
 }
 
 /// `to_plane`: pose of the shape in the half-space's frame. `flipped`: the shape is the first of the pair.
-fn touch(
+pub(crate) fn touch(
     to_plane: &Pose,
     plane: &HalfSpace,
     shape: &dyn Shape,
@@ -170,123 +165,4 @@ fn touch(
     manifold.match_contacts(&old);
     manifolds.push(manifold);
     Ok(())
-}
-
-/// Parry's dispatcher, but for half-spaces against polyhedra.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct FloorDispatcher;
-
-impl PersistentQueryDispatcher<ContactManifoldData, ContactData> for FloorDispatcher {
-    fn contact_manifolds(
-        &self,
-        pos12: &Pose,
-        g1: &dyn Shape,
-        g2: &dyn Shape,
-        prediction: Real,
-        manifolds: &mut Vec<Manifold>,
-        workspace: &mut Option<ContactManifoldsWorkspace>,
-    ) -> Result<(), Unsupported> {
-        let done = match (g1.as_halfspace(), g2.as_halfspace()) {
-            (Some(plane), None) => touch(pos12, plane, g2, prediction, manifolds, false),
-            (None, Some(plane)) => touch(&pos12.inverse(), plane, g1, prediction, manifolds, true),
-            _ => Err(Unsupported),
-        };
-        done.or_else(|Unsupported| {
-            DefaultQueryDispatcher
-                .contact_manifolds(pos12, g1, g2, prediction, manifolds, workspace)
-        })
-    }
-
-    fn contact_manifold_convex_convex(
-        &self,
-        pos12: &Pose,
-        g1: &dyn Shape,
-        g2: &dyn Shape,
-        normal_constraints1: Option<&dyn NormalConstraints>,
-        normal_constraints2: Option<&dyn NormalConstraints>,
-        prediction: Real,
-        manifold: &mut Manifold,
-    ) -> Result<(), Unsupported> {
-        DefaultQueryDispatcher.contact_manifold_convex_convex(
-            pos12,
-            g1,
-            g2,
-            normal_constraints1,
-            normal_constraints2,
-            prediction,
-            manifold,
-        )
-    }
-}
-
-impl QueryDispatcher for FloorDispatcher {
-    fn intersection_test(
-        &self,
-        pos12: &Pose,
-        g1: &dyn Shape,
-        g2: &dyn Shape,
-    ) -> Result<rapier3d::parry::query::ShapeIntersection, Unsupported> {
-        DefaultQueryDispatcher.intersection_test(pos12, g1, g2)
-    }
-
-    fn distance(
-        &self,
-        pos12: &Pose,
-        g1: &dyn Shape,
-        g2: &dyn Shape,
-    ) -> Result<rapier3d::parry::query::ShapeDistance, Unsupported> {
-        DefaultQueryDispatcher.distance(pos12, g1, g2)
-    }
-
-    fn contact(
-        &self,
-        pos12: &Pose,
-        g1: &dyn Shape,
-        g2: &dyn Shape,
-        prediction: Real,
-    ) -> Result<Option<Contact>, Unsupported> {
-        DefaultQueryDispatcher.contact(pos12, g1, g2, prediction)
-    }
-
-    fn closest_points(
-        &self,
-        pos12: &Pose,
-        g1: &dyn Shape,
-        g2: &dyn Shape,
-        max_dist: Real,
-    ) -> Result<ClosestPoints, Unsupported> {
-        DefaultQueryDispatcher.closest_points(pos12, g1, g2, max_dist)
-    }
-
-    fn cast_shapes(
-        &self,
-        pos12: &Pose,
-        local_vel12: Vector,
-        g1: &dyn Shape,
-        g2: &dyn Shape,
-        options: ShapeCastOptions,
-    ) -> Result<Option<ShapeCastHit>, Unsupported> {
-        DefaultQueryDispatcher.cast_shapes(pos12, local_vel12, g1, g2, options)
-    }
-
-    fn cast_shapes_nonlinear(
-        &self,
-        motion1: &NonlinearRigidMotion,
-        g1: &dyn Shape,
-        motion2: &NonlinearRigidMotion,
-        g2: &dyn Shape,
-        start_time: Real,
-        end_time: Real,
-        stop_at_penetration: bool,
-    ) -> Result<Option<ShapeCastHit>, Unsupported> {
-        DefaultQueryDispatcher.cast_shapes_nonlinear(
-            motion1,
-            g1,
-            motion2,
-            g2,
-            start_time,
-            end_time,
-            stop_at_penetration,
-        )
-    }
 }

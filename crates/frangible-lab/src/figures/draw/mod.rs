@@ -8,7 +8,7 @@ mod view;
 
 pub(crate) use compose::{below, beside, chart};
 pub(crate) use model::{Colour, Model};
-pub(crate) use pieces::{PieceColours, add_pieces};
+pub(crate) use pieces::{PieceColours, add_held, add_pieces};
 pub(crate) use slice::{crossing, surface_trace};
 pub(crate) use view::Look;
 

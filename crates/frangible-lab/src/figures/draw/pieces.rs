@@ -1,7 +1,8 @@
-//! Pieces of a broken body, pulled apart.
+//! Pieces of a broken body, pulled apart, and bodies that held.
 
-use frangible::Fragment;
 use frangible::glam::{Quat, Vec3};
+use frangible::internals::BodyState;
+use frangible::{Asset, Fragment};
 
 use super::model::{Colour, Model};
 
@@ -35,6 +36,27 @@ pub(crate) fn add_pieces(
         }
         for crack in &mesh.cracks {
             model.sheet(colours.inside, crack.map(place));
+        }
+    }
+}
+
+/// Adds a body that held, with the cracks that it got.
+pub(crate) fn add_held(
+    model: &mut Model,
+    asset: &Asset,
+    state: Option<&BodyState>,
+    rotation: Quat,
+    colours: PieceColours,
+) {
+    let place = |p: Vec3| rotation * p;
+    for (triangle, normals) in asset.surface.triangles.iter().zip(&asset.surface.normals) {
+        let corners = triangle.map(|v| place(asset.fracture.positions[v as usize]));
+        model.smooth(colours.outside, corners, normals.map(place));
+    }
+    for (corners, count) in state.iter().flat_map(|state| state.new_faces(asset)) {
+        for k in 2..count {
+            let sheet = [corners[0], corners[k - 1], corners[k]];
+            model.sheet(colours.inside, sheet.map(place));
         }
     }
 }

@@ -8,7 +8,7 @@ use frangible_draw::RgbImage;
 
 use crate::figures::FigureError;
 use crate::figures::bodies::{changed, slab_blow, slab_inputs};
-use crate::figures::draw::{Look, Model, PieceColours, add_pieces, below, beside};
+use crate::figures::draw::{Look, Model, PieceColours, add_held, add_pieces, below, beside};
 use crate::figures::figure::{Claim, Figure, Findings, Picture, Table};
 use crate::figures::statistics::{Damage, SEEDS, falls, mean_damage, models, pieces};
 use crate::figures::workshop::Workshop;
@@ -67,7 +67,7 @@ fn compute(workshop: &mut Workshop<'_>) -> Result<Findings, FigureError> {
     Ok(Findings {
         picture: Picture {
             image: below(&rows),
-            caption: "the slab's pieces, pulled apart, at α = 0 and 1e-6 s, paper's model and ours"
+            caption: "the slab's pieces, pulled apart, at α = 0 and 1e-6 s, paper's model and ours; a slab that holds is whole, with its cracks"
                 .into(),
         },
         text: format!(
@@ -122,18 +122,19 @@ fn broken(
     let body = Body::new(Arc::clone(plate), 1)?;
     let outcome = impact(&body, std::slice::from_ref(contact), config)?;
     let mut model = Model::default();
-    if let Outcome::Broke(fracture) = &outcome {
-        let colours = PieceColours {
-            outside: [0.55, 0.72, 0.74, 1.0],
-            inside: [0.10, 0.30, 0.30, 1.0],
-        };
-        add_pieces(
-            &mut model,
-            &fracture.fragments,
-            0.25,
-            Quat::IDENTITY,
-            colours,
-        );
+    let colours = PieceColours {
+        outside: [0.55, 0.72, 0.74, 1.0],
+        inside: [0.10, 0.30, 0.30, 1.0],
+    };
+    let turn = Quat::IDENTITY;
+    match &outcome {
+        Outcome::Broke(fracture) => {
+            add_pieces(&mut model, &fracture.fragments, 0.25, turn, colours);
+        }
+        Outcome::Held { state, .. } => {
+            add_held(&mut model, plate, state.as_deref(), turn, colours);
+        }
+        _ => {}
     }
     let look = Look {
         from: Vec3::new(0.0, -0.6, 1.0),
@@ -144,9 +145,9 @@ fn broken(
     let half = 0.5 * 1.25 * crate::figures::bodies::SLAB[0] as f32;
     let corners = [[-half, -half], [half, -half], [half, half], [-half, half]];
     let points: Vec<Vec3> = corners.map(|[x, y]| Vec3::new(x, y, 0.0)).into();
-    Ok(look.at_points(
-        &model,
-        &points,
-        &format!("{label}: {} pieces", pieces(&outcome)),
-    )?)
+    let found = match pieces(&outcome) {
+        1 => "holds".into(),
+        pieces => format!("{pieces} pieces"),
+    };
+    Ok(look.at_points(&model, &points, &format!("{label}: {found}"))?)
 }
