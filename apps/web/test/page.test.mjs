@@ -18,6 +18,9 @@ const { chromium } = createRequire(resolve(playwright, "package.json"))("playwri
 /** A frame of a software renderer takes a second or more. */
 const PATIENCE = 120_000;
 const SIZE = { width: 800, height: 500 };
+const PHONE = { viewport: { width: 390, height: 844 }, deviceScaleFactor: 2, isMobile: true, hasTouch: true };
+/** Where the pane is touched there. */
+const TAP = { x: 195, y: 300 };
 /** Where the pane is clicked: beside its middle, which the scene's own ball meets. */
 const CLICK = { x: 585, y: 150 };
 const SWITCHES = [
@@ -68,9 +71,9 @@ function eavesdrop() {
   };
 }
 
-/** A page with a scene that stands, and what to do with it. */
-async function open(browser, address, renderer) {
-  const page = await browser.newPage({ viewport: SIZE });
+/** A page with a scene that stands, and what to do with it; on a screen as Playwright describes one. */
+async function open(browser, address, renderer, screen = { viewport: SIZE }) {
+  const page = await browser.newPage(screen);
   page.setDefaultTimeout(PATIENCE);
   await page.addInitScript(eavesdrop);
   page.on("pageerror", (error) => console.log(`  page: ${error.message}`));
@@ -302,11 +305,33 @@ async function meshes(renderer, page, until, command) {
   await page.screenshot({ path: join(out, `browser-ring-${renderer}.png`), timeout: PATIENCE });
 }
 
+/** The page in the hand: a small screen of many pixels, and a finger that throws the ball. */
+async function phone(browser, address, renderer) {
+  const { page, until, command } = await open(browser, address, renderer, PHONE);
+  const sizes = await page.evaluate(() => {
+    const { width, height } = document.getElementById("stage");
+    return { drawn: [width, height], page: document.documentElement.scrollWidth };
+  });
+  const { width, height } = PHONE.viewport;
+  assert.deepEqual(sizes, { drawn: [width, height].map((side) => side * PHONE.deviceScaleFactor), page: width });
+  await page.screenshot({ path: join(out, `phone-${renderer}.png`), timeout: PATIENCE });
+  const before = (await until(() => JSON.parse(window.frangible_state()).done)).commands;
+  await page.touchscreen.tap(TAP.x, TAP.y);
+  await page.waitForFunction((before) => JSON.parse(window.frangible_state()).commands > before, before);
+  const thrown = await broken(command);
+  console.log(`${renderer}: on a telephone's screen a tap breaks the pane into ${thrown.pieces} pieces`);
+  const flying = await command("step 100");
+  await page.waitForFunction((frames) => JSON.parse(window.frangible_state()).frames > frames + 1, flying.frames);
+  await page.screenshot({ path: join(out, `phone-broken-${renderer}.png`), timeout: PATIENCE });
+  await page.close();
+}
+
 const known = JSON.parse(await readFile(playedFile, "utf8"));
 const server = await serve();
 const address = `http://127.0.0.1:${server.address().port}`;
 const browser = await chromium.launch({ executablePath: program, headless: true, args: SWITCHES });
 try {
+  await phone(browser, address, renderers[0]);
   for (const renderer of renderers) await trial(browser, address, renderer);
 } finally {
   await browser.close();
