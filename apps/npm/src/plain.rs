@@ -3,7 +3,7 @@
 use frangible::glam::{DMat3, DQuat, DVec3, Vec3};
 use frangible::internals::mesh::{merged_parts, thinned};
 use frangible::internals::rigid::{Kick, Rigid, nearest_first, push_plug, take_energy};
-use frangible::internals::{Fields, Preset, RenderMesh, box_projection};
+use frangible::internals::{Fields, RenderMesh, box_projection};
 use frangible::{Asset, Breakable, Contact, Fracture, Fragment, InputError, Striker, TriMesh};
 
 /// Numbers of a contact: point, direction of the push (m, body frame), speed of approach (m/s), one over the striker's mass at the contact
@@ -37,8 +37,7 @@ fn double(numbers: &[f64]) -> DVec3 {
 /// # Errors
 /// An asset whose arrays do not fit together, or with a number that cannot be used.
 pub fn kind(asset: Asset) -> Result<Breakable, InputError> {
-    let modulus = Preset::named(&asset.material.name).map_or(0.0, |preset| preset.weibull_modulus);
-    let fields = Fields::default().with_weibull_modulus(modulus);
+    let fields = Fields::of_material(&asset.material);
     Breakable::new(asset)?.with_fields(fields)
 }
 

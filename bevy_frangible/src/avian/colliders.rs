@@ -3,7 +3,7 @@
 
 use avian3d::prelude::*;
 use bevy::prelude::*;
-use frangible::internals::mesh::{box_of, merged_parts, thinned};
+use frangible::internals::mesh::{merged_parts, thinned};
 use frangible::{Asset as Baked, Fragment, TriMesh, glam};
 
 use crate::meshes::out;
@@ -41,9 +41,6 @@ const LEAST_EXTENT: f32 = 4e-4;
 
 /// The collider of a whole body.
 pub(super) fn whole(baked: &Baked, (parts, points): (usize, usize)) -> Collider {
-    if let Some(half) = box_of(&baked.fracture.positions, baked.mass.volume) {
-        return Collider::cuboid(2.0 * half.x, 2.0 * half.y, 2.0 * half.z);
-    }
     let cells = baked.cells.iter().map(|cell| &cell.points[..]).collect();
     compound(cells, parts, points).unwrap_or_else(|| bounding_box(baked.surface_positions()))
 }

@@ -70,12 +70,12 @@ fn spread_direction(k: usize, n: usize) -> Vec3 {
     Vec3::new(r * cos, r * sin, z)
 }
 
-/// Half the sides of a body that is a box about the origin, along the axes: it fills its bounds to a thousandth.
+/// Half the sides of a body that is a box about the origin, along the axes: it fills its bounds to a hundred-thousandth of their volume.
 #[must_use]
 pub fn box_of(points: &[Vec3], volume: f64) -> Option<Vec3> {
     let (low, high) = bounds(points);
     let size = high - low;
-    let fills = volume >= 0.999 * size.as_dvec3().element_product();
+    let fills = volume >= (1.0 - 1e-5) * size.as_dvec3().element_product();
     let off = 0.5 * (low + high).abs().max_element();
     (size.is_finite() && fills && off <= 1e-4 * size.max_element()).then_some(0.5 * size)
 }

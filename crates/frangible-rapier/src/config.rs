@@ -122,7 +122,7 @@ pub struct WorldConfig {
     pub merge_distance: f32,
     /// A fragment gets one convex hull when hull volume / piece volume is at most this. Default 1.15.
     pub hull_volume_ratio: f32,
-    /// How finely the collider of a whole body follows it. Default: all the convex cells of the bake, 128 points each.
+    /// How finely the collider of a whole body follows it; that of a box is a box. Default: all the convex cells of the bake, 128 points each.
     pub whole_collider: ColliderDetail,
     /// How finely the colliders follow fragments that one hull does not fit. Default: 12 parts of at most 48 points. What a heap of pieces
     /// costs is mostly this. Measured in `frangible-lab bench shop`, Rapier's time per frame: every share of a cell with 128 points

@@ -13,20 +13,18 @@ use rapier3d::parry::query::{
 };
 use rapier3d::parry::shape::Shape;
 
+use crate::bodies::polyhedra::is_polyhedron;
 use crate::bodies::{floor, polyhedra};
 
 type Manifold = ContactManifold<ContactManifoldData, ContactData>;
-
-fn is_polyhedron(shape: &dyn Shape) -> bool {
-    shape.as_convex_polyhedron().is_some() || shape.as_cuboid().is_some()
-}
 
 /// Contacts of jagged and of flat pieces, for the narrow phase of a Rapier world.
 ///
 /// Rapier finds contacts by Parry, which goes wrong with broken pieces in two ways. It sets a jagged piece on a half-space with one of its
 /// faces instead of its lowest corners, so that it sinks in and rocks for ever. And it may tell of two flat pieces that lie close
 /// together that they overlap by as much as their thickness, so that they are pushed apart. Here half-spaces touch polyhedra with
-/// their lowest corners, and contacts of polyhedra are checked and mended; all else is Parry's.
+/// their lowest corners, and contacts of polyhedra are checked and mended; all else is Parry's, triangle meshes and height fields among it.
+/// Lengths are in m.
 ///
 /// A [`BreakableWorld`](crate::BreakableWorld) has it. A world of your own gets it once, before its first step:
 ///
@@ -79,6 +77,9 @@ impl PersistentQueryDispatcher<ContactManifoldData, ContactData> for PieceContac
                 true,
             ),
             (None, None) if is_polyhedron(g1) && is_polyhedron(g2) => {
+                manifolds.truncate(1);
+                // What was found of a compound before stands in the frames of its parts.
+                manifolds.retain(|known| known.subshape_poses.is_none());
                 if manifolds.is_empty() {
                     manifolds.push(Manifold::new());
                 }

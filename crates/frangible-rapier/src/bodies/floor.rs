@@ -8,7 +8,9 @@
 use rapier3d::geometry::{ContactData, ContactManifoldData};
 use rapier3d::math::{Pose, Real, Vector};
 use rapier3d::parry::query::{ContactManifold, TrackedContact, Unsupported};
-use rapier3d::parry::shape::{HalfSpace, PackedFeatureId, Shape, TypedShape};
+use rapier3d::parry::shape::{HalfSpace, PackedFeatureId, Shape};
+
+use crate::bodies::polyhedra::is_polyhedron;
 
 /// A corner higher than the lowest one by h counts as nearer by this × h: a base is spanned by corners that touch,
 /// not by ones that hover inside the prediction distance.
@@ -36,36 +38,37 @@ struct Corner {
     worth: f32,
 }
 
-/// Corners of a polyhedron, or of a compound of nothing but polyhedra.
-fn corners(shape: &dyn Shape, mut visit: impl FnMut(u32, Vector)) -> Result<(), Unsupported> {
-    match shape.as_typed_shape() {
-        TypedShape::ConvexPolyhedron(hull) => {
-            hull.points()
-                .iter()
-                .zip(0..)
-                .for_each(|(&p, i)| visit(i, p));
-        }
-        TypedShape::Compound(compound) => {
-            if compound
-                .shapes()
-                .iter()
-                .any(|(_, part)| part.as_convex_polyhedron().is_none())
-            {
-                return Err(Unsupported);
-            }
-            for (k, (pose, part)) in (0_u32..).zip(compound.shapes()) {
-                let Some(hull) = part.as_convex_polyhedron() else {
-                    return Err(Unsupported);
-                };
-                hull.points()
-                    .iter()
-                    .zip(0..)
-                    .for_each(|(&p, i)| visit(k << CORNER_BITS | i, *pose * p));
-            }
-        }
-        _ => return Err(Unsupported),
+/// Whether a shape is a polyhedron, or a compound of nothing but polyhedra.
+fn has_corners(shape: &dyn Shape) -> bool {
+    match shape.as_compound() {
+        Some(compound) => (compound.shapes().iter()).all(|(_, part)| is_polyhedron(&**part)),
+        None => is_polyhedron(shape),
     }
-    Ok(())
+}
+
+/// Visits the corners of a shape that has some.
+fn corners(shape: &dyn Shape, mut visit: impl FnMut(u32, Vector)) {
+    let mut part = |first: u32, pose: &Pose, shape: &dyn Shape| {
+        if let Some(hull) = shape.as_convex_polyhedron() {
+            for (i, &point) in (first..).zip(hull.points()) {
+                visit(i, *pose * point);
+            }
+        } else if let Some(cuboid) = shape.as_cuboid() {
+            for i in 0..8 {
+                let side = |axis: u32| if i >> axis & 1 == 1 { 1.0 } else { -1.0 };
+                let corner = Vector::new(side(0), side(1), side(2)) * cuboid.half_extents;
+                visit(first | i, *pose * corner);
+            }
+        }
+    };
+    match shape.as_compound() {
+        Some(compound) => {
+            for (k, (pose, shape)) in (0_u32..).zip(compound.shapes()) {
+                part(k << CORNER_BITS, pose, &**shape);
+            }
+        }
+        None => part(0, &Pose::IDENTITY, shape),
+    }
 }
 
 /// The up to four corners to stand on.
@@ -107,6 +110,9 @@ pub(crate) fn touch(
     manifolds: &mut Vec<Manifold>,
     flipped: bool,
 ) -> Result<(), Unsupported> {
+    if !has_corners(shape) {
+        return Err(Unsupported);
+    }
     manifolds.truncate(1);
     let old = manifolds
         .first_mut()
@@ -137,7 +143,7 @@ pub(crate) fn touch(
                 worth: 0.0,
             });
         }
-    })?;
+    });
     let lowest = near.iter().map(|c| c.height).fold(f32::INFINITY, f32::min);
     for corner in &mut near {
         let loyalty = if known(corner.id) { LOYALTY } else { 0.0 };

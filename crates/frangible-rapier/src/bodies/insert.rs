@@ -43,7 +43,7 @@ impl BreakableWorld {
     /// A breakable body as Rapier's own builders describe it: `rigid` says where its centre of mass is, how it moves, its user data; `finish`
     /// gets the builder of its collider and may add groups, hooks, events. Fragments inherit all of that.
     ///
-    /// The collider is the compound of the asset's convex cells, with the friction and restitution of its material; mass and inertia are
+    /// The collider is a box where the body is one, else the compound of the asset's convex cells, with the friction and restitution of its material; mass and inertia are
     /// the asset's. A body whose asset [is supported](frangible::Asset::is_supported) becomes a fixed one: it does not move, whatever its
     /// velocities, until it breaks; then the fragments that are still supported stay where they are. Any other can be held by a fixed
     /// `rigid`, or by impulse joints, but all its fragments are dynamic.

@@ -7,13 +7,16 @@
 //!
 //! Whether a normal is right can be told without a search: along it, the gap between the two bodies' support points is the
 //! distance that was found. Where it is not, the normal is sought among those of the faces, and of pairs of edges where all
-//! faces overlap (separating axes), which cannot fail so.
+//! faces overlap (separating axes), which need no simplex.
 
 use rapier3d::geometry::{ContactData, ContactManifoldData, TypedShape};
 use rapier3d::math::{Pose, Real, Vector};
-use rapier3d::parry::query::details::NormalConstraints;
+use rapier3d::parry::query::details::{
+    NormalConstraints, contact_support_map_support_map_with_params,
+};
+use rapier3d::parry::query::gjk::{GJKResult, VoronoiSimplex};
 use rapier3d::parry::query::{
-    ContactManifold, DefaultQueryDispatcher, PersistentQueryDispatcher, Unsupported,
+    ContactManifold, DefaultQueryDispatcher, PersistentQueryDispatcher, TrackedContact, Unsupported,
 };
 use rapier3d::parry::shape::{PackedFeatureId, PolygonalFeature, PolygonalFeatureMap, Shape};
 
@@ -21,6 +24,20 @@ type Manifold = ContactManifold<ContactManifoldData, ContactData>;
 
 /// Difference between the distance that was found and the gap along its normal that is taken for rounding, m.
 const ROUNDING: Real = 5e-5;
+
+/// Share of a distance by which the search may miss it.
+const SEARCH_ERROR: Real = 2e-3;
+
+/// By how much a pair of edges has to part bodies farther than every face, m: normals would flicker between equals.
+const EDGE_LEAD: Real = 1e-6;
+
+/// Whether a shape is convex and has flat faces.
+pub(crate) fn is_polyhedron(shape: &dyn Shape) -> bool {
+    matches!(
+        shape.as_typed_shape(),
+        TypedShape::ConvexPolyhedron(_) | TypedShape::Cuboid(_)
+    )
+}
 
 /// Parry's contacts of two convex shapes; those of polyhedra and boxes are mended where the search failed.
 pub(crate) fn touch(
@@ -30,25 +47,31 @@ pub(crate) fn touch(
     prediction: Real,
     manifold: &mut Manifold,
 ) -> Result<(), Unsupported> {
-    let before = manifold.local_n1;
-    let old = manifold.points.clone();
     let [g1, g2] = shapes;
-    DefaultQueryDispatcher.contact_manifold_convex_convex(
-        pos12,
-        g1,
-        g2,
-        constraints[0],
-        constraints[1],
-        prediction,
-        manifold,
-    )?;
-    let kept = manifold.local_n1 == before && before != Vector::ZERO;
-    if kept || constraints.iter().any(Option::is_some) {
+    let parrys = |manifold: &mut Manifold| {
+        DefaultQueryDispatcher.contact_manifold_convex_convex(
+            pos12,
+            g1,
+            g2,
+            constraints[0],
+            constraints[1],
+            prediction,
+            manifold,
+        )
+    };
+    // Two boxes are not searched, but parted along axes.
+    let boxes = g1.as_cuboid().is_some() && g2.as_cuboid().is_some();
+    let (Some(a), Some(b)) = (Polyhedron::of(g1), Polyhedron::of(g2)) else {
+        return parrys(manifold);
+    };
+    if boxes || constraints.iter().any(Option::is_some) {
+        return parrys(manifold);
+    }
+    if manifold.try_update_contacts(pos12) {
         return Ok(());
     }
-    let (Some(a), Some(b)) = (Polyhedron::of(g1), Polyhedron::of(g2)) else {
-        return Ok(());
-    };
+    let old = manifold.points.clone();
+    parrys(manifold)?;
     let pair = Pair { pos12, a, b };
     if !pair.agrees(manifold, prediction) {
         pair.mend(manifold, prediction);
@@ -66,17 +89,16 @@ struct Polyhedron<'a> {
 
 impl<'a> Polyhedron<'a> {
     fn of(shape: &'a dyn Shape) -> Option<Self> {
-        let flat = matches!(
-            shape.as_typed_shape(),
-            TypedShape::ConvexPolyhedron(_) | TypedShape::Cuboid(_)
-        );
         let (map, _) = shape.as_polygonal_feature_map()?;
-        flat.then_some(Self { shape, map })
+        is_polyhedron(shape).then_some(Self { shape, map })
     }
 
     fn normals(&self) -> Vec<Vector> {
         match self.shape.as_convex_polyhedron() {
-            Some(hull) => hull.faces().iter().map(|face| face.normal).collect(),
+            // A face without an area has no normal.
+            Some(hull) => (hull.faces().iter().map(|face| face.normal))
+                .filter(|normal| normal.length_squared() > 0.5)
+                .collect(),
             None => Vector::AXES.into_iter().flat_map(|n| [n, -n]).collect(),
         }
     }
@@ -135,20 +157,18 @@ impl Edge {
         }
     }
 
-    /// The axis across both edges, from the first body to the second, and how far apart the bodies are along it; none where it is not these
-    /// edges that face each other along it.
+    /// The axis across both edges, from the first body to the second; none where it is not these edges that face each other along it.
     ///
     /// The normals of what touches an edge from outside are the arc between its faces' normals on the unit sphere. Two edges face each
     /// other where the one's arc crosses the other's, turned round.
-    fn across(&self, other: &Self) -> Option<(Vector, Real)> {
+    fn across(&self, other: &Self) -> Option<Vector> {
         let [a, b] = self.normals.map(|n| n.dot(other.along));
         let [c, d] = other.normals.map(|n| -n.dot(self.along));
         if a * b >= 0.0 || c * d >= 0.0 || b * c <= 0.0 {
             return None;
         }
         let axis = self.along.cross(other.along).try_normalize()?;
-        let axis = axis * axis.dot(self.normals[0] + self.normals[1]).signum();
-        Some((axis, axis.dot(other.point - self.point)))
+        Some(axis * axis.dot(self.normals[0] + self.normals[1]).signum())
     }
 }
 
@@ -170,23 +190,27 @@ impl Pair<'_> {
         (*self.pos12 * far - near).dot(normal)
     }
 
-    /// Whether the closest points that were found lie as far apart as the bodies do along their normal.
+    /// Whether the closest points that were found lie as far apart as the bodies do along their normal, and no face's normal parts bodies that
+    /// overlap farther.
     fn agrees(&self, manifold: &Manifold, prediction: Real) -> bool {
         if manifold.local_n1 == Vector::ZERO {
             return false;
         }
         match manifold.points.last() {
-            // Parry marks the closest points thus; two boxes have none, as they are not searched for.
+            // Parry marks the closest points thus.
             Some(closest) if closest.fid1 == PackedFeatureId::UNKNOWN => {
-                (closest.dist - self.gap(manifold.local_n1)).abs() <= ROUNDING
+                let found = closest.dist;
+                let error = ROUNDING + SEARCH_ERROR * found.abs();
+                (found - self.gap(manifold.local_n1)).abs() <= error
+                    && (found >= -ROUNDING || self.farthest_face(0.0).1 <= found + error)
             }
             Some(_) => true,
             None => self.gap(manifold.local_n1) > prediction - ROUNDING,
         }
     }
 
-    /// The normal along which the bodies are farthest apart, and how far, m; any along which they are farther apart than `enough`.
-    fn farthest(&self, enough: Real) -> (Vector, Real) {
+    /// The face's normal along which the bodies are farthest apart, and how far, m; any along which they are farther apart than `enough`.
+    fn farthest_face(&self, enough: Real) -> (Vector, Real) {
         let of_a = self.a.normals().into_iter();
         let of_b = self.b.normals().into_iter();
         let mut best = (Vector::Y, Real::NEG_INFINITY);
@@ -196,16 +220,30 @@ impl Pair<'_> {
                 best = (axis, gap);
             }
             if gap > enough {
-                return best;
+                break;
             }
         }
-        // Where a face's normal has the bodies apart already, it serves.
-        if best.1 < 0.0 {
-            let theirs = self.b.edges(self.pos12);
-            for edge in self.a.edges(&Pose::IDENTITY) {
-                for across in theirs.iter().filter_map(|other| edge.across(other)) {
-                    if across.1 > best.1 {
-                        best = across;
+        best
+    }
+
+    /// The normal along which bodies that overlap are farthest apart, and how far, m. Of bodies that are apart it is a face's, along
+    /// which corners that face each other may seem nearer than they are; or any along which they are farther apart than `enough`.
+    fn farthest(&self, enough: Real) -> (Vector, Real) {
+        let mut best = self.farthest_face(enough);
+        if best.1 >= 0.0 {
+            return best;
+        }
+        let theirs = self.b.edges(self.pos12);
+        for edge in self.a.edges(&Pose::IDENTITY) {
+            for (axis, gap) in (theirs.iter())
+                .filter_map(|other| Some((edge.across(other)?, other)))
+                .map(|(axis, other)| (axis, axis.dot(other.point - edge.point)))
+            {
+                // Of edges that are parallel but for rounding the axis is noise: what counts is how far apart the bodies are along it.
+                if gap > best.1 + EDGE_LEAD {
+                    let gap = self.gap(axis);
+                    if gap > best.1 + EDGE_LEAD {
+                        best = (axis, gap);
                     }
                 }
             }
@@ -236,6 +274,33 @@ impl Pair<'_> {
             manifold,
             false,
         );
+        manifold.points.extend(self.closest(normal, gap));
+    }
+
+    /// The points that are closest along the normal along which the bodies are `gap` apart, m.
+    ///
+    /// The search that fails for bodies that touch is run on bodies that are moved apart by the smaller one's size, where it is sound.
+    fn closest(&self, normal: Vector, gap: Real) -> Option<TrackedContact<ContactData>> {
+        let [a, b] =
+            [self.a, self.b].map(|body| body.shape.compute_local_aabb().half_extents().length());
+        let shift = normal * (a.min(b) - gap);
+        let apart = Pose::from_parts(self.pos12.translation + shift, self.pos12.rotation);
+        let GJKResult::ClosestPoints(near, far, _) = contact_support_map_support_map_with_params(
+            &apart,
+            self.a.map,
+            self.b.map,
+            Real::MAX,
+            &mut VoronoiSimplex::new(),
+            Some(normal),
+        ) else {
+            return None;
+        };
+        let far = far - shift;
+        (((far - near).dot(normal) - gap).abs() <= ROUNDING).then(|| {
+            let unknown = PackedFeatureId::UNKNOWN;
+            let far = self.pos12.inverse_transform_point(far);
+            TrackedContact::new(near, far, unknown, unknown, gap)
+        })
     }
 }
 
@@ -262,30 +327,36 @@ mod tests {
     }
 
     #[test]
-    fn no_contact_is_deeper_than_the_bodies_overlap() {
+    fn contacts_are_as_deep_as_the_bodies_overlap() {
         let mut state = 7_u32;
         let mut random = || {
             state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
             (state >> 8) as Real / (1 << 24) as Real
         };
-        let [mut wrong_before, mut mended] = [0; 2];
+        let [mut overlapping, mut wrong_before, mut wrong_now] = [0; 3];
         for _ in 0..4000 {
             let shapes = [prism(&mut random), prism(&mut random)];
             let [x, y, z] = std::array::from_fn(|_| random() - 0.5);
-            let shift = Vector::new(0.03 * x, 0.03 * y, 0.0081 + 2e-4 * z);
+            let shift = Vector::new(0.03 * x, 0.03 * y, 0.0076 + 1.2e-3 * z);
             let tilt = Vector::new(random() - 0.5, random() - 0.5, random());
-            let pos12 = Pose::from_parts(shift, Rotation::from_scaled_axis(1e-4 * tilt));
+            let pos12 = Pose::from_parts(
+                shift,
+                Rotation::from_scaled_axis(10_f32.powf(-4.0 + 2.0 * random()) * tilt),
+            );
             let pair = [&*shapes[0], &*shapes[1]];
-            let overlap = |manifold: &Manifold| {
-                let [a, b] = pair.map(|shape| Polyhedron::of(shape).expect("it has faces"));
-                let (_, gap) = Pair {
-                    pos12: &pos12,
-                    a,
-                    b,
-                }
-                .farthest(Real::INFINITY);
-                let deepest = manifold.points.iter().map(|point| point.dist);
-                gap - deepest.fold(gap, Real::min)
+            let [a, b] = pair.map(|shape| Polyhedron::of(shape).expect("it has faces"));
+            let bodies = Pair {
+                pos12: &pos12,
+                a,
+                b,
+            };
+            let (_, gap) = bodies.farthest(Real::INFINITY);
+            overlapping += usize::from(gap < 0.0);
+            let wrong = |manifold: &Manifold| {
+                let distances = manifold.points.iter().map(|point| point.dist);
+                let deepest = distances.fold(Real::INFINITY, Real::min);
+                let missed = gap < 0.0 && deepest > gap + 4.0 * ROUNDING;
+                usize::from(missed || deepest < gap - 4.0 * ROUNDING)
             };
             let mut found = Manifold::new();
             DefaultQueryDispatcher
@@ -293,16 +364,14 @@ mod tests {
                     &pos12, pair[0], pair[1], None, None, 0.005, &mut found,
                 )
                 .expect("polyhedra are supported");
-            wrong_before += usize::from(overlap(&found) > 4.0 * ROUNDING);
+            wrong_before += wrong(&found);
             let mut ours = Manifold::new();
             touch(&pos12, pair, [None; 2], 0.005, &mut ours).expect("polyhedra are supported");
-            mended += usize::from(overlap(&ours) <= 4.0 * ROUNDING);
+            wrong_now += wrong(&ours);
         }
-        assert!(
-            wrong_before > 10,
-            "Parry was wrong {wrong_before} times of 4000"
-        );
-        assert_eq!(mended, 4000);
+        println!("of 4000 pairs {overlapping} overlap; Parry is wrong {wrong_before} times");
+        assert!(overlapping > 1000 && wrong_before > 10);
+        assert_eq!(wrong_now, 0);
     }
 
     #[test]
