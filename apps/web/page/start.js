@@ -6,6 +6,26 @@
 
 import { program } from "./fetch.js";
 
+// The window draws one pixel for each pixel of the page's layout, but lays its panels out and reads pointers as if it drew as many as the screen
+// has: on a telephone they were twice as large and a touch missed. So it is told that the two are the same.
+window.devicePixelRatio = 1;
+
+// The picture is turned and thrown at with a mouse: the first finger is one, with its left button down as long as it touches.
+const stage = document.getElementById("stage");
+const asMouse = ({ clientX, clientY }) => ({ clientX, clientY, pointerType: "mouse", button: 0 });
+for (const [touched, told] of [["pointerdown", ["pointermove", "pointerdown"]], ["pointerup", ["pointerup"]], ["pointercancel", ["pointerup"]]]) {
+  stage.addEventListener(touched, (event) => {
+    if (event.pointerType !== "touch" || !event.isPrimary) return;
+    for (const name of told) stage.dispatchEvent(new PointerEvent(name, asMouse(event)));
+  });
+}
+for (const name of ["touchstart", "touchmove", "touchend", "touchcancel"]) {
+  stage.addEventListener(name, (event) => {
+    event.preventDefault();
+    event.stopImmediatePropagation();
+  }, { passive: false });
+}
+
 const wishes = new URLSearchParams(location.search);
 const cover = document.getElementById("cover");
 const bar = document.getElementById("bar");
