@@ -317,7 +317,8 @@ mod tests {
         let turn = random();
         let points: Vec<Vector> = (0..corners)
             .flat_map(|k| {
-                let angle = (k as Real + 0.6 * random() + turn) * 6.2832 / corners as Real;
+                let angle =
+                    (k as Real + 0.6 * random() + turn) * std::f32::consts::TAU / corners as Real;
                 let radius = 0.006 + 0.003 * random();
                 let (x, y) = (radius * angle.cos(), radius * angle.sin());
                 [Vector::new(x, y, -0.004), Vector::new(x, y, 0.004)]
