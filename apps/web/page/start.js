@@ -231,7 +231,7 @@ async function start() {
       if (whole + pieces === 0) return;
       times.picture = performance.now();
       cover.style.display = "none";
-      document.getElementById("stage").focus();
+      stage.focus();
       link.hidden = false;
       takeFiles(session);
       const commands = new URLSearchParams(location.hash.slice(1)).get("do")?.split(";") ?? [];

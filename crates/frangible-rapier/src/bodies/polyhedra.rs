@@ -28,7 +28,7 @@ const ROUNDING: Real = 5e-5;
 /// Share of a distance by which the search may miss it.
 const SEARCH_ERROR: Real = 2e-3;
 
-/// By how much a pair of edges has to part bodies farther than every face, m: normals would flicker between equals.
+/// Lead that a pair of edges needs over every face in parting bodies, m, so that normals do not flicker between equals.
 const EDGE_LEAD: Real = 1e-6;
 
 /// Whether a shape is convex and has flat faces.
@@ -311,6 +311,14 @@ mod tests {
 
     use super::*;
 
+    /// Numbers from 0 to 1 of a plain generator.
+    fn numbers(mut state: u32) -> impl FnMut() -> Real {
+        move || {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            (state >> 8) as Real / (1 << 24) as Real
+        }
+    }
+
     /// A prism of random outline and of one thickness, as the cells of a flat body are.
     fn prism(random: &mut impl FnMut() -> Real) -> SharedShape {
         let corners = 5 + (4.0 * random()) as usize;
@@ -329,11 +337,7 @@ mod tests {
 
     #[test]
     fn contacts_are_as_deep_as_the_bodies_overlap() {
-        let mut state = 7_u32;
-        let mut random = || {
-            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-            (state >> 8) as Real / (1 << 24) as Real
-        };
+        let mut random = numbers(7);
         let [mut overlapping, mut wrong_before, mut wrong_now] = [0; 3];
         for _ in 0..4000 {
             let shapes = [prism(&mut random), prism(&mut random)];
@@ -377,11 +381,7 @@ mod tests {
 
     #[test]
     fn bodies_that_overlap_are_parted_along_the_shortest_way() {
-        let mut state = 11_u32;
-        let mut random = || {
-            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-            (state >> 8) as Real / (1 << 24) as Real
-        };
+        let mut random = numbers(11);
         let mut across_edges = 0;
         for round in 0..400 {
             let second = match round % 2 {
