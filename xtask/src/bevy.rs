@@ -22,7 +22,7 @@ pub(crate) const PATHS: [&str; 10] = [
 ];
 
 /// Limit of each step: a first build of Bevy takes most of it.
-const LIMIT: Duration = Duration::from_secs(35 * 60);
+const LIMIT: Duration = Duration::from_secs(25 * 60);
 
 /// Runs cargo in the plugin's workspace, within what is left of the limit.
 fn in_workspace(commands: &[&[&str]], start: Instant) -> Result<PathBuf> {

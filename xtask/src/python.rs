@@ -30,7 +30,7 @@ pub(crate) const PATHS: [&str; 17] = [
 ];
 
 /// Limit of the whole step; building what the bindings are made of takes most of it.
-const LIMIT: Duration = Duration::from_secs(20 * 60);
+const LIMIT: Duration = Duration::from_secs(15 * 60);
 
 /// What builds the wheel and what tries it, of the versions that they are written for.
 const TOOLS: [&str; 8] = [
