@@ -7,11 +7,12 @@ use std::sync::mpsc::channel;
 use frangible::{Breakable, Material};
 use frangible_bake::{BakeSpec, Region, Shape, Support, bake};
 use frangible_rapier::rapier3d::prelude::*;
-use frangible_rapier::{Breaker, Sets};
+use frangible_rapier::{Breaker, PieceContacts, Sets};
 
 fn main() -> Result<(), Box<dyn Error>> {
-    // The game's world, with a floor and a stone on its way.
+    // The game's world, with contacts that suit broken pieces, a floor and a stone on its way.
     let mut game = PhysicsWorld::default();
+    game.narrow_phase.set_query_dispatcher(PieceContacts);
     let floor = ColliderBuilder::cuboid(3.0, 0.1, 3.0).translation(Vector::NEG_Y * 0.1);
     game.colliders.insert(floor);
     let stone = RigidBodyBuilder::dynamic().translation(Vector::new(0.1, 1.1, 2.0));

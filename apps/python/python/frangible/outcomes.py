@@ -175,5 +175,5 @@ def _trimesh() -> Any:
     try:
         import trimesh
     except ImportError as error:
-        raise ImportError("this needs trimesh: pip install frangible[trimesh]") from error
+        raise ImportError("this needs trimesh: pip install trimesh") from error
     return trimesh
