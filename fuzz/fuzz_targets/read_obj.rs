@@ -9,6 +9,12 @@ libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
         && let Ok((surface, report)) = repair(&mesh)
     {
         assert_eq!(surface.triangles.len(), report.faces_out);
-        assert!(surface.triangles.iter().flatten().all(|&v| (v as usize) < surface.positions.len()));
+        assert!(
+            surface
+                .triangles
+                .iter()
+                .flatten()
+                .all(|&v| (v as usize) < surface.positions.len())
+        );
     }
 });

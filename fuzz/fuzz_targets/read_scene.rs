@@ -9,6 +9,7 @@ fuzz_target!(|text: &str| {
     if let Ok(scene) = frangible_scenes::parse_scene(text, Path::new("")) {
         scene.validate().expect("a scene that was accepted");
         // Written and read again it may fail only where its paths or texts cannot be written.
-        let _ = frangible_scenes::parse_scene(&frangible_scenes::scene_to_toml(&scene), Path::new(""));
+        let _ =
+            frangible_scenes::parse_scene(&frangible_scenes::scene_to_toml(&scene), Path::new(""));
     }
 });

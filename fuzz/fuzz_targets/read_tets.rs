@@ -16,7 +16,10 @@ libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
         _ => {
             // Three files in one, parted by bars.
             let mut files = bytes.splitn(3, |&b| b == b'|');
-            let (node, ele) = (files.next().unwrap_or_default(), files.next().unwrap_or_default());
+            let (node, ele) = (
+                files.next().unwrap_or_default(),
+                files.next().unwrap_or_default(),
+            );
             parse_tetgen(node, ele, files.next())
         }
     };
@@ -24,8 +27,19 @@ libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
         && let Ok(mended) = mend_tets(&read)
     {
         let body = &mended.body;
-        assert!(body.tets.iter().flatten().all(|&v| (v as usize) < body.positions.len()));
+        assert!(
+            body.tets
+                .iter()
+                .flatten()
+                .all(|&v| (v as usize) < body.positions.len())
+        );
         assert!((0..body.tets.len()).all(|e| quality::volume(body.corners(e)) > 0.0));
-        assert!(mended.groups.iter().flat_map(|g| &g.nodes).all(|&v| (v as usize) < body.positions.len()));
+        assert!(
+            mended
+                .groups
+                .iter()
+                .flat_map(|g| &g.nodes)
+                .all(|&v| (v as usize) < body.positions.len())
+        );
     }
 });

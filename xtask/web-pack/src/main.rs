@@ -53,7 +53,10 @@ fn page(program: &Path, folder: &Path) -> Result<(), Box<dyn Error>> {
     let name = program.file_stem().unwrap_or_default().to_string_lossy();
     let plain = module(program, folder);
     let wasm = std::fs::read(&plain)?;
-    std::fs::write(folder.join(format!("{name}.wasm.gz")), packed(&wasm, ROUNDS)?)?;
+    std::fs::write(
+        folder.join(format!("{name}.wasm.gz")),
+        packed(&wasm, ROUNDS)?,
+    )?;
     println!("{bytes}");
     std::fs::remove_file(plain)?;
     Ok(())
@@ -66,7 +69,8 @@ fn body(file: &Path, to: &Path) -> Result<(), Box<dyn Error>> {
     let planes: Vec<u8> = (0..4)
         .flat_map(|plane| bytes.iter().skip(plane).step_by(4).copied())
         .collect();
-    std::fs::write(to, packed(&planes, NonZeroU64::MIN)?).map_err(|error| format!("{}: {error}", to.display()))?;
+    std::fs::write(to, packed(&planes, NonZeroU64::MIN)?)
+        .map_err(|error| format!("{}: {error}", to.display()))?;
     Ok(())
 }
 
