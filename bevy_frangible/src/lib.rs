@@ -16,9 +16,12 @@
 //!     .add_plugins(PhysicsPlugins::default().with_collision_hooks::<FrangibleHooks>())
 //!     .add_plugins(FrangiblePlugin::default())
 //!     .add_systems(Startup, |mut commands: Commands, assets: Res<AssetServer>| {
-//!         let glass = (Breakable(assets.load("glass.frangible")), Transform::from_xyz(0.0, 1.2, 0.0));
-//!         commands.spawn(glass).observe(|broke: On<Broke>| info!("{} pieces", broke.fragments.len()));
-//!     });
+//!         commands.spawn((RigidBody::Static, Collider::half_space(Vec3::Y)));
+//!         let place = Transform::from_xyz(0.0, 3.0, 0.0).with_rotation(Quat::from_rotation_x(1.0));
+//!         let glass = (Breakable(assets.load("glass.frangible")), place);
+//!         commands.spawn(glass).observe(|broke: On<Broke>| println!("{} pieces", broke.fragments.len()));
+//!     })
+//!     .run();
 //! # use bevy::mesh::MeshPlugin;
 //! # }
 //! ```
@@ -193,7 +196,7 @@ pub struct Held {
     pub report: ImpactReport,
 }
 
-/// Something that should have broken cannot: a file that is no baked body, a scaled entity, a blow that is not finite.
+/// Something that should have broken cannot: a file that is no baked body, an entity that is not scaled uniformly, a blow that is not finite.
 #[derive(EntityEvent, Clone, Debug)]
 pub struct BreakFailed {
     /// The body.

@@ -174,7 +174,7 @@ pub(crate) struct MeshArgs {
     #[arg(long, value_name = "METRES", allow_hyphen_values = true)]
     pub(crate) wall: Option<f64>,
 
-    /// Which axis of the file is up: x, y or z [default: z in STL and PLY, else y]
+    /// Which axis of the file is up: x, y or z [default: z in STL, PLY and tetrahedra, else y]
     #[arg(long, value_name = "AXIS")]
     pub(crate) up: Option<String>,
 }
@@ -214,7 +214,7 @@ pub(crate) struct BakeArgs {
     pub(crate) compact: bool,
 
     /// Hold a part of the body, which stays where it is, also after the break: below:z:0.01, above:x:0.3 (m, in the
-    /// frame of its shape), box:x,y,z,x,y,z, sphere:x,y,z,r or group:NAME; @xy holds it along x and y only. Repeat it for
+    /// frame of its shape; in a mesh that was read y is up), box:x,y,z,x,y,z, sphere:x,y,z,r or group:NAME; @xy holds it along x and y only. Repeat it for
     /// several, for example --support below:x:0.01 --support group:frame@z
     #[arg(long = "support", value_name = "SPEC", allow_hyphen_values = true)]
     pub(crate) supports: Vec<String>,
@@ -328,7 +328,7 @@ pub(crate) struct SceneArgs {
     pub(crate) generations: Option<u32>,
 
     /// Hold a part of the body, which stays where it is, also after the break: below:z:0.01, above:x:0.3 (m, in the
-    /// frame of its shape), box:x,y,z,x,y,z, sphere:x,y,z,r or group:NAME; @xy holds it along x and y only. Repeat it for
+    /// frame of its shape; in a mesh that was read y is up), box:x,y,z,x,y,z, sphere:x,y,z,r or group:NAME; @xy holds it along x and y only. Repeat it for
     /// several, for example --support below:x:0.01 --support group:frame@z
     #[arg(long = "support", value_name = "SPEC", allow_hyphen_values = true)]
     pub(crate) supports: Vec<String>,

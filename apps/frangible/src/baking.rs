@@ -120,6 +120,10 @@ fn quality(body: &BakedBody, seconds: f64) -> String {
                 asset.modes.frequency(report.followed - 1)
             ),
         );
+        if asset.is_supported() {
+            let share = asset.supported.len() as f64 / report.fracture.nodes as f64;
+            row("held", format!("{:.1} % of the nodes", 100.0 * share));
+        }
         row("collider", format!("{} convex cells", report.cells));
         let stages: Vec<String> = report
             .seconds

@@ -11,6 +11,12 @@ const MARGIN: f32 = 1.08;
 /// Share of a disc around pieces that their faces fill, at least: so many of them are shown, and strays are not.
 const FILLED: f64 = 0.12;
 
+/// The same where pieces lie so far apart that fewer than [`FEW`] of them would be shown.
+const FILLED_THINLY: f64 = 0.04;
+
+/// Fewer pieces than these say little of what broke.
+const FEW: usize = 3;
+
 /// A body that moves less far than this stays where it is, m.
 const STAYS: f32 = 0.01;
 
@@ -25,6 +31,12 @@ const NEARER: f32 = 0.6;
 
 /// The piece in the middle of the picture is one of so many of the heaviest.
 const MIDDLES: usize = 8;
+
+/// Share of the mass of what breaks that is shown while it still lies together: crumbs that have flown off are not.
+const NEARLY_ALL: f64 = 0.95;
+
+/// A piece that has less than this share of the area of the largest one is no piece that a viewer counts.
+const COUNTS: f64 = 0.05;
 
 /// Points of a mesh, at most, that are looked at.
 const POINTS: usize = 400;
@@ -82,12 +94,18 @@ pub(crate) fn cameras(recording: &Recording, roles: &[Role], look_from: Vec3) ->
     };
     let look = |points: &[Vec3]| view(points, ground, look_from, 0.0);
     let before = all(&breaking);
-    let shown = [
-        all(&pieces(moments.first_crack)),
-        together(&pieces(moments.just_after)),
-        together(&pieces(end)),
-    ];
     // Bodies that stay whole, and where they are, are the place where the others broke: it stays in the picture.
+    let resting = if standing {
+        let seen = things(recording, roles, end, |_, role| role != Role::Projectile);
+        about(&seen, middle(&before))
+    } else {
+        together(&pieces(end))
+    };
+    let shown = [
+        nearly_all(&pieces(moments.first_crack)),
+        together(&pieces(moments.just_after)),
+        resting,
+    ];
     let [first, flying, resting] = shown.map(|mut points| {
         if points.is_empty() || standing {
             points.extend(&before);
@@ -159,36 +177,102 @@ fn all(things: &[Thing]) -> Vec<Vec3> {
         .collect()
 }
 
-/// The points of things that lie together: as much mass as can be shown so that [`FILLED`] holds.
+/// The points of the heaviest things, which have [`NEARLY_ALL`] of the mass.
+fn nearly_all(things: &[Thing]) -> Vec<Vec3> {
+    let wanted = NEARLY_ALL * things.iter().map(|thing| thing.mass).sum::<f64>();
+    let mut mass = 0.0;
+    let heaviest = heaviest(things).into_iter().take_while(|&i| {
+        let goes_on = mass <= wanted;
+        mass += things[i].mass;
+        goes_on
+    });
+    points(things, heaviest)
+}
+
+/// The points of things that lie together, as closely as shows a few of them.
 fn together(things: &[Thing]) -> Vec<Vec3> {
-    let mut order: Vec<usize> = (0..things.len()).collect();
-    order.sort_by(|&a, &b| things[b].mass.total_cmp(&things[a].mass).then(a.cmp(&b)));
-    let mut best: (f64, Vec<usize>) = (f64::NEG_INFINITY, Vec::new());
-    for &middle in order.iter().take(MIDDLES) {
-        let centre = things[middle].centre;
-        let reach = |thing: &Thing| {
-            let distances = thing.points.iter().map(|p| p.distance(centre));
-            distances.fold(0.0, f32::max)
-        };
-        let mut by_reach: Vec<(f32, usize)> = things.iter().map(reach).zip(0..).collect();
-        by_reach.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        // The one in the middle, however thin it is.
-        let mut kept = (things[middle].mass, 1);
-        let (mut mass, mut area) = (0.0, 0.0);
-        for (number, &(radius, i)) in (1..).zip(&by_reach) {
-            mass += things[i].mass;
-            area += things[i].area;
-            if area >= FILLED * std::f64::consts::PI * f64::from(radius).powi(2) {
-                kept = (mass, number);
-            }
-        }
-        if kept.0 > best.0 {
-            let shown = by_reach[..kept.1].iter().map(|&(_, i)| i).collect();
-            best = (kept.0, shown);
+    let close = heaviest_group(things, FILLED);
+    if counted(things, &close) >= FEW {
+        return points(things, close);
+    }
+    let wide = heaviest_group(things, FILLED_THINLY);
+    let more = counted(things, &wide) > counted(things, &close);
+    points(things, if more { wide } else { close })
+}
+
+/// The group with the most mass, times the number of its pieces that count.
+fn heaviest_group(things: &[Thing], share: f64) -> Vec<usize> {
+    let worth = |group: &[usize]| {
+        let mass: f64 = group.iter().map(|&i| things[i].mass).sum();
+        mass * counted(things, group).min(MIDDLES) as f64
+    };
+    let middles = heaviest(things).into_iter().take(MIDDLES);
+    let groups = middles.map(|i| group(things, i, share));
+    // The first of equals.
+    let best = groups.reduce(|best, next| match worth(&next) > worth(&best) {
+        true => next,
+        false => best,
+    });
+    best.unwrap_or_default()
+}
+
+/// A thing, however thin it is, and those around it that fill so much of a disc.
+fn group(things: &[Thing], middle: usize, share: f64) -> Vec<usize> {
+    let around = filled(things, things[middle].centre, share);
+    if around.is_empty() {
+        vec![middle]
+    } else {
+        around
+    }
+}
+
+/// How many of these are pieces that a viewer counts.
+fn counted(things: &[Thing], chosen: &[usize]) -> usize {
+    let areas = || chosen.iter().map(|&i| things[i].area);
+    let largest = areas().fold(0.0, f64::max);
+    areas().filter(|&area| area >= COUNTS * largest).count()
+}
+
+/// The points of things that lie about a place, as many as can be shown so that [`FILLED`] holds.
+fn about(things: &[Thing], place: Vec3) -> Vec<Vec3> {
+    points(things, filled(things, place, FILLED))
+}
+
+/// The things within the widest disc about a place of which they fill so much.
+fn filled(things: &[Thing], place: Vec3, share: f64) -> Vec<usize> {
+    let reach = |thing: &Thing| {
+        let distances = thing.points.iter().map(|p| p.distance(place));
+        distances.fold(0.0, f32::max)
+    };
+    let mut by_reach: Vec<(f32, usize)> = things.iter().map(reach).zip(0..).collect();
+    by_reach.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    let (mut kept, mut area) = (0, 0.0);
+    for (number, &(radius, i)) in (1..).zip(&by_reach) {
+        area += things[i].area;
+        if area >= share * std::f64::consts::PI * f64::from(radius).powi(2) {
+            kept = number;
         }
     }
-    let shown = best.1.iter().flat_map(|&i| &things[i].points);
-    shown.copied().collect()
+    by_reach[..kept].iter().map(|&(_, i)| i).collect()
+}
+
+/// Things by their mass, the heaviest first.
+fn heaviest(things: &[Thing]) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..things.len()).collect();
+    order.sort_by(|&a, &b| things[b].mass.total_cmp(&things[a].mass).then(a.cmp(&b)));
+    order
+}
+
+fn points(things: &[Thing], chosen: impl IntoIterator<Item = usize>) -> Vec<Vec3> {
+    let points = chosen.into_iter().flat_map(|i| &things[i].points);
+    points.copied().collect()
+}
+
+/// The middle of the box about points.
+fn middle(points: &[Vec3]) -> Vec3 {
+    let points = || points.iter().copied();
+    let low = points().fold(Vec3::INFINITY, Vec3::min);
+    0.5 * (low + points().fold(Vec3::NEG_INFINITY, Vec3::max))
 }
 
 /// Looks so that these points fill the picture (4:3), from at least `nearest`, m.

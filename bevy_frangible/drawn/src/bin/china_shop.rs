@@ -1,4 +1,4 @@
-//! The china shop of the plugin's frame times, drawn: bowls, vases and cups on boards, and a ball of steel along one of them.
+//! The china shop of the plugin's frame times, drawn: bowls, vases and glasses on boards, and a ball of steel along one of them.
 //!
 //! `cargo run --release -p drawn --bin china_shop`
 
