@@ -39,6 +39,7 @@ cargo xtask npm               make the npm package, install it in an empty proje
 cargo xtask python            make the wheel for Python, and try it in an environment of its own
 cargo xtask bevy              lint and test the plugin for Bevy, in its own workspace
 cargo xtask bevy-drawn        lint its examples with a window, and compare their pictures
+cargo xtask bevy-web          make one of them as a page for browsers, target/web/bevy-page, and open it in Chromium, drawn by the processor
 cargo xtask book [--write | --html | PAGE.md]
                               run what the book shows, check its links, and make it HTML where mdBook is installed; --write also
                               writes outputs that it shows whole, such as the reference of the command line; --html runs nothing;
@@ -102,6 +103,7 @@ fn run(words: &[&str]) -> Result {
         ["python"] => python::wheel().map(drop),
         ["bevy"] => bevy::bevy().map(drop),
         ["bevy-drawn"] => bevy::drawn().map(drop),
+        ["bevy-web"] => web::bevy_page(None).map(drop),
         ["book"] => book::book(book::Wish::All).map(drop),
         ["book", "--write"] => book::book(book::Wish::Write).map(drop),
         ["book", page] if page.ends_with(".md") => book::book(book::Wish::Page(page)).map(drop),

@@ -16,10 +16,9 @@ use std::error::Error;
 use avian3d::prelude::*;
 use bevy::input::common_conditions::input_just_pressed;
 use bevy::prelude::*;
-use bevy_frangible::frangible::Material;
 use bevy_frangible::prelude::*;
 use bevy_frangible::{FrangibleGizmos, FrangibleGizmosPlugin, FrangibleSoundPlugin};
-use frangible_bake::{BakeSpec, Shape, Support, bake};
+use frangible_bake::{Shape, Support};
 
 use arguments::Arguments;
 pub use looks::Materials;
@@ -91,10 +90,12 @@ fn switch_gizmos(mut store: ResMut<GizmoConfigStore>) {
     config.enabled = !config.enabled;
 }
 
-/// Bakes a kind of body of about so many tetrahedra and gives it to the app. A game loads it from a file.
+/// Bakes a kind of body of about so many tetrahedra and gives it to the app. A page fetches it instead, baked, as a game loads it from a
+/// file: `MATERIAL.frangible` beside the page.
 ///
 /// # Errors
 /// A material or a shape that cannot be baked.
+#[cfg(not(target_family = "wasm"))]
 pub fn kind(
     app: &mut App,
     shape: Shape,
@@ -102,6 +103,8 @@ pub fn kind(
     tets: f64,
     supports: Vec<Support>,
 ) -> Result<Handle<FrangibleAsset>, Box<dyn Error>> {
+    use bevy_frangible::frangible::Material;
+    use frangible_bake::{BakeSpec, bake};
     let spec = BakeSpec {
         fracture: Some(shape.size_for(tets)?),
         supports,
@@ -112,4 +115,20 @@ pub fn kind(
         .world_mut()
         .resource_mut::<Assets<FrangibleAsset>>()
         .add(asset))
+}
+
+/// Fetches a kind of body that was baked before: `MATERIAL.frangible` beside the page.
+///
+/// # Errors
+/// None here: what cannot be fetched is told on the console.
+#[cfg(target_family = "wasm")]
+pub fn kind(
+    app: &mut App,
+    _: Shape,
+    material: &str,
+    _: f64,
+    _: Vec<Support>,
+) -> Result<Handle<FrangibleAsset>, Box<dyn Error>> {
+    let server = app.world().resource::<AssetServer>();
+    Ok(server.load(format!("{material}.frangible")))
 }

@@ -52,6 +52,15 @@ impl FromWorld for Materials {
             thickness: 0.002,
             ..default()
         };
+        // By WebGL 2 light that goes through glass is next to nothing to see: there its faces are seen one through the other.
+        #[cfg(target_family = "wasm")]
+        let clear = |base_color: Color, perceptual_roughness: f32| StandardMaterial {
+            base_color: base_color.with_alpha(0.2 + perceptual_roughness),
+            alpha_mode: AlphaMode::Blend,
+            cull_mode: None,
+            specular_transmission: 0.0,
+            ..clear(base_color, 0.1)
+        };
         let matt = |base_color, perceptual_roughness| StandardMaterial {
             base_color,
             perceptual_roughness,

@@ -2,6 +2,7 @@
 
 use std::f32::consts::PI;
 
+use bevy::asset::AssetMetaCheck;
 use bevy::camera::Exposure;
 use bevy::core_pipeline::tonemapping::{DebandDither, Tonemapping};
 use bevy::image::{Image, ImageSampler};
@@ -27,13 +28,42 @@ const SAMPLES: u32 = 96;
 pub(crate) fn window(app: &mut App, title: &str) {
     let window = Window {
         title: title.into(),
+        // On a page, in its canvas.
+        canvas: Some("#stage".into()),
+        fit_canvas_to_parent: true,
         ..default()
     };
-    app.add_plugins(DefaultPlugins.set(WindowPlugin {
+    let plugins = DefaultPlugins.set(WindowPlugin {
         primary_window: Some(window),
         ..default()
-    }));
+    });
+    // Many servers answer with a page where there is no file: what comes beside a body would be misread.
+    let plugins = plugins.set(AssetPlugin {
+        meta_check: AssetMetaCheck::Never,
+        ..default()
+    });
+    app.add_plugins(plugins);
+    #[cfg(target_family = "wasm")]
+    {
+        // Where a frame takes long, things fall slowly instead of being there at once.
+        let mut time = app.world_mut().resource_mut::<Time<Virtual>>();
+        time.set_max_delta(std::time::Duration::from_millis(33));
+        app.add_systems(Last, tell_first_frame);
+    }
 }
+
+/// Says when there is something to see.
+#[cfg(target_family = "wasm")]
+fn tell_first_frame(mut frames: Local<u32>) {
+    *frames += 1;
+    if *frames == FIRST {
+        info!("the scene is drawn");
+    }
+}
+
+/// The frame that is on the page when the next one but one begins.
+#[cfg(target_family = "wasm")]
+const FIRST: u32 = 4;
 
 /// The camera of an example.
 #[derive(Component)]

@@ -1,5 +1,6 @@
 //! The viewer as a page: one static folder.
 
+mod bevy;
 mod bodies;
 mod library;
 mod package;
@@ -16,6 +17,7 @@ use crate::command::{Result, output, root, target};
 use bodies::Bodies;
 use program::Program;
 
+pub(crate) use bevy::bevy_page;
 pub(crate) use package::package;
 pub(crate) use trial::{bits, trial};
 

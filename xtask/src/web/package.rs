@@ -61,7 +61,7 @@ pub(crate) fn package(limit: Option<Duration>) -> Result<Vec<String>> {
 }
 
 fn make(folders: &Folders, clock: Clock) -> Result<(PathBuf, Vec<String>)> {
-    same_generator()?;
+    same_generator(&root().join("Cargo.lock"))?;
     let packer = packer(folders, clock)?;
     let from = root().join("apps/npm");
     let out = folders.target.join("npm/frangible");

@@ -7,7 +7,7 @@ use super::library::{Library, library};
 use super::{Clock, Folders};
 use crate::command::{Result, cargo, output, root, shown, status_within};
 
-const TARGET: &str = "wasm32-unknown-unknown";
+pub(super) const TARGET: &str = "wasm32-unknown-unknown";
 /// The programs: what the page's list calls them, their names, and the profiles that they are built with. What computes is fast, what
 /// only draws is small.
 const PROGRAMS: [(&str, &str, &str); 2] = [
@@ -33,7 +33,7 @@ pub(super) struct Program {
 
 /// Builds the programs, and packs them.
 pub(super) fn programs(folders: &Folders, packer: &Path, clock: Clock) -> Result<Vec<Program>> {
-    same_generator()?;
+    same_generator(&root().join("Cargo.lock"))?;
     let pack = |(part, name, profile)| {
         let built = build(folders, name, Kind::Program, profile, clock)?;
         let text = output(
@@ -53,7 +53,7 @@ pub(super) fn programs(folders: &Folders, packer: &Path, clock: Clock) -> Result
 
 /// Builds the one that computes.
 pub(super) fn session(folders: &Folders, clock: Clock) -> Result<PathBuf> {
-    same_generator()?;
+    same_generator(&root().join("Cargo.lock"))?;
     build(folders, SESSION, Kind::Program, "npm", clock)
 }
 
@@ -93,6 +93,18 @@ pub(super) fn build(
     if is_library {
         command.args(["--lib", "--crate-type", "cdylib"]);
     }
+    for_browsers(&mut command, folders, clock)?;
+    let built = folders.target.join(TARGET).join(profile);
+    // A program's file is named as its package, a library's with underscores.
+    let file = match kind {
+        Kind::Program => name.into(),
+        Kind::Library => name.replace('-', "_"),
+    };
+    Ok(built.join(format!("{file}.wasm")))
+}
+
+/// Runs a command that builds something for browsers, with the standard library where the toolchain has none.
+pub(super) fn for_browsers(command: &mut Command, folders: &Folders, clock: Clock) -> Result {
     command
         .arg("--target-dir")
         .arg(&folders.target)
@@ -109,14 +121,7 @@ pub(super) fn build(
             }
         }
     }
-    within(&mut command, clock)?;
-    let built = folders.target.join(TARGET).join(profile);
-    // A program's file is named as its package, a library's with underscores.
-    let file = match kind {
-        Kind::Program => name.into(),
-        Kind::Library => name.replace('-', "_"),
-    };
-    Ok(built.join(format!("{file}.wasm")))
+    within(command, clock)
 }
 
 /// Builds the packer.
@@ -147,10 +152,10 @@ pub(super) fn within(command: &mut Command, clock: Clock) -> Result {
     }
 }
 
-/// Refuses a packer of another version than what the program is built with.
-pub(super) fn same_generator() -> Result {
+/// Refuses a packer of another version than what a program of this lock file is built with.
+pub(super) fn same_generator(lock: &Path) -> Result {
     let versions = [
-        (root().join("Cargo.lock"), GENERATOR),
+        (lock.to_path_buf(), GENERATOR),
         (
             root().join("xtask/web-pack/Cargo.lock"),
             GENERATOR_OF_PACKER,

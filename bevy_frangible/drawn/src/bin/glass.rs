@@ -2,6 +2,8 @@
 //!
 //! `cargo run --release -p drawn --bin glass`
 
+use std::f32::consts::FRAC_PI_2;
+
 use bevy::input::common_conditions::input_just_pressed;
 use bevy::prelude::*;
 use bevy_frangible::prelude::*;
@@ -10,8 +12,8 @@ use frangible_bake::Shape;
 
 const VIEW: View = View {
     title: "A glass falls on stone: space for another, G for weak points",
-    eye: Vec3::new(0.13, 0.13, 0.44),
-    target: Vec3::new(0.0, 0.075, 0.0),
+    eye: Vec3::new(0.25, 0.25, 0.85),
+    target: Vec3::new(0.0, 0.1, 0.0),
     rate: 240.0,
     steps: 121,
 };
@@ -36,8 +38,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 }
 
 fn fall(mut props: Props, glass: Res<Glass>, mut fallen: Local<u64>) {
-    // The axis of a baked glass is its z; it falls a little aslant.
-    let tilted = Quat::from_rotation_z(0.4) * Quat::from_rotation_x(-1.3);
+    // The axis of a baked glass is its z; it falls on its rim, aslant.
+    let tilted = Quat::from_rotation_z(2.58) * Quat::from_rotation_x(-FRAC_PI_2);
     *fallen += 1;
     props.commands.spawn((
         Breakable(glass.0.clone()),

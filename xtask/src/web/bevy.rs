@@ -1,0 +1,109 @@
+//! An example of the plugin for Bevy as a page: built, and opened in a browser.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::time::{Duration, Instant};
+
+use super::program::{TARGET, for_browsers, number_of, packer, same_generator, within};
+use super::trial::{browser_path, driver, made_folder};
+use super::{Clock, Folders, copy_folder, folders, make_folder};
+use crate::command::{Result, cargo, output, program, root, run_keeping, shown};
+use crate::setup::browser;
+
+/// The example that the page shows.
+const EXAMPLE: &str = "glass";
+
+/// What the browser may take before it counts as stuck.
+const LONGEST: Duration = Duration::from_secs(15 * 60);
+
+/// Makes the page in `target/web/bevy-page`, opens it in a browser, and returns the lines that sum it up.
+pub(crate) fn bevy_page(limit: Option<Duration>) -> Result<Vec<String>> {
+    let clock = Clock {
+        start: Instant::now(),
+        limit,
+    };
+    let mut folders = folders(None);
+    folders.page = root().join("bevy_frangible/drawn/page");
+    folders.out = folders.target.join("bevy-page");
+    let mut lines = make(&folders, clock)?;
+    let Some(browser) = browser() else {
+        let line = "bevy page: not opened: there is no browser, or no Node".to_string();
+        println!("{line}");
+        lines.push(line);
+        return Ok(lines);
+    };
+    let out = made_folder(&folders)?;
+    let mut command = Command::new("node");
+    command
+        .arg(root().join("bevy_frangible/drawn/tests/page.test.mjs"))
+        .arg(&folders.out)
+        .arg(browser_path(browser))
+        .arg(driver(&folders, clock)?)
+        .arg(&out)
+        .env("SECONDS", clock.left().min(LONGEST).as_secs().to_string());
+    println!("$ {}", shown(&command));
+    lines.extend(run_keeping(&mut command, |line| {
+        line.starts_with("bevy page:")
+    })?);
+    println!("pictures lie in {}", out.display());
+    Ok(lines)
+}
+
+/// Builds the program and puts it into the page's folder, with the body that it fetches.
+fn make(folders: &Folders, clock: Clock) -> Result<Vec<String>> {
+    make_folder(&folders.out)?;
+    same_generator(&root().join("bevy_frangible/Cargo.lock"))?;
+    let packer = packer(folders, clock)?;
+    let began = Instant::now();
+    let built = build(folders, clock)?;
+    let seconds = began.elapsed().as_secs();
+    let unpacked = number_of(&output(
+        Command::new(&packer)
+            .arg("package")
+            .arg(&built)
+            .arg(&folders.out),
+    )?)?;
+    copy_folder(&folders.page, &folders.out)?;
+    bake(&folders.out.join("assets"), clock)?;
+    let line = format!(
+        "bevy page: the program has {:.1} MB; it was built in {seconds} s",
+        unpacked as f64 / 1e6
+    );
+    println!("{line}");
+    println!("serve {} with any web server", folders.out.display());
+    Ok(vec![line])
+}
+
+/// Bakes the body that the example fetches, with the command line's program.
+fn bake(folder: &Path, clock: Clock) -> Result {
+    make_folder(folder)?;
+    let file = folder.join("glass.frangible");
+    if file.is_file() {
+        return Ok(());
+    }
+    within(
+        &mut cargo(&["build", "--release", "-p", "frangible-cli"]),
+        clock,
+    )?;
+    let mut command = Command::new(program());
+    command.args([
+        "bake",
+        "--scene",
+        "glass",
+        "--resolution",
+        "20000",
+        "--compact",
+        "-o",
+    ]);
+    within(command.arg(&file), clock)
+}
+
+fn build(folders: &Folders, clock: Clock) -> Result<PathBuf> {
+    let mut command = cargo(&["build", "--profile", "web", "--target", TARGET]);
+    command
+        .args(["--package", "drawn", "--bin", EXAMPLE])
+        .current_dir(root().join("bevy_frangible"));
+    for_browsers(&mut command, folders, clock)?;
+    let built = folders.target.join(TARGET).join("web");
+    Ok(built.join(format!("{EXAMPLE}.wasm")))
+}
