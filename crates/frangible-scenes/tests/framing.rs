@@ -61,7 +61,14 @@ fn covered(recording: &Recording, frame: usize, view: &View, word: &str) -> (f64
 #[test]
 fn each_moment_of_a_break_fills_its_picture() {
     let mut badly_framed = 0;
-    for (name, modes) in [("glass", 120), ("plate", 40), ("brick", 20), ("rabbit", 20)] {
+    for (name, modes) in [
+        ("glass", 120),
+        ("plate", 40),
+        ("brick", 20),
+        ("rabbit", 20),
+        ("window", 40),
+        ("shelf", 40),
+    ] {
         let mut scene = scene(name).unwrap();
         scene.bodies[0].modes = modes;
         let baked = bake(&scene, &mut |_| {}).unwrap();
@@ -82,4 +89,18 @@ fn each_moment_of_a_break_fills_its_picture() {
         badly_framed += good.iter().filter(|good| !**good).count();
     }
     assert_eq!(badly_framed, 0);
+}
+
+#[test]
+fn a_wall_ends_with_what_stands_around_its_hole() {
+    let mut scene = scene("wall").unwrap();
+    for body in &mut scene.bodies {
+        body.modes = 20;
+    }
+    let baked = bake(&scene, &mut |_| {}).unwrap();
+    let recording = play(&scene, &baked, &mut |_| {}).unwrap().recording;
+    let (end, _) = recording.labelled_moments().into_iter().last().unwrap();
+    let (share, _) = covered(&recording, end, &recording.view_of(end), "brick");
+    println!("wall: {share:.3}");
+    assert!((0.15..0.7).contains(&share), "{share}");
 }
