@@ -225,7 +225,7 @@ pub(crate) struct BakeArgs {
 
 #[derive(Args, Clone, Debug)]
 pub(crate) struct ModesArgs {
-    /// Baked body (.frangible), mesh (.obj .stl .ply .gltf .glb) or scene of one body (.toml)
+    /// Baked body (.frangible), mesh (.obj .stl .ply .gltf .glb, or tetrahedra .msh .node .ele .vtk .vtu .mesh) or scene of one body (.toml)
     #[arg(
         value_name = "FILE",
         conflicts_with = "scene",
