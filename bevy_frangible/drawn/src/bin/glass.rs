@@ -12,10 +12,10 @@ use frangible_bake::Shape;
 
 const VIEW: View = View {
     title: "A glass falls on stone: space for another, G for weak points",
-    eye: Vec3::new(0.25, 0.25, 0.85),
-    target: Vec3::new(0.0, 0.1, 0.0),
+    eye: Vec3::new(0.25, 0.3, 0.85),
+    target: Vec3::new(0.0, 0.18, 0.0),
     rate: 240.0,
-    steps: 121,
+    steps: 132,
 };
 
 #[derive(Resource)]

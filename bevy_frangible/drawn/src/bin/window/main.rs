@@ -101,7 +101,7 @@ fn build(mut props: Props, pane: Res<Pane>) {
     let place = Transform::from_xyz(0.0, MIDDLE, 0.0);
     props
         .commands
-        .spawn((Breakable(pane.0.clone()), glass, place));
+        .spawn((Breakable(pane.0.clone()), Seed(2), glass, place));
 }
 
 /// The picture is of a stone that somebody has thrown.
@@ -109,7 +109,7 @@ fn throw_first(mut throw: MessageWriter<Throw>) {
     if std::env::args().any(|word| word == "--picture") {
         throw.write(Throw {
             from: Vec3::new(-0.5, 1.5, 3.4),
-            velocity: Vec3::new(1.9, 1.3, -15.0),
+            velocity: Vec3::new(2.85, 1.95, -22.5),
         });
     }
 }

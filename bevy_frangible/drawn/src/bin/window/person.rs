@@ -12,7 +12,7 @@ const RADIUS: f32 = 0.25;
 
 /// Speeds of walking and of stones, m/s.
 const WALK: f32 = 2.0;
-const THROW: f32 = 15.0;
+const THROW: f32 = 22.0;
 
 /// Radius of a stone, m.
 const STONE: f32 = 0.035;
