@@ -20,6 +20,9 @@ const FEW: usize = 3;
 /// A body that moves less far than this stays where it is, m.
 const STAYS: f32 = 0.01;
 
+/// The centre of a piece that hangs is higher over the floor than this, m.
+const HANGS: f32 = 0.05;
+
 /// What is no higher than this share of its width lies flat.
 const FLAT: f32 = 0.4;
 
@@ -73,13 +76,21 @@ pub(crate) fn cameras(recording: &Recording, roles: &[Role], look_from: Vec3) ->
         breaking = bodies;
     }
     // What has cracked and holds is another node from then on.
-    let stays = |node: usize| {
-        let [from, to] = [moments.before, end].map(|frame| recording.pose(node, frame));
+    let stays = |node: usize, since: usize| {
+        let [from, to] = [since, end].map(|frame| recording.pose(node, frame));
         let seen = recording.nodes[node].visible.contains(&end);
         seen && from.translation.distance(to.translation) < STAYS
     };
-    let mut others = (0..roles.len()).filter(|&node| roles[node] == Role::Body && !broke(node));
-    let standing = others.any(stays);
+    let standing = (0..roles.len()).any(|node| match roles[node] {
+        Role::Body => !broke(node) && stays(node, moments.before),
+        // A piece that is held hangs over the floor.
+        Role::Piece => {
+            recording.floor.is_some()
+                && recording.pose(node, end).translation.y > HANGS
+                && stays(node, moments.just_after)
+        }
+        Role::Projectile => false,
+    });
     let pieces = |frame: usize| {
         let pieces = things(recording, roles, frame, |_, role| role == Role::Piece);
         if pieces.is_empty() {

@@ -67,7 +67,6 @@ fn each_moment_of_a_break_fills_its_picture() {
         ("brick", 20),
         ("rabbit", 20),
         ("window", 40),
-        ("shelf", 40),
     ] {
         let mut scene = scene(name).unwrap();
         scene.bodies[0].modes = modes;
