@@ -103,7 +103,7 @@ fn run(words: &[&str]) -> Result {
         ["python"] => python::wheel().map(drop),
         ["bevy"] => bevy::bevy().map(drop),
         ["bevy-drawn"] => bevy::drawn().map(drop),
-        ["bevy-web"] => web::bevy_page(None).map(drop),
+        ["bevy-web"] => web::bevy_page().map(drop),
         ["book"] => book::book(book::Wish::All).map(drop),
         ["book", "--write"] => book::book(book::Wish::Write).map(drop),
         ["book", page] if page.ends_with(".md") => book::book(book::Wish::Page(page)).map(drop),

@@ -91,7 +91,7 @@ fn switch_gizmos(mut store: ResMut<GizmoConfigStore>) {
 }
 
 /// Bakes a kind of body of about so many tetrahedra and gives it to the app. A page fetches it instead, baked, as a game loads it from a
-/// file: `MATERIAL.frangible` beside the page.
+/// file: `assets/MATERIAL.frangible` beside the page.
 ///
 /// # Errors
 /// A material or a shape that cannot be baked.
@@ -117,7 +117,7 @@ pub fn kind(
         .add(asset))
 }
 
-/// Fetches a kind of body that was baked before: `MATERIAL.frangible` beside the page.
+/// Fetches a kind of body that was baked before: `assets/MATERIAL.frangible` beside the page.
 ///
 /// # Errors
 /// None here: what cannot be fetched is told on the console.

@@ -61,7 +61,7 @@ fn tell_first_frame(mut frames: Local<u32>) {
     }
 }
 
-/// The frame that is on the page when the next one but one begins.
+/// Number of frames after which the first one is sure to be on the page.
 #[cfg(target_family = "wasm")]
 const FIRST: u32 = 4;
 

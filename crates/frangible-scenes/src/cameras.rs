@@ -11,7 +11,7 @@ const MARGIN: f32 = 1.08;
 /// Share of a disc around pieces that their faces fill, at least: so many of them are shown, and strays are not.
 const FILLED: f64 = 0.12;
 
-/// The same where pieces lie so far apart that fewer than [`FEW`] of them would be shown.
+/// Share of the disc that is enough where pieces lie so far apart that [`FILLED`] would show fewer than [`FEW`] of them.
 const FILLED_THINLY: f64 = 0.04;
 
 /// Fewer pieces than these say little of what broke.

@@ -2,50 +2,29 @@
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use super::program::{TARGET, for_browsers, number_of, packer, same_generator, within};
-use super::trial::{browser_path, driver, made_folder};
+use super::trial::in_browser;
 use super::{Clock, Folders, copy_folder, folders, make_folder};
-use crate::command::{Result, cargo, output, program, root, run_keeping, shown};
-use crate::setup::browser;
+use crate::command::{Result, cargo, output, program, root};
 
 /// The example that the page shows.
 const EXAMPLE: &str = "glass";
 
-/// What the browser may take before it counts as stuck.
-const LONGEST: Duration = Duration::from_secs(15 * 60);
-
 /// Makes the page in `target/web/bevy-page`, opens it in a browser, and returns the lines that sum it up.
-pub(crate) fn bevy_page(limit: Option<Duration>) -> Result<Vec<String>> {
+pub(crate) fn bevy_page() -> Result<Vec<String>> {
     let clock = Clock {
         start: Instant::now(),
-        limit,
+        limit: None,
     };
     let mut folders = folders(None);
     folders.page = root().join("bevy_frangible/drawn/page");
     folders.out = folders.target.join("bevy-page");
     let mut lines = make(&folders, clock)?;
-    let Some(browser) = browser() else {
-        let line = "bevy page: not opened: there is no browser, or no Node".to_string();
-        println!("{line}");
-        lines.push(line);
-        return Ok(lines);
-    };
-    let out = made_folder(&folders)?;
-    let mut command = Command::new("node");
-    command
-        .arg(root().join("bevy_frangible/drawn/tests/page.test.mjs"))
-        .arg(&folders.out)
-        .arg(browser_path(browser))
-        .arg(driver(&folders, clock)?)
-        .arg(&out)
-        .env("SECONDS", clock.left().min(LONGEST).as_secs().to_string());
-    println!("$ {}", shown(&command));
-    lines.extend(run_keeping(&mut command, |line| {
-        line.starts_with("bevy page:")
-    })?);
-    println!("pictures lie in {}", out.display());
+    let script = "bevy_frangible/drawn/tests/page.test.mjs";
+    let keep = |line: &str| line.starts_with("bevy page:");
+    lines.extend(in_browser("bevy page", script, &folders, clock, &[], keep)?);
     Ok(lines)
 }
 

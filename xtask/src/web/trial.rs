@@ -71,27 +71,40 @@ pub(crate) fn trial(limit: Option<Duration>) -> Result<Vec<String>> {
         let program = folders.out.join(format!("{SESSION}.wasm.gz"));
         lines.extend(in_node(&folders.out, &program, &baked, &native)?);
     }
+    let native = native.display().to_string();
+    let last: Vec<&str> = [native.as_str()].into_iter().chain(RENDERERS).collect();
+    let script = "apps/web/test/page.test.mjs";
+    let keep = |line: &str| RENDERERS.iter().any(|renderer| line.starts_with(renderer));
+    lines.extend(in_browser("web", script, &folders, clock, &last, keep)?);
+    Ok(lines)
+}
+
+/// Has a script of a page's test drive the browser, and returns the lines to keep; one says so where there is no browser.
+pub(super) fn in_browser(
+    step: &str,
+    script: &str,
+    folders: &Folders,
+    clock: Clock,
+    last: &[&str],
+    keep: fn(&str) -> bool,
+) -> Result<Vec<String>> {
     let Some(browser) = browser() else {
-        let line = "web: not tried: there is no browser, or no Node".to_string();
+        let line = format!("{step}: not tried: there is no browser, or no Node");
         println!("{line}");
-        lines.push(line);
-        return Ok(lines);
+        return Ok(vec![line]);
     };
-    let out = made_folder(&folders)?;
+    let out = made_folder(folders)?;
     let mut command = Command::new("node");
     command
-        .arg(root().join("apps/web/test/page.test.mjs"))
+        .arg(root().join(script))
         .arg(&folders.out)
         .arg(browser_path(browser))
-        .arg(driver(&folders, clock)?)
+        .arg(driver(folders, clock)?)
         .arg(&out)
-        .arg(native)
-        .args(RENDERERS)
+        .args(last)
         .env("SECONDS", clock.left().min(LONGEST).as_secs().to_string());
     println!("$ {}", shown(&command));
-    lines.extend(run_keeping(&mut command, |line| {
-        RENDERERS.iter().any(|renderer| line.starts_with(renderer))
-    })?);
+    let lines = run_keeping(&mut command, keep)?;
     println!("pictures lie in {}", out.display());
     Ok(lines)
 }
