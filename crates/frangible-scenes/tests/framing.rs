@@ -1,22 +1,39 @@
 //! What a picture is about fills it.
 
-use frangible::glam::Vec3;
+use frangible::Material;
+use frangible::glam::{Quat, Vec3};
+use frangible_bake::Shape;
 use frangible_export::{Recording, View};
-use frangible_scenes::{bake, play, scene};
+use frangible_scenes::{BodySource, BodySpec, Projectile, SCENE_NAMES, Scene, bake, play, scene};
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::{Rng, SeedableRng};
 
 const WIDTH: usize = 320;
 const HEIGHT: usize = 240;
 
-/// Share of a picture that is covered by nodes whose name has a word, and whether all of the covered part is within the picture.
-fn covered(recording: &Recording, frame: usize, view: &View, word: &str) -> (f64, bool) {
+/// What fills so much of the picture's height or width cannot be shown much larger.
+const LARGE: f32 = 0.85;
+
+/// What a picture shows of the nodes whose name has one of the words.
+struct Shown {
+    /// Share of the picture that they cover.
+    cover: f64,
+    /// The larger of their extents over the picture's, in width and height.
+    fills: f32,
+    /// Whether all of them is within the picture.
+    whole: bool,
+}
+
+fn shown(recording: &Recording, frame: usize, view: &View, words: &[&str]) -> Shown {
     let forward = (view.target - view.eye).normalize();
     let right = forward.cross(view.up).normalize();
     let up = right.cross(forward);
     let tangent = (0.5 * view.vertical_fov).tan();
     let mut hit = vec![false; WIDTH * HEIGHT];
-    let mut within = true;
+    let mut whole_is_within = true;
+    let (mut least, mut most) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
     for (i, node) in recording.nodes.iter().enumerate() {
-        if !node.visible.contains(&frame) || !node.name.contains(word) {
+        if !node.visible.contains(&frame) || !words.iter().any(|word| node.name.contains(word)) {
             continue;
         }
         let (pose, mesh) = (recording.pose(i, frame), &recording.meshes[node.mesh]);
@@ -24,7 +41,8 @@ fn covered(recording: &Recording, frame: usize, view: &View, word: &str) -> (f64
             let d = pose.rotation * p + pose.translation - view.eye;
             let depth = d.dot(forward);
             let place = Vec3::new(d.dot(right) * 0.75, d.dot(up), 0.0) / (depth * tangent);
-            within &= depth > 0.0 && place.x.abs() <= 1.0 && place.y.abs() <= 1.0;
+            whole_is_within &= depth > 0.0 && place.x.abs() <= 1.0 && place.y.abs() <= 1.0;
+            (least, most) = (least.min(place), most.max(place));
             // Behind the eye nothing is seen.
             let place = if depth > 0.0 { place } else { Vec3::NAN };
             let (x, y) = (0.5 + 0.5 * place.x, 0.5 - 0.5 * place.y);
@@ -55,51 +73,132 @@ fn covered(recording: &Recording, frame: usize, view: &View, word: &str) -> (f64
         }
     }
     let count = hit.iter().filter(|hit| **hit).count();
-    (count as f64 / hit.len() as f64, within)
-}
-
-#[test]
-fn each_moment_of_a_break_fills_its_picture() {
-    let mut badly_framed = 0;
-    for (name, modes) in [
-        ("glass", 120),
-        ("plate", 40),
-        ("brick", 20),
-        ("rabbit", 20),
-        ("window", 40),
-    ] {
-        let mut scene = scene(name).unwrap();
-        scene.bodies[0].modes = modes;
-        let baked = bake(&scene, &mut |_| {}).unwrap();
-        let recording = play(&scene, &baked, &mut |_| {}).unwrap().recording;
-        let body = recording.nodes[0].name.clone();
-        let cover = recording.labelled_moments().map(|(frame, _)| {
-            let view = recording.view_of(frame);
-            covered(&recording, frame, &view, &body)
-        });
-        println!("{name}: {cover:.3?}");
-        let [before, first, flying, resting] = cover;
-        let good = [
-            (0.15..0.7).contains(&before.0) && before.1,
-            (0.15..0.7).contains(&first.0),
-            flying.0 > 0.08,
-            resting.0 > 0.08,
-        ];
-        badly_framed += good.iter().filter(|good| !**good).count();
+    let (least, most) = (least.max(Vec3::NEG_ONE), most.min(Vec3::ONE));
+    Shown {
+        cover: count as f64 / hit.len() as f64,
+        fills: (0.5 * (most - least)).max_element(),
+        whole: whole_is_within,
     }
-    assert_eq!(badly_framed, 0);
 }
 
-#[test]
-fn a_wall_ends_with_what_stands_around_its_hole() {
-    let mut scene = scene("wall").unwrap();
+/// Moments of this scene whose pictures show too little, in words.
+fn badly_framed(scene: &Scene) -> Vec<String> {
+    let mut scene = scene.clone();
     for body in &mut scene.bodies {
-        body.modes = 20;
+        body.modes = body.modes.min(20);
     }
-    let baked = bake(&scene, &mut |_| {}).unwrap();
-    let recording = play(&scene, &baked, &mut |_| {}).unwrap().recording;
-    let (end, _) = recording.labelled_moments().into_iter().last().unwrap();
-    let (share, _) = covered(&recording, end, &recording.view_of(end), "brick");
-    println!("wall: {share:.3}");
-    assert!((0.15..0.7).contains(&share), "{share}");
+    scene.duration = scene.duration.min(2.0);
+    let baked = match bake(&scene, &mut |_| {}) {
+        Ok(baked) => baked,
+        Err(error) => return vec![format!("{}: {error}", scene.name)],
+    };
+    let recording = match play(&scene, &baked, &mut |_| {}) {
+        Ok(run) => run.recording,
+        Err(error) => return vec![format!("{}: {error}", scene.name)],
+    };
+    let words: Vec<&str> = scene.bodies.iter().map(|body| body.name.as_str()).collect();
+    let moments = recording.labelled_moments().map(|(frame, label)| {
+        let view = recording.view_of(frame);
+        (label, shown(&recording, frame, &view, &words))
+    });
+    let line: Vec<String> = (moments.iter())
+        .map(|(_, s)| format!("{:4.1} % {:.2} {}", 100.0 * s.cover, s.fills, s.whole))
+        .collect();
+    println!("{:12} {}", scene.name, line.join(" | "));
+    // What is held stays in the picture, which shows it and its pieces smaller.
+    let held = scene.bodies.iter().any(|body| !body.supports.is_empty());
+    let pieces = if held { 0.06 } else { 0.08 };
+    let least = [0.15, 0.15, pieces, pieces];
+    let bad = moments.iter().zip(least).filter(|((_, s), least)| {
+        // What is thin cannot be shown larger than the picture is high or wide.
+        let small = s.cover < *least && (*least < 0.1 || s.fills < LARGE);
+        // One of many is shown among the others.
+        small || s.cover > 0.7 && scene.bodies.len() == 1
+    });
+    bad.map(|((label, s), _)| format!("{}, {label}: {:.1} %", scene.name, 100.0 * s.cover))
+        .collect()
+}
+
+/// Bodies whose bakes or breaks take long.
+const SLOW: [&str; 12] = [
+    "rabbit",
+    "piggy-bank",
+    "hammer",
+    "shards",
+    "five-blows",
+    "wall",
+    "crockery",
+    "wine-glass",
+    "bulb",
+    "statue",
+    "tiles",
+    "windscreen",
+];
+
+fn badly_framed_of(wanted: impl Fn(&&&str) -> bool) -> Vec<String> {
+    let scenes = SCENE_NAMES.iter().filter(wanted);
+    scenes
+        .flat_map(|name| badly_framed(&scene(name).unwrap()))
+        .collect()
+}
+
+#[test]
+fn each_moment_of_scenes_fills_its_picture() {
+    let bad = badly_framed_of(|name| !SLOW.contains(name));
+    assert_eq!(bad, Vec::<String>::new());
+}
+
+#[test]
+#[ignore = "takes minutes: run it after a change of the cameras or of a scene"]
+fn each_moment_of_slow_scenes_fills_its_picture() {
+    let bad = badly_framed_of(|name| SLOW.contains(name));
+    assert_eq!(bad, Vec::<String>::new());
+}
+
+/// A body of any shape, size and material that falls, or is hit by a ball.
+fn any_scene(number: u64) -> Scene {
+    let mut rng = ChaCha8Rng::seed_from_u64(number);
+    let mut random = move || f64::from(rng.next_u32()) / f64::from(u32::MAX);
+    let size = 0.05 * (12.0 * random()).powf(random());
+    let mut side = || size * (0.2 + 0.8 * random());
+    let shape = match number % 7 {
+        0 => Shape::drinking_glass(),
+        1 => Shape::bowl(),
+        2 => Shape::bottle(),
+        3 => Shape::dinner_plate(),
+        4 => Shape::plate(side(), side(), 0.04 * size),
+        _ => Shape::block([side(), side(), side()]),
+    };
+    let materials = [
+        "glass",
+        "porcelain",
+        "brick",
+        "ice",
+        "chocolate",
+        "concrete",
+    ];
+    let material = materials[number as usize % materials.len()];
+    let material = Material::preset(material).unwrap();
+    let mut body = BodySpec::new("thing", BodySource::Shape(shape), material);
+    let mut turn = || 3.0 * random() as f32;
+    body.rotation = Quat::from_rotation_x(turn()) * Quat::from_rotation_z(turn());
+    body.drop_from(0.5 + 4.0 * random());
+    body.resolution = Some(4000);
+    let mut scene = Scene::one_body(body);
+    scene.name = format!("any {number}");
+    scene.seed = number;
+    if number % 3 == 0 {
+        let (mass, speed) = (0.05 + 0.4 * random(), 5.0 + 20.0 * random());
+        scene.throw(Projectile {
+            toward: Vec3::new(0.2, -1.0, 0.1),
+            ..Projectile::ball(mass, 0.02, speed)
+        });
+    }
+    scene
+}
+
+#[test]
+fn each_moment_of_twenty_scenes_made_at_random_fills_its_picture() {
+    let bad: Vec<String> = (1..=20).flat_map(|n| badly_framed(&any_scene(n))).collect();
+    assert_eq!(bad, Vec::<String>::new());
 }
