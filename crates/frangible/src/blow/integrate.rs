@@ -100,7 +100,7 @@ impl Run<'_> {
         let pushes = plan.pushes();
         let mut substep = record.forces.len() / count;
         let mut parted = false;
-        while !(parted && substep % plan.substeps == 0) {
+        while !(parted && substep.is_multiple_of(plan.substeps)) {
             let t = (substep + 1) as f64 * contacts.dt;
             plan.fine.coast(state, &pushes, &contacts.forces);
             contacts.foresee(state);
@@ -115,7 +115,7 @@ impl Run<'_> {
             contacts.advance();
             record.forces.extend_from_slice(&contacts.forces);
             substep += 1;
-            let whole = substep % plan.substeps == 0;
+            let whole = substep.is_multiple_of(plan.substeps);
             if whole {
                 record.sample(plan, state, &contacts.forces, true);
             }
