@@ -187,7 +187,7 @@ fn any_scene(number: u64) -> Scene {
     let mut scene = Scene::one_body(body);
     scene.name = format!("any {number}");
     scene.seed = number;
-    if number % 3 == 0 {
+    if number.is_multiple_of(3) {
         let (mass, speed) = (0.05 + 0.4 * random(), 5.0 + 20.0 * random());
         scene.throw(Projectile {
             toward: Vec3::new(0.2, -1.0, 0.1),
