@@ -9,7 +9,13 @@ use crate::recorder::Role;
 const MARGIN: f32 = 1.08;
 
 /// Share of a disc around pieces that their faces fill, at least: so many of them are shown, and strays are not.
-const FILLED: f64 = 0.14;
+const FILLED: f64 = 0.12;
+
+/// Share of the disc that is enough where pieces lie so far apart that [`FILLED`] would show fewer than [`FEW`] of them.
+const FILLED_THINLY: f64 = 0.04;
+
+/// Fewer pieces than these say little of what broke.
+const FEW: usize = 3;
 
 /// A body that moves less far than this stays where it is, m.
 const STAYS: f32 = 0.01;
@@ -194,19 +200,25 @@ fn nearly_all(things: &[Thing]) -> Vec<Vec3> {
     points(things, heaviest)
 }
 
-/// The points of things that lie together.
+/// The points of things that lie together, as closely as shows a few of them.
 fn together(things: &[Thing]) -> Vec<Vec3> {
-    points(things, heaviest_group(things))
+    let close = heaviest_group(things, FILLED);
+    if counted(things, &close) >= FEW {
+        return points(things, close);
+    }
+    let wide = heaviest_group(things, FILLED_THINLY);
+    let more = counted(things, &wide) > counted(things, &close);
+    points(things, if more { wide } else { close })
 }
 
 /// The group with the most mass, times the number of its pieces that count.
-fn heaviest_group(things: &[Thing]) -> Vec<usize> {
+fn heaviest_group(things: &[Thing], share: f64) -> Vec<usize> {
     let worth = |group: &[usize]| {
         let mass: f64 = group.iter().map(|&i| things[i].mass).sum();
         mass * counted(things, group).min(MIDDLES) as f64
     };
     let middles = heaviest(things).into_iter().take(MIDDLES);
-    let groups = middles.map(|i| group(things, i));
+    let groups = middles.map(|i| group(things, i, share));
     // The first of equals.
     let best = groups.reduce(|best, next| match worth(&next) > worth(&best) {
         true => next,
@@ -216,8 +228,8 @@ fn heaviest_group(things: &[Thing]) -> Vec<usize> {
 }
 
 /// A thing, however thin it is, and those around it that fill so much of a disc.
-fn group(things: &[Thing], middle: usize) -> Vec<usize> {
-    let around = filled(things, things[middle].centre);
+fn group(things: &[Thing], middle: usize, share: f64) -> Vec<usize> {
+    let around = filled(things, things[middle].centre, share);
     if around.is_empty() {
         vec![middle]
     } else {
@@ -234,11 +246,11 @@ fn counted(things: &[Thing], chosen: &[usize]) -> usize {
 
 /// The points of things that lie about a place, as many as can be shown so that [`FILLED`] holds.
 fn about(things: &[Thing], place: Vec3) -> Vec<Vec3> {
-    points(things, filled(things, place))
+    points(things, filled(things, place, FILLED))
 }
 
-/// The things within the widest disc about a place of which they fill [`FILLED`].
-fn filled(things: &[Thing], place: Vec3) -> Vec<usize> {
+/// The things within the widest disc about a place of which they fill so much.
+fn filled(things: &[Thing], place: Vec3, share: f64) -> Vec<usize> {
     let reach = |thing: &Thing| {
         let distances = thing.points.iter().map(|p| p.distance(place));
         distances.fold(0.0, f32::max)
@@ -248,7 +260,7 @@ fn filled(things: &[Thing], place: Vec3) -> Vec<usize> {
     let (mut kept, mut area) = (0, 0.0);
     for (number, &(radius, i)) in (1..).zip(&by_reach) {
         area += things[i].area;
-        if area >= FILLED * std::f64::consts::PI * f64::from(radius).powi(2) {
+        if area >= share * std::f64::consts::PI * f64::from(radius).powi(2) {
             kept = number;
         }
     }

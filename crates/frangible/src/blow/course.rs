@@ -27,8 +27,6 @@ const GREW: f64 = 1.3;
 pub struct Blow {
     plan: Plan,
     instant: bool,
-    /// Whether strikers are followed that the body swings back against.
-    returns: bool,
     /// Forces after each substep, N, contact after contact.
     forces: Vec<f64>,
     /// Time steps until the contacts have parted.
@@ -66,7 +64,7 @@ impl Blow {
     ) -> Result<Option<Self>, InputError> {
         contacts.iter().try_for_each(Contact::validate)?;
         config.validate()?;
-        Ok(Self::integrated(body, contacts, config, longest, false))
+        Ok(Self::integrated(body, contacts, config, longest))
     }
 
     /// [`Blow::new`] of contacts that have been checked.
@@ -75,22 +73,7 @@ impl Blow {
         contacts: &[Contact],
         config: &FractureConfig,
     ) -> Option<Self> {
-        Self::integrated(body, contacts, config, None, false)
-    }
-
-    /// [`Blow::new`] that does not end when all contacts have parted: a body that swings back against a striker is hit again (see the limits
-    /// of this module). [`impact`](crate::impact()) does not follow that.
-    ///
-    /// # Errors
-    /// What [`Blow::new`] refuses.
-    pub fn with_returns(
-        body: &Body,
-        contacts: &[Contact],
-        config: &FractureConfig,
-    ) -> Result<Option<Self>, InputError> {
-        contacts.iter().try_for_each(Contact::validate)?;
-        config.validate()?;
-        Ok(Self::integrated(body, contacts, config, None, true))
+        Self::integrated(body, contacts, config, None)
     }
 
     fn integrated(
@@ -98,13 +81,11 @@ impl Blow {
         contacts: &[Contact],
         config: &FractureConfig,
         longest: Option<f64>,
-        returns: bool,
     ) -> Option<Self> {
         let plan = Plan::new(body, contacts, config, longest)?;
         let mut blow = Self {
             plan,
             instant: config.timing == CrackTiming::Instant,
-            returns,
             forces: Vec::new(),
             contact_steps: 0,
             departures: Vec::new(),
@@ -344,7 +325,6 @@ impl Blow {
             known,
             softer: &self.softer,
             instant: self.instant,
-            returns: self.returns,
         })
     }
 

@@ -3,8 +3,7 @@
 use std::f64::consts::{PI, TAU};
 use std::ops::Range;
 
-use super::bank::{BankState, Pushes, dot, padded};
-use super::contacts::Contacts;
+use super::bank::{BankState, Pushes, dot, dot_over, padded};
 use super::plan::Plan;
 
 /// A blow of so many substeps is cut off: a contact that lasts this long is none of a blow's.
@@ -18,6 +17,9 @@ const SIGNIFICANT: f64 = 0.05;
 
 /// Periods of the lowest significantly excited mode that are looked at.
 const PERIODS: f64 = 1.5;
+
+/// Rounds over all contacts until their forces agree.
+const MOST_ROUNDS: usize = 60;
 
 /// From a substep on the body gives way by so much more under a contact.
 #[derive(Clone, Copy, Debug)]
@@ -45,11 +47,8 @@ pub(super) struct Record {
     pub(super) peak_energy: f64,
     /// Largest strain energy until the end of each time step, J.
     pub(super) strain_energy: Vec<f64>,
-    /// Energy of the body's oscillators when the contacts parted for the last time, and of waves that had left before, J.
     pub(super) energy_at_parting: f64,
-    /// Energy of waves that left before a striker touched again, J: the body's, and those of breakable strikers.
-    left: [f64; 2],
-    /// The same of breakable strikers, J.
+    /// Energy of breakable strikers' oscillators at parting, J.
     pub(super) strikers_energy: f64,
 }
 
@@ -61,8 +60,6 @@ pub(super) struct Run<'a> {
     pub(super) softer: &'a [Softening],
     /// Whether nothing is looked at after the contact.
     pub(super) instant: bool,
-    /// Whether strikers are followed that the body swings back against.
-    pub(super) returns: bool,
 }
 
 impl pulp::NullaryFnOnce for Run<'_> {
@@ -71,176 +68,74 @@ impl pulp::NullaryFnOnce for Run<'_> {
     #[inline(always)]
     fn call(self) -> Record {
         let plan = self.plan;
+        let count = plan.sites.len();
+        let pushes = plan.pushes();
         let mut state = BankState::rest(plan.oscillators.len());
         let mut contacts = Contacts::new(plan);
         let mut record = Record::new(plan);
-        self.push(&mut record, &mut state, &mut contacts);
-        let window = self.window(0..plan.modes, &state);
-        // Two bodies that both vibrate wait equally long for each other.
-        let windows = (plan.strikers.iter()).map(|modes| self.window(modes.clone(), &state));
-        let end = windows.fold(window, f64::max);
-        while let Some(steps) = self.return_after(&record, &state, &contacts, end) {
-            self.wait(steps, &mut record, &mut state, &mut contacts);
-            self.push(&mut record, &mut state, &mut contacts);
-        }
-        record.speeds = contacts.speeds;
-        state.keep(plan.own);
-        self.ring(&mut record, state, window);
-        record
-    }
-}
-
-impl Run<'_> {
-    /// Follows the contacts until all have parted, to the end of that time step. Where strikers may return, it is at the end of a time step
-    /// that they have to have parted.
-    #[inline(always)]
-    fn push(&self, record: &mut Record, state: &mut BankState, contacts: &mut Contacts<'_>) {
-        let plan = self.plan;
-        let count = plan.sites.len();
-        let pushes = plan.pushes();
-        let mut substep = record.forces.len() / count;
+        let mut substep = 0;
         let mut parted = false;
-        while !(parted && substep.is_multiple_of(plan.substeps)) {
+        while !(parted && substep % plan.substeps == 0) {
             let t = (substep + 1) as f64 * contacts.dt;
-            plan.fine.coast(state, &pushes, &contacts.forces);
-            contacts.foresee(state);
-            contacts.soften(self.softer, substep..substep + 1);
+            plan.fine.coast(&mut state, &pushes, &contacts.forces);
+            contacts.foresee(&state);
+            for softer in self.softer.iter().filter(|s| s.substep == substep) {
+                contacts.weakness[softer.contact] = softer.compliance;
+            }
             match self.known.get(substep * count..(substep + 1) * count) {
                 Some(known) => contacts.next.copy_from_slice(known),
                 None if parted => contacts.next.fill(0.0),
                 None => contacts.solve(t),
             }
             contacts.grow();
-            plan.fine.grow(state, &pushes, &contacts.growth);
+            plan.fine.grow(&mut state, &pushes, &contacts.growth);
             contacts.advance();
             record.forces.extend_from_slice(&contacts.forces);
             substep += 1;
-            let whole = substep.is_multiple_of(plan.substeps);
-            if whole {
-                record.sample(plan, state, &contacts.forces, true);
+            if substep % plan.substeps == 0 {
+                record.sample(plan, &state, &contacts.forces, true);
             }
-            if !parted && (whole || !self.returns) {
-                parted = contacts.have_parted(state, t) || substep >= MOST_SUBSTEPS;
+            if !parted {
+                parted = contacts.have_parted(&state, t) || substep >= MOST_SUBSTEPS;
                 if parted {
                     let own = padded(plan.own);
-                    let ringing = [0..own, own..state.x.len()].map(|of| energies(state, of)[0]);
-                    record.energy_at_parting = record.left[0] + ringing[0];
-                    record.strikers_energy = record.left[1] + ringing[1];
+                    record.energy_at_parting = energies(&state, 0..own)[0];
+                    record.strikers_energy = energies(&state, own..state.x.len())[0];
                 }
             }
         }
         record.contact_steps = substep / plan.substeps;
+        record.speeds = contacts.speeds;
+        state.keep(plan.own);
+        self.ring(&mut record, state);
+        record
     }
+}
 
-    /// How long the motion of a body with these modes is looked at, from the beginning of the blow, s.
+impl Run<'_> {
+    /// The free motion after the contacts.
     #[inline(always)]
-    pub(super) fn window(&self, modes: Range<usize>, state: &BankState) -> f64 {
-        let oscillators = &self.plan.oscillators;
-        let amplitude = |i: usize| libm::hypot(state.x[i], state.v[i]) / oscillators[i].0;
-        let largest = modes.clone().map(amplitude).fold(0.0, f64::max);
-        let low = { modes }.find(|&i| amplitude(i) >= SIGNIFICANT * largest);
-        PERIODS * low.map_or(0.0, |i| TAU / oscillators[i].0)
-    }
-
-    /// Time steps from now to the last one before a striker touches again, where it does before `end`, s.
-    #[inline(always)]
-    fn return_after(
-        &self,
-        record: &Record,
-        state: &BankState,
-        contacts: &Contacts<'_>,
-        end: f64,
-    ) -> Option<usize> {
-        let plan = self.plan;
-        if !self.returns || self.instant || record.forces.len() >= MOST_SUBSTEPS * plan.sites.len()
-        {
-            return None;
-        }
-        let left = end - record.contact_steps as f64 * plan.time_step;
-        let left = left.min(contacts.within_reach(state));
-        let steps = (left / plan.time_step).ceil().max(0.0) as usize;
-        let mut state = state.clone();
-        (1..=steps.min(MOST_STEPS))
-            .find(|&step| {
-                self.coast(&mut state);
-                self.forget_waves(step, &mut state);
-                contacts.touch_at(&state, step as f64 * plan.time_step)
-            })
-            .map(|step| step - 1)
-    }
-
-    /// Lets so many time steps pass in which nothing touches.
-    #[inline(always)]
-    fn wait(
-        &self,
-        steps: usize,
-        record: &mut Record,
-        state: &mut BankState,
-        contacts: &mut Contacts<'_>,
-    ) {
-        let plan = self.plan;
-        for step in 1..=steps {
-            let first = record.contact_steps * plan.substeps;
-            contacts.soften(self.softer, first..first + plan.substeps);
-            self.coast(state);
-            let left = self.forget_waves(step, state);
-            record.left = [0, 1].map(|side| record.left[side] + left[side]);
-            for (way, speed) in contacts.ways.iter_mut().zip(&contacts.speeds) {
-                *way += speed * plan.time_step;
-            }
-            let substeps = std::iter::repeat_n(0.0, plan.substeps * plan.sites.len());
-            record.forces.extend(substeps);
-            record.sample(plan, state, &contacts.forces, true);
-            record.contact_steps += 1;
-        }
-    }
-
-    /// A time step in which nothing touches.
-    #[inline(always)]
-    fn coast(&self, state: &mut BankState) {
-        self.plan.step.coast(state, &Pushes::NONE, &[]);
-    }
-
-    /// Time steps until waves from this angular frequency on, rad/s, have left the place of the contact: half a period of the lowest.
-    #[inline(always)]
-    fn leave_after(&self, lowest: f64) -> usize {
-        ((PI / lowest / self.plan.time_step).ceil() as usize).min(MOST_STEPS)
-    }
-
-    /// Forgets the waves that leave in the time step of this number after the contacts parted. Returns the energy of the body's own, and
-    /// of those of breakable strikers, J.
-    #[inline(always)]
-    fn forget_waves(&self, step: usize, state: &mut BankState) -> [f64; 2] {
-        let mut energy = [0.0; 2];
-        for (waves, lowest) in &self.plan.waves {
-            if self.leave_after(*lowest) == step {
-                let (x, v) = (&mut state.x[waves.clone()], &mut state.v[waves.clone()]);
-                let squares: f64 = x.iter().chain(v.iter()).map(|x| x * x).sum();
-                energy[usize::from(waves.start >= self.plan.own)] += 0.5 * squares;
-                x.fill(0.0);
-                v.fill(0.0);
-            }
-        }
-        energy
-    }
-
-    /// The free motion after the contacts, to the end of the window, s.
-    #[inline(always)]
-    fn ring(&self, record: &mut Record, mut state: BankState, window: f64) {
+    fn ring(&self, record: &mut Record, mut state: BankState) {
         let plan = self.plan;
         let time_step = plan.time_step;
         if self.instant {
             record.near_steps = record.contact_steps;
             return;
         }
+        let amplitude = |i: usize| libm::hypot(state.x[i], state.v[i]) / plan.oscillators[i].0;
+        let largest = (0..plan.modes).map(amplitude).fold(0.0, f64::max);
+        let low = (0..plan.modes).find(|&i| amplitude(i) >= SIGNIFICANT * largest);
+        let period = low.map_or(0.0, |i| TAU / plan.oscillators[i].0);
+        // After the blow its waves leave within half a period of the lowest of them.
         let near = plan.sites.iter().filter_map(|s| s.near.as_ref());
-        let leave = near.map(|n| self.leave_after(n.wall.lowest)).max();
-        record.near_steps = record.contact_steps + leave.unwrap_or(0);
+        let leave = near.map(|n| PI / n.wall.lowest).fold(0.0, f64::max);
+        let leave = ((leave / time_step).ceil() as usize).min(MOST_STEPS);
+        record.near_steps = record.contact_steps + leave;
         for _ in record.contact_steps..record.near_steps {
-            self.coast(&mut state);
+            plan.step.coast(&mut state, &Pushes::NONE, &[]);
             record.sample(plan, &state, &[], true);
         }
-        let rest = window - record.near_steps as f64 * time_step;
+        let rest = PERIODS * period - record.near_steps as f64 * time_step;
         let steps = (rest / (plan.coarser * time_step)).ceil().max(0.0) as usize;
         let steps = steps.min(MOST_STEPS);
         record.amplitudes.reserve_exact(steps * plan.modes);
@@ -264,7 +159,6 @@ impl Record {
             peak_energy: 0.0,
             strain_energy: Vec::new(),
             energy_at_parting: 0.0,
-            left: [0.0; 2],
             strikers_energy: 0.0,
         }
     }
@@ -290,6 +184,174 @@ impl Record {
         self.peak_energy = self.peak_energy.max(whole + held);
         let before = self.strain_energy.last().copied().unwrap_or(0.0);
         self.strain_energy.push(before.max(strain + held));
+    }
+}
+
+/// The contacts between two substeps: a number of each in every list.
+struct Contacts<'a> {
+    plan: &'a Plan,
+    /// Length of a substep, s.
+    dt: f64,
+    /// How far each striker has come, against the body as a rigid one, m, and how fast it does, m/s.
+    ways: Vec<f64>,
+    speeds: Vec<f64>,
+    /// Force now, at the end of the substep, and by how much it grows, N.
+    forces: Vec<f64>,
+    next: Vec<f64>,
+    growth: Vec<f64>,
+    /// The gaps at the end of the substep if no force grew, less what stays of the forces in the static part, m.
+    bases: Vec<f64>,
+    /// What the body gives way by more than it did, m/N.
+    weakness: Vec<f64>,
+    /// Square roots of the springs' dents, m^½.
+    roots: Vec<f64>,
+    /// The largest forces so far, N.
+    largest: Vec<f64>,
+    /// What a unit growth of one force takes from a gap within a substep, m/N: row-major, gap by gap.
+    give: Vec<f64>,
+}
+
+impl<'a> Contacts<'a> {
+    #[inline(always)]
+    fn new(plan: &'a Plan) -> Self {
+        let count = plan.sites.len();
+        let dt = plan.time_step / plan.substeps as f64;
+        let mut give = vec![0.0; count * count];
+        for k in 0..count {
+            for l in 0..count {
+                give[k * count + l] = plan.inverse_mass[k * count + l] * dt * dt / 6.0
+                    + plan.fine.give(&plan.gap[k], &plan.drive[l]);
+            }
+        }
+        let approach = |s: &super::plan::Site| f64::from(s.touch.contact.approach_speed);
+        Self {
+            plan,
+            dt,
+            ways: vec![0.0; count],
+            speeds: plan.sites.iter().map(approach).collect(),
+            forces: vec![0.0; count],
+            next: vec![0.0; count],
+            growth: vec![0.0; count],
+            bases: vec![0.0; count],
+            weakness: vec![0.0; count],
+            roots: vec![0.0; count],
+            largest: vec![0.0; count],
+            give,
+        }
+    }
+
+    /// Finds the bases, with the oscillators at the end of the substep as if no force grew.
+    #[inline(always)]
+    fn foresee(&mut self, state: &BankState) {
+        let (plan, dt) = (self.plan, self.dt);
+        let count = self.forces.len();
+        for k in 0..count {
+            let fall: f64 = (0..count)
+                .map(|l| plan.inverse_mass[k * count + l] * self.forces[l])
+                .sum();
+            self.bases[k] = self.ways[k] + self.speeds[k] * dt
+                - 0.5 * fall * dt * dt
+                - dot_over(&plan.gap[k], &state.x, &plan.spans[k]);
+        }
+    }
+
+    /// Finds the forces at the end of the substep, at the time t, s, each in turn until they agree.
+    #[inline(always)]
+    fn solve(&mut self, t: f64) {
+        let count = self.forces.len();
+        self.next.copy_from_slice(&self.forces);
+        for _ in 0..MOST_ROUNDS {
+            let mut change = 0.0_f64;
+            let mut largest = 0.0_f64;
+            for k in 0..count {
+                let found = self.force(k, t);
+                change = change.max((found - self.next[k]).abs());
+                largest = largest.max(found);
+                self.next[k] = found;
+            }
+            if count == 1 || change <= 1e-12 * largest {
+                break;
+            }
+        }
+    }
+
+    /// The force of contact `k` at the end of the substep where all others are known, N.
+    #[inline(always)]
+    fn force(&mut self, k: usize, t: f64) -> f64 {
+        let (plan, count) = (self.plan, self.forces.len());
+        if self.weakness[k].is_infinite() {
+            return 0.0;
+        }
+        match plan.sites[k].script {
+            Some([impulse, duration]) if t < duration => {
+                0.5 * PI * impulse / duration * libm::sin(PI * t / duration)
+            }
+            Some(_) => 0.0,
+            None => {
+                let mut gap = self.bases[k];
+                for l in 0..count {
+                    let i = k * count + l;
+                    gap += self.give[i] * self.forces[l];
+                    if l != k {
+                        gap -= (self.give[i] + plan.compliance[i]) * self.next[l];
+                    }
+                }
+                let i = k * count + k;
+                let compliance = plan.compliance[i] + self.weakness[k];
+                let spring = &plan.sites[k].spring;
+                let give = self.give[i] + compliance;
+                spring.force(gap, give, self.largest[k], &mut self.roots[k])
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn grow(&mut self) {
+        for k in 0..self.forces.len() {
+            self.growth[k] = self.next[k] - self.forces[k];
+        }
+    }
+
+    /// Moves the strikers to the end of the substep.
+    #[inline(always)]
+    fn advance(&mut self) {
+        let count = self.forces.len();
+        for k in 0..count {
+            let row = &self.plan.inverse_mass[k * count..(k + 1) * count];
+            let (mut held, mut mean) = (0.0, 0.0);
+            for ((b, f), g) in row.iter().zip(&self.forces).zip(&self.growth) {
+                held += b * (0.5 * f + g / 6.0);
+                mean += b * (f + 0.5 * g);
+            }
+            self.ways[k] += self.speeds[k] * self.dt - held * self.dt * self.dt;
+            self.speeds[k] -= mean * self.dt;
+        }
+        self.forces.copy_from_slice(&self.next);
+        for (largest, &force) in self.largest.iter_mut().zip(&self.forces) {
+            *largest = force.max(*largest);
+        }
+    }
+
+    /// Whether every contact is open and opening further, or has nothing left to push.
+    #[inline(always)]
+    fn have_parted(&self, state: &BankState, t: f64) -> bool {
+        let plan = self.plan;
+        if self.forces.iter().any(|&f| f > 0.0) {
+            return false;
+        }
+        plan.sites.iter().enumerate().all(|(k, site)| {
+            if self.weakness[k].is_infinite() {
+                return true;
+            }
+            if let Some([_, duration]) = site.script {
+                return t >= duration;
+            }
+            // ω q and q̇ are felt alike.
+            let give: f64 = (plan.gap[k].iter().zip(&plan.oscillators).zip(&state.v))
+                .map(|((gap, (w, _)), v)| gap * w * v)
+                .sum();
+            self.speeds[k] < give
+        })
     }
 }
 

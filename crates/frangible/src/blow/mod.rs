@@ -33,29 +33,21 @@
 //!
 //! # Limits
 //!
-//! Crushing is a dent and a loss of energy: no powder flies, and the crushed place keeps its mass and stiffness. Steel strikers do not dent.
-//! The blow ends when all contacts have parted. A wall that swings back then hits a striker that still comes, or has not flown off yet:
-//! a steel ball of 130 g that falls on the middle of a free pane of glass, 0.2 × 0.2 × 0.004 m, gets nearly half of its impulse from a
-//! second and a third touch, all within a millisecond. [`Blow::with_returns`] follows that; [`impact`](crate::impact()) does not yet. A body
-//! that has cracked swings no longer as its modes say; with later touches the rim of a glass that is ten times as tough cracked farther
-//! than that of one three times as tough.
-//!
-//! Of two bodies that both vibrate one force comes whichever is asked, as long as they meet nothing else and neither has broken: what else
-//! touches the striker, and how its own cracks soften it, is not in the blow on the body.
+//! Crushing is a dent and a loss of energy: no powder flies, and the crushed place keeps its mass and stiffness. Steel strikers do not dent. A
+//! contact that chatters is followed until all its points have parted; where the body then swings back against a striker that is still near,
+//! it does not hit it again. Two bodies that both vibrate find one force whichever is asked, as long as they meet nothing else and neither
+//! has broken: what else touches the striker, and how its own cracks soften it, is not in the blow on the body.
 //!
 //! Forces are linear over substeps of a hundredth of Hertz' time (a four-hundredth where both bodies vibrate), every oscillator is stepped
 //! exactly, and one equation per contact and substep has one root. Steps after the blow are as long as the modes allow.
 
 mod bank;
 mod complement;
-mod contacts;
 mod course;
 mod integrate;
 mod limits;
 mod plan;
 mod receptance;
-#[cfg(test)]
-mod returns_tests;
 mod spring;
 mod star;
 mod wall;

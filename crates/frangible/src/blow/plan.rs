@@ -47,10 +47,6 @@ pub(super) struct Plan {
     pub(super) own: usize,
     /// ω and d of the body's oscillators and, after them, of those of breakable bodies that strike it.
     pub(super) oscillators: Vec<(f64, f64)>,
-    /// Those of them that are wall oscillators, contact by contact, and their lowest angular frequency, rad/s.
-    pub(super) waves: Vec<(Range<usize>, f64)>,
-    /// Those that are modes of breakable bodies that strike.
-    pub(super) strikers: Vec<Range<usize>>,
     /// 1/ω of the modes, s.
     pub(super) periods: Vec<f64>,
     /// How hard each contact pushes each oscillator, 1/√kg.
@@ -140,10 +136,6 @@ impl Plan {
             drive: vec![vec![0.0; width]; count],
             gap: vec![vec![0.0; width]; count],
             spans: Vec::new(),
-            waves: (sites.iter().filter_map(|site| site.near.as_ref()))
-                .map(|near| (near.oscillators.clone(), near.wall.lowest))
-                .collect(),
-            strikers: Vec::new(),
             periods: oscillators[..modes].iter().map(|(w, _)| 1.0 / w).collect(),
             oscillators,
             sites,
@@ -163,9 +155,9 @@ impl Plan {
         let rows = plan.drive.iter().zip(&plan.gap);
         plan.spans = rows.map(|(drive, gap)| spans(drive, gap)).collect();
         plan.fine = Bank::new(&plan.oscillators, time_step / plan.substeps as f64);
-        plan.step = Bank::new(&plan.oscillators, time_step);
         // After the blow the body swings alone.
         let own = &plan.oscillators[..plan.own];
+        plan.step = Bank::new(own, time_step);
         plan.coarse = Bank::new(own, plan.coarser * time_step);
         Some(plan)
     }
@@ -264,7 +256,6 @@ impl Plan {
                 || {
                     let first = self.oscillators.len();
                     self.oscillators.extend(felt.oscillators());
-                    self.strikers.push(first..self.oscillators.len());
                     // One that follows no mode has a number of its own all the same.
                     if felt.followed == 0 {
                         self.oscillators.push((1.0, 0.0));
@@ -276,9 +267,7 @@ impl Plan {
             let mass = 1.0 / self.inverse_mass[k * count + k];
             let waves = felt.wall.as_ref().map(|wall| {
                 let (bands, _) = wall.bands(site, mass);
-                let waves = add_waves(felt, &bands, &mut self.oscillators);
-                self.waves.push((waves.clone(), wall.lowest));
-                (waves, bands)
+                (add_waves(felt, &bands, &mut self.oscillators), bands)
             });
             coupled.push(Coupled {
                 contact: *k,
