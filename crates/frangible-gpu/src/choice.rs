@@ -55,20 +55,27 @@ pub struct Solver {
     speed: Option<Speed>,
 }
 
-/// Seconds of a batch of n impacts past the first bound.
+/// What a batch of n impacts past the first bound takes, by a trial.
 #[derive(Clone, Copy, Debug)]
 struct Speed {
     /// Impacts it was measured with: of one alone nothing is known of more.
     trial: usize,
-    cpu_each: f64,
+    /// Threads of the CPU.
+    threads: usize,
+    /// Time of one impact on each thread of the CPU, s.
+    cpu_round: f64,
+    /// Time of a call of the GPU, and of each impact in it, s.
     gpu_call: f64,
     gpu_each: f64,
 }
 
 impl Speed {
-    /// Number of impacts from which the GPU is faster; none where it never is.
-    fn threshold(&self) -> Option<f64> {
-        (self.gpu_each < self.cpu_each).then(|| self.gpu_call / (self.cpu_each - self.gpu_each))
+    fn cpu(&self, impacts: usize) -> f64 {
+        self.cpu_round * impacts.div_ceil(self.threads) as f64
+    }
+
+    fn gpu(&self, impacts: usize) -> f64 {
+        self.gpu_call + self.gpu_each * impacts as f64
     }
 }
 
@@ -151,20 +158,18 @@ impl Solver {
             Some(speed) if speed.trial >= trial.len() => speed,
             _ => *self.speed.insert(measure(gpu, trial, config)?),
         };
-        let on = match speed.threshold() {
-            Some(threshold) if n as f64 >= threshold => RanOn::Gpu,
-            _ => RanOn::Cpu,
+        let (on_cpu, on_gpu) = (speed.cpu(n), speed.gpu(n));
+        let on = if on_gpu < on_cpu {
+            RanOn::Gpu
+        } else {
+            RanOn::Cpu
         };
-        let from = speed.threshold().map_or_else(
-            || "at no batch size".into(),
-            |t| format!("from {} impacts on", t.ceil().max(1.0)),
-        );
         let why = format!(
-            "a trial found {} faster than the CPU {from}: {:.2} ms + {:.3} ms per impact against {:.3} ms",
+            "after a trial, {} is expected to take {:.2} ms for these {n} impacts, and the CPU's {} threads {:.2} ms",
             gpu.adapter(),
-            1e3 * speed.gpu_call,
-            1e3 * speed.gpu_each,
-            1e3 * speed.cpu_each,
+            1e3 * on_gpu,
+            speed.threads,
+            1e3 * on_cpu,
         );
         Ok(ran(on, n, why))
     }
@@ -199,15 +204,16 @@ fn measure(gpu: &Gpu, trial: &[Impact<'_>], config: &FractureConfig) -> Result<S
     })?;
     let many = seconds(|| gpu.impacts(trial, config).map(drop))?;
     let one = seconds(|| gpu.impacts(&trial[..1], config).map(drop))?;
-    let n = trial.len() as f64;
-    let gpu_each = if trial.len() > 1 {
-        ((many - one) / (n - 1.0)).max(0.0)
+    let (n, threads) = (trial.len(), rayon::current_num_threads());
+    let gpu_each = if n > 1 {
+        ((many - one) / (n as f64 - 1.0)).max(0.0)
     } else {
         0.0
     };
     Ok(Speed {
-        trial: trial.len(),
-        cpu_each: cpu / n,
+        trial: n,
+        threads,
+        cpu_round: cpu / n.div_ceil(threads) as f64,
         gpu_call: (one - gpu_each).max(0.0),
         gpu_each,
     })
@@ -229,18 +235,16 @@ mod tests {
     use super::Speed;
 
     #[test]
-    fn the_gpu_serves_from_where_its_line_crosses_the_cpus() {
+    fn a_cpu_of_many_threads_takes_many_impacts_at_once() {
         let speed = Speed {
             trial: 4,
-            cpu_each: 3.0,
-            gpu_call: 10.0,
-            gpu_each: 1.0,
+            threads: 16,
+            cpu_round: 3.0,
+            gpu_call: 1.0,
+            gpu_each: 0.5,
         };
-        assert_eq!(speed.threshold(), Some(5.0));
-        let slow = Speed {
-            gpu_each: 4.0,
-            ..speed
-        };
-        assert_eq!(slow.threshold(), None);
+        assert!(speed.gpu(1) < speed.cpu(1));
+        assert!(speed.gpu(16) > speed.cpu(16));
+        assert!((speed.cpu(17) - 6.0).abs() < 1e-12);
     }
 }

@@ -1,6 +1,6 @@
 //! The device that computes.
 
-use std::sync::Mutex;
+use std::sync::{Mutex, MutexGuard};
 
 use crate::error::GpuError;
 use crate::passes::Passes;
@@ -12,7 +12,7 @@ pub struct Gpu {
     pub(crate) device: wgpu::Device,
     pub(crate) queue: wgpu::Queue,
     pub(crate) passes: Passes,
-    pub(crate) scratch: Mutex<Scratch>,
+    scratch: Mutex<Scratch>,
     info: wgpu::AdapterInfo,
 }
 
@@ -46,6 +46,8 @@ impl Gpu {
         let (device, queue) = adapter
             .request_device(&wgpu::DeviceDescriptor {
                 label: Some("frangible"),
+                // Only to measure with.
+                required_features: adapter.features() & wgpu::Features::TIMESTAMP_QUERY,
                 // WebGPU's defaults: what works here works in a browser.
                 required_limits: wgpu::Limits::default(),
                 ..wgpu::DeviceDescriptor::default()
@@ -59,7 +61,7 @@ impl Gpu {
         }
         log::debug!("computing on {}", info.name);
         Ok(Self {
-            scratch: Mutex::new(Scratch::new(info.device_type)),
+            scratch: Mutex::new(Scratch::new()),
             device,
             queue,
             passes,
@@ -77,6 +79,13 @@ impl Gpu {
     #[must_use]
     pub fn is_software(&self) -> bool {
         self.info.device_type == wgpu::DeviceType::Cpu
+    }
+
+    /// The buffers that batches share.
+    pub(crate) fn scratch(&self) -> MutexGuard<'_, Scratch> {
+        self.scratch
+            .lock()
+            .unwrap_or_else(std::sync::PoisonError::into_inner)
     }
 
     /// Runs something on the device; what it finds wrong there is an error.

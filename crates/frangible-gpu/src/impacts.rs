@@ -4,6 +4,7 @@ use frangible::internals::{Stage, Vibration};
 use frangible::{Body, Contact, FractureConfig, Outcome};
 use rayon::prelude::*;
 
+use crate::clock::{Clock, PassTime};
 use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::initiation::{Initiation, starts_on_cpu};
@@ -135,6 +136,29 @@ impl Gpu {
         Ok(verdicts.into_iter().map(initiation).collect())
     }
 
+    /// What each kind of pass takes for these impacts, by the GPU's own clock; nothing where it has none. For measurements.
+    ///
+    /// # Errors
+    /// What [`Self::impacts`] refuses.
+    pub fn pass_times(
+        &self,
+        impacts: &[Impact<'_>],
+        config: &FractureConfig,
+    ) -> Result<Vec<PassTime>, GpuError> {
+        if !self
+            .device
+            .features()
+            .contains(wgpu::Features::TIMESTAMP_QUERY)
+        {
+            return Ok(Vec::new());
+        }
+        self.scratch().clock = Some(Clock::new(&self.device, &self.queue));
+        let ran = self.verdicts(impacts, config);
+        let clock = self.scratch().clock.take();
+        ran?;
+        Ok(clock.map_or_else(Vec::new, Clock::into_times))
+    }
+
     /// Which impacts clearly held, and from which time step the CPU has to look at the others.
     ///
     /// # Errors
@@ -208,7 +232,7 @@ impl Gpu {
         };
         let mut numbers = group.iter();
         let mut rest = jobs.iter();
-        for mut wave in waves(&kind.kind, &jobs, config, limit)? {
+        for mut wave in waves(&kind.kind, &jobs, limit)? {
             let here: Vec<&Job<'_>> = rest.by_ref().take(wave.spans.len()).collect();
             let of_wave = self.run(kind, buffers, &mut wave, &here, config)?;
             for (initiation, &i) in of_wave.into_iter().zip(&mut numbers) {

@@ -42,6 +42,7 @@
 //! processor decides; it also runs all cracks, so the pieces are the same bits.
 
 mod choice;
+mod clock;
 mod device;
 mod error;
 mod impacts;
@@ -54,6 +55,7 @@ mod scratch;
 mod wave;
 
 pub use choice::{Choice, Ran, RanOn, Solver};
+pub use clock::PassTime;
 pub use device::Gpu;
 pub use error::GpuError;
 pub use impacts::{Impact, Verdict, would_start_on_cpu};

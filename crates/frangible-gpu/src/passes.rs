@@ -1,12 +1,13 @@
 //! The shaders and their pipelines.
 
 /// One pass: its name, and its own part of the shader.
-pub(crate) const PASSES: [(&str, &str); 6] = [
+pub(crate) const PASSES: [(&str, &str); 7] = [
     ("amplitudes", include_str!("shaders/amplitudes.wgsl")),
     ("bounds", include_str!("shaders/bounds.wgsl")),
     ("clusters", include_str!("shaders/clusters.wgsl")),
     ("displacements", include_str!("shaders/displacements.wgsl")),
     ("stress", include_str!("shaders/stress.wgsl")),
+    ("summaries", include_str!("shaders/summaries.wgsl")),
     ("gather", include_str!("shaders/gather.wgsl")),
 ];
 
@@ -15,10 +16,16 @@ const COMMON: &str = include_str!("shaders/common.wgsl");
 /// Columns of a tile of displacements, and steps from one restart of the response to the next: as in `common.wgsl`.
 pub(crate) const COLUMNS: usize = 64;
 
-/// Clusters of tetrahedra per invocation: as in `common.wgsl`.
+/// Clusters of tetrahedra per workgroup: as in `common.wgsl`.
 pub(crate) const CLUSTERS: usize = 16;
 
-/// Weak tetrahedra, or blocks, along the first axis of a dispatch: as in `common.wgsl`.
+/// Weak tetrahedra per workgroup: as in `stress.wgsl`.
+pub(crate) const POINTS: usize = 16;
+
+/// Weak tetrahedra per summary: as in `common.wgsl`.
+pub(crate) const TILE: usize = 256;
+
+/// Workgroups along the first axis of a dispatch, at most: as in `common.wgsl`.
 pub(crate) const ROW: usize = 32768;
 
 /// Words that come back of an impact before its list: as in `gather.wgsl`.
@@ -29,40 +36,57 @@ pub(crate) fn source(pass: &str) -> String {
     format!("{COMMON}\n{pass}")
 }
 
-/// The pipelines, in the order they run.
+/// A pass, compiled.
+#[derive(Debug)]
+pub(crate) struct Pass {
+    pub(crate) name: &'static str,
+    pub(crate) pipeline: wgpu::ComputePipeline,
+}
+
+/// The passes, in the order they run.
 #[derive(Debug)]
 pub(crate) struct Passes {
-    pub(crate) amplitudes: wgpu::ComputePipeline,
-    pub(crate) bounds: wgpu::ComputePipeline,
-    pub(crate) clusters: wgpu::ComputePipeline,
-    pub(crate) displacements: wgpu::ComputePipeline,
-    pub(crate) stress: wgpu::ComputePipeline,
-    pub(crate) gather: wgpu::ComputePipeline,
+    pub(crate) amplitudes: Pass,
+    pub(crate) bounds: Pass,
+    pub(crate) clusters: Pass,
+    pub(crate) displacements: Pass,
+    pub(crate) stress: Pass,
+    pub(crate) summaries: Pass,
+    pub(crate) gather: Pass,
 }
 
 impl Passes {
     pub(crate) fn new(device: &wgpu::Device) -> Self {
-        let [amplitudes, bounds, clusters, displacements, stress, gather] =
-            PASSES.map(|(name, text)| {
-                let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-                    label: Some(name),
-                    source: wgpu::ShaderSource::Wgsl(source(text).into()),
-                });
-                device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-                    label: Some(name),
-                    layout: None,
-                    module: &module,
-                    entry_point: Some("main"),
-                    compilation_options: wgpu::PipelineCompilationOptions::default(),
-                    cache: None,
-                })
+        let [
+            amplitudes,
+            bounds,
+            clusters,
+            displacements,
+            stress,
+            summaries,
+            gather,
+        ] = PASSES.map(|(name, text)| {
+            let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+                label: Some(name),
+                source: wgpu::ShaderSource::Wgsl(source(text).into()),
             });
+            let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+                label: Some(name),
+                layout: None,
+                module: &module,
+                entry_point: Some("main"),
+                compilation_options: wgpu::PipelineCompilationOptions::default(),
+                cache: None,
+            });
+            Pass { name, pipeline }
+        });
         Self {
             amplitudes,
             bounds,
             clusters,
             displacements,
             stress,
+            summaries,
             gather,
         }
     }
@@ -120,8 +144,10 @@ mod tests {
 
     #[test]
     fn constants_of_the_shaders_are_those_of_the_host() {
-        let all = source(PASSES[5].1);
+        let all: String = PASSES.map(|(_, text)| source(text)).concat();
         for line in [
+            format!("const POINTS: u32 = {POINTS}u;"),
+            format!("const TILE: u32 = {TILE}u;"),
             format!("const COLUMNS: u32 = {COLUMNS}u;"),
             format!("const RESTART: u32 = {COLUMNS}u;"),
             format!("const CLUSTERS: u32 = {CLUSTERS}u;"),

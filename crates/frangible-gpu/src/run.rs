@@ -4,18 +4,25 @@
 use std::sync::mpsc;
 
 use frangible::FractureConfig;
-use wgpu::{Buffer, BufferUsages, ComputePipeline};
+use wgpu::{Buffer, BufferUsages, CommandEncoder};
 
+use crate::clock::Clock;
 use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::initiation::{Initiation, LIST};
 use crate::loaded::{Buffers, Loaded, quadratic_modulus};
-use crate::passes::{CLUSTERS, COLUMNS, HEADER, ROW};
-use crate::scratch::{Growing, MOST, Scratch, UNIFORM};
+use crate::passes::{CLUSTERS, COLUMNS, HEADER, POINTS, Pass, ROW, TILE};
+use crate::scratch::{CHUNK, Growing, MOST, Scratch, UNIFORM};
 use crate::wave::{Job, Wave};
 
 /// Words that come back of an impact.
 pub(crate) const RESULT: usize = HEADER + 4 * LIST;
+
+/// Bytes of a summary: as the shader's `Summary`.
+const SUMMARY: u64 = 40;
+
+/// Columns per workgroup: as in `bounds.wgsl`.
+const BOUND_COLUMNS: usize = 16;
 
 /// Words of a slot of uniforms.
 const SLOT: usize = UNIFORM as usize / 4;
@@ -29,9 +36,9 @@ struct Chunk {
     jobs: (usize, usize, usize),
 }
 
-/// A pipeline, its slot of uniforms, its other buffers in their order, and how many workgroups.
+/// A pass, its slot of uniforms, its other buffers in their order, and how many workgroups.
 struct Dispatch<'a> {
-    pipeline: &'a ComputePipeline,
+    pass: &'a Pass,
     slot: usize,
     buffers: &'a [&'a Buffer],
     groups: [usize; 3],
@@ -59,10 +66,7 @@ impl Gpu {
         jobs: &[&Job<'_>],
         config: &FractureConfig,
     ) -> Result<Vec<Initiation>, GpuError> {
-        let mut scratch = self
-            .scratch
-            .lock()
-            .unwrap_or_else(std::sync::PoisonError::into_inner);
+        let mut scratch = self.scratch();
         let shared = Shared {
             kind,
             buffers,
@@ -71,7 +75,7 @@ impl Gpu {
         };
         let results = self.checked(|| {
             let bounds = self.bounds(&shared, wave, &mut scratch)?;
-            let live = wave.revive(bytemuck::cast_slice(&bounds));
+            let live = wave.revive(bytemuck::cast_slice(&bounds), &kind.kind, jobs, config);
             if live.is_empty() {
                 return Ok(Vec::new());
             }
@@ -113,10 +117,9 @@ impl Gpu {
         let amplitudes = s.amplitudes.room(device, bytes * modes as u64, ON_GPU);
         let bounds = s.bounds.room(device, bytes, ON_GPU);
         let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
         let block_count = wave.blocks.len() / 2;
         let response = Dispatch {
-            pipeline: &self.passes.amplitudes,
+            pass: &self.passes.amplitudes,
             slot: 0,
             buffers: &[jobs, blocks, matrices, restarts, amplitudes],
             groups: [
@@ -126,15 +129,15 @@ impl Gpu {
             ],
         };
         let bound = Dispatch {
-            pipeline: &self.passes.bounds,
+            pass: &self.passes.bounds,
             slot: 0,
             buffers: &[amplitudes, &shared.buffers.root, bounds],
-            groups: [wave.columns.div_ceil(64), 1, 1],
+            groups: rows_of(wave.columns.div_ceil(BOUND_COLUMNS), 1),
         };
-        self.dispatch(&mut pass, slots, &response);
-        self.dispatch(&mut pass, slots, &bound);
-        drop(pass);
-        self.finish(encoder, bounds, bytes, &mut s.readback)
+        for dispatch in [&response, &bound] {
+            self.dispatch(&mut encoder, &mut s.clock, slots, dispatch);
+        }
+        self.finish(encoder, bounds, bytes, &mut s.readback, &mut s.clock)
     }
 
     /// Stresses at the live columns: [`RESULT`] words of each impact.
@@ -147,7 +150,7 @@ impl Gpu {
     ) -> Result<Vec<u32>, GpuError> {
         let (device, queue) = (&self.device, &self.queue);
         let (rows, clusters, alive) = (shared.rows, shared.kind.clusters(), live.len() / 2);
-        let room = (s.chunk_bytes as usize / (4 * rows * COLUMNS)).max(1);
+        let room = (CHUNK as usize / (4 * rows * COLUMNS)).max(1);
         let stride = COLUMNS * room.min(alive.div_ceil(COLUMNS));
         let groups = clusters.div_ceil(CLUSTERS);
         let displacement_bytes = 4 * (rows * stride) as u64;
@@ -184,32 +187,33 @@ impl Gpu {
         let passed_over = s.passed_over.room(device, passed_bytes, ON_GPU);
         let displacements = s.displacements.room(device, displacement_bytes, ON_GPU);
         let records = s.records.room(device, 16 * wave.records as u64, ON_GPU);
+        let summary_bytes = SUMMARY * wave.tiles as u64;
+        let summaries = s.summaries.room(device, summary_bytes, ON_GPU);
         let result_bytes = 4 * (wave.spans.len() * RESULT) as u64;
         let results = s.results.room(device, result_bytes, ON_GPU);
 
         let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         encoder.clear_buffer(records, 0, None);
         encoder.clear_buffer(results, 0, None);
-        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
         let kind = shared.buffers;
         for (slot, chunk) in chunks.iter().enumerate().filter(|(_, c)| c.count > 0) {
             let (_, jobs_here, most_weak) = chunk.jobs;
             let columns = chunk.count.div_ceil(COLUMNS);
             let of_chunk = [
                 Dispatch {
-                    pipeline: &self.passes.clusters,
+                    pass: &self.passes.clusters,
                     slot,
                     buffers: &[jobs, live, amplitudes, &kind.clusters, passing, passed_over],
                     groups: [columns, groups, 1],
                 },
                 Dispatch {
-                    pipeline: &self.passes.displacements,
+                    pass: &self.passes.displacements,
                     slot,
                     buffers: &[&kind.shapes, amplitudes, live, displacements],
                     groups: [rows.div_ceil(64), columns, 1],
                 },
                 Dispatch {
-                    pipeline: &self.passes.stress,
+                    pass: &self.passes.stress,
                     slot,
                     buffers: &[
                         jobs,
@@ -220,25 +224,44 @@ impl Gpu {
                         passing,
                         records,
                     ],
-                    groups: [most_weak.min(ROW), most_weak.div_ceil(ROW), jobs_here],
+                    groups: rows_of(most_weak.div_ceil(POINTS), jobs_here),
                 },
             ];
             for dispatch in &of_chunk {
-                self.dispatch(&mut pass, slots, dispatch);
+                self.dispatch(&mut encoder, &mut s.clock, slots, dispatch);
             }
         }
-        let gather = Dispatch {
-            pipeline: &self.passes.gather,
+        let summarize = Dispatch {
+            pass: &self.passes.summaries,
             slot: chunks.len() - 1,
-            buffers: &[jobs, weak, records, passed_over, results],
+            buffers: &[jobs, weak, records, passed_over, summaries],
+            groups: [wave.most_weak().div_ceil(TILE), wave.spans.len(), 1],
+        };
+        let gather = Dispatch {
+            pass: &self.passes.gather,
+            slot: chunks.len() - 1,
+            buffers: &[jobs, records, summaries, results],
             groups: [wave.spans.len(), 1, 1],
         };
-        self.dispatch(&mut pass, slots, &gather);
-        drop(pass);
-        self.finish(encoder, results, result_bytes, &mut s.readback)
+        for dispatch in [&summarize, &gather] {
+            self.dispatch(&mut encoder, &mut s.clock, slots, dispatch);
+        }
+        self.finish(
+            encoder,
+            results,
+            result_bytes,
+            &mut s.readback,
+            &mut s.clock,
+        )
     }
 
-    fn dispatch(&self, pass: &mut wgpu::ComputePass<'_>, slots: &Buffer, dispatch: &Dispatch<'_>) {
+    fn dispatch(
+        &self,
+        encoder: &mut CommandEncoder,
+        clock: &mut Option<Clock>,
+        slots: &Buffer,
+        dispatch: &Dispatch<'_>,
+    ) {
         if dispatch.groups.contains(&0) {
             return;
         }
@@ -254,19 +277,47 @@ impl Gpu {
             .collect();
         let group = self.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: None,
-            layout: &dispatch.pipeline.get_bind_group_layout(0),
+            layout: &dispatch.pass.pipeline.get_bind_group_layout(0),
             entries: &entries,
         });
-        pass.set_pipeline(dispatch.pipeline);
+        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+            label: Some(dispatch.pass.name),
+            timestamp_writes: clock
+                .as_mut()
+                .and_then(|clock| clock.writes(dispatch.pass.name)),
+        });
+        pass.set_pipeline(&dispatch.pass.pipeline);
         pass.set_bind_group(0, &group, &[]);
         let [x, y, z] = dispatch.groups.map(|n| n as u32);
         pass.dispatch_workgroups(x, y, z);
     }
 
-    /// Submits what was encoded, waits, and brings back the first bytes of a buffer.
+    /// Submits what was encoded, waits, and brings back the first bytes of a buffer; and the times of the passes.
     fn finish(
         &self,
-        mut encoder: wgpu::CommandEncoder,
+        mut encoder: CommandEncoder,
+        from: &Buffer,
+        bytes: u64,
+        readback: &mut Growing,
+        clock: &mut Option<Clock>,
+    ) -> Result<Vec<u32>, GpuError> {
+        let Some(clock) = clock else {
+            return self.read(encoder, from, bytes, readback);
+        };
+        let (times, time_bytes) = clock.resolve(&self.device, &mut encoder);
+        let words = self.read(encoder, from, bytes, readback)?;
+        let encoder = self
+            .device
+            .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        let times = self.read(encoder, times, time_bytes, readback)?;
+        clock.add(&times);
+        Ok(words)
+    }
+
+    /// Submits what was encoded, waits, and brings back the first bytes of a buffer.
+    fn read(
+        &self,
+        mut encoder: CommandEncoder,
         from: &Buffer,
         bytes: u64,
         readback: &mut Growing,
@@ -295,6 +346,11 @@ impl Gpu {
         buffer.unmap();
         Ok(words)
     }
+}
+
+/// So many workgroups along the first two axes, in rows of [`ROW`] at most, and so many along the third.
+fn rows_of(count: usize, third: usize) -> [usize; 3] {
+    [count.min(ROW), count.div_ceil(ROW), third]
 }
 
 /// One slot per chunk: as the shader's `Chunk`.

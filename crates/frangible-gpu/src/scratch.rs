@@ -2,11 +2,16 @@
 
 use wgpu::{Buffer, BufferUsages, Device, Queue};
 
+use crate::clock::Clock;
+
 /// Most bytes of one binding: WebGPU's default limit.
 pub(crate) const MOST: u64 = 128 << 20;
 
 /// Bytes of each list of a wave of impacts; more impacts make more waves.
 pub(crate) const WAVE: u64 = 64 << 20;
+
+/// Bytes of displacements of a chunk: they stay in the cache of a card, or of a CPU.
+pub(crate) const CHUNK: u64 = 32 << 20;
 
 /// Offsets of uniforms are multiples of this.
 pub(crate) const UNIFORM: u64 = 256;
@@ -64,14 +69,15 @@ pub(crate) struct Scratch {
     pub(crate) passed_over: Growing,
     pub(crate) displacements: Growing,
     pub(crate) records: Growing,
+    pub(crate) summaries: Growing,
     pub(crate) results: Growing,
     pub(crate) readback: Growing,
-    /// Bytes of displacements of a chunk.
-    pub(crate) chunk_bytes: u64,
+    /// Takes the times of the passes, where they are asked for.
+    pub(crate) clock: Option<Clock>,
 }
 
 impl Scratch {
-    pub(crate) fn new(kind: wgpu::DeviceType) -> Self {
+    pub(crate) fn new() -> Self {
         let new = Growing::default;
         Self {
             chunks: new(),
@@ -87,13 +93,10 @@ impl Scratch {
             passed_over: new(),
             displacements: new(),
             records: new(),
+            summaries: new(),
             results: new(),
             readback: new(),
-            // A GPU wants many columns at once; a CPU wants them to stay in its cache.
-            chunk_bytes: match kind {
-                wgpu::DeviceType::Cpu => 32 << 20,
-                _ => 64 << 20,
-            },
+            clock: None,
         }
     }
 }

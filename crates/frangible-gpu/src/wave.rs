@@ -5,9 +5,10 @@ use std::collections::HashMap;
 use frangible::internals::Vibration;
 use frangible::internals::stress::Law;
 use frangible::{Body, Breakable, FractureConfig};
+use rayon::prelude::*;
 
 use crate::error::GpuError;
-use crate::passes::COLUMNS;
+use crate::passes::{COLUMNS, TILE};
 use crate::response::Response;
 use crate::scratch::{MOST, WAVE};
 
@@ -19,10 +20,7 @@ pub(crate) struct Job<'a> {
 }
 
 /// Words of a job on the GPU: as the shader's `Job`.
-const JOB: usize = 9;
-
-/// Words of a job before its live columns.
-const BEFORE_ALIVE: usize = 6;
+const JOB: usize = 10;
 
 /// Words of a weak tetrahedron: as the shader's `Weak`.
 const WEAK: usize = 12;
@@ -40,11 +38,9 @@ pub(crate) struct Wave {
     pub(crate) weak: Vec<u32>,
     pub(crate) columns: usize,
     pub(crate) records: usize,
+    pub(crate) tiles: usize,
     /// What each impact has of the lists.
     pub(crate) spans: Vec<Span>,
-    /// Where the weak tetrahedra of a body begin, with some of them under a contact: impacts of one body share them. Looked
-    /// up only, never iterated.
-    weak_of_body: HashMap<(*const Body, Vec<u32>), u32>,
 }
 
 /// Where an impact stands in its wave.
@@ -52,6 +48,7 @@ pub(crate) struct Wave {
 pub(crate) struct Span {
     first_column: usize,
     steps: usize,
+    /// Its weak tetrahedra, once it is known whether it has a live column.
     weak: usize,
     limit: f32,
     /// Its first live column, once the bounds are known, and how many it has.
@@ -67,7 +64,6 @@ pub(crate) struct Span {
 pub(crate) fn waves(
     kind: &Breakable,
     jobs: &[Job<'_>],
-    config: &FractureConfig,
     limit: impl Fn(&Body) -> f32,
 ) -> Result<Vec<Wave>, GpuError> {
     let asset = kind.asset();
@@ -93,8 +89,7 @@ pub(crate) fn waves(
             let columns = wave.columns + steps;
             wave.spans.len() < MOST_JOBS
                 && 4 * (columns * modes) as u64 <= WAVE
-                && 16 * (wave.records + weak) as u64 <= WAVE
-                && 4 * (wave.weak.len() + WEAK * weak) as u64 <= WAVE
+                && 4 * (WEAK * (wave.records + weak)) as u64 <= WAVE
                 && 4 * (wave.matrices.len() + job.response.matrices.len()) as u64 <= WAVE
                 && 4 * (wave.restarts.len() + job.response.restarts.len()) as u64 <= WAVE
         });
@@ -102,7 +97,7 @@ pub(crate) fn waves(
             waves.push(Wave::default());
         }
         if let Some(wave) = waves.last_mut() {
-            wave.push(kind, job, config, limit(job.body));
+            wave.push(job, limit(job.body));
         }
     }
     Ok(waves)
@@ -135,30 +130,21 @@ fn weak_words(job: &Job<'_>, config: &FractureConfig, cluster: u32, tet: u32) ->
 }
 
 impl Wave {
-    fn push(&mut self, kind: &Breakable, job: &Job<'_>, config: &FractureConfig, limit: f32) {
+    fn push(&mut self, job: &Job<'_>, limit: f32) {
         let pulse = &job.vibration.pulse;
-        let weak = job.body.weak_tets();
+        let weak = job.body.weak_tets().len();
         let number = self.spans.len() as u32;
-        let next = (self.weak.len() / WEAK) as u32;
-        let first_weak = *self
-            .weak_of_body
-            .entry((std::ptr::from_ref(job.body), pressed_weak(job)))
-            .or_insert(next);
-        if first_weak == next {
-            let cluster_of_tet = &kind.stress_bounds().cluster_of_tet;
-            let words = |&tet| weak_words(job, config, cluster_of_tet[tet as usize], tet);
-            self.weak.extend(weak.iter().flat_map(words));
-        }
         let words: [u32; JOB] = [
             self.columns as u32,
             pulse.total_steps as u32,
             pulse.contact_steps as u32,
-            first_weak,
-            weak.len() as u32,
+            0,
+            0,
             self.records as u32,
             0,
             0,
             limit.to_bits(),
+            self.tiles as u32,
         ];
         self.jobs.extend(words);
         for first in (0..pulse.total_steps).step_by(COLUMNS) {
@@ -169,7 +155,7 @@ impl Wave {
         self.spans.push(Span {
             first_column: self.columns,
             steps: pulse.total_steps,
-            weak: weak.len(),
+            weak,
             limit,
             first_alive: 0,
             alive: 0,
@@ -177,13 +163,24 @@ impl Wave {
             bound: 0.0,
         });
         self.columns += pulse.total_steps;
-        self.records += weak.len();
+        self.records += weak;
+        self.tiles += weak.div_ceil(TILE);
     }
 
-    /// Finds out which columns are alive: column and impact of each.
-    pub(crate) fn revive(&mut self, bounds: &[f32]) -> Vec<u32> {
+    /// Finds out which columns are alive: column and impact of each. Of the impacts that have some, the weak tetrahedra are listed.
+    pub(crate) fn revive(
+        &mut self,
+        bounds: &[f32],
+        kind: &Breakable,
+        jobs: &[&Job<'_>],
+        config: &FractureConfig,
+    ) -> Vec<u32> {
+        let cluster_of_tet = &kind.stress_bounds().cluster_of_tet;
+        // Where the weak tetrahedra of a body begin, with some of them under a contact: impacts of one body share them. Looked
+        // up only, never iterated.
+        let mut known: HashMap<(*const Body, Vec<u32>), u32> = HashMap::new();
         let mut live = Vec::new();
-        for (number, span) in self.spans.iter_mut().enumerate() {
+        for (number, (span, job)) in self.spans.iter_mut().zip(jobs).enumerate() {
             span.first_alive = live.len() / 2;
             let end = span.first_column + span.steps;
             for (&bound, column) in bounds[span.first_column..end]
@@ -198,10 +195,29 @@ impl Wave {
                 }
             }
             span.alive = live.len() / 2 - span.first_alive;
-            let at = JOB * number + BEFORE_ALIVE;
-            self.jobs[at..at + 2].copy_from_slice(&[span.first_alive as u32, span.alive as u32]);
+            if span.alive == 0 {
+                span.weak = 0;
+                continue;
+            }
+            let next = (self.weak.len() / WEAK) as u32;
+            let first_weak = *known
+                .entry((std::ptr::from_ref(job.body), pressed_weak(job)))
+                .or_insert(next);
+            if first_weak == next {
+                let words = |&tet: &u32| weak_words(job, config, cluster_of_tet[tet as usize], tet);
+                let tets = job.body.weak_tets().par_iter();
+                self.weak.par_extend(tets.flat_map_iter(words));
+            }
+            let job = &mut self.jobs[JOB * number..JOB * (number + 1)];
+            job[3..5].copy_from_slice(&[first_weak, span.weak as u32]);
+            job[6..8].copy_from_slice(&[span.first_alive as u32, span.alive as u32]);
         }
         live
+    }
+
+    /// Most weak tetrahedra of an impact.
+    pub(crate) fn most_weak(&self) -> usize {
+        self.spans.iter().map(|s| s.weak).max().unwrap_or(0)
     }
 
     /// Impacts with a live column in a range: the first, how many, and the most weak tetrahedra of one.

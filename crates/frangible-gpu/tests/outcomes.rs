@@ -89,7 +89,7 @@ fn every_choice_gives_the_same_pieces() {
             Choice::Cpu => assert_eq!(ran.on, RanOn::Cpu),
             Choice::Gpu => assert_eq!(ran.on, RanOn::Gpu),
             Choice::Auto => {
-                assert!(ran.why.contains("a trial found") && ran.past_bound > 0);
+                assert!(ran.why.contains("after a trial") && ran.past_bound > 0);
                 // Calibrated once: the next batch is decided by the same numbers.
                 let (_, again) = solver.impacts(&batch, &config).unwrap();
                 assert_eq!(again, ran);

@@ -6,11 +6,13 @@
 
 // Columns of a tile of displacements.
 const COLUMNS: u32 = 64u;
-// Clusters of tetrahedra per invocation.
+// Clusters of tetrahedra per workgroup.
 const CLUSTERS: u32 = 16u;
+// Records of weak tetrahedra per summary.
+const TILE: u32 = 256u;
 // Time steps from one restart of the recurrence to the next.
 const RESTART: u32 = 64u;
-// Weak tetrahedra along the first axis of a dispatch.
+// Workgroups along the first axis of a dispatch, at most.
 const ROW: u32 = 32768u;
 // A largest tension within this share of the strength is the CPU's to judge.
 const DOUBT: f32 = 1e-3;
@@ -72,4 +74,61 @@ struct Job {
     alive: u32,
     // Steps, and clusters, whose bound is not above this, Pa, need no look.
     limit: f32,
+    // Its summaries: one per TILE weak tetrahedra.
+    first_tile: u32,
 }
+
+// What is known of a weak tetrahedron of an impact so far. Steps count down from NONE, so that 0, what buffers are
+// cleared to, is never, and the larger is the earlier.
+struct Record {
+    // Largest tension, Pa; never below zero.
+    peak: f32,
+    // First step at which the tension nears the strength …
+    doubt: u32,
+    // … and passes it, and the tension there, Pa.
+    crack: u32,
+    tension: f32,
+}
+
+// What is known of some of an impact's weak tetrahedra.
+struct Summary {
+    // Largest tension, and where.
+    peak: f32,
+    peak_at: u32,
+    // Largest tension over strength, and where.
+    share: f32,
+    share_at: u32,
+    // First step in doubt, counted down.
+    doubt: u32,
+    // First crack: step, counted down, place and tension.
+    crack: u32,
+    crack_at: u32,
+    tension: f32,
+    // Tetrahedra that pass their strength.
+    count: u32,
+    // Largest bound of the clusters that were passed over.
+    passed_over: f32,
+}
+
+// `b` is of later tetrahedra: of equals the earlier holds.
+fn joined(a: Summary, b: Summary) -> Summary {
+    var s = a;
+    if (b.peak > a.peak) {
+        s.peak = b.peak;
+        s.peak_at = b.peak_at;
+    }
+    if (b.share > a.share) {
+        s.share = b.share;
+        s.share_at = b.share_at;
+    }
+    s.doubt = max(a.doubt, b.doubt);
+    if (b.crack > a.crack || (b.crack == a.crack && b.tension > a.tension)) {
+        s.crack = b.crack;
+        s.crack_at = b.crack_at;
+        s.tension = b.tension;
+    }
+    s.count += b.count;
+    s.passed_over = max(a.passed_over, b.passed_over);
+    return s;
+}
+

@@ -6,11 +6,11 @@ use frangible::glam::Vec3;
 use frangible::internals::{Stage, Vibration};
 use frangible::{Body, Breakable, Contact, FractureConfig, Material};
 use frangible_bake::{BakeSpec, Shape, bake};
-use frangible_gpu::{Choice, Gpu, Impact, RanOn, Solver};
+use frangible_gpu::{Choice, Gpu, Impact, RanOn, Solver, initiation_on_cpu};
 use serde::Serialize;
 
 use crate::bench::error::BenchError;
-use crate::bench::subjects::{MODES, steel_ball};
+use crate::bench::subjects::{MODES, chosen, steel_ball};
 
 /// Runs of a batch; the fastest counts.
 const RUNS: usize = 3;
@@ -18,6 +18,8 @@ const RUNS: usize = 3;
 const MOST_IN_SOFTWARE: usize = 16;
 /// CPU time of a batch that hundredths of a second tell, s.
 const LEAST_CPU: f64 = 0.05;
+/// Weak points per m³ that leave hardly a tetrahedron without one.
+const EVERYWHERE: f64 = 1e12;
 /// Speeds of the blows, m/s: they come near the strength; most hold, some crack.
 const SPEEDS: [(&str, f64); 2] = [("pane", 1.0), ("glass", 1.5)];
 
@@ -50,6 +52,8 @@ pub struct Batch {
     pub cpu: Cost,
     /// On the GPU, and the CPU for what it leaves.
     pub gpu: Option<Cost>,
+    /// The passes alone by the GPU's own clock, per impact, s, where it has one.
+    pub passes: Option<f64>,
     /// What `Choice::Auto` took.
     pub auto: &'static str,
 }
@@ -82,6 +86,29 @@ pub struct Findings {
     pub modes: usize,
     /// The bodies.
     pub bodies: Vec<OfBody>,
+    /// Stress everywhere in a large one, where there is a GPU.
+    pub everywhere: Option<Everywhere>,
+}
+
+/// Stress at every tetrahedron of a large body at every time step of a blow.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Everywhere {
+    /// Its name.
+    pub name: &'static str,
+    /// Tetrahedra, all of which are weak points.
+    pub tets: usize,
+    /// Nodes of its analysis mesh.
+    pub analysis_nodes: usize,
+    /// Time steps.
+    pub steps: usize,
+    /// One thread of the CPU, wall clock, s.
+    pub cpu: f64,
+    /// The GPU with all that comes and goes, wall clock, s.
+    pub gpu: f64,
+    /// What each pass takes by the GPU's own clock: its name, s.
+    pub passes: Vec<(&'static str, f64)>,
+    /// Largest difference of the two peak stresses, over the CPU's.
+    pub difference: f64,
 }
 
 /// Times batches of 1, 4, 16 … impacts, up to `largest`. Without a GPU the CPU alone.
@@ -112,6 +139,8 @@ pub fn measure(
         };
         let spec = BakeSpec {
             modes: MODES,
+            // The GPU knows no others.
+            followed: Some(MODES),
             ..BakeSpec::new(name, shape, Material::preset("glass")?)
         };
         let kind = Breakable::new(bake(&spec, &mut |_| {})?.0)?;
@@ -124,10 +153,74 @@ pub fn measure(
             progress,
         )?);
     }
+    let everywhere = match &adapter {
+        Ok(adapter) => Some(everywhere(adapter.software, progress)?),
+        Err(_) => None,
+    };
     Ok(Findings {
         adapter,
         modes: MODES,
         bodies,
+        everywhere,
+    })
+}
+
+/// The largest slab of Table 1, each of whose tetrahedra is a weak point; a coarse one for an adapter in software.
+fn everywhere(
+    software: bool,
+    progress: &mut dyn FnMut(&str, f64),
+) -> Result<Everywhere, BenchError> {
+    let name = if software {
+        "slab-moderate"
+    } else {
+        "slab-very-high"
+    };
+    progress(&format!("baking {name}"), 0.0);
+    let subject = chosen(&[name.into()])?[0];
+    let (shape, analysis, fracture) = subject.geometry()?;
+    let mut material = Material::preset(subject.material)?;
+    material.weak_point_density = EVERYWHERE;
+    let spec = BakeSpec {
+        modes: MODES,
+        followed: Some(MODES),
+        analysis,
+        fracture,
+        ..BakeSpec::new(name, shape, material)
+    };
+    let kind = Breakable::new(bake(&spec, &mut |_| {})?.0)?;
+    let body = kind.body(0);
+    let contacts = [subject.contact(kind.asset(), 1.0)?];
+    let mut config = FractureConfig::with_given_impulses();
+    config.culling = false;
+    let gpu = Gpu::new()?;
+    let loaded = gpu.load(&kind)?;
+    let batch = [Impact::new(&loaded, &body, &contacts)];
+    progress(&format!("{name}: stress everywhere"), 0.5);
+    let Stage::Vibrates(vibration) = Vibration::begin(&body, &contacts, &config)? else {
+        return Err(BenchError::NotAsMeant(
+            "without culling a blow was refused".into(),
+        ));
+    };
+    let start = Instant::now();
+    let expected = initiation_on_cpu(&body, &vibration, &config, 0);
+    let cpu = start.elapsed().as_secs_f64();
+    let (mut best, mut peak) = (f64::INFINITY, f32::NAN);
+    for _ in 0..=RUNS {
+        let start = Instant::now();
+        let found = gpu.initiation(&batch, &config)?;
+        best = best.min(start.elapsed().as_secs_f64());
+        peak = found[0].as_ref().map_or(f32::NAN, |f| f.peak_stress);
+    }
+    let passes = gpu.pass_times(&batch, &config)?;
+    Ok(Everywhere {
+        name,
+        tets: body.weak_tets().len(),
+        analysis_nodes: kind.asset().analysis.nodes.len(),
+        steps: vibration.pulse.total_steps,
+        cpu,
+        gpu: best,
+        passes: passes.iter().map(|p| (p.pass, p.seconds)).collect(),
+        difference: f64::from((peak / expected.peak_stress - 1.0).abs()),
     })
 }
 
@@ -154,6 +247,7 @@ fn of_body(
     let mut cpu = Solver::new(Choice::Cpu)?;
     let mut on_gpu = gpu.then(|| Solver::new(Choice::Gpu)).transpose()?;
     let mut auto = Solver::new(Choice::Auto)?;
+    let clock = gpu.then(Gpu::new).transpose()?;
     let (mut batches, mut why) = (Vec::new(), String::new());
     let sizes = std::iter::successors(Some(1), |n| Some(4 * n));
     for size in sizes.take_while(|&n| n <= largest) {
@@ -173,6 +267,10 @@ fn of_body(
             cracked,
             cpu: of_cpu,
             gpu: of_gpu.map(|(cost, _)| cost),
+            passes: clock
+                .as_ref()
+                .map(|gpu| passes(gpu, kind, &bodies[..size], &contacts, &config))
+                .transpose()?,
             auto: match ran.on {
                 RanOn::Cpu => "CPU",
                 RanOn::Gpu => "GPU",
@@ -198,6 +296,19 @@ fn impacts<'a>(
     let each = bodies.iter().zip(contacts);
     each.map(|(body, contacts)| Impact::new(kind, body, contacts))
         .collect()
+}
+
+/// Time per impact of the passes on the GPU, by its own clock, s.
+fn passes(
+    gpu: &Gpu,
+    kind: &Breakable,
+    bodies: &[Body],
+    contacts: &[[Contact; 1]],
+    config: &FractureConfig,
+) -> Result<f64, BenchError> {
+    let loaded = gpu.load(kind)?;
+    let times = gpu.pass_times(&impacts(&loaded, bodies, contacts), config)?;
+    Ok(times.iter().map(|t| t.seconds).sum::<f64>() / bodies.len() as f64)
 }
 
 /// Cost per impact of the fastest run, and how many impacts cracked. The first run warms up.
