@@ -11,7 +11,7 @@ use crate::error::GpuError;
 use crate::impacts::{Impact, begin};
 use crate::loaded::Loaded;
 
-/// Impacts that the two are compared with.
+/// Impacts that the two are compared with, at least; with more threads one for each, since they make ready what the GPU computes.
 const TRIAL: usize = 4;
 
 /// What computes the impacts of a [`Solver`]. Cracks and pieces are the same bits in any case.
@@ -153,7 +153,7 @@ impl Solver {
             let why = "the first bound refuses the whole batch".into();
             return Ok(ran(RanOn::Cpu, n, why));
         }
-        let trial = &costly[..n.min(TRIAL)];
+        let trial = &costly[..n.min(TRIAL.max(rayon::current_num_threads()))];
         let speed = match self.speed {
             Some(speed) if speed.trial >= trial.len() => speed,
             _ => *self.speed.insert(measure(gpu, trial, config)?),
