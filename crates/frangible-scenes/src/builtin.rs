@@ -24,7 +24,7 @@ enum Action {
 }
 
 /// Names of the built-in scenes; the first is the default.
-pub const SCENE_NAMES: [&str; 24] = [
+pub const SCENE_NAMES: [&str; 25] = [
     "glass",
     "pane",
     "plate",
@@ -49,6 +49,7 @@ pub const SCENE_NAMES: [&str; 24] = [
     "phone",
     "tiles",
     "windscreen",
+    "ice-sheet",
 ];
 
 /// Length, width and thickness of the bar of chocolate, m.
@@ -240,6 +241,7 @@ pub fn scene(name: &str) -> Result<Scene, SceneError> {
         "phone" => sheets::phone(),
         "tiles" => sheets::tiles(),
         "windscreen" => sheets::windscreen(),
+        "ice-sheet" => sheets::ice_sheet(),
         _ => {
             let hint = nearest_name(name, SCENE_NAMES)
                 .map_or(String::new(), |n| format!(", did you mean `{n}`?"));

@@ -41,8 +41,8 @@ const NEARLY_ALL: f64 = 0.95;
 /// A piece that has less than this share of the area of the largest one is no piece that a viewer counts.
 const COUNTS: f64 = 0.05;
 
-/// Points of a mesh, at most, that are looked at.
-const POINTS: usize = 400;
+/// Directions whose farthest point of a mesh is looked at.
+const DIRECTIONS: usize = 128;
 
 /// A thing in a frame.
 struct Thing {
@@ -156,8 +156,6 @@ fn things(
     seen.map(|(i, (node, _))| {
         let pose = recording.pose(i, frame);
         let positions = &recording.meshes[node.mesh].positions;
-        let every = positions.len().div_ceil(POINTS).max(1);
-        let points = positions.iter().step_by(every);
         let mass = node.keep_extras.iter().find(|e| e.0 == "mass_kg");
         let mesh = &recording.meshes[node.mesh];
         let faces = mesh
@@ -172,12 +170,25 @@ fn things(
             area: 0.25 * area.sum::<f64>(),
             mass: mass.map_or(0.0, |e| e.1),
             centre: pose.translation,
-            points: points
-                .map(|&p| pose.rotation * p + pose.translation)
+            points: farthest(positions)
+                .map(|p| pose.rotation * p + pose.translation)
                 .collect(),
         }
     })
     .collect()
+}
+
+/// The farthest of these points in each of [`DIRECTIONS`], which lie evenly around (Fibonacci's spiral): corners are among them.
+fn farthest(points: &[Vec3]) -> impl Iterator<Item = Vec3> {
+    let golden = std::f32::consts::PI * (3.0 - 5.0_f32.sqrt());
+    (0..DIRECTIONS).filter_map(move |k| {
+        let up = 1.0 - (2 * k + 1) as f32 / DIRECTIONS as f32;
+        let along = (1.0 - up * up).sqrt();
+        let (sin, cos) = libm::sincosf(golden * k as f32);
+        let toward = Vec3::new(along * cos, up, along * sin);
+        let farther = |a: &&Vec3, b: &&Vec3| a.dot(toward).total_cmp(&b.dot(toward));
+        points.iter().max_by(farther).copied()
+    })
 }
 
 fn all(things: &[Thing]) -> Vec<Vec3> {

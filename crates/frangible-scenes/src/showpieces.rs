@@ -1,9 +1,5 @@
 //! Built-in scenes for the eye: things that everybody has seen break.
 //!
-//! A sheet of ice held at its rim was tried as well, and is not here. One of 80 cm and 40 mm, hit in its middle by a stone of 4 kg, breaks at 3,
-//! 3.5, 4 and 4.5 m/s into 6, 247, 10 and 376 pieces, where a real one has a hole and a few long cracks. The cracks take 0.1 to 0.9 J of a blow
-//! of 14 to 37 J. Why so little decides so much was not looked into.
-//!
 //! The glass here is annealed. Two other kinds need more than this model has:
 //! - **Laminated glass** (windscreens) is two panes on a sheet of plastic that holds the pieces. The scene `windscreen` has the panes, and an
 //!   [`Adhesive`](crate::Adhesive) that holds the pieces. What is left out is a soft layer that dissipates, in the modes as well as between the

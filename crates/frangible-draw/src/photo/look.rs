@@ -134,10 +134,10 @@ impl Look {
                 }
             }
             Grain::Cloudy => {
-                let cloud = fractal(at, 0.012, 4);
+                let cloud = fractal(at, 0.03, 5);
                 Skin {
-                    cloud: 0.10 + 0.35 * smooth_step(-0.05, 0.45, cloud),
-                    bump: 0.10 * lean(at, 0.004, 2),
+                    cloud: 0.10 + 0.35 * smooth_step(-0.5, 0.6, cloud),
+                    bump: 0.06 * lean(at, 0.012, 2),
                     ..even
                 }
             }

@@ -263,6 +263,7 @@ impl Traced<'_> {
     fn light(&self, mut ray: Ray, random: &mut Random, longest: u32) -> Vec3A {
         let (mut left, mut gathered) = (Vec3A::ONE, Vec3A::ZERO);
         let cut = |light: Vec3A| light.min(Vec3A::splat(BRIGHTEST));
+        let mut clouded = false;
         for _ in 0..longest {
             let met = self.set.meet(ray.from, ray.along, ray.leaves);
             if let Some((_, ground)) = self.ground_before(&ray, met.as_ref()) {
@@ -293,12 +294,21 @@ impl Traced<'_> {
                 left *= (-look.swallows * met.distance).exp();
             }
             let skin = look.skin(met.own);
-            if skin.cloud > 0.0 && random.next() < skin.cloud {
+            // At the first face both the clouds and what lies behind them are seen, later one of the two by chance.
+            let cloud = match std::mem::replace(&mut clouded, skin.cloud > 0.0) {
+                false => skin.cloud,
+                true => f32::from(random.next() < skin.cloud),
+            };
+            if cloud > 0.0 {
                 // Clouds inside are lit as a matt body is, and more evenly.
                 let normal = facing(met.smooth, ray.along);
                 let lit = self.on_matt(&met, normal, random, 1);
                 let lit = 0.6 * lit + 0.4 * backdrop(Vec3A::Y);
-                return cut(gathered + left * look.cloud_color() * lit);
+                gathered += left * cloud * look.cloud_color() * lit;
+                left *= 1.0 - cloud;
+            }
+            if left == Vec3A::ZERO {
+                return cut(gathered);
             }
             let normal = bumpy(&met, skin.bump);
             let (reflected, bent) = if look.thin {
