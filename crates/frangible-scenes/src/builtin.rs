@@ -227,7 +227,7 @@ pub fn scene(name: &str) -> Result<Scene, SceneError> {
                     ..Projectile::ball(0.5, 0.0248, 3.0)
                 }),
             )?,
-            0.2,
+            0.12,
             [Region::below(0, 0.03)],
         )),
         "shards" => again::shards(),

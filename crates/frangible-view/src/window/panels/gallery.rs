@@ -9,7 +9,7 @@ macro_rules! picture {
 }
 
 /// Scene and PNG; just after the break, from the pictures of the gallery.
-const PICTURES: [(&str, &[u8]); 24] = [
+const PICTURES: [(&str, &[u8]); 25] = [
     picture!("bottle"),
     picture!("bowl"),
     picture!("brick"),
@@ -20,6 +20,7 @@ const PICTURES: [(&str, &[u8]); 24] = [
     picture!("five-blows"),
     picture!("glass"),
     picture!("hammer"),
+    picture!("ice-sheet"),
     picture!("pane"),
     picture!("phone"),
     picture!("piggy-bank"),
