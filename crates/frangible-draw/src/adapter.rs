@@ -27,6 +27,30 @@ pub(crate) fn texture_limit() -> Result<u32, DrawError> {
         .ok_or(DrawError::NoAdapter)
 }
 
+/// Begins the program anew with `XDG_RUNTIME_DIR` set, where it is not, on Linux: the graphics drivers' library for Wayland
+/// complains four times of its absence before anything else is said. A folder that does not exist will do, since there is no
+/// Wayland then. For the first line of a program: what was done before is done once more.
+pub fn quiet_the_drivers() {
+    #[cfg(target_os = "linux")]
+    {
+        use std::os::unix::process::CommandExt;
+        use std::process::Command;
+
+        const NAME: &str = "XDG_RUNTIME_DIR";
+        let mut words = std::env::args_os();
+        if let (None, Ok(program), Some(own)) = (
+            std::env::var_os(NAME),
+            std::env::current_exe(),
+            words.next(),
+        ) {
+            let mut anew = Command::new(program);
+            anew.arg0(own).args(words).env(NAME, "/nonexistent");
+            // Only a failure comes back; then the lines are the lesser evil.
+            let _ = anew.exec();
+        }
+    }
+}
+
 /// What we need to know of the adapter.
 #[derive(Clone, Copy)]
 struct Adapter {

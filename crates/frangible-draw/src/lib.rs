@@ -55,7 +55,7 @@ mod studio;
 mod webp;
 
 #[cfg(not(target_family = "wasm"))]
-pub use adapter::{has_adapter, is_software};
+pub use adapter::{has_adapter, is_software, quiet_the_drivers};
 pub use camera::StillCamera;
 #[cfg(target_family = "wasm")]
 pub use canvas::open_canvas;

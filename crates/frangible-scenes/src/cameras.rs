@@ -9,10 +9,10 @@ use crate::recorder::Role;
 const MARGIN: f32 = 1.08;
 
 /// Share of a disc around pieces that their faces fill, at least: so many of them are shown, and strays are not.
-const FILLED: f64 = 0.13;
+const FILLED: f64 = 0.12;
 
 /// Share of the disc that is enough where pieces lie so far apart that [`FILLED`] would show fewer than [`FEW`] of them.
-const FILLED_THINLY: f64 = 0.07;
+const FILLED_THINLY: f64 = 0.04;
 
 /// Fewer pieces than these say little of what broke.
 const FEW: usize = 3;
@@ -47,7 +47,7 @@ const DIRECTIONS: usize = 128;
 /// A thing in a frame.
 struct Thing {
     mass: f64,
-    /// What can be seen of it from anywhere, in the mean over all sides, m²: a quarter of its surface, where that is smooth.
+    /// What can be seen of it from anywhere, in the mean over all sides, m²: a quarter of its surface.
     area: f64,
     centre: Vec3,
     points: Vec<Vec3>,
@@ -106,19 +106,20 @@ pub(crate) fn cameras(recording: &Recording, roles: &[Role], look_from: Vec3) ->
     let look = |points: &[Vec3]| view(points, ground, look_from, 0.0);
     let before = all(&breaking);
     // Bodies that stay whole, and where they are, are the place where the others broke: it stays in the picture.
-    let resting = if standing {
-        let seen = things(recording, roles, end, |_, role| role != Role::Projectile);
-        about(&seen, middle(&before))
-    } else {
-        together(&pieces(end))
-    };
+    let seen = things(recording, roles, end, |_, role| role != Role::Projectile);
+    let mut resting = about(&seen, middle(&before));
+    // Where all has fallen far from there, the place says nothing.
+    let place_at_end = standing && !resting.is_empty();
+    if !place_at_end {
+        resting = together(&pieces(end));
+    }
     let shown = [
-        nearly_all(&pieces(moments.first_crack)),
-        together(&pieces(moments.just_after)),
-        resting,
+        (nearly_all(&pieces(moments.first_crack)), standing),
+        (together(&pieces(moments.just_after)), standing),
+        (resting, place_at_end),
     ];
-    let [first, flying, resting] = shown.map(|mut points| {
-        if points.is_empty() || standing {
+    let [first, flying, resting] = shown.map(|(mut points, with_place)| {
+        if points.is_empty() || with_place {
             points.extend(&before);
         }
         points
@@ -166,16 +167,11 @@ fn things(
             let [a, b, c] = [0, 1, 2].map(|k| positions[face[k] as usize]);
             0.5 * f64::from((b - a).cross(c - a).length())
         });
-        let points: Vec<Vec3> = farthest(positions).collect();
-        let reach = points.iter().map(|p| p.length()).fold(0.0, f32::max);
-        // Faces of cracks are rough, and have more area than is seen.
-        let half_disc = 0.5 * std::f64::consts::PI * f64::from(reach).powi(2);
         Thing {
-            area: half_disc.min(0.25 * area.sum::<f64>()),
+            area: 0.25 * area.sum::<f64>(),
             mass: mass.map_or(0.0, |e| e.1),
             centre: pose.translation,
-            points: points
-                .into_iter()
+            points: farthest(positions)
                 .map(|p| pose.rotation * p + pose.translation)
                 .collect(),
         }
@@ -216,37 +212,25 @@ fn nearly_all(things: &[Thing]) -> Vec<Vec3> {
     points(things, heaviest)
 }
 
-/// The points of things that lie together, of a few of them at least.
+/// The points of things that lie together, as closely as shows a few of them.
 fn together(things: &[Thing]) -> Vec<Vec3> {
-    let group = heaviest_group(things);
-    if counted(things, &group) >= FEW {
-        return points(things, group);
+    let close = heaviest_group(things, FILLED);
+    if counted(things, &close) >= FEW {
+        return points(things, close);
     }
-    let few = closest_few(things).filter(|few| 2.0 * mass(things, few) >= mass(things, &group));
-    points(things, few.unwrap_or(group))
-}
-
-fn mass(things: &[Thing], chosen: &[usize]) -> f64 {
-    chosen.iter().map(|&i| things[i].mass).sum()
-}
-
-/// What has more than half of all mass, and so is to be seen.
-fn most_of_it(things: &[Thing]) -> Option<usize> {
-    let half = 0.5 * things.iter().map(|thing| thing.mass).sum::<f64>();
-    things.iter().position(|thing| thing.mass > half)
+    let wide = heaviest_group(things, FILLED_THINLY);
+    let more = counted(things, &wide) > counted(things, &close);
+    points(things, if more { wide } else { close })
 }
 
 /// The group with the most mass, times the number of its pieces that count.
-fn heaviest_group(things: &[Thing]) -> Vec<usize> {
-    let worth = |group: &[usize]| mass(things, group) * counted(things, group).min(MIDDLES) as f64;
+fn heaviest_group(things: &[Thing], share: f64) -> Vec<usize> {
+    let worth = |group: &[usize]| {
+        let mass: f64 = group.iter().map(|&i| things[i].mass).sum();
+        mass * counted(things, group).min(MIDDLES) as f64
+    };
     let middles = heaviest(things).into_iter().take(MIDDLES);
-    // A thing, however thin it is, is shown at least.
-    let groups = middles.map(|i| match filled(things, things[i].centre) {
-        around if around.is_empty() => vec![i],
-        around => around,
-    });
-    let most = most_of_it(things);
-    let groups = groups.filter(|group| most.is_none_or(|most| group.contains(&most)));
+    let groups = middles.map(|i| group(things, i, share));
     // The first of equals.
     let best = groups.reduce(|best, next| match worth(&next) > worth(&best) {
         true => next,
@@ -255,24 +239,14 @@ fn heaviest_group(things: &[Thing]) -> Vec<usize> {
     best.unwrap_or_default()
 }
 
-/// Those [`FEW`] pieces, and what lies among them, that fill the largest share of a disc about one of the heaviest.
-fn closest_few(things: &[Thing]) -> Option<Vec<usize>> {
-    let most = most_of_it(things);
-    let middles = heaviest(things).into_iter().take(MIDDLES);
-    let groups = middles.filter_map(|middle| {
-        let by_reach = by_reach(things, things[middle].centre);
-        let order: Vec<usize> = by_reach.iter().map(|&(_, i)| i).collect();
-        let enough = (1..=order.len())
-            .map(|n| &order[..n])
-            .filter(|few| most.is_none_or(|most| few.contains(&most)))
-            .find(|few| counted(things, few) >= FEW)?
-            .len();
-        let area: f64 = order[..enough].iter().map(|&i| things[i].area).sum();
-        let disc = std::f64::consts::PI * f64::from(by_reach[enough - 1].0).powi(2);
-        (area >= FILLED_THINLY * disc).then(|| (area / disc, order[..enough].to_vec()))
-    });
-    let best = groups.reduce(|best, next| if next.0 > best.0 { next } else { best });
-    best.map(|(_, group)| group)
+/// A thing, however thin it is, and those around it that fill so much of a disc.
+fn group(things: &[Thing], middle: usize, share: f64) -> Vec<usize> {
+    let around = filled(things, things[middle].centre, share);
+    if around.is_empty() {
+        vec![middle]
+    } else {
+        around
+    }
 }
 
 /// How many of these are pieces that a viewer counts.
@@ -284,31 +258,25 @@ fn counted(things: &[Thing], chosen: &[usize]) -> usize {
 
 /// The points of things that lie about a place, as many as can be shown so that [`FILLED`] holds.
 fn about(things: &[Thing], place: Vec3) -> Vec<Vec3> {
-    points(things, filled(things, place))
+    points(things, filled(things, place, FILLED))
 }
 
-/// The things within the widest disc about a place of which they fill [`FILLED`].
-fn filled(things: &[Thing], place: Vec3) -> Vec<usize> {
-    let by_reach = by_reach(things, place);
-    let (mut kept, mut area) = (0, 0.0);
-    for (number, &(radius, i)) in (1..).zip(&by_reach) {
-        area += things[i].area;
-        if area >= FILLED * std::f64::consts::PI * f64::from(radius).powi(2) {
-            kept = number;
-        }
-    }
-    by_reach[..kept].iter().map(|&(_, i)| i).collect()
-}
-
-/// How far things reach from a place, m, and which they are: the nearest first.
-fn by_reach(things: &[Thing], place: Vec3) -> Vec<(f32, usize)> {
+/// The things within the widest disc about a place of which they fill so much.
+fn filled(things: &[Thing], place: Vec3, share: f64) -> Vec<usize> {
     let reach = |thing: &Thing| {
         let distances = thing.points.iter().map(|p| p.distance(place));
         distances.fold(0.0, f32::max)
     };
     let mut by_reach: Vec<(f32, usize)> = things.iter().map(reach).zip(0..).collect();
     by_reach.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-    by_reach
+    let (mut kept, mut area) = (0, 0.0);
+    for (number, &(radius, i)) in (1..).zip(&by_reach) {
+        area += things[i].area;
+        if area >= share * std::f64::consts::PI * f64::from(radius).powi(2) {
+            kept = number;
+        }
+    }
+    by_reach[..kept].iter().map(|&(_, i)| i).collect()
 }
 
 /// Things by their mass, the heaviest first.

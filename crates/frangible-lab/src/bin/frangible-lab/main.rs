@@ -19,6 +19,7 @@ use clap::Parser;
 use args::{Cli, Command};
 
 fn main() -> ExitCode {
+    frangible_draw::quiet_the_drivers();
     let result = match Cli::parse().command {
         Command::Verify(args) => verify::run(&args),
         Command::Experiments(args) => experiments::run(&args),
