@@ -15,8 +15,6 @@ pub struct PassTime {
     pub pass: &'static str,
     /// What all its dispatches took together by the GPU's clock, s.
     pub seconds: f64,
-    /// How many dispatches there were.
-    pub dispatches: usize,
 }
 
 /// Takes the time of every dispatch, up to [`MOST`] of a submission.
@@ -85,15 +83,8 @@ impl Clock {
         });
         for (pass, seconds) in self.started.drain(..).zip(times) {
             match self.times.iter_mut().find(|t| t.pass == pass) {
-                Some(known) => {
-                    known.seconds += seconds;
-                    known.dispatches += 1;
-                }
-                None => self.times.push(PassTime {
-                    pass,
-                    seconds,
-                    dispatches: 1,
-                }),
+                Some(known) => known.seconds += seconds,
+                None => self.times.push(PassTime { pass, seconds }),
             }
         }
     }

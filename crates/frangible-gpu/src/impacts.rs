@@ -136,7 +136,8 @@ impl Gpu {
         Ok(verdicts.into_iter().map(initiation).collect())
     }
 
-    /// What each kind of pass takes for these impacts, by the GPU's own clock; nothing where it has none. For measurements.
+    /// What each kind of pass takes for these impacts, by the GPU's own clock; nothing where it has none. For measurements:
+    /// no more than the first 2 048 dispatches of a submission are timed.
     ///
     /// # Errors
     /// What [`Self::impacts`] refuses.

@@ -22,6 +22,10 @@ pub(crate) struct Job<'a> {
 /// Words of a job on the GPU: as the shader's `Job`.
 const JOB: usize = 10;
 
+/// Words of a job before its weak tetrahedra, and before its live columns.
+const BEFORE_WEAK: usize = 3;
+const BEFORE_ALIVE: usize = 6;
+
 /// Words of a weak tetrahedron: as the shader's `Weak`.
 const WEAK: usize = 12;
 
@@ -209,8 +213,9 @@ impl Wave {
                 self.weak.par_extend(tets.flat_map_iter(words));
             }
             let job = &mut self.jobs[JOB * number..JOB * (number + 1)];
-            job[3..5].copy_from_slice(&[first_weak, span.weak as u32]);
-            job[6..8].copy_from_slice(&[span.first_alive as u32, span.alive as u32]);
+            job[BEFORE_WEAK..BEFORE_WEAK + 2].copy_from_slice(&[first_weak, span.weak as u32]);
+            job[BEFORE_ALIVE..BEFORE_ALIVE + 2]
+                .copy_from_slice(&[span.first_alive as u32, span.alive as u32]);
         }
         live
     }

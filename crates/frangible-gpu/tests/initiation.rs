@@ -280,6 +280,37 @@ fn a_batch_is_its_impacts_one_by_one() {
 }
 
 #[test]
+fn every_pass_has_a_time_and_timing_changes_nothing() {
+    let Some(gpu) = gpu() else { return };
+    let (_, kind) = &kinds()[1];
+    let (loaded, body) = (gpu.load(kind).unwrap(), kind.body(0));
+    let contacts = [Numbers(5).blow(kind.asset(), 3.0)];
+    let batch = [Impact::new(&loaded, &body, &contacts)];
+    let config = without_culling(FractureConfig::with_given_impulses());
+    let before = gpu.initiation(&batch, &config).unwrap();
+    let times = gpu.pass_times(&batch, &config).unwrap();
+    assert_eq!(before, gpu.initiation(&batch, &config).unwrap());
+    if times.is_empty() {
+        println!("SKIPPED: the adapter has no clock");
+        return;
+    }
+    let mut passes: Vec<&str> = times.iter().map(|t| t.pass).collect();
+    passes.sort_unstable();
+    let all = [
+        "amplitudes",
+        "bounds",
+        "clusters",
+        "displacements",
+        "gather",
+        "stress",
+        "summaries",
+    ];
+    assert_eq!(passes, all);
+    let together: f64 = times.iter().map(|t| t.seconds).sum();
+    assert!(together > 0.0 && together < 100.0, "{together} s");
+}
+
+#[test]
 fn near_the_strength_the_cpu_decides() {
     let Some(gpu) = gpu() else { return };
     let mut numbers = Numbers(8);

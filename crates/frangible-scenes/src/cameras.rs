@@ -106,13 +106,14 @@ pub(crate) fn cameras(recording: &Recording, roles: &[Role], look_from: Vec3) ->
     let look = |points: &[Vec3]| view(points, ground, look_from, 0.0);
     let before = all(&breaking);
     // Bodies that stay whole, and where they are, are the place where the others broke: it stays in the picture.
-    let seen = things(recording, roles, end, |_, role| role != Role::Projectile);
-    let mut resting = about(&seen, middle(&before));
+    let about_place = || {
+        let seen = things(recording, roles, end, |_, role| role != Role::Projectile);
+        about(&seen, middle(&before))
+    };
     // Where all has fallen far from there, the place says nothing.
-    let place_at_end = standing && !resting.is_empty();
-    if !place_at_end {
-        resting = together(&pieces(end));
-    }
+    let about_place = standing.then(about_place).filter(|seen| !seen.is_empty());
+    let place_at_end = about_place.is_some();
+    let resting = about_place.unwrap_or_else(|| together(&pieces(end)));
     let shown = [
         (nearly_all(&pieces(moments.first_crack)), standing),
         (together(&pieces(moments.just_after)), standing),
@@ -179,7 +180,7 @@ fn things(
     .collect()
 }
 
-/// The farthest of these points in each of [`DIRECTIONS`], which lie evenly around (Fibonacci's spiral): corners are among them.
+/// The farthest of these points in each of [`DIRECTIONS`], which lie evenly around (Fibonacci's spiral): the corners of a box are among them.
 fn farthest(points: &[Vec3]) -> impl Iterator<Item = Vec3> {
     let golden = std::f32::consts::PI * (3.0 - 5.0_f32.sqrt());
     (0..DIRECTIONS).filter_map(move |k| {

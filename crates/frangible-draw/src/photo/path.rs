@@ -263,7 +263,7 @@ impl Traced<'_> {
     fn light(&self, mut ray: Ray, random: &mut Random, longest: u32) -> Vec3A {
         let (mut left, mut gathered) = (Vec3A::ONE, Vec3A::ZERO);
         let cut = |light: Vec3A| light.min(Vec3A::splat(BRIGHTEST));
-        let mut clouded = false;
+        let mut last_was_cloudy = false;
         for _ in 0..longest {
             let met = self.set.meet(ray.from, ray.along, ray.leaves);
             if let Some((_, ground)) = self.ground_before(&ray, met.as_ref()) {
@@ -294,8 +294,8 @@ impl Traced<'_> {
                 left *= (-look.swallows * met.distance).exp();
             }
             let skin = look.skin(met.own);
-            // At the first face both the clouds and what lies behind them are seen, later one of the two by chance.
-            let cloud = match std::mem::replace(&mut clouded, skin.cloud > 0.0) {
+            // Both the clouds and what lies behind them are seen; after another cloudy face one of the two, by chance.
+            let cloud = match std::mem::replace(&mut last_was_cloudy, skin.cloud > 0.0) {
                 false => skin.cloud,
                 true => f32::from(random.next() < skin.cloud),
             };

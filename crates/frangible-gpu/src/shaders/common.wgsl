@@ -131,4 +131,3 @@ fn joined(a: Summary, b: Summary) -> Summary {
     s.passed_over = max(a.passed_over, b.passed_over);
     return s;
 }
-
