@@ -52,12 +52,14 @@ impl TetMesh {
 
     /// Corner positions of tetrahedron `e`, m.
     #[must_use]
+    #[inline]
     pub fn corners(&self, e: usize) -> [Vec3; 4] {
         self.tets[e].map(|v| self.positions[v as usize])
     }
 
     /// Centroid of tetrahedron `e`, m.
     #[must_use]
+    #[inline]
     pub fn centroid(&self, e: usize) -> Vec3 {
         self.corners(e).iter().sum::<Vec3>() * 0.25
     }

@@ -41,7 +41,7 @@ impl Breakable {
     pub(crate) fn of_sound(asset: Arc<Asset>) -> Self {
         let fields = Arc::new(Fields::default());
         Self {
-            toughness: Toughness::new(&asset.material, &fields),
+            toughness: Toughness::new(&asset.material, &fields, &asset.fracture),
             prepared: Arc::new(Prepared::of_whole(&asset)),
             asset,
             fields,
@@ -56,7 +56,7 @@ impl Breakable {
         fields.check(&self.asset)?;
         let fields = Arc::new(fields);
         Ok(Self {
-            toughness: Toughness::new(&self.asset.material, &fields),
+            toughness: Toughness::new(&self.asset.material, &fields, &self.asset.fracture),
             fields,
             ..self
         })

@@ -29,22 +29,28 @@ impl Toughness {
     /// of the place a reach ahead. At a right angle G is a quarter: a weak band less than a quarter as tough as what is behind it
     /// catches cracks that meet it squarely (He & Hutchinson 1989 for interfaces).
     ///
-    /// Where toughness does not vary it is the tip's own normal, bit for bit.
+    /// Where toughness does not vary it is the tip's own normal, bit for bit. An angle at which even the least toughness near
+    /// would cost as much as the best so far is not looked at.
     pub(crate) fn kinked(&self, mesh: &TetMesh, tip: Tip) -> Vec3 {
         let centre = mesh.centroid(tip.tet as usize);
         let along = (centre - tip.from).reject_from(tip.normal).try_normalize();
-        let Some(along) = along.filter(|_| self.varies()) else {
+        let (Some(along), Some(least)) = (along, self.least_about(tip.tet)) else {
             return tip.normal;
         };
+        let released = |radians: f32| f64::from(libm::cosf(0.5 * radians).powi(4));
         let cost = |radians: f32| {
             let (sin, cos) = libm::sincosf(radians);
             let to = along * cos + tip.normal * sin;
             let place = tet_towards(mesh, tip.tet, centre + to * tip.reach);
-            self.of(place) / f64::from(libm::cosf(0.5 * radians).powi(4))
+            self.of(place) / released(radians)
         };
         let mut best = (cost(0.0), 0.0);
         for degrees in ANGLES {
-            for radians in [degrees.to_radians(), -degrees.to_radians()] {
+            let radians = degrees.to_radians();
+            if least / released(radians) >= best.0 {
+                break;
+            }
+            for radians in [radians, -radians] {
                 let cost = cost(radians);
                 if cost < best.0 {
                     best = (cost, radians);
@@ -63,21 +69,21 @@ impl Toughness {
 fn tet_towards(mesh: &TetMesh, from: u32, p: Vec3) -> u32 {
     let mut tet = from;
     for _ in 0..MOST_STEPS {
-        let x = mesh.corners(tet as usize);
-        // Through the face that p lies farthest behind, in shares of the height over it.
-        let behind = |k: usize| {
-            let [a, b, c] = [1, 2, 3].map(|i| x[(k + i) % 4]);
-            let normal = (b - a).cross(c - a);
-            (p - a).dot(normal) / (x[k] - a).dot(normal)
-        };
-        let Some((k, share)) = (0..4)
-            .map(|k| (k, behind(k)))
-            .min_by(|a, b| a.1.total_cmp(&b.1))
-        else {
-            return tet;
-        };
+        let [origin, corners @ ..] = mesh.corners(tet as usize);
+        let [a, b, c] = corners.map(|corner| corner - origin);
+        let faces = [b.cross(c), c.cross(a), a.cross(b)];
+        let volume = a.dot(faces[0]);
+        let [a, b, c] = faces.map(|face| (p - origin).dot(face) / volume);
+        // Through the face that p lies farthest behind, in shares of the height over it: its barycentric coordinates.
+        let shares = [1.0 - a - b - c, a, b, c];
+        let mut k = 0;
+        for other in 1..4 {
+            if shares[other] < shares[k] {
+                k = other;
+            }
+        }
         let next = mesh.neighbours[tet as usize][k];
-        if share >= 0.0 || next == NO_NEIGHBOUR {
+        if shares[k] >= 0.0 || next == NO_NEIGHBOUR {
             return tet;
         }
         tet = next;

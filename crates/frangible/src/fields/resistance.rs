@@ -4,6 +4,10 @@ use std::sync::Arc;
 
 use super::{Fields, scatter::scatter};
 use crate::material::Material;
+use crate::mesh::TetMesh;
+
+/// Rings of tetrahedra about a place that hold all that lies a mean edge away from it.
+const RINGS: usize = 2;
 
 /// Fracture energies of a kind of body.
 #[derive(Clone, Debug)]
@@ -12,22 +16,26 @@ pub(crate) struct Toughness {
     fields: Arc<Fields>,
     /// The smallest, J/m².
     pub(crate) least: f64,
+    /// The smallest factor of each tetrahedron and of the rings about it; empty where all are the same.
+    about: Arc<[f32]>,
 }
 
 impl Toughness {
-    pub(crate) fn new(material: &Material, fields: &Arc<Fields>) -> Self {
+    pub(crate) fn new(material: &Material, fields: &Arc<Fields>, mesh: &TetMesh) -> Self {
         let least = fields.of_tet.iter().map(|f| f64::from(f.toughness));
         let least = least.min_by(f64::total_cmp).unwrap_or(1.0);
         Self {
             material: material.fracture_energy,
             fields: Arc::clone(fields),
             least: material.fracture_energy * least,
+            about: least_about(fields, mesh).into(),
         }
     }
 
-    /// Whether it is not the same everywhere.
-    pub(super) fn varies(&self) -> bool {
-        !self.fields.of_tet.is_empty()
+    /// The smallest G_c of a tetrahedron and of the two rings about it, J/m²; none where it is the same everywhere.
+    pub(super) fn least_about(&self, tet: u32) -> Option<f64> {
+        let factor = self.about.get(tet as usize)?;
+        Some(self.material * f64::from(*factor))
     }
 
     /// G_c of a tetrahedron, J/m².
@@ -37,6 +45,28 @@ impl Toughness {
             None => self.material,
         }
     }
+}
+
+fn least_about(fields: &Fields, mesh: &TetMesh) -> Vec<f32> {
+    let mut least: Vec<f32> = fields.of_tet.iter().map(|f| f.toughness).collect();
+    if least.iter().all(|factor| *factor == least[0]) {
+        return Vec::new();
+    }
+    for _ in 0..RINGS {
+        let mut of_node = vec![f32::INFINITY; mesh.positions.len()];
+        for (nodes, &factor) in mesh.tets.iter().zip(&least) {
+            for &node in nodes {
+                let here = &mut of_node[node as usize];
+                *here = here.min(factor);
+            }
+        }
+        for (nodes, factor) in mesh.tets.iter().zip(&mut least) {
+            *factor = nodes
+                .iter()
+                .fold(*factor, |least, &node| least.min(of_node[node as usize]));
+        }
+    }
+    least
 }
 
 /// Strengths and fracture energies of one body.
