@@ -5,8 +5,10 @@ use glam::Vec3;
 /// What to draw of a piece of a body that has a surface that its author drew: its part of that
 /// surface and its crack faces, m, fragment frame.
 ///
-/// A mesh for the eye: it need not be closed, and is no input to physics. Triangles that cracks divide meet their
-/// neighbours on straight edges, not corner to corner; holes that the author left stay holes.
+/// A mesh for the eye, and no input to physics. Where the author's surface is closed and faces outwards, so is each piece, once vertices at
+/// one place are one: all sides meet corner to corner. Thin triangles close what lies between the author's surface and the crack faces;
+/// they come last. A hole that the author left stays one, unless a crack runs through it: then the piece's crack faces are sewn to
+/// the border of the hole. Pieces of a surface that faces inwards stay open along their cracks.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RenderMesh {
     /// Vertex positions, m, fragment frame.
@@ -17,7 +19,7 @@ pub struct RenderMesh {
     /// [`box_projection`] of the place in the parent's body frame, m.
     pub uvs: Vec<[f32; 2]>,
     /// Vertices of each triangle, counter-clockwise seen from outside. The first [`RenderMesh::outer_triangles`]
-    /// are the author's surface, the rest crack faces.
+    /// are the author's surface, the rest crack faces and what sews the two together.
     pub triangles: Vec<[u32; 3]>,
     /// How many of the triangles, from the first, are the author's surface.
     pub outer_triangles: usize,

@@ -38,19 +38,24 @@ impl RenderSurface {
             let own = |t| corners(t).map(|v| self.normals[v].normalize_or(Vec3::Y));
             return self.triangles.iter().map(own).collect();
         }
-        // Vertices that only texture coordinates part are one. Looked up only, never iterated.
-        let mut first = HashMap::new();
-        let place = |p: &Vec3| p.to_array().map(|x| (x + 0.0).to_bits());
-        let welded: Vec<u32> = (0..)
-            .zip(&self.positions)
-            .map(|(v, p)| *first.entry(place(p)).or_insert(v))
-            .collect();
+        let welded = self.welded();
         let triangles: Vec<[u32; 3]> = self
             .triangles
             .iter()
             .map(|t| corners(t).map(|v| welded[v]))
             .collect();
         smooth_normals(&self.positions, &triangles)
+    }
+
+    /// The first vertex at the place of each: vertices that only texture coordinates or normals part are one.
+    pub(crate) fn welded(&self) -> Vec<u32> {
+        // Looked up only, never iterated.
+        let mut first = HashMap::new();
+        let place = |p: &Vec3| p.to_array().map(|x| (x + 0.0).to_bits());
+        (0..)
+            .zip(&self.positions)
+            .map(|(v, p)| *first.entry(place(p)).or_insert(v))
+            .collect()
     }
 }
 

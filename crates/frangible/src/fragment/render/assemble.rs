@@ -1,10 +1,15 @@
 //! A fragment's share of the render surface and its crack faces, as one mesh.
 
-use glam::{DVec3, Vec3};
+use glam::{DVec2, DVec3, Vec3};
 
+use super::conform::Corners;
+use super::polygon::centre as centre_of;
 use super::{RenderIndex, Share};
 use crate::asset::RenderSurface;
 use crate::mesh::{RenderMesh, box_projection};
+
+/// A triangle of less area than this, in squares of its longer side at the first corner, is thin.
+const THIN: f64 = 1e-6;
 
 /// Corners of crack faces: positions (m, body frame) and normals.
 pub(crate) type Vertices = Vec<[(DVec3, Vec3); 3]>;
@@ -12,10 +17,11 @@ pub(crate) type Vertices = Vec<[(DVec3, Vec3); 3]>;
 impl RenderIndex {
     /// Mesh of a fragment in its frame, whose origin is `centre` in the body frame, m. `local` maps the surface's vertices
     /// to the mesh's and is `u32::MAX` throughout before and after.
-    pub(crate) fn assemble(
+    pub(super) fn assemble(
         &self,
         surface: &RenderSurface,
         share: &Share,
+        numbered: Option<&Corners>,
         faces: &Vertices,
         centre: DVec3,
         local: &mut [u32],
@@ -40,12 +46,21 @@ impl RenderIndex {
             local[v as usize] = u32::MAX;
         }
         for (t, polygon) in &share.pieces {
-            let corners: Vec<u32> = polygon
-                .iter()
-                .map(|p| mesh.corner(*t, [1.0 - p.x - p.y, p.x, p.y]))
-                .collect();
-            for k in 2..corners.len() {
-                mesh.triangle(*t, [corners[0], corners[k - 1], corners[k]]);
+            let corners: Vec<u32> = polygon.iter().map(|p| mesh.corner(*t, *p, None)).collect();
+            mesh.fan(*t, &corners);
+        }
+        for (t, polygon) in &share.numbered {
+            let place = |number| numbered.map(|corners| corners.place(number));
+            let corner = |&(number, p): &(u32, DVec2)| mesh.corner(*t, p, place(number));
+            let corners: Vec<u32> = polygon.iter().map(corner).collect();
+            let places: Vec<DVec2> = polygon.iter().map(|corner| corner.1).collect();
+            if has_thin_fan(&places) {
+                let middle = mesh.corner(*t, centre_of(&places), None);
+                for (k, &from) in corners.iter().enumerate() {
+                    mesh.triangle(*t, [middle, from, corners[(k + 1) % corners.len()]]);
+                }
+            } else {
+                mesh.fan(*t, &corners);
             }
         }
         mesh.mesh.outer_triangles = mesh.mesh.triangles.len();
@@ -54,6 +69,18 @@ impl RenderIndex {
         }
         mesh.mesh
     }
+}
+
+/// Whether a triangle of the fan from the first corner of a convex polygon is thin: where corners lie on its sides.
+fn has_thin_fan(polygon: &[DVec2]) -> bool {
+    let [from, others @ ..] = polygon else {
+        return false;
+    };
+    let mut fan = others.windows(2);
+    fan.any(|w| {
+        let (a, b) = (w[0] - from, w[1] - from);
+        a.perp_dot(b) < THIN * a.length_squared().max(b.length_squared())
+    })
 }
 
 struct Builder<'a> {
@@ -82,12 +109,21 @@ impl Builder<'_> {
         *known
     }
 
-    /// A vertex at a place within a render triangle.
-    fn corner(&mut self, t: u32, weights: [f64; 3]) -> u32 {
+    /// Triangles between the first corner of a convex polygon and its other sides.
+    fn fan(&mut self, t: u32, corners: &[u32]) {
+        for k in 2..corners.len() {
+            self.triangle(t, [corners[0], corners[k - 1], corners[k]]);
+        }
+    }
+
+    /// A vertex within a render triangle, at its weights of the second and third vertex; `place`: where it is, if that is known exactly.
+    fn corner(&mut self, t: u32, p: DVec2, place: Option<DVec3>) -> u32 {
+        let weights = [1.0 - p.x - p.y, p.x, p.y];
         let surface = self.surface;
         let triangle = surface.triangles[t as usize].map(|v| v as usize);
         let mean = |x: [DVec3; 3]| x[0] * weights[0] + x[1] * weights[1] + x[2] * weights[2];
-        let position = mean(triangle.map(|v| surface.positions[v].as_dvec3()));
+        let own = || mean(triangle.map(|v| surface.positions[v].as_dvec3()));
+        let position = place.unwrap_or_else(own);
         let flat = self.flat_normal(t);
         let smooth = mean(self.normals[t as usize].map(Vec3::as_dvec3));
         let normal = smooth.as_vec3().normalize_or(flat);

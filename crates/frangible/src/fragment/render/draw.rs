@@ -1,8 +1,12 @@
 //! What there is to draw of the fragments, made from what building them left.
 
-use glam::DVec3;
+use std::collections::HashMap;
 
-use super::Parts;
+use glam::{DVec3, Vec3};
+
+use super::assemble::Vertices;
+use super::seam::{Seam, close};
+use super::{Parts, number, sides};
 use crate::asset::RenderSurface;
 use crate::mesh::TetMesh;
 use crate::outcome::Fragment;
@@ -38,7 +42,7 @@ pub(crate) fn draw(
         faces,
         mut points,
     } = undrawn;
-    let shares = {
+    let mut shares = {
         // One more for what belongs to the neighbours of a piece.
         let count = faces.len() + 1;
         index.shares(surface, &prepared.surface, &parts, count, reach)
@@ -51,16 +55,46 @@ pub(crate) fn draw(
         let place = &mut points[v as usize - nodes];
         *place = index.drawn_to(*place, reach);
     }
+    let corners = index.edges.as_ref().map(|edges| {
+        let corners = number(surface, edges, &mut shares);
+        (edges, corners)
+    });
     let place = |v: u32| points[v as usize - nodes];
     let mut local = vec![u32::MAX; surface.positions.len()];
     for (fragment, &label) in fragments.iter_mut().zip(&labels) {
+        let (share, faces) = (&shares[label as usize], &faces[label as usize]);
         let normals = &fragment.mesh.normals[fragment.mesh.outer_triangles..];
-        let faces = faces[label as usize]
+        let seam = match &corners {
+            None => Seam::default(),
+            Some((edges, corners)) => {
+                // Looked up only, never iterated.
+                let flat = |face: &[u32; 3], n: &[Vec3; 3]| [0, 1, 2].map(|k| (face[k], n[k]));
+                let normal: HashMap<u32, Vec3> = faces
+                    .iter()
+                    .zip(normals)
+                    .flat_map(|(face, n)| flat(face, n))
+                    .collect();
+                close(
+                    sides(surface, edges, corners, share),
+                    |number| corners.place(number),
+                    faces,
+                    place,
+                    |point| normal[&point],
+                    f64::from(reach),
+                    edges.are_closed,
+                )
+            }
+        };
+        let place = |v: u32| seam.moved.get(&v).copied().unwrap_or_else(|| place(v));
+        let mut inner: Vertices = faces
             .iter()
             .zip(normals)
             .map(|(face, n)| [0, 1, 2].map(|k| (place(face[k]), n[k])))
             .collect();
-        let (share, centre) = (&shares[label as usize], fragment.mass.centre);
-        fragment.render = Some(index.assemble(surface, share, &faces, centre, &mut local));
+        inner.extend(&seam.triangles);
+        let centre = fragment.mass.centre;
+        let corners = corners.as_ref().map(|(_, corners)| corners);
+        let drawn = index.assemble(surface, share, corners, &inner, centre, &mut local);
+        fragment.render = Some(drawn);
     }
 }

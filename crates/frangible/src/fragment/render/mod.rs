@@ -1,13 +1,18 @@
 //! The author's surface divided among the fragments.
 //!
 //! The fracture mesh only approximates that surface, so the two do not meet exactly: the surface is divided by
-//! projecting the partition of the fracture mesh's boundary on it, and the rims of the crack faces are drawn to it.
+//! projecting the partition of the fracture mesh's boundary on it (`overlay.rs`), and the rims of the crack faces are drawn to it. Then
+//! the two are sewn together: corners on common borders become one (`conform.rs`), and what is open between the crack faces and the
+//! fragment's share of the surface is closed (`seam.rs`). Of a closed surface all fragments are closed.
 
 mod assemble;
+mod conform;
 mod draw;
+mod edges;
 mod overlay;
 mod parts;
 mod polygon;
+mod seam;
 #[cfg(test)]
 mod tests;
 
@@ -15,7 +20,9 @@ use glam::{DVec3, Vec3};
 
 use crate::asset::RenderSurface;
 use crate::mesh::TriangleTree;
+use conform::{Corner, Corners};
 pub(crate) use draw::{Undrawn, draw};
+use edges::Edges;
 use overlay::Overlay;
 pub(crate) use parts::{Part, Parts};
 use polygon::Polygon;
@@ -29,6 +36,8 @@ pub(crate) struct RenderIndex {
     home: Vec<u32>,
     /// Normals at the corners of each render triangle.
     normals: Vec<[Vec3; 3]>,
+    /// How its triangles hang together, if they face outwards.
+    edges: Option<Edges>,
 }
 
 /// What of the render surface belongs to a fragment.
@@ -38,6 +47,8 @@ pub(crate) struct Share {
     pub(super) whole: Vec<u32>,
     /// Parts of triangles, in barycentric coordinates.
     pub(super) pieces: Vec<(u32, Polygon)>,
+    /// Triangles and parts of them whose corners are numbered.
+    pub(super) numbered: Vec<(u32, Vec<Corner>)>,
 }
 
 impl RenderIndex {
@@ -54,6 +65,7 @@ impl RenderIndex {
             tree: TriangleTree::new(&surface.positions, &surface.triangles),
             normals: surface.corner_normals(),
             home: surface.triangles.iter().map(home).collect(),
+            edges: Edges::new(surface),
         }
     }
 
@@ -117,6 +129,77 @@ impl RenderIndex {
         }
         shares
     }
+}
+
+/// Numbers the corners of a surface's parts, and gives all triangles and parts the same ones along common borders.
+fn number<'a>(surface: &'a RenderSurface, edges: &'a Edges, shares: &mut [Share]) -> Corners<'a> {
+    let mut corners = Corners::new(surface, edges, shares);
+    let mut parts: Vec<(u32, usize, Polygon)> = Vec::new();
+    for (label, share) in shares.iter_mut().enumerate() {
+        let pieces = std::mem::take(&mut share.pieces);
+        parts.extend(pieces.into_iter().map(|(t, polygon)| (t, label, polygon)));
+    }
+    // Stable: the parts of a triangle stay in their order.
+    parts.sort_by_key(|part| part.0);
+    for parts in parts.chunk_by(|a, b| a.0 == b.0) {
+        let t = parts[0].0;
+        let polygons: Vec<_> = parts.iter().map(|part| &part.2[..]).collect();
+        for (part, corners) in parts.iter().zip(corners.conform(t, &polygons)) {
+            if !corners.is_empty() {
+                shares[part.1].numbered.push((t, corners));
+            }
+        }
+    }
+    let mut is_bordering = vec![false; surface.triangles.len()];
+    for t in corners.bordering() {
+        is_bordering[t as usize] = true;
+    }
+    for share in shares {
+        let Share {
+            whole, numbered, ..
+        } = share;
+        for &t in whole.iter().filter(|&&t| is_bordering[t as usize]) {
+            let polygon = (0..3).flat_map(|k| corners.along(t, k)).collect();
+            numbered.push((t, polygon));
+        }
+        whole.retain(|&t| !is_bordering[t as usize]);
+    }
+    corners
+}
+
+/// Sides of the parts of a share, between numbered corners, each the way its part has it: all but some that run both ways. Those on the
+/// border of a hole are all there, and marked.
+fn sides(
+    surface: &RenderSurface,
+    edges: &Edges,
+    corners: &Corners,
+    share: &Share,
+) -> Vec<([u32; 2], bool)> {
+    let mut is_whole = vec![false; surface.triangles.len()];
+    for &t in &share.whole {
+        is_whole[t as usize] = true;
+    }
+    let mut sides = Vec::new();
+    for &t in &share.whole {
+        for k in 0..3 {
+            let Some((edge, forward)) = edges.of_side(surface, 3 * t + k) else {
+                continue;
+            };
+            let mut around = edges.triangles_at(edge);
+            let is_open = edges.is_open(edge);
+            if is_open || around.any(|t| !is_whole[t as usize]) {
+                let [low, high] = edges.ends(edge);
+                sides.push((if forward { [low, high] } else { [high, low] }, is_open));
+            }
+        }
+    }
+    for (t, polygon) in &share.numbered {
+        for (i, (from, _)) in polygon.iter().enumerate() {
+            let ends = [*from, polygon[(i + 1) % polygon.len()].0];
+            sides.push((ends, corners.is_on_hole(*t, ends)));
+        }
+    }
+    sides
 }
 
 fn area_vector(part: &Part) -> DVec3 {

@@ -40,7 +40,14 @@ struct Shade {
 impl Overlay<'_> {
     /// Convex polygons with their labels that tile the triangle; one polygon when it belongs to one fragment.
     pub(super) fn divide(&self) -> Vec<(Polygon, u32)> {
-        let shades = self.shades();
+        let near = self.near();
+        let mut labels = near.iter().flat_map(|&t| self.parts.of(t)).map(|p| p.label);
+        if let Some(first) = labels.next()
+            && labels.all(|label| label == first)
+        {
+            return vec![(vec![DVec2::ZERO, DVec2::X, DVec2::Y], first)];
+        }
+        let shades = self.shades(&near);
         let all: Vec<u32> = (0..shades.len() as u32).collect();
         let whole = vec![DVec2::ZERO, DVec2::X, DVec2::Y];
         let mut divided = Vec::new();
@@ -48,19 +55,27 @@ impl Overlay<'_> {
         divided
     }
 
-    /// The parts near the triangle, projected, the closest first.
-    fn shades(&self) -> Vec<Shade> {
+    /// Boundary triangles under or over the triangle, rising, and some beside it.
+    fn near(&self) -> Vec<u32> {
+        let [a, b, c] = self.corners;
+        let normal = (b - a).cross(c - a).normalize_or_zero();
+        let up = self.reach * normal.abs();
+        let low = (a.min(b).min(c) - up).as_vec3();
+        let high = (a.max(b).max(c) + up).as_vec3();
+        let mut near = Vec::new();
+        self.boundary.in_box(low, high, |t| near.push(t));
+        near.sort_unstable();
+        near
+    }
+
+    /// The parts of some boundary triangles, projected, the closest first.
+    fn shades(&self, near: &[u32]) -> Vec<Shade> {
         let [a, b, c] = self.corners;
         let (u, v) = (b - a, c - a);
         let normal = u.cross(v);
         let square = normal.length_squared();
         let length = square.sqrt();
         let reach = self.reach;
-        let mut near = Vec::new();
-        let low = (a.min(b).min(c) - reach).as_vec3();
-        let high = (a.max(b).max(c) + reach).as_vec3();
-        self.boundary.in_box(low, high, |t| near.push(t));
-        near.sort_unstable();
         let mut shades: Vec<(f64, Shade)> = Vec::new();
         for part in near.iter().flat_map(|&t| self.parts.of(t)) {
             let [p, q, r] = part.corners;

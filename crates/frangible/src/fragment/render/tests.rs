@@ -1,5 +1,7 @@
 //! The render surface divided among the fragments of arbitrary labels.
 
+use std::collections::BTreeMap;
+
 use glam::Vec3;
 use rand_chacha::rand_core::Rng;
 
@@ -9,7 +11,7 @@ use crate::crack::Cuts;
 use crate::fragment::label::Labels;
 use crate::fragment::tests::block;
 use crate::fragment::{Built, build, draw};
-use crate::mesh::EDGES;
+use crate::mesh::{EDGES, RenderMesh};
 use crate::outcome::Fragment;
 use crate::rng::{Purpose, stream, uniform};
 use crate::{Breakable, FractureConfig};
@@ -167,6 +169,89 @@ fn check(surface: &RenderSurface, fragments: &[Fragment]) {
         "area {sum} of {whole} for {} triangles",
         surface.triangles.len()
     );
+}
+
+/// Sides that have no other one between the same places, by the places of their ends.
+fn open_sides(mesh: &RenderMesh) -> Vec<[Vec3; 2]> {
+    let place = |v: u32| mesh.positions[v as usize] + 0.0;
+    let bits = |p: Vec3| p.to_array().map(f32::to_bits);
+    let mut sides = BTreeMap::new();
+    for t in &mesh.triangles {
+        let corners = t.map(place);
+        for k in 0..3 {
+            let ends = [corners[k], corners[(k + 1) % 3]];
+            let [from, to] = ends.map(bits);
+            let side = sides.entry((from.min(to), from.max(to)));
+            side.or_insert((0, ends)).0 += from.cmp(&to) as i32;
+        }
+    }
+    let open = sides.into_values().filter(|side| side.0 != 0);
+    open.map(|side| side.1).collect()
+}
+
+#[test]
+fn fragments_of_a_closed_surface_are_closed() {
+    for grown in [0.0, -0.05, 0.05] {
+        for n in [1, 2, 7, 30] {
+            for (count, random) in [(2, false), (7, false), (4, true)] {
+                let surface = cube(n, grown);
+                let fragments = broken(&surface, count, random, u64::from(n));
+                check(&surface, &fragments);
+                let mut enclosed = 0.0;
+                for fragment in &fragments {
+                    let mesh = fragment.render.as_ref().unwrap();
+                    let open = open_sides(mesh).len();
+                    assert_eq!(open, 0, "{n}, {grown}, {count} labels");
+                    enclosed += volume(&mesh.positions, &mesh.triangles);
+                }
+                let whole = volume(&surface.positions, &surface.triangles);
+                let off = enclosed / whole - 1.0;
+                assert!(off.abs() < 2e-3, "{n}, {grown}, {count} labels: {off}");
+            }
+        }
+    }
+}
+
+#[test]
+fn holes_stay_holes_unless_a_crack_runs_through_them_and_nothing_else_is_open() {
+    const CELLS: u32 = 8;
+    for grown in [0.0, 0.05] {
+        let mut surface = cube(CELLS, grown);
+        // Four squares in the middle of the last side, which is the upper one along z.
+        let middle = EDGE * 0.5;
+        let is_hole = |p: Vec3| (p - middle).abs().truncate().max_element() < 0.14 * EDGE;
+        let kept: Vec<usize> = (0..surface.triangles.len())
+            .filter(|&t| {
+                let corners = surface.triangles[t].map(|v| surface.positions[v as usize]);
+                corners[0].z < middle || !corners.into_iter().all(is_hole)
+            })
+            .collect();
+        assert_eq!(surface.triangles.len() - kept.len(), 8);
+        surface.triangles = kept.iter().map(|&t| surface.triangles[t]).collect();
+        surface.material_of_triangle = kept
+            .iter()
+            .map(|&t| surface.material_of_triangle[t])
+            .collect();
+        for count in [2, 5, 9] {
+            let fragments = broken(&surface, count, false, 4);
+            let mut open = 0;
+            for fragment in &fragments {
+                for ends in open_sides(fragment.render.as_ref().unwrap()) {
+                    open += 1;
+                    for p in ends {
+                        let p = p + fragment.mass.centre.as_vec3();
+                        assert!(is_hole(p) && p.z > middle, "{p} is open, {count} labels");
+                    }
+                }
+            }
+            // Two labels leave the hole to one of them; of more, cracks run through it.
+            assert_eq!(
+                open,
+                if count == 2 { 8 } else { 0 },
+                "{grown}, {count} labels"
+            );
+        }
+    }
 }
 
 #[test]
