@@ -4,6 +4,7 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use crate::bevy;
+use crate::blender;
 use crate::book;
 use crate::check_output::check_output;
 use crate::command::{
@@ -14,6 +15,7 @@ use crate::fuzz::{USUAL_SECONDS, fuzz};
 use crate::green;
 use crate::packages::package_lists;
 use crate::python;
+use crate::semver::semver;
 use crate::web::{package, trial};
 
 /// Building cargo-deny takes three minutes of one core; a machine that needs longer than this is stuck.
@@ -125,6 +127,7 @@ const STEPS: &[Step] = &[
     step("docs", docs),
     step("licences", deny),
     step("packages", package_lists),
+    step("semver", || semver(None)),
     step("features", features),
     step("oldest rust", oldest_rust),
     step("main job", main_job),
@@ -144,6 +147,11 @@ const STEPS: &[Step] = &[
         name: "python",
         check: python::wheel,
         when: When::Changed(&python::PATHS),
+    },
+    Step {
+        name: "blender",
+        check: blender::blender,
+        when: When::Changed(&blender::PATHS),
     },
     Step {
         name: "bevy",

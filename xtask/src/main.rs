@@ -1,6 +1,7 @@
 //! The project's chores. `cargo xtask help` lists them.
 
 mod bevy;
+mod blender;
 mod book;
 mod check_output;
 mod ci;
@@ -13,6 +14,7 @@ mod green;
 mod outcomes;
 mod packages;
 mod python;
+mod semver;
 mod setup;
 mod test;
 mod web;
@@ -37,6 +39,8 @@ cargo xtask web-test          make it, and break scenes and a mesh in it with Ch
 cargo xtask web-bits          play scenes in the part of it that computes, in Node, and compare every bit with a run without it
 cargo xtask npm               make the npm package, install it in an empty project, and try it in Node and in Chromium
 cargo xtask python            make the wheel for Python, and try it in an environment of its own
+cargo xtask blender           try the extension with that wheel in Blender's Python, which is fetched, without a window
+cargo xtask semver [REV]      compare what the published crates offer with the last version, or with another commit
 cargo xtask bevy              lint and test the plugin for Bevy, in its own workspace
 cargo xtask bevy-drawn        lint its examples with a window, and compare their pictures
 cargo xtask bevy-web          make one of them as a page for browsers, target/web/bevy-page, and open it in Chromium, drawn by the processor
@@ -101,6 +105,9 @@ fn run(words: &[&str]) -> Result {
             )),
         },
         ["python"] => python::wheel().map(drop),
+        ["blender"] => blender::blender().map(drop),
+        ["semver"] => semver::semver(None).map(drop),
+        ["semver", revision] => semver::semver(Some(revision)).map(drop),
         ["bevy"] => bevy::bevy().map(drop),
         ["bevy-drawn"] => bevy::drawn().map(drop),
         ["bevy-web"] => web::bevy_page().map(drop),

@@ -133,7 +133,8 @@ pub(crate) fn wheel() -> Result<Vec<String>> {
     Ok(lines)
 }
 
-fn only_file(folder: &Path) -> Result<PathBuf> {
+/// The one file of a folder.
+pub(crate) fn only_file(folder: &Path) -> Result<PathBuf> {
     let unreadable = |error| format!("`{}` cannot be read: {error}", folder.display());
     let entries = std::fs::read_dir(folder).map_err(unreadable)?;
     let files: Vec<PathBuf> = entries.filter_map(|e| Some(e.ok()?.path())).collect();
