@@ -8,9 +8,9 @@ use crate::{BreakableBody, Broke, CrackFaces, FragmentOf, OuterFaces};
 /// on the entity with [`Breakable`](crate::Breakable), and add a [`LooksPlugin`] for the same component.
 #[derive(Component, Clone, Debug)]
 pub struct Looks<C: Component + Clone> {
-    /// For what was the body's surface.
+    /// Look of what was the body's surface.
     pub outer: C,
-    /// For where it broke.
+    /// Look of the faces along which it broke.
     pub crack: C,
 }
 

@@ -5,7 +5,7 @@ use std::process::Command;
 use std::time::{Duration, Instant};
 
 use crate::command::{Result, output, root, run_keeping, shown, status_within, succeeds, target};
-use crate::python::{self, only_file};
+use crate::python::{self, only_file, program_in};
 
 /// What the extension is made of, and the wheel in it.
 pub(crate) const PATHS: [&str; 13] = [
@@ -39,7 +39,7 @@ pub(crate) fn blender() -> Result<Vec<String>> {
         return skipped("Blender 4.5 as a module needs Python 3.11 with `venv`");
     };
     let folder = target().join("blender");
-    let python = folder.join("environment").join("bin").join("python");
+    let python = program_in(&folder.join("environment"), "python");
     if !python.exists() {
         let mut venv = Command::new(interpreter);
         venv.args(["-m", "venv"]).arg(folder.join("environment"));
@@ -49,10 +49,11 @@ pub(crate) fn blender() -> Result<Vec<String>> {
         let mut pip = Command::new(&python);
         pip.args(["-m", "pip", "install", "--quiet"]);
         pip.arg("--disable-pip-version-check").args(words);
-        println!("$ {}", shown(&pip));
         pip
     };
-    match status_within(&mut pip(&TOOLS), left())? {
+    let mut fetch = pip(&TOOLS);
+    println!("$ {}", shown(&fetch));
+    match status_within(&mut fetch, left())? {
         Some(status) if status.success() => {}
         _ => return skipped("its module cannot be installed here"),
     }

@@ -75,7 +75,7 @@ pub(crate) fn wheel() -> Result<Vec<String>> {
         lint.current_dir(&from).env("CARGO_TARGET_DIR", &target);
         within(&mut lint)?;
     }
-    let program = |name: &str| environment.join("bin").join(name);
+    let program = |name: &str| program_in(&environment, name);
     if !program("python").exists() {
         within(
             Command::new(interpreter)
@@ -125,12 +125,22 @@ pub(crate) fn wheel() -> Result<Vec<String>> {
     tests.arg(from.join("tests")).current_dir(&folder);
     println!("$ {}", shown(&tests));
     let mut lines = run_keeping(&mut tests, |line| line.contains(" passed"))?;
-    lines.extend(book::wheel(&environment.join("bin"))?);
+    lines.extend(book::wheel(&programs_in(&environment))?);
     let size = std::fs::metadata(&wheel).map_or(0, |data| data.len());
     let name = wheel.file_name().unwrap_or_default().to_string_lossy();
     lines.insert(0, format!("python: {name} has {:.1} MB", size as f64 / 1e6));
     println!("{}", lines[0]);
     Ok(lines)
+}
+
+/// The folder of an environment that has its programs.
+fn programs_in(environment: &Path) -> PathBuf {
+    environment.join(if cfg!(windows) { "Scripts" } else { "bin" })
+}
+
+/// A program of an environment.
+pub(crate) fn program_in(environment: &Path, name: &str) -> PathBuf {
+    programs_in(environment).join(format!("{name}{}", std::env::consts::EXE_SUFFIX))
 }
 
 /// The one file of a folder.

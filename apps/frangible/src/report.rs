@@ -351,7 +351,7 @@ impl BodyReport {
 }
 
 impl Report {
-    /// As a short table.
+    /// The report as a short table.
     pub(crate) fn table(&self) -> String {
         let mut t = String::new();
         let mut row = |name: &str, value: String| {

@@ -38,6 +38,28 @@ impl Impact {
     }
 }
 
+impl Impact {
+    /// When and where cracks start, or go on that were there before, in this order, and how many tetrahedra each cuts.
+    fn starts<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
+        let (mesh, origin) = (&self.body.asset().fracture, self.body.origin());
+        let cracks = self.fracture.report.arrivals.iter();
+        let mut starts: Vec<(f64, u32, usize)> = cracks
+            .filter_map(|cuts| cuts.first().map(|&(tet, time)| (time, tet, cuts.len())))
+            .collect();
+        starts.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        let start = |(time, tet, cuts): (f64, u32, usize)| -> PyResult<Bound<'py, PyDict>> {
+            let dict = PyDict::new(py);
+            let point = mesh.centroid(tet as usize).as_dvec3() - origin;
+            dict.set_item("time", time)?;
+            dict.set_item("point", numbers(py, point.to_array()))?;
+            dict.set_item("tetrahedra", cuts)?;
+            Ok(dict)
+        };
+        let starts: Vec<_> = starts.into_iter().map(start).collect::<PyResult<_>>()?;
+        PyList::new(py, starts)
+    }
+}
+
 #[pymethods]
 impl Impact {
     #[getter]
@@ -67,6 +89,7 @@ impl Impact {
         dict.set_item("first_crack_point", first)?;
         let contacts = report.contacts.iter().map(|c| contact(py, c));
         dict.set_item("contacts", contacts.collect::<PyResult<Vec<_>>>()?)?;
+        dict.set_item("starts", self.starts(py)?)?;
         Ok(dict)
     }
 

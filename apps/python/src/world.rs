@@ -28,7 +28,7 @@ struct Placed {
 }
 
 /// A world on the move.
-#[pyclass(unsendable, module = "frangible._frangible")]
+#[pyclass(module = "frangible._frangible")]
 pub(crate) struct LiveWorld {
     live: LiveScene,
     reel: Reel,
@@ -88,7 +88,7 @@ impl LiveWorld {
         while self.live.time() < end - 1e-9 {
             py.check_signals()?;
             let before = self.live.time();
-            self.live.step().map_err(refused)?;
+            py.detach(|| self.live.step()).map_err(refused)?;
             let broken = self.live.world().breaks().iter();
             pieces += broken.map(|b| b.fragments.len()).sum::<usize>();
             self.reel.note(&self.live, self.live.time() - before);
@@ -150,11 +150,19 @@ impl LiveWorld {
     }
 
     /// Writes what happened so far as a GLB with an animation.
-    fn export(&self, path: PathBuf, rate: f64, look_from: [f32; 3]) -> PyResult<()> {
-        let view = self.live.view(Vec3::from_array(look_from));
-        let seconds = self.reel.seconds();
-        let recording = self.reel.recording(&self.live, seconds, rate, view);
-        let bytes = write_glb(&recording).map_err(refused)?;
-        write_atomically(&path, &bytes).map_err(refused)
+    fn export(
+        &self,
+        py: Python<'_>,
+        path: PathBuf,
+        rate: f64,
+        look_from: [f32; 3],
+    ) -> PyResult<()> {
+        py.detach(|| {
+            let view = self.live.view(Vec3::from_array(look_from));
+            let seconds = self.reel.seconds();
+            let recording = self.reel.recording(&self.live, seconds, rate, view);
+            let bytes = write_glb(&recording).map_err(refused)?;
+            write_atomically(&path, &bytes).map_err(refused)
+        })
     }
 }

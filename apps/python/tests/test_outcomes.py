@@ -50,6 +50,16 @@ def test_the_report_says_where_the_energy_went(plate: fr.Body, blow: fr.Contact)
     assert contact["impulse"] == pytest.approx(total, rel=0.1)
 
 
+def test_the_report_says_in_which_order_cracks_start(plate: fr.Body, blow: fr.Contact) -> None:
+    report = plate.impact(blow, seed=1).report
+    starts = report["starts"]
+    assert len(starts) == report["cracks"] > 3
+    times = [start["time"] for start in starts]
+    assert times == sorted(times) and times[0] == report["first_crack_time"]
+    np.testing.assert_allclose(starts[0]["point"], report["first_crack_point"], atol=1e-6)
+    assert all(start["tetrahedra"] > 0 for start in starts)
+
+
 def test_momentum_stays_and_energy_does_not_rise(plate: fr.Body, blow: fr.Contact) -> None:
     outcome = plate.impact(blow, seed=1)
     ball = {"mass": 0.1, "position": [0, 0, 0.02], "linear": [0, 0, -10.0], "radius": 0.0145}

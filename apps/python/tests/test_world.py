@@ -8,6 +8,7 @@ import struct
 import subprocess
 import sys
 import time
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import frangible as fr
@@ -37,6 +38,20 @@ def test_a_body_falls_as_it_should_and_breaks(plate: fr.Body, tmp_path) -> None:
     world.export(tmp_path / "fall.glb")
     scene = gltf(tmp_path / "fall.glb")
     assert scene["animations"] and len(scene["nodes"]) > len(pieces)
+
+
+def test_another_thread_steps_a_world_while_this_one_goes_on(plate: fr.Body) -> None:
+    worlds = [fr.World(floor="stone", seed=2) for _ in range(2)]
+    for world in worlds:
+        world.add(plate, position=(0, 1.0, 0))
+    worlds[0].step(0.05)
+    with ThreadPoolExecutor(1) as pool:
+        there = pool.submit(worlds[0].step, 0.4)
+        worlds[1].step(0.05)
+        worlds[1].step(0.4)
+        there.result()
+    poses = [[thing.position.tolist() for thing in world.things] for world in worlds]
+    assert poses[0] == poses[1]
 
 
 def test_a_ball_can_be_thrown(plate: fr.Body) -> None:

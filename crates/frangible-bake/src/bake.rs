@@ -3,7 +3,7 @@
 //! A mesh that is too coarse is noticed: its volume is compared with that of the solid on a grid four times as fine, and the
 //! lattice is refined while more than 3 % is missing. Shells are meshed with one and a half cells per wall from the start.
 //!
-//! Of imported quadratic tetrahedra up to 20 000 carry their own modes; larger meshes are covered by a lattice like any solid.
+//! Imported quadratic tetrahedra, up to 20 000 of them, carry their own modes; larger meshes are covered by a lattice like any solid.
 
 use std::ops::ControlFlow;
 

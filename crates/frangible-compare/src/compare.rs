@@ -125,7 +125,7 @@ fn pieces_of_ours(hit: Hit<'_>, known: &[Broken]) -> Result<usize, CompareError>
     }
 }
 
-/// With what every method has to fill in.
+/// A result in which every method fills in what it knows.
 fn empty() -> Broken {
     Broken {
         method: Method::Ours,

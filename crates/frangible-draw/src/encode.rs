@@ -27,7 +27,7 @@ pub fn encode_png(picture: &RgbImage) -> Result<Vec<u8>, DrawError> {
 ///
 /// # Errors
 ///
-/// As [`encode_png`].
+/// What [`encode_png`] refuses.
 pub fn encode_png_within(picture: &RgbImage, most: usize) -> Result<Vec<u8>, DrawError> {
     let mut bytes = Vec::new();
     for step in STEPS {

@@ -160,7 +160,7 @@ impl Casting {
 }
 
 impl FloorShadow {
-    /// As [`Casting::begin`], to its end.
+    /// Casts a shadow from beginning to end, see [`Casting::begin`].
     pub(crate) fn cast(
         casters: &[Caster],
         floor_height: f32,

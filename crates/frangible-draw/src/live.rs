@@ -293,7 +293,7 @@ pub struct LiveCasting {
 }
 
 impl LiveCasting {
-    /// As [`LiveShadow::cast`].
+    /// Begins the shadow that [`LiveShadow::cast`] casts at once.
     #[must_use]
     pub fn begin(place: Place, casters: &[ShadowCaster<'_>], floor: &Floor, fine: bool) -> Self {
         let Place { units, key } = place;

@@ -34,7 +34,7 @@ const GAP: u32 = 4;
 ///
 /// # Errors
 ///
-/// As [`sheet_of_frames`].
+/// What [`sheet_of_frames`] refuses.
 pub fn contact_sheet(recording: &Recording, options: &SheetOptions) -> Result<RgbImage, DrawError> {
     let moments = recording.labelled_moments();
     let cells = moments.map(|(frame, label)| (recording, frame, label));

@@ -223,7 +223,7 @@ impl Studio {
 ///
 /// # Errors
 ///
-/// As [`Studio::new`] and [`Studio::frame`].
+/// What [`Studio::new`] and [`Studio::frame`] refuse.
 pub fn render_frame(
     recording: &Recording,
     frame: usize,

@@ -89,7 +89,7 @@ mod tests {
 
     use super::*;
 
-    /// As `amplitudes.wgsl` steps: every product and sum rounded to f32.
+    /// The amplitudes step by step, as `amplitudes.wgsl` computes them: every product and sum rounded to f32.
     fn stepped(response: &Response, modes: usize, pulse: &Pulse) -> Vec<f32> {
         let mut amplitudes = vec![0.0_f32; modes * pulse.total_steps];
         for mode in 0..modes {

@@ -84,7 +84,7 @@ impl Scene {
         })
     }
 
-    /// As [`Scene::validate`], with the place of the fault.
+    /// What [`Scene::validate`] checks, with the place of the fault.
     pub(crate) fn check(&self) -> Result<(), Fault> {
         file_name("name", "the scene's name", &self.name)?;
         for (key, what, count, least) in [

@@ -106,7 +106,7 @@ pub enum SceneError {
         /// How deep, mm.
         depth_mm: f32,
     },
-    /// As many baked bodies as the scene has are needed.
+    /// The number of baked bodies is not that of the scene's bodies.
     #[error("the scene has {wanted} bodies, but {given} baked ones were given; bake this scene")]
     BakedBodies {
         /// Bodies of the scene.

@@ -42,7 +42,7 @@ pub struct FirstBreak {
 /// None where nothing breaks.
 ///
 /// # Errors
-/// As [`play`](crate::play()).
+/// What [`play`](crate::play()) refuses.
 pub fn first_break(
     scene: &Scene,
     baked: &[BakedBody],

@@ -66,7 +66,7 @@ impl Head {
         points
     }
 
-    /// As a recorded mesh: every band its own vertices, so that edges are sharp, but for the smooth crown.
+    /// The hammer as a recorded mesh: every band its own vertices, so that edges are sharp, but for the smooth crown.
     pub(crate) fn mesh(&self, surface: usize) -> RecordedMesh {
         let mut mesh = RecordedMesh {
             name: "hammer".into(),

@@ -146,7 +146,7 @@ fn damped(asset: &Arc<Asset>, contact: Contact, config: &FractureConfig) -> [(f6
     })
 }
 
-/// As in the paper's Fig. 12.
+/// The trend of the paper's Fig. 12.
 #[test]
 fn a_glass_that_damps_high_frequencies_cracks_less() {
     let d = damped(glass(), rim_hit(20.0, 10.0), &FractureConfig::default());

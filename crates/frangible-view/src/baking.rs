@@ -89,7 +89,7 @@ pub(crate) fn scene_in(path: &std::path::Path) -> Result<Scene, SceneError> {
     })
 }
 
-/// As with a bake, which this build has not.
+/// Stands for the bake where this build has none: an error.
 #[cfg(not(feature = "bake"))]
 pub(crate) fn bake(scene: &Scene, _: &Teller) -> Result<Vec<BakedBody>, SceneError> {
     Err(SceneError::NoBake {

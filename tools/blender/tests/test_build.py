@@ -30,7 +30,7 @@ try:
     cube, settings = bpy.context.object, bpy.context.scene.frangible
     bpy.context.scene.cursor.location = (0.01, 0.01, 0.05)
     settings.tetrahedra, settings.modes, settings.motion = 3000, 40, "STILL"
-    settings.speed, settings.mass, settings.radius = 30, 2, 0.03
+    settings.speed, settings.mass, settings.radius = 60, 2, 0.03
     bpy.ops.frangible.break_object()
     print("pieces:", len(bpy.data.collections["Cube"].objects))
 except BaseException:

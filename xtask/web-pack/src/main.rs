@@ -83,7 +83,7 @@ fn weigh(file: &Path) -> Result<(), Box<dyn Error>> {
 /// Rounds of looking for a shorter way to say the same, for programs; more than a few gain nothing, and for the many bodies one will do.
 const ROUNDS: NonZeroU64 = NonZeroU64::new(3).expect("3 is not 0");
 
-/// As gzip, a twentieth smaller than gzip itself makes it; a minute for the program.
+/// Bytes that gzip unpacks, a twentieth smaller than gzip itself makes them; packing the program takes a minute.
 fn packed(bytes: &[u8], rounds: NonZeroU64) -> Result<Vec<u8>, Box<dyn Error>> {
     let options = zopfli::Options {
         iteration_count: rounds,

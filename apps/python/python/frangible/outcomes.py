@@ -76,7 +76,8 @@ class Outcome:
         report: Numbers of the blow, SI: ``peak_stress``, ``strength``, ``fracture_energy``, ``crack_area``, ``cracks``,
             ``first_crack_time``, ``first_crack_point``, ``approach_energy``, ``peak_strain_energy``, ``contact_duration``, ``time_step``,
             ``seconds``, and ``contacts``: of each ``impulse``, ``peak_force``, ``duration``, ``contact_radius``, ``departure_speed``,
-            ``crushing_energy``, ``crushed_volume`` and ``force`` at each time step.
+            ``crushing_energy``, ``crushed_volume`` and ``force`` at each time step. ``starts`` are the cracks in the order in which they start:
+            ``time``, s, ``point``, m, and how many ``tetrahedra`` each cuts.
     """
 
     def __init__(self, impact: Impact) -> None:

@@ -5,7 +5,7 @@
 //! deflated analytically, finds the lowest modes: λ = 1/θ − s. Everything runs in a fixed order, so
 //! the bits do not depend on the number of threads. Small systems are solved densely.
 //!
-//! Of a held body the unknowns that are zero are taken out, and only the rigid motions that its supports leave are
+//! The unknowns of a held body that are zero are taken out, and only the rigid motions that its supports leave are
 //! deflated: none of a clamped one.
 
 pub(crate) mod basis;

@@ -105,7 +105,7 @@ pub struct Row {
     pub paper: InModel,
     /// In the paper's model, two samples per period of the highest mode that matters: the limit that the paper names.
     pub two_samples: InModel,
-    /// In ours.
+    /// Our model.
     pub ours: InModel,
 }
 

@@ -69,7 +69,7 @@ impl Claim {
 pub struct Table {
     /// One per column.
     pub heading: Vec<String>,
-    /// As many cells each as there are columns.
+    /// Rows; each has one cell for each column.
     pub rows: Vec<Vec<String>>,
 }
 

@@ -70,7 +70,7 @@ pub fn fracture(
 /// Runs [`fracture`] until a first crack has run: what follows it may be another model's.
 ///
 /// # Errors
-/// As [`fracture`].
+/// What [`fracture`] refuses.
 pub fn first_crack(
     body: &Body,
     contacts: &[Contact],

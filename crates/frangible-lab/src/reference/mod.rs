@@ -3,7 +3,7 @@
 //!
 //! Everything in f64, one number at a time: at every step the displacements of all nodes, at every weak element the
 //! stress, no bound that spares a look. It shares no code with the pipeline, only plain input (the arrays of an asset,
-//! contacts, weak points), the noise function and the random generator.
+//! contacts, weak points), where its free surface is (`Skin`), the noise function and the random generator.
 //!
 //! | `[G12]` | here |
 //! |---|---|

@@ -1,6 +1,6 @@
 //! Modal deformation: the damped wave under the contact's force, analytically `[G12 §4.3, §4.4]`.
 //!
-//! Of `q̈ + d q̇ + λ q = sin(u t)` from rest: the forced motion `Im(X e^{iut})`, `X = 1/(λ − u² + i d u)`, and the
+//! The solution of `q̈ + d q̇ + λ q = sin(u t)` from rest: the forced motion `Im(X e^{iut})`, `X = 1/(λ − u² + i d u)`, and the
 //! free one `c₁ e^{ω₁ t} + c₂ e^{ω₂ t}` with the paper's complex ω that makes it start from rest.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};

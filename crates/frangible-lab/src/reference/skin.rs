@@ -95,7 +95,7 @@ fn largest_free_face(solid: &Solid, e: usize) -> Option<(u32, DVec3)> {
     best
 }
 
-/// In the frame of the surface: the strain across it is what leaves no traction.
+/// Stress at a free surface of this normal: the strain across it is what leaves no traction.
 fn free_of_one(material: &Material, strain: &Matrix, n: DVec3) -> (Matrix, f64) {
     let nu = material.poisson_ratio;
     let frame = frame(n, n.any_orthonormal_vector());
@@ -107,7 +107,7 @@ fn free_of_one(material: &Material, strain: &Matrix, n: DVec3) -> (Matrix, f64) 
     back(material, &local, frame)
 }
 
-/// In the frame of an edge between two free surfaces of these normals.
+/// Stress at an edge between two free surfaces of these normals, where only the tension along it is left.
 fn free_of_two(material: &Material, strain: &Matrix, n: DVec3, m: DVec3) -> (Matrix, f64) {
     let frame = frame(n.cross(m).normalize(), n);
     let along = turned(strain, frame)[2][2];

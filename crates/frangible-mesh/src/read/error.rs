@@ -50,6 +50,14 @@ pub enum ReadError {
         /// What is wrong there.
         problem: String,
     },
+    /// A film of a break, which this project wrote.
+    #[error(
+        "the file shows a break and holds {pieces} of its pieces; give the mesh that broke, or one of the pieces as a file of its own"
+    )]
+    Pieces {
+        /// Pieces in it.
+        pieces: usize,
+    },
     /// The format allows it, this reader does not know it.
     #[error("the file needs {0}, which is not supported; export it without")]
     Unsupported(String),

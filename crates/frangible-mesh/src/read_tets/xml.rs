@@ -1,4 +1,4 @@
-//! As much XML as VTK writes: tags with attributes, and text between them.
+//! The part of XML that VTK writes: tags with attributes, and text between them.
 
 use crate::read::ReadError;
 

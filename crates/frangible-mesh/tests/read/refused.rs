@@ -146,6 +146,22 @@ fn damaged_files_say_what_is_wrong_where() {
 }
 
 #[test]
+fn a_film_of_a_break_is_no_body() {
+    let named = |generator: &str, name: &str| {
+        let asset = format!(r#"{{"version":"2.0","generator":"{generator}"}}"#);
+        let sound = gltf(ONE_NODE, "").replace(r#"{"version":"2.0"}"#, &asset);
+        let name = format!(r#""meshes":[{{"name":"{name}","#);
+        glb(&sound.replace(r#""meshes":[{"#, &name))
+    };
+    let film = named("Frangible 0.1.0", "glass piece 1");
+    assert!(message(MeshFormat::Gltf, film).contains("holds 1 of its pieces"));
+    for (generator, name) in [("Blender", "glass piece 1"), ("Frangible 0.1.0", "glass")] {
+        let mesh = read(MeshFormat::Gltf, named(generator, name));
+        assert_eq!(mesh.triangles.len(), 4);
+    }
+}
+
+#[test]
 fn damaged_gltf_says_what_is_wrong_where() {
     let sound = gltf(ONE_NODE, "");
     for (from, to, expected) in [

@@ -65,7 +65,7 @@ impl<'de> Deserialize<'de> for AxisTable {
     }
 }
 
-/// As many values as asked for, neither fewer nor more.
+/// Reads N values, neither fewer nor more.
 fn exactly<'de, A: SeqAccess<'de>, T: Deserialize<'de> + Copy + Default, const N: usize>(
     mut seq: A,
     expected: &dyn Expected,

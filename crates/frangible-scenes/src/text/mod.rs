@@ -30,7 +30,7 @@ pub fn parse_scene(text: &str, folder: &Path) -> Result<Scene, SceneError> {
     parse_named(text, folder, "scene", "scene")
 }
 
-/// As [`parse_scene`], with a name for the file in messages, and for a scene that has none.
+/// Reads what [`parse_scene`] reads, with a name for the file in messages, and for a scene that has none.
 pub(crate) fn parse_named(
     text: &str,
     folder: &Path,

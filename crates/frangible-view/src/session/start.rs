@@ -108,7 +108,7 @@ impl Session {
         }
     }
 
-    /// As if nothing had been thrown yet.
+    /// Forgets all that has been thrown.
     pub(super) fn forget_contacts(&mut self) {
         self.recent = None;
         self.undo.clear();

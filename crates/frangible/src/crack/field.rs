@@ -117,7 +117,7 @@ impl<'a> StressField<'a> {
         })
     }
 
-    /// The same where a crack may start in it, at all steps of the batch: at its [`weak_place`].
+    /// Stress and energy where a crack may start in fracture tetrahedron `e`, its [`weak_place`], at all steps of the batch.
     #[inline(always)]
     pub(crate) fn at_weak_point(&mut self, e: usize) -> StressLanes {
         let weak = weak_place(self.asset, self.skin, self.config, self.pressed, e);

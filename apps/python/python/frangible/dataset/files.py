@@ -44,6 +44,8 @@ def write_break(out: Path, plan: Plan, body: Body, outcome: Outcome, words: dict
     name, k = words["object"], words["break"]
     folder, meta = folder_of(out, plan, name, k), meta_of(out, plan, name, k)
     part = out / "parts" / f"{name}-{k}-{os.getpid()}"
+    # A run that was killed may have had the number of this process.
+    shutil.rmtree(part, ignore_errors=True)
     part.mkdir(parents=True)
     (part / "pieces").mkdir()
     try:
@@ -59,6 +61,7 @@ def write_break(out: Path, plan: Plan, body: Body, outcome: Outcome, words: dict
         about = {**words, "sha256": hashes, "pieces": [_about(f) for f in outcome.fragments], "touching": touching(outcome.fragments)}
         numbers = {key: value for key, value in outcome.report.items() if isinstance(value, int | float) and key != "seconds"}
         about |= {"report": numbers, "frequencies": [float(f) for f in body.frequencies], "mass": body.mass}
+        about |= {"cracks": [{**start, "point": [float(x) for x in start["point"]]} for start in outcome.report["starts"]]}
         about |= {"mesh_scale": body.scale, "mesh_offset": [float(x) for x in body.offset]}
         (part / "about.json").write_text(json.dumps(about, indent=1, sort_keys=True))
         for place in (folder, meta):

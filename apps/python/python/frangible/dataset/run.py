@@ -86,7 +86,7 @@ def make(
             else:
                 summary.failed.append(row)
         if not quiet:
-            _tell(done, len(todo) * plan.breaks, time.monotonic() - begin)
+            _tell(done, len(todo) * plan.breaks, (time.monotonic() - begin) / max(done - summary.there, 1))
     if not quiet:
         print(file=sys.stderr)
     manifest.settle(names)
@@ -94,8 +94,9 @@ def make(
     return summary
 
 
-def _tell(done: int, all_of_them: int, passed: float) -> None:
-    left = passed / max(done, 1) * (all_of_them - done)
+def _tell(done: int, all_of_them: int, each: float) -> None:
+    """Says how many breaks there are and how long the others take, each this long, s."""
+    left = each * (all_of_them - done)
     print(f"\r{done} of {all_of_them} breaks, {left / 60:.0f} min left ", end="", file=sys.stderr, flush=True)
 
 

@@ -81,7 +81,7 @@ impl Model {
             .flat_map(|(_, mesh)| mesh.positions.iter().copied())
     }
 
-    /// As a recording, turned.
+    /// The model as a recording, turned.
     pub(crate) fn recording(&self, rotation: Quat) -> Recording {
         let mut recording = Recording {
             frame_rate: 60.0,

@@ -63,10 +63,24 @@ pub(crate) fn parse(bytes: &[u8], folder: Option<&Path>) -> Result<InputMesh, Re
             triangles: triangles.clone(),
         }));
     }
+    let pieces = pieces(&root);
+    if pieces > 0 {
+        return Err(ReadError::Pieces { pieces });
+    }
     let mut mesh = meshes.mesh;
     mesh.groups = groups;
     mesh.materials = root.materials.iter().map(material).collect();
     Ok(mesh)
+}
+
+/// How many pieces of bodies a film of this project shows: they overlap where the body was whole, and are no body together.
+fn pieces(root: &Root) -> usize {
+    let generator = root.asset.generator.as_deref().unwrap_or_default();
+    if !generator.starts_with("Frangible ") {
+        return 0;
+    }
+    let names = root.meshes.iter().filter_map(|mesh| mesh.name.as_deref());
+    names.filter(|name| name.contains(" piece ")).count()
 }
 
 /// The JSON and binary chunks of a GLB.

@@ -164,7 +164,7 @@ impl CompareReport {
         text
     }
 
-    /// As Markdown, without a heading.
+    /// The report as Markdown, without a heading.
     pub(crate) fn markdown(&self) -> String {
         let rows: Vec<Vec<String>> = self.methods.iter().map(|m| m.cells().into()).collect();
         table(&HEADINGS, &rows)
