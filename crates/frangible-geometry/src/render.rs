@@ -6,9 +6,11 @@ use glam::Vec3;
 /// surface and its crack faces, m, fragment frame.
 ///
 /// A mesh for the eye, and no input to physics. Where the author's surface is closed and faces outwards, so is each piece, once vertices at
-/// one place are one: all sides meet corner to corner. Thin triangles close what lies between the author's surface and the crack faces;
-/// they come last. A hole that the author left stays one, unless a crack runs through it: then the piece's crack faces are sewn to
-/// the border of the hole. Pieces of a surface that faces inwards stay open along their cracks.
+/// one place are one: each side has one that runs the other way. Thin triangles close what lies between the author's surface and the crack
+/// faces; they come last. Where one lies on a drawn triangle the two face each other, and an edge may have four triangles.
+///
+/// A hole that the author left stays one, unless a crack runs through it: then the piece's crack faces are sewn to the border of the hole.
+/// Pieces of a surface that faces inwards stay open along their cracks.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RenderMesh {
     /// Vertex positions, m, fragment frame.
