@@ -3,6 +3,7 @@
 import hashlib
 import json
 import os
+import shlex
 import shutil
 import signal
 import subprocess
@@ -131,8 +132,7 @@ def test_a_mesh_that_has_changed_is_broken_anew(tmp_path) -> None:
 
 def test_a_run_that_is_killed_loses_nothing(made, meshes, tmp_path) -> None:
     out, _ = made
-    words = [sys.executable, "-m", "frangible", "dataset", *map(str, meshes), "-o", str(tmp_path), "--material", "glass", "--material", "concrete"]
-    words += ["--breaks", "3", "--tetrahedra", "1500", "--pieces", "2-40", "--quiet"]
+    words = words_of(meshes, tmp_path)
     plan = replace(PLAN, modes=dataset.Plan().modes, val_share=dataset.Plan().val_share)
     kills = int(os.environ.get("FRANGIBLE_KILLS", "3"))
     moments = np.random.default_rng(1).uniform(0.8, 2.6, kills)
@@ -157,6 +157,33 @@ def test_a_run_that_is_killed_loses_nothing(made, meshes, tmp_path) -> None:
     dataset.make(meshes, fresh, plan, quiet=True)
     killed = {name: content for name, content in files(tmp_path).items() if not name.startswith(("fresh", "parts"))}
     assert killed == files(fresh)
+
+
+def words_of(meshes: list[Path], out: Path) -> list[str]:
+    words = [sys.executable, "-m", "frangible", "dataset", *map(str, meshes), "-o", str(out), "--material", "glass", "--material", "concrete"]
+    return [*words, "--breaks", "3", "--tetrahedra", "1500", "--pieces", "2-40", "--quiet"]
+
+
+def test_two_runs_into_one_folder_make_what_one_makes(meshes, tmp_path) -> None:
+    both, one = tmp_path / "both", tmp_path / "one"
+    runs = [subprocess.Popen(words_of(meshes, both), stderr=subprocess.PIPE) for _ in range(2)]
+    assert [(run.wait(), run.stderr.read()) for run in runs] == [(0, b"")] * 2
+    subprocess.run(words_of(meshes, one), check=True, capture_output=True)
+    assert {n: c for n, c in files(both).items() if not n.startswith("parts")} == files(one)
+
+
+def test_a_full_disk_is_named_and_the_same_call_goes_on(meshes, tmp_path) -> None:
+    full, one = tmp_path / "full", tmp_path / "one"
+    words = words_of(meshes, full)
+    limited = f"ulimit -f 8; exec {shlex.join(words)}"
+    run = subprocess.run(["sh", "-c", limited], capture_output=True, text=True, check=False)
+    assert run.returncode == 1, run.stderr
+    message = run.stderr.strip().splitlines()
+    assert len(message) == 1 and "the same call goes on" in message[0] and str(full) in message[0], run.stderr
+    assert not list(full.glob("breaking_bad/*/*/*")) and not list(full.glob("meta/*/*/*.json"))
+    subprocess.run(words, check=True, capture_output=True)
+    subprocess.run(words_of(meshes, one), check=True, capture_output=True)
+    assert files(full) == files(one)
 
 
 def test_the_manifest_mends_itself(made, meshes) -> None:

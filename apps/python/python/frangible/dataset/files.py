@@ -73,6 +73,9 @@ def write_break(out: Path, plan: Plan, body: Body, outcome: Outcome, words: dict
         os.replace(part / "arrays.npz", meta.with_suffix(".npz"))
         os.replace(part / "about.json", meta.with_suffix(".json"))
         return about
+    except OSError as error:
+        # Of a full disk the system does not say where it is.
+        raise OSError(error.errno, f"{error.strerror}; what was made stays, and the same call goes on", error.filename or str(part)) from error
     finally:
         shutil.rmtree(part, ignore_errors=True)
 
