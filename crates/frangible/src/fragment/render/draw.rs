@@ -24,7 +24,7 @@ pub(crate) struct Undrawn {
     pub(crate) points: Vec<DVec3>,
 }
 
-/// Gives each fragment its share of the render surface and its crack faces, the rims of these drawn to that surface.
+/// Gives each fragment its share of the render surface and its crack faces, sewn to that share where the surface faces outwards.
 pub(crate) fn draw(
     surface: &RenderSurface,
     mesh: &TetMesh,
