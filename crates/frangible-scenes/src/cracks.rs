@@ -34,7 +34,7 @@ pub(crate) fn with_cracks(
 ) -> Option<RecordedMesh> {
     let centre = asset.mass.centre.as_vec3();
     let mut triangles = Vec::new();
-    for (corners, count) in state.new_faces(asset) {
+    for (corners, count) in state.new_faces(&asset.fracture) {
         for k in 2..count {
             triangles.push([corners[0], corners[k - 1], corners[k]].map(|p| p - centre));
         }

@@ -3,7 +3,7 @@
 //! Everything comes from the asset when it is made ready to sound, so that files grow by nothing and bakes take no longer.
 
 use frangible::Asset;
-use frangible::internals::contact::each_row;
+use frangible::internals::asset::each_row;
 use glam::{DVec3, Vec3};
 
 use crate::body::{Body, Mode};

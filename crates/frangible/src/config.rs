@@ -2,7 +2,6 @@
 
 use crate::error::InputError;
 use crate::material::OutOfRange;
-use crate::near_field::PlateTheory;
 
 /// How an impact is turned into cracks. `Default` is our model; [`FractureConfig::as_in_the_paper`] is the paper's.
 #[derive(Clone, Debug, PartialEq)]
@@ -54,6 +53,16 @@ pub struct FractureConfig {
     pub ends_inside: bool,
     /// Pieces smaller than this share of the body's volume stay with the neighbour they share most area with. Default 2e-4.
     pub crumb_share: f64,
+}
+
+/// What waves short against the wall's thickness are taken to do.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum PlateTheory {
+    /// Thin plates: no shear, stress linear through the wall. For comparison with closed forms.
+    Kirchhoff,
+    /// Mindlin's frequencies, and the stress of an elastic layer's far face.
+    #[default]
+    Layer,
 }
 
 /// Contact duration models, theory in `contact/duration.rs`.

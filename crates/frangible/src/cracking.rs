@@ -7,11 +7,11 @@ use crate::body::Body;
 use crate::config::FractureConfig;
 use crate::crack::{CrackSystem, Peak, StressField, Suspects, crack};
 use crate::fragment::{self, Bearing, Labels};
-use crate::modal::Motion;
+use crate::motion::{DisplacementBatch, Motion};
 use crate::outcome::{ImpactReport, LookedAt};
 use crate::refuse::Culling;
 use crate::state::BodyState;
-use crate::stress::{BATCH, DisplacementBatch, STRIDE, lane};
+use crate::stress::{BATCH, STRIDE, lane};
 use crate::trace::CrackTrace;
 
 /// Time steps between two looks whether cracks have weakened what bears a contact.

@@ -11,10 +11,9 @@ use crate::config::{DurationModel, FractureConfig};
 use crate::contact::{self, Contact, Load, Pulse};
 use crate::cracking::{Cracked, Cracking};
 use crate::error::InputError;
-use crate::fragment::{self, Built};
-use crate::modal::{self, Motion};
+use crate::fragment::{self, Breakup, Built};
+use crate::motion::{self, Motion};
 use crate::outcome::{Fracture, ImpactReport, LookedAt, Outcome};
-use crate::piece::Breakup;
 use crate::refuse;
 use crate::trace::CrackTrace;
 
@@ -122,7 +121,7 @@ impl Vibration {
             return blow.motion.clone();
         }
         let asset = &*body.asset;
-        modal::respond(
+        motion::respond(
             &asset.modes,
             &asset.material,
             &self.modal_impulse,

@@ -60,6 +60,7 @@ pub mod mesh {
 /// The modes and how they move.
 pub mod modal {
     pub use crate::modal::*;
+    pub use crate::motion::{Motion, respond};
 }
 
 /// What the modes leave out of the motion near a contact.
@@ -89,13 +90,14 @@ pub mod state {
 
 /// Stresses at weak points.
 pub mod stress {
-    pub use crate::refuse::StressBounds;
+    pub use crate::asset::StressBounds;
+    pub use crate::motion::DisplacementBatch;
     pub use crate::stress::*;
 }
 
 pub use crate::asset::AssetFileError;
 pub use crate::config::{CrackPath, CrackTiming, DurationModel};
-pub use crate::crack::{CrackFront, ShownStress};
+pub use crate::crack::ShownStress;
 pub use crate::fields::{Factors, Fields};
 #[doc(hidden)]
 pub use crate::fragment::{CutEdge, interfaces_of_labels, pieces_of_cuts};
@@ -106,5 +108,6 @@ pub use crate::outcome::{LookedAt, StageTimings};
 pub use crate::piece::{Elastic, PieceModel, Portion};
 pub use crate::refuse::{is_harmless, rest_margin_at_least};
 pub use crate::state::BodyState;
+pub use crate::tips::CrackFront;
 pub use crate::trace::{CrackTrace, ElementTrace};
 pub use frangible_material::{Preset, UnknownMaterial};

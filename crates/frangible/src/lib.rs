@@ -19,6 +19,7 @@
 mod asset;
 mod blow;
 mod body;
+mod bounds;
 mod config;
 mod contact;
 mod crack;
@@ -30,17 +31,17 @@ mod impact;
 pub mod internals;
 mod loads;
 mod modal;
+mod motion;
 mod near_field;
 mod outcome;
 mod piece;
-mod prepared;
 mod refuse;
 mod rigid;
 mod rng;
 mod state;
 mod stress;
+mod tips;
 mod trace;
-mod weak_rows;
 
 use frangible_geometry as mesh;
 use frangible_material as material;

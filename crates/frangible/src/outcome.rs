@@ -4,9 +4,11 @@ use std::sync::Arc;
 
 use glam::Vec3;
 
-use crate::mesh::{MassProperties, RenderMesh, TriMesh};
-use crate::piece::Breakup;
+use crate::fragment::Breakup;
 use crate::state::BodyState;
+
+pub use crate::contact::ContactReport;
+pub use crate::fragment::Fragment;
 
 /// What an impact did to a body.
 #[derive(Clone, Debug)]
@@ -62,58 +64,6 @@ impl Fracture {
             breakup: None,
         }
     }
-}
-
-/// One piece of a broken body.
-#[derive(Clone, Debug)]
-pub struct Fragment {
-    /// Closed surface, m, in the **fragment frame**: origin at the piece's centre of mass, axes of the parent's body frame.
-    pub mesh: TriMesh,
-    /// Which fragment is on the other side of each crack face, `mesh.triangles[outer_triangles..]`: its place in
-    /// [`Fracture::fragments`], where it has the same face turned round; [`Fragment::PARTED`] where an earlier break took it away.
-    pub neighbours: Vec<u32>,
-    /// What to draw instead of `mesh` where the asset has the [surface its author drew](crate::Asset::render).
-    pub render: Option<RenderMesh>,
-    /// Mass properties; `centre` is in the **parent's body frame**.
-    pub mass: MassProperties,
-    /// The piece's share of the parent's convex cells: cell number and the corner points of the share, m, fragment frame.
-    pub cell_shares: Vec<(u32, Vec<Vec3>)>,
-    /// Whether it has one of the [supported nodes](crate::Asset::supported): something outside still holds it.
-    pub supported: bool,
-}
-
-impl Fragment {
-    /// What a crack face of an earlier break has in [`Fragment::neighbours`]: what was there is no fragment of this break.
-    pub const PARTED: u32 = u32::MAX;
-}
-
-/// What became of one contact of a blow that was integrated: an outcome, not an input.
-#[derive(Clone, Debug, Default, PartialEq)]
-#[non_exhaustive]
-pub struct ContactReport {
-    /// Where, m, body frame: on the surface.
-    pub point: Vec3,
-    /// Unit direction of the force on this body.
-    pub normal: Vec3,
-    /// Impulse along the normal until the contact parted, or the wall or the piece under it was cut free, N·s.
-    pub impulse: f64,
-    /// Speed of approach, m/s; 0 of a script.
-    pub approach_speed: f64,
-    /// Largest force, N.
-    pub peak_force: f64,
-    /// How long the contact lasted, s.
-    pub duration: f64,
-    /// Radius of the disc that touched at the peak force, m.
-    pub contact_radius: f64,
-    /// Speed at which the striker leaves the body as a rigid one, m/s; negative where it goes on into it. Over the speed of
-    /// approach it is the coefficient of restitution.
-    pub departure_speed: f64,
-    /// Energy that went into crushing the weaker of the two bodies where they touched, J.
-    pub crushing_energy: f64,
-    /// Volume that was crushed, m³: that energy over the pressure that crushes.
-    pub crushed_volume: f64,
-    /// Force at the end of each [time step](ImpactReport::time_step), N. It is linear between them, and ends with the last.
-    pub force: Vec<f32>,
 }
 
 /// What of an impact had to be looked at, from the cheapest.

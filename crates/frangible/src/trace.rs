@@ -1,7 +1,7 @@
 //! What the cracks of one impact did, element by element: a by-product for tests, off the way of [`crate::impact()`].
 
 use crate::crack::CrackSystem;
-use crate::modal::Motion;
+use crate::motion::Motion;
 
 /// What the cracks of one impact did.
 #[derive(Clone, Debug, Default)]

@@ -41,7 +41,7 @@ fn faster(contact: Contact, factor: f32) -> Contact {
 fn more_hits_finish_the_break() {
     let config = FractureConfig::default();
     let (mut body, contact) = cracked(&config);
-    let mut cuts = body.state().faces(body.asset()).count();
+    let mut cuts = body.state().faces(&body.asset().fracture).count();
     for blow in 1..=40 {
         let outcome = strike(
             &mut body,
@@ -51,7 +51,7 @@ fn more_hits_finish_the_break() {
         if pieces(&outcome) > 1 {
             return;
         }
-        let now = body.state().faces(body.asset()).count();
+        let now = body.state().faces(&body.asset().fracture).count();
         assert!(now >= cuts, "cracks have healed");
         cuts = now;
     }

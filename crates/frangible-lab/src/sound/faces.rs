@@ -73,7 +73,7 @@ impl Faces {
             stiffness: Vec::new(),
             friction,
         };
-        let polygons = state.faces(portion.root());
+        let polygons = state.faces(&portion.root().fracture);
         for (cut, (corners, count)) in state.cuts().zip(polygons) {
             let nodes = fracture.tets[cut.tet as usize];
             let mut shares = [0.0_f32; 4];

@@ -1,8 +1,8 @@
 //! Half precision (IEEE 754 binary16) for mode shapes.
 
 use super::Asset;
+use crate::asset::StressBounds;
 use crate::modal::ModalBasis;
-use crate::refuse::StressBounds;
 
 /// A number of half precision, by its bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

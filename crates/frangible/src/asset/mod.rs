@@ -1,8 +1,10 @@
 //! What a bake produces and the run time needs: one immutable value per kind of object.
 
+mod bounds;
 mod embedding;
 mod file;
 mod half;
+mod portion;
 mod render;
 mod rescale;
 mod validate;
@@ -14,13 +16,17 @@ use glam::Vec3;
 use crate::material::Material;
 use crate::mesh::{MassProperties, TetMesh};
 use crate::modal::ModalBasis;
-use crate::piece::Portion;
-use crate::refuse::StressBounds;
 
+pub use bounds::StressBounds;
+pub(crate) use embedding::carriers;
+#[doc(hidden)]
+pub use embedding::each_row;
 pub use embedding::{EmbeddedPoint, Embedding};
 #[doc(hidden)]
 pub use file::seal;
 pub use file::{AssetFileError, FORMAT_VERSION, SaveOptions};
+pub use portion::Portion;
+pub(crate) use portion::{FOREIGN, FixedPoints, NOBODY, Trace};
 pub use render::{RenderMaterial, RenderSurface};
 pub use rescale::{RescaleError, SMALLEST_CURVATURE_RADIUS, scaled, with_material};
 pub(crate) use validate::{analysis, embedded, modes};
@@ -122,15 +128,6 @@ impl Asset {
             None => self.fracture.tets.len(),
         };
         (0..all).chain(of_piece.map(|t| t as usize))
-    }
-
-    /// The asset with its stress bounds and the peak stress of its modes found anew, as the bake does: for one whose
-    /// mode shapes were changed.
-    #[must_use]
-    pub fn restressed(mut self) -> Self {
-        self.bounds = StressBounds::of(&self);
-        self.modes.peak_stress = self.bounds.root(self.modes.count()).0;
-        self
     }
 }
 

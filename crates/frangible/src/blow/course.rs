@@ -4,20 +4,17 @@ use std::f64::consts::PI;
 
 use glam::Vec3;
 
-use super::Complement;
-use super::complement::Residual;
 use super::integrate::{Record, Run, Softening};
 use super::plan::Plan;
 use super::star::Star;
 use crate::body::Body;
 use crate::config::{CrackTiming, FractureConfig};
-use crate::contact::{Contact, Pulse, Touch};
+use crate::contact::{Contact, ContactReport, Pulse, Touch};
 use crate::crack::{CrackSystem, StressField};
 use crate::error::InputError;
-use crate::modal::Motion;
+use crate::motion::{Complement, DisplacementBatch, Motion, Residual};
 use crate::near_field::NearField;
-use crate::outcome::ContactReport;
-use crate::stress::{DisplacementBatch, Symmetric3, lane};
+use crate::stress::{Symmetric3, lane};
 
 /// A star counts anew when it gives way by this factor more.
 const GREW: f64 = 1.3;

@@ -42,7 +42,6 @@
 //! exactly, and one equation per contact and substep has one root. Steps after the blow are as long as the modes allow.
 
 mod bank;
-mod complement;
 mod course;
 mod integrate;
 mod limits;
@@ -52,9 +51,8 @@ mod spring;
 mod star;
 mod wall;
 
-pub(crate) use complement::{Complement, Residual, Shape};
+pub use crate::contact::Receptance;
 pub use course::Blow;
 pub(crate) use limits::Limits;
-pub use receptance::Receptance;
 pub(crate) use spring::Spring;
 pub(crate) use wall::{SteadyNear, has_near_field};

@@ -4,12 +4,12 @@
 use std::ops::Range;
 use std::sync::Arc;
 
+use super::Spring;
 use super::bank::{Bank, Pushes, padded, spans};
 use super::wall::{NearPlan, place};
-use super::{Receptance, Spring};
 use crate::body::Body;
 use crate::config::FractureConfig;
-use crate::contact::{self, Contact, Load, Touch, hertz_at, modal_load};
+use crate::contact::{self, Contact, Load, Receptance, Touch, hertz_at, modal_load};
 use crate::near_field::Bands;
 
 /// Hertz' time over the longest substep. Measured: the energy error then is 3e-5 of what the striker loses (`frangible-lab verify`, case

@@ -1,11 +1,7 @@
-//! How a place of a body gives way under a contact: its receptance, as a sum of modes.
-//!
-//! A force `F` along `n + f`, friction `f` beside the normal `n`, moves the place by `Σ (φ_i · n) q_i`, where
-//! `q̈_i + d_i q̇_i + λ_i q_i = φ_i · (n + f) F`. Modes that are not followed answer at once, `q_i = φ_i · (n + f) F/λ_i`, and on a wall the
-//! wall oscillators go on where the modes end (Zener 1941). The body that is asked and one that strikes it are described alike, so that
-//! one force F(t) comes of a contact whichever of the two is asked.
+//! What a contact feels of the body that it touches, and of one that strikes it.
 
 use std::f64::consts::{PI, TAU};
+use std::sync::Arc;
 
 use glam::Vec3;
 
@@ -13,9 +9,9 @@ use super::plan::Site;
 use super::wall::wall_at;
 use crate::body::Body;
 use crate::config::FractureConfig;
-use crate::contact::Touch;
+use crate::contact::{Contact, Receptance, Striker, Touch, WallReceptance, modal_load};
 use crate::error::InputError;
-use crate::near_field::{Bands, PlateTheory, Spacing, WallMaterial};
+use crate::near_field::{Bands, Spacing};
 
 /// Waves so much faster than Hertz' time follow the force: angular frequency times that time.
 const FOLLOWING: f64 = 120.0;
@@ -25,40 +21,6 @@ const RINGING: f64 = 25.0;
 
 /// Wall oscillators are so close that their echo comes this many times later than the blow is expected to last.
 const ECHO: f64 = 1.3;
-
-/// What a contact feels of a body that vibrates, beside its motion as a rigid one.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Receptance {
-    /// λ of every mode, 1/s².
-    pub(crate) eigenvalues: Vec<f64>,
-    /// Modes that are followed through time; those after them follow the force.
-    pub(crate) followed: usize,
-    /// Rayleigh's damping `d = stiffness_damping λ + mass_damping`, s and 1/s.
-    pub(crate) stiffness_damping: f64,
-    pub(crate) mass_damping: f64,
-    /// φ · (n + f) of every mode, 1/√kg: how the contact pushes it.
-    pub(crate) drive: Vec<f64>,
-    /// φ · n of every mode, 1/√kg: how the contact feels it.
-    pub(crate) gap: Vec<f64>,
-    /// The wall that goes on where the modes end.
-    pub(crate) wall: Option<WallReceptance>,
-    /// Radius of the ball of the body's volume, m: what flat on flat is taken to touch with.
-    pub(crate) ball_radius: f64,
-}
-
-/// What a contact feels of the wall behind it in waves that the modes leave out.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct WallReceptance {
-    pub(crate) material: WallMaterial,
-    /// A contact is never wider than this, m.
-    pub(crate) widest: f64,
-    /// Lowest angular frequency, rad/s.
-    pub(crate) lowest: f64,
-    /// Share of the contact's force that acts across the wall.
-    pub(crate) across: f64,
-    /// Share of the wall's motion across itself that is along the contact's normal.
-    pub(crate) along_normal: f64,
-}
 
 impl Receptance {
     /// The receptance of a body where a contact touches it, for a force along the contact's normal and its friction.
@@ -96,166 +58,31 @@ impl Receptance {
             ball_radius: asset.ball_radius(),
         }
     }
+}
 
-    /// ω, rad/s, and d, 1/s, of the modes that are followed.
-    pub(super) fn oscillators(&self) -> impl Iterator<Item = (f64, f64)> {
-        let followed = self.eigenvalues[..self.followed].iter();
-        followed.map(|&lambda| (lambda.sqrt(), self.damping(lambda)))
-    }
-
-    /// d of this eigenvalue, 1/s.
-    pub(super) fn damping(&self, eigenvalue: f64) -> f64 {
-        self.stiffness_damping * eigenvalue + self.mass_damping
-    }
-
-    /// What the modes that follow the force give way by, m/N, at this contact of a body when another one of it is pushed.
-    pub(super) fn compliance(&self, pushed: &Self) -> f64 {
-        let rest = self.followed..;
-        let terms = (self.gap[rest.clone()].iter())
-            .zip(&pushed.drive[rest.clone()])
-            .zip(&self.eigenvalues[rest]);
-        terms.map(|((a, b), lambda)| a * b / lambda).sum()
-    }
-
-    /// Whether two contacts may be of one body, which then swings under both.
-    pub(super) fn swings_with(&self, other: &Self) -> bool {
-        self.followed == other.followed && self.eigenvalues == other.eigenvalues
-    }
-
-    /// How many numbers say it all, of a body with so many modes.
-    pub(crate) fn numbers_of(modes: usize) -> usize {
-        modes.saturating_mul(3).saturating_add(17)
-    }
-
-    /// All of it as numbers: the body's, its wall's, and those of its modes.
-    pub(crate) fn to_numbers(&self) -> Vec<f64> {
-        let mut numbers = vec![
-            self.followed as f64,
-            self.stiffness_damping,
-            self.mass_damping,
-            self.ball_radius,
-        ];
-        let wall = self.wall.map(|wall| {
-            let (material, theory) = wall.material.numbers();
-            // Which wall: 0 is none.
-            let kind = match theory {
-                PlateTheory::Kirchhoff => 1.0,
-                PlateTheory::Layer => 2.0,
-            };
-            let place = [wall.widest, wall.lowest, wall.across, wall.along_normal];
-            (kind, material, place)
-        });
-        let (kind, material, place) = wall.unwrap_or_default();
-        numbers.push(kind);
-        numbers.extend(material.into_iter().chain(place));
-        for list in [&self.eigenvalues, &self.drive, &self.gap] {
-            numbers.extend_from_slice(list);
-        }
-        numbers
-    }
-
-    /// What [`Self::to_numbers`] gave; [`Self::validate`] is still to check it.
-    pub(crate) fn of_numbers(numbers: &[f64], modes: usize) -> Result<Self, InputError> {
-        let torn = InputError::Receptance("its numbers are not as many as its modes ask for");
-        let Some((&head, lists)) = numbers.split_first_chunk::<17>() else {
-            return Err(torn);
-        };
-        if lists.len() != 3 * modes {
-            return Err(torn);
-        }
-        let [
-            followed,
-            stiffness_damping,
-            mass_damping,
-            ball_radius,
-            kind,
-            ..,
-        ] = head;
-        let [.., widest, lowest, across, along_normal] = head;
-        let material: [f64; 8] = std::array::from_fn(|i| head[5 + i]);
-        let theory = match kind {
-            0.0 => None,
-            1.0 => Some(PlateTheory::Kirchhoff),
-            2.0 => Some(PlateTheory::Layer),
-            _ => return Err(InputError::Receptance("its wall is of no known theory")),
-        };
-        let whole = followed as usize;
-        // Bit for bit: what would not be written again is refused.
-        if (whole as f64).to_bits() != followed.to_bits() {
-            return Err(InputError::Receptance(
-                "the number of its modes is not whole",
-            ));
-        }
-        if theory.is_none() && head[4..].iter().any(|x| x.to_bits() != 0) {
-            return Err(InputError::Receptance("it has numbers of a wall, and none"));
-        }
+impl Striker {
+    /// A breakable body that strikes another one, and vibrates under the same force: its material, its mass, curvature and modes where it is
+    /// touched. Both bodies' blows then find one force over time. `contact`: the contact as the striker feels it, in its own body frame, with the
+    /// impulse **on the striker**; of its own striker nothing is asked but the restitution of the pair.
+    ///
+    /// # Errors
+    /// What [`Contact::validate`] and [`FractureConfig::validate`] refuse.
+    pub fn flexible(
+        body: &Body,
+        contact: &Contact,
+        config: &FractureConfig,
+    ) -> Result<Self, InputError> {
+        contact.validate()?;
+        config.validate()?;
+        let load = modal_load(body, [contact]);
+        let touch = &load.touches[0];
         Ok(Self {
-            eigenvalues: lists[..modes].to_vec(),
-            followed: whole,
-            stiffness_damping,
-            mass_damping,
-            drive: lists[modes..2 * modes].to_vec(),
-            gap: lists[2 * modes..].to_vec(),
-            wall: theory.map(|theory| WallReceptance {
-                material: WallMaterial::of_numbers(material, theory),
-                widest,
-                lowest,
-                across,
-                along_normal,
-            }),
-            ball_radius,
+            inverse_effective_mass: touch.inverse_effective_mass as f32,
+            curvature_radius: (touch.curvature_radius as f32).max(Self::EDGE_RADIUS),
+            restitution: contact.striker.restitution,
+            receptance: Some(Arc::new(Receptance::at(body, touch, config))),
+            ..Self::fixed(&body.asset.material)
         })
-    }
-
-    /// Checks that every number can be used.
-    pub(crate) fn validate(&self) -> Result<(), InputError> {
-        let count = self.eigenvalues.len();
-        if self.followed > count || self.drive.len() != count || self.gap.len() != count {
-            return Err(InputError::Receptance(
-                "its modes and their shapes are not equally many",
-            ));
-        }
-        // Modes come of numbers of four bytes.
-        let finite = |x: &f64| x.abs() <= f64::from(f32::MAX);
-        let positive = |x: &f64| finite(x) && *x > 0.0;
-        let not_negative = |x: &f64| finite(x) && *x >= 0.0;
-        if !self.eigenvalues.iter().all(positive) {
-            return Err(InputError::Receptance(
-                "an eigenvalue is not a finite number above zero",
-            ));
-        }
-        if !self.drive.iter().chain(&self.gap).all(finite) {
-            return Err(InputError::Receptance(
-                "a mode's shape is not a finite number",
-            ));
-        }
-        if ![self.stiffness_damping, self.mass_damping]
-            .iter()
-            .all(not_negative)
-        {
-            return Err(InputError::Receptance(
-                "a damping is not a finite number, zero or above",
-            ));
-        }
-        if !positive(&self.ball_radius) {
-            return Err(InputError::Receptance(
-                "its radius is not a finite number above zero",
-            ));
-        }
-        let Some(wall) = &self.wall else {
-            return Ok(());
-        };
-        let shares = [wall.across, wall.along_normal];
-        let sound = wall.material.is_sound()
-            && wall.widest >= wall.material.thickness
-            && positive(&wall.lowest)
-            && shares.iter().all(finite);
-        match sound {
-            true => Ok(()),
-            false => Err(InputError::Receptance(
-                "a number of its wall is not a finite number above zero",
-            )),
-        }
     }
 }
 

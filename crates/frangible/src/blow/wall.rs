@@ -5,10 +5,9 @@ use std::ops::Range;
 
 use glam::Vec3;
 
-use super::receptance::WallReceptance;
 use crate::asset::Asset;
 use crate::body::Body;
-use crate::contact::Touch;
+use crate::contact::{Touch, WallReceptance};
 use crate::mesh::SurfacePoint;
 use crate::near_field::{Bands, NearField, NearPlace, PlateTheory, WallMaterial};
 

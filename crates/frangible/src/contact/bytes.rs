@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use glam::Vec3;
 
+use super::Receptance;
 use super::{Contact, SharedMass, Striker};
-use crate::blow::Receptance;
 use crate::error::InputError;
 
 /// Numbers of a contact.

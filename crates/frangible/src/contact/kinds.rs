@@ -4,11 +4,8 @@ use std::sync::Arc;
 
 use glam::Vec3;
 
-use super::modal_load;
+use super::Receptance;
 use crate::asset::Asset;
-use crate::blow::Receptance;
-use crate::body::Body;
-use crate::config::FractureConfig;
 use crate::error::{InputError, finite, not_negative, positive};
 use crate::material::{Material, OutOfRange};
 
@@ -155,30 +152,6 @@ impl Striker {
             curvature_radius: radius as f32,
             ..Self::fixed(material)
         }
-    }
-
-    /// A breakable body that strikes another one, and vibrates under the same force: its material, its mass, curvature and modes where it is
-    /// touched. Both bodies' blows then find one force over time. `contact`: the contact as the striker feels it, in its own body frame, with the
-    /// impulse **on the striker**; of its own striker nothing is asked but the restitution of the pair.
-    ///
-    /// # Errors
-    /// What [`Contact::validate`] and [`FractureConfig::validate`] refuse.
-    pub fn flexible(
-        body: &Body,
-        contact: &Contact,
-        config: &FractureConfig,
-    ) -> Result<Self, InputError> {
-        contact.validate()?;
-        config.validate()?;
-        let load = modal_load(body, [contact]);
-        let touch = &load.touches[0];
-        Ok(Self {
-            inverse_effective_mass: touch.inverse_effective_mass as f32,
-            curvature_radius: (touch.curvature_radius as f32).max(Self::EDGE_RADIUS),
-            restitution: contact.striker.restitution,
-            receptance: Some(Arc::new(Receptance::at(body, touch, config))),
-            ..Self::fixed(&body.asset.material)
-        })
     }
 
     /// Rigid, flat and fixed.

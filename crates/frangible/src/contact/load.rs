@@ -3,7 +3,7 @@
 use glam::Vec3;
 
 use super::Contact;
-use crate::asset::Asset;
+use crate::asset::{Asset, each_row};
 use crate::body::Body;
 use crate::mesh::SurfacePoint;
 
@@ -109,35 +109,4 @@ fn projected(asset: &Asset, at: &SurfacePoint, v: Vec3) -> Vec<f64> {
         asset.modes.add_push(node, push, &mut sums);
     });
     sums
-}
-
-/// The analysis nodes that carry a point of the surface, each once, with their weights: ten for each corner of its triangle,
-/// which mostly share an element.
-pub fn each_row(asset: &Asset, at: &SurfacePoint, mut visit: impl FnMut(usize, f32)) {
-    let (carriers, count) = carriers(asset, at);
-    for &(carrier, weight) in &carriers[..count] {
-        visit(carrier as usize, weight);
-    }
-}
-
-/// [`each_row`] as a list, and how long it is.
-pub(crate) fn carriers(asset: &Asset, at: &SurfacePoint) -> ([(u32, f32); 30], usize) {
-    let triangle = asset.surface.triangles[at.triangle as usize];
-    let mut carriers = [(0_u32, 0.0_f32); 30];
-    let mut count = 0;
-    for (&node, corner) in triangle.iter().zip(at.weights) {
-        let point = &asset.embedding.nodes[node as usize];
-        let element = asset.analysis.elements[point.element as usize];
-        for (&carrier, weight) in element.iter().zip(point.shape_values()) {
-            let known = carriers[..count].iter_mut().find(|c| c.0 == carrier);
-            match known {
-                Some(known) => known.1 += corner * weight,
-                None => {
-                    carriers[count] = (carrier, corner * weight);
-                    count += 1;
-                }
-            }
-        }
-    }
-    (carriers, count)
 }

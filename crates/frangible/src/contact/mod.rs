@@ -7,7 +7,10 @@ mod duration;
 mod kinds;
 mod load;
 mod pulse;
+mod receptance;
+mod report;
 
+pub use crate::motion::Pulse;
 pub use admissible::{admissible_duration, approach_energy};
 pub use ball::first_touch_of_ball;
 pub use duration::{
@@ -15,8 +18,9 @@ pub use duration::{
 };
 pub(crate) use duration::{contact_radius_of_curvature, hertz_at};
 pub use kinds::{Contact, SharedMass, Striker};
-#[doc(hidden)]
-pub use load::each_row;
+pub(crate) use load::give;
 pub use load::{Load, Touch, modal_load};
-pub(crate) use load::{carriers, give};
-pub use pulse::{Pulse, pulse};
+pub use pulse::pulse;
+pub use receptance::Receptance;
+pub(crate) use receptance::WallReceptance;
+pub use report::ContactReport;

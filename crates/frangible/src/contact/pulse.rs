@@ -10,31 +10,7 @@ use std::f64::consts::{PI, TAU};
 use super::Load;
 use crate::asset::Asset;
 use crate::config::{CrackTiming, FractureConfig};
-
-/// A half-sine of unit impulse and the steps at which the body is looked at.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pulse {
-    /// Duration t_d, s.
-    pub duration: f64,
-    /// Amplitude of the pulse of unit impulse, π/(2 t_d), 1/s. Times φ it is the peak force.
-    pub amplitude: f64,
-    /// Time step Δt, s: a whole number of them makes the contact.
-    pub time_step: f64,
-    /// Steps within the contact.
-    pub contact_steps: usize,
-    /// Steps until the end of the computation.
-    pub total_steps: usize,
-    /// Longest step that shows the modes' swing, s: that after the contact would do with.
-    pub longest_step: f64,
-}
-
-impl Pulse {
-    /// u = π/t_d, rad/s.
-    #[must_use]
-    pub fn frequency(&self) -> f64 {
-        PI / self.duration
-    }
-}
+use crate::motion::Pulse;
 
 /// Fewest steps within a contact.
 const MIN_CONTACT_STEPS: f64 = 16.0;

@@ -18,10 +18,11 @@ use super::field::{Felt, StressField};
 use super::propagation::gradient;
 use super::release::once;
 use super::single::{Crack, ElementCut, Front};
-use super::surface::{CrackFrame, crossing_area, crossing_polygon};
+use super::surface::CrackFrame;
 use super::system::{CrackSystem, UNCUT};
 use crate::config::{CrackPath, CrackTiming};
 use crate::material::Material;
+use crate::state::{crossing_area, crossing_polygon};
 use crate::stress::Symmetric3;
 
 /// Branching constant σ √r over K_Ic: √13 / 1.24.

@@ -5,11 +5,11 @@ use glam::Vec3;
 use crate::asset::{Asset, EmbeddedPoint};
 use crate::body::Body;
 use crate::config::FractureConfig;
-use crate::modal::Motion;
+use crate::motion::{DisplacementBatch, Moment, Motion};
 use crate::near_field::NearFields;
 use crate::stress::{
-    DisplacementBatch, Elasticity, Frame, Lanes, Law, MOST, Moment, RowPoint, STRIDE, Skin,
-    StressLanes, StressState, Symmetric3, Wall, largest_eigenvalue, of_shape,
+    Elasticity, Frame, Lanes, Law, MOST, RowPoint, STRIDE, Skin, StressLanes, StressState,
+    Symmetric3, Wall, WeakPlace, largest_eigenvalue, of_shape, wall_of, weak_place,
 };
 
 /// Cosine from which on the normals of a wall at two tetrahedra that touch belong to one face.
@@ -89,7 +89,7 @@ impl<'a> StressField<'a> {
 
     /// The wall that fracture tetrahedron `e` is part of.
     pub(crate) fn wall(&self, e: usize) -> Option<Wall> {
-        wall(self.asset, self.skin, self.config, e)
+        wall_of(self.asset, self.skin, self.config, e)
     }
 
     /// Outward normal of the face of the wall that a crack opens from which starts in fracture tetrahedron `e`; zero where its flaw
@@ -291,54 +291,5 @@ impl WeakPlace<'_> {
         let flaw = body.prepared.skin.flaw_position(body.asset.place(e));
         let flaw = flaw.filter(|_| self.on_surface);
         flaw.unwrap_or(body.prepared.centroids[e])
-    }
-}
-
-fn wall(asset: &Asset, skin: &Skin, config: &FractureConfig, e: usize) -> Option<Wall> {
-    if config.plane_stress_walls {
-        skin.wall(asset, e)
-    } else {
-        None
-    }
-}
-
-/// Where a crack may start in a fracture tetrahedron, and the law of the stress there.
-pub(crate) struct WeakPlace<'a> {
-    pub(crate) point: &'a EmbeddedPoint,
-    pub(crate) law: Law,
-    /// Whether it is its flaw on the free surface, else it is its centroid.
-    pub(crate) on_surface: bool,
-    /// The wall that it is in.
-    pub(crate) wall: Option<Wall>,
-}
-
-/// The place of fracture tetrahedron `e`: at its flaw on the free surface, else at its centroid.
-///
-/// Under a contact the surface is pressed together, which no mode resolves: there the centroid serves.
-#[inline(always)]
-pub(crate) fn weak_place<'a>(
-    asset: &'a Asset,
-    skin: &'a Skin,
-    config: &FractureConfig,
-    pressed: &[u32],
-    e: usize,
-) -> WeakPlace<'a> {
-    let wall = wall(asset, skin, config, e);
-    let flaw = skin.flaw(asset.place(e)).filter(|_| config.surface_flaws);
-    let (point, law, on_surface) = match flaw.filter(|flaw| !pressed.contains(&flaw.triangle)) {
-        Some(flaw) => match wall.and_then(|wall| wall.edge(flaw.normal)) {
-            Some(along) => (&flaw.point, Law::Edge(along), true),
-            None => (&flaw.point, Law::Free(flaw.normal), true),
-        },
-        None => {
-            let law = wall.map_or(Law::Solid, |wall| Law::Free(wall.normal));
-            (asset.embedded_tet(e), law, false)
-        }
-    };
-    WeakPlace {
-        point,
-        law,
-        on_surface,
-        wall,
     }
 }

@@ -9,12 +9,13 @@ use glam::Vec3;
 
 use super::field::StressField;
 use super::single::ElementCut;
-use super::surface::{CrackFrame, crossing_area};
+use super::surface::CrackFrame;
 use super::suspects::{Suspect, Suspects};
 use super::system::{CrackSystem, UNCUT};
 use super::{advance, propagation::gradient, retry};
 use crate::config::CrackTiming;
 use crate::rng::{Purpose, stream, uniform};
+use crate::state::crossing_area;
 use crate::stress::{Symmetric3, lane, largest_eigenvalue, perpendicular_axes, principal_axes};
 
 /// Below this relative gap of the two largest tensions the direction between them is rounding noise.

@@ -11,7 +11,7 @@
 //! *Release* (`release.rs`). A crack unloads what lies beside it. What is released stays released, so a weak point looks at the cracks
 //! only when what it remembers does not hold it already. It then looks at all places of all cracks near by, eight of them side by side.
 //!
-//! *Old cracks* (`tip.rs`). The front of a crack from an earlier impact follows Griffith: a crack of centimetres is fed from a layer of depth
+//! *Old cracks* (`crate::tips`). The front of a crack from an earlier impact follows Griffith: a crack of centimetres is fed from a layer of depth
 //! 2πa, where a is its area over the length of its front. Cracks that a piece's own modes know release nothing more.
 
 mod branching;
@@ -30,17 +30,13 @@ mod sites;
 mod surface;
 mod suspects;
 mod system;
-mod tip;
+mod weak_rows;
 mod weak_stress;
 
-pub(crate) use cuts::{Cuts, EdgeCut};
-pub(crate) use field::{StressField, weak_place};
+pub(crate) use field::StressField;
 pub(crate) use initiation::{Peak, crack};
 use propagation::{advance, retry};
 pub use shown::ShownStress;
-pub(crate) use single::{Crack, ElementCut, Junction};
-pub(crate) use surface::crossing_polygon;
+pub(crate) use single::{Crack, ElementCut};
 pub(crate) use suspects::Suspects;
 pub(crate) use system::{CrackSystem, ELSEWHERE, UNCUT};
-pub use tip::CrackFront;
-pub(crate) use tip::{Tip, front_limit, fronts, tips};

@@ -22,10 +22,10 @@ use super::branching::{forks, start};
 use super::field::{Felt, StressField};
 use super::passing::passes;
 use super::single::{ElementCut, Front};
-use super::surface::crossing_area;
 use super::system::{CrackSystem, UNCUT};
 use crate::config::{CrackPath, CrackTiming};
 use crate::fields::Tip;
+use crate::state::crossing_area;
 use crate::stress::{Symmetric3, largest_eigenvalue};
 
 /// Share of R_c below which the tension across a crack does not steer it.

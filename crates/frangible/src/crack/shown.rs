@@ -2,8 +2,8 @@
 
 use crate::body::Body;
 use crate::config::FractureConfig;
-use crate::modal::Motion;
-use crate::stress::{DisplacementBatch, Symmetric3, lane, largest_eigenvalue};
+use crate::motion::{DisplacementBatch, Motion};
+use crate::stress::{Symmetric3, lane, largest_eigenvalue};
 
 use super::StressField;
 

@@ -6,7 +6,8 @@ use glam::Vec3;
 
 use super::sites::Sites;
 use super::surface::CrackFrame;
-use super::tip::Tip;
+use crate::state::{BodyState, OldCrack, OldCut};
+use crate::tips::Tip;
 
 /// One crack.
 pub(crate) struct Crack {
@@ -52,6 +53,32 @@ impl Crack {
             forks: Vec::new(),
             tip: None,
             restored: 0,
+        }
+    }
+
+    /// What a body remembers of it.
+    fn left(&self) -> OldCrack {
+        let cut = |e: &ElementCut| OldCut {
+            tet: e.tet,
+            values: e.values,
+            direction: e.direction,
+        };
+        let junction = |j: &Junction| (j.from, j.own);
+        OldCrack {
+            start: self.start,
+            normal: self.frame.normal,
+            cuts: self.elements.iter().map(cut).collect(),
+            settled: self.settled as u32,
+            junctions: self.junctions.iter().map(junction).collect(),
+        }
+    }
+}
+
+impl BodyState {
+    /// What a body remembers of these cracks.
+    pub(crate) fn of(cracks: &[Crack]) -> Self {
+        Self {
+            cracks: cracks.iter().map(Crack::left).collect(),
         }
     }
 }

@@ -7,8 +7,7 @@ use super::initiation::Peak;
 use super::system::UNCUT;
 use super::weak_stress::WeakStress;
 use crate::body::Body;
-use crate::stress::{BATCH, Frame, Lanes, Steps, StressLanes, Wide, limit};
-use crate::weak_rows::ClusterRows;
+use crate::stress::{BATCH, ClusterRows, Frame, Lanes, Steps, StressLanes, Wide, limit};
 
 /// A weak point whose stress may pass its strength, or the peak so far, at a step of a batch.
 #[derive(Clone, Copy, Debug)]

@@ -11,12 +11,12 @@ use super::release::Releases;
 use super::single::{Crack, ElementCut, Front, Junction};
 use super::sites::Site;
 use super::surface::CrackFrame;
-use super::tip::{Tip, front_limit, is_inside};
 use crate::asset::Asset;
 use crate::body::Body;
 use crate::config::{CrackPath, CrackTiming, FractureConfig};
 use crate::fields::Resistance;
 use crate::state::OldCrack;
+use crate::tips::{Tip, front_limit, is_inside};
 
 /// No crack has fractured this tetrahedron.
 pub(crate) const UNCUT: u32 = u32::MAX;
@@ -71,7 +71,11 @@ impl<'a> CrackSystem<'a> {
         let asset = &*body.asset;
         let mut system = Self {
             dormant: Vec::new(),
-            front_limit: front_limit(body),
+            front_limit: front_limit(
+                &body.asset.material,
+                body.resistance.toughness.least,
+                &body.tips,
+            ),
             old_cracks: 0,
             forks: 0,
             area: 0.0,

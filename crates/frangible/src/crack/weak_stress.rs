@@ -3,8 +3,7 @@
 use super::field::StressField;
 use crate::body::Body;
 use crate::near_field::Located;
-use crate::stress::{Frame, Lanes, MOST, STRIDE, of_shape};
-use crate::weak_rows::ClusterRows;
+use crate::stress::{ClusterRows, Frame, Lanes, MOST, STRIDE, of_shape};
 
 /// What one motion adds to rows of the body, and room for their stress.
 #[derive(Clone, Debug, Default)]

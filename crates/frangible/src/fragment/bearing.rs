@@ -2,10 +2,10 @@
 
 use glam::{DVec3, Vec3};
 
-use super::index::MeshIndex;
 use super::label::Labels;
+use crate::asset::FOREIGN;
+use crate::body::MeshIndex;
 use crate::mesh::{EDGES, FACES, TetMesh};
-use crate::piece::FOREIGN;
 
 /// A face passes a push on whose mean direction across it, over all of its area, runs along the push by at least this share. A flat face
 /// square to the push would have 1, one that is tilted by 60° or a crater that is half a ball 1/2; faces along the push have nothing. Faces

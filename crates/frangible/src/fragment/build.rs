@@ -5,11 +5,10 @@ use super::finish::Finisher;
 use super::label::Labels;
 use super::points::PointTable;
 use super::render::{Parts, Undrawn};
-use crate::asset::Asset;
+use crate::asset::{Asset, FixedPoints, Trace};
+use crate::body::Prepared;
 use crate::crack::{Crack, CrackSystem};
-use crate::outcome::Fragment;
-use crate::piece::{FixedPoints, Trace};
-use crate::prepared::Prepared;
+use crate::fragment::Fragment;
 
 /// Fragments, and what is known of them besides.
 pub(crate) struct Built {

@@ -10,10 +10,10 @@
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-use super::index::MeshIndex;
-use crate::crack::Cuts;
+use crate::asset::{NOBODY, Portion};
+use crate::body::MeshIndex;
 use crate::mesh::DisjointSets;
-use crate::piece::{NOBODY, Portion};
+use crate::state::Cuts;
 
 /// Nodes that a side looks at before it is asked again whether it has seen least.
 const TURN: u32 = 32;

@@ -2,14 +2,15 @@
 
 use glam::Vec3;
 
-use super::index::MeshIndex;
 use super::label::Labels;
 use super::partition::{Interface, Point, face_parts, interfaces};
 use super::points::PointTable;
 use super::render::{Part, Parts};
 use crate::asset::Asset;
-use crate::crack::{Crack, Cuts, crossing_polygon};
+use crate::body::MeshIndex;
+use crate::crack::Crack;
 use crate::mesh::TetMesh;
+use crate::state::{Cuts, crossing_polygon};
 
 /// One fragment under construction, in numbers of the point table.
 #[derive(Clone, Default)]

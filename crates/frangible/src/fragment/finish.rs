@@ -5,9 +5,9 @@ use glam::{DVec3, Vec3};
 use super::draft::Draft;
 use super::label::Labels;
 use super::points::PointTable;
+use crate::asset::Trace;
+use crate::fragment::Fragment;
 use crate::mesh::{MassProperties, TriMesh, smooth_normals};
-use crate::outcome::Fragment;
-use crate::piece::Trace;
 
 /// Makes fragments of drafts one after another.
 pub(super) struct Finisher<'a> {

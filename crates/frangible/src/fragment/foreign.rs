@@ -7,8 +7,8 @@ use super::partition::{Interface, interfaces};
 use super::points::PointTable;
 use super::render::draw;
 use crate::body::Body;
-use crate::crack::Cuts;
-use crate::outcome::Fragment;
+use crate::fragment::Fragment;
+use crate::state::Cuts;
 
 /// An edge of the fracture mesh, its lower node first, and the place where it is cut, from there (0) to the other node (1).
 pub type CutEdge = ([u32; 2], f64);

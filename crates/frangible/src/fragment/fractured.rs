@@ -4,8 +4,9 @@
 //! lies close together: which tetrahedron it is and whether this round has been there. The edges of a tetrahedron get numbers when they are
 //! first asked for, so that a cut is found by a number and not by the two ends of the edge.
 
-use crate::crack::{CrackSystem, Cuts, ELSEWHERE, UNCUT};
+use crate::crack::{CrackSystem, ELSEWHERE, UNCUT};
 use crate::mesh::{ByNode, EDGES};
+use crate::state::Cuts;
 
 /// All corners of a tetrahedron, a bit each.
 pub(super) const ALL: u8 = 0b1111;

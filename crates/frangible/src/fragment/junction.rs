@@ -10,8 +10,9 @@
 use glam::Vec3;
 
 use super::fractured::{ALL, Fractured, crossed, reachable};
-use crate::crack::{CrackSystem, Cuts, ElementCut};
+use crate::crack::{CrackSystem, ElementCut};
 use crate::mesh::EDGES;
+use crate::state::Cuts;
 
 /// How far from its last tetrahedron a newcomer is continued, in mean edges.
 const REACH: f32 = 2.5;

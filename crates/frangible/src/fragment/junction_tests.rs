@@ -7,10 +7,11 @@ use glam::Vec3;
 use super::junction::end_cracks;
 use super::tests::block;
 use crate::asset::Asset;
-use crate::crack::{CrackSystem, Cuts};
+use crate::crack::CrackSystem;
 use crate::mesh::{EDGES, NO_NEIGHBOUR, Rows};
 use crate::piece::Portion;
 use crate::rng::{Purpose, stream, uniform};
+use crate::state::Cuts;
 use crate::state::{BodyState, OldCrack, OldCut};
 use crate::{Breakable, FractureConfig};
 

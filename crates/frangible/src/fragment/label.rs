@@ -1,11 +1,12 @@
 //! Labels: fragments are the connected components of nodes over uncut edges `[G12 §6.1-6.2]`.
 
 use super::components::{Component, Components};
-use super::index::MeshIndex;
 use super::junction::end_cracks;
-use crate::crack::{CrackSystem, Cuts};
+use crate::asset::Portion;
+use crate::body::MeshIndex;
+use crate::crack::CrackSystem;
 use crate::mesh::DisjointSets;
-use crate::piece::Portion;
+use crate::state::Cuts;
 
 /// A fragment number for every node.
 #[derive(Debug)]
@@ -36,7 +37,7 @@ pub(crate) fn label(system: &CrackSystem, index: &MeshIndex, crumb_share: f64) -
 }
 
 /// The labels that these cuts leave, of the whole body or of a portion of it. Nodes of other pieces have labels from
-/// [`FOREIGN`](crate::piece::FOREIGN) on.
+/// [`FOREIGN`](crate::asset::FOREIGN) on.
 pub(crate) fn of_cuts(
     cuts: Cuts,
     tets: &[[u32; 4]],

@@ -5,14 +5,14 @@ use rand_chacha::rand_core::Rng;
 
 use super::bearing::Bearing;
 use super::components::Components;
-use super::index::MeshIndex;
 use super::label::{Labels, of_cuts};
 use super::tests::block;
 use crate::asset::Asset;
-use crate::crack::Cuts;
+use crate::body::MeshIndex;
 use crate::mesh::DisjointSets;
 use crate::mesh::{EDGES, TetMesh};
 use crate::rng::{Purpose, stream, uniform};
+use crate::state::Cuts;
 
 /// What [`of_cuts`] gives, the plain way.
 fn plain(cuts: &Cuts, tets: &[[u32; 4]], volumes: &[u64], crumb_share: f64) -> (Vec<u32>, usize) {

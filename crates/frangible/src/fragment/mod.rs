@@ -1,13 +1,13 @@
 //! Fragments: labels of nodes, exact partition of tetrahedra, closed surfaces and masses `[G12 §6]`.
 
 mod bearing;
+mod breakup;
 mod build;
 mod components;
 mod draft;
 mod finish;
 mod foreign;
 mod fractured;
-mod index;
 mod junction;
 mod label;
 mod partition;
@@ -22,10 +22,37 @@ mod label_tests;
 mod tests;
 
 pub(crate) use bearing::Bearing;
+pub(crate) use breakup::Breakup;
 pub(crate) use build::{Built, build};
 pub use foreign::{CutEdge, interfaces_of_labels, pieces_of_cuts};
-pub(crate) use index::MeshIndex;
 pub(crate) use label::{Labels, label};
 pub(crate) use partition::{Point, face_parts, interfaces};
 pub(crate) use points::PointTable;
 pub(crate) use render::{RenderIndex, draw};
+
+use glam::Vec3;
+
+use crate::mesh::{MassProperties, RenderMesh, TriMesh};
+
+/// One piece of a broken body.
+#[derive(Clone, Debug)]
+pub struct Fragment {
+    /// Closed surface, m, in the **fragment frame**: origin at the piece's centre of mass, axes of the parent's body frame.
+    pub mesh: TriMesh,
+    /// Which fragment is on the other side of each crack face, `mesh.triangles[outer_triangles..]`: its place in
+    /// [`Fracture::fragments`](crate::Fracture::fragments), where it has the same face turned round; [`Fragment::PARTED`] where an earlier break took it away.
+    pub neighbours: Vec<u32>,
+    /// What to draw instead of `mesh` where the asset has the [surface its author drew](crate::Asset::render).
+    pub render: Option<RenderMesh>,
+    /// Mass properties; `centre` is in the **parent's body frame**.
+    pub mass: MassProperties,
+    /// The piece's share of the parent's convex cells: cell number and the corner points of the share, m, fragment frame.
+    pub cell_shares: Vec<(u32, Vec<Vec3>)>,
+    /// Whether it has one of the [supported nodes](crate::Asset::supported): something outside still holds it.
+    pub supported: bool,
+}
+
+impl Fragment {
+    /// What a crack face of an earlier break has in [`Fragment::neighbours`]: what was there is no fragment of this break.
+    pub const PARTED: u32 = u32::MAX;
+}

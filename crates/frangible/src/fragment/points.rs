@@ -3,9 +3,9 @@
 use glam::DVec3;
 
 use super::partition::Point;
-use crate::crack::Cuts;
+use crate::asset::{FixedPoints, Portion};
 use crate::mesh::{ByNode, EDGES, TetMesh};
-use crate::piece::{FixedPoints, Portion};
+use crate::state::Cuts;
 
 /// Points of the partition in f64, body frame, numbered in order of first use; mesh nodes come first.
 pub(crate) struct PointTable<'a> {

@@ -8,10 +8,11 @@ use rand_chacha::rand_core::Rng;
 use super::build::build;
 use super::label::Labels;
 use crate::asset::{AnalysisMesh, Asset, ConvexCell, Embedding, OuterSurface};
-use crate::crack::{CrackSystem, Cuts};
+use crate::crack::CrackSystem;
 use crate::mesh::{EDGES, MassProperties, TetMesh};
 use crate::modal::ModalBasis;
 use crate::rng::{Purpose, stream, uniform};
+use crate::state::Cuts;
 use crate::{Breakable, FractureConfig, Fragment, Material};
 
 /// A block of n³ jittered cubes, six tetrahedra each, without modes.

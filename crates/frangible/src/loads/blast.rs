@@ -3,15 +3,16 @@
 use glam::Vec3;
 
 use crate::asset::Asset;
-use crate::blow::Residual;
+use crate::asset::each_row;
 use crate::body::Body;
 use crate::config::FractureConfig;
-use crate::contact::{self, Load, each_row};
+use crate::contact::{self, Load};
 use crate::cracking::Cracking;
 use crate::error::{InputError, finite, positive};
 use crate::impact::{pieces, report_on};
 use crate::mesh::SurfacePoint;
-use crate::modal;
+use crate::motion::Residual;
+use crate::motion::{self};
 use crate::outcome::{LookedAt, Outcome};
 
 /// A pressure pulse that spreads from a point. Its impulse per area falls as 1/distance, as that of an explosion does
@@ -50,7 +51,7 @@ pub fn blast(body: &Body, blast: &Blast, config: &FractureConfig) -> Result<Outc
     let pulse = contact::pulse(asset, &load, f64::from(blast.duration), config);
     let followed = asset.modes.followed();
     let (swing, still) = load.modal_impulse.split_at(followed);
-    let mut motion = modal::respond(&asset.modes, &asset.material, swing, &pulse);
+    let mut motion = motion::respond(&asset.modes, &asset.material, swing, &pulse);
     if config.residual {
         // The modes left out follow the half-sine of unit impulse.
         let force = (1..=pulse.contact_steps).map(|step| {

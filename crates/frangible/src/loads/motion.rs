@@ -5,7 +5,7 @@ use crate::config::FractureConfig;
 use crate::cracking::Cracking;
 use crate::error::{InputError, positive};
 use crate::impact::{pieces, report_on};
-use crate::modal::Motion;
+use crate::motion::Motion;
 use crate::outcome::{LookedAt, Outcome};
 
 /// What cracks do under any motion of a body's modes, wherever it comes from: [`impact()`](crate::impact()) from its stress wave

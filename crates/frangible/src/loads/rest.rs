@@ -6,15 +6,15 @@
 
 use glam::Vec3;
 
+use crate::asset::each_row;
 use crate::blow::SteadyNear;
 use crate::body::Body;
 use crate::config::{CrackTiming, FractureConfig};
-use crate::contact::each_row;
 use crate::cracking::{Cracked, Cracking};
 use crate::error::{InputError, finite};
 use crate::impact::{pieces, report_on};
 use crate::mesh::SurfacePoint;
-use crate::modal::Motion;
+use crate::motion::Motion;
 use crate::outcome::{LookedAt, Outcome};
 use crate::refuse::{Pushes, harmless};
 

@@ -2,13 +2,13 @@
 
 mod basis;
 mod energy;
+mod oscillator;
 mod project;
-mod response;
 mod step;
 mod tick;
 
 pub use basis::ModalBasis;
 pub(crate) use energy::ContactEnergy;
-pub use response::{Motion, Oscillator, respond};
+pub use oscillator::Oscillator;
 #[doc(hidden)]
 pub use tick::Tick;

@@ -3,15 +3,15 @@
 //! The mode and the pulse together are a linear system without input: its state after a time step is a matrix times its state before,
 //! the exponential of the system's matrix. The matrix is found once per mode and step length, and each step is one product.
 
-type Matrix2 = [[f64; 2]; 2];
+pub(crate) type Matrix2 = [[f64; 2]; 2];
 
 /// A 4 × 4 matrix of the state (ω q, q̇, sin ut, cos ut) in 2 × 2 blocks: what the mode does to itself, what the force does
 /// to it, how the force turns; the force does not feel the mode, so the fourth block is zero.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Step {
-    pub(super) own: Matrix2,
-    pub(super) force: Matrix2,
-    pub(super) turn: Matrix2,
+pub(crate) struct Step {
+    pub(crate) own: Matrix2,
+    pub(crate) force: Matrix2,
+    pub(crate) turn: Matrix2,
 }
 
 impl Step {

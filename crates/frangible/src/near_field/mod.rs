@@ -50,7 +50,7 @@ mod bessel;
 mod field;
 mod wall;
 
+pub use crate::config::PlateTheory;
 pub(crate) use bands::{Bands, Spacing};
 pub(crate) use field::{Located, NearField, NearFields, NearPlace};
-pub use wall::PlateTheory;
 pub(crate) use wall::WallMaterial;

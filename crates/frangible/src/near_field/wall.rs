@@ -1,20 +1,11 @@
 //! An infinite wall: how fast its bending waves are, and how a force bends it.
 
 use crate::asset::SurfaceWall;
+use crate::config::PlateTheory;
 use crate::material::Material;
 
 /// Mindlin's shear coefficient, π²/12: with it short waves run at the Rayleigh speed, nearly.
 const SHEAR: f64 = std::f64::consts::PI * std::f64::consts::PI / 12.0;
-
-/// What waves short against the wall's thickness are taken to do.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum PlateTheory {
-    /// Thin plates: no shear, stress linear through the wall. For comparison with closed forms.
-    Kirchhoff,
-    /// Mindlin's frequencies, and the stress of an elastic layer's far face.
-    #[default]
-    Layer,
-}
 
 /// An infinite wall of a material.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -3,11 +3,10 @@
 use std::sync::Arc;
 
 use super::Portion;
-use crate::asset::{self, AnalysisMesh, Asset, EmbeddedPoint, Embedding};
+use crate::asset::{self, AnalysisMesh, Asset, EmbeddedPoint, Embedding, StressBounds};
 use crate::body::Body;
 use crate::error::InputError;
 use crate::modal::ModalBasis;
-use crate::refuse::StressBounds;
 use crate::stress::Search;
 
 /// An elastic body for a [`Portion`]: elements that carry its motion, and the modes of the piece.

@@ -1,10 +1,10 @@
 //! What of the fracture mesh belongs to a piece.
 
-use super::{Breakup, FOREIGN};
+use crate::asset::FOREIGN;
 use crate::body::Body;
-use crate::crack::EdgeCut;
+use crate::fragment::Breakup;
 use crate::mesh::{DisjointSets, EDGES};
-use crate::state::{BodyState, OldCrack};
+use crate::state::{BodyState, EdgeCut, OldCrack};
 
 /// What a portion lists.
 #[derive(Default)]

@@ -12,19 +12,11 @@
 //! had. Contacts speak in the piece's frame, cracks in that of the mesh. How a piece vibrates is a trait, so that a world needs
 //! no finite elements.
 
-mod breakup;
 mod elastic;
 mod lists;
 mod portion;
 mod solid;
 
-pub(crate) use breakup::{Breakup, FixedPoints, Trace};
+pub use crate::asset::Portion;
 pub use elastic::{Elastic, PieceModel};
-pub use portion::Portion;
 pub use solid::Solid;
-
-/// Labels from here on are those of a piece's neighbours.
-pub(crate) const FOREIGN: u32 = 1 << 31;
-
-/// Label of nodes that lie in none of a piece's tetrahedra.
-pub(crate) const NOBODY: u32 = u32::MAX;

@@ -2,47 +2,17 @@
 
 use std::sync::Arc;
 
-use glam::{DVec3, Vec3};
+use glam::DVec3;
 
 use super::lists::Lists;
-use super::{Breakup, FixedPoints, Trace};
-use crate::asset::{Asset, OuterSurface, SurfaceWalls};
+use crate::asset::{OuterSurface, Portion, SurfaceWalls, Trace};
 use crate::body::Body;
 use crate::config::FractureConfig;
-use crate::crack::{CrackSystem, EdgeCut};
+use crate::crack::CrackSystem;
 use crate::error::InputError;
-use crate::fragment;
+use crate::fragment::{self, Breakup};
 use crate::mesh::{AlongSurface, MassProperties};
 use crate::outcome::{Fracture, Fragment};
-use crate::prepared::Prepared;
-use crate::state::BodyState;
-
-/// A part of a body that has broken, or a whole body with its cracks: which nodes and tetrahedra of the fracture mesh are
-/// its own, and what parts it from the rest.
-#[derive(Debug)]
-pub struct Portion {
-    pub(super) root: Arc<Asset>,
-    pub(crate) prepared: Arc<Prepared>,
-    generation: u32,
-    origin: DVec3,
-    mass: MassProperties,
-    supported: Vec<u32>,
-    nodes: Vec<u32>,
-    tets: Vec<u32>,
-    cracked: Vec<u32>,
-    divided: Vec<u32>,
-    rim: Vec<(u32, u32)>,
-    pub(super) next_foreign: u32,
-    cuts: Vec<EdgeCut>,
-    fixed: Arc<FixedPoints>,
-    first_nodes: Vec<u32>,
-    whole: u64,
-    pub(super) state: BodyState,
-    /// Vertices of its surface, m, in its own frame.
-    pub(super) positions: Vec<Vec3>,
-    pub(super) surface: OuterSurface,
-    pub(super) trace: Trace,
-}
 
 impl Portion {
     /// The whole of a body, with the cracks that it has so far: for modes that feel them. `config` says how cracks end and which crumbs
@@ -84,13 +54,11 @@ impl Portion {
             Some(portion) => Arc::clone(&portion.root),
             None => Arc::clone(&body.asset),
         };
-        let prepared = body.prepared.root.as_ref().unwrap_or(&body.prepared);
         let supported = root.supported.iter().copied();
         let supported = supported.filter(|v| lists.nodes.binary_search(v).is_ok());
         Self {
             supported: supported.collect(),
-            whole: prepared.index.volume_of(&lists.nodes),
-            prepared: Arc::clone(prepared),
+            whole: body.root().index.volume_of(&lists.nodes),
             root,
             generation,
             origin: DVec3::ZERO,
@@ -109,96 +77,6 @@ impl Portion {
             surface: OuterSurface::default(),
             trace,
         }
-    }
-
-    /// The body as it was baked.
-    #[must_use]
-    pub fn root(&self) -> &Asset {
-        &self.root
-    }
-
-    /// How many breaks it comes from: 1 for a piece of a baked body.
-    #[must_use]
-    pub fn generation(&self) -> u32 {
-        self.generation
-    }
-
-    /// Its centre of mass in the frame of the fracture mesh, m: where its own frame has its origin.
-    #[must_use]
-    pub fn origin(&self) -> DVec3 {
-        self.origin
-    }
-
-    /// Mass properties about its own centre, in its own frame.
-    #[must_use]
-    pub fn mass(&self) -> &MassProperties {
-        &self.mass
-    }
-
-    /// Nodes of the fracture mesh that are its own, rising.
-    #[must_use]
-    pub fn nodes(&self) -> &[u32] {
-        &self.nodes
-    }
-
-    /// Fracture tetrahedra that are its own and that no crack has cut, rising: where cracks can start and run.
-    #[must_use]
-    pub fn tets(&self) -> &[u32] {
-        &self.tets
-    }
-
-    /// Nodes of its own that something outside holds, rising.
-    #[must_use]
-    pub fn supported(&self) -> &[u32] {
-        &self.supported
-    }
-
-    /// Where the vertices of its surface are, m, in its own frame.
-    #[must_use]
-    pub fn surface_positions(&self) -> &[Vec3] {
-        &self.positions
-    }
-
-    /// Place of a tetrahedron among [`Portion::tets`]; that of the next one where it is none of them.
-    pub(crate) fn place(&self, tet: u32) -> usize {
-        match self.tets.binary_search(&tet) {
-            Ok(place) | Err(place) => place,
-        }
-    }
-
-    /// Tetrahedra that are its own and have been cut, rising.
-    pub(crate) fn cracked(&self) -> &[u32] {
-        &self.cracked
-    }
-
-    /// Tetrahedra that it shares with its neighbours, rising.
-    pub(crate) fn divided(&self) -> &[u32] {
-        &self.divided
-    }
-
-    /// Cuts between its nodes and those of its neighbours, and among its own.
-    pub(crate) fn cuts(&self) -> &[EdgeCut] {
-        &self.cuts
-    }
-
-    /// Nodes of the tetrahedra that it shares which are not its own, rising, with labels that tell apart whose they are.
-    pub(crate) fn rim(&self) -> &[(u32, u32)] {
-        &self.rim
-    }
-
-    /// Points of its surface that stay.
-    pub(crate) fn fixed(&self) -> &FixedPoints {
-        &self.fixed
-    }
-
-    /// Lowest node of each part of it that its tetrahedra do not join to the others; one for a sound body.
-    pub(crate) fn first_nodes(&self) -> &[u32] {
-        &self.first_nodes
-    }
-
-    /// Sum of its nodes' volumes, in the unit of the mesh's index.
-    pub(crate) fn whole(&self) -> u64 {
-        self.whole
     }
 
     /// The walls behind its surface: those of the baked body, which end where a crack has passed. None behind crack faces.
@@ -229,24 +107,6 @@ impl Portion {
             *margin = margin.min(distance as f32);
         }
         walls
-    }
-
-    /// Whether a node is its own.
-    pub(crate) fn has_node(&self, node: u32) -> bool {
-        self.nodes.binary_search(&node).is_ok()
-    }
-
-    /// Whether any of these nodes of a tetrahedron is its own.
-    pub(crate) fn has_tet(&self, nodes: &[u32; 4]) -> bool {
-        nodes.iter().any(|&v| self.has_node(v))
-    }
-
-    /// The first triangle of its surface that lies on this one of the baked body's.
-    pub(crate) fn surface_triangle(&self, of_root: u32) -> Option<u32> {
-        let found = self.trace.outer_of.binary_search(&of_root).ok()?;
-        let before = self.trace.outer_of[..found].iter().rev();
-        let same = before.take_while(|&&t| t == of_root).count();
-        Some((found - same) as u32)
     }
 }
 

@@ -6,9 +6,9 @@
 use glam::DVec3;
 
 use super::Portion;
-use crate::crack::Cuts;
 use crate::fragment::{Point, PointTable, face_parts, interfaces};
 use crate::mesh::{EDGES, FACES, NO_NEIGHBOUR};
+use crate::state::Cuts;
 
 /// Tetrahedra that fill a piece. Those that cracks have cut are there in parts, and parts on two sides of a crack are not
 /// joined.

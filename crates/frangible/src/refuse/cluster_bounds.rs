@@ -1,8 +1,8 @@
 //! Bounds of the stress in each cluster that holds weak points, from the farthest that each mode moves.
 
 use super::impact::Refusal;
-use super::stress_bounds::tension_bound;
 use crate::body::Body;
+use crate::bounds::tension_bound;
 use crate::outcome::LookedAt;
 use crate::stress::limit;
 

@@ -1,10 +1,10 @@
 //! Which weak points need a look at a time step: those of clusters whose stress bound passes the strength.
 
 use super::cluster_bounds::ClusterBounds;
-use super::stress_bounds::tension_bound;
 use crate::body::Body;
+use crate::bounds::tension_bound;
 use crate::config::FractureConfig;
-use crate::modal::Motion;
+use crate::motion::Motion;
 use crate::stress::{Steps, limit};
 
 /// Passes over clusters of weak points that cannot crack.

@@ -1,6 +1,6 @@
 //! Contacts refused free of time: bounds of the stress that follow no motion, from the cheapest (beyond the paper).
 //!
-//! 1. One number per surface triangle and largest force ([`PerImpulse`](super::PerImpulse)).
+//! 1. One number per surface triangle and largest force ([`PerImpulse`](crate::bounds::PerImpulse)).
 //! 2. The reach of every mode under its impulse (`reach.rs`) in the bound of the whole body.
 //! 3. The same reaches in the bound of each cluster of tetrahedra.
 //!

@@ -5,39 +5,25 @@
 //!
 //! They come after the physics: nothing of how bodies vibrate and crack knows them, but for the two front doors
 //! ([`impact()`](crate::impact()) and [`rest`](crate::internals::rest)), which ask them first, and the loop over time steps, which asks
-//! them what to pass over ([`Culling`]). What they need of a body is found once for its kind: [`StressBounds`], [`PerImpulse`],
-//! [`PerNewton`], [`Reaches`].
+//! them what to pass over ([`Culling`]). What they need of a body is found once for its kind, by the module `bounds`.
 
 mod cluster_bounds;
-mod clusters;
 mod culling;
 mod impact;
-mod per_impulse;
 mod per_newton;
 mod pushes;
-mod reach;
-mod stress_bounds;
-mod surface_sums;
 
-pub(crate) use clusters::WeakClusters;
 pub(crate) use culling::Culling;
 pub(crate) use impact::refused;
-pub(crate) use per_impulse::PerImpulse;
 pub use per_newton::rest_margin_at_least;
-pub(crate) use per_newton::{PerNewton, prepare_for_loads};
+
 pub(crate) use pushes::Pushes;
-pub(crate) use reach::Reaches;
-pub use stress_bounds::StressBounds;
-pub(crate) use stress_bounds::quadratic_modulus;
 
 use crate::body::Body;
 use crate::config::FractureConfig;
 use crate::contact::Contact;
-use crate::crack::front_limit;
 use crate::stress::limit;
-
-/// Rounding of sums over a few thousand terms cannot make a bound so many times as large.
-const ROUNDING: f32 = 1.0 + 1e-4;
+use crate::tips::front_limit;
 
 /// Whether a bound that costs microseconds shows that an impact does nothing to a body; [`impact()`](crate::impact()) asks it first. False
 /// says nothing.
@@ -55,6 +41,7 @@ pub(crate) fn harmless(body: &Body) -> f32 {
     if body.state().is_intact() {
         strength
     } else {
-        strength.min(front_limit(body))
+        let (material, least) = (&body.asset.material, body.resistance.toughness.least);
+        strength.min(front_limit(material, least, &body.tips))
     }
 }

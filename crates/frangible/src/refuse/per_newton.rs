@@ -4,17 +4,10 @@
 //! is linear and its length convex, so its largest value is at a corner. With s_i the largest stress of mode i in the
 //! body, forces whose sizes add up to F cause no more stress than F · max over corners of Σ_i s_i |φ_i| / λ_i.
 
-use super::surface_sums::surface_sums;
-use super::{ROUNDING, harmless};
+use super::harmless;
 use crate::blow::SteadyNear;
 use crate::body::Body;
-
-/// The largest stress, Pa, and gradient per newton of force anywhere on the surface, and per m/s² of gravity.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct PerNewton {
-    force: [f32; 2],
-    gravity: [f32; 2],
-}
+use crate::bounds::{PerNewton, ROUNDING, surface_sums};
 
 impl PerNewton {
     fn of(body: &Body) -> Self {
@@ -42,9 +35,11 @@ impl PerNewton {
     }
 }
 
-/// Makes the number that [`rest_margin_at_least`] multiplies with.
-pub(crate) fn prepare_for_loads(body: &Body) {
-    body.prepared.per_newton.get_or_init(|| PerNewton::of(body));
+impl Body {
+    /// Works out what its first steady load would ask for, so that this does not have to wait for it.
+    pub fn prepare_for_loads(&self) {
+        self.prepared.per_newton.get_or_init(|| PerNewton::of(self));
+    }
 }
 
 /// How many times as much a body could carry, at least, of forces whose sizes (N) add up to `total`, wherever they act, and

@@ -2,11 +2,10 @@
 
 use glam::Vec3;
 
-use super::stress_bounds::tension_bound;
-use crate::asset::Asset;
+use crate::asset::{Asset, each_row};
 use crate::blow::has_near_field;
 use crate::body::Body;
-use crate::contact::each_row;
+use crate::bounds::tension_bound;
 use crate::mesh::SurfacePoint;
 use crate::near_field::PlateTheory;
 

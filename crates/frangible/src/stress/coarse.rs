@@ -4,7 +4,7 @@
 //! *shapes*. The stress of the shapes is cheap, and what they leave out is bounded mode by mode. Most points that a blow makes one look at
 //! are far below their strength, and this is enough to know it.
 
-use super::displacement::{BATCH, Lanes};
+use super::batch::{BATCH, Lanes};
 use super::frame::Frame;
 use super::rows::Rows;
 

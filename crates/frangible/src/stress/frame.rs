@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use super::displacement::{BATCH, Lanes};
+use super::batch::{BATCH, Lanes};
 use super::lanes::StressLanes;
 use super::strain::{Elasticity, Law};
 use super::tensor::{Symmetric3, products};

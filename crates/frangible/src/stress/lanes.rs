@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use super::displacement::Lanes;
+use super::batch::Lanes;
 use super::tensor::{Symmetric3, products};
 use super::wide::wide;
 

@@ -17,31 +17,34 @@
 //!
 //! What a crack releases beside it follows from its length (`shadow.rs`), by the closed forms of a crack in a stretched and in a bent wall.
 
+mod batch;
+mod cluster_rows;
 mod coarse;
-mod displacement;
 mod frame;
 mod lanes;
-mod moment;
+mod place;
 mod principal;
 mod rows;
 mod shadow;
+mod shape;
 mod skin;
 mod strain;
 mod tensor;
 mod wall;
 mod wide;
 
+pub(crate) use batch::{BATCH, Lanes, STRIDE, Steps, lane};
+pub(crate) use cluster_rows::{ClusterRows, LawRows, OppositeRows, WeakRows};
 pub(crate) use coarse::Coarse;
-pub use displacement::DisplacementBatch;
-pub(crate) use displacement::{BATCH, Lanes, STRIDE, Steps, lane};
 pub(crate) use frame::{Frame, MOST};
 pub(crate) use lanes::StressLanes;
-pub(crate) use moment::Moment;
+pub(crate) use place::{WeakPlace, wall_of, weak_place};
 pub(crate) use principal::{MARGIN, limit, perpendicular_axes};
 pub use principal::{largest_eigenvalue, largest_eigenvalue_bound, principal_axes};
 pub(crate) use rows::{RowPoint, Rows, of_shape};
 pub(crate) use shadow::{Released, Shadow};
 pub use shadow::{STRETCHED, bent, share_beside, share_left};
+pub(crate) use shape::Shape;
 pub(crate) use skin::Search;
 pub use skin::{Flaw, Skin};
 pub use strain::{Elasticity, Law, StressState};

@@ -3,14 +3,14 @@
 
 use glam::{Mat3, Vec3};
 
-use super::displacement::Lanes;
+use super::batch::Lanes;
 use super::frame::{Frame, MOST};
+use super::shape::Shape;
 use super::strain::{Elasticity, Law};
 use super::tensor::Symmetric3;
 use super::wall::Wall;
 use super::wide::{Wide, narrow, wide};
 use crate::asset::{Asset, EmbeddedPoint};
-use crate::blow::Shape;
 
 /// Rows that are summed side by side: each is a chain of sums that waits for itself.
 const GROUP: usize = 6;

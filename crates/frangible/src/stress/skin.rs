@@ -14,9 +14,8 @@
 use glam::Vec3;
 
 use super::wall::{Wall, Walls};
-use crate::asset::{AnalysisMesh, Asset, EmbeddedPoint};
+use crate::asset::{AnalysisMesh, Asset, EmbeddedPoint, Portion};
 use crate::mesh::{NO_NEIGHBOUR, TetMesh};
-use crate::piece::Portion;
 
 /// No flaw.
 const NONE: u32 = u32::MAX;

@@ -4,7 +4,7 @@ use std::ops::{Add, Mul, Sub};
 
 use glam::{Mat3, Vec3};
 
-use super::displacement::BATCH;
+use super::batch::BATCH;
 use super::wide::Wide;
 
 /// Symmetric 3 × 3 tensor.

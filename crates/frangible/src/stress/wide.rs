@@ -2,7 +2,7 @@
 
 use std::ops::{Add, Mul, Sub};
 
-use super::displacement::{BATCH, Lanes};
+use super::batch::{BATCH, Lanes};
 use super::tensor::Real;
 
 /// Numbers that [`dot`] multiplies side by side.

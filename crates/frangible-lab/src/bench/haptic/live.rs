@@ -11,7 +11,7 @@
 //! [`rest()`](frangible::internals::rest()).
 
 use frangible::glam::Vec3;
-use frangible::internals::contact::each_row;
+use frangible::internals::asset::each_row;
 use frangible::internals::error::{finite, positive};
 use frangible::internals::modal::Tick;
 use frangible::{Body, InputError};

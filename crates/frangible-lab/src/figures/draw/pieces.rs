@@ -53,7 +53,10 @@ pub(crate) fn add_held(
         let corners = triangle.map(|v| place(asset.fracture.positions[v as usize]));
         model.smooth(colours.outside, corners, normals.map(place));
     }
-    for (corners, count) in state.iter().flat_map(|state| state.new_faces(asset)) {
+    for (corners, count) in state
+        .iter()
+        .flat_map(|state| state.new_faces(&asset.fracture))
+    {
         for k in 2..count {
             let sheet = [corners[0], corners[k - 1], corners[k]];
             model.sheet(colours.inside, sheet.map(place));

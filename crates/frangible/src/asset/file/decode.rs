@@ -7,6 +7,7 @@ use glam::{DMat3, DVec3, Vec3};
 use super::AssetFileError;
 use super::reader::Reader;
 use super::sections::{self as s, Section};
+use crate::asset::StressBounds;
 use crate::asset::half::Half;
 use crate::asset::{
     AnalysisMesh, Asset, ConvexCell, EmbeddedPoint, Embedding, OuterSurface, RenderMaterial,
@@ -15,7 +16,6 @@ use crate::asset::{
 use crate::material::Material;
 use crate::mesh::{MassProperties, TetMesh};
 use crate::modal::ModalBasis;
-use crate::refuse::StressBounds;
 
 impl Asset {
     /// Reads what [`Asset::to_bytes`] wrote. Sections of unknown number are skipped.

@@ -4,6 +4,7 @@ mod elements;
 mod meshes;
 mod render;
 mod rows;
+mod state;
 
 pub(crate) use elements::{analysis, embedded, modes};
 use meshes::{neighbours, tetrahedra};

@@ -8,9 +8,9 @@ use super::assemble::Vertices;
 use super::seam::{Seam, close};
 use super::{Parts, number, sides};
 use crate::asset::RenderSurface;
+use crate::body::Prepared;
+use crate::fragment::Fragment;
 use crate::mesh::TetMesh;
-use crate::outcome::Fragment;
-use crate::prepared::Prepared;
 
 /// What drawing fragments needs and building them knows.
 pub(crate) struct Undrawn {

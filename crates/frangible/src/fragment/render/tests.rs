@@ -7,13 +7,13 @@ use rand_chacha::rand_core::Rng;
 
 use crate::asset::{RenderMaterial, RenderSurface};
 use crate::crack::CrackSystem;
-use crate::crack::Cuts;
 use crate::fragment::label::Labels;
 use crate::fragment::tests::block;
 use crate::fragment::{Built, build, draw};
 use crate::mesh::{EDGES, RenderMesh};
 use crate::outcome::Fragment;
 use crate::rng::{Purpose, stream, uniform};
+use crate::state::Cuts;
 use crate::{Breakable, FractureConfig};
 
 /// Cubes along an edge of the block, and its edge, m.

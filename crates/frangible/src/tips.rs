@@ -14,13 +14,10 @@
 
 use glam::Vec3;
 
-use super::cuts::Cuts;
-use super::surface::crossing_area;
 use crate::asset::Asset;
-use crate::body::Body;
 use crate::material::Material;
 use crate::mesh::{EDGES, FACES, NO_NEIGHBOUR};
-use crate::state::{BodyState, OldCrack, OldCut};
+use crate::state::{BodyState, Cuts, OldCrack, OldCut, crossing_area};
 use crate::stress::MARGIN;
 
 /// H over the edge of the analysis' cells. Chosen by measurement: in a bent bar (`frangible-bake/tests/fronts.rs`, 3000 elements,
@@ -205,14 +202,13 @@ fn tip_limit(material: &Material, least_fracture_energy: f64, depth: f64) -> f64
     (2.0 * material.contact_modulus() * least_fracture_energy / depth).sqrt()
 }
 
-/// No front of an old crack of this body moves at a stress whose every principal value is below this, Pa: of the strain energy
+/// No front of these cracks moves where toughness is at least `least`, J/m², at a stress whose every principal value is below this, Pa: of the strain energy
 /// density η ≤ (3 + 6|ν|) σ² / 2E it needs γ η > G_c, or what its [`Tip`] asks for.
-pub(crate) fn front_limit(body: &Body) -> f32 {
-    let (material, least) = (&body.asset.material, body.resistance.toughness.least);
+pub(crate) fn front_limit(material: &Material, least: f64, tips: &[Tip]) -> f32 {
     let share = 3.0 + 6.0 * material.poisson_ratio.abs();
     let energy_density = least / material.energy_depth;
     let layer = (2.0 * material.youngs_modulus * energy_density / share).sqrt();
-    let depths = body.tips.iter().map(|tip| tip.depth(0.0));
+    let depths = tips.iter().map(|tip| tip.depth(0.0));
     let tips = depths.map(|depth| tip_limit(material, least, depth));
     tips.fold(layer, f64::min) as f32 * (1.0 - MARGIN)
 }

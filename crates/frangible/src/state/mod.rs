@@ -3,11 +3,16 @@
 //! Small, and all there is besides the asset and the seed: saved, sent over a network, or rebuilt bit for bit by replaying
 //! the impacts.
 
+mod crossing;
+mod cuts;
+
 use glam::Vec3;
 
-use crate::asset::Asset;
-use crate::crack::{Crack, ElementCut, Junction, crossing_polygon};
 use crate::error::InputError;
+use crate::mesh::TetMesh;
+
+pub(crate) use crossing::{crossing_area, crossing_polygon};
+pub(crate) use cuts::{Cuts, EdgeCut};
 
 /// Cracks of a body that is still one piece.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -41,34 +46,10 @@ pub struct OldCut {
     pub direction: Vec3,
 }
 
-impl OldCrack {
-    fn new(crack: &Crack) -> Self {
-        let cut = |e: &ElementCut| OldCut {
-            tet: e.tet,
-            values: e.values,
-            direction: e.direction,
-        };
-        let junction = |j: &Junction| (j.from, j.own);
-        Self {
-            start: crack.start,
-            normal: crack.frame.normal,
-            cuts: crack.elements.iter().map(cut).collect(),
-            settled: crack.settled as u32,
-            junctions: crack.junctions.iter().map(junction).collect(),
-        }
-    }
-}
-
 /// Starts a state in bytes; the digit is its version.
 const MAGIC: &[u8; 8] = b"FRCRACK2";
 
 impl BodyState {
-    pub(crate) fn of(cracks: &[Crack]) -> Self {
-        Self {
-            cracks: cracks.iter().map(OldCrack::new).collect(),
-        }
-    }
-
     /// Whether the body is as it was made.
     #[must_use]
     pub fn is_intact(&self) -> bool {
@@ -86,21 +67,21 @@ impl BodyState {
         self.cracks.iter().flat_map(|crack| &crack.cuts)
     }
 
-    /// The faces of the cracks, for drawing: a polygon of three or four corners per tetrahedron cut, m, body frame.
-    pub fn faces<'a>(&'a self, asset: &'a Asset) -> impl Iterator<Item = ([Vec3; 4], usize)> + 'a {
+    /// The faces of the cracks in the fracture mesh of their body, for drawing: a polygon of three or four corners per tetrahedron cut, m.
+    pub fn faces<'a>(&'a self, mesh: &'a TetMesh) -> impl Iterator<Item = ([Vec3; 4], usize)> + 'a {
         let cuts = self.cuts();
-        cuts.map(|cut| crossing_polygon(&asset.fracture.corners(cut.tet as usize), &cut.values))
+        cuts.map(|cut| crossing_polygon(&mesh.corners(cut.tet as usize), &cut.values))
     }
 
     /// The faces that the cracks have cut since the body was made: of a piece none that it was parted by, or had within it when it came
     /// about. Polygons as those of [`faces`](Self::faces).
     pub fn new_faces<'a>(
         &'a self,
-        asset: &'a Asset,
+        mesh: &'a TetMesh,
     ) -> impl Iterator<Item = ([Vec3; 4], usize)> + 'a {
         let cuts = |crack: &'a OldCrack| crack.cuts.iter().skip(crack.settled as usize);
         let cuts = self.cracks.iter().flat_map(cuts);
-        cuts.map(|cut| crossing_polygon(&asset.fracture.corners(cut.tet as usize), &cut.values))
+        cuts.map(|cut| crossing_polygon(&mesh.corners(cut.tet as usize), &cut.values))
     }
 
     /// The state as bytes: little-endian, 12 bytes, 28 more per crack, 32 per tetrahedron cut and 4 per junction.
@@ -180,57 +161,6 @@ impl BodyState {
         } else {
             Err(InputError::State("there are bytes after its end"))
         }
-    }
-
-    /// Whether it can be the state of a body of this asset.
-    pub(crate) fn check(&self, asset: &Asset) -> Result<(), InputError> {
-        let tets = asset.fracture.tets.len();
-        let mut cut = vec![false; tets];
-        for crack in &self.cracks {
-            let first = crack.cuts.first();
-            // What a piece keeps of a crack need not hold its start.
-            let starts = crack.settled > 0 || first.is_some_and(|c| c.tet == crack.start);
-            let there = first.is_some() && (crack.start as usize) < tets;
-            if !(starts && there && crack.normal.is_normalized()) {
-                return Err(InputError::State("a crack has no start, or no direction"));
-            }
-            let settled = crack.settled as usize;
-            if settled > crack.cuts.len() || (settled > 0 && asset.portion.is_none()) {
-                return Err(InputError::State(
-                    "it is that of a piece: it belongs to another body",
-                ));
-            }
-            if let Some(portion) = &asset.portion {
-                let own = |c: &OldCut| portion.has_tet(&asset.fracture.tets[c.tet as usize]);
-                let known = |c: &&OldCut| (c.tet as usize) < tets;
-                if !crack.cuts.iter().filter(known).all(own) {
-                    return Err(InputError::State(
-                        "it cuts tetrahedra of other pieces: it belongs to another body",
-                    ));
-                }
-            }
-            for c in &crack.cuts {
-                let there = cut.get_mut(c.tet as usize);
-                if there.is_none_or(|cut| std::mem::replace(cut, true)) {
-                    return Err(InputError::State(
-                        "it cuts a tetrahedron twice, or one that the body does not have: it belongs to another body",
-                    ));
-                }
-                if !(c.values.iter().all(|x| x.is_finite()) && c.direction.is_finite()) {
-                    return Err(InputError::State("it has a number that is not finite"));
-                }
-            }
-            if crack
-                .junctions
-                .iter()
-                .any(|&(from, _)| from as usize >= crack.cuts.len())
-            {
-                return Err(InputError::State(
-                    "a junction names a cut that is not there",
-                ));
-            }
-        }
-        Ok(())
     }
 }
 

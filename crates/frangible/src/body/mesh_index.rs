@@ -12,18 +12,18 @@ const WHOLE: f64 = (1_u64 << 60) as f64;
 #[derive(Debug)]
 pub(crate) struct MeshIndex {
     /// Tetrahedra around each node.
-    pub(super) tets: Rows,
+    pub(crate) tets: Rows,
     /// Nodes joined to each node by an edge.
-    pub(super) neighbours: Rows,
+    pub(crate) neighbours: Rows,
     /// Volume of each node: a quarter of each of its tetrahedra. Whole numbers, of which 2⁶⁰ make about the body: their
     /// sums are exact, so a part's volume is also the whole's less that of the other parts.
-    pub(super) volumes: Vec<u64>,
+    pub(crate) volumes: Vec<u64>,
     /// Sum of all nodes' volumes.
-    pub(super) whole: u64,
+    pub(crate) whole: u64,
     /// Lowest node of each connected part of the mesh; one for a sound body.
-    pub(super) first_nodes: Vec<u32>,
+    pub(crate) first_nodes: Vec<u32>,
     /// Nodes of each convex cell's tetrahedra.
-    pub(super) nodes_of_cell: Rows,
+    pub(crate) nodes_of_cell: Rows,
     /// Sum of the tetrahedra's volumes, m³.
     pub(crate) total_volume: f64,
 }
@@ -59,7 +59,7 @@ impl MeshIndex {
     }
 
     /// Number of nodes.
-    pub(super) fn nodes(&self) -> usize {
+    pub(crate) fn nodes(&self) -> usize {
         self.volumes.len()
     }
 }

@@ -4,27 +4,9 @@ use std::sync::Arc;
 
 use glam::{Mat3, Vec3};
 
-use super::wide::Wide;
+use super::Motion;
 use crate::asset::{Asset, EmbeddedPoint};
-use crate::blow::Shape;
-use crate::modal::Motion;
-
-/// Steps multiplied at once, side by side: what is multiplied with them is read from memory once for all of them.
-pub(crate) const BATCH: usize = 16;
-
-/// A bit for each step of a batch.
-pub(crate) type Steps = u16;
-
-/// The first of them is the last of the batch before, so that what happens between two steps lies within one batch.
-pub(crate) const STRIDE: usize = BATCH - 1;
-
-/// Where a step stands in its batch, 1..BATCH.
-pub(crate) fn lane(step: usize) -> usize {
-    step % STRIDE + 1
-}
-
-/// A value at each of the batch's steps.
-pub(crate) type Lanes = [f32; BATCH];
+use crate::stress::{BATCH, Lanes, STRIDE, Shape, Wide, lane};
 
 /// Displacements of the coarse nodes at a few consecutive steps, each node computed when it is first asked for.
 #[derive(Clone, Debug)]

@@ -1,7 +1,6 @@
 //! Weak tetrahedra by the clusters whose stress is bounded together.
 
-use super::StressBounds;
-use crate::asset::Asset;
+use crate::asset::{Asset, StressBounds};
 use crate::fields::Resistance;
 
 /// Weak tetrahedra by cluster.

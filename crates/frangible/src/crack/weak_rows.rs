@@ -4,45 +4,16 @@ use std::sync::OnceLock;
 
 use crate::body::Body;
 use crate::config::FractureConfig;
-use crate::crack::weak_place;
-use crate::stress::{Coarse, Elasticity, Frame, Law, RowPoint, Rows};
+use crate::stress::{
+    ClusterRows, Coarse, Elasticity, Law, LawRows, OppositeRows, RowPoint, Rows, WeakRows,
+    weak_place,
+};
 
 /// Work per point where stress is found from displacements: gradient of ten nodes, law; multiplications and additions.
 const FROM_GRADIENT: usize = 348;
 
 /// Rows serve where they are no more than so many times the work of displacements: they are read from end to end.
 const WORTH: usize = 2;
-
-/// Rows by how the points' laws are chosen: by the body's surface and walls, or not.
-#[derive(Debug, Default)]
-pub(crate) struct WeakRows([OnceLock<Option<LawRows>>; 4]);
-
-/// Rows of the clusters.
-#[derive(Debug)]
-pub(crate) struct LawRows {
-    modes: usize,
-    clusters: Vec<OnceLock<ClusterRows>>,
-}
-
-/// Rows of one cluster.
-#[derive(Debug)]
-pub(crate) struct ClusterRows {
-    /// Its weak points, in their order, where nothing presses.
-    pub(crate) points: Vec<RowPoint>,
-    /// Their frames: each look reads them all, so that they lie side by side.
-    pub(crate) frames: Vec<Frame>,
-    pub(crate) rows: Rows,
-    coarse: OnceLock<Option<Coarse>>,
-    opposite: OnceLock<OppositeRows>,
-}
-
-/// Rows of the mirror images of a cluster's weak points behind the middle of the walls that they are in.
-#[derive(Debug)]
-pub(crate) struct OppositeRows {
-    pub(crate) rows: Rows,
-    /// Each point's image, and its first row; none of a point in no wall.
-    pub(crate) images: Vec<Option<(RowPoint, usize)>>,
-}
 
 impl ClusterRows {
     /// A few shapes in place of all modes, where they do.
@@ -100,13 +71,16 @@ impl WeakRows {
         };
         self.0[laws].get_or_init(make).as_ref()
     }
+}
 
-    /// Makes all that [`Self::of`] gives by and by.
-    pub(crate) fn prepare(&self, body: &Body, config: &FractureConfig) {
-        if let Some(rows) = self.of(body, config, body.asset.modes.followed()) {
+impl Body {
+    /// Works out how its modes stress its weak points, so that its first blow does not have to wait for it. Else that is done part by part,
+    /// where a blow has to look. Copies of the body share it.
+    pub fn prepare_for_blows(&self, config: &FractureConfig) {
+        if let Some(rows) = self.rows.of(self, config, self.asset.modes.followed()) {
             for cluster in 0..rows.clusters.len() {
-                rows.cluster(body, config, cluster).coarse(body);
-                rows.opposite(body, config, cluster);
+                rows.cluster(self, config, cluster).coarse(self);
+                rows.opposite(self, config, cluster);
             }
         }
     }

@@ -2,13 +2,12 @@
 
 use glam::Vec3;
 
-use crate::asset::Asset;
-use crate::contact::carriers;
+use crate::asset::{Asset, carriers};
 use crate::mesh::SurfacePoint;
 use crate::stress::dot;
 
 /// Σ_i |φ_i| r_i at each vertex of the surface, for rows r of one number per mode; zero at vertices without a triangle.
-pub(super) fn surface_sums<const N: usize>(asset: &Asset, rows: &[Vec<f32>; N]) -> Vec<[f32; N]> {
+pub(crate) fn surface_sums<const N: usize>(asset: &Asset, rows: &[Vec<f32>; N]) -> Vec<[f32; N]> {
     let mut sums = vec![[0.0_f32; N]; asset.surface_positions().len()];
     if asset.modes.count() > 0 {
         // With the widest vectors that this processor has; the same operations in the same order, so the same bits.

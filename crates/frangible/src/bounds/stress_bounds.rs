@@ -14,7 +14,7 @@
 
 use glam::Vec3;
 
-use crate::asset::{AnalysisMesh, Asset, EmbeddedPoint};
+use crate::asset::{AnalysisMesh, Asset, EmbeddedPoint, StressBounds};
 use crate::material::Material;
 use crate::mesh::TetMesh;
 use crate::modal::ModalBasis;
@@ -26,17 +26,6 @@ const CLUSTER: usize = 256;
 /// Rounding of u = Φ q and of its gradient in f32, relative to the sum of the absolute values of all terms: twenty
 /// times ε/2 = 6e-8, since the errors of a sum of n terms grow as √n, and n is about a hundred.
 const ROUNDING: f32 = 1.2e-6;
-
-/// Largest stress and gradient of each mode over clusters of neighbouring fracture tetrahedra.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct StressBounds {
-    /// Cluster of each fracture tetrahedron, by its [place](Asset::place).
-    pub cluster_of_tet: Vec<u32>,
-    /// Largest linear stress, Pa per m·√kg: one row per cluster, one column per mode.
-    pub stress: Vec<f32>,
-    /// Largest displacement gradient, 1 per m·√kg: one row per cluster, one column per mode.
-    pub gradient: Vec<f32>,
-}
 
 impl StressBounds {
     /// Finds the bounds of an asset from its other arrays.
@@ -82,26 +71,16 @@ impl StressBounds {
             gradient,
         }
     }
+}
 
-    /// Whether there are none: they are then computed when a body is made.
+impl Asset {
+    /// The asset with its stress bounds and the peak stress of its modes found anew, as the bake does: for one whose
+    /// mode shapes were changed.
     #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.cluster_of_tet.is_empty()
-    }
-
-    /// Largest entries of all clusters: rows of stress and gradient for the whole body.
-    #[must_use]
-    pub fn root(&self, modes: usize) -> (Vec<f32>, Vec<f32>) {
-        let largest = |rows: &[f32]| {
-            let mut root = vec![0.0_f32; modes];
-            for row in rows.chunks_exact(modes.max(1)) {
-                for (a, &b) in root.iter_mut().zip(row) {
-                    *a = a.max(b);
-                }
-            }
-            root
-        };
-        (largest(&self.stress), largest(&self.gradient))
+    pub fn restressed(mut self) -> Self {
+        self.bounds = StressBounds::of(&self);
+        self.modes.peak_stress = self.bounds.root(self.modes.count()).0;
+        self
     }
 }
 

@@ -4,12 +4,12 @@ use std::sync::{Arc, OnceLock};
 
 use glam::Vec3;
 
-use crate::asset::Asset;
-use crate::fragment::{MeshIndex, RenderIndex};
+use super::MeshIndex;
+use crate::asset::{Asset, Portion, StressBounds};
+use crate::bounds::{PerImpulse, PerNewton, Reaches, quadratic_modulus};
+use crate::fragment::RenderIndex;
 use crate::mesh::TriangleTree;
 use crate::modal::ModalBasis;
-use crate::piece::Portion;
-use crate::refuse::{PerImpulse, PerNewton, Reaches, StressBounds, quadratic_modulus};
 use crate::stress::Skin;
 
 /// What follows from an asset and every impact needs.
@@ -87,9 +87,8 @@ impl Prepared {
         }
     }
 
-    /// The numbers of a piece, whose modes lack only the peak of their stress.
-    pub(crate) fn of_piece(asset: &mut Asset, portion: &Portion) -> Self {
-        let root = &portion.prepared;
+    /// The numbers of a piece, whose modes lack only the peak of their stress. `root`: those of the body as it was baked.
+    pub(crate) fn of_piece(asset: &mut Asset, portion: &Portion, root: &Arc<Self>) -> Self {
         let skin = Skin::of_piece(asset, portion, &root.skin);
         let bounds = StressBounds::with_skin(asset, &skin);
         let whole = bounds.root(asset.modes.count());

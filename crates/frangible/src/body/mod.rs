@@ -1,21 +1,25 @@
 //! Breakable bodies: what is shared by all bodies of a kind, and what is a body's own.
 
+mod mesh_index;
+mod prepared;
+
 use std::sync::Arc;
 
 use glam::{DVec3, Vec3};
 
-use crate::asset::{Asset, EmbeddedPoint, RescaleError, scaled};
+use crate::asset::{Asset, EmbeddedPoint, RescaleError, StressBounds, scaled};
+use crate::bounds::WeakClusters;
 use crate::config::FractureConfig;
-use crate::crack::{CrackFront, Tip, fronts, tips, weak_place};
 use crate::error::InputError;
 use crate::fields::{Fields, Resistance, Toughness};
 use crate::mesh::SurfacePoint;
-use crate::prepared::Prepared;
-use crate::refuse::{self, StressBounds, WeakClusters};
 use crate::rng::{Purpose, stream, uniform};
 use crate::state::BodyState;
-use crate::stress::Law;
-use crate::weak_rows::WeakRows;
+use crate::stress::{Law, WeakRows, weak_place};
+use crate::tips::{CrackFront, Tip, fronts, tips};
+
+pub(crate) use mesh_index::MeshIndex;
+pub(crate) use prepared::Prepared;
 
 /// An asset that has been checked and made ready: one per kind of object, cheap to clone, shared by its bodies.
 #[derive(Clone, Debug)]
@@ -168,17 +172,6 @@ impl Body {
         self.asset.portion.as_ref().map_or(0, |p| p.generation())
     }
 
-    /// Works out what its first steady load would ask for, so that this does not have to wait for it.
-    pub fn prepare_for_loads(&self) {
-        refuse::prepare_for_loads(self);
-    }
-
-    /// Works out how its modes stress its weak points, so that its first blow does not have to wait for it. Else that is done part by part,
-    /// where a blow has to look. Copies of the body share it.
-    pub fn prepare_for_blows(&self, config: &FractureConfig) {
-        self.rows.prepare(self, config);
-    }
-
     /// The point of its surface nearest to a point, m, body frame.
     #[doc(hidden)]
     #[must_use]
@@ -195,10 +188,15 @@ impl Body {
         }
     }
 
+    /// What was prepared for the body as it was baked.
+    pub(crate) fn root(&self) -> &Arc<Prepared> {
+        self.prepared.root.as_ref().unwrap_or(&self.prepared)
+    }
+
     /// A part of this body.
     pub(crate) fn part(&self, mut asset: Asset, weak_tets: Vec<u32>, state: BodyState) -> Self {
         let prepared = match asset.portion.clone() {
-            Some(portion) => Arc::new(Prepared::of_piece(&mut asset, &portion)),
+            Some(portion) => Arc::new(Prepared::of_piece(&mut asset, &portion, self.root())),
             None => Arc::clone(&self.prepared),
         };
         let resistance = self.resistance.of_part(&weak_tets);

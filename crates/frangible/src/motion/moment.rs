@@ -2,9 +2,9 @@
 
 use glam::{Mat3, Vec3};
 
-use super::wide::dot;
+use super::Motion;
 use crate::asset::{Asset, EmbeddedPoint};
-use crate::modal::Motion;
+use crate::stress::dot;
 
 /// Displacements of the coarse nodes at one time step, each node computed when it is first asked for.
 #[derive(Clone, Debug, Default)]

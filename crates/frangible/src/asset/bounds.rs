@@ -1,0 +1,35 @@
+//! What bounds the stress of every motion, as an asset keeps it; the module `bounds` of this crate finds it.
+
+/// Largest stress and gradient of each mode over clusters of neighbouring fracture tetrahedra.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct StressBounds {
+    /// Cluster of each fracture tetrahedron, by its [place](Asset::place).
+    pub cluster_of_tet: Vec<u32>,
+    /// Largest linear stress, Pa per m·√kg: one row per cluster, one column per mode.
+    pub stress: Vec<f32>,
+    /// Largest displacement gradient, 1 per m·√kg: one row per cluster, one column per mode.
+    pub gradient: Vec<f32>,
+}
+
+impl StressBounds {
+    /// Whether there are none: they are then computed when a body is made.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.cluster_of_tet.is_empty()
+    }
+
+    /// Largest entries of all clusters: rows of stress and gradient for the whole body.
+    #[must_use]
+    pub fn root(&self, modes: usize) -> (Vec<f32>, Vec<f32>) {
+        let largest = |rows: &[f32]| {
+            let mut root = vec![0.0_f32; modes];
+            for row in rows.chunks_exact(modes.max(1)) {
+                for (a, &b) in root.iter_mut().zip(row) {
+                    *a = a.max(b);
+                }
+            }
+            root
+        };
+        (largest(&self.stress), largest(&self.gradient))
+    }
+}

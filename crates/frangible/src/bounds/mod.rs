@@ -1,0 +1,23 @@
+//! Numbers that bound the stress of a body, found once for its kind (beyond the paper); the questions that they answer are in `refuse`.
+
+mod clusters;
+mod per_impulse;
+mod reach;
+mod stress_bounds;
+mod surface_sums;
+
+pub(crate) use clusters::WeakClusters;
+pub(crate) use per_impulse::PerImpulse;
+pub(crate) use reach::Reaches;
+pub(crate) use stress_bounds::{quadratic_modulus, tension_bound};
+pub(crate) use surface_sums::surface_sums;
+
+/// Rounding of sums over a few thousand terms cannot make a bound so many times as large.
+pub(crate) const ROUNDING: f32 = 1.0 + 1e-4;
+
+/// The largest stress, Pa, and gradient per newton of force anywhere on the surface, and per m/s² of gravity.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct PerNewton {
+    pub(crate) force: [f32; 2],
+    pub(crate) gravity: [f32; 2],
+}

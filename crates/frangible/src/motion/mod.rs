@@ -1,0 +1,98 @@
+//! How a body moves under a load: the amplitudes of its modes over time, what these leave out, and where that takes its points.
+
+mod complement;
+mod displacement;
+mod moment;
+mod pulse;
+mod response;
+
+pub(crate) use complement::{Complement, Residual};
+pub use displacement::DisplacementBatch;
+pub(crate) use moment::Moment;
+pub use pulse::Pulse;
+pub use response::respond;
+
+/// Modal amplitudes over time, time-major: `amplitudes[step * modes + mode]`, m·√kg.
+#[derive(Clone, Debug, Default)]
+pub struct Motion {
+    /// Amplitudes q of every mode at t = Δt, 2 Δt, …
+    pub amplitudes: Vec<f32>,
+    /// Number of modes.
+    pub modes: usize,
+    /// Largest Σ ½ (q̇² + λ q²) at a step, J.
+    pub peak_energy: f64,
+    /// Largest strain energy Σ ½ λ q² at a step, J.
+    pub peak_strain_energy: f64,
+    /// Largest strain energy until the end of each step, J; empty where only the largest of all is known.
+    pub(crate) strain_energy: Vec<f64>,
+    /// What the modes leave out.
+    pub(crate) complement: Complement,
+    /// From this step on steps are longer, by this factor: after a blow only the modes swing.
+    pub(crate) coarse: Option<(usize, f64)>,
+}
+
+impl Motion {
+    /// A motion that comes from elsewhere: amplitudes of the first `modes` modes, step after step, m·√kg, and its largest energy
+    /// and strain energy, J.
+    #[must_use]
+    pub fn new(
+        amplitudes: Vec<f32>,
+        modes: usize,
+        peak_energy: f64,
+        peak_strain_energy: f64,
+    ) -> Self {
+        Self {
+            amplitudes,
+            modes,
+            peak_energy,
+            peak_strain_energy,
+            strain_energy: Vec::new(),
+            complement: Complement::default(),
+            coarse: None,
+        }
+    }
+
+    /// Number of time steps.
+    #[must_use]
+    pub fn steps(&self) -> usize {
+        self.amplitudes.len().checked_div(self.modes).unwrap_or(0)
+    }
+
+    /// The largest strain energy until the end of a step, J: what cracks may have spent by then. Where that was not followed, the largest
+    /// of all steps.
+    pub(crate) fn strain_energy_until(&self, step: usize) -> f64 {
+        let known = self.strain_energy.get(step).copied();
+        known.unwrap_or(self.peak_strain_energy)
+    }
+
+    /// When a step begins, s, where the first are so long, s: steps after a blow are longer.
+    #[must_use]
+    pub fn begin(&self, step: usize, time_step: f64) -> f64 {
+        match self.coarse {
+            Some((first, factor)) if step > first => {
+                (first as f64 + (step - first) as f64 * factor) * time_step
+            }
+            _ => step as f64 * time_step,
+        }
+    }
+
+    /// The step in which a time, s, lies, where the first steps are so long, s; the last one for later times, none without steps.
+    #[must_use]
+    pub fn step_at(&self, time: f64, time_step: f64) -> Option<usize> {
+        let last = self.steps().checked_sub(1)?;
+        let at = time / time_step;
+        let step = match self.coarse {
+            Some((first, factor)) if at > first as f64 => {
+                first as f64 + (at - first as f64) / factor
+            }
+            _ => at,
+        };
+        Some((step.max(0.0) as usize).min(last))
+    }
+
+    /// Amplitudes of all modes at a step, m·√kg.
+    #[must_use]
+    pub fn at(&self, step: usize) -> &[f32] {
+        &self.amplitudes[step * self.modes..(step + 1) * self.modes]
+    }
+}

@@ -1,0 +1,51 @@
+//! Where a crack crosses a tetrahedron.
+
+use glam::Vec3;
+
+/// Edge points where s changes sign in a tetrahedron, as a polygon of three or four corners in order; zero counts as positive.
+pub(crate) fn crossing_polygon(x: &[Vec3; 4], s: &[f32; 4]) -> ([Vec3; 4], usize) {
+    let negative = s.map(|v| v < 0.0);
+    let cut = |i: usize, j: usize| x[i] + (x[j] - x[i]) * (s[i] / (s[i] - s[j]));
+    let mut polygon = [Vec3::ZERO; 4];
+    match negative.iter().filter(|&&n| n).count() {
+        count @ (1 | 3) => {
+            let lone = negative
+                .iter()
+                .position(|&n| n == (count == 1))
+                .unwrap_or(0);
+
+            for (k, j) in (0..4).filter(|&j| j != lone).enumerate() {
+                polygon[k] = cut(lone, j);
+            }
+            (polygon, 3)
+        }
+        2 => {
+            let mut low = [0; 2];
+            let mut high = [0; 2];
+            let (mut l, mut h) = (0, 0);
+            for i in 0..4 {
+                if negative[i] {
+                    low[l] = i;
+                    l += 1;
+                } else {
+                    high[h] = i;
+                    h += 1;
+                }
+            }
+            let ([a, b], [c, d]) = (low, high);
+            ([cut(a, c), cut(a, d), cut(b, d), cut(b, c)], 4)
+        }
+        _ => (polygon, 0),
+    }
+}
+
+/// Area of the crack inside a tetrahedron, m² `[G12 Eq. 11]`.
+pub(crate) fn crossing_area(x: &[Vec3; 4], s: &[f32; 4]) -> f32 {
+    let (p, corners) = crossing_polygon(x, s);
+    let triangle = |a: Vec3, b: Vec3, c: Vec3| 0.5 * (b - a).cross(c - a).length();
+    match corners {
+        3 => triangle(p[0], p[1], p[2]),
+        4 => triangle(p[0], p[1], p[2]) + triangle(p[0], p[2], p[3]),
+        _ => 0.0,
+    }
+}
