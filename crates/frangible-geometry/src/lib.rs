@@ -1,6 +1,7 @@
 //! The meshes of bodies and of their pieces, and what is asked of them.
 //!
 //! - [`TetMesh`]: linear tetrahedra with their neighbours; [`TriMesh`]: the closed surface of a piece; [`RenderMesh`]: what is drawn of it;
+//! - [`RenderSurface`]: the surface that an author drew, and [`RenderIndex`], which divides it among the pieces;
 //! - [`TriangleTree`]: the closest point of a surface; [`AlongSurface`]: distances along one; [`MassProperties`]: mass, centre and inertia;
 //! - [`merged_parts`], [`thinned`] and [`box_of`]: convex parts made fewer and simpler for colliders;
 //! - [`Rows`], [`ByNode`], [`DisjointSets`]: lists, tables and sets of numbered things.
@@ -15,6 +16,7 @@ mod by_node;
 mod closest;
 mod convex;
 mod disjoint;
+mod drawn;
 mod mass;
 #[cfg(test)]
 mod random;
@@ -30,6 +32,9 @@ pub use by_node::ByNode;
 pub use closest::closest_on_triangle;
 pub use convex::{box_of, merged_parts, thinned};
 pub use disjoint::DisjointSets;
+pub use drawn::{
+    Division, Part, Parts, Piece as DrawnPiece, RenderIndex, RenderMaterial, RenderSurface,
+};
 pub use glam;
 pub use mass::MassProperties;
 pub use render::{RenderMesh, box_projection};

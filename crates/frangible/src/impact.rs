@@ -324,7 +324,7 @@ pub(crate) fn pieces(body: &Body, cracked: Cracked<'_>) -> Outcome {
         }
     };
     let start = Instant::now();
-    let root = &**body.prepared.root.as_ref().unwrap_or(&body.prepared);
+    let root = &**body.root();
     let Built {
         mut fragments,
         undrawn,
@@ -340,8 +340,7 @@ pub(crate) fn pieces(body: &Body, cracked: Cracked<'_>) -> Outcome {
     report.timings.fragments = start.elapsed().as_secs_f64();
     let start = Instant::now();
     if let (Some(surface), Some(undrawn)) = (&body.asset.root().render, undrawn) {
-        let mesh = &body.asset.fracture;
-        fragment::draw(surface, mesh, root, &mut fragments, undrawn);
+        fragment::draw(surface, root, &mut fragments, undrawn);
         report.timings.drawing = start.elapsed().as_secs_f64();
     }
     for fragment in &mut fragments {

@@ -176,3 +176,23 @@ fn a_whole_body_with_its_modes_again_breaks_as_it_did() {
     let area = |o: &Outcome| o.report().crack_area;
     assert!((area(&one) / area(&other) - 1.0).abs() < 1e-3);
 }
+
+#[test]
+fn crumbs_stay_with_a_cracked_body_as_its_configuration_says() {
+    let default = FractureConfig::default();
+    let mut together = default.clone();
+    together.crumb_share = 0.99;
+    let mut body = pane().body(2);
+    let hit = pane_hit(0.02, 0.03, 15.0);
+    assert!(pieces(&impact(&body, std::slice::from_ref(&hit), &default).unwrap()).len() > 1);
+    // All pieces but one are crumbs then, and stay with it.
+    let Outcome::Held { state, .. } = impact(&body, &[hit], &together).unwrap() else {
+        panic!("it parts")
+    };
+    body.set_state(*state.unwrap()).unwrap();
+    let nodes = |config| Portion::of_cracked(&body, config).unwrap().nodes().len();
+    assert_eq!(nodes(&together), body.asset().fracture.positions.len());
+    assert!(nodes(&default) < nodes(&together));
+    together.crumb_share = 2.0;
+    assert!(Portion::of_cracked(&body, &together).is_err());
+}

@@ -5,7 +5,6 @@ mod embedding;
 mod file;
 mod half;
 mod portion;
-mod render;
 mod rescale;
 mod validate;
 
@@ -17,6 +16,7 @@ use crate::material::Material;
 use crate::mesh::{MassProperties, TetMesh};
 use crate::modal::ModalBasis;
 
+pub use crate::mesh::{RenderMaterial, RenderSurface};
 pub use bounds::StressBounds;
 pub(crate) use embedding::carriers;
 #[doc(hidden)]
@@ -27,7 +27,6 @@ pub use file::seal;
 pub use file::{AssetFileError, FORMAT_VERSION, SaveOptions};
 pub use portion::Portion;
 pub(crate) use portion::{FOREIGN, FixedPoints, NOBODY, Trace};
-pub use render::{RenderMaterial, RenderSurface};
 pub use rescale::{RescaleError, SMALLEST_CURVATURE_RADIUS, scaled, with_material};
 pub(crate) use validate::{analysis, embedded, modes};
 

@@ -7,8 +7,7 @@ use glam::Vec3;
 use super::MeshIndex;
 use crate::asset::{Asset, Portion, StressBounds};
 use crate::bounds::{PerImpulse, PerNewton, Reaches, quadratic_modulus};
-use crate::fragment::RenderIndex;
-use crate::mesh::TriangleTree;
+use crate::mesh::{RenderIndex, TriangleTree};
 use crate::modal::ModalBasis;
 use crate::stress::Skin;
 

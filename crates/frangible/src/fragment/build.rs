@@ -1,14 +1,15 @@
 //! Fragments: closed surfaces, masses, shares of the convex cells `[G12 §6.3]`.
 
 use super::draft::{Draft, inner_faces, nodes, outer_faces, partial_cracks};
+use super::draw::Undrawn;
 use super::finish::Finisher;
 use super::label::Labels;
 use super::points::PointTable;
-use super::render::{Parts, Undrawn};
 use crate::asset::{Asset, FixedPoints, Trace};
 use crate::body::Prepared;
 use crate::crack::{Crack, CrackSystem};
 use crate::fragment::Fragment;
+use crate::mesh::{Division, Parts};
 
 /// Fragments, and what is known of them besides.
 pub(crate) struct Built {
@@ -63,10 +64,13 @@ pub(crate) fn build_cracked(
     }
     let fixed = table.fixed();
     let undrawn = parts.map(|parts| Undrawn {
-        parts,
         labels: traces.iter().map(|trace| trace.label).collect(),
-        faces,
-        points: table.into_positions(),
+        division: Division {
+            parts,
+            nodes: asset.fracture.positions.len(),
+            faces,
+            points: table.into_positions(),
+        },
     });
     Built {
         fragments,

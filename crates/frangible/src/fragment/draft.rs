@@ -5,11 +5,10 @@ use glam::Vec3;
 use super::label::Labels;
 use super::partition::{Interface, Point, face_parts, interfaces};
 use super::points::PointTable;
-use super::render::{Part, Parts};
 use crate::asset::Asset;
 use crate::body::MeshIndex;
 use crate::crack::Crack;
-use crate::mesh::TetMesh;
+use crate::mesh::{Part, Parts, TetMesh};
 use crate::state::{Cuts, crossing_polygon};
 
 /// One fragment under construction, in numbers of the point table.

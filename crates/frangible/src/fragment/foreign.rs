@@ -2,10 +2,10 @@
 
 use super::build::{Built, build_cracked};
 use super::draft::divided_tets;
+use super::draw::draw;
 use super::label::{Labels, of_cuts};
 use super::partition::{Interface, interfaces};
 use super::points::PointTable;
-use super::render::draw;
 use crate::body::Body;
 use crate::fragment::Fragment;
 use crate::state::Cuts;
@@ -32,7 +32,7 @@ pub fn pieces_of_cuts(
         ..
     } = build_cracked(asset, &[], &labels, prepared);
     if let (Some(surface), Some(undrawn)) = (&asset.render, undrawn) {
-        draw(surface, mesh, prepared, &mut fragments, undrawn);
+        draw(surface, prepared, &mut fragments, undrawn);
     }
     let labelled = traces.iter().map(|t| t.label).zip(fragments).collect();
     (labelled, labels.of_node)

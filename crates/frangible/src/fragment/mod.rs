@@ -5,6 +5,7 @@ mod breakup;
 mod build;
 mod components;
 mod draft;
+mod draw;
 mod finish;
 mod foreign;
 mod fractured;
@@ -12,8 +13,9 @@ mod junction;
 mod label;
 mod partition;
 mod points;
-mod render;
 
+#[cfg(test)]
+mod draw_tests;
 #[cfg(test)]
 mod junction_tests;
 #[cfg(test)]
@@ -24,11 +26,11 @@ mod tests;
 pub(crate) use bearing::Bearing;
 pub(crate) use breakup::Breakup;
 pub(crate) use build::{Built, build};
+pub(crate) use draw::draw;
 pub use foreign::{CutEdge, interfaces_of_labels, pieces_of_cuts};
 pub(crate) use label::{Labels, label};
 pub(crate) use partition::{Point, face_parts, interfaces};
 pub(crate) use points::PointTable;
-pub(crate) use render::{RenderIndex, draw};
 
 use glam::Vec3;
 

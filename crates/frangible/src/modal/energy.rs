@@ -51,7 +51,7 @@ impl ContactEnergy {
 
     /// The energy at the middle of the contact is at least the first, J, and never more than the second.
     ///
-    /// The size √(q̇² + λ q²) of a mode's motion is at most 1 after a unit impulse (`refuse/reach.rs`). Where λ > u², the motion is
+    /// The size √(q̇² + λ q²) of a mode's motion is at most 1 after a unit impulse (`bounds/reach.rs`). Where λ > u², the motion is
     /// c sin(ut), c = ½ u/(λ − u²), of size c √λ at most, and a rest of size c (u + 2d) at most. In the middle, where sin(ut) = 1, its
     /// size is at least the difference of the two.
     fn bounds(&self, u: f64) -> (f64, f64) {

@@ -116,10 +116,10 @@ impl Lists {
         breakup: &Breakup,
         local: impl Fn(u32) -> Option<u32>,
     ) -> Vec<[u32; 2]> {
-        let prepared = body.prepared.root.as_ref().unwrap_or(&body.prepared);
+        let index = &body.root().index;
         let mut sets = DisjointSets::new(self.nodes.len());
         for (i, &v) in (0..).zip(&self.nodes) {
-            for &w in prepared.index.neighbours(v).iter().filter(|&&w| w < v) {
+            for &w in index.neighbours(v).iter().filter(|&&w| w < v) {
                 if let Some(j) = local(w)
                     && breakup.cuts.place(w, v).is_none()
                 {

@@ -1,4 +1,4 @@
-//! The author's surface divided among the fragments.
+//! The surface that an author drew, divided among the pieces of a body.
 //!
 //! The fracture mesh only approximates that surface, so the two do not meet exactly: the surface is divided by
 //! projecting the partition of the fracture mesh's boundary on it (`overlay.rs`), and the rims of the crack faces are drawn to it. Then
@@ -7,29 +7,30 @@
 
 mod assemble;
 mod conform;
-mod draw;
 mod edges;
 mod overlay;
 mod parts;
 mod polygon;
 mod seam;
-#[cfg(test)]
-mod tests;
+mod surface;
+
+use std::collections::HashMap;
 
 use glam::{DVec3, Vec3};
 
-use crate::asset::RenderSurface;
-use crate::mesh::TriangleTree;
+use crate::{RenderMesh, TriangleTree};
+use assemble::Vertices;
 use conform::{Corner, Corners};
-pub(crate) use draw::{Undrawn, draw};
 use edges::Edges;
 use overlay::Overlay;
-pub(crate) use parts::{Part, Parts};
+pub use parts::{Part, Parts};
 use polygon::Polygon;
+use seam::{Seam, close};
+pub use surface::{RenderMaterial, RenderSurface};
 
 /// What follows from a render surface and every break needs.
 #[derive(Debug)]
-pub(crate) struct RenderIndex {
+pub struct RenderIndex {
     /// Over the triangles of the render surface.
     tree: TriangleTree,
     /// Boundary triangle of the fracture mesh closest to each render triangle's centroid.
@@ -40,19 +41,45 @@ pub(crate) struct RenderIndex {
     edges: Option<Edges>,
 }
 
+/// How a partition of the fracture mesh divides its boundary, and the faces between its pieces.
+#[derive(Clone, Debug, Default)]
+pub struct Division {
+    /// The boundary divided among the labels.
+    pub parts: Parts,
+    /// Nodes of the fracture mesh: points of the partition are numbered from here on.
+    pub nodes: usize,
+    /// Crack faces of each label, in numbers of the points.
+    pub faces: Vec<Vec<[u32; 3]>>,
+    /// Where the points are, m, body frame.
+    pub points: Vec<DVec3>,
+}
+
+/// A piece to be drawn.
+#[derive(Clone, Copy, Debug)]
+pub struct Piece<'a> {
+    /// Its label.
+    pub label: u32,
+    /// Normals at the corners of its crack faces, face after face.
+    pub normals: &'a [[Vec3; 3]],
+    /// Its centre of mass, m, body frame: the origin of what is drawn.
+    pub centre: DVec3,
+}
+
 /// What of the render surface belongs to a fragment.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Share {
+struct Share {
     /// Triangles that are the fragment's alone.
-    pub(super) whole: Vec<u32>,
+    whole: Vec<u32>,
     /// Parts of triangles, in barycentric coordinates.
-    pub(super) pieces: Vec<(u32, Polygon)>,
+    pieces: Vec<(u32, Polygon)>,
     /// Triangles and parts of them whose corners are numbered.
-    pub(super) numbered: Vec<(u32, Vec<Corner>)>,
+    numbered: Vec<(u32, Vec<Corner>)>,
 }
 
 impl RenderIndex {
-    pub(crate) fn new(surface: &RenderSurface, boundary: &TriangleTree) -> Self {
+    /// What follows from a surface. `boundary`: over the boundary triangles of the fracture mesh.
+    #[must_use]
+    pub fn new(surface: &RenderSurface, boundary: &TriangleTree) -> Self {
         let home = |t: &[u32; 3]| {
             let centroid = t
                 .iter()
@@ -69,8 +96,74 @@ impl RenderIndex {
         }
     }
 
+    /// What to draw of each piece: its share of the surface and its crack faces, sewn to that share where the surface faces outwards.
+    ///
+    /// `boundary`: as for [`RenderIndex::new`]. `reach`: how far the surface may be from the boundary, m.
+    #[must_use]
+    pub fn divide(
+        &self,
+        surface: &RenderSurface,
+        boundary: &TriangleTree,
+        reach: f32,
+        division: Division,
+        pieces: &[Piece<'_>],
+    ) -> Vec<RenderMesh> {
+        let Division {
+            parts,
+            nodes,
+            faces,
+            mut points,
+        } = division;
+        // One more for what belongs to the neighbours of a piece.
+        let mut shares = self.shares(surface, boundary, &parts, faces.len() + 1, reach);
+        let mut rim = parts.rim;
+        rim.sort_unstable();
+        rim.dedup();
+        for v in rim {
+            let place = &mut points[v as usize - nodes];
+            *place = self.drawn_to(*place, reach);
+        }
+        let corners = self.edges.as_ref().map(|edges| {
+            let corners = number(surface, edges, &mut shares);
+            (edges, corners)
+        });
+        let place = |v: u32| points[v as usize - nodes];
+        let mut local = vec![u32::MAX; surface.positions.len()];
+        let draw = |piece: &Piece<'_>| {
+            let label = piece.label as usize;
+            let (share, faces, normals) = (&shares[label], &faces[label], piece.normals);
+            let seam = match &corners {
+                None => Seam::default(),
+                Some((edges, corners)) => {
+                    // Looked up only, never iterated.
+                    let flat = |face: &[u32; 3], n: &[Vec3; 3]| [0, 1, 2].map(|k| (face[k], n[k]));
+                    let normal: HashMap<u32, Vec3> = (faces.iter().zip(normals))
+                        .flat_map(|(face, n)| flat(face, n))
+                        .collect();
+                    close(
+                        sides(surface, edges, corners, share),
+                        |number| corners.place(number),
+                        faces,
+                        place,
+                        |point| normal[&point],
+                        f64::from(reach),
+                        edges.are_closed,
+                    )
+                }
+            };
+            let place = |v: u32| seam.moved.get(&v).copied().unwrap_or_else(|| place(v));
+            let mut inner: Vertices = (faces.iter().zip(normals))
+                .map(|(face, n)| [0, 1, 2].map(|k| (place(face[k]), n[k])))
+                .collect();
+            inner.extend(&seam.triangles);
+            let corners = corners.as_ref().map(|(_, corners)| corners);
+            self.assemble(surface, share, corners, &inner, piece.centre, &mut local)
+        };
+        pieces.iter().map(draw).collect()
+    }
+
     /// Where the render surface is closest, if within `reach`, m.
-    pub(crate) fn drawn_to(&self, point: DVec3, reach: f32) -> DVec3 {
+    fn drawn_to(&self, point: DVec3, reach: f32) -> DVec3 {
         let near = self.tree.closest(point.as_vec3()).position.as_dvec3();
         if near.distance(point) <= f64::from(reach) {
             near
@@ -83,7 +176,7 @@ impl RenderIndex {
     ///
     /// Only triangles near a divided boundary triangle are looked at closely: elsewhere the boundary under a triangle
     /// has one label.
-    pub(crate) fn shares(
+    fn shares(
         &self,
         surface: &RenderSurface,
         boundary: &TriangleTree,

@@ -111,14 +111,7 @@ fn broken(surface: &RenderSurface, count: u32, random: bool, seed: u64) -> Vec<F
         undrawn,
         ..
     } = build(&system, &labels, &body.prepared);
-    let mesh = &body.asset.fracture;
-    draw(
-        surface,
-        mesh,
-        &body.prepared,
-        &mut fragments,
-        undrawn.unwrap(),
-    );
+    draw(surface, &body.prepared, &mut fragments, undrawn.unwrap());
     fragments
 }
 

@@ -9,7 +9,7 @@ use glam::{DVec2, DVec3};
 
 use super::parts::Parts;
 use super::polygon::{Polygon, area, bounds, centre, halves, overlap, split};
-use crate::mesh::TriangleTree;
+use crate::TriangleTree;
 
 /// Parts that face farther away from the triangle's normal than this are another side of the body (cosine).
 const FACING: f64 = 0.3;

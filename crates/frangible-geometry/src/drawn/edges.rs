@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use glam::DVec3;
 
-use crate::asset::RenderSurface;
+use super::RenderSurface;
 
 /// Edge of a side of a triangle that has no area, and so bounds nothing.
 const NO_EDGE: u32 = u32::MAX;

@@ -2,11 +2,11 @@
 
 use glam::{DVec2, DVec3, Vec3};
 
+use super::RenderSurface;
 use super::conform::Corners;
 use super::polygon::centre as centre_of;
 use super::{RenderIndex, Share};
-use crate::asset::RenderSurface;
-use crate::mesh::{RenderMesh, box_projection};
+use crate::{RenderMesh, box_projection};
 
 /// A triangle of less area than this, in squares of its longer side at the first corner, is thin.
 const THIN: f64 = 1e-6;

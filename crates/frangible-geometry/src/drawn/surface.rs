@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use glam::Vec3;
 
-use crate::mesh::smooth_normals;
+use crate::smooth_normals;
 
 /// The surface as its author drew it, kept for drawing and for clipping; physics never reads it.
 ///
@@ -48,7 +48,7 @@ impl RenderSurface {
     }
 
     /// The first vertex at the place of each: vertices that only texture coordinates or normals part are one.
-    pub(crate) fn welded(&self) -> Vec<u32> {
+    pub(super) fn welded(&self) -> Vec<u32> {
         // Looked up only, never iterated.
         let mut first = HashMap::new();
         let place = |p: &Vec3| p.to_array().map(|x| (x + 0.0).to_bits());

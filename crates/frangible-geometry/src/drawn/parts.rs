@@ -2,34 +2,35 @@
 
 use glam::DVec3;
 
-use crate::mesh::{TriangleTree, closest_on_triangle};
+use crate::{TriangleTree, closest_on_triangle};
 
 /// A triangle of the boundary with one label.
-pub(crate) struct Part {
+#[derive(Clone, Copy, Debug)]
+pub struct Part {
     /// Corners, m, body frame.
-    pub(crate) corners: [DVec3; 3],
-    /// Fragment.
-    pub(crate) label: u32,
+    pub corners: [DVec3; 3],
+    /// Label of the fragment that it belongs to.
+    pub label: u32,
 }
 
 /// The parts of all boundary triangles, triangle by triangle.
-#[derive(Default)]
-pub(crate) struct Parts {
+#[derive(Clone, Debug, Default)]
+pub struct Parts {
     list: Vec<Part>,
     /// Number of parts before those of each triangle, begun so far.
     first: Vec<u32>,
     /// Points of the partition on the boundary, in any order and repeated.
-    pub(crate) rim: Vec<u32>,
+    pub rim: Vec<u32>,
 }
 
 impl Parts {
     /// Begins the next boundary triangle.
-    pub(crate) fn begin(&mut self) {
+    pub fn begin(&mut self) {
         self.first.push(self.list.len() as u32);
     }
 
     /// Adds a part to it.
-    pub(crate) fn push(&mut self, part: Part) {
+    pub fn push(&mut self, part: Part) {
         self.list.push(part);
     }
 

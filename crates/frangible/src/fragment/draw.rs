@@ -1,0 +1,39 @@
+//! What there is to draw of the fragments, made from what building them left.
+
+use super::Fragment;
+use crate::body::Prepared;
+use crate::mesh::{Division, DrawnPiece, RenderSurface};
+
+/// What drawing fragments needs and building them knows.
+pub(crate) struct Undrawn {
+    /// Label of each fragment.
+    pub(crate) labels: Vec<u32>,
+    /// What divides the surface among the labels.
+    pub(crate) division: Division,
+}
+
+/// Gives each fragment what to draw of it.
+pub(crate) fn draw(
+    surface: &RenderSurface,
+    prepared: &Prepared,
+    fragments: &mut [Fragment],
+    undrawn: Undrawn,
+) {
+    let Some(index) = &prepared.render else {
+        return;
+    };
+    let Undrawn { labels, division } = undrawn;
+    let drawn = {
+        let pieces = fragments.iter().zip(&labels);
+        let pieces = pieces.map(|(fragment, &label)| DrawnPiece {
+            label,
+            normals: &fragment.mesh.normals[fragment.mesh.outer_triangles..],
+            centre: fragment.mass.centre,
+        });
+        let pieces: Vec<_> = pieces.collect();
+        index.divide(surface, &prepared.surface, prepared.edge, division, &pieces)
+    };
+    for (fragment, drawn) in fragments.iter_mut().zip(drawn) {
+        fragment.render = Some(drawn);
+    }
+}
