@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use frangible::internals::stress::largest_eigenvalue;
-use frangible::internals::{ShownStress, Stage, Vibration};
+use frangible::internals::{Factors, Fields, ShownStress, Stage, Vibration};
 use frangible::{Asset, Body, Breakable, Contact, FractureConfig, Material, impact, would_break};
 use frangible_bake::mode_field::mode_on_fracture_mesh;
 use frangible_js::plain;
@@ -84,10 +84,10 @@ impl Kind {
         Ok(Impact::new(body, outcome.map_err(refused)?))
     }
 
-    /// Its asset, unless it is a piece, which cannot do what is asked.
-    pub(crate) fn whole(&self, asked: &str) -> PyResult<&Arc<Asset>> {
+    /// What it is, unless it is a piece, which cannot do what is asked.
+    pub(crate) fn whole(&self, asked: &str) -> PyResult<&Breakable> {
         match &self.0 {
-            Made::Whole(kind) => Ok(kind.asset()),
+            Made::Whole(kind) => Ok(kind),
             Made::Piece(_) => Err(refused(format!(
                 "a piece {asked}; keep the body that it comes from, the blow and the seed"
             ))),
@@ -113,8 +113,8 @@ impl Kind {
     }
 
     fn to_bytes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
-        let asset = self.whole("has no file of its own")?;
-        Ok(PyBytes::new(py, &asset.to_bytes()))
+        let kind = self.whole("has no file of its own")?;
+        Ok(PyBytes::new(py, &kind.asset().to_bytes()))
     }
 
     /// Name, material, mass, what its mesh is made of.
@@ -140,12 +140,42 @@ impl Kind {
 
     /// Displacement of each vertex in a mode of unit modal mass, 1/√kg.
     fn mode<'py>(&self, py: Python<'py>, number: usize) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        let asset = self.whole("shows no modes")?;
+        let asset = self.whole("shows no modes")?.asset();
         let field = py.detach(|| mode_on_fracture_mesh(asset, number));
         Ok(numbers(
             py,
             field.displacements.iter().flat_map(|d| d.to_array()),
         ))
+    }
+
+    /// The four vertices of each tetrahedron.
+    fn tets<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<u32>>> {
+        let mesh = &self.whole("cannot be weakened")?.asset().fracture;
+        Ok(PyArray1::from_slice(py, mesh.tets.as_flattened()))
+    }
+
+    /// Strength, toughness and weak points of each tetrahedron, as factors on its material's numbers; none where all are 1.
+    fn factors<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        let of_tet = &self.whole("does not tell its weakness")?.fields().of_tet;
+        let rows = of_tet
+            .iter()
+            .flat_map(|f| [f.strength, f.toughness, f.weak_points]);
+        Ok(numbers(py, rows))
+    }
+
+    /// This kind with such factors in the place of its own.
+    fn with_factors(&self, py: Python<'_>, rows: PyReadonlyArray1<'_, f64>) -> PyResult<Self> {
+        let kind = self.whole("cannot be weakened")?.clone();
+        let of_tet = rows.as_slice()?.as_chunks().0.iter();
+        let of_tet = of_tet.map(|&[strength, toughness, weak_points]| Factors {
+            strength: strength as f32,
+            toughness: toughness as f32,
+            weak_points: weak_points as f32,
+        });
+        let mut fields = Fields::clone(kind.fields());
+        fields.of_tet = of_tet.collect();
+        let kind = py.detach(|| kind.with_fields(fields)).map_err(refused)?;
+        Ok(Self(Made::Whole(kind)))
     }
 
     fn impact(

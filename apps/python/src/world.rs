@@ -1,13 +1,12 @@
 //! A world of rigid bodies that break.
 
 use std::path::PathBuf;
-use std::sync::Arc;
 
-use frangible::Material;
+use frangible::Breakable;
 use frangible::glam::{Quat, Vec3};
 use frangible_export::{write_atomically, write_glb};
 use frangible_scenes::{
-    BakedBody, BodySource, BodySpec, LiveScene, PieceSpec, Place, Reel, Scene, ThingKind, Throw,
+    BodySource, BodySpec, LiveScene, PieceSpec, Place, Reel, Scene, ThingKind, Throw,
 };
 use numpy::PyArray1;
 use pyo3::prelude::*;
@@ -43,16 +42,15 @@ impl LiveWorld {
         seed: u64,
         generations: u32,
     ) -> PyResult<Self> {
-        let baked = bodies.iter().map(|body| {
-            let asset = Arc::clone(body.kind.get().whole("cannot be put into a world")?);
-            let report = None;
-            Ok(BakedBody { asset, report })
+        let kinds = bodies.iter().map(|body| {
+            let kind = body.kind.get().whole("cannot be put into a world")?;
+            Ok(kind.clone())
         });
-        let baked = baked.collect::<PyResult<Vec<BakedBody>>>()?;
-        let specs = bodies.iter().zip(&baked).map(|(body, baked)| {
+        let kinds = kinds.collect::<PyResult<Vec<Breakable>>>()?;
+        let specs = bodies.iter().zip(&kinds).map(|(body, kind)| {
             // It is baked: what it came from is not looked at.
             let source = BodySource::Asset(PathBuf::from(&body.name));
-            let material: Material = baked.asset.material.clone();
+            let material = kind.asset().material.clone();
             BodySpec {
                 place: Place::Centre(body.position.into()),
                 rotation: Quat::from_array(body.rotation),
@@ -75,7 +73,7 @@ impl LiveWorld {
             },
             ..Scene::one_body(first)
         };
-        let live = LiveScene::new(&scene, &baked).map_err(refused)?;
+        let live = LiveScene::of_kinds(&scene, &kinds).map_err(refused)?;
         let mut reel = Reel::keeping(f64::INFINITY);
         reel.note(&live, 0.0);
         Ok(Self { live, reel })

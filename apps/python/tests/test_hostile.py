@@ -108,6 +108,14 @@ def entries(plate: fr.Body, blow: fr.Contact, tmp_path: Any) -> dict[str, tuple[
         "no contacts": ([place], plate.impact),
         "motions": ([place, turn, down, down], motions),
         "striker": ([place, down, np.eye(3) * 1e-5], striker),
+        "weakened": (
+            [np.ones(len(plate.vertices))] * 3,
+            lambda *factors: plate.weakened(*factors).impact(replace(blow, speed=40.0)),
+        ),
+        "weakened": (
+            [np.ones(len(plate.vertices))] * 3,
+            lambda *factors: plate.weakened(*factors).impact(replace(blow, speed=40.0)),
+        ),
         "offset": ([place], lambda offset: fr.Body(plate._kind, 1.0, offset)),
         "add": ([place, turn, down, down], add),
         "throw": ([place, down], throw),

@@ -111,7 +111,7 @@ def test_control_c_stops_a_bake() -> None:
     assert process.returncode != 0 and "KeyboardInterrupt" in errors
 
 
-@pytest.mark.parametrize("module", [fr, fr.world], ids=["frangible", "world"])
+@pytest.mark.parametrize("module", [fr, fr.bodies, fr.world], ids=["frangible", "bodies", "world"])
 def test_the_examples_in_the_documentation_run(module) -> None:
     assert doctest.testmod(module).failed == 0
     assert doctest.testmod(module).attempted > 0

@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use frangible::glam::{Quat, Vec3};
-use frangible::{Body, Fracture, Fragment};
+use frangible::{Body, Breakable, Fracture, Fragment};
 use frangible_export::{Floor, Pose, RecordedMesh, SurfaceMaterial};
 use frangible_rapier::rapier3d::dynamics::RigidBodyHandle;
 use frangible_rapier::{BreakEvent, BreakableWorld};
@@ -23,7 +23,7 @@ use crate::error::SceneError;
 use crate::meshes::{BodySurfaces, piece};
 use crate::recorder::{Role, piece_sounding};
 use crate::scene::Scene;
-use crate::stage::{Stage, set_up};
+use crate::stage::{Stage, set_up, set_up_kinds};
 
 use schedule::Schedule;
 use swing::Swung;
@@ -109,12 +109,25 @@ impl LiveScene {
     /// A quantity of the scene that cannot be used, or not as many baked bodies as the scene has.
     pub fn new(scene: &Scene, baked: &[BakedBody]) -> Result<Self, SceneError> {
         scene.validate()?;
+        Ok(Self::of_stage(scene, set_up(scene, baked)?))
+    }
+
+    /// The scene as it stands before its first step, its bodies of these kinds. What the scene says of their weakness is not looked at.
+    ///
+    /// # Errors
+    /// A quantity of the scene that cannot be used, or not as many kinds as the scene has bodies.
+    pub fn of_kinds(scene: &Scene, kinds: &[Breakable]) -> Result<Self, SceneError> {
+        scene.validate()?;
+        Ok(Self::of_stage(scene, set_up_kinds(scene, kinds, |_| {})?))
+    }
+
+    fn of_stage(scene: &Scene, stage: Stage<'_>) -> Self {
         let Stage {
             world,
             recorder,
             bodies,
             projectiles,
-        } = set_up(scene, baked)?;
+        } = stage;
         let targets = bodies.iter().map(|placed| placed.target).collect();
         let (recording, handles, roles, soundings) = recorder.into_parts();
         let nodes = recording.nodes.into_iter().zip(recording.meshes);
@@ -156,7 +169,7 @@ impl LiveScene {
             swings: Vec::new(),
         };
         live.note_whole(live.things.clone().iter().map(|thing| thing.handle));
-        Ok(live)
+        live
     }
 
     /// Takes one step: 1/3840 s while something may break and just after, else 1/240 s. What broke is in the world's

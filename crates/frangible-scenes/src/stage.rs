@@ -70,17 +70,26 @@ pub(crate) fn set_up_as<'a>(
     baked: &[BakedBody],
     change: impl FnOnce(&mut WorldConfig),
 ) -> Result<Stage<'a>, SceneError> {
-    if baked.len() != scene.bodies.len() {
-        return Err(SceneError::BakedBodies {
-            wanted: scene.bodies.len(),
-            given: baked.len(),
-        });
-    }
+    check_count(scene, baked.len())?;
+    let bodies = scene.bodies.iter().zip(baked);
+    let kinds: Result<Vec<Breakable>, SceneError> = bodies
+        .map(|(spec, baked)| breakable(spec, &baked.asset))
+        .collect();
+    set_up_kinds(scene, &kinds?, change)
+}
+
+/// Sets up a scene whose bodies are of these kinds, whatever it says of their weakness.
+pub(crate) fn set_up_kinds<'a>(
+    scene: &'a Scene,
+    kinds: &[Breakable],
+    change: impl FnOnce(&mut WorldConfig),
+) -> Result<Stage<'a>, SceneError> {
+    check_count(scene, kinds.len())?;
     let mut config = WorldConfig::default();
     config.fracture = scene.fracture.clone();
     config.record_held = true;
     if scene.bodies.len() > FEW {
-        let convex = baked.iter().all(|body| is_convex(&body.asset));
+        let convex = kinds.iter().all(|kind| is_convex(kind.asset()));
         config.whole_collider = ColliderDetail {
             parts: if convex { 1 } else { 32 },
             hull_points: 64,
@@ -101,20 +110,13 @@ pub(crate) fn set_up_as<'a>(
         world.insert_fixed_half_space(Vector::ZERO, Vector::Y, floor)?;
     }
     let mut recorder = Recorder::new(&scene.name);
-    let mut bodies = Vec::with_capacity(baked.len());
-    for (i, (spec, baked)) in scene.bodies.iter().zip(baked).enumerate() {
+    let mut bodies = Vec::with_capacity(kinds.len());
+    for (i, (spec, kind)) in scene.bodies.iter().zip(kinds).enumerate() {
         let seed = seed_of(scene.seed, i);
         let floor = scene.floor.is_some();
-        bodies.push(put(
-            &mut world,
-            &mut recorder,
-            spec,
-            &baked.asset,
-            seed,
-            floor,
-        )?);
+        bodies.push(put(&mut world, &mut recorder, spec, kind, seed, floor)?);
     }
-    let assets: Vec<Arc<Asset>> = baked.iter().map(|body| Arc::clone(&body.asset)).collect();
+    let assets: Vec<Arc<Asset>> = kinds.iter().map(|kind| Arc::clone(kind.asset())).collect();
     check_overlaps(&bodies, &assets)?;
     if let Some(strength) = scene.mortar {
         bond(&mut world, &bodies, strength)?;
@@ -191,15 +193,24 @@ pub(crate) fn projectile_name(all: &[Projectile], number: usize) -> String {
     }
 }
 
+fn check_count(scene: &Scene, given: usize) -> Result<(), SceneError> {
+    let wanted = scene.bodies.len();
+    match given == wanted {
+        true => Ok(()),
+        false => Err(SceneError::BakedBodies { wanted, given }),
+    }
+}
+
 /// Puts a body in the world.
 fn put<'a>(
     world: &mut BreakableWorld,
     recorder: &mut Recorder,
     spec: &'a BodySpec,
-    asset: &Arc<Asset>,
+    kind: &Breakable,
     seed: u64,
     floor: bool,
 ) -> Result<Placed<'a>, SceneError> {
+    let asset = kind.asset();
     let lowest = lowest_point(asset, spec.rotation);
     let centre = match spec.place {
         Place::Standing { over: [x, z] } => Vec3::new(x, STANDING_GAP - lowest, z),
@@ -216,7 +227,7 @@ fn put<'a>(
             depth_mm: 1e3 * depth,
         });
     }
-    let body = breakable(spec, asset)?.body(seed);
+    let body = kind.body(seed);
     let q = spec.rotation;
     let pose = Pose::from_parts(vector(centre), Rotation::from_xyzw(q.x, q.y, q.z, q.w));
     let sounding = Sounding::Modes(body.clone());

@@ -13,6 +13,7 @@ from . import _frangible
 from .arrays import Floats, Ints, mesh, number, rows, seed_of, strings, vector
 from .contacts import Contact, rows_of
 from .outcomes import Outcome
+from .weakness import Factor, factors_of
 
 Contacts = Contact | Iterable[Contact]
 
@@ -25,7 +26,7 @@ class Body:
     Attributes:
         name: Its name.
         material: Name of its material.
-        strength: Tensile strength, Pa.
+        strength: Tensile strength of its material, Pa.
         supported: Whether something holds it.
         mass: kg.
         volume: m³.
@@ -61,12 +62,49 @@ class Body:
         return f"<Body {self.name!r}: {self.mass:.4g} kg of {self.material}, {self.tetrahedra} tetrahedra, {len(self.frequencies)} modes>"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _of_bytes, (self.to_bytes(), self.scale, self.offset)
+        return _of_bytes, (self._kind.to_bytes(), self.scale, self.offset, self._kind.factors())
 
     @property
     def modes(self) -> Floats:
         """(k, n, 3) displacement of each vertex in each mode of unit modal mass, 1/√kg."""
         return np.stack([rows(self._kind.mode(i), 3) for i in range(len(self.frequencies))])
+
+    def weakened(self, strength: Factor | None = None, toughness: Factor | None = None, weak_points: Factor | None = None) -> Body:
+        """This body, weaker in some places, or stronger: with factors on its material's numbers.
+
+        Each factor is a number, or an array (n,) with one for each of ``vertices``, or a function. An array's tetrahedron has the mean of its
+        four vertices. A function is given the middles of all tetrahedra, (t, 3), m, in the body's frame, and returns (t,).
+
+            >>> import frangible as fr
+            >>> bar = fr.bake(*fr.box(0.3, 0.03, 0.03), material="porcelain", tetrahedra=4000, modes=40)
+            >>> blow = fr.Contact(point=(0, 0, 0.015), direction=(0, 0, -1), speed=5.0, striker=fr.Striker(mass=0.2))
+            >>> weak = bar.weakened(strength=lambda places: 1 - 0.7 * (abs(places[:, 0] - 0.06) < 0.02))
+            >>> weak.minimum_speed(blow) < bar.minimum_speed(blow)
+            True
+
+        All that is asked of the new body minds its weakness: blows, worlds, its pieces and its pickles. A ``.frangible`` file has no place for
+        it. A body that is weakened again has the product of the factors.
+
+        Args:
+            strength: On the tensile strength, above 0.
+            toughness: On the fracture energy, above 0. By default the square of the strength's, as of flaws of the same size.
+            weak_points: On the density of weak points, from 0; where it is 0 no crack starts.
+
+        Raises:
+            ValueError: A factor out of these bounds or not one for each, or a piece, which keeps the weakness of its body.
+        """
+        tets = self._kind.tets().reshape(-1, 4)
+
+        def of_tets(given: Factor | None, name: str, *, zero: bool = False) -> Floats:
+            return np.ones(len(tets)) if given is None else factors_of(given, name, self.vertices, tets, zero=zero)
+
+        strong = of_tets(strength, "strength")
+        tough = strong**2 if toughness is None else of_tets(toughness, "toughness")
+        factors = np.stack([strong, tough, of_tets(weak_points, "weak_points", zero=True)], axis=1)
+        before = self._kind.factors()
+        if before.size:
+            factors *= rows(before, 3)
+        return Body(self._kind.with_factors(factors.ravel()), self.scale, self.offset)
 
     def impact(self, contacts: Contacts, seed: int | None = None, least_share: float | None = None) -> Outcome:
         """What a blow does to a whole body.
@@ -120,14 +158,22 @@ class Body:
         return times, tensions.reshape(len(times), -1)
 
     def to_bytes(self) -> bytes:
-        """Its ``.frangible`` file."""
-        return self._kind.to_bytes()
+        """Its ``.frangible`` file.
+
+        Raises:
+            ValueError: A piece or a weakened body, which have none.
+        """
+        data = self._kind.to_bytes()
+        if self._kind.factors().size:
+            raise ValueError("a file holds no weakness; save the body before it is weakened, or pickle this one")
+        return data
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes its ``.frangible`` file: whole, or not at all."""
+        data = self.to_bytes()
         part = f"{os.fspath(path)}.part"
         with open(part, "wb") as file:
-            file.write(self.to_bytes())
+            file.write(data)
         os.replace(part, path)
 
 
@@ -222,5 +268,6 @@ def _seed(seed: int | None) -> int | None:
     return None if seed is None else seed_of(seed)
 
 
-def _of_bytes(data: bytes, scale: float, offset: ArrayLike) -> Body:
-    return Body(_frangible.Kind.of_bytes(data), scale, offset)
+def _of_bytes(data: bytes, scale: float, offset: ArrayLike, factors: Floats) -> Body:
+    kind = _frangible.Kind.of_bytes(data)
+    return Body(kind.with_factors(factors) if factors.size else kind, scale, offset)

@@ -82,6 +82,12 @@ impl Breakable {
         &self.asset
     }
 
+    /// Strength, toughness and weak points that vary over its bodies, and the scatter of their strength.
+    #[must_use]
+    pub fn fields(&self) -> &Fields {
+        &self.fields
+    }
+
     /// What bounds the stress of a motion, cluster by cluster.
     #[must_use]
     pub fn stress_bounds(&self) -> &StressBounds {
