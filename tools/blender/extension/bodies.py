@@ -47,6 +47,7 @@ class Target:
     shape: Shape
     center: np.ndarray  # (3,) centre of mass in the world, m
     fresh: bool  # whether the bake was made now
+    left: np.ndarray | float = 1.0  # (n,) the share of the strength that paint leaves at each vertex of the body; 1 where there is no paint
 
 
 def metres(scene):

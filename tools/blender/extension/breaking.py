@@ -4,7 +4,6 @@
 from dataclasses import dataclass
 
 import numpy as np
-from mathutils import Quaternion
 
 from .played import SOON, play
 
@@ -18,23 +17,18 @@ class Piece:
     inner: np.ndarray  # (m,) whether a crack made the face
     mass: float  # kg
     center: np.ndarray  # (3,) its centre of mass in the world before the break, m
-    linear: np.ndarray  # (3,) velocity just after the break, m/s
-    angular: np.ndarray  # (3,) rad/s
-    path: list  # of (seconds after the blow, place (3,) m, quaternion w, x, y, z); empty if nothing was simulated
+    # Of a blow alone: its velocity just after the break, m/s and rad/s.
+    linear: np.ndarray | None = None
+    angular: np.ndarray | None = None
+    # Of the simulation: (seconds after the blow, place (3,) m, quaternion w, x, y, z).
+    path: list | None = None
 
 
-def is_played(settings, weakness):
-    """Whether the simulation finds the pieces. Else the blow alone does, which is quicker."""
-    return weakness is not None or settings.motion == "KEYFRAMES"
-
-
-def pieces_of(target, blow, seed, weakness, settings, seconds=SOON):
+def pieces_of(target, blow, seed, settings, seconds=SOON):
     """The pieces of a blow with a seed, largest first; none if the object holds. Keyframes go on for so many seconds."""
-    if not is_played(settings, weakness):
-        return _struck(target, blow, seed)
-    keyed = settings.motion == "KEYFRAMES"
-    recorded, came = play(target, blow, seed, weakness, seconds, keyed)
-    return [_of_recording(piece, target, came, keyed) for piece in recorded]
+    if settings.motion == "KEYFRAMES":
+        return [_of_recording(piece, target) for piece in play(target, blow, seed, seconds)]
+    return _struck(target, blow, seed)
 
 
 def _struck(target, blow, seed):
@@ -49,21 +43,11 @@ def _struck(target, blow, seed):
     }
     motions, _ = outcome.motions(position=target.center, striker=ball)
     return [
-        Piece(f.vertices - f.center, f.faces, f.is_fracture_face, f.mass, target.center + f.center, m.linear, m.angular, [])
+        Piece(f.vertices - f.center, f.faces, f.is_fracture_face, f.mass, target.center + f.center, m.linear, m.angular)
         for f, m in zip(outcome.fragments, motions)
     ]
 
 
-def _of_recording(piece, target, came, keyed):
-    linear = angular = np.zeros(3)
-    first = int(np.searchsorted(piece.times, piece.broke - 1e-6))
-    if len(piece.times) > first + 1:
-        passed = piece.times[first + 1] - piece.times[first]
-        linear = (piece.places[first + 1] - piece.places[first]) / passed
-        turned = Quaternion(piece.turns[first + 1]) @ Quaternion(piece.turns[first]).inverted()
-        axis, angle = turned.to_axis_angle()
-        angle = (angle + np.pi) % (2 * np.pi) - np.pi
-        angular = np.array(axis) * angle / passed
-    moves = zip(piece.times, piece.places, piece.turns)
-    path = [(t - came, at, turn) for t, at, turn in moves if t > came] if keyed else []
-    return Piece(piece.vertices, piece.faces, piece.inner, piece.mass, target.center + piece.birth, linear, angular, path)
+def _of_recording(piece, target):
+    path = [moment for moment in zip(piece.times, piece.places, piece.turns) if moment[0] > 0]
+    return Piece(piece.vertices, piece.faces, piece.inner, piece.mass, target.center + piece.birth, path=path)

@@ -4,6 +4,7 @@
 import math
 
 import bpy
+import numpy as np
 
 from . import colours, motion, pieces
 from .blow import blow_of
@@ -51,14 +52,14 @@ class Progress:
 
 
 def prepared(context):
-    """The object, its body, the blow and the weakness that the panel tells of."""
+    """The object, its body, weak where it is painted, and the blow that the panel tells of."""
     thing = target_of(context)
     shape = shape_of(context, thing)
     # What is wrong with the blow or the paint is said before the bake, which takes seconds.
     blow, weakness = blow_of(context, thing, shape), weakness_of(context, thing, shape)
     with Progress(context) as tell:
         target = target_body(context, thing, tell)
-    return thing, target, blow, weakness
+    return thing, target if weakness is None else weakness.weakened(target), blow
 
 
 def about(target):
@@ -67,10 +68,8 @@ def about(target):
     return f"{body.mass:.4g} kg of {body.material}, {body.tetrahedra} tetrahedra, lowest tone {body.frequencies[0]:.0f} Hz"
 
 
-def held(thing, target, blow, weakness, seed):
+def held(thing, target, blow, seed):
     """The sentence about a blow that breaks nothing."""
-    if weakness is not None:
-        return f"The blow does not break {thing.name}; strike faster, with more mass, or paint more of it weak."
     speed = target.body.minimum_speed(blow.contact(target.center), seed)
     if math.isinf(speed):
         return f"The blow does not break {thing.name}, at no speed up to 1000 m/s; take a harder or heavier striker."
@@ -99,14 +98,11 @@ class FRANGIBLE_OT_show_stress(Step):
     bl_label = "Show Stress"
 
     def work(self, context):
-        thing, target, blow, weakness = prepared(context)
+        thing, target, blow = prepared(context)
         seed = context.scene.frangible.seed
         contact = blow.contact(target.center)
         stresses = colours.tension(target, blow, seed)
-        strength = target.body.strength
-        if weakness is not None:
-            strength = strength * weakness.at(target.body.vertices + target.center - target.shape.origin)
-        shares = stresses / strength
+        shares = stresses / (target.body.strength * target.left)
         margin = target.body.margin(contact, seed)
         speed = target.body.minimum_speed(contact, seed)
         colours.write_stress(context, thing, target, stresses, shares)
@@ -115,11 +111,10 @@ class FRANGIBLE_OT_show_stress(Step):
             f"{about(target)}",
             f"Tension up to {stresses.max() / 1e6:.3g} MPa; strength {target.body.strength / 1e6:.3g} MPa",
         ]
-        if weakness is not None:
+        if np.ndim(target.left):
             lines.append(f"With the paint the tension is up to {shares.max():.3g} times the strength there")
-        whole = "Without the paint it" if weakness is not None else "It"
         slowest = "at no speed up to 1000 m/s" if math.isinf(speed) else f"from {speed:.3g} m/s on"
-        lines.append(f"{whole} breaks {slowest}; margin {margin:.3g} at {blow.speed:.3g} m/s")
+        lines.append(f"It breaks {slowest}; margin {margin:.3g} at {blow.speed:.3g} m/s")
         return self.told(context, *lines)
 
 
@@ -144,11 +139,11 @@ class FRANGIBLE_OT_break(Step):
 
     def work(self, context):
         settings, scene = context.scene.frangible, context.scene
-        thing, target, blow, weakness = prepared(context)
+        thing, target, blow = prepared(context)
         seconds = settings.seconds if settings.motion == "KEYFRAMES" else SOON
-        found = pieces_of(target, blow, settings.seed, weakness, settings, seconds)
+        found = pieces_of(target, blow, settings.seed, settings, seconds)
         if not found:
-            self.report({"WARNING"}, held(thing, target, blow, weakness, settings.seed))
+            self.report({"WARNING"}, held(thing, target, blow, settings.seed))
             return {"CANCELLED"}
         unit = target.shape.unit
         outside = pieces.Outside(context, thing, target.shape)

@@ -39,11 +39,11 @@ class FRANGIBLE_OT_nine_seeds(Step):
 
     def work(self, context):
         scene, settings = context.scene, context.scene.frangible
-        thing, target, blow, weakness = prepared(context)
+        thing, target, blow = prepared(context)
         seeds = range(settings.seed, settings.seed + COUNT)
-        variants = {seed: pieces_of(target, blow, seed, weakness, settings) for seed in seeds}
+        variants = {seed: pieces_of(target, blow, seed, settings) for seed in seeds}
         if not any(variants.values()):
-            self.report({"WARNING"}, held(thing, target, blow, weakness, settings.seed))
+            self.report({"WARNING"}, held(thing, target, blow, settings.seed))
             return {"CANCELLED"}
         outside = pieces.Outside(context, thing, target.shape)
         clear_sheet(scene)

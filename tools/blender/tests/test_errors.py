@@ -127,14 +127,6 @@ def test_an_object_below_the_ground(scene, refuses):
     refuses("reaches 0.51 m below the ground", ("nine_seeds", "break_object"))
 
 
-def test_a_painted_object_too_near_the_ground_for_a_slow_striker(scene, refuses):
-    thing = add_slab(scene, z=0.1)
-    thing.vertex_groups.new(name="weak").add(range(8), 1.0, "REPLACE")
-    settings = scene.frangible
-    settings.weakness, settings.motion, settings.speed = "weak", "KEYFRAMES", 1
-    refuses("hangs 0.09 m above the ground", ("break_object",))
-
-
 def test_a_blow_that_is_too_soft_breaks_nothing_and_says_what_it_takes(slab):
     bpy.context.scene.frangible.speed = 0.2
     for name in ("nine_seeds", "break_object"):

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Where an object would break, as colours and numbers."""
 
+import re
+
 import bpy
 import numpy as np
 import pytest
@@ -19,6 +21,13 @@ def written(thing):
     values = np.empty(len(thing.data.vertices), dtype=np.float32)
     attribute.data.foreach_get("value", values)
     return values
+
+
+def shown_numbers():
+    """The slowest speed, m/s, and the margin that the panel tells."""
+    bpy.ops.frangible.show_stress()
+    found = re.search(r"It breaks from (\S+) m/s on; margin (\S+) at", bpy.context.scene.frangible.found)
+    return float(found.group(1)), float(found.group(2))
 
 
 def test_the_stress_is_written_and_is_largest_near_the_blow(slab):
@@ -52,13 +61,9 @@ def test_the_coloured_surface_lies_where_the_object_is(slab):
 
 
 def test_a_harder_blow_has_less_margin(slab):
-    def margin():
-        bpy.ops.frangible.show_stress()
-        return float(bpy.context.scene.frangible.found.split("margin ")[1].split()[0])
-
-    soft = margin()
+    _, soft = shown_numbers()
     bpy.context.scene.frangible.speed = 20
-    assert margin() < 0.8 * soft
+    assert shown_numbers()[1] < 0.8 * soft
 
 
 def test_the_ramp_rises_in_lightness_and_breaking_stands_out():
@@ -82,3 +87,19 @@ def test_paint_raises_the_share_of_the_strength(slab):
     changed = np.abs(painted - plain).max(axis=1) > 1e-4
     weak = np.array([vertex.co.x > 0.2 for vertex in slab.data.vertices])
     assert changed[weak].any() and not changed[np.array([vertex.co.x < 0.05 for vertex in slab.data.vertices])].any()
+
+
+def test_margin_and_slowest_speed_are_those_of_the_painted_object(slab):
+    settings = bpy.context.scene.frangible
+    settings.speed = 1
+    speed, margin = shown_numbers()
+    slab.vertex_groups.new(name="weak").add(range(8), 1.0, "REPLACE")
+    settings.weakness, settings.weakest = "weak", 0.5
+    slower, less = shown_numbers()
+    assert slower < 0.8 * speed
+    assert less > 1
+    # Painted all over it has half the strength everywhere; numbers are told to three digits.
+    assert less == pytest.approx(0.5 * margin, rel=0.01)
+    for share, done in ((1.1, {"FINISHED"}), (0.9, {"CANCELLED"})):
+        settings.speed = share * slower
+        assert bpy.ops.frangible.break_object() == done
