@@ -33,12 +33,15 @@ pub(crate) const PATHS: [&str; 17] = [
 const LIMIT: Duration = Duration::from_secs(15 * 60);
 
 /// What builds the wheel and what tries it, of the versions that they are written for.
-const TOOLS: [&str; 8] = [
+const TOOLS: [&str; 11] = [
     "h5py>=3.10,<4",
+    "ipykernel>=6,<8",
     "maturin>=1.16,<1.17",
     "matplotlib>=3.9,<4",
+    "nbclient>=0.10,<1",
     "numpy>=2,<3",
     "pytest>=9,<10",
+    "scipy>=1.11,<2",
     "trimesh>=5,<6",
     "mypy>=2,<3",
     "ray>=2.40,<3",
