@@ -172,6 +172,25 @@ def test_two_runs_into_one_folder_make_what_one_makes(meshes, tmp_path) -> None:
     assert {n: c for n, c in files(both).items() if not n.startswith("parts")} == files(one)
 
 
+def test_a_run_that_another_one_overtakes_goes_on(meshes, tmp_path, monkeypatch) -> None:
+    plan = replace(PLAN, materials=("glass",), breaks=1)
+    put, overtaken = os.replace, []
+
+    def late(source: Path, target: Path) -> None:
+        if source.name == "pieces" and not overtaken:
+            # Between a look at the place and the move another run has put its pieces there.
+            overtaken.append(target)
+            target.mkdir()
+            (target / "piece_0.obj").write_text("v 0 0 0\n")
+        put(source, target)
+
+    monkeypatch.setattr(os, "replace", late)
+    dataset.make(meshes[:1], tmp_path / "late", plan, quiet=True)
+    monkeypatch.undo()
+    dataset.make(meshes[:1], tmp_path / "one", plan, quiet=True)
+    assert overtaken and files(tmp_path / "late") == files(tmp_path / "one")
+
+
 def test_a_full_disk_is_named_and_the_same_call_goes_on(meshes, tmp_path) -> None:
     full, one = tmp_path / "full", tmp_path / "one"
     words = words_of(meshes, full)

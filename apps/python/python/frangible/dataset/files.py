@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import errno
 import hashlib
 import json
 import os
 import shutil
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
@@ -64,12 +66,12 @@ def write_break(out: Path, plan: Plan, body: Body, outcome: Outcome, words: dict
         about |= {"cracks": [{**start, "point": [float(x) for x in start["point"]]} for start in outcome.report["starts"]]}
         about |= {"mesh_scale": body.scale, "mesh_offset": [float(x) for x in body.offset]}
         (part / "about.json").write_text(json.dumps(about, indent=1, sort_keys=True))
+        if is_there(out, plan, name, k, words["mesh_sha256"]):
+            # Another run was faster, with the same bits.
+            return about
         for place in (folder, meta):
             place.parent.mkdir(parents=True, exist_ok=True)
-        if folder.exists():
-            # An earlier run ended between the pieces and the JSON.
-            shutil.rmtree(folder)
-        os.replace(part / "pieces", folder)
+        _put(part / "pieces", folder, part / "earlier")
         os.replace(part / "arrays.npz", meta.with_suffix(".npz"))
         os.replace(part / "about.json", meta.with_suffix(".json"))
         return about
@@ -78,6 +80,20 @@ def write_break(out: Path, plan: Plan, body: Body, outcome: Outcome, words: dict
         raise OSError(error.errno, f"{error.strerror}; what was made stays, and the same call goes on", error.filename or str(part)) from error
     finally:
         shutil.rmtree(part, ignore_errors=True)
+
+
+def _put(pieces: Path, folder: Path, aside: Path) -> None:
+    """Puts a folder in the place of what a run left there that ended before its JSON, or what another run puts there meanwhile."""
+    while True:
+        with suppress(FileNotFoundError):
+            os.replace(folder, aside)
+        shutil.rmtree(aside, ignore_errors=True)
+        try:
+            os.replace(pieces, folder)
+            return
+        except OSError as error:
+            if error.errno not in (errno.EEXIST, errno.ENOTEMPTY):
+                raise
 
 
 def _obj(fragment: Fragment) -> bytes:
