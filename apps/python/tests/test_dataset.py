@@ -323,3 +323,13 @@ def test_meshes_of_one_name_are_refused(meshes, tmp_path) -> None:
         dataset.objects([tmp_path / "nothing.obj"], PLAN)
     with pytest.raises(ValueError, match="shard"):
         dataset.objects(meshes, PLAN, (2, 2))
+
+
+def test_datasets_are_imported_where_they_are_asked_for() -> None:
+    code = (
+        "import sys, frangible as fr; assert 'frangible.dataset' not in sys.modules; "
+        "print(fr.dataset.Plan().breaks, *({'h5py', 'ray'} & set(sys.modules))); fr.nothing"
+    )
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert run.stdout.split() == [str(dataset.Plan().breaks)]
+    assert "AttributeError: module 'frangible' has no attribute 'nothing'" in run.stderr

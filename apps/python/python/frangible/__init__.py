@@ -11,13 +11,20 @@ Marchal and Dumont, *Real-Time Simulation of Brittle Fracture Using Modal Analys
     (True, True)
 
 Everything is in SI units and float64. The same input gives the same bits. A value that cannot be used is a ``ValueError`` that names it.
+Datasets are made by ``frangible.dataset``.
 """
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
 
 from ._frangible import __version__
 from .bodies import Body, bake, box, load, read_mesh
 from .contacts import Contact, Striker
 from .outcomes import Fragment, Motion, Outcome
 from .world import Thing, World
+
+if TYPE_CHECKING:
+    from . import dataset as dataset
 
 __all__ = [
     "Body",
@@ -34,3 +41,10 @@ __all__ = [
     "load",
     "read_mesh",
 ]
+
+
+def __getattr__(name: str) -> Any:
+    """Datasets are imported where they are asked for: what they need takes longer to import than all the rest."""
+    if name == "dataset":
+        return import_module(".dataset", __name__)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
