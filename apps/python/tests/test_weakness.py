@@ -142,6 +142,16 @@ def test_a_world_minds_the_weakness(bar: fr.Body, blow: fr.Contact) -> None:
     assert things_after(pickle.loads(pickle.dumps(weak)), speed) == broken
 
 
+def test_pieces_in_a_world_break_again_as_they_are_weak(bar: fr.Body) -> None:
+    twice = []
+    for body in (bar, bar.weakened(strength=0.3)):
+        world = fr.World(generations=1)
+        world.add(body, position=(0, 2, 0), rotation=(0, 0, 0.2, 0.9797959))
+        world.step(1.6)
+        twice.append(sum(thing.name.count("piece") == 2 for thing in world.things))
+    assert twice[0] == 0 < twice[1]
+
+
 def test_pieces_keep_the_weakness(bar: fr.Body) -> None:
     outcomes = bar.impact(pushed(1.0)), bar.weakened(strength=0.5).impact(pushed(0.5))
     strong, weak = (outcome.piece(0) for outcome in outcomes)
