@@ -218,3 +218,49 @@ fn what_sleeps_is_not_asked_again() {
     }
     assert_eq!(asked.load(Ordering::Relaxed), before);
 }
+
+#[test]
+fn what_pushes_an_overlap_apart_breaks_nothing() {
+    let weightless = || {
+        let mut world = heavy_world(true);
+        world.physics.gravity = Vector::ZERO;
+        world
+    };
+    let put = |world: &mut BreakableWorld, asset, pose| {
+        world
+            .insert_breakable(body(asset), pose, Vector::ZERO, Vector::ZERO)
+            .unwrap()
+    };
+    let bar = |world: &mut BreakableWorld, x: f32, z: f32| {
+        let half = Vector::new(0.01, 0.15, 0.01);
+        world
+            .insert_fixed_box(half, at(x, 0.0, z), SurfaceProperties::STEEL)
+            .unwrap();
+    };
+    for overlap in [2e-4, 5e-4, 1e-3, 2e-3] {
+        // Two panes in one another, free.
+        let mut free = weightless();
+        put(&mut free, pane(), Pose::IDENTITY);
+        put(&mut free, pane(), at(0.0, 0.0, 0.004 - overlap));
+        // A pane between bars that are too close: one above its middle, two below its ends.
+        let mut wedged = weightless();
+        put(&mut wedged, pane(), Pose::IDENTITY);
+        bar(&mut wedged, 0.0, 0.012 - overlap);
+        bar(&mut wedged, -0.13, -0.012 + overlap);
+        bar(&mut wedged, 0.13, -0.012 + overlap);
+        // A block in a shelf.
+        let mut on_shelf = weightless();
+        put(&mut on_shelf, shelf(), Pose::IDENTITY);
+        let cube = SharedShape::cuboid(0.015, 0.015, 0.015);
+        let start = at(0.0, 0.0, 0.02 - overlap);
+        on_shelf
+            .insert_rigid(cube, 10.0, SurfaceProperties::STEEL, start, Vector::ZERO)
+            .unwrap();
+        for (name, mut world) in [("free", free), ("wedged", wedged), ("shelf", on_shelf)] {
+            for step in 0..240 {
+                let events = world.step().unwrap();
+                assert!(events.is_empty(), "{name}, {overlap} m, step {step}");
+            }
+        }
+    }
+}

@@ -47,7 +47,7 @@ pub(crate) struct Point {
     /// Friction impulse on the body, as the solver left it.
     pub(crate) friction: Vector,
     /// Distance to the other body at the start of the step, m; negative where they overlap.
-    gap: f32,
+    pub(crate) gap: f32,
     friction_coefficient: f32,
     pub(super) restitution: f32,
     pub(super) other_collider: ColliderHandle,

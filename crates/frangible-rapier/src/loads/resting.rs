@@ -6,6 +6,10 @@
 //! times its weight), so a load counts as the smallest of the last [`STEADY`] steps: a body breaks only when each of
 //! them would have broken it. The last of these steps begins with a copy of the world and is taken again with fragments,
 //! as after an impact. Where steps are shorter than [`INTERVAL`], only one in each interval is looked at.
+//!
+//! What pushes an overlap apart is no load: the engine pushes as hard as its iterations make it, and between things that cannot give way
+//! harder from step to step. Things that lie on each other overlap by next to nothing, so that a body that is pushed at a place deeper
+//! than [`OVERLAP`] is taken to carry nothing until the two have parted.
 
 use std::collections::BTreeMap;
 
@@ -32,6 +36,10 @@ const INTERVAL: f32 = 1.0 / 240.0;
 
 /// Looks for which a body that held after a full computation is not asked again: that one costs milliseconds.
 const PAUSE: u32 = 8;
+
+/// A body that another one is deeper in bears no load, in shares of the engine's tolerance of lengths. That is 0.1 mm by default; a stack that fell by half
+/// a millimetre overlaps by 0.02 mm at most.
+const OVERLAP: f32 = 0.2;
 
 /// Forces at most: more are merged with their neighbours, since the quick bound looks at no more. Stress at a distance
 /// from the forces changes little (Saint-Venant); their sum stays, and so does their moment where they are parallel.
@@ -107,7 +115,7 @@ fn carries(body: &Body, rigid: &RigidBody) -> bool {
     rigid.is_enabled() && (rigid.is_dynamic() || rigid.is_fixed() && body.asset().is_supported())
 }
 
-/// Forces on the body in the step just taken; with `before`, without those of impacts.
+/// Forces on the body in the step just taken, none where it overlaps something; with `before`, without those of impacts.
 fn load_on(
     handle: RigidBodyHandle,
     rigid: &RigidBody,
@@ -119,7 +127,11 @@ fn load_on(
     let before = before.filter(|b| b.body(handle).is_some());
     let frame = before.and_then(|b| b.body(handle)).unwrap_or(rigid);
     let mut points = points_on(handle, rigid, physics);
+    let deepest = OVERLAP * physics.integration_parameters.allowed_linear_error();
     points.retain(|p| p.impulse > 0.0);
+    if points.iter().any(|p| p.gap < -deepest) {
+        points.clear();
+    }
     if let Some(before) = before {
         points.retain(|p| {
             let partner = p.other.and_then(|other| before.body(other));
