@@ -70,7 +70,6 @@ fn a_thrown_ball_flies_to_what_it_was_aimed_at() {
 }
 
 #[test]
-#[ignore = "since blows are integrated the pane breaks in the hand; one that is strong enough not to does not fall within 2000 steps: not traced yet"]
 fn a_thing_in_the_hand_goes_where_it_is_pulled_and_flies_on_when_it_is_let_go() {
     let mut session = pane("grab");
     // However hard the hand jerks it: this is about where it goes.
@@ -90,11 +89,10 @@ fn a_thing_in_the_hand_goes_where_it_is_pulled_and_flies_on_when_it_is_let_go() 
     assert!(held.distance(there) < 0.02, "{held}, not {there}");
     assert_eq!(session.shown().pieces, 0);
     give(&mut session, "let-go");
-    give(&mut session, "step 2000");
-    assert!(
-        centre(&session).y < held.y - 0.1 || session.shown().pieces > 0,
-        "it falls"
-    );
+    // Before it has met the floor, from which so strong a pane bounces almost as high.
+    give(&mut session, "step 1000");
+    let fallen = held.y - centre(&session).y;
+    assert!(fallen > 0.1, "it falls, by {fallen} m");
     // The floor cannot be taken away.
     give(&mut session, "grab 0.9,1,0.9 0.9,0,0.9");
     give(&mut session, "pull 0.9,1,0.9 0.9,1,0");
