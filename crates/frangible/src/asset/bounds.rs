@@ -3,7 +3,7 @@
 /// Largest stress and gradient of each mode over clusters of neighbouring fracture tetrahedra.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct StressBounds {
-    /// Cluster of each fracture tetrahedron, by its [place](Asset::place).
+    /// Cluster of each fracture tetrahedron, by its [place](crate::Asset::place).
     pub cluster_of_tet: Vec<u32>,
     /// Largest linear stress, Pa per m·√kg: one row per cluster, one column per mode.
     pub stress: Vec<f32>,
