@@ -271,7 +271,7 @@ def test_hdf5_has_exact_neighbours_in_the_order_that_garf_lists(made, meshes) ->
     h5py = pytest.importorskip("h5py")
     out, _ = made
     path = out.parent / "garf.hdf5"
-    assert dataset.write_hdf5(out, PLAN, path) == 12
+    assert dataset.write_hdf5(out, path) == 12
     with h5py.File(path) as file:
         names = [n.decode() for split in ("train", "val") for n in file[f"data_split/everyday/{split}"]]
         assert len(names) == 12
@@ -290,6 +290,31 @@ def test_hdf5_has_exact_neighbours_in_the_order_that_garf_lists(made, meshes) ->
             masks, order = group["removal_masks"][:], group["removal_order"][:]
             assert masks.shape == (len(keys) - 1, len(keys)) and len(order) == len(set(order)) == len(keys) - 1
             assert (masks.sum(axis=1) == np.arange(len(keys) - 1, 0, -1)).all()
+
+
+def test_one_hdf5_file_holds_all_categories_in_the_unit_of_each(meshes, tmp_path) -> None:
+    h5py = pytest.importorskip("h5py")
+    few = replace(PLAN, materials=("glass",), breaks=1)
+    everyday = dataset.make(meshes[:1], tmp_path, few, quiet=True)
+    artifact = dataset.make(meshes[:1], tmp_path, replace(few, category="artifact", normalized=True), quiet=True)
+    assert (everyday.made, artifact.made) == (1, 1)
+    path = tmp_path / "garf.hdf5"
+    assert dataset.write_hdf5(tmp_path, path) == 2
+
+    def sides(vertices: list[np.ndarray]) -> float:
+        return float(np.ptp(np.concatenate(vertices), axis=0).max())
+
+    with h5py.File(path) as file:
+        for category, longest in (("everyday", 0.1), ("artifact", 1.0)):
+            name = f"{category}/tile/fractured_0"
+            named = [n.decode() for split in ("train", "val") for n in file[f"data_split/{category}/{split}"]]
+            assert named == [name]
+            pieces = file[name]["pieces"]
+            assert sides([pieces[k]["vertices"][:] for k in pieces]) == pytest.approx(longest, rel=1e-3)
+            texts = [f.read_text() for f in sorted((tmp_path / "breaking_bad" / name).glob("*.obj"))]
+            corners = [np.array([line.split()[1:] for line in text.splitlines() if line.startswith("v ")], dtype=float) for text in texts]
+            assert sides(corners) == pytest.approx(longest, rel=1e-3)
+            assert json.loads((tmp_path / "meta" / f"{name}.json").read_text())["unit"] == pytest.approx(0.1 / longest, rel=1e-3)
 
 
 def test_what_cannot_be_baked_is_a_row(meshes, tmp_path) -> None:

@@ -12,6 +12,7 @@ makes, under ``data``:
 
 A break that is there is not made again: a run that was killed goes on where it was. ``--shard 2/8`` does the third eighth of the objects,
 ``--workers 8`` has eight processes, ``--ray`` gives the objects to a Ray cluster.
+Lengths are metres, or with ``--normalized`` the longest side of each body, as Breaking Bad has them; JSON and ``.npz`` stay in metres.
 ``--hdf5`` also writes ``garf.hdf5`` as GARF reads it, with exact ``shared_faces``. The data are yours to give: we suggest CC0.
 """
 

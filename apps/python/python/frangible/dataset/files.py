@@ -52,9 +52,10 @@ def write_break(out: Path, plan: Plan, body: Body, outcome: Outcome, words: dict
     (part / "pieces").mkdir()
     try:
         hashes = {}
+        unit = float(np.ptp(body.vertices, axis=0).max()) if plan.normalized else 1.0
         arrays: dict[str, Any] = {}
         for i, fragment in enumerate(outcome.fragments):
-            text = _obj(fragment)
+            text = _obj(fragment, unit)
             (part / "pieces" / f"piece_{i}.obj").write_bytes(text)
             hashes[f"piece_{i}.obj"] = hashlib.sha256(text).hexdigest()
             arrays |= {f"vertices_{i}": fragment.vertices, f"faces_{i}": fragment.faces, f"neighbour_{i}": fragment.neighbour}
@@ -64,7 +65,7 @@ def write_break(out: Path, plan: Plan, body: Body, outcome: Outcome, words: dict
         numbers = {key: value for key, value in outcome.report.items() if isinstance(value, int | float) and key != "seconds"}
         about |= {"report": numbers, "frequencies": [float(f) for f in body.frequencies], "mass": body.mass}
         about |= {"cracks": [{**start, "point": [float(x) for x in start["point"]]} for start in outcome.report["starts"]]}
-        about |= {"mesh_scale": body.scale, "mesh_offset": [float(x) for x in body.offset]}
+        about |= {"unit": unit, "mesh_scale": body.scale, "mesh_offset": [float(x) for x in body.offset]}
         (part / "about.json").write_text(json.dumps(about, indent=1, sort_keys=True))
         if is_there(out, plan, name, k, words["mesh_sha256"]):
             # Another run was faster, with the same bits.
@@ -96,8 +97,8 @@ def _put(pieces: Path, folder: Path, aside: Path) -> None:
                 raise
 
 
-def _obj(fragment: Fragment) -> bytes:
-    lines = [f"v {x!r} {y!r} {z!r}" for x, y, z in fragment.vertices.tolist()]
+def _obj(fragment: Fragment, unit: float) -> bytes:
+    lines = [f"v {x!r} {y!r} {z!r}" for x, y, z in (fragment.vertices / unit).tolist()]
     lines += [f"f {a} {b} {c}" for a, b, c in (fragment.faces + 1).tolist()]
     return ("\n".join(lines) + "\n").encode()
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 from pathlib import Path
 from typing import Any
@@ -9,31 +10,36 @@ from typing import Any
 import numpy as np
 
 from .files import breaks, split_of
-from .plan import Plan
 
 
-def write_hdf5(out: Path, plan: Plan, path: Path) -> int:
-    """Writes all breaks that are there as one file that GARF reads; returns how many."""
+def write_hdf5(out: Path, path: Path) -> int:
+    """Writes all breaks of all categories that are there as one file that GARF reads; returns how many."""
     try:
         import h5py
     except ImportError as error:
         raise ImportError("this needs h5py: pip install frangible[hdf5]") from error
-    named = breaks(out, plan.category)
+    plans = [json.loads(file.read_text()) for file in sorted(out.glob("plan-*.json"))]
+    count = 0
     part = path.with_name(f"{path.name}.{os.getpid()}.part")
     with h5py.File(part, "w") as file:
-        for split in ("train", "val", "test"):
-            lines = [line for line in named if split_of(line.split("/")[1], plan.val_share) == split]
-            file.create_dataset(f"data_split/{plan.category}/{split}", data=lines, dtype=h5py.string_dtype())
-        for line in named:
-            _hdf5_break(file.create_group(line), out / "meta" / f"{line}.npz")
+        for plan in plans:
+            category = plan["category"]
+            named = breaks(out, category)
+            count += len(named)
+            for split in ("train", "val", "test"):
+                lines = [line for line in named if split_of(line.split("/")[1], plan["val_share"]) == split]
+                file.create_dataset(f"data_split/{category}/{split}", data=lines, dtype=h5py.string_dtype())
+            for line in named:
+                _hdf5_break(file.create_group(line), out / "meta" / line)
     os.replace(part, path)
-    return len(named)
+    return count
 
 
-def _hdf5_break(group: Any, arrays: Path) -> None:
-    with np.load(arrays) as data:
+def _hdf5_break(group: Any, meta: Path) -> None:
+    unit = json.loads(meta.with_suffix(".json").read_text())["unit"]
+    with np.load(meta.with_suffix(".npz")) as data:
         count = sum(key.startswith("faces_") for key in data.files)
-        pieces = [(data[f"vertices_{i}"], data[f"faces_{i}"], data[f"neighbour_{i}"].astype(np.int64)) for i in range(count)]
+        pieces = [(data[f"vertices_{i}"] / unit, data[f"faces_{i}"], data[f"neighbour_{i}"].astype(np.int64)) for i in range(count)]
     import h5py
 
     # HDF5 lists names by their letters, and `shared_faces` counts in that order: 02 comes before 10.

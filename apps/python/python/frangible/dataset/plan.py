@@ -30,6 +30,7 @@ class Plan:
         modes: Vibration modes.
         tries: Blows that are tried for a break of as many pieces as wanted.
         val_share: Share of the objects in the ``val`` split.
+        normalized: Whether the unit of the OBJ files and of GARF's is the longest side of each body, as Breaking Bad's, instead of the metre.
     """
 
     materials: tuple[str, ...] = ("porcelain",)
@@ -44,6 +45,7 @@ class Plan:
     modes: int = 60
     tries: int = 12
     val_share: float = 0.2
+    normalized: bool = False
 
     def __post_init__(self) -> None:
         if not self.materials:

@@ -41,8 +41,9 @@ def main(words: Sequence[str]) -> int:
     parser.add_argument("--workers", type=int, default=1, help="processes (default %(default)s)")
     parser.add_argument("--modes", type=int, default=usual.modes, help="vibration modes (default %(default)s)")
     parser.add_argument("--val-share", type=float, default=usual.val_share, help="share of the objects in the val split (default %(default)s)")
+    parser.add_argument("--normalized", action="store_true", help="the unit is the longest side of each body, as Breaking Bad's, instead of the metre")
     parser.add_argument("--ray", action="store_true", help="gives the objects to a Ray cluster, or to one that it starts here")
-    parser.add_argument("--hdf5", action="store_true", help="also writes garf.hdf5, of all that is there")
+    parser.add_argument("--hdf5", action="store_true", help="also writes garf.hdf5, of all categories that are there")
     parser.add_argument("--quiet", action="store_true", help="no progress")
     given = parser.parse_args(words)
     try:
@@ -58,10 +59,11 @@ def main(words: Sequence[str]) -> int:
             tetrahedra=given.tetrahedra,
             modes=given.modes,
             val_share=given.val_share,
+            normalized=given.normalized,
         )
         summary = make(given.meshes, given.out, plan, shard=given.shard, workers=given.workers, ray=given.ray, quiet=given.quiet)
         if given.hdf5:
-            write_hdf5(given.out, plan, given.out / "garf.hdf5")
+            write_hdf5(given.out, given.out / "garf.hdf5")
     except (ValueError, ImportError, OSError) as error:
         print(f"error: {error}", file=sys.stderr)
         return 1
