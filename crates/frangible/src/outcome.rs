@@ -45,6 +45,7 @@ impl Outcome {
 
 /// A break: the pieces and how they came about.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Fracture {
     /// The pieces, largest first; together they tile the body.
     pub fragments: Vec<Fragment>,
@@ -143,6 +144,7 @@ pub struct ImpactReport {
 
 /// Wall-clock times of the stages of one impact, s. Not deterministic; all else is.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct StageTimings {
     /// The blow: duration, force, modal response.
     pub response: f64,

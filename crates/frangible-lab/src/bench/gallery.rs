@@ -264,13 +264,13 @@ fn timed(
 }
 
 fn by_stage(timings: &StageTimings) -> [f64; 6] {
-    let StageTimings {
-        response,
-        stress,
-        cracks,
-        labels,
-        fragments,
-        drawing,
-    } = *timings;
-    [response, stress, cracks, labels, fragments, drawing]
+    let t = timings;
+    [
+        t.response,
+        t.stress,
+        t.cracks,
+        t.labels,
+        t.fragments,
+        t.drawing,
+    ]
 }
