@@ -132,6 +132,9 @@ fn modes_that_do_not_fit_a_piece_are_refused_by_name() {
         .find(uncut)
         .expect("a piece with elements of its own");
     assert!(body.piece(portion, as_before(portion)).is_ok());
+    let stranger = pane().body(1).piece(portion, as_before(portion));
+    let error = stranger.expect_err("it is no part of the pane");
+    assert!(error.to_string().contains("another body"), "{error}");
     type Spoil = fn(&mut Elastic);
     let cases: [(&str, Spoil); 9] = [
         ("one point for each", |e| {

@@ -2,10 +2,9 @@
 
 use glam::{DVec2, DVec3, Vec3};
 
-use super::RenderSurface;
 use super::conform::Corners;
 use super::polygon::centre as centre_of;
-use super::{RenderIndex, Share};
+use super::{RenderIndex, RenderSurface, Share};
 use crate::{RenderMesh, box_projection};
 
 /// A triangle of less area than this, in squares of its longer side at the first corner, is thin.

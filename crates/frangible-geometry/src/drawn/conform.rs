@@ -6,9 +6,8 @@
 
 use glam::{DVec2, DVec3};
 
-use super::RenderSurface;
-use super::Share;
 use super::edges::Edges;
+use super::{RenderSurface, Share};
 
 /// Corners no farther apart than this are one; the sides of a triangle are of length 1.
 const SAME: f64 = 1e-9;

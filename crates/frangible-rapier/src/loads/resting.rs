@@ -37,8 +37,8 @@ const INTERVAL: f32 = 1.0 / 240.0;
 /// Looks for which a body that held after a full computation is not asked again: that one costs milliseconds.
 const PAUSE: u32 = 8;
 
-/// A body that another one is deeper in bears no load, in shares of the engine's tolerance of lengths. That is 0.1 mm by default; a stack that fell by half
-/// a millimetre overlaps by 0.02 mm at most.
+/// How deep another body may be in one that carries something, as a share of the engine's tolerance of lengths: 0.1 mm by default. A stack
+/// that fell by half a millimetre overlaps by 0.02 mm at most.
 const OVERLAP: f32 = 0.2;
 
 /// Forces at most: more are merged with their neighbours, since the quick bound looks at no more. Stress at a distance

@@ -4,8 +4,7 @@ use std::sync::Arc;
 
 use glam::Vec3;
 
-use super::Receptance;
-use super::{Contact, SharedMass, Striker};
+use super::{Contact, Receptance, SharedMass, Striker};
 use crate::error::InputError;
 
 /// Numbers of a contact.

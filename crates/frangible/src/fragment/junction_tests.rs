@@ -11,8 +11,7 @@ use crate::crack::CrackSystem;
 use crate::mesh::{EDGES, NO_NEIGHBOUR, Rows};
 use crate::piece::Portion;
 use crate::rng::{Purpose, stream, uniform};
-use crate::state::Cuts;
-use crate::state::{BodyState, OldCrack, OldCut};
+use crate::state::{BodyState, Cuts, OldCrack, OldCut};
 use crate::{Breakable, FractureConfig};
 
 /// What [`end_cracks`] does, the plain way.

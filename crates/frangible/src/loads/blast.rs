@@ -2,8 +2,7 @@
 
 use glam::Vec3;
 
-use crate::asset::Asset;
-use crate::asset::each_row;
+use crate::asset::{Asset, each_row};
 use crate::body::Body;
 use crate::config::FractureConfig;
 use crate::contact::{self, Load};
@@ -11,8 +10,7 @@ use crate::cracking::Cracking;
 use crate::error::{InputError, finite, positive};
 use crate::impact::{pieces, report_on};
 use crate::mesh::SurfacePoint;
-use crate::motion::Residual;
-use crate::motion::{self};
+use crate::motion::{self, Residual};
 use crate::outcome::{LookedAt, Outcome};
 
 /// A pressure pulse that spreads from a point. Its impulse per area falls as 1/distance, as that of an explosion does

@@ -15,7 +15,7 @@ pub use response::respond;
 /// Modal amplitudes over time, time-major: `amplitudes[step * modes + mode]`, m·√kg.
 #[derive(Clone, Debug, Default)]
 pub struct Motion {
-    /// Amplitudes q of every mode at t = Δt, 2 Δt, …
+    /// Amplitudes q of every mode at the end of each time step.
     pub amplitudes: Vec<f32>,
     /// Number of modes.
     pub modes: usize,

@@ -55,7 +55,7 @@ impl Body {
     /// strengths and cracks, the same seed, and an [asset](Body::asset) of its own that shares the fracture mesh.
     ///
     /// # Errors
-    /// An elastic body that does not fit the portion.
+    /// A portion of another body, or an elastic body that does not fit the portion.
     pub fn piece(&self, portion: &Arc<Portion>, elastic: Elastic) -> Result<Self, InputError> {
         let root = portion.root();
         let (tets, nodes) = (portion.tets(), portion.nodes());
@@ -63,6 +63,12 @@ impl Body {
             asset: root.name.clone(),
             problem: format!("the elastic body of a piece cannot be used: {problem}"),
         };
+        if !Arc::ptr_eq(&self.asset.fracture, &root.fracture) {
+            return Err(InputError::Asset {
+                asset: root.name.clone(),
+                problem: "the portion is of another body; give it to the body that broke".into(),
+            });
+        }
         if elastic.tets.len() != tets.len() || elastic.nodes.len() != nodes.len() {
             return Err(misfit(
                 "it does not have one point for each tetrahedron and node",

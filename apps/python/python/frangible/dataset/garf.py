@@ -36,7 +36,8 @@ def write_hdf5(out: Path, path: Path) -> int:
 
 
 def _hdf5_break(group: Any, meta: Path) -> None:
-    unit = json.loads(meta.with_suffix(".json").read_text())["unit"]
+    # Folders of before there was a choice are in metres.
+    unit = json.loads(meta.with_suffix(".json").read_text()).get("unit", 1.0)
     with np.load(meta.with_suffix(".npz")) as data:
         count = sum(key.startswith("faces_") for key in data.files)
         pieces = [(data[f"vertices_{i}"] / unit, data[f"faces_{i}"], data[f"neighbour_{i}"].astype(np.int64)) for i in range(count)]

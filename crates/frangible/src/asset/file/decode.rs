@@ -7,11 +7,10 @@ use glam::{DMat3, DVec3, Vec3};
 use super::AssetFileError;
 use super::reader::Reader;
 use super::sections::{self as s, Section};
-use crate::asset::StressBounds;
 use crate::asset::half::Half;
 use crate::asset::{
     AnalysisMesh, Asset, ConvexCell, EmbeddedPoint, Embedding, OuterSurface, RenderMaterial,
-    RenderSurface, SurfaceWalls,
+    RenderSurface, StressBounds, SurfaceWalls,
 };
 use crate::material::Material;
 use crate::mesh::{MassProperties, TetMesh};
