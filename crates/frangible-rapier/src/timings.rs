@@ -1,5 +1,7 @@
 //! Where the time of a step went. Wall clock: the only thing here that differs from run to run.
 
+use std::ops::AddAssign;
+
 use web_time::Instant;
 
 /// Wall-clock times of the parts of the last [`step`](crate::BreakableWorld::step), s.
@@ -38,6 +40,19 @@ impl StepTimings {
             self.upkeep,
         ];
         parts.iter().sum()
+    }
+}
+
+impl AddAssign for StepTimings {
+    fn add_assign(&mut self, other: Self) {
+        self.rigid += other.rigid;
+        self.undone += other.undone;
+        self.copies += other.copies;
+        self.contacts += other.contacts;
+        self.fracture += other.fracture;
+        self.fragments += other.fragments;
+        self.loads += other.loads;
+        self.upkeep += other.upkeep;
     }
 }
 

@@ -1,4 +1,7 @@
-//! Threads beside the world's own, one less than there are cores: they judge blows and make pieces ready. What is due first comes first.
+//! Threads beside the world's own: they judge blows and make pieces ready. What is due first comes first.
+//!
+//! A blow is judged within milliseconds and the world soon asks for the verdict, while the modes of a piece may take a second. So one
+//! thread is kept free of such long jobs. There are as many threads as cores beside the world's own, but two at least.
 
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -10,21 +13,54 @@ type Job = Box<dyn FnOnce() + Send>;
 /// Jobs by the step in which they are due, and by the order in which they came.
 type Jobs = BTreeMap<(u64, u64), Job>;
 
+/// How long a job takes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Length {
+    /// Milliseconds.
+    Short,
+    /// Longer than the world would wait for it.
+    Long,
+}
+
+/// What there is to do.
+#[derive(Default)]
+struct Queue {
+    short: Jobs,
+    long: Jobs,
+    /// Threads that are at a long job.
+    at_long: usize,
+}
+
+impl Queue {
+    /// The next job, and how long it takes. `most`: threads that may be at long jobs.
+    fn next(&mut self, most: usize) -> Option<(Length, Job)> {
+        if let Some((_, job)) = self.short.pop_first() {
+            return Some((Length::Short, job));
+        }
+        if self.at_long >= most {
+            return None;
+        }
+        let (_, job) = self.long.pop_first()?;
+        self.at_long += 1;
+        Some((Length::Long, job))
+    }
+}
+
 /// The threads, and what they have to do.
 #[derive(Default)]
 pub(crate) struct Workshop {
     /// None before the first job; inside, none where no thread can be had.
     pool: Option<Option<ThreadPool>>,
-    jobs: Arc<Mutex<Jobs>>,
+    queue: Arc<Mutex<Queue>>,
     count: u64,
 }
 
 impl Workshop {
     /// Has a job done before the step `due`, as far as the threads come to it; here and now where there are none.
-    pub(crate) fn take(&mut self, due: u64, job: impl FnOnce() + Send + 'static) {
+    pub(crate) fn take(&mut self, length: Length, due: u64, job: impl FnOnce() + Send + 'static) {
         let make = || {
             let cores = std::thread::available_parallelism().map_or(1, usize::from);
-            let builder = ThreadPoolBuilder::new().num_threads(cores.saturating_sub(1).max(1));
+            let builder = ThreadPoolBuilder::new().num_threads(cores.saturating_sub(1).max(2));
             builder.build().ok()
         };
         let Some(pool) = self.pool.get_or_insert_with(make) else {
@@ -32,18 +68,90 @@ impl Workshop {
             return;
         };
         self.count += 1;
-        let jobs = Arc::clone(&self.jobs);
-        locked(&jobs).insert((due, self.count), Box::new(job));
-        // One turn for each job, and each turn does the most urgent one.
-        pool.spawn_fifo(move || {
-            let next = locked(&jobs).pop_first();
-            if let Some((_, job)) = next {
-                job();
-            }
-        });
+        {
+            let mut queue = locked(&self.queue);
+            let jobs = match length {
+                Length::Short => &mut queue.short,
+                Length::Long => &mut queue.long,
+            };
+            jobs.insert((due, self.count), Box::new(job));
+        }
+        let (queue, most) = (Arc::clone(&self.queue), pool.current_num_threads() - 1);
+        // Whoever ends a job looks for the next one, so that a long job that must wait here is found by those at long jobs.
+        pool.spawn_fifo(move || work(&queue, most));
     }
 }
 
-fn locked(jobs: &Mutex<Jobs>) -> MutexGuard<'_, Jobs> {
-    jobs.lock().unwrap_or_else(PoisonError::into_inner)
+/// Does jobs until there is none that this thread may do.
+fn work(queue: &Mutex<Queue>, most: usize) {
+    loop {
+        let next = locked(queue).next(most);
+        let Some((length, job)) = next else { return };
+        job();
+        if length == Length::Long {
+            locked(queue).at_long -= 1;
+        }
+    }
+}
+
+fn locked(queue: &Mutex<Queue>) -> MutexGuard<'_, Queue> {
+    queue.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::mpsc::channel;
+
+    use super::{Length, Workshop};
+
+    #[test]
+    fn a_short_job_never_waits_for_long_ones() {
+        let mut workshop = Workshop::default();
+        let (end, ended) = channel::<()>();
+        let (say, said) = channel();
+        // Long jobs that end when this thread lets them, more than there are threads.
+        let ended = std::sync::Arc::new(std::sync::Mutex::new(ended));
+        let cores = std::thread::available_parallelism().map_or(1, usize::from);
+        for k in 0..cores + 2 {
+            let (ended, say) = (std::sync::Arc::clone(&ended), say.clone());
+            workshop.take(Length::Long, 0, move || {
+                let _ = ended.lock().map(|e| e.recv());
+                let _ = say.send(k);
+            });
+        }
+        let short = say.clone();
+        workshop.take(Length::Short, 1000, move || {
+            let _ = short.send(usize::MAX);
+        });
+        assert_eq!(said.recv().ok(), Some(usize::MAX));
+        drop(end);
+        let mut others: Vec<usize> = (0..cores + 2).filter_map(|_| said.recv().ok()).collect();
+        others.sort_unstable();
+        assert_eq!(others, (0..cores + 2).collect::<Vec<_>>());
+    }
+
+    #[test]
+    fn what_is_due_first_comes_first() {
+        let mut workshop = Workshop::default();
+        let (begin, begun) = channel::<()>();
+        let (say, said) = channel();
+        workshop.take(Length::Long, 0, move || {
+            let _ = begun.recv();
+        });
+        // On a machine of more cores other threads would take these at once, in the order in which they come.
+        if let Some(Some(pool)) = &workshop.pool
+            && pool.current_num_threads() > 2
+        {
+            return;
+        }
+        for due in [5, 3, 9, 1] {
+            let say = say.clone();
+            workshop.take(Length::Long, due, move || {
+                let _ = say.send(due);
+            });
+        }
+        assert!(begin.send(()).is_ok());
+        let order: Vec<u64> = (0..4).filter_map(|_| said.recv().ok()).collect();
+        assert_eq!(order, [1, 3, 5, 9]);
+    }
 }

@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use frangible_rapier::rapier3d::dynamics::RigidBody;
-use frangible_rapier::{Breaking, WorldConfig};
+use frangible_rapier::{Breaking, StepTimings, WorldConfig};
 
 use crate::bake::BakedBody;
 use crate::error::SceneError;
@@ -46,6 +46,8 @@ impl Default for GamePlan {
 pub struct GameRun {
     /// What each frame took, without waiting for its beginning, s.
     pub frames: Vec<f64>,
+    /// Where the time of each frame went: the sum over its steps.
+    pub parts: Vec<StepTimings>,
     /// Bodies of the scene that broke.
     pub breaks: usize,
     /// Pieces that broke again.
@@ -97,8 +99,10 @@ pub fn play_as_game(
         due += Duration::from_secs_f32(1.0 / FRAME_RATE);
         let began = Instant::now();
         stage.throw(scene, frame as f64 / f64::from(FRAME_RATE))?;
+        let mut parts = StepTimings::default();
         for _ in 0..steps {
             stage.world.step()?;
+            parts += *stage.world.timings();
             for event in stage.world.breaks() {
                 // A body that is cracked and whole has a portion, too.
                 match event.asset.portion.as_ref().map_or(0, |p| p.generation()) {
@@ -108,6 +112,7 @@ pub fn play_as_game(
             }
         }
         run.frames.push(began.elapsed().as_secs_f64());
+        run.parts.push(parts);
         progress((frame + 1) as f64 / frames as f64);
     }
     let pose = |body: &RigidBody| {

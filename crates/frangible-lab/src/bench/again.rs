@@ -30,6 +30,8 @@ pub struct Findings {
     pub runs: usize,
     /// Frames: the least time of each.
     pub frames: Spread,
+    /// Rapier's steps in them, likewise.
+    pub rigid: Spread,
     /// Frames over 1/60 s.
     pub late: usize,
     /// A number made of all bodies in the end; it is the same in every run.
@@ -66,6 +68,9 @@ pub fn measure(
             for (time, t) in best.frames.iter_mut().zip(other.frames) {
                 *time = time.min(t);
             }
+            for (best, other) in best.parts.iter_mut().zip(other.parts) {
+                best.rigid = best.rigid.min(other.rigid);
+            }
         }
         all.push(Findings {
             scene: name.into(),
@@ -76,6 +81,7 @@ pub fn measure(
             late: best.frames.iter().filter(|t| **t > 1.0 / 60.0).count(),
             fingerprint: format!("{:016x}", print(&best).value()),
             frames: Times::new(best.frames).spread(),
+            rigid: Times::new(best.parts.iter().map(|p| p.rigid).collect()).spread(),
         });
     }
     Ok(all)

@@ -4,7 +4,8 @@ use rapier3d::geometry::{ContactData, ContactManifoldData};
 use rapier3d::math::{Pose, Real, Vector};
 use rapier3d::parry::query::details::{
     NormalConstraints, contact_manifolds_composite_shape_composite_shape,
-    contact_manifolds_composite_shape_shape,
+    contact_manifolds_composite_shape_shape, contact_manifolds_heightfield_composite_shape,
+    contact_manifolds_heightfield_shape_shapes, contact_manifolds_trimesh_shape_shapes,
 };
 use rapier3d::parry::query::{
     ClosestPoints, Contact, ContactManifold, ContactManifoldsWorkspace, DefaultQueryDispatcher,
@@ -13,7 +14,6 @@ use rapier3d::parry::query::{
 };
 use rapier3d::parry::shape::Shape;
 
-use crate::bodies::polyhedra::is_polyhedron;
 use crate::bodies::{floor, polyhedra};
 
 type Manifold = ContactManifold<ContactManifoldData, ContactData>;
@@ -21,10 +21,11 @@ type Manifold = ContactManifold<ContactManifoldData, ContactData>;
 /// Contacts of jagged and of flat pieces, for the narrow phase of a Rapier world.
 ///
 /// Rapier finds contacts by Parry, which goes wrong with broken pieces in two ways. It sets a jagged piece on a half-space with one of its
-/// faces instead of its lowest corners, so that it sinks in and rocks for ever. And it may tell of two flat pieces that lie close
-/// together that they overlap by as much as their thickness, so that they are pushed apart. Here half-spaces touch polyhedra with
-/// their lowest corners, and contacts of polyhedra are checked and mended; all else is Parry's, triangle meshes and height fields among it.
-/// Lengths are in m.
+/// faces instead of its lowest corners, so that it sinks in and rocks for ever. And its tolerances suit bodies of a metre: of a piece of
+/// some millimetres and another one, a ball or a cylinder it may tell that they overlap by as much as their thickness, or do not touch.
+/// Here half-spaces touch polyhedra with their lowest corners, and contacts of polyhedra with other convex shapes, the parts of compounds and
+/// the triangles of meshes and height fields among them, are searched in units that suit them. All else is Parry's: voxels, and what has no
+/// polyhedron. Lengths are in m.
 ///
 /// A [`BreakableWorld`](crate::BreakableWorld) has it. A world of your own gets it once, before its first step:
 ///
@@ -58,25 +59,41 @@ impl PersistentQueryDispatcher<ContactManifoldData, ContactData> for PieceContac
         if done.is_ok() {
             return Ok(());
         }
-        // Parts of compounds come back to this dispatcher; Parry's own would keep them to itself.
-        match (g1.as_compound(), g2.as_compound()) {
+        // Parts of compounds and triangles of surfaces come back to this dispatcher; Parry's own would keep them to itself.
+        let flipped = &pos12.inverse();
+        match (g1.as_composite_shape(), g2.as_composite_shape()) {
             (Some(a), Some(b)) => contact_manifolds_composite_shape_composite_shape(
                 self, pos12, a, b, prediction, manifolds, workspace,
             ),
-            (Some(a), None) if is_polyhedron(g2) => contact_manifolds_composite_shape_shape(
+            _ if g1.as_trimesh().is_some() || g2.as_trimesh().is_some() => {
+                contact_manifolds_trimesh_shape_shapes(
+                    self, pos12, g1, g2, prediction, manifolds, workspace,
+                );
+            }
+            (a, b) if g1.as_heightfield().is_some() || g2.as_heightfield().is_some() => {
+                match (g1.as_heightfield(), a, g2.as_heightfield(), b) {
+                    (Some(field), _, _, Some(b)) => contact_manifolds_heightfield_composite_shape(
+                        self, pos12, flipped, field, b, prediction, manifolds, workspace, false,
+                    ),
+                    (_, Some(a), Some(field), _) => contact_manifolds_heightfield_composite_shape(
+                        self, flipped, pos12, field, a, prediction, manifolds, workspace, true,
+                    ),
+                    _ => contact_manifolds_heightfield_shape_shapes(
+                        self, pos12, g1, g2, prediction, manifolds, workspace,
+                    ),
+                }
+            }
+            _ if g1.as_voxels().is_some() || g2.as_voxels().is_some() => {
+                return DefaultQueryDispatcher
+                    .contact_manifolds(pos12, g1, g2, prediction, manifolds, workspace);
+            }
+            (Some(a), None) => contact_manifolds_composite_shape_shape(
                 self, pos12, a, g2, prediction, manifolds, workspace, false,
             ),
-            (None, Some(b)) if is_polyhedron(g1) => contact_manifolds_composite_shape_shape(
-                self,
-                &pos12.inverse(),
-                b,
-                g1,
-                prediction,
-                manifolds,
-                workspace,
-                true,
+            (None, Some(b)) => contact_manifolds_composite_shape_shape(
+                self, flipped, b, g1, prediction, manifolds, workspace, true,
             ),
-            (None, None) if is_polyhedron(g1) && is_polyhedron(g2) => {
+            (None, None) => {
                 manifolds.truncate(1);
                 // What was found of a compound before stands in the frames of its parts.
                 manifolds.retain(|known| known.subshape_poses.is_none());
@@ -87,10 +104,6 @@ impl PersistentQueryDispatcher<ContactManifoldData, ContactData> for PieceContac
                 self.contact_manifold_convex_convex(
                     pos12, g1, g2, None, None, prediction, manifold,
                 )?;
-            }
-            _ => {
-                return DefaultQueryDispatcher
-                    .contact_manifolds(pos12, g1, g2, prediction, manifolds, workspace);
             }
         }
         Ok(())

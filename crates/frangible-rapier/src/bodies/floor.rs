@@ -10,8 +10,6 @@ use rapier3d::math::{Pose, Real, Vector};
 use rapier3d::parry::query::{ContactManifold, TrackedContact, Unsupported};
 use rapier3d::parry::shape::{HalfSpace, PackedFeatureId, Shape};
 
-use crate::bodies::polyhedra::is_polyhedron;
-
 /// A corner higher than the lowest one by h counts as nearer by this × h: a base is spanned by corners that touch,
 /// not by ones that hover inside the prediction distance.
 const HEIGHT_COST: f32 = 20.0;
@@ -171,4 +169,8 @@ pub(crate) fn touch(
     manifold.match_contacts(&old);
     manifolds.push(manifold);
     Ok(())
+}
+/// Whether a shape is convex and has flat faces.
+fn is_polyhedron(shape: &dyn Shape) -> bool {
+    shape.as_convex_polyhedron().is_some() || shape.as_cuboid().is_some()
 }

@@ -8,7 +8,7 @@
 use std::collections::BTreeMap;
 
 use rapier3d::dynamics::{RigidBody, RigidBodyHandle};
-use rapier3d::math::Pose;
+use rapier3d::math::{Pose, Vector};
 use rapier3d::pipeline::PhysicsWorld;
 
 use crate::world::{Key, key};
@@ -27,6 +27,9 @@ struct Place {
     reach: f32,
     /// The body's own sleep threshold while it has the lenient one.
     threshold: Option<f32>,
+    /// Velocity after the last step, and its mean over the last two, m/s.
+    velocity: Vector,
+    mean: Vector,
 }
 
 /// Where bodies have been of late.
@@ -39,6 +42,11 @@ impl Places {
     /// How long a body has touched something and stayed in its place, s, up to now or until it fell asleep.
     pub(crate) fn stayed(&self, body: RigidBodyHandle) -> f32 {
         self.places.get(&key(body)).map_or(0.0, |place| place.since)
+    }
+
+    /// Mean velocity over the last two steps, m/s: what stands on corners that take turns moves to and fro, and its mean is small.
+    pub(crate) fn mean_velocity(&self, body: RigidBodyHandle) -> Vector {
+        (self.places.get(&key(body))).map_or(Vector::ZERO, |place| place.mean)
     }
 
     /// A body begins to rest anew.
@@ -55,8 +63,13 @@ impl Places {
     /// slept among moving ones would not be held up by the floor.
     pub(crate) fn rest(&mut self, physics: &mut PhysicsWorld, drift: f32) {
         let bodies = &physics.bodies;
-        self.places
-            .retain(|&(i, g), _| bodies.contains(RigidBodyHandle::from_raw_parts(i, g)));
+        self.places.retain(|&(index, generation), place| {
+            let body = bodies.get(RigidBodyHandle::from_raw_parts(index, generation));
+            let now = body.map_or(Vector::ZERO, RigidBody::linvel);
+            place.mean = 0.5 * (place.velocity + now);
+            place.velocity = now;
+            body.is_some()
+        });
         let dt = physics.integration_parameters.dt;
         let mut thresholds = Vec::new();
         let awake = |b: &RigidBody| b.is_dynamic() && b.is_enabled() && !b.is_sleeping();
@@ -66,6 +79,8 @@ impl Places {
                 since: 0.0,
                 reach: reach(body, physics),
                 threshold: None,
+                velocity: body.linvel(),
+                mean: body.linvel(),
             };
             let place = self.places.entry(key(handle)).or_insert_with(here);
             let own = body.activation().normalized_linear_threshold;

@@ -15,6 +15,7 @@ use rapier3d::dynamics::RigidBodyHandle;
 
 use crate::config::PieceConfig;
 use crate::impulses::settle::Broken;
+use crate::workshop::Length;
 use crate::world::{BreakableWorld, key};
 
 /// A body that is being made.
@@ -101,13 +102,13 @@ impl BreakableWorld {
             let tets = (tets_of(body) as f64 * fragment.mass.mass / whole) as usize;
             let (at_once, parent, find) = (Arc::clone(&model), body.clone(), portion(number));
             let due = self.due(Kind::AtOnce, tets);
-            self.promise(handle, due, None, move || {
+            self.promise(Length::Short, handle, due, None, move || {
                 let portion = find()?;
                 made(&parent, &portion, at_once.at_once(&portion, &parent))
             });
             let (later, parent, find) = (Arc::clone(&model), body.clone(), portion(number));
             let due = due.max(self.due(Kind::Later, tets));
-            self.promise(handle, due, None, move || {
+            self.promise(Length::Long, handle, due, None, move || {
                 let portion = find()?;
                 made(&parent, &portion, later.later(&portion))
             });
@@ -126,7 +127,7 @@ impl BreakableWorld {
         };
         let (cracks, config) = (body.state().clone(), self.config.fracture.clone());
         let due = self.due(Kind::Later, tets_of(&body));
-        self.promise(handle, due, Some(cracks), move || {
+        self.promise(Length::Long, handle, due, Some(cracks), move || {
             let portion = Arc::new(Portion::of_cracked(&body, &config).ok()?);
             let elastic = model.later(&portion);
             let elastic = elastic.or_else(|| model.at_once(&portion, &body));
@@ -153,13 +154,14 @@ impl BreakableWorld {
     /// Has a body made on another thread; it joins the world in the step `due`.
     fn promise(
         &mut self,
+        length: Length,
         handle: RigidBodyHandle,
         due: u64,
         cracks: Option<BodyState>,
         make: impl FnOnce() -> Option<Body> + Send + 'static,
     ) {
         let (sender, body) = channel();
-        self.workshop.take(due, move || {
+        self.workshop.take(length, due, move || {
             // Nobody hears it when the world is gone.
             let _ = sender.send(make());
         });

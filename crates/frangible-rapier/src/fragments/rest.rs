@@ -98,14 +98,15 @@ impl BreakableWorld {
         // A heap sleeps when all of it may; one that creeps keeps the others awake.
         let stayed = f64::from(self.state.places.stayed(handle));
         slept.max(stayed) >= f64::from(self.config.rest_time)
-            && !self.falls(body)
+            && !self.falls(handle)
             && (self.config.at_rest != AtRest::Merge || self.can_merge(handle))
     }
 
-    /// Whether a piece moves as one whose support has gone does after a step: it has not left its place yet.
-    fn falls(&self, piece: &RigidBody) -> bool {
+    /// Whether a piece moves as one whose support has gone does after a step: it has not left its place yet. What rocks where it lies does
+    /// not fall.
+    fn falls(&self, piece: RigidBodyHandle) -> bool {
         let a_step = self.physics.gravity.length() * self.config.dt;
-        piece.linvel().length() > 0.5 * a_step
+        self.state.places.mean_velocity(piece).length() > 0.25 * a_step
     }
 
     /// Whether a piece lies on, or leans against, what may leave it in the air: a body that can move and does not rest itself, or one that

@@ -18,6 +18,7 @@ use crate::contact::contacts::{Impact, Surfaces, impact_on};
 use crate::error::WorldError;
 use crate::event::BreakCause;
 use crate::stepping::answer::{Answer, Verdict};
+use crate::workshop::Length;
 use crate::world::{BreakFn, BreakableWorld, Key, key};
 
 /// What it takes to judge, apart from the world.
@@ -146,7 +147,7 @@ impl BreakableWorld {
             sender,
         });
         let elsewhere = Arc::clone(&work);
-        self.workshop.take(due, move || elsewhere.do_unless_taken());
+        (self.workshop).take(Length::Short, due, move || elsewhere.do_unless_taken());
         Ok(Case {
             body,
             impact,

@@ -21,6 +21,8 @@ pub fn again(found: &[Findings], plan: GamePlan) -> String {
                 ms(f.frames.p50),
                 ms(f.frames.p99),
                 ms(f.frames.max),
+                ms(f.rigid.p99),
+                ms(f.rigid.max),
                 format!("{} of {}", f.late, f.frames.calls),
             ]
         })
@@ -49,6 +51,8 @@ pub fn again(found: &[Findings], plan: GamePlan) -> String {
             "bodies in the end",
             "median, ms",
             "p99, ms",
+            "longest, ms",
+            "Rapier's steps: p99, ms",
             "longest, ms",
             "over 1/60 s",
         ],
