@@ -1,7 +1,7 @@
 //! Threads beside the world's own: they judge blows and make pieces ready. What is due first comes first.
 //!
 //! A blow is judged within milliseconds and the world soon asks for the verdict, while the modes of a piece may take a second. So one
-//! thread is kept free of such long jobs. There are as many threads as cores beside the world's own, but two at least.
+//! thread is kept free of such long jobs. There is one thread less than there are cores, but there are two at least.
 
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -101,8 +101,9 @@ fn locked(queue: &Mutex<Queue>) -> MutexGuard<'_, Queue> {
 #[cfg(test)]
 mod tests {
     use std::sync::mpsc::channel;
+    use std::sync::{Arc, Mutex};
 
-    use super::{Length, Workshop};
+    use super::{Job, Length, Queue, Workshop};
 
     #[test]
     fn a_short_job_never_waits_for_long_ones() {
@@ -110,10 +111,10 @@ mod tests {
         let (end, ended) = channel::<()>();
         let (say, said) = channel();
         // Long jobs that end when this thread lets them, more than there are threads.
-        let ended = std::sync::Arc::new(std::sync::Mutex::new(ended));
+        let ended = Arc::new(Mutex::new(ended));
         let cores = std::thread::available_parallelism().map_or(1, usize::from);
         for k in 0..cores + 2 {
-            let (ended, say) = (std::sync::Arc::clone(&ended), say.clone());
+            let (ended, say) = (Arc::clone(&ended), say.clone());
             workshop.take(Length::Long, 0, move || {
                 let _ = ended.lock().map(|e| e.recv());
                 let _ = say.send(k);
@@ -131,27 +132,28 @@ mod tests {
     }
 
     #[test]
-    fn what_is_due_first_comes_first() {
-        let mut workshop = Workshop::default();
-        let (begin, begun) = channel::<()>();
+    fn what_is_due_first_comes_first_and_long_jobs_leave_a_thread() {
+        let mut queue = Queue::default();
         let (say, said) = channel();
-        workshop.take(Length::Long, 0, move || {
-            let _ = begun.recv();
-        });
-        // On a machine of more cores other threads would take these at once, in the order in which they come.
-        if let Some(Some(pool)) = &workshop.pool
-            && pool.current_num_threads() > 2
-        {
-            return;
-        }
-        for due in [5, 3, 9, 1] {
+        let job = |name: &'static str| -> Job {
             let say = say.clone();
-            workshop.take(Length::Long, due, move || {
-                let _ = say.send(due);
-            });
-        }
-        assert!(begin.send(()).is_ok());
-        let order: Vec<u64> = (0..4).filter_map(|_| said.recv().ok()).collect();
-        assert_eq!(order, [1, 3, 5, 9]);
+            Box::new(move || say.send(name).expect("the test listens"))
+        };
+        queue.long.insert((5, 1), job("modes due at 5"));
+        queue.long.insert((3, 2), job("modes due at 3"));
+        queue.short.insert((9, 3), job("blow due at 9"));
+        queue.short.insert((7, 4), job("blow due at 7"));
+        let next = |queue: &mut Queue| {
+            let (_, job) = queue.next(1)?;
+            job();
+            said.recv().ok()
+        };
+        assert_eq!(next(&mut queue), Some("blow due at 7"));
+        assert_eq!(next(&mut queue), Some("blow due at 9"));
+        assert_eq!(next(&mut queue), Some("modes due at 3"));
+        // One thread may be at long jobs, and is.
+        assert_eq!(next(&mut queue), None);
+        queue.at_long -= 1;
+        assert_eq!(next(&mut queue), Some("modes due at 5"));
     }
 }

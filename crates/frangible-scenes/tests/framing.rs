@@ -180,8 +180,8 @@ fn badly_framed_of(wanted: impl Fn(&&&str) -> bool) -> Vec<String> {
 #[test]
 fn each_moment_of_scenes_fills_its_picture_but_for_known_ones() {
     let bad = badly_framed_of(|name| !SLOW.contains(name));
-    // 5.0 and 7.7 %: shards roll far, and the stump that hangs stays in the picture. The goal of every list here is to be empty.
-    assert_eq!(bad, ["glass, at the end", "cantilever, just after"]);
+    // 5.3 %: shards slide far. The goal of every list here is to be empty.
+    assert_eq!(bad, ["bowl, at the end"]);
 }
 
 #[test]
@@ -259,13 +259,12 @@ fn each_moment_of_twenty_scenes_made_at_random_fills_its_picture_but_for_known_o
     let bad: Vec<String> = (1..=20)
         .flat_map(|n| badly_framed(any_scene(n), 20))
         .collect();
-    // In order: the largest piece leaves the picture; 6.6, 3.0 and 7.9 %; more than 70 %; 6.4 and 3.4 %.
+    // In order: the largest piece leaves the picture; 7.7, 3.0, 7.9, 7.0 and 2.0 %.
     let known = [
         "any 4, just after",
         "any 9, just after",
         "any 11, just after",
         "any 11, at the end",
-        "any 12, at the end",
         "any 16, just after",
         "any 16, at the end",
     ];

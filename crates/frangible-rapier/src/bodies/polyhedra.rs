@@ -11,6 +11,7 @@
 
 use rapier3d::geometry::{ContactData, ContactManifoldData};
 use rapier3d::math::{Pose, Real, Vector};
+use rapier3d::parry::bounding_volume::BoundingVolume;
 use rapier3d::parry::query::details::{
     NormalConstraints, NormalConstraintsPair, contact_support_map_support_map_with_params,
 };
@@ -68,8 +69,12 @@ pub(crate) fn touch(
     let old = std::mem::take(&mut manifold.points);
     match pair.search(reach, known) {
         Found::Apart(normal) => manifold.local_n1 = normal,
-        Found::Close { normal, points } => {
-            pair.lay_out(manifold, normal, points, constraints);
+        Found::Close {
+            normal,
+            gap,
+            points,
+        } => {
+            pair.lay_out(manifold, normal, gap, points, constraints);
             manifold.match_contacts(&old);
         }
     }
@@ -142,8 +147,13 @@ impl SupportMap for Scaled<'_> {
 enum Found {
     /// The bodies are farther apart than contacts reach, along this normal.
     Apart(Vector),
-    /// The closest points of the two bodies, or the deepest where they overlap, and the normal between them.
-    Close { normal: Vector, points: [Vector; 2] },
+    /// The normal between the bodies, how far apart they are along it, and their closest points, or the deepest where they overlap, where
+    /// these are known.
+    Close {
+        normal: Vector,
+        gap: Real,
+        points: Option<[Vector; 2]>,
+    },
 }
 
 /// The power of two below a positive number, so that scaling rounds nothing; one where there is none.
@@ -186,30 +196,54 @@ impl Pair<'_> {
             &mut VoronoiSimplex::new(),
             known,
         );
-        let normal = match found {
+        let mut closest = None;
+        match found {
             GJKResult::ClosestPoints(near, far, normal) => {
                 let points = [near / scale, far / scale];
-                let distance = (points[1] - points[0]).dot(normal);
-                let error = ROUNDING + SEARCH_ERROR * distance.abs();
-                if (distance - self.gap(normal)).abs() <= error {
-                    return Found::Close { normal, points };
+                let gap = (points[1] - points[0]).dot(normal);
+                let error = ROUNDING + SEARCH_ERROR * gap.abs();
+                if (gap - self.gap(normal)).abs() <= error {
+                    return Found::Close {
+                        normal,
+                        gap,
+                        points: Some(points),
+                    };
                 }
-                Some(normal)
+                closest = Some((normal, points));
             }
             GJKResult::NoIntersection(normal) if self.gap(normal) > reach - ROUNDING => {
                 return Found::Apart(normal);
             }
-            _ => None,
-        };
-        let (normal, gap) = self.farthest(normal.into_iter().chain(known), reach);
+            _ => {}
+        }
+        let more = closest.map(|(normal, _)| normal).into_iter().chain(known);
+        let (normal, gap) = self.farthest(more, reach);
         if gap > reach - ROUNDING {
             return Found::Apart(normal);
         }
-        let far = *self.pos12 * self.farthest_of_second(-normal);
+        // Of bodies that touch within a micrometre the points are right, if not the normal between them.
+        let points = closest.map(|(_, points)| points);
+        let points = points.filter(|[near, far]| (far - near).length() <= 2.0 * ROUNDING);
         Found::Close {
             normal,
-            points: [far - gap * normal, far],
+            gap,
+            points: points.or_else(|| self.corner(normal, gap)),
         }
+    }
+
+    /// A corner that the other body touches, and the point where it does; none where both corners lie beside the other body, as those of large
+    /// faces may.
+    fn corner(&self, normal: Vector, gap: Real) -> Option<[Vector; 2]> {
+        let holds = |body: &Solid, point| {
+            let bounds = body.shape.compute_local_aabb().loosened(ROUNDING);
+            bounds.contains_local_point(point)
+        };
+        let far = *self.pos12 * self.farthest_of_second(-normal);
+        let near = self.a.support.local_support_point(normal);
+        let ways = [[far - gap * normal, far], [near, near + gap * normal]];
+        ways.into_iter().find(|[near, far]| {
+            holds(&self.a, *near) && holds(&self.b, self.pos12.inverse_transform_point(*far))
+        })
     }
 
     /// Contacts of the faces that meet along a normal, and the closest points. Where a body is part of a surface, that may turn the normal
@@ -218,11 +252,15 @@ impl Pair<'_> {
         &self,
         manifold: &mut Manifold,
         normal: Vector,
-        [near, far]: [Vector; 2],
+        gap: Real,
+        points: Option<[Vector; 2]>,
         constraints: [Option<&dyn NormalConstraints>; 2],
     ) {
         let (pos12, found) = (self.pos12, normal);
-        let distance = (far - near).dot(found);
+        let [near, far] = points.unwrap_or_else(|| {
+            let near = self.a.support.local_support_point(normal);
+            [near, *pos12 * self.farthest_of_second(-normal)]
+        });
         let other = pos12.inverse_transform_point(far);
         let (mut normal, mut there) = (found, pos12.rotation.inverse() * -found);
         let [of_a, of_b] = constraints;
@@ -237,15 +275,15 @@ impl Pair<'_> {
             let back = pos12.inverse();
             PolygonalFeature::contacts(pos12, &back, normal, there, of_a, of_b, manifold, false);
         }
-        if normal == found {
+        if normal == found && points.is_some() {
             let unknown = PackedFeatureId::UNKNOWN;
-            let closest = TrackedContact::new(near, other, unknown, unknown, distance);
+            let closest = TrackedContact::new(near, other, unknown, unknown, gap);
             manifold.points.push(closest);
         }
         if constraints.iter().any(Option::is_some) {
             // Along a normal that was turned a body that reaches far may seem to go deep, as in Parry's own.
-            let deepest = 5.0 * distance.min(0.0);
-            (manifold.points).retain(|p| p.dist >= 0.0 || distance >= 0.0 || p.dist >= deepest);
+            let deepest = 5.0 * gap.min(0.0);
+            (manifold.points).retain(|p| p.dist >= 0.0 || gap >= 0.0 || p.dist >= deepest);
         }
         for point in &mut manifold.points {
             point.local_p1 += normal * self.a.radius;
@@ -404,10 +442,12 @@ mod tests {
                 continue;
             }
             overlapping += 1;
-            let Found::Close { normal, points } = pair.search(0.002, None) else {
+            let Found::Close {
+                normal, gap: depth, ..
+            } = pair.search(0.002, None)
+            else {
                 panic!("bodies that overlap by {gap} m touch");
             };
-            let depth = (points[1] - points[0]).dot(normal);
             let error = 1e-3 * size * 0.01;
             assert!((pair.gap(normal) - depth).abs() < ROUNDING + error);
             failed += usize::from((depth - gap).abs() > error);
@@ -467,7 +507,8 @@ mod tests {
             // As far along the direction as the bodies reach, and a little more or less.
             let edge = Pose::from_parts(Vector::ZERO, turn);
             let near = Pair { pos12: &edge, a, b }.gap(away);
-            let shift = away * (a.radius + b.radius - near + 1e-3 * number());
+            let more = [1e-3, 1e-6][round / 4 % 2] * number();
+            let shift = away * (a.radius + b.radius - near + more);
             let pos12 = Pose::from_parts(shift, turn);
             let pair = Pair {
                 pos12: &pos12,
@@ -493,6 +534,13 @@ mod tests {
             touch(&pos12, pair, [None; 2], 2e-3, &mut ours).expect("convex shapes are supported");
             touching[round % 4] += usize::from(!ours.points.is_empty());
             wrong_now[round % 4] += wrong(&ours);
+            for point in &ours.points {
+                let on = |shape: &dyn Shape, point: Vector| {
+                    let bounds = shape.compute_local_aabb().loosened(1e-4);
+                    bounds.contains_local_point(point)
+                };
+                assert!(on(pair[0], point.local_p1) && on(pair[1], point.local_p2));
+            }
         }
         println!("of {touching:?} Parry is wrong {wrong_before:?} times, this {wrong_now:?}");
         assert!(touching.iter().all(|&count| count > 100));
