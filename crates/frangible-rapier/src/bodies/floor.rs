@@ -170,6 +170,7 @@ pub(crate) fn touch(
     manifolds.push(manifold);
     Ok(())
 }
+
 /// Whether a shape is convex and has flat faces.
 fn is_polyhedron(shape: &dyn Shape) -> bool {
     shape.as_convex_polyhedron().is_some() || shape.as_cuboid().is_some()
