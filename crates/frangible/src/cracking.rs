@@ -155,12 +155,7 @@ impl<'a> Cracking<'a> {
             if step % STRIDE == 0 || step == first_step {
                 // Bounds, then the points that they leave, of all steps of the batch.
                 let start = Instant::now();
-                culling.begin();
-                for step in (step..motion.steps()).take(BATCH - k) {
-                    let k = lane(step);
-                    roots[k] = culling.root(motion, step);
-                    culling.survive(motion, step, roots[k], k);
-                }
+                roots = culling.look(motion, step..motion.steps().min(step + BATCH - k));
                 field.displacement.seek(motion, step);
                 let cut = &system.fractured_by;
                 suspects.find(body, &mut field, culling.survivors(), cut, looked.peak);

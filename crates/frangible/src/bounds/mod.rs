@@ -9,7 +9,7 @@ mod surface_sums;
 pub(crate) use clusters::WeakClusters;
 pub(crate) use per_impulse::PerImpulse;
 pub(crate) use reach::Reaches;
-pub(crate) use stress_bounds::{quadratic_modulus, tension_bound};
+pub(crate) use stress_bounds::{quadratic_modulus, tension_bound, tension_bounds};
 pub(crate) use surface_sums::surface_sums;
 
 /// Rounding of sums over a few thousand terms cannot make a bound so many times as large.

@@ -139,20 +139,18 @@ impl NearField {
         most
     }
 
-    /// Largest principal tension that the field adds anywhere at this distance or farther, Pa, at a time step.
-    pub(crate) fn most(&self, distance: f32, step: usize) -> f32 {
+    /// Largest principal tension that the field adds, Pa, at a time step: anywhere as far as a distance of the table, or farther.
+    #[inline(always)]
+    pub(crate) fn most(&self, distance: Option<usize>, step: usize) -> f32 {
         let step = self.step(step);
-        if step >= self.steps {
-            return 0.0;
-        }
-        match self.below(distance) {
-            Some(i) => self.most[i * self.steps + step],
-            None => 0.0,
+        match distance {
+            Some(i) if step < self.steps => self.most[i * self.steps + step],
+            _ => 0.0,
         }
     }
 
     /// Largest distance of the table that is no farther, or none beyond the last.
-    fn below(&self, distance: f32) -> Option<usize> {
+    pub(crate) fn below(&self, distance: f32) -> Option<usize> {
         let after = self.radii.partition_point(|&r| r <= distance);
         (after < self.radii.len()).then(|| after.saturating_sub(1))
     }

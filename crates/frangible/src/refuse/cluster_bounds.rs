@@ -2,9 +2,9 @@
 
 use super::impact::Refusal;
 use crate::body::Body;
-use crate::bounds::tension_bound;
+use crate::bounds::{tension_bound, tension_bounds};
 use crate::outcome::LookedAt;
-use crate::stress::limit;
+use crate::stress::{Lanes, limit};
 
 /// Bounds of all parts that hold weak points, asked one after another.
 pub(crate) struct ClusterBounds<'a> {
@@ -44,14 +44,13 @@ impl<'a> ClusterBounds<'a> {
         tension_bound(amplitudes, stress, gradient, self.quadratic_modulus)
     }
 
-    /// [`Self::bound`] of all parts, Pa, into `bounds`.
-    pub(crate) fn bounds(&self, amplitudes: &[f32], bounds: &mut Vec<f32>) {
-        bounds.resize(self.count(), 0.0);
-        pulp::Arch::new().dispatch(AllParts {
-            parts: self,
-            amplitudes,
-            bounds,
-        });
+    /// [`Self::bound`] at each step of a batch, given how far each mode moves at each, m·√kg.
+    #[inline(always)]
+    pub(super) fn bounds(&self, part: usize, sizes: &[Lanes]) -> Lanes {
+        let (stress, gradient) = self.rows(part);
+        let modes = sizes.len();
+        let (stress, gradient) = (&stress[..modes], &gradient[..modes]);
+        tension_bounds(sizes, stress, gradient, self.quadratic_modulus)
     }
 
     /// Below this bound no point of the part reaches its strength, Pa.
@@ -96,8 +95,12 @@ pub(crate) fn refused_by_clusters(
         bound: 0.0,
         as_weakest: 0.0,
     };
-    let mut bounds = Vec::new();
-    parts.bounds(amplitudes, &mut bounds);
+    let mut bounds = vec![0.0; parts.count()];
+    pulp::Arch::new().dispatch(AllParts {
+        parts: &parts,
+        amplitudes,
+        bounds: &mut bounds,
+    });
     for (part, bound) in bounds.into_iter().enumerate() {
         if bound > parts.limit(part) {
             return None;

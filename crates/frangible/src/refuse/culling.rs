@@ -1,11 +1,14 @@
 //! Which weak points need a look at a time step: those of clusters whose stress bound passes the strength.
 
+use std::ops::Range;
+
 use super::cluster_bounds::ClusterBounds;
 use crate::body::Body;
 use crate::bounds::tension_bound;
 use crate::config::FractureConfig;
 use crate::motion::Motion;
-use crate::stress::{Steps, limit};
+use crate::near_field::NearField;
+use crate::stress::{BATCH, Lanes, Steps, Wide, lane, limit};
 
 /// Passes over clusters of weak points that cannot crack.
 pub(crate) struct Culling<'a> {
@@ -20,12 +23,12 @@ pub(crate) struct Culling<'a> {
     pub(crate) asked_clusters: bool,
     /// Bit k of a cluster's entry: step k of the batch needs a look at the cluster.
     survivors: Vec<Steps>,
-    /// Bounds of the clusters at the step looked at last, Pa.
-    bounds: Vec<f32>,
+    /// How far each mode moves at the steps of the batch looked at last, m·√kg.
+    sizes: Vec<Lanes>,
     /// Most stress of each residual shape, Pa/N: in the whole body, and in each cluster.
     residuals: Vec<(f32, Vec<f32>)>,
-    /// For each near field and cluster a distance from the contact that none of its points is nearer than, m.
-    distances: Vec<Vec<f32>>,
+    /// For each near field and cluster what bounds the field there, in the field's table.
+    near: Vec<Vec<Option<usize>>>,
 }
 
 impl<'a> Culling<'a> {
@@ -44,19 +47,19 @@ impl<'a> Culling<'a> {
             (whole, (0..count).map(of_part).collect())
         });
         let centroids = &body.prepared.centroids;
-        let distances = complement.near.iter().filter(|_| on).map(|near| {
+        let near = complement.near.iter().filter(|_| on).map(|near| {
             let of_part = |part| {
                 let tets = body.clusters.tets(part).iter();
                 // A flaw lies no farther from the centroid than an edge is long.
                 let places = tets.map(|&tet| near.distance(centroids[tet as usize]));
                 let nearest = places.fold(f32::INFINITY, f32::min) - body.prepared.longest_edge;
-                near.nearest_along(nearest)
+                near.below(near.nearest_along(nearest))
             };
             (0..count).map(of_part).collect()
         });
         Self {
             residuals: residuals.collect(),
-            distances: distances.collect(),
+            near: near.collect(),
             body,
             on,
             quadratic_modulus,
@@ -64,7 +67,7 @@ impl<'a> Culling<'a> {
             as_weakest: 0.0,
             asked_clusters: false,
             survivors: vec![0; count],
-            bounds: Vec::new(),
+            sizes: vec![[0.0; BATCH]; motion.modes],
         }
     }
 
@@ -84,49 +87,58 @@ impl<'a> Culling<'a> {
         let complement = &motion.complement;
         let residuals = self.residuals.iter().zip(&complement.residuals);
         let still: f32 = residuals.map(|((s, _), r)| s * r.force(step).abs()).sum();
-        let near: f32 = complement.near.iter().map(|n| n.most(0.0, step)).sum();
+        let near: f32 = complement
+            .near
+            .iter()
+            .map(|n| n.most(n.below(0.0), step))
+            .sum();
         modes + still + near
     }
 
-    /// Clusters to look at at a time step, number `k` of a batch, added to the batch's list; `root`: the bound of the whole body.
-    pub(crate) fn survive(&mut self, motion: &Motion, step: usize, root: f32, k: usize) {
-        if !self.on {
-            self.survivors.iter_mut().for_each(|steps| *steps |= 1 << k);
-            return;
-        }
-        if root <= limit(self.body.resistance.weakest as f32) {
-            self.passed_over = self.passed_over.max(root);
-            self.as_weakest = self.as_weakest.max(root);
-            return;
-        }
-        self.asked_clusters = true;
-        let parts = ClusterBounds::new(self.body, self.quadratic_modulus);
-        parts.bounds(motion.at(step), &mut self.bounds);
-        let complement = &motion.complement;
-        for ((_, of_parts), residual) in self.residuals.iter().zip(&complement.residuals) {
-            let force = residual.force(step).abs();
-            for (bound, stress) in self.bounds.iter_mut().zip(of_parts) {
-                *bound += force * stress;
-            }
-        }
-        for (distances, near) in self.distances.iter().zip(&complement.near) {
-            for (bound, &distance) in self.bounds.iter_mut().zip(distances) {
-                *bound += near.most(distance, step);
-            }
-        }
-        for (i, &of_part) in self.bounds.iter().enumerate() {
-            if of_part <= parts.limit(i) {
-                self.passed_over = self.passed_over.max(of_part);
-                self.as_weakest = self.as_weakest.max(parts.as_weakest(i, of_part));
+    /// Begins a batch with these time steps: which clusters need a look at which of them. Returns the bound of the whole body at each, Pa.
+    pub(crate) fn look(&mut self, motion: &Motion, steps: Range<usize>) -> Lanes {
+        let mut roots = [0.0; BATCH];
+        let mut asked = 0;
+        for step in steps.clone() {
+            let k = lane(step);
+            roots[k] = self.root(motion, step);
+            if self.on && roots[k] <= limit(self.body.resistance.weakest as f32) {
+                self.passed_over = self.passed_over.max(roots[k]);
+                self.as_weakest = self.as_weakest.max(roots[k]);
             } else {
-                self.survivors[i] |= 1 << k;
+                asked |= 1 << k;
             }
         }
+        self.survivors.fill(if self.on { 0 } else { asked });
+        if self.on && asked != 0 {
+            self.asked_clusters = true;
+            // With the widest vectors that this processor has; the same operations in the same order, so the same bits.
+            pulp::Arch::new().dispatch(AskClusters {
+                culling: self,
+                motion,
+                steps: steps.filter(|&step| asked >> lane(step) & 1 == 1),
+            });
+        }
+        roots
     }
 
-    /// Forgets the survivors: a new batch begins.
-    pub(crate) fn begin(&mut self) {
-        self.survivors.fill(0);
+    /// Bound of a cluster's stress, Pa: that of the modes, and what the forces on the residual shapes, N, and the near fields add.
+    #[inline(always)]
+    fn with_complement(
+        &self,
+        mut bound: f32,
+        part: usize,
+        motion: &Motion,
+        force: impl Fn(usize) -> f32,
+        near: impl Fn(&NearField, Option<usize>) -> f32,
+    ) -> f32 {
+        for (i, (_, of_parts)) in self.residuals.iter().enumerate() {
+            bound += force(i) * of_parts[part];
+        }
+        for (of_parts, field) in self.near.iter().zip(&motion.complement.near) {
+            bound += near(field, of_parts[part]);
+        }
+        bound
     }
 
     /// Whether any cluster needs a look at step `k` of the batch.
@@ -138,5 +150,66 @@ impl<'a> Culling<'a> {
     pub(crate) fn survivors(&self) -> impl Iterator<Item = (u32, Steps)> {
         let survivors = (0..).zip(self.survivors.iter().copied());
         survivors.filter(|&(_, steps)| steps != 0)
+    }
+}
+
+/// The question which clusters may crack at some time steps of a batch.
+struct AskClusters<'c, 'a, 'm, S> {
+    culling: &'c mut Culling<'a>,
+    motion: &'m Motion,
+    steps: S,
+}
+
+impl<S: Iterator<Item = usize> + Clone> pulp::NullaryFnOnce for AskClusters<'_, '_, '_, S> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let Self {
+            culling,
+            motion,
+            steps,
+        } = self;
+        let parts = ClusterBounds::new(culling.body, culling.quadratic_modulus);
+        let mut sizes = std::mem::take(&mut culling.sizes);
+        sizes.fill([0.0; BATCH]);
+        for step in steps.clone() {
+            for (size, q) in sizes.iter_mut().zip(motion.at(step)) {
+                size[lane(step)] = q.abs();
+            }
+        }
+        let farthest: Vec<f32> = sizes.iter().map(|q| Wide(*q).largest()).collect();
+        let forces = motion.complement.residuals.iter();
+        let forces: Vec<f32> = forces
+            .map(|r| (steps.clone().map(|step| r.force(step).abs())).fold(0.0, f32::max))
+            .collect();
+        for part in 0..parts.count() {
+            // What bounds all steps at once mostly does; where it might hide what the bound of a step tells, each is asked.
+            let near = |near: &NearField, at| {
+                (steps.clone().map(|step| near.most(at, step))).fold(0.0, f32::max)
+            };
+            let modes = parts.bound(part, &farthest);
+            let most = culling.with_complement(modes, part, motion, |i| forces[i], near);
+            if most <= parts.limit(part)
+                && most <= culling.passed_over
+                && parts.as_weakest(part, most) <= culling.as_weakest
+            {
+                continue;
+            }
+            let modes = parts.bounds(part, &sizes);
+            for step in steps.clone() {
+                let force = |i: usize| motion.complement.residuals[i].force(step).abs();
+                let near = |near: &NearField, at| near.most(at, step);
+                let modes = modes[lane(step)];
+                let bound = culling.with_complement(modes, part, motion, force, near);
+                if bound <= parts.limit(part) {
+                    culling.passed_over = culling.passed_over.max(bound);
+                    culling.as_weakest = (culling.as_weakest).max(parts.as_weakest(part, bound));
+                } else {
+                    culling.survivors[part] |= 1 << lane(step);
+                }
+            }
+        }
+        culling.sizes = sizes;
     }
 }
