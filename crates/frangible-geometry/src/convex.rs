@@ -45,21 +45,71 @@ pub fn thinned(points: &[Vec3], most: usize) -> Vec<Vec3> {
     cells.dedup_by_key(|(cell, _)| *cell);
     let mut kept: Vec<usize> = cells.into_iter().map(|(_, i)| i).collect();
     if kept.len() > most {
-        let candidates = std::mem::take(&mut kept);
-        for k in 0..most {
-            let direction = spread_direction(k, most);
-            let farthest = candidates.iter().copied().max_by(|&a, &b| {
-                points[a]
-                    .dot(direction)
-                    .total_cmp(&points[b].dot(direction))
-                    .then(b.cmp(&a))
-            });
-            kept.extend(farthest);
-        }
+        kept.sort_unstable();
+        let candidates = Candidates::of(points, std::mem::take(&mut kept));
+        kept.extend((0..most).map(|k| candidates.farthest(spread_direction(k, most))));
     }
     kept.sort_unstable();
     kept.dedup();
     kept.into_iter().map(|i| points[i]).collect()
+}
+
+/// Numbers that are compared side by side.
+const WIDTH: usize = 8;
+
+/// Points to choose from: their coordinates side by side, and their rising numbers.
+struct Candidates {
+    coordinates: [Vec<[f32; WIDTH]>; 3],
+    numbers: Vec<usize>,
+}
+
+impl Candidates {
+    fn of(points: &[Vec3], numbers: Vec<usize>) -> Self {
+        let coordinates = [0, 1, 2].map(|axis| {
+            let block = |block: &[usize]| {
+                // The last block is filled up with its last point.
+                let last = block.len() - 1;
+                std::array::from_fn(|k| points[block[k.min(last)]][axis])
+            };
+            numbers.chunks(WIDTH).map(block).collect()
+        });
+        Self {
+            coordinates,
+            numbers,
+        }
+    }
+
+    /// How far the points of a block lie along a direction.
+    #[inline(always)]
+    fn along(&self, block: usize, direction: Vec3) -> [f32; WIDTH] {
+        let [x, y, z] = &self.coordinates;
+        let (x, y, z) = (&x[block], &y[block], &z[block]);
+        let mut along = [0.0; WIDTH];
+        for k in 0..WIDTH {
+            along[k] = x[k] * direction.x + y[k] * direction.y + z[k] * direction.z;
+        }
+        along
+    }
+
+    /// The point that lies farthest along a direction, the one of the lowest number where several do.
+    fn farthest(&self, direction: Vec3) -> usize {
+        let (mut largest, mut at) = (f32::NEG_INFINITY, 0);
+        for block in 0..self.coordinates[0].len() {
+            let mut along = self.along(block, direction);
+            for half in [4, 2, 1] {
+                for k in 0..half {
+                    let other = along[k + half];
+                    along[k] = if other > along[k] { other } else { along[k] };
+                }
+            }
+            if along[0] > largest {
+                (largest, at) = (along[0], block);
+            }
+        }
+        let along = self.along(at, direction);
+        let k = along.iter().position(|&a| a == largest).unwrap_or(0);
+        self.numbers[(WIDTH * at + k).min(self.numbers.len() - 1)]
+    }
 }
 
 /// The k-th of n directions spread evenly over the sphere (golden spiral).

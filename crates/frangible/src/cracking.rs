@@ -110,6 +110,7 @@ impl<'a> Cracking<'a> {
             // A shorter blow brings less in the end.
             system.ledger.cap(self.motion.peak_strain_energy);
             system.releases.forget_batch();
+            suspects.forget_motion();
             report.timings.response += start.elapsed().as_secs_f64();
         }
         report.peak_elastic_energy = self.motion.peak_energy;

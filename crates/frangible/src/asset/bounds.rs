@@ -18,6 +18,13 @@ impl StressBounds {
         self.cluster_of_tet.is_empty()
     }
 
+    /// Rows of stress and gradient of a cluster, with so many modes each.
+    #[inline(always)]
+    pub(crate) fn rows(&self, cluster: usize, modes: usize) -> (&[f32], &[f32]) {
+        let row = cluster * modes..(cluster + 1) * modes;
+        (&self.stress[row.clone()], &self.gradient[row])
+    }
+
     /// Largest entries of all clusters: rows of stress and gradient for the whole body.
     #[must_use]
     pub fn root(&self, modes: usize) -> (Vec<f32>, Vec<f32>) {

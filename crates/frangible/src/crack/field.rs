@@ -24,7 +24,7 @@ pub(crate) struct StressField<'a> {
     /// Surface triangles that something presses on: they are not free.
     pub(crate) pressed: &'a [u32],
     pub(crate) displacement: &'a mut DisplacementBatch,
-    motion: &'a Motion,
+    pub(super) motion: &'a Motion,
     moment: Moment,
     pub(crate) elasticity: Elasticity,
     /// What the modes do not show under contacts on walls.
@@ -64,8 +64,8 @@ impl<'a> StressField<'a> {
     /// beside it and the mean of the energy through the wall. The centroids of the three tetrahedra that fill a prism of one layer lie at a
     /// quarter of the thickness from its middle, in it and at a quarter again: they would show half of what bending holds.
     pub(crate) fn at(&mut self, e: usize) -> Felt {
-        let gradient = self.gradient(self.asset.embedded_tet(e));
         let Some(wall) = self.wall(e) else {
+            let gradient = self.gradient(self.asset.embedded_tet(e));
             return Felt {
                 state: self.elasticity.state(gradient),
                 wall: None,

@@ -15,6 +15,7 @@
 //! 2πa, where a is its area over the length of its front. Cracks that a piece's own modes know release nothing more.
 
 mod branching;
+mod calm;
 mod cuts;
 mod extents;
 mod field;

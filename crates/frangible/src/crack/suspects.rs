@@ -2,6 +2,7 @@
 //! arithmetic runs over the steps side by side. What cracks do in the meantime only takes suspects away: release
 //! waves never raise the largest tension (λ_max(Q σ Q) ≤ max(λ_max(σ), 0), `stress/shadow.rs`).
 
+use super::calm::Calm;
 use super::field::StressField;
 use super::initiation::Peak;
 use super::system::UNCUT;
@@ -27,6 +28,7 @@ pub(crate) struct Suspects {
     points: Vec<Suspect>,
     of_step: [Vec<u32>; BATCH],
     stress: WeakStress,
+    calm: Option<Box<Calm>>,
     /// Largest bound of the points that were passed over, Pa, and as the weakest point would feel it.
     pub(crate) passed_over: [f32; 2],
 }
@@ -79,6 +81,11 @@ impl Suspects {
         }
     }
 
+    /// Forgets what is known of one motion: another begins.
+    pub(crate) fn forget_motion(&mut self) {
+        self.calm = None;
+    }
+
     /// Those of step `k` of the batch.
     pub(crate) fn at(&self, k: usize) -> impl Iterator<Item = &Suspect> {
         self.of_step[k].iter().map(|&i| &self.points[i as usize])
@@ -103,11 +110,19 @@ impl<I: Iterator<Item = (u32, Steps)>> pulp::NullaryFnOnce for Look<'_, '_, I> {
         let (body, config) = (self.body, self.field.config);
         let modes = self.field.displacement.amplitudes().len();
         let laws = body.rows.of(body, config, modes);
+        let mut calm = self.suspects.calm.take();
+        if laws.is_none() && Calm::serves(self.field) {
+            let calm = calm.get_or_insert_with(|| Box::new(Calm::of(body, self.field)));
+            calm.seek(self.field);
+        }
         while let Some((cluster, steps)) = self.survivors.next() {
             let cluster = cluster as usize;
-            match laws {
-                Some(laws) => self.by_rows(cluster, laws.cluster(body, config, cluster), steps),
-                None => {
+            match (laws, &mut calm) {
+                (Some(laws), _) => {
+                    self.by_rows(cluster, laws.cluster(body, config, cluster), steps);
+                }
+                (None, Some(calm)) => self.by_knots(calm, cluster, steps),
+                (None, None) => {
                     let tets = body.clusters.tets(cluster);
                     for (place, &tet) in body.clusters.places(cluster).zip(tets) {
                         if !self.is_cut(tet) {
@@ -117,6 +132,7 @@ impl<I: Iterator<Item = (u32, Steps)>> pulp::NullaryFnOnce for Look<'_, '_, I> {
                 }
             }
         }
+        self.suspects.calm = calm;
     }
 }
 
@@ -204,11 +220,33 @@ impl<I> Look<'_, '_, I> {
         if above & steps != 0 {
             return false;
         }
-        let most = Wide(bounds).largest().clamp(0.0, limit);
-        let felt = resistance.as_weakest(most, strength);
+        self.pass_over(tet, Wide(bounds).largest().clamp(0.0, limit));
+        true
+    }
+
+    /// Takes note of a point whose tension is no more than this, Pa.
+    #[inline(always)]
+    fn pass_over(&mut self, tet: u32, most: f32) {
+        let resistance = &self.body.resistance;
+        let felt = resistance.as_weakest(most, resistance.strength(tet));
         let passed_over = &mut self.suspects.passed_over;
         *passed_over = [passed_over[0].max(most), passed_over[1].max(felt)];
-        true
+    }
+
+    /// Looks only at points that may crack between a few of the steps.
+    #[inline(always)]
+    fn by_knots(&mut self, calm: &mut Calm, cluster: usize, steps: Steps) {
+        let body = self.body;
+        calm.look(body, self.field, cluster);
+        for (place, &tet) in (body.clusters.places(cluster)).zip(body.clusters.tets(cluster)) {
+            if self.is_cut(tet) {
+                continue;
+            }
+            self.pass_over(tet, calm.most(place));
+            if calm.is_restless(place) {
+                self.by_displacement(place, tet, steps);
+            }
+        }
     }
 
     #[inline(always)]

@@ -129,15 +129,20 @@ impl DisplacementBatch {
         let nodes = &asset.analysis.elements[element];
         self.at_nodes(asset, nodes);
         // The gradients of the shape functions add up to nothing: what all nodes share only costs digits.
-        let shared = self.displacements[nodes[0] as usize];
+        let shared = &self.displacements[nodes[0] as usize];
         let mut sum = [[Wide::default(); 3]; 3];
-        for (&node, g) in nodes.iter().zip(weights).skip(1) {
-            let u = &self.displacements[node as usize];
-            for (column, weight) in sum.iter_mut().zip(g.to_array()) {
-                for ((row, &u), &shared) in column.iter_mut().zip(u).zip(&shared) {
-                    *row = *row + (Wide(u) - Wide(shared)) * weight;
-                }
+        // Row by row, so that the sums stay in registers, and without iterators that are compiled for the plain processor.
+        for row in 0..3 {
+            let zero = Wide::default();
+            let (mut x, mut y, mut z) = (zero, zero, zero);
+            for n in 1..nodes.len() {
+                let u = Wide(self.displacements[nodes[n] as usize][row]) - Wide(shared[row]);
+                let weight = weights[n];
+                x = x.plus(weight.x, &u.0);
+                y = y.plus(weight.y, &u.0);
+                z = z.plus(weight.z, &u.0);
             }
+            (sum[0][row], sum[1][row], sum[2][row]) = (x, y, z);
         }
         sum
     }
@@ -191,13 +196,22 @@ fn following(asset: &Asset, node: usize, residuals: &[(Arc<Shape>, Lanes)]) -> [
     sums
 }
 
-/// Modes in blocks, the highest block first: high modes move little, so that the sum is large, and rounds, only at the end. Within a
-/// block they come in the order of memory: backwards it takes several times as long.
+/// Modes of a block. The highest block comes first in a sum: high modes move little, so that the sum is large, and rounds, only at the
+/// end. Within a block they come in the order of memory: backwards it takes several times as long.
+const BLOCK: usize = 16;
+
+/// Adds the products of three rows of Φ and the amplitudes of their modes, which are no more than a block, to the sums.
 #[inline(always)]
-fn blocks(modes: usize) -> impl Iterator<Item = std::ops::Range<usize>> {
-    const BLOCK: usize = 16;
-    let starts = (0..modes).step_by(BLOCK).rev();
-    starts.map(move |start| start..(start + BLOCK).min(modes))
+fn add_block(
+    rows: [&[f32]; 3],
+    amplitudes: &[Lanes],
+    [mut a, mut b, mut c]: [Wide; 3],
+) -> [Wide; 3] {
+    let [x, y, z] = rows;
+    for (((q, x), y), z) in amplitudes.iter().zip(x).zip(y).zip(z) {
+        (a, b, c) = (a.plus(*x, q), b.plus(*y, q), c.plus(*z, q));
+    }
+    [a, b, c]
 }
 
 /// One node's rows of Φ times the amplitudes.
@@ -208,14 +222,18 @@ fn product(
     amplitudes: &[Lanes],
     residuals: &[(Arc<Shape>, Lanes)],
 ) -> [Lanes; 3] {
-    let [mut a, mut b, mut c] = following(asset, node, residuals);
-    let [x, y, z] = asset.modes.rows(node);
-    for block in blocks(amplitudes.len()) {
-        let rows = amplitudes[block.clone()].iter().zip(&x[block.clone()]);
-        for (((q, x), y), z) in rows.zip(&y[block.clone()]).zip(&z[block]) {
-            (a, b, c) = (a.plus(*x, q), b.plus(*y, q), c.plus(*z, q));
-        }
+    let mut sums = following(asset, node, residuals);
+    let rows = asset.modes.rows(node);
+    let starts = (0..amplitudes.len()).step_by(BLOCK).rev();
+    for block in starts.map(|start| start..(start + BLOCK).min(amplitudes.len())) {
+        let rows = [
+            &rows[0][block.clone()],
+            &rows[1][block.clone()],
+            &rows[2][block.clone()],
+        ];
+        sums = add_block(rows, &amplitudes[block], sums);
     }
+    let [a, b, c] = sums;
     [a.0, b.0, c.0]
 }
 
@@ -227,14 +245,39 @@ fn products(
     amplitudes: &[Lanes],
     residuals: &[(Arc<Shape>, Lanes)],
 ) -> [[Lanes; 3]; 2] {
-    let [mut a, mut b, mut c] = following(asset, nodes[0], residuals);
-    let [mut d, mut e, mut f] = following(asset, nodes[1], residuals);
     let modes = amplitudes.len();
-    let rows = nodes.map(|node| asset.modes.rows(node).map(|row| &row[..modes]));
-    let [[x, y, z], [u, v, w]] = rows;
-    for block in blocks(modes) {
-        for i in block {
-            let q = &amplitudes[i];
+    let (blocks, highest) = amplitudes.as_chunks::<BLOCK>();
+    let first = blocks.len() * BLOCK;
+    let [[x, y, z], [u, v, w]] = nodes.map(|node| asset.modes.rows(node));
+    let sums = nodes.map(|node| following(asset, node, residuals));
+    let ends = first..modes;
+    let [a, b, c] = add_block(
+        [&x[ends.clone()], &y[ends.clone()], &z[ends.clone()]],
+        highest,
+        sums[0],
+    );
+    let [d, e, f] = add_block(
+        [&u[ends.clone()], &v[ends.clone()], &w[ends]],
+        highest,
+        sums[1],
+    );
+    let (mut a, mut b, mut c, mut d, mut e, mut f) = (a, b, c, d, e, f);
+    let (x, y, z) = (
+        x.as_chunks::<BLOCK>().0,
+        y.as_chunks::<BLOCK>().0,
+        z.as_chunks::<BLOCK>().0,
+    );
+    let (u, v, w) = (
+        u.as_chunks::<BLOCK>().0,
+        v.as_chunks::<BLOCK>().0,
+        w.as_chunks::<BLOCK>().0,
+    );
+    for (block, q) in blocks.iter().enumerate().rev() {
+        // Arrays of known length: no index is checked in the loop.
+        let (x, y, z) = (&x[block], &y[block], &z[block]);
+        let (u, v, w) = (&u[block], &v[block], &w[block]);
+        for i in 0..BLOCK {
+            let q = &q[i];
             (a, b, c) = (a.plus(x[i], q), b.plus(y[i], q), c.plus(z[i], q));
             (d, e, f) = (d.plus(u[i], q), e.plus(v[i], q), f.plus(w[i], q));
         }
