@@ -3,7 +3,7 @@
 //! In the paper's model the largest principal tension is a convex function of the displacement gradient: strain of Green and Lagrange is one in
 //! the sense of matrices, and Hooke's law keeps that unless λ is negative. So on a straight line between two knots the tension is
 //! no larger than at the larger end. How far the gradient strays from that line is bounded mode by mode, as all stress of a cluster is. On the
-//! bodies of the paper's Table 1 two points in a hundred or fewer need a look at any step of fifteen.
+//! bodies of the paper's Table 1, with five steps from knot to knot, at most two points in a hundred need a look at all steps.
 
 use super::field::StressField;
 use crate::body::Body;
@@ -24,8 +24,9 @@ pub(super) struct Calm {
     batch: usize,
     /// The gaps in it that hold the steps to look at, a bit each.
     own: Steps,
-    /// How far each mode strays in its gaps, and moves at all, m·√kg.
+    /// How far each mode strays in its gaps, m·√kg.
     strays: Vec<Lanes>,
+    /// The farthest that each mode moves at its knots, m·√kg.
     farthest: Vec<f32>,
     /// Whether the points of each cluster have been looked at in that batch.
     known: Vec<bool>,
@@ -36,8 +37,8 @@ pub(super) struct Calm {
 }
 
 impl Calm {
-    /// Whether it serves: for motions of more than two batches, stress at centroids, by Hooke's law in space, of modes alone, where a look at a point
-    /// leaves nothing behind.
+    /// Whether it serves: for motions of more than two batches, and stress at centroids, by Hooke's law in space, of modes alone, where a
+    /// look at a point leaves nothing behind.
     pub(super) fn serves(field: &StressField) -> bool {
         let config = field.config;
         config.culling
@@ -50,6 +51,7 @@ impl Calm {
             && field.asset.material.lame_lambda() >= 0.0
     }
 
+    /// Nothing is known yet of the motion of a field.
     pub(super) fn of(body: &Body, field: &StressField) -> Self {
         let points = body.weak_tets().len();
         Self {
