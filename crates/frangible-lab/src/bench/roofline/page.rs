@@ -130,8 +130,9 @@ A stage can be no faster than its operations at the peak of arithmetic, nor than
 read. Reached is the longer of these two times over the time it takes. Operations and bytes are what the algorithm needs
 (`crates/frangible-lab/src/bench/roofline/counts.rs`), not what a compiler makes of it.
 
-- Our model, 100 modes, the blows of Table 1, with strengths so high that nothing cracks and with culling off: every weak point is looked at
-  at every time step, so that the work is known.
+- The paper's model, 100 modes, the blows of Table 1, with strengths so high that nothing cracks and with culling off: every weak point is
+  looked at at every time step, so that the work is known. (Our model mostly reads rows of stress that each weak point has of its own,
+  [speed.md](speed.md), in place of the last two stages.)
 - Displacements and stresses are timed over the first two batches of steps, the response over all steps.
 - Peaks are measured through the same dispatch as the run time's (`pulp`, vectors of {} f32 here). The run time multiplies and adds
   apart, never fused, so that its bits do not hang on the processor: the peak without fusing counts.
