@@ -137,3 +137,35 @@ fn bounds(points: &[Vec3]) -> (Vec3, Vec3) {
         |(low, high), &p| (low.min(p), high.max(p)),
     )
 }
+
+#[cfg(test)]
+mod tests {
+    use rand_chacha::ChaCha8Rng;
+    use rand_chacha::rand_core::{Rng, SeedableRng};
+
+    use super::{Candidates, spread_direction};
+    use glam::Vec3;
+
+    #[test]
+    fn the_farthest_point_is_that_of_a_plain_search_the_first_of_equals() {
+        let mut rng = ChaCha8Rng::seed_from_u64(1);
+        for count in [1, 7, 8, 9, 30, 200] {
+            // On a coarse grid, so that several often lie equally far, and every other point may not be chosen.
+            let mut number = || (rng.next_u32() % 5) as f32 - 2.0;
+            let points: Vec<Vec3> = (0..2 * count)
+                .map(|_| Vec3::new(number(), number(), number()))
+                .collect();
+            let numbers: Vec<usize> = (0..count).map(|i| 2 * i).collect();
+            let candidates = Candidates::of(&points, numbers.clone());
+            let axes = [Vec3::X, -Vec3::Y, Vec3::Z];
+            for direction in (0..40).map(|k| spread_direction(k, 40)).chain(axes) {
+                let along = |i: usize| points[i].dot(direction);
+                let mut plain = numbers[0];
+                for &i in &numbers {
+                    plain = if along(i) > along(plain) { i } else { plain };
+                }
+                assert_eq!(candidates.farthest(direction), plain, "{count} {direction}");
+            }
+        }
+    }
+}

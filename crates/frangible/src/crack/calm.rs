@@ -2,8 +2,8 @@
 //!
 //! In the paper's model the largest principal tension is a convex function of the displacement gradient: strain of Green and Lagrange is one in
 //! the sense of matrices, and Hooke's law keeps that unless λ is negative. So on a straight line between two knots the tension is
-//! no larger than at the larger end. How far the gradient strays from that line is bounded mode by mode, as all stress of a cluster is. On the
-//! bodies of the paper's Table 1, with five steps from knot to knot, at most two points in a hundred need a look at all steps.
+//! no larger than at the larger end. How far the gradient strays from that line is bounded mode by mode, as all stress of a cluster is. Few points
+//! are left that need a look at all steps.
 
 use super::field::StressField;
 use crate::body::Body;
