@@ -103,4 +103,20 @@ mod tests {
         }
         assert!(straight.iter().all(|&stray| stray < 1e-4), "{straight:?}");
     }
+
+    #[test]
+    fn every_step_of_a_batch_lies_in_the_gaps_about_it() {
+        for steps in [31, 58, 85, 105, 106, 400] {
+            let knots = Knots::of(&Motion::new(vec![0.0; steps], 1, 0.0, 0.0));
+            for step in 0..steps {
+                let (batch, lanes) = knots.about(step / STRIDE);
+                let knot = step / knots.gap;
+                assert_eq!(knot / STRIDE, batch, "step {step} of {steps}");
+                assert!(
+                    lanes.contains(&(knot % STRIDE + 1)),
+                    "step {step} of {steps}"
+                );
+            }
+        }
+    }
 }
