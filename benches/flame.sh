@@ -14,7 +14,7 @@ command -v perf >/dev/null || { echo "perf is missing: apt-get install linux-per
 mkdir -p "$work"
 body=${BODY:-$target/bench/glass-100.frangible}
 if [ ! -f "$body" ]; then
-    CARGO_TARGET_DIR=$target cargo run --quiet --release --manifest-path "$root/Cargo.toml" -- \
+    CARGO_TARGET_DIR=$target cargo run --quiet --release --manifest-path "$root/Cargo.toml" -p frangible-lab -- \
         bench table1 --body glass --cache "$target/bench" --runs 1 --no-reference >/dev/null
 fi
 # Line tables and frame pointers, in a folder of their own.

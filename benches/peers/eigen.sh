@@ -10,7 +10,7 @@ work=$target/peers
 if [ ! -x "$work/venv-eigen/bin/python" ]; then
     python3 -m venv "$work/venv-eigen"
 fi
-"$work/venv-eigen/bin/python" -m pip install --quiet --requirement "$here/requirements-eigen.txt"
+"$work/venv-eigen/bin/python" -m pip install --quiet --requirement "$here/requirements-scipy.txt"
 CARGO_TARGET_DIR=$target cargo build --quiet --release --manifest-path "$root/Cargo.toml" \
     -p frangible-bake --example eigen_bench
 export PYTHONDONTWRITEBYTECODE=1

@@ -58,8 +58,8 @@ def parse():
 def collect(folder, only, lines):
     """Name, path and volume, m³, where it is known, of each surface; writes the generated ones."""
     folder.mkdir(parents=True, exist_ok=True)
-    meshes = Path(os.environ.get("FRANGIBLE_MESHES", HERE.parents[1] / ".." / "shared" / "meshes"))
-    wanted = [(Path(file).stem, meshes / file, None) for file in REAL]
+    meshes = os.environ.get("FRANGIBLE_MESHES")
+    wanted = [(Path(file).stem, Path(meshes) / file if meshes else None, None) for file in REAL]
     for name, (surface, volume) in generated().items():
         path = folder / (name.replace(" ", "-") + ".obj")
         write_obj(path, surface)
@@ -68,7 +68,9 @@ def collect(folder, only, lines):
     for name, path, volume in wanted:
         if only and not any(part in name for part in only):
             continue
-        if path.is_file():
+        if path is None:
+            lines += [f"skipped {name}: FRANGIBLE_MESHES names no folder of meshes", ""]
+        elif path.is_file():
             found.append((name, path.resolve(), volume))
         else:
             lines += [f"skipped {name}: there is no file {path}", ""]

@@ -77,7 +77,7 @@ def parse():
     parser.add_argument("--runs", type=int, default=5, help="runs of each, the median counts (default %(default)s)")
     parser.add_argument("--limit", type=float, default=600.0, help="seconds a peer may take in all (default %(default)s)")
     parser.add_argument("--no-install", action="store_true", help="leave Blender out where it is not installed")
-    for hidden in ["--frangible", "--hit", "--work", "--pinata"]:
+    for hidden in ["--frangible", "--lab", "--hit", "--work", "--pinata"]:
         parser.add_argument(hidden, type=Path, required=True, help=argparse.SUPPRESS)
     return parser.parse_args()
 
@@ -88,7 +88,7 @@ def prepare(name, options):
     body = {"name": name, "baked": work / f"{name}.frangible", "surface": work / f"{name}.obj"}
     if name == "rabbit":
         cache = work / "table1"
-        cache_of = [options.frangible, "bench", "table1", "--body", "rabbit", "--cache", cache, "--rebake"]
+        cache_of = [options.lab, "bench", "table1", "--body", "rabbit", "--cache", cache, "--rebake"]
         run([*cache_of, "--runs", 1, "--no-reference", "--json"])
         body["baked"] = cache / f"rabbit-{MODES}.frangible"
         body["bake"] = float((cache / f"rabbit-{MODES}.seconds").read_text())
@@ -96,10 +96,12 @@ def prepare(name, options):
     else:
         source = work / f"{name}-source.obj"
         if name == "bunny":
-            meshes = Path(os.environ.get("FRANGIBLE_MESHES") or Path(__file__).resolve().parents[3] / "shared" / "meshes")
-            file = meshes / "stanford-bunny.obj"
+            meshes = os.environ.get("FRANGIBLE_MESHES")
+            if not meshes:
+                return "FRANGIBLE_MESHES names no folder of meshes"
+            file = Path(meshes) / "stanford-bunny.obj"
             if not file.is_file():
-                return "no stanford-bunny.obj in the folder named by FRANGIBLE_MESHES, by default ../shared/meshes"
+                return "no stanford-bunny.obj in the folder named by FRANGIBLE_MESHES"
             vertices, triangles = read_obj(file)
         else:
             vertices, polygons = sphere()

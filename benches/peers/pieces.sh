@@ -19,7 +19,7 @@ fi
 if [ ! -x "$work/venv-pieces/bin/python" ]; then
     python3 -m venv "$work/venv-pieces"
 fi
-"$work/venv-pieces/bin/python" -m pip install --quiet --requirement "$here/requirements-pieces.txt"
+"$work/venv-pieces/bin/python" -m pip install --quiet --requirement "$here/requirements-scipy.txt"
 mkdir -p "$work/pinata"
 cp "$here"/pinata/* "$work/pinata/"
 if command -v npm >/dev/null; then
@@ -30,4 +30,4 @@ cargo build --quiet --release --manifest-path "$root/Cargo.toml" --workspace --b
 cargo build --quiet --release --manifest-path "$root/Cargo.toml" -p frangible --example hit
 export PYTHONDONTWRITEBYTECODE=1
 exec "$work/venv-pieces/bin/python" "$here/pieces.py" --frangible "$target/release/frangible" \
-    --hit "$target/release/examples/hit" --work "$work/pieces" --pinata "$work/pinata" "$@"
+    --lab "$target/release/frangible-lab" --hit "$target/release/examples/hit" --work "$work/pieces" --pinata "$work/pinata" "$@"

@@ -52,7 +52,7 @@ def build(wheel, folder):
     """Writes the zip into the folder and returns its path."""
     version, platforms = describe(wheel)
     entries = {path.name: path.read_bytes() for path in (HERE / "extension").glob("*.py")}
-    entries["LICENSE"] = (HERE / "LICENSE").read_bytes()
+    entries["LICENSE"] = (HERE.parent / "LICENSE").read_bytes()
     entries["blender_manifest.toml"] = manifest(version, platforms, wheel).encode()
     entries[f"wheels/{wheel.name}"] = wheel.read_bytes()
     folder.mkdir(parents=True, exist_ok=True)

@@ -4,11 +4,13 @@ use std::path::PathBuf;
 use std::process::Command;
 use std::time::{Duration, Instant};
 
-use crate::command::{Result, output, root, run_keeping, shown, status_within, succeeds, target};
+use crate::command::{
+    Result, output, root, run_keeping, shown, skipped, status_within, succeeds, target,
+};
 use crate::python::{self, only_file, program_in};
 
 /// What the extension is made of, and the wheel in it.
-pub(crate) const PATHS: [&str; 13] = [
+pub(crate) const PATHS: [&str; 14] = [
     "apps/python",
     "crates/frangible",
     "crates/frangible-bake",
@@ -18,6 +20,7 @@ pub(crate) const PATHS: [&str; 13] = [
     "crates/frangible-mesh",
     "crates/frangible-rapier",
     "crates/frangible-scenes",
+    "tools/LICENSE",
     "tools/blender",
     "xtask/src/blender.rs",
     "xtask/src/command.rs",
@@ -36,7 +39,10 @@ pub(crate) fn blender() -> Result<Vec<String>> {
     let start = Instant::now();
     let left = || LIMIT.saturating_sub(start.elapsed());
     let Some(interpreter) = interpreter() else {
-        return skipped("Blender 4.5 as a module needs Python 3.11 with `venv`");
+        return skipped(
+            "blender",
+            "Blender 4.5 as a module needs Python 3.11 with `venv`",
+        );
     };
     let folder = target().join("blender");
     let python = program_in(&folder.join("environment"), "python");
@@ -55,10 +61,11 @@ pub(crate) fn blender() -> Result<Vec<String>> {
     println!("$ {}", shown(&fetch));
     match status_within(&mut fetch, left())? {
         Some(status) if status.success() => {}
-        _ => return skipped("its module cannot be installed here"),
+        _ => return skipped("blender", "its module cannot be installed here"),
     }
     if !succeeds(&python.to_string_lossy(), &["-c", "import bpy"]) {
         return skipped(
+            "blender",
             "its module does not start here; `import bpy` says which library it misses",
         );
     }
@@ -89,10 +96,4 @@ fn interpreter() -> Option<PathBuf> {
     let mut names = ["python3.11", "python3"].into_iter();
     let found = names.find(|name| succeeds(name, &["-c", QUESTION]));
     found.map(PathBuf::from)
-}
-
-fn skipped(reason: &str) -> Result<Vec<String>> {
-    let line = format!("blender: skipped: {reason}");
-    println!("{line}");
-    Ok(vec![line])
 }

@@ -208,6 +208,13 @@ pub(crate) fn announced(command: &mut Command) -> Result {
     run(command)
 }
 
+/// Says why a step, or a part of it, did not run, and returns the line for the end.
+pub(crate) fn skipped(step: &str, why: &str) -> Result<Vec<String>> {
+    let line = format!("{step}: skipped: {why}");
+    println!("{line}");
+    Ok(vec![line])
+}
+
 /// Copies a file, or a folder and all that is in it.
 pub(crate) fn copy(from: &Path, to: &Path) -> Result {
     let failed = |error| {

@@ -9,7 +9,9 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-use crate::command::{Result, cargo, output, root, run_within, shown, status_within, target};
+use crate::command::{
+    Result, cargo, output, root, run_within, shown, skipped, status_within, target,
+};
 use crate::setup::valgrind;
 
 /// More than this above the stored count is a failure.
@@ -35,6 +37,7 @@ pub(crate) fn counts(write: bool) -> Result<Vec<String>> {
     let path = root().join(STORED);
     if !valgrind() {
         return skipped(
+            "counts",
             "there is no valgrind; install it (Debian, Ubuntu: `apt-get install valgrind`)",
         );
     }
@@ -49,9 +52,12 @@ pub(crate) fn counts(write: bool) -> Result<Vec<String>> {
         (false, Ok(text)) => {
             let (made_with, counts) = parse(&text)?;
             if let Some((there, here)) = made_with.iter().zip(&tools).find(|(a, b)| a != b) {
-                return skipped(&format!(
-                    "the stored counts are of {there}, this is {here}; `cargo xtask counts --write` counts anew"
-                ));
+                return skipped(
+                    "counts",
+                    &format!(
+                        "the stored counts are of {there}, this is {here}; `cargo xtask counts --write` counts anew"
+                    ),
+                );
             }
             counts
         }
@@ -93,12 +99,6 @@ pub(crate) fn counts(write: bool) -> Result<Vec<String>> {
             .map_err(|error| format!("`{STORED}` cannot be written: {error}"))?;
     }
     compare(&found, &stored)
-}
-
-fn skipped(reason: &str) -> Result<Vec<String>> {
-    let line = format!("counts: skipped: {reason}");
-    println!("{line}");
-    Ok(vec![line])
 }
 
 fn tools() -> Result<Tools> {

@@ -5,7 +5,9 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::{Duration, Instant};
 
-use crate::command::{Result, cargo, host, output, root, shown, status_within, succeeds, target};
+use crate::command::{
+    Result, cargo, host, output, root, shown, skipped, status_within, succeeds, target,
+};
 use crate::setup::cpp_compiler;
 
 /// How long each target runs unless told otherwise, s.
@@ -23,7 +25,7 @@ const BREAKING: ([&str; 3], u64) = (["impact", "run_scene", "world"], 30);
 
 /// Where things are. Nothing is written into the checkout.
 struct Folders {
-    /// The checkout's `fuzz`: targets, seeds, dictionaries.
+    /// The checkout's `fuzz`: targets, seeds, a dictionary.
     fuzz: PathBuf,
     /// Builds, grown corpora, findings and logs.
     target: PathBuf,
@@ -39,7 +41,10 @@ pub(crate) fn fuzz(seconds: u64, limit: Option<Duration>) -> Result<Vec<String>>
     let start = Instant::now();
     let left = || limit.map_or(Duration::MAX, |limit| limit.saturating_sub(start.elapsed()));
     if !cfg!(unix) || !cpp_compiler() {
-        return skipped("there is no C++ compiler, or none that libFuzzer knows");
+        return skipped(
+            "fuzz",
+            "there is no C++ compiler, or none that libFuzzer knows",
+        );
     }
     if !succeeds("cargo", &["fuzz", "--version"]) {
         println!("installing cargo-fuzz {VERSION}");
@@ -52,7 +57,10 @@ pub(crate) fn fuzz(seconds: u64, limit: Option<Duration>) -> Result<Vec<String>>
                 ));
             }
             None => {
-                return skipped("installing cargo-fuzz takes too long here; install it by hand");
+                return skipped(
+                    "fuzz",
+                    "installing cargo-fuzz takes too long here; install it by hand",
+                );
             }
         }
     }
@@ -61,6 +69,7 @@ pub(crate) fn fuzz(seconds: u64, limit: Option<Duration>) -> Result<Vec<String>>
     let names = names(&folders.fuzz)?;
     if !build(&folders, &host, left())? {
         return skipped(
+            "fuzz",
             "building the targets takes too long here; the next run goes on from there",
         );
     }
@@ -68,7 +77,10 @@ pub(crate) fn fuzz(seconds: u64, limit: Option<Duration>) -> Result<Vec<String>>
     let rounds = names.len().div_ceil(at_once).max(1) as u64;
     let seconds = seconds.min(left().saturating_sub(SLACK).as_secs() / rounds);
     if seconds == 0 {
-        return skipped("building the targets left no time to run them; the next run has it");
+        return skipped(
+            "fuzz",
+            "building the targets left no time to run them; the next run has it",
+        );
     }
     let mut lines = Vec::new();
     for round in names.chunks(at_once) {
@@ -92,12 +104,6 @@ pub(crate) fn fuzz(seconds: u64, limit: Option<Duration>) -> Result<Vec<String>>
         }
     }
     Ok(lines)
-}
-
-fn skipped(reason: &str) -> Result<Vec<String>> {
-    let line = format!("fuzz: skipped: {reason}");
-    println!("{line}");
-    Ok(vec![line])
 }
 
 fn folders(host: &str) -> Folders {
@@ -163,8 +169,8 @@ fn run_target(folders: &Folders, name: &str, seconds: u64) -> Result<String> {
     command
         .arg(grown)
         .arg(folders.fuzz.join("corpus").join(name));
-    let dictionary = folders.fuzz.join(format!("{name}.dict"));
-    if dictionary.is_file() {
+    if name.ends_with("_scene") {
+        let dictionary = folders.fuzz.join("scene.dict");
         command.arg(format!("-dict={}", dictionary.display()));
     }
     command

@@ -63,7 +63,7 @@ pub fn contacts(rows: &[f64]) -> Vec<Contact> {
 /// A mesh to draw, vertices shared where position, normal and texture coordinates are.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Drawn {
-    /// m.
+    /// Positions, three numbers per vertex, m.
     pub positions: Vec<f32>,
     /// Unit normals.
     pub normals: Vec<f32>,

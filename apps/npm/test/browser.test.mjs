@@ -1,9 +1,8 @@
 // The example pages in a browser: `node browser.test.mjs BROWSER PLAYWRIGHT OUT`, in a project that has the package installed.
 import assert from 'node:assert/strict';
-import { readFile } from 'node:fs/promises';
-import { createServer } from 'node:http';
 import { createRequire } from 'node:module';
-import { join, normalize, resolve } from 'node:path';
+import { join, resolve } from 'node:path';
+import { serve } from './serve.mjs';
 
 const [program, playwright, out] = process.argv.slice(2);
 const { chromium } = createRequire(resolve(playwright, 'package.json'))('playwright-core');
@@ -11,23 +10,10 @@ const { chromium } = createRequire(resolve(playwright, 'package.json'))('playwri
 /** A frame of a software renderer takes a second or more. */
 const PATIENCE = 180_000;
 const SWITCHES = ['--no-sandbox', '--disable-quic', '--no-first-run', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'];
-const TYPES = { html: 'text/html', js: 'text/javascript', mjs: 'text/javascript', wasm: 'application/wasm' };
 const DESK = { viewport: { width: 800, height: 500 } };
 const PHONE = { viewport: { width: 390, height: 700 }, deviceScaleFactor: 2, hasTouch: true };
 
-const project = process.cwd();
-const server = createServer(async (question, answer) => {
-  try {
-    const path = normalize(new URL(question.url, 'http://page').pathname);
-    const content = await readFile(join(project, path));
-    answer.writeHead(200, { 'content-type': TYPES[path.split('.').pop()] ?? 'application/octet-stream' });
-    answer.end(content);
-  } catch {
-    answer.writeHead(404).end();
-  }
-});
-await new Promise((listening) => server.listen(0, '127.0.0.1', listening));
-const address = `http://127.0.0.1:${server.address().port}`;
+const { server, address } = await serve(process.cwd());
 const browser = await chromium.launch({ executablePath: program, args: SWITCHES });
 
 async function open(name, size) {

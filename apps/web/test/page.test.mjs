@@ -7,10 +7,10 @@
 // browser; RENDERER is webgpu or webgl2; it gives up after SECONDS.
 
 import assert from "node:assert/strict";
-import { createServer } from "node:http";
 import { createRequire } from "node:module";
 import { readFile } from "node:fs/promises";
-import { join, normalize, resolve } from "node:path";
+import { join, resolve } from "node:path";
+import { serve } from "../../npm/test/serve.mjs";
 
 const [folder, program, playwright, out, playedFile, ...renderers] = process.argv.slice(2);
 const { chromium } = createRequire(resolve(playwright, "package.json"))("playwright-core");
@@ -33,25 +33,6 @@ setTimeout(() => {
   console.error("the browser took too long");
   process.exit(1);
 }, 1000 * Number(process.env.SECONDS ?? 600)).unref();
-
-const TYPES = { html: "text/html", js: "text/javascript", json: "application/json" };
-
-/** The folder, as any web server would give it. */
-async function serve() {
-  const server = createServer(async (question, answer) => {
-    try {
-      const path = normalize(new URL(question.url, "http://page").pathname);
-      const file = join(folder, path === "/" ? "index.html" : path);
-      const content = await readFile(file);
-      answer.writeHead(200, { "content-type": TYPES[file.split(".").pop()] ?? "application/octet-stream" });
-      answer.end(content);
-    } catch {
-      answer.writeHead(404).end();
-    }
-  });
-  await new Promise((listening) => server.listen(0, "127.0.0.1", listening));
-  return server;
-}
 
 /** Notes in the page what is handed to the loudspeaker: contexts, frames and the largest sample. */
 function eavesdrop() {
@@ -331,8 +312,7 @@ async function phone(browser, address, renderer) {
 }
 
 const known = JSON.parse(await readFile(playedFile, "utf8"));
-const server = await serve();
-const address = `http://127.0.0.1:${server.address().port}`;
+const { server, address } = await serve(folder);
 const browser = await chromium.launch({ executablePath: program, headless: true, args: SWITCHES });
 try {
   await phone(browser, address, renderers[0]);

@@ -5,11 +5,11 @@
 // FOLDER is the page's, PLAYWRIGHT the folder with playwright-core, OUT where pictures go; it gives up after SECONDS.
 
 import assert from "node:assert/strict";
-import { createServer } from "node:http";
 import { createRequire } from "node:module";
 import { readFile, writeFile } from "node:fs/promises";
-import { join, normalize, resolve } from "node:path";
+import { join, resolve } from "node:path";
 import { gzipSync } from "node:zlib";
+import { serve } from "../../../apps/npm/test/serve.mjs";
 
 const [folder, program, playwright, out] = process.argv.slice(2);
 const { chromium } = createRequire(resolve(playwright, "package.json"))("playwright-core");
@@ -20,25 +20,13 @@ const SWITCHES = [
   // WebGL 2, drawn by the processor.
   "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
 ];
-const TYPES = { html: "text/html", js: "text/javascript", wasm: "application/wasm" };
 
 setTimeout(() => {
   console.error("the browser took too long");
   process.exit(1);
 }, 1000 * Number(process.env.SECONDS ?? 600)).unref();
 
-const server = createServer(async (question, answer) => {
-  try {
-    const path = normalize(new URL(question.url, "http://page").pathname);
-    const file = join(folder, path === "/" ? "index.html" : path);
-    const content = await readFile(file);
-    answer.writeHead(200, { "content-type": TYPES[file.split(".").pop()] ?? "application/octet-stream" });
-    answer.end(content);
-  } catch {
-    answer.writeHead(404).end();
-  }
-});
-await new Promise((listening) => server.listen(0, "127.0.0.1", listening));
+const { server, address } = await serve(folder);
 
 const packed = gzipSync(await readFile(join(folder, "glass_bg.wasm")), { level: 9 }).length;
 console.log(`bevy page: as a server packs it, the program has ${(packed / 1e6).toFixed(1)} MB`);
@@ -66,7 +54,7 @@ try {
       await new Promise((later) => setTimeout(later, 50));
     }
   };
-  await page.goto(`http://127.0.0.1:${server.address().port}/`);
+  await page.goto(`${address}/`);
   const shot = async (name) => {
     const picture = await page.screenshot({ timeout: 0 });
     await writeFile(join(out, `bevy-${name}.png`), picture);

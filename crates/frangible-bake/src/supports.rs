@@ -1,7 +1,7 @@
 //! What holds a body: parts of it that do not move, in all directions or in some.
 
 use frangible::glam::DVec3;
-use frangible_mesh::nearest_name;
+use frangible_mesh::did_you_mean;
 
 use crate::error::BakeError;
 use crate::groups::{Group, Reach};
@@ -164,8 +164,7 @@ fn group_of<'a>(region: &Region, groups: &'a [Group]) -> Result<Option<&'a Group
     }
     let names = || groups.iter().map(|group| group.name.as_str());
     let known: Vec<String> = names().take(MOST_SHOWN).map(|n| format!("`{n}`")).collect();
-    let hint =
-        nearest_name(name, names()).map_or(String::new(), |n| format!(", did you mean `{n}`?"));
+    let hint = did_you_mean(name, names());
     Err(BakeError::UnknownGroup {
         name: name.clone(),
         known: match groups.len() {

@@ -29,7 +29,7 @@ pub(crate) struct Separated {
     pub(crate) fragments: Vec<Fragment>,
     /// Area of the open faces, one side, m².
     pub(crate) crack_area: f64,
-    /// J.
+    /// Energy that opening them took, J.
     pub(crate) energy: f64,
     /// Largest strain energy of the vibration, J.
     pub(crate) available: f64,

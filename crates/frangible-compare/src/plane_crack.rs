@@ -43,7 +43,7 @@ pub(crate) struct Faces<'a> {
     /// Round in which each tetrahedron was met last.
     met: Vec<u32>,
     round: u32,
-    /// J.
+    /// What all cracks together may spend, J.
     budget: f64,
     /// Σ A G_c, J.
     pub(crate) spent: f64,

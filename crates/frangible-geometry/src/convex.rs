@@ -130,8 +130,9 @@ pub fn box_of(points: &[Vec3], volume: f64) -> Option<Vec3> {
     (size.is_finite() && fills && off <= 1e-4 * size.max_element()).then_some(0.5 * size)
 }
 
-/// The box about points.
-fn bounds(points: &[Vec3]) -> (Vec3, Vec3) {
+/// The box about points: its lowest and highest corner, infinite where there are none.
+#[must_use]
+pub fn bounds(points: &[Vec3]) -> (Vec3, Vec3) {
     points.iter().fold(
         (Vec3::splat(f32::INFINITY), Vec3::splat(f32::NEG_INFINITY)),
         |(low, high), &p| (low.min(p), high.max(p)),

@@ -3,7 +3,7 @@
 //! - [`TetMesh`]: linear tetrahedra with their neighbours; [`TriMesh`]: the closed surface of a piece; [`RenderMesh`]: what is drawn of it;
 //! - [`RenderSurface`]: the surface that an author drew, and [`RenderIndex`], which divides it among the pieces;
 //! - [`TriangleTree`]: the closest point of a surface; [`AlongSurface`]: distances along one; [`MassProperties`]: mass, centre and inertia;
-//! - [`merged_parts`], [`thinned`] and [`box_of`]: convex parts made fewer and simpler for colliders;
+//! - [`merged_parts`], [`thinned`], [`bounds`] and [`box_of`]: convex parts made fewer and simpler for colliders;
 //! - [`Rows`], [`ByNode`], [`DisjointSets`]: lists, tables and sets of numbered things.
 //!
 //! It is a crate of its own because the core, the bake and the mesher share it. It knows neither physics nor files.
@@ -30,7 +30,7 @@ mod tree;
 pub use along::AlongSurface;
 pub use by_node::ByNode;
 pub use closest::closest_on_triangle;
-pub use convex::{box_of, merged_parts, thinned};
+pub use convex::{bounds, box_of, merged_parts, thinned};
 pub use disjoint::DisjointSets;
 pub use drawn::{
     Division, Part, Parts, Piece as DrawnPiece, RenderIndex, RenderMaterial, RenderSurface,

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use crate::clock::{Clock, PassTime};
 use crate::device::Gpu;
 use crate::error::GpuError;
-use crate::initiation::{Initiation, starts_on_cpu};
+use crate::initiation::Initiation;
 use crate::loaded::{Buffers, Loaded, quadratic_modulus};
 use crate::response::Response;
 use crate::wave::{Job, waves};
@@ -87,35 +87,6 @@ impl Gpu {
                     first_step,
                     ..
                 } => vibration.end(impact.body, config, first_step),
-            })
-            .collect())
-    }
-
-    /// Whether the stress of each impact passes the strength at a weak point: whether a crack would start, if it also
-    /// has the energy. Near the strength the CPU decides. Weak points on cracks from earlier impacts count as well.
-    ///
-    /// # Errors
-    /// What [`Self::impacts`] refuses.
-    pub fn would_start(
-        &self,
-        impacts: &[Impact<'_>],
-        config: &FractureConfig,
-    ) -> Result<Vec<bool>, GpuError> {
-        let verdicts = self.verdicts(impacts, config)?;
-        Ok(verdicts
-            .into_par_iter()
-            .zip(impacts)
-            .map(|(verdict, impact)| match verdict {
-                Verdict::Held(..) => false,
-                Verdict::Open {
-                    vibration,
-                    first_step,
-                    initiation,
-                } => {
-                    initiation.is_some_and(|i| {
-                        i.is_safe(impact.body) && i.peak_share > 1.0 + crate::DOUBT
-                    }) || starts_on_cpu(impact.body, &vibration, config, first_step)
-                }
             })
             .collect())
     }
@@ -336,19 +307,4 @@ fn verdict(body: &Body, stage: Stage, found: Option<Initiation>) -> Verdict {
             initiation: found,
         },
     }
-}
-
-/// [`Gpu::would_start`] for one impact, on the CPU alone.
-///
-/// # Errors
-/// A contact that cannot be used.
-pub fn would_start_on_cpu(
-    body: &Body,
-    contacts: &[Contact],
-    config: &FractureConfig,
-) -> Result<bool, frangible::InputError> {
-    Ok(match Vibration::begin(body, contacts, config)? {
-        Stage::Vibrates(vibration) => starts_on_cpu(body, &vibration, config, 0),
-        Stage::Held(_) => false,
-    })
 }

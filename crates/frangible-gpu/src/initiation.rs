@@ -183,7 +183,7 @@ pub fn initiation_on_cpu(
         let bound = largest_eigenvalue_bound(tensor);
         let kept = found.peak_stress.min(strength * (1.0 - DOUBT));
         if bound <= kept && bound <= found.peak_share * strength {
-            return true;
+            return;
         }
         let stress = largest_eigenvalue(tensor);
         if stress > found.peak_stress {
@@ -209,7 +209,6 @@ pub fn initiation_on_cpu(
             }
             None => (),
         }
-        true
     };
     follow(body, vibration, config, first_step, visit);
     let all: Vec<Exceedance> = of_tet.into_iter().flatten().collect();
@@ -226,28 +225,14 @@ pub fn initiation_on_cpu(
     found
 }
 
-/// Whether any weak tetrahedron's stress passes its strength from a step on, by the CPU's arithmetic.
-pub(crate) fn starts_on_cpu(
-    body: &Body,
-    vibration: &Vibration,
-    config: &FractureConfig,
-    first_step: usize,
-) -> bool {
-    !follow(body, vibration, config, first_step, |_, tet, _, tensor| {
-        let strength = body.strength(tet);
-        largest_eigenvalue_bound(tensor) <= strength || largest_eigenvalue(tensor) <= strength
-    })
-}
-
-/// Visits every step and weak tetrahedron (place in the list, number, step, stress) until `visit` is false;
-/// whether it never was.
+/// Visits every step and weak tetrahedron (place in the list, number, step, stress).
 fn follow(
     body: &Body,
     vibration: &Vibration,
     config: &FractureConfig,
     first_step: usize,
-    mut visit: impl FnMut(usize, u32, usize, &Symmetric3) -> bool,
-) -> bool {
+    mut visit: impl FnMut(usize, u32, usize, &Symmetric3),
+) {
     let asset = &**body.asset();
     let motion = vibration.motion(body);
     let elasticity = Elasticity::new(&asset.material).with_green_lagrange(config.green_lagrange);
@@ -260,10 +245,7 @@ fn follow(
         for (place, &tet) in body.weak_tets().iter().enumerate() {
             let (point, law) = places[place];
             let gradient = displacement.gradient(asset, point, step);
-            if !visit(place, tet, step, &elasticity.state_by(gradient, law).stress) {
-                return false;
-            }
+            visit(place, tet, step, &elasticity.state_by(gradient, law).stress);
         }
     }
-    true
 }

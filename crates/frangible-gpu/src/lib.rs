@@ -58,6 +58,6 @@ pub use choice::{Choice, Ran, RanOn, Solver};
 pub use clock::PassTime;
 pub use device::Gpu;
 pub use error::GpuError;
-pub use impacts::{Impact, Verdict, would_start_on_cpu};
+pub use impacts::{Impact, Verdict};
 pub use initiation::{DOUBT, Exceedance, Initiation, LIST, initiation_on_cpu};
 pub use loaded::Loaded;

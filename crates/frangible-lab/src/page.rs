@@ -6,7 +6,7 @@ pub struct Page {
     /// Markdown.
     pub text: String,
     /// Name of each picture's file without the ending, and the PNG.
-    pub pictures: Vec<(&'static str, Vec<u8>)>,
+    pub pictures: Vec<(String, Vec<u8>)>,
 }
 
 /// A table of names and numbers: the first column to the left, the others to the right.

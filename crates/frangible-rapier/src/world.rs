@@ -7,7 +7,7 @@ use frangible::internals::Force;
 use frangible::internals::piece::PieceModel;
 use frangible::{Asset, Body, Contact, FractureConfig, InputError, Outcome};
 use rapier3d::dynamics::RigidBodyHandle;
-use rapier3d::geometry::{ColliderHandle, SharedShape};
+use rapier3d::geometry::SharedShape;
 use rapier3d::pipeline::PhysicsWorld;
 use std::sync::Arc;
 
@@ -49,14 +49,10 @@ pub type BreakFn =
 pub type RestFn =
     dyn Fn(&Body, &[Force], Vec3, &FractureConfig) -> Result<Outcome, InputError> + Send + Sync;
 
-/// Sort key of a body or collider handle: maps are ordered, so that no result hangs on a hash.
+/// Sort key of a body's handle: maps are ordered, so that no result hangs on a hash.
 pub(crate) type Key = (u32, u32);
 
 pub(crate) fn key(handle: RigidBodyHandle) -> Key {
-    handle.into_raw_parts()
-}
-
-pub(crate) fn collider_key(handle: ColliderHandle) -> Key {
     handle.into_raw_parts()
 }
 
@@ -91,7 +87,6 @@ pub struct BreakableWorld {
 pub(crate) struct State {
     pub(crate) breakables: BTreeMap<Key, Body>,
     pub(crate) surfaces: BTreeMap<Key, SurfaceProperties>,
-    pub(crate) collider_surfaces: BTreeMap<Key, SurfaceProperties>,
     pub(crate) places: Places,
     pub(crate) burdens: BTreeMap<Key, Burden>,
     pub(crate) pushes: Vec<Push>,

@@ -43,7 +43,7 @@ const HEAD: &str = "# Energy of the built-in scenes' breaks
 Written by `cargo run --release -p frangible-scenes --example energy > docs/energy.md`, which fails where energy is made;
 `crates/frangible-scenes/tests/energy.rs` checks the same of some scenes. Energies in J.
 
-| scene | cause | pieces | approach | peak strain | cracks | cracks / strain | kinetic before | work | kinetic after | paid by motion | lost to contacts | of it crushing |
+| scene | cause | pieces | approach | peak strain | cracks | cracks / strain | kinetic before | work | kinetic after | paid by motion | lost to contacts | crushing, by the blow |
 |---|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|";
 
 const FOOT: &str = "*Approach*: the most kinetic energy that the contacts can take from the bodies' motion against each other along their normals. *Peak
@@ -51,7 +51,8 @@ strain*: largest strain energy of the vibration at a time step. *Cracks*: fractu
 approach. *Kinetic before* and *after*: of the body, or its pieces, and of all that it pushed in the step of the break, directly or
 through others. *Work*: of gravity in that step. *Paid by motion*: what of the cracks' energy was taken from the motion. *Lost to
 contacts*: the rest, before + work − after − paid; restitution and friction took it, and cracks of others that broke in the same step.
-*Of it crushing*: what the blow put into crushing the weaker body where it was touched.
+*Crushing, by the blow*: what the blow put into crushing the weaker body where it was touched. The blow and the rigid bodies count apart, so it
+may exceed what was lost to contacts.
 
 So cracks ≤ approach ≤ before + work, and after + all cracks of the step ≤ before + work. Without friction the peak strain is at most the
 approach too. Friction follows the normal force as the engine found it, and what it adds to the vibration comes from the sliding motion,

@@ -28,7 +28,7 @@ const LEAST_SHARE: f32 = 0.02;
 /// Sums over a patch.
 #[derive(Clone, Copy, Default)]
 struct Patch {
-    /// m².
+    /// Area of the patch, m².
     area: f32,
     /// Place of the middle of the layer times the area, m³.
     place: Vec3,

@@ -6,7 +6,7 @@ use frangible::Material;
 use frangible::glam::{Quat, Vec3};
 use frangible_bake::weakness::{Patch, Zone};
 use frangible_bake::{Region, Shape, Support};
-use frangible_mesh::nearest_name;
+use frangible_mesh::did_you_mean;
 
 use crate::again;
 use crate::body::{BodySpec, Place};
@@ -242,15 +242,11 @@ pub fn scene(name: &str) -> Result<Scene, SceneError> {
         "tiles" => sheets::tiles(),
         "windscreen" => sheets::windscreen(),
         "ice-sheet" => sheets::ice_sheet(),
-        _ => {
-            let hint = nearest_name(name, SCENE_NAMES)
-                .map_or(String::new(), |n| format!(", did you mean `{n}`?"));
-            Err(SceneError::UnknownScene {
-                name: name.into(),
-                hint,
-                known: SCENE_NAMES.join(", "),
-            })
-        }
+        _ => Err(SceneError::UnknownScene {
+            name: name.into(),
+            hint: did_you_mean(name, SCENE_NAMES),
+            known: SCENE_NAMES.join(", "),
+        }),
     }
 }
 

@@ -9,7 +9,7 @@ mod tests;
 pub(crate) mod words;
 mod write;
 
-use frangible_bake::frangible_mesh::nearest_name;
+use frangible_bake::frangible_mesh::did_you_mean;
 
 use crate::command::{BallSpec, Command, HammerSpec};
 use crate::error::ViewError;
@@ -108,8 +108,7 @@ impl Command {
 
 fn read(first: &str, rest: &[&str], tail: &str) -> Result<Command, String> {
     let Some((_, form)) = FORMS.iter().find(|(word, _)| *word == first) else {
-        let hint = nearest_name(first, FORMS.iter().map(|(word, _)| *word))
-            .map_or(String::new(), |n| format!(", did you mean `{n}`?"));
+        let hint = did_you_mean(first, FORMS.iter().map(|(word, _)| *word));
         return Err(format!("there is no command `{first}`{hint}"));
     };
     let wrong = || format!("write it as `{first} {form}`");

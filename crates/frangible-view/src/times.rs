@@ -30,7 +30,7 @@ pub(crate) fn thread_time() -> Duration {
 /// The last times of one kind.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Laps {
-    /// Seconds.
+    /// Their lengths, s.
     last: VecDeque<f64>,
 }
 

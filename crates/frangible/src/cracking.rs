@@ -188,7 +188,7 @@ impl<'a> Cracking<'a> {
         system: &CrackSystem<'a>,
         grown: &mut Grown,
     ) -> Vec<(usize, f64)> {
-        let mut contacts: Vec<_> = blow.weakened(system).into_iter().collect();
+        let mut contacts = blow.weakened(system);
         if grown.is_due(system.area) {
             let (index, mesh) = (&self.body.prepared.index, &self.body.asset.fracture);
             let labels = fragment::label(system, index, self.config.crumb_share);

@@ -8,7 +8,9 @@ use bodies::{
 use frangible::glam::Vec3;
 use frangible::internals::blow::Blow;
 use frangible::internals::outcome::ContactReport;
-use frangible::{Body, Contact, FractureConfig, Outcome, impact, would_break};
+use frangible::internals::stress::StressBounds;
+use frangible::internals::{Blast, blast};
+use frangible::{Body, Breakable, Contact, FractureConfig, Outcome, impact, would_break};
 
 #[test]
 fn the_same_blow_gives_the_same_bits_on_any_thread() {
@@ -100,9 +102,12 @@ fn bad_contacts_are_refused_and_nothing_comes_of_nothing() {
         std::slice::from_ref(&nothing),
         &[nothing.clone(), nothing.clone()],
     ] {
-        let outcome = impact(&body, contacts, &config).unwrap();
-        assert!(matches!(outcome, Outcome::Held { .. }));
-        assert_eq!(outcome.report().cracks, 0);
+        for (model, config) in models() {
+            let outcome = impact(&body, contacts, &config).unwrap();
+            let held = matches!(outcome, Outcome::Held { margin, .. } if margin == f64::INFINITY);
+            assert!(held, "{model}: {outcome:?}");
+            assert_eq!(outcome.report().cracks, 0);
+        }
     }
     // A contact without impulse beside a real one changes nothing.
     let both = impact(&body, &[good.clone(), nothing], &config).unwrap();
@@ -114,6 +119,36 @@ fn bad_contacts_are_refused_and_nothing_comes_of_nothing() {
     };
     let outcome = impact(&body, &[long], &config).unwrap();
     assert_eq!(pieces(&outcome), pieces(&both));
+}
+
+#[test]
+fn a_body_without_modes_holds() {
+    let mut asset = (**block().asset()).clone();
+    asset.modes.eigenvalues.clear();
+    asset.modes.shapes.clear();
+    asset.modes.peak_stress.clear();
+    asset.modes.residual_modes = 0;
+    asset.bounds = StressBounds::default();
+    let body = Breakable::new(asset).unwrap().body(1);
+    let pulse = Blast {
+        origin: Vec3::Z,
+        impulse: 200.0,
+        duration: 2e-3,
+    };
+    for (model, mut config) in models() {
+        for culling in [true, false] {
+            config.culling = culling;
+            let blow = impact(&body, &[block_hit(5.0)], &config).unwrap();
+            let wave = blast(&body, &pulse, &config).unwrap();
+            for outcome in [blow, wave] {
+                assert_eq!(
+                    (pieces(&outcome), outcome.report().cracks),
+                    (1, 0),
+                    "{model}"
+                );
+            }
+        }
+    }
 }
 
 #[test]

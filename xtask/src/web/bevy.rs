@@ -6,8 +6,8 @@ use std::time::Instant;
 
 use super::program::{TARGET, for_browsers, number_of, packer, same_generator, within};
 use super::trial::in_browser;
-use super::{Clock, Folders, copy_folder, folders, make_folder};
-use crate::command::{Result, cargo, output, program, root};
+use super::{Clock, Folders, folders, make_folder};
+use crate::command::{Result, cargo, copy, output, program, root};
 
 /// The example that the page shows.
 const EXAMPLE: &str = "glass";
@@ -42,7 +42,7 @@ fn make(folders: &Folders, clock: Clock) -> Result<Vec<String>> {
             .arg(&built)
             .arg(&folders.out),
     )?)?;
-    copy_folder(&folders.page, &folders.out)?;
+    copy(&folders.page, &folders.out)?;
     bake(&folders.out.join("assets"), clock)?;
     let line = format!(
         "bevy page: the program has {:.1} MB; it was built in {seconds} s",

@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::{Duration, Instant};
 
-use crate::command::{Result, output, root, target};
+use crate::command::{Result, copy, output, root, target};
 
 use bodies::Bodies;
 use program::Program;
@@ -65,7 +65,7 @@ fn make(folders: &Folders, clock: Clock) -> Result<(Vec<String>, PathBuf)> {
     let packer = program::packer(folders, clock)?;
     let programs = program::programs(folders, &packer, clock)?;
     let bodies = bodies::bodies(folders, &packer, clock)?;
-    copy_folder(&folders.page, &folders.out)?;
+    copy(&folders.page, &folders.out)?;
     write_list(folders, &programs, &bodies)?;
     let lines = weigh(&folders.out, &packer, &programs, &bodies)?;
     for line in &lines {
@@ -87,24 +87,6 @@ fn folders(out: Option<&Path>) -> Folders {
 fn make_folder(folder: &Path) -> Result {
     fs::create_dir_all(folder)
         .map_err(|error| format!("`{}` cannot be made: {error}", folder.display()))
-}
-
-/// Copies the files of a folder into another, but for its folders.
-fn copy_folder(from: &Path, to: &Path) -> Result {
-    let name = from.display();
-    let entries = fs::read_dir(from);
-    for entry in entries.map_err(|error| format!("`{name}` cannot be listed: {error}"))? {
-        let from = entry
-            .map_err(|error| format!("`{name}` cannot be listed: {error}"))?
-            .path();
-        if from.is_dir() {
-            continue;
-        }
-        let to = to.join(from.file_name().unwrap_or_default());
-        fs::copy(&from, &to)
-            .map_err(|error| format!("`{}` cannot be written: {error}", to.display()))?;
-    }
-    Ok(())
 }
 
 /// What the page's scripts fetch: the programs, and files per scene, with their sizes for the bar.

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use super::program::{Kind, build, number_of, packer, same_generator, within};
 use super::trial::{browser_path, driver, made_folder};
-use super::{Clock, Folders, copy_folder, folders, make_folder};
+use super::{Clock, Folders, folders, make_folder};
 use crate::command::{Result, copy, output, root, run_keeping, shown};
 use crate::setup::browser;
 
@@ -66,9 +66,9 @@ fn make(folders: &Folders, clock: Clock) -> Result<(PathBuf, Vec<String>)> {
     let from = root().join("apps/npm");
     let out = folders.target.join("npm/frangible");
     make_folder(&out)?;
-    copy_folder(&from.join("package"), &out)?;
+    copy(&from.join("package"), &out)?;
     for licence in ["LICENSE-MIT", "LICENSE-APACHE"] {
-        copy(&from.join(licence), &out.join(licence))?;
+        copy(&root().join(licence), &out.join(licence))?;
     }
     let mut lines = Vec::new();
     for (name, does, most) in MODULES {
@@ -99,8 +99,7 @@ fn install(folders: &Folders, package: &Path, clock: Clock) -> Result<PathBuf> {
     make_folder(&project)?;
     let from = root().join("apps/npm");
     for name in ["test", "pages"] {
-        make_folder(&project.join(name))?;
-        copy_folder(&from.join(name), &project.join(name))?;
+        copy(&from.join(name), &project.join(name))?;
     }
     make_folder(&project.join("bodies"))?;
     for body in ["pane", "block"] {

@@ -15,7 +15,7 @@ pub(crate) struct Cut {
     pub(crate) place: Vec3,
     /// Unit normal of the crack.
     pub(crate) normal: Vec3,
-    /// m².
+    /// Area of the crack in it, m².
     pub(crate) area: f64,
 }
 

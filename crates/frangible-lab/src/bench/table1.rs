@@ -101,7 +101,7 @@ pub struct Row {
     pub load: f64,
     /// From the file's content to a body, s.
     pub ready: f64,
-    /// In the paper's model, our steps in time.
+    /// In the paper's model, at 16 samples per period.
     pub paper: InModel,
     /// In the paper's model, two samples per period of the highest mode that matters: the limit that the paper names.
     pub two_samples: InModel,

@@ -1,6 +1,6 @@
 //! What can be shown, in the order of the paper.
 
-use frangible_bake::frangible_mesh::nearest_name;
+use frangible_bake::frangible_mesh::did_you_mean;
 use frangible_draw::RgbImage;
 
 use crate::figures::FigureError;
@@ -109,8 +109,7 @@ pub fn figures_named(names: &[String]) -> Result<Vec<&'static Figure>, FigureErr
     for name in names {
         if !known().any(|k| k == name) {
             return Err(FigureError::UnknownFigure {
-                hint: nearest_name(name, known())
-                    .map_or(String::new(), |n| format!(", did you mean `{n}`?")),
+                hint: did_you_mean(name, known()),
                 name: name.clone(),
                 known: known().collect::<Vec<_>>().join(", "),
             });

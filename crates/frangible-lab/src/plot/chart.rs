@@ -1,8 +1,6 @@
 //! What a chart holds, and how it is laid out.
 
-use std::io::Cursor;
-
-use image::{ImageFormat, RgbImage};
+use image::RgbImage;
 
 use super::canvas::{Canvas, Colour, text_width};
 use super::ticks::{Ticks, label, linear, logarithmic};
@@ -146,17 +144,6 @@ impl Chart {
         }
         self.draw_legend(&mut canvas, [left, x_end, top, y_end], &pixels);
         canvas.0
-    }
-
-    /// The drawn chart as a PNG file.
-    ///
-    /// # Errors
-    /// What the encoder said.
-    pub fn png(&self, width: u32, height: u32) -> Result<Vec<u8>, image::ImageError> {
-        let mut bytes = Cursor::new(Vec::new());
-        self.draw(width, height)
-            .write_to(&mut bytes, ImageFormat::Png)?;
-        Ok(bytes.into_inner())
     }
 
     /// The colour of each series: the next one for each with a marker.

@@ -16,3 +16,17 @@ mod ticks;
 pub use chart::{Axis, Chart, Marker, Scale, Series};
 pub use panels::{Panel, Panels};
 pub use spectrogram::{Spectrogram, Spectrum};
+
+use std::io::Cursor;
+
+use image::{ImageError, ImageFormat, RgbImage};
+
+/// A picture as a PNG file.
+///
+/// # Errors
+/// What the encoder said.
+pub fn png(picture: &RgbImage) -> Result<Vec<u8>, ImageError> {
+    let mut bytes = Cursor::new(Vec::new());
+    picture.write_to(&mut bytes, ImageFormat::Png)?;
+    Ok(bytes.into_inner())
+}

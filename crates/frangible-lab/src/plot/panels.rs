@@ -1,8 +1,6 @@
 //! Line drawings side by side.
 
-use std::io::Cursor;
-
-use image::{ImageFormat, RgbImage};
+use image::RgbImage;
 
 use super::canvas::{Canvas, Colour, text_width};
 
@@ -56,16 +54,6 @@ impl Panels {
             panel.draw(&mut canvas, corner.map(f64::from), f64::from(side));
         }
         canvas.0
-    }
-
-    /// The drawing as a PNG file.
-    ///
-    /// # Errors
-    /// What the encoder said.
-    pub fn png(&self, side: u32) -> Result<Vec<u8>, image::ImageError> {
-        let mut bytes = Cursor::new(Vec::new());
-        self.draw(side).write_to(&mut bytes, ImageFormat::Png)?;
-        Ok(bytes.into_inner())
     }
 }
 

@@ -1,8 +1,6 @@
 //! Sound over time and frequency.
 
-use std::io::Cursor;
-
-use image::{ImageFormat, Rgb, RgbImage};
+use image::{Rgb, RgbImage};
 
 use super::canvas::{Canvas, Colour, text_width};
 use super::fourier::transform;
@@ -101,17 +99,6 @@ impl Spectrogram<'_> {
         }
         self.draw_axes(&mut canvas, [left, top, wide, high].map(f64::from));
         canvas.0
-    }
-
-    /// The picture as a PNG file.
-    ///
-    /// # Errors
-    /// What the encoder said.
-    pub fn png(&self, width: u32, height: u32) -> Result<Vec<u8>, image::ImageError> {
-        let mut bytes = Cursor::new(Vec::new());
-        self.draw(width, height)
-            .write_to(&mut bytes, ImageFormat::Png)?;
-        Ok(bytes.into_inner())
     }
 
     /// Levels, dB, column after column from below.

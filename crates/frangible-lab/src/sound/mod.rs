@@ -15,7 +15,6 @@ use std::error::Error;
 pub use cost::Cost;
 pub use cup::{Cup, FRICTIONS, Knocked};
 pub use objects::{Object, Partial};
-pub use page::SoundPage;
 pub use scenes::{Drop, HeardScene};
 
 /// Samples per second.

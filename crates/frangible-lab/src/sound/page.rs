@@ -7,27 +7,18 @@ use frangible_sound::CRACK_SHARE;
 
 use super::scenes::SEEDS;
 use super::{FRICTIONS, Heard, RATE};
-use crate::page::table;
-use crate::plot::Spectrogram;
+use crate::page::{Page, table};
+use crate::plot::{Spectrogram, png};
 
 /// Size of the pictures, pixels.
 const SIZE: (u32, u32) = (760, 420);
-
-/// The page and its pictures by name.
-#[derive(Clone, Debug)]
-pub struct SoundPage {
-    /// Markdown.
-    pub text: String,
-    /// Name of each picture's file without the ending, and the PNG.
-    pub pictures: Vec<(String, Vec<u8>)>,
-}
 
 impl Heard {
     /// The page; its pictures lie in a folder beside it. Without timings but for what a tone costs, so that the same build writes the same page.
     ///
     /// # Errors
     /// A picture that could not be encoded.
-    pub fn page(&self, folder: &str) -> Result<SoundPage, Box<dyn Error>> {
+    pub fn page(&self, folder: &str) -> Result<Page, Box<dyn Error>> {
         let mut text = String::from(
             "# Sound\n\nWritten by `frangible-lab sound --write docs`, which computes it anew. Nothing passes or fails here; the tests of \
              `frangible-sound` check radiated power, decay, energy and onsets against closed forms.\n\n\
@@ -57,7 +48,7 @@ impl Heard {
             let samples = &scene.samples[..end.min(scene.samples.len())];
             pictures.push(picture(&scene.name, &scene.name, samples, &scene.blows)?);
         }
-        Ok(SoundPage { text, pictures })
+        Ok(Page { text, pictures })
     }
 
     fn partials(&self, text: &mut String) {
@@ -303,5 +294,5 @@ fn picture(
         highest: 16_000.0,
         marks: marks.to_vec(),
     };
-    Ok((name.into(), picture.png(SIZE.0, SIZE.1)?))
+    Ok((name.into(), png(&picture.draw(SIZE.0, SIZE.1))?))
 }

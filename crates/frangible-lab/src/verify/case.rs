@@ -3,9 +3,9 @@
 use frangible_bake::BakeError;
 
 use crate::plot::Chart;
-use crate::verify::VerifyError;
 use crate::verify::cases;
 use crate::verify::check::Check;
+use crate::verify::{VerifyError, png};
 
 /// Something with a known answer.
 #[derive(Clone, Copy, Debug)]
@@ -93,11 +93,6 @@ impl Plot {
     /// # Errors
     /// [`VerifyError::Plot`] with what the encoder said.
     pub fn png(&self, width: u32, height: u32) -> Result<Vec<u8>, VerifyError> {
-        self.chart
-            .png(width, height)
-            .map_err(|error| VerifyError::Plot {
-                name: self.name.into(),
-                reason: error.to_string(),
-            })
+        png(self.name, &self.chart.draw(width, height))
     }
 }

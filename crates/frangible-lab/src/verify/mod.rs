@@ -24,7 +24,10 @@ pub use ritz::{box_frequencies, first_box_frequency};
 use frangible::InputError;
 use frangible::internals::UnknownMaterial;
 use frangible_bake::BakeError;
+use image::RgbImage;
 use thiserror::Error;
+
+use crate::plot;
 
 /// Why a report could not be made.
 #[derive(Debug, Error)]
@@ -68,4 +71,12 @@ pub enum VerifyError {
         /// What stood in the way.
         reason: String,
     },
+}
+
+/// A plot as a PNG file.
+pub(crate) fn png(name: &str, picture: &RgbImage) -> Result<Vec<u8>, VerifyError> {
+    plot::png(picture).map_err(|error| VerifyError::Plot {
+        name: name.into(),
+        reason: error.to_string(),
+    })
 }

@@ -21,7 +21,7 @@ struct Published {
     weak_point_density: f64,
     /// Amplitude and wavelength, m.
     roughness: [f64; 2],
-    /// Pa.
+    /// Pressure that crushes it, Pa.
     crushing_pressure: f64,
     restitution: f64,
     friction: f64,

@@ -21,7 +21,7 @@ use std::path::Path;
 
 pub use error::ReadError;
 pub use format::MeshFormat;
-pub use nearest::{nearest_file, nearest_name};
+pub use nearest::{did_you_mean, nearest_file, nearest_name};
 
 use crate::InputMesh;
 

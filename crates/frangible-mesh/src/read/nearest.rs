@@ -28,6 +28,12 @@ pub fn nearest_name<'a>(wanted: &str, known: impl IntoIterator<Item = &'a str>) 
         .map(|(_, name)| name)
 }
 
+/// “, did you mean …?” with the [nearest](nearest_name) of the known names, or nothing.
+#[must_use]
+pub fn did_you_mean<'a>(wanted: &str, known: impl IntoIterator<Item = &'a str>) -> String {
+    nearest_name(wanted, known).map_or(String::new(), |name| format!(", did you mean `{name}`?"))
+}
+
 /// The name in the same folder that takes fewest edits, if that is at most a third of its letters.
 #[must_use]
 pub fn nearest_file(path: &Path) -> Option<String> {

@@ -1,9 +1,9 @@
 //! Triangles on the same three vertices.
 
+use frangible_geometry::DisjointSets;
 use rayon::slice::ParallelSliceMut as _;
 
 use super::edges::{Edges, Side};
-use super::union::Union;
 
 /// Keeps one triangle of each set on the same vertices; returns how many went.
 ///
@@ -71,7 +71,7 @@ fn retain<T>(list: &mut Vec<T>, keep: &[bool]) {
 /// Which triangles stay: all but the sheets of pairs whose rims mostly lie on edges that are closed without them.
 fn needed(triangles: &[[u32; 3]], is_paired: &[bool], vertices: usize) -> Vec<bool> {
     let edges = Edges::new(vertices, triangles);
-    let mut sheets = Union::new(triangles.len());
+    let mut sheets = DisjointSets::new(triangles.len());
     let split = |group: &[Side]| {
         let paired: Vec<usize> = group
             .iter()

@@ -6,9 +6,9 @@ mod edges;
 mod patches;
 mod report;
 mod shells;
-mod union;
 mod weld;
 
+use frangible_geometry::DisjointSets;
 use glam::DVec3;
 use thiserror::Error;
 
@@ -16,7 +16,6 @@ pub use report::RepairReport;
 
 use self::edges::Edges;
 use self::patches::Patches;
-use self::union::Union;
 use crate::{InputMesh, Surface};
 
 /// A mesh whose vertices lie this close to a plane is flat, as a share of the bounding box's diagonal.
@@ -72,8 +71,6 @@ pub fn repair(mesh: &InputMesh) -> Result<(Surface, RepairReport), RepairError> 
     let diagonal = (bounds[1] - bounds[0]).length();
     let faces_in = mesh.triangles.len();
     let mut report = RepairReport {
-        vertices_in: mesh.positions.len(),
-        faces_in,
         skipped: mesh.skipped_faces,
         loose: mesh.positions.len() - used,
         ..RepairReport::default()
@@ -254,7 +251,7 @@ fn wind(positions: &[DVec3], triangles: &mut [[u32; 3]], report: &mut RepairRepo
 }
 
 fn count_open_edges(vertices: usize, edges: &Edges, report: &mut RepairReport) {
-    let mut rims = Union::new(vertices);
+    let mut rims = DisjointSets::new(vertices);
     let mut rim_vertices = vec![false; vertices];
     let mut joined = 0;
     for (near, group) in edges.groups() {
@@ -263,7 +260,8 @@ fn count_open_edges(vertices: usize, edges: &Edges, report: &mut RepairReport) {
                 report.boundary_edges += 1;
                 rim_vertices[near as usize] = true;
                 rim_vertices[side.far() as usize] = true;
-                joined += usize::from(rims.join(near, side.far()));
+                joined += usize::from(rims.find(near) != rims.find(side.far()));
+                rims.join(near, side.far());
             }
             [_, _] => {}
             _ => report.non_manifold_edges += 1,

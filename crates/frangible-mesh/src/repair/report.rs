@@ -5,12 +5,8 @@ use std::fmt;
 /// Counts of what was mended and of what remains.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct RepairReport {
-    /// Vertices before.
-    pub vertices_in: usize,
     /// Vertices after.
     pub vertices_out: usize,
-    /// Triangles before.
-    pub faces_in: usize,
     /// Triangles after.
     pub faces_out: usize,
     /// Faces of fewer than three corners, which the reader has passed over.
@@ -48,12 +44,6 @@ impl RepairReport {
     #[must_use]
     pub fn is_watertight(&self) -> bool {
         self.open_shells == 0 && self.non_manifold_edges == 0
-    }
-
-    /// Whether the surface is, up to loose vertices, the mesh as it came.
-    #[must_use]
-    pub fn is_unchanged(&self) -> bool {
-        self.welded + self.degenerate + self.duplicate + self.flipped == 0
     }
 }
 

@@ -22,7 +22,7 @@ pub(super) struct Far {
     centre: [Lanes; 3],
     /// Squared distance beyond which the expansion holds, m².
     beyond: Lanes,
-    /// N, m².
+    /// Area vectors N by axis, m².
     dipole: [Lanes; 3],
     /// Factors of x²−z², y²−z², xy, xz, yz in Q, m³.
     quadrupole: [Lanes; 5],

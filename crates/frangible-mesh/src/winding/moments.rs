@@ -12,7 +12,7 @@ const PAIRS: [[usize; 2]; 6] = [[0, 0], [1, 1], [2, 2], [0, 1], [0, 2], [1, 2]];
 pub(super) struct Moments {
     /// Centroid of the area, m.
     pub(super) centre: DVec3,
-    /// m².
+    /// Area of the triangles, m².
     pub(super) area: f64,
     /// ∫nᵢ, m².
     pub(super) zeroth: DVec3,

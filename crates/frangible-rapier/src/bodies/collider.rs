@@ -3,7 +3,7 @@
 //! No convex decomposition happens at run time: the bake cut the body into convex cells, a crack only shares
 //! them out. Shapes serve contact alone; masses always come from the exact pieces.
 
-use frangible::internals::mesh::{box_of, merged_parts, thinned};
+use frangible::internals::mesh::{bounds, box_of, merged_parts, thinned};
 use frangible::{Asset, Fragment};
 use rapier3d::geometry::{SharedShape, TypedShape};
 use rapier3d::math::{Pose, Vector};
@@ -110,14 +110,4 @@ fn fitted_box(points: &[Vector], volume: f64) -> SharedShape {
     };
     let half = half.max(Vector::splat(MIN_HALF_EXTENT));
     SharedShape::cuboid(half.x, half.y, half.z)
-}
-
-fn bounds(points: &[Vector]) -> (Vector, Vector) {
-    points.iter().fold(
-        (
-            Vector::splat(f32::INFINITY),
-            Vector::splat(f32::NEG_INFINITY),
-        ),
-        |(low, high), &p| (low.min(p), high.max(p)),
-    )
 }

@@ -2,7 +2,7 @@
 
 use frangible::{Body, Striker};
 use rapier3d::dynamics::{MassProperties, RigidBodyBuilder, RigidBodyHandle, RigidBodyType};
-use rapier3d::geometry::{ColliderBuilder, ColliderHandle, HalfSpace, SharedShape};
+use rapier3d::geometry::{ColliderBuilder, HalfSpace, SharedShape};
 use rapier3d::math::{Pose, Vector};
 use std::sync::Arc;
 
@@ -10,7 +10,7 @@ use crate::bodies::collider::whole_shape;
 use crate::bodies::mass::{ball_mass, rapier_mass};
 use crate::contact::surface::SurfaceProperties;
 use crate::error::{WorldError, finite, positive};
-use crate::world::{BreakableWorld, collider_key, key};
+use crate::world::{BreakableWorld, key};
 
 /// A solid ball.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -178,26 +178,6 @@ impl BreakableWorld {
             }
         }
         self.state.surfaces.insert(key(body), surface);
-        Ok(())
-    }
-
-    /// Gives one collider of [`BreakableWorld::physics`] this surface, whatever its body's is.
-    ///
-    /// # Errors
-    /// A number that cannot be used.
-    pub fn set_collider_surface(
-        &mut self,
-        collider: ColliderHandle,
-        surface: SurfaceProperties,
-    ) -> Result<(), WorldError> {
-        surface.validate()?;
-        if let Some(collider) = self.physics.colliders.get_mut(collider) {
-            collider.set_friction(surface.friction);
-            collider.set_restitution(surface.restitution);
-        }
-        self.state
-            .collider_surfaces
-            .insert(collider_key(collider), surface);
         Ok(())
     }
 

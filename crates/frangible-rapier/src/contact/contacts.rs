@@ -34,7 +34,6 @@ pub(crate) struct Impact {
 /// What is known of surfaces.
 pub(crate) struct Surfaces<'a> {
     pub(crate) bodies: &'a BTreeMap<Key, SurfaceProperties>,
-    pub(crate) colliders: &'a BTreeMap<Key, SurfaceProperties>,
     pub(crate) breakables: &'a BTreeMap<Key, Body>,
 }
 
@@ -71,11 +70,13 @@ pub(crate) fn impact_on(
     for group in &mut groups {
         let partner = group[0].other.and_then(|other| before.body(other));
         keep_first_touches(group, body, partner, config.merge_distance);
-        if let (Some(other), Some(partner), Some(itself)) = (
-            physics.colliders.get(group[0].other_collider),
-            partner,
-            surfaces.breakables.get(&key(handle)),
-        ) && let Some(ball) = other.shape().as_ball()
+        // A partner of several colliders may touch with each of them.
+        let collider = group[0].other_collider;
+        let one = group.iter().all(|point| point.other_collider == collider);
+        let ball = physics.colliders.get(collider).filter(|_| one);
+        if let (Some(other), Some(partner), Some(itself)) =
+            (ball, partner, surfaces.breakables.get(&key(handle)))
+            && let Some(ball) = other.shape().as_ball()
         {
             let dt = physics.integration_parameters.dt;
             let place = other.position_wrt_parent().copied().unwrap_or_default();

@@ -9,7 +9,7 @@ use rapier3d::pipeline::PhysicsWorld;
 
 use crate::calm::motions::Before;
 use crate::contact::contacts::{Impact, Point, Surfaces};
-use crate::world::{collider_key, key};
+use crate::world::key;
 
 pub(super) fn striker(
     body: &RigidBody,
@@ -20,14 +20,9 @@ pub(super) fn striker(
 ) -> Striker {
     let world = *body.position() * point.position;
     let normal = *body.rotation() * point.normal;
-    let surface = surfaces
-        .colliders
-        .get(&collider_key(point.other_collider))
-        .or_else(|| {
-            point
-                .other
-                .and_then(|other| surfaces.bodies.get(&key(other)))
-        });
+    let surface = point
+        .other
+        .and_then(|other| surfaces.bodies.get(&key(other)));
     // A body nobody described is a rigid one; a ball's radius can still be read off its shape.
     let ball = physics
         .colliders
@@ -60,26 +55,8 @@ pub(super) fn striker(
 
 /// Radius of curvature of a breakable's outer surface nearest to a point of its body frame, m.
 fn curvature_at(body: &Body, point: Vector) -> f32 {
-    let surface = &body.asset().surface;
-    let positions = body.asset().surface_positions();
-    let nearest = surface
-        .triangles
-        .iter()
-        .zip(&surface.curvature_radius)
-        .min_by(|(a, _), (b, _)| {
-            let gap = |t: &[u32; 3]| {
-                let centre = t
-                    .iter()
-                    .filter_map(|&v| positions.get(v as usize))
-                    .sum::<Vector>()
-                    / 3.0;
-                centre.distance_squared(point)
-            };
-            gap(a).total_cmp(&gap(b))
-        });
-    nearest
-        .map_or(Striker::EDGE_RADIUS, |(_, &radius)| radius)
-        .max(Striker::EDGE_RADIUS)
+    let triangle = body.nearest_on_surface(point).triangle;
+    body.asset().surface.curvature_radius[triangle as usize].max(Striker::EDGE_RADIUS)
 }
 
 /// Two breakable bodies meet: how the other one vibrates under each contact, for blows that are integrated, and how long it answers, for

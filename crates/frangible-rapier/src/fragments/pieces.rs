@@ -64,11 +64,6 @@ impl BreakableWorld {
         self.piece_model = model;
     }
 
-    /// Bodies that are being made breakable, or better: fragments just born.
-    pub fn expected_pieces(&self) -> impl Iterator<Item = RigidBodyHandle> {
-        self.state.expected.iter().map(|expected| expected.handle)
-    }
-
     /// Has the fragments of a body that broke made breakable.
     pub(crate) fn expect_pieces(&mut self, body: &Body, broken: &Broken) {
         let Some(model) = self.piece_model.clone() else {

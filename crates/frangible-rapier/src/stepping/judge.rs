@@ -68,6 +68,16 @@ impl Case {
         self.work.do_unless_taken();
     }
 
+    /// Whether the body is no longer cracked as it was when the blow was put to the fracture: its verdict would take back what came since.
+    pub(super) fn is_outdated(&self, now: &Body) -> bool {
+        self.work.body.state() != now.state()
+    }
+
+    /// What was asked.
+    pub(super) fn question(self) -> (RigidBodyHandle, Impact) {
+        (self.body, self.impact)
+    }
+
     /// Waits for the verdict.
     pub(super) fn answer(self) -> Answer {
         // The work holds a sender: with it here, a judge that failed would be waited for without end.
@@ -88,7 +98,6 @@ impl BreakableWorld {
     pub(super) fn impact_on(&self, handle: RigidBodyHandle, before: &impl Before) -> Impact {
         let surfaces = Surfaces {
             bodies: &self.state.surfaces,
-            colliders: &self.state.collider_surfaces,
             breakables: &self.state.breakables,
         };
         impact_on(handle, &self.physics, before, &surfaces, &self.config)

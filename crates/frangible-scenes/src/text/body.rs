@@ -4,8 +4,9 @@ use std::path::Path;
 
 use frangible::glam::{Quat, Vec3};
 use frangible_bake::{PaneShape, Shape, Station};
+use frangible_mesh::did_you_mean;
 
-use super::convert::{did_you_mean, preset, set, short, vector};
+use super::convert::{preset, set, short, vector};
 use super::either::{AxisTable, MaterialChoice, RotationChoice};
 use super::schema::{BodyTable, MaterialTable, PaneTable, RotationTable, ShapeTable};
 use super::support::support;

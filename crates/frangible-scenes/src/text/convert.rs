@@ -6,11 +6,10 @@ use frangible::glam::Vec3;
 use frangible::internals::near_field::PlateTheory;
 use frangible::internals::{CrackPath, CrackTiming, DurationModel};
 use frangible::{FractureConfig, Material};
-use frangible_mesh::nearest_name;
+use frangible_mesh::did_you_mean;
 
 use super::body::body;
 use super::either::SwitchOrName;
-use super::gone::Gone;
 use super::schema::{
     DurationTable, FractureTable, KindName, MethodName, ModelName, NearFieldName, OutputTable,
     PathTable, PiecesTable, ProjectileTable, SceneTable, TimingTable,
@@ -138,10 +137,7 @@ fn fracture(table: FractureTable) -> FractureConfig {
     match table.timing {
         None => {}
         Some(TimingTable::Instant) => config.timing = CrackTiming::Instant,
-        Some(TimingTable::TimeResolved {
-            speed,
-            release_reach: Gone,
-        }) => {
+        Some(TimingTable::TimeResolved { speed }) => {
             config.timing = CrackTiming::TimeResolved { speed };
         }
     }
@@ -202,11 +198,6 @@ pub(super) fn set<T>(field: &mut T, given: Option<T>) {
 
 pub(super) fn vector(v: [f64; 3]) -> Vec3 {
     Vec3::from_array(v.map(|x| x as f32))
-}
-
-/// “, did you mean …?”, or nothing.
-pub(super) fn did_you_mean<'a>(wanted: &str, known: impl IntoIterator<Item = &'a str>) -> String {
-    nearest_name(wanted, known).map_or(String::new(), |n| format!(", did you mean `{n}`?"))
 }
 
 /// A text of the file, cut for a message.

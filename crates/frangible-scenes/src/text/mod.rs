@@ -5,7 +5,6 @@
 mod body;
 mod convert;
 mod either;
-mod gone;
 mod message;
 mod schema;
 mod support;

@@ -3,7 +3,6 @@
 use serde::Deserialize;
 
 use super::either::{AxisTable, MaterialChoice, RotationChoice, SwitchOrName};
-use super::gone::Gone;
 use super::weakness::WeaknessTable;
 
 /// A whole file.
@@ -268,12 +267,7 @@ pub(super) enum NearFieldName {
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub(super) enum TimingTable {
     Instant,
-    TimeResolved {
-        speed: f64,
-        /// What it said once; any value is refused.
-        #[serde(default)]
-        release_reach: Gone,
-    },
+    TimeResolved { speed: f64 },
 }
 
 /// Where cracks run.

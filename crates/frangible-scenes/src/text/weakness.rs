@@ -2,10 +2,11 @@
 
 use frangible::glam::Vec3;
 use frangible_bake::weakness::{Channel, Paint, Patch, Zone};
+use frangible_mesh::did_you_mean;
 use serde::Deserialize;
 
 use super::body::clash;
-use super::convert::{did_you_mean, short, vector};
+use super::convert::{short, vector};
 use super::either::OneOrTwo;
 use super::values::{list, single, vector as vector_text};
 use crate::check::Fault;

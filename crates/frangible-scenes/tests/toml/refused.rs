@@ -50,25 +50,6 @@ fn a_misspelt_key_is_named_with_its_line_and_the_nearest() {
 }
 
 #[test]
-fn a_knob_that_is_gone_is_refused_with_its_line_and_what_to_do() {
-    let gone = "scene line 4: the knob `release_reach` is gone, since how far a crack releases the stress beside it now follows from its \
-                length: delete it";
-    for value in ["1", "0.5", "\"far\"", "{ metres = 1 }"] {
-        for text in [
-            format!(
-                "[fracture]\ntiming = {{ time_resolved = {{ speed = 0.5, release_reach = {value} }} }}"
-            ),
-            format!("[fracture.timing.time_resolved]\nrelease_reach = {value}\nspeed = 0.5"),
-        ] {
-            assert_eq!(refused(&format!("{LEAST}{text}")), gone);
-        }
-    }
-    let kept = format!("{LEAST}[fracture]\ntiming = {{ time_resolved = {{ speed = 0.25 }} }}");
-    let timing = CrackTiming::TimeResolved { speed: 0.25 };
-    assert_eq!(parsed(&kept).fracture.timing, timing);
-}
-
-#[test]
 fn wrong_types_and_unusable_values_are_told_with_their_line() {
     let body = |line: &str| format!("seed = 3\n{LEAST}{line}");
     let ball = |line: &str| {

@@ -4,6 +4,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use frangible::{Material, Outcome, impact};
+use frangible_bake::frangible_mesh::did_you_mean;
 use frangible_scenes::{BakedBody, Scene, intact_body};
 
 use super::Session;
@@ -152,8 +153,7 @@ impl Session {
 fn knob_named(name: &str) -> Result<&'static Knob, ViewError> {
     Knob::named(name).ok_or_else(|| {
         let names: Vec<&str> = KNOBS.iter().map(|knob| knob.name).collect();
-        let hint = frangible_bake::frangible_mesh::nearest_name(name, names.iter().copied())
-            .map_or(String::new(), |n| format!(", did you mean `{n}`?"));
+        let hint = did_you_mean(name, names.iter().copied());
         ViewError::NotNow(format!(
             "there is no knob `{name}`{hint}; knobs: {}",
             names.join(", ")

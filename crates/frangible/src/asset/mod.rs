@@ -113,7 +113,7 @@ impl Asset {
         }
     }
 
-    /// Where the centroid of a fracture tetrahedron lies in the analysis mesh. Of a piece: of its [`Portion::tets`].
+    /// Where the centroid of a fracture tetrahedron lies in the analysis mesh. In a piece `tet` is one of its [`Portion::tets`].
     #[must_use]
     pub fn embedded_tet(&self, tet: usize) -> &EmbeddedPoint {
         &self.embedding.tets[self.place(tet)]

@@ -242,18 +242,19 @@ impl Blow {
         field.at_weak_point(tet as usize).stress(lane(step))
     }
 
-    /// Whether cracks have cut the wall under a contact so far that its force must be found anew: number of the contact, and what the
-    /// star gives way by, m/N.
-    pub(crate) fn weakened(&self, system: &CrackSystem) -> Option<(usize, f64)> {
+    /// The contacts whose wall cracks have cut so far that its force must be found anew: their numbers, and what the star under each gives
+    /// way by, m/N.
+    pub(crate) fn weakened(&self, system: &CrackSystem) -> Vec<(usize, f64)> {
         let sites = self.plan.sites.iter().enumerate();
-        let mut walls = sites.filter_map(|(k, site)| Some((k, site.near.as_ref()?)));
-        walls.find_map(|(k, near)| {
+        let walls = sites.filter_map(|(k, site)| Some((k, site.near.as_ref()?)));
+        let weakened = walls.filter_map(|(k, near)| {
             let star = Star::of(system, &near.place, near.wall.material.thickness)?;
             let compliance = star.compliance(near.wall.material.bending_stiffness);
             let known = self.softer.iter().rev().find(|s| s.contact == k);
             let before = known.map_or(0.0, |s| s.compliance);
             (compliance > GREW * before).then_some((k, compliance))
-        })
+        });
+        weakened.collect()
     }
 
     /// Whether contacts still push at a time step.

@@ -299,7 +299,8 @@ impl<'a> Contacts<'a> {
                 let i = k * count + k;
                 let compliance = plan.compliance[i] + self.weakness[k];
                 let spring = &plan.sites[k].spring;
-                let give = self.give[i] + compliance;
+                // Friction along a mode that swings the other way may push the contact together: that counts as a stiff body.
+                let give = (self.give[i] + compliance).max(0.0);
                 spring.force(gap, give, self.largest[k], &mut self.roots[k])
             }
         }

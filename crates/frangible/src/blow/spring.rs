@@ -198,9 +198,9 @@ impl Spring {
 /// What a blow does until its force is largest.
 #[derive(Clone, Copy, Debug)]
 struct Loading {
-    /// N.
+    /// Largest force, N.
     peak: f64,
-    /// s.
+    /// Time until then, s.
     time: f64,
 }
 

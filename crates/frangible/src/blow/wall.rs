@@ -117,9 +117,16 @@ impl SteadyNear {
     pub(crate) fn most_per_newton(body: &Body, triangle: u32) -> Option<f32> {
         let asset = &*body.asset;
         let surface = asset.surface.walls.at(triangle)?;
-        let wall = WallMaterial::new(&asset.material, &surface, PlateTheory::default());
-        let (_, lowest) = first_wave(asset, &wall, surface.margin, asset.modes.count())?;
-        Some(wall.most_stress(wall.wave_number(lowest)) as f32)
+        let of = |theory| {
+            let wall = WallMaterial::new(&asset.material, &surface, theory);
+            let (_, lowest) = first_wave(asset, &wall, surface.margin, asset.modes.count())?;
+            Some(wall.most_stress(wall.wave_number(lowest)) as f32)
+        };
+        // It is kept for all questions about the body, whichever theory they ask with.
+        of(PlateTheory::Kirchhoff)
+            .into_iter()
+            .chain(of(PlateTheory::Layer))
+            .reduce(f32::max)
     }
 
     /// No principal stress of it exceeds this, Pa.

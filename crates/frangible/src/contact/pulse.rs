@@ -60,7 +60,12 @@ pub fn pulse(asset: &Asset, load: &Load, duration: f64, config: &FractureConfig)
             break;
         }
     }
-    let period = TAU / basis.eigenvalues[high].sqrt();
+    // Without modes nothing swings, and the steps show the force alone.
+    let period_of = |i: usize| match basis.eigenvalues.get(i) {
+        Some(lambda) => TAU / lambda.sqrt(),
+        None => duration,
+    };
+    let period = period_of(high);
     let contact_steps = (duration * config.samples_per_period / period)
         .ceil()
         .clamp(MIN_CONTACT_STEPS, MAX_STEPS as f64);
@@ -71,9 +76,7 @@ pub fn pulse(asset: &Asset, load: &Load, duration: f64, config: &FractureConfig)
         .unwrap_or(0);
     let end = match config.timing {
         CrackTiming::Instant => duration,
-        CrackTiming::TimeResolved { .. } => {
-            duration.max(PERIODS * TAU / basis.eigenvalues[low].sqrt())
-        }
+        CrackTiming::TimeResolved { .. } => duration.max(PERIODS * period_of(low)),
     };
     let contact_steps = contact_steps as usize;
     let total_steps = if end > duration {

@@ -9,7 +9,7 @@ pub(crate) struct Ledger {
     budget: f64,
     /// How much of that has come so far, J.
     come: f64,
-    /// J.
+    /// What has been spent so far, J.
     spent: f64,
 }
 
@@ -43,7 +43,7 @@ impl Ledger {
         self.spent += energy;
     }
 
-    /// J.
+    /// What has been spent so far, J.
     pub(crate) fn spent(&self) -> f64 {
         self.spent
     }

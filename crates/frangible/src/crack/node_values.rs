@@ -7,7 +7,7 @@ use crate::mesh::ByNode;
 pub(crate) struct NodeValues {
     /// Places in the values, by the node and the crack.
     places: ByNode<u32>,
-    /// m.
+    /// The values of s, m.
     values: Vec<f32>,
 }
 

@@ -154,7 +154,7 @@ struct Queue {
     added: Vec<u32>,
     /// Twice the latest round in which each node got its s, and one more where s is negative.
     sides: Vec<u32>,
-    /// s, m.
+    /// The newcomer's s at each node, m.
     values: Vec<f32>,
     /// Number of junctions so far.
     round: u32,

@@ -112,7 +112,9 @@ impl Bands {
     ) -> Self {
         let last = wall.last_wave_number(contact_radius);
         let mut bands = Self::default();
-        if last <= first {
+        // Below the frequency from which on a curved wall bends, it has no waves.
+        let has_waves = first > 0.0 && first < last;
+        if !has_waves {
             return bands;
         }
         let mut low = first;
@@ -224,6 +226,15 @@ mod tests {
             ];
         }
         stress(wall, sum)
+    }
+
+    #[test]
+    fn where_there_are_no_waves_there_is_no_band() {
+        let wall = wall(PlateTheory::Layer);
+        for first in [0.0, wall.last_wave_number(RADIUS), f64::INFINITY, f64::NAN] {
+            let bands = Bands::new(&wall, first, RADIUS, spacing(&wall, 250.0));
+            assert_eq!(bands, Bands::default(), "{first}");
+        }
     }
 
     #[test]

@@ -32,7 +32,7 @@ pub(crate) struct NearPlace {
     pub(crate) point: Vec3,
     /// Unit normal of the wall there, from the loaded face inwards.
     pub(crate) inwards: Vec3,
-    /// The field is zero from this distance on, m: a crack, an edge, or nothing that matters.
+    /// The field is zero from the table's first distance on that is no less than this, m: a crack, an edge, or nothing that matters.
     pub(crate) reach: f64,
 }
 
@@ -225,7 +225,7 @@ impl NearField {
     #[inline(always)]
     pub(crate) fn lanes(&self, at: &Located, batch: usize) -> [Lanes; 2] {
         let (mut radial, mut hoop): (Lanes, Lanes) = ([0.0; BATCH], [0.0; BATCH]);
-        // Before the first step there is none.
+        // Before the first step there is none, but of a steady field.
         let first = (batch * STRIDE).wrapping_sub(1);
         if self.steady || first >= self.steps.saturating_sub(BATCH) {
             for k in 0..BATCH {

@@ -41,8 +41,6 @@
 //! - Where a contact is wider than the wall is thick, Kirchhoff's plate and the layer agree; where it is a point, the
 //!   layer keeps the stress finite.
 //!
-//! Wall oscillators stand for bands of wave numbers whose Bessel integrals are closed forms, so few of them serve. Their give is
-//! what an elastic layer gives way by beyond a half-space, which Hertz' spring is already; Mindlin's shear would count it twice.
 //! J₀ and J₁ come from a table made with libm.
 
 mod bands;

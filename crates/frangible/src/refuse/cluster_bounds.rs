@@ -100,7 +100,8 @@ pub(crate) fn refused_by_clusters(
         bounds: &mut bounds,
     });
     for (part, bound) in bounds.into_iter().enumerate() {
-        if bound > parts.limit(part) {
+        let harmless = bound <= parts.limit(part);
+        if !harmless {
             return None;
         }
         refusal.raise(bound, parts.as_weakest(part, bound));

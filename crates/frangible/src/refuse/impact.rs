@@ -7,6 +7,8 @@
 //! A blow that is integrated has no impulse and no duration yet: what it can bring at most follows from the energy of approach
 //! (`blow/limits.rs`). A contact on a wall is not refused here: its near field is known only once it is integrated.
 
+use glam::Vec3;
+
 use super::cluster_bounds::refused_by_clusters;
 use super::harmless;
 use super::pushes::{MOST_CONTACTS, Pushes};
@@ -43,9 +45,9 @@ pub(crate) fn refused(
     contacts: &[Contact],
     config: &FractureConfig,
 ) -> Option<Refusal> {
-    let blow = config.has_complement();
+    let integrated = config.duration == DurationModel::Integrated;
     let hit = || {
-        contacts.iter().filter(move |c| match blow {
+        contacts.iter().filter(move |c| match integrated {
             true => c.is_script() || c.approach_speed > 0.0,
             false => c.impulse > 0.0,
         })
@@ -57,7 +59,7 @@ pub(crate) fn refused(
         return None;
     }
     let mut limits = [Limits::default(); MOST_CONTACTS];
-    if config.duration == DurationModel::Integrated {
+    if integrated {
         let mut hits = [None; MOST_CONTACTS];
         for (slot, hit) in hits.iter_mut().zip(hit().zip(pushes.places())) {
             *slot = Some((hit.0, hit.1.0));
@@ -66,9 +68,13 @@ pub(crate) fn refused(
             return None;
         }
     } else {
-        for (limit, (contact, (at, _))) in limits.iter_mut().zip(hit().zip(pushes.places())) {
+        let given = given_duration(body, || hit().zip(pushes.places()), config);
+        for (limit, contact) in limits.iter_mut().zip(hit()) {
             let impulse = f64::from(contact.impulse);
-            let duration = given_duration(body, contact, at, config)?;
+            let duration = match contact.is_script() {
+                true => f64::from(contact.duration),
+                false => given?,
+            };
             let force = std::f64::consts::FRAC_PI_2 * impulse / duration;
             *limit = Limits { impulse, force };
         }
@@ -91,7 +97,8 @@ pub(crate) fn refused(
                 let number = per_impulse.of(at.triangle, force_of(limit));
                 direction.length() * limit.impulse as f32 * number
             })
-            .sum();
+            // A sum of nothing is to be 0, and not -0: a margin is a quotient of it.
+            .fold(0.0, |sum, bound| sum + bound);
         if let Some(refusal) = whole(LookedAt::Sizes, bound) {
             return Some(refusal);
         }
@@ -125,25 +132,28 @@ pub(crate) fn refused(
     refused_by_clusters(body, &amplitudes, quadratic_modulus)
 }
 
-/// Duration of a contact whose impulse is given, s; none where it takes the modes to say.
-fn given_duration(
+/// Duration of the contacts whose impulses are given and that no script times, s: the shortest of all that touch. None where it takes
+/// the modes to say.
+fn given_duration<'a, Hits>(
     body: &Body,
-    contact: &Contact,
-    at: &SurfacePoint,
+    hits: impl Fn() -> Hits,
     config: &FractureConfig,
-) -> Option<f64> {
-    if contact.is_script() {
-        return Some(f64::from(contact.duration));
-    }
+) -> Option<f64>
+where
+    Hits: Iterator<Item = (&'a Contact, &'a (SurfacePoint, Vec3))>,
+{
+    let asset = &*body.asset;
     match config.duration {
         DurationModel::Hertz => {
-            let asset = &*body.asset;
-            let radius = f64::from(asset.surface.curvature_radius[at.triangle as usize]);
-            let give = give(asset, at, contact.normal.normalize());
-            Some(hertz_at(asset, contact, radius, give))
+            let durations = hits().map(|(contact, (at, _))| {
+                let radius = f64::from(asset.surface.curvature_radius[at.triangle as usize]);
+                let give = give(asset, at, contact.normal.normalize());
+                hertz_at(asset, contact, radius, give)
+            });
+            Some(durations.fold(f64::INFINITY, f64::min))
         }
         // With no modes that follow the force the bounds ask for no duration.
-        _ if !config.residual || body.asset.modes.residual_modes == 0 => Some(f64::INFINITY),
+        _ if !config.residual || asset.modes.residual_modes == 0 => Some(f64::INFINITY),
         _ => None,
     }
 }

@@ -8,7 +8,7 @@ use crate::asset::Asset;
 /// Displacements of the analysis nodes per newton, each computed when it is first asked for.
 #[derive(Debug)]
 pub(crate) struct Shape {
-    /// m/N.
+    /// What they are once they are known, m/N.
     pub(crate) nodes: Box<[OnceLock<[f32; 3]>]>,
     /// ξ_i/λ_i of the modes that it is made of, the last of the body, m·√kg/N.
     pub(crate) amplitudes: Vec<f32>,

@@ -256,7 +256,8 @@ fn full_elements(topology: &Topology) -> Vec<bool> {
     volumes.into_iter().map(full).collect()
 }
 
-/// Moments of the body in each element, m³; the same on one thread and on several. Of a piece at once and a little less exactly.
+/// Moments of the body in each element, m³; the same on one thread and on several. Those of a piece are found on this
+/// thread alone, and a little less exactly.
 fn integrate(body: &BodyMesh, topology: &Topology, lattice: &Lattice, piece: bool) -> Vec<Moments> {
     /// Shares of the work: fixed, and summed in order, so that the bits do not depend on the number of threads.
     const SHARES: usize = 8;

@@ -19,8 +19,8 @@ pub fn gpu(found: &Findings) -> String {
     };
     let _ = write!(
         text,
-        "\nOne steel ball of 60 g per impact, each on a body of its own, as fast as it takes to come near the strength; {} modes, our model, \
-         16 samples per period. The GPU finds which impacts held, and from which time step the CPU has to look at the others; the outcomes are the \
+        "\nOne steel ball of 60 g per impact, each on a body of its own, as fast as it takes to come near the strength; {} modes, our cracks \
+         under given half-sines (`with_given_impulses`), 16 samples per period. The GPU finds which impacts held, and from which time step the CPU has to look at the others; the outcomes are the \
          same bits. The CPU computes on all its threads in both. ms per impact: wall clock, and in brackets CPU time of the whole process, the \
          fastest of three runs. Passes alone: what the GPU's own clock counts.\n",
         found.modes

@@ -35,8 +35,8 @@ pub fn haptic(found: &Findings) -> String {
         })
         .collect();
     let mut text = format!(
-        "A hammer's head of 130 g taps plates of {}, 100 × 100 × 5 mm, {} tetrahedra, {} modes, at 0.1 to 7 m/s, and slides on them. Every tick of \
-         1 ms takes the head's position and velocity and gives the contact's force and the displacement of the surface, by all modes, \
+        "A hammer's head of 130 g taps plates of {}, 100 × 100 × 5 mm, {} tetrahedra, {} modes, at 0.1 to 7 m/s, and slides on them. The blows are \
+         half-sines of given impulses, with 4 samples per period. Every tick of 1 ms takes the head's position and velocity and gives the contact's force and the displacement of the surface, by all modes, \
          exact over the tick. At the first tick of a contact the impact begins, and is mostly refused; else cracks, pieces and surfaces are \
          made on another thread, which is woken after the tick, and taken {} ticks later.\n\n",
         found.material,

@@ -302,8 +302,8 @@ Quadro FX 3700M for initiation.
   stresses and cracks, since each step of time looks at stresses and lets cracks run.
 - Stages are medians for themselves and need not sum to the whole.
 - Word for word: `frangible_lab::reference`, f64, without the fragments' surfaces; one run.
-- In the paper's model time is sampled 16 times per period of the highest mode that matters, as in ours; Eq. 3 as printed takes a sample
-  every two periods. Two samples per period, the limit that the paper names, are measured apart.
+- In the paper's model time is sampled 16 times per period of the highest mode that matters, in ours 8 times; Eq. 3 as printed takes a
+  sample every two periods. Two samples per period, the limit that the paper names, are measured apart.
 - Colliders are what `frangible-rapier` makes for the fragments, no part of the impact.
 
 {}",

@@ -44,18 +44,20 @@ Breaks beside three-pinata's and Blender's: [peers.md](peers.md). How near the i
 [roofline.md](roofline.md). What made breaks faster, and what did not: [speed.md](speed.md). How pieces that break again vibrate: [recursive.md](recursive.md).
 ";
 
-const HOW_TO: &str = "    cargo run --release -p frangible-lab -- bench all --write docs       # this page but for the memory: on a machine with nothing else to do
-    cargo run --release -p frangible-lab -- bench table1 --write docs    # one section; the others stay as they are
-    cargo run --release -p frangible-lab -- bench table1 --body glass    # one body; --json, --runs N, --no-reference
-    cargo run --release -p frangible-lab -- bench gallery                # also: --body pane, --runs N, --json
-    cargo run --release -p frangible-lab -- bench contacts --json
-    cargo run --release -p frangible-lab -- bench haptic                 # also: cargo run --release -p frangible-lab --example haptic
-    cargo run --release -p frangible-lab -- bench shop                   # also: cargo run --release -p frangible-lab --example china_shop
-    cargo run --release -p frangible-lab -- bench again
-    cargo run --release -p frangible-lab -- bench gpu
-    cargo run --release -p frangible-lab --example memory -- --write docs
-    cargo bench -p frangible-lab                      # each stage on a small body
-    cargo xtask counts                                  # instructions of each stage beside the stored ones
+const HOW_TO: &str = "```sh
+cargo run --release -p frangible-lab -- bench all --write docs       # this page but for the memory: on a machine with nothing else to do
+cargo run --release -p frangible-lab -- bench table1 --write docs    # one section; the others stay as they are
+cargo run --release -p frangible-lab -- bench table1 --body glass    # one body; --json, --runs N, --no-reference
+cargo run --release -p frangible-lab -- bench gallery                # also: --body pane, --runs N, --json
+cargo run --release -p frangible-lab -- bench contacts --json
+cargo run --release -p frangible-lab -- bench haptic                 # also: cargo run --release -p frangible-lab --example haptic
+cargo run --release -p frangible-lab -- bench shop                   # also: cargo run --release -p frangible-lab --example china_shop
+cargo run --release -p frangible-lab -- bench again
+cargo run --release -p frangible-lab -- bench gpu
+cargo run --release -p frangible-lab --example memory -- --write docs
+cargo bench -p frangible-lab                                         # each stage on a small body
+cargo xtask counts                                                   # instructions of each stage beside the stored ones
+```
 
 Bodies are baked once into `target/bench`, or where `--cache DIR` says; `--rebake` bakes them anew, and so does `--write`.
 

@@ -34,7 +34,8 @@ pub fn shop(found: &Findings) -> String {
     let mut text = format!(
         "{} things on loose planks, a ball of 400 kg at 7 m/s, {:.0} s at 60 steps per second: {breaks} things break into {pieces} pieces, up to {} \
          bodies in the world, {} of them moving. Breaks come after the step, at most {} tetrahedra of work put in per step, each on other threads \
-         for {} steps while the whole body goes on.\n\n",
+         for {} steps while the whole body goes on. A contact is a blow from 1 m/s on, and has 4 samples per period. \
+         Pieces below 0.5 % of a thing's volume stay with a neighbour; those below 3 g are debris, those below 1 g dust.\n\n",
         found.things,
         found.frames.len() as f64 / 60.0,
         most(|h| h.bodies),

@@ -146,8 +146,8 @@ read. Reached is the longer of these two times over the time it takes. Operation
 ![Where the time of a break of the glass goes](performance-flame.svg)
 
 {LIMITS}
-`benches/flame.sh` draws the picture, of the glass of Table 1 that falls on its foot at 101 m/s and breaks into eight pieces: the width of a
-box is its share of the samples, the box below it is its caller.
+`benches/flame.sh` draws the picture, of the glass of Table 1 that falls on its foot at 101 m/s, in our model: the width of a box is its share
+of the samples, the box below it is its caller.
 ",
         machine.processor,
         machine.cores,
@@ -164,12 +164,13 @@ const LIMITS: &str = "\
   it, not memory; it is the smallest part of a break.
 - Displacements: Φ comes from the third-level cache at a fraction of the rate at which that can be read, and the same loop over as few
   shapes as the second-level cache holds is no faster: memory does not limit it. Each number of Φ is loaded and spread over a vector for
-  one multiplication and one addition per vector of steps, and that loading limits it, before arithmetic does. Batches of more steps use
-  each load more often: in a loop of its own 16 steps side by side did a sixth more operations a second than 8, and 24 a third more.
+  one multiplication and one addition per vector of steps. The measured peak of arithmetic was passed, so that it is measured a little too
+  low. Batches of more steps use each load more often: in a loop of its own 16 steps side by side did a sixth more operations a second than
+  8, and 24 a third more.
 - Gradients, stresses, bounds: a weak point gathers ten nodes, works out thirty weights one by one, looks up its wall and its law, and
   copies its stresses where they may matter: most instructions are no arithmetic on vectors, so it stays far below both roofs. It also
   asks for its nodes in its own order, and rows of Φ out of order take a fifth longer, which this row pays. Fewer points to look at, or
   weights kept from batch to batch, would help; faster memory would not.
 - Cracks and fragments follow neighbours through the mesh with a few operations at each place, so that no roofline says anything. They grow
-  with the tetrahedra that are cut. In the picture they are a small part: what is not blue, but for the frames of the look at weak points.
+  with the tetrahedra that are cut.
 ";

@@ -3,10 +3,9 @@
 use std::error::Error;
 
 use frangible_lab::verify::near_field::NearField;
-use serde_json::json;
 
 use crate::args::PageArgs;
-use crate::output::{Bar, Page, say};
+use crate::output::{Bar, Page};
 
 /// The page, and the folder of its picture.
 const PAGE: &str = "near-field.md";
@@ -17,17 +16,5 @@ pub(crate) fn run(args: &PageArgs) -> Result<(), Box<dyn Error>> {
     let bar = Bar::new(args.json);
     let found = NearField::compute(&mut |share| bar.show("hitting plates", share))?;
     drop(bar);
-    let page = found.page(PICTURES)?;
-    let files = place.write(&page.text, &page.pictures)?;
-    if args.json {
-        return Ok(say(&format!(
-            "{:#}\n",
-            json!({ "page": page.text, "files": files })
-        ))?);
-    }
-    let mut text = page.text;
-    for file in files {
-        text.push_str(&format!("wrote {file}\n"));
-    }
-    Ok(say(&text)?)
+    place.tell(found.page(PICTURES)?, args.json)
 }

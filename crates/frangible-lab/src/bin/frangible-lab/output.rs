@@ -6,6 +6,7 @@ use std::path::Path;
 use std::sync::atomic::{AtomicU32, Ordering};
 
 use frangible_export::{make_folder, write_atomically};
+use serde_json::json;
 
 /// Writes text; a reader that has seen enough (`frangible-lab verify | head`) is no error.
 pub(crate) fn say(text: &str) -> io::Result<()> {
@@ -76,7 +77,7 @@ impl<'a> Page<'a> {
     pub(crate) fn write(
         &self,
         text: &str,
-        pictures: &[(&str, Vec<u8>)],
+        pictures: &[(String, Vec<u8>)],
     ) -> Result<Vec<String>, Box<dyn Error>> {
         let Some(folder) = self.folder else {
             return Ok(Vec::new());
@@ -93,5 +94,23 @@ impl<'a> Page<'a> {
             put(format!("{}/{name}.png", self.pictures), png)?;
         }
         Ok(files)
+    }
+
+    /// Writes the page, and says what stands on it and which files were written, with `json` for programs.
+    pub(crate) fn tell(
+        &self,
+        page: frangible_lab::page::Page,
+        json: bool,
+    ) -> Result<(), Box<dyn Error>> {
+        let files = self.write(&page.text, &page.pictures)?;
+        if json {
+            let told = json!({ "page": page.text, "files": files });
+            return Ok(say(&format!("{told:#}\n"))?);
+        }
+        let mut text = page.text;
+        for file in files {
+            text.push_str(&format!("wrote {file}\n"));
+        }
+        Ok(say(&text)?)
     }
 }

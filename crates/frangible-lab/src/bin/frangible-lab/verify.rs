@@ -39,7 +39,7 @@ pub(crate) fn run(args: &PageArgs) -> Result<(), Box<dyn Error>> {
     let pages: Vec<(&Case, Findings)> = found.iter().map(|f| (f.0, f.1.clone())).collect();
     let mut plots = Vec::new();
     for plot in found.iter().flat_map(|f| &f.1.plots) {
-        plots.push((plot.name, plot.png(SIZE.0, SIZE.1)?));
+        plots.push((plot.name.to_owned(), plot.png(SIZE.0, SIZE.1)?));
     }
     let files = place.write(&markdown(&pages, PLOTS), &plots)?;
     if args.json {

@@ -42,11 +42,11 @@ enum Landing {
 
 /// What a landing excites.
 struct Answer {
-    /// From 0.
+    /// The most excited mode, from 0.
     mode: usize,
-    /// Hz.
+    /// Its frequency, Hz.
     frequency: f64,
-    /// s, with the most excited mode and by Hertz.
+    /// Duration of the contact, s, with that mode and by Hertz.
     modal: f64,
     hertz: f64,
 }

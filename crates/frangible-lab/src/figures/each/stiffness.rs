@@ -75,7 +75,7 @@ fn quasi_static(body: &Body, contact: &Contact) -> Result<Outcome, FigureError> 
 /// One ball in one model.
 struct Hit {
     modulus: f64,
-    /// s.
+    /// Duration of the contact, s.
     duration: f64,
     outcome: Outcome,
     damage: Damage,

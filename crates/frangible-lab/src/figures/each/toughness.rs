@@ -23,7 +23,7 @@ pub(crate) const FIGURE: Figure = Figure {
     compute,
 };
 
-/// J/m², as in the paper.
+/// Fracture energies G_c, J/m², as in the paper.
 const TOUGHNESS: [f64; 3] = [150.0, 90.0, 60.0];
 
 /// Smaller areas are no cracks worth the name, m².

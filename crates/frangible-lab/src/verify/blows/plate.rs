@@ -19,12 +19,12 @@ pub(crate) enum Terms {
 pub(crate) struct Plate {
     /// Length of each side, m.
     pub(crate) side: f64,
-    /// m.
+    /// Thickness, m.
     pub(crate) thickness: f64,
-    /// Pa.
+    /// Young's modulus, Pa.
     pub(crate) youngs_modulus: f64,
     pub(crate) poisson_ratio: f64,
-    /// kg/m³.
+    /// Density, kg/m³.
     pub(crate) density: f64,
 }
 

@@ -3,11 +3,11 @@
 /// A striker on Hertz' spring, F = K δ^1.5.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Striker {
-    /// kg.
+    /// Mass, kg.
     pub(crate) mass: f64,
     /// K, N/m^1.5.
     pub(crate) stiffness: f64,
-    /// m/s.
+    /// Speed of approach, m/s.
     pub(crate) speed: f64,
 }
 

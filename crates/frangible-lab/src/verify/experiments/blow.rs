@@ -6,9 +6,9 @@ use frangible::{Contact, Material, Striker};
 /// A steel ball that hits the middle of a plate's upper face.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Ball {
-    /// kg.
+    /// Mass, kg.
     pub(crate) mass: f64,
-    /// m.
+    /// Radius, m.
     pub(crate) radius: f64,
 }
 

@@ -2,7 +2,8 @@
 
 use super::{Experiments, masses_page, rear_star, star_page};
 use crate::page::Page;
-use crate::verify::VerifyError;
+use crate::plot::Chart;
+use crate::verify::{VerifyError, png};
 
 /// Size of a chart, and side of a drawing, pixels.
 const CHART: (u32, u32) = (800, 600);
@@ -44,23 +45,18 @@ impl Experiments {
             rear_star::text(&self.rear_stars),
             masses_page::text(&self.masses, folder)
         );
-        let failed = |name: &str, error: image::ImageError| VerifyError::Plot {
-            name: name.into(),
-            reason: error.to_string(),
-        };
+        let drawn = |chart: Chart| chart.draw(CHART.0, CHART.1);
         let mut pictures = Vec::new();
-        for (name, chart) in [
-            ("star-law", star_page::chart(&self.stars)),
-            ("masses", masses_page::chart(&self.masses)),
+        for (name, picture) in [
+            ("star-law", drawn(star_page::chart(&self.stars))),
+            ("masses", drawn(masses_page::chart(&self.masses))),
+            (
+                "star-patterns",
+                star_page::patterns(&self.stars).draw(PANEL),
+            ),
         ] {
-            let png = chart.png(CHART.0, CHART.1).map_err(|e| failed(name, e))?;
-            pictures.push((name, png));
+            pictures.push((name.into(), png(name, &picture)?));
         }
-        let name = "star-patterns";
-        let png = star_page::patterns(&self.stars)
-            .png(PANEL)
-            .map_err(|e| failed(name, e))?;
-        pictures.push((name, png));
         Ok(Page { text, pictures })
     }
 }

@@ -33,7 +33,7 @@ const RADIUS: f64 = 6e-3;
 /// What to compute.
 #[derive(Clone, Debug)]
 pub struct RearStarPlan {
-    /// m.
+    /// Thicknesses of the plates, m.
     pub thicknesses: Vec<f64>,
     /// Speeds of the ball, m/s.
     pub speeds: Vec<f64>,
@@ -78,9 +78,9 @@ impl RearStarPlan {
 /// What a ball did to plates of one thickness at one speed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct RearStar {
-    /// m.
+    /// Thickness of the plates, m.
     pub thickness: f64,
-    /// m/s.
+    /// Speed of the ball, m/s.
     pub speed: f64,
     /// Share of the plates that cracked.
     pub cracked: f64,

@@ -35,7 +35,7 @@ const STEEL_DENSITY: f64 = 7800.0;
 /// What to compute.
 #[derive(Clone, Debug)]
 pub struct StarPlan {
-    /// m.
+    /// Thicknesses of the plates, m.
     pub thicknesses: Vec<f64>,
     /// Speeds of the ball, m/s.
     pub speeds: Vec<f64>,
@@ -114,7 +114,7 @@ const VARIANTS: [Variant; 7] = [
 /// One plate and what a ball did to it.
 #[derive(Clone, Debug)]
 pub struct StarImpact {
-    /// m/s.
+    /// Speed of the ball, m/s.
     pub speed: f64,
     /// Seed of the plate.
     pub seed: u64,
@@ -129,7 +129,7 @@ pub struct StarImpact {
 /// Plates of one thickness, computed one way.
 #[derive(Clone, Debug)]
 pub struct StarRun {
-    /// m.
+    /// Thickness of the plates, m.
     pub thickness: f64,
     /// How it differs from the default model.
     pub variant: &'static str,
@@ -142,7 +142,7 @@ pub struct StarRun {
 /// Mean count at a speed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Count {
-    /// m/s.
+    /// Speed of the ball, m/s.
     pub speed: f64,
     /// Mean over the seeds.
     pub mean: f64,

@@ -7,7 +7,7 @@ use super::residual::MODES;
 use super::{COLUMNS, DURATION, FORCE, NearField, StressRow, TIMES};
 use crate::page::{Page, table};
 use crate::plot::{Axis, Chart, Marker, Series};
-use crate::verify::VerifyError;
+use crate::verify::{VerifyError, png};
 
 /// Size of the picture, pixels.
 const SIZE: (u32, u32) = (800, 600);
@@ -27,16 +27,10 @@ impl NearField {
         self.edges_text(&mut text);
         self.residual_text(&mut text);
         let name = "hoop-stress";
-        let png = self
-            .chart()
-            .png(SIZE.0, SIZE.1)
-            .map_err(|error| VerifyError::Plot {
-                name: name.into(),
-                reason: error.to_string(),
-            })?;
+        let png = png(name, &self.chart().draw(SIZE.0, SIZE.1))?;
         Ok(Page {
             text,
-            pictures: vec![(name, png)],
+            pictures: vec![(name.into(), png)],
         })
     }
 

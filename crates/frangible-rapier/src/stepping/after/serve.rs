@@ -89,12 +89,18 @@ impl BreakableWorld {
         let due = self.cases.iter().take_while(|case| case.due <= now);
         due.for_each(Case::help);
         while let Some(case) = self.cases.pop_front_if(|case| case.due <= now) {
-            let answer = case.answer();
-            self.count(&answer);
+            let body = self.breakable(case.body);
+            let answers = match body.is_some_and(|body| case.is_outdated(body)) {
+                true => self.judge(vec![case.question()]),
+                false => vec![case.answer()],
+            };
             self.timings.fracture += watch.lap();
-            if self.breakable(answer.body).is_some() {
-                let obeyed = self.obey(answer, &[], &Families::new(), &HitBodies::new());
-                done = done.and(obeyed.map(|_| ()));
+            for answer in answers {
+                self.count(&answer);
+                if self.breakable(answer.body).is_some() {
+                    let obeyed = self.obey(answer, &[], &Families::new(), &HitBodies::new());
+                    done = done.and(obeyed.map(|_| ()));
+                }
             }
             self.timings.fragments += watch.lap();
         }

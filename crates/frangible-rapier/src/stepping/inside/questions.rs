@@ -4,7 +4,7 @@
 //! the fracture again: it is known to hold. What a body carries is asked only where no new blow is, and only of bodies that were close
 //! to breaking under it for some steps (`resting.rs`).
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use rapier3d::dynamics::{RigidBodyHandle, RigidBodySet};
 
@@ -21,7 +21,7 @@ use crate::world::{BreakableWorld, Key, key};
 #[derive(Default)]
 pub(super) struct Asked {
     pub(super) broken: Vec<Broken>,
-    held: BTreeMap<Key, (Impact, HeldEvent)>,
+    pub(super) held: BTreeMap<Key, (Impact, HeldEvent)>,
     /// Blows of the step last taken that held.
     pub(super) standing: Vec<Meeting>,
     error: Option<WorldError>,
@@ -67,6 +67,17 @@ impl BreakableWorld {
         }
         asked.standing.clear();
         if !news {
+            // A blow that came in a step that was undone, and not again, has done nothing, unless what it met broke by it.
+            let stands: BTreeSet<Key> = standing.iter().map(|&handle| key(handle)).collect();
+            let (held, broken) = (&mut asked.held, &asked.broken);
+            held.retain(|body, (_, event)| {
+                let broke = || {
+                    broken
+                        .iter()
+                        .any(|b| b.impact.strikers.contains(&event.body))
+                };
+                stands.contains(body) || broke()
+            });
             for handle in standing {
                 if let Some((impact, event)) = asked.held.get(&key(handle)) {
                     let meetings = self.meetings(handle, before, impact, &event.report);

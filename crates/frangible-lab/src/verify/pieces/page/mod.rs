@@ -9,8 +9,7 @@ use super::statistics::{Worth, decisions, quantile};
 use super::way::{FINEST, WAYS};
 use super::{PieceSample, Truth};
 use crate::page::{Page, table};
-use crate::plot::Chart;
-use crate::verify::VerifyError;
+use crate::verify::{VerifyError, png};
 
 /// Size of a chart, pixels.
 const CHART: (u32, u32) = (800, 600);
@@ -38,7 +37,8 @@ impl Truth {
         self.truth_of_the_truth(&mut text);
         let mut pictures = Vec::new();
         for (name, chart) in [("errors", self.errors_chart()), ("time", self.time_chart())] {
-            pictures.push((name, png(name, &chart)?));
+            let picture = chart.draw(CHART.0, CHART.1);
+            pictures.push((name.into(), png(name, &picture)?));
         }
         Ok(Page { text, pictures })
     }
@@ -235,13 +235,6 @@ impl Truth {
     fn numbers(&self, of: impl Fn(&PieceSample) -> f64) -> Vec<f64> {
         self.pieces.iter().map(of).collect()
     }
-}
-
-fn png(name: &str, chart: &Chart) -> Result<Vec<u8>, VerifyError> {
-    chart.png(CHART.0, CHART.1).map_err(|e| VerifyError::Plot {
-        name: name.into(),
-        reason: e.to_string(),
-    })
 }
 
 fn row(name: &str, worth: &Worth) -> Vec<String> {
