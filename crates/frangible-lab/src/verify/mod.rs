@@ -2,7 +2,7 @@
 //!
 //! A [`Case`] computes something with the code that bakes and breaks, and compares it with a reference found by other
 //! means: a closed form, a published number, an integrator or a Ritz series of our own that shares no code with it.
-//! [`CASES`] lists them all; [`report`] makes text of what they found, [`plot`](crate::plot) pictures. [`experiments`] compares cracks
+//! [`CASES`] lists them all; [`report`] makes text of what they found, [`plot`] pictures. [`experiments`] compares cracks
 //! and pieces with published experiments, which takes minutes; [`pieces`] the ways to find how a fragment vibrates.
 
 mod blows;

@@ -5,7 +5,8 @@
 //! motion as ever. Work is counted in tetrahedra, not in time, so that the same bodies break in the same step on any machine.
 //!
 //! A blow passes three places: it is found (`hit.rs`), waits in line for its turn (`line.rs`), and is put to the fracture, whose verdict is
-//! carried out (`serve.rs`, `obey.rs`). What a body carries does not wait.
+//! carried out (`serve.rs`, `obey.rs`). Where the body has got other cracks before the verdict comes, the blow is put to the fracture once
+//! more. What a body carries does not wait.
 //!
 //! A heap costs what its colliders have parts, so the cell shares of a piece are merged to 12 of at most 48 points each.
 
