@@ -4,7 +4,7 @@ use wasm_bindgen::prelude::wasm_bindgen;
 
 /// Called once, when the module is there.
 #[wasm_bindgen(start)]
-pub fn start() {
+pub(crate) fn start() {
     // Every engine that runs the module has vectors: their instructions are in it, used or not.
     pulp_wasm_simd_flag::enable_simd128();
     // A panic names itself instead of being an unreachable instruction.
