@@ -53,7 +53,8 @@ fn breaks(kind: &Breakable) -> Result<Vec<f64>, Box<dyn Error>> {
     let mut times = Vec::new();
     for k in 0..PLACES {
         let triangle = (k * surface.triangles.len() + surface.triangles.len() / 2) / PLACES;
-        let corners = surface.triangles[triangle].map(|v| kind.asset().surface_positions()[v as usize]);
+        let corners =
+            surface.triangles[triangle].map(|v| kind.asset().surface_positions()[v as usize]);
         let point = corners.iter().sum::<Vec3>() / 3.0;
         let inwards = -surface.normals[triangle][0];
         let stone = Striker::fixed(&Material::preset("stone")?);
