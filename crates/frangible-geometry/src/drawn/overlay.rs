@@ -19,6 +19,8 @@ const FEW: usize = 6;
 const NOTHING: f64 = 1e-12;
 /// Halvings of what no part covers, at most.
 const HALVINGS: u32 = 5;
+/// The triangle itself.
+const WHOLE: [DVec2; 3] = [DVec2::ZERO, DVec2::X, DVec2::Y];
 
 /// A render triangle and what lies under it.
 pub(super) struct Overlay<'a> {
@@ -37,6 +39,19 @@ struct Shade {
     label: u32,
 }
 
+impl Shade {
+    /// Whether it shares more than a border with a polygon in this box.
+    fn meets(&self, polygon: &[DVec2], [low, high]: [DVec2; 2]) -> bool {
+        let [l, h] = bounds(&self.corners);
+        l.cmplt(high).all() && h.cmpgt(low).all() && overlap(polygon, &self.corners)
+    }
+}
+
+fn nearest_first(mut shades: Vec<(f64, Shade)>) -> Vec<Shade> {
+    shades.sort_by(|x, y| x.0.total_cmp(&y.0));
+    shades.into_iter().map(|s| s.1).collect()
+}
+
 impl Overlay<'_> {
     /// Convex polygons with their labels that tile the triangle; one polygon when it belongs to one fragment.
     pub(super) fn divide(&self) -> Vec<(Polygon, u32)> {
@@ -45,11 +60,18 @@ impl Overlay<'_> {
         if let Some(first) = labels.next()
             && labels.all(|label| label == first)
         {
-            return vec![(vec![DVec2::ZERO, DVec2::X, DVec2::Y], first)];
+            return vec![(WHOLE.to_vec(), first)];
         }
         let shades = self.shades(&near);
+        let whole = WHOLE.to_vec();
+        // Most triangles have one label under them.
+        if let [first, others @ ..] = &shades[..]
+            && others.iter().all(|s| s.1.label == first.1.label)
+        {
+            return vec![(whole, first.1.label)];
+        }
+        let shades = nearest_first(shades);
         let all: Vec<u32> = (0..shades.len() as u32).collect();
-        let whole = vec![DVec2::ZERO, DVec2::X, DVec2::Y];
         let mut divided = Vec::new();
         self.lay(whole, &all, &shades, &mut divided);
         divided
@@ -68,8 +90,8 @@ impl Overlay<'_> {
         near
     }
 
-    /// The parts of some boundary triangles, projected, the closest first.
-    fn shades(&self, near: &[u32]) -> Vec<Shade> {
+    /// The parts of some boundary triangles, projected, which lie over or under the triangle, and how far from it.
+    fn shades(&self, near: &[u32]) -> Vec<(f64, Shade)> {
         let [a, b, c] = self.corners;
         let (u, v) = (b - a, c - a);
         let normal = u.cross(v);
@@ -96,11 +118,15 @@ impl Overlay<'_> {
             if self.facing < 0.0 {
                 corners.swap(1, 2);
             }
-            let label = part.label;
-            shades.push((height((p + q + r) / 3.0), Shade { corners, label }));
+            let shade = Shade {
+                corners,
+                label: part.label,
+            };
+            if shade.meets(&WHOLE, [DVec2::ZERO, DVec2::ONE]) {
+                shades.push((height((p + q + r) / 3.0), shade));
+            }
         }
-        shades.sort_by(|x, y| x.0.total_cmp(&y.0));
-        shades.into_iter().map(|s| s.1).collect()
+        shades
     }
 
     /// Divides a polygon among the shades `of` it, or what of them meets it.
@@ -111,15 +137,11 @@ impl Overlay<'_> {
         shades: &[Shade],
         divided: &mut Vec<(Polygon, u32)>,
     ) {
-        let [low, high] = bounds(&polygon);
-        let meets = |s: &Shade| {
-            let [l, h] = bounds(&s.corners);
-            l.cmplt(high).all() && h.cmpgt(low).all() && overlap(&polygon, &s.corners)
-        };
+        let within = bounds(&polygon);
         let over: Vec<u32> = of
             .iter()
             .copied()
-            .filter(|&s| meets(&shades[s as usize]))
+            .filter(|&s| shades[s as usize].meets(&polygon, within))
             .collect();
         if let Some((&first, others)) = over.split_first() {
             let label = |s: u32| shades[s as usize].label;
