@@ -88,7 +88,7 @@ fn work(queue: &Mutex<Queue>, most: usize) {
     loop {
         let next = locked(queue).next(most);
         let Some((length, job)) = next else { return };
-        // What a job that panics owes, whoever waits for it misses; the thread has others to do.
+        // Whoever waits for a job that panics sees that its sender is gone; this thread has other jobs to do.
         let _ = catch_unwind(AssertUnwindSafe(job));
         if length == Length::Long {
             locked(queue).at_long -= 1;

@@ -2,6 +2,7 @@
 
 mod common;
 
+use std::sync::mpsc::channel;
 use std::sync::{Arc, Mutex};
 
 use common::baked::pane;
@@ -42,6 +43,17 @@ fn world(delay: usize) -> (BreakableWorld, RigidBodyHandle) {
     (world, plate)
 }
 
+/// The step in which the ball hits.
+fn step_of_blow() -> usize {
+    let (mut world, _) = world(0);
+    world.set_break_function(|_: &Body, _: &[Contact], _: &FractureConfig| Ok(held(None)));
+    let blow = (0..30).find(|_| {
+        world.step().unwrap();
+        !world.held().is_empty()
+    });
+    blow.unwrap()
+}
+
 fn held(state: Option<BodyState>) -> Outcome {
     Outcome::Held {
         margin: 2.0,
@@ -75,13 +87,6 @@ fn a_verdict_on_a_body_that_has_cracked_since_is_asked_for_anew() {
     assert!(cracking.len() > 1, "{}", cracking.len());
     let (_, late) = cracking[0].clone();
     let (impulse, meanwhile) = cracking[1].clone();
-    // The step of the blow.
-    let (mut first, _) = world(0);
-    first.set_break_function(|_: &Body, _: &[Contact], _: &FractureConfig| Ok(held(None)));
-    let blow = (0..30).find(|_| {
-        first.step().unwrap();
-        !first.held().is_empty()
-    });
     let (mut world, plate) = world(DELAY);
     let seen = Arc::new(Mutex::new(Vec::new()));
     let (asked, verdict) = (Arc::clone(&seen), late.clone());
@@ -90,7 +95,7 @@ fn a_verdict_on_a_body_that_has_cracked_since_is_asked_for_anew() {
         asked.push(body.state().clone());
         Ok(held((asked.len() == 1).then(|| verdict.clone())))
     });
-    for _ in 0..=blow.unwrap() {
+    for _ in 0..=step_of_blow() {
         world.step().unwrap();
     }
     let place = Vector::new(0.05, 0.0, 0.002);
@@ -109,16 +114,17 @@ fn a_verdict_on_a_body_that_has_cracked_since_is_asked_for_anew() {
 #[test]
 fn a_judge_that_panics_elsewhere_is_an_error_and_the_body_stays() {
     let (mut world, plate) = world(DELAY);
-    world.set_break_function(|_: &Body, _: &[Contact], _: &FractureConfig| {
-        // The world's own thread takes the blows that no other has begun with.
-        assert!(std::thread::current().name().is_some(), "as the test wants");
-        Ok(held(None))
+    let (say, said) = channel();
+    world.set_break_function(move |_: &Body, _: &[Contact], _: &FractureConfig| {
+        say.send(()).unwrap();
+        panic!("as the test wants");
     });
-    let mut errors = Vec::new();
-    for _ in 0..30 {
-        std::thread::sleep(std::time::Duration::from_millis(5));
-        errors.extend(world.step().err());
+    for _ in 0..=step_of_blow() {
+        world.step().unwrap();
     }
+    // The world's own thread would take what no other had begun with.
+    said.recv().unwrap();
+    let errors: Vec<WorldError> = (0..30).filter_map(|_| world.step().err()).collect();
     assert!(
         matches!(errors[..], [WorldError::JudgeFailed]),
         "{errors:?}"

@@ -230,7 +230,7 @@ fn given(
     report: &mut ImpactReport,
 ) -> Option<Vibration> {
     let asset = &*body.asset;
-    let load = contact::modal_load(body, contacts.iter().filter(|c| c.impulse > 0.0));
+    let load = contact::modal_load(body, contacts.iter().filter(|c| c.pushes(config.duration)));
     if load.touches.is_empty() {
         return None;
     }
@@ -278,8 +278,11 @@ fn integrated(
         Blow::of_valid(body, contacts, config)?
     } else {
         // Every contact is a half-sine of its impulse.
-        let mut scripts: Vec<Contact> =
-            (contacts.iter().filter(|c| c.impulse > 0.0).cloned()).collect();
+        let mut scripts: Vec<Contact> = (contacts
+            .iter()
+            .filter(|c| c.pushes(config.duration))
+            .cloned())
+        .collect();
         let load = contact::modal_load(body, &scripts);
         if load.touches.is_empty() {
             return None;

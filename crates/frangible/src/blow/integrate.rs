@@ -299,7 +299,7 @@ impl<'a> Contacts<'a> {
                 let i = k * count + k;
                 let compliance = plan.compliance[i] + self.weakness[k];
                 let spring = &plan.sites[k].spring;
-                // Friction along a mode that swings the other way may push the contact together: that counts as a stiff body.
+                // With friction, modes may swing towards the striker under their force: then the body counts as stiff.
                 let give = (self.give[i] + compliance).max(0.0);
                 spring.force(gap, give, self.largest[k], &mut self.roots[k])
             }

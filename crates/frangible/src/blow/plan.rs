@@ -83,7 +83,7 @@ impl Plan {
         config: &FractureConfig,
         longest: Option<f64>,
     ) -> Option<Self> {
-        let pushing = |c: &&Contact| c.is_script() || c.approach_speed > 0.0;
+        let pushing = |c: &&Contact| c.pushes(config.duration);
         let asset = &*body.asset;
         let modes = asset.modes.followed();
         let mut load = modal_load(body, contacts.iter().filter(pushing));

@@ -6,6 +6,7 @@ use glam::Vec3;
 
 use super::Receptance;
 use crate::asset::Asset;
+use crate::config::DurationModel;
 use crate::error::{InputError, finite, not_negative, positive};
 use crate::material::{Material, OutOfRange};
 
@@ -204,6 +205,14 @@ impl Contact {
     #[must_use]
     pub fn is_script(&self) -> bool {
         self.duration > 0.0
+    }
+
+    /// Whether it pushes at all in this model: where the blow is an outcome a striker that comes near, else a given impulse.
+    pub(crate) fn pushes(&self, model: DurationModel) -> bool {
+        match model {
+            DurationModel::Integrated => self.is_script() || self.approach_speed > 0.0,
+            _ => self.impulse > 0.0,
+        }
     }
 
     /// Direction of its force on the body: the unit normal, and what friction there is beside it.

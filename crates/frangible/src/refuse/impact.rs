@@ -45,13 +45,7 @@ pub(crate) fn refused(
     contacts: &[Contact],
     config: &FractureConfig,
 ) -> Option<Refusal> {
-    let integrated = config.duration == DurationModel::Integrated;
-    let hit = || {
-        contacts.iter().filter(move |c| match integrated {
-            true => c.is_script() || c.approach_speed > 0.0,
-            false => c.impulse > 0.0,
-        })
-    };
+    let hit = || contacts.iter().filter(|c| c.pushes(config.duration));
     let pushes = Pushes::new(body, hit().map(|c| (c.point, c.direction())))?;
     if let Some(theory) = config.near_field
         && pushes.any_near(&body.asset, theory)
@@ -59,7 +53,7 @@ pub(crate) fn refused(
         return None;
     }
     let mut limits = [Limits::default(); MOST_CONTACTS];
-    if integrated {
+    if config.duration == DurationModel::Integrated {
         let mut hits = [None; MOST_CONTACTS];
         for (slot, hit) in hits.iter_mut().zip(hit().zip(pushes.places())) {
             *slot = Some((hit.0, hit.1.0));
