@@ -33,7 +33,8 @@ pub use closest::closest_on_triangle;
 pub use convex::{bounds, box_of, merged_parts, thinned};
 pub use disjoint::DisjointSets;
 pub use drawn::{
-    Division, Part, Parts, Piece as DrawnPiece, RenderIndex, RenderMaterial, RenderSurface,
+    Boundary, Division, Part, Parts, Piece as DrawnPiece, RenderIndex, RenderMaterial,
+    RenderSurface,
 };
 pub use glam;
 pub use mass::MassProperties;

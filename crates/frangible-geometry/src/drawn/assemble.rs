@@ -28,13 +28,21 @@ impl RenderIndex {
         let mut mesh = Builder {
             mesh: RenderMesh::default(),
             surface,
-            normals: &self.normals,
+            index: self,
             centre,
         };
+        // Of most surfaces half as many vertices as triangles, more of flat shaded ones; a numbered polygon is some two triangles.
+        let cut = 2 * (share.numbered.len() + share.pieces.len());
+        mesh.reserve(
+            share.whole.len() / 2 + 2 * cut + 3 * faces.len(),
+            share.whole.len() + cut + faces.len(),
+        );
         for &t in &share.whole {
             let vertices = surface.triangles[t as usize];
-            let corners =
-                [0, 1, 2].map(|k| mesh.own_corner(t, k, &mut local[vertices[k] as usize]));
+            let mut corners = [0; 3];
+            for (k, corner) in corners.iter_mut().enumerate() {
+                *corner = mesh.own_corner(t, k, &mut local[vertices[k] as usize]);
+            }
             mesh.triangle(t, corners);
         }
         for v in share
@@ -85,20 +93,28 @@ fn has_thin_fan(polygon: &[DVec2]) -> bool {
 struct Builder<'a> {
     mesh: RenderMesh,
     surface: &'a RenderSurface,
-    normals: &'a [[Vec3; 3]],
+    index: &'a RenderIndex,
     centre: DVec3,
 }
 
 impl Builder<'_> {
+    fn reserve(&mut self, vertices: usize, triangles: usize) {
+        let mesh = &mut self.mesh;
+        mesh.positions.reserve(vertices);
+        mesh.normals.reserve(vertices);
+        mesh.uvs.reserve(vertices);
+        mesh.triangles.reserve(triangles);
+    }
+
     /// A corner of a render triangle: the one `known` of that vertex if normal and texture coordinates agree.
     fn own_corner(&mut self, t: u32, k: usize, known: &mut u32) -> u32 {
         let surface = self.surface;
         let v = surface.triangles[t as usize][k] as usize;
         let position = surface.positions[v];
-        let normal = self.normals[t as usize][k];
+        let normal = self.index.normals[t as usize][k];
         let uv = match surface.uvs.get(v) {
             Some(&uv) => uv,
-            None => box_projection(position, self.flat_normal(t)),
+            None => box_projection(position, self.index.flat[t as usize]),
         };
         let same = |&w: &usize| self.mesh.normals[w] == normal && self.mesh.uvs[w] == uv;
         let drawn = Some(*known as usize).filter(|&w| w < self.mesh.positions.len());
@@ -123,8 +139,8 @@ impl Builder<'_> {
         let mean = |x: [DVec3; 3]| x[0] * weights[0] + x[1] * weights[1] + x[2] * weights[2];
         let own = || mean(triangle.map(|v| surface.positions[v].as_dvec3()));
         let position = place.unwrap_or_else(own);
-        let flat = self.flat_normal(t);
-        let smooth = mean(self.normals[t as usize].map(Vec3::as_dvec3));
+        let flat = self.index.flat[t as usize];
+        let smooth = mean(self.index.normals[t as usize].map(Vec3::as_dvec3));
         let normal = smooth.as_vec3().normalize_or(flat);
         let uv = if surface.uvs.is_empty() {
             box_projection(position.as_vec3(), flat)
@@ -138,13 +154,6 @@ impl Builder<'_> {
         self.vertex(position, normal, uv)
     }
 
-    fn flat_normal(&self, t: u32) -> Vec3 {
-        let triangle = self.surface.triangles[t as usize];
-        let [a, b, c] = triangle.map(|v| self.surface.positions[v as usize].as_dvec3());
-        let fallback = self.normals[t as usize][0].as_dvec3();
-        (b - a).cross(c - a).normalize_or(fallback).as_vec3()
-    }
-
     fn triangle(&mut self, t: u32, corners: [u32; 3]) {
         self.mesh.triangles.push(corners);
         if let Some(&material) = self.surface.material_of_triangle.get(t as usize) {
@@ -155,9 +164,10 @@ impl Builder<'_> {
     fn crack_face(&mut self, face: &[(DVec3, Vec3); 3]) {
         let [a, b, c] = face.map(|corner| corner.0);
         let flat = (b - a).cross(c - a).as_vec3().normalize_or(face[0].1);
-        let corners = face.map(|(position, normal)| {
-            self.vertex(position, normal, box_projection(position.as_vec3(), flat))
-        });
+        let mut corners = [0; 3];
+        for (corner, &(position, normal)) in corners.iter_mut().zip(face) {
+            *corner = self.vertex(position, normal, box_projection(position.as_vec3(), flat));
+        }
         self.mesh.triangles.push(corners);
     }
 

@@ -7,7 +7,7 @@
 use glam::{DVec2, DVec3};
 
 use super::edges::Edges;
-use super::{RenderSurface, Share};
+use super::{Cut, RenderSurface};
 
 /// Corners no farther apart than this are one; the sides of a triangle are of length 1.
 const SAME: f64 = 1e-9;
@@ -21,6 +21,8 @@ pub(super) struct Corners<'a> {
     edges: &'a Edges,
     /// Corners on edges of the surface: the edge, and how far along it (0 to 1). Sorted; their numbers follow those of the vertices.
     on_edges: Vec<(u32, f64)>,
+    /// Place in that list of the first corner on each edge or after it, and its end.
+    first_on: Vec<u32>,
     /// Places of the corners within triangles, m; their numbers come last.
     within: Vec<DVec3>,
 }
@@ -30,9 +32,9 @@ pub(super) type Corner = (u32, DVec2);
 
 impl<'a> Corners<'a> {
     /// Finds the corners that all divided triangles have on the edges of the surface.
-    pub(super) fn new(surface: &'a RenderSurface, edges: &'a Edges, shares: &[Share]) -> Self {
+    pub(super) fn new(surface: &'a RenderSurface, edges: &'a Edges, cuts: &[Cut]) -> Self {
         let mut on_edges = Vec::new();
-        for (t, polygon) in shares.iter().flat_map(|share| &share.pieces) {
+        for (t, _, polygon) in cuts {
             for &p in polygon {
                 if let Place::Side(k, along) = place(p)
                     && let Some((edge, forward)) = edges.of_side(surface, 3 * t + k as u32)
@@ -43,12 +45,27 @@ impl<'a> Corners<'a> {
         }
         on_edges.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
         on_edges.dedup_by(|b, a| a.0 == b.0 && b.1 - a.1 <= SAME);
+        let mut first_on = vec![0; edges.count() + 1];
+        for on in &on_edges {
+            first_on[on.0 as usize + 1] += 1;
+        }
+        let mut before = 0;
+        for count in &mut first_on {
+            before += *count;
+            *count = before;
+        }
         Self {
             surface,
             edges,
             on_edges,
+            first_on,
             within: Vec::new(),
         }
+    }
+
+    /// The edges of the surface.
+    pub(super) fn edges(&self) -> &Edges {
+        self.edges
     }
 
     /// Where a corner is, m, body frame.
@@ -72,6 +89,12 @@ impl<'a> Corners<'a> {
     pub(super) fn bordering(&self) -> impl Iterator<Item = u32> {
         let edges = self.on_edges.chunk_by(|a, b| a.0 == b.0);
         edges.flat_map(|on| self.edges.triangles_at(on[0].0))
+    }
+
+    /// Whether triangle t lies on the border of a hole.
+    pub(super) fn touches_hole(&self, t: u32) -> bool {
+        let edges = (0..3).filter_map(|k| self.edges.of_side(self.surface, 3 * t + k));
+        !self.edges.are_closed && edges.into_iter().any(|(edge, _)| self.edges.is_open(edge))
     }
 
     /// Whether a side of a part of triangle t, between these corners, lies on the border of a hole.
@@ -106,9 +129,11 @@ impl<'a> Corners<'a> {
     /// Numbers of the corners on a side, and how far along it they lie, rising.
     fn on_side(&self, side: u32) -> impl Iterator<Item = (u32, f64)> {
         let of_side = self.edges.of_side(self.surface, side);
-        let (edge, forward) = of_side.unwrap_or((u32::MAX, true));
-        let first = self.on_edges.partition_point(|&(e, _)| e < edge);
-        let end = self.on_edges.partition_point(|&(e, _)| e <= edge);
+        let forward = of_side.is_some_and(|(_, forward)| forward);
+        let [first, end] = match of_side {
+            Some((edge, _)) => [0, 1].map(|k| self.first_on[edge as usize + k] as usize),
+            None => [0, 0],
+        };
         let vertices = self.surface.positions.len();
         (first..end).map(move |i| {
             let i = if forward { i } else { first + end - 1 - i };
@@ -118,10 +143,10 @@ impl<'a> Corners<'a> {
         })
     }
 
-    /// The polygons of a divided triangle with their numbered corners; those that are nothing but a line have none.
-    pub(super) fn conform(&mut self, t: u32, polygons: &[&[DVec2]]) -> Vec<Vec<Corner>> {
+    /// The parts of a divided triangle with their numbered corners; those that are nothing but a line have none.
+    pub(super) fn conform(&mut self, t: u32, parts: &[Cut]) -> Vec<Vec<Corner>> {
         let mut known: Vec<Corner> = (0..3).flat_map(|k| self.along(t, k)).collect();
-        let inside = polygons.iter().flat_map(|polygon| polygon.iter());
+        let inside = parts.iter().flat_map(|part| &part.2);
         let mut inside: Vec<DVec2> = inside
             .copied()
             .filter(|&p| matches!(place(p), Place::Within))
@@ -140,32 +165,31 @@ impl<'a> Corners<'a> {
             }
         }
         known.sort_by(|a, b| a.1.x.total_cmp(&b.1.x));
-        polygons
-            .iter()
-            .map(|polygon| numbered(polygon, &known))
-            .collect()
+        let numbered = parts.iter().map(|part| numbered(&part.2, &known));
+        numbered.collect()
     }
 }
 
 /// The corners of a polygon and those on its sides, in order, no two the same after each other. `known`: all of the triangle's, by x.
 fn numbered(polygon: &[DVec2], known: &[Corner]) -> Vec<Corner> {
-    let mut corners: Vec<Corner> = Vec::new();
+    let mut corners: Vec<Corner> = Vec::with_capacity(2 * polygon.len());
+    let mut on: Vec<(f64, Corner)> = Vec::new();
     for (i, &from) in polygon.iter().enumerate() {
         let to = polygon[(i + 1) % polygon.len()];
         let (low, high) = (from.x.min(to.x) - ON, from.x.max(to.x) + ON);
         let first = known.partition_point(|q| q.1.x < low);
         let near = known[first..].iter().take_while(|q| q.1.x <= high);
         let length = from.distance(to);
-        let along = |q: DVec2| (q - from).dot(to - from) / length;
-        let mut on: Vec<(f64, Corner)> = near
-            .map(|&q| (along(q.1), q))
-            .filter(|&(along, (_, q))| {
-                let beside = (to - from).perp_dot(q - from) / length;
-                (-ON..=length + ON).contains(&along) && beside.abs() <= ON
-            })
-            .collect();
+        on.clear();
+        for &(number, q) in near {
+            let (along, beside) = ((q - from).dot(to - from), (to - from).perp_dot(q - from));
+            let (along, beside) = (along / length, beside / length);
+            if (-ON..=length + ON).contains(&along) && beside.abs() <= ON {
+                on.push((along, (number, q)));
+            }
+        }
         on.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.0.cmp(&b.1.0)));
-        corners.extend(on.into_iter().map(|(_, corner)| corner));
+        corners.extend(on.iter().map(|&(_, corner)| corner));
     }
     corners.dedup_by_key(|corner| corner.0);
     while corners.len() > 1 && corners[0].0 == corners[corners.len() - 1].0 {

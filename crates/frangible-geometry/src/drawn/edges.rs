@@ -9,6 +9,9 @@ use super::RenderSurface;
 /// Edge of a side of a triangle that has no area, and so bounds nothing.
 const NO_EDGE: u32 = u32::MAX;
 
+/// Stands for a triangle across a side where there is not just one that has the same edge the other way.
+pub(super) const NO_TRIANGLE: u32 = u32::MAX;
+
 /// The edges of a surface. Side 3t + k leads from corner k of triangle t to the next; all sides between two places are one edge.
 #[derive(Debug)]
 pub(super) struct Edges {
@@ -19,6 +22,8 @@ pub(super) struct Edges {
     list: Vec<Edge>,
     /// Sides by edge.
     sides: Vec<u32>,
+    /// The triangle across each side of a triangle, or [`NO_TRIANGLE`].
+    across: Vec<[u32; 3]>,
     /// Whether no edge is open.
     pub(super) are_closed: bool,
 }
@@ -90,14 +95,38 @@ impl Edges {
                 *place += 1;
             }
         }
+        let across = |side: u32| match of_side[side as usize] {
+            NO_EDGE => NO_TRIANGLE,
+            edge => match list[edge as usize] {
+                Edge {
+                    first,
+                    count: 2,
+                    is_open: false,
+                    ..
+                } => {
+                    let both = [first, first + 1].map(|i| sides[i as usize]);
+                    both[usize::from(both[0] == side)] / 3
+                }
+                _ => NO_TRIANGLE,
+            },
+        };
+        let triangles = 0..surface.triangles.len() as u32;
+        let across = triangles
+            .map(|t| [0, 1, 2].map(|k| across(3 * t + k)))
+            .collect();
         let are_closed = list.iter().all(|edge| !edge.is_open);
         (six_volumes > 0.0).then_some(Self {
             welded,
             of_side,
             list,
             sides,
+            across,
             are_closed,
         })
+    }
+
+    pub(super) fn count(&self) -> usize {
+        self.list.len()
     }
 
     /// The edge of a side, unless its triangle has no area, and whether the side runs from the edge's first end to the second.
@@ -116,6 +145,11 @@ impl Edges {
     /// Whether an edge is the border of a hole.
     pub(super) fn is_open(&self, edge: u32) -> bool {
         self.list[edge as usize].is_open
+    }
+
+    /// The triangle across each side of a triangle, or [`NO_TRIANGLE`].
+    pub(super) fn across(&self, triangle: u32) -> [u32; 3] {
+        self.across[triangle as usize]
     }
 
     /// Triangles at an edge.

@@ -13,30 +13,36 @@ mod parts;
 mod polygon;
 mod seam;
 mod surface;
-
-use std::collections::HashMap;
+mod under;
 
 use glam::{DVec3, Vec3};
 
 use crate::{RenderMesh, TriangleTree};
 use assemble::Vertices;
 use conform::{Corner, Corners};
-use edges::Edges;
-use overlay::Overlay;
+use edges::{Edges, NO_TRIANGLE};
+use overlay::{Ground, Overlay};
+use parts::MIXED;
 pub use parts::{Part, Parts};
 use polygon::Polygon;
 use seam::{Seam, close};
 pub use surface::{RenderMaterial, RenderSurface};
+pub use under::Boundary;
+use under::Under;
 
 /// What follows from a render surface and every break needs.
 #[derive(Debug)]
 pub struct RenderIndex {
     /// Over the triangles of the render surface.
     tree: TriangleTree,
-    /// Boundary triangle of the fracture mesh closest to each render triangle's centroid.
-    home: Vec<u32>,
+    /// What of the boundary of the fracture mesh lies under them.
+    under: Under,
+    /// How far the surface may be from the boundary, m.
+    reach: f32,
     /// Normals at the corners of each render triangle.
     normals: Vec<[Vec3; 3]>,
+    /// Normal of each.
+    flat: Vec<Vec3>,
     /// How its triangles hang together, if they face outwards.
     edges: Option<Edges>,
 }
@@ -65,46 +71,43 @@ pub struct Piece<'a> {
     pub centre: DVec3,
 }
 
+/// A part of a triangle and its label, in the order of the triangles.
+type Cut = (u32, u32, Polygon);
+
 /// What of the render surface belongs to a fragment.
 #[derive(Clone, Debug, Default)]
 struct Share {
     /// Triangles that are the fragment's alone.
     whole: Vec<u32>,
-    /// Parts of triangles, in barycentric coordinates.
+    /// Parts of triangles, in barycentric coordinates, where corners have no numbers.
     pieces: Vec<(u32, Polygon)>,
     /// Triangles and parts of them whose corners are numbered.
     numbered: Vec<(u32, Vec<Corner>)>,
 }
 
 impl RenderIndex {
-    /// What follows from a surface. `boundary`: over the boundary triangles of the fracture mesh.
+    /// What follows from a surface. `reach`: how far it may be from the boundary of the fracture mesh, m.
     #[must_use]
-    pub fn new(surface: &RenderSurface, boundary: &TriangleTree) -> Self {
-        let home = |t: &[u32; 3]| {
-            let centroid = t
-                .iter()
-                .map(|&v| surface.positions[v as usize])
-                .sum::<Vec3>()
-                / 3.0;
-            boundary.closest(centroid).triangle
-        };
+    pub fn new(surface: &RenderSurface, boundary: &Boundary<'_>, reach: f32) -> Self {
+        let normals = surface.corner_normals();
         Self {
             tree: TriangleTree::new(&surface.positions, &surface.triangles),
-            normals: surface.corner_normals(),
-            home: surface.triangles.iter().map(home).collect(),
+            flat: surface.flat_normals(&normals),
+            normals,
+            under: Under::new(surface, boundary, reach),
+            reach,
             edges: Edges::new(surface),
         }
     }
 
     /// What to draw of each piece: its share of the surface and its crack faces, sewn to that share where the surface faces outwards.
     ///
-    /// `boundary`: as for [`RenderIndex::new`]. `reach`: how far the surface may be from the boundary, m.
+    /// `boundary`: over the boundary triangles of the fracture mesh.
     #[must_use]
     pub fn divide(
         &self,
         surface: &RenderSurface,
         boundary: &TriangleTree,
-        reach: f32,
         division: Division,
         pieces: &[Piece<'_>],
     ) -> Vec<RenderMesh> {
@@ -115,131 +118,141 @@ impl RenderIndex {
             mut points,
         } = division;
         // One more for what belongs to the neighbours of a piece.
-        let mut shares = self.shares(surface, boundary, &parts, faces.len() + 1, reach);
+        let (mut shares, cuts) = self.shares(surface, boundary, &parts, faces.len() + 1);
         let mut rim = parts.rim;
         rim.sort_unstable();
         rim.dedup();
+        let mut is_on_rim = vec![false; points.len()];
         for v in rim {
+            is_on_rim[v as usize - nodes] = true;
             let place = &mut points[v as usize - nodes];
-            *place = self.drawn_to(*place, reach);
+            *place = self.drawn_to(*place);
         }
-        let corners = self.edges.as_ref().map(|edges| {
-            let corners = number(surface, edges, &mut shares);
-            (edges, corners)
-        });
+        let sewn = match &self.edges {
+            None => {
+                for (t, label, polygon) in cuts {
+                    shares[label as usize].pieces.push((t, polygon));
+                }
+                None
+            }
+            Some(edges) => {
+                let corners = number(surface, edges, &cuts, &mut shares);
+                Some((edges, corners, owners(&shares, surface.triangles.len())))
+            }
+        };
         let place = |v: u32| points[v as usize - nodes];
+        let mut laid = points.clone();
         let mut local = vec![u32::MAX; surface.positions.len()];
-        let draw = |piece: &Piece<'_>| {
-            let label = piece.label as usize;
-            let (share, faces, normals) = (&shares[label], &faces[label], piece.normals);
-            let seam = match &corners {
+        // Of the piece at hand, at the points of its crack faces.
+        let mut normal_at = vec![Vec3::ZERO; points.len()];
+        let mut draw = |piece: &Piece<'_>| {
+            let (label, normals) = (piece.label, piece.normals);
+            let (share, faces) = (&shares[label as usize], &faces[label as usize]);
+            let seam = match &sewn {
                 None => Seam::default(),
-                Some((edges, corners)) => {
-                    // Looked up only, never iterated.
-                    let flat = |face: &[u32; 3], n: &[Vec3; 3]| [0, 1, 2].map(|k| (face[k], n[k]));
-                    let normal: HashMap<u32, Vec3> = (faces.iter().zip(normals))
-                        .flat_map(|(face, n)| flat(face, n))
-                        .collect();
+                Some((edges, corners, owners)) => {
+                    for (face, normals) in faces.iter().zip(normals) {
+                        for (&v, &normal) in face.iter().zip(normals) {
+                            normal_at[v as usize - nodes] = normal;
+                        }
+                    }
+                    let sides = sides(surface, corners, share, |t| owners[t as usize] == label);
                     close(
-                        sides(surface, edges, corners, share),
+                        sides,
                         |number| corners.place(number),
                         faces,
+                        |v| is_on_rim[v as usize - nodes],
                         place,
-                        |point| normal[&point],
-                        f64::from(reach),
+                        |v| normal_at[v as usize - nodes],
+                        f64::from(self.reach),
                         edges.are_closed,
                     )
                 }
             };
-            let place = |v: u32| seam.moved.get(&v).copied().unwrap_or_else(|| place(v));
-            let mut inner: Vertices = (faces.iter().zip(normals))
-                .map(|(face, n)| [0, 1, 2].map(|k| (place(face[k]), n[k])))
-                .collect();
+            for (&v, &place) in &seam.moved {
+                laid[v as usize - nodes] = place;
+            }
+            let mut inner = Vertices::with_capacity(faces.len() + seam.triangles.len());
+            for (&[a, b, c], &[na, nb, nc]) in faces.iter().zip(normals) {
+                let [a, b, c] = [a, b, c].map(|v| laid[v as usize - nodes]);
+                inner.push([(a, na), (b, nb), (c, nc)]);
+            }
             inner.extend(&seam.triangles);
-            let corners = corners.as_ref().map(|(_, corners)| corners);
+            for &v in seam.moved.keys() {
+                laid[v as usize - nodes] = place(v);
+            }
+            let corners = sewn.as_ref().map(|(_, corners, _)| corners);
             self.assemble(surface, share, corners, &inner, piece.centre, &mut local)
         };
-        pieces.iter().map(draw).collect()
+        pieces.iter().map(&mut draw).collect()
     }
 
-    /// Where the render surface is closest, if within `reach`, m.
-    fn drawn_to(&self, point: DVec3, reach: f32) -> DVec3 {
+    /// Where the render surface is closest, if within reach.
+    fn drawn_to(&self, point: DVec3) -> DVec3 {
         let near = self.tree.closest(point.as_vec3()).position.as_dvec3();
-        if near.distance(point) <= f64::from(reach) {
+        if near.distance(point) <= f64::from(self.reach) {
             near
         } else {
             point
         }
     }
 
-    /// Each fragment's share of the render surface.
+    /// Each fragment's share of the render surface, and the parts of those triangles that several fragments share.
     ///
-    /// Only triangles near a divided boundary triangle are looked at closely: elsewhere the boundary under a triangle
-    /// has one label.
+    /// Only triangles with several labels under them are looked at closely.
     fn shares(
         &self,
         surface: &RenderSurface,
         boundary: &TriangleTree,
         parts: &Parts,
         fragments: usize,
-        reach: f32,
-    ) -> Vec<Share> {
-        let mut near_crack = vec![false; surface.triangles.len()];
-        for t in parts.divided() {
-            let corners = || parts.of(t).iter().flat_map(|p| p.corners);
-            let low = corners().fold(DVec3::INFINITY, DVec3::min).as_vec3() - reach;
-            let high = corners().fold(DVec3::NEG_INFINITY, DVec3::max).as_vec3() + reach;
-            self.tree
-                .in_box(low, high, |t| near_crack[t as usize] = true);
-        }
-        let mut shares = vec![Share::default(); fragments];
+    ) -> (Vec<Share>, Vec<Cut>) {
+        let labels = parts.labels();
+        let (mut shares, mut cuts) = (vec![Share::default(); fragments], Vec::new());
         for (t, triangle) in surface.triangles.iter().enumerate() {
-            let corners = triangle.map(|v| surface.positions[v as usize].as_dvec3());
-            let [a, b, c] = corners;
-            let normal = (b - a).cross(c - a);
-            let home = self.home[t];
-            if !near_crack[t] || normal == DVec3::ZERO {
-                let label = parts.label_near(home, (a + b + c) / 3.0);
+            let under = self.under.of(t);
+            let label = labels[under[0] as usize];
+            if label != MIXED && under.iter().all(|&b| labels[b as usize] == label) {
                 shares[label as usize].whole.push(t as u32);
                 continue;
             }
-            let under: DVec3 = parts.of(home).iter().map(area_vector).sum();
+            let corners = triangle.map(|v| surface.positions[v as usize].as_dvec3());
+            let Some(ground) = Ground::new(corners, self.under.is_turned[t]) else {
+                let label = parts.label_near(under[0], corners[0]);
+                shares[label as usize].whole.push(t as u32);
+                continue;
+            };
             let overlay = Overlay {
-                corners,
-                facing: if under.dot(normal) < 0.0 { -1.0 } else { 1.0 },
-                reach: f64::from(reach),
+                ground,
+                reach: f64::from(self.reach),
                 parts,
                 boundary,
             };
-            let mut divided = overlay.divide();
-            if divided.len() == 1 {
-                shares[divided[0].1 as usize].whole.push(t as u32);
+            let divided = overlay.divide(under);
+            if let [(_, label)] = divided[..] {
+                shares[label as usize].whole.push(t as u32);
                 continue;
             }
-            for (polygon, label) in divided.drain(..) {
-                shares[label as usize].pieces.push((t as u32, polygon));
-            }
+            let parts = divided.into_iter();
+            cuts.extend(parts.map(|(polygon, label)| (t as u32, label, polygon)));
         }
-        shares
+        (shares, cuts)
     }
 }
 
 /// Numbers the corners of a surface's parts, and gives all triangles and parts the same ones along common borders.
-fn number<'a>(surface: &'a RenderSurface, edges: &'a Edges, shares: &mut [Share]) -> Corners<'a> {
-    let mut corners = Corners::new(surface, edges, shares);
-    let mut parts: Vec<(u32, usize, Polygon)> = Vec::new();
-    for (label, share) in shares.iter_mut().enumerate() {
-        let pieces = std::mem::take(&mut share.pieces);
-        parts.extend(pieces.into_iter().map(|(t, polygon)| (t, label, polygon)));
-    }
-    // Stable: the parts of a triangle stay in their order.
-    parts.sort_by_key(|part| part.0);
-    for parts in parts.chunk_by(|a, b| a.0 == b.0) {
+fn number<'a>(
+    surface: &'a RenderSurface,
+    edges: &'a Edges,
+    cuts: &[Cut],
+    shares: &mut [Share],
+) -> Corners<'a> {
+    let mut corners = Corners::new(surface, edges, cuts);
+    for parts in cuts.chunk_by(|a, b| a.0 == b.0) {
         let t = parts[0].0;
-        let polygons: Vec<_> = parts.iter().map(|part| &part.2[..]).collect();
-        for (part, corners) in parts.iter().zip(corners.conform(t, &polygons)) {
+        for (part, corners) in parts.iter().zip(corners.conform(t, parts)) {
             if !corners.is_empty() {
-                shares[part.1].numbered.push((t, corners));
+                shares[part.1 as usize].numbered.push((t, corners));
             }
         }
     }
@@ -260,42 +273,53 @@ fn number<'a>(surface: &'a RenderSurface, edges: &'a Edges, shares: &mut [Share]
     corners
 }
 
+/// The label of each triangle that is one fragment's alone, [`MIXED`] elsewhere.
+fn owners(shares: &[Share], triangles: usize) -> Vec<u32> {
+    let mut owners = vec![MIXED; triangles];
+    for (label, share) in (0..).zip(shares) {
+        for &t in &share.whole {
+            owners[t as usize] = label;
+        }
+    }
+    owners
+}
+
 /// Sides of the parts of a share, between numbered corners, each the way its part has it: all but some that run both ways. Those on the
-/// border of a hole are all there, and marked.
+/// border of a hole are all there, and marked. `is_own`: whether a triangle is the share's alone.
 fn sides(
     surface: &RenderSurface,
-    edges: &Edges,
     corners: &Corners,
     share: &Share,
+    is_own: impl Fn(u32) -> bool,
 ) -> Vec<([u32; 2], bool)> {
-    let mut is_whole = vec![false; surface.triangles.len()];
-    for &t in &share.whole {
-        is_whole[t as usize] = true;
-    }
+    let edges = corners.edges();
     let mut sides = Vec::new();
     for &t in &share.whole {
+        if edges
+            .across(t)
+            .iter()
+            .all(|&other| other != NO_TRIANGLE && is_own(other))
+        {
+            continue;
+        }
         for k in 0..3 {
             let Some((edge, forward)) = edges.of_side(surface, 3 * t + k) else {
                 continue;
             };
             let mut around = edges.triangles_at(edge);
             let is_open = edges.is_open(edge);
-            if is_open || around.any(|t| !is_whole[t as usize]) {
+            if is_open || around.any(|t| !is_own(t)) {
                 let [low, high] = edges.ends(edge);
                 sides.push((if forward { [low, high] } else { [high, low] }, is_open));
             }
         }
     }
     for (t, polygon) in &share.numbered {
+        let touches_hole = corners.touches_hole(*t);
         for (i, (from, _)) in polygon.iter().enumerate() {
             let ends = [*from, polygon[(i + 1) % polygon.len()].0];
-            sides.push((ends, corners.is_on_hole(*t, ends)));
+            sides.push((ends, touches_hole && corners.is_on_hole(*t, ends)));
         }
     }
     sides
-}
-
-fn area_vector(part: &Part) -> DVec3 {
-    let [a, b, c] = part.corners;
-    (b - a).cross(c - a)
 }

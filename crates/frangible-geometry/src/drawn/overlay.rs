@@ -8,7 +8,7 @@
 use glam::{DVec2, DVec3};
 
 use super::parts::Parts;
-use super::polygon::{Polygon, area, bounds, centre, halves, overlap, split};
+use super::polygon::{Polygon, area, bounds, centre, halves, has_separating_edge, overlap, split};
 use crate::TriangleTree;
 
 /// Parts that face farther away from the triangle's normal than this are another side of the body (cosine).
@@ -19,14 +19,89 @@ const FEW: usize = 6;
 const NOTHING: f64 = 1e-12;
 /// Halvings of what no part covers, at most.
 const HALVINGS: u32 = 5;
+/// What no part covers is asked for its label in the middle and so far from its corners, in shares of the way to the middle.
+pub(super) const TOWARDS_MIDDLE: f64 = 0.05;
 /// The triangle itself.
 const WHOLE: [DVec2; 3] = [DVec2::ZERO, DVec2::X, DVec2::Y];
 
-/// A render triangle and what lies under it.
+/// A triangle of the author's surface, on which triangles of the boundary are projected along its normal.
+#[derive(Debug)]
+pub(super) struct Ground {
+    a: DVec3,
+    u: DVec3,
+    v: DVec3,
+    /// Unit normal on the side that the body faces there.
+    up: DVec3,
+    /// Products with these are the weights of the second and the third corner.
+    weights: [DVec3; 2],
+    /// Whether it is wound the wrong way round.
+    is_turned: bool,
+}
+
+impl Ground {
+    /// None of a triangle without area.
+    pub(super) fn new([a, b, c]: [DVec3; 3], is_turned: bool) -> Option<Self> {
+        let (u, v) = (b - a, c - a);
+        let normal = u.cross(v);
+        let square = normal.length_squared();
+        let facing = if is_turned { -1.0 } else { 1.0 };
+        (square > 0.0).then(|| Self {
+            a,
+            u,
+            v,
+            up: normal * (facing / square.sqrt()),
+            weights: [v.cross(normal) / square, normal.cross(u) / square],
+            is_turned,
+        })
+    }
+
+    /// Box in which triangles no farther than `reach` over or under it lie at least in part, m.
+    pub(super) fn near(&self, reach: f64) -> [DVec3; 2] {
+        let up = reach * self.up.abs();
+        let (b, c) = (self.a + self.u, self.a + self.v);
+        [self.a.min(b).min(c) - up, self.a.max(b).max(c) + up]
+    }
+
+    /// Where a triangle of the boundary falls, if some of that is on this one, if it faces the same way, and if it is not all farther away than
+    /// `reach`; and how far its middle is, m.
+    pub(super) fn shade(&self, [p, q, r]: [DVec3; 3], reach: f64) -> Option<(f64, [DVec2; 3])> {
+        let (p, q, r) = (p - self.a, q - self.a, r - self.a);
+        let [u, v] = self.weights;
+        let on = |d: DVec3| DVec2::new(d.dot(u), d.dot(v));
+        let shade = [on(p), on(q), on(r)];
+        let [low, high] = bounds(&shade);
+        let weight = |p: DVec2| 1.0 - p.x - p.y;
+        let first = weight(shade[0]).max(weight(shade[1])).max(weight(shade[2]));
+        if high.min_element() <= 0.0 || low.max_element() >= 1.0 || first <= 0.0 {
+            return None;
+        }
+        let own = (q - p).cross(r - p);
+        let towards = own.dot(self.up);
+        // Triangles without area drop out too.
+        if towards <= 0.0 || towards * towards <= FACING * FACING * own.length_squared() {
+            return None;
+        }
+        let heights = DVec3::new(p.dot(self.up), q.dot(self.up), r.dot(self.up));
+        if heights.abs().min_element() > reach {
+            return None;
+        }
+        let shade = if self.is_turned {
+            [shade[0], shade[2], shade[1]]
+        } else {
+            shade
+        };
+        let meets = !has_separating_edge(&shade, &WHOLE);
+        meets.then(|| ((heights.element_sum() / 3.0).abs(), shade))
+    }
+
+    fn place(&self, p: DVec2) -> DVec3 {
+        self.a + self.u * p.x + self.v * p.y
+    }
+}
+
+/// A triangle of the author's surface and what lies under it.
 pub(super) struct Overlay<'a> {
-    pub(super) corners: [DVec3; 3],
-    /// 1, or −1 for a triangle wound the wrong way round.
-    pub(super) facing: f64,
+    pub(super) ground: Ground,
     /// How far under or over the triangle parts are looked for; the fracture mesh's mean edge, m.
     pub(super) reach: f64,
     pub(super) parts: &'a Parts,
@@ -40,6 +115,11 @@ struct Shade {
 }
 
 impl Shade {
+    /// Its side from this corner to the next.
+    fn side(&self, corner: usize) -> [DVec2; 2] {
+        [self.corners[corner], self.corners[(corner + 1) % 3]]
+    }
+
     /// Whether it shares more than a border with a polygon in this box.
     fn meets(&self, polygon: &[DVec2], [low, high]: [DVec2; 2]) -> bool {
         let [l, h] = bounds(&self.corners);
@@ -53,113 +133,67 @@ fn nearest_first(mut shades: Vec<(f64, Shade)>) -> Vec<Shade> {
 }
 
 impl Overlay<'_> {
-    /// Convex polygons with their labels that tile the triangle; one polygon when it belongs to one fragment.
-    pub(super) fn divide(&self) -> Vec<(Polygon, u32)> {
-        let near = self.near();
-        let mut labels = near.iter().flat_map(|&t| self.parts.of(t)).map(|p| p.label);
-        if let Some(first) = labels.next()
-            && labels.all(|label| label == first)
-        {
-            return vec![(WHOLE.to_vec(), first)];
+    /// Convex polygons with their labels that tile the triangle; one polygon when it belongs to one fragment. `under`: boundary triangles that
+    /// lie over or under it.
+    pub(super) fn divide(&self, under: &[u32]) -> Vec<(Polygon, u32)> {
+        let mut shades: Vec<(f64, Shade)> = Vec::new();
+        for part in under.iter().flat_map(|&t| self.parts.of(t)) {
+            if let Some((height, corners)) = self.ground.shade(part.corners, self.reach) {
+                let label = part.label;
+                shades.push((height, Shade { corners, label }));
+            }
         }
-        let shades = self.shades(&near);
         let whole = WHOLE.to_vec();
-        // Most triangles have one label under them.
         if let [first, others @ ..] = &shades[..]
             && others.iter().all(|s| s.1.label == first.1.label)
         {
             return vec![(whole, first.1.label)];
         }
         let shades = nearest_first(shades);
-        let all: Vec<u32> = (0..shades.len() as u32).collect();
+        let cracks = cracks(&shades);
+        let mut over: Vec<u32> = (0..shades.len() as u32).collect();
         let mut divided = Vec::new();
-        self.lay(whole, &all, &shades, &mut divided);
+        self.lay(whole, (&shades, &cracks), 0, &mut over, &mut divided);
         divided
     }
 
-    /// Boundary triangles under or over the triangle, rising, and some beside it.
-    fn near(&self) -> Vec<u32> {
-        let [a, b, c] = self.corners;
-        let normal = (b - a).cross(c - a).normalize_or_zero();
-        let up = self.reach * normal.abs();
-        let low = (a.min(b).min(c) - up).as_vec3();
-        let high = (a.max(b).max(c) + up).as_vec3();
-        let mut near = Vec::new();
-        self.boundary.in_box(low, high, |t| near.push(t));
-        near.sort_unstable();
-        near
-    }
-
-    /// The parts of some boundary triangles, projected, which lie over or under the triangle, and how far from it.
-    fn shades(&self, near: &[u32]) -> Vec<(f64, Shade)> {
-        let [a, b, c] = self.corners;
-        let (u, v) = (b - a, c - a);
-        let normal = u.cross(v);
-        let square = normal.length_squared();
-        let length = square.sqrt();
-        let reach = self.reach;
-        let mut shades: Vec<(f64, Shade)> = Vec::new();
-        for part in near.iter().flat_map(|&t| self.parts.of(t)) {
-            let [p, q, r] = part.corners;
-            let own = (q - p).cross(r - p);
-            let towards = self.facing * own.dot(normal);
-            // Parts without area drop out too.
-            if towards <= FACING * own.length() * length {
-                continue;
-            }
-            let height = |x: DVec3| ((x - a).dot(normal) / length).abs();
-            if part.corners.iter().all(|&x| height(x) > reach) {
-                continue;
-            }
-            let mut corners = part.corners.map(|x| {
-                let d = x - a;
-                DVec2::new(d.cross(v).dot(normal), u.cross(d).dot(normal)) / square
-            });
-            if self.facing < 0.0 {
-                corners.swap(1, 2);
-            }
-            let shade = Shade {
-                corners,
-                label: part.label,
-            };
-            if shade.meets(&WHOLE, [DVec2::ZERO, DVec2::ONE]) {
-                shades.push((height((p + q + r) / 3.0), shade));
-            }
-        }
-        shades
-    }
-
-    /// Divides a polygon among the shades `of` it, or what of them meets it.
+    /// Divides a polygon among the shades that meet it, which stand in a list from this place on. The list ends as it began.
     fn lay(
         &self,
         polygon: Polygon,
-        of: &[u32],
-        shades: &[Shade],
+        laid: (&[Shade], &[[DVec2; 2]]),
+        first: usize,
+        over: &mut Vec<u32>,
         divided: &mut Vec<(Polygon, u32)>,
     ) {
-        let within = bounds(&polygon);
-        let over: Vec<u32> = of
-            .iter()
-            .copied()
-            .filter(|&s| shades[s as usize].meets(&polygon, within))
-            .collect();
-        if let Some((&first, others)) = over.split_first() {
-            let label = |s: u32| shades[s as usize].label;
-            if others.iter().all(|&s| label(s) == label(first)) {
-                divided.push((polygon, label(first)));
-                return;
-            }
+        let (shades, cracks) = laid;
+        let label = |s: u32| shades[s as usize].label;
+        if let [one, others @ ..] = &over[first..]
+            && others.iter().all(|&s| label(s) == label(*one))
+        {
+            divided.push((polygon, label(*one)));
+            return;
         }
-        let before = divided.len();
-        if over.len() > FEW && self.size(&polygon) > 0.5 * self.reach {
-            for half in halves(&polygon) {
-                if area(&half) > NOTHING {
-                    self.lay(half, &over, shades, divided);
+        let (before, end) = (divided.len(), over.len());
+        let parted = along_a_crack(&polygon, cracks);
+        let many = end - first > FEW && self.size(&polygon) > 0.5 * self.reach;
+        if let Some(parts) = parted.or_else(|| many.then(|| halves(&polygon))) {
+            for part in parts {
+                if area(&part) > NOTHING {
+                    let within = bounds(&part);
+                    for place in first..end {
+                        let s = over[place];
+                        if shades[s as usize].meets(&part, within) {
+                            over.push(s);
+                        }
+                    }
+                    self.lay(part, laid, end, over, divided);
+                    over.truncate(end);
                 }
             }
         } else {
             let mut rest = vec![polygon.clone()];
-            for &s in &over {
+            for &s in &over[first..] {
                 let shade = &shades[s as usize];
                 rest = rest
                     .into_iter()
@@ -183,9 +217,9 @@ impl Overlay<'_> {
     /// A polygon without a part under it: closest labels, halved where they differ.
     fn uncovered(&self, polygon: Polygon, halvings: u32, divided: &mut Vec<(Polygon, u32)>) {
         let middle = centre(&polygon);
-        let label_at = |p: DVec2| self.parts.label_at(self.boundary, self.place(p));
+        let label_at = |p: DVec2| self.parts.label_at(self.boundary, self.ground.place(p));
         let label = label_at(middle);
-        let differs = |&p: &DVec2| label_at(p.lerp(middle, 0.05)) != label;
+        let differs = |&p: &DVec2| label_at(p.lerp(middle, TOWARDS_MIDDLE)) != label;
         if halvings > 0 && self.size(&polygon) > 0.1 * self.reach && polygon.iter().any(differs) {
             for half in halves(&polygon) {
                 if area(&half) > NOTHING {
@@ -197,18 +231,54 @@ impl Overlay<'_> {
         }
     }
 
-    fn place(&self, p: DVec2) -> DVec3 {
-        let [a, b, c] = self.corners;
-        a + (b - a) * p.x + (c - a) * p.y
-    }
-
     /// Longest side of the polygon's box in space, about, m.
     fn size(&self, polygon: &[DVec2]) -> f64 {
-        let points = polygon.iter().map(|&p| self.place(p));
+        let points = polygon.iter().map(|&p| self.ground.place(p));
         let far = [DVec3::INFINITY, DVec3::NEG_INFINITY];
         let [low, high] = points.fold(far, |[l, h], p| [l.min(p), h.max(p)]);
         (high - low).max_element()
     }
+}
+
+/// Borders between shades of two labels.
+fn cracks(shades: &[Shade]) -> Vec<[DVec2; 2]> {
+    let mut cracks = Vec::new();
+    for (i, shade) in shades.iter().enumerate() {
+        for k in 0..3 {
+            let [from, to] = shade.side(k);
+            let beside = |other: &Shade| {
+                other.label != shade.label && (0..3).any(|k| other.side(k) == [to, from])
+            };
+            // Each is seen from both of its sides.
+            if shades[..i].iter().any(beside) {
+                cracks.push([from, to]);
+            }
+        }
+    }
+    cracks
+}
+
+/// The two parts of a polygon on the sides of the first crack that runs through it.
+fn along_a_crack(polygon: &[DVec2], cracks: &[[DVec2; 2]]) -> Option<[Polygon; 2]> {
+    let through = cracks.iter().filter(|c| runs_through(polygon, c[0], c[1]));
+    let mut parted = through.map(|&[from, to]| split(polygon, from, to - from));
+    parted.find(|parts| parts.iter().all(|part| area(part) > NOTHING))
+}
+
+/// Whether a stretch of the line from one point to another lies within a convex polygon.
+fn runs_through(polygon: &[DVec2], from: DVec2, to: DVec2) -> bool {
+    let (mut first, mut last) = (0.0_f64, 1.0_f64);
+    for (i, &p) in polygon.iter().enumerate() {
+        let side = polygon[(i + 1) % polygon.len()] - p;
+        let (begin, end) = (side.perp_dot(from - p), side.perp_dot(to - p));
+        match (begin > 0.0, end > 0.0) {
+            (true, true) => {}
+            (false, false) => return false,
+            (false, true) => first = first.max(begin / (begin - end)),
+            (true, false) => last = last.min(begin / (begin - end)),
+        }
+    }
+    first < last
 }
 
 /// Gives the shade what it covers of the piece, and returns the rest.

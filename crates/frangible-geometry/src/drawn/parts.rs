@@ -13,6 +13,9 @@ pub struct Part {
     pub label: u32,
 }
 
+/// Label of a boundary triangle that has several.
+pub(super) const MIXED: u32 = u32::MAX;
+
 /// The parts of all boundary triangles, triangle by triangle.
 #[derive(Clone, Debug, Default)]
 pub struct Parts {
@@ -44,9 +47,13 @@ impl Parts {
         &self.list[self.first[t] as usize..end]
     }
 
-    /// Boundary triangles that cracks divide.
-    pub(super) fn divided(&self) -> impl Iterator<Item = u32> + '_ {
-        (0..self.first.len() as u32).filter(|&t| self.of(t).len() > 1)
+    /// The label of each boundary triangle, [`MIXED`] where it has several.
+    pub(super) fn labels(&self) -> Vec<u32> {
+        let label = |t| match self.of(t) {
+            [first, others @ ..] if others.iter().all(|p| p.label == first.label) => first.label,
+            _ => MIXED,
+        };
+        (0..self.first.len() as u32).map(label).collect()
     }
 
     /// Label of the part of this triangle that is closest to the point.

@@ -5,6 +5,9 @@ use glam::DVec2;
 /// The direction of an edge shorter than this is rounding; the triangle's own edges are of length 1.
 const SHORT: f64 = 1e-9;
 
+/// What lies no farther than this beyond the side of a polygon lies on it: the corners of two parts of a polygon are rounded.
+const ROUNDING: f64 = 1e-12;
+
 /// Corners in order, counter-clockwise.
 pub(super) type Polygon = Vec<DVec2>;
 
@@ -61,16 +64,17 @@ pub(super) fn bounds(polygon: &[DVec2]) -> [DVec2; 2] {
         })
 }
 
-/// Whether two counter-clockwise convex polygons share more than their borders.
+/// Whether two counter-clockwise convex polygons share more than their borders and what rounding makes of these.
 pub(super) fn overlap(a: &[DVec2], b: &[DVec2]) -> bool {
     !has_separating_edge(a, b) && !has_separating_edge(b, a)
 }
 
 /// Whether all of `b` lies right of an edge of `a`.
-fn has_separating_edge(a: &[DVec2], b: &[DVec2]) -> bool {
+pub(super) fn has_separating_edge(a: &[DVec2], b: &[DVec2]) -> bool {
     (0..a.len()).any(|i| {
         let (from, to) = (a[i], a[(i + 1) % a.len()]);
-        from.distance_squared(to) > SHORT * SHORT
-            && b.iter().all(|&p| (to - from).perp_dot(p - from) <= 0.0)
+        let square = from.distance_squared(to);
+        let most = ROUNDING * square.sqrt();
+        square > SHORT * SHORT && b.iter().all(|&p| (to - from).perp_dot(p - from) <= most)
     })
 }

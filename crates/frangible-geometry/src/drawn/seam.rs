@@ -4,7 +4,7 @@
 //! laid on the border of the share, and what stays open between the two lines is closed by triangles which have hardly any area. A border
 //! that has none of the other kind beside it is closed by itself: of a speck, say, that one of the two does not have.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::BTreeMap;
 
 use glam::{DVec3, Vec3};
 
@@ -50,21 +50,23 @@ pub(super) struct Seam {
 }
 
 /// Closes a fragment between its share of the surface and its crack faces. `sheet`: sides of the share's polygons, and whether they are on the
-/// border of a hole; those that run both ways are no border. `reach`: how far the rim is moved at most, m. `closed`: whether the surface is.
+/// border of a hole; those that run both ways are no border. `may_end`: whether crack faces may end at a point. `reach`: how far the rim is moved at most, m. `closed`: whether the surface is.
 /// Where it is not, a rim without a border beside it lies in a hole, and stays open as the hole does.
 pub(super) fn close(
     sheet: Vec<([u32; 2], bool)>,
     sheet_at: impl Fn(u32) -> DVec3,
     faces: &[[u32; 3]],
+    may_end: impl Fn(u32) -> bool,
     face_at: impl Fn(u32) -> DVec3,
     normal_at: impl Fn(u32) -> Vec3,
     reach: f64,
     closed: bool,
 ) -> Seam {
-    let mut borders = rings(&open(sheet));
+    let mut borders = rings(&open(sheet.into_iter()));
     borders.retain(|border| !border.is_hole());
     let sides = faces.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
-    let mut rims = rings(&open(sides.map(|side| (side, false)).collect()));
+    let sides = sides.filter(|&[a, b]| may_end(a) && may_end(b));
+    let mut rims = rings(&open(sides.map(|side| (side, false))));
     // The other way round it runs beside the border.
     rims.iter_mut().for_each(|rim| rim.points.reverse());
     let border_places: Vec<Vec<DVec3>> = borders.iter().map(|r| r.places(&sheet_at)).collect();
@@ -111,16 +113,23 @@ pub(super) fn close(
 }
 
 /// Directed sides that are left where one and its reverse take each other away.
-fn open(sides: Vec<([u32; 2], bool)>) -> Vec<([u32; 2], bool)> {
-    let mut sides: Vec<([u32; 2], bool, bool)> = sides
-        .into_iter()
+fn open(sides: impl Iterator<Item = ([u32; 2], bool)>) -> Vec<([u32; 2], bool)> {
+    // Both ends in one number, the lower one first, are sorted faster than an array.
+    let mut sides: Vec<(u64, bool, bool)> = sides
         .filter(|([a, b], _)| a != b)
-        .map(|([a, b], on_hole)| ([a.min(b), a.max(b)], a < b, on_hole))
+        .map(|([a, b], on_hole)| {
+            (
+                u64::from(a.min(b)) << 32 | u64::from(a.max(b)),
+                a < b,
+                on_hole,
+            )
+        })
         .collect();
     sides.sort_unstable();
     let mut open = Vec::new();
     for same in sides.chunk_by(|x, y| x.0 == y.0) {
-        let ([a, b], _, on_hole) = same[0];
+        let (ends, _, on_hole) = same[0];
+        let [a, b] = [(ends >> 32) as u32, ends as u32];
         let forward = same.iter().filter(|side| side.1).count();
         let back = same.len() - forward;
         let left = |ends, count| std::iter::repeat_n((ends, on_hole), count);
@@ -133,33 +142,39 @@ fn open(sides: Vec<([u32; 2], bool)>) -> Vec<([u32; 2], bool)> {
 
 /// Rings of sorted sides, as many of which leave each point as lead to it. None passes a point twice: two that touch are two.
 fn rings(sides: &[([u32; 2], bool)]) -> Vec<Ring> {
+    const NOT_IN_LINE: usize = usize::MAX;
+    let leaving = |point| sides.partition_point(|side| side.0[0] < point);
     let mut used = vec![false; sides.len()];
     let mut rings = Vec::new();
-    // Place of each point in the line at hand. Looked up only, never iterated.
-    let mut place = HashMap::new();
+    // Place in the line at hand of the point that each side leaves; kept at the first side of a point.
+    let mut place = vec![NOT_IN_LINE; sides.len() + 1];
     for first in 0..sides.len() {
+        // Points of the line, and whether the side that leaves each is on a hole.
         let mut line: Vec<(u32, bool)> = Vec::new();
         let mut next = (!used[first]).then_some(first);
+        let mut at = leaving(sides[first].0[0]);
         while let Some(side) = next {
             used[side] = true;
             let ([from, to], on_hole) = sides[side];
-            place.insert(from, line.len());
+            place[at] = line.len();
             line.push((from, on_hole));
-            if let Some(&begin) = place.get(&to) {
-                let ring = line.split_off(begin);
+            at = leaving(to);
+            if place[at] != NOT_IN_LINE {
+                let ring = line.split_off(place[at]);
                 for (point, _) in &ring {
-                    place.remove(point);
+                    place[leaving(*point)] = NOT_IN_LINE;
                 }
                 rings.push(Ring {
                     on_hole: ring.iter().filter(|point| point.1).count(),
                     points: ring.into_iter().map(|point| point.0).collect(),
                 });
             }
-            let leaving = sides.partition_point(|side| side.0[0] < to)..sides.len();
-            let mut leaving = leaving.take_while(|&side| sides[side].0[0] == to);
-            next = leaving.find(|&side| !used[side]);
+            let mut ahead = (at..sides.len()).take_while(|&side| sides[side].0[0] == to);
+            next = ahead.find(|&side| !used[side]);
         }
-        place.clear();
+        for (point, _) in line {
+            place[leaving(point)] = NOT_IN_LINE;
+        }
     }
     rings
 }
@@ -167,13 +182,18 @@ fn rings(sides: &[([u32; 2], bool)]) -> Vec<Ring> {
 /// Borders and the rims beside them, no farther away than `most`, m, in the mean; the closest first, each in one pair at most.
 fn pairs(borders: &[Vec<DVec3>], rims: &[Vec<DVec3>], most: f64) -> Vec<(usize, usize)> {
     let mut gaps = Vec::new();
+    let rim_boxes: Vec<_> = rims.iter().map(|rim| box_of(rim)).collect();
     for (b, border) in borders.iter().enumerate() {
+        let [low, high] = box_of(border);
         for (r, rim) in rims.iter().enumerate() {
-            // Of a speck beside a long line only the way there is short.
-            let gap = gap(border, rim).max(gap(rim, border));
-            if gap <= most {
-                gaps.push((gap, b, r));
+            let [l, h] = rim_boxes[r];
+            if (l - high).max(low - h).max_element() > most {
+                continue;
             }
+            // Of a speck beside a long line only the way there is short.
+            let there = gap(border, rim, most);
+            let gap = there.and_then(|there| Some(gap(rim, border, most)?.max(there)));
+            gaps.extend(gap.map(|gap| (gap, b, r)));
         }
     }
     gaps.sort_by(|x, y| x.0.total_cmp(&y.0).then((x.1, x.2).cmp(&(y.1, y.2))));
@@ -186,15 +206,24 @@ fn pairs(borders: &[Vec<DVec3>], rims: &[Vec<DVec3>], most: f64) -> Vec<(usize, 
     pairs
 }
 
-/// Mean distance of points of one line from another, m.
-fn gap(from: &[DVec3], to: &[DVec3]) -> f64 {
+fn box_of(points: &[DVec3]) -> [DVec3; 2] {
+    let none = [DVec3::INFINITY, DVec3::NEG_INFINITY];
+    points.iter().fold(none, |[l, h], &p| [l.min(p), h.max(p)])
+}
+
+/// Mean distance of points of one line from another, m, unless it is more than `most`.
+fn gap(from: &[DVec3], to: &[DVec3], most: f64) -> Option<f64> {
     let every = from.len().div_ceil(SAMPLES);
     let samples = from.iter().step_by(every);
     let count = samples.len() as f64;
-    samples
-        .map(|p| nearest_on(to, *p).1.distance(*p))
-        .sum::<f64>()
-        / count
+    let mut sum = 0.0;
+    for p in samples {
+        sum += nearest_on(to, *p).1.distance(*p);
+        if sum > most * count {
+            return None;
+        }
+    }
+    Some(sum / count)
 }
 
 /// The point of a ring nearest to another point, and the side that it lies on.

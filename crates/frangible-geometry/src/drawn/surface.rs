@@ -47,6 +47,16 @@ impl RenderSurface {
         smooth_normals(&self.positions, &triangles)
     }
 
+    /// Unit normal of each triangle, about; of one without area that of its first corner. `corners`: those at the corners.
+    pub(super) fn flat_normals(&self, corners: &[[Vec3; 3]]) -> Vec<Vec3> {
+        let flat = |(t, normals): (&[u32; 3], &[Vec3; 3])| {
+            let [a, b, c] = t.map(|v| self.positions[v as usize].as_dvec3());
+            let normal = (b - a).cross(c - a).normalize_or(normals[0].as_dvec3());
+            normal.as_vec3()
+        };
+        self.triangles.iter().zip(corners).map(flat).collect()
+    }
+
     /// The first vertex at the place of each: vertices that only texture coordinates or normals part are one.
     pub(super) fn welded(&self) -> Vec<u32> {
         // Looked up only, never iterated.

@@ -7,7 +7,7 @@ use glam::Vec3;
 use super::MeshIndex;
 use crate::asset::{Asset, Portion, StressBounds};
 use crate::bounds::{PerImpulse, PerNewton, Reaches, quadratic_modulus};
-use crate::mesh::{RenderIndex, TriangleTree};
+use crate::mesh::{Boundary, RenderIndex, TriangleTree};
 use crate::modal::ModalBasis;
 use crate::stress::Skin;
 
@@ -61,13 +61,17 @@ impl Prepared {
         let whole = bounds.root(modes.count());
         let reaches = Reaches::new(modes);
         let surface = TriangleTree::new(&asset.fracture.positions, &asset.surface.triangles);
+        let edge = asset.fracture.mean_edge();
+        let boundary = Boundary {
+            tree: &surface,
+            positions: &asset.fracture.positions,
+            triangles: &asset.surface.triangles,
+        };
+        let render = asset.render.as_ref();
         Self {
             root: None,
             index: Arc::new(MeshIndex::new(asset)),
-            render: asset
-                .render
-                .as_ref()
-                .map(|render| RenderIndex::new(render, &surface)),
+            render: render.map(|render| RenderIndex::new(render, &boundary, edge)),
             surface,
             per_impulse: PerImpulse::new(asset, &whole.0, &reaches),
             reaches,
@@ -81,7 +85,7 @@ impl Prepared {
             centroids: (0..asset.fracture.tets.len())
                 .map(|e| asset.fracture.centroid(e))
                 .collect(),
-            edge: asset.fracture.mean_edge(),
+            edge,
             longest_edge: asset.fracture.longest_edge(),
         }
     }

@@ -31,7 +31,7 @@ pub(crate) fn draw(
             centre: fragment.mass.centre,
         });
         let pieces: Vec<_> = pieces.collect();
-        index.divide(surface, &prepared.surface, prepared.edge, division, &pieces)
+        index.divide(surface, &prepared.surface, division, &pieces)
     };
     for (fragment, drawn) in fragments.iter_mut().zip(drawn) {
         fragment.render = Some(drawn);

@@ -1,0 +1,79 @@
+//! What of the fracture mesh's boundary lies under each triangle of the author's surface: it does not change when the body breaks.
+
+use glam::{DVec3, Vec3};
+
+use super::RenderSurface;
+use super::overlay::{Ground, TOWARDS_MIDDLE};
+use crate::TriangleTree;
+
+/// The outer surface of a fracture mesh.
+#[derive(Clone, Copy, Debug)]
+pub struct Boundary<'a> {
+    /// Over its triangles.
+    pub tree: &'a TriangleTree,
+    /// Nodes, m, body frame.
+    pub positions: &'a [Vec3],
+    /// Its triangles, counter-clockwise seen from outside.
+    pub triangles: &'a [[u32; 3]],
+}
+
+impl Boundary<'_> {
+    fn corners(&self, triangle: u32) -> [DVec3; 3] {
+        self.triangles[triangle as usize].map(|v| self.positions[v as usize].as_dvec3())
+    }
+}
+
+/// Boundary triangles under or over each triangle of a surface; where there are none, those that are closest to its middle and its corners.
+#[derive(Debug, Default)]
+pub(super) struct Under {
+    list: Vec<u32>,
+    /// Where the list of each triangle ends.
+    end: Vec<u32>,
+    /// Whether each triangle is wound the wrong way round.
+    pub(super) is_turned: Vec<bool>,
+}
+
+impl Under {
+    /// `reach`: how far under or over a triangle is looked, m.
+    pub(super) fn new(surface: &RenderSurface, boundary: &Boundary<'_>, reach: f32) -> Self {
+        let mut under = Self::default();
+        let mut near = Vec::new();
+        for triangle in &surface.triangles {
+            let corners = triangle.map(|v| surface.positions[v as usize].as_dvec3());
+            let [a, b, c] = corners;
+            let middle = (a + b + c) / 3.0;
+            let home = boundary.tree.closest(middle.as_vec3()).triangle;
+            let [p, q, r] = boundary.corners(home);
+            let towards = (q - p).cross(r - p).dot((b - a).cross(c - a));
+            let is_turned = towards < 0.0;
+            near.clear();
+            let first = under.list.len();
+            if let Some(ground) = Ground::new(corners, is_turned) {
+                let [low, high] = ground.near(f64::from(reach)).map(|x| x.as_vec3());
+                boundary.tree.in_box(low, high, |t| near.push(t));
+                near.sort_unstable();
+                let shades = |t: &u32| {
+                    ground
+                        .shade(boundary.corners(*t), f64::from(reach))
+                        .is_some()
+                };
+                under.list.extend(near.iter().copied().filter(shades));
+            }
+            if under.list.len() == first {
+                // Beside a sharp edge, or in a shell that the fracture mesh does not have: what is closest counts, as in the overlay.
+                let closest = |p: DVec3| boundary.tree.closest(p.as_vec3()).triangle;
+                let corners = corners.map(|p| closest(p.lerp(middle, TOWARDS_MIDDLE)));
+                under.list.extend([home].into_iter().chain(corners));
+            }
+            under.end.push(under.list.len() as u32);
+            under.is_turned.push(is_turned);
+        }
+        under
+    }
+
+    /// Those of a triangle.
+    pub(super) fn of(&self, triangle: usize) -> &[u32] {
+        let first = triangle.checked_sub(1).map_or(0, |t| self.end[t]);
+        &self.list[first as usize..self.end[triangle] as usize]
+    }
+}
