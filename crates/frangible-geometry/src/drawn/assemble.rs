@@ -56,11 +56,15 @@ impl RenderIndex {
             let corners: Vec<u32> = polygon.iter().map(|p| mesh.corner(*t, *p, None)).collect();
             mesh.fan(*t, &corners);
         }
+        let (mut corners, mut places) = (Vec::new(), Vec::new());
         for (t, polygon) in &share.numbered {
             let place = |number| numbered.map(|corners| corners.place(number));
-            let corner = |&(number, p): &(u32, DVec2)| mesh.corner(*t, p, place(number));
-            let corners: Vec<u32> = polygon.iter().map(corner).collect();
-            let places: Vec<DVec2> = polygon.iter().map(|corner| corner.1).collect();
+            corners.clear();
+            places.clear();
+            for &(number, p) in polygon {
+                corners.push(mesh.corner(*t, p, place(number)));
+                places.push(p);
+            }
             if has_thin_fan(&places) {
                 let middle = mesh.corner(*t, centre_of(&places), None);
                 for (k, &from) in corners.iter().enumerate() {

@@ -91,12 +91,6 @@ impl<'a> Corners<'a> {
         edges.flat_map(|on| self.edges.triangles_at(on[0].0))
     }
 
-    /// Whether triangle t lies on the border of a hole.
-    pub(super) fn touches_hole(&self, t: u32) -> bool {
-        let edges = (0..3).filter_map(|k| self.edges.of_side(self.surface, 3 * t + k));
-        !self.edges.are_closed && edges.into_iter().any(|(edge, _)| self.edges.is_open(edge))
-    }
-
     /// Whether a side of a part of triangle t, between these corners, lies on the border of a hole.
     pub(super) fn is_on_hole(&self, t: u32, ends: [u32; 2]) -> bool {
         (0..3).any(|k| {
@@ -143,19 +137,32 @@ impl<'a> Corners<'a> {
         })
     }
 
-    /// The parts of a divided triangle with their numbered corners; those that are nothing but a line have none.
-    pub(super) fn conform(&mut self, t: u32, parts: &[Cut]) -> Vec<Vec<Corner>> {
-        let mut known: Vec<Corner> = (0..3).flat_map(|k| self.along(t, k)).collect();
-        let inside = parts.iter().flat_map(|part| &part.2);
-        let mut inside: Vec<DVec2> = inside
-            .copied()
-            .filter(|&p| matches!(place(p), Place::Within))
-            .collect();
+    /// Gives the parts of a divided triangle their numbered corners, one after the other; those that are nothing but a line get none.
+    pub(super) fn conform(
+        &mut self,
+        parts: &[Cut],
+        room: &mut Room,
+        mut found: impl FnMut(&Cut, Vec<Corner>),
+    ) {
+        let Some(&(t, ..)) = parts.first() else {
+            return;
+        };
+        let Room { inside, known, on } = room;
+        known.clear();
+        for k in 0..3 {
+            known.extend(self.along(t, k));
+        }
+        inside.clear();
+        for &p in parts.iter().flat_map(|part| &part.2) {
+            if matches!(place(p), Place::Within) {
+                inside.push(p);
+            }
+        }
         inside.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
         let triangle = self.surface.triangles[t as usize];
         let [a, b, c] = triangle.map(|v| self.surface.positions[v as usize].as_dvec3());
         let first = known.len();
-        for p in inside {
+        for &p in inside.iter() {
             let before = known[first..].iter().rev();
             let mut near = before.take_while(|q| p.x - q.1.x <= SAME);
             if !near.any(|q| (p.y - q.1.y).abs() <= SAME) {
@@ -164,27 +171,34 @@ impl<'a> Corners<'a> {
                 self.within.push(a + (b - a) * p.x + (c - a) * p.y);
             }
         }
-        known.sort_by(|a, b| a.1.x.total_cmp(&b.1.x));
-        let numbered = parts.iter().map(|part| numbered(&part.2, &known));
-        numbered.collect()
+        for part in parts {
+            let corners = numbered(&part.2, known, on);
+            if !corners.is_empty() {
+                found(part, corners);
+            }
+        }
     }
 }
 
-/// The corners of a polygon and those on its sides, in order, no two the same after each other. `known`: all of the triangle's, by x.
-fn numbered(polygon: &[DVec2], known: &[Corner]) -> Vec<Corner> {
+/// Room that the numbering of one triangle after the other uses.
+#[derive(Debug, Default)]
+pub(super) struct Room {
+    inside: Vec<DVec2>,
+    known: Vec<Corner>,
+    on: Vec<(f64, Corner)>,
+}
+
+/// The corners of a polygon and those on its sides, in order, no two the same after each other. `known`: all of the triangle's.
+fn numbered(polygon: &[DVec2], known: &[Corner], on: &mut Vec<(f64, Corner)>) -> Vec<Corner> {
     let mut corners: Vec<Corner> = Vec::with_capacity(2 * polygon.len());
-    let mut on: Vec<(f64, Corner)> = Vec::new();
     for (i, &from) in polygon.iter().enumerate() {
-        let to = polygon[(i + 1) % polygon.len()];
-        let (low, high) = (from.x.min(to.x) - ON, from.x.max(to.x) + ON);
-        let first = known.partition_point(|q| q.1.x < low);
-        let near = known[first..].iter().take_while(|q| q.1.x <= high);
-        let length = from.distance(to);
+        let side = polygon[(i + 1) % polygon.len()] - from;
+        let length = side.length();
+        let direction = side / length;
         on.clear();
-        for &(number, q) in near {
-            let (along, beside) = ((q - from).dot(to - from), (to - from).perp_dot(q - from));
-            let (along, beside) = (along / length, beside / length);
-            if (-ON..=length + ON).contains(&along) && beside.abs() <= ON {
+        for &(number, q) in known {
+            let (along, beside) = (direction.dot(q - from), direction.perp_dot(q - from));
+            if beside.abs() <= ON && (-ON..=length + ON).contains(&along) {
                 on.push((along, (number, q)));
             }
         }

@@ -19,7 +19,7 @@ use glam::{DVec3, Vec3};
 
 use crate::{RenderMesh, TriangleTree};
 use assemble::Vertices;
-use conform::{Corner, Corners};
+use conform::{Corner, Corners, Room};
 use edges::{Edges, NO_TRIANGLE};
 use overlay::{Ground, Overlay};
 use parts::MIXED;
@@ -28,7 +28,7 @@ use polygon::Polygon;
 use seam::{Seam, close};
 pub use surface::{RenderMaterial, RenderSurface};
 pub use under::Boundary;
-use under::Under;
+use under::{Lie, Under};
 
 /// What follows from a render surface and every break needs.
 #[derive(Debug)]
@@ -216,8 +216,9 @@ impl RenderIndex {
                 shares[label as usize].whole.push(t as u32);
                 continue;
             }
+            let lie = self.under.lie(t);
             let corners = triangle.map(|v| surface.positions[v as usize].as_dvec3());
-            let Some(ground) = Ground::new(corners, self.under.is_turned[t]) else {
+            let Some(ground) = Ground::new(corners, lie == Lie::Turned) else {
                 let label = parts.label_near(under[0], corners[0]);
                 shares[label as usize].whole.push(t as u32);
                 continue;
@@ -228,7 +229,10 @@ impl RenderIndex {
                 parts,
                 boundary,
             };
-            let divided = overlay.divide(under);
+            let divided = match lie {
+                Lie::Beside => overlay.beside(under),
+                Lie::Over | Lie::Turned => overlay.divide(under),
+            };
             if let [(_, label)] = divided[..] {
                 shares[label as usize].whole.push(t as u32);
                 continue;
@@ -248,13 +252,11 @@ fn number<'a>(
     shares: &mut [Share],
 ) -> Corners<'a> {
     let mut corners = Corners::new(surface, edges, cuts);
+    let mut room = Room::default();
     for parts in cuts.chunk_by(|a, b| a.0 == b.0) {
-        let t = parts[0].0;
-        for (part, corners) in parts.iter().zip(corners.conform(t, parts)) {
-            if !corners.is_empty() {
-                shares[part.1 as usize].numbered.push((t, corners));
-            }
-        }
+        corners.conform(parts, &mut room, |&(t, label, _), corners| {
+            shares[label as usize].numbered.push((t, corners));
+        });
     }
     let mut is_bordering = vec![false; surface.triangles.len()];
     for t in corners.bordering() {
@@ -315,7 +317,7 @@ fn sides(
         }
     }
     for (t, polygon) in &share.numbered {
-        let touches_hole = corners.touches_hole(*t);
+        let touches_hole = edges.across(*t).contains(&NO_TRIANGLE);
         for (i, (from, _)) in polygon.iter().enumerate() {
             let ends = [*from, polygon[(i + 1) % polygon.len()].0];
             sides.push((ends, touches_hole && corners.is_on_hole(*t, ends)));

@@ -157,6 +157,22 @@ impl Overlay<'_> {
         divided
     }
 
+    /// Divides a triangle that has no part of the boundary under it. `closest`: boundary triangles closest to its middle and to its corners.
+    pub(super) fn beside(&self, closest: &[u32]) -> Vec<(Polygon, u32)> {
+        let middle = centre(&WHOLE);
+        let near_corners = WHOLE.map(|p| p.lerp(middle, TOWARDS_MIDDLE));
+        let points = [middle].into_iter().chain(near_corners);
+        let label_of = |(&t, p)| self.parts.label_near(t, self.ground.place(p));
+        let mut labels = closest.iter().zip(points).map(label_of);
+        let first = labels.next();
+        if let Some(label) = first.filter(|first| labels.all(|label| label == *first)) {
+            return vec![(WHOLE.to_vec(), label)];
+        }
+        let mut divided = Vec::new();
+        self.uncovered(WHOLE.to_vec(), HALVINGS, &mut divided);
+        divided
+    }
+
     /// Divides a polygon among the shades that meet it, which stand in a list from this place on. The list ends as it began.
     fn lay(
         &self,

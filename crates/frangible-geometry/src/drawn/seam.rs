@@ -183,16 +183,18 @@ fn rings(sides: &[([u32; 2], bool)]) -> Vec<Ring> {
 fn pairs(borders: &[Vec<DVec3>], rims: &[Vec<DVec3>], most: f64) -> Vec<(usize, usize)> {
     let mut gaps = Vec::new();
     let rim_boxes: Vec<_> = rims.iter().map(|rim| box_of(rim)).collect();
+    let rim_sides: Vec<_> = rims.iter().map(|rim| sides_of(rim)).collect();
     for (b, border) in borders.iter().enumerate() {
         let [low, high] = box_of(border);
+        let border_sides = sides_of(border);
         for (r, rim) in rims.iter().enumerate() {
             let [l, h] = rim_boxes[r];
             if (l - high).max(low - h).max_element() > most {
                 continue;
             }
             // Of a speck beside a long line only the way there is short.
-            let there = gap(border, rim, most);
-            let gap = there.and_then(|there| Some(gap(rim, border, most)?.max(there)));
+            let there = gap(border, &rim_sides[r], most);
+            let gap = there.and_then(|there| Some(gap(rim, &border_sides, most)?.max(there)));
             gaps.extend(gap.map(|gap| (gap, b, r)));
         }
     }
@@ -212,13 +214,13 @@ fn box_of(points: &[DVec3]) -> [DVec3; 2] {
 }
 
 /// Mean distance of points of one line from another, m, unless it is more than `most`.
-fn gap(from: &[DVec3], to: &[DVec3], most: f64) -> Option<f64> {
+fn gap(from: &[DVec3], to: &[Side], most: f64) -> Option<f64> {
     let every = from.len().div_ceil(SAMPLES);
     let samples = from.iter().step_by(every);
     let count = samples.len() as f64;
     let mut sum = 0.0;
     for p in samples {
-        sum += nearest_on(to, *p).1.distance(*p);
+        sum += nearest(to, *p).1.sqrt();
         if sum > most * count {
             return None;
         }
@@ -226,36 +228,60 @@ fn gap(from: &[DVec3], to: &[DVec3], most: f64) -> Option<f64> {
     Some(sum / count)
 }
 
-/// The point of a ring nearest to another point, and the side that it lies on.
-fn nearest_on(ring: &[DVec3], p: DVec3) -> (usize, DVec3) {
-    let mut best = (f64::INFINITY, 0, p);
-    for (i, &from) in ring.iter().enumerate() {
-        let near = nearest_on_side(from, ring[(i + 1) % ring.len()], p);
-        let squared = near.distance_squared(p);
-        if squared < best.0 {
-            best = (squared, i, near);
-        }
-    }
-    (best.1, best.2)
+/// A side of a ring.
+#[derive(Clone, Copy, Debug)]
+struct Side {
+    from: DVec3,
+    along: DVec3,
+    /// One over the square of its length, 1/m²; 0 of one without length.
+    inverse: f64,
 }
 
-fn nearest_on_side(from: DVec3, to: DVec3, p: DVec3) -> DVec3 {
-    let along = to - from;
-    let share = (p - from).dot(along) / along.length_squared();
-    // Of a side without length no number.
-    let share = if share.is_nan() {
-        0.0
-    } else {
-        share.clamp(0.0, 1.0)
-    };
-    from + along * share
+impl Side {
+    fn new(from: DVec3, to: DVec3) -> Self {
+        let along = to - from;
+        let square = along.length_squared();
+        let inverse = if square > 0.0 { 1.0 / square } else { 0.0 };
+        Self {
+            from,
+            along,
+            inverse,
+        }
+    }
+
+    fn nearest(&self, p: DVec3) -> DVec3 {
+        let share = (p - self.from).dot(self.along) * self.inverse;
+        self.from + self.along * share.clamp(0.0, 1.0)
+    }
+}
+
+/// The sides of a ring, from each point to the next.
+fn sides_of(ring: &[DVec3]) -> Vec<Side> {
+    let next = ring.iter().cycle().skip(1);
+    ring.iter()
+        .zip(next)
+        .map(|(&from, &to)| Side::new(from, to))
+        .collect()
+}
+
+/// The side of a ring nearest to a point, and how far away it is, squared, m².
+fn nearest(ring: &[Side], p: DVec3) -> (usize, f64) {
+    let mut best = (0, f64::INFINITY);
+    for (i, side) in ring.iter().enumerate() {
+        let squared = side.nearest(p).distance_squared(p);
+        if squared < best.1 {
+            best = (i, squared);
+        }
+    }
+    best
 }
 
 /// Where a rim that runs along a border is laid on it, point by point: how many of its sides from the first on lie before, and the place. No
 /// point is laid before the one before it, so that a border which comes back to itself is followed and not crossed.
 fn lay(border: &[DVec3], rim: &[DVec3]) -> Vec<(usize, DVec3)> {
     let count = border.len();
-    let (begin, place) = nearest_on(border, rim[0]);
+    let begin = nearest(&sides_of(border), rim[0]).0;
+    let place = Side::new(border[begin], border[(begin + 1) % count]).nearest(rim[0]);
     let at = |side: usize| border[(begin + side) % count];
     let length_of = |side: usize| at(side).distance(at(side + 1));
     let whole: f64 = (0..count).map(length_of).sum();
@@ -275,7 +301,7 @@ fn lay(border: &[DVec3], rim: &[DVec3]) -> Vec<(usize, DVec3)> {
             let from = if s == side { laid[j - 1].1 } else { at(s) };
             // The side where it began has a rest.
             let to = if s == count { place } else { at(s + 1) };
-            let near = nearest_on_side(from, to, rim[j]);
+            let near = Side::new(from, to).nearest(rim[j]);
             let squared = near.distance_squared(rim[j]);
             if squared < best.0 {
                 best = (squared, s, length + from.distance(near), near);

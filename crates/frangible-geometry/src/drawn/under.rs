@@ -23,14 +23,25 @@ impl Boundary<'_> {
     }
 }
 
-/// Boundary triangles under or over each triangle of a surface; where there are none, those that are closest to its middle and its corners.
+/// Boundary triangles under or over each triangle of a surface, or close to it where there are none.
 #[derive(Debug, Default)]
 pub(super) struct Under {
     list: Vec<u32>,
     /// Where the list of each triangle ends.
     end: Vec<u32>,
-    /// Whether each triangle is wound the wrong way round.
-    pub(super) is_turned: Vec<bool>,
+    /// How each triangle lies.
+    lies: Vec<Lie>,
+}
+
+/// How a triangle of a surface lies on the boundary.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Lie {
+    /// Over triangles of the boundary, or under them, and facing as they do.
+    Over,
+    /// The same, but wound the wrong way round.
+    Turned,
+    /// Beside a sharp edge, or in a shell that the fracture mesh does not have.
+    Beside,
 }
 
 impl Under {
@@ -45,10 +56,14 @@ impl Under {
             let home = boundary.tree.closest(middle.as_vec3()).triangle;
             let [p, q, r] = boundary.corners(home);
             let towards = (q - p).cross(r - p).dot((b - a).cross(c - a));
-            let is_turned = towards < 0.0;
+            let mut lie = if towards < 0.0 {
+                Lie::Turned
+            } else {
+                Lie::Over
+            };
             near.clear();
             let first = under.list.len();
-            if let Some(ground) = Ground::new(corners, is_turned) {
+            if let Some(ground) = Ground::new(corners, lie == Lie::Turned) {
                 let [low, high] = ground.near(f64::from(reach)).map(|x| x.as_vec3());
                 boundary.tree.in_box(low, high, |t| near.push(t));
                 near.sort_unstable();
@@ -60,18 +75,22 @@ impl Under {
                 under.list.extend(near.iter().copied().filter(shades));
             }
             if under.list.len() == first {
-                // Beside a sharp edge, or in a shell that the fracture mesh does not have: what is closest counts, as in the overlay.
+                lie = Lie::Beside;
                 let closest = |p: DVec3| boundary.tree.closest(p.as_vec3()).triangle;
                 let corners = corners.map(|p| closest(p.lerp(middle, TOWARDS_MIDDLE)));
                 under.list.extend([home].into_iter().chain(corners));
             }
             under.end.push(under.list.len() as u32);
-            under.is_turned.push(is_turned);
+            under.lies.push(lie);
         }
         under
     }
 
-    /// Those of a triangle.
+    pub(super) fn lie(&self, triangle: usize) -> Lie {
+        self.lies[triangle]
+    }
+
+    /// Those of a triangle; of one that lies beside the boundary the closest to its middle, then those to its corners.
     pub(super) fn of(&self, triangle: usize) -> &[u32] {
         let first = triangle.checked_sub(1).map_or(0, |t| self.end[t]);
         &self.list[first as usize..self.end[triangle] as usize]
