@@ -25,7 +25,7 @@ use overlay::{Ground, Overlay};
 use parts::MIXED;
 pub use parts::{Part, Parts};
 use polygon::Polygon;
-use seam::{Seam, close};
+use seam::{Seam, add_face, close};
 pub use surface::{RenderMaterial, RenderSurface};
 pub use under::Boundary;
 use under::{Lie, Under};
@@ -148,7 +148,7 @@ impl RenderIndex {
         let mut draw = |piece: &Piece<'_>| {
             let (label, normals) = (piece.label, piece.normals);
             let (share, faces) = (&shares[label as usize], &faces[label as usize]);
-            let seam = match &sewn {
+            let mut seam = match &sewn {
                 None => Seam::default(),
                 Some((edges, corners, owners)) => {
                     for (face, normals) in faces.iter().zip(normals) {
@@ -173,9 +173,22 @@ impl RenderIndex {
                 laid[v as usize - nodes] = place;
             }
             let mut inner = Vertices::with_capacity(faces.len() + seam.triangles.len());
-            for (&[a, b, c], &[na, nb, nc]) in faces.iter().zip(normals) {
-                let [a, b, c] = [a, b, c].map(|v| laid[v as usize - nodes]);
-                inner.push([(a, na), (b, nb), (c, nc)]);
+            for (face, normals) in faces.iter().zip(normals) {
+                let corner = |k: usize| (laid[face[k] as usize - nodes], normals[k]);
+                let corners = [corner(0), corner(1), corner(2)];
+                let on_rim = [0, 1, 2].map(|k: usize| is_on_rim[face[k] as usize - nodes]);
+                let mut between = |k: usize| {
+                    let side = [face[k], face[(k + 1) % 3]];
+                    let own = on_rim[k] && on_rim[(k + 1) % 3];
+                    let places = own.then(|| seam.between.get_mut(&side)?.pop());
+                    places.flatten().unwrap_or_default()
+                };
+                let between = [between(0), between(1), between(2)];
+                if between.iter().all(Vec::is_empty) {
+                    inner.push(corners);
+                } else {
+                    add_face(corners, &between, &mut inner);
+                }
             }
             inner.extend(&seam.triangles);
             for &v in seam.moved.keys() {

@@ -1,8 +1,9 @@
 //! Where a fragment's share of the author's surface ends, its crack faces go on.
 //!
 //! The fracture mesh only follows the author's surface, so the two borders are two lines close to each other. The rim of the crack faces is
-//! laid on the border of the share, and what stays open between the two lines is closed by triangles which have hardly any area. A border
-//! that has none of the other kind beside it is closed by itself: of a speck, say, that one of the two does not have.
+//! laid on the border of the share, and crack faces take in the corners that the border has between two points of the rim. Where a rim is too
+//! far away to be laid there, triangles close what is open between the two lines. A border that has none of the other kind beside it is closed by itself: of a speck, say,
+//! that one of the two does not have.
 
 use std::collections::BTreeMap;
 
@@ -20,6 +21,10 @@ const FAR: f64 = 2.0;
 /// both were equally long everywhere, in shares of the border.
 const AHEAD: f64 = 4.0;
 const LEAD: f64 = 0.1;
+
+/// A rim's point that is laid no farther than this from a corner of a border, in reaches, is laid on the corner: the difference would be lost
+/// in the drawn corners, which are rounded.
+const AT_CORNER: f64 = 2e-6;
 
 /// A line without ends.
 #[derive(Debug)]
@@ -46,7 +51,28 @@ impl Ring {
 pub(super) struct Seam {
     /// Points of the rim of the crack faces, and where they are laid, m.
     pub(super) moved: BTreeMap<u32, DVec3>,
+    /// Places on a side of a crack face, from its first point to its second, m. Of several faces with that side each takes its own.
+    pub(super) between: BTreeMap<[u32; 2], Vec<Vec<DVec3>>>,
     pub(super) triangles: Vertices,
+}
+
+/// A point of a rim that runs along a border.
+#[derive(Clone, Copy, Debug)]
+struct RimPoint {
+    number: u32,
+    /// Where it is, m.
+    place: DVec3,
+    /// Side of the border that it lies beside, counted on where the border begins again.
+    side: usize,
+    /// Where on that side, m.
+    beside: DVec3,
+    normal: Vec3,
+}
+
+impl RimPoint {
+    fn is_on_border(&self) -> bool {
+        self.place == self.beside
+    }
 }
 
 /// Closes a fragment between its share of the surface and its crack faces. `sheet`: sides of the share's polygons, and whether they are on the
@@ -73,30 +99,32 @@ pub(super) fn close(
     let rim_places: Vec<Vec<DVec3>> = rims.iter().map(|r| r.places(&face_at)).collect();
     let pairs = pairs(&border_places, &rim_places, FAR * reach);
     let mut seam = Seam::default();
-    let mut sides = Vec::new();
+    let mut beside = Vec::new();
     for &(b, r) in &pairs {
-        let laid = lay(&border_places[b], &rim_places[r]);
-        for ((_, laid), (&point, &place)) in
-            laid.iter().zip(rims[r].points.iter().zip(&rim_places[r]))
-        {
+        let laid = lay(&border_places[b], &rim_places[r], AT_CORNER * reach);
+        let points = rims[r].points.iter().zip(&rim_places[r]);
+        for (&(_, laid), (&point, &place)) in laid.iter().zip(points) {
             if laid.distance(place) <= reach {
                 // Where two rims touch, a point has one place.
-                seam.moved.entry(point).or_insert(*laid);
+                seam.moved.entry(point).or_insert(laid);
             }
         }
-        sides.push(laid.into_iter().map(|(side, _)| side).collect::<Vec<_>>());
+        beside.push(laid);
     }
     let laid = |v| seam.moved.get(&v).copied().unwrap_or_else(|| face_at(v));
-    let mut triangles = Vertices::new();
-    for (&(b, r), sides) in pairs.iter().zip(&sides) {
-        let normals: Vec<Vec3> = rims[r].points.iter().map(|&v| normal_at(v)).collect();
-        zip(
-            &border_places[b],
-            &rims[r].places(laid),
-            sides,
-            &normals,
-            &mut triangles,
-        );
+    let (mut between, mut triangles) = (BTreeMap::new(), Vertices::new());
+    for (&(b, r), beside) in pairs.iter().zip(&beside) {
+        let points = rims[r].points.iter().zip(beside);
+        let rim = points.map(|(&number, &(side, beside))| RimPoint {
+            number,
+            place: laid(number),
+            side,
+            beside,
+            normal: normal_at(number),
+        });
+        let rim: Vec<RimPoint> = rim.collect();
+        divide_sides(&border_places[b], &rim, &mut triangles);
+        join(&border_places[b], &rim, &mut between, &mut triangles);
     }
     for (b, border) in borders.iter().enumerate() {
         if border.on_hole == 0 && pairs.iter().all(|pair| pair.0 != b) {
@@ -108,7 +136,7 @@ pub(super) fn close(
             cap(rim.places(laid).into_iter().rev(), &mut triangles);
         }
     }
-    seam.triangles = triangles;
+    (seam.between, seam.triangles) = (between, triangles);
     seam
 }
 
@@ -278,11 +306,16 @@ fn nearest(ring: &[Side], p: DVec3) -> (usize, f64) {
 
 /// Where a rim that runs along a border is laid on it, point by point: how many of its sides from the first on lie before, and the place. No
 /// point is laid before the one before it, so that a border which comes back to itself is followed and not crossed.
-fn lay(border: &[DVec3], rim: &[DVec3]) -> Vec<(usize, DVec3)> {
+fn lay(border: &[DVec3], rim: &[DVec3], at_corner: f64) -> Vec<(usize, DVec3)> {
     let count = border.len();
     let begin = nearest(&sides_of(border), rim[0]).0;
-    let place = Side::new(border[begin], border[(begin + 1) % count]).nearest(rim[0]);
     let at = |side: usize| border[(begin + side) % count];
+    let snapped = |place: DVec3, side: usize| {
+        let near = |end: &DVec3| end.distance(place) <= at_corner;
+        let ends = [at(side), at(side + 1)];
+        ends.into_iter().find(near).unwrap_or(place)
+    };
+    let place = snapped(Side::new(at(0), at(1)).nearest(rim[0]), 0);
     let length_of = |side: usize| at(side).distance(at(side + 1));
     let whole: f64 = (0..count).map(length_of).sum();
     let rim_length = |j: usize| rim[j].distance(rim[(j + 1) % rim.len()]);
@@ -312,34 +345,100 @@ fn lay(border: &[DVec3], rim: &[DVec3]) -> Vec<(usize, DVec3)> {
             }
         }
         (side, passed) = (best.1, best.2);
-        laid.push((begin + side, best.3));
+        laid.push((begin + side, snapped(best.3, side)));
     }
     laid
 }
 
-/// Triangles between a border and a rim that runs the same way. `sides`: the side of the border that each point of the rim lies beside, counted
-/// on where the border begins again. `normals`: of the rim's points.
-fn zip(
+/// Divides sides of a border where points of a rim lie on them: by triangles between the ends of a side and those points, which are lines.
+fn divide_sides(border: &[DVec3], rim: &[RimPoint], triangles: &mut Vertices) {
+    let count = border.len();
+    // The last ones may lie on the first side again, and come before the first ones there.
+    let again = rim.partition_point(|point| point.side < rim[0].side + count);
+    let in_order: Vec<RimPoint> = [&rim[again..], &rim[..again]].concat();
+    for on_side in in_order.chunk_by(|a, b| a.side % count == b.side % count) {
+        let side = on_side[0].side;
+        let (mut from, to) = (border[side % count], border[(side + 1) % count]);
+        for point in on_side {
+            add([to, from, point.beside], point.normal, triangles);
+            from = point.beside;
+        }
+    }
+}
+
+/// Joins each side of a rim to the border beside it: the crack face takes in the corners of the border, or triangles lie between the two.
+fn join(
     border: &[DVec3],
-    rim: &[DVec3],
-    sides: &[usize],
-    normals: &[Vec3],
+    rim: &[RimPoint],
+    between: &mut BTreeMap<[u32; 2], Vec<Vec<DVec3>>>,
     triangles: &mut Vertices,
 ) {
-    let at = |i: usize| border[i % border.len()];
-    let mut i = sides[0];
-    for j in 0..rim.len() {
-        let next = (j + 1) % rim.len();
-        let until = if next == 0 {
-            sides[0] + border.len()
-        } else {
-            sides[next]
+    for (j, point) in rim.iter().enumerate() {
+        let (next, until) = match rim.get(j + 1) {
+            Some(next) => (next, next.side),
+            None => (&rim[0], rim[0].side + border.len()),
         };
-        while i < until {
-            add([at(i + 1), at(i), rim[j]], normals[j], triangles);
-            i += 1;
+        let corners = (point.side + 1..=until).map(|i| border[i % border.len()]);
+        let mut along: Vec<DVec3> = corners.collect();
+        along.insert(0, point.beside);
+        along.push(next.beside);
+        along.dedup();
+        if point.is_on_border() && next.is_on_border() {
+            // Crack faces run the other way round.
+            let corners = along.iter().rev().skip(1);
+            let corners: Vec<DVec3> = corners
+                .take(along.len().saturating_sub(2))
+                .copied()
+                .collect();
+            if !corners.is_empty() {
+                let side = [next.number, point.number];
+                between.entry(side).or_default().push(corners);
+            }
+            continue;
         }
-        add([rim[j], rim[next], at(i)], normals[j], triangles);
+        for w in along.windows(2) {
+            add([w[1], w[0], point.place], point.normal, triangles);
+        }
+        add(
+            [point.place, next.place, next.beside],
+            point.normal,
+            triangles,
+        );
+    }
+}
+
+/// Adds a crack face that takes in the places between its corners.
+pub(super) fn add_face(face: [(DVec3, Vec3); 3], between: &[Vec<DVec3>; 3], to: &mut Vertices) {
+    let mut around = Vec::new();
+    for (k, places) in between.iter().enumerate() {
+        around.push(face[k]);
+        // The normal goes over from one corner's to the other's.
+        let (from, until) = (face[k].1, face[(k + 1) % 3].1);
+        let step = 1.0 / (places.len() + 1) as f32;
+        let normal = |i: usize| from.lerp(until, step * (i + 1) as f32).normalize_or(from);
+        around.extend(
+            places
+                .iter()
+                .enumerate()
+                .map(|(i, &place)| (place, normal(i))),
+        );
+    }
+    let mut divided = (0..3).filter(|&k| !between[k].is_empty());
+    // From the corner across the only divided side, or from the middle.
+    let apex = match (divided.next(), divided.next()) {
+        (Some(k), None) => face[(k + 2) % 3],
+        _ => {
+            let sum = around.iter().map(|corner| corner.0).sum::<DVec3>();
+            let normal = face.iter().map(|corner| corner.1).sum::<Vec3>();
+            let normal = normal.normalize_or(face[0].1);
+            (sum / around.len() as f64, normal)
+        }
+    };
+    for (i, &from) in around.iter().enumerate() {
+        let until = around[(i + 1) % around.len()];
+        if has_three_corners([apex.0, from.0, until.0]) {
+            to.push([apex, from, until]);
+        }
     }
 }
 
@@ -356,8 +455,11 @@ fn cap(ring: impl Iterator<Item = DVec3>, triangles: &mut Vertices) {
 
 /// Adds a triangle, unless it is nothing but a line between two places.
 fn add(corners: [DVec3; 3], normal: Vec3, triangles: &mut Vertices) {
-    let [a, b, c] = corners;
-    if a != b && b != c && c != a {
+    if has_three_corners(corners) {
         triangles.push(corners.map(|corner| (corner, normal)));
     }
+}
+
+fn has_three_corners([a, b, c]: [DVec3; 3]) -> bool {
+    a != b && b != c && c != a
 }
