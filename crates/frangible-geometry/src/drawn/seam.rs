@@ -442,13 +442,17 @@ pub(super) fn add_face(face: [(DVec3, Vec3); 3], between: &[Vec<DVec3>; 3], to: 
     }
 }
 
-/// Triangles that close a ring by itself, on the left of its sides' reverse.
+/// Triangles that close a ring by itself, on the left of its sides' reverse. They meet in a place of their own, neither on the ring nor in its
+/// middle: the surface that they close may have the same sides there.
 fn cap(ring: impl Iterator<Item = DVec3>, triangles: &mut Vertices) {
     let ring: Vec<DVec3> = ring.collect();
-    let fan = || (2..ring.len()).map(|i| [ring[0], ring[i], ring[i - 1]]);
-    let normal = fan().map(|[a, b, c]| (b - a).cross(c - a)).sum::<DVec3>();
-    let normal = normal.as_vec3().normalize_or(Vec3::Y);
-    for corners in fan() {
+    let middle = ring.iter().sum::<DVec3>() / ring.len() as f64;
+    let middle = middle.lerp(ring[0], 0.25);
+    let triangle = |i: usize| [middle, ring[(i + 1) % ring.len()], ring[i]];
+    let fan: Vec<_> = (0..ring.len()).map(triangle).collect();
+    let area = fan.iter().map(|&[a, b, c]| (b - a).cross(c - a));
+    let normal = area.sum::<DVec3>().as_vec3().normalize_or(Vec3::Y);
+    for corners in fan {
         add(corners, normal, triangles);
     }
 }
