@@ -18,14 +18,13 @@ mod under;
 use glam::{DVec3, Vec3};
 
 use crate::{RenderMesh, TriangleTree};
-use assemble::Vertices;
 use conform::{Corner, Corners, Room};
 use edges::{Edges, NO_TRIANGLE};
 use overlay::{Ground, Overlay};
 use parts::MIXED;
 pub use parts::{Part, Parts};
 use polygon::Polygon;
-use seam::{Seam, add_face, close};
+use seam::{CrackFaces, close};
 pub use surface::{RenderMaterial, RenderSurface};
 pub use under::Boundary;
 use under::{Lie, Under};
@@ -140,60 +139,39 @@ impl RenderIndex {
                 Some((edges, corners, owners(&shares, surface.triangles.len())))
             }
         };
-        let place = |v: u32| points[v as usize - nodes];
         let mut laid = points.clone();
         let mut local = vec![u32::MAX; surface.positions.len()];
         // Of the piece at hand, at the points of its crack faces.
-        let mut normal_at = vec![Vec3::ZERO; points.len()];
+        let mut normals = vec![Vec3::ZERO; points.len()];
         let mut draw = |piece: &Piece<'_>| {
-            let (label, normals) = (piece.label, piece.normals);
-            let (share, faces) = (&shares[label as usize], &faces[label as usize]);
-            let mut seam = match &sewn {
-                None => Seam::default(),
-                Some((edges, corners, owners)) => {
-                    for (face, normals) in faces.iter().zip(normals) {
-                        for (&v, &normal) in face.iter().zip(normals) {
-                            normal_at[v as usize - nodes] = normal;
-                        }
-                    }
-                    let sides = sides(surface, corners, share, |t| owners[t as usize] == label);
-                    close(
-                        sides,
-                        |number| corners.place(number),
-                        faces,
-                        |v| is_on_rim[v as usize - nodes],
-                        place,
-                        |v| normal_at[v as usize - nodes],
-                        f64::from(self.reach),
-                        edges.are_closed,
-                    )
+            let (share, faces) = (&shares[piece.label as usize], &faces[piece.label as usize]);
+            for (face, own) in faces.iter().zip(piece.normals) {
+                for (&v, &normal) in face.iter().zip(own) {
+                    normals[v as usize - nodes] = normal;
                 }
+            }
+            let cracks = CrackFaces {
+                faces,
+                first: nodes,
+                places: &points,
+                normals: &normals,
+                is_on_rim: &is_on_rim,
             };
-            for (&v, &place) in &seam.moved {
-                laid[v as usize - nodes] = place;
-            }
-            let mut inner = Vertices::with_capacity(faces.len() + seam.triangles.len());
-            for (face, normals) in faces.iter().zip(normals) {
-                let corner = |k: usize| (laid[face[k] as usize - nodes], normals[k]);
-                let corners = [corner(0), corner(1), corner(2)];
-                let on_rim = [0, 1, 2].map(|k: usize| is_on_rim[face[k] as usize - nodes]);
-                let mut between = |k: usize| {
-                    let side = [face[k], face[(k + 1) % 3]];
-                    let own = on_rim[k] && on_rim[(k + 1) % 3];
-                    let places = own.then(|| seam.between.get_mut(&side)?.pop());
-                    places.flatten().unwrap_or_default()
-                };
-                let between = [between(0), between(1), between(2)];
-                if between.iter().all(Vec::is_empty) {
-                    inner.push(corners);
-                } else {
-                    add_face(corners, &between, &mut inner);
-                }
-            }
-            inner.extend(&seam.triangles);
-            for &v in seam.moved.keys() {
-                laid[v as usize - nodes] = place(v);
-            }
+            let seam = sewn.as_ref().map(|(edges, corners, owners)| {
+                let is_own = |t: u32| owners[t as usize] == piece.label;
+                let sides = sides(surface, corners, share, is_own);
+                let sheet_at = |number| corners.place(number);
+                close(
+                    sides,
+                    sheet_at,
+                    cracks,
+                    f64::from(self.reach),
+                    edges.are_closed,
+                )
+            });
+            let inner = seam
+                .unwrap_or_default()
+                .faces(cracks, piece.normals, &mut laid);
             let corners = sewn.as_ref().map(|(_, corners, _)| corners);
             self.assemble(surface, share, corners, &inner, piece.centre, &mut local)
         };

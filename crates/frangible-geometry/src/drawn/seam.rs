@@ -50,10 +50,50 @@ impl Ring {
 #[derive(Debug, Default)]
 pub(super) struct Seam {
     /// Points of the rim of the crack faces, and where they are laid, m.
-    pub(super) moved: BTreeMap<u32, DVec3>,
+    moved: BTreeMap<u32, DVec3>,
     /// Places on a side of a crack face, from its first point to its second, m. Of several faces with that side each takes its own.
-    pub(super) between: BTreeMap<[u32; 2], Vec<Vec<DVec3>>>,
-    pub(super) triangles: Vertices,
+    between: BTreeMap<[u32; 2], Vec<Vec<DVec3>>>,
+    triangles: Vertices,
+}
+
+impl Seam {
+    /// The crack faces, sewn to the border, and the triangles that close the fragment. `normals`: at the corners of each face. `laid` holds where
+    /// the points of the cracks are, before and after.
+    pub(super) fn faces(
+        mut self,
+        cracks: CrackFaces<'_>,
+        normals: &[[Vec3; 3]],
+        laid: &mut [DVec3],
+    ) -> Vertices {
+        let index = |point: u32| point as usize - cracks.first;
+        for (&v, &place) in &self.moved {
+            laid[index(v)] = place;
+        }
+        let mut sewn = Vertices::with_capacity(cracks.faces.len() + self.triangles.len());
+        for (face, normals) in cracks.faces.iter().zip(normals) {
+            let corner = |k: usize| (laid[index(face[k])], normals[k]);
+            let corners = [corner(0), corner(1), corner(2)];
+            let on_rim = [0, 1, 2].map(|k: usize| cracks.is_on_rim[index(face[k])]);
+            let mut between = |k: usize| {
+                let next = (k + 1) % 3;
+                let side = [face[k], face[next]];
+                let is_outer = on_rim[k] && on_rim[next];
+                let places = is_outer.then(|| self.between.get_mut(&side)?.pop());
+                places.flatten().unwrap_or_default()
+            };
+            let between = [between(0), between(1), between(2)];
+            if between.iter().all(Vec::is_empty) {
+                sewn.push(corners);
+            } else {
+                add_face(corners, &between, &mut sewn);
+            }
+        }
+        sewn.extend(&self.triangles);
+        for &v in self.moved.keys() {
+            laid[index(v)] = cracks.place(v);
+        }
+        sewn
+    }
 }
 
 /// A point of a rim that runs along a border.
@@ -75,28 +115,50 @@ impl RimPoint {
     }
 }
 
+/// Crack faces of a fragment, and what is known of their points, which are numbered on from that of all fragments' first one.
+#[derive(Clone, Copy)]
+pub(super) struct CrackFaces<'a> {
+    pub(super) faces: &'a [[u32; 3]],
+    pub(super) first: usize,
+    /// Where the points are, m, body frame.
+    pub(super) places: &'a [DVec3],
+    pub(super) normals: &'a [Vec3],
+    /// Whether the faces may end there.
+    pub(super) is_on_rim: &'a [bool],
+}
+
+impl CrackFaces<'_> {
+    fn place(&self, point: u32) -> DVec3 {
+        self.places[point as usize - self.first]
+    }
+
+    /// Sides that are not within the body.
+    fn outer_sides(&self) -> impl Iterator<Item = [u32; 2]> {
+        let is_on_rim = |point: u32| self.is_on_rim[point as usize - self.first];
+        let of_face = |&[a, b, c]: &[u32; 3]| [[a, b], [b, c], [c, a]];
+        let sides = self.faces.iter().flat_map(of_face);
+        sides.filter(move |&[a, b]| is_on_rim(a) && is_on_rim(b))
+    }
+}
+
 /// Closes a fragment between its share of the surface and its crack faces. `sheet`: sides of the share's polygons, and whether they are on the
-/// border of a hole; those that run both ways are no border. `may_end`: whether crack faces may end at a point. `reach`: how far the rim is moved at most, m. `closed`: whether the surface is.
+/// border of a hole; those that run both ways are no border. `reach`: how far the rim is moved at most, m. `closed`: whether the surface is.
 /// Where it is not, a rim without a border beside it lies in a hole, and stays open as the hole does.
 pub(super) fn close(
     sheet: Vec<([u32; 2], bool)>,
     sheet_at: impl Fn(u32) -> DVec3,
-    faces: &[[u32; 3]],
-    may_end: impl Fn(u32) -> bool,
-    face_at: impl Fn(u32) -> DVec3,
-    normal_at: impl Fn(u32) -> Vec3,
+    cracks: CrackFaces<'_>,
     reach: f64,
     closed: bool,
 ) -> Seam {
     let mut borders = rings(&open(sheet.into_iter()));
     borders.retain(|border| !border.is_hole());
-    let sides = faces.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
-    let sides = sides.filter(|&[a, b]| may_end(a) && may_end(b));
-    let mut rims = rings(&open(sides.map(|side| (side, false))));
+    let mut rims = rings(&open(cracks.outer_sides().map(|side| (side, false))));
     // The other way round it runs beside the border.
     rims.iter_mut().for_each(|rim| rim.points.reverse());
     let border_places: Vec<Vec<DVec3>> = borders.iter().map(|r| r.places(&sheet_at)).collect();
-    let rim_places: Vec<Vec<DVec3>> = rims.iter().map(|r| r.places(&face_at)).collect();
+    let places_of = |rim: &Ring| rim.places(|v| cracks.place(v));
+    let rim_places: Vec<Vec<DVec3>> = rims.iter().map(places_of).collect();
     let pairs = pairs(&border_places, &rim_places, FAR * reach);
     let mut seam = Seam::default();
     let mut beside = Vec::new();
@@ -111,7 +173,12 @@ pub(super) fn close(
         }
         beside.push(laid);
     }
-    let laid = |v| seam.moved.get(&v).copied().unwrap_or_else(|| face_at(v));
+    let laid = |v| {
+        seam.moved
+            .get(&v)
+            .copied()
+            .unwrap_or_else(|| cracks.place(v))
+    };
     let (mut between, mut triangles) = (BTreeMap::new(), Vertices::new());
     for (&(b, r), beside) in pairs.iter().zip(&beside) {
         let points = rims[r].points.iter().zip(beside);
@@ -120,7 +187,7 @@ pub(super) fn close(
             place: laid(number),
             side,
             beside,
-            normal: normal_at(number),
+            normal: cracks.normals[number as usize - cracks.first],
         });
         let rim: Vec<RimPoint> = rim.collect();
         divide_sides(&border_places[b], &rim, &mut triangles);
@@ -142,16 +209,11 @@ pub(super) fn close(
 
 /// Directed sides that are left where one and its reverse take each other away.
 fn open(sides: impl Iterator<Item = ([u32; 2], bool)>) -> Vec<([u32; 2], bool)> {
-    // Both ends in one number, the lower one first, are sorted faster than an array.
+    // Both ends in one number are sorted faster than an array.
+    let both = |low: u32, high: u32| u64::from(low) << 32 | u64::from(high);
     let mut sides: Vec<(u64, bool, bool)> = sides
         .filter(|([a, b], _)| a != b)
-        .map(|([a, b], on_hole)| {
-            (
-                u64::from(a.min(b)) << 32 | u64::from(a.max(b)),
-                a < b,
-                on_hole,
-            )
-        })
+        .map(|([a, b], on_hole)| (both(a.min(b), a.max(b)), a < b, on_hole))
         .collect();
     sides.sort_unstable();
     let mut open = Vec::new();
@@ -408,7 +470,7 @@ fn join(
 }
 
 /// Adds a crack face that takes in the places between its corners.
-pub(super) fn add_face(face: [(DVec3, Vec3); 3], between: &[Vec<DVec3>; 3], to: &mut Vertices) {
+fn add_face(face: [(DVec3, Vec3); 3], between: &[Vec<DVec3>; 3], to: &mut Vertices) {
     let mut around = Vec::new();
     for (k, places) in between.iter().enumerate() {
         around.push(face[k]);
