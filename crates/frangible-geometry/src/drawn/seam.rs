@@ -85,7 +85,7 @@ impl Seam {
             if between.iter().all(Vec::is_empty) {
                 sewn.push(corners);
             } else {
-                add_face(corners, &between, &mut sewn);
+                add_face(corners, on_rim, &between, &mut sewn);
             }
         }
         sewn.extend(&self.triangles);
@@ -469,8 +469,13 @@ fn join(
     }
 }
 
-/// Adds a crack face that takes in the places between its corners.
-fn add_face(face: [(DVec3, Vec3); 3], between: &[Vec<DVec3>; 3], to: &mut Vertices) {
+/// Adds a crack face that takes in the places between its corners. `on_rim`: whether its corners lie on the border.
+fn add_face(
+    face: [(DVec3, Vec3); 3],
+    on_rim: [bool; 3],
+    between: &[Vec<DVec3>; 3],
+    to: &mut Vertices,
+) {
     let mut around = Vec::new();
     for (k, places) in between.iter().enumerate() {
         around.push(face[k]);
@@ -486,9 +491,9 @@ fn add_face(face: [(DVec3, Vec3); 3], between: &[Vec<DVec3>; 3], to: &mut Vertic
         );
     }
     let mut divided = (0..3).filter(|&k| !between[k].is_empty());
-    // From the corner across the only divided side, or from the middle.
+    // From the corner across the only divided side, or from the middle: between two places of the border the surface may have a side.
     let apex = match (divided.next(), divided.next()) {
-        (Some(k), None) => face[(k + 2) % 3],
+        (Some(k), None) if !on_rim[(k + 2) % 3] => face[(k + 2) % 3],
         _ => {
             let sum = around.iter().map(|corner| corner.0).sum::<DVec3>();
             let normal = face.iter().map(|corner| corner.1).sum::<Vec3>();

@@ -228,9 +228,9 @@ fn fragments_of_a_closed_surface_are_closed() {
             }
         }
     }
-    // Where the rim of a crack folds back on itself.
+    // A crack face may have a side between two places of the border, where the surface has one too.
     assert!(
-        2000 * crowded < triangles,
+        100_000 * crowded < triangles,
         "{crowded} sides of {triangles} triangles"
     );
 }
