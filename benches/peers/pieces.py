@@ -39,7 +39,7 @@ comes out: how long it takes, whether the pieces are closed, whether they fill t
   of it, or else the one that comes nearest. Many pieces of a small solid body take speeds that nothing is thrown with.
 - Closed: every edge of a piece has exactly two triangles, in opposite directions, after corners at the same place, or within a millionth
   of the body, became one. *As drawn*: bodies from files are drawn with their author's surface, cut by the cracks; that lies a little
-  off the tetrahedra's. Its pieces keep the holes that it has, and where their crack faces are sewn to it an edge may have four triangles.
+  off the tetrahedra's. Its pieces keep the holes that it has (the bunny's has five).
 - Volumes: those of all pieces over the volume of the surface that peers break. Where that is the file's own, ours differs by what the
   tetrahedra do not follow.
 

@@ -1,9 +1,9 @@
 //! The surface that an author drew, divided among the pieces of a body.
 //!
-//! The fracture mesh only approximates that surface, so the two do not meet exactly: the surface is divided by
-//! projecting the partition of the fracture mesh's boundary on it (`overlay.rs`), and the rims of the crack faces are drawn to it. Then
-//! the two are sewn together: corners on common borders become one (`conform.rs`), and what is open between the crack faces and the
-//! fragment's share of the surface is closed (`seam.rs`). Of a closed surface all fragments are closed.
+//! The fracture mesh only approximates that surface, so the two do not meet exactly. Which triangles of the mesh's boundary lie under each of
+//! the surface's is found once per body (`under.rs`). A break projects what cracks made of them on the surface and divides it (`overlay.rs`), and
+//! draws the rims of the crack faces to it. Then the two are sewn together: corners on common borders become one (`conform.rs`), and the crack
+//! faces are laid on the border of the fragment's share of the surface (`seam.rs`). Of a closed surface all fragments are closed.
 
 mod assemble;
 mod conform;
