@@ -26,6 +26,10 @@ const LEAD: f64 = 0.1;
 /// in the drawn corners, which are rounded.
 const AT_CORNER: f64 = 2e-6;
 
+/// A crack face follows a border that lies no farther than this from its side, in reaches: where the border makes a detour, as in a fold of the
+/// surface, the face would become a fin.
+const BULGE: f64 = 0.5;
+
 /// A line without ends.
 #[derive(Debug)]
 struct Ring {
@@ -191,7 +195,8 @@ pub(super) fn close(
         });
         let rim: Vec<RimPoint> = rim.collect();
         divide_sides(&border_places[b], &rim, &mut triangles);
-        join(&border_places[b], &rim, &mut between, &mut triangles);
+        let most = BULGE * reach;
+        join(&border_places[b], &rim, most, &mut between, &mut triangles);
     }
     for (b, border) in borders.iter().enumerate() {
         if border.on_hole == 0 && pairs.iter().all(|pair| pair.0 != b) {
@@ -428,10 +433,12 @@ fn divide_sides(border: &[DVec3], rim: &[RimPoint], triangles: &mut Vertices) {
     }
 }
 
-/// Joins each side of a rim to the border beside it: the crack face takes in the corners of the border, or triangles lie between the two.
+/// Joins each side of a rim to the border beside it: the crack face takes in the corners of the border, unless they lie farther away than `most`,
+/// m. There triangles lie between the two.
 fn join(
     border: &[DVec3],
     rim: &[RimPoint],
+    most: f64,
     between: &mut BTreeMap<[u32; 2], Vec<Vec<DVec3>>>,
     triangles: &mut Vertices,
 ) {
@@ -445,7 +452,9 @@ fn join(
         along.insert(0, point.beside);
         along.push(next.beside);
         along.dedup();
-        if point.is_on_border() && next.is_on_border() {
+        let straight = Side::new(point.place, next.place);
+        let is_near = |p: &DVec3| straight.nearest(*p).distance(*p) <= most;
+        if point.is_on_border() && next.is_on_border() && along.iter().all(is_near) {
             // Crack faces run the other way round.
             let corners = along.iter().rev().skip(1);
             let corners: Vec<DVec3> = corners
