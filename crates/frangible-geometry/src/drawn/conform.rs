@@ -171,6 +171,7 @@ impl<'a> Corners<'a> {
                 self.within.push(a + (b - a) * p.x + (c - a) * p.y);
             }
         }
+        known.sort_by(|a, b| a.1.x.total_cmp(&b.1.x));
         for part in parts {
             let corners = numbered(&part.2, known, on);
             if !corners.is_empty() {
@@ -188,15 +189,17 @@ pub(super) struct Room {
     on: Vec<(f64, Corner)>,
 }
 
-/// The corners of a polygon and those on its sides, in order, no two the same after each other. `known`: all of the triangle's.
+/// The corners of a polygon and those on its sides, in order, no two the same after each other. `known`: all of the triangle's, by x.
 fn numbered(polygon: &[DVec2], known: &[Corner], on: &mut Vec<(f64, Corner)>) -> Vec<Corner> {
     let mut corners: Vec<Corner> = Vec::with_capacity(2 * polygon.len());
     for (i, &from) in polygon.iter().enumerate() {
         let side = polygon[(i + 1) % polygon.len()] - from;
         let length = side.length();
         let direction = side / length;
+        let (low, high) = (side.x.min(0.0) + from.x - ON, side.x.max(0.0) + from.x + ON);
+        let near = &known[known.partition_point(|q| q.1.x < low)..];
         on.clear();
-        for &(number, q) in known {
+        for &(number, q) in near.iter().take_while(|q| q.1.x <= high) {
             let (along, beside) = (direction.dot(q - from), direction.perp_dot(q - from));
             if beside.abs() <= ON && (-ON..=length + ON).contains(&along) {
                 on.push((along, (number, q)));

@@ -1,9 +1,10 @@
 //! The surface that an author drew, divided among the pieces of a body.
 //!
 //! The fracture mesh only approximates that surface, so the two do not meet exactly. Which triangles of the mesh's boundary lie under each of
-//! the surface's is found once per body (`under.rs`). A break projects what cracks made of them on the surface and divides it (`overlay.rs`), and
-//! draws the rims of the crack faces to it. Then the two are sewn together: corners on common borders become one (`conform.rs`), and the crack
-//! faces are laid on the border of the fragment's share of the surface (`seam.rs`). Of a closed surface all fragments are closed.
+//! the surface's is found once per body (`under.rs`). A break divides the surface along the cracks in these triangles, projected on it
+//! (`overlay.rs`), and draws the rims of the crack faces to it. Then the two are sewn together: corners on common borders become one
+//! (`conform.rs`), and the crack faces are laid on the border of the fragment's share of the surface (`seam.rs`). All fragments of a closed
+//! surface that faces outwards are closed.
 
 mod assemble;
 mod conform;
@@ -34,13 +35,13 @@ use under::{Lie, Under};
 pub struct RenderIndex {
     /// Over the triangles of the render surface.
     tree: TriangleTree,
-    /// What of the boundary of the fracture mesh lies under them.
+    /// What of the boundary of the fracture mesh lies under the triangles of the render surface.
     under: Under,
     /// How far the surface may be from the boundary, m.
     reach: f32,
     /// Normals at the corners of each render triangle.
     normals: Vec<[Vec3; 3]>,
-    /// Normal of each.
+    /// Normal of each render triangle.
     flat: Vec<Vec3>,
     /// How its triangles hang together, if they face outwards.
     edges: Option<Edges>,
@@ -70,7 +71,7 @@ pub struct Piece<'a> {
     pub centre: DVec3,
 }
 
-/// A part of a triangle and its label, in the order of the triangles.
+/// A triangle, a label, and the polygon that is this label's part of the triangle. Lists of them are in the order of the triangles.
 type Cut = (u32, u32, Polygon);
 
 /// What of the render surface belongs to a fragment.
@@ -136,7 +137,7 @@ impl RenderIndex {
             }
             Some(edges) => {
                 let corners = number(surface, edges, &cuts, &mut shares);
-                Some((edges, corners, owners(&shares, surface.triangles.len())))
+                Some((corners, owners(&shares, surface.triangles.len())))
             }
         };
         let mut laid = points.clone();
@@ -157,7 +158,7 @@ impl RenderIndex {
                 normals: &normals,
                 is_on_rim: &is_on_rim,
             };
-            let seam = sewn.as_ref().map(|(edges, corners, owners)| {
+            let seam = sewn.as_ref().map(|(corners, owners)| {
                 let is_own = |t: u32| owners[t as usize] == piece.label;
                 let sides = sides(surface, corners, share, is_own);
                 let sheet_at = |number| corners.place(number);
@@ -166,13 +167,13 @@ impl RenderIndex {
                     sheet_at,
                     cracks,
                     f64::from(self.reach),
-                    edges.are_closed,
+                    corners.edges().are_closed,
                 )
             });
             let inner = seam
                 .unwrap_or_default()
                 .faces(cracks, piece.normals, &mut laid);
-            let corners = sewn.as_ref().map(|(_, corners, _)| corners);
+            let corners = sewn.as_ref().map(|(corners, _)| corners);
             self.assemble(surface, share, corners, &inner, piece.centre, &mut local)
         };
         pieces.iter().map(&mut draw).collect()

@@ -8,13 +8,17 @@
 use glam::{DVec2, DVec3};
 
 use super::parts::Parts;
-use super::polygon::{Polygon, area, bounds, centre, halves, has_separating_edge, overlap, split};
+use super::polygon::{
+    Polygon, SHORT, area, bounds, centre, halves, has_separating_edge, overlap, split,
+};
 use crate::TriangleTree;
 
 /// Parts that face farther away from the triangle's normal than this are another side of the body (cosine).
 const FACING: f64 = 0.3;
 /// Parts laid over a polygon one by one; of more, the polygon is halved first.
 const FEW: usize = 6;
+/// Of more parts the polygon is halved even before it is divided along cracks.
+const MANY: usize = 64;
 /// Polygons below this share of the triangle are rounding.
 const NOTHING: f64 = 1e-12;
 /// Halvings of what no part covers, at most.
@@ -39,7 +43,7 @@ pub(super) struct Ground {
 }
 
 impl Ground {
-    /// None of a triangle without area.
+    /// Nothing for a triangle without area.
     pub(super) fn new([a, b, c]: [DVec3; 3], is_turned: bool) -> Option<Self> {
         let (u, v) = (b - a, c - a);
         let normal = u.cross(v);
@@ -82,7 +86,7 @@ impl Ground {
             return None;
         }
         let heights = DVec3::new(p.dot(self.up), q.dot(self.up), r.dot(self.up));
-        if heights.abs().min_element() > reach {
+        if heights.min_element() > reach || heights.max_element() < -reach {
             return None;
         }
         let shade = if self.is_turned {
@@ -136,12 +140,16 @@ impl Overlay<'_> {
     /// Convex polygons with their labels that tile the triangle; one polygon when it belongs to one fragment. `under`: boundary triangles that
     /// lie over or under it.
     pub(super) fn divide(&self, under: &[u32]) -> Vec<(Polygon, u32)> {
-        let mut shades: Vec<(f64, Shade)> = Vec::new();
-        for part in under.iter().flat_map(|&t| self.parts.of(t)) {
-            if let Some((height, corners)) = self.ground.shade(part.corners, self.reach) {
-                let label = part.label;
-                shades.push((height, Shade { corners, label }));
+        let (mut shades, mut cracks) = (Vec::new(), Vec::new());
+        for &t in under {
+            let first = shades.len();
+            for part in self.parts.of(t) {
+                if let Some((height, corners)) = self.ground.shade(part.corners, self.reach) {
+                    let label = part.label;
+                    shades.push((height, Shade { corners, label }));
+                }
             }
+            add_cracks(&shades[first..], &mut cracks);
         }
         let whole = WHOLE.to_vec();
         if let [first, others @ ..] = &shades[..]
@@ -150,10 +158,12 @@ impl Overlay<'_> {
             return vec![(whole, first.1.label)];
         }
         let shades = nearest_first(shades);
-        let cracks = cracks(&shades);
-        let mut over: Vec<u32> = (0..shades.len() as u32).collect();
+        let mut left = Left {
+            over: (0..shades.len() as u32).collect(),
+            cracks: (0..cracks.len() as u32).collect(),
+        };
         let mut divided = Vec::new();
-        self.lay(whole, (&shades, &cracks), 0, &mut over, &mut divided);
+        self.lay(whole, (&shades, &cracks), [0, 0], &mut left, &mut divided);
         divided
     }
 
@@ -170,46 +180,51 @@ impl Overlay<'_> {
         }
         let mut divided = Vec::new();
         self.uncovered(WHOLE.to_vec(), HALVINGS, &mut divided);
+        make_whole(WHOLE.to_vec(), 0, &mut divided);
         divided
     }
 
-    /// Divides a polygon among the shades that meet it, which stand in a list from this place on. The list ends as it began.
+    /// Divides a polygon. `all`: the shades of all parts, and the cracks between them. `first`: where in the two lists of `left` those begin that
+    /// meet the polygon; the lists end as they began.
     fn lay(
         &self,
         polygon: Polygon,
-        laid: (&[Shade], &[[DVec2; 2]]),
-        first: usize,
-        over: &mut Vec<u32>,
+        all: (&[Shade], &[[DVec2; 2]]),
+        first: [usize; 2],
+        left: &mut Left,
         divided: &mut Vec<(Polygon, u32)>,
     ) {
-        let (shades, cracks) = laid;
+        let (shades, cracks) = all;
         let label = |s: u32| shades[s as usize].label;
-        if let [one, others @ ..] = &over[first..]
+        let over = &left.over[first[0]..];
+        if let [one, others @ ..] = over
             && others.iter().all(|&s| label(s) == label(*one))
         {
             divided.push((polygon, label(*one)));
             return;
         }
-        let (before, end) = (divided.len(), over.len());
-        let parted = along_a_crack(&polygon, cracks);
-        let many = end - first > FEW && self.size(&polygon) > 0.5 * self.reach;
-        if let Some(parts) = parted.or_else(|| many.then(|| halves(&polygon))) {
+        let before = divided.len();
+        let is_large = |many| over.len() > many && self.size(&polygon) > 0.5 * self.reach;
+        // Of very many parts each half first finds those that it meets.
+        let parted = if is_large(MANY) {
+            None
+        } else {
+            along_a_crack(&polygon, cracks, &left.cracks[first[1]..])
+        };
+        let used = parted.as_ref().map(|parted| parted.0);
+        let parted = parted.map(|parted| parted.1);
+        if let Some(parts) = parted.or_else(|| is_large(FEW).then(|| halves(&polygon))) {
             for part in parts {
                 if area(&part) > NOTHING {
-                    let within = bounds(&part);
-                    for place in first..end {
-                        let s = over[place];
-                        if shades[s as usize].meets(&part, within) {
-                            over.push(s);
-                        }
-                    }
-                    self.lay(part, laid, end, over, divided);
-                    over.truncate(end);
+                    let end = left.keep(&part, all, first, used);
+                    self.lay(part, all, end, left, divided);
+                    left.over.truncate(end[0]);
+                    left.cracks.truncate(end[1]);
                 }
             }
         } else {
             let mut rest = vec![polygon.clone()];
-            for &s in &over[first..] {
+            for &s in over {
                 let shade = &shades[s as usize];
                 rest = rest
                     .into_iter()
@@ -220,14 +235,7 @@ impl Overlay<'_> {
                 self.uncovered(piece, HALVINGS, divided);
             }
         }
-        // What was divided for nothing becomes whole again.
-        if let [(_, label), others @ ..] = &divided[before..]
-            && others.iter().all(|o| o.1 == *label)
-        {
-            let label = *label;
-            divided.truncate(before);
-            divided.push((polygon, label));
-        }
+        make_whole(polygon, before, divided);
     }
 
     /// A polygon without a part under it: closest labels, halved where they differ.
@@ -256,13 +264,47 @@ impl Overlay<'_> {
     }
 }
 
-/// Borders between shades of two labels.
-fn cracks(shades: &[Shade]) -> Vec<[DVec2; 2]> {
-    let mut cracks = Vec::new();
-    for (i, shade) in shades.iter().enumerate() {
+/// Shades, and cracks between them, that polygons meet: those of a polygon's parts follow its own.
+struct Left {
+    over: Vec<u32>,
+    cracks: Vec<u32>,
+}
+
+impl Left {
+    /// Adds those from `first` on that a part of the polygon meets, without the crack that it was `used` to divide along. Returns where they begin.
+    fn keep(
+        &mut self,
+        part: &[DVec2],
+        (shades, cracks): (&[Shade], &[[DVec2; 2]]),
+        first: [usize; 2],
+        used: Option<u32>,
+    ) -> [usize; 2] {
+        let end = [self.over.len(), self.cracks.len()];
+        let within = bounds(part);
+        for place in first[0]..end[0] {
+            let s = self.over[place];
+            if shades[s as usize].meets(part, within) {
+                self.over.push(s);
+            }
+        }
+        for place in first[1]..end[1] {
+            let c = self.cracks[place];
+            let [from, to] = cracks[c as usize];
+            if used != Some(c) && runs_through(part, from, to) {
+                self.cracks.push(c);
+            }
+        }
+        end
+    }
+}
+
+/// Adds the borders between shades of two labels. `shades`: those of one boundary triangle; along the sides of those its neighbours have the same
+/// labels.
+fn add_cracks(shades: &[(f64, Shade)], cracks: &mut Vec<[DVec2; 2]>) {
+    for (i, (_, shade)) in shades.iter().enumerate() {
         for k in 0..3 {
             let [from, to] = shade.side(k);
-            let beside = |other: &Shade| {
+            let beside = |(_, other): &(f64, Shade)| {
                 other.label != shade.label && (0..3).any(|k| other.side(k) == [to, from])
             };
             // Each is seen from both of its sides.
@@ -271,14 +313,30 @@ fn cracks(shades: &[Shade]) -> Vec<[DVec2; 2]> {
             }
         }
     }
-    cracks
 }
 
-/// The two parts of a polygon on the sides of the first crack that runs through it.
-fn along_a_crack(polygon: &[DVec2], cracks: &[[DVec2; 2]]) -> Option<[Polygon; 2]> {
-    let through = cracks.iter().filter(|c| runs_through(polygon, c[0], c[1]));
-    let mut parted = through.map(|&[from, to]| split(polygon, from, to - from));
-    parted.find(|parts| parts.iter().all(|part| area(part) > NOTHING))
+/// The first of some cracks that divides a polygon, and the two parts.
+fn along_a_crack(
+    polygon: &[DVec2],
+    cracks: &[[DVec2; 2]],
+    some: &[u32],
+) -> Option<(u32, [Polygon; 2])> {
+    let mut parted = some.iter().map(|&c| {
+        let [from, to] = cracks[c as usize];
+        (c, split(polygon, from, to - from))
+    });
+    parted.find(|(_, parts)| parts.iter().all(|part| area(part) > NOTHING))
+}
+
+/// What was divided for nothing, from a place of the list on, becomes the polygon again that it was.
+fn make_whole(polygon: Polygon, before: usize, divided: &mut Vec<(Polygon, u32)>) {
+    if let [(_, label), others @ ..] = &divided[before..]
+        && others.iter().all(|o| o.1 == *label)
+    {
+        let label = *label;
+        divided.truncate(before);
+        divided.push((polygon, label));
+    }
 }
 
 /// Whether a stretch of the line from one point to another lies within a convex polygon.
@@ -286,6 +344,9 @@ fn runs_through(polygon: &[DVec2], from: DVec2, to: DVec2) -> bool {
     let (mut first, mut last) = (0.0_f64, 1.0_f64);
     for (i, &p) in polygon.iter().enumerate() {
         let side = polygon[(i + 1) % polygon.len()] - p;
+        if side.length_squared() <= SHORT * SHORT {
+            continue;
+        }
         let (begin, end) = (side.perp_dot(from - p), side.perp_dot(to - p));
         match (begin > 0.0, end > 0.0) {
             (true, true) => {}

@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 /// The direction of an edge shorter than this is rounding; the triangle's own edges are of length 1.
-const SHORT: f64 = 1e-9;
+pub(super) const SHORT: f64 = 1e-9;
 
 /// What lies no farther than this beyond the side of a polygon lies on it: the corners of two parts of a polygon are rounded.
 const ROUNDING: f64 = 1e-12;
@@ -69,7 +69,7 @@ pub(super) fn overlap(a: &[DVec2], b: &[DVec2]) -> bool {
     !has_separating_edge(a, b) && !has_separating_edge(b, a)
 }
 
-/// Whether all of `b` lies right of an edge of `a`.
+/// Whether all of `b` lies right of an edge of `a`, on it, or beyond it by no more than rounding; short edges do not count.
 pub(super) fn has_separating_edge(a: &[DVec2], b: &[DVec2]) -> bool {
     (0..a.len()).any(|i| {
         let (from, to) = (a[i], a[(i + 1) % a.len()]);

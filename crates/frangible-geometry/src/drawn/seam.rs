@@ -2,8 +2,8 @@
 //!
 //! The fracture mesh only follows the author's surface, so the two borders are two lines close to each other. The rim of the crack faces is
 //! laid on the border of the share, and crack faces take in the corners that the border has between two points of the rim. Where a rim is too
-//! far away to be laid there, triangles close what is open between the two lines. A border that has none of the other kind beside it is closed by itself: of a speck, say,
-//! that one of the two does not have.
+//! far away to be laid there, triangles close what is open between the two lines. A border that has none of the other kind beside it is closed
+//! by itself: of a speck, say, that one of the two does not have.
 
 use std::collections::BTreeMap;
 
@@ -22,8 +22,8 @@ const FAR: f64 = 2.0;
 const AHEAD: f64 = 4.0;
 const LEAD: f64 = 0.1;
 
-/// A rim's point that is laid no farther than this from a corner of a border, in reaches, is laid on the corner: the difference would be lost
-/// in the drawn corners, which are rounded.
+/// A rim's point that is laid no farther than this from a corner of a border, in reaches, is laid on the corner: drawn corners are rounded, and
+/// sides as short would be lost.
 const AT_CORNER: f64 = 2e-6;
 
 /// A crack face follows a border that lies no farther than this from its side, in reaches: where the border makes a detour, as in a fold of the
@@ -61,8 +61,8 @@ pub(super) struct Seam {
 }
 
 impl Seam {
-    /// The crack faces, sewn to the border, and the triangles that close the fragment. `normals`: at the corners of each face. `laid` holds where
-    /// the points of the cracks are, before and after.
+    /// The crack faces, sewn to the border, and the triangles that close the fragment. `normals`: at the corners of each face. `laid`: where
+    /// the points of the cracks are; it is changed meanwhile and put back.
     pub(super) fn faces(
         mut self,
         cracks: CrackFaces<'_>,
@@ -417,7 +417,8 @@ fn lay(border: &[DVec3], rim: &[DVec3], at_corner: f64) -> Vec<(usize, DVec3)> {
     laid
 }
 
-/// Divides sides of a border where points of a rim lie on them: by triangles between the ends of a side and those points, which are lines.
+/// Divides sides of a border where points of a rim lie on them, by triangles between the ends of a side and those points. These triangles are
+/// nothing but lines.
 fn divide_sides(border: &[DVec3], rim: &[RimPoint], triangles: &mut Vertices) {
     let count = border.len();
     // The last ones may lie on the first side again, and come before the first ones there.
@@ -448,21 +449,18 @@ fn join(
             None => (&rim[0], rim[0].side + border.len()),
         };
         let corners = (point.side + 1..=until).map(|i| border[i % border.len()]);
-        let mut along: Vec<DVec3> = corners.collect();
-        along.insert(0, point.beside);
+        let mut along: Vec<DVec3> = [point.beside].into_iter().chain(corners).collect();
         along.push(next.beside);
         along.dedup();
         let straight = Side::new(point.place, next.place);
         let is_near = |p: &DVec3| straight.nearest(*p).distance(*p) <= most;
         if point.is_on_border() && next.is_on_border() && along.iter().all(is_near) {
-            // Crack faces run the other way round.
-            let corners = along.iter().rev().skip(1);
-            let corners: Vec<DVec3> = corners
-                .take(along.len().saturating_sub(2))
-                .copied()
-                .collect();
-            if !corners.is_empty() {
+            if let [_, corners @ .., _] = &along[..]
+                && !corners.is_empty()
+            {
+                // Crack faces run the other way round.
                 let side = [next.number, point.number];
+                let corners = corners.iter().rev().copied().collect();
                 between.entry(side).or_default().push(corners);
             }
             continue;
@@ -518,8 +516,8 @@ fn add_face(
     }
 }
 
-/// Triangles that close a ring by itself, on the left of its sides' reverse. They meet in a place of their own, neither on the ring nor in its
-/// middle: the surface that they close may have the same sides there.
+/// Triangles that close a ring; their sides run against the ring's. They meet in a place of their own, neither on the ring nor in its middle: the
+/// surface that they close may have the same sides there.
 fn cap(ring: impl Iterator<Item = DVec3>, triangles: &mut Vertices) {
     let ring: Vec<DVec3> = ring.collect();
     let middle = ring.iter().sum::<DVec3>() / ring.len() as f64;

@@ -38,7 +38,7 @@ pub(super) struct Under {
 pub(super) enum Lie {
     /// Over triangles of the boundary, or under them, and facing as they do.
     Over,
-    /// The same, but wound the wrong way round.
+    /// Over or under triangles of the boundary, but wound the wrong way round.
     Turned,
     /// Beside a sharp edge, or in a shell that the fracture mesh does not have.
     Beside,
@@ -90,7 +90,8 @@ impl Under {
         self.lies[triangle]
     }
 
-    /// Those of a triangle; of one that lies beside the boundary the closest to its middle, then those to its corners.
+    /// Boundary triangles over or under a triangle of the surface; where that lies beside the boundary, the closest to its middle and then those
+    /// to its corners.
     pub(super) fn of(&self, triangle: usize) -> &[u32] {
         let first = triangle.checked_sub(1).map_or(0, |t| self.end[t]);
         &self.list[first as usize..self.end[triangle] as usize]

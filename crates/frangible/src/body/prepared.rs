@@ -20,7 +20,7 @@ pub(crate) struct Prepared {
     pub(crate) index: Arc<MeshIndex>,
     /// Over the triangles of the outer surface.
     pub(crate) surface: TriangleTree,
-    /// Over those of the render surface; none of a piece.
+    /// What drawing pieces needs; none of a piece, which uses that of its root.
     pub(crate) render: Option<RenderIndex>,
     /// Free surfaces: flaws and walls.
     pub(crate) skin: Skin,
