@@ -31,7 +31,7 @@ impl RenderIndex {
             index: self,
             centre,
         };
-        // Of most surfaces half as many vertices as triangles, more of flat shaded ones; a numbered polygon is some two triangles.
+        // Most surfaces have half as many vertices as triangles, flat shaded ones more; a numbered polygon is some two triangles.
         let cut = 2 * (share.numbered.len() + share.pieces.len());
         mesh.reserve(
             share.whole.len() / 2 + 2 * cut + 3 * faces.len(),

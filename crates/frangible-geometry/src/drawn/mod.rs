@@ -9,9 +9,11 @@
 mod assemble;
 mod conform;
 mod edges;
+mod lines;
 mod overlay;
 mod parts;
 mod polygon;
+mod rings;
 mod seam;
 mod surface;
 mod under;

@@ -17,7 +17,7 @@ use crate::TriangleTree;
 const FACING: f64 = 0.3;
 /// Parts laid over a polygon one by one; of more, the polygon is halved first.
 const FEW: usize = 6;
-/// Of more parts the polygon is halved even before it is divided along cracks.
+/// A polygon that meets more parts is halved even before it is divided along cracks.
 const MANY: usize = 64;
 /// Polygons below this share of the triangle are rounding.
 const NOTHING: f64 = 1e-12;

@@ -10,17 +10,11 @@ use std::collections::BTreeMap;
 use glam::{DVec3, Vec3};
 
 use super::assemble::Vertices;
-
-/// Points of a border of which its distance from another is taken.
-const SAMPLES: usize = 16;
+use super::lines::{Side, lay, pairs};
+use super::rings::{Ring, open, rings};
 
 /// A rim lies no farther than so many reaches from the border that it belongs to, in the mean.
 const FAR: f64 = 2.0;
-
-/// How far ahead on the border the next point of a rim is looked for, in lengths of the way to it; and in any case so much beyond where it would be if
-/// both were equally long everywhere, in shares of the border.
-const AHEAD: f64 = 4.0;
-const LEAD: f64 = 0.1;
 
 /// A rim's point that is laid no farther than this from a corner of a border, in reaches, is laid on the corner: drawn corners are rounded, and
 /// sides as short would be lost.
@@ -29,26 +23,6 @@ const AT_CORNER: f64 = 2e-6;
 /// A crack face follows a border that lies no farther than this from its side, in reaches: where the border makes a detour, as in a fold of the
 /// surface, the face would become a fin.
 const BULGE: f64 = 0.5;
-
-/// A line without ends.
-#[derive(Debug)]
-struct Ring {
-    /// Its points in order, by number.
-    points: Vec<u32>,
-    /// How many of its sides are on the border of a hole.
-    on_hole: usize,
-}
-
-impl Ring {
-    /// Whether it is nothing but the border of a hole.
-    fn is_hole(&self) -> bool {
-        self.on_hole == self.points.len()
-    }
-
-    fn places(&self, at: impl Fn(u32) -> DVec3) -> Vec<DVec3> {
-        self.points.iter().map(|&v| at(v)).collect()
-    }
-}
 
 /// What closes a fragment.
 #[derive(Debug, Default)]
@@ -119,7 +93,7 @@ impl RimPoint {
     }
 }
 
-/// Crack faces of a fragment, and what is known of their points, which are numbered on from that of all fragments' first one.
+/// Crack faces of a fragment, and what is known of the points of all fragments' crack faces, which are numbered from `first` on.
 #[derive(Clone, Copy)]
 pub(super) struct CrackFaces<'a> {
     pub(super) faces: &'a [[u32; 3]],
@@ -210,211 +184,6 @@ pub(super) fn close(
     }
     (seam.between, seam.triangles) = (between, triangles);
     seam
-}
-
-/// Directed sides that are left where one and its reverse take each other away.
-fn open(sides: impl Iterator<Item = ([u32; 2], bool)>) -> Vec<([u32; 2], bool)> {
-    // Both ends in one number are sorted faster than an array.
-    let both = |low: u32, high: u32| u64::from(low) << 32 | u64::from(high);
-    let mut sides: Vec<(u64, bool, bool)> = sides
-        .filter(|([a, b], _)| a != b)
-        .map(|([a, b], on_hole)| (both(a.min(b), a.max(b)), a < b, on_hole))
-        .collect();
-    sides.sort_unstable();
-    let mut open = Vec::new();
-    for same in sides.chunk_by(|x, y| x.0 == y.0) {
-        let (ends, _, on_hole) = same[0];
-        let [a, b] = [(ends >> 32) as u32, ends as u32];
-        let forward = same.iter().filter(|side| side.1).count();
-        let back = same.len() - forward;
-        let left = |ends, count| std::iter::repeat_n((ends, on_hole), count);
-        open.extend(left([a, b], forward.saturating_sub(back)));
-        open.extend(left([b, a], back.saturating_sub(forward)));
-    }
-    open.sort_unstable();
-    open
-}
-
-/// Rings of sorted sides, as many of which leave each point as lead to it. None passes a point twice: two that touch are two.
-fn rings(sides: &[([u32; 2], bool)]) -> Vec<Ring> {
-    const NOT_IN_LINE: usize = usize::MAX;
-    let leaving = |point| sides.partition_point(|side| side.0[0] < point);
-    let mut used = vec![false; sides.len()];
-    let mut rings = Vec::new();
-    // Place in the line at hand of the point that each side leaves; kept at the first side of a point.
-    let mut place = vec![NOT_IN_LINE; sides.len() + 1];
-    for first in 0..sides.len() {
-        // Points of the line, and whether the side that leaves each is on a hole.
-        let mut line: Vec<(u32, bool)> = Vec::new();
-        let mut next = (!used[first]).then_some(first);
-        let mut at = leaving(sides[first].0[0]);
-        while let Some(side) = next {
-            used[side] = true;
-            let ([from, to], on_hole) = sides[side];
-            place[at] = line.len();
-            line.push((from, on_hole));
-            at = leaving(to);
-            if place[at] != NOT_IN_LINE {
-                let ring = line.split_off(place[at]);
-                for (point, _) in &ring {
-                    place[leaving(*point)] = NOT_IN_LINE;
-                }
-                rings.push(Ring {
-                    on_hole: ring.iter().filter(|point| point.1).count(),
-                    points: ring.into_iter().map(|point| point.0).collect(),
-                });
-            }
-            let mut ahead = (at..sides.len()).take_while(|&side| sides[side].0[0] == to);
-            next = ahead.find(|&side| !used[side]);
-        }
-        for (point, _) in line {
-            place[leaving(point)] = NOT_IN_LINE;
-        }
-    }
-    rings
-}
-
-/// Borders and the rims beside them, no farther away than `most`, m, in the mean; the closest first, each in one pair at most.
-fn pairs(borders: &[Vec<DVec3>], rims: &[Vec<DVec3>], most: f64) -> Vec<(usize, usize)> {
-    let mut gaps = Vec::new();
-    let rim_boxes: Vec<_> = rims.iter().map(|rim| box_of(rim)).collect();
-    let rim_sides: Vec<_> = rims.iter().map(|rim| sides_of(rim)).collect();
-    for (b, border) in borders.iter().enumerate() {
-        let [low, high] = box_of(border);
-        let border_sides = sides_of(border);
-        for (r, rim) in rims.iter().enumerate() {
-            let [l, h] = rim_boxes[r];
-            if (l - high).max(low - h).max_element() > most {
-                continue;
-            }
-            // Of a speck beside a long line only the way there is short.
-            let there = gap(border, &rim_sides[r], most);
-            let gap = there.and_then(|there| Some(gap(rim, &border_sides, most)?.max(there)));
-            gaps.extend(gap.map(|gap| (gap, b, r)));
-        }
-    }
-    gaps.sort_by(|x, y| x.0.total_cmp(&y.0).then((x.1, x.2).cmp(&(y.1, y.2))));
-    let mut pairs: Vec<(usize, usize)> = Vec::new();
-    for (_, b, r) in gaps {
-        if pairs.iter().all(|pair| pair.0 != b && pair.1 != r) {
-            pairs.push((b, r));
-        }
-    }
-    pairs
-}
-
-fn box_of(points: &[DVec3]) -> [DVec3; 2] {
-    let none = [DVec3::INFINITY, DVec3::NEG_INFINITY];
-    points.iter().fold(none, |[l, h], &p| [l.min(p), h.max(p)])
-}
-
-/// Mean distance of points of one line from another, m, unless it is more than `most`.
-fn gap(from: &[DVec3], to: &[Side], most: f64) -> Option<f64> {
-    let every = from.len().div_ceil(SAMPLES);
-    let samples = from.iter().step_by(every);
-    let count = samples.len() as f64;
-    let mut sum = 0.0;
-    for p in samples {
-        sum += nearest(to, *p).1.sqrt();
-        if sum > most * count {
-            return None;
-        }
-    }
-    Some(sum / count)
-}
-
-/// A side of a ring.
-#[derive(Clone, Copy, Debug)]
-struct Side {
-    from: DVec3,
-    along: DVec3,
-    /// One over the square of its length, 1/m²; 0 of one without length.
-    inverse: f64,
-}
-
-impl Side {
-    fn new(from: DVec3, to: DVec3) -> Self {
-        let along = to - from;
-        let square = along.length_squared();
-        let inverse = if square > 0.0 { 1.0 / square } else { 0.0 };
-        Self {
-            from,
-            along,
-            inverse,
-        }
-    }
-
-    fn nearest(&self, p: DVec3) -> DVec3 {
-        let share = (p - self.from).dot(self.along) * self.inverse;
-        self.from + self.along * share.clamp(0.0, 1.0)
-    }
-}
-
-/// The sides of a ring, from each point to the next.
-fn sides_of(ring: &[DVec3]) -> Vec<Side> {
-    let next = ring.iter().cycle().skip(1);
-    ring.iter()
-        .zip(next)
-        .map(|(&from, &to)| Side::new(from, to))
-        .collect()
-}
-
-/// The side of a ring nearest to a point, and how far away it is, squared, m².
-fn nearest(ring: &[Side], p: DVec3) -> (usize, f64) {
-    let mut best = (0, f64::INFINITY);
-    for (i, side) in ring.iter().enumerate() {
-        let squared = side.nearest(p).distance_squared(p);
-        if squared < best.1 {
-            best = (i, squared);
-        }
-    }
-    best
-}
-
-/// Where a rim that runs along a border is laid on it, point by point: how many of its sides from the first on lie before, and the place. No
-/// point is laid before the one before it, so that a border which comes back to itself is followed and not crossed.
-fn lay(border: &[DVec3], rim: &[DVec3], at_corner: f64) -> Vec<(usize, DVec3)> {
-    let count = border.len();
-    let begin = nearest(&sides_of(border), rim[0]).0;
-    let at = |side: usize| border[(begin + side) % count];
-    let snapped = |place: DVec3, side: usize| {
-        let near = |end: &DVec3| end.distance(place) <= at_corner;
-        let ends = [at(side), at(side + 1)];
-        ends.into_iter().find(near).unwrap_or(place)
-    };
-    let place = snapped(Side::new(at(0), at(1)).nearest(rim[0]), 0);
-    let length_of = |side: usize| at(side).distance(at(side + 1));
-    let whole: f64 = (0..count).map(length_of).sum();
-    let rim_length = |j: usize| rim[j].distance(rim[(j + 1) % rim.len()]);
-    let rim_whole: f64 = (0..rim.len()).map(rim_length).sum();
-    let mut laid = vec![(begin, place)];
-    // Sides that have been passed, their length, and the length of the rim.
-    let (mut side, mut passed, mut run) = (0, 0.0, 0.0);
-    for j in 1..rim.len() {
-        let step = rim_length(j - 1);
-        run += step;
-        let ahead = AHEAD * (step + rim[j].distance(laid[j - 1].1));
-        let most = (passed + ahead).max(whole * (run / rim_whole + LEAD));
-        let mut best = (f64::INFINITY, side, passed, laid[j - 1].1);
-        let mut length = passed;
-        for s in side..=count {
-            let from = if s == side { laid[j - 1].1 } else { at(s) };
-            // The side where it began has a rest.
-            let to = if s == count { place } else { at(s + 1) };
-            let near = Side::new(from, to).nearest(rim[j]);
-            let squared = near.distance_squared(rim[j]);
-            if squared < best.0 {
-                best = (squared, s, length + from.distance(near), near);
-            }
-            length += from.distance(to);
-            if length > most {
-                break;
-            }
-        }
-        (side, passed) = (best.1, best.2);
-        laid.push((begin + side, snapped(best.3, side)));
-    }
-    laid
 }
 
 /// Divides sides of a border where points of a rim lie on them, by triangles between the ends of a side and those points. These triangles are
