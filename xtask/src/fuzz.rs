@@ -23,6 +23,9 @@ const TIMEOUT: u64 = 10;
 /// Targets that break bodies, and what one of their inputs may take, s: hundreds of pieces take seconds on a busy machine.
 const BREAKING: ([&str; 3], u64) = (["impact", "run_scene", "world"], 30);
 
+/// Inputs up to so many bytes are printed whole where they are found.
+const SHOWN: usize = 2048;
+
 /// Where things are. Nothing is written into the checkout.
 struct Folders {
     /// The checkout's `fuzz`: targets, seeds, a dictionary.
@@ -211,21 +214,34 @@ fn run_target(folders: &Folders, name: &str, seconds: u64) -> Result<String> {
 }
 
 /// What was found, and how to see it again.
+///
+/// The panic's words and the input itself come last: often the end of this text is all that is left of a machine on which a
+/// target failed.
 fn finding(name: &str, program: &Path, log: &Path, input: Option<&str>, said: &str) -> String {
-    let panic = said
-        .lines()
-        .skip_while(|line| !line.contains("panicked at"))
-        .take(3);
     let mut lines = vec![format!(
         "fuzz target `{name}` failed; its log is {}",
         log.display()
     )];
-    lines.extend(panic.map(String::from));
     if let Some(input) = input {
         lines.push(format!("reproduce: {} {input}", program.display()));
         lines.push(format!(
             "keep:      cp {input} fuzz/corpus/{name}/ and a test beside the reader"
         ));
+        match fs::read(input) {
+            Ok(bytes) if bytes.len() <= SHOWN => {
+                let hexadecimal: String = bytes.iter().map(|byte| format!("{byte:02x}")).collect();
+                lines.push(format!(
+                    "elsewhere: echo {hexadecimal} | xxd -r -p > {name}-input"
+                ));
+            }
+            _ => {}
+        }
     }
+    let panic = said
+        .lines()
+        .skip_while(|line| !line.contains("panicked at"))
+        .take_while(|line| !line.starts_with("stack backtrace"))
+        .take(3);
+    lines.extend(panic.map(String::from));
     lines.join("\n")
 }

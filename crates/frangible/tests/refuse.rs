@@ -4,6 +4,7 @@ mod bodies;
 
 use bodies::{Numbers, bits, block, breaking, models, pane, shelf};
 use frangible::glam::Vec3;
+use frangible::internals::blow::Blow;
 use frangible::internals::{Blast, blast, rest_margin_at_least};
 use frangible::internals::{DurationModel, Factors, Fields, Force, LookedAt, is_harmless, rest};
 use frangible::{Breakable, Contact, FractureConfig, Outcome, impact, would_break};
@@ -219,4 +220,41 @@ fn the_bounds_change_no_bit_of_a_blast() {
         }
     }
     assert!((1..6).contains(&broke), "{broke}");
+}
+
+/// However hard a contact rubs, its normal force is that of one that does not, and stays within the bounds.
+#[test]
+fn friction_adds_nothing_to_the_force_that_it_follows() {
+    let config = FractureConfig::default();
+    let (point, toward) = (Vec3::new(-0.1, 0.1, 0.001), Vec3::new(1.0, -0.1, -0.1));
+    let ball = bodies::steel_ball(0.05);
+    let along_the_pane = Contact::collision(pane().asset(), point, toward, 0.05, ball);
+    let mut compared = 0;
+    for (kind, contact) in [(pane(), along_the_pane), (block(), bodies::block_hit(0.2))] {
+        let body = kind.body(1);
+        let blow = |friction: Vec3| {
+            let contact = Contact {
+                friction: contact.impulse * friction,
+                ..contact.clone()
+            };
+            let found = Blow::new(&body, &[contact], &config).unwrap();
+            found.expect("a contact that pushes").reports()[0].clone()
+        };
+        let smooth = blow(Vec3::ZERO);
+        let beside = contact.normal.any_orthonormal_vector();
+        for size in [0.3, 1.0, 10.0, 1e4] {
+            for direction in [
+                beside,
+                -beside,
+                beside.cross(contact.normal),
+                -contact.normal,
+            ] {
+                let rough = blow(size * direction);
+                let apart = (rough.impulse / smooth.impulse - 1.0).abs();
+                assert!(apart < 1e-3, "{size} {direction}: {rough:?}, {smooth:?}");
+                compared += 1;
+            }
+        }
+    }
+    assert_eq!(compared, 32);
 }

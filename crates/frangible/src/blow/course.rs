@@ -352,8 +352,7 @@ impl Blow {
                     swing.extend(own.iter().zip(&scale).map(|(x, s)| x * s));
                 }
                 first += oscillators;
-                let mut across: Vec<f32> =
-                    force.iter().map(|f| f * near.wall.across as f32).collect();
+                let mut across: Vec<f32> = force.iter().map(|f| f * near.across as f32).collect();
                 across.resize(run.near_steps, 0.0);
                 let (place, wall, bands) = (near.place, &near.wall.material, &near.bands);
                 complement

@@ -100,7 +100,8 @@ impl pulp::NullaryFnOnce for Run<'_> {
                 if parted {
                     let own = padded(plan.own);
                     record.energy_at_parting = energies(&state, 0..own)[0];
-                    record.strikers_energy = energies(&state, own..state.x.len())[0];
+                    let strikers = plan.strikers.start..padded(plan.strikers.end);
+                    record.strikers_energy = energies(&state, strikers)[0];
                 }
             }
         }
@@ -297,10 +298,8 @@ impl<'a> Contacts<'a> {
                     }
                 }
                 let i = k * count + k;
-                let compliance = plan.compliance[i] + self.weakness[k];
+                let give = self.give[i] + (plan.compliance[i] + self.weakness[k]);
                 let spring = &plan.sites[k].spring;
-                // With friction, modes may swing towards the striker under their force: then the body counts as stiff.
-                let give = (self.give[i] + compliance).max(0.0);
                 spring.force(gap, give, self.largest[k], &mut self.roots[k])
             }
         }

@@ -2,8 +2,8 @@
 //!
 //! With B the inverse masses of the rigid bodies at the contacts and v the approach there, the motion of approach holds the energy
 //! `T = ½ vᵀ B⁻¹ v`, and nothing adds to it: springs, modes and wall oscillators, those of a striker that vibrates too, are at rest before it
-//! and only store, pass on and lose. A script does add to it, so that nothing is known where scripts push beside strikers. What friction adds
-//! along the surface is not counted. So the limits ask for no modes, and hold with and without a striker's:
+//! and only store, pass on and lose. A script does add to it, so that nothing is known where scripts push beside strikers. Friction does
+//! not move what the forces feel. So the limits ask for no modes, and hold with and without a striker's:
 //! - Hertz' spring of a contact never holds more: its force stays below that at which it holds T;
 //! - the impulses J of the contacts so far have left the approach v − B J, which holds at most T as well. So
 //!   `½ Jᵀ B J ≤ 4 T`, and so `J_k ≤ √(8 T (B⁻¹)_kk)`; where no contact's push helps another (all of B ≥ 0) `J_k ≤ √(8 T / B_kk)`, which

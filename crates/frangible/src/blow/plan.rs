@@ -4,8 +4,11 @@
 use std::ops::Range;
 use std::sync::Arc;
 
+use glam::Vec3;
+
 use super::Spring;
 use super::bank::{Bank, Pushes, padded, spans};
+use super::receptance::Push;
 use super::wall::{NearPlan, place};
 use crate::body::Body;
 use crate::config::FractureConfig;
@@ -45,8 +48,11 @@ pub(super) struct Plan {
     pub(super) modes: usize,
     /// Oscillators of the body: its modes and, after them, its wall oscillators.
     pub(super) own: usize,
-    /// ω and d of the body's oscillators and, after them, of those of breakable bodies that strike it.
+    /// ω and d of the body's oscillators and, after them, of [those that the contacts feel instead](Plan::feel_without_friction) and those of
+    /// breakable bodies that strike it.
     pub(super) oscillators: Vec<(f64, f64)>,
+    /// The oscillators of breakable bodies that strike.
+    pub(super) strikers: Range<usize>,
     /// 1/ω of the modes, s.
     pub(super) periods: Vec<f64>,
     /// How hard each contact pushes each oscillator, 1/√kg.
@@ -94,7 +100,7 @@ impl Plan {
         load.modal_impulse = stopping(body, &load, &inverse_mass);
         let count = load.touches.len();
         let mut sites: Vec<Site> = Vec::with_capacity(count);
-        let mut felt: Vec<Receptance> = Vec::with_capacity(count);
+        let mut felt: Vec<(Receptance, Push)> = Vec::with_capacity(count);
         let mut oscillators: Vec<(f64, f64)> = (0..modes)
             .map(|i| {
                 let damping = asset.modes.damping(i, &asset.material);
@@ -103,9 +109,9 @@ impl Plan {
             .collect();
         for (k, touch) in load.touches.iter().enumerate() {
             let mass = 1.0 / inverse_mass[k * count + k];
-            let (site, receptance) = site(body, touch, mass, config, &mut oscillators);
+            let (site, of_site) = site(body, touch, mass, config, &mut oscillators);
             sites.push(site);
-            felt.push(receptance);
+            felt.push(of_site);
         }
         let hertz_time = sites
             .iter()
@@ -127,6 +133,7 @@ impl Plan {
             compliance: Vec::new(),
             own_compliance: Vec::new(),
             own: oscillators.len(),
+            strikers: 0..0,
             time_step,
             substeps: substeps.max(1),
             fine: Bank::default(),
@@ -140,17 +147,25 @@ impl Plan {
             oscillators,
             sites,
         };
+        let strikes = |s: &Site| s.script.is_none() && s.touch.contact.friction != Vec3::ZERO;
+        let rubs = plan.sites.iter().any(strikes);
         let coupled: Vec<Coupled<'_>> = (felt.iter().enumerate())
-            .map(|(contact, felt)| Coupled {
+            .map(|(contact, (felt, push))| Coupled {
                 contact,
                 felt,
+                drive: &push.drive,
+                across: push.across,
+                is_felt: !rubs,
                 first: 0,
                 waves: (plan.sites[contact].near.as_ref())
                     .map(|near| (near.oscillators.clone(), near.bands.clone())),
             })
             .collect();
         plan.own_compliance = plan.couple(&coupled);
-        plan.compliance = plan.own_compliance.clone();
+        plan.compliance = match rubs {
+            true => plan.feel_without_friction(&felt),
+            false => plan.own_compliance.clone(),
+        };
         plan.add_strikers();
         let rows = plan.drive.iter().zip(&plan.gap);
         plan.spans = rows.map(|(drive, gap)| spans(drive, gap)).collect();
@@ -210,22 +225,34 @@ impl Plan {
             let (pushes, feels) = (&mut self.drive[one.contact], &mut self.gap[one.contact]);
             for i in 0..felt.followed {
                 let at = one.first + i;
-                pushes[at] = felt.drive[i];
-                feels[at] = felt.gap[i] / self.oscillators[at].0;
+                pushes[at] = one.drive[i];
+                if one.is_felt {
+                    feels[at] = felt.shape[i] / self.oscillators[at].0;
+                }
             }
             if let (Some(wall), Some((oscillators, bands))) = (&felt.wall, &one.waves) {
                 for (i, band) in oscillators.clone().zip(&bands.oscillators) {
                     let xi = band.give.sqrt();
-                    pushes[i] = xi * wall.across;
-                    feels[i] = xi * wall.along_normal / self.oscillators[i].0;
+                    pushes[i] = xi * one.across;
+                    if one.is_felt {
+                        feels[i] = xi * wall.along_normal / self.oscillators[i].0;
+                    }
                 }
             }
+            // What is not felt holds energy all the same.
+            let shape = if one.is_felt { &felt.shape } else { one.drive };
             for other in contacts.iter().filter(|other| other.first == one.first) {
                 let entry = &mut compliance[one.contact * count + other.contact];
-                *entry = felt.compliance(other.felt);
+                *entry = felt.compliance(shape, other.drive);
             }
             if let (Some(wall), Some((_, bands))) = (&felt.wall, &one.waves) {
-                compliance[one.contact * count + one.contact] += wall.compliance(bands);
+                let along = if one.is_felt {
+                    wall.along_normal
+                } else {
+                    one.across
+                };
+                compliance[one.contact * count + one.contact] +=
+                    along * one.across * bands.compliance();
             }
         }
         compliance
@@ -243,8 +270,7 @@ impl Plan {
         if strikers.is_empty() {
             return;
         }
-        // Those of the body end with a whole group; oscillators that nothing pushes fill it up.
-        self.oscillators.resize(padded(self.own), (1.0, 0.0));
+        let before = self.fill_group();
         let mut coupled: Vec<Coupled<'_>> = Vec::with_capacity(strikers.len());
         for (k, felt) in &strikers {
             let (site, count) = (&self.sites[*k], self.sites.len());
@@ -269,20 +295,50 @@ impl Plan {
                 let (bands, _) = wall.bands(site, mass);
                 (add_waves(felt, &bands, &mut self.oscillators), bands)
             });
-            coupled.push(Coupled {
-                contact: *k,
-                felt,
-                first,
-                waves,
-            });
+            coupled.push(Coupled::without_friction(*k, felt, first, waves));
         }
-        let width = padded(self.oscillators.len());
-        for row in self.drive.iter_mut().chain(&mut self.gap) {
-            row.resize(width, 0.0);
-        }
+        self.widen();
         let given = self.couple(&coupled);
         for (sum, given) in self.compliance.iter_mut().zip(given) {
             *sum += given;
+        }
+        self.strikers = before..self.oscillators.len();
+    }
+
+    /// Adds the body's oscillators once more, driven by the normal forces alone, and lets the contacts feel these in place of the ones that
+    /// friction drives too.
+    ///
+    /// Friction follows the normal force, and may move the place that is touched towards the striker: felt, it would add energy without end.
+    /// Returns what the contacts feel follow the force, m/N, row-major.
+    fn feel_without_friction(&mut self, felt: &[(Receptance, Push)]) -> Vec<f64> {
+        let first = self.fill_group();
+        self.oscillators.extend_from_within(..self.own);
+        let coupled: Vec<Coupled<'_>> = (felt.iter().enumerate())
+            .map(|(contact, (felt, _))| {
+                let near = self.sites[contact].near.as_ref();
+                let waves = near.map(|near| {
+                    let Range { start, end } = near.oscillators;
+                    (first + start..first + end, near.bands.clone())
+                });
+                Coupled::without_friction(contact, felt, first, waves)
+            })
+            .collect();
+        self.widen();
+        self.couple(&coupled)
+    }
+
+    /// Fills the last group up with oscillators that nothing pushes, and returns how many there are then.
+    fn fill_group(&mut self) -> usize {
+        let count = padded(self.oscillators.len());
+        self.oscillators.resize(count, (1.0, 0.0));
+        count
+    }
+
+    /// Makes room for all oscillators in each row.
+    fn widen(&mut self) {
+        let width = padded(self.oscillators.len());
+        for row in self.drive.iter_mut().chain(&mut self.gap) {
+            row.resize(width, 0.0);
         }
     }
 }
@@ -291,10 +347,35 @@ impl Plan {
 struct Coupled<'a> {
     contact: usize,
     felt: &'a Receptance,
+    /// How the contact pushes the body's modes, 1/√kg, and which share of its force acts across the wall.
+    drive: &'a [f64],
+    across: f64,
+    /// Whether the contact feels these oscillators.
+    is_felt: bool,
     /// Number of the body's first mode among the oscillators: contacts with the same number push the same modes.
     first: usize,
     /// The wall oscillators about the contact, and the bands that they stand for.
     waves: Option<(Range<usize>, Bands)>,
+}
+
+impl<'a> Coupled<'a> {
+    /// A body that the contact's normal force pushes, and that it feels.
+    fn without_friction(
+        contact: usize,
+        felt: &'a Receptance,
+        first: usize,
+        waves: Option<(Range<usize>, Bands)>,
+    ) -> Self {
+        Self {
+            contact,
+            felt,
+            drive: &felt.shape,
+            across: felt.wall.as_ref().map_or(0.0, |wall| wall.along_normal),
+            is_felt: true,
+            first,
+            waves,
+        }
+    }
 }
 
 /// Puts the wall oscillators of a contact behind the others.
@@ -357,7 +438,7 @@ fn site(
     mass: f64,
     config: &FractureConfig,
     oscillators: &mut Vec<(f64, f64)>,
-) -> (Site, Receptance) {
+) -> (Site, (Receptance, Push)) {
     let contact = &touch.contact;
     let mut site = Site {
         spring: Spring::at(&body.asset, contact, touch.curvature_radius),
@@ -374,7 +455,7 @@ fn site(
         residual: Vec::new(),
         touch: touch.clone(),
     };
-    let felt = Receptance::at(body, touch, config);
+    let (felt, push) = Receptance::at(body, touch, config);
     if let Some(wall) = felt.wall
         && let Some(place) = place(body, touch, &wall)
     {
@@ -383,10 +464,11 @@ fn site(
             oscillators: add_waves(&felt, &bands, oscillators),
             place,
             wall,
+            across: push.across,
             bands,
             contact_radius,
         });
     }
-    site.residual = felt.drive[felt.followed..].to_vec();
-    (site, felt)
+    site.residual = push.drive[felt.followed..].to_vec();
+    (site, (felt, push))
 }

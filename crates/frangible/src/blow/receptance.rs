@@ -22,41 +22,52 @@ const RINGING: f64 = 25.0;
 /// Wall oscillators are so close that their echo comes this many times later than the blow is expected to last.
 const ECHO: f64 = 1.3;
 
+/// How a contact pushes a body, with its friction.
+#[derive(Clone, Debug)]
+pub(super) struct Push {
+    /// φ · (n + f) of every mode, 1/√kg.
+    pub(super) drive: Vec<f64>,
+    /// Share of its force that acts across the wall behind it.
+    pub(super) across: f64,
+}
+
 impl Receptance {
-    /// The receptance of a body where a contact touches it, for a force along the contact's normal and its friction.
-    pub(crate) fn at(body: &Body, touch: &Touch, config: &FractureConfig) -> Self {
+    /// What a contact feels of a body, and how it pushes it.
+    pub(super) fn at(body: &Body, touch: &Touch, config: &FractureConfig) -> (Self, Push) {
         let asset = &*body.asset;
         let (contact, modes) = (&touch.contact, &asset.modes);
         let direction = contact.direction();
         let mut drive = touch.project(body, direction);
-        let mut gap = touch.modal_shape.clone();
+        let mut shape = touch.modal_shape.clone();
+        let mut across = 0.0;
         let wall = (config.near_field).and_then(|theory| wall_at(body, touch, theory));
         let wall = wall.map(|(wall, inwards, served)| {
             // Across the wall the near field goes on where the modes end; along it they serve.
             let along = |v: Vec3| v - v.dot(inwards) * inwards;
-            let (drive_along, gap_along) = (
+            let (drive_along, shape_along) = (
                 touch.project(body, along(direction)),
                 touch.project(body, along(contact.normal)),
             );
             drive[served..].copy_from_slice(&drive_along[served..]);
-            gap[served..].copy_from_slice(&gap_along[served..]);
+            shape[served..].copy_from_slice(&shape_along[served..]);
+            across = f64::from(direction.dot(inwards));
             wall
         });
         let followed = modes.followed();
         if !config.residual {
             drive[followed..].fill(0.0);
-            gap[followed..].fill(0.0);
+            shape[followed..].fill(0.0);
         }
-        Self {
+        let felt = Self {
             eigenvalues: modes.eigenvalues.clone(),
             followed,
             stiffness_damping: asset.material.stiffness_damping,
             mass_damping: asset.material.mass_damping,
-            drive,
-            gap,
+            shape,
             wall,
             ball_radius: asset.ball_radius(),
-        }
+        };
+        (felt, Push { drive, across })
     }
 }
 
@@ -80,7 +91,7 @@ impl Striker {
             inverse_effective_mass: touch.inverse_effective_mass as f32,
             curvature_radius: (touch.curvature_radius as f32).max(Self::EDGE_RADIUS),
             restitution: contact.striker.restitution,
-            receptance: Some(Arc::new(Receptance::at(body, touch, config))),
+            receptance: Some(Arc::new(Receptance::at(body, touch, config).0)),
             ..Self::fixed(&body.asset.material)
         })
     }
@@ -108,10 +119,5 @@ impl WallReceptance {
         };
         let start = wall.wave_number(self.lowest);
         (Bands::new(wall, start, radius, spacing), radius)
-    }
-
-    /// What the waves that follow the force give way by, m/N.
-    pub(super) fn compliance(&self, bands: &Bands) -> f64 {
-        self.along_normal * self.across * bands.compliance()
     }
 }

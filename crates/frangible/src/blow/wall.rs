@@ -26,6 +26,8 @@ const ACROSS: f64 = 0.3;
 pub(super) struct NearPlan {
     pub(super) place: NearPlace,
     pub(super) wall: WallReceptance,
+    /// Share of the contact's force, with friction, that acts across the wall.
+    pub(super) across: f64,
     pub(super) bands: Bands,
     /// Its oscillators among those of the bank.
     pub(super) oscillators: Range<usize>,
@@ -52,7 +54,6 @@ pub(super) fn wall_at(
         material,
         widest: surface.margin.max(surface.thickness),
         lowest: matched(body, touch, &material, inwards, first, lowest),
-        across: f64::from(touch.contact.direction().dot(inwards)),
         along_normal,
     };
     Some((wall, inwards, first))

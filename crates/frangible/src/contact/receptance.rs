@@ -1,9 +1,8 @@
 //! How a place of a body gives way under a contact: its receptance, as a sum of modes.
 //!
-//! A force `F` along `n + f`, friction `f` beside the normal `n`, moves the place by `Σ (φ_i · n) q_i`, where
-//! `q̈_i + d_i q̇_i + λ_i q_i = φ_i · (n + f) F`. Modes that are not followed answer at once, `q_i = φ_i · (n + f) F/λ_i`, and on a wall the
-//! wall oscillators go on where the modes end (Zener 1941). The body that is asked and one that strikes it are described alike, so that
-//! one force F(t) comes of a contact whichever of the two is asked.
+//! A force `F` along the normal `n` moves the place by `Σ (φ_i · n) q_i`, where `q̈_i + d_i q̇_i + λ_i q_i = (φ_i · n) F`. Modes that are not
+//! followed answer at once, `q_i = (φ_i · n) F/λ_i`, and on a wall the wall oscillators go on where the modes end (Zener 1941). The body that
+//! is asked and one that strikes it are described alike, so that one force F(t) comes of a contact whichever of the two is asked.
 
 use crate::error::InputError;
 use crate::near_field::{PlateTheory, WallMaterial};
@@ -18,10 +17,8 @@ pub struct Receptance {
     /// Rayleigh's damping `d = stiffness_damping λ + mass_damping`, s and 1/s.
     pub(crate) stiffness_damping: f64,
     pub(crate) mass_damping: f64,
-    /// φ · (n + f) of every mode, 1/√kg: how the contact pushes it.
-    pub(crate) drive: Vec<f64>,
-    /// φ · n of every mode, 1/√kg: how the contact feels it.
-    pub(crate) gap: Vec<f64>,
+    /// φ · n of every mode, 1/√kg: how the contact feels it, and how its normal force pushes it.
+    pub(crate) shape: Vec<f64>,
     /// The wall that goes on where the modes end.
     pub(crate) wall: Option<WallReceptance>,
     /// Radius of the ball of the body's volume, m: what flat on flat is taken to touch with.
@@ -36,9 +33,7 @@ pub(crate) struct WallReceptance {
     pub(crate) widest: f64,
     /// Lowest angular frequency, rad/s.
     pub(crate) lowest: f64,
-    /// Share of the contact's force that acts across the wall.
-    pub(crate) across: f64,
-    /// Share of the wall's motion across itself that is along the contact's normal.
+    /// Share of the wall's motion across itself that is along the contact's normal, and of its normal force that acts across the wall.
     pub(crate) along_normal: f64,
 }
 
@@ -54,11 +49,11 @@ impl Receptance {
         self.stiffness_damping * eigenvalue + self.mass_damping
     }
 
-    /// What the modes that follow the force give way by, m/N, at this contact of a body when another one of it is pushed.
-    pub(crate) fn compliance(&self, pushed: &Self) -> f64 {
+    /// What the modes that follow the force give way by, m/N, where they are felt so much by one contact of the body, and pushed so much by another.
+    pub(crate) fn compliance(&self, felt: &[f64], pushed: &[f64]) -> f64 {
         let rest = self.followed..;
-        let terms = (self.gap[rest.clone()].iter())
-            .zip(&pushed.drive[rest.clone()])
+        let terms = (felt[rest.clone()].iter())
+            .zip(&pushed[rest.clone()])
             .zip(&self.eigenvalues[rest]);
         terms.map(|((a, b), lambda)| a * b / lambda).sum()
     }
@@ -70,7 +65,7 @@ impl Receptance {
 
     /// How many numbers say it all, of a body with so many modes.
     pub(crate) fn numbers_of(modes: usize) -> usize {
-        modes.saturating_mul(3).saturating_add(17)
+        modes.saturating_mul(2).saturating_add(16)
     }
 
     /// All of it as numbers: the body's, its wall's, and those of its modes.
@@ -88,13 +83,13 @@ impl Receptance {
                 PlateTheory::Kirchhoff => 1.0,
                 PlateTheory::Layer => 2.0,
             };
-            let place = [wall.widest, wall.lowest, wall.across, wall.along_normal];
+            let place = [wall.widest, wall.lowest, wall.along_normal];
             (kind, material, place)
         });
         let (kind, material, place) = wall.unwrap_or_default();
         numbers.push(kind);
         numbers.extend(material.into_iter().chain(place));
-        for list in [&self.eigenvalues, &self.drive, &self.gap] {
+        for list in [&self.eigenvalues, &self.shape] {
             numbers.extend_from_slice(list);
         }
         numbers
@@ -103,10 +98,10 @@ impl Receptance {
     /// What [`Self::to_numbers`] gave; [`Self::validate`] is still to check it.
     pub(crate) fn of_numbers(numbers: &[f64], modes: usize) -> Result<Self, InputError> {
         let torn = InputError::Receptance("its numbers are not as many as its modes ask for");
-        let Some((&head, lists)) = numbers.split_first_chunk::<17>() else {
+        let Some((&head, lists)) = numbers.split_first_chunk::<16>() else {
             return Err(torn);
         };
-        if lists.len() != 3 * modes {
+        if lists.len() != 2 * modes {
             return Err(torn);
         }
         let [
@@ -117,7 +112,7 @@ impl Receptance {
             kind,
             ..,
         ] = head;
-        let [.., widest, lowest, across, along_normal] = head;
+        let [.., widest, lowest, along_normal] = head;
         let material: [f64; 8] = std::array::from_fn(|i| head[5 + i]);
         let theory = match kind {
             0.0 => None,
@@ -140,13 +135,11 @@ impl Receptance {
             followed: whole,
             stiffness_damping,
             mass_damping,
-            drive: lists[modes..2 * modes].to_vec(),
-            gap: lists[2 * modes..].to_vec(),
+            shape: lists[modes..].to_vec(),
             wall: theory.map(|theory| WallReceptance {
                 material: WallMaterial::of_numbers(material, theory),
                 widest,
                 lowest,
-                across,
                 along_normal,
             }),
             ball_radius,
@@ -156,7 +149,7 @@ impl Receptance {
     /// Checks that every number can be used.
     pub(crate) fn validate(&self) -> Result<(), InputError> {
         let count = self.eigenvalues.len();
-        if self.followed > count || self.drive.len() != count || self.gap.len() != count {
+        if self.followed > count || self.shape.len() != count {
             return Err(InputError::Receptance(
                 "its modes and their shapes are not equally many",
             ));
@@ -170,7 +163,7 @@ impl Receptance {
                 "an eigenvalue is not a finite number above zero",
             ));
         }
-        if !self.drive.iter().chain(&self.gap).all(finite) {
+        if !self.shape.iter().all(finite) {
             return Err(InputError::Receptance(
                 "a mode's shape is not a finite number",
             ));
@@ -191,11 +184,10 @@ impl Receptance {
         let Some(wall) = &self.wall else {
             return Ok(());
         };
-        let shares = [wall.across, wall.along_normal];
         let sound = wall.material.is_sound()
             && wall.widest >= wall.material.thickness
             && positive(&wall.lowest)
-            && shares.iter().all(finite);
+            && finite(&wall.along_normal);
         match sound {
             true => Ok(()),
             false => Err(InputError::Receptance(

@@ -69,6 +69,11 @@ fn least_about(fields: &Fields, mesh: &TetMesh) -> Vec<f32> {
     least
 }
 
+/// A strength, Pa, that stays above zero and finite however absurd it is: margins are quotients of it.
+fn rounded(strength: f64) -> f32 {
+    (strength as f32).clamp(f32::MIN_POSITIVE, f32::MAX)
+}
+
 /// Strengths and fracture energies of one body.
 #[derive(Clone, Debug)]
 pub(crate) struct Resistance {
@@ -100,13 +105,13 @@ impl Resistance {
         if **fields == Fields::default() {
             return body;
         }
-        let mut of_tet: Vec<f32> = (0..tets).map(|e| body.painted(e as u32) as f32).collect();
+        let mut of_tet: Vec<f32> = (0..tets).map(|e| rounded(body.painted(e as u32))).collect();
         if fields.weibull_modulus > 0.0 {
             let flaws = (material.weak_point_density * fields.specimen).max(1.0);
             let single = libm::pow(flaws, 1.0 / fields.weibull_modulus);
             for &e in weak_tets {
                 let factor = single * scatter(seed, e, fields.weibull_modulus);
-                of_tet[e as usize] = (body.painted(e) * factor) as f32;
+                of_tet[e as usize] = rounded(body.painted(e) * factor);
             }
         }
         let weakest = weak_tets.iter().map(|&e| of_tet[e as usize]);
@@ -122,7 +127,9 @@ impl Resistance {
         let factor = factor.max(f32::MIN_POSITIVE);
         Self {
             material: self.material * f64::from(factor),
-            of_tet: self.of_tet.iter().map(|r| r * factor).collect(),
+            of_tet: (self.of_tet.iter())
+                .map(|&r| rounded(f64::from(r) * f64::from(factor)))
+                .collect(),
             weakest: self.weakest * f64::from(factor),
             ..self.clone()
         }
