@@ -21,7 +21,7 @@ const BOUNDS: [&str; 2] = ["-max_len=32768", "-rss_limit_mb=2048"];
 /// What one input may take before that is a finding, s.
 const TIMEOUT: u64 = 10;
 /// Targets that break bodies, and what one of their inputs may take, s: hundreds of pieces take seconds on a busy machine.
-const BREAKING: ([&str; 3], u64) = (["impact", "run_scene", "world"], 30);
+const BREAKING: ([&str; 3], u64) = (["impact", "run_scene", "world"], 45);
 
 /// Inputs up to so many bytes are printed whole where they are found.
 const SHOWN: usize = 2048;

@@ -4,52 +4,57 @@ use glam::{DVec2, DVec3, Vec3};
 
 use super::conform::Corners;
 use super::polygon::centre as centre_of;
+use super::vertices::Vertex;
 use super::{RenderIndex, RenderSurface, Share};
 use crate::{RenderMesh, box_projection};
 
 /// A triangle of less area than this, in squares of its longer side at the first corner, is thin.
 const THIN: f64 = 1e-6;
 
-/// Corners of crack faces: positions (m, body frame) and normals.
-pub(crate) type Vertices = Vec<[(DVec3, Vec3); 3]>;
+/// Corners of a crack face: positions (m, body frame) and normals.
+pub(super) type Face = [(DVec3, Vec3); 3];
 
 impl RenderIndex {
-    /// Mesh of a fragment in its frame, whose origin is `centre` in the body frame, m. `local` maps the surface's vertices
-    /// to the mesh's and is `u32::MAX` throughout before and after.
-    pub(super) fn assemble(
-        &self,
-        surface: &RenderSurface,
+    /// A fragment's share as a mesh in the fragment's frame, whose origin is `centre` in the body frame, m. `faces`: how many crack faces are
+    /// about to follow. `local` maps the vertices of the whole surface to the mesh's and is `u32::MAX` throughout before and after.
+    pub(super) fn assemble<'a>(
+        &'a self,
+        surface: &'a RenderSurface,
         share: &Share,
         numbered: Option<&Corners>,
-        faces: &Vertices,
+        faces: usize,
         centre: DVec3,
         local: &mut [u32],
-    ) -> RenderMesh {
+    ) -> Builder<'a> {
         let mut mesh = Builder {
             mesh: RenderMesh::default(),
             surface,
             index: self,
             centre,
         };
-        // Most surfaces have half as many vertices as triangles, flat shaded ones more; a numbered polygon is some two triangles.
-        let cut = 2 * (share.numbered.len() + share.pieces.len());
+        // Most surfaces have half as many vertices as triangles, flat shaded ones more; a few polygons have a vertex in their middle.
+        let cut = share.corners.len() + 5 * share.pieces.len();
         mesh.reserve(
-            share.whole.len() / 2 + 2 * cut + 3 * faces.len(),
-            share.whole.len() + cut + faces.len(),
+            share.whole.len() / 2 + cut + share.numbered.len() / 2 + 3 * faces,
+            share.whole.len() + cut + faces,
         );
         for &t in &share.whole {
-            let vertices = surface.triangles[t as usize];
-            let mut corners = [0; 3];
-            for (k, corner) in corners.iter_mut().enumerate() {
-                *corner = mesh.own_corner(t, k, &mut local[vertices[k] as usize]);
+            let mut corners = self.vertices.of(t);
+            for corner in &mut corners {
+                let known = &mut local[*corner as usize];
+                if *known == u32::MAX {
+                    let Vertex {
+                        position,
+                        normal,
+                        uv,
+                    } = *self.vertices.get(*corner);
+                    *known = mesh.vertex(position.as_dvec3(), normal, uv);
+                }
+                *corner = *known;
             }
             mesh.triangle(t, corners);
         }
-        for v in share
-            .whole
-            .iter()
-            .flat_map(|&t| surface.triangles[t as usize])
-        {
+        for v in share.whole.iter().flat_map(|&t| self.vertices.of(t)) {
             local[v as usize] = u32::MAX;
         }
         for (t, polygon) in &share.pieces {
@@ -57,28 +62,25 @@ impl RenderIndex {
             mesh.fan(*t, &corners);
         }
         let (mut corners, mut places) = (Vec::new(), Vec::new());
-        for (t, polygon) in &share.numbered {
+        for (t, polygon) in share.numbered() {
             let place = |number| numbered.map(|corners| corners.place(number));
             corners.clear();
             places.clear();
             for &(number, p) in polygon {
-                corners.push(mesh.corner(*t, p, place(number)));
+                corners.push(mesh.corner(t, p, place(number)));
                 places.push(p);
             }
             if has_thin_fan(&places) {
-                let middle = mesh.corner(*t, centre_of(&places), None);
+                let middle = mesh.corner(t, centre_of(&places), None);
                 for (k, &from) in corners.iter().enumerate() {
-                    mesh.triangle(*t, [middle, from, corners[(k + 1) % corners.len()]]);
+                    mesh.triangle(t, [middle, from, corners[(k + 1) % corners.len()]]);
                 }
             } else {
-                mesh.fan(*t, &corners);
+                mesh.fan(t, &corners);
             }
         }
         mesh.mesh.outer_triangles = mesh.mesh.triangles.len();
-        for face in faces {
-            mesh.crack_face(face);
-        }
-        mesh.mesh
+        mesh
     }
 }
 
@@ -94,8 +96,9 @@ fn has_thin_fan(polygon: &[DVec2]) -> bool {
     })
 }
 
-struct Builder<'a> {
-    mesh: RenderMesh,
+/// A mesh to which crack faces are added.
+pub(super) struct Builder<'a> {
+    pub(super) mesh: RenderMesh,
     surface: &'a RenderSurface,
     index: &'a RenderIndex,
     centre: DVec3,
@@ -108,24 +111,6 @@ impl Builder<'_> {
         mesh.normals.reserve(vertices);
         mesh.uvs.reserve(vertices);
         mesh.triangles.reserve(triangles);
-    }
-
-    /// A corner of a render triangle: the one `known` of that vertex if normal and texture coordinates agree.
-    fn own_corner(&mut self, t: u32, k: usize, known: &mut u32) -> u32 {
-        let surface = self.surface;
-        let v = surface.triangles[t as usize][k] as usize;
-        let position = surface.positions[v];
-        let normal = self.index.normals[t as usize][k];
-        let uv = match surface.uvs.get(v) {
-            Some(&uv) => uv,
-            None => box_projection(position, self.index.flat[t as usize]),
-        };
-        let same = |&w: &usize| self.mesh.normals[w] == normal && self.mesh.uvs[w] == uv;
-        let drawn = Some(*known as usize).filter(|&w| w < self.mesh.positions.len());
-        if drawn.filter(same).is_none() {
-            *known = self.vertex(position.as_dvec3(), normal, uv);
-        }
-        *known
     }
 
     /// Triangles between the first corner of a convex polygon and its other sides.
@@ -144,7 +129,8 @@ impl Builder<'_> {
         let own = || mean(triangle.map(|v| surface.positions[v].as_dvec3()));
         let position = place.unwrap_or_else(own);
         let flat = self.index.flat[t as usize];
-        let smooth = mean(self.index.normals[t as usize].map(Vec3::as_dvec3));
+        let normals = (self.index.vertices.of(t)).map(|v| self.index.vertices.get(v).normal);
+        let smooth = mean(normals.map(Vec3::as_dvec3));
         let normal = smooth.as_vec3().normalize_or(flat);
         let uv = if surface.uvs.is_empty() {
             box_projection(position.as_vec3(), flat)
@@ -165,7 +151,7 @@ impl Builder<'_> {
         }
     }
 
-    fn crack_face(&mut self, face: &[(DVec3, Vec3); 3]) {
+    pub(super) fn crack_face(&mut self, face: &Face) {
         let [a, b, c] = face.map(|corner| corner.0);
         let flat = (b - a).cross(c - a).as_vec3().normalize_or(face[0].1);
         let mut corners = [0; 3];

@@ -142,12 +142,17 @@ impl<'a> Corners<'a> {
         &mut self,
         parts: &[Cut],
         room: &mut Room,
-        mut found: impl FnMut(&Cut, Vec<Corner>),
+        mut found: impl FnMut(&Cut, &[Corner]),
     ) {
         let Some(&(t, ..)) = parts.first() else {
             return;
         };
-        let Room { inside, known, on } = room;
+        let Room {
+            inside,
+            known,
+            on,
+            corners,
+        } = room;
         known.clear();
         for k in 0..3 {
             known.extend(self.along(t, k));
@@ -173,7 +178,7 @@ impl<'a> Corners<'a> {
         }
         known.sort_by(|a, b| a.1.x.total_cmp(&b.1.x));
         for part in parts {
-            let corners = numbered(&part.2, known, on);
+            number(&part.2, known, on, corners);
             if !corners.is_empty() {
                 found(part, corners);
             }
@@ -187,11 +192,17 @@ pub(super) struct Room {
     inside: Vec<DVec2>,
     known: Vec<Corner>,
     on: Vec<(f64, Corner)>,
+    corners: Vec<Corner>,
 }
 
-/// The corners of a polygon and those on its sides, in order, no two the same after each other. `known`: all of the triangle's, by x.
-fn numbered(polygon: &[DVec2], known: &[Corner], on: &mut Vec<(f64, Corner)>) -> Vec<Corner> {
-    let mut corners: Vec<Corner> = Vec::with_capacity(2 * polygon.len());
+/// Finds the corners of a polygon and those on its sides, in order, no two the same after each other. `known`: all of the triangle's, by x.
+fn number(
+    polygon: &[DVec2],
+    known: &[Corner],
+    on: &mut Vec<(f64, Corner)>,
+    corners: &mut Vec<Corner>,
+) {
+    corners.clear();
     for (i, &from) in polygon.iter().enumerate() {
         let side = polygon[(i + 1) % polygon.len()] - from;
         let length = side.length();
@@ -215,7 +226,6 @@ fn numbered(polygon: &[DVec2], known: &[Corner], on: &mut Vec<(f64, Corner)>) ->
     if corners.len() < 3 {
         corners.clear();
     }
-    corners
 }
 
 /// Where in a triangle a point lies.

@@ -64,6 +64,8 @@ fn gap(from: &[DVec3], to: &[Side], most: f64) -> Option<f64> {
 pub(super) struct Side {
     from: DVec3,
     along: DVec3,
+    /// m.
+    length: f64,
     /// One over the square of its length, 1/m²; 0 of one without length.
     inverse: f64,
 }
@@ -76,6 +78,7 @@ impl Side {
         Self {
             from,
             along,
+            length: square.sqrt(),
             inverse,
         }
     }
@@ -111,16 +114,19 @@ fn nearest(ring: &[Side], p: DVec3) -> (usize, f64) {
 /// point is laid before the one before it, so that a border which comes back to itself is followed and not crossed.
 pub(super) fn lay(border: &[DVec3], rim: &[DVec3], at_corner: f64) -> Vec<(usize, DVec3)> {
     let count = border.len();
-    let begin = nearest(&sides_of(border), rim[0]).0;
+    let mut sides = sides_of(border);
+    let begin = nearest(&sides, rim[0]).0;
+    sides.rotate_left(begin);
     let at = |side: usize| border[(begin + side) % count];
     let snapped = |place: DVec3, side: usize| {
         let near = |end: &DVec3| end.distance(place) <= at_corner;
         let ends = [at(side), at(side + 1)];
         ends.into_iter().find(near).unwrap_or(place)
     };
-    let place = snapped(Side::new(at(0), at(1)).nearest(rim[0]), 0);
-    let length_of = |side: usize| at(side).distance(at(side + 1));
-    let whole: f64 = (0..count).map(length_of).sum();
+    let place = snapped(sides[0].nearest(rim[0]), 0);
+    let whole: f64 = sides.iter().map(|side| side.length).sum();
+    // The side where it begins has a rest.
+    sides.push(Side::new(border[begin], place));
     let rim_length = |j: usize| rim[j].distance(rim[(j + 1) % rim.len()]);
     let rim_whole: f64 = (0..rim.len()).map(rim_length).sum();
     let mut laid = vec![(begin, place)];
@@ -133,16 +139,16 @@ pub(super) fn lay(border: &[DVec3], rim: &[DVec3], at_corner: f64) -> Vec<(usize
         let most = (passed + ahead).max(whole * (run / rim_whole + LEAD));
         let mut best = (f64::INFINITY, side, passed, laid[j - 1].1);
         let mut length = passed;
-        for s in side..=count {
-            let from = if s == side { laid[j - 1].1 } else { at(s) };
-            // The side where it began has a rest.
-            let to = if s == count { place } else { at(s + 1) };
-            let near = Side::new(from, to).nearest(rim[j]);
+        let end = if side == count { place } else { at(side + 1) };
+        let rest = Side::new(laid[j - 1].1, end);
+        let ahead = [&rest].into_iter().chain(&sides[side + 1..]);
+        for (s, on) in (side..).zip(ahead) {
+            let near = on.nearest(rim[j]);
             let squared = near.distance_squared(rim[j]);
             if squared < best.0 {
-                best = (squared, s, length + from.distance(near), near);
+                best = (squared, s, length + on.from.distance(near), near);
             }
-            length += from.distance(to);
+            length += on.length;
             if length > most {
                 break;
             }

@@ -17,6 +17,7 @@ mod rings;
 mod seam;
 mod surface;
 mod under;
+mod vertices;
 
 use glam::{DVec3, Vec3};
 
@@ -31,6 +32,7 @@ use seam::{CrackFaces, close};
 pub use surface::{RenderMaterial, RenderSurface};
 pub use under::Boundary;
 use under::{Lie, Under};
+use vertices::Vertices;
 
 /// What follows from a render surface and every break needs.
 #[derive(Debug)]
@@ -41,8 +43,8 @@ pub struct RenderIndex {
     under: Under,
     /// How far the surface may be from the boundary, m.
     reach: f32,
-    /// Normals at the corners of each render triangle.
-    normals: Vec<[Vec3; 3]>,
+    /// What the render surface is drawn with.
+    vertices: Vertices,
     /// Normal of each render triangle.
     flat: Vec<Vec3>,
     /// How its triangles hang together, if they face outwards.
@@ -83,8 +85,27 @@ struct Share {
     whole: Vec<u32>,
     /// Parts of triangles, in barycentric coordinates, where corners have no numbers.
     pieces: Vec<(u32, Polygon)>,
-    /// Triangles and parts of them whose corners are numbered.
-    numbered: Vec<(u32, Vec<Corner>)>,
+    /// Triangles and parts of them whose corners are numbered: the triangle, and where its corners end.
+    numbered: Vec<(u32, u32)>,
+    corners: Vec<Corner>,
+}
+
+impl Share {
+    /// Adds a triangle, or a part of it, whose corners are numbered.
+    fn push(&mut self, triangle: u32, corners: impl IntoIterator<Item = Corner>) {
+        self.corners.extend(corners);
+        self.numbered.push((triangle, self.corners.len() as u32));
+    }
+
+    /// Those triangles and parts, each with its corners.
+    fn numbered(&self) -> impl Iterator<Item = (u32, &[Corner])> {
+        let mut first = 0;
+        self.numbered.iter().map(move |&(t, end)| {
+            let corners = &self.corners[first..end as usize];
+            first = end as usize;
+            (t, corners)
+        })
+    }
 }
 
 impl RenderIndex {
@@ -92,10 +113,11 @@ impl RenderIndex {
     #[must_use]
     pub fn new(surface: &RenderSurface, boundary: &Boundary<'_>, reach: f32) -> Self {
         let normals = surface.corner_normals();
+        let flat = surface.flat_normals(&normals);
         Self {
             tree: TriangleTree::new(&surface.positions, &surface.triangles),
-            flat: surface.flat_normals(&normals),
-            normals,
+            vertices: Vertices::new(surface, &normals, &flat),
+            flat,
             under: Under::new(surface, boundary, reach),
             reach,
             edges: Edges::new(surface),
@@ -143,7 +165,7 @@ impl RenderIndex {
             }
         };
         let mut laid = points.clone();
-        let mut local = vec![u32::MAX; surface.positions.len()];
+        let mut local = vec![u32::MAX; self.vertices.count()];
         // Of the piece at hand, at the points of its crack faces.
         let mut normals = vec![Vec3::ZERO; points.len()];
         let mut draw = |piece: &Piece<'_>| {
@@ -172,11 +194,14 @@ impl RenderIndex {
                     corners.edges().are_closed,
                 )
             });
-            let inner = seam
-                .unwrap_or_default()
-                .faces(cracks, piece.normals, &mut laid);
+            let seam = seam.unwrap_or_default();
             let corners = sewn.as_ref().map(|(corners, _)| corners);
-            self.assemble(surface, share, corners, &inner, piece.centre, &mut local)
+            let inner = seam.count(cracks);
+            let mut drawn = self.assemble(surface, share, corners, inner, piece.centre, &mut local);
+            seam.faces(cracks, piece.normals, &mut laid, |face| {
+                drawn.crack_face(face);
+            });
+            drawn.mesh
         };
         pieces.iter().map(&mut draw).collect()
     }
@@ -201,7 +226,7 @@ impl RenderIndex {
         parts: &Parts,
         fragments: usize,
     ) -> (Vec<Share>, Vec<Cut>) {
-        let labels = parts.labels();
+        let (labels, cracks) = (parts.labels(), parts.cracks());
         let (mut shares, mut cuts) = (vec![Share::default(); fragments], Vec::new());
         for (t, triangle) in surface.triangles.iter().enumerate() {
             let under = self.under.of(t);
@@ -221,8 +246,16 @@ impl RenderIndex {
                 ground,
                 reach: f64::from(self.reach),
                 parts,
+                labels: &labels,
+                cracks: &cracks,
                 boundary,
             };
+            if lie != Lie::Beside
+                && let Some(label) = overlay.only_label(under)
+            {
+                shares[label as usize].whole.push(t as u32);
+                continue;
+            }
             let divided = match lie {
                 Lie::Beside => overlay.beside(under),
                 Lie::Over | Lie::Turned => overlay.divide(under),
@@ -249,7 +282,7 @@ fn number<'a>(
     let mut room = Room::default();
     for parts in cuts.chunk_by(|a, b| a.0 == b.0) {
         corners.conform(parts, &mut room, |&(t, label, _), corners| {
-            shares[label as usize].numbered.push((t, corners));
+            shares[label as usize].push(t, corners.iter().copied());
         });
     }
     let mut is_bordering = vec![false; surface.triangles.len()];
@@ -257,14 +290,15 @@ fn number<'a>(
         is_bordering[t as usize] = true;
     }
     for share in shares {
-        let Share {
-            whole, numbered, ..
-        } = share;
-        for &t in whole.iter().filter(|&&t| is_bordering[t as usize]) {
-            let polygon = (0..3).flat_map(|k| corners.along(t, k)).collect();
-            numbered.push((t, polygon));
-        }
-        whole.retain(|&t| !is_bordering[t as usize]);
+        let mut whole = std::mem::take(&mut share.whole);
+        whole.retain(|&t| {
+            let is_bordering = is_bordering[t as usize];
+            if is_bordering {
+                share.push(t, (0..3).flat_map(|k| corners.along(t, k)));
+            }
+            !is_bordering
+        });
+        share.whole = whole;
     }
     corners
 }
@@ -310,11 +344,11 @@ fn sides(
             }
         }
     }
-    for (t, polygon) in &share.numbered {
-        let touches_hole = edges.across(*t).contains(&NO_TRIANGLE);
+    for (t, polygon) in share.numbered() {
+        let touches_hole = edges.across(t).contains(&NO_TRIANGLE);
         for (i, (from, _)) in polygon.iter().enumerate() {
             let ends = [*from, polygon[(i + 1) % polygon.len()].0];
-            sides.push((ends, touches_hole && corners.is_on_hole(*t, ends)));
+            sides.push((ends, touches_hole && corners.is_on_hole(t, ends)));
         }
     }
     sides

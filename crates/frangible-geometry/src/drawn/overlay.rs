@@ -7,7 +7,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::parts::Parts;
+use super::parts::{Cracks, MIXED, Part, Parts};
 use super::polygon::{
     Polygon, SHORT, area, bounds, centre, halves, has_separating_edge, overlap, split,
 };
@@ -69,16 +69,14 @@ impl Ground {
     /// Where a triangle of the boundary falls, if some of that is on this one, if it faces the same way, and if it is not all farther away than
     /// `reach`; and how far its middle is, m.
     pub(super) fn shade(&self, [p, q, r]: [DVec3; 3], reach: f64) -> Option<(f64, [DVec2; 3])> {
-        let (p, q, r) = (p - self.a, q - self.a, r - self.a);
-        let [u, v] = self.weights;
-        let on = |d: DVec3| DVec2::new(d.dot(u), d.dot(v));
-        let shade = [on(p), on(q), on(r)];
+        let shade = [self.on(p), self.on(q), self.on(r)];
         let [low, high] = bounds(&shade);
         let weight = |p: DVec2| 1.0 - p.x - p.y;
         let first = weight(shade[0]).max(weight(shade[1])).max(weight(shade[2]));
         if high.min_element() <= 0.0 || low.max_element() >= 1.0 || first <= 0.0 {
             return None;
         }
+        let (p, q, r) = (p - self.a, q - self.a, r - self.a);
         let own = (q - p).cross(r - p);
         let towards = own.dot(self.up);
         // Triangles without area drop out too.
@@ -98,6 +96,12 @@ impl Ground {
         meets.then(|| ((heights.element_sum() / 3.0).abs(), shade))
     }
 
+    /// Where a point falls.
+    fn on(&self, p: DVec3) -> DVec2 {
+        let (d, [u, v]) = (p - self.a, self.weights);
+        DVec2::new(d.dot(u), d.dot(v))
+    }
+
     fn place(&self, p: DVec2) -> DVec3 {
         self.a + self.u * p.x + self.v * p.y
     }
@@ -109,6 +113,10 @@ pub(super) struct Overlay<'a> {
     /// How far under or over the triangle parts are looked for; the fracture mesh's mean edge, m.
     pub(super) reach: f64,
     pub(super) parts: &'a Parts,
+    /// Label of each boundary triangle, [`MIXED`] where it has several.
+    pub(super) labels: &'a [u32],
+    /// The cracks within each.
+    pub(super) cracks: &'a Cracks,
     pub(super) boundary: &'a TriangleTree,
 }
 
@@ -119,11 +127,6 @@ struct Shade {
 }
 
 impl Shade {
-    /// Its side from this corner to the next.
-    fn side(&self, corner: usize) -> [DVec2; 2] {
-        [self.corners[corner], self.corners[(corner + 1) % 3]]
-    }
-
     /// Whether it shares more than a border with a polygon in this box.
     fn meets(&self, polygon: &[DVec2], [low, high]: [DVec2; 2]) -> bool {
         let [l, h] = bounds(&self.corners);
@@ -140,18 +143,15 @@ impl Overlay<'_> {
     /// Convex polygons with their labels that tile the triangle; one polygon when it belongs to one fragment. `under`: boundary triangles that
     /// lie over or under it.
     pub(super) fn divide(&self, under: &[u32]) -> Vec<(Polygon, u32)> {
-        let (mut shades, mut cracks) = (Vec::new(), Vec::new());
-        for &t in under {
-            let first = shades.len();
-            for part in self.parts.of(t) {
-                if let Some((height, corners)) = self.ground.shade(part.corners, self.reach) {
-                    let label = part.label;
-                    shades.push((height, Shade { corners, label }));
-                }
-            }
-            add_cracks(&shades[first..], &mut cracks);
-        }
         let whole = WHOLE.to_vec();
+        let cracks: Vec<[DVec2; 2]> = self.cracks_through(under).collect();
+        let mut shades = Vec::new();
+        for part in under.iter().flat_map(|&t| self.parts.of(t)) {
+            if let Some((height, corners)) = self.ground.shade(part.corners, self.reach) {
+                let label = part.label;
+                shades.push((height, Shade { corners, label }));
+            }
+        }
         if let [first, others @ ..] = &shades[..]
             && others.iter().all(|s| s.1.label == first.1.label)
         {
@@ -165,6 +165,34 @@ impl Overlay<'_> {
         let mut divided = Vec::new();
         self.lay(whole, (&shades, &cracks), [0, 0], &mut left, &mut divided);
         divided
+    }
+
+    /// Where the cracks in these boundary triangles run through the triangle.
+    fn cracks_through(&self, under: &[u32]) -> impl Iterator<Item = [DVec2; 2]> {
+        let cracks = under.iter().flat_map(|&t| self.cracks.of(t));
+        cracks
+            .map(|ends| ends.map(|p| self.ground.on(p)))
+            .filter(|&[from, to]| runs_through(&WHOLE, from, to))
+    }
+
+    /// The label of a triangle through which no crack runs, if all boundary triangles that lie over or under it have the same there. Then
+    /// [`Overlay::divide`] would find one polygon.
+    pub(super) fn only_label(&self, under: &[u32]) -> Option<u32> {
+        if self.cracks_through(under).next().is_some() {
+            return None;
+        }
+        // So all parts that a boundary triangle has there are of one label.
+        let label = |&t: &u32| match self.labels[t as usize] {
+            MIXED => {
+                let mut parts = self.parts.of(t).iter();
+                let meets = |part: &&Part| self.ground.shade(part.corners, self.reach).is_some();
+                parts.find(meets).map(|part| part.label)
+            }
+            label => Some(label),
+        };
+        let mut labels = under.iter().filter_map(label);
+        let first = labels.next()?;
+        labels.all(|label| label == first).then_some(first)
     }
 
     /// Divides a triangle that has no part of the boundary under it. `closest`: boundary triangles closest to its middle and to its corners.
@@ -295,23 +323,6 @@ impl Left {
             }
         }
         end
-    }
-}
-
-/// Adds the borders between shades of two labels. `shades`: those of one boundary triangle; along the sides of those its neighbours have the same
-/// labels.
-fn add_cracks(shades: &[(f64, Shade)], cracks: &mut Vec<[DVec2; 2]>) {
-    for (i, (_, shade)) in shades.iter().enumerate() {
-        for k in 0..3 {
-            let [from, to] = shade.side(k);
-            let beside = |(_, other): &(f64, Shade)| {
-                other.label != shade.label && (0..3).any(|k| other.side(k) == [to, from])
-            };
-            // Each is seen from both of its sides.
-            if shades[..i].iter().any(beside) {
-                cracks.push([from, to]);
-            }
-        }
     }
 }
 

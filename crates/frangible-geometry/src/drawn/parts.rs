@@ -13,6 +13,31 @@ pub struct Part {
     pub label: u32,
 }
 
+impl Part {
+    /// Its sides, from each corner to the next.
+    fn sides(&self) -> [[DVec3; 2]; 3] {
+        let [a, b, c] = self.corners;
+        [[a, b], [b, c], [c, a]]
+    }
+}
+
+/// Borders between parts of two labels, within boundary triangles: along the sides of those their neighbours have the same labels.
+#[derive(Debug, Default)]
+pub(super) struct Cracks {
+    list: Vec<[DVec3; 2]>,
+    /// Where those of each boundary triangle end.
+    end: Vec<u32>,
+}
+
+impl Cracks {
+    /// Those within a boundary triangle.
+    pub(super) fn of(&self, triangle: u32) -> &[[DVec3; 2]] {
+        let t = triangle as usize;
+        let first = t.checked_sub(1).map_or(0, |before| self.end[before]);
+        &self.list[first as usize..self.end[t] as usize]
+    }
+}
+
 /// Label of a boundary triangle that has several.
 pub(super) const MIXED: u32 = u32::MAX;
 
@@ -56,6 +81,26 @@ impl Parts {
         (0..self.first.len() as u32).map(label).collect()
     }
 
+    /// The borders between parts of two labels within each boundary triangle.
+    pub(super) fn cracks(&self) -> Cracks {
+        let mut cracks = Cracks::default();
+        for t in 0..self.first.len() as u32 {
+            let parts = self.of(t);
+            for (i, part) in parts.iter().enumerate() {
+                // Each is seen from both of its sides.
+                let others = parts[..i].iter().filter(|other| other.label != part.label);
+                for [from, to] in part.sides() {
+                    let mut others = others.clone();
+                    if others.any(|other| other.sides().contains(&[to, from])) {
+                        cracks.list.push([from, to]);
+                    }
+                }
+            }
+            cracks.end.push(cracks.list.len() as u32);
+        }
+        cracks
+    }
+
     /// Label of the part of this triangle that is closest to the point.
     pub(super) fn label_near(&self, triangle: u32, point: DVec3) -> u32 {
         let parts = self.of(triangle);
@@ -65,7 +110,7 @@ impl Parts {
             (a * w[0] + b * w[1] + c * w[2]).distance_squared(point)
         };
         match parts {
-            [only] => only.label,
+            [first, others @ ..] if others.iter().all(|p| p.label == first.label) => first.label,
             _ => parts
                 .iter()
                 .map(|part| (gap(part), part.label))

@@ -28,7 +28,8 @@ pub(super) fn centre(polygon: &[DVec2]) -> DVec2 {
 /// on the line.
 pub(super) fn split(polygon: &[DVec2], from: DVec2, along: DVec2) -> [Polygon; 2] {
     let side = |p: DVec2| along.perp_dot(p - from);
-    let [mut left, mut right] = [Polygon::new(), Polygon::new()];
+    let room = || Polygon::with_capacity(polygon.len() + 1);
+    let [mut left, mut right] = [room(), room()];
     for (i, &p) in polygon.iter().enumerate() {
         let q = polygon[(i + 1) % polygon.len()];
         let (s, t) = (side(p), side(q));

@@ -54,20 +54,20 @@ pub(super) fn rings(sides: &[([u32; 2], bool)]) -> Vec<Ring> {
     // Place in the line at hand of the point that each side leaves; kept at the first side of a point.
     let mut place = vec![NOT_IN_LINE; sides.len() + 1];
     for first in 0..sides.len() {
-        // Points of the line, and whether the side that leaves each is on a hole.
-        let mut line: Vec<(u32, bool)> = Vec::new();
+        // Points of the line, whether the side that leaves each is on a hole, and the first side of each.
+        let mut line: Vec<(u32, bool, usize)> = Vec::new();
         let mut next = (!used[first]).then_some(first);
         let mut at = leaving(sides[first].0[0]);
         while let Some(side) = next {
             used[side] = true;
             let ([from, to], on_hole) = sides[side];
             place[at] = line.len();
-            line.push((from, on_hole));
+            line.push((from, on_hole, at));
             at = leaving(to);
             if place[at] != NOT_IN_LINE {
                 let ring = line.split_off(place[at]);
-                for (point, _) in &ring {
-                    place[leaving(*point)] = NOT_IN_LINE;
+                for &(.., first) in &ring {
+                    place[first] = NOT_IN_LINE;
                 }
                 rings.push(Ring {
                     on_hole: ring.iter().filter(|point| point.1).count(),
@@ -77,8 +77,8 @@ pub(super) fn rings(sides: &[([u32; 2], bool)]) -> Vec<Ring> {
             let mut ahead = (at..sides.len()).take_while(|&side| sides[side].0[0] == to);
             next = ahead.find(|&side| !used[side]);
         }
-        for (point, _) in line {
-            place[leaving(point)] = NOT_IN_LINE;
+        for (.., first) in line {
+            place[first] = NOT_IN_LINE;
         }
     }
     rings

@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 
 use glam::{DVec3, Vec3};
 
-use super::assemble::Vertices;
+use super::assemble::Face;
 use super::lines::{Side, lay, pairs};
 use super::rings::{Ring, open, rings};
 
@@ -31,23 +31,28 @@ pub(super) struct Seam {
     moved: BTreeMap<u32, DVec3>,
     /// Places on a side of a crack face, from its first point to its second, m. Of several faces with that side each takes its own.
     between: BTreeMap<[u32; 2], Vec<Vec<DVec3>>>,
-    triangles: Vertices,
+    triangles: Vec<Face>,
 }
 
 impl Seam {
-    /// The crack faces, sewn to the border, and the triangles that close the fragment. `normals`: at the corners of each face. `laid`: where
-    /// the points of the cracks are; it is changed meanwhile and put back.
+    /// How many crack faces and triangles there are, but for those that dividing faces makes.
+    pub(super) fn count(&self, cracks: CrackFaces<'_>) -> usize {
+        cracks.faces.len() + self.triangles.len()
+    }
+
+    /// Calls `found` with the crack faces, sewn to the border, and the triangles that close the fragment. `normals`: at the corners of each face.
+    /// `laid`: where the points of the cracks are; it is changed meanwhile and put back.
     pub(super) fn faces(
         mut self,
         cracks: CrackFaces<'_>,
         normals: &[[Vec3; 3]],
         laid: &mut [DVec3],
-    ) -> Vertices {
+        mut found: impl FnMut(&Face),
+    ) {
         let index = |point: u32| point as usize - cracks.first;
         for (&v, &place) in &self.moved {
             laid[index(v)] = place;
         }
-        let mut sewn = Vertices::with_capacity(cracks.faces.len() + self.triangles.len());
         for (face, normals) in cracks.faces.iter().zip(normals) {
             let corner = |k: usize| (laid[index(face[k])], normals[k]);
             let corners = [corner(0), corner(1), corner(2)];
@@ -61,16 +66,15 @@ impl Seam {
             };
             let between = [between(0), between(1), between(2)];
             if between.iter().all(Vec::is_empty) {
-                sewn.push(corners);
+                found(&corners);
             } else {
-                add_face(corners, on_rim, &between, &mut sewn);
+                add_face(corners, on_rim, &between, &mut found);
             }
         }
-        sewn.extend(&self.triangles);
+        self.triangles.iter().for_each(found);
         for &v in self.moved.keys() {
             laid[index(v)] = cracks.place(v);
         }
-        sewn
     }
 }
 
@@ -157,7 +161,7 @@ pub(super) fn close(
             .copied()
             .unwrap_or_else(|| cracks.place(v))
     };
-    let (mut between, mut triangles) = (BTreeMap::new(), Vertices::new());
+    let (mut between, mut triangles) = (BTreeMap::new(), Vec::new());
     for (&(b, r), beside) in pairs.iter().zip(&beside) {
         let points = rims[r].points.iter().zip(beside);
         let rim = points.map(|(&number, &(side, beside))| RimPoint {
@@ -188,7 +192,7 @@ pub(super) fn close(
 
 /// Divides sides of a border where points of a rim lie on them, by triangles between the ends of a side and those points. These triangles are
 /// nothing but lines.
-fn divide_sides(border: &[DVec3], rim: &[RimPoint], triangles: &mut Vertices) {
+fn divide_sides(border: &[DVec3], rim: &[RimPoint], triangles: &mut Vec<Face>) {
     let count = border.len();
     // The last ones may lie on the first side again, and come before the first ones there.
     let again = rim.partition_point(|point| point.side < rim[0].side + count);
@@ -210,7 +214,7 @@ fn join(
     rim: &[RimPoint],
     most: f64,
     between: &mut BTreeMap<[u32; 2], Vec<Vec<DVec3>>>,
-    triangles: &mut Vertices,
+    triangles: &mut Vec<Face>,
 ) {
     for (j, point) in rim.iter().enumerate() {
         let (next, until) = match rim.get(j + 1) {
@@ -247,10 +251,10 @@ fn join(
 
 /// Adds a crack face that takes in the places between its corners. `on_rim`: whether its corners lie on the border.
 fn add_face(
-    face: [(DVec3, Vec3); 3],
+    face: Face,
     on_rim: [bool; 3],
     between: &[Vec<DVec3>; 3],
-    to: &mut Vertices,
+    found: &mut impl FnMut(&Face),
 ) {
     let mut around = Vec::new();
     for (k, places) in between.iter().enumerate() {
@@ -280,14 +284,14 @@ fn add_face(
     for (i, &from) in around.iter().enumerate() {
         let until = around[(i + 1) % around.len()];
         if has_three_corners([apex.0, from.0, until.0]) {
-            to.push([apex, from, until]);
+            found(&[apex, from, until]);
         }
     }
 }
 
 /// Triangles that close a ring; their sides run against the ring's. They meet in a place of their own, neither on the ring nor in its middle: the
 /// surface that they close may have the same sides there.
-fn cap(ring: impl Iterator<Item = DVec3>, triangles: &mut Vertices) {
+fn cap(ring: impl Iterator<Item = DVec3>, triangles: &mut Vec<Face>) {
     let ring: Vec<DVec3> = ring.collect();
     let middle = ring.iter().sum::<DVec3>() / ring.len() as f64;
     let middle = middle.lerp(ring[0], 0.25);
@@ -301,7 +305,7 @@ fn cap(ring: impl Iterator<Item = DVec3>, triangles: &mut Vertices) {
 }
 
 /// Adds a triangle, unless it is nothing but a line between two places.
-fn add(corners: [DVec3; 3], normal: Vec3, triangles: &mut Vertices) {
+fn add(corners: [DVec3; 3], normal: Vec3, triangles: &mut Vec<Face>) {
     if has_three_corners(corners) {
         triangles.push(corners.map(|corner| (corner, normal)));
     }

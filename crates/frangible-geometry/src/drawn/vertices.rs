@@ -1,0 +1,79 @@
+//! The vertices that a whole surface is drawn with.
+
+use glam::Vec3;
+
+use super::RenderSurface;
+use crate::box_projection;
+
+/// A corner as it is drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Vertex {
+    /// m, body frame.
+    pub(super) position: Vec3,
+    pub(super) normal: Vec3,
+    pub(super) uv: [f32; 2],
+}
+
+/// The vertices of a surface: corners that differ only in their triangle are one.
+#[derive(Debug)]
+pub(super) struct Vertices {
+    list: Vec<Vertex>,
+    /// Those of each triangle.
+    of: Vec<[u32; 3]>,
+}
+
+impl Vertices {
+    /// `normals`: at the corners of each triangle; `flat`: of each triangle, for texture coordinates where the surface has none.
+    pub(super) fn new(surface: &RenderSurface, normals: &[[Vec3; 3]], flat: &[Vec3]) -> Self {
+        const NONE: u32 = u32::MAX;
+        let mut list: Vec<Vertex> = Vec::with_capacity(surface.positions.len());
+        // The last vertex drawn at each of the surface's, and the one before each.
+        let mut last = vec![NONE; surface.positions.len()];
+        let mut before: Vec<u32> = Vec::with_capacity(surface.positions.len());
+        let mut number = |v: u32, normal: Vec3, flat: Vec3| {
+            let v = v as usize;
+            let position = surface.positions[v];
+            let uv = match surface.uvs.get(v) {
+                Some(&uv) => uv,
+                None => box_projection(position, flat),
+            };
+            let vertex = Vertex {
+                position,
+                normal,
+                uv,
+            };
+            let mut known = last[v];
+            while known != NONE && list[known as usize] != vertex {
+                known = before[known as usize];
+            }
+            if known == NONE {
+                known = list.len() as u32;
+                list.push(vertex);
+                before.push(last[v]);
+                last[v] = known;
+            }
+            known
+        };
+        let corners = surface.triangles.iter().zip(normals).zip(flat);
+        let of = corners
+            .map(|((triangle, normals), &flat)| {
+                [0, 1, 2].map(|k| number(triangle[k], normals[k], flat))
+            })
+            .collect();
+        Self { list, of }
+    }
+
+    /// How many there are.
+    pub(super) fn count(&self) -> usize {
+        self.list.len()
+    }
+
+    /// Numbers of those at the corners of a triangle.
+    pub(super) fn of(&self, triangle: u32) -> [u32; 3] {
+        self.of[triangle as usize]
+    }
+
+    pub(super) fn get(&self, number: u32) -> &Vertex {
+        &self.list[number as usize]
+    }
+}
