@@ -17,8 +17,8 @@ use crate::TriangleTree;
 const FACING: f64 = 0.3;
 /// Parts laid over a polygon one by one; of more, the polygon is halved first.
 const FEW: usize = 6;
-/// A polygon that meets more parts is halved even before it is divided along cracks.
-const MANY: usize = 64;
+/// A polygon that more cracks run through is halved before it is divided along them.
+const MANY: usize = 32;
 /// Polygons below this share of the triangle are rounding.
 const NOTHING: f64 = 1e-12;
 /// Halvings of what no part covers, at most.
@@ -124,9 +124,20 @@ pub(super) struct Overlay<'a> {
 struct Shade {
     corners: [DVec2; 3],
     label: u32,
+    /// How far the middle of the part is, m.
+    height: f64,
+    /// The boundary triangle that it is a part of.
+    of: u32,
 }
 
 impl Shade {
+    fn contains(&self, p: DVec2) -> bool {
+        (0..3).all(|k| {
+            let from = self.corners[k];
+            (self.corners[(k + 1) % 3] - from).perp_dot(p - from) >= 0.0
+        })
+    }
+
     /// Whether it shares more than a border with a polygon in this box.
     fn meets(&self, polygon: &[DVec2], [low, high]: [DVec2; 2]) -> bool {
         let [l, h] = bounds(&self.corners);
@@ -134,36 +145,28 @@ impl Shade {
     }
 }
 
-fn nearest_first(mut shades: Vec<(f64, Shade)>) -> Vec<Shade> {
-    shades.sort_by(|x, y| x.0.total_cmp(&y.0));
-    shades.into_iter().map(|s| s.1).collect()
-}
-
 impl Overlay<'_> {
     /// Convex polygons with their labels that tile the triangle; one polygon when it belongs to one fragment. `under`: boundary triangles that
     /// lie over or under it.
     pub(super) fn divide(&self, under: &[u32]) -> Vec<(Polygon, u32)> {
         let whole = WHOLE.to_vec();
-        let cracks: Vec<[DVec2; 2]> = self.cracks_through(under).collect();
+        let mut cracks: Vec<[DVec2; 2]> = self.cracks_through(under).collect();
         let mut shades = Vec::new();
-        for part in under.iter().flat_map(|&t| self.parts.of(t)) {
-            if let Some((height, corners)) = self.ground.shade(part.corners, self.reach) {
-                let label = part.label;
-                shades.push((height, Shade { corners, label }));
+        for &of in under {
+            for part in self.parts.of(of) {
+                if let Some((height, corners)) = self.ground.shade(part.corners, self.reach) {
+                    shades.push(Shade {
+                        corners,
+                        label: part.label,
+                        height,
+                        of,
+                    });
+                }
             }
         }
-        if let [first, others @ ..] = &shades[..]
-            && others.iter().all(|s| s.1.label == first.1.label)
-        {
-            return vec![(whole, first.1.label)];
-        }
-        let shades = nearest_first(shades);
-        let mut left = Left {
-            over: (0..shades.len() as u32).collect(),
-            cracks: (0..cracks.len() as u32).collect(),
-        };
         let mut divided = Vec::new();
-        self.lay(whole, (&shades, &cracks), [0, 0], &mut left, &mut divided);
+        let shades: Vec<&Shade> = shades.iter().collect();
+        self.lay(whole, &shades, (&mut cracks, 0), &mut divided);
         divided
     }
 
@@ -212,48 +215,79 @@ impl Overlay<'_> {
         divided
     }
 
-    /// Divides a polygon. `all`: the shades of all parts, and the cracks between them. `first`: where in the two lists of `left` those begin that
-    /// meet the polygon; the lists end as they began.
+    /// Divides a polygon along cracks. `cracks`: a list, and where in it those begin that run through the polygon; it ends as it began.
     fn lay(
         &self,
         polygon: Polygon,
-        all: (&[Shade], &[[DVec2; 2]]),
-        first: [usize; 2],
-        left: &mut Left,
+        shades: &[&Shade],
+        (cracks, first): (&mut Vec<[DVec2; 2]>, usize),
         divided: &mut Vec<(Polygon, u32)>,
     ) {
-        let (shades, cracks) = all;
-        let label = |s: u32| shades[s as usize].label;
-        let over = &left.over[first[0]..];
-        if let [one, others @ ..] = over
-            && others.iter().all(|&s| label(s) == label(*one))
-        {
-            divided.push((polygon, label(*one)));
+        let before = divided.len();
+        let end = cracks.len();
+        let is_halved = end - first > MANY && self.is_large(&polygon);
+        let parted = if is_halved {
+            Some((end, halves(&polygon)))
+        } else {
+            along_a_crack(&polygon, cracks, first)
+        };
+        let Some((used, parts)) = parted else {
+            self.between_cracks(polygon, shades, divided);
+            return;
+        };
+        for part in parts {
+            if area(&part) <= NOTHING {
+                continue;
+            }
+            for i in (first..end).filter(|&i| i != used) {
+                let [from, to] = cracks[i];
+                if runs_through(&part, from, to) {
+                    cracks.push([from, to]);
+                }
+            }
+            if is_halved {
+                let over = over(&part, shades);
+                self.lay(part, &over, (cracks, end), divided);
+            } else {
+                self.lay(part, shades, (cracks, end), divided);
+            }
+            cracks.truncate(end);
+        }
+        make_whole(polygon, before, divided);
+    }
+
+    /// Divides a polygon through which no crack runs, if it lies over or under boundary triangles of different labels, or beside all of them.
+    fn between_cracks(
+        &self,
+        polygon: Polygon,
+        shades: &[&Shade],
+        divided: &mut Vec<(Polygon, u32)>,
+    ) {
+        let (within, middle) = (bounds(&polygon), centre(&polygon));
+        // All parts that a boundary triangle has here are of one label, but for crumbs that a crack cuts off the polygon's corners.
+        let label_of = |parts: &[&Shade]| {
+            let around = parts.iter().find(|part| part.contains(middle));
+            let part = around.or_else(|| parts.iter().find(|part| part.meets(&polygon, within)));
+            part.map(|part| part.label)
+        };
+        let mut labels = shades.chunk_by(|a, b| a.of == b.of).filter_map(label_of);
+        let first = labels.next();
+        if let Some(label) = first.filter(|first| labels.all(|label| label == *first)) {
+            divided.push((polygon, label));
             return;
         }
+        let mut over = over(&polygon, shades);
         let before = divided.len();
-        let is_large = |many| over.len() > many && self.size(&polygon) > 0.5 * self.reach;
-        // Of very many parts each half first finds those that it meets.
-        let parted = if is_large(MANY) {
-            None
-        } else {
-            along_a_crack(&polygon, cracks, &left.cracks[first[1]..])
-        };
-        let used = parted.as_ref().map(|parted| parted.0);
-        let parted = parted.map(|parted| parted.1);
-        if let Some(parts) = parted.or_else(|| is_large(FEW).then(|| halves(&polygon))) {
-            for part in parts {
-                if area(&part) > NOTHING {
-                    let end = left.keep(&part, all, first, used);
-                    self.lay(part, all, end, left, divided);
-                    left.over.truncate(end[0]);
-                    left.cracks.truncate(end[1]);
+        if over.len() > FEW && self.is_large(&polygon) {
+            for half in halves(&polygon) {
+                if area(&half) > NOTHING {
+                    self.between_cracks(half, &over, divided);
                 }
             }
         } else {
+            over.sort_by(|x, y| x.height.total_cmp(&y.height));
             let mut rest = vec![polygon.clone()];
-            for &s in over {
-                let shade = &shades[s as usize];
+            for shade in over {
                 rest = rest
                     .into_iter()
                     .flat_map(|piece| cover(piece, shade, divided))
@@ -264,6 +298,11 @@ impl Overlay<'_> {
             }
         }
         make_whole(polygon, before, divided);
+    }
+
+    /// Whether it is worth to halve a polygon before what lies under it is found.
+    fn is_large(&self, polygon: &[DVec2]) -> bool {
+        self.size(polygon) > 0.5 * self.reach
     }
 
     /// A polygon without a part under it: closest labels, halved where they differ.
@@ -292,49 +331,22 @@ impl Overlay<'_> {
     }
 }
 
-/// Shades, and cracks between them, that polygons meet: those of a polygon's parts follow its own.
-struct Left {
-    over: Vec<u32>,
-    cracks: Vec<u32>,
+/// Those that a polygon meets.
+fn over<'a>(polygon: &[DVec2], shades: &[&'a Shade]) -> Vec<&'a Shade> {
+    let within = bounds(polygon);
+    let meets = |shade: &&&Shade| shade.meets(polygon, within);
+    shades.iter().filter(meets).copied().collect()
 }
 
-impl Left {
-    /// Adds those from `first` on that a part of the polygon meets, without the crack that it was `used` to divide along. Returns where they begin.
-    fn keep(
-        &mut self,
-        part: &[DVec2],
-        (shades, cracks): (&[Shade], &[[DVec2; 2]]),
-        first: [usize; 2],
-        used: Option<u32>,
-    ) -> [usize; 2] {
-        let end = [self.over.len(), self.cracks.len()];
-        let within = bounds(part);
-        for place in first[0]..end[0] {
-            let s = self.over[place];
-            if shades[s as usize].meets(part, within) {
-                self.over.push(s);
-            }
-        }
-        for place in first[1]..end[1] {
-            let c = self.cracks[place];
-            let [from, to] = cracks[c as usize];
-            if used != Some(c) && runs_through(part, from, to) {
-                self.cracks.push(c);
-            }
-        }
-        end
-    }
-}
-
-/// The first of some cracks that divides a polygon, and the two parts.
+/// The first crack from a place of the list on that divides a polygon, and the two parts.
 fn along_a_crack(
     polygon: &[DVec2],
     cracks: &[[DVec2; 2]],
-    some: &[u32],
-) -> Option<(u32, [Polygon; 2])> {
-    let mut parted = some.iter().map(|&c| {
-        let [from, to] = cracks[c as usize];
-        (c, split(polygon, from, to - from))
+    first: usize,
+) -> Option<(usize, [Polygon; 2])> {
+    let mut parted = (first..cracks.len()).map(|i| {
+        let [from, to] = cracks[i];
+        (i, split(polygon, from, to - from))
     });
     parted.find(|(_, parts)| parts.iter().all(|part| area(part) > NOTHING))
 }
