@@ -55,7 +55,7 @@ contacts*: the rest, before + work − after − paid; restitution and friction 
 may exceed what was lost to contacts.
 
 So cracks ≤ approach ≤ before + work, and after + all cracks of the step ≤ before + work. Without friction the peak strain is at most the
-approach too. Friction follows the normal force as the engine found it, and what it adds to the vibration comes from the sliding motion,
+approach too. Friction follows the normal force and does not change it. What it adds to the vibration comes from the sliding motion,
 which is not followed in the blow: there the strain may be larger than the approach, and cracks are not given what is above. A load that
 rests has no approach: its strain energy is the work it does on the body.";
 
