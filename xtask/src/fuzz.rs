@@ -227,14 +227,13 @@ fn finding(name: &str, program: &Path, log: &Path, input: Option<&str>, said: &s
         lines.push(format!(
             "keep:      cp {input} fuzz/corpus/{name}/ and a test beside the reader"
         ));
-        match fs::read(input) {
-            Ok(bytes) if bytes.len() <= SHOWN => {
-                let hexadecimal: String = bytes.iter().map(|byte| format!("{byte:02x}")).collect();
-                lines.push(format!(
-                    "elsewhere: echo {hexadecimal} | xxd -r -p > {name}-input"
-                ));
-            }
-            _ => {}
+        if let Ok(bytes) = fs::read(input)
+            && bytes.len() <= SHOWN
+        {
+            let hexadecimal: String = bytes.iter().map(|byte| format!("{byte:02x}")).collect();
+            lines.push(format!(
+                "elsewhere: echo {hexadecimal} | xxd -r -p > {name}-input"
+            ));
         }
     }
     let panic = said
