@@ -5,9 +5,9 @@ mod bodies;
 use bodies::{Numbers, bits, block, breaking, models, pane, shelf};
 use frangible::glam::Vec3;
 use frangible::internals::blow::Blow;
-use frangible::internals::{Blast, blast, rest_margin_at_least};
+use frangible::internals::{Blast, blast, impact_traced, rest_margin_at_least};
 use frangible::internals::{DurationModel, Factors, Fields, Force, LookedAt, is_harmless, rest};
-use frangible::{Breakable, Contact, FractureConfig, Outcome, impact, would_break};
+use frangible::{Breakable, Contact, FractureConfig, Outcome, Striker, impact, would_break};
 
 fn without_bounds(config: &FractureConfig) -> FractureConfig {
     let mut config = config.clone();
@@ -222,15 +222,24 @@ fn the_bounds_change_no_bit_of_a_blast() {
     assert!((1..6).contains(&broke), "{broke}");
 }
 
-/// However hard a contact rubs, its normal force is that of one that does not, and stays within the bounds.
+/// However hard a contact rubs, its normal force is that of one that does not: on a solid and on a wall, of a ball and of what vibrates too.
 #[test]
 fn friction_adds_nothing_to_the_force_that_it_follows() {
     let config = FractureConfig::default();
     let (point, toward) = (Vec3::new(-0.1, 0.1, 0.001), Vec3::new(1.0, -0.1, -0.1));
     let ball = bodies::steel_ball(0.05);
     let along_the_pane = Contact::collision(pane().asset(), point, toward, 0.05, ball);
+    let on_the_pane = bodies::pane_hit(0.03, 0.02, 0.1);
+    let mut by_a_block = on_the_pane.clone();
+    let other = block().body(1);
+    by_a_block.striker = Striker::flexible(&other, &bodies::block_hit(0.1), &config).unwrap();
     let mut compared = 0;
-    for (kind, contact) in [(pane(), along_the_pane), (block(), bodies::block_hit(0.2))] {
+    for (kind, contact) in [
+        (pane(), along_the_pane),
+        (pane(), on_the_pane),
+        (pane(), by_a_block),
+        (block(), bodies::block_hit(0.2)),
+    ] {
         let body = kind.body(1);
         let blow = |friction: Vec3| {
             let contact = Contact {
@@ -250,11 +259,49 @@ fn friction_adds_nothing_to_the_force_that_it_follows() {
                 -contact.normal,
             ] {
                 let rough = blow(size * direction);
-                let apart = (rough.impulse / smooth.impulse - 1.0).abs();
-                assert!(apart < 1e-3, "{size} {direction}: {rough:?}, {smooth:?}");
+                for (rough, smooth) in [
+                    (rough.impulse, smooth.impulse),
+                    (rough.peak_force, smooth.peak_force),
+                ] {
+                    let apart = (rough / smooth - 1.0).abs();
+                    assert!(apart < 1e-3, "{size} {direction}: {rough} {smooth}");
+                }
                 compared += 1;
             }
         }
     }
-    assert_eq!(compared, 32);
+    assert_eq!(compared, 64);
+}
+
+/// A script may push anywhere: with friction along its push, or against it, it strains the body as the one that pushes so at once.
+#[test]
+fn a_script_with_friction_is_a_push() {
+    let config = FractureConfig::default();
+    // What follows the force shows where the force is slow, and where a wall has a near field.
+    for (kind, hit, factor, duration) in [
+        (pane(), bodies::pane_hit(0.03, 0.02, 1.0), 3.0, 1e-4),
+        (pane(), bodies::pane_hit(0.03, 0.02, 1.0), 3.0, 1e-2),
+        (block(), bodies::block_hit(1.0), -1.0, 1e-4),
+    ] {
+        let body = kind.body(1);
+        let impulse = 1e-3 * hit.normal.normalize();
+        let strained = |contact: Contact| {
+            let (outcome, _) = impact_traced(&body, &[contact], &config).unwrap();
+            outcome.report().peak_strain_energy
+        };
+        let at_once = strained(Contact::script(hit.point, factor * impulse, duration));
+        let mut rubbing = Contact::script(hit.point, impulse, duration);
+        rubbing.friction = (factor - 1.0) * impulse;
+        let apart = strained(rubbing) / at_once - 1.0;
+        assert!(at_once > 0.0 && apart.abs() < 1e-3, "{at_once} {apart}");
+    }
+}
+
+#[test]
+fn friction_without_a_force_to_follow_is_refused() {
+    let mut contact = bodies::pane_hit(0.0, 0.0, 1.0);
+    (contact.impulse, contact.friction) = (1e-39, Vec3::X);
+    let refused = impact(&pane().body(1), &[contact], &FractureConfig::default());
+    let said = refused.unwrap_err().to_string();
+    assert!(said.contains("friction impulse over its impulse"), "{said}");
 }

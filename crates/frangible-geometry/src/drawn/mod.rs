@@ -11,6 +11,8 @@ mod conform;
 mod edges;
 mod lines;
 mod overlay;
+#[cfg(test)]
+mod overlay_tests;
 mod parts;
 mod polygon;
 mod rings;

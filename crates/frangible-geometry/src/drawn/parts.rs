@@ -21,7 +21,8 @@ impl Part {
     }
 }
 
-/// Borders between parts of two labels, within boundary triangles: along the sides of those their neighbours have the same labels.
+/// Borders between parts of two labels within boundary triangles. The triangle across a side has the same labels along it, so no border lies
+/// between two triangles.
 #[derive(Debug, Default)]
 pub(super) struct Cracks {
     list: Vec<[DVec3; 2]>,

@@ -5,6 +5,9 @@ use glam::Vec3;
 use super::RenderSurface;
 use crate::box_projection;
 
+/// So many vertices at one place of the surface are compared with a corner: at the tip of a fan of thousands of flat triangles each has its own.
+const COMPARED: usize = 8;
+
 /// A corner as it is drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Vertex {
@@ -14,7 +17,7 @@ pub(super) struct Vertex {
     pub(super) uv: [f32; 2],
 }
 
-/// The vertices of a surface: corners that differ only in their triangle are one.
+/// The vertices of a surface: corners that differ only in their triangle are one, but for a few where very many meet.
 #[derive(Debug)]
 pub(super) struct Vertices {
     list: Vec<Vertex>,
@@ -42,17 +45,15 @@ impl Vertices {
                 normal,
                 uv,
             };
-            let mut known = last[v];
-            while known != NONE && list[known as usize] != vertex {
-                known = before[known as usize];
-            }
-            if known == NONE {
-                known = list.len() as u32;
+            let next = |&k: &u32| Some(before[k as usize]).filter(|&k| k != NONE);
+            let here = std::iter::successors(Some(last[v]).filter(|&k| k != NONE), next);
+            let known = here.take(COMPARED).find(|&k| list[k as usize] == vertex);
+            known.unwrap_or_else(|| {
                 list.push(vertex);
                 before.push(last[v]);
-                last[v] = known;
-            }
-            known
+                last[v] = before.len() as u32 - 1;
+                last[v]
+            })
         };
         let corners = surface.triangles.iter().zip(normals).zip(flat);
         let of = corners

@@ -205,8 +205,8 @@ impl Blow {
         self.plan.sites.iter().enumerate().map(of).collect()
     }
 
-    /// Energy of all modes and wall oscillators when the contact parts, and what the motion of approach has lost, J: of one contact,
-    /// without damping, the same but for the error of the substeps, [what its striker takes](Self::strikers_energy)
+    /// Energy of all modes and wall oscillators when the contact parts, and what the motion of approach has lost, J: of one contact
+    /// without damping or friction, the same but for the error of the substeps, [what its striker takes](Self::strikers_energy)
     /// and [what crushing takes](ContactReport::crushing_energy).
     #[must_use]
     pub fn energies(&self) -> [f64; 2] {

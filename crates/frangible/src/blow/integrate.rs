@@ -252,7 +252,7 @@ impl<'a> Contacts<'a> {
                 .sum();
             self.bases[k] = self.ways[k] + self.speeds[k] * dt
                 - 0.5 * fall * dt * dt
-                - dot_over(&plan.gap[k], &state.x, &plan.spans[k]);
+                - dot_over(&plan.gap[k], &state.x, &plan.felt[k]);
         }
     }
 

@@ -59,8 +59,10 @@ pub(super) struct Plan {
     pub(super) drive: Vec<Vec<f64>>,
     /// How each contact feels each oscillator's ω q, s/√kg.
     pub(super) gap: Vec<Vec<f64>>,
-    /// The oscillators that each contact pushes or feels.
-    pub(super) spans: Vec<Vec<Range<usize>>>,
+    /// The oscillators that each contact pushes.
+    pub(super) pushed: Vec<Vec<Range<usize>>>,
+    /// The oscillators that each contact feels.
+    pub(super) felt: Vec<Vec<Range<usize>>>,
     /// B of the rigid bodies, 1/kg: row-major.
     pub(super) inverse_mass: Vec<f64>,
     /// c of what follows the force in both bodies of each contact, m/N: row-major.
@@ -142,13 +144,14 @@ impl Plan {
             coarser: (pulse.longest_step / time_step).max(1.0),
             drive: vec![vec![0.0; width]; count],
             gap: vec![vec![0.0; width]; count],
-            spans: Vec::new(),
+            pushed: Vec::new(),
+            felt: Vec::new(),
             periods: oscillators[..modes].iter().map(|(w, _)| 1.0 / w).collect(),
             oscillators,
             sites,
         };
-        let strikes = |s: &Site| s.script.is_none() && s.touch.contact.friction != Vec3::ZERO;
-        let rubs = plan.sites.iter().any(strikes);
+        let rubs = |s: &Site| s.touch.contact.friction != Vec3::ZERO;
+        let rubs = plan.sites.iter().any(rubs);
         let coupled: Vec<Coupled<'_>> = (felt.iter().enumerate())
             .map(|(contact, (felt, push))| Coupled {
                 contact,
@@ -167,8 +170,9 @@ impl Plan {
             false => plan.own_compliance.clone(),
         };
         plan.add_strikers();
-        let rows = plan.drive.iter().zip(&plan.gap);
-        plan.spans = rows.map(|(drive, gap)| spans(drive, gap)).collect();
+        let spans_of = |rows: &[Vec<f64>]| rows.iter().map(|row| spans(row)).collect();
+        plan.pushed = spans_of(&plan.drive);
+        plan.felt = spans_of(&plan.gap);
         plan.fine = Bank::new(&plan.oscillators, time_step / plan.substeps as f64);
         // After the blow the body swings alone.
         let own = &plan.oscillators[..plan.own];
@@ -181,7 +185,7 @@ impl Plan {
     pub(super) fn pushes(&self) -> Pushes<'_> {
         Pushes {
             drive: &self.drive,
-            spans: &self.spans,
+            spans: &self.pushed,
         }
     }
 

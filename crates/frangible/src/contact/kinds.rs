@@ -269,6 +269,10 @@ impl Contact {
             f64::from(self.normal.length()),
             "",
         )?;
+        finite(
+            "a contact's friction impulse over its impulse",
+            self.direction(),
+        )?;
         for (what, value) in [
             ("a contact's impulse (N·s)", self.impulse),
             ("a contact's approach speed (m/s)", self.approach_speed),

@@ -130,7 +130,7 @@ impl Resistance {
             of_tet: (self.of_tet.iter())
                 .map(|&r| rounded(f64::from(r) * f64::from(factor)))
                 .collect(),
-            weakest: self.weakest * f64::from(factor),
+            weakest: (self.weakest * f64::from(factor)).max(f64::from(f32::MIN_POSITIVE)),
             ..self.clone()
         }
     }
@@ -151,7 +151,7 @@ impl Resistance {
     /// R_c that a crack must pass to start in a tetrahedron, Pa.
     pub(crate) fn strength(&self, tet: u32) -> f32 {
         let own = self.of_tet.get(tet as usize);
-        own.copied().unwrap_or(self.material as f32)
+        own.copied().unwrap_or_else(|| rounded(self.material))
     }
 
     /// R_c of a place without the scatter of its weak points, Pa: what cracks that run there compare with.
@@ -165,7 +165,7 @@ impl Resistance {
     /// The smallest strength of some tetrahedra, Pa.
     pub(crate) fn weakest_of(&self, tets: &[u32]) -> f32 {
         if self.of_tet.is_empty() {
-            return self.material as f32;
+            return rounded(self.material);
         }
         let strengths = tets.iter().map(|&e| self.strength(e));
         strengths.min_by(f32::total_cmp).unwrap_or(f32::INFINITY)
