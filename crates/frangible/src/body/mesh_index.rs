@@ -2,6 +2,7 @@
 //!
 //! It takes about 29 bytes per tetrahedron.
 
+use super::patches::Patches;
 use crate::asset::Asset;
 use crate::mesh::{Rows, TetMesh};
 
@@ -15,6 +16,8 @@ pub(crate) struct MeshIndex {
     pub(crate) tets: Rows,
     /// Nodes joined to each node by an edge.
     pub(crate) neighbours: Rows,
+    /// The nodes in patches.
+    pub(crate) patches: Patches,
     /// Volume of each node: a quarter of each of its tetrahedra. Whole numbers, of which 2⁶⁰ make about the body: their
     /// sums are exact, so a part's volume is also the whole's less that of the other parts.
     pub(crate) volumes: Vec<u64>,
@@ -42,6 +45,7 @@ impl MeshIndex {
             volumes,
             first_nodes: first_nodes(&neighbours),
             nodes_of_cell: nodes_of_cell(asset),
+            patches: Patches::new(&neighbours),
             tets,
             neighbours,
             total_volume,

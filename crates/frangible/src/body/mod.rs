@@ -1,6 +1,7 @@
 //! Breakable bodies: what is shared by all bodies of a kind, and what is a body's own.
 
 mod mesh_index;
+mod patches;
 mod prepared;
 
 use std::sync::Arc;

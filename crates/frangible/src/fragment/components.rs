@@ -3,7 +3,8 @@
 //! Every component has a node beside a cut (or is a part of the mesh that was never joined to the rest). So the search
 //! starts there, from all sides of the cuts at once, the side that has seen least going on. Sides that meet are one;
 //! a side that has nowhere to go is a component. When one side is left, it has all that nobody has seen: it is
-//! not searched further, and its volume is what the others leave of the whole.
+//! not searched further, and its volume is what the others leave of the whole. A patch of nodes that no cut touches hangs together, so a side
+//! takes all of it at once and goes on from the nodes around it.
 //!
 //! Volumes of nodes are whole numbers, so the volume of the rest is exact.
 
@@ -20,6 +21,9 @@ const TURN: u32 = 32;
 
 /// In place of a side: a node beside a cut that belongs to another piece.
 const OUTSIDE: u32 = u32::MAX;
+
+/// In a list of nodes to look at: what follows is the number of a patch.
+const PATCH: u32 = 1 << 31;
 
 /// A connected component.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -97,10 +101,10 @@ impl Components {
 /// What has been seen from one place beside the cuts.
 #[derive(Clone, Debug)]
 struct Side {
-    /// Nodes seen and not looked at, from `next` on.
+    /// Nodes and [patches](PATCH) seen and not looked at, from `next` on.
     waiting: Vec<u32>,
     next: usize,
-    /// How many were looked at.
+    /// How many nodes were looked at.
     looked_at: u32,
     lowest: u32,
     volume: u64,
@@ -112,6 +116,8 @@ struct Search<'a> {
     portion: Option<&'a Portion>,
     side_of_node: Vec<u32>,
     seen: Vec<u32>,
+    /// Whether a side starts in each patch: then its nodes are looked at one by one.
+    is_started: Vec<bool>,
     sides: Vec<Side>,
     /// Sides that have met.
     sets: DisjointSets,
@@ -124,6 +130,8 @@ impl<'a> Search<'a> {
     fn new(cuts: &'a Cuts, index: &'a MeshIndex, portion: Option<&'a Portion>) -> Self {
         let mut side_of_node = vec![0_u32; index.nodes()];
         let mut starts = cuts.nodes().to_vec();
+        // So that their neighbours are read one behind another.
+        starts.sort_unstable();
         if let Some(portion) = portion {
             starts.retain(|&v| {
                 let within = portion.has_node(v);
@@ -138,14 +146,17 @@ impl<'a> Search<'a> {
             let untouched = first_nodes.iter().filter(|&&v| !cuts.touches(v));
             starts.extend(untouched);
         }
+        let mut is_started = vec![false; index.patches.count()];
         for (place, &v) in (1..).zip(&starts) {
             side_of_node[v as usize] = place;
+            is_started[index.patches.of_node(v) as usize] = true;
         }
         let mut sets = DisjointSets::new(starts.len());
         for &v in starts.iter().filter(|&&v| cuts.touches(v)) {
-            for &w in index.neighbours.of(v) {
+            let lower = index.neighbours.of(v).iter().take_while(|&&w| w < v);
+            for &w in lower {
                 let within = cuts.touches(w) && side_of_node[w as usize] != OUTSIDE;
-                if w < v && within && cuts.place(w, v).is_none() {
+                if within && cuts.place(w, v).is_none() {
                     sets.join(side_of_node[v as usize] - 1, side_of_node[w as usize] - 1);
                 }
             }
@@ -155,6 +166,7 @@ impl<'a> Search<'a> {
             index,
             portion,
             side_of_node,
+            is_started,
             sets: DisjointSets::new(0),
             sides: Vec::new(),
             going: 0,
@@ -206,29 +218,53 @@ impl<'a> Search<'a> {
     fn turn(&mut self, mut side: u32) -> u32 {
         for _ in 0..TURN {
             let s = &mut self.sides[side as usize];
-            let Some(&v) = s.waiting.get(s.next) else {
+            let Some(&at) = s.waiting.get(s.next) else {
                 break;
             };
             s.next += 1;
-            s.looked_at += 1;
-            let v_is_cut = self.cuts.touches(v);
             let index = self.index;
-            for &w in index.neighbours.of(v) {
+            let (beside, is_cut, nodes) = if at & PATCH == 0 {
+                (index.neighbours.of(at), self.cuts.touches(at), 1)
+            } else {
+                let patch = at & !PATCH;
+                let nodes = index.patches.nodes(patch).len();
+                (index.patches.rim(patch), false, nodes as u32)
+            };
+            s.looked_at += nodes;
+            for &w in beside {
                 match self.side_of_node[w as usize] {
                     // Not beside a cut, or it would be a start: the edge is whole.
-                    0 => {
-                        self.side_of_node[w as usize] = side + 1;
-                        self.seen.push(w);
-                        self.sides[side as usize].add(w, index);
-                    }
+                    0 => self.see(w, side),
                     OUTSIDE => {}
                     // Between two starts an uncut edge has joined them already.
-                    _ if v_is_cut && self.cuts.touches(w) => {}
+                    _ if is_cut && self.cuts.touches(w) => {}
                     other => side = self.meet(side, other - 1),
                 }
             }
         }
         side
+    }
+
+    /// Gives a side a node that nobody has seen, and with it the whole patch where no side starts in that.
+    #[inline]
+    fn see(&mut self, node: u32, side: u32) {
+        let index = self.index;
+        let patch = index.patches.of_node(node);
+        let own = &mut self.sides[side as usize];
+        if self.is_started[patch as usize] {
+            self.side_of_node[node as usize] = side + 1;
+            self.seen.push(node);
+            own.add(node, index);
+            return;
+        }
+        let nodes = index.patches.nodes(patch);
+        for &v in nodes {
+            self.side_of_node[v as usize] = side + 1;
+        }
+        self.seen.extend_from_slice(nodes);
+        own.lowest = own.lowest.min(nodes[0]);
+        own.volume += index.volume_of(nodes);
+        own.waiting.push(PATCH | patch);
     }
 
     fn meet(&mut self, a: u32, b: u32) -> u32 {

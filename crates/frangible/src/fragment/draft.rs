@@ -120,39 +120,39 @@ pub(super) fn outer_faces(
             parts.begin();
         }
         let l = triangle.map(label);
-        let whole = l == [l[0]; 3];
-        if l.iter().all(|&l| l >= others) {
+        // Nearly all belong to one piece, and need no points between nodes.
+        let foreign = l.iter().all(|&l| l >= others).then_some(others);
+        let one = (l[0] == l[1] && l[1] == l[2]).then_some(l[0]);
+        if let Some(label) = foreign.or(one) {
+            if let Some(draft) = drafts.get_mut(label as usize) {
+                draft.outer.push(*triangle);
+                draft.outer_of.push(t);
+                let unit = normals.map(|n| n.normalize_or(normals[0]));
+                draft.outer_normals.push(unit);
+            }
             if let Some(parts) = &mut parts {
                 let corners = triangle.map(|v| asset.fracture.positions[v as usize].as_dvec3());
-                let label = others;
                 parts.push(Part { corners, label });
             }
             continue;
         }
         face_parts(triangle, &l, |l, points| {
             let numbers = points.map(|p| table.number(p));
-            let Some(draft) = drafts.get_mut(l as usize) else {
-                if let Some(parts) = &mut parts {
-                    let corners = numbers.map(|v| table.place(v));
-                    let label = others;
-                    parts.push(Part { corners, label });
-                }
-                return;
-            };
-            draft.outer.push(numbers);
-            draft.outer_of.push(t);
-            draft.outer_normals.push(if whole {
-                normals.map(|n| n.normalize_or(normals[0]))
-            } else {
-                points.map(|p| interpolated_normal(p, triangle, normals, &labels.cuts))
-            });
+            let draft = drafts.get_mut(l as usize);
             if let Some(parts) = &mut parts {
                 let corners = numbers.map(|v| table.place(v));
-                parts.push(Part { corners, label: l });
-                if !whole {
+                let label = l.min(others);
+                parts.push(Part { corners, label });
+                if draft.is_some() {
                     let on_rim = numbers.into_iter().filter(|&v| !table.is_node(v));
                     parts.rim.extend(on_rim);
                 }
+            }
+            if let Some(draft) = draft {
+                draft.outer.push(numbers);
+                draft.outer_of.push(t);
+                let normal = |p| interpolated_normal(p, triangle, normals, &labels.cuts);
+                draft.outer_normals.push(points.map(normal));
             }
         });
     }
