@@ -220,7 +220,7 @@ impl<I> Look<'_, '_, I> {
         if above & steps != 0 {
             return false;
         }
-        self.pass_over(tet, Wide(bounds).largest().clamp(0.0, limit));
+        self.pass_over(tet, Wide(bounds).largest().max(0.0).min(limit));
         true
     }
 

@@ -4,7 +4,7 @@ use glam::Vec3;
 
 use super::bands::{Bands, Spacing};
 use super::wall::WallMaterial;
-use crate::stress::{BATCH, Lanes, STRIDE, StressLanes, Symmetric3, Wall};
+use crate::stress::{BATCH, Lanes, STRIDE, StressLanes, Symmetric3, Wall, length};
 
 /// Step between the first distances of the table, in thicknesses of the wall.
 const FIRST_STEP: f64 = 0.08;
@@ -166,7 +166,7 @@ impl NearField {
     }
 
     /// Where a point of the wall lies in the field; none where it does not reach. `wall`: the body's wall at the point.
-    #[inline]
+    #[inline(always)]
     fn locate(&self, point: Vec3, wall: &Wall) -> Option<Located> {
         let away = point - self.place.point;
         if away.length_squared() > self.outermost {
@@ -174,17 +174,20 @@ impl NearField {
         }
         let side = wall.normal.dot(self.place.inwards);
         let along = away - away.dot(wall.normal) * wall.normal;
-        let distance = along.length();
+        let distance = length(along);
         let radius = self.below(distance)?;
-        if side.abs() < SAME_WALL || distance < self.nearest_along(away.length()) {
+        if side.abs() < SAME_WALL || distance < self.nearest_along(length(away)) {
             return None;
         }
         // From the middle of the wall, towards the far face, in halves of the thickness.
         let [front, back] = wall.distances(point);
         let height = (-(front + back) / self.thickness * side.signum()).clamp(-1.0, 1.0);
-        let radial = along
-            .try_normalize()
-            .unwrap_or(wall.normal.any_orthonormal_vector());
+        let shrink = distance.recip();
+        let radial = if shrink.is_finite() && shrink > 0.0 {
+            along * shrink
+        } else {
+            wall.normal.any_orthonormal_vector()
+        };
         let [a, b] = [radius, radius + 1].map(|i| self.radii[i]);
         Some(Located {
             radius,
@@ -215,10 +218,12 @@ impl NearField {
     pub(crate) fn most_lanes(&self, at: &Located, batch: usize) -> Lanes {
         let row = &self.most[at.radius * self.steps..][..self.steps];
         let first = (batch * STRIDE).wrapping_sub(1);
-        std::array::from_fn(|k| {
+        let mut most = [0.0; BATCH];
+        for k in 0..BATCH {
             let step = self.step(first.wrapping_add(k));
-            row.get(step).copied().unwrap_or(0.0)
-        })
+            most[k] = if step < self.steps { row[step] } else { 0.0 };
+        }
+        most
     }
 
     /// Radial and hoop stress there at all steps of a batch, Pa.
@@ -346,7 +351,7 @@ impl NearFields<'_> {
     }
 
     /// Adds them to the stress at a point of a wall at the steps of a batch; whether any reaches it.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn add(
         &self,
         stress: &mut StressLanes,

@@ -107,13 +107,14 @@ impl Frame {
                 let (mean, half) = ((aa + bb) * 0.5, (aa - bb) * 0.5);
                 let radius = (half * half + ab * ab).sqrt();
                 bounds = (mean + radius * (1.0 + ROUNDING)).0;
-                for (bound, mean) in bounds.iter_mut().zip(mean.0) {
-                    *bound += ROUNDING * mean.abs();
+                for k in 0..BATCH {
+                    bounds[k] += ROUNDING * mean.0[k].abs();
                 }
             }
             Self::Edge(_) => {
-                for (bound, along) in bounds.iter_mut().zip(numbers[0]) {
-                    *bound = along + ROUNDING * along.abs();
+                for k in 0..BATCH {
+                    let along = numbers[0][k];
+                    bounds[k] = along + ROUNDING * along.abs();
                 }
             }
             Self::Space => bounds = self.stress(numbers).tension_bounds(),

@@ -19,7 +19,8 @@ impl StressLanes {
     /// σ at step k of the batch, Pa.
     #[inline(always)]
     pub(crate) fn stress(&self, k: usize) -> Symmetric3 {
-        Symmetric3::from_components(self.components.map(|lanes| lanes[k]))
+        let [xx, yy, zz, xy, yz, zx] = &self.components;
+        Symmetric3::from_components([xx[k], yy[k], zz[k], xy[k], yz[k], zx[k]])
     }
 
     /// Adds a tension along unit `t` at each step, Pa; the energy stays.

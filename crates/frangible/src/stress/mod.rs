@@ -50,4 +50,4 @@ pub use skin::{Flaw, Skin};
 pub use strain::{Elasticity, Law, StressState};
 pub use tensor::Symmetric3;
 pub use wall::Wall;
-pub(crate) use wide::{Wide, dot};
+pub(crate) use wide::{Wide, dot, length};

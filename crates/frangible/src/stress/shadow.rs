@@ -92,7 +92,10 @@ impl Released<Wide> {
     /// Nothing is released yet. `opposite`: the stress behind the middle of the wall, where there is one.
     #[inline(always)]
     pub(crate) fn of_batch(stress: &StressLanes, opposite: Option<&StressLanes>) -> Self {
-        let opposite = opposite.map(|opposite| wide(&opposite.components));
+        let opposite = match opposite {
+            Some(opposite) => Some(wide(&opposite.components)),
+            None => None,
+        };
         Self::new(wide(&stress.components), opposite)
     }
 
@@ -121,14 +124,20 @@ impl Released<f32> {
 impl<T: Real> Released<T> {
     #[inline(always)]
     fn new(whole: [T; 6], opposite: Option<[T; 6]>) -> Self {
-        let bending = opposite.map(|opposite| {
-            let mut bending = whole;
-            for (b, behind) in bending.iter_mut().zip(opposite) {
-                *b = (*b - behind) * 0.5;
-            }
-            bending
-        });
-        Self { whole, bending }
+        let Some(opposite) = opposite else {
+            return Self {
+                whole,
+                bending: None,
+            };
+        };
+        let mut bending = whole;
+        for i in 0..6 {
+            bending[i] = (whole[i] - opposite[i]) * 0.5;
+        }
+        Self {
+            whole,
+            bending: Some(bending),
+        }
     }
 
     /// Takes away what one crack releases.

@@ -3,7 +3,9 @@
 use glam::{Mat3, Vec3};
 
 use super::lanes::StressLanes;
-use super::tensor::{Real, Symmetric3, half_product, products, stretch, tangential, uniaxial};
+use super::tensor::{
+    Real, Symmetric3, half_dot, half_product, products, stretch, tangential, uniaxial,
+};
 use super::wide::{Wide, narrow, wide};
 use crate::material::Material;
 
@@ -52,7 +54,7 @@ impl Elasticity {
     /// E, or its linear part, of ∇u, `[column j][row i]` = ∂u_i/∂x_j.
     #[inline(always)]
     fn strain<T: Real>(&self, [a, b, c]: &[[T; 3]; 3]) -> [T; 6] {
-        let mut e = [
+        let e = [
             a[0],
             b[1],
             c[2],
@@ -60,21 +62,17 @@ impl Elasticity {
             (c[1] + b[2]) * 0.5,
             (a[2] + c[0]) * 0.5,
         ];
-        if self.quadratic {
-            let dot = |u: &[T; 3], v: &[T; 3]| (u[0] * v[0] + u[1] * v[1] + u[2] * v[2]) * 0.5;
-            let terms = [
-                dot(a, a),
-                dot(b, b),
-                dot(c, c),
-                dot(a, b),
-                dot(b, c),
-                dot(c, a),
-            ];
-            for (e, term) in e.iter_mut().zip(terms) {
-                *e = *e + term;
-            }
+        if !self.quadratic {
+            return e;
         }
-        e
+        [
+            e[0] + half_dot(a, a),
+            e[1] + half_dot(b, b),
+            e[2] + half_dot(c, c),
+            e[3] + half_dot(a, b),
+            e[4] + half_dot(b, c),
+            e[5] + half_dot(c, a),
+        ]
     }
 
     /// Stress by a law, and energy density, of ∇u.

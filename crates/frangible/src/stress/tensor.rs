@@ -116,7 +116,15 @@ pub(super) fn stretch<T: Real>(e: &[T; 6], t: Vec3) -> T {
 /// Tension along unit `t`.
 #[inline(always)]
 pub(super) fn uniaxial<T: Real>(tension: T, t: Vec3) -> [T; 6] {
-    products(t, t).map(|p| tension * p)
+    let [xx, yy, zz, xy, yz, zx] = products(t, t);
+    [
+        tension * xx,
+        tension * yy,
+        tension * zz,
+        tension * xy,
+        tension * yz,
+        tension * zx,
+    ]
 }
 
 /// P E P, P = I − n nᵀ: E − n mᵀ − m nᵀ + (n·m) n nᵀ with m = E n.
@@ -137,9 +145,14 @@ pub(super) fn tangential<T: Real>(e: &[T; 6], n: Vec3) -> [T; 6] {
 
 /// ½ σ : E.
 #[inline(always)]
-pub(super) fn half_product<T: Real>(stress: &[T; 6], strain: &[T; 6]) -> T {
-    let of = |i: usize| stress[i] * strain[i];
-    (of(0) + of(1) + of(2)) * 0.5 + (of(3) + of(4) + of(5))
+pub(super) fn half_product<T: Real>(s: &[T; 6], e: &[T; 6]) -> T {
+    (s[0] * e[0] + s[1] * e[1] + s[2] * e[2]) * 0.5 + (s[3] * e[3] + s[4] * e[4] + s[5] * e[5])
+}
+
+/// ½ a · b.
+#[inline(always)]
+pub(super) fn half_dot<T: Real>(a: &[T; 3], b: &[T; 3]) -> T {
+    (a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) * 0.5
 }
 
 /// A number, or one for each step of a batch: the same operations in the same order.

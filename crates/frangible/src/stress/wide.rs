@@ -2,6 +2,8 @@
 
 use std::ops::{Add, Mul, Sub};
 
+use glam::Vec3;
+
 use super::batch::{BATCH, Lanes};
 use super::tensor::Real;
 
@@ -26,6 +28,13 @@ pub(crate) fn dot(a: &[f32], b: &[f32]) -> f32 {
         sum += lane;
     }
     sum
+}
+
+/// The length of a vector. (Where another crate has `glam` take `libm`, as Rapier does, its own is an instruction of the plain processor,
+/// which waits for all vectors about it: on some processors that takes longer than all else that is done for a crack.)
+#[inline(always)]
+pub(crate) fn length(v: Vec3) -> f32 {
+    v.length_squared().sqrt()
 }
 
 /// A value at each of a batch's steps.

@@ -6,7 +6,7 @@ use super::super::extents::{BLOCK, Extents, FAINT, Ring, Seen};
 use super::super::single::Crack;
 use super::super::sites::Site;
 use super::super::system::CrackSystem;
-use crate::stress::{STRETCHED, Shadow, share_left};
+use crate::stress::{STRETCHED, Shadow, length, share_left};
 
 /// A smaller fall of a share than this is passed over.
 const LEAST: f32 = 5e-3;
@@ -181,7 +181,7 @@ fn nearest_place(site: &Site, point: Vec3, radius: f32) -> Vec3 {
     let to_site = site.position - point;
     let across = site.direction * site.direction.dot(to_site);
     let along = to_site - across;
-    let length = along.length();
+    let length = length(along);
     if length <= radius {
         across
     } else {
