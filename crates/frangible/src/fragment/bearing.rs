@@ -2,6 +2,7 @@
 
 use glam::{DVec3, Vec3};
 
+use super::draft::divided_tets;
 use super::label::Labels;
 use crate::asset::FOREIGN;
 use crate::body::MeshIndex;
@@ -45,7 +46,7 @@ impl Bearing {
         Self {
             half: volumes.iter().sum::<u64>() / 2,
             volumes,
-            faces: faces(labels, mesh),
+            faces: faces(labels, index, mesh),
         }
     }
 
@@ -74,13 +75,11 @@ impl Bearing {
 
 /// The faces of each piece. Let χ be 1 at the nodes of a piece and 0 at others: then volume × ∇χ of a tetrahedron is the area with which the
 /// piece's side passes through it.
-fn faces(labels: &Labels, mesh: &TetMesh) -> Vec<Vec<Face>> {
+fn faces(labels: &Labels, index: &MeshIndex, mesh: &TetMesh) -> Vec<Vec<Face>> {
     let mut faces: Vec<Vec<Face>> = vec![Vec::new(); labels.count];
-    for tet in &mesh.tets {
+    for e in divided_tets(&mesh.tets, index, labels) {
+        let tet = mesh.tets[e as usize];
         let pieces = tet.map(|v| labels.of_node[v as usize]);
-        if pieces.iter().all(|&p| p == pieces[0]) {
-            continue;
-        }
         let corners = tet.map(|v| mesh.positions[v as usize].as_dvec3());
         let gradients = FACES.map(|face| {
             let [a, b, c] = face.map(|i| corners[i]);

@@ -238,10 +238,10 @@ impl NearField {
             }
             return [radial, hoop];
         }
-        let row =
-            |part: usize, radius: usize| &self.table[part][radius * self.steps + first..][..BATCH];
-        let (a, b) = (row(0, at.radius), row(0, at.radius + 1));
-        let (c, d) = (row(1, at.radius), row(1, at.radius + 1));
+        let [sums, differences] = &self.table;
+        let [here, next] = [at.radius, at.radius + 1].map(|i| i * self.steps + first);
+        let (a, b) = (&sums[here..][..BATCH], &sums[next..][..BATCH]);
+        let (c, d) = (&differences[here..][..BATCH], &differences[next..][..BATCH]);
         for k in 0..BATCH {
             let sum = at.height * (a[k] + (b[k] - a[k]) * at.share);
             let difference = at.height * (c[k] + (d[k] - c[k]) * at.share);

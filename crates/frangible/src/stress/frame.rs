@@ -5,7 +5,7 @@ use glam::Vec3;
 use super::batch::{BATCH, Lanes};
 use super::lanes::StressLanes;
 use super::strain::{Elasticity, Law};
-use super::tensor::{Symmetric3, products};
+use super::tensor::{Symmetric3, mixed_products, products};
 use super::wide::Wide;
 use super::{Wall, perpendicular_axes};
 
@@ -89,7 +89,7 @@ impl Frame {
             Self::Surface([a, b]) => {
                 lanes.add_uniaxial(&numbers[0], a);
                 lanes.add_uniaxial(&numbers[1], b);
-                lanes.add(&numbers[2], products(a, b).map(|p| 2.0 * p));
+                lanes.add(&numbers[2], mixed_products(a, b));
             }
             Self::Edge(along) => lanes.add_uniaxial(&numbers[0], along),
             Self::Space => lanes.components.copy_from_slice(&numbers[..MOST]),
@@ -136,11 +136,7 @@ impl Elasticity {
             (Law::Free(n), _) => {
                 let (a, b) = perpendicular_axes(n);
                 let in_surface = self.in_surface(a, b, g);
-                let shares = [
-                    products(a, a),
-                    products(b, b),
-                    products(a, b).map(|p| 2.0 * p),
-                ];
+                let shares = [products(a, a), products(b, b), mixed_products(a, b)];
                 for (row, shares) in in_surface.into_iter().zip(shares) {
                     for (sum, share) in rows.iter_mut().zip(shares) {
                         *sum += row * share;

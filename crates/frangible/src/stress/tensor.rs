@@ -95,6 +95,13 @@ pub(super) fn products(a: Vec3, b: Vec3) -> [f32; 6] {
     ]
 }
 
+/// a b + b a: twice what [`products`] gives.
+#[inline(always)]
+pub(super) fn mixed_products(a: Vec3, b: Vec3) -> [f32; 6] {
+    let [xx, yy, zz, xy, yz, zx] = products(a, b);
+    [2.0 * xx, 2.0 * yy, 2.0 * zz, 2.0 * xy, 2.0 * yz, 2.0 * zx]
+}
+
 /// E n.
 #[inline(always)]
 pub(super) fn times<T: Real>(e: &[T; 6], n: Vec3) -> [T; 3] {
