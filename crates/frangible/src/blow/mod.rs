@@ -45,6 +45,7 @@
 //! exactly, and one equation per contact and substep has one root. Steps after the blow are as long as the modes allow.
 
 mod bank;
+mod couple;
 mod course;
 mod integrate;
 mod limits;

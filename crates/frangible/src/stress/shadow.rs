@@ -92,11 +92,11 @@ impl Released<Wide> {
     /// Nothing is released yet. `opposite`: the stress behind the middle of the wall, where there is one.
     #[inline(always)]
     pub(crate) fn of_batch(stress: &StressLanes, opposite: Option<&StressLanes>) -> Self {
-        let opposite = match opposite {
-            Some(opposite) => Some(wide(&opposite.components)),
-            None => None,
-        };
-        Self::new(wide(&stress.components), opposite)
+        let mut released = Self::of_whole(wide(&stress.components));
+        if let Some(opposite) = opposite {
+            released.bend(&wide(&opposite.components));
+        }
+        released
     }
 
     /// What is left, without the energy.
@@ -112,7 +112,11 @@ impl Released<Wide> {
 impl Released<f32> {
     /// Nothing is released yet. `opposite`: the stress behind the middle of the wall, where there is one.
     pub(crate) fn of_step(stress: Symmetric3, opposite: Option<Symmetric3>) -> Self {
-        Self::new(stress.components(), opposite.map(Symmetric3::components))
+        let mut released = Self::of_whole(stress.components());
+        if let Some(opposite) = opposite {
+            released.bend(&opposite.components());
+        }
+        released
     }
 
     /// What is left.
@@ -123,21 +127,21 @@ impl Released<f32> {
 
 impl<T: Real> Released<T> {
     #[inline(always)]
-    fn new(whole: [T; 6], opposite: Option<[T; 6]>) -> Self {
-        let Some(opposite) = opposite else {
-            return Self {
-                whole,
-                bending: None,
-            };
-        };
-        let mut bending = whole;
-        for i in 0..6 {
-            bending[i] = (whole[i] - opposite[i]) * 0.5;
-        }
+    fn of_whole(whole: [T; 6]) -> Self {
         Self {
             whole,
-            bending: Some(bending),
+            bending: None,
         }
+    }
+
+    /// Takes in the stress behind the middle of the wall.
+    #[inline(always)]
+    fn bend(&mut self, opposite: &[T; 6]) {
+        let mut bending = self.whole;
+        for i in 0..6 {
+            bending[i] = (self.whole[i] - opposite[i]) * 0.5;
+        }
+        self.bending = Some(bending);
     }
 
     /// Takes away what one crack releases.
