@@ -297,6 +297,29 @@ fn a_script_with_friction_is_a_push() {
     }
 }
 
+/// What a script's friction does to the body is felt by a striker beside it.
+#[test]
+fn a_script_with_friction_moves_what_a_striker_beside_it_feels() {
+    let config = FractureConfig::default();
+    let body = pane().body(1);
+    let ball = bodies::pane_hit(0.05, 0.02, 0.5);
+    let felt = |script: Contact| {
+        let contacts = [ball.clone(), script];
+        let found = Blow::new(&body, &contacts, &config).unwrap();
+        found.expect("a contact that pushes").reports()[0].impulse
+    };
+    let push = bodies::pane_hit(0.0, 0.0, 1.0);
+    let script = |impulse: f32| Contact::script(push.point, impulse * push.normal, 5e-4);
+    let mut rubbing = script(1e-2);
+    rubbing.friction = 2e-2 * push.normal;
+    let (alone, at_once, rubbing) = (felt(script(1e-6)), felt(script(3e-2)), felt(rubbing));
+    assert!(
+        (rubbing / at_once - 1.0).abs() < 1e-3,
+        "{at_once} {rubbing}"
+    );
+    assert!((alone / at_once - 1.0).abs() > 0.01, "{alone} {at_once}");
+}
+
 #[test]
 fn friction_without_a_force_to_follow_is_refused() {
     let mut contact = bodies::pane_hit(0.0, 0.0, 1.0);

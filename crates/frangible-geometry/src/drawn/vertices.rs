@@ -17,7 +17,7 @@ pub(super) struct Vertex {
     pub(super) uv: [f32; 2],
 }
 
-/// The vertices of a surface: corners that differ only in their triangle are one, but for a few where very many meet.
+/// The vertices of a surface: corners that differ only in their triangle are one, but where very many meet.
 #[derive(Debug)]
 pub(super) struct Vertices {
     list: Vec<Vertex>,

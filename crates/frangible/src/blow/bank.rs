@@ -1,7 +1,7 @@
 //! Many oscillators side by side, stepped through a tick under forces that grow linearly.
 //!
 //! A contact is coupled to few of them: to the modes, and to the wall oscillators about it and not to those about the others. So each force
-//! has *spans*, whole groups of oscillators outside of which it neither pushes nor feels anything.
+//! has *spans*, whole groups of oscillators outside of which it pushes nothing, and others outside of which it feels nothing.
 
 use std::ops::Range;
 

@@ -26,7 +26,7 @@
 //! What friction there is follows the normal force: the body is pushed along n + f, f the ratio of the engine's friction and normal impulse. The
 //! force itself does not feel it: q in the first equation is what the normal forces alone would do, as y is the way that they alone leave the
 //! striker. A force that friction moves the wall under could grow without end, since friction takes its energy from a slide that is not
-//! followed.
+//! followed. A script gives its push whole: friction is part of it.
 //!
 //! Cracks change what the contacts push against, and from then on forces, motion and cracks are found anew:
 //! - a star of three arms or more under a contact leaves cantilevers, which give way more (`star.rs`), until rings of cracks have cut the

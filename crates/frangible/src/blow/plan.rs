@@ -88,10 +88,11 @@ impl Plan {
         config: &FractureConfig,
         longest: Option<f64>,
     ) -> Option<Self> {
-        let pushing = |c: &&Contact| c.pushes(config.duration);
+        let pushing = contacts.iter().filter(|c| c.pushes(config.duration));
+        let pushing: Vec<Contact> = pushing.filter_map(Contact::in_one).collect();
         let asset = &*body.asset;
         let modes = asset.modes.followed();
-        let mut load = modal_load(body, contacts.iter().filter(pushing));
+        let mut load = modal_load(body, &pushing);
         if load.touches.is_empty() {
             return None;
         }

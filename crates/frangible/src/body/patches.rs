@@ -3,7 +3,7 @@
 use crate::mesh::Rows;
 
 /// Nodes of a patch, at most: few enough that a crack touches few others with it, and many beside those around it.
-const MOST: usize = 96;
+pub(super) const MOST: usize = 96;
 
 /// The nodes of a mesh in patches: each hangs together by edges of its own.
 #[derive(Debug)]
@@ -14,8 +14,8 @@ pub(crate) struct Patches {
 }
 
 impl Patches {
-    /// Grows patches one after another, each about the lowest node that is in none.
-    pub(super) fn new(neighbours: &Rows) -> Self {
+    /// Grows patches of so many nodes at most one after another, each about the lowest node that is in none.
+    pub(super) fn new(neighbours: &Rows, most: usize) -> Self {
         const NONE: u32 = u32::MAX;
         let count = neighbours.count();
         let mut of_node = vec![NONE; count];
@@ -29,9 +29,9 @@ impl Patches {
             own.clear();
             own.push(first);
             let mut next = 0;
-            while next < own.len() && own.len() < MOST {
+            while next < own.len() && own.len() < most {
                 for &w in neighbours.of(own[next]) {
-                    if of_node[w as usize] == NONE && own.len() < MOST {
+                    if of_node[w as usize] == NONE && own.len() < most {
                         of_node[w as usize] = patch;
                         own.push(w);
                     }

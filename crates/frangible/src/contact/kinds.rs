@@ -256,6 +256,21 @@ impl Contact {
         self.normal.normalize_or_zero() * self.impulse + self.friction
     }
 
+    /// A script's push as one along its own direction: nothing rubs there. A striker's contact stays as it is. None where a script's friction
+    /// takes away all of its impulse.
+    pub(crate) fn in_one(&self) -> Option<Self> {
+        if !self.is_script() || self.friction == Vec3::ZERO {
+            return Some(self.clone());
+        }
+        let push = self.push();
+        (push != Vec3::ZERO).then(|| Self {
+            normal: push,
+            impulse: push.length(),
+            friction: Vec3::ZERO,
+            ..self.clone()
+        })
+    }
+
     /// Checks that every number can be used.
     ///
     /// # Errors

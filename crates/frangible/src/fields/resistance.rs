@@ -74,6 +74,11 @@ fn rounded(strength: f64) -> f32 {
     (strength as f32).clamp(f32::MIN_POSITIVE, f32::MAX)
 }
 
+/// A strength, Pa, of which [`rounded`] makes itself.
+fn above_zero(strength: f64) -> f64 {
+    strength.max(f64::from(f32::MIN_POSITIVE))
+}
+
 /// Strengths and fracture energies of one body.
 #[derive(Clone, Debug)]
 pub(crate) struct Resistance {
@@ -100,7 +105,7 @@ impl Resistance {
             fields: Arc::clone(fields),
             toughness,
             of_tet: Arc::from([]),
-            weakest: material.strength,
+            weakest: above_zero(material.strength),
         };
         if **fields == Fields::default() {
             return body;
@@ -117,7 +122,7 @@ impl Resistance {
         let weakest = weak_tets.iter().map(|&e| of_tet[e as usize]);
         body.weakest = weakest
             .min_by(f32::total_cmp)
-            .map_or(material.strength, f64::from);
+            .map_or(above_zero(material.strength), f64::from);
         body.of_tet = of_tet.into();
         body
     }
@@ -130,7 +135,7 @@ impl Resistance {
             of_tet: (self.of_tet.iter())
                 .map(|&r| rounded(f64::from(r) * f64::from(factor)))
                 .collect(),
-            weakest: (self.weakest * f64::from(factor)).max(f64::from(f32::MIN_POSITIVE)),
+            weakest: above_zero(self.weakest * f64::from(factor)),
             ..self.clone()
         }
     }
@@ -142,7 +147,7 @@ impl Resistance {
         Self {
             weakest: match weakest {
                 Some(weakest) if !self.of_tet.is_empty() => f64::from(weakest),
-                _ => self.material,
+                _ => above_zero(self.material),
             },
             ..self.clone()
         }

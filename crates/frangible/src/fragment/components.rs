@@ -216,7 +216,8 @@ impl<'a> Search<'a> {
 
     /// Lets a side look at some nodes; returns the one it is part of afterwards.
     fn turn(&mut self, mut side: u32) -> u32 {
-        for _ in 0..TURN {
+        let mut left = TURN;
+        while left > 0 {
             let s = &mut self.sides[side as usize];
             let Some(&at) = s.waiting.get(s.next) else {
                 break;
@@ -231,6 +232,7 @@ impl<'a> Search<'a> {
                 (index.patches.rim(patch), false, nodes as u32)
             };
             s.looked_at += nodes;
+            left = left.saturating_sub(nodes);
             for &w in beside {
                 match self.side_of_node[w as usize] {
                     // Not beside a cut, or it would be a start: the edge is whole.

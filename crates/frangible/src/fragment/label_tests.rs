@@ -74,10 +74,16 @@ fn plain(cuts: &Cuts, tets: &[[u32; 4]], volumes: &[u64], crumb_share: f64) -> (
 /// Number of pieces, and whether crumbs were absorbed, for several sizes of crumbs.
 fn compare(asset: &Asset, cuts: impl Fn() -> Cuts) -> (usize, bool) {
     let index = MeshIndex::new(asset);
+    // Small patches too: a small body has few that no cut touches.
+    let small = [3, 6].map(|most| MeshIndex::new(asset).with_patches(most));
     let tets = &asset.fracture.tets;
     let counts = [0.0, 2e-4, 0.01, 0.2].map(|share| {
         let (of_node, count) = plain(&cuts(), tets, &index.volumes, share);
         let found: Labels = of_cuts(cuts(), tets, &index, None, share);
+        for index in &small {
+            let same = of_cuts(cuts(), tets, index, None, share);
+            assert_eq!((&same.of_node, same.count), (&found.of_node, found.count));
+        }
         assert_eq!(found.count, count);
         assert_eq!(found.of_node, of_node);
         count
