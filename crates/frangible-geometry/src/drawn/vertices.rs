@@ -45,8 +45,8 @@ impl Vertices {
                 normal,
                 uv,
             };
-            let next = |&k: &u32| Some(before[k as usize]).filter(|&k| k != NONE);
-            let here = std::iter::successors(Some(last[v]).filter(|&k| k != NONE), next);
+            let drawn = |k: u32| (k != NONE).then_some(k);
+            let here = std::iter::successors(drawn(last[v]), |&k| drawn(before[k as usize]));
             let known = here.take(COMPARED).find(|&k| list[k as usize] == vertex);
             known.unwrap_or_else(|| {
                 list.push(vertex);

@@ -52,7 +52,7 @@ impl MeshIndex {
         }
     }
 
-    /// The same index with patches of so many nodes at most.
+    /// This index, with patches of so many nodes at most.
     #[cfg(test)]
     pub(crate) fn with_patches(self, most: usize) -> Self {
         Self {

@@ -220,6 +220,7 @@ impl<I> Look<'_, '_, I> {
         if above & steps != 0 {
             return false;
         }
+        // No `clamp`, which would be a call.
         self.pass_over(tet, Wide(bounds).largest().max(0.0).min(limit));
         true
     }

@@ -74,7 +74,7 @@ fn rounded(strength: f64) -> f32 {
     (strength as f32).clamp(f32::MIN_POSITIVE, f32::MAX)
 }
 
-/// A strength, Pa, of which [`rounded`] makes itself.
+/// A strength, Pa, that stays above zero when it is rounded to four bytes.
 fn above_zero(strength: f64) -> f64 {
     strength.max(f64::from(f32::MIN_POSITIVE))
 }
