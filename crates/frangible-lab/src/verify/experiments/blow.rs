@@ -1,23 +1,23 @@
-//! The blow of a small ball on a plate.
+//! The blow of a small projectile on a plate.
 
 use frangible::glam::Vec3;
 use frangible::{Contact, Material, Striker};
 
-/// A steel ball that hits the middle of a plate's upper face.
+/// A steel ball, or a cylinder with a round nose, that hits the middle of a plate's upper face.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Ball {
+pub(crate) struct Projectile {
     /// Mass, kg.
     pub(crate) mass: f64,
-    /// Radius, m.
+    /// Radius of the ball or of the nose, m.
     pub(crate) radius: f64,
 }
 
-impl Ball {
+impl Projectile {
     /// The contact at this speed, m/s, on a plate of this thickness, m. Force, duration and impulse are outcomes.
     pub(crate) fn contact(&self, steel: &Material, thickness: f64, speed: f64) -> Contact {
         let top = Vec3::new(0.0, 0.0, (0.5 * thickness) as f32);
         let striker = Striker::ball(steel, self.mass, self.radius);
-        // A ball that stops: what the paper's model takes for the impulse.
+        // A projectile that stops: what the paper's model takes for the impulse.
         let impulse = (self.mass * speed) as f32;
         Contact::new(top, Vec3::NEG_Z, impulse, speed as f32, striker)
     }

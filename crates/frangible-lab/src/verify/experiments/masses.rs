@@ -8,7 +8,7 @@ use frangible_bake::frangible_mesh::DistanceSolid;
 use frangible_bake::{BakeSpec, Shape, SolidShape};
 use rayon::prelude::*;
 
-use super::blow::Ball;
+use super::blow::Projectile;
 use super::fit::CutOffLaw;
 use super::progress::{Counter, Hear};
 use super::star::{breakable, preset};
@@ -117,7 +117,7 @@ fn pane(plan: &MassPlan, counter: &Counter<'_>) -> Result<MassRun, VerifyError> 
     const THICKNESS: f64 = 4e-3;
     const SPEED: f64 = 20.0;
     let (glass, steel) = (preset("glass")?, preset("steel")?);
-    let striker = Ball {
+    let striker = Projectile {
         mass: 0.13,
         radius: 0.0158,
     };

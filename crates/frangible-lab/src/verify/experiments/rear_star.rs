@@ -12,7 +12,7 @@ use frangible::FractureConfig;
 use frangible::internals::impact_traced;
 use rayon::prelude::*;
 
-use super::blow::Ball;
+use super::blow::Projectile;
 use super::page::Figure;
 use super::pattern::CrackPattern;
 use super::progress::{Counter, Hear};
@@ -112,7 +112,7 @@ impl RearStars {
     /// What the bake or the impact refused.
     pub fn compute(plan: RearStarPlan, hear: Hear<'_>) -> Result<Self, VerifyError> {
         let (steel, glass) = (preset("steel")?, preset("glass")?);
-        let ball = Ball {
+        let ball = Projectile {
             mass: DENSITY * PI / 6.0 * BALL.powi(3),
             radius: 0.5 * BALL,
         };

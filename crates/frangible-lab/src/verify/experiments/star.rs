@@ -1,4 +1,4 @@
-//! Radial cracks of a thin plate that a small steel ball hits: how many, at which speed.
+//! Radial cracks of a thin plate that a small steel projectile hits: how many, at which speed.
 
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -8,7 +8,7 @@ use frangible::{Breakable, FractureConfig, Material};
 use frangible_bake::{BakeSpec, MeshSize, Region, Shape, Support, bake};
 use rayon::prelude::*;
 
-use super::blow::Ball;
+use super::blow::Projectile;
 use super::fit::PowerLaw;
 use super::pattern::CrackPattern;
 use super::progress::{Counter, Hear};
@@ -20,16 +20,18 @@ const NAME: &str = "star";
 pub(crate) const SIDE: f64 = 0.1;
 /// The thickness that is compared with the measured counts, m.
 pub(crate) const MEASURED_THICKNESS: f64 = 1e-3;
-/// Circle on which cracks are counted, m: ten thicknesses of the thinner plates. Farther out a slow ball cannot have cut what the
-/// experiment counts: at 20 m/s its 52 mJ pay for 110 mm of cracks through 1 mm, so four of them end within 30 mm.
+/// Circle on which cracks are counted, m: ten thicknesses of the plate whose counts are published.
 pub(crate) const RADII: [f64; 1] = [0.01];
 /// Lengths are summed between these distances from the middle, m: outside the crushed zone, off the clamped edge.
 pub(crate) const RING: [f64; 2] = [0.005, 0.045];
 /// Height of the plane on which cracks are looked at, in thicknesses above the middle: no layer of nodes lies there.
 const SECTION: f64 = 0.13;
-/// Diameter of the ball, m.
-const BALL: f64 = 4e-3;
-/// Its density, kg/m³: 0.26 g.
+/// Width of the projectile, m.
+pub(crate) const WIDTH: f64 = 4e-3;
+/// Length of the projectile, m. Reports of the experiment call it a bullet-shaped cylinder and give its width alone; bullets are two to
+/// four times as long as wide, and both ends of that range are among the variants.
+pub(crate) const LENGTH: f64 = 3.0 * WIDTH;
+/// Density of steel, kg/m³.
 const STEEL_DENSITY: f64 = 7800.0;
 
 /// What to compute.
@@ -37,7 +39,7 @@ const STEEL_DENSITY: f64 = 7800.0;
 pub struct StarPlan {
     /// Thicknesses of the plates, m.
     pub thicknesses: Vec<f64>,
-    /// Speeds of the ball, m/s.
+    /// Speeds of the projectile, m/s.
     pub speeds: Vec<f64>,
     /// Plates per speed, seeds 1 and up.
     pub seeds: u64,
@@ -61,6 +63,17 @@ pub(crate) struct Variant {
     weak_points: f64,
     branching: bool,
     scatter: bool,
+    /// What hits the plate.
+    shape: Shot,
+}
+
+/// The shape of a projectile.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Shot {
+    /// A ball.
+    Ball,
+    /// A cylinder with half a ball as its nose, of this length, m.
+    Bullet(f64),
 }
 
 const DEFAULT: Variant = Variant {
@@ -71,9 +84,10 @@ const DEFAULT: Variant = Variant {
     weak_points: 1.0,
     branching: true,
     scatter: true,
+    shape: Shot::Bullet(LENGTH),
 };
 
-const VARIANTS: [Variant; 7] = [
+const VARIANTS: [Variant; 10] = [
     Variant {
         name: "cracks at once, no release (`CrackTiming::Instant`)",
         instant: true,
@@ -109,12 +123,27 @@ const VARIANTS: [Variant; 7] = [
         weak_points: 4.0,
         ..DEFAULT
     },
+    Variant {
+        name: "projectile 8 mm long (0.72 g)",
+        shape: Shot::Bullet(2.0 * WIDTH),
+        ..DEFAULT
+    },
+    Variant {
+        name: "projectile 16 mm long (1.50 g)",
+        shape: Shot::Bullet(4.0 * WIDTH),
+        ..DEFAULT
+    },
+    Variant {
+        name: "a ball (0.26 g)",
+        shape: Shot::Ball,
+        ..DEFAULT
+    },
 ];
 
-/// One plate and what a ball did to it.
+/// One plate and what the projectile did to it.
 #[derive(Clone, Debug)]
 pub struct StarImpact {
-    /// Speed of the ball, m/s.
+    /// Speed of the projectile, m/s.
     pub speed: f64,
     /// Seed of the plate.
     pub seed: u64,
@@ -142,7 +171,7 @@ pub struct StarRun {
 /// Mean count at a speed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Count {
-    /// Speed of the ball, m/s.
+    /// Speed of the projectile, m/s.
     pub speed: f64,
     /// Mean over the seeds.
     pub mean: f64,
@@ -168,7 +197,7 @@ impl StarPlan {
         Self {
             thicknesses: vec![0.5e-3, MEASURED_THICKNESS, 3e-3],
             speeds: vec![10.0, 14.0, 20.0, 28.0, 40.0, 56.0, 80.0, 113.0],
-            seeds: 4,
+            seeds: 16,
             variant_speeds: vec![20.0, 40.0, 56.0, 80.0],
             edge: 1e-3,
             analysis_edge: SIDE / 16.0,
@@ -222,12 +251,24 @@ fn count(impacts: &[StarImpact]) -> Count {
     }
 }
 
-/// Mass and radius of the ball.
-pub(crate) fn ball() -> Ball {
-    Ball {
-        mass: STEEL_DENSITY * PI / 6.0 * BALL.powi(3),
-        radius: 0.5 * BALL,
+impl Shot {
+    fn projectile(self) -> Projectile {
+        let radius = 0.5 * WIDTH;
+        let ball = 4.0 / 3.0 * PI * radius.powi(3);
+        let volume = match self {
+            Self::Ball => ball,
+            Self::Bullet(length) => 0.5 * ball + PI * radius.powi(2) * (length - radius),
+        };
+        Projectile {
+            mass: STEEL_DENSITY * volume,
+            radius,
+        }
     }
+}
+
+/// What hits the plate, unless a variant says otherwise.
+pub(crate) fn projectile() -> Projectile {
+    DEFAULT.shape.projectile()
 }
 
 impl Stars {
@@ -246,18 +287,18 @@ impl Stars {
         let plates =
             plan.thicknesses.len() * plan.speeds.len() + others * plan.variant_speeds.len();
         let counter = Counter::new(plates * plan.seeds as usize, hear);
-        let ball = ball();
         let (mut runs, mut variants) = (Vec::new(), Vec::new());
         for &thickness in &plan.thicknesses {
             let baked = plate(&plan, thickness, pmma.clone())?;
             let run = |variant: Variant, speeds: &[f64]| {
                 let plate = changed(&baked, variant)?;
+                let projectile = variant.shape.projectile();
                 let blows: Vec<(f64, u64)> = speeds
                     .iter()
                     .flat_map(|&v| (1..=plan.seeds).map(move |seed| (v, seed)))
                     .collect();
                 let hit = |&(speed, seed): &(f64, u64)| {
-                    let contact = ball.contact(&steel, thickness, speed);
+                    let contact = projectile.contact(&steel, thickness, speed);
                     let hit = strike(&plate, &plan, thickness, contact, variant, seed);
                     counter.count();
                     hit

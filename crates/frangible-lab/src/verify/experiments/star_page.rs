@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use super::page::{Figure, apart, per_cent, with_error};
-use super::star::{Count, RADII, RING, SIDE, StarRun, Stars, ball};
+use super::star::{Count, LENGTH, RADII, RING, SIDE, StarRun, Stars, WIDTH, projectile};
 use crate::page::table;
 use crate::plot::{Axis, Chart, Marker, Panel, Panels, Series};
 
@@ -96,7 +96,7 @@ pub(crate) fn text(stars: &Stars, folder: &str) -> String {
     text += &counts(stars);
     let _ = write!(
         text,
-        "\n![Radial cracks against speed]({folder}/star-law.png)\n\nMean number of radial cracks against the speed of the ball, with \
+        "\n![Radial cracks against speed]({folder}/star-law.png)\n\nMean number of radial cracks against the speed of the projectile, with \
          what was measured on 1 mm plates.\n\n"
     );
     text += &outcome(stars);
@@ -115,28 +115,30 @@ pub(crate) fn text(stars: &Stars, folder: &str) -> String {
 
 const REFERENCES: &str = "\nReferences: the law N ∝ √speed and the experiment: N. Vandenberghe, R. Vermorel, E. Villermaux, Phys. Rev. Lett. 110, \
     174302 (2013), read in its abstract; mean counts on 1 mm plates, four at 70 km/h and eight at 280 km/h: A. Grant, Science News, 26 April \
-    2013; four cracks at 22.2 m/s and eight at 56.7 m/s in photographs: Physics 6, 48 (2013).\n";
+    2013; four cracks at 22.2 m/s and eight at 56.7 m/s in photographs: Physics 6, 48 (2013); the projectile: Nature 497, 160 (2013), and New \
+    Scientist, 2 May 2013.\n";
 
 fn set_up(stars: &Stars) -> String {
     let plan = &stars.plan;
-    let ball = ball();
     format!(
-        "A square plate of acrylic glass, {side:.0} × {side:.0} mm, clamped on its four sides, is hit in its middle by a steel ball 4 mm \
-         wide ({mass:.2} g). Material: the preset `pmma`; model: `FractureConfig::default()`. Mesh: {edge} mm elements, {modes} modes. \
+        "A square plate of acrylic glass, {side:.0} × {side:.0} mm, clamped on its four sides, is hit in its middle by a steel \
+         cylinder with a round nose, {width} mm wide and {length} mm long ({mass:.2} g). Material: the preset `pmma`; model: `FractureConfig::default()`. Mesh: {edge} mm elements, {modes} modes. \
          Plates per speed: {seeds}, which differ in their weak points.\n\n\
          *Nothing was fitted to the experiment.* What goes in are published properties of the material and two numbers of the model that no \
          handbook gives: the density of weak points and the depth γ that feeds a crack. What comes out, the number \
          of cracks and its law, is a prediction.\n\n\
-         *The blow* is integrated against the plate: ball, Hertz' spring, modes, and the near field of the contact, whose wall oscillators \
-         carry the energy away. When a star has cut the plate under the ball, the force falls.\n\n\
+         *The blow* is integrated against the plate: projectile, Hertz' spring, modes, and the near field of the contact, whose wall oscillators \
+         carry the energy away. When a star has cut the plate under the projectile, the force falls.\n\n\
          *Counting.* The cracks are cut by a plane parallel to the faces, just above the middle: one straight piece per tetrahedron. A crack \
          counts where a piece that runs within 45° of the radius crosses a circle about the impact; places less than one element apart on the \
-         circle are one. The circle has {radii} mm radius: the ball's energy at 20 m/s pays for 110 mm of cracks through 1 mm, and what \
-         is counted must be within reach of it. Per speed the mean over the plates. A plate that holds has none.\n\n\
-         *The experiment* fired a 4 mm steel projectile, in one report a pellet, in another a cylinder with a round nose, whose mass they do \
-         not give, at plates of glass and acrylic glass; how these were held is not told there either.",
+         circle are one. The circle has {radii} mm radius. Per speed the mean over the plates. A plate that holds has none.\n\n\
+         *The experiment* fired steel projectiles 4 mm wide at plates of glass and acrylic glass. Two reports call them cylinders, one of these \
+         bullet-shaped; none gives their length or mass, or tells how the plates were held. Bullets are two to four times as long as wide: here \
+         it is three times, and the last rows of the last table are of twice, four times, and a ball.",
         side = 1e3 * SIDE,
-        mass = 1e3 * ball.mass,
+        width = 1e3 * WIDTH,
+        length = 1e3 * LENGTH,
+        mass = 1e3 * projectile().mass,
         edge = 1e3 * plan.edge,
         modes = plan.modes,
         seeds = plan.seeds,
@@ -326,8 +328,8 @@ pub(crate) fn chart(stars: &Stars) -> Chart {
     });
     series.push(measured("measured, 1 mm, photographs", &PHOTOGRAPHS));
     Chart {
-        title: "Radial cracks of a PMMA plate hit by a 4 mm steel ball".into(),
-        x: Axis::log("speed of the ball (m/s)"),
+        title: "Radial cracks of a PMMA plate hit by a steel bullet 4 mm wide".into(),
+        x: Axis::log("speed of the projectile (m/s)"),
         y: Axis::log("radial cracks"),
         series,
     }
