@@ -17,8 +17,11 @@ use crate::trace::CrackTrace;
 /// Time steps between two looks whether cracks have weakened what bears a contact.
 const BETWEEN_LOOKS: usize = 7;
 
-/// Whether pieces have parted is asked again when the cracks have grown by this factor, or have stopped.
+/// While contacts push, whether pieces have parted is asked again when the cracks have grown by this factor, or have stopped.
 const GREW: f64 = 1.5;
+
+/// Once no contact pushes, it is asked when that begins, and again when the cracks have grown by this factor.
+const GREW_LATE: f64 = 3.0;
 
 /// What the cracks of an impact did to a body.
 #[expect(clippy::large_enum_variant, reason = "one at a time, never stored")]
@@ -59,16 +62,23 @@ struct Grown {
     asked: f64,
     /// At the last look.
     before: f64,
+    /// Whether it was asked since no contact pushes any more.
+    late: bool,
     /// The cracks' progress when it was last asked, and the pieces.
     pieces: Option<([usize; 2], Labels)>,
 }
 
 impl Grown {
-    /// Whether cracks of this area, m², may have parted what they had not when it was last asked.
-    fn is_due(&mut self, area: f64) -> bool {
+    /// Whether cracks of this area, m², may have parted what they had not when it was last asked, or what they had is free by now.
+    fn is_due(&mut self, area: f64, pushes: bool) -> bool {
         let stopped = area <= std::mem::replace(&mut self.before, area);
-        let due = area > self.asked && (stopped || area > GREW * self.asked);
+        let due = if pushes {
+            area > self.asked && (stopped || area > GREW * self.asked)
+        } else {
+            area > GREW_LATE * self.asked || (area > 0.0 && !self.late)
+        };
         if due {
+            self.late = !pushes;
             self.asked = area;
         }
         due
@@ -143,10 +153,10 @@ impl<'a> Cracking<'a> {
             system.ledger.come(motion.strain_energy_until(step));
             if step % BETWEEN_LOOKS == 0
                 && step > first_step
-                && let Some(blow) = self.blow.as_ref().filter(|b| b.pushes_at(step))
+                && let Some(blow) = &self.blow
             {
                 let start = Instant::now();
-                let contacts = self.weakened(blow, system, grown);
+                let contacts = self.look(blow, step, system, grown);
                 report.timings.labels += start.elapsed().as_secs_f64();
                 if !contacts.is_empty() {
                     weakened = Some(Weakened { step, contacts });
@@ -158,8 +168,9 @@ impl<'a> Cracking<'a> {
                 let start = Instant::now();
                 roots = culling.look(motion, step..motion.steps().min(step + BATCH - k));
                 field.displacement.seek(motion, step);
-                let cut = &system.fractured_by;
-                suspects.find(body, &mut field, culling.survivors(), cut, looked.peak);
+                let now = motion.begin(step, self.time_step);
+                let survivors = culling.survivors();
+                suspects.find(body, &mut field, survivors, system, now, looked.peak);
                 report.timings.stress += start.elapsed().as_secs_f64();
             }
             system.wake(roots[k]);
@@ -179,30 +190,51 @@ impl<'a> Cracking<'a> {
         weakened
     }
 
-    /// The contacts whose force must be found anew: where cracks have cut the piece under them free, and it leans on nothing that is more
-    /// than half of the body, nothing bears them any more. What pushes later pushes that piece alone, which whoever moves the pieces
-    /// finds out.
-    fn weakened(
+    /// Looks which pieces cracks have parted: those that are free come to rest. Returns the contacts whose force must be found anew, where
+    /// cracks have cut the piece under them free, and it leans on nothing that is more than half of the body: nothing bears them any more.
+    /// What pushes later pushes that piece alone, which whoever moves the pieces finds out.
+    fn look(
         &self,
         blow: &Blow,
-        system: &CrackSystem<'a>,
+        step: usize,
+        system: &mut CrackSystem<'a>,
         grown: &mut Grown,
     ) -> Vec<(usize, f64)> {
-        let mut contacts = blow.weakened(system);
-        if grown.is_due(system.area) {
-            let (index, mesh) = (&self.body.prepared.index, &self.body.asset.fracture);
-            let labels = fragment::label(system, index, self.config.crumb_share);
-            if labels.count > 1 {
-                let bearing = Bearing::new(&labels, index, mesh);
-                for (k, (node, push)) in blow.bearings(self.body).enumerate() {
-                    let piece = labels.of_node[node as usize];
-                    if blow.bears(k) && !bearing.bears(piece, push) {
-                        contacts.push((k, f64::INFINITY));
-                    }
+        let pushes = blow.pushes_at(step);
+        let mut contacts = if pushes {
+            blow.weakened(system)
+        } else {
+            Vec::new()
+        };
+        if !grown.is_due(system.area, pushes) {
+            return contacts;
+        }
+        let (index, mesh) = (&self.body.prepared.index, &self.body.asset.fracture);
+        let progress = system.progress();
+        let labels = match grown.pieces.take() {
+            Some((known, labels)) if known == progress => labels,
+            _ => fragment::label(system, index, self.config.crumb_share),
+        };
+        if labels.count > 1 {
+            let bearing = Bearing::new(&labels, index, mesh);
+            let mut free = bearing.small();
+            let pushing = blow.bearings(self.body).enumerate();
+            for (k, (node, push)) in pushing.filter(|(k, _)| pushes && blow.bears(*k)) {
+                let pushed = bearing.pushed(labels.of_node[node as usize], push);
+                if bearing.is_most(&pushed) {
+                    let free = free.iter_mut().zip(pushed);
+                    free.for_each(|(free, pushed)| *free &= !pushed);
+                } else {
+                    contacts.push((k, f64::INFINITY));
                 }
             }
-            grown.pieces = Some((system.progress(), labels));
+            let now = self.motion.begin(step, self.time_step);
+            let speed = self.body.asset.material.rayleigh_speed();
+            system
+                .rest
+                .release(&labels.of_node, &mesh.positions, &free, now, speed);
         }
+        grown.pieces = Some((progress, labels));
         contacts
     }
 

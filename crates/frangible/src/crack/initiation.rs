@@ -97,7 +97,7 @@ fn candidates<'a>(
     let mut releases = std::mem::take(&mut system.releases);
     for suspect in suspects.at(k) {
         let e = suspect.tet;
-        if system.fractured_by[e as usize] != UNCUT {
+        if system.is_over(e, times[0]) {
             continue;
         }
         let strength = resistance.strength(e);

@@ -61,7 +61,7 @@ pub(crate) fn advance(system: &mut CrackSystem, field: &mut StressField, now: f6
     }
 }
 
-/// A front enters a tetrahedron if its crack crosses it, meets nothing there, and can pay for it.
+/// A front enters a tetrahedron if its crack crosses it, meets nothing there, is not at rest, and can pay for it.
 fn enter(system: &mut CrackSystem, field: &mut StressField, front: Front) {
     let n = front.tet as usize;
     if system.fractured_by[n] == front.crack {
@@ -75,6 +75,9 @@ fn enter(system: &mut CrackSystem, field: &mut StressField, front: Front) {
         if let Some(beyond) = passes(system, &front, &crossing.from) {
             start(system, field, front.crack, &crossing.from, &beyond);
         }
+        return;
+    }
+    if system.rests(front.tet, front.arrival) {
         return;
     }
     // Where it turns now would make its area little else, and stress is dear to find.

@@ -5,7 +5,7 @@
 use super::calm::Calm;
 use super::field::StressField;
 use super::initiation::Peak;
-use super::system::UNCUT;
+use super::system::CrackSystem;
 use super::weak_stress::WeakStress;
 use crate::body::Body;
 use crate::stress::{BATCH, ClusterRows, Frame, Lanes, Steps, StressLanes, Wide, limit};
@@ -34,15 +34,15 @@ pub(crate) struct Suspects {
 }
 
 impl Suspects {
-    /// Looks at the points of the clusters that survive at any step of the field's batch, but for those that cracks have cut. `survivors`:
-    /// places of the clusters in the body's list, bit k set where step k needs a look; `fractured_by`: the crack that fractured each
-    /// tetrahedron, or nothing where none has.
+    /// Looks at the points of the clusters that survive at any step of the field's batch, but for those that are over by `now`, s, when the
+    /// batch begins. `survivors`: places of the clusters in the body's list, bit k set where step k needs a look.
     pub(crate) fn find(
         &mut self,
         body: &Body,
         field: &mut StressField,
         survivors: impl Iterator<Item = (u32, Steps)>,
-        fractured_by: &[u32],
+        system: &CrackSystem,
+        now: f64,
         peak: Peak,
     ) {
         self.points.clear();
@@ -53,7 +53,8 @@ impl Suspects {
             body,
             field,
             survivors,
-            fractured_by,
+            system,
+            now,
             peak,
         });
     }
@@ -93,16 +94,17 @@ impl Suspects {
 }
 
 /// The look at all points of some clusters.
-struct Look<'a, 'f, I> {
+struct Look<'a, 'f, 's, I> {
     suspects: &'a mut Suspects,
     body: &'a Body,
     field: &'a mut StressField<'f>,
     survivors: I,
-    fractured_by: &'a [u32],
+    system: &'a CrackSystem<'s>,
+    now: f64,
     peak: Peak,
 }
 
-impl<I: Iterator<Item = (u32, Steps)>> pulp::NullaryFnOnce for Look<'_, '_, I> {
+impl<I: Iterator<Item = (u32, Steps)>> pulp::NullaryFnOnce for Look<'_, '_, '_, I> {
     type Output = ();
 
     #[inline(always)]
@@ -117,6 +119,10 @@ impl<I: Iterator<Item = (u32, Steps)>> pulp::NullaryFnOnce for Look<'_, '_, I> {
         }
         while let Some((cluster, steps)) = self.survivors.next() {
             let cluster = cluster as usize;
+            let mut tets = body.clusters.tets(cluster).iter();
+            if tets.all(|&tet| self.is_over(tet)) {
+                continue;
+            }
             match (laws, &mut calm) {
                 (Some(laws), _) => {
                     self.by_rows(cluster, laws.cluster(body, config, cluster), steps);
@@ -125,7 +131,7 @@ impl<I: Iterator<Item = (u32, Steps)>> pulp::NullaryFnOnce for Look<'_, '_, I> {
                 (None, None) => {
                     let tets = body.clusters.tets(cluster);
                     for (place, &tet) in body.clusters.places(cluster).zip(tets) {
-                        if !self.is_cut(tet) {
+                        if !self.is_over(tet) {
                             self.by_displacement(place, tet, steps);
                         }
                     }
@@ -136,10 +142,10 @@ impl<I: Iterator<Item = (u32, Steps)>> pulp::NullaryFnOnce for Look<'_, '_, I> {
     }
 }
 
-impl<I> Look<'_, '_, I> {
-    fn is_cut(&self, tet: u32) -> bool {
-        let by = self.fractured_by.get(tet as usize);
-        by.is_some_and(|&by| by != UNCUT)
+impl<I> Look<'_, '_, '_, I> {
+    #[inline(always)]
+    fn is_over(&self, tet: u32) -> bool {
+        self.system.is_over(tet, self.now)
     }
 
     #[inline(always)]
@@ -154,7 +160,7 @@ impl<I> Look<'_, '_, I> {
         let points = (body.clusters.places(cluster)).zip(body.clusters.tets(cluster));
         for ((i, (place, &tet)), &frame) in (0..).zip(points).zip(&rows.frames) {
             let point = seen.next(frame);
-            if self.is_cut(tet) {
+            if self.is_over(tet) {
                 if next == Some(&i) {
                     next = pressed.next();
                 }
@@ -240,7 +246,7 @@ impl<I> Look<'_, '_, I> {
         let body = self.body;
         calm.look(body, self.field, cluster);
         for (place, &tet) in (body.clusters.places(cluster)).zip(body.clusters.tets(cluster)) {
-            if self.is_cut(tet) {
+            if self.is_over(tet) {
                 continue;
             }
             self.pass_over(tet, calm.most(place));

@@ -8,6 +8,7 @@ use super::extents::Extents;
 use super::ledger::Ledger;
 use super::node_values::NodeValues;
 use super::release::Releases;
+use super::rest::Rest;
 use super::single::{Crack, ElementCut, Front, Junction};
 use super::sites::Site;
 use super::surface::CrackFrame;
@@ -55,6 +56,8 @@ pub(crate) struct CrackSystem<'a> {
     pub(crate) area: f64,
     /// What has released the weak points so far.
     pub(crate) releases: Releases,
+    /// Which pieces have come to rest.
+    pub(crate) rest: Rest,
     /// Where each crack is, and how long.
     pub(crate) extents: Extents,
     /// Centroid of each fracture tetrahedron, m.
@@ -98,6 +101,7 @@ impl<'a> CrackSystem<'a> {
             fronts: BinaryHeap::new(),
             stalled: Vec::new(),
             releases: Releases::default(),
+            rest: Rest::default(),
             extents: Extents::new(body.prepared.edge, asset.material.rayleigh_speed()),
             centroids: &body.prepared.centroids,
             edge: body.prepared.edge,
@@ -182,6 +186,20 @@ impl<'a> CrackSystem<'a> {
         if !self.dormant.is_empty() && stress_bound > self.front_limit {
             self.stalled.append(&mut self.dormant);
         }
+    }
+
+    /// Whether the piece that an unfractured tetrahedron is part of is at rest.
+    #[inline]
+    pub(crate) fn rests(&self, tet: u32, now: f64) -> bool {
+        // No edge of it is cut: all its nodes are of one piece.
+        self.rest
+            .has(self.asset.fracture.tets[tet as usize][0], now)
+    }
+
+    /// Whether nothing can happen in a tetrahedron any more: a crack has fractured it, or its piece is at rest.
+    #[inline]
+    pub(crate) fn is_over(&self, tet: u32, now: f64) -> bool {
+        self.fractured_by[tet as usize] != UNCUT || self.rests(tet, now)
     }
 
     /// Whether no front is on its way or waits for energy.

@@ -50,18 +50,13 @@ impl Bearing {
         }
     }
 
-    /// Whether what pushes on a piece in this direction pushes on more than half of the body: on the piece itself and all that lie behind
-    /// it, face on face.
-    pub(crate) fn bears(&self, piece: u32, push: Vec3) -> bool {
+    /// The pieces that what pushes on one of them in this direction pushes on: that piece and all that lie behind it, face on face.
+    pub(crate) fn pushed(&self, piece: u32, push: Vec3) -> Vec<bool> {
         let push = push.as_dvec3();
         let mut pushed = vec![false; self.volumes.len()];
-        let (mut waiting, mut volume) = (vec![piece], 0);
+        let mut waiting = vec![piece];
         pushed[piece as usize] = true;
         while let Some(piece) = waiting.pop() {
-            volume += self.volumes[piece as usize];
-            if volume > self.half {
-                return true;
-            }
             for face in &self.faces[piece as usize] {
                 let passes = push.dot(face.across) >= PASSES * face.area;
                 if passes && !std::mem::replace(&mut pushed[face.behind as usize], true) {
@@ -69,7 +64,20 @@ impl Bearing {
                 }
             }
         }
-        false
+        pushed
+    }
+
+    /// Whether these pieces together are more than half of the body.
+    pub(crate) fn is_most(&self, pieces: &[bool]) -> bool {
+        let volumes = self.volumes.iter().zip(pieces);
+        let own = volumes.filter(|(_, own)| **own);
+        own.map(|(volume, _)| volume).sum::<u64>() > self.half
+    }
+
+    /// The pieces that are no more than half of the body each.
+    pub(crate) fn small(&self) -> Vec<bool> {
+        let small = |volume: &u64| *volume <= self.half;
+        self.volumes.iter().map(small).collect()
     }
 }
 

@@ -1,0 +1,71 @@
+//! Pieces come to rest (beyond the paper).
+//!
+//! The modes are those of the whole body, and go on as if nothing had parted. A piece that cracks have cut off, and that no contact
+//! pushes on, is loaded by nothing any more: what unloads its new faces crosses it at the speed of Rayleigh waves, and from then on it
+//! neither starts cracks nor feeds those that it has. More than half of the body vibrates much like the whole, and does not come to rest.
+
+use glam::Vec3;
+
+/// When each node's piece comes to rest.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Rest {
+    /// Time for each node of the fracture mesh, s, infinite where its piece may crack on; empty while nothing has parted.
+    from: Vec<f64>,
+}
+
+impl Rest {
+    /// Whether the piece of a node is at rest.
+    #[inline]
+    pub(crate) fn has(&self, node: u32, now: f64) -> bool {
+        self.from
+            .get(node as usize)
+            .is_some_and(|&from| from <= now)
+    }
+
+    /// Lets the pieces that are `free` come to rest: their release, of this speed, m/s, begins now. Pieces are numbered by their nodes;
+    /// `free` tells of each piece whether anything loads it.
+    pub(crate) fn release(
+        &mut self,
+        piece_of_node: &[u32],
+        positions: &[Vec3],
+        free: &[bool],
+        now: f64,
+        speed: f64,
+    ) {
+        let mut extents = vec![[Vec3::INFINITY, Vec3::NEG_INFINITY]; free.len()];
+        for (&piece, &position) in piece_of_node.iter().zip(positions) {
+            // Nodes of other pieces of a body that has parted before have no number here.
+            if let Some([low, high]) = extents.get_mut(piece as usize) {
+                (*low, *high) = (low.min(position), high.max(position));
+            }
+        }
+        let begins = |[low, high]: &[Vec3; 2]| now + f64::from(low.distance(*high)) / speed;
+        self.from.resize(positions.len(), f64::INFINITY);
+        for (&piece, from) in piece_of_node.iter().zip(&mut self.from) {
+            let piece = piece as usize;
+            if free.get(piece) == Some(&true) {
+                *from = from.min(begins(&extents[piece]));
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_free_piece_rests_once_its_release_has_crossed_it() {
+        let positions = [0.0, 0.3, 0.6, 1.0].map(|x| Vec3::new(x, 0.0, 0.0));
+        let mut rest = Rest::default();
+        assert!(!rest.has(0, f64::MAX));
+        // 0.4 m at 100 m/s; the other piece is pushed on, and one node is of a piece that parted before.
+        rest.release(&[0, 0, 1, 1], &positions, &[false, true], 2.0, 100.0);
+        assert!(!rest.has(2, 2.0039) && rest.has(2, 2.0041) && rest.has(3, 2.0041));
+        assert!(!rest.has(0, f64::MAX) && !rest.has(1, f64::MAX));
+        // What has begun goes on, whatever the piece is cut into.
+        rest.release(&[0, 0, 1, u32::MAX], &positions, &[true, true], 3.0, 100.0);
+        assert!(rest.has(2, 2.0041) && rest.has(3, 2.0041));
+        assert!(!rest.has(0, 3.0029) && rest.has(0, 3.0031));
+    }
+}
