@@ -216,16 +216,19 @@ impl<'a> Cracking<'a> {
             _ => fragment::label(system, index, self.config.crumb_share),
         };
         if labels.count > 1 {
-            let bearing = Bearing::new(&labels, index, mesh);
-            let mut free = bearing.small();
-            let pushing = blow.bearings(self.body).enumerate();
-            for (k, (node, push)) in pushing.filter(|(k, _)| pushes && blow.bears(*k)) {
-                let pushed = bearing.pushed(labels.of_node[node as usize], push);
-                if bearing.is_most(&pushed) {
-                    let free = free.iter_mut().zip(pushed);
-                    free.for_each(|(free, pushed)| *free &= !pushed);
-                } else {
-                    contacts.push((k, f64::INFINITY));
+            let mut free = fragment::small(&labels, index);
+            if pushes {
+                let bearing = Bearing::new(&labels, index, mesh);
+                for (k, (node, push)) in blow.bearings(self.body).enumerate() {
+                    let piece = labels.of_node[node as usize];
+                    if !blow.bears(k) {
+                        continue;
+                    }
+                    if bearing.bears(piece, push) {
+                        free[piece as usize] = false;
+                    } else {
+                        contacts.push((k, f64::INFINITY));
+                    }
                 }
             }
             let now = self.motion.begin(step, self.time_step);

@@ -1,8 +1,9 @@
 //! Pieces come to rest (beyond the paper).
 //!
 //! The modes are those of the whole body, and go on as if nothing had parted. A piece that cracks have cut off, and that no contact
-//! pushes on, is loaded by nothing any more: what unloads its new faces crosses it at the speed of Rayleigh waves, and from then on it
-//! neither starts cracks nor feeds those that it has. More than half of the body vibrates much like the whole, and does not come to rest.
+//! touches, is pulled and bent by nothing any more; its neighbours can only press on it, which opens no cracks. What unloads its new
+//! faces crosses it at the speed of Rayleigh waves, and from then on it neither starts cracks nor feeds those that it has. A piece of
+//! more than half of the body vibrates much like the whole, and does not come to rest.
 
 use glam::Vec3;
 

@@ -37,26 +37,26 @@ pub(crate) struct Bearing {
 impl Bearing {
     /// How the pieces of a body, or of a portion of it, lean on each other.
     pub(crate) fn new(labels: &Labels, index: &MeshIndex, mesh: &TetMesh) -> Self {
-        let mut volumes = vec![0; labels.count];
-        for (&label, volume) in labels.of_node.iter().zip(&index.volumes) {
-            if label < FOREIGN {
-                volumes[label as usize] += volume;
-            }
-        }
+        let (volumes, half) = volumes(labels, index);
         Self {
-            half: volumes.iter().sum::<u64>() / 2,
+            half,
             volumes,
             faces: faces(labels, index, mesh),
         }
     }
 
-    /// The pieces that what pushes on one of them in this direction pushes on: that piece and all that lie behind it, face on face.
-    pub(crate) fn pushed(&self, piece: u32, push: Vec3) -> Vec<bool> {
+    /// Whether what pushes on a piece in this direction pushes on more than half of the body: on the piece itself and all that lie behind
+    /// it, face on face.
+    pub(crate) fn bears(&self, piece: u32, push: Vec3) -> bool {
         let push = push.as_dvec3();
         let mut pushed = vec![false; self.volumes.len()];
-        let mut waiting = vec![piece];
+        let (mut waiting, mut volume) = (vec![piece], 0);
         pushed[piece as usize] = true;
         while let Some(piece) = waiting.pop() {
+            volume += self.volumes[piece as usize];
+            if volume > self.half {
+                return true;
+            }
             for face in &self.faces[piece as usize] {
                 let passes = push.dot(face.across) >= PASSES * face.area;
                 if passes && !std::mem::replace(&mut pushed[face.behind as usize], true) {
@@ -64,21 +64,26 @@ impl Bearing {
                 }
             }
         }
-        pushed
+        false
     }
+}
 
-    /// Whether these pieces together are more than half of the body.
-    pub(crate) fn is_most(&self, pieces: &[bool]) -> bool {
-        let volumes = self.volumes.iter().zip(pieces);
-        let own = volumes.filter(|(_, own)| **own);
-        own.map(|(volume, _)| volume).sum::<u64>() > self.half
-    }
+/// Which of the pieces of a body, or of a portion of it, are no more than half of it.
+pub(crate) fn small(labels: &Labels, index: &MeshIndex) -> Vec<bool> {
+    let (volumes, half) = volumes(labels, index);
+    volumes.iter().map(|&volume| volume <= half).collect()
+}
 
-    /// The pieces that are no more than half of the body each.
-    pub(crate) fn small(&self) -> Vec<bool> {
-        let small = |volume: &u64| *volume <= self.half;
-        self.volumes.iter().map(small).collect()
+/// Volume of each piece, and half of the volume of them all, in the unit of the mesh's index.
+fn volumes(labels: &Labels, index: &MeshIndex) -> (Vec<u64>, u64) {
+    let mut volumes = vec![0; labels.count];
+    for (&label, volume) in labels.of_node.iter().zip(&index.volumes) {
+        if label < FOREIGN {
+            volumes[label as usize] += volume;
+        }
     }
+    let half = volumes.iter().sum::<u64>() / 2;
+    (volumes, half)
 }
 
 /// The faces of each piece. Let χ be 1 at the nodes of a piece and 0 at others: then volume × ∇χ of a tetrahedron is the area with which the

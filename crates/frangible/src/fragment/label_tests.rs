@@ -209,7 +209,7 @@ fn bears(number: impl Fn(Vec3) -> i32, pushes: &[Vec3]) -> Vec<bool> {
         .unwrap();
     let piece = labels.of_node[highest];
     let bearing = Bearing::new(&labels, &index, mesh);
-    let pushed = |&push: &Vec3| bearing.is_most(&bearing.pushed(piece, push));
+    let pushed = |&push: &Vec3| bearing.bears(piece, push);
     pushes.iter().map(pushed).collect()
 }
 
