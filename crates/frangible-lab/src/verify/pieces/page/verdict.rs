@@ -133,8 +133,8 @@ impl Truth {
         let _ = writeln!(
             text,
             "## The single basis\n\nDuring a break the modes of the unbroken body serve (the *single-basis assumption*): the stress that \
-             drives the cracks is that of a body that has none yet, but for the release waves. How far off that becomes is seen in \
-             what it would mean to go on with it. On a piece the body's own modes, restricted to it and made orthogonal to its rigid \
+             drives the cracks is that of a body that has none yet, but for the release waves, and for small pieces that come to rest when \
+             they are cut off. How far off that becomes is seen in what it would mean to go on with it. On a piece the body's own modes, restricted to it and made orthogonal to its rigid \
              motions, are off by {} in frequency and {} in the largest tension (median), since they cannot follow the new free \
              faces. Of {held} blows that did not break their piece, {} left cracks; with them its first frequency is {} of what it was \
              (median; the lowest {}). {verdict}\n",
