@@ -1,9 +1,9 @@
 //! Pieces come to rest (beyond the paper).
 //!
 //! The modes are those of the whole body, and go on as if nothing had parted. A piece that cracks have cut off, and that no contact
-//! touches, is pulled and bent by nothing any more; its neighbours can only press on it, which opens no cracks. What unloads its new
-//! faces crosses it at the speed of Rayleigh waves, and from then on it neither starts cracks nor feeds those that it has. A piece of
-//! more than half of the body vibrates much like the whole, and does not come to rest.
+//! touches, is pulled and bent by nothing any more: its neighbours can only press on it. What unloads its new faces crosses it at the
+//! speed of Rayleigh waves, and from then on it neither starts cracks nor feeds those that it has. A piece of more than half of the
+//! body vibrates much like the whole, and does not come to rest.
 
 use glam::Vec3;
 
@@ -15,6 +15,12 @@ pub(crate) struct Rest {
 }
 
 impl Rest {
+    /// Whether nothing has parted yet.
+    #[inline]
+    pub(crate) fn is_empty(&self) -> bool {
+        self.from.is_empty()
+    }
+
     /// Whether the piece of a node is at rest.
     #[inline]
     pub(crate) fn has(&self, node: u32, now: f64) -> bool {
@@ -23,8 +29,8 @@ impl Rest {
             .is_some_and(|&from| from <= now)
     }
 
-    /// Lets the pieces that are `free` come to rest: their release, of this speed, m/s, begins now. Pieces are numbered by their nodes;
-    /// `free` tells of each piece whether anything loads it.
+    /// Lets pieces come to rest: their release begins now, s, and runs at this speed, m/s. `piece_of_node` has the piece of each node of
+    /// the fracture mesh, `positions` where the nodes are, m, and `free` whether nothing loads each piece.
     pub(crate) fn release(
         &mut self,
         piece_of_node: &[u32],

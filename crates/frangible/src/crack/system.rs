@@ -188,12 +188,11 @@ impl<'a> CrackSystem<'a> {
         }
     }
 
-    /// Whether the piece that an unfractured tetrahedron is part of is at rest.
+    /// Whether the piece that an unfractured tetrahedron is part of is at rest: none of its edges is cut, so all its nodes are of one piece.
     #[inline]
     pub(crate) fn rests(&self, tet: u32, now: f64) -> bool {
-        // No edge of it is cut: all its nodes are of one piece.
-        self.rest
-            .has(self.asset.fracture.tets[tet as usize][0], now)
+        let node = || self.asset.fracture.tets[tet as usize][0];
+        !self.rest.is_empty() && self.rest.has(node(), now)
     }
 
     /// Whether nothing can happen in a tetrahedron any more: a crack has fractured it, or its piece is at rest.
