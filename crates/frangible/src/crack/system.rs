@@ -188,7 +188,8 @@ impl<'a> CrackSystem<'a> {
         }
     }
 
-    /// Whether the piece that an unfractured tetrahedron is part of is at rest: none of its edges is cut, so all its nodes are of one piece.
+    /// Whether the piece that an unfractured tetrahedron is part of is at rest. One node tells: only where a crack ends do those of an unfractured
+    /// tetrahedron lie in two pieces.
     #[inline]
     pub(crate) fn rests(&self, tet: u32, now: f64) -> bool {
         let node = || self.asset.fracture.tets[tet as usize][0];
