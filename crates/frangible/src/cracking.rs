@@ -4,9 +4,9 @@ use web_time::Instant;
 
 use crate::blow::Blow;
 use crate::body::Body;
-use crate::config::FractureConfig;
+use crate::config::{CrackTiming, FractureConfig};
 use crate::crack::{CrackSystem, Peak, StressField, Suspects, crack};
-use crate::fragment::{self, Bearing, Labels};
+use crate::fragment::{self, Bearing, Labels, Volumes};
 use crate::motion::{DisplacementBatch, Motion};
 use crate::outcome::{ImpactReport, LookedAt};
 use crate::refuse::Culling;
@@ -14,7 +14,7 @@ use crate::state::BodyState;
 use crate::stress::{BATCH, STRIDE, lane};
 use crate::trace::CrackTrace;
 
-/// Time steps between two looks whether cracks have weakened what bears a contact.
+/// Time steps between two looks whether cracks have weakened what bears a contact, or have parted pieces.
 const BETWEEN_LOOKS: usize = 7;
 
 /// While contacts push, whether pieces have parted is asked again when the cracks have grown by this factor, or have stopped.
@@ -216,26 +216,30 @@ impl<'a> Cracking<'a> {
             _ => fragment::label(system, index, self.config.crumb_share),
         };
         if labels.count > 1 {
-            let mut free = fragment::small(&labels, index);
+            let volumes = Volumes::of(&labels, index);
+            let mut pushed = Vec::new();
             if pushes {
-                let bearing = Bearing::new(&labels, index, mesh);
+                let bearing = Bearing::new(&volumes, &labels, index, mesh);
                 for (k, (node, push)) in blow.bearings(self.body).enumerate() {
                     let piece = labels.of_node[node as usize];
                     if !blow.bears(k) {
                         continue;
                     }
                     if bearing.bears(piece, push) {
-                        free[piece as usize] = false;
+                        pushed.push(piece);
                     } else {
                         contacts.push((k, f64::INFINITY));
                     }
                 }
             }
-            let now = self.motion.begin(step, self.time_step);
-            let speed = self.body.asset.material.rayleigh_speed();
-            system
-                .rest
-                .release(&labels.of_node, &mesh.positions, &free, now, speed);
+            // Cracks that run at once do not feel each other, nor that anything parts.
+            if matches!(self.config.timing, CrackTiming::TimeResolved { .. }) {
+                let free = volumes.free(&pushed);
+                let now = self.motion.begin(step, self.time_step);
+                let speed = self.body.asset.material.rayleigh_speed();
+                let (pieces, positions) = (&labels.of_node, &mesh.positions);
+                system.rest.release(pieces, positions, &free, now, speed);
+            }
         }
         grown.pieces = Some((progress, labels));
         contacts

@@ -104,7 +104,7 @@ pub struct ImpactReport {
     pub peak_stress: f64,
     /// Where that was, m, body frame: the centre of the weak point's tetrahedron.
     pub peak_point: Option<Vec3>,
-    /// No weak point had more tension than this, Pa, before its piece came to rest.
+    /// No weak point had more tension than this, Pa, before a crack cut it or its piece came to rest.
     pub stress_bound: f64,
     /// What had to be looked at.
     pub looked_at: LookedAt,

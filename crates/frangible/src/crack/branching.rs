@@ -167,7 +167,7 @@ pub(super) fn start(
     };
     let material = &system.asset.material;
     let (e, mesh) = (fork.start, &system.asset.fracture);
-    if system.fractured_by[e as usize] != UNCUT {
+    if system.is_over(e, cut.time) {
         return false;
     }
     let frame = CrackFrame::new(

@@ -11,7 +11,7 @@ use super::field::StressField;
 use super::single::ElementCut;
 use super::surface::CrackFrame;
 use super::suspects::{Suspect, Suspects};
-use super::system::{CrackSystem, UNCUT};
+use super::system::CrackSystem;
 use super::{advance, propagation::gradient, retry};
 use crate::config::CrackTiming;
 use crate::rng::{Purpose, stream, uniform};
@@ -72,7 +72,7 @@ pub(crate) fn crack(
         if !instant {
             advance(system, field, time);
         }
-        if system.fractured_by[suspect.tet as usize] == UNCUT {
+        if !system.is_over(suspect.tet, time) {
             try_start(system, field, suspect, time);
         }
     }

@@ -24,22 +24,55 @@ struct Face {
     area: f64,
 }
 
-/// Which pieces lean on which.
-pub(crate) struct Bearing {
-    /// Volume of each piece, in the unit of the mesh's index.
-    volumes: Vec<u64>,
+/// Volumes of the pieces of a body, or of a portion of it, in the unit of the mesh's index.
+pub(crate) struct Volumes {
+    of_piece: Vec<u64>,
     /// Half of the volume of them all.
     half: u64,
+}
+
+impl Volumes {
+    /// The volumes of these pieces.
+    pub(crate) fn of(labels: &Labels, index: &MeshIndex) -> Self {
+        let mut of_piece = vec![0; labels.count];
+        for (&label, volume) in labels.of_node.iter().zip(&index.volumes) {
+            if label < FOREIGN {
+                of_piece[label as usize] += volume;
+            }
+        }
+        Self {
+            half: of_piece.iter().sum::<u64>() / 2,
+            of_piece,
+        }
+    }
+
+    /// Which pieces nothing loads but the pressure of their neighbours: those of no more than half of the body that are not `pushed`.
+    pub(crate) fn free(&self, pushed: &[u32]) -> Vec<bool> {
+        let is_small = |volume: &u64| *volume <= self.half;
+        let mut free: Vec<bool> = self.of_piece.iter().map(is_small).collect();
+        for &piece in pushed {
+            free[piece as usize] = false;
+        }
+        free
+    }
+}
+
+/// Which pieces lean on which.
+pub(crate) struct Bearing<'a> {
+    volumes: &'a Volumes,
     /// The faces of each piece.
     faces: Vec<Vec<Face>>,
 }
 
-impl Bearing {
+impl<'a> Bearing<'a> {
     /// How the pieces of a body, or of a portion of it, lean on each other.
-    pub(crate) fn new(labels: &Labels, index: &MeshIndex, mesh: &TetMesh) -> Self {
-        let (volumes, half) = volumes(labels, index);
+    pub(crate) fn new(
+        volumes: &'a Volumes,
+        labels: &Labels,
+        index: &MeshIndex,
+        mesh: &TetMesh,
+    ) -> Self {
         Self {
-            half,
             volumes,
             faces: faces(labels, index, mesh),
         }
@@ -49,12 +82,12 @@ impl Bearing {
     /// it, face on face.
     pub(crate) fn bears(&self, piece: u32, push: Vec3) -> bool {
         let push = push.as_dvec3();
-        let mut pushed = vec![false; self.volumes.len()];
+        let mut pushed = vec![false; self.volumes.of_piece.len()];
         let (mut waiting, mut volume) = (vec![piece], 0);
         pushed[piece as usize] = true;
         while let Some(piece) = waiting.pop() {
-            volume += self.volumes[piece as usize];
-            if volume > self.half {
+            volume += self.volumes.of_piece[piece as usize];
+            if volume > self.volumes.half {
                 return true;
             }
             for face in &self.faces[piece as usize] {
@@ -66,24 +99,6 @@ impl Bearing {
         }
         false
     }
-}
-
-/// Which of the pieces of a body, or of a portion of it, are no more than half of it.
-pub(crate) fn small(labels: &Labels, index: &MeshIndex) -> Vec<bool> {
-    let (volumes, half) = volumes(labels, index);
-    volumes.iter().map(|&volume| volume <= half).collect()
-}
-
-/// Volume of each piece, and half of the volume of them all, in the unit of the mesh's index.
-fn volumes(labels: &Labels, index: &MeshIndex) -> (Vec<u64>, u64) {
-    let mut volumes = vec![0; labels.count];
-    for (&label, volume) in labels.of_node.iter().zip(&index.volumes) {
-        if label < FOREIGN {
-            volumes[label as usize] += volume;
-        }
-    }
-    let half = volumes.iter().sum::<u64>() / 2;
-    (volumes, half)
 }
 
 /// The faces of each piece. Let χ be 1 at the nodes of a piece and 0 at others: then volume × ∇χ of a tetrahedron is the area with which the

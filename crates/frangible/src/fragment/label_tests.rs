@@ -3,7 +3,7 @@
 use glam::Vec3;
 use rand_chacha::rand_core::Rng;
 
-use super::bearing::Bearing;
+use super::bearing::{Bearing, Volumes};
 use super::components::Components;
 use super::label::{Labels, of_cuts};
 use super::tests::block;
@@ -208,9 +208,31 @@ fn bears(number: impl Fn(Vec3) -> i32, pushes: &[Vec3]) -> Vec<bool> {
         })
         .unwrap();
     let piece = labels.of_node[highest];
-    let bearing = Bearing::new(&labels, &index, mesh);
+    let volumes = Volumes::of(&labels, &index);
+    let bearing = Bearing::new(&volumes, &labels, &index, mesh);
     let pushed = |&push: &Vec3| bearing.bears(piece, push);
     pushes.iter().map(pushed).collect()
+}
+
+#[test]
+fn pieces_are_free_that_are_small_and_not_pushed() {
+    let asset = block(8);
+    let mesh = &asset.fracture;
+    let index = MeshIndex::new(&asset);
+    let top = mesh.positions.iter().fold(Vec3::MIN, |m, p| m.max(*p));
+    // Slices of 0.6, 0.3 and 0.1 of the height.
+    let slice = |v: u32| match mesh.positions[v as usize].y / top.y {
+        y if y < 0.6 => 0,
+        y if y < 0.9 => 1,
+        _ => 2,
+    };
+    let cuts = cut_where(mesh, |a, b| slice(a) != slice(b));
+    let labels = of_cuts(cuts, &mesh.tets, &index, None, 0.0);
+    assert_eq!(labels.count, 3);
+    let volumes = Volumes::of(&labels, &index);
+    assert_eq!(volumes.free(&[]), [false, true, true]);
+    assert_eq!(volumes.free(&[2]), [false, true, false]);
+    assert_eq!(volumes.free(&[0, 1]), [false, false, true]);
 }
 
 #[test]

@@ -23,7 +23,7 @@ mod label_tests;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use bearing::{Bearing, small};
+pub(crate) use bearing::{Bearing, Volumes};
 pub(crate) use breakup::Breakup;
 pub(crate) use build::{Built, build};
 pub(crate) use draw::draw;

@@ -8,8 +8,8 @@ use crate::bench::gallery::{Asked, Findings, Row};
 pub fn gallery(found: &Findings) -> String {
     let mut text = String::from(
         "Each body of the gallery under the blow that breaks it first in its scene, one thread, everything in memory, surfaces and masses \
-         of the pieces included; each figure is the median of its runs. Labels: which pieces cracks have parted, asked in the end and again \
-         and again while the contact pushes. First / warm: the first break of a body that was made ready (`Body::prepare_for_blows`, as a game does \
+         of the pieces included; each figure is the median of its runs. Labels: which pieces cracks have parted, asked in the end, again \
+         and again while the contact pushes, and when it no longer does. First / warm: the first break of a body that was made ready (`Body::prepare_for_blows`, as a game does \
          while it loads) over the median; cold / warm: the same without that.\n\n",
     );
     text += &table(

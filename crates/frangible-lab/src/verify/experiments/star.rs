@@ -28,8 +28,8 @@ pub(crate) const RING: [f64; 2] = [0.005, 0.045];
 const SECTION: f64 = 0.13;
 /// Width of the projectile, m.
 pub(crate) const WIDTH: f64 = 4e-3;
-/// Length of the projectile, m. Reports of the experiment call it a bullet-shaped cylinder and give its width alone; bullets are two to
-/// four times as long as wide, and both ends of that range are among the variants.
+/// Length of the projectile, m. Reports of the experiment call it a cylinder, one a bullet-shaped one, and give its width alone;
+/// bullets are two to four times as long as wide, and both ends of that range are among the variants.
 pub(crate) const LENGTH: f64 = 3.0 * WIDTH;
 /// Density of steel, kg/m³.
 const STEEL_DENSITY: f64 = 7800.0;
