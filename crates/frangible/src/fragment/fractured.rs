@@ -98,8 +98,10 @@ impl Fractured {
             return number;
         }
         self.numbers.add(low, high);
+        // A cut by a crack that the piece does not remember is a cut all the same.
+        let by = |crack: u32| crack.min(NONE - 1);
         let cut = cuts.get(low, high);
-        self.cut_by.push(cut.map_or(NONE, |cut| cut.crack));
+        self.cut_by.push(cut.map_or(NONE, |cut| by(cut.crack)));
         self.cut_by.len() as u32 - 1
     }
 
