@@ -25,7 +25,7 @@ pub(crate) enum Command {
     Bake(BakeArgs),
     /// Show how a body vibrates: table of its modes, picture of their shapes coloured by stress (PNG), files for ParaView (VTU)
     Modes(ModesArgs),
-    /// Film a break in slow motion, or the microseconds in which it happens (GIF, MP4, single pictures)
+    /// Film a break in slow motion, or the microseconds in which it happens (GIF, WebP, MP4, single pictures)
     #[cfg(feature = "draw")]
     Film(Box<FilmArgs>),
     /// Open a window: throw things, turn the model's knobs, look into the last contact
@@ -147,6 +147,11 @@ fn sides(text: &str, within: std::ops::RangeInclusive<u32>) -> Option<[u32; 2]> 
 fn parse_size(text: &str) -> Result<[u32; 2], String> {
     sides(text, 320..=8192)
         .ok_or_else(|| "give width and height in pixels, 320 to 8192, such as 1280x800".into())
+}
+
+fn parse_seed(text: &str) -> Result<u64, String> {
+    text.parse()
+        .map_err(|_| format!("a seed is a whole number, 0 to {}", u64::MAX))
 }
 
 #[derive(Args, Clone, Debug)]
@@ -297,7 +302,7 @@ pub(crate) struct SceneArgs {
     )]
     pub(crate) ball: Option<String>,
 
-    /// Point the ball is aimed at: x,y,z in m from the body's centre of mass, y up [default: 0,0,0]
+    /// Point the ball is aimed at, with --ball: x,y,z in m from the body's centre of mass, y up [default: 0,0,0]
     #[arg(
         long,
         value_name = "x,y,z",
@@ -306,7 +311,7 @@ pub(crate) struct SceneArgs {
     )]
     pub(crate) at: Option<String>,
 
-    /// Direction of the ball's flight: x,y,z, any length [default: 0,0,-1]
+    /// Direction of the ball's flight, with --ball: x,y,z, any length [default: 0,0,-1]
     #[arg(
         long,
         value_name = "x,y,z",
@@ -316,7 +321,7 @@ pub(crate) struct SceneArgs {
     pub(crate) toward: Option<String>,
 
     /// Seed of the weak points and of the cracks' roughness [default: the scene's own]
-    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", value_parser = parse_seed, allow_negative_numbers = true)]
     pub(crate) seed: Option<u64>,
 
     /// Number of vibration modes [default: the scene's own]

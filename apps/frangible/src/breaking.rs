@@ -6,7 +6,8 @@ use std::time::Instant;
 
 use frangible_export::{write_atomically, write_glb};
 use frangible_scenes::{
-    BakedBody, Opened, Run, Scene, Sounded, bake_opened, open_sources, play, sound, sound_config,
+    BakedBody, Opened, Run, Scene, Sounded, Sounding, bake_opened, open_sources, play, sound,
+    sound_config,
 };
 
 use crate::args::BreakArgs;
@@ -25,6 +26,7 @@ pub(crate) fn run(file: Option<&Path>, args: &BreakArgs) -> Result<(), Box<dyn E
     notes.extend(sources.iter().flat_map(Opened::notes).cloned());
     let open: Vec<bool> = sources.iter().map(Opened::is_open).collect();
     let names = scene.output.file_names(&scene.name);
+    check_folder(&args.out)?;
     let was_there = make_folder(
         &args.out,
         &names.iter().flatten().cloned().collect::<Vec<_>>(),
@@ -52,6 +54,7 @@ pub(crate) fn run(file: Option<&Path>, args: &BreakArgs) -> Result<(), Box<dyn E
         return Err("no seed to break with".into());
     };
     stages.extend(stages_of(run));
+    notes.extend(missed(run));
 
     let mut files = Vec::new();
     let mut write = |name: String, bytes: &[u8]| -> Result<(), Box<dyn Error>> {
@@ -115,6 +118,37 @@ pub(crate) fn run(file: Option<&Path>, args: &BreakArgs) -> Result<(), Box<dyn E
         say(&report.table())?;
     }
     Ok(())
+}
+
+/// Refuses a folder that is a file, or would lie in one.
+fn check_folder(out: &Path) -> Result<(), String> {
+    let file = out.ancestors().find(|part| part.exists() && !part.is_dir());
+    match file {
+        None => Ok(()),
+        Some(file) => Err(format!(
+            "--out is `{}`, but `{}` is no folder; choose another with --out DIR",
+            out.display(),
+            file.display()
+        )),
+    }
+}
+
+/// What to know of a run in which nothing that was thrown met a body.
+fn missed(run: &Run) -> Option<String> {
+    let thrown = |node: usize| matches!(run.soundings.get(node), Some(Sounding::Ball(..)));
+    let touches = run.recording.touches.iter().map(|touch| touch.nodes);
+    let slides = run.recording.slides.iter().map(|slide| slide.nodes);
+    let met = touches
+        .chain(slides)
+        .any(|(node, other)| other.is_some_and(|other| thrown(node) || thrown(other)));
+    // Who gave a blow is not told.
+    if !(0..run.soundings.len()).any(thrown) || met || !run.blows.is_empty() {
+        return None;
+    }
+    Some(format!(
+        "what was thrown met no body in the {:.2} s of the run; aim it with --at and --toward (in a scene file: `at` and `toward`)",
+        run.simulated
+    ))
 }
 
 /// What to know of a sound: how loud it is, that there is none, or that it was too much.

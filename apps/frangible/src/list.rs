@@ -41,18 +41,35 @@ pub(crate) fn print_scene(name: &str) -> Result<(), Box<dyn Error>> {
 /// What happens in a scene, in a few words.
 fn action(scene: &Scene) -> String {
     let drops = scene.bodies.iter().filter_map(|body| match body.place {
-        Place::Above { height, .. } => Some(format!("drop {height} m")),
+        Place::Above { height, .. } => Some(format!("drop {} m", four_digits(height))),
         _ => None,
     });
     let throws = scene.projectiles.iter().map(|p| {
         format!(
             "{} {} kg, radius {} m, {} m/s, {}",
             p.kind.name(),
-            p.mass,
-            p.radius,
-            p.speed,
+            four_digits(p.mass),
+            four_digits(p.radius),
+            four_digits(p.speed),
             p.material
         )
     });
-    drops.chain(throws).collect::<Vec<_>>().join("; ")
+    let mut counted: Vec<(String, usize)> = Vec::new();
+    for action in drops.chain(throws) {
+        match counted.iter_mut().find(|(known, _)| *known == action) {
+            Some((_, count)) => *count += 1,
+            None => counted.push((action, 1)),
+        }
+    }
+    let texts = counted.into_iter().map(|(action, count)| match count {
+        1 => action,
+        _ => format!("{count} × {action}"),
+    });
+    texts.collect::<Vec<_>>().join("; ")
+}
+
+/// A number with four digits at most: what was f32 before has many more.
+fn four_digits(value: f64) -> String {
+    let rounded: Result<f64, _> = format!("{value:.3e}").parse();
+    rounded.unwrap_or(value).to_string()
 }

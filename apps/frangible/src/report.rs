@@ -69,9 +69,10 @@ pub(crate) struct Impact {
     /// None where a bound showed that no stress had to be computed.
     pub(crate) peak_stress_pa: Option<f64>,
     pub(crate) stress_bound_pa: f64,
-    /// Strength over the stress or its bound; known of a body that held.
+    /// Strength over the stress or its bound, at the point where it is least: each has a strength of its own. Known of a body that held.
     pub(crate) margin: Option<f64>,
     pub(crate) peak_strain_energy_j: f64,
+    /// What the weakest point bears.
     pub(crate) strength_pa: f64,
     pub(crate) weak_points: usize,
     pub(crate) cracks: usize,
@@ -143,6 +144,32 @@ impl Impact {
             first_crack_s: report.first_crack_time,
             volume_error: report.volume_error,
         }
+    }
+
+    fn contact_in_words(&self) -> String {
+        if self.time_steps == 0 {
+            return "not followed, because a bound showed that it can do nothing".into();
+        }
+        format!(
+            "{:.3} ms (Hertz on a rigid body: {:.3} ms), {} steps of {:.2} µs",
+            1e3 * self.contact_duration_s,
+            1e3 * self.unadjusted_duration_s,
+            self.time_steps,
+            1e6 * self.time_step_s
+        )
+    }
+
+    /// The largest stress need not be where the margin is least, so that their quotient is no margin.
+    fn stress_in_words(&self) -> String {
+        let largest = match self.peak_stress_pa {
+            Some(peak) => format!("largest {:.1} MPa", peak / 1e6),
+            None => format!("at most {:.1} MPa", self.stress_bound_pa / 1e6),
+        };
+        let weakest = self.strength_pa / 1e6;
+        let margin = self.margin.map_or(String::new(), |margin| {
+            format!("; margin at least {margin:.2}, at the point nearest to its own strength")
+        });
+        format!("{largest}, the weakest point bears {weakest:.1} MPa{margin}")
     }
 }
 
@@ -266,16 +293,7 @@ impl BodyReport {
                     i.approach_energy_j
                 ),
             );
-            row(
-                "contact",
-                format!(
-                    "{:.3} ms (Hertz on a rigid body: {:.3} ms), {} steps of {:.2} µs",
-                    1e3 * i.contact_duration_s,
-                    1e3 * i.unadjusted_duration_s,
-                    i.time_steps,
-                    1e6 * i.time_step_s
-                ),
-            );
+            row("contact", i.contact_in_words());
             if i.crushing_energy_j > 0.0 {
                 row(
                     "crushed",
@@ -286,20 +304,7 @@ impl BodyReport {
                     ),
                 );
             }
-            row(
-                "stress",
-                format!(
-                    "{} against a strength of {:.1} MPa{}",
-                    match i.peak_stress_pa {
-                        Some(peak) => format!("peak {:.1} MPa", peak / 1e6),
-                        None => format!("at most {:.1} MPa", i.stress_bound_pa / 1e6),
-                    },
-                    i.strength_pa / 1e6,
-                    i.margin.map_or(String::new(), |margin| format!(
-                        ", a margin of {margin:.2} at least"
-                    ))
-                ),
-            );
+            row("stress", i.stress_in_words());
             row(
                 "cracks",
                 format!(
@@ -311,7 +316,7 @@ impl BodyReport {
                 ),
             );
         } else {
-            row("impact", "none harder than the threshold".into());
+            row("impact", "none hard enough to ask whether it breaks".into());
         }
         if self.blows.len() > 1 {
             row("blows", blows_in_words(&self.blows));
@@ -403,5 +408,29 @@ impl Report {
             row("note", note.clone());
         }
         t
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_margin_is_told_apart_from_the_largest_stress_over_the_least_strength() {
+        let mut report = ImpactReport::default();
+        (report.strength, report.stress_bound) = (22.1e6, 24e6);
+        let refused = Impact::new(0.1, &report, &[], Some(1.003));
+        assert!(refused.contact_in_words().starts_with("not followed"));
+        assert_eq!(
+            refused.stress_in_words(),
+            "at most 24.0 MPa, the weakest point bears 22.1 MPa; margin at least 1.00, at the point nearest to its own strength"
+        );
+        (report.time_steps, report.peak_stress) = (40, 62e6);
+        let broke = Impact::new(0.1, &report, &[], None);
+        assert!(broke.contact_in_words().contains("40 steps"));
+        assert_eq!(
+            broke.stress_in_words(),
+            "largest 62.0 MPa, the weakest point bears 22.1 MPa"
+        );
     }
 }

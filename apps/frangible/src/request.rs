@@ -6,7 +6,9 @@ use std::path::Path;
 use frangible::Material;
 use frangible::glam::{Quat, Vec3};
 use frangible_bake::{MOST_MODES, USUAL_MODES};
-use frangible_scenes::{Axis, BodySource, FileKind, FileWish, MaterialEdit, Projectile, Scene};
+use frangible_scenes::{
+    Axis, BodySource, FileKind, FileWish, MaterialEdit, Projectile, SCENE_NAMES, Scene,
+};
 
 use crate::args::{BakeArgs, BreakArgs, MeshArgs, ModesArgs, SceneArgs};
 use crate::support::parse_support;
@@ -48,7 +50,7 @@ pub(crate) fn break_of(file: Option<&Path>, args: &BreakArgs) -> Result<Request,
 
 /// The scene to break, every number checked.
 pub(crate) fn scene_of(file: Option<&Path>, args: &SceneArgs) -> Result<Request, Box<dyn Error>> {
-    let mut wanted = frangible_scenes::scene_of(file, args.scene.as_deref())?;
+    let mut wanted = opened(file, args.scene.as_deref())?;
     let mut notes = Vec::new();
     if let Some(file) = file
         && FileKind::of(file)? != FileKind::Scene
@@ -103,7 +105,7 @@ pub(crate) fn scene_of(file: Option<&Path>, args: &SceneArgs) -> Result<Request,
 
 /// The scene whose only body is to be baked, every number checked.
 pub(crate) fn body_of(args: &BakeArgs) -> Result<Scene, Box<dyn Error>> {
-    let mut wanted = frangible_scenes::scene_of(args.file.as_deref(), args.scene.as_deref())?;
+    let mut wanted = opened(args.file.as_deref(), args.scene.as_deref())?;
     match &wanted.bodies[..] {
         [body] if matches!(body.source, BodySource::Asset(_)) => {
             return Err("the body is baked already; bake the mesh it was made of".into());
@@ -128,7 +130,7 @@ pub(crate) fn body_of(args: &BakeArgs) -> Result<Scene, Box<dyn Error>> {
 
 /// The scene whose only body is to be looked at, every number checked.
 pub(crate) fn body_with_modes(args: &ModesArgs) -> Result<Scene, Box<dyn Error>> {
-    let mut wanted = frangible_scenes::scene_of(args.file.as_deref(), args.scene.as_deref())?;
+    let mut wanted = opened(args.file.as_deref(), args.scene.as_deref())?;
     if wanted.bodies.len() != 1 {
         let count = wanted.bodies.len();
         return Err(format!(
@@ -140,6 +142,21 @@ pub(crate) fn body_with_modes(args: &ModesArgs) -> Result<Scene, Box<dyn Error>>
     set_mesh(&mut wanted, &args.mesh)?;
     wanted.validate()?;
     Ok(wanted)
+}
+
+/// The scene of a file, or the built-in one of this name.
+fn opened(file: Option<&Path>, name: Option<&str>) -> Result<Scene, Box<dyn Error>> {
+    let taken_for_file = file
+        .filter(|file| !file.exists())
+        .and_then(Path::to_str)
+        .filter(|given| SCENE_NAMES.contains(given));
+    if let Some(scene) = taken_for_file {
+        return Err(format!(
+            "there is no file `{scene}`; the built-in scene of that name is --scene {scene}"
+        )
+        .into());
+    }
+    Ok(frangible_scenes::scene_of(file, name)?)
 }
 
 fn set_material(scene: &mut Scene, name: Option<&str>) -> Result<(), Box<dyn Error>> {
@@ -223,20 +240,30 @@ fn set_mesh(scene: &mut Scene, args: &MeshArgs) -> Result<(), String> {
                 .ok_or_else(|| format!("--up is `{name}`; it must be x, y or z"))?,
         ),
     };
+    // The resolution stands last, because any body that is not baked takes it.
     let given = [
         ("--size", args.size.is_some()),
-        ("--resolution", args.resolution.is_some()),
         ("--up", axis.is_some()),
         ("--wall", args.wall.is_some()),
+        ("--resolution", args.resolution.is_some()),
     ];
     let Some((option, _)) = given.into_iter().find(|(_, given)| *given) else {
         return Ok(());
     };
-    let [body] = &mut scene.bodies[..] else {
+    if scene.bodies.len() != 1 {
         return Err(format!(
             "{option} is for a single body; the scene has several, set it there"
         ));
-    };
+    }
+    for (option, given) in [
+        ("--resolution", args.resolution.is_some()),
+        ("--wall", args.wall.is_some()),
+    ] {
+        if given {
+            refuse_baked(scene, option)?;
+        }
+    }
+    let body = &mut scene.bodies[0];
     match &mut body.source {
         BodySource::Mesh {
             size,
@@ -271,7 +298,7 @@ fn set_mesh(scene: &mut Scene, args: &MeshArgs) -> Result<(), String> {
             }
             Ok(())
         }
-        BodySource::Asset(_) if args.resolution.is_none() && args.wall.is_none() => {
+        BodySource::Asset(_) => {
             if args.size.is_some() {
                 body.rescale.size = args.size;
             }
@@ -282,10 +309,10 @@ fn set_mesh(scene: &mut Scene, args: &MeshArgs) -> Result<(), String> {
         }
         _ => Err(format!(
             "{option} is for mesh files (.obj, .stl, .ply, .gltf, .glb){}",
-            if option == "--size" {
-                " and baked bodies"
-            } else {
+            if option == "--wall" {
                 ""
+            } else {
+                " and baked bodies"
             }
         )),
     }

@@ -105,7 +105,11 @@ fn options_that_clash_or_do_not_exist_are_refused() {
         &["--ball", "--drop"],
     );
     refused("clash", &["--at", "0,0,0"], &["--ball"]);
-    refused("clash", &["--seed", "-1"], &["-1", "--seed"]);
+    refused(
+        "clash",
+        &["--seed", "-1"],
+        &["-1", "--seed", "whole number"],
+    );
     refused("clash", &["--no-such-option"], &["--no-such-option"]);
     refused_in_a_sentence(
         "clash",
@@ -128,7 +132,9 @@ fn a_folder_that_cannot_be_written_is_refused_before_the_work() {
             "{message}"
         );
         assert!(
-            message.contains(&*out.to_string_lossy()) && message.contains("--out"),
+            message.contains(&*out.to_string_lossy())
+                && message.contains("file` is no folder")
+                && message.contains("--out"),
             "{message}"
         );
     }
@@ -183,6 +189,9 @@ fn scenes_lists_scenes_and_materials() {
     for material in frangible::Material::presets() {
         assert!(named(material.name), "no {} in: {list}", material.name);
     }
+    for action in ["(brick; 5 × hammer 0.5 kg", "3 × drop 0.9032 m; ball"] {
+        assert!(list.contains(action), "no `{action}` in: {list}");
+    }
 }
 
 #[test]
@@ -211,6 +220,19 @@ fn a_gentle_drop_is_reported_as_json() {
             .expect("the GLB")
             .starts_with(b"glTF")
     );
+}
+
+#[test]
+fn a_ball_that_meets_nothing_is_told_how_to_aim() {
+    let folder = Folder::new("missed");
+    let args = "--scene window --ball 0.1,0.02,5 --at 3,3,3 --modes 8 --resolution 2000 --no-pictures --no-sound";
+    let args: Vec<&str> = args.split(' ').collect();
+    let output = frangible(&args, Some(&folder.0));
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    let table = text(&output.stdout);
+    for part in ["none hard enough", "met no body", "--at and --toward"] {
+        assert!(table.contains(part), "no `{part}` in: {table}");
+    }
 }
 
 #[test]

@@ -49,6 +49,7 @@ fn files_that_cannot_be_broken_are_refused_in_a_sentence() {
     let body = "[[body]]\nshape = \"vase\"\n";
     for (path, parts) in [
         (absent.clone(), &["no such file", "absent.obj"][..]),
+        ("glass".into(), &["no file `glass`", "--scene glass"]),
         (folder, &["this is a folder"]),
         (file("empty.stl", ""), &["empty.stl", "empty"]),
         (file("picture.jpg", "x"), &[".obj", ".frangible", ".toml"]),
@@ -72,7 +73,12 @@ fn files_that_cannot_be_broken_are_refused_in_a_sentence() {
                     "{body}supports = [{{ below = -1 }}]\n[[projectile]]\nmass = 0.1\nradius = 0.015\nspeed = 5\n"
                 ),
             ),
-            &["support 0 holds no part of the body"],
+            &[
+                "support 0 of `",
+                "{ below = -1.0 }, holds no part of the body",
+                "(the body reaches from 0 to 0.21",
+                "m along z)",
+            ],
         ),
     ] {
         refused_in_a_sentence("files", &["break", &path, "--no-pictures"], parts);
@@ -130,6 +136,10 @@ fn options_for_meshes_are_refused_elsewhere() {
         &["the body's size is -0.1"],
     );
     check(&["break", &baked, "--modes", "9"], &["is baked", "bake"]);
+    check(
+        &["break", &baked, "--resolution", "3000"],
+        &["--resolution cannot change `a`", "`frangible bake`"],
+    );
 }
 
 #[test]
@@ -545,8 +555,8 @@ fn meshes_that_cannot_be_broken_are_refused_in_a_sentence() {
     for (option, value, part) in [
         ("--resolution", "3", "500 to 2000000"),
         ("--resolution", "2000001", "500 to 2000000"),
-        ("--size", "0", "above 0"),
-        ("--size", "1e9", "at most 3 m"),
+        ("--size", "1e-5", "0.001 to 3 m"),
+        ("--size", "1e9", "0.001 to 3 m"),
         ("--up", "w", "x, y or z"),
         ("--material", "glas", "materials: glass, "),
     ] {

@@ -37,9 +37,6 @@
 //!
 //! [`Solver`] chooses between CPU and GPU by measurement. An adapter in software serves tests: it is slower than the CPU
 //! at any size of batch.
-//!
-//! The GPU may only say that a body held. Within 1e-3 of the strength, and where the bound passes 50 times the strength, the
-//! processor decides; it also runs all cracks, so the pieces are the same bits.
 
 mod choice;
 mod clock;

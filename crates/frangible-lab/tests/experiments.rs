@@ -39,7 +39,10 @@ fn a_star_of_n_rays_has_n_radial_cracks_whatever_rings_cross_it() {
         pieces.extend(ring(0.01, 4e-4));
         pieces.extend(ring(0.018, 0.0));
         let pattern = CrackPattern { pieces };
-        assert_eq!(pattern.radial_cracks(&RADII, 1e-3), f64::from(n), "{n}");
+        for radius in RADII {
+            let found = pattern.crossings(radius, 1e-3) as f64;
+            assert_eq!(found, f64::from(n), "{n}, {radius} m");
+        }
         assert_eq!(pattern.crossings(0.05, 1e-3), 0, "beyond the cracks");
     }
 }
@@ -204,6 +207,9 @@ fn a_small_run_gives_the_published_page_with_other_numbers_and_the_same_bits_twi
         length(0),
         length(1)
     );
+    // No bound hides a tension, and what a ball does grows with its speed.
+    let tensions: Vec<f64> = found.rear_stars.results.iter().map(|r| r.tension).collect();
+    assert!(tensions[0] > 0.0 && tensions.is_sorted(), "{tensions:?}");
     for masses in &found.masses.runs {
         for pieces in &masses.masses {
             assert!((pieces.iter().sum::<f64>() - 1.0).abs() < 1e-6);

@@ -40,7 +40,7 @@
 //!
 //! # What it costs
 //! A step copies the world only when a breakable body may be hit at [`WorldConfig::impact_speed`] or more
-//! (0.8 ms for 300 bodies); a body that breaks into 100 pieces costs about 8 ms, once. Resting worlds pay one
+//! (0.8 ms for 300 bodies); exchanging a body for 100 pieces costs about 8 ms, once, beside the break itself. Resting worlds pay one
 //! pass over the velocities. [`BreakableWorld::timings`] tells where a step's time went.
 //!
 //! # Many bodies

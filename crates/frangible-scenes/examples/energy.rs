@@ -20,11 +20,20 @@ fn main() -> Result<(), Box<dyn Error>> {
         scene.duration = scene.duration.min(LONGEST);
         let baked = bake(&scene, &mut |_| {})?;
         let run = play(&scene, &baked, &mut |_| {})?;
+        let (mut again, mut count) = (Row::default(), 0);
         for record in &run.breaks {
-            println!("{}", row(name, record));
-            blows.extend(blow(name, record));
             let problem = record.energy_created();
             problems.extend(problem.map(|problem| format!("{name}: {problem}")));
+            if record.generation == 0 {
+                println!("{}", Row::of(record).text(name, cause(record)));
+                blows.extend(blow(name, record));
+            } else {
+                again.add(&Row::of(record));
+                count += 1;
+            }
+        }
+        if count > 0 {
+            println!("{}", again.text(name, &format!("{count} pieces again")));
         }
         if run.breaks.is_empty() {
             println!("| {name} | held | | | | | | | | | | | |");
@@ -52,7 +61,7 @@ approach. *Kinetic before* and *after*: of the body, or its pieces, and of all t
 through others. *Work*: of gravity in that step. *Paid by motion*: what of the cracks' energy was taken from the motion. *Lost to
 contacts*: the rest, before + work − after − paid; restitution and friction took it, and cracks of others that broke in the same step.
 *Crushing, by the blow*: what the blow put into crushing the weaker body where it was touched. The blow and the rigid bodies count apart, so it
-may exceed what was lost to contacts.
+may exceed what was lost to contacts. *Pieces again*: sums over all pieces of the scene that broke again.
 
 So cracks ≤ approach ≤ before + work, and after + all cracks of the step ≤ before + work. Without friction the peak strain is at most the
 approach too. Friction follows the normal force and does not change it. What it adds to the vibration comes from the sliding motion,
@@ -61,7 +70,7 @@ rests has no approach: its strain energy is the work it does on the body.";
 
 const BLOWS: &str = "## The blows
 
-What became of the contact with the largest force in each of those breaks that came from an impact. Nothing of it was given: striker and body were
+What became of the contact with the largest force in each of those breaks of whole bodies that came from an impact. Nothing of it was given: striker and body were
 integrated together. *Hertz*: how long the same contact would last on a rigid, free body. *Departure over approach*: the coefficient of
 restitution; negative where cracks cut the wall out and the striker went on into it.
 
@@ -88,31 +97,77 @@ fn blow(name: &str, b: &BreakRecord) -> Option<String> {
     ))
 }
 
-fn row(name: &str, b: &BreakRecord) -> String {
-    let r = &b.report;
-    let cause = match b.cause {
+fn cause(b: &BreakRecord) -> &'static str {
+    match b.cause {
         BreakCause::Impact => "impact",
         BreakCause::Rest => "load",
         BreakCause::Blast => "blast",
         _ => "script",
-    };
-    let lost = b.kinetic_before + b.work - b.kinetic_after - b.energy_paid;
-    let crushing: f64 = r.contacts.iter().map(|c| c.crushing_energy).sum();
-    let share = 100.0 * r.fracture_energy / r.peak_strain_energy;
-    let j = short;
-    format!(
-        "| {name} | {cause} | {} | {} | {} | {} | {share:.0} % | {} | {} | {} | {} | {} | {} |",
-        b.masses.len(),
-        j(r.approach_energy),
-        j(r.peak_strain_energy),
-        j(r.fracture_energy),
-        j(b.kinetic_before),
-        j(b.work),
-        j(b.kinetic_after),
-        j(b.energy_paid),
-        j(lost),
-        j(crushing),
-    )
+    }
+}
+
+/// What the table says of a break, or of several together.
+#[derive(Default)]
+struct Row {
+    pieces: usize,
+    approach: f64,
+    strain: f64,
+    cracks: f64,
+    before: f64,
+    work: f64,
+    after: f64,
+    paid: f64,
+    crushing: f64,
+}
+
+impl Row {
+    fn of(b: &BreakRecord) -> Self {
+        let r = &b.report;
+        Self {
+            pieces: b.masses.len(),
+            approach: r.approach_energy,
+            strain: r.peak_strain_energy,
+            cracks: r.fracture_energy,
+            before: b.kinetic_before,
+            work: b.work,
+            after: b.kinetic_after,
+            paid: b.energy_paid,
+            crushing: r.contacts.iter().map(|c| c.crushing_energy).sum(),
+        }
+    }
+
+    fn add(&mut self, other: &Self) {
+        self.pieces += other.pieces;
+        self.approach += other.approach;
+        self.strain += other.strain;
+        self.cracks += other.cracks;
+        self.before += other.before;
+        self.work += other.work;
+        self.after += other.after;
+        self.paid += other.paid;
+        self.crushing += other.crushing;
+    }
+
+    fn text(&self, name: &str, cause: &str) -> String {
+        let lost = self.before + self.work - self.after - self.paid;
+        let numbers = [
+            short(self.before),
+            short(self.work),
+            short(self.after),
+            short(self.paid),
+            short(lost),
+            short(self.crushing),
+        ];
+        format!(
+            "| {name} | {cause} | {} | {} | {} | {} | {:.0} % | {} |",
+            self.pieces,
+            short(self.approach),
+            short(self.strain),
+            short(self.cracks),
+            100.0 * self.cracks / self.strain,
+            numbers.join(" | ")
+        )
+    }
 }
 
 /// To three digits.

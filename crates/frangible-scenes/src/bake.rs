@@ -173,8 +173,7 @@ fn bake_body(
         cancel: cancel.clone(),
         ..frangible_bake::BakeSpec::new(&body.name, shape, body.material.clone())
     };
-    let (asset, report) =
-        frangible_bake::bake(&spec, progress).map_err(|e| mendable(&body.name, e))?;
+    let (asset, report) = frangible_bake::bake(&spec, progress).map_err(|e| mendable(&spec, e))?;
     Ok(BakedBody {
         asset: Arc::new(asset),
         report: Some(Arc::new(report)),
@@ -195,17 +194,21 @@ fn bake_body(
     })
 }
 
-/// Walls too thin, said with what the user of a scene can do about them.
+/// Walls too thin and supports beside the body, said with what the user of a scene can do about them.
 #[cfg(feature = "bake")]
-fn mendable(body: &str, error: frangible_bake::BakeError) -> SceneError {
+fn mendable(spec: &frangible_bake::BakeSpec, error: frangible_bake::BakeError) -> SceneError {
     use crate::check::MOST_TETS;
     use frangible_bake::BakeError;
     use frangible_mesh::TetError;
 
-    let BakeError::Tetrahedra(TetError::TooThin { wall, needed, .. }) = error else {
-        return error.into();
+    let (wall, needed) = match error {
+        BakeError::Tetrahedra(TetError::TooThin { wall, needed, .. }) => (wall, needed),
+        BakeError::Support { support, problem } => {
+            return misplaced(spec, support, problem).unwrap_or_else(|| error.into());
+        }
+        _ => return error.into(),
     };
-    let (body, wall_mm) = (body.to_string(), 1e3 * wall);
+    let (body, wall_mm) = (spec.name.clone(), 1e3 * wall);
     if needed <= MOST_TETS {
         return SceneError::ThinWalls {
             body,
@@ -218,4 +221,37 @@ fn mendable(body: &str, error: frangible_bake::BakeError) -> SceneError {
         wall_mm,
         limit: MOST_TETS,
     }
+}
+
+/// A support that cannot be used, said with what it is and where the body lies along the axes that it names.
+#[cfg(feature = "bake")]
+fn misplaced(spec: &frangible_bake::BakeSpec, number: usize, problem: &str) -> Option<SceneError> {
+    use frangible_bake::Region;
+
+    let support = spec.supports.get(number)?;
+    let [low, high] = crate::source::bounds(&spec.shape)?;
+    // To a hundredth of a millimetre; zero has no sign.
+    let metres = |x: f64| (1e5 * x).round() / 1e5 + 0.0;
+    let named = |k: usize| match &support.region {
+        Region::HalfSpace { normal, .. } => normal[k] != 0.0,
+        Region::Group(_) => false,
+        _ => true,
+    };
+    let reach: Vec<String> = ["x", "y", "z"]
+        .into_iter()
+        .enumerate()
+        .filter(|(k, _)| named(*k))
+        .map(|(k, axis)| {
+            let (low, high) = (metres(low[k]), metres(high[k]));
+            format!("from {low} to {high} m along {axis}")
+        })
+        .collect();
+    (!reach.is_empty()).then(|| {
+        SceneError::Clash(format!(
+            "support {number} of `{}`, {}, {problem} (the body reaches {})",
+            spec.name,
+            crate::text::support::support_text(support),
+            reach.join(", ")
+        ))
+    })
 }

@@ -30,6 +30,9 @@ const MOST_GENERATIONS: u32 = 20;
 /// Smallest patch of an adhesive, m: each is a joint.
 const LEAST_PATCH: f64 = 1e-3;
 
+/// Shortest and longest that the longest side of a body may be, m.
+pub(crate) const SIZES: [f64; 2] = [1e-3, 3.0];
+
 /// Most tetrahedra of a fracture mesh.
 pub(crate) const MOST_TETS: usize = 2_000_000;
 

@@ -65,7 +65,7 @@ pub enum SceneError {
     UnknownKind(PathBuf),
     /// A mesh whose size cannot be meant.
     #[error(
-        "the body is {longest} m long if the unit of `{}` is the metre; give its longest side in metres, for example --size {example} (in a scene file: size = {example})",
+        "the body is {longest} m long if the unit of `{}` is the metre; give its longest side in metres, 0.001 to 3, for example --size {example} (in a scene file: size = {example})",
         path.display()
     )]
     Size {

@@ -15,7 +15,7 @@ use crate::cameras::view;
 use crate::error::SceneError;
 use crate::meshes::{BodySurfaces, piece, whole};
 use crate::recorder::FRAME_RATE;
-use crate::run::steps_of_frame;
+use crate::run::{resist_rolling, steps_of_frame};
 use crate::scene::Scene;
 use crate::stage::{Stage, set_up};
 
@@ -86,6 +86,7 @@ pub fn first_break(
                 note(&stage, handle, &mut known);
             }
         }
+        resist_rolling(&mut stage.world);
         progress((frame + 1) as f64 / frames as f64);
     }
     Ok(None)

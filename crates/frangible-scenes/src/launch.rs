@@ -20,6 +20,14 @@ pub(crate) struct Target {
     pub(crate) reach: f32,
 }
 
+/// A projectile that flies.
+pub(crate) struct Launched {
+    pub(crate) handle: RigidBodyHandle,
+    pub(crate) mesh: RecordedMesh,
+    /// Time until it is where it is aimed at, s.
+    pub(crate) flight: f64,
+}
+
 /// Starts the projectile a twentieth of a second of flight outside the target; its look has this surface.
 pub(crate) fn launch(
     world: &mut BreakableWorld,
@@ -27,18 +35,22 @@ pub(crate) fn launch(
     target: Target,
     floor: bool,
     surface: usize,
-) -> Result<(RigidBodyHandle, RecordedMesh), SceneError> {
+) -> Result<Launched, SceneError> {
     let material = Material::preset(&projectile.material)?;
     match projectile.kind {
         ProjectileKind::Ball => {
             let radius = projectile.radius as f32;
-            let (start, velocity) = flight(world, projectile, target, [radius; 2], floor)?;
+            let (start, velocity, flight) = flight(world, projectile, target, [radius; 2], floor)?;
             let properties = SurfaceProperties::of(&material, radius);
             let pose = Pose::from_translation(vector(start));
             let mass = projectile.mass as f32;
             let solid = Ball { mass, radius };
             let handle = world.insert_ball(solid, properties, pose, vector(velocity))?;
-            Ok((handle, ball(radius, surface)))
+            Ok(Launched {
+                handle,
+                mesh: ball(radius, surface),
+                flight,
+            })
         }
         ProjectileKind::Hammer { crown } => {
             let mut head = Head::new(projectile.radius, crown, projectile.mass, material.density);
@@ -48,13 +60,17 @@ pub(crate) fn launch(
             let q = Quat::from_rotation_arc(Vec3::Z, projectile.toward.normalize());
             let depths = head.points().into_iter().map(|p| -(q * p).y);
             let extents = [head.reach(), depths.fold(0.0, f32::max)];
-            let (start, velocity) = flight(world, projectile, target, extents, floor)?;
+            let (start, velocity, flight) = flight(world, projectile, target, extents, floor)?;
             let properties = SurfaceProperties::of(&material, crown as f32);
             let pose = Pose::from_parts(vector(start), Rotation::from_xyzw(q.x, q.y, q.z, q.w));
             let mass = projectile.mass as f32;
             let shape = self::hull(&head, projectile.radius)?;
             let handle = world.insert_rigid(shape, mass, properties, pose, vector(velocity))?;
-            Ok((handle, head.mesh(surface)))
+            Ok(Launched {
+                handle,
+                mesh: head.mesh(surface),
+                flight,
+            })
         }
     }
 }
@@ -68,7 +84,7 @@ pub(crate) fn hull(head: &Head, radius: f64) -> Result<SharedShape, SceneError> 
     })
 }
 
-/// Start and velocity of something of these extents (m: in any direction, and downwards), outside the target's sphere, so that it cannot start inside the
+/// Start, velocity and time of flight, s, of something of these extents (m: in any direction, and downwards), outside the target's sphere, so that it cannot start inside the
 /// body; and back in time along the parabola that arrives with the speed and direction asked for.
 fn flight(
     world: &BreakableWorld,
@@ -76,7 +92,7 @@ fn flight(
     target: Target,
     [radius, below]: [f32; 2],
     floor: bool,
-) -> Result<(Vec3, Vec3), SceneError> {
+) -> Result<(Vec3, Vec3, f64), SceneError> {
     let direction = projectile.toward.normalize();
     let speed = projectile.speed as f32;
     let distance = (0.05 * speed).clamp(0.1, 1.0);
@@ -91,7 +107,7 @@ fn flight(
             depth_mm: 1e3 * (below - start.y),
         });
     }
-    Ok((start, velocity))
+    Ok((start, velocity, f64::from(flight)))
 }
 
 pub(crate) fn vector(v: Vec3) -> Vector {

@@ -22,6 +22,7 @@ use crate::cracks::with_cracks;
 use crate::error::SceneError;
 use crate::meshes::{BodySurfaces, piece};
 use crate::recorder::{Role, piece_sounding};
+use crate::run::resist_rolling;
 use crate::scene::Scene;
 use crate::stage::{Stage, set_up, set_up_kinds};
 
@@ -44,9 +45,6 @@ const FRAME: u64 = 64;
 
 /// Ticks after a break that are still taken one by one.
 const FINE_AFTER_BREAK: u64 = 2 * FRAME;
-
-/// Damping of rotation, 1/s, as in [`play`](crate::play()).
-const ROLLING: f32 = 0.8;
 
 /// What a thing in a scene is.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -203,9 +201,7 @@ impl LiveScene {
         }
         self.note_whole(cracked.into_iter());
         if before / FRAME != self.ticks / FRAME {
-            for (_, body) in self.world.physics.bodies.iter_mut() {
-                body.set_angular_damping(ROLLING);
-            }
+            resist_rolling(&mut self.world);
         }
         Ok(stepped?)
     }

@@ -151,18 +151,17 @@ pub fn play(
                 });
             }
         }
-        for (_, body) in world.physics.bodies.iter_mut() {
-            body.set_angular_damping(ROLLING);
-        }
+        resist_rolling(world);
         run.frame_seconds.push(clock.elapsed().as_secs_f64());
         recorder.frame(world);
         progress(frame as f64 / frames as f64);
-        rest_frames = if at_rest(world, projectiles) {
-            rest_frames + 1
-        } else {
-            0
+        // What is held rests all along: what flies towards it arrives first.
+        let arrived = projectiles.iter().all(|t| t.arrives <= run.simulated);
+        rest_frames = match arrived && at_rest(world, projectiles) {
+            true => rest_frames + 1,
+            false => 0,
         };
-        if rest_frames as f32 > REST * FRAME_RATE && stage.all_thrown() {
+        if rest_frames as f32 > REST * FRAME_RATE {
             break;
         }
     }
@@ -189,6 +188,13 @@ fn keep_hardest(all: &mut Vec<HeldRecord>, body: usize, time: f64, event: &HeldE
         Some(known) if event.report.stress_bound > known.report.stress_bound => *known = new(),
         Some(_) => {}
         None => all.push(new()),
+    }
+}
+
+/// Damps the rotation of all bodies that there are at the end of a frame.
+pub(crate) fn resist_rolling(world: &mut BreakableWorld) {
+    for (_, body) in world.physics.bodies.iter_mut() {
+        body.set_angular_damping(ROLLING);
     }
 }
 

@@ -1,6 +1,7 @@
 //! Where a body's geometry comes from: a built-in shape, a mesh file, a baked body.
 
 mod asset;
+mod extent;
 mod fit;
 mod mesh;
 mod ready;
@@ -17,6 +18,7 @@ use crate::error::SceneError;
 use crate::read::Files;
 
 pub use asset::{compacted, save_asset, save_compact_asset};
+pub(crate) use extent::bounds;
 
 /// Where a body's geometry comes from.
 #[derive(Clone, Debug, PartialEq)]

@@ -17,7 +17,7 @@ use crate::bake::BakedBody;
 use crate::body::{BodySpec, Place};
 use crate::bonds::bond;
 use crate::error::SceneError;
-use crate::launch::{Target, launch, vector};
+use crate::launch::{Launched, Target, launch, vector};
 use crate::meshes::{BodySurfaces, whole};
 use crate::overlap::check_overlaps;
 use crate::projectile::Projectile;
@@ -55,6 +55,8 @@ pub(crate) struct Thrown {
     pub(crate) number: usize,
     /// None before it sets out.
     pub(crate) handle: Option<RigidBodyHandle>,
+    /// When it should be where it is aimed at, s; infinite before it sets out.
+    pub(crate) arrives: f64,
     /// When it is taken away, s; infinite for never.
     pub(crate) until: f64,
 }
@@ -138,6 +140,7 @@ pub(crate) fn set_up_kinds<'a>(
             .map(|number| Thrown {
                 number,
                 handle: None,
+                arrives: f64::INFINITY,
                 until: f64::INFINITY,
             })
             .collect(),
@@ -165,7 +168,11 @@ impl Stage<'_> {
             let look = projectile_surface(projectile.kind.name(), &projectile.material);
             let [surface] = self.recorder.surfaces([look]);
             let floor = scene.floor.is_some();
-            let (handle, mesh) = launch(&mut self.world, projectile, body.target, floor, surface)?;
+            let Launched {
+                handle,
+                mesh,
+                flight,
+            } = launch(&mut self.world, projectile, body.target, floor, surface)?;
             let name = projectile_name(&scene.projectiles, thrown.number);
             let extras = vec![("mass_kg".into(), projectile.mass)];
             let material = Material::preset(&projectile.material)?;
@@ -173,14 +180,10 @@ impl Stage<'_> {
             self.recorder
                 .track(name, mesh, handle, extras, Role::Projectile, sounding);
             thrown.handle = Some(handle);
+            thrown.arrives = now + flight;
             thrown.until = projectile.stays.map_or(f64::INFINITY, |stays| now + stays);
         }
         Ok(())
-    }
-
-    /// Whether all projectiles have been thrown.
-    pub(crate) fn all_thrown(&self) -> bool {
-        self.projectiles.iter().all(|t| t.handle.is_some())
     }
 }
 

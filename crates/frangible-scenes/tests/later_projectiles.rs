@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use frangible_scenes::{LiveScene, Scene, bake, play, scene};
+use frangible_scenes::{LiveScene, Projectile, Scene, bake, play, scene};
 
 /// The brick under a hammer, made light: its pieces do not break again.
 fn five_blows() -> Scene {
@@ -89,4 +89,24 @@ fn what_was_not_thrown_yet_when_the_scene_was_saved_is_thrown_again_after_it_is_
     live.restore(&saved);
     assert!(!live.things().iter().any(|thing| thing.name == "hammer 2"));
     assert_eq!(run_on(&mut live), once);
+}
+
+#[test]
+fn what_flies_slowly_towards_a_body_at_rest_is_seen_to_arrive() {
+    let mut scene = scene("window").unwrap();
+    scene.floor = None;
+    (scene.bodies[0].modes, scene.bodies[0].resolution) = (10, Some(3000));
+    // So slow that it takes longer than a run goes on once all rests; the second sets out when all has rested for long.
+    let ball = &mut scene.projectiles[0];
+    ball.speed = 0.9;
+    let later = Projectile {
+        delay: 2.0,
+        ..ball.clone()
+    };
+    scene.projectiles.push(later);
+    let baked = bake(&scene, &mut |_| {}).unwrap();
+    let run = play(&scene, &baked, &mut |_| {}).unwrap();
+    let mut blows = run.blows.iter().map(|blow| blow.time);
+    assert!(blows.clone().any(|time| (0.3..2.0).contains(&time)));
+    assert!(blows.any(|time| time > 2.3), "{}", run.simulated);
 }

@@ -14,13 +14,13 @@ use crate::state::BodyState;
 use crate::stress::{BATCH, STRIDE, lane};
 use crate::trace::CrackTrace;
 
-/// Time steps between two looks whether cracks have weakened what bears a contact, or have parted pieces.
+/// Every so many time steps it is asked whether cracks have weakened what bears a contact, or have parted pieces.
 const BETWEEN_LOOKS: usize = 7;
 
 /// While contacts push, whether pieces have parted is asked again when the cracks have grown by this factor, or have stopped.
 const GREW: f64 = 1.5;
 
-/// Once no contact pushes, it is asked when that begins, and again when the cracks have grown by this factor.
+/// Once no contact pushes, the pieces are asked for at once, and again when the cracks have grown by this factor.
 const GREW_LATE: f64 = 3.0;
 
 /// What the cracks of an impact did to a body.
@@ -55,12 +55,12 @@ struct Weakened {
     contacts: Vec<(usize, f64)>,
 }
 
-/// How far the cracks were, m².
+/// What was known when it was last asked which pieces there are.
 #[derive(Default)]
 struct Grown {
-    /// When it was last asked whether pieces have parted.
+    /// Area of the cracks then, m².
     asked: f64,
-    /// At the last look.
+    /// Area at the last look, m².
     before: f64,
     /// Whether it was asked since no contact pushes any more.
     late: bool,
@@ -69,7 +69,7 @@ struct Grown {
 }
 
 impl Grown {
-    /// Whether cracks of this area, m², may have parted what they had not when it was last asked, or what they had is free by now.
+    /// Whether it is time to ask again which pieces there are, with cracks of this area, m².
     fn is_due(&mut self, area: f64, pushes: bool) -> bool {
         let stopped = area <= std::mem::replace(&mut self.before, area);
         let due = if pushes {
@@ -232,7 +232,7 @@ impl<'a> Cracking<'a> {
                     }
                 }
             }
-            // Cracks that run at once do not feel each other, nor that anything parts.
+            // Cracks that run at once feel neither each other nor that a piece has parted.
             if matches!(self.config.timing, CrackTiming::TimeResolved { .. }) {
                 let free = volumes.free(&pushed);
                 let now = self.motion.begin(step, self.time_step);

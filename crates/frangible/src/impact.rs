@@ -186,6 +186,7 @@ fn begin(
 ) -> Result<Stage, InputError> {
     contacts.iter().try_for_each(Contact::validate)?;
     config.validate()?;
+    let contacts = &*contact::in_one(contacts);
     let mut report = report_on(body);
     report.approach_energy = contact::approach_energy(contacts);
     let clock = Instant::now();
@@ -251,7 +252,8 @@ fn given(
     })
 }
 
-/// Duration of contacts whose impulses are given, s, and what is made of it where it has to be admissible.
+/// Duration of contacts whose impulses are given, s, and what is made of it where it has to be admissible. Nothing lengthens what a script asks
+/// for.
 fn durations(
     asset: &Asset,
     load: &Load,
@@ -259,7 +261,8 @@ fn durations(
     config: &FractureConfig,
 ) -> (f64, f64) {
     let duration = contact::contact_duration(asset, load, config.duration);
-    let longer = if config.admissible_duration {
+    let strikes = load.touches.iter().any(|t| !t.contact.is_script());
+    let longer = if config.admissible_duration && strikes {
         contact::admissible_duration(asset, load, contact::approach_energy(contacts), duration)
     } else {
         duration
@@ -274,29 +277,27 @@ fn integrated(
     config: &FractureConfig,
     report: &mut ImpactReport,
 ) -> Option<Vibration> {
+    let mut unadjusted = f64::INFINITY;
     let blow = if config.duration == DurationModel::Integrated {
-        Blow::of_valid(body, contacts, config)?
+        Blow::of_valid(body, contacts, config, None)?
     } else {
-        // Every contact is a half-sine of its impulse.
-        let mut scripts: Vec<Contact> = (contacts
-            .iter()
-            .filter(|c| c.pushes(config.duration))
-            .cloned())
-        .collect();
-        let load = contact::modal_load(body, &scripts);
-        if load.touches.is_empty() {
-            return None;
+        // Every contact is a half-sine of its impulse; a script says itself how long it lasts.
+        let strikes = |c: &&Contact| !c.is_script() && c.pushes(config.duration);
+        let load = contact::modal_load(body, contacts.iter().filter(strikes));
+        let mut scripts = contacts.to_vec();
+        if !load.touches.is_empty() {
+            let duration;
+            (unadjusted, duration) = durations(&body.asset, &load, contacts, config);
+            let strikers = scripts.iter_mut().filter(|c| strikes(&&**c));
+            strikers.for_each(|c| c.duration = duration as f32);
         }
-        let (_, duration) = durations(&body.asset, &load, contacts, config);
-        let strikers = scripts.iter_mut().filter(|c| !c.is_script());
-        strikers.for_each(|c| c.duration = duration as f32);
-        Blow::of_valid(body, &scripts, config)?
+        Blow::of_valid(body, &scripts, config, None)?
     };
     let asset = &*body.asset;
     if config.duration == DurationModel::Integrated {
         report.approach_energy = blow.approach_energy();
     }
-    report.unadjusted_duration = blow.hertz_time();
+    report.unadjusted_duration = blow.expected_duration().min(unadjusted);
     report.contact_duration = blow.duration();
     report.looked_at = LookedAt::Amplitudes;
     report.time_step = blow.time_step();

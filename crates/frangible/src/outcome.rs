@@ -152,7 +152,7 @@ pub struct StageTimings {
     pub stress: f64,
     /// Crack initiation and growth.
     pub cracks: f64,
-    /// What hangs together still, in the end and while a contact pushes.
+    /// What hangs together still, asked in the end and at times during the motion of a blow.
     pub labels: f64,
     /// Partition, surfaces, masses.
     pub fragments: f64,

@@ -68,6 +68,7 @@ fn a_sound_contact_is_accepted_even_from_a_rigid_flat_immovable_striker() {
     Contact {
         striker,
         impulse: 0.0,
+        friction: Vec3::ZERO,
         approach_speed: 0.0,
         ..sound()
     }

@@ -137,7 +137,8 @@ fn a_refused_contact_allocates_nothing() {
     assert_eq!(counted.count_total, 0, "{counted:?}");
 }
 
-/// A bound looks at the contacts that the model applies, with the forces that it gives them: all last as long as the shortest.
+/// A bound looks at the contacts that the model applies, with the forces that it gives them: strikers all last as long as the shortest of
+/// them, scripts as long as they say.
 #[test]
 fn the_bounds_hold_where_hertz_gives_the_duration_and_the_modes_left_out_serve() {
     let mut hertz = FractureConfig::default();
@@ -158,7 +159,7 @@ fn the_bounds_hold_where_hertz_gives_the_duration_and_the_modes_left_out_serve()
     let cases = [
         ("no approach", vec![given(5.0)]),
         ("a slow and a fast one", vec![given(0.05), grain]),
-        ("a slow one and a script", vec![given(0.05), script]),
+        ("a slow one and a script", vec![given(5.0), script]),
     ];
     for (name, contacts) in cases {
         let body = block().body(1);
@@ -297,6 +298,27 @@ fn a_script_with_friction_is_a_push() {
     }
 }
 
+/// A script all of whose push is friction is not refused as if it did not push.
+#[test]
+fn a_script_of_friction_alone_pushes() {
+    for config in [
+        FractureConfig::default(),
+        FractureConfig::with_given_impulses(),
+    ] {
+        let hit = bodies::block_hit(20.0);
+        let mut rubbing = Contact::script(hit.point, hit.normal, 1e-4);
+        (rubbing.impulse, rubbing.friction) = (0.0, 500.0 * hit.normal);
+        let at_once = Contact::script(hit.point, 500.0 * hit.normal, 1e-4);
+        let outcome = |contact: &Contact, config: &FractureConfig| {
+            impact(&block().body(1), std::slice::from_ref(contact), config).unwrap()
+        };
+        let expected = bodies::bits(&outcome(&at_once, &config));
+        assert!(matches!(outcome(&at_once, &config), Outcome::Broke(_)));
+        assert!(bodies::bits(&outcome(&rubbing, &config)) == expected);
+        assert!(bodies::bits(&outcome(&rubbing, &without_bounds(&config))) == expected);
+    }
+}
+
 /// What a script's friction does to the body is felt by a striker beside it.
 #[test]
 fn a_script_with_friction_moves_what_a_striker_beside_it_feels() {
@@ -322,9 +344,11 @@ fn a_script_with_friction_moves_what_a_striker_beside_it_feels() {
 
 #[test]
 fn friction_without_a_force_to_follow_is_refused() {
-    let mut contact = bodies::pane_hit(0.0, 0.0, 1.0);
-    (contact.impulse, contact.friction) = (1e-39, Vec3::X);
-    let refused = impact(&pane().body(1), &[contact], &FractureConfig::default());
-    let said = refused.unwrap_err().to_string();
-    assert!(said.contains("friction impulse over its impulse"), "{said}");
+    for impulse in [1e-39, 0.0] {
+        let mut contact = bodies::pane_hit(0.0, 0.0, 1.0);
+        (contact.impulse, contact.friction) = (impulse, Vec3::X);
+        let refused = impact(&pane().body(1), &[contact], &FractureConfig::default());
+        let said = refused.unwrap_err().to_string();
+        assert!(said.contains("friction impulse over its impulse"), "{said}");
+    }
 }

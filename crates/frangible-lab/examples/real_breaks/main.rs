@@ -65,11 +65,11 @@ fn measure(subject: &Subject, seeds: u64) -> Result<(), Box<dyn Error>> {
                 (a.min(x), b.max(x))
             });
         let shown = |x: f64| match feature.unit {
-            "%" => format!("{:.0} %", 100.0 * x),
-            "mm" => format!("{:.1} mm", 1e3 * x),
-            "µs" => format!("{:.0} µs", 1e6 * x),
-            "kN" => format!("{:.1} kN", 1e-3 * x),
-            _ => format!("{x:.1}"),
+            "%" => format!("{} %", rounded(100.0 * x, 0)),
+            "mm" => format!("{} mm", rounded(1e3 * x, 1)),
+            "µs" => format!("{} µs", rounded(1e6 * x, 0)),
+            "kN" => format!("{} kN", rounded(1e-3 * x, 1)),
+            _ => rounded(x, 1),
         };
         let name = &feature.name;
         println!(
@@ -80,6 +80,15 @@ fn measure(subject: &Subject, seeds: u64) -> Result<(), Box<dyn Error>> {
         );
     }
     Ok(())
+}
+
+/// The number is written with so many decimals, and zero has no sign.
+fn rounded(x: f64, decimals: usize) -> String {
+    let text = format!("{x:.decimals$}");
+    match text.strip_prefix('-') {
+        Some(size) if size.parse::<f64>() == Ok(0.0) => size.to_string(),
+        _ => text,
+    }
 }
 
 /// Prints how slow a ball of 1 kg still breaks the bottle, hit where the ball of the scene hits it.

@@ -4,10 +4,10 @@ use frangible::glam::Vec3;
 use frangible_bake::{MOST_MODES, READY_SHAPES, check_supports};
 
 use super::quantity::{finite, quantity, range};
-use super::{Fault, LONGEST_NAME, MAX_SPEED, MOST_TETS};
+use super::{Fault, LONGEST_NAME, MAX_SPEED, MOST_TETS, SIZES};
 use crate::body::{BodySpec, Place};
 use crate::error::SceneError;
-use crate::source::BodySource;
+use crate::source::{BodySource, bounds};
 
 /// Highest drop, m.
 const MAX_HEIGHT: f64 = 100.0;
@@ -56,8 +56,7 @@ pub(super) fn check_body(body: &BodySpec) -> Result<(), Fault> {
             range("wall", "the thickness of the wall", wall, 0.0, 0.1, must)?;
         }
         if let Some(size) = *size {
-            let must = "above 0 and at most 3 m";
-            range("size", "the body's size", size, 0.0, 3.0, must)?;
+            check_longest("size", "the body's size", size)?;
         }
         check_resolution(*resolution)?;
     }
@@ -70,6 +69,10 @@ pub(super) fn check_body(body: &BodySpec) -> Result<(), Fault> {
     }
     if let BodySource::Shape(shape) = &body.source {
         shape.volume().map_err(|e| Fault::new("shape", e))?;
+        if let Some([low, high]) = bounds(shape) {
+            let longest = (high - low).max_element();
+            check_longest("shape", "the longest side of `shape`", longest)?;
+        }
         check_resolution(body.resolution)?;
     } else if body.resolution.is_some() {
         let problem =
@@ -115,8 +118,7 @@ pub(super) fn check_body(body: &BodySpec) -> Result<(), Fault> {
         "at most 1000 rad/s",
     )?;
     if let Some(size) = body.rescale.size {
-        let must = "above 0 and at most 3 m";
-        range("size", "the body's size", size, 0.0, 3.0, must)?;
+        check_longest("size", "the body's size", size)?;
     }
     if let Some(preset) = body
         .rescale
@@ -132,6 +134,13 @@ pub(super) fn check_body(body: &BodySpec) -> Result<(), Fault> {
     }
     super::weakness::check_weakness(body)?;
     check_supports(&body.supports).map_err(|e| Fault::new("supports", e))
+}
+
+fn check_longest(key: &'static str, what: &'static str, longest: f64) -> Result<(), Fault> {
+    if (SIZES[0]..=SIZES[1]).contains(&longest) {
+        return Ok(());
+    }
+    Err(quantity(key, what, longest, "0.001 to 3 m"))
 }
 
 fn check_resolution(tets: Option<usize>) -> Result<(), Fault> {

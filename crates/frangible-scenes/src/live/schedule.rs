@@ -9,7 +9,7 @@ use frangible_sound::Sounding;
 
 use crate::appearance::projectile_surface;
 use crate::error::SceneError;
-use crate::launch::{Target, launch};
+use crate::launch::{Launched, Target, launch};
 use crate::projectile::Projectile;
 use crate::scene::Scene;
 use crate::stage::{Thrown, projectile_name};
@@ -62,7 +62,11 @@ impl LiveScene {
         let look = projectile_surface(projectile.kind.name(), &projectile.material);
         let surface = self.surface(look);
         let floor = self.floor.is_some();
-        let (handle, mesh) = launch(&mut self.world, &projectile, target, floor, surface)?;
+        let Launched {
+            handle,
+            mesh,
+            flight,
+        } = launch(&mut self.world, &projectile, target, floor, surface)?;
         self.things.push(Arc::new(Thing {
             name: projectile_name(&self.schedule.projectiles, number),
             kind: ThingKind::Projectile,
@@ -80,6 +84,7 @@ impl LiveScene {
         }));
         let thrown = &mut self.schedule.thrown[number];
         thrown.handle = Some(handle);
+        thrown.arrives = now + flight;
         thrown.until = projectile.stays.map_or(f64::INFINITY, |stays| now + stays);
         Ok(())
     }

@@ -6,12 +6,13 @@ use frangible_mesh::InputMesh;
 use frangible_mesh::glam::{DVec3, Vec3};
 
 use super::Axis;
+use crate::check::SIZES;
 use crate::error::SceneError;
 
 /// Largest longest side of a body, m.
-const LARGEST: f64 = 3.0;
+const LARGEST: f64 = SIZES[1];
 
-/// Smallest longest side of a body, m.
+/// Smallest longest side that is believed where no size is given, m.
 const SMALLEST: f64 = 0.005;
 
 /// Smaller bodies are proposed to no one, m: a few metres are no millimetres meant.

@@ -7,7 +7,7 @@ mod convert;
 mod either;
 mod message;
 mod schema;
-mod support;
+pub(crate) mod support;
 mod values;
 mod weakness;
 mod write;

@@ -75,7 +75,7 @@ fn side_of(side: &str, at: f64) -> Result<Region, Fault> {
     })
 }
 
-pub(super) fn support_text(support: &Support) -> String {
+pub(crate) fn support_text(support: &Support) -> String {
     let region = match &support.region {
         Region::HalfSpace { point, normal } => half_space_text(*point, *normal),
         Region::Box { low, high } => {

@@ -131,6 +131,11 @@ fn wrong_types_and_unusable_values_are_told_with_their_line() {
             "side of the box",
         ),
         (
+            "[[body]]\nshape = { box = [1000, 0.1, 0.1] }".into(),
+            2,
+            "the longest side of `shape` is 1000; it must be 0.001 to 3 m",
+        ),
+        (
             "[[body]]\nmesh = \"a.obj\"\nsize = -2".into(),
             3,
             "the body's size is -2",

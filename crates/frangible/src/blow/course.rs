@@ -9,7 +9,7 @@ use super::plan::Plan;
 use super::star::Star;
 use crate::body::Body;
 use crate::config::{CrackTiming, FractureConfig};
-use crate::contact::{Contact, ContactReport, Pulse, Touch};
+use crate::contact::{self, Contact, ContactReport, Pulse, Touch};
 use crate::crack::{CrackSystem, StressField};
 use crate::error::InputError;
 use crate::motion::{Complement, DisplacementBatch, Motion, Residual};
@@ -61,19 +61,12 @@ impl Blow {
     ) -> Result<Option<Self>, InputError> {
         contacts.iter().try_for_each(Contact::validate)?;
         config.validate()?;
-        Ok(Self::integrated(body, contacts, config, longest))
+        let contacts = contact::in_one(contacts);
+        Ok(Self::of_valid(body, &contacts, config, longest))
     }
 
-    /// [`Blow::new`] of contacts that have been checked.
+    /// [`Blow::with_substep`] of contacts that have been checked, with scripts that push [in one](contact::in_one) direction.
     pub(crate) fn of_valid(
-        body: &Body,
-        contacts: &[Contact],
-        config: &FractureConfig,
-    ) -> Option<Self> {
-        Self::integrated(body, contacts, config, None)
-    }
-
-    fn integrated(
         body: &Body,
         contacts: &[Contact],
         config: &FractureConfig,
@@ -152,9 +145,9 @@ impl Blow {
         last.map_or(0.0, |i| (i / count + 1) as f64 * self.substep())
     }
 
-    /// Hertz' time of the contacts, the shortest, s.
-    pub(crate) fn hertz_time(&self) -> f64 {
-        let times = self.plan.sites.iter().map(|s| s.hertz_time);
+    /// What the contacts were expected to last, the shortest, s: Hertz' time, or what a script says.
+    pub(crate) fn expected_duration(&self) -> f64 {
+        let times = self.plan.sites.iter().map(|s| s.duration);
         times.fold(f64::INFINITY, f64::min)
     }
 
@@ -242,8 +235,8 @@ impl Blow {
         field.at_weak_point(tet as usize).stress(lane(step))
     }
 
-    /// The contacts whose wall cracks have cut so far that its force must be found anew: their numbers, and what the star under each gives
-    /// way by, m/N.
+    /// The contacts whose forces must be found anew, because cracks have cut the wall under them: their numbers, and what the star under each
+    /// gives way by, m/N.
     pub(crate) fn weakened(&self, system: &CrackSystem) -> Vec<(usize, f64)> {
         let sites = self.plan.sites.iter().enumerate();
         let walls = sites.filter_map(|(k, site)| Some((k, site.near.as_ref()?)));

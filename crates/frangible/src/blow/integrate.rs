@@ -9,7 +9,8 @@ use super::plan::Plan;
 /// A blow of so many substeps is cut off: a contact that lasts this long is none of a blow's.
 const MOST_SUBSTEPS: usize = 60_000;
 
-/// Most time steps of one impact; a longer motion is cut there (the cut shows in the report's number of steps).
+/// Most time steps of each of the two parts of the motion after the contact; a longer part is cut there (the cut shows in the report's number
+/// of steps).
 const MOST_STEPS: usize = 20_000;
 
 /// Mode i is significantly excited when its amplitude reaches this share of the largest.

@@ -11,7 +11,7 @@
 
 use super::Spring;
 use crate::asset::Asset;
-use crate::contact::Contact;
+use crate::contact::{self, Contact};
 use crate::mesh::SurfacePoint;
 
 /// Most contacts whose energy is worked out.
@@ -49,24 +49,9 @@ impl Limits {
         for (k, (a, at)) in contacts() {
             speeds[k] = f64::from(a.approach_speed);
             for (l, (b, there)) in contacts().take(k + 1) {
-                let mut entry = 0.0;
-                if !asset.is_supported() {
-                    let place = |c: &Contact, at: &SurfacePoint| {
-                        let normal = c.normal.normalize();
-                        (at.position.as_dvec3(), normal.as_dvec3())
-                    };
-                    entry = asset
-                        .mass
-                        .inverse_mass_between(place(a, at), place(b, there));
-                }
-                if k == l {
-                    entry += f64::from(a.striker.inverse_effective_mass);
-                    if entry <= 0.0 {
-                        entry = 1.0 / asset.mass.mass;
-                    }
-                } else {
-                    entry += a.striker.inverse_mass_between(&b.striker);
-                }
+                let [a, b] = [(a, at), (b, there)]
+                    .map(|(c, at)| (&c.striker, at.position, c.normal.normalize()));
+                let entry = contact::inverse_mass(asset, a, b, k == l);
                 helps |= entry < 0.0;
                 inverse_mass[k * MOST + l] = entry;
             }

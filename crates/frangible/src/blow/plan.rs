@@ -9,8 +9,8 @@ use super::couple::add_waves;
 use super::receptance::Push;
 use super::wall::{NearPlan, place};
 use crate::body::Body;
-use crate::config::FractureConfig;
-use crate::contact::{self, Contact, Load, Receptance, Touch, hertz_at, modal_load};
+use crate::config::{DurationModel, FractureConfig};
+use crate::contact::{self, Contact, Load, Receptance, Touch, modal_load};
 
 /// Hertz' time over the longest substep. Measured: the energy error then is 3e-5 of what the striker loses (`frangible-lab verify`, case
 /// `blow`), and falls with the square of the substep.
@@ -30,8 +30,8 @@ pub(super) struct Site {
     pub(super) spring: Spring,
     /// A script's impulse, N·s, and duration, s, instead of a striker.
     pub(super) script: Option<[f64; 2]>,
-    /// Hertz' time, s.
-    pub(super) hertz_time: f64,
+    /// What it is expected to last, s: Hertz' time, or what a script says.
+    pub(super) duration: f64,
     pub(super) near: Option<NearPlan>,
     /// φ · (n + f) of every mode that follows the force, 1/√kg; zero for those that the near field serves.
     pub(super) residual: Vec<f64>,
@@ -89,10 +89,9 @@ impl Plan {
         longest: Option<f64>,
     ) -> Option<Self> {
         let pushing = contacts.iter().filter(|c| c.pushes(config.duration));
-        let pushing: Vec<Contact> = pushing.filter_map(Contact::in_one).collect();
         let asset = &*body.asset;
         let modes = asset.modes.followed();
-        let mut load = modal_load(body, &pushing);
+        let mut load = modal_load(body, pushing);
         if load.touches.is_empty() {
             return None;
         }
@@ -113,18 +112,16 @@ impl Plan {
             sites.push(site);
             felt.push(of_site);
         }
-        let hertz_time = sites
-            .iter()
-            .map(|s| s.script.map_or(s.hertz_time, |[_, duration]| duration))
-            .fold(f64::INFINITY, f64::min);
-        let pulse = contact::pulse(asset, &load, hertz_time, config);
+        let times = sites.iter().map(|s| s.duration);
+        let shortest = times.fold(f64::INFINITY, f64::min);
+        let pulse = contact::pulse(asset, &load, shortest, config);
         let time_step = pulse.time_step;
         let pair = (sites.iter()).any(|s| s.touch.contact.striker.receptance.is_some());
         let substeps = match pair {
             true => SUBSTEPS_OF_PAIRS,
             false => SUBSTEPS_PER_HERTZ_TIME,
         };
-        let longest = longest.unwrap_or(hertz_time / substeps);
+        let longest = longest.unwrap_or(shortest / substeps);
         let substeps = (time_step / longest).ceil() as usize;
         let width = padded(oscillators.len());
         let mut plan = Self {
@@ -208,20 +205,8 @@ fn inverse_masses(body: &Body, load: &Load) -> Vec<f64> {
     let mut matrix = vec![0.0; count * count];
     for (k, a) in load.touches.iter().enumerate() {
         for (l, b) in load.touches.iter().enumerate() {
-            if !asset.is_supported() {
-                let place = |t: &Touch| (t.contact.point.as_dvec3(), t.contact.normal.as_dvec3());
-                matrix[k * count + l] = asset.mass.inverse_mass_between(place(a), place(b));
-            }
-            if k != l {
-                let (a, b) = (&a.contact.striker, &b.contact.striker);
-                matrix[k * count + l] += a.inverse_mass_between(b);
-            }
-        }
-        let own = &mut matrix[k * count + k];
-        *own += f64::from(a.contact.striker.inverse_effective_mass);
-        // Neither gives way when a held body is hit by an immovable one; the body's own mass stands in.
-        if *own <= 0.0 {
-            *own = 1.0 / asset.mass.mass;
+            let [a, b] = [a, b].map(|t| (&t.contact.striker, t.contact.point, t.contact.normal));
+            matrix[k * count + l] = contact::inverse_mass(asset, a, b, k == l);
         }
     }
     matrix
@@ -259,12 +244,7 @@ fn site(
         script: contact
             .is_script()
             .then(|| [f64::from(contact.impulse), f64::from(contact.duration)]),
-        hertz_time: hertz_at(
-            &body.asset,
-            contact,
-            touch.curvature_radius,
-            touch.inverse_effective_mass,
-        ),
+        duration: contact::touch_duration(&body.asset, touch, DurationModel::Hertz),
         near: None,
         residual: Vec::new(),
         touch: touch.clone(),

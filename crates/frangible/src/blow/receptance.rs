@@ -102,11 +102,11 @@ impl WallReceptance {
     pub(super) fn bands(&self, site: &Site, mass: f64) -> (Bands, f64) {
         let wall = &self.material;
         let speed = f64::from(site.touch.contact.approach_speed);
-        let (time, duration, peak) = match site.script {
-            Some([impulse, duration]) => (duration, duration, 0.5 * PI * impulse / duration),
+        let time = site.duration;
+        let (duration, peak) = match site.script {
+            Some([impulse, duration]) => (duration, 0.5 * PI * impulse / duration),
             None => (
-                site.hertz_time,
-                site.hertz_time * site.spring.stretch(mass, speed) + 3.0 * mass / wall.dashpot(),
+                time * site.spring.stretch(mass, speed) + 3.0 * mass / wall.dashpot(),
                 site.spring.peak_force(mass, speed, wall.dashpot()),
             ),
         };

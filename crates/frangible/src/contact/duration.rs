@@ -73,11 +73,19 @@ pub fn contact_duration(asset: &Asset, load: &Load, model: DurationModel) -> f64
         .fold(f64::INFINITY, f64::min)
 }
 
-fn touch_duration(asset: &Asset, touch: &Touch, model: DurationModel) -> f64 {
+/// What a contact is expected to last by a model, s, or what a script says.
+pub(crate) fn touch_duration(asset: &Asset, touch: &Touch, model: DurationModel) -> f64 {
+    if touch.contact.is_script() {
+        return f64::from(touch.contact.duration);
+    }
     let (radius, give) = (touch.curvature_radius, touch.inverse_effective_mass);
     let hertz = hertz_at(asset, &touch.contact, radius, give);
     let speed = f64::from(touch.contact.approach_speed).max(SLOWEST_APPROACH);
-    let Some(mode) = most_excited_mode(asset, &touch.modal_shape) else {
+    let mode = match model {
+        DurationModel::Integrated | DurationModel::Hertz => None,
+        _ => most_excited_mode(asset, &touch.modal_shape),
+    };
+    let Some(mode) = mode else {
         return hertz;
     };
     let eigenvalue = asset.modes.eigenvalues[mode];

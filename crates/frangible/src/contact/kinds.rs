@@ -1,5 +1,6 @@
 //! What the rigid-body engine tells us of an impact.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use glam::Vec3;
@@ -218,10 +219,10 @@ impl Contact {
     /// Direction of its force on the body: the unit normal, and what friction there is beside it.
     pub(crate) fn direction(&self) -> Vec3 {
         let normal = self.normal.normalize_or_zero();
-        if self.impulse > 0.0 {
-            normal + self.friction / self.impulse
-        } else {
+        if self.friction == Vec3::ZERO {
             normal
+        } else {
+            normal + self.friction / self.impulse
         }
     }
 
@@ -258,17 +259,22 @@ impl Contact {
 
     /// A script's push as one along its own direction: nothing rubs there. A striker's contact stays as it is. None where a script's friction
     /// takes away all of its impulse.
-    pub(crate) fn in_one(&self) -> Option<Self> {
-        if !self.is_script() || self.friction == Vec3::ZERO {
+    fn in_one(&self) -> Option<Self> {
+        if !self.rubs_by_script() {
             return Some(self.clone());
         }
         let push = self.push();
-        (push != Vec3::ZERO).then(|| Self {
+        let impulse = push.length();
+        (impulse > 0.0).then(|| Self {
             normal: push,
-            impulse: push.length(),
+            impulse,
             friction: Vec3::ZERO,
             ..self.clone()
         })
+    }
+
+    fn rubs_by_script(&self) -> bool {
+        self.is_script() && self.friction != Vec3::ZERO
     }
 
     /// Checks that every number can be used.
@@ -284,10 +290,13 @@ impl Contact {
             f64::from(self.normal.length()),
             "",
         )?;
-        finite(
-            "a contact's friction impulse over its impulse",
-            self.direction(),
-        )?;
+        // A script's friction is part of its push, whatever is along the normal.
+        if !self.is_script() {
+            finite(
+                "a contact's friction impulse over its impulse",
+                self.direction(),
+            )?;
+        }
         for (what, value) in [
             ("a contact's impulse (N·s)", self.impulse),
             ("a contact's approach speed (m/s)", self.approach_speed),
@@ -335,5 +344,14 @@ impl Contact {
         let fits = (0.0..=1.0).contains(&e);
         OutOfRange::unless(fits, "restitution", e, OutOfRange::RESTITUTION)?;
         Ok(())
+    }
+}
+
+/// These contacts with every script's push as one along its own direction.
+pub(crate) fn in_one(contacts: &[Contact]) -> Cow<'_, [Contact]> {
+    if contacts.iter().any(Contact::rubs_by_script) {
+        contacts.iter().filter_map(Contact::in_one).collect()
+    } else {
+        Cow::Borrowed(contacts)
     }
 }

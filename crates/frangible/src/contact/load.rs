@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use super::Contact;
+use super::{Contact, Striker};
 use crate::asset::{Asset, each_row};
 use crate::body::Body;
 use crate::mesh::SurfacePoint;
@@ -99,6 +99,31 @@ pub(crate) fn give(asset: &Asset, at: &SurfacePoint, normal: Vec3) -> f64 {
     }
     let (point, normal) = (at.position.as_dvec3(), normal.as_dvec3());
     asset.mass.inverse_effective_mass(point, normal)
+}
+
+/// B: what a unit impulse at one contact takes from the speed of approach at another one, 1/kg, or at itself if it is the same. Each is its
+/// striker, its place and its unit normal.
+pub(crate) fn inverse_mass(
+    asset: &Asset,
+    (a, at, normal): (&Striker, Vec3, Vec3),
+    (b, there, along): (&Striker, Vec3, Vec3),
+    is_same: bool,
+) -> f64 {
+    let mut inverse = 0.0;
+    if !asset.is_supported() {
+        let [a, b] = [(at, normal), (there, along)].map(|(at, n)| (at.as_dvec3(), n.as_dvec3()));
+        inverse = asset.mass.inverse_mass_between(a, b);
+    }
+    if !is_same {
+        return inverse + a.inverse_mass_between(b);
+    }
+    inverse += f64::from(a.inverse_effective_mass);
+    // Neither gives way when a held body is hit by an immovable one; the body's own mass stands in.
+    if inverse > 0.0 {
+        inverse
+    } else {
+        1.0 / asset.mass.mass
+    }
 }
 
 /// φ_i(b) · v of every mode.

@@ -16,10 +16,11 @@ pub use ball::first_touch_of_ball;
 pub use duration::{
     answer_duration, contact_duration, hertz_duration, modal_hertz_duration, most_excited_mode,
 };
-pub(crate) use duration::{contact_radius_of_curvature, hertz_at};
+pub(crate) use duration::{contact_radius_of_curvature, hertz_at, touch_duration};
+pub(crate) use kinds::in_one;
 pub use kinds::{Contact, SharedMass, Striker};
-pub(crate) use load::give;
 pub use load::{Load, Touch, modal_load};
+pub(crate) use load::{give, inverse_mass};
 pub use pulse::pulse;
 pub use receptance::Receptance;
 pub(crate) use receptance::WallReceptance;

@@ -127,7 +127,7 @@ fn constant(fracture_energy: f64, material: &Material) -> f64 {
 }
 
 /// What σ √r is of a crack that has run so far, m, under a tension at the surface, Pa. In a wall of a thickness, m, the crack goes through it once it
-/// is longer than that; then a part of the tension counts, which is `through` of it (`tip.rs`).
+/// is longer than that; then a part of the tension counts, which is `through` of it (`tips.rs`).
 fn feed(tension: f64, through: f64, run: f32, thickness: Option<f32>) -> f64 {
     let run = f64::from(run);
     match thickness.map(f64::from) {

@@ -105,7 +105,7 @@ impl<'a> StressField<'a> {
     /// Stress on the two faces of a wall beside the centroid of fracture tetrahedron `e`.
     fn on_faces(&mut self, e: usize, wall: &Wall) -> [Symmetric3; 2] {
         let centre = self.asset.embedded_tet(e);
-        let distances = wall.distances(self.asset.fracture.centroid(e));
+        let distances = wall.distances(self.centroids[e]);
         distances.map(|distance| {
             let up = wall.normal * distance;
             let gradient = self.gradient(&shifted(self.asset, centre, up));
@@ -246,7 +246,7 @@ impl Felt {
     }
 
     /// Tension across a crack of this unit normal that opens its front, Pa: of a wall that of its middle and the part of its bending that
-    /// counts (`tip.rs`), at most the larger one of its faces.
+    /// counts (`tips.rs`), at most the larger one of its faces.
     pub(crate) fn opening(&self, normal: Vec3, poisson_ratio: f64) -> f64 {
         let across = |stress: &Symmetric3| f64::from(normal.dot(stress.to_mat3() * normal));
         let Some((_, faces)) = &self.wall else {

@@ -10,7 +10,7 @@
 //!
 //! *Release* (`release.rs`). A crack unloads what lies beside it. What is released stays released, so a weak point looks at the cracks
 //! only when what it remembers does not hold it already. It then looks at all places of all cracks near by, eight of them side by side.
-//! Under a blow that is integrated, a small piece that is cut off comes to rest as a whole (`rest.rs`).
+//! Under a blow whose forces are followed with the body, a small piece that is cut off comes to rest as a whole (`rest.rs`).
 //!
 //! *Old cracks* (`crate::tips`). The front of a crack from an earlier impact follows Griffith: a crack of centimetres is fed from a layer of depth
 //! 2πa, where a is its area over the length of its front. Cracks that a piece's own modes know release nothing more.

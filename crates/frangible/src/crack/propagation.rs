@@ -5,7 +5,7 @@
 //! leaves the candidate out).
 //!
 //! Beyond the paper, each a switch:
-//! - *Griffith's fronts*: what a crack that was there before gains by growing follows from its length (`tip.rs`);
+//! - *Griffith's fronts*: what a crack that was there before gains by growing follows from its length (`tips.rs`);
 //! - *finite speed*: fronts arrive along the crack's own path at a share of the Rayleigh speed; a front that lacks
 //!   energy waits and is tried again with the stress of the next step, so cracks follow the wave outwards;
 //! - *steering*: s is kept at the nodes. The fourth node of n gets the mean over the three shared ones of
@@ -181,8 +181,8 @@ fn steers(
         fourth,
     } = crossing;
     let mesh = &system.asset.fracture;
-    let place = mesh.centroid(from.tet as usize);
-    let length = mesh.centroid(front.tet as usize).distance(place);
+    let place = system.centroids[from.tet as usize];
+    let length = system.centroids[front.tet as usize].distance(place);
     let (stress, opens) = felt.steering(from.opens);
     let ahead = match &felt.wall {
         Some((wall, _)) => upright(from.direction, wall.normal),

@@ -1,11 +1,11 @@
 //! Pieces come to rest (beyond the paper).
 //!
-//! The modes are those of the whole body, and go on as if nothing had parted. A piece that cracks have cut off, and that no contact
-//! touches, is pulled and bent by nothing any more: its neighbours can only press on it, and supports hold still. What unloads its new
+//! The modes are those of the whole body, and go on as if nothing had parted. A piece that cracks have cut off, and that no contact presses
+//! against more than half of the body, is pulled and bent by nothing any more: its neighbours can only press on it, and supports hold still. What unloads its new
 //! faces crosses it at the speed of Rayleigh waves, and from then on it neither starts cracks nor feeds those that it has. A piece of
 //! more than half of the body vibrates much like the whole, and does not come to rest.
 //!
-//! That is so under a blow that is integrated, with cracks that take time. Which pieces there are is found while such a blow goes on
+//! That is so under a blow whose forces are followed with the body, with cracks that take time. Which pieces there are is found while such a blow goes on
 //! (`crate::cracking`).
 
 use glam::Vec3;
@@ -49,15 +49,11 @@ impl Rest {
                 (*low, *high) = (low.min(position), high.max(position));
             }
         }
-        let crossed = |[low, high]: &[Vec3; 2]| now + f64::from(low.distance(*high)) / speed;
-        let rests = free.iter().zip(&extents);
-        let rests: Vec<f64> = rests
-            .map(|(free, extent)| {
-                if *free {
-                    crossed(extent)
-                } else {
-                    f64::INFINITY
-                }
+        let pieces = free.iter().zip(&extents);
+        let rests: Vec<f64> = pieces
+            .map(|(free, [low, high])| match free {
+                true => now + f64::from(low.distance(*high)) / speed,
+                false => f64::INFINITY,
             })
             .collect();
         self.from.resize(positions.len(), f64::INFINITY);

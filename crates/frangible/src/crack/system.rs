@@ -160,8 +160,8 @@ impl<'a> CrackSystem<'a> {
     /// What the cracks cut in this impact, and when, s: crack after crack, those that did not move left out.
     pub(crate) fn arrivals(&self) -> Vec<Vec<(u32, f64)>> {
         let new = |crack: &Crack| -> Vec<(u32, f64)> {
-            let cuts = crack.elements.iter().map(|cut| (cut.tet, cut.time));
-            cuts.filter(|(_, time)| time.is_finite()).collect()
+            let cuts = crack.elements[crack.restored..].iter();
+            cuts.map(|cut| (cut.tet, cut.time)).collect()
         };
         let cracks = self.cracks.iter().map(new);
         cracks.filter(|crack| !crack.is_empty()).collect()
@@ -188,12 +188,14 @@ impl<'a> CrackSystem<'a> {
         }
     }
 
-    /// Whether the piece that an unfractured tetrahedron is part of is at rest. One node tells: only where a crack ends do those of an unfractured
-    /// tetrahedron lie in two pieces.
+    /// Whether the piece of an unfractured tetrahedron is at rest. Its first node tells which piece that is: only where a crack ends do its nodes
+    /// lie in two pieces.
     #[inline]
     pub(crate) fn rests(&self, tet: u32, now: f64) -> bool {
-        let node = || self.asset.fracture.tets[tet as usize][0];
-        !self.rest.is_empty() && self.rest.has(node(), now)
+        !self.rest.is_empty()
+            && self
+                .rest
+                .has(self.asset.fracture.tets[tet as usize][0], now)
     }
 
     /// Whether nothing can happen in a tetrahedron any more: a crack has fractured it, or its piece is at rest.

@@ -8,7 +8,7 @@ use crate::asset::FOREIGN;
 use crate::body::MeshIndex;
 use crate::mesh::{EDGES, FACES, TetMesh};
 
-/// A face passes a push on whose mean direction across it, over all of its area, runs along the push by at least this share. A flat face
+/// A face passes a push on if its mean direction, over all of its area, runs along the push by at least this share. A flat face
 /// square to the push would have 1, one that is tilted by 60° or a crater that is half a ball 1/2; faces along the push have nothing. Faces
 /// that run from tetrahedron to tetrahedron are rough, which takes a fifth.
 const PASSES: f64 = 0.4;
@@ -46,7 +46,7 @@ impl Volumes {
         }
     }
 
-    /// Which pieces nothing loads but the pressure of their neighbours: those of no more than half of the body that are not `pushed`.
+    /// For each piece, whether nothing but its neighbours presses on it: it has no more than half of the volume, and is not among the `pushed`.
     pub(crate) fn free(&self, pushed: &[u32]) -> Vec<bool> {
         let is_small = |volume: &u64| *volume <= self.half;
         let mut free: Vec<bool> = self.of_piece.iter().map(is_small).collect();

@@ -11,8 +11,11 @@ use crate::state::Cuts;
 /// All corners of a tetrahedron, a bit each.
 pub(super) const ALL: u8 = 0b1111;
 
-/// In place of a crack: the edge is whole. Also of an edge's number: it has none yet.
-const NONE: u32 = u32::MAX;
+/// In place of a crack: the edge is whole.
+const WHOLE: u32 = u32::MAX;
+
+/// In place of an edge's number: it has none yet.
+const UNNUMBERED: u32 = u32::MAX;
 
 /// What a round of looks knows of a fractured tetrahedron.
 pub(super) struct Look {
@@ -57,7 +60,7 @@ impl Fractured {
         }
         let (starts, around) = around(nodes, &corners);
         Self {
-            edges: vec![[NONE; 6]; looks.len()],
+            edges: vec![[UNNUMBERED; 6]; looks.len()],
             looks,
             corners,
             by,
@@ -82,7 +85,7 @@ impl Fractured {
 
     /// Numbers of a tetrahedron's edges.
     pub(super) fn edges(&mut self, place: usize, cuts: &Cuts) -> [u32; 6] {
-        if self.edges[place][0] == NONE {
+        if self.edges[place][0] == UNNUMBERED {
             let corners = self.corners[place];
             for (k, [i, j]) in EDGES.into_iter().enumerate() {
                 self.edges[place][k] = self.number(corners[i], corners[j], cuts);
@@ -98,10 +101,8 @@ impl Fractured {
             return number;
         }
         self.numbers.add(low, high);
-        // A cut by a crack that the piece does not remember is a cut all the same.
-        let by = |crack: u32| crack.min(NONE - 1);
         let cut = cuts.get(low, high);
-        self.cut_by.push(cut.map_or(NONE, |cut| by(cut.crack)));
+        self.cut_by.push(cut.map_or(WHOLE, |cut| cut.crack));
         self.cut_by.len() as u32 - 1
     }
 
@@ -116,7 +117,7 @@ impl Fractured {
         let (mut cut, mut others) = (0, 0);
         for (k, edge) in edges.into_iter().enumerate() {
             let by = self.cut_by[edge as usize];
-            cut |= u8::from(by != NONE) << k;
+            cut |= u8::from(by != WHOLE) << k;
             others |= u8::from(by != newcomer) << k;
         }
         (cut, if own { cut } else { cut & others })

@@ -55,7 +55,7 @@ impl<'a> Continued<'a> {
     fn new(system: &'a CrackSystem, newcomer: u32, last: &'a ElementCut, own: bool) -> Self {
         let mesh = &system.asset.fracture;
         let nodes = mesh.tets[last.tet as usize];
-        let centre = mesh.centroid(last.tet as usize);
+        let centre = system.centroids[last.tet as usize];
         let level = nodes
             .iter()
             .zip(&last.values)

@@ -150,7 +150,7 @@ impl Lists {
 
     /// Keeps of each crack what cut this piece; cuts name their cracks by the new numbers.
     fn remember(&mut self, breakup: &Breakup, own: impl Fn(u32) -> bool) {
-        let mut number = vec![u32::MAX; breakup.state.cracks.len()];
+        let mut number = vec![EdgeCut::FORGOTTEN; breakup.state.cracks.len()];
         for (crack, number) in breakup.state.cracks.iter().zip(&mut number) {
             let cuts: Vec<_> = crack.cuts.iter().filter(|c| own(c.tet)).copied().collect();
             if cuts.is_empty() {
@@ -167,7 +167,7 @@ impl Lists {
         }
         for cut in &mut self.cuts {
             let crack = number.get(cut.crack as usize);
-            cut.crack = crack.copied().unwrap_or(u32::MAX);
+            cut.crack = crack.copied().unwrap_or(EdgeCut::FORGOTTEN);
         }
     }
 }

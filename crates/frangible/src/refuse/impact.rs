@@ -65,7 +65,8 @@ pub(crate) fn refused(
         let given = given_duration(body, || hit().zip(pushes.places()), config);
         for (limit, contact) in limits.iter_mut().zip(hit()) {
             let impulse = f64::from(contact.impulse);
-            let duration = match contact.is_script() {
+            // Beside modes that answer statically a script is given its own time, else all contacts have one.
+            let duration = match contact.is_script() && config.has_complement() {
                 true => f64::from(contact.duration),
                 false => given?,
             };
@@ -126,8 +127,7 @@ pub(crate) fn refused(
     refused_by_clusters(body, &amplitudes, quadratic_modulus)
 }
 
-/// Duration of the contacts whose impulses are given and that no script times, s: the shortest of all that touch. None where it takes
-/// the modes to say.
+/// Duration of the contacts whose impulses are given, s: the shortest of all that touch. None where it takes the modes to say.
 fn given_duration<'a, Hits>(
     body: &Body,
     hits: impl Fn() -> Hits,
@@ -140,6 +140,9 @@ where
     match config.duration {
         DurationModel::Hertz => {
             let durations = hits().map(|(contact, (at, _))| {
+                if contact.is_script() {
+                    return f64::from(contact.duration);
+                }
                 let radius = f64::from(asset.surface.curvature_radius[at.triangle as usize]);
                 let give = give(asset, at, contact.normal.normalize());
                 hertz_at(asset, contact, radius, give)

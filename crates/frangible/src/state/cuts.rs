@@ -12,8 +12,13 @@ pub(crate) struct EdgeCut {
     pub(crate) ends: [u32; 2],
     /// Place along the edge, from its lower node (0) to its higher (1).
     pub(crate) at: f64,
-    /// Crack that cut it first.
+    /// Crack that cut it first, or [`FORGOTTEN`](EdgeCut::FORGOTTEN).
     pub(crate) crack: u32,
+}
+
+impl EdgeCut {
+    /// In place of a crack: one that the piece does not remember.
+    pub(crate) const FORGOTTEN: u32 = u32::MAX - 1;
 }
 
 /// All cut edges.

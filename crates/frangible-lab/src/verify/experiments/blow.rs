@@ -3,6 +3,9 @@
 use frangible::glam::Vec3;
 use frangible::{Contact, Material, Striker};
 
+/// Density of the steel that projectiles are made of, kg/m³.
+pub(crate) const STEEL_DENSITY: f64 = 7800.0;
+
 /// A steel ball, or a cylinder with a round nose, that hits the middle of a plate's upper face.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Projectile {

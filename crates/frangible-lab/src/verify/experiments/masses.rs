@@ -9,9 +9,9 @@ use frangible_bake::{BakeSpec, Shape, SolidShape};
 use rayon::prelude::*;
 
 use super::blow::Projectile;
+use super::bodies::{breakable, preset};
 use super::fit::CutOffLaw;
 use super::progress::{Counter, Hear};
-use super::star::{breakable, preset};
 use crate::verify::VerifyError;
 
 /// Smallest piece that counts, in the crumb limit of the default model: at the limit itself small pieces have joined their

@@ -4,7 +4,6 @@ use std::fmt::Write;
 
 use super::masses::{LEAST, MassRun, Masses};
 use super::page::{Figure, apart, with_error};
-use super::pattern::median;
 use crate::page::table;
 use crate::plot::{Axis, Chart, Marker, Series};
 
@@ -105,6 +104,17 @@ fn results(masses: &Masses) -> String {
     };
     let rows: Vec<Vec<String>> = masses.runs.iter().map(row).collect();
     table(&head, &rows)
+}
+
+/// The middle of some numbers; of none, zero.
+fn median(mut numbers: Vec<f64>) -> f64 {
+    numbers.sort_by(f64::total_cmp);
+    let n = numbers.len();
+    match n {
+        0 => 0.0,
+        _ if n % 2 == 1 => numbers[n / 2],
+        _ => 0.5 * (numbers[n / 2 - 1] + numbers[n / 2]),
+    }
 }
 
 fn comparison(run: &MassRun) -> String {

@@ -4,6 +4,7 @@
 //! some hundred of them, [`Experiments::page`] says what came out, with errors, and where it disagrees.
 
 mod blow;
+mod bodies;
 mod fit;
 mod masses;
 mod masses_page;
@@ -13,14 +14,15 @@ mod progress;
 mod rear_star;
 mod star;
 mod star_page;
+mod variants;
 
+pub(crate) use bodies::preset;
 pub use fit::{CutOffLaw, PowerLaw};
 pub use masses::{MassPlan, MassRun, Masses, Published};
 pub use page::Figure;
 pub use pattern::CrackPattern;
 pub use progress::Hear;
 pub use rear_star::{RearStar, RearStarPlan, RearStars};
-pub(crate) use star::preset;
 pub use star::{Count, StarImpact, StarPlan, StarRun, Stars};
 
 use crate::verify::VerifyError;

@@ -60,17 +60,6 @@ impl CrackPattern {
         apart.count().max(1)
     }
 
-    /// The median over several circles of [`CrackPattern::crossings`]; of an even number, the mean of the middle two.
-    #[must_use]
-    pub fn radial_cracks(&self, radii: &[f64], gap: f64) -> f64 {
-        median(
-            radii
-                .iter()
-                .map(|&r| self.crossings(r, gap) as f64)
-                .collect(),
-        )
-    }
-
     /// Length of the cracks whose middle lies between two distances from the middle of the plate, m: those within 45° of the
     /// radius, and all.
     #[must_use]
@@ -121,17 +110,6 @@ fn piece(corners: [[f64; 3]; 4], values: [f64; 4], height: f64) -> Option<[DVec2
         }
     }
     ends.try_into().ok()
-}
-
-/// The middle of some numbers; of none, zero.
-pub(crate) fn median(mut numbers: Vec<f64>) -> f64 {
-    numbers.sort_by(f64::total_cmp);
-    let n = numbers.len();
-    match n {
-        0 => 0.0,
-        _ if n % 2 == 1 => numbers[n / 2],
-        _ => 0.5 * (numbers[n / 2 - 1] + numbers[n / 2]),
-    }
 }
 
 #[cfg(test)]

@@ -1,17 +1,14 @@
 //! Radial cracks of a thin plate that a small steel projectile hits: how many, at which speed.
 
-use std::f64::consts::PI;
-use std::sync::Arc;
-
-use frangible::internals::{CrackTiming, Fields, impact_traced};
-use frangible::{Breakable, FractureConfig, Material};
-use frangible_bake::{BakeSpec, MeshSize, Region, Shape, Support, bake};
+use frangible::internals::impact_traced;
+use frangible::{Breakable, Contact, FractureConfig, InputError, Material};
 use rayon::prelude::*;
 
-use super::blow::Projectile;
+use super::bodies::{breakable, clamped, preset};
 use super::fit::PowerLaw;
 use super::pattern::CrackPattern;
 use super::progress::{Counter, Hear};
+use super::variants::{DEFAULT, VARIANTS, Variant};
 use crate::verify::VerifyError;
 
 /// Name in errors.
@@ -20,19 +17,12 @@ const NAME: &str = "star";
 pub(crate) const SIDE: f64 = 0.1;
 /// The thickness that is compared with the measured counts, m.
 pub(crate) const MEASURED_THICKNESS: f64 = 1e-3;
-/// Circle on which cracks are counted, m: ten thicknesses of the plate whose counts are published.
-pub(crate) const RADII: [f64; 1] = [0.01];
+/// Radius of the circle on which cracks are counted, m: ten thicknesses of the plate whose counts are published.
+pub(crate) const RADIUS: f64 = 0.01;
 /// Lengths are summed between these distances from the middle, m: outside the crushed zone, off the clamped edge.
 pub(crate) const RING: [f64; 2] = [0.005, 0.045];
 /// Height of the plane on which cracks are looked at, in thicknesses above the middle: no layer of nodes lies there.
 const SECTION: f64 = 0.13;
-/// Width of the projectile, m.
-pub(crate) const WIDTH: f64 = 4e-3;
-/// Length of the projectile, m. Reports of the experiment call it a cylinder, one a bullet-shaped one, and give its width alone;
-/// bullets are two to four times as long as wide, and both ends of that range are among the variants.
-pub(crate) const LENGTH: f64 = 3.0 * WIDTH;
-/// Density of steel, kg/m³.
-const STEEL_DENSITY: f64 = 7800.0;
 
 /// What to compute.
 #[derive(Clone, Debug)]
@@ -53,93 +43,6 @@ pub struct StarPlan {
     pub modes: usize,
 }
 
-/// The default model, or how a computation differs from it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Variant {
-    pub(crate) name: &'static str,
-    instant: bool,
-    green_lagrange: bool,
-    strength: f64,
-    weak_points: f64,
-    branching: bool,
-    scatter: bool,
-    /// What hits the plate.
-    shape: Shot,
-}
-
-/// The shape of a projectile.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Shot {
-    /// A ball.
-    Ball,
-    /// A cylinder with half a ball as its nose, of this length, m.
-    Bullet(f64),
-}
-
-const DEFAULT: Variant = Variant {
-    name: "default",
-    instant: false,
-    green_lagrange: false,
-    strength: 1.0,
-    weak_points: 1.0,
-    branching: true,
-    scatter: true,
-    shape: Shot::Bullet(LENGTH),
-};
-
-const VARIANTS: [Variant; 10] = [
-    Variant {
-        name: "cracks at once, no release (`CrackTiming::Instant`)",
-        instant: true,
-        ..DEFAULT
-    },
-    Variant {
-        name: "cracks do not fork (`branching`)",
-        branching: false,
-        ..DEFAULT
-    },
-    Variant {
-        name: "every weak point as strong as the others, R_c",
-        scatter: false,
-        ..DEFAULT
-    },
-    Variant {
-        name: "Green and Lagrange's strain of the linear modes (`green_lagrange`, the paper's)",
-        green_lagrange: true,
-        ..DEFAULT
-    },
-    Variant {
-        name: "strength × 1.3, what a sphere's impact was found to need more than a slow test",
-        strength: 1.3,
-        ..DEFAULT
-    },
-    Variant {
-        name: "strength ÷ 1.5",
-        strength: 1.0 / 1.5,
-        ..DEFAULT
-    },
-    Variant {
-        name: "weak points × 4",
-        weak_points: 4.0,
-        ..DEFAULT
-    },
-    Variant {
-        name: "projectile 8 mm long (0.72 g)",
-        shape: Shot::Bullet(2.0 * WIDTH),
-        ..DEFAULT
-    },
-    Variant {
-        name: "projectile 16 mm long (1.50 g)",
-        shape: Shot::Bullet(4.0 * WIDTH),
-        ..DEFAULT
-    },
-    Variant {
-        name: "a ball (0.26 g)",
-        shape: Shot::Ball,
-        ..DEFAULT
-    },
-];
-
 /// One plate and what the projectile did to it.
 #[derive(Clone, Debug)]
 pub struct StarImpact {
@@ -147,7 +50,7 @@ pub struct StarImpact {
     pub speed: f64,
     /// Seed of the plate.
     pub seed: u64,
-    /// Radial cracks: the median over the circles.
+    /// Radial cracks that cross the circle on which they are counted.
     pub radial: f64,
     /// Length of radial and of all cracks, m.
     pub lengths: [f64; 2],
@@ -221,6 +124,23 @@ impl StarPlan {
 }
 
 impl StarRun {
+    pub(crate) fn new(thickness: f64, variant: &'static str, impacts: Vec<StarImpact>) -> Self {
+        let mut run = Self {
+            thickness,
+            variant,
+            impacts,
+            law: None,
+        };
+        let points: Vec<(f64, f64)> = run
+            .counts()
+            .iter()
+            .filter(|c| c.mean >= 1.0)
+            .map(|c| (c.speed, c.mean))
+            .collect();
+        run.law = PowerLaw::fit(&points);
+        run
+    }
+
     /// Mean counts, speed after speed.
     #[must_use]
     pub fn counts(&self) -> Vec<Count> {
@@ -251,26 +171,6 @@ fn count(impacts: &[StarImpact]) -> Count {
     }
 }
 
-impl Shot {
-    fn projectile(self) -> Projectile {
-        let radius = 0.5 * WIDTH;
-        let ball = 4.0 / 3.0 * PI * radius.powi(3);
-        let volume = match self {
-            Self::Ball => ball,
-            Self::Bullet(length) => 0.5 * ball + PI * radius.powi(2) * (length - radius),
-        };
-        Projectile {
-            mass: STEEL_DENSITY * volume,
-            radius,
-        }
-    }
-}
-
-/// What hits the plate, unless a variant says otherwise.
-pub(crate) fn projectile() -> Projectile {
-    DEFAULT.shape.projectile()
-}
-
 impl Stars {
     /// Computes all plates, side by side.
     ///
@@ -291,15 +191,15 @@ impl Stars {
         for &thickness in &plan.thicknesses {
             let baked = plate(&plan, thickness, pmma.clone())?;
             let run = |variant: Variant, speeds: &[f64]| {
-                let plate = changed(&baked, variant)?;
-                let projectile = variant.shape.projectile();
+                let plate = variant.applied_to(&baked).map_err(refused)?;
+                let (projectile, config) = (variant.projectile(), variant.config());
                 let blows: Vec<(f64, u64)> = speeds
                     .iter()
                     .flat_map(|&v| (1..=plan.seeds).map(move |seed| (v, seed)))
                     .collect();
                 let hit = |&(speed, seed): &(f64, u64)| {
                     let contact = projectile.contact(&steel, thickness, speed);
-                    let hit = strike(&plate, &plan, thickness, contact, variant, seed);
+                    let hit = strike(&plate, &plan, thickness, contact, &config, seed);
                     counter.count();
                     hit
                 };
@@ -328,50 +228,6 @@ impl Stars {
     }
 }
 
-impl StarRun {
-    pub(crate) fn new(thickness: f64, variant: &'static str, impacts: Vec<StarImpact>) -> Self {
-        let mut run = Self {
-            thickness,
-            variant,
-            impacts,
-            law: None,
-        };
-        let points: Vec<(f64, f64)> = run
-            .counts()
-            .iter()
-            .filter(|c| c.mean >= 1.0)
-            .map(|c| (c.speed, c.mean))
-            .collect();
-        run.law = PowerLaw::fit(&points);
-        run
-    }
-}
-
-pub(crate) fn preset(name: &'static str) -> Result<Material, VerifyError> {
-    Material::preset(name).map_err(|source| VerifyError::Material { name, source })
-}
-
-/// A square plate of this side and thickness, m, clamped on its four sides.
-pub(crate) fn clamped(
-    side: f64,
-    thickness: f64,
-    material: Material,
-    [analysis, fracture]: [f64; 2],
-    modes: usize,
-) -> BakeSpec {
-    let sides = [0, 1].into_iter().flat_map(|axis| {
-        [Region::below(axis, 0.0), Region::above(axis, side)].map(Support::clamped)
-    });
-    let size = |edge, layers| Some(MeshSize { edge, layers });
-    BakeSpec {
-        analysis: size(analysis, 1),
-        fracture: size(fracture, 0),
-        modes,
-        supports: sides.collect(),
-        ..BakeSpec::new(NAME, Shape::plate(side, side, thickness), material)
-    }
-}
-
 /// A plate clamped all round.
 fn plate(plan: &StarPlan, thickness: f64, material: Material) -> Result<Breakable, VerifyError> {
     let edges = [plan.analysis_edge, plan.edge];
@@ -379,52 +235,26 @@ fn plate(plan: &StarPlan, thickness: f64, material: Material) -> Result<Breakabl
     breakable(NAME, &spec)
 }
 
-/// The plate of another strength or with more weak points: neither matters to its modes.
-fn changed(plate: &Breakable, variant: Variant) -> Result<Breakable, VerifyError> {
-    let mut asset = (**plate.asset()).clone();
-    asset.material.strength *= variant.strength;
-    asset.material.weak_point_density *= variant.weak_points;
-    let fields = if variant.scatter {
-        Fields::of_material(&asset.material)
-    } else {
-        Fields::default()
-    };
-    Breakable::new(asset)
-        .and_then(|plate| plate.with_fields(fields))
-        .map_err(|source| VerifyError::Impact { case: NAME, source })
-}
-
-pub(crate) fn breakable(case: &'static str, spec: &BakeSpec) -> Result<Breakable, VerifyError> {
-    let (asset, _) =
-        bake(spec, &mut |_| {}).map_err(|source| VerifyError::Bake { case, source })?;
-    let fields = Fields::of_material(&asset.material);
-    Breakable::new(Arc::new(asset))
-        .and_then(|body| body.with_fields(fields))
-        .map_err(|source| VerifyError::Impact { case, source })
-}
-
 fn strike(
     plate: &Breakable,
     plan: &StarPlan,
     thickness: f64,
-    contact: frangible::Contact,
-    variant: Variant,
+    contact: Contact,
+    config: &FractureConfig,
     seed: u64,
 ) -> Result<StarImpact, VerifyError> {
-    let mut config = FractureConfig::default();
-    config.green_lagrange = variant.green_lagrange;
-    config.branching = variant.branching;
-    if variant.instant {
-        config.timing = CrackTiming::Instant;
-    }
-    let (_, trace) = impact_traced(&plate.body(seed), std::slice::from_ref(&contact), &config)
-        .map_err(|source| VerifyError::Impact { case: NAME, source })?;
+    let (_, trace) = impact_traced(&plate.body(seed), std::slice::from_ref(&contact), config)
+        .map_err(refused)?;
     let pattern = CrackPattern::of(plate.asset(), &trace, SECTION * thickness);
     Ok(StarImpact {
         speed: f64::from(contact.approach_speed),
         seed,
-        radial: pattern.radial_cracks(&RADII, plan.edge),
+        radial: pattern.crossings(RADIUS, plan.edge) as f64,
         lengths: pattern.lengths(RING[0], RING[1]),
         pattern,
     })
+}
+
+fn refused(source: InputError) -> VerifyError {
+    VerifyError::Impact { case: NAME, source }
 }

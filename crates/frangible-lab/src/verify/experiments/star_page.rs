@@ -3,7 +3,8 @@
 use std::fmt::Write;
 
 use super::page::{Figure, apart, per_cent, with_error};
-use super::star::{Count, LENGTH, RADII, RING, SIDE, StarRun, Stars, WIDTH, projectile};
+use super::star::{Count, RADIUS, RING, SIDE, StarRun, Stars};
+use super::variants::{DEFAULT, LENGTH, WIDTH};
 use crate::page::table;
 use crate::plot::{Axis, Chart, Marker, Panel, Panels, Series};
 
@@ -104,7 +105,7 @@ pub(crate) fn text(stars: &Stars, folder: &str) -> String {
         let _ = write!(
             text,
             "\n\n### Star or rings\n\n{}\n\n![Crack patterns]({folder}/star-patterns.png)\n\nCracks of the 1 mm plate, seed 1, on a plane \
-             just above its middle, with the circles on which they are counted. Above: the default model. Below: cracks at once.\n\n\
+             just above its middle, with the circle on which they are counted. Above: the default model. Below: cracks at once.\n\n\
              ### What the count depends on\n\n{}",
             star_or_rings(stars),
             variants(stars)
@@ -131,29 +132,24 @@ fn set_up(stars: &Stars) -> String {
          carry the energy away. When a star has cut the plate under the projectile, the force falls.\n\n\
          *Counting.* The cracks are cut by a plane parallel to the faces, just above the middle: one straight piece per tetrahedron. A crack \
          counts where a piece that runs within 45° of the radius crosses a circle about the impact; places less than one element apart on the \
-         circle are one. The circle has {radii} mm radius. Per speed the mean over the plates. A plate that holds has none.\n\n\
+         circle are one. The circle has {radius:.0} mm radius. Per speed the mean over the plates. A plate that holds has none.\n\n\
          *The experiment* fired steel projectiles 4 mm wide at plates of glass and acrylic glass. Two reports call them cylinders, one of these \
          bullet-shaped; none gives their length or mass, or tells how the plates were held. Bullets are two to four times as long as wide: here \
          it is three times, and the last rows of the last table are of twice, four times, and a ball.",
         side = 1e3 * SIDE,
         width = 1e3 * WIDTH,
         length = 1e3 * LENGTH,
-        mass = 1e3 * projectile().mass,
+        mass = 1e3 * DEFAULT.projectile().mass,
         edge = 1e3 * plan.edge,
         modes = plan.modes,
         seeds = plan.seeds,
-        radii = RADII.map(|r| format!("{:.0}", 1e3 * r)).join(", "),
+        radius = 1e3 * RADIUS,
     )
 }
 
 fn counts(stars: &Stars) -> String {
     let mut head = vec!["speed (m/s)".to_string()];
-    head.extend(
-        stars
-            .runs
-            .iter()
-            .map(|r| format!("{} ", millimetres(r.thickness)).trim().into()),
-    );
+    head.extend(stars.runs.iter().map(|r| millimetres(r.thickness)));
     let by_run: Vec<Vec<Count>> = stars.runs.iter().map(StarRun::counts).collect();
     let rows: Vec<Vec<String>> = stars
         .plan
@@ -237,14 +233,7 @@ fn star_or_rings(stars: &Stars) -> String {
         .and_then(|run| at_variant_speeds(stars, run).radial_share());
     let instant = stars.variants.first().and_then(StarRun::radial_share);
     let verdict = match (share, instant) {
-        (Some(a), Some(b)) => {
-            let like = |s: f64| match s {
-                s if s > 0.6 => "a star more than rings",
-                s if s < 0.4 => "rings more than a star",
-                _ => "neither star nor rings",
-            };
-            format!(" That is {}, against {}.", like(a), like(b))
-        }
+        (Some(default), Some(instant)) => verdict(default, instant),
         _ => String::new(),
     };
     format!(
@@ -257,6 +246,25 @@ fn star_or_rings(stars: &Stars) -> String {
         per_cent(share),
         per_cent(instant),
     )
+}
+
+/// A sentence says what the radial shares of the default model and of cracks at once stand for.
+fn verdict(default: f64, instant: f64) -> String {
+    // What one of them is called, and what both are where they are alike.
+    let like = |share: f64| match share {
+        s if s > 0.6 => ["a star more than rings", "stars more than rings"],
+        s if s < 0.4 => ["rings more than a star", "rings more than stars"],
+        _ => [
+            "neither star nor rings",
+            "something between stars and rings",
+        ],
+    };
+    let ([default, both], [instant, _]) = (like(default), like(instant));
+    if default == instant {
+        format!(" Both are {both}.")
+    } else {
+        format!(" That is {default}, against {instant}.")
+    }
 }
 
 /// The run without the speeds that the variants leave out.
@@ -351,7 +359,7 @@ pub(crate) fn patterns(stars: &Stars) -> Panels {
                 label: format!("{name}, {speed} m/s"),
                 half: 0.5 * SIDE,
                 lines: pieces.iter().map(|p| p.map(|v| v.to_array())).collect(),
-                circles: RADII.into(),
+                circles: vec![RADIUS],
             });
         }
     }

@@ -124,13 +124,6 @@ impl Truth {
             text,
             "![How far the largest tension is off]({folder}/errors.png)\n\n![Time until ready by size]({folder}/time.png)\n"
         );
-        // Measured before they were removed; nothing computes this any more.
-        text.push_str(
-            "Two other ways were measured on an earlier version, decided worse and were removed: modal proxies, the modes of the stored \
-             shape that a piece resembles most, scaled to it, decided right in 77.4 % of blows (ready in 18 ms), and quasi-static pieces, \
-             which answer a push at once without inertia, in 67.9 % (62 ms). In that measurement the automatic choice decided 90.1 % \
-             right; today's numbers are in the table.\n\n",
-        );
     }
 
     fn by_size(&self, text: &mut String) {

@@ -1,0 +1,149 @@
+//! The default model of the star cracks, and the variants that differ from it in one thing each.
+
+use std::f64::consts::PI;
+
+use frangible::internals::{CrackTiming, Fields};
+use frangible::{Breakable, FractureConfig, InputError};
+
+use super::blow::{Projectile, STEEL_DENSITY};
+
+/// Width of the projectile, m.
+pub(crate) const WIDTH: f64 = 4e-3;
+/// Length of the projectile, m. Reports of the experiment call it a cylinder, one a bullet-shaped one, and give its width alone;
+/// bullets are two to four times as long as wide, and both ends of that range are among the variants.
+pub(crate) const LENGTH: f64 = 3.0 * WIDTH;
+
+/// The default model, or how a computation differs from it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Variant {
+    pub(crate) name: &'static str,
+    instant: bool,
+    green_lagrange: bool,
+    strength: f64,
+    weak_points: f64,
+    branching: bool,
+    scatter: bool,
+    /// What hits the plate.
+    shape: Shot,
+}
+
+/// The shape of a projectile.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Shot {
+    /// A ball.
+    Ball,
+    /// A cylinder with half a ball as its nose, of this length, m.
+    Bullet(f64),
+}
+
+/// The default model, which all other variants start from.
+pub(crate) const DEFAULT: Variant = Variant {
+    name: "default",
+    instant: false,
+    green_lagrange: false,
+    strength: 1.0,
+    weak_points: 1.0,
+    branching: true,
+    scatter: true,
+    shape: Shot::Bullet(LENGTH),
+};
+
+/// The other ways in which the measured thickness is computed.
+pub(crate) const VARIANTS: [Variant; 10] = [
+    Variant {
+        name: "cracks at once, no release (`CrackTiming::Instant`)",
+        instant: true,
+        ..DEFAULT
+    },
+    Variant {
+        name: "cracks do not fork (`branching`)",
+        branching: false,
+        ..DEFAULT
+    },
+    Variant {
+        name: "every weak point as strong as the others, R_c",
+        scatter: false,
+        ..DEFAULT
+    },
+    Variant {
+        name: "Green and Lagrange's strain of the linear modes (`green_lagrange`, the paper's)",
+        green_lagrange: true,
+        ..DEFAULT
+    },
+    Variant {
+        name: "strength × 1.3, what a sphere's impact was found to need more than a slow test",
+        strength: 1.3,
+        ..DEFAULT
+    },
+    Variant {
+        name: "strength ÷ 1.5",
+        strength: 1.0 / 1.5,
+        ..DEFAULT
+    },
+    Variant {
+        name: "weak points × 4",
+        weak_points: 4.0,
+        ..DEFAULT
+    },
+    Variant {
+        name: "projectile 8 mm long (0.72 g)",
+        shape: Shot::Bullet(2.0 * WIDTH),
+        ..DEFAULT
+    },
+    Variant {
+        name: "projectile 16 mm long (1.50 g)",
+        shape: Shot::Bullet(4.0 * WIDTH),
+        ..DEFAULT
+    },
+    Variant {
+        name: "a ball (0.26 g)",
+        shape: Shot::Ball,
+        ..DEFAULT
+    },
+];
+
+impl Variant {
+    /// This hits the plate.
+    pub(crate) fn projectile(self) -> Projectile {
+        self.shape.projectile()
+    }
+
+    /// Cracks run with this configuration.
+    pub(crate) fn config(self) -> FractureConfig {
+        let mut config = FractureConfig::default();
+        config.green_lagrange = self.green_lagrange;
+        config.branching = self.branching;
+        if self.instant {
+            config.timing = CrackTiming::Instant;
+        }
+        config
+    }
+
+    /// The plate gets another strength or more weak points; neither matters to its modes.
+    pub(crate) fn applied_to(self, plate: &Breakable) -> Result<Breakable, InputError> {
+        let mut asset = (**plate.asset()).clone();
+        asset.material.strength *= self.strength;
+        asset.material.weak_point_density *= self.weak_points;
+        let fields = if self.scatter {
+            Fields::of_material(&asset.material)
+        } else {
+            Fields::default()
+        };
+        Breakable::new(asset)?.with_fields(fields)
+    }
+}
+
+impl Shot {
+    fn projectile(self) -> Projectile {
+        let radius = 0.5 * WIDTH;
+        let ball = 4.0 / 3.0 * PI * radius.powi(3);
+        let volume = match self {
+            Self::Ball => ball,
+            Self::Bullet(length) => 0.5 * ball + PI * radius.powi(2) * (length - radius),
+        };
+        Projectile {
+            mass: STEEL_DENSITY * volume,
+            radius,
+        }
+    }
+}
