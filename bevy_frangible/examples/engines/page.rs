@@ -36,7 +36,10 @@ fn row(out: &mut String, what: &str, played: &Played, of: impl Fn(&Outcome) -> O
     });
     let more = 100.0 * (avian.0 / rapier.0 - 1.0);
     let more = match more.is_finite() {
-        true => format!("{more:+.1} %"),
+        // Nothing has no sign.
+        true => format!("{more:+.1} %")
+            .replace("-0.0 ", "0.0 ")
+            .replace("+0.0 ", "0.0 "),
         false => "–".into(),
     };
     let (rapier, avian) = (shown(rapier), shown(avian));
