@@ -26,7 +26,6 @@ pub(crate) fn run(file: Option<&Path>, args: &BreakArgs) -> Result<(), Box<dyn E
     notes.extend(sources.iter().flat_map(Opened::notes).cloned());
     let open: Vec<bool> = sources.iter().map(Opened::is_open).collect();
     let names = scene.output.file_names(&scene.name);
-    check_folder(&args.out)?;
     let was_there = make_folder(
         &args.out,
         &names.iter().flatten().cloned().collect::<Vec<_>>(),
@@ -118,19 +117,6 @@ pub(crate) fn run(file: Option<&Path>, args: &BreakArgs) -> Result<(), Box<dyn E
         say(&report.table())?;
     }
     Ok(())
-}
-
-/// Refuses a folder that is a file, or would lie in one.
-fn check_folder(out: &Path) -> Result<(), String> {
-    let file = out.ancestors().find(|part| part.exists() && !part.is_dir());
-    match file {
-        None => Ok(()),
-        Some(file) => Err(format!(
-            "--out is `{}`, but `{}` is no folder; choose another with --out DIR",
-            out.display(),
-            file.display()
-        )),
-    }
 }
 
 /// What to know of a run in which nothing that was thrown met a body.

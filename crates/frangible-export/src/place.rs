@@ -16,6 +16,16 @@ pub fn make_folder(folder: &Path, names: &[String], option: &str) -> Result<bool
             folder.display()
         )
     };
+    let file = folder
+        .ancestors()
+        .find(|part| part.exists() && !part.is_dir());
+    if let Some(file) = file {
+        return Err(format!(
+            "{option} is `{}`, but `{}` is no folder; choose another with {option} DIR",
+            folder.display(),
+            file.display()
+        ));
+    }
     fs::create_dir_all(folder).map_err(wrong)?;
     probe(folder).map_err(wrong)?;
     for name in names {
