@@ -180,8 +180,8 @@ fn badly_framed_of(wanted: impl Fn(&&&str) -> bool) -> Vec<String> {
 #[test]
 fn each_moment_of_scenes_fills_its_picture_but_for_known_ones() {
     let bad = badly_framed_of(|name| !SLOW.contains(name));
-    // 5.8 and 8.0 %: shards slide far. The goal of every list here is to be empty.
-    assert_eq!(bad, ["plate, at rest", "bowl, at rest"]);
+    // 2.7 %: pieces fly far. The goal of every list here is to be empty.
+    assert_eq!(bad, ["rabbit, just after"]);
 }
 
 #[test]
@@ -259,13 +259,13 @@ fn each_moment_of_twenty_scenes_made_at_random_fills_its_picture_but_for_known_o
     let bad: Vec<String> = (1..=20)
         .flat_map(|n| badly_framed(any_scene(n), 20))
         .collect();
-    // 6.6, 5.9, 3.3, 5.5 and 2.7 %.
+    // 6.6, 3.3, 5.5, 4.4 and 7.5 %.
     let known = [
         "any 4, just after",
-        "any 7, at the end",
         "any 11, just after",
         "any 15, at the end",
         "any 16, at the end",
+        "any 18, just after",
     ];
     assert_eq!(bad, known);
 }

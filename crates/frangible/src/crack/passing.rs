@@ -11,19 +11,25 @@
 use glam::Vec3;
 
 use super::branching::{APART, Fork, latest, nearest};
-use super::field::SAME_FACE;
+use super::field::{SAME_FACE, StressField};
 use super::single::{ElementCut, Front};
 use super::system::CrackSystem;
 
 /// Where a crack goes on that has met another one, if that one opens from the other face of the wall. `from`: its last cut.
-pub(super) fn passes(system: &CrackSystem, front: &Front, from: &ElementCut) -> Option<Fork> {
+pub(super) fn passes(
+    system: &CrackSystem,
+    field: &StressField,
+    front: &Front,
+    from: &ElementCut,
+) -> Option<Fork> {
     if !system.config.branching || from.opens == Vec3::ZERO {
         return None;
     }
     let place = system.centroids[front.tet as usize];
     let apart = APART * system.edge;
-    // Several fronts of the crack meet the other one here; one of them goes on.
-    if latest(&system.cracks[front.crack as usize], place).0 < apart {
+    let thickness = field.wall(from.tet as usize)?.thickness();
+    // Fronts of the crack meet the other one all through the wall; one of them goes on.
+    if latest(&system.cracks[front.crack as usize], place).0 < apart.max(thickness) {
         return None;
     }
     let other = system.fractured_by[front.tet as usize];

@@ -72,7 +72,7 @@ fn enter(system: &mut CrackSystem, field: &mut StressField, front: Front) {
     };
     if system.fractured_by[n] != UNCUT {
         system.meet(&front, false);
-        if let Some(beyond) = passes(system, &front, &crossing.from) {
+        if let Some(beyond) = passes(system, field, &front, &crossing.from) {
             start(system, field, front.crack, &crossing.from, &beyond);
         }
         return;

@@ -27,10 +27,16 @@ pub struct Wall {
 }
 
 impl Wall {
+    /// Distance between the two faces, m.
+    #[must_use]
+    pub fn thickness(&self) -> f32 {
+        (self.faces[0] - self.faces[1]).dot(self.normal).abs()
+    }
+
     /// How far the two faces are from a point within, along the normal, m: the second lies behind. Never farther than the wall is thick.
     #[must_use]
     pub fn distances(&self, p: Vec3) -> [f32; 2] {
-        let thickness = (self.faces[0] - self.faces[1]).dot(self.normal).abs();
+        let thickness = self.thickness();
         self.faces
             .map(|face| (face - p).dot(self.normal).clamp(-thickness, thickness))
     }
