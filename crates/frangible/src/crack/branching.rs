@@ -7,8 +7,8 @@
 //! √13 / 1.24 = 2.9 times K_Ic.
 //!
 //! The distance counts from where the crack started or split last. σ is what other cracks have left of the tension; the crack itself
-//! takes nothing of what lies straight ahead of it. In a wall the crack is half a penny on one face until it is as deep as the wall is thick, and
-//! goes through the wall after that (`Run::intensity`). The crack runs on as it did, and a new one leaves it at Yoffe's angle, on the
+//! takes nothing of what lies straight ahead of it. In a wall a crack is half a penny on one face until it is as deep as the wall is thick; after
+//! that it may go through the wall (`Run::intensity`). The crack runs on as it did, and a new one leaves it at Yoffe's angle, on the
 //! side with more tension: ahead of a fast crack the largest tension lies 60° off its path (E. H. Yoffe, Phil. Mag. 42 (1951) 739).
 //! The new crack starts one edge of the mesh away, on a plane through the place of the fork, and grows both ways: back it ends where
 //! it meets the old one. A fork nearer than one edge is finer than the mesh, and is left out.
@@ -152,10 +152,11 @@ struct BentWall {
 }
 
 impl Run {
-    /// The stress intensity at the face under a tension there, Pa, over that of half a penny of unit radius under unit tension: Pa √m. Half a
-    /// penny of radius r: σ √r. As deep as a wall of thickness t it feels the face behind, and bending falls with the depth (J. C. Newman,
-    /// I. S. Raju, Engng Fracture Mech. 15 (1981) 185, for equal half axes). A crack through the wall: σ √(πr), with the part of σ that
-    /// opens it. Longer than the wall is thick, it is whichever of the two is more.
+    /// Stress intensity at the face under a tension σ there, Pa, over that of half a penny of unit radius under unit tension in a solid: Pa √m.
+    ///
+    /// In a solid it is σ √r after a run r. In a wall the half penny feels the face behind it, and the tension of bending falls with the depth
+    /// (J. C. Newman, I. S. Raju, Engng Fracture Mech. 15 (1981) 185, for equal half axes). A crack that is longer than the wall is
+    /// thick may go through it, and then feels the part of σ that opens it along its whole front; the larger of the two counts.
     fn intensity(&self, tension: f64) -> f64 {
         let Some(wall) = &self.wall else {
             return tension * self.length.sqrt();
