@@ -188,6 +188,27 @@ fn walls_are_what_is_thinner_than_its_elements_are_long() {
 }
 
 #[test]
+fn a_rod_is_no_wall() {
+    let walled = |asset: &Asset, counts: &dyn Fn(Vec3) -> bool| {
+        let skin = Skin::of(asset);
+        let mesh = &asset.fracture;
+        let counted = (0..mesh.tets.len()).filter(|&e| counts(mesh.centroid(e)));
+        let counted: Vec<usize> = counted.collect();
+        let walled = counted.iter().filter(|&&e| skin.wall(asset, e).is_some());
+        (walled.count(), counted.len())
+    };
+    let bar = baked(Shape::block([0.1, 0.008, 0.006]), 1, Vec::new());
+    let (walls, all) = walled(&bar, &|_| true);
+    assert!(walls == 0 && all > 50, "{walls} of {all}");
+    let glass = Shape::ready("wine_glass").unwrap();
+    let glass = baked(glass, 1, Vec::new());
+    let (walls, all) = walled(&glass, &|p| (-0.08..-0.03).contains(&p.z));
+    assert!(walls == 0 && all > 500, "{walls} of {all} of a stem");
+    let (walls, all) = walled(&glass, &|p| p.z > 0.01);
+    assert!(walls * 20 > all * 19, "{walls} of {all} of a bowl");
+}
+
+#[test]
 fn held_faces_are_not_free() {
     let shape = || Shape::plate(SIZE[0], SIZE[1], SIZE[2]);
     let clamped = vec![Support::clamped(Region::below(0, 0.03))];

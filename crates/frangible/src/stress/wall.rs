@@ -4,6 +4,9 @@
 //! of the waves. One layer of elements does not resolve it: its σ·n is noise of the short waves, which also leaks into the stress along the
 //! wall (λ tr E), and cracks that follow it lie flat in the wall. Without traction (plane stress) all that is left is the
 //! stretching and bending of the wall.
+//!
+//! A rod has two faces opposite each other in every direction across it, so it is no wall: its stress is that of a solid, with no traction
+//! at the surface.
 
 use glam::Vec3;
 
@@ -39,6 +42,13 @@ impl Wall {
         let thickness = self.thickness();
         self.faces
             .map(|face| (face - p).dot(self.normal).clamp(-thickness, thickness))
+    }
+
+    /// Whether the faces of another wall lie between those of this one.
+    fn is_crossed_by(&self, other: &Self) -> bool {
+        let thickness = self.thickness();
+        let depths = other.faces.map(|p| (self.faces[0] - p).dot(self.normal));
+        depths.iter().all(|d| (0.0..=thickness).contains(d))
     }
 
     /// Direction of the wall's narrow edge, where a face of this unit normal belongs to that and not to one of the wall's two faces.
@@ -87,9 +97,12 @@ impl Walls {
             .map(|e| {
                 let corners = &mesh.elements[e][..4];
                 let length = longest(corners, &mesh.nodes);
-                let others = || corners.iter().flat_map(|&v| &around[v as usize]);
-                faces[e].iter().find_map(|&(normal, place)| {
-                    let opposite = others().flat_map(|&o| &faces[o as usize]).find(|other| {
+                let near = || {
+                    let elements = corners.iter().flat_map(|&v| &around[v as usize]);
+                    elements.flat_map(|&e| &faces[e as usize])
+                };
+                let wall_from = |&(normal, place): &(Vec3, Vec3)| {
+                    let opposite = near().find(|other| {
                         let thickness = (place - other.1).dot(normal);
                         other.0.dot(normal) < OPPOSITE && (0.0..length).contains(&thickness)
                     })?;
@@ -97,7 +110,13 @@ impl Walls {
                         normal,
                         faces: [place, opposite.1],
                     })
-                })
+                };
+                let wall = faces[e].iter().find_map(wall_from)?;
+                // Between the two faces of a rod there are two more, and these lie between those.
+                let edges = near().filter(|face| wall.edge(face.0).is_some());
+                let mut across = edges.filter_map(|face| wall_from(face));
+                let rod = across.any(|other| wall.is_crossed_by(&other));
+                (!rod).then_some(wall)
             })
             .collect();
         let between = |e: usize| {
