@@ -114,7 +114,7 @@ impl Walls {
                 let wall = faces[e].iter().find_map(wall_from)?;
                 // Between the two faces of a rod there are two more, and these lie between those.
                 let edges = near().filter(|face| wall.edge(face.0).is_some());
-                let mut across = edges.filter_map(|face| wall_from(face));
+                let mut across = edges.filter_map(wall_from);
                 let rod = across.any(|other| wall.is_crossed_by(&other));
                 (!rod).then_some(wall)
             })
