@@ -193,7 +193,6 @@ fn each_moment_of_slow_scenes_fills_its_picture_but_for_known_ones() {
         "hammer, at the end",
         "shards, at rest",
         "wine-glass, just after",
-        "wine-glass, at the end",
         "bulb, just after",
     ];
     assert_eq!(bad, known);
