@@ -112,7 +112,7 @@ impl Walls {
                     })
                 };
                 let wall = faces[e].iter().find_map(wall_from)?;
-                // Between the two faces of a rod there are two more, and these lie between those.
+                // Between the two faces of a rod lie two more.
                 let edges = near().filter(|face| wall.edge(face.0).is_some());
                 let mut across = edges.filter_map(wall_from);
                 let rod = across.any(|other| wall.is_crossed_by(&other));
