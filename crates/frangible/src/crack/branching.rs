@@ -93,10 +93,8 @@ pub(super) fn forks(
     if !forks(before) {
         return None;
     }
-    let left = once(system, front, stress, opposite, cut.time);
-    if !forks(tension(&left, cut.direction)) {
-        return None;
-    }
+    let enough = |left: &Symmetric3| forks(tension(left, cut.direction));
+    let left = once(system, front, stress, opposite, cut.time, enough)?;
     let from = system.centroids[crack.elements[front.from as usize].tet as usize];
     let ahead = system.centroids[n] - from;
     let axis = match wall {

@@ -67,9 +67,7 @@ fn enter(system: &mut CrackSystem, field: &mut StressField, front: Front) {
     if system.fractured_by[n] == front.crack {
         return;
     }
-    let Some(mut crossing) = crosses(system, &front) else {
-        return;
-    };
+    let mut crossing = Crossing::of(system, &front);
     if system.fractured_by[n] != UNCUT {
         system.meet(&front, false);
         if let Some(beyond) = passes(system, field, &front, &crossing.from) {
@@ -80,10 +78,16 @@ fn enter(system: &mut CrackSystem, field: &mut StressField, front: Front) {
     if system.rests(front.tet, front.arrival) {
         return;
     }
-    // Where it turns now would make its area little else, and stress is dear to find.
-    if !system.ledger.has(front.lacks) {
-        if !system.ledger.never_has(front.lacks) {
-            system.stalled.push(front);
+    // Stress is dear to find: a front that lacks energy waits without it. Where it would turn makes its area little else.
+    let area = system.edge * system.edge;
+    let lacks = match front.lacks {
+        0.0 if system.ledger.has(system.cost(front.tet, area)) => 0.0,
+        0.0 => system.cost(front.tet, straight_on(system, &front, &crossing)),
+        known => known,
+    };
+    if !system.ledger.has(lacks) {
+        if !system.ledger.never_has(lacks) {
+            system.stalled.push(Front { lacks, ..front });
         }
         return;
     }
@@ -129,37 +133,31 @@ struct Crossing {
     fourth: usize,
 }
 
-/// Whether the crack crosses the tetrahedron ahead: where s has both signs. A steered crack crosses the shared face, a planar one any
-/// part of the tetrahedron `[G12 §5.2.2]`.
-fn crosses(system: &CrackSystem, front: &Front) -> Option<Crossing> {
-    let mesh = &system.asset.fracture;
-    let crack = &system.cracks[front.crack as usize];
-    let from = crack.elements[front.from as usize];
-    let from_nodes = mesh.tets[from.tet as usize];
-    // Values of the shared face are those of the tetrahedron the front comes from.
-    let mut values = [0.0_f32; 4];
-    let (mut below, mut above, mut fourth) = (false, false, 0);
-    for (k, node) in mesh.tets[front.tet as usize].iter().enumerate() {
-        if let Some(i) = from_nodes.iter().position(|v| v == node) {
-            values[k] = from.values[i];
-            below |= values[k] < 0.0;
-            above |= values[k] >= 0.0;
-        } else {
-            fourth = k;
+impl Crossing {
+    fn of(system: &CrackSystem, front: &Front) -> Self {
+        let mesh = &system.asset.fracture;
+        let crack = &system.cracks[front.crack as usize];
+        let from = crack.elements[front.from as usize];
+        let from_nodes = mesh.tets[from.tet as usize];
+        // Values of the shared face are those of the tetrahedron the front comes from.
+        let (mut values, mut fourth) = ([0.0_f32; 4], 0);
+        for (k, node) in mesh.tets[front.tet as usize].iter().enumerate() {
+            match from_nodes.iter().position(|v| v == node) {
+                Some(i) => values[k] = from.values[i],
+                None => fourth = k,
+            }
+        }
+        let x = mesh.corners(front.tet as usize);
+        if system.config.path == CrackPath::Planar {
+            values[fourth] = crack.frame.planar(x[fourth]);
+        }
+        Self {
+            from,
+            x,
+            values,
+            fourth,
         }
     }
-    let x = mesh.corners(front.tet as usize);
-    if system.config.path == CrackPath::Planar {
-        values[fourth] = crack.frame.planar(x[fourth]);
-        below |= values[fourth] < 0.0;
-        above |= values[fourth] >= 0.0;
-    }
-    (below && above).then_some(Crossing {
-        from,
-        x,
-        values,
-        fourth,
-    })
 }
 
 /// Where the crack turns in the tetrahedron ahead: its normal there, and the normal of the face of a wall that it opens from. A steered
@@ -265,6 +263,17 @@ fn steered(
 /// A direction turned into a wall of this normal: no traction acts on the faces, so nothing opens a crack that lies askew.
 fn upright(direction: Vec3, normal: Vec3) -> Vec3 {
     (direction - direction.dot(normal) * normal).normalize_or(direction)
+}
+
+/// Area of a crack in the tetrahedron ahead if it does not turn there, m².
+fn straight_on(system: &CrackSystem, front: &Front, crossing: &Crossing) -> f32 {
+    let Crossing { from, x, values, fourth } = crossing;
+    let mut values = *values;
+    if system.config.path != CrackPath::Planar {
+        let crack = &system.cracks[front.crack as usize];
+        values[*fourth] = extrapolated(crack, x, &values, *fourth, from.direction);
+    }
+    crossing_area(x, &values)
 }
 
 /// s at the fourth node: mean of the extrapolations from the three known ones.

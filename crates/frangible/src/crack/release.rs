@@ -206,27 +206,33 @@ impl Releases {
 }
 
 /// What all cracks but that of a front leave as of `now`, s, of a stress in the tetrahedron that the front enters; `opposite`: the stress
-/// on the other face of a wall. Nothing is remembered.
+/// on the other face of a wall. None where the close ones leave no longer `enough`. Nothing is remembered.
 pub(super) fn once(
     system: &CrackSystem,
     front: &Front,
     stress: Symmetric3,
     opposite: Option<Symmetric3>,
     now: f64,
-) -> Symmetric3 {
+    enough: impl Fn(&Symmetric3) -> bool,
+) -> Option<Symmetric3> {
     let beta = match &opposite {
         Some(_) => bent(system.asset.material.poisson_ratio),
         None => STRETCHED,
     };
     let mut memory = Memory::new(system.centroids[front.tet as usize], beta);
+    let mut left = stress;
     for ring in Ring::ALL {
         memory.update(Sources::of(system), ring, Some(front.crack), now);
+        let mut rest = Released::of_step(stress, opposite);
+        for shadow in memory.shadows() {
+            rest.release(shadow);
+        }
+        left = rest.left();
+        if !enough(&left) {
+            return None;
+        }
     }
-    let mut rest = Released::of_step(stress, opposite);
-    for shadow in memory.shadows() {
-        rest.release(shadow);
-    }
-    rest.left()
+    Some(left)
 }
 
 /// What cracks leave of a suspect's stress, with the widest vectors that this processor has; the same operations in the same order,

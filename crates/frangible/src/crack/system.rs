@@ -137,8 +137,9 @@ impl<'a> CrackSystem<'a> {
             };
             self.join(id, cut, 0.0);
         }
-        for (from, cut) in old.cuts.iter().enumerate() {
-            let mut ahead: Vec<u32> = self.open_faces(cut.tet, id).collect();
+        for from in 0..old.cuts.len() {
+            let cut = self.cracks[id as usize].elements[from];
+            let mut ahead: Vec<u32> = self.ahead(id, &cut).collect();
             if from < old.settled as usize {
                 // What it met before is settled, too.
                 ahead.retain(|&n| self.fractured_by[n as usize] == UNCUT);
@@ -167,18 +168,35 @@ impl<'a> CrackSystem<'a> {
         cracks.filter(|crack| !crack.is_empty()).collect()
     }
 
-    /// Neighbours of a tetrahedron that this crack has not cut, in the same body.
-    fn open_faces(&self, tet: u32, crack: u32) -> impl Iterator<Item = u32> + use<'a> {
-        let neighbours = self.asset.fracture.neighbours[tet as usize];
-        let open = neighbours.map(|n| {
-            n != crate::mesh::NO_NEIGHBOUR
-                && self.fractured_by[n as usize] != crack
-                && self.fractured_by[n as usize] != ELSEWHERE
-        });
-        neighbours
-            .into_iter()
-            .zip(open)
-            .filter_map(|(n, open)| open.then_some(n))
+    /// Neighbours of a tetrahedron that this crack does not cut yet, in the same body, and that it crosses if it goes on there. A steered crack
+    /// crosses the shared face; a planar one any part of the neighbour `[G12 §5.2.2]`. `cut`: its cut of the tetrahedron.
+    fn ahead(&self, crack: u32, cut: &ElementCut) -> impl Iterator<Item = u32> + use<'a> {
+        let mesh = &self.asset.fracture;
+        let nodes = &mesh.tets[cut.tet as usize];
+        let frame = &self.cracks[crack as usize].frame;
+        let crosses = |face: usize, neighbour: u32| {
+            let mut sides = [false; 2];
+            for k in (0..4).filter(|&k| k != face) {
+                sides[usize::from(cut.values[k] < 0.0)] = true;
+            }
+            if self.config.path == CrackPath::Planar && sides != [true; 2] {
+                let nodes_beyond = mesh.tets[neighbour as usize].iter();
+                for &node in nodes_beyond.filter(|node| !nodes.contains(node)) {
+                    let s = frame.planar(mesh.positions[node as usize]);
+                    sides[usize::from(s < 0.0)] = true;
+                }
+            }
+            sides == [true; 2]
+        };
+        let mut ahead = mesh.neighbours[cut.tet as usize].map(Some);
+        for (face, slot) in ahead.iter_mut().enumerate() {
+            *slot = slot.filter(|&n| {
+                n != crate::mesh::NO_NEIGHBOUR
+                    && ![crack, ELSEWHERE].contains(&self.fractured_by[n as usize])
+                    && crosses(face, n)
+            });
+        }
+        ahead.into_iter().flatten()
     }
 
     /// Wakes the old fronts when there can be stress enough to move them.
@@ -261,7 +279,7 @@ impl<'a> CrackSystem<'a> {
         self.join(crack, cut, area);
         let from = self.cracks[crack as usize].elements.len() as u32 - 1;
         let centre = self.centroids[tet];
-        for neighbour in self.open_faces(cut.tet, crack) {
+        for neighbour in self.ahead(crack, &cut) {
             let distance = centre.distance(self.centroids[neighbour as usize]);
             let arrival = match self.config.timing {
                 CrackTiming::TimeResolved { speed, .. } => {
