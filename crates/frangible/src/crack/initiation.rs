@@ -72,7 +72,7 @@ pub(crate) fn crack(
         if !instant {
             advance(system, field, time);
         }
-        if !system.is_over(suspect.tet, time) {
+        if !system.is_over(suspect.tet, time) && system.may_pay(suspect.place) {
             try_start(system, field, suspect, time);
         }
     }
@@ -82,10 +82,10 @@ pub(crate) fn crack(
     peak
 }
 
-/// Weak points that pass their strength in a step, `times` its beginning and end, s, and are not released by then.
+/// Weak points that pass their strength in a step, `times` its beginning and end, s, and are not known to be released.
 fn candidates<'a>(
-    system: &mut CrackSystem,
-    field: &mut StressField,
+    system: &CrackSystem,
+    field: &StressField,
     suspects: &'a Suspects,
     times: [f64; 2],
     peak_so_far: Peak,
@@ -94,7 +94,6 @@ fn candidates<'a>(
     let k = lane(field.step);
     let mut candidates = Vec::new();
     let mut peak = peak_so_far;
-    let mut releases = std::mem::take(&mut system.releases);
     for suspect in suspects.at(k) {
         let e = suspect.tet;
         if system.is_over(e, times[0]) {
@@ -105,7 +104,7 @@ fn candidates<'a>(
         let felt = resistance.as_weakest(suspect.bounds[k], strength);
         let may_start = suspect.bounds[k] > strength
             && pays(system, suspect, k)
-            && releases.may_crack(system, field, suspect, strength, times[0]);
+            && !system.releases.holds(suspect.place, field.step);
         if !may_start && suspect.bounds[k] <= peak.tension && felt <= peak.as_weakest {
             continue;
         }
@@ -127,7 +126,6 @@ fn candidates<'a>(
             });
         }
     }
-    system.releases = releases;
     (candidates, peak)
 }
 
@@ -145,11 +143,12 @@ fn try_start(system: &mut CrackSystem, field: &mut StressField, suspect: &Suspec
     let centre = system.centroids[e as usize];
     let strength = system.resistance.strength(e);
     let mut releases = std::mem::take(&mut system.releases);
-    let stress = releases.released(system, field, suspect, now);
+    let left = (releases.may_crack(system, field, suspect, strength, now))
+        .then(|| releases.released(system, field, suspect, now));
     system.releases = releases;
-    if largest_eigenvalue(&stress) <= strength {
+    let Some(stress) = left.filter(|left| largest_eigenvalue(left) > strength) else {
         return;
-    }
+    };
     let normal = opening_direction(&stress, system.seed, e);
     let frame = CrackFrame::new(
         centre,
@@ -162,7 +161,11 @@ fn try_start(system: &mut CrackSystem, field: &mut StressField, suspect: &Suspec
     let x = asset.fracture.corners(e as usize);
     let values = x.map(|p| frame.planar(p));
     let area = crossing_area(&x, &values);
-    if area <= 0.0 || !system.ledger.has(system.cost(e, area)) {
+    let cost = system.cost(e, area);
+    if !system.ledger.has(cost) {
+        return system.unpaid.note(suspect.place, cost);
+    }
+    if area <= 0.0 {
         return;
     }
     let id = system.cracks.len() as u32;

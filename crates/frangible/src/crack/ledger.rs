@@ -64,6 +64,27 @@ impl Ledger {
     }
 }
 
+/// Energy that cracks at weak points lacked when they were last about to start: before it has come, stress is not asked for again, which is
+/// dear to find. By then the crack may lie another way, which makes its area little else.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Unpaid(Vec<f64>);
+
+impl Unpaid {
+    /// What a crack at a weak point, by its place among them, lacked, J; zero where it was never about to start, or lacked nothing.
+    pub(crate) fn of(&self, place: u32) -> f64 {
+        self.0.get(place as usize).copied().unwrap_or(0.0)
+    }
+
+    /// A crack at a weak point lacks so much, J.
+    pub(crate) fn note(&mut self, place: u32, energy: f64) {
+        let place = place as usize;
+        if place >= self.0.len() {
+            self.0.resize(place + 1, 0.0);
+        }
+        self.0[place] = energy;
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::Ledger;

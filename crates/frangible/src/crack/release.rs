@@ -81,14 +81,14 @@ impl Releases {
         strength: f32,
         now: f64,
     ) -> bool {
-        let (batch, step) = (field.step / STRIDE, lane(field.step));
+        let batch = field.step / STRIDE;
         let place = suspect.place as usize;
         // What it remembers may do already: since then cracks have only released more.
         if let Some(Some(point)) = self.points.get(place) {
             if point.memory.is_dark() && point.held_in != Some(batch) {
                 self.look(field, suspect, strength);
             }
-            if self.holds(place, batch, step) {
+            if self.holds(suspect.place, field.step) {
                 return false;
             }
         }
@@ -99,17 +99,17 @@ impl Releases {
             if point.held_in != Some(batch) || point.changed {
                 self.look(field, suspect, strength);
             }
-            if self.holds(place, batch, step) {
+            if self.holds(suspect.place, field.step) {
                 return false;
             }
         }
         true
     }
 
-    /// Whether it is known that step k of a batch leaves a point below its strength.
-    fn holds(&self, place: usize, batch: usize, k: usize) -> bool {
-        let point = self.points[place].as_ref();
-        point.is_some_and(|p| p.held_in == Some(batch) && p.held >> k & 1 == 1)
+    /// Whether it is known that a step leaves a weak point, by its place among them, below its strength.
+    pub(crate) fn holds(&self, place: u32, step: usize) -> bool {
+        let point = self.points.get(place as usize).and_then(Option::as_ref);
+        point.is_some_and(|p| p.held_in == Some(step / STRIDE) && p.held >> lane(step) & 1 == 1)
     }
 
     /// Finds the steps from the field's on at which what is left of a suspect's stress stays below the strength, Pa, by what its point

@@ -5,7 +5,7 @@ use std::collections::BinaryHeap;
 use glam::Vec3;
 
 use super::extents::Extents;
-use super::ledger::Ledger;
+use super::ledger::{Ledger, Unpaid};
 use super::node_values::NodeValues;
 use super::release::Releases;
 use super::rest::Rest;
@@ -56,6 +56,8 @@ pub(crate) struct CrackSystem<'a> {
     pub(crate) area: f64,
     /// What has released the weak points so far.
     pub(crate) releases: Releases,
+    /// What the ledger did not have for cracks that were about to start.
+    pub(crate) unpaid: Unpaid,
     /// Which pieces have come to rest.
     pub(crate) rest: Rest,
     /// Where each crack is, and how long.
@@ -101,6 +103,7 @@ impl<'a> CrackSystem<'a> {
             fronts: BinaryHeap::new(),
             stalled: Vec::new(),
             releases: Releases::default(),
+            unpaid: Unpaid::default(),
             rest: Rest::default(),
             extents: Extents::new(body.prepared.edge, asset.material.rayleigh_speed()),
             centroids: &body.prepared.centroids,
@@ -236,8 +239,17 @@ impl<'a> CrackSystem<'a> {
 
     /// Whether the ledger has nothing left to speak of: no crack runs any more.
     pub(crate) fn is_spent(&self) -> bool {
-        let least = SPENT * f64::from(self.edge * self.edge) * self.resistance.toughness.least;
-        self.ledger.is_spent_to(least)
+        self.ledger.is_spent_to(self.least_cost())
+    }
+
+    /// Less energy than this, J, pays for nothing to speak of.
+    fn least_cost(&self) -> f64 {
+        SPENT * f64::from(self.edge * self.edge) * self.resistance.toughness.least
+    }
+
+    /// Whether the ledger may have what it takes to start a crack at a weak point, by its place among them.
+    pub(crate) fn may_pay(&self, place: u32) -> bool {
+        self.ledger.has(self.unpaid.of(place).max(self.least_cost()))
     }
 
     /// Fracture energy of this area, m², in a tetrahedron, J.
