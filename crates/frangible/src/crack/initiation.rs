@@ -4,6 +4,9 @@
 //!
 //! Order within a time step: when the stress passes the strength (instant cracks start together), then falling stress,
 //! then element number.
+//!
+//! To know what other cracks have left of the stress is dear. So it is asked last, at the moment when the crack is about to start, and not
+//! while the energy ledger cannot pay for it.
 
 use glam::Vec3;
 

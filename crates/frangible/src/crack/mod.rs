@@ -8,8 +8,9 @@
 //! tension curled into petals. What feeds it is the mean energy through the wall. It may leave a second crack behind (`branching.rs`), and
 //! passes one that opens from the other face of the wall (`passing.rs`).
 //!
-//! *Release* (`release.rs`). A crack unloads what lies beside it. What is released stays released, so a weak point looks at the cracks
-//! only when what it remembers does not hold it already. It then looks at all places of all cracks near by, eight of them side by side.
+//! *Release* (`release.rs`). A crack unloads what lies beside it. A weak point looks at the cracks when one is about to start there that can be
+//! paid. What is released stays released, so it needs no look where what it remembers holds it already. It looks at all places of all cracks
+//! near by, eight of them side by side.
 //! Under a blow whose forces are followed with the body, a small piece that is cut off comes to rest as a whole (`rest.rs`).
 //!
 //! *Old cracks* (`crate::tips`). The front of a crack from an earlier impact follows Griffith: a crack of centimetres is fed from a layer of depth
