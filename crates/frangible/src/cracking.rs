@@ -88,14 +88,29 @@ impl Grown {
 impl<'a> Cracking<'a> {
     /// Runs all cracks, where it is known that nothing happens before time step `first_step`.
     pub(crate) fn run(
+        self,
+        first_step: usize,
+        report: ImpactReport,
+        trace: &mut Option<CrackTrace>,
+    ) -> Cracked<'a> {
+        self.run_after(Looked::default(), first_step, report, trace)
+    }
+
+    /// Whether the body parts. No other stress is looked at than that which may crack it, so the report's stresses and the margin mean nothing.
+    pub(crate) fn parts(self, first_step: usize, report: ImpactReport) -> bool {
+        let cracked = self.run_after(Looked::AT_ENOUGH, first_step, report, &mut None);
+        matches!(cracked, Cracked::Parted(..))
+    }
+
+    fn run_after(
         mut self,
+        mut looked: Looked,
         first_step: usize,
         mut report: ImpactReport,
         trace: &mut Option<CrackTrace>,
     ) -> Cracked<'a> {
         let (body, config) = (self.body, self.config);
         let mut system = CrackSystem::new(body, config, self.budget);
-        let mut looked = Looked::default();
         let mut suspects = Suspects::default();
         // From the beginning of its batch, so that every batch is whole.
         let mut step = first_step / STRIDE * STRIDE;
@@ -141,6 +156,7 @@ impl<'a> Cracking<'a> {
         let (body, config, motion) = (self.body, self.config, &self.motion);
         let mut displacement = DisplacementBatch::new(&body.asset);
         let mut culling = Culling::new(body, config, motion);
+        (culling.passed_over, culling.as_weakest) = (looked.passed_over, looked.as_weakest);
         let mut field = StressField::new(body, config, motion, &self.pressed, &mut displacement);
         let mut roots = [0.0; BATCH];
         let mut weakened = None;
@@ -306,4 +322,14 @@ struct Looked {
     passed_over: f32,
     /// Largest bound of what was passed over, as the weakest point would feel it, Pa.
     as_weakest: f32,
+}
+
+impl Looked {
+    /// Nothing can be larger than what has been met: where the stress itself is not asked for.
+    const AT_ENOUGH: Self = Self {
+        peak: Peak::UNPASSABLE,
+        asked_clusters: false,
+        passed_over: f32::INFINITY,
+        as_weakest: f32::INFINITY,
+    };
 }

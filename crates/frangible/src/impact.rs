@@ -141,18 +141,28 @@ impl Vibration {
     /// Whether the impact would break the body into pieces: [`Self::end`] without making them.
     #[must_use]
     pub fn would_break(self, body: &Body, config: &FractureConfig, first_step: usize) -> bool {
-        let cracked = self.crack(body, config, first_step, &mut None);
-        matches!(cracked, Cracked::Parted(..))
+        let (cracking, report) = self.cracking(body, config);
+        cracking.parts(first_step, report)
     }
 
     /// Second stage: the motion of the modes, and the cracks that it opens from time step `first_step` on.
     fn crack<'a>(
-        mut self,
+        self,
         body: &'a Body,
         config: &'a FractureConfig,
         first_step: usize,
         trace: &mut Option<CrackTrace>,
     ) -> Cracked<'a> {
+        let (cracking, report) = self.cracking(body, config);
+        cracking.run(first_step, report, trace)
+    }
+
+    /// The motion of the modes, ready for its cracks.
+    fn cracking<'a>(
+        mut self,
+        body: &'a Body,
+        config: &'a FractureConfig,
+    ) -> (Cracking<'a>, ImpactReport) {
         let clock = Instant::now();
         let motion = match &mut self.blow {
             Some(blow) => std::mem::take(&mut blow.motion),
@@ -164,7 +174,7 @@ impl Vibration {
             Some(blow) if blow.is_of_strikers() => self.report.approach_energy,
             _ => f64::INFINITY,
         };
-        Cracking {
+        let cracking = Cracking {
             body,
             config,
             pressed: self.pressed,
@@ -172,8 +182,8 @@ impl Vibration {
             budget: motion.peak_strain_energy.min(most),
             motion,
             blow: self.blow,
-        }
-        .run(first_step, self.report, trace)
+        };
+        (cracking, self.report)
     }
 }
 

@@ -35,6 +35,15 @@ pub(crate) struct Peak {
     pub(crate) as_weakest: f32,
 }
 
+impl Peak {
+    /// No stress is larger.
+    pub(crate) const UNPASSABLE: Self = Self {
+        tension: f32::INFINITY,
+        tet: 0,
+        as_weakest: f32::INFINITY,
+    };
+}
+
 /// A weak point whose stress passes its strength at a step.
 struct Candidate<'a> {
     /// When it does so, s.

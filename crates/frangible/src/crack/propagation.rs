@@ -267,7 +267,12 @@ fn upright(direction: Vec3, normal: Vec3) -> Vec3 {
 
 /// Area of a crack in the tetrahedron ahead if it does not turn there, m².
 fn straight_on(system: &CrackSystem, front: &Front, crossing: &Crossing) -> f32 {
-    let Crossing { from, x, values, fourth } = crossing;
+    let Crossing {
+        from,
+        x,
+        values,
+        fourth,
+    } = crossing;
     let mut values = *values;
     if system.config.path != CrackPath::Planar {
         let crack = &system.cracks[front.crack as usize];

@@ -6,7 +6,7 @@ use super::calm::Calm;
 use super::field::StressField;
 use super::initiation::Peak;
 use super::system::CrackSystem;
-use super::weak_stress::WeakStress;
+use super::weak_stress::{Rest, WeakStress};
 use crate::body::Body;
 use crate::stress::{BATCH, ClusterRows, Frame, Lanes, Steps, StressLanes, Wide, limit};
 
@@ -59,12 +59,18 @@ impl Suspects {
         });
     }
 
+    /// Tension at a point up to which neither a crack starts there nor the peak is passed, Pa.
+    #[inline(always)]
+    fn limit(body: &Body, tet: u32, peak: Peak) -> f32 {
+        let strength = body.resistance.strength(tet);
+        let felt = body.resistance.at_strength(peak.as_weakest, strength);
+        strength.min(peak.tension).min(felt)
+    }
+
     /// Steps, of those to look at, at which the stress at a point may pass its strength, or the peak.
     #[inline(always)]
     fn passing(body: &Body, tet: u32, bounds: &Lanes, steps: Steps, peak: Peak) -> Steps {
-        let strength = body.resistance.strength(tet);
-        let felt = body.resistance.at_strength(peak.as_weakest, strength);
-        let limit = strength.min(peak.tension).min(felt);
+        let limit = Self::limit(body, tet, peak);
         let mut passing = 0;
         for (k, &bound) in bounds.iter().enumerate() {
             passing |= Steps::from(bound > limit) << k;
@@ -93,6 +99,15 @@ impl Suspects {
     }
 }
 
+/// The sum of two bounds.
+#[inline(always)]
+fn sum(mut a: Lanes, b: &Lanes) -> Lanes {
+    for k in 0..BATCH {
+        a[k] += b[k];
+    }
+    a
+}
+
 /// The look at all points of some clusters.
 struct Look<'a, 'f, 's, I> {
     suspects: &'a mut Suspects,
@@ -116,6 +131,9 @@ impl<I: Iterator<Item = (u32, Steps)>> pulp::NullaryFnOnce for Look<'_, '_, '_, 
         if laws.is_none() && Calm::serves(self.field) {
             let calm = calm.get_or_insert_with(|| Box::new(Calm::of(body, self.field)));
             calm.seek(self.field);
+        }
+        if laws.is_some() {
+            self.suspects.stress.begin(self.field);
         }
         while let Some((cluster, steps)) = self.survivors.next() {
             let cluster = cluster as usize;
@@ -152,14 +170,15 @@ impl<I> Look<'_, '_, '_, I> {
     fn by_rows(&mut self, cluster: usize, rows: &ClusterRows, steps: Steps) {
         let body = self.body;
         let mut stress = std::mem::take(&mut self.suspects.stress);
-        stress.look(body, self.field, cluster, rows);
+        let limit = |tet| Suspects::limit(body, tet, self.peak);
+        stress.look(body, self.field, cluster, rows, limit);
         let mut seen = stress.points(cluster);
         let mut pressed = seen.pressed().iter();
         let mut next = pressed.next();
         let mut doubts = 0;
         let points = (body.clusters.places(cluster)).zip(body.clusters.tets(cluster));
         for ((i, (place, &tet)), &frame) in (0..).zip(points).zip(&rows.frames) {
-            let point = seen.next(frame);
+            let point = seen.next(self.field, frame);
             if self.is_over(tet) {
                 if next == Some(&i) {
                     next = pressed.next();
@@ -173,18 +192,28 @@ impl<I> Look<'_, '_, '_, I> {
             }
             let exact;
             let mut numbers = point.numbers;
-            if let Some(left_out) = &point.left_out {
-                if self.is_below(frame, numbers, left_out, tet, steps) {
-                    continue;
+            let holds = match &point.left_out {
+                Rest::Nothing => None,
+                Rest::OfAny(left_out) => Some(
+                    self.is_below(frame, numbers, left_out, tet, steps)
+                        || seen
+                            .left_out_of(self.field, &point)
+                            .is_some_and(|own| self.is_below(frame, numbers, &own, tet, steps)),
+                ),
+                // Much is left out: nothing of it is to be taken for the largest tension that was passed over.
+                Rest::Own(left_out) => {
+                    let bounds = sum(frame.tension_bounds(numbers), left_out);
+                    Some(Suspects::passing(body, tet, &bounds, steps, self.peak) == 0)
                 }
-                if let Some(own) = seen.left_out_of(self.field, &point)
-                    && self.is_below(frame, numbers, &own, tet, steps)
-                {
-                    continue;
+            };
+            match holds {
+                None => {}
+                Some(true) => continue,
+                Some(false) => {
+                    doubts += 1;
+                    exact = seen.exact(self.field, rows, &point);
+                    numbers = &exact;
                 }
-                doubts += 1;
-                exact = seen.exact(self.field, rows, &point);
-                numbers = &exact;
             }
             let bounds = frame.tension_bounds(numbers);
             let passing = Suspects::passing(body, tet, &bounds, steps, self.peak);
@@ -217,10 +246,9 @@ impl<I> Look<'_, '_, '_, I> {
         let resistance = &self.body.resistance;
         let strength = resistance.strength(tet);
         let limit = limit(strength);
-        let mut bounds = frame.tension_bounds(numbers);
+        let bounds = sum(frame.tension_bounds(numbers), left_out);
         let mut above = 0;
-        for (k, (bound, left_out)) in bounds.iter_mut().zip(left_out).enumerate() {
-            *bound += left_out;
+        for (k, bound) in bounds.iter().enumerate() {
             above |= Steps::from(*bound > limit) << k;
         }
         if above & steps != 0 {

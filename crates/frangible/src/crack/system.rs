@@ -249,7 +249,8 @@ impl<'a> CrackSystem<'a> {
 
     /// Whether the ledger may have what it takes to start a crack at a weak point, by its place among them.
     pub(crate) fn may_pay(&self, place: u32) -> bool {
-        self.ledger.has(self.unpaid.of(place).max(self.least_cost()))
+        self.ledger
+            .has(self.unpaid.of(place).max(self.least_cost()))
     }
 
     /// Fracture energy of this area, m², in a tetrahedron, J.

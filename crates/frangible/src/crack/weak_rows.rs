@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 use crate::body::Body;
 use crate::config::FractureConfig;
 use crate::stress::{
-    ClusterRows, Coarse, Elasticity, Law, LawRows, OppositeRows, RowPoint, Rows, WeakRows,
+    ClusterRows, Coarse, Elasticity, Law, LawRows, OppositeRows, RowPoint, Rows, Sizes, WeakRows,
     weak_place,
 };
 
@@ -23,6 +23,12 @@ impl ClusterRows {
             Coarse::new(&self.frames, &self.rows, periods)
         };
         self.coarse.get_or_init(make).as_ref()
+    }
+
+    /// How much each mode may stress each point.
+    pub(crate) fn sizes(&self) -> &Sizes {
+        let make = || Sizes::new(&self.frames, &self.rows);
+        self.sizes.get_or_init(make)
     }
 }
 
@@ -79,7 +85,10 @@ impl Body {
     pub fn prepare_for_blows(&self, config: &FractureConfig) {
         if let Some(rows) = self.rows.of(self, config, self.asset.modes.followed()) {
             for cluster in 0..rows.clusters.len() {
-                rows.cluster(self, config, cluster).coarse(self);
+                let own = rows.cluster(self, config, cluster);
+                if own.coarse(self).is_none() {
+                    own.sizes();
+                }
                 rows.opposite(self, config, cluster);
             }
         }
@@ -102,6 +111,7 @@ impl LawRows {
                 frames: points.iter().map(|point| point.frame).collect(),
                 points,
                 coarse: OnceLock::new(),
+                sizes: OnceLock::new(),
                 opposite: OnceLock::new(),
             }
         })

@@ -3,7 +3,7 @@
 use super::field::StressField;
 use crate::body::Body;
 use crate::near_field::Located;
-use crate::stress::{ClusterRows, Frame, Lanes, MOST, STRIDE, of_shape};
+use crate::stress::{BATCH, ClusterRows, Frame, Lanes, MOST, STRIDE, Wide, of_shape};
 
 /// What one motion adds to rows of the body, and room for their stress.
 #[derive(Clone, Debug, Default)]
@@ -14,8 +14,24 @@ pub(crate) struct WeakStress {
     numbers: Vec<Lanes>,
     /// Room for shapes.
     room: Vec<Lanes>,
-    /// What the shapes leave out, Pa, where the numbers are theirs: without the near fields, and with what they add at most to any point.
-    left_out: Option<[Lanes; 2]>,
+    /// What the numbers leave out.
+    left_out: LeftOut,
+    /// The farthest that each mode moves in the batch, m·√kg.
+    farthest: Vec<f32>,
+    /// What the modes add at most to the tension at each point of the cluster, Pa.
+    most: Vec<f32>,
+}
+
+/// What the numbers of a cluster leave out.
+#[derive(Clone, Copy, Debug, Default)]
+enum LeftOut {
+    /// Nothing.
+    #[default]
+    Nothing,
+    /// They are those of a few shapes, which leave out so much, Pa: without the near fields, and with what they add at most to any point.
+    OfShapes([Lanes; 2]),
+    /// All modes and the near fields.
+    Modes,
 }
 
 /// Where more than one of so many points of a cluster is in doubt, all of them are computed.
@@ -52,7 +68,19 @@ pub(super) struct NearPoint {
 }
 
 impl WeakStress {
-    /// Computes the stress at all points of the cluster at place `cluster` of the body's list, or what bounds it.
+    /// Takes note of how far the modes move in the batch of a field.
+    #[inline(always)]
+    pub(super) fn begin(&mut self, field: &StressField) {
+        self.farthest.clear();
+        for q in field.displacement.amplitudes() {
+            let mut sizes = *q;
+            sizes.iter_mut().for_each(|q| *q = q.abs());
+            self.farthest.push(Wide(sizes).largest());
+        }
+    }
+
+    /// Computes the stress at all points of the cluster at place `cluster` of the body's list, or what bounds it. `limit`: tension at the
+    /// point of a weak tetrahedron below which it does not matter, Pa.
     #[inline(always)]
     pub(super) fn look(
         &mut self,
@@ -60,6 +88,7 @@ impl WeakStress {
         field: &StressField,
         cluster: usize,
         rows: &ClusterRows,
+        limit: impl Fn(u32) -> f32,
     ) {
         if self.added.is_empty() {
             self.added.resize(body.clusters.clusters.len(), None);
@@ -76,18 +105,25 @@ impl WeakStress {
         }
         let amplitudes = field.displacement.amplitudes();
         added.wait = added.wait.saturating_sub(1);
-        self.left_out = None;
-        if field.config.culling
-            && added.wait == 0
-            && let Some(coarse) = rows.coarse(body)
-        {
-            let shapes = coarse.add(amplitudes, &mut self.room, numbers);
-            let mut everything = shapes;
-            for near in &added.nearest {
-                near.add_most(field, &mut everything);
+        self.left_out = LeftOut::Nothing;
+        if field.config.culling && added.wait == 0 {
+            if let Some(coarse) = rows.coarse(body) {
+                let shapes = coarse.add(amplitudes, &mut self.room, numbers);
+                let everything = with_near(shapes, &added.nearest, field);
+                self.left_out = LeftOut::OfShapes([shapes, everything]);
+                return;
             }
-            self.left_out = Some([shapes, everything]);
-            return;
+            rows.sizes().bounds(&self.farthest, &mut self.most);
+            let tets = body.clusters.tets(cluster);
+            let mut doubts = 0;
+            for (&tet, &most) in tets.iter().zip(&self.most) {
+                doubts += usize::from(most > limit(tet));
+            }
+            if MANY * doubts <= tets.len() {
+                self.left_out = LeftOut::Modes;
+                return;
+            }
+            added.wait = WAIT;
         }
         rows.rows.add(amplitudes, numbers);
         for near in &added.near {
@@ -100,6 +136,7 @@ impl WeakStress {
         Points {
             stress: self,
             added: self.added[cluster].as_ref(),
+            point: 0,
             row: 0,
             near: 0,
         }
@@ -123,20 +160,39 @@ fn add(sum: &mut Lanes, share: f32, of: &Lanes) {
     }
 }
 
+/// A bound of a tension, and what near fields add to it at most.
+#[inline(always)]
+fn with_near(mut most: Lanes, near: &[NearPoint], field: &StressField) -> Lanes {
+    for near in near {
+        near.add_most(field, &mut most);
+    }
+    most
+}
+
 /// The points of a cluster.
 pub(super) struct Points<'a> {
     stress: &'a WeakStress,
     added: Option<&'a Added>,
+    point: usize,
     row: usize,
     near: usize,
 }
 
+/// What the numbers of a point leave out: what to add at most to its tension, Pa.
+pub(super) enum Rest {
+    Nothing,
+    /// As far as any point of the cluster has it.
+    OfAny(Lanes),
+    /// Much, but that of this point alone.
+    Own(Lanes),
+}
+
 /// What is known of a point.
 pub(super) struct Seen<'a> {
-    /// Its numbers, or of a point that was bounded what its shapes have of them.
+    /// Its numbers, but for what is left out.
     pub(super) numbers: &'a [Lanes],
-    /// What to add at most to the tension of any point of a cluster that was bounded, Pa.
-    pub(super) left_out: Option<Lanes>,
+    /// What the numbers leave out.
+    pub(super) left_out: Rest,
     row: usize,
     near: &'a [NearPoint],
 }
@@ -149,32 +205,35 @@ impl<'a> Points<'a> {
 
     /// The next one.
     #[inline(always)]
-    pub(super) fn next(&mut self, frame: Frame) -> Seen<'a> {
-        let row = self.row;
+    pub(super) fn next(&mut self, field: &StressField, frame: Frame) -> Seen<'a> {
+        let (point, row) = (self.point, self.row);
+        self.point += 1;
         self.row += frame.count();
         let near = self.added.map_or(&[][..], |added| &added.near[self.near..]);
         let count = near.iter().take_while(|near| near.row == row).count();
         self.near += count;
+        let near = &near[..count];
+        let left_out = match self.stress.left_out {
+            LeftOut::Nothing => Rest::Nothing,
+            LeftOut::OfShapes([_, everything]) => Rest::OfAny(everything),
+            LeftOut::Modes => Rest::Own(with_near([self.stress.most[point]; BATCH], near, field)),
+        };
         Seen {
             numbers: &self.stress.numbers[row..self.row],
-            left_out: self.stress.left_out.map(|[_, everything]| everything),
+            left_out,
             row,
-            near: &near[..count],
+            near,
         }
     }
 
     /// What to add at most to the tension of a point that was bounded, Pa; none where that is what all points of its cluster have.
     #[inline(always)]
     pub(super) fn left_out_of(&self, field: &StressField, seen: &Seen) -> Option<Lanes> {
-        let [shapes, _] = self.stress.left_out?;
+        let LeftOut::OfShapes([shapes, _]) = self.stress.left_out else {
+            return None;
+        };
         let bounded = self.added.is_some_and(|added| !added.nearest.is_empty());
-        bounded.then(|| {
-            let mut left_out = shapes;
-            for near in seen.near {
-                near.add_most(field, &mut left_out);
-            }
-            left_out
-        })
+        bounded.then(|| with_near(shapes, seen.near, field))
     }
 
     /// The numbers of a point, the same bits as where they were not bounded.

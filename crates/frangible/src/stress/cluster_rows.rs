@@ -2,7 +2,7 @@
 
 use std::sync::OnceLock;
 
-use super::{Coarse, Frame, RowPoint, Rows};
+use super::{Coarse, Frame, RowPoint, Rows, Sizes};
 
 /// Rows by how the points' laws are chosen: by the body's surface and walls, or not.
 #[derive(Debug, Default)]
@@ -24,6 +24,8 @@ pub(crate) struct ClusterRows {
     pub(crate) frames: Vec<Frame>,
     pub(crate) rows: Rows,
     pub(crate) coarse: OnceLock<Option<Coarse>>,
+    /// What bounds the rows where no few shapes do.
+    pub(crate) sizes: OnceLock<Sizes>,
     pub(crate) opposite: OnceLock<OppositeRows>,
 }
 

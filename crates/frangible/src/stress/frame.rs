@@ -62,6 +62,21 @@ impl Frame {
         if number < shear { 1.0 } else { 2.0 }
     }
 
+    /// No principal stress of these numbers is larger, be it tension or pressure.
+    pub(super) fn size(self, numbers: &[f32]) -> f32 {
+        match (self, numbers) {
+            (Self::Surface(_), &[aa, bb, ab]) => {
+                let half = 0.5 * (aa - bb);
+                (0.5 * (aa + bb)).abs() + (half * half + ab * ab).sqrt()
+            }
+            _ => {
+                let squares = numbers.iter().enumerate();
+                let squares = squares.map(|(number, x)| self.weight(number) * x * x);
+                squares.sum::<f32>().sqrt()
+            }
+        }
+    }
+
     /// The numbers of a tension of 1 along unit `t`.
     pub(crate) fn of_uniaxial(self, t: Vec3) -> [f32; MOST] {
         self.numbers(&Symmetric3::uniaxial(1.0, t))
