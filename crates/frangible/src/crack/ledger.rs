@@ -87,7 +87,7 @@ impl Unpaid {
 
 #[cfg(test)]
 mod tests {
-    use super::Ledger;
+    use super::{Ledger, Unpaid};
 
     #[test]
     fn nothing_is_spent_that_has_not_come_and_nothing_beyond_the_budget() {
@@ -111,5 +111,14 @@ mod tests {
         ledger.spend(1e9);
         assert!(ledger.has(1e9) && !ledger.never_has(1e9) && !ledger.is_spent_to(1e9));
         assert_eq!(ledger.spent(), 1e9);
+    }
+
+    #[test]
+    fn what_a_crack_lacked_is_known_by_its_place_until_it_lacks_something_else() {
+        let mut unpaid = Unpaid::default();
+        unpaid.note(7, 2.0);
+        assert_eq!([0, 7, 8].map(|place| unpaid.of(place)), [0.0, 2.0, 0.0]);
+        unpaid.note(7, 0.5);
+        assert_eq!(unpaid.of(7), 0.5);
     }
 }

@@ -61,7 +61,7 @@ pub(crate) fn advance(system: &mut CrackSystem, field: &mut StressField, now: f6
     }
 }
 
-/// A front enters a tetrahedron that is not at rest, if its crack crosses it, meets nothing there, and can pay for it.
+/// A front enters the tetrahedron ahead, which its crack crosses, if that is not at rest, nothing has cut it, and the crack can pay for it.
 fn enter(system: &mut CrackSystem, field: &mut StressField, front: Front) {
     let n = front.tet as usize;
     if system.fractured_by[n] == front.crack {
