@@ -181,9 +181,9 @@ pub(super) struct Points<'a> {
 /// What the numbers of a point leave out: what to add at most to its tension, Pa.
 pub(super) enum Rest {
     Nothing,
-    /// As far as any point of the cluster has it.
+    /// So much at any point of the cluster.
     OfAny(Lanes),
-    /// Much, but that of this point alone.
+    /// So much at this point, which is a good deal: all that its modes bring.
     Own(Lanes),
 }
 
