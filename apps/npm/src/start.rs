@@ -5,8 +5,6 @@ use wasm_bindgen::prelude::wasm_bindgen;
 /// Called once, when the module is there.
 #[wasm_bindgen(start)]
 pub(crate) fn start() {
-    // Every engine that runs the module has vectors: their instructions are in it, used or not.
-    pulp_wasm_simd_flag::enable_simd128();
     // A panic names itself instead of being an unreachable instruction.
     std::panic::set_hook(Box::new(|panic| {
         wasm_bindgen::throw_str(&panic.to_string())

@@ -13,8 +13,6 @@ fn main() {
     let Some(bridge) = frangible_web::Bridge::begin() else {
         return;
     };
-    // Every browser that runs the program has vectors: their instructions are in it, used or not.
-    pulp_wasm_simd_flag::enable_simd128();
     match bridge.get("bakes").is_truthy() {
         true => baker::start(),
         false => desk::start(bridge),
