@@ -1,5 +1,6 @@
 //! Breakable bodies: what is shared by all bodies of a kind, and what is a body's own.
 
+mod edges;
 mod mesh_index;
 mod patches;
 mod prepared;

@@ -14,7 +14,7 @@ use std::collections::BinaryHeap;
 use crate::asset::{NOBODY, Portion};
 use crate::body::MeshIndex;
 use crate::mesh::DisjointSets;
-use crate::state::Cuts;
+use crate::state::{Cuts, EdgeCut};
 
 /// Nodes that a side looks at before it is asked again whether it has seen least.
 const TURN: u32 = 32;
@@ -50,8 +50,14 @@ pub(super) struct Components {
 
 impl Components {
     /// The components of the whole body, or of a portion of it, which cuts part from the rest.
-    pub(super) fn of(cuts: &Cuts, index: &MeshIndex, portion: Option<&Portion>) -> Self {
-        let mut search = Search::new(cuts, index, portion);
+    /// `cut_by`: [the crack that has cut each edge](MeshIndex::cut_by).
+    pub(super) fn of(
+        cuts: &Cuts,
+        cut_by: &[u32],
+        index: &MeshIndex,
+        portion: Option<&Portion>,
+    ) -> Self {
+        let mut search = Search::new(cuts, cut_by, index, portion);
         search.run();
         search.finish()
     }
@@ -127,7 +133,12 @@ struct Search<'a> {
 
 impl<'a> Search<'a> {
     /// The sides: nodes with a cut edge, joined where an uncut edge joins them, and a node of each part of the mesh.
-    fn new(cuts: &'a Cuts, index: &'a MeshIndex, portion: Option<&'a Portion>) -> Self {
+    fn new(
+        cuts: &'a Cuts,
+        cut_by: &[u32],
+        index: &'a MeshIndex,
+        portion: Option<&'a Portion>,
+    ) -> Self {
         let mut side_of_node = vec![0_u32; index.nodes()];
         let mut starts = cuts.nodes().to_vec();
         // So that their neighbours are read one behind another.
@@ -153,10 +164,9 @@ impl<'a> Search<'a> {
         }
         let mut sets = DisjointSets::new(starts.len());
         for &v in starts.iter().filter(|&&v| cuts.touches(v)) {
-            let lower = index.neighbours.of(v).iter().take_while(|&&w| w < v);
-            for &w in lower {
+            for (w, edge) in index.edges_from(v) {
                 let within = cuts.touches(w) && side_of_node[w as usize] != OUTSIDE;
-                if within && cuts.place(w, v).is_none() {
+                if within && cut_by[edge as usize] == EdgeCut::WHOLE {
                     sets.join(side_of_node[v as usize] - 1, side_of_node[w as usize] - 1);
                 }
             }

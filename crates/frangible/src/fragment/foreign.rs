@@ -24,7 +24,15 @@ pub fn pieces_of_cuts(
     let (asset, prepared) = (&*body.asset, &*body.prepared);
     let mesh = &asset.fracture;
     let cuts = Cuts::at_places(cuts, mesh.positions.len());
-    let labels = of_cuts(cuts, &mesh.tets, &prepared.index, None, crumb_share);
+    let cut_by = prepared.index.cut_by(cuts.list());
+    let labels = of_cuts(
+        cuts,
+        &cut_by,
+        &mesh.tets,
+        &prepared.index,
+        None,
+        crumb_share,
+    );
     let Built {
         mut fragments,
         undrawn,

@@ -1,21 +1,15 @@
 //! Fractured tetrahedra by their nodes and edges, for cracks that end inside them.
 //!
 //! Thousands of fronts end in a break, and each looks at all fractured tetrahedra about four nodes or more. So what most of these looks need
-//! lies close together: which tetrahedron it is and whether this round has been there. The edges of a tetrahedron get numbers when they are
-//! first asked for, so that a cut is found by a number and not by the two ends of the edge.
+//! lies close together: which tetrahedron it is and whether this round has been there.
 
+use crate::body::MeshIndex;
 use crate::crack::{CrackSystem, ELSEWHERE, UNCUT};
-use crate::mesh::{ByNode, EDGES};
-use crate::state::Cuts;
+use crate::mesh::EDGES;
+use crate::state::EdgeCut;
 
 /// All corners of a tetrahedron, a bit each.
 pub(super) const ALL: u8 = 0b1111;
-
-/// In place of a crack: the edge is whole.
-const WHOLE: u32 = u32::MAX;
-
-/// In place of an edge's number: it has none yet.
-const UNNUMBERED: u32 = u32::MAX;
 
 /// What a round of looks knows of a fractured tetrahedron.
 pub(super) struct Look {
@@ -37,37 +31,37 @@ pub(super) struct Fractured {
     starts: Vec<u32>,
     /// Those around each node: four times the place, and which corner the node is.
     around: Vec<u32>,
-    /// Numbers of their edges, all or none of them given.
-    edges: Vec<[u32; 6]>,
-    /// Numbers of edges by the lower end and the higher.
-    numbers: ByNode<u32>,
-    /// The crack that has cut each numbered edge.
-    cut_by: Vec<u32>,
+    /// Numbers of their edges.
+    pub(super) edges: Vec<[u32; 6]>,
+    /// The crack that has cut each edge of the mesh.
+    pub(super) cut_by: Vec<u32>,
 }
 
 impl Fractured {
-    pub(super) fn of(system: &CrackSystem) -> Self {
+    /// `cut_by`: the crack that has cut each edge of the mesh.
+    pub(super) fn of(system: &CrackSystem, index: &MeshIndex, cut_by: Vec<u32>) -> Self {
         let mesh = &system.asset.fracture;
         let nodes = mesh.positions.len();
         let (mut looks, mut corners, mut by) = (Vec::new(), Vec::new(), Vec::new());
+        let mut edges = Vec::new();
         for (tet, &crack) in (0..).zip(&system.fractured_by) {
             if crack != UNCUT && crack != ELSEWHERE {
                 let (round, done) = (0, 0);
                 looks.push(Look { tet, round, done });
                 corners.push(mesh.tets[tet as usize]);
                 by.push(crack);
+                edges.push(index.edges.of_tet(tet));
             }
         }
         let (starts, around) = around(nodes, &corners);
         Self {
-            edges: vec![[UNNUMBERED; 6]; looks.len()],
+            edges,
             looks,
             corners,
             by,
             starts,
             around,
-            numbers: ByNode::new(nodes),
-            cut_by: Vec::new(),
+            cut_by,
         }
     }
 
@@ -83,29 +77,6 @@ impl Fractured {
         (listed / 4, listed % 4)
     }
 
-    /// Numbers of a tetrahedron's edges.
-    pub(super) fn edges(&mut self, place: usize, cuts: &Cuts) -> [u32; 6] {
-        if self.edges[place][0] == UNNUMBERED {
-            let corners = self.corners[place];
-            for (k, [i, j]) in EDGES.into_iter().enumerate() {
-                self.edges[place][k] = self.number(corners[i], corners[j], cuts);
-            }
-        }
-        self.edges[place]
-    }
-
-    /// Number of an edge.
-    fn number(&mut self, a: u32, b: u32, cuts: &Cuts) -> u32 {
-        let (low, high) = (a.min(b), a.max(b));
-        if let Some(number) = self.numbers.find(low, high) {
-            return number;
-        }
-        self.numbers.add(low, high);
-        let cut = cuts.get(low, high);
-        self.cut_by.push(cut.map_or(WHOLE, |cut| cut.crack));
-        self.cut_by.len() as u32 - 1
-    }
-
     /// A crack cuts an edge.
     pub(super) fn cut(&mut self, edge: u32, crack: u32) {
         self.cut_by[edge as usize] = crack;
@@ -117,7 +88,7 @@ impl Fractured {
         let (mut cut, mut others) = (0, 0);
         for (k, edge) in edges.into_iter().enumerate() {
             let by = self.cut_by[edge as usize];
-            cut |= u8::from(by != WHOLE) << k;
+            cut |= u8::from(by != EdgeCut::WHOLE) << k;
             others |= u8::from(by != newcomer) << k;
         }
         (cut, if own { cut } else { cut & others })

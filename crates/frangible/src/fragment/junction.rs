@@ -10,6 +10,7 @@
 use glam::Vec3;
 
 use super::fractured::{ALL, Fractured, crossed, reachable};
+use crate::body::MeshIndex;
 use crate::crack::{CrackSystem, ElementCut};
 use crate::mesh::EDGES;
 use crate::state::Cuts;
@@ -17,12 +18,18 @@ use crate::state::Cuts;
 /// How far from its last tetrahedron a newcomer is continued, in mean edges.
 const REACH: f32 = 2.5;
 
-/// Ends every crack inside what it met, cracks in order, junctions in the order they happened.
-pub(crate) fn end_cracks(system: &CrackSystem, cuts: &mut Cuts) {
+/// Ends every crack inside what it met, cracks in order, junctions in the order they happened. `cut_by`:
+/// [the crack that has cut each edge](MeshIndex::cut_by), which is returned as it is then.
+pub(crate) fn end_cracks(
+    system: &CrackSystem,
+    index: &MeshIndex,
+    cuts: &mut Cuts,
+    cut_by: Vec<u32>,
+) -> Vec<u32> {
     if system.cracks.iter().all(|crack| crack.junctions.is_empty()) {
-        return;
+        return cut_by;
     }
-    let mut fractured = Fractured::of(system);
+    let mut fractured = Fractured::of(system, index, cut_by);
     let mut queue = Queue::new(system.asset.fracture.positions.len());
     for (id, crack) in (0..).zip(&system.cracks) {
         // A front that met several tetrahedra from one of its own ends the same way in all of them.
@@ -36,6 +43,7 @@ pub(crate) fn end_cracks(system: &CrackSystem, cuts: &mut Cuts) {
             }
         }
     }
+    fractured.cut_by
 }
 
 /// A newcomer continued beyond its last tetrahedron, as the plane it has there.
@@ -119,7 +127,7 @@ impl<'a> Continued<'a> {
         if below == 0 || below == ALL {
             return ALL;
         }
-        let edges = fractured.edges(place, cuts);
+        let edges = fractured.edges[place];
         let (cut, blocked) = fractured.cut_and_blocked(edges, self.newcomer, self.own);
         let whole = crossed(below) & !cut;
         if whole == 0 {

@@ -127,10 +127,11 @@ fn cracks_end_where_the_plain_flood_ends_them() {
         let mut body = kind.body(1);
         body.set_state(cracked(&asset, seed)).unwrap();
         let system = CrackSystem::new(&body, &config, 0.0);
-        let mut cuts = Cuts::of_fractured_elements(&system);
+        let index = &body.prepared.index;
+        let (mut cuts, cut_by) = Cuts::of_fractured_elements(&system, index);
         let before = cuts.list().len();
-        let mut expected = Cuts::of_fractured_elements(&system);
-        end_cracks(&system, &mut cuts);
+        let (mut expected, _) = Cuts::of_fractured_elements(&system, index);
+        end_cracks(&system, index, &mut cuts, cut_by);
         end_plainly(&system, &mut expected);
         assert_eq!(cuts.list(), expected.list());
         added += cuts.list().len() - before;

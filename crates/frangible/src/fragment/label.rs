@@ -22,13 +22,14 @@ pub(crate) struct Labels {
 /// Cuts, flood fill, crumbs: components smaller than `crumb_share` of the volume of the body as it was baked join the
 /// neighbour they share most with.
 pub(crate) fn label(system: &CrackSystem, index: &MeshIndex, crumb_share: f64) -> Labels {
-    let mut cuts = Cuts::of_fractured_elements(system);
+    let (mut cuts, mut cut_by) = Cuts::of_fractured_elements(system, index);
     if system.config.ends_inside {
-        end_cracks(system, &mut cuts);
+        cut_by = end_cracks(system, index, &mut cuts, cut_by);
     }
     let portion = system.asset.portion.as_deref();
     of_cuts(
         cuts,
+        &cut_by,
         &system.asset.fracture.tets,
         index,
         portion,
@@ -37,15 +38,16 @@ pub(crate) fn label(system: &CrackSystem, index: &MeshIndex, crumb_share: f64) -
 }
 
 /// The labels that these cuts leave, of the whole body or of a portion of it. Nodes of other pieces have labels from
-/// [`FOREIGN`](crate::asset::FOREIGN) on.
+/// [`FOREIGN`](crate::asset::FOREIGN) on. `cut_by`: [the crack that has cut each edge](MeshIndex::cut_by).
 pub(crate) fn of_cuts(
     cuts: Cuts,
+    cut_by: &[u32],
     tets: &[[u32; 4]],
     index: &MeshIndex,
     portion: Option<&Portion>,
     crumb_share: f64,
 ) -> Labels {
-    let components = Components::of(&cuts, index, portion);
+    let components = Components::of(&cuts, cut_by, index, portion);
     let (number, count) = if components.list.len() == 1 {
         (vec![0], 1)
     } else {

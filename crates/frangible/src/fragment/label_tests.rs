@@ -71,6 +71,11 @@ fn plain(cuts: &Cuts, tets: &[[u32; 4]], volumes: &[u64], crumb_share: f64) -> (
     (root.iter().map(label).collect(), order.len())
 }
 
+fn labelled(cuts: Cuts, tets: &[[u32; 4]], index: &MeshIndex, crumb_share: f64) -> Labels {
+    let cut_by = index.cut_by(cuts.list());
+    of_cuts(cuts, &cut_by, tets, index, None, crumb_share)
+}
+
 /// Number of pieces, and whether crumbs were absorbed, for several sizes of crumbs.
 fn compare(asset: &Asset, cuts: impl Fn() -> Cuts) -> (usize, bool) {
     let index = MeshIndex::new(asset);
@@ -79,9 +84,9 @@ fn compare(asset: &Asset, cuts: impl Fn() -> Cuts) -> (usize, bool) {
     let tets = &asset.fracture.tets;
     let counts = [0.0, 2e-4, 0.01, 0.2].map(|share| {
         let (of_node, count) = plain(&cuts(), tets, &index.volumes, share);
-        let found: Labels = of_cuts(cuts(), tets, &index, None, share);
+        let found: Labels = labelled(cuts(), tets, &index, share);
         for index in &small {
-            let same = of_cuts(cuts(), tets, index, None, share);
+            let same = labelled(cuts(), tets, index, share);
             assert_eq!((&same.of_node, same.count), (&found.of_node, found.count));
         }
         assert_eq!(found.count, count);
@@ -184,7 +189,8 @@ fn a_crack_costs_what_it_crosses_not_what_the_body_has() {
             let asset = block(n);
             let mesh = &asset.fracture;
             let cuts = cut_where(mesh, |low, high| crosses(mesh, &discs, low, high));
-            let components = Components::of(&cuts, &MeshIndex::new(&asset), None);
+            let index = MeshIndex::new(&asset);
+            let components = Components::of(&cuts, &index.cut_by(cuts.list()), &index, None);
             assert_eq!(components.list.len() > 1, parts);
             components.cost()
         });
@@ -200,7 +206,7 @@ fn bears(number: impl Fn(Vec3) -> i32, pushes: &[Vec3]) -> Vec<bool> {
     let index = MeshIndex::new(&asset);
     let of = |v: u32| number(mesh.positions[v as usize]);
     let cuts = cut_where(mesh, |a, b| of(a) != of(b));
-    let labels = of_cuts(cuts, &mesh.tets, &index, None, 0.0);
+    let labels = labelled(cuts, &mesh.tets, &index, 0.0);
     let highest = (0..mesh.positions.len())
         .max_by(|&a, &b| {
             let height = |v: usize| mesh.positions[v].element_sum();
@@ -227,7 +233,7 @@ fn pieces_are_free_that_are_small_and_not_pushed() {
         _ => 2,
     };
     let cuts = cut_where(mesh, |a, b| slice(a) != slice(b));
-    let labels = of_cuts(cuts, &mesh.tets, &index, None, 0.0);
+    let labels = labelled(cuts, &mesh.tets, &index, 0.0);
     assert_eq!(labels.count, 3);
     let volumes = Volumes::of(&labels, &index);
     assert_eq!(volumes.free(&[]), [false, true, true]);
@@ -254,4 +260,27 @@ fn a_push_passes_through_faces_that_it_closes_and_no_others() {
     // A column beside the rest.
     let column = |p: Vec3| i32::from(p.x > 0.65 * top.x);
     assert_eq!(bears(column, &pushes), [false, true, false]);
+}
+
+#[test]
+fn edges_are_numbered_by_their_lower_node_and_then_by_their_higher() {
+    let asset = block(4);
+    let index = MeshIndex::new(&asset);
+    let nodes = 0..asset.fracture.positions.len() as u32;
+    let from = |low: u32| index.edges_from(low).map(move |(high, _)| [low, high]);
+    let edges: Vec<[u32; 2]> = nodes.flat_map(from).collect();
+    assert!(edges.is_sorted() && edges.len() == index.edges.count());
+    for (number, [low, high]) in (0..).zip(&edges) {
+        assert_eq!(index.edge(*low, *high), Some(number));
+    }
+    let mut met = vec![false; edges.len()];
+    for (tet, corners) in (0..).zip(&asset.fracture.tets) {
+        for (number, [i, j]) in index.edges.of_tet(tet).into_iter().zip(EDGES) {
+            let (a, b) = (corners[i], corners[j]);
+            assert_eq!(edges[number as usize], [a.min(b), a.max(b)]);
+            met[number as usize] = true;
+        }
+    }
+    assert!(met.iter().all(|met| *met));
+    assert_eq!(index.edge(0, 0), None);
 }

@@ -19,6 +19,8 @@ pub(crate) struct EdgeCut {
 impl EdgeCut {
     /// In place of a crack: one that the piece does not remember.
     pub(crate) const FORGOTTEN: u32 = u32::MAX - 1;
+    /// In place of a crack: the edge is whole.
+    pub(crate) const WHOLE: u32 = u32::MAX;
 }
 
 /// All cut edges.
@@ -44,6 +46,7 @@ impl Cuts {
     }
 
     /// Cuts the edge when the crack's values have opposite signs at its ends (zero counts as positive). True when they have.
+    #[cfg(test)]
     pub(crate) fn cut(&mut self, a: u32, b: u32, value_a: f32, value_b: f32, crack: u32) -> bool {
         if (value_a < 0.0) == (value_b < 0.0) {
             return false;
