@@ -1,4 +1,5 @@
-//! A scene as a game plays it: coarse steps, breaks on other threads and after the step, frames that begin when they are due.
+//! A scene as a game plays it: coarse steps, colliders of few parts, breaks on other threads and after the step, frames that begin when they
+//! are due.
 
 use std::time::{Duration, Instant};
 
@@ -27,6 +28,8 @@ pub struct GamePlan {
     pub pieces: [f32; 2],
     /// Work of other threads on pieces, s per second of the game ([`PieceConfig::pace`](frangible_rapier::PieceConfig::pace)).
     pub pace: f32,
+    /// Colliders of few parts, those of [`WorldConfig::for_games`], in place of the default's.
+    pub coarse_colliders: bool,
 }
 
 impl Default for GamePlan {
@@ -37,6 +40,7 @@ impl Default for GamePlan {
             delay: 8,
             pieces: [0.1, 0.4],
             pace: 0.5,
+            coarse_colliders: true,
         }
     }
 }
@@ -74,6 +78,12 @@ pub fn play_as_game(
         config.record_held = false;
         config.fracture.samples_per_period = 4.0;
         config.fracture.crumb_share = 5e-3;
+        if plan.coarse_colliders {
+            let coarse = WorldConfig::for_games();
+            config.hull_volume_ratio = coarse.hull_volume_ratio;
+            config.whole_collider = coarse.whole_collider;
+            config.fragment_collider = coarse.fragment_collider;
+        }
         [config.pieces.delay, config.pieces.later] = plan.pieces;
         config.pieces.pace = plan.pace;
         config.breaking = Breaking::AfterStep {

@@ -2,7 +2,7 @@
 //!
 //! Every run gives the same bits, so a frame's time is its least over the runs, and percentiles are over frames.
 
-use frangible_scenes::{GamePlan, GameRun, bake, play_as_game, scene};
+use frangible_scenes::{GamePlan, GameRun, SceneError, bake, play_as_game, scene};
 use serde::Serialize;
 
 use crate::bench::error::BenchError;
@@ -30,7 +30,9 @@ pub struct Findings {
     pub runs: usize,
     /// Frames: the least time of each.
     pub frames: Spread,
-    /// Rapier's steps in them, likewise.
+    /// Frames with the default's colliders, which have more parts.
+    pub fine: Spread,
+    /// Rapier's steps in the frames, likewise.
     pub rigid: Spread,
     /// Frames over 1/60 s.
     pub late: usize,
@@ -57,21 +59,17 @@ pub fn measure(
             (body.resolution, body.modes) = (Some(SIZE[0]), SIZE[1]);
         }
         let baked = bake(&scene, &mut |_| {})?;
-        let mut best = play_as_game(&scene, &baked, plan, &mut |_| {})?;
-        for run in 1..runs {
-            progress(name, share(run as f64 / runs as f64));
-            let other = play_as_game(&scene, &baked, plan, &mut |_| {})?;
-            if print(&other) != print(&best) {
-                let problem = format!("two runs of the scene `{name}` ended differently");
-                return Err(BenchError::NotAsMeant(problem));
-            }
-            for (time, t) in best.frames.iter_mut().zip(other.frames) {
-                *time = time.min(t);
-            }
-            for (best, other) in best.parts.iter_mut().zip(other.parts) {
-                best.rigid = best.rigid.min(other.rigid);
-            }
-        }
+        let best = best_of(name, runs, || {
+            play_as_game(&scene, &baked, plan, &mut |_| {})
+        })?;
+        progress(name, share(0.5));
+        let fine = GamePlan {
+            coarse_colliders: false,
+            ..plan
+        };
+        let fine = best_of(name, runs, || {
+            play_as_game(&scene, &baked, fine, &mut |_| {})
+        })?;
         all.push(Findings {
             scene: name.into(),
             breaks: best.breaks,
@@ -81,10 +79,35 @@ pub fn measure(
             late: best.frames.iter().filter(|t| **t > 1.0 / 60.0).count(),
             fingerprint: format!("{:016x}", print(&best).value()),
             frames: Times::new(best.frames).spread(),
+            fine: Times::new(fine.frames).spread(),
             rigid: Times::new(best.parts.iter().map(|p| p.rigid).collect()).spread(),
         });
     }
     Ok(all)
+}
+
+/// The least time of each frame over equal runs.
+fn best_of(
+    name: &str,
+    runs: usize,
+    mut play: impl FnMut() -> Result<GameRun, SceneError>,
+) -> Result<GameRun, BenchError> {
+    let mut best = play()?;
+    for _ in 1..runs {
+        let other = play()?;
+        if print(&other) != print(&best) {
+            return Err(BenchError::NotAsMeant(
+                "two equal runs ended differently".into(),
+            ));
+        }
+        for (time, t) in best.frames.iter_mut().zip(other.frames) {
+            *time = time.min(t);
+        }
+        for (best, other) in best.parts.iter_mut().zip(other.parts) {
+            best.rigid = best.rigid.min(other.rigid);
+        }
+    }
+    Ok(best)
 }
 
 fn print(run: &GameRun) -> Fingerprint {
