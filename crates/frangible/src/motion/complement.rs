@@ -5,7 +5,7 @@
 //! follow it, `q_i = ξ_i F(t)/λ_i`. Together they are one more shape of the body per contact, `u_s = Σ ξ_i φ_i/λ_i`, with the
 //! amplitude F(t). A brick that lands on its corner shows a fifth of its stress in 80 modes, and all of it with this shape.
 
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 
 use crate::asset::Asset;
 use crate::near_field::{NearField, NearFields};
@@ -40,13 +40,8 @@ impl Residual {
         if amplitudes.iter().all(|&q| q == 0.0) {
             return None;
         }
-        let nodes = asset.analysis.nodes.iter().map(|_| OnceLock::new());
-        let shape = Shape {
-            nodes: nodes.collect(),
-            amplitudes,
-        };
         Some(Self {
-            shape: Arc::new(shape),
+            shape: Arc::new(Shape::new(asset, amplitudes)),
             force,
         })
     }

@@ -5,47 +5,64 @@ use std::sync::OnceLock;
 use super::wide::dot;
 use crate::asset::Asset;
 
-/// Displacements of the analysis nodes per newton, each computed when it is first asked for.
+/// Nodes that are computed together: their rows lie one behind another, and nodes nearby are asked for soon.
+const BLOCK: usize = 16;
+
+/// Displacements of the analysis nodes per newton, computed block by block when one of its nodes is first asked for.
 #[derive(Debug)]
 pub(crate) struct Shape {
     /// What they are once they are known, m/N.
-    pub(crate) nodes: Box<[OnceLock<[f32; 3]>]>,
+    blocks: Box<[OnceLock<[[f32; 3]; BLOCK]>]>,
     /// ξ_i/λ_i of the modes that it is made of, the last of the body, m·√kg/N.
     pub(crate) amplitudes: Vec<f32>,
 }
 
 impl Shape {
+    /// The shape of these amplitudes of the last modes of an asset, m·√kg/N.
+    pub(crate) fn new(asset: &Asset, amplitudes: Vec<f32>) -> Self {
+        let blocks = asset.analysis.nodes.len().div_ceil(BLOCK);
+        Self {
+            blocks: (0..blocks).map(|_| OnceLock::new()).collect(),
+            amplitudes,
+        }
+    }
+
     /// Displacement of a node of the asset that it was made for, m/N.
     #[inline]
     pub(crate) fn at(&self, asset: &Asset, node: usize) -> [f32; 3] {
-        *self.nodes[node].get_or_init(|| {
-            let first = asset.modes.count() - self.amplitudes.len();
-            let rows = [0, 1, 2].map(|axis| &asset.modes.row(3 * node + axis)[first..]);
+        let block = self.blocks[node / BLOCK].get_or_init(|| {
             // With the widest vectors that this processor has; the same operations in the same order, so the same bits.
             pulp::Arch::new().dispatch(Dots {
-                rows,
+                asset,
+                first: node / BLOCK * BLOCK,
                 amplitudes: &self.amplitudes,
             })
-        })
+        });
+        block[node % BLOCK]
     }
 }
 
-/// What a node's rows have of some amplitudes.
+/// What the rows of a block of nodes have of some amplitudes.
 struct Dots<'a> {
-    rows: [&'a [f32]; 3],
+    asset: &'a Asset,
+    first: usize,
     amplitudes: &'a [f32],
 }
 
 impl pulp::NullaryFnOnce for Dots<'_> {
-    type Output = [f32; 3];
+    type Output = [[f32; 3]; BLOCK];
 
     #[inline(always)]
-    fn call(self) -> [f32; 3] {
-        let [x, y, z] = self.rows;
-        [
-            dot(x, self.amplitudes),
-            dot(y, self.amplitudes),
-            dot(z, self.amplitudes),
-        ]
+    fn call(self) -> [[f32; 3]; BLOCK] {
+        let modes = &self.asset.modes;
+        let skipped = modes.count() - self.amplitudes.len();
+        let nodes = self.asset.analysis.nodes.len();
+        let mut block = [[0.0; 3]; BLOCK];
+        for (node, to) in (self.first..nodes).zip(&mut block) {
+            for (axis, to) in to.iter_mut().enumerate() {
+                *to = dot(&modes.row(3 * node + axis)[skipped..], self.amplitudes);
+            }
+        }
+        block
     }
 }
