@@ -96,9 +96,8 @@ fn best_of(
     for _ in 1..runs {
         let other = play()?;
         if print(&other) != print(&best) {
-            return Err(BenchError::NotAsMeant(
-                "two equal runs ended differently".into(),
-            ));
+            let problem = format!("two runs of the scene `{name}` ended differently");
+            return Err(BenchError::NotAsMeant(problem));
         }
         for (time, t) in best.frames.iter_mut().zip(other.frames) {
             *time = time.min(t);
