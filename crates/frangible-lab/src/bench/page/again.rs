@@ -35,9 +35,10 @@ pub fn again(found: &[Findings], plan: GamePlan) -> String {
         "Scenes of the gallery with bodies of about {} tetrahedra and {} modes, in steps of 1/{} s and frames of 1/60 s that begin when \
          they are due. Breaks come after the step: at most {} tetrahedra of work a step, each on other threads for {} steps. Pieces break \
          from {:.1} s after their birth on. They have modes of their own from {:.1} s on, or later where a thread that works {} % of \
-         the time has not come to them. Colliders are those of `WorldConfig::for_games()`: one hull for a piece that fills at least a third of \
-         it, else at most {} parts of {} points; the last columns have the default's, which have more. Pieces below 0.5 % of their body's volume stay with a neighbour, and a blow has 4 samples per \
-         period. Bodies and steps are coarser than in the pictures, so not the same breaks. A frame's time is its least over \
+         the time has not come to them. Colliders are those of `WorldConfig::for_games()`: one hull for a piece that fills at least a third \
+         of it, else at most {} parts of {} points; the last columns have the default's, which have more. Pieces below 0.5 % of their \
+         body's volume stay with a neighbour, and a blow has 4 samples per period. Bodies and steps are coarser than in the pictures, so \
+         not the same breaks. A frame's time is its least over \
          {} equal runs.\n\n",
         grouped(SIZE[0] as f64),
         SIZE[1],
