@@ -32,7 +32,8 @@ const LEAVES_BEGIN_WITHIN: Duration = Duration::from_secs(44 * 60);
 const DENY_VERSION: &str = "0.20.2";
 
 /// What the page in a browser is built from, and what tests it.
-const PAGE: [&str; 19] = [
+const PAGE: [&str; 20] = [
+    ".cargo/config.toml",
     "Cargo.toml",
     "Cargo.lock",
     "apps/npm/test/serve.mjs",
@@ -55,7 +56,8 @@ const PAGE: [&str; 19] = [
 ];
 
 /// What the npm package is built from, and what tests it.
-const NPM: [&str; 13] = [
+const NPM: [&str; 14] = [
+    ".cargo/config.toml",
     "Cargo.toml",
     "Cargo.lock",
     "LICENSE-APACHE",
