@@ -21,7 +21,7 @@ pub(super) struct Look {
 }
 
 /// All fractured tetrahedra, by rising number.
-pub(super) struct Fractured {
+pub(super) struct Fractured<'a> {
     pub(super) looks: Vec<Look>,
     /// Their corners.
     pub(super) corners: Vec<[u32; 4]>,
@@ -34,12 +34,12 @@ pub(super) struct Fractured {
     /// Numbers of their edges.
     pub(super) edges: Vec<[u32; 6]>,
     /// The crack that has cut each edge of the mesh.
-    pub(super) cut_by: Vec<u32>,
+    cut_by: &'a mut [u32],
 }
 
-impl Fractured {
+impl<'a> Fractured<'a> {
     /// `cut_by`: the crack that has cut each edge of the mesh.
-    pub(super) fn of(system: &CrackSystem, index: &MeshIndex, cut_by: Vec<u32>) -> Self {
+    pub(super) fn of(system: &CrackSystem, index: &MeshIndex, cut_by: &'a mut [u32]) -> Self {
         let mesh = &system.asset.fracture;
         let nodes = mesh.positions.len();
         let (mut looks, mut corners, mut by) = (Vec::new(), Vec::new(), Vec::new());

@@ -19,15 +19,15 @@ use crate::state::Cuts;
 const REACH: f32 = 2.5;
 
 /// Ends every crack inside what it met, cracks in order, junctions in the order they happened. `cut_by`:
-/// [the crack that has cut each edge](MeshIndex::cut_by), which is returned as it is then.
+/// [the crack that has cut each edge](MeshIndex::cut_by).
 pub(crate) fn end_cracks(
     system: &CrackSystem,
     index: &MeshIndex,
     cuts: &mut Cuts,
-    cut_by: Vec<u32>,
-) -> Vec<u32> {
+    cut_by: &mut [u32],
+) {
     if system.cracks.iter().all(|crack| crack.junctions.is_empty()) {
-        return cut_by;
+        return;
     }
     let mut fractured = Fractured::of(system, index, cut_by);
     let mut queue = Queue::new(system.asset.fracture.positions.len());
@@ -43,7 +43,6 @@ pub(crate) fn end_cracks(
             }
         }
     }
-    fractured.cut_by
 }
 
 /// A newcomer continued beyond its last tetrahedron, as the plane it has there.

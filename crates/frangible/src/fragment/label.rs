@@ -24,7 +24,7 @@ pub(crate) struct Labels {
 pub(crate) fn label(system: &CrackSystem, index: &MeshIndex, crumb_share: f64) -> Labels {
     let (mut cuts, mut cut_by) = Cuts::of_fractured_elements(system, index);
     if system.config.ends_inside {
-        cut_by = end_cracks(system, index, &mut cuts, cut_by);
+        end_cracks(system, index, &mut cuts, &mut cut_by);
     }
     let portion = system.asset.portion.as_deref();
     of_cuts(
