@@ -27,6 +27,9 @@ pub struct Material {
     pub energy_depth: f64,
     /// Weak points per m³; raising it lets more cracks start.
     pub weak_point_density: f64,
+    /// Branching constant over the toughness K_Ic, 1: a crack that has run a distance r splits in two where the tension σ across it is so
+    /// large that σ √r is this many times K_Ic. Infinite where cracks never split.
+    pub branching_constant: f64,
     /// Amplitude of the roughness of crack surfaces, m.
     pub roughness_amplitude: f64,
     /// Wavelength of the roughness of crack surfaces, m.
@@ -56,6 +59,8 @@ impl Material {
         positive("energy depth", self.energy_depth, "m")?;
         positive("roughness wavelength", self.roughness_wavelength, "m")?;
         positive("weak point density", self.weak_point_density, "1/m³")?;
+        let (must, branching) = ("above zero, and may be infinite", self.branching_constant);
+        OutOfRange::unless(branching > 0.0, "branching constant", branching, must)?;
         for (what, value) in [
             ("stiffness damping", self.stiffness_damping),
             ("mass damping", self.mass_damping),

@@ -25,12 +25,12 @@ pub struct MaterialEdit {
     /// Its name, if another.
     pub name: Option<String>,
     /// The numbers of [`MaterialEdit::KEYS`], where another.
-    pub numbers: [Option<f64>; 14],
+    pub numbers: [Option<f64>; 15],
 }
 
 impl MaterialEdit {
     /// Names of the numbers: the fields of [`Material`] in their order.
-    pub const KEYS: [&'static str; 14] = [
+    pub const KEYS: [&'static str; 15] = [
         "youngs_modulus",
         "poisson_ratio",
         "density",
@@ -40,6 +40,7 @@ impl MaterialEdit {
         "fracture_energy",
         "energy_depth",
         "weak_point_density",
+        "branching_constant",
         "roughness_amplitude",
         "roughness_wavelength",
         "crushing_pressure",
@@ -82,6 +83,7 @@ impl MaterialEdit {
             _,
             _,
             _,
+            _,
         ] = self.numbers;
         m.youngs_modulus = youngs_modulus.unwrap_or(m.youngs_modulus);
         if let Some(fracture_energy) = fracture_energy {
@@ -100,6 +102,7 @@ impl MaterialEdit {
             &mut m.fracture_energy,
             &mut m.energy_depth,
             &mut m.weak_point_density,
+            &mut m.branching_constant,
             &mut m.roughness_amplitude,
             &mut m.roughness_wavelength,
             &mut m.crushing_pressure,

@@ -50,6 +50,19 @@ fn tougher_glass_forks_less() {
 }
 
 #[test]
+fn a_branching_constant_stands_for_as_many_times_the_toughness() {
+    let config = FractureConfig::default();
+    let [glass, twice, never] = [1.0, 2.0, f64::INFINITY].map(|factor| {
+        let mut asset = Asset::clone(pane());
+        asset.material.branching_constant *= factor;
+        let asset = Arc::new(asset);
+        mean(6, |seed| struck(&asset, 12.0, seed, &config).forks as f64)
+    });
+    println!("forks at 12 m/s, branching constant × 1, 2, ∞: {glass:.1} {twice:.1} {never:.1}");
+    assert!(twice < 0.7 * glass && never == 0.0);
+}
+
+#[test]
 fn cracks_that_fork_spend_no_more_than_the_body_holds() {
     for seed in 1..=4 {
         let report = struck(pane(), 20.0, seed, &FractureConfig::default());

@@ -7,9 +7,11 @@ const WIDTH: usize = 110;
 
 fn main() {
     println!(
-        "name                  E, GPa     ν   density  strength     K_Ic      G_c  crushed at"
+        "name                  E, GPa     ν   density  strength     K_Ic      G_c  crushed at  splits at"
     );
-    println!("                                      kg/m³       MPa    MPa√m     J/m²         MPa");
+    println!(
+        "                                      kg/m³       MPa    MPa√m     J/m²         MPa  σ√r/K_Ic"
+    );
     for preset in Material::presets() {
         let m = preset.material();
         let toughness = match preset.fracture_toughness {
@@ -21,13 +23,14 @@ fn main() {
             known => format!("{:.0}", 1e-6 * known),
         };
         println!(
-            "{:20} {:7.3} {:5.2} {:9.0} {:9.2} {toughness:>8} {:8.1} {crushed:>11}",
+            "{:20} {:7.3} {:5.2} {:9.0} {:9.2} {toughness:>8} {:8.1} {crushed:>11} {:10.2}",
             m.name,
             1e-9 * m.youngs_modulus,
             m.poisson_ratio,
             m.density,
             1e-6 * m.strength,
-            m.fracture_energy
+            m.fracture_energy,
+            m.branching_constant
         );
     }
     for preset in Material::presets() {

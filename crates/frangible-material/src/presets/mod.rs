@@ -24,6 +24,10 @@
 //!   break, as they do under impact. γ is a length of the material's flaws: [`Material::with_strength`] derives it again,
 //!   [`Material::with_fracture_energy`] keeps it and lets the strength follow.
 //! - **weak points** per m³: one per grain or flaw that matters, spaced about 3 mm in glass, 5 mm in brick, 10 mm in concrete.
+//! - **branching constant**: that of glass for all but acrylic. In glass the radius r at which the surface turns rough, where the crack is about
+//!   to split, is 13 times the depth of the flaw from which the crack came, whatever the strength (J. J. Mecholsky, R. W. Rice, S. W.
+//!   Freiman, J. Am. Ceram. Soc. 57 (1974) 440, read in its abstract). A flaw of depth a, half a penny at the surface, breaks at
+//!   1.24 σ √a = K_Ic; so σ √r is √13 / 1.24 = 2.9 times K_Ic.
 //! - **roughness**: grain-like amplitude and wavelength; glass breaks smooth and conchoidal, concrete follows its aggregate.
 //! - **crushing pressure**: a hardness, as the pressure under a contact is what crushes. Where a text gives none at the rate of a blow, and where
 //!   strikers are meant to stay whole, it is infinite.
@@ -81,6 +85,7 @@ struct Numbers {
     mass_damping: f64,
     energy_depth: f64,
     weak_point_density: f64,
+    branching_constant: f64,
     roughness: [f64; 2],
     crushing_pressure: f64,
     restitution: f64,
@@ -144,6 +149,7 @@ impl Preset {
             fracture_energy: n.fracture_energy,
             energy_depth: n.energy_depth,
             weak_point_density: n.weak_point_density,
+            branching_constant: n.branching_constant,
             roughness_amplitude: n.roughness[0],
             roughness_wavelength: n.roughness[1],
             crushing_pressure: n.crushing_pressure,

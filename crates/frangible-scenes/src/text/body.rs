@@ -177,6 +177,7 @@ fn edit(table: MaterialTable) -> MaterialEdit {
             table.fracture_energy,
             table.energy_depth,
             table.weak_point_density,
+            table.branching_constant,
             table.roughness_amplitude,
             table.roughness_wavelength,
             table.crushing_pressure,

@@ -149,6 +149,7 @@ pub(super) struct MaterialTable {
     pub(super) fracture_energy: Option<f64>,
     pub(super) energy_depth: Option<f64>,
     pub(super) weak_point_density: Option<f64>,
+    pub(super) branching_constant: Option<f64>,
     pub(super) roughness_amplitude: Option<f64>,
     pub(super) roughness_wavelength: Option<f64>,
     pub(super) crushing_pressure: Option<f64>,

@@ -79,6 +79,7 @@ pub(super) fn material_text(material: &Material) -> String {
             ("fracture_energy", m.fracture_energy),
             ("energy_depth", m.energy_depth),
             ("weak_point_density", m.weak_point_density),
+            ("branching_constant", m.branching_constant),
             ("roughness_amplitude", m.roughness_amplitude),
             ("roughness_wavelength", m.roughness_wavelength),
             ("crushing_pressure", m.crushing_pressure),

@@ -1,10 +1,7 @@
 //! Cracks fork (beyond the paper).
 //!
-//! A crack that has run a distance r under a tension σ across it splits in two when σ √r reaches a constant of the material. The rule is
-//! measured: in glass σ √r is the same whatever the strength, and the radius at which the surface turns rough, where the crack is about
-//! to split, is 13 times the depth of the flaw from which the crack came (J. J. Mecholsky, R. W. Rice, S. W. Freiman, J. Am. Ceram. Soc. 57
-//! (1974) 440, read in its abstract). A flaw of depth a, half a penny at the surface, breaks at 1.24 σ √a = K_Ic; so the constant is
-//! √13 / 1.24 = 2.9 times K_Ic.
+//! A crack that has run a distance r under a tension σ across it splits in two when σ √r reaches a constant of the material
+//! ([`Material::branching_constant`]). The rule is measured, on glass: the materials' presets say where.
 //!
 //! The distance counts from where the crack started or split last. σ is what other cracks have left of the tension; the crack itself
 //! takes nothing of what lies straight ahead of it. In a wall a crack is half a penny on one face until it is as deep as the wall is thick; after
@@ -25,9 +22,6 @@ use crate::config::{CrackPath, CrackTiming};
 use crate::material::Material;
 use crate::state::{crossing_area, crossing_polygon};
 use crate::stress::Symmetric3;
-
-/// Branching constant σ √r over K_Ic: √13 / 1.24.
-const BRANCHING: f64 = 2.908;
 
 /// Angle between the two cracks (Yoffe 1951).
 const ANGLE: f32 = std::f32::consts::FRAC_PI_3;
@@ -131,7 +125,7 @@ pub(super) fn latest(crack: &Crack, place: Vec3) -> (f32, f64) {
 
 /// The branching constant where the fracture energy is this, J/m²: Pa √m.
 fn constant(fracture_energy: f64, material: &Material) -> f64 {
-    BRANCHING * (fracture_energy * material.contact_modulus()).sqrt()
+    material.branching_constant * (fracture_energy * material.contact_modulus()).sqrt()
 }
 
 /// How far a crack has run, and in what.

@@ -125,7 +125,8 @@ fn set_up(stars: &Stars) -> String {
         "A square plate of acrylic glass, {side:.0} × {side:.0} mm, clamped on its four sides, is hit in its middle by a steel \
          cylinder with a round nose, {width} mm wide and {length} mm long ({mass:.2} g). Material: the preset `pmma`; model: `FractureConfig::default()`. Mesh: {edge} mm elements, {modes} modes. \
          Plates per speed: {seeds}, which differ in their weak points.\n\n\
-         *Nothing was fitted to the experiment.* What goes in are published properties of the material and two numbers of the model that no \
+         *Nothing was fitted to the experiment.* What goes in are published properties of the material, some by way of a formula (where a crack forks, and \
+         what pressure the contact withstands: the source text of the preset has both), and two numbers of the model that no \
          handbook gives: the density of weak points and the depth γ that feeds a crack. What comes out, the number \
          of cracks and its law, is a prediction.\n\n\
          *The blow* is integrated against the plate: projectile, Hertz' spring, modes, and the near field of the contact, whose wall oscillators \

@@ -22,6 +22,8 @@ pub(crate) struct Variant {
     strength: f64,
     weak_points: f64,
     branching: bool,
+    /// Branching constant over the toughness, where it is not the material's.
+    branching_constant: Option<f64>,
     scatter: bool,
     /// What hits the plate.
     shape: Shot,
@@ -44,20 +46,26 @@ pub(crate) const DEFAULT: Variant = Variant {
     strength: 1.0,
     weak_points: 1.0,
     branching: true,
+    branching_constant: None,
     scatter: true,
     shape: Shot::Bullet(LENGTH),
 };
 
 /// The other ways in which the measured thickness is computed.
-pub(crate) const VARIANTS: [Variant; 10] = [
+pub(crate) const VARIANTS: [Variant; 11] = [
     Variant {
         name: "cracks at once, no release (`CrackTiming::Instant`)",
         instant: true,
         ..DEFAULT
     },
     Variant {
-        name: "cracks do not fork (`branching`)",
+        name: "cracks neither fork nor pass those that open from the other face (`branching`)",
         branching: false,
+        ..DEFAULT
+    },
+    Variant {
+        name: "cracks fork as readily as in glass (`branching_constant` 2.9)",
+        branching_constant: Some(2.908),
         ..DEFAULT
     },
     Variant {
@@ -119,11 +127,14 @@ impl Variant {
         config
     }
 
-    /// The plate gets another strength or more weak points; neither matters to its modes.
+    /// The plate gets another strength or branching constant, or more weak points; none of them matters to its modes.
     pub(crate) fn applied_to(self, plate: &Breakable) -> Result<Breakable, InputError> {
         let mut asset = (**plate.asset()).clone();
         asset.material.strength *= self.strength;
         asset.material.weak_point_density *= self.weak_points;
+        if let Some(constant) = self.branching_constant {
+            asset.material.branching_constant = constant;
+        }
         let fields = if self.scatter {
             Fields::of_material(&asset.material)
         } else {

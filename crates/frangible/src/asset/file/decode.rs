@@ -71,7 +71,7 @@ impl Asset {
     }
 }
 
-fn material(name: &str, numbers: [f64; 14]) -> Material {
+fn material(name: &str, numbers: [f64; 15]) -> Material {
     let [
         youngs_modulus,
         poisson_ratio,
@@ -82,6 +82,7 @@ fn material(name: &str, numbers: [f64; 14]) -> Material {
         fracture_energy,
         energy_depth,
         weak_point_density,
+        branching_constant,
         roughness_amplitude,
         roughness_wavelength,
         crushing_pressure,
@@ -99,6 +100,7 @@ fn material(name: &str, numbers: [f64; 14]) -> Material {
         fracture_energy,
         energy_depth,
         weak_point_density,
+        branching_constant,
         roughness_amplitude,
         roughness_wavelength,
         crushing_pressure,

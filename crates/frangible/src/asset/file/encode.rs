@@ -82,7 +82,7 @@ impl Asset {
     }
 }
 
-fn material_numbers(m: &Material) -> [f64; 14] {
+fn material_numbers(m: &Material) -> [f64; 15] {
     [
         m.youngs_modulus,
         m.poisson_ratio,
@@ -93,6 +93,7 @@ fn material_numbers(m: &Material) -> [f64; 14] {
         m.fracture_energy,
         m.energy_depth,
         m.weak_point_density,
+        m.branching_constant,
         m.roughness_amplitude,
         m.roughness_wavelength,
         m.crushing_pressure,
