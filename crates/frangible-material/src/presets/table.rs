@@ -82,7 +82,7 @@ const fn scattered(preset: Preset, weibull_modulus: f64, specimen: f64) -> Prese
 }
 
 /// A preset with a branching constant of its own, over its toughness.
-const fn branching(branching_constant: f64, preset: Preset) -> Preset {
+const fn branching(preset: Preset, branching_constant: f64) -> Preset {
     let numbers = Numbers {
         branching_constant,
         ..preset.numbers
@@ -310,7 +310,7 @@ const CHOCOLATE: Preset = real(Published {
     friction: 0.5,
 });
 
-const PMMA: Preset = branching(8.96, real(Published {
+const PMMA: Preset = real(Published {
     name: "pmma",
     summary: "acrylic glass (PMMA), cast sheet",
     source: "E 3.2 GPa, ν 0.374, tensile strength 59.8 MPa, K_Ic 1.207 MPa√m (ASTM E399): Seleš et al., Procedia Structural Integrity 42 (2022) 1721, Table 1; \
@@ -335,7 +335,7 @@ const PMMA: Preset = branching(8.96, real(Published {
     crushing_pressure: 0.59e9,
     restitution: 0.5,
     friction: 0.4,
-}));
+});
 
 pub(super) const STEEL: Preset = real(Published {
     name: "steel",
@@ -437,7 +437,7 @@ pub(super) static PRESETS: [Preset; 20] = [
     ICE,
     SUGAR,
     CHOCOLATE,
-    scattered(PMMA, 13.0, 3.2e-6),
+    scattered(branching(PMMA, 8.96), 13.0, 3.2e-6),
     STEEL,
     RUBBER,
     WOOD,

@@ -19,6 +19,8 @@ pub(crate) const SIDE: f64 = 0.1;
 pub(crate) const MEASURED_THICKNESS: f64 = 1e-3;
 /// Radius of the circle on which cracks are counted, m: ten thicknesses of the plate whose counts are published.
 pub(crate) const RADIUS: f64 = 0.01;
+/// Radii of the circles that are compared with each other, m: from among the rings of a hard blow to where arms end.
+pub(crate) const CIRCLES: [f64; 4] = [RADIUS, 0.02, 0.03, 0.04];
 /// Lengths are summed between these distances from the middle, m: outside the crushed zone, off the clamped edge.
 pub(crate) const RING: [f64; 2] = [0.005, 0.045];
 /// Height of the plane on which cracks are looked at, in thicknesses above the middle: no layer of nodes lies there.
@@ -146,6 +148,17 @@ impl StarRun {
     pub fn counts(&self) -> Vec<Count> {
         let at_one_speed = |a: &StarImpact, b: &StarImpact| a.speed == b.speed;
         self.impacts.chunk_by(at_one_speed).map(count).collect()
+    }
+
+    /// The same plates, their radial cracks counted on a circle of this radius, m; `gap` as for [`CrackPattern::crossings`].
+    #[must_use]
+    pub(crate) fn counted_at(&self, radius: f64, gap: f64) -> Self {
+        let again = |impact: &StarImpact| StarImpact {
+            radial: impact.pattern.crossings(radius, gap) as f64,
+            ..impact.clone()
+        };
+        let impacts = self.impacts.iter().map(again).collect();
+        Self::new(self.thickness, self.variant, impacts)
     }
 
     /// Share of the cracks' length that runs within 45° of the radius, of all plates together; `None` without cracks.

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use super::page::{Figure, apart, per_cent, with_error};
-use super::star::{Count, RADIUS, RING, SIDE, StarRun, Stars};
+use super::star::{CIRCLES, Count, RADIUS, RING, SIDE, StarRun, Stars};
 use super::variants::{DEFAULT, LENGTH, WIDTH};
 use crate::page::table;
 use crate::plot::{Axis, Chart, Marker, Panel, Panels, Series};
@@ -101,6 +101,7 @@ pub(crate) fn text(stars: &Stars, folder: &str) -> String {
          what was measured on 1 mm plates.\n\n"
     );
     text += &outcome(stars);
+    text += circles(stars).trim_end();
     if !stars.variants.is_empty() {
         let _ = write!(
             text,
@@ -220,6 +221,35 @@ fn outcome(stars: &Stars) -> String {
         let _ = write!(text, "\nRadial cracks appear: {}.", first.join(", "));
     }
     text
+}
+
+/// What other circles would count.
+fn circles(stars: &Stars) -> String {
+    let Some(run) = stars.measured() else {
+        return String::new();
+    };
+    let mut head = vec!["1 mm plate, circle of".to_string()];
+    head.extend(stars.plan.speeds.iter().map(|v| format!("{v} m/s")));
+    head.push("p".into());
+    head.extend(MEANS.map(|(speed, cracks)| format!("{speed:.1} m/s, to {cracks}")));
+    let row = |radius: f64| {
+        let run = run.counted_at(radius, stars.plan.edge);
+        let counts = run.counts();
+        let mut cells = vec![millimetres(radius)];
+        cells.extend(counts.iter().map(|c| format!("{:.1}", c.mean)));
+        let law = |l: super::PowerLaw| with_error(l.exponent, l.exponent_error);
+        cells.push(run.law.map_or_else(|| "–".into(), law));
+        cells.extend(MEANS.map(|(speed, cracks)| {
+            let count = interpolated(&counts, speed);
+            format!("{:.2} ± {:.2}", count.mean / cracks, count.error / cracks)
+        }));
+        cells
+    };
+    format!(
+        "\n\n### Where they are counted\n\nThe reports of the experiment do not say at what distance its cracks were counted. The first circle lies among the rings and the short \
+         cracks of a hard blow, the last ones beyond the ends of some arms. The last two columns are how many times as many there are as were measured.\n\n{}",
+        table(&head, &CIRCLES.map(row))
+    )
 }
 
 fn star_or_rings(stars: &Stars) -> String {
