@@ -30,6 +30,8 @@ pub struct GamePlan {
     pub pace: f32,
     /// Colliders of few parts, those of [`WorldConfig::for_games`], in place of the default's.
     pub coarse_colliders: bool,
+    /// Share of its body's volume below which a piece stays with a neighbour ([`FractureConfig::crumb_share`](frangible::FractureConfig::crumb_share)).
+    pub crumb_share: f64,
 }
 
 impl Default for GamePlan {
@@ -41,6 +43,7 @@ impl Default for GamePlan {
             pieces: [0.1, 0.4],
             pace: 0.5,
             coarse_colliders: true,
+            crumb_share: 5e-3,
         }
     }
 }
@@ -77,7 +80,7 @@ pub fn play_as_game(
         config.dt = 1.0 / (FRAME_RATE * steps as f32);
         config.record_held = false;
         config.fracture.samples_per_period = 4.0;
-        config.fracture.crumb_share = 5e-3;
+        config.fracture.crumb_share = plan.crumb_share;
         if plan.coarse_colliders {
             let coarse = WorldConfig::for_games();
             config.hull_volume_ratio = coarse.hull_volume_ratio;

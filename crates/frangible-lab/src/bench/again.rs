@@ -2,6 +2,7 @@
 //!
 //! Every run gives the same bits, so a frame's time is its least over the runs, and percentiles are over frames.
 
+use frangible::FractureConfig;
 use frangible_scenes::{GamePlan, GameRun, SceneError, bake, play_as_game, scene};
 use serde::Serialize;
 
@@ -14,6 +15,31 @@ pub const SCENES: [&str; 4] = ["shards", "five-blows", "wall", "crockery"];
 
 /// Fracture tetrahedra and modes of each body, as of a game's.
 pub const SIZE: [usize; 2] = [8000, 40];
+
+/// The scene that leaves the heap.
+pub const HEAP: &str = "hammer";
+
+/// What was found.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Found {
+    /// Of the scenes whose pieces break again.
+    pub scenes: Vec<Findings>,
+    /// Of the heap.
+    pub heap: Heap,
+}
+
+/// What was found of a heap of pieces.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Heap {
+    /// Rigid bodies in the end.
+    pub bodies: usize,
+    /// How long is played, s.
+    pub seconds: f64,
+    /// Time of all frames, s.
+    pub frames: f64,
+    /// Time of Rapier's steps in them, s.
+    pub rigid: f64,
+}
 
 /// What was found of a scene.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -40,7 +66,7 @@ pub struct Findings {
     pub fingerprint: String,
 }
 
-/// Plays each scene so many times.
+/// Plays each scene, and the heap, so many times.
 ///
 /// # Errors
 /// A scene that cannot be baked or played, runs that differ.
@@ -48,11 +74,11 @@ pub fn measure(
     runs: usize,
     plan: GamePlan,
     progress: &mut dyn FnMut(&str, f64),
-) -> Result<Vec<Findings>, BenchError> {
+) -> Result<Found, BenchError> {
     let runs = runs.max(1);
-    let mut all = Vec::new();
+    let mut scenes = Vec::new();
     for (i, name) in SCENES.into_iter().enumerate() {
-        let share = |part: f64| (i as f64 + part) / SCENES.len() as f64;
+        let share = |part: f64| (i as f64 + part) / (SCENES.len() + 1) as f64;
         progress(name, share(0.0));
         let mut scene = scene(name)?;
         for body in &mut scene.bodies {
@@ -70,7 +96,7 @@ pub fn measure(
         let fine = best_of(name, runs, || {
             play_as_game(&scene, &baked, fine, &mut |_| {})
         })?;
-        all.push(Findings {
+        scenes.push(Findings {
             scene: name.into(),
             breaks: best.breaks,
             again: best.again,
@@ -83,7 +109,29 @@ pub fn measure(
             rigid: Times::new(best.parts.iter().map(|p| p.rigid).collect()).spread(),
         });
     }
-    Ok(all)
+    progress(HEAP, SCENES.len() as f64 / (SCENES.len() + 1) as f64);
+    let heap = heap(runs, plan)?;
+    Ok(Found { scenes, heap })
+}
+
+/// Plays a heap of all pieces that there are, in one step per frame.
+fn heap(runs: usize, plan: GamePlan) -> Result<Heap, BenchError> {
+    let scene = scene(HEAP)?;
+    let baked = bake(&scene, &mut |_| {})?;
+    let plan = GamePlan {
+        steps_per_frame: 1,
+        crumb_share: FractureConfig::default().crumb_share,
+        ..plan
+    };
+    let best = best_of(HEAP, runs, || {
+        play_as_game(&scene, &baked, plan, &mut |_| {})
+    })?;
+    Ok(Heap {
+        bodies: best.poses.len(),
+        seconds: best.frames.len() as f64 / 60.0,
+        frames: best.frames.iter().sum(),
+        rigid: best.parts.iter().map(|part| part.rigid).sum(),
+    })
 }
 
 /// The least time of each frame over equal runs.

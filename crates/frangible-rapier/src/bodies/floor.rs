@@ -14,6 +14,10 @@ use rapier3d::parry::shape::{HalfSpace, PackedFeatureId, Shape};
 /// not by ones that hover inside the prediction distance.
 const HEIGHT_COST: f32 = 20.0;
 
+/// Corners this deep below the plane and deeper are alike, m: all of them touch. What has sunk is lifted by the widest base; lifted by its lowest
+/// corner alone it turns about that, and goes on turning where it is. What rests is a third as deep.
+const SUNK: f32 = 3e-4;
+
 /// A corner that touched in the last step counts as farther by this, m, so that the base does not flicker between
 /// corners that are as good.
 const LOYALTY: f32 = 5e-4;
@@ -145,7 +149,7 @@ pub(crate) fn touch(
     let lowest = near.iter().map(|c| c.height).fold(f32::INFINITY, f32::min);
     for corner in &mut near {
         let loyalty = if known(corner.id) { LOYALTY } else { 0.0 };
-        corner.worth = loyalty - HEIGHT_COST * (corner.height - lowest);
+        corner.worth = loyalty - HEIGHT_COST * (corner.height.max(-SUNK) - lowest.max(-SUNK));
     }
     let up = to_plane.rotation.inverse() * plane.normal;
     let mut manifold = manifolds.pop().unwrap_or_default();
