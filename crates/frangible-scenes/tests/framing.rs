@@ -180,8 +180,8 @@ fn badly_framed_of(wanted: impl Fn(&&&str) -> bool) -> Vec<String> {
 #[test]
 fn each_moment_of_scenes_fills_its_picture_but_for_known_ones() {
     let bad = badly_framed_of(|name| !SLOW.contains(name));
-    // 7.3 and 4.9 %: pieces fly far. The goal of every list here is to be empty.
-    assert_eq!(bad, ["bowl, at rest", "rabbit, just after"]);
+    // 7.2 and 4.9 %: pieces fly far. The goal of every list here is to be empty.
+    assert_eq!(bad, ["glass, at the end", "rabbit, just after"]);
 }
 
 #[test]
@@ -260,13 +260,12 @@ fn each_moment_of_twenty_scenes_made_at_random_fills_its_picture_but_for_known_o
     let bad: Vec<String> = (1..=20)
         .flat_map(|n| badly_framed(any_scene(n), 20))
         .collect();
-    // 6.6, 7.0, 4.7, 4.8 and 7.5 %.
+    // Of the first a part flies out of the picture; the others 6.9, 6.6 and 4.8 %.
     let known = [
-        "any 4, just after",
-        "any 7, at the end",
-        "any 14, at the end",
+        "any 4, at the end",
+        "any 7, at rest",
+        "any 15, at the end",
         "any 16, at the end",
-        "any 18, just after",
     ];
     assert_eq!(bad, known);
 }
