@@ -71,20 +71,7 @@ impl MaterialEdit {
             m.name.clone_from(name);
         }
         // First what follows from a number that is given, then all numbers that are.
-        let [
-            youngs_modulus,
-            ..,
-            strength,
-            fracture_energy,
-            _,
-            _,
-            _,
-            _,
-            _,
-            _,
-            _,
-            _,
-        ] = self.numbers;
+        let [youngs_modulus, _, _, _, _, strength, fracture_energy, ..] = self.numbers;
         m.youngs_modulus = youngs_modulus.unwrap_or(m.youngs_modulus);
         if let Some(fracture_energy) = fracture_energy {
             m = m.with_fracture_energy(fracture_energy);

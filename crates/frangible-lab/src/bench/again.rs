@@ -22,9 +22,9 @@ pub const HEAP: &str = "hammer";
 /// What was found.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Found {
-    /// Of the scenes whose pieces break again.
+    /// Frames of the scenes whose pieces break again.
     pub scenes: Vec<Findings>,
-    /// Of the heap.
+    /// What the heap takes.
     pub heap: Heap,
 }
 

@@ -150,7 +150,7 @@ impl StarRun {
         self.impacts.chunk_by(at_one_speed).map(count).collect()
     }
 
-    /// The same plates, their radial cracks counted on a circle of this radius, m; `gap` as for [`CrackPattern::crossings`].
+    /// These plates with their radial cracks counted on a circle of this radius, m; `gap` as for [`CrackPattern::crossings`].
     #[must_use]
     pub(crate) fn counted_at(&self, radius: f64, gap: f64) -> Self {
         let again = |impact: &StarImpact| StarImpact {
@@ -191,7 +191,7 @@ impl Stars {
     /// What the bake or the impact refused.
     pub fn compute(plan: StarPlan, hear: Hear<'_>) -> Result<Self, VerifyError> {
         let steel = preset("steel")?;
-        let pmma = preset("pmma")?;
+        let (pmma, glass) = (preset("pmma")?, preset("glass")?);
         let others = if plan.variant_speeds.is_empty() {
             0
         } else {
@@ -204,7 +204,7 @@ impl Stars {
         for &thickness in &plan.thicknesses {
             let baked = plate(&plan, thickness, pmma.clone())?;
             let run = |variant: Variant, speeds: &[f64]| {
-                let plate = variant.applied_to(&baked).map_err(refused)?;
+                let plate = variant.applied_to(&baked, &glass).map_err(refused)?;
                 let (projectile, config) = (variant.projectile(), variant.config());
                 let blows: Vec<(f64, u64)> = speeds
                     .iter()

@@ -223,6 +223,12 @@ fn outcome(stars: &Stars) -> String {
     text
 }
 
+/// The exponent of the speed with its error, or a dash where too few speeds have cracks.
+fn exponent(run: &StarRun) -> String {
+    let law = run.law;
+    law.map_or_else(|| "–".into(), |l| with_error(l.exponent, l.exponent_error))
+}
+
 /// What other circles would count.
 fn circles(stars: &Stars) -> String {
     let Some(run) = stars.measured() else {
@@ -237,8 +243,7 @@ fn circles(stars: &Stars) -> String {
         let counts = run.counts();
         let mut cells = vec![millimetres(radius)];
         cells.extend(counts.iter().map(|c| format!("{:.1}", c.mean)));
-        let law = |l: super::PowerLaw| with_error(l.exponent, l.exponent_error);
-        cells.push(run.law.map_or_else(|| "–".into(), law));
+        cells.push(exponent(&run));
         cells.extend(MEANS.map(|(speed, cracks)| {
             let count = interpolated(&counts, speed);
             format!("{:.2} ± {:.2}", count.mean / cracks, count.error / cracks)
@@ -323,8 +328,7 @@ fn variants(stars: &Stars) -> String {
                 .iter()
                 .map(|c| format!("{:.1} ± {:.1}", c.mean, c.error)),
         );
-        let law = |l: super::PowerLaw| with_error(l.exponent, l.exponent_error);
-        cells.push(run.law.map_or_else(|| "–".into(), law));
+        cells.push(exponent(run));
         cells.push(per_cent(run.radial_share()));
         cells
     };

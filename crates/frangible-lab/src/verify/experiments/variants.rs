@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use frangible::internals::{CrackTiming, Fields};
-use frangible::{Breakable, FractureConfig, InputError};
+use frangible::{Breakable, FractureConfig, InputError, Material};
 
 use super::blow::{Projectile, STEEL_DENSITY};
 
@@ -22,8 +22,8 @@ pub(crate) struct Variant {
     strength: f64,
     weak_points: f64,
     branching: bool,
-    /// Branching constant over the toughness, where it is not the material's.
-    branching_constant: Option<f64>,
+    /// Whether the branching constant is that of glass.
+    forks_as_glass: bool,
     scatter: bool,
     /// What hits the plate.
     shape: Shot,
@@ -46,7 +46,7 @@ pub(crate) const DEFAULT: Variant = Variant {
     strength: 1.0,
     weak_points: 1.0,
     branching: true,
-    branching_constant: None,
+    forks_as_glass: false,
     scatter: true,
     shape: Shot::Bullet(LENGTH),
 };
@@ -65,7 +65,7 @@ pub(crate) const VARIANTS: [Variant; 11] = [
     },
     Variant {
         name: "cracks fork as readily as in glass (`branching_constant` 2.9)",
-        branching_constant: Some(2.908),
+        forks_as_glass: true,
         ..DEFAULT
     },
     Variant {
@@ -128,12 +128,16 @@ impl Variant {
     }
 
     /// The plate gets another strength or branching constant, or more weak points; none of them matters to its modes.
-    pub(crate) fn applied_to(self, plate: &Breakable) -> Result<Breakable, InputError> {
+    pub(crate) fn applied_to(
+        self,
+        plate: &Breakable,
+        glass: &Material,
+    ) -> Result<Breakable, InputError> {
         let mut asset = (**plate.asset()).clone();
         asset.material.strength *= self.strength;
         asset.material.weak_point_density *= self.weak_points;
-        if let Some(constant) = self.branching_constant {
-            asset.material.branching_constant = constant;
+        if self.forks_as_glass {
+            asset.material.branching_constant = glass.branching_constant;
         }
         let fields = if self.scatter {
             Fields::of_material(&asset.material)
