@@ -1,6 +1,6 @@
 """Draws where the time of a break goes, from what `perf script -F ip,sym,dso` prints: flame.py PROGRAM SAMPLES.txt OUT.svg; used by flame.sh.
 
-Functions that the compiler put into others come back by the program's line tables. Only names within `frangible` are shown, standard
+Functions that the compiler put into others come back by the program's line tables. Only names of this project are shown, standard
 library and system count as their caller's own, but for memory (the system's page faults, copies).
 """
 
@@ -12,18 +12,19 @@ from pathlib import Path
 from xml.sax.saxutils import escape
 
 ROOT = "impact"
-SOURCE = "crates/frangible/src/"
+SOURCE = re.compile(r"crates/frangible(?:-(\w+))?/src/")
 WIDTH, LINE, MARGIN, LETTER = 1200, 17, 12, 6.3
 LEAST = 0.0015  # share of a box that is drawn
-COLOURS = {
-    "modal": ("response of the modes", "#8fbf6a"),
-    "contact": ("contact", "#c7d36f"),
-    "stress": ("displacements, stresses", "#7fb0de"),
-    "crack": ("culling, cracks", "#eda45e"),
-    "fragment": ("fragments", "#b99adb"),
-    "mesh": ("meshes", "#d78fb5"),
-    "memory": ("memory", "#b8b8b8"),
-}
+GROUPS = [
+    ("blow, modes", "#8fbf6a", ["blow", "contact", "modal", "near_field"]),
+    ("displacements, stresses", "#7fb0de", ["motion", "stress"]),
+    ("bounds", "#c7d36f", ["bounds", "refuse"]),
+    ("cracks", "#eda45e", ["crack", "cracking", "state", "tips"]),
+    ("fragments", "#b99adb", ["fragment", "piece"]),
+    ("geometry", "#d78fb5", ["geometry", "mesh"]),
+    ("memory", "#b8b8b8", ["memory"]),
+]
+COLOURS = {folder: colour for _, colour, folders in GROUPS for folder in folders}
 OTHER = "#e3d9b8"
 NAMELESS = ("", "closure", "imp", "call", "call_mut", "call_once")
 
@@ -57,7 +58,7 @@ def read(path):
 
 
 def names_of(program, addresses):
-    """Functions of `frangible` at each address, the innermost first."""
+    """This project's functions at each address, the innermost first."""
     shift = text_shift(program)
     order = sorted(addresses)
     words = [hex(ip + shift) for ip in order]
@@ -70,7 +71,7 @@ def names_of(program, addresses):
         if line.startswith("0x") and re.fullmatch(r"0x[0-9a-f]+", line):
             current = found.setdefault(int(line, 16) - shift, [])
             first = number + 1
-        elif (number - first) % 2 == 1 and SOURCE in line:
+        elif (number - first) % 2 == 1 and SOURCE.search(line):
             current.append(label(lines[number - 1], line))
     return {ip: [name for name in labels if name] for ip, labels in found.items()}
 
@@ -87,7 +88,9 @@ def text_shift(program):
 
 def label(function, place):
     """`folder/file: function`; nothing for closures and the shells of the dispatch, whose time is their caller's."""
-    module = place.split(SOURCE)[1].split(".rs:")[0].removesuffix("/mod")
+    source = SOURCE.search(place)
+    folder = f"{source[1]}/" if source[1] else ""
+    module = folder + place[source.end():].split(".rs:")[0].removesuffix("/mod")
     plain = function
     while (shorter := re.sub(r"<[^<>]*>", "", plain)) != plain:
         plain = shorter
@@ -138,7 +141,7 @@ def draw(folded):
         f'<rect width="{WIDTH}" height="{height}" fill="#ffffff"/>',
     ]
     x = MARGIN
-    for title, colour in [*COLOURS.values(), ("other", OTHER)]:
+    for title, colour, _ in [*GROUPS, ("other", OTHER, [])]:
         parts.append(f'<rect x="{x}" y="{MARGIN}" width="12" height="12" fill="{colour}"/>')
         parts.append(f'<text x="{x + 16}" y="{MARGIN + 10}">{title}</text>')
         x += 34 + LETTER * len(title)
@@ -149,7 +152,7 @@ def draw(folded):
         share = f"{name}, {100 * count / total:.1f} %"
         left = MARGIN + begin * scale
         parts.append(f"<g><title>{escape(share)}</title>")
-        fill = COLOURS.get(folder, ("", OTHER))[1]
+        fill = COLOURS.get(folder, OTHER)
         parts.append(f'<rect x="{left:.1f}" y="{y}" width="{width:.1f}" height="{LINE - 1}" fill="{fill}"/>')
         room = int((width - 4) / LETTER)
         shown = share if len(share) <= room else name if len(name) <= room else name.split(": ")[-1]

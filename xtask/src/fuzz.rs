@@ -23,7 +23,7 @@ const TIMEOUT: u64 = 10;
 /// Targets that break bodies, and what one of their inputs may take, s: hundreds of pieces take seconds on a busy machine.
 const BREAKING: ([&str; 3], u64) = (["impact", "run_scene", "world"], 45);
 
-/// Inputs up to so many bytes are printed whole where they are found.
+/// Inputs up to so many bytes are printed whole where they are found, and as many letters of each line of a panic.
 const SHOWN: usize = 2048;
 
 /// Where things are. Nothing is written into the checkout.
@@ -215,13 +215,18 @@ fn run_target(folders: &Folders, name: &str, seconds: u64) -> Result<String> {
 
 /// What was found, and how to see it again.
 ///
-/// The panic's words and the input itself come last: often the end of this text is all that is left of a machine on which a
-/// target failed.
+/// The input itself comes last: often the end of this text is all that is left of a machine on which a target failed.
 fn finding(name: &str, program: &Path, log: &Path, input: Option<&str>, said: &str) -> String {
     let mut lines = vec![format!(
         "fuzz target `{name}` failed; its log is {}",
         log.display()
     )];
+    let panic = said
+        .lines()
+        .skip_while(|line| !line.contains("panicked at"))
+        .take_while(|line| !line.starts_with("stack backtrace"))
+        .take(3);
+    lines.extend(panic.map(|line| line.chars().take(SHOWN).collect()));
     if let Some(input) = input {
         lines.push(format!("reproduce: {} {input}", program.display()));
         lines.push(format!(
@@ -236,11 +241,5 @@ fn finding(name: &str, program: &Path, log: &Path, input: Option<&str>, said: &s
             ));
         }
     }
-    let panic = said
-        .lines()
-        .skip_while(|line| !line.contains("panicked at"))
-        .take_while(|line| !line.starts_with("stack backtrace"))
-        .take(3);
-    lines.extend(panic.map(String::from));
     lines.join("\n")
 }

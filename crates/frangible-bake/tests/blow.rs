@@ -398,6 +398,19 @@ fn no_input_makes_nonsense() {
         inverse_effective_mass: (1.0 / mass) as f32,
         ..Striker::rigid()
     };
+    // One body of these kilograms that strikes at two points, and answers each with a velocity that belongs to another mass.
+    let at_two_points = |mass: f64, mass_between: f64| {
+        [0.01, -0.01].map(|x: f32| {
+            let mut contact = ball(mass, 0.01, 2.0);
+            contact.point.x = x;
+            contact.striker.shared = Some(SharedMass {
+                body: 0,
+                velocity: x.signum() * Vec3::X / (mass_between as f32).sqrt(),
+                spin: Vec3::ZERO,
+            });
+            contact
+        })
+    };
     for (name, contacts, expected) in [
         (
             "a ball wider than the plate",
@@ -460,6 +473,16 @@ fn no_input_makes_nonsense() {
             "the same place twice",
             vec![ball(0.01, 0.01, 2.0); 2],
             "blow",
+        ),
+        (
+            "a body that strikes at two points",
+            at_two_points(0.1, 0.1).to_vec(),
+            "blow",
+        ),
+        (
+            "a body with less mass between its points than at each",
+            at_two_points(0.1, 0.001).to_vec(),
+            "refused",
         ),
         ("nothing at all", vec![], "nothing"),
     ] {

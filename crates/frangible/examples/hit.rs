@@ -1,9 +1,8 @@
-//! Breaks a baked body by the number of pieces that are wanted, or breaks it again and again for a profiler.
+//! Breaks a baked body by the number of pieces that are wanted.
 //!
 //! - `hit surface BODY.frangible OUT.obj`: its outer surface;
 //! - `hit pieces BODY.frangible FOLDER RUNS PIECES…`: for each number of pieces the slowest blow that comes within a tenth of it, or the
 //!   one that comes nearest, timed; a line of JSON, and the pieces as FOLDER/PIECES.obj, one object each (FOLDER/PIECES-drawn.obj: as its author drew it);
-//! - `hit again BODY.frangible SIDE SPEED SECONDS`: the same blow from this side at this speed, m/s, over and over.
 //!
 //! A blow is a flat stone that does not give way, at one of the six outermost points of the body: side -z, z, -y, y, -x or x. Our model
 //! throughout.
@@ -19,7 +18,7 @@ use frangible::{
     Asset, Body, Breakable, Contact, Fracture, FractureConfig, Material, Outcome, Striker, impact,
 };
 
-const USAGE: &str = "usage: hit surface BODY OUT.obj | hit pieces BODY FOLDER RUNS PIECES… | hit again BODY SIDE SPEED SECONDS";
+const USAGE: &str = "usage: hit surface BODY OUT.obj | hit pieces BODY FOLDER RUNS PIECES…";
 
 /// Speeds that are tried, m/s: from the first, each so much faster, up to the last.
 const SPEEDS: (f64, f64, f64) = (1.0, 1.08, 3000.0);
@@ -50,10 +49,6 @@ fn main() -> Result<(), Box<dyn Error>> {
             fs::create_dir_all(folder)?;
             pieces(body, Path::new(folder), runs.parse()?, &wanted)
         }
-        ["again", body, side, speed, seconds] => {
-            let side = SIDES.iter().find(|known| known.0 == side).ok_or(USAGE)?;
-            again(body, side.1, speed.parse()?, seconds.parse()?)
-        }
         _ => Err(USAGE.into()),
     }
 }
@@ -69,23 +64,6 @@ fn surface(asset: &Asset, path: &Path) -> Result<(), Box<dyn Error>> {
         &mut 0,
     )?;
     Ok(to.flush()?)
-}
-
-fn again(path: &str, side: Vec3, speed: f64, seconds: f64) -> Result<(), Box<dyn Error>> {
-    let body = ready(path)?;
-    let contact = blow(&body, side, speed)?;
-    let (clock, mut times) = (Instant::now(), 0_u32);
-    let mut pieces = 0;
-    while clock.elapsed().as_secs_f64() < seconds {
-        pieces = count(&impact(
-            &body,
-            std::slice::from_ref(&contact),
-            &FractureConfig::default(),
-        )?);
-        times += 1;
-    }
-    println!("{times} blows, {pieces} pieces each");
-    Ok(())
 }
 
 fn pieces(path: &str, folder: &Path, runs: usize, wanted: &[usize]) -> Result<(), Box<dyn Error>> {

@@ -143,23 +143,22 @@ impl FractureConfig {
     /// # Errors
     /// Names the first field that is out of its range, and the range.
     pub fn validate(&self) -> Result<(), InputError> {
+        let samples = self.samples_per_period;
+        OutOfRange::unless(
+            samples > 0.1 && samples <= 1000.0,
+            "`samples_per_period` of the fracture configuration",
+            samples,
+            "above 0.1 and at most 1000",
+        )?;
         let within = |field, value: f64, most: f64, must| {
             OutOfRange::unless(value > 0.0 && value <= most, field, value, must)
         };
-        let samples = self.samples_per_period;
-        let must = "above 0 and at most 1000";
-        within(
-            "`samples_per_period` of the fracture configuration",
-            samples,
-            1000.0,
-            must,
-        )?;
         if let DurationModel::AsPrinted { c } = self.duration {
             within(
                 "`duration: AsPrinted.c` of the fracture configuration",
                 c,
                 1000.0,
-                must,
+                "above 0 and at most 1000",
             )?;
         }
         if let CrackTiming::TimeResolved { speed } = self.timing {

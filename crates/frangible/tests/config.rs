@@ -81,6 +81,10 @@ fn a_configuration_with_a_number_out_of_its_range_is_refused_by_every_load() {
                 of(&|c: &mut FractureConfig| c.duration = DurationModel::AsPrinted { c: x }),
             ),
         ];
+        wrong.push((
+            "samples_per_period",
+            of(&|c: &mut FractureConfig| c.samples_per_period = f64::MIN_POSITIVE),
+        ));
         if x.to_bits() != 0 {
             wrong.push((
                 "crumb_share",

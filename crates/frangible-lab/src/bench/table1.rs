@@ -51,6 +51,21 @@ pub struct Stages {
     pub runs: usize,
 }
 
+impl Stages {
+    /// The stage that takes longest.
+    #[must_use]
+    pub fn longest(&self) -> &'static str {
+        let stages = [
+            ("response", self.response),
+            ("displacements", self.displacements),
+            ("stresses and cracks", self.cracks),
+            ("fragments", self.fragments),
+        ];
+        let longest = stages.into_iter().max_by(|a, b| a.1.total_cmp(&b.1));
+        longest.map_or("", |(name, _)| name)
+    }
+}
+
 /// A body in one model.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct InModel {

@@ -11,9 +11,9 @@ pub(super) fn check_fracture(config: &FractureConfig) -> Result<(), Fault> {
         "fracture.samples_per_period",
         "the number of samples per period",
         config.samples_per_period,
-        0.0,
+        0.1,
         1000.0,
-        "above 0 and at most 1000",
+        "above 0.1 and at most 1000",
     )?;
     if !(0.0..1.0).contains(&config.crumb_share) {
         return Err(quantity(

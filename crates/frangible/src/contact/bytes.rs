@@ -131,6 +131,7 @@ mod tests {
 
     fn shared() -> Contact {
         let mut contact = contact();
+        contact.striker.inverse_effective_mass = 3.0;
         contact.striker.shared = Some(SharedMass {
             body: 3,
             velocity: Vec3::new(0.5, 0.0, -0.25),

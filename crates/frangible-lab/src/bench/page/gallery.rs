@@ -3,6 +3,11 @@
 use super::{grouped, ms, table};
 use crate::bench::gallery::{Asked, Findings, Row};
 
+/// The first break of a body that was made ready over the warm one, the goal.
+const FIRST_GOAL: f64 = 1.3;
+/// Names of [`Row::stages`].
+const STAGES: [&str; 6] = ["blow", "stress", "cracks", "labels", "fragments", "drawing"];
+
 /// A row for each body, one for each range of questions.
 #[must_use]
 pub fn gallery(found: &Findings) -> String {
@@ -34,10 +39,21 @@ pub fn gallery(found: &Findings) -> String {
         &found.rows.iter().map(row).collect::<Vec<_>>(),
     );
     let within = found.rows.iter().filter(|r| r.whole <= r.goal).count();
+    let slowest = found.rows.iter().map(|r| r.first / r.whole);
     text += &format!(
-        "\n{within} of {} breaks are within their goals.\n",
-        found.rows.len()
+        "\n{within} of {} breaks are within their goals; the longest first break takes {:.2} times the warm one (goal: {FIRST_GOAL}).",
+        found.rows.len(),
+        slowest.fold(0.0, f64::max),
     );
+    let missed = found.rows.iter().filter(|r| r.whole > r.goal);
+    let held: Vec<String> = missed.map(held).collect();
+    if !held.is_empty() {
+        text += &format!(
+            " The stage that takes most of each of the others: {}.",
+            held.join(", ")
+        );
+    }
+    text += "\n";
     if !found.asked.is_empty() {
         text +=
             "\n`would_break` on the glass, bodies of 20 seeds at eight speeds of each range:\n\n";
@@ -54,6 +70,14 @@ pub fn gallery(found: &Findings) -> String {
         );
     }
     text
+}
+
+/// The body, the stage that takes most of its break, and its share.
+fn held(row: &Row) -> String {
+    let stages = STAGES.iter().zip(row.stages);
+    let most = stages.max_by(|a, b| a.1.total_cmp(&b.1));
+    let (name, time) = most.unwrap_or((&"", 0.0));
+    format!("{} {name} ({:.0} %)", row.scene, 100.0 * time / row.whole)
 }
 
 fn row(row: &Row) -> Vec<String> {

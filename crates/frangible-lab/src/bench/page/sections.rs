@@ -40,7 +40,7 @@ Each section is written for itself by its command at the end of the page with `-
 wall-clock times, so the machine should have nothing else to do. Machines of one name differ: contacts refused by their size took 0.70 µs on
 one AMD EPYC and 0.92 µs on another, with the same instructions.
 
-Breaks beside three-pinata's and Blender's: [peers.md](peers.md). How near the initiation comes to the machine's peaks, and a flame graph:
+Breaks beside three-pinata's and Blender's: [peers.md](peers.md). How near the initiation comes to the machine's peaks, and flame graphs:
 [roofline.md](roofline.md). What made breaks faster, and what did not: [speed.md](speed.md). How pieces that break again vibrate: [recursive.md](recursive.md).
 ";
 

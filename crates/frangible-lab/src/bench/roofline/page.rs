@@ -143,11 +143,13 @@ read. Reached is the longer of these two times over the time it takes. Operation
 {}
 ## What limits each stage
 
-![Where the time of a break of the glass goes](performance-flame.svg)
+![Where the time of a break of the drinking glass goes](performance-flame-glass.svg)
+
+![Where the time of a break of the window pane goes](performance-flame-pane.svg)
 
 {LIMITS}
-`benches/flame.sh` draws the picture, of the glass of Table 1 that falls on its foot at 101 m/s, in our model: the width of a box is its share
-of the samples, the box below it is its caller.
+`benches/flame.sh` draws the pictures, of the gallery's glass and pane under the blows that first break them in their scenes: the width of a
+box is its share of the samples, the box below it is its caller.
 ",
         machine.processor,
         machine.cores,

@@ -1,0 +1,33 @@
+//! Breaks the body that breaks first in a scene by the same blow, over and over, for a profiler: `again SCENE SECONDS`.
+
+use std::error::Error;
+use std::hint::black_box;
+use std::time::{Duration, Instant};
+
+use frangible::impact;
+use frangible_scenes::{bake, first_break, scene};
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let [name, seconds] = &arguments[..] else {
+        return Err("usage: again SCENE SECONDS".into());
+    };
+    let long = Duration::try_from_secs_f64(seconds.parse()?)?;
+    let scene = scene(name)?;
+    let baked = bake(&scene, &mut |_| {})?;
+    let first = first_break(&scene, &baked, &mut |_| {})?
+        .ok_or_else(|| format!("nothing breaks in the scene `{name}`"))?;
+    first.body.prepare_for_blows(&first.config);
+    let (clock, mut times) = (Instant::now(), 0_u32);
+    while clock.elapsed() < long {
+        black_box(impact(
+            &first.body,
+            black_box(&first.contacts),
+            &first.config,
+        )?);
+        times += 1;
+    }
+    let each = clock.elapsed() / times.max(1);
+    println!("{name}: {times} times, {each:.1?} each");
+    Ok(())
+}
