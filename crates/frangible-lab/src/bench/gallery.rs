@@ -66,6 +66,8 @@ pub struct Row {
     pub steps: usize,
     /// Cracks that started.
     pub cracks: usize,
+    /// Tetrahedra that cracks cut.
+    pub cut: usize,
     /// Pieces.
     pub pieces: usize,
     /// Warm runs.
@@ -206,6 +208,7 @@ impl Blow {
             modes: new.asset().modes.followed(),
             steps: report.map_or(0, |r| r.time_steps),
             cracks: report.map_or(0, |r| r.cracks),
+            cut: report.map_or(0, |r| r.arrivals.iter().map(Vec::len).sum()),
             pieces,
             runs,
             cold,

@@ -1,5 +1,7 @@
 //! What a push on a piece comes to bear on: pressure passes through the faces of cracks, pull and shear do not.
 
+use std::cell::OnceCell;
+
 use glam::{DVec3, Vec3};
 
 use super::draft::divided_tets;
@@ -60,21 +62,27 @@ impl Volumes {
 /// Which pieces lean on which.
 pub(crate) struct Bearing<'a> {
     volumes: &'a Volumes,
-    /// The faces of each piece.
-    faces: Vec<Vec<Face>>,
+    labels: &'a Labels,
+    index: &'a MeshIndex,
+    mesh: &'a TetMesh,
+    /// The faces of each piece, once anything asks for them: what is more than half of the body needs none.
+    faces: OnceCell<Vec<Vec<Face>>>,
 }
 
 impl<'a> Bearing<'a> {
     /// How the pieces of a body, or of a portion of it, lean on each other.
     pub(crate) fn new(
         volumes: &'a Volumes,
-        labels: &Labels,
-        index: &MeshIndex,
-        mesh: &TetMesh,
+        labels: &'a Labels,
+        index: &'a MeshIndex,
+        mesh: &'a TetMesh,
     ) -> Self {
         Self {
             volumes,
-            faces: faces(labels, index, mesh),
+            labels,
+            index,
+            mesh,
+            faces: OnceCell::new(),
         }
     }
 
@@ -90,7 +98,8 @@ impl<'a> Bearing<'a> {
             if volume > self.volumes.half {
                 return true;
             }
-            for face in &self.faces[piece as usize] {
+            let faces = (self.faces).get_or_init(|| faces(self.labels, self.index, self.mesh));
+            for face in &faces[piece as usize] {
                 let passes = push.dot(face.across) >= PASSES * face.area;
                 if passes && !std::mem::replace(&mut pushed[face.behind as usize], true) {
                     waiting.push(face.behind);

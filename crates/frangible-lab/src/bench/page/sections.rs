@@ -38,7 +38,8 @@ const INTRO: &str = "# Performance
 
 Each section is written for itself by its command at the end of the page with `--write docs`, and says on what machine. Times are
 wall-clock times, so the machine should have nothing else to do. Machines of one name differ: contacts refused by their size took 0.70 µs on
-one AMD EPYC and 0.92 µs on another, with the same instructions.
+one AMD EPYC and 0.92 µs on another, with the same instructions. One machine differs from day to day: in the paper's model, which reads mode
+shapes from a cache that neighbours share, breaks of Table 1's bodies took 1.0 to 1.5 times as long on another day.
 
 Breaks beside three-pinata's and Blender's: [peers.md](peers.md). How near the initiation comes to the machine's peaks, and flame graphs:
 [roofline.md](roofline.md). What made breaks faster, and what did not: [speed.md](speed.md). How pieces that break again vibrate: [recursive.md](recursive.md).
