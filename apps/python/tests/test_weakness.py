@@ -146,8 +146,8 @@ def test_pieces_in_a_world_break_again_as_they_are_weak(bar: fr.Body) -> None:
     twice = []
     for body in (bar, bar.weakened(strength=0.3)):
         world = fr.World(generations=1)
-        world.add(body, position=(0, 2, 0), rotation=(0, 0, 0.2, 0.9797959))
-        world.step(1.6)
+        world.add(body, position=(0, 3, 0), rotation=(0, 0, 0.2, 0.9797959))
+        world.step(2.5)
         twice.append(sum(thing.name.count("piece") == 2 for thing in world.things))
     assert twice[0] == 0 < twice[1]
 

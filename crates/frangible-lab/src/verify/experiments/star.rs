@@ -203,8 +203,8 @@ impl Stars {
         let (mut runs, mut variants) = (Vec::new(), Vec::new());
         for &thickness in &plan.thicknesses {
             let baked = plate(&plan, thickness, pmma.clone())?;
-            let run = |variant: Variant, speeds: &[f64]| {
-                let plate = variant.applied_to(&baked, &glass).map_err(refused)?;
+            let run = |variant: Variant, baked: &Breakable, speeds: &[f64]| {
+                let plate = variant.applied_to(baked, &glass).map_err(refused)?;
                 let (projectile, config) = (variant.projectile(), variant.config());
                 let blows: Vec<(f64, u64)> = speeds
                     .iter()
@@ -220,10 +220,13 @@ impl Stars {
                     blows.par_iter().map(hit).collect();
                 Ok::<_, VerifyError>(StarRun::new(thickness, variant.name, impacts?))
             };
-            runs.push(run(DEFAULT, &plan.speeds)?);
+            runs.push(run(DEFAULT, &baked, &plan.speeds)?);
             if thickness == MEASURED_THICKNESS && others > 0 {
                 for variant in VARIANTS {
-                    variants.push(run(variant, &plan.variant_speeds)?);
+                    let own = variant.material(&pmma).map(|m| plate(&plan, thickness, m));
+                    let own = own.transpose()?;
+                    let baked = own.as_ref().unwrap_or(&baked);
+                    variants.push(run(variant, baked, &plan.variant_speeds)?);
                 }
             }
         }
