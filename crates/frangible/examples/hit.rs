@@ -2,7 +2,7 @@
 //!
 //! - `hit surface BODY.frangible OUT.obj`: its outer surface;
 //! - `hit pieces BODY.frangible FOLDER RUNS PIECES…`: for each number of pieces the slowest blow that comes within a tenth of it, or the
-//!   one that comes nearest, timed; a line of JSON, and the pieces as FOLDER/PIECES.obj, one object each (FOLDER/PIECES-drawn.obj: as its author drew it);
+//!   one that comes nearest, timed; a line of JSON, and the pieces as FOLDER/PIECES.obj, one object each (FOLDER/PIECES-drawn.obj: as its author drew it).
 //!
 //! A blow is a flat stone that does not give way, at one of the six outermost points of the body: side -z, z, -y, y, -x or x. Our model
 //! throughout.

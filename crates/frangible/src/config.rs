@@ -24,7 +24,7 @@ pub struct FractureConfig {
     /// bit without, only slower. Default: on.
     pub culling: bool,
     /// Samples per period of the highest mode that matters; 2 is Nyquist's limit, 0.5 is `[G12 Eq. 3]` as printed.
-    /// Default 8: between samples stress is taken as linear.
+    /// Above 0.1 and at most 1000. Default 8: between samples stress is taken as linear.
     pub samples_per_period: f64,
     /// When cracks run. Default: [`CrackTiming::TimeResolved`].
     pub timing: CrackTiming,
