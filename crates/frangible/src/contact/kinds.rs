@@ -75,9 +75,6 @@ impl SharedMass {
     /// Numbers of bodies are smaller than this.
     pub const MOST_BODIES: u32 = 1 << 24;
 
-    /// The range of the inverse effective mass beside it.
-    const LEAST: &'static str = "no less than the squares of the shared velocity and spin together";
-
     /// Whether this inverse effective mass, 1/kg, may stand beside it, but for a per cent of rounding: a body that gave way less at its own
     /// contacts than from one to another would bring energy without end.
     fn fits(&self, inverse_effective_mass: f64) -> bool {
@@ -344,11 +341,12 @@ impl Contact {
             finite("a striker's shared velocity", shared.velocity)?;
             finite("a striker's shared spin", shared.spin)?;
             let own = f64::from(self.striker.inverse_effective_mass);
-            let (what, must) = (
+            OutOfRange::unless(
+                shared.fits(own),
                 "a striker's inverse effective mass (1/kg)",
-                SharedMass::LEAST,
-            );
-            OutOfRange::unless(shared.fits(own), what, own, must)?;
+                own,
+                "no less than the squares of the shared velocity and spin together",
+            )?;
             let (what, body) = ("the number of a striker's body", shared.body);
             let fits = body < SharedMass::MOST_BODIES;
             OutOfRange::unless(fits, what, f64::from(body), "below 16777216")?;
