@@ -25,11 +25,9 @@ pub(crate) enum Command {
     Bake(BakeArgs),
     /// Show how a body vibrates: table of its modes, picture of their shapes coloured by stress (PNG), files for ParaView (VTU)
     Modes(ModesArgs),
-    /// Film a break in slow motion, or the microseconds in which it happens (GIF, WebP, MP4, single pictures)
-    #[cfg(feature = "draw")]
+    /// Film a break in slow motion, or the microseconds in which it happens (GIF, MP4, single pictures)
     Film(Box<FilmArgs>),
-    /// Open a window: throw things, turn the model's knobs, look into the last contact
-    #[cfg(feature = "draw")]
+    /// Open a window: throw things, turn the model's knobs, look into the last contact; takes a build with `--features view`
     View(ViewArgs),
     /// List the built-in scenes and materials, or print one scene as a file to start from
     Scenes {
@@ -38,7 +36,6 @@ pub(crate) enum Command {
     },
 }
 
-#[cfg(feature = "draw")]
 #[derive(Args, Clone, Debug)]
 pub(crate) struct ViewArgs {
     /// Built-in scene, or a file: scene (.toml), mesh or baked body [default: glass]
@@ -58,23 +55,24 @@ pub(crate) struct ViewArgs {
     pub(crate) size: [u32; 2],
 }
 
-#[cfg(feature = "draw")]
 #[derive(Args, Clone, Debug)]
 pub(crate) struct FilmArgs {
     /// File to break: a mesh, a baked body (.frangible) or a scene (.toml)
     #[arg(value_name = "FILE", conflicts_with = "scene")]
     pub(crate) file: Option<PathBuf>,
 
-    /// The microseconds of the first break: tension as colour on the body, and the cracks that it drives, each when it runs
+    /// The microseconds of the first break: tension as colour on the body, and the cracks that it drives, each when it runs; takes a build with
+    /// `--features view`
     #[arg(long, conflicts_with = "slow")]
     pub(crate) microseconds: bool,
 
-    /// Film to write: .gif, .webp, .mp4 (which takes the program ffmpeg), or a folder of pictures [default: out/NAME.gif]. An MP4 has its sound
+    /// Film to write: .gif, .mp4 (which takes the program ffmpeg), .webp (in a build with `--features view`), or a folder of pictures [default:
+    /// out/NAME.gif]. An MP4 has its sound
     /// track, the others a WAV beside them; slowed down, the sound is as much deeper
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: Option<PathBuf>,
 
-    /// Follow light for each picture, as stills do: seconds per picture
+    /// Follow light for each picture, as stills do: seconds per picture. A build without `--features view` always does
     #[arg(long, conflicts_with = "microseconds")]
     pub(crate) traced: bool,
 
@@ -117,7 +115,6 @@ pub(crate) struct FilmArgs {
     pub(crate) scene: SceneArgs,
 }
 
-#[cfg(feature = "draw")]
 impl FilmArgs {
     /// How many pictures the film has.
     pub(crate) fn pictures(&self) -> usize {
@@ -126,13 +123,11 @@ impl FilmArgs {
 }
 
 /// Width and height of a film.
-#[cfg(feature = "draw")]
 fn parse_frame(text: &str) -> Result<[u32; 2], String> {
     sides(text, 64..=4096)
         .ok_or_else(|| "give width and height in pixels, 64 to 4096, such as 640x480".into())
 }
 
-#[cfg(feature = "draw")]
 fn sides(text: &str, within: std::ops::RangeInclusive<u32>) -> Option<[u32; 2]> {
     let (width, height) = text.split_once('x')?;
     let sides = [width.parse::<u32>().ok()?, height.parse::<u32>().ok()?];
@@ -143,7 +138,6 @@ fn sides(text: &str, within: std::ops::RangeInclusive<u32>) -> Option<[u32; 2]> 
 }
 
 /// Width and height.
-#[cfg(feature = "draw")]
 fn parse_size(text: &str) -> Result<[u32; 2], String> {
     sides(text, 320..=8192)
         .ok_or_else(|| "give width and height in pixels, 320 to 8192, such as 1280x800".into())

@@ -13,7 +13,7 @@ use crate::breaking::filled;
 use crate::progress::Bar;
 use crate::request::body_of;
 use crate::say::say;
-use frangible_export::try_file;
+use frangible_recording::try_file;
 
 /// Largest relative change of a mode's peak stress that `--compact` may make.
 const MOST_CHANGE: f64 = 0.1;

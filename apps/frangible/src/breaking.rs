@@ -4,7 +4,8 @@ use std::error::Error;
 use std::path::Path;
 use std::time::Instant;
 
-use frangible_export::{write_atomically, write_glb};
+use frangible_export::write_glb;
+use frangible_recording::write_atomically;
 use frangible_scenes::{
     BakedBody, Opened, Run, Scene, Sounded, Sounding, bake_opened, open_sources, play, sound,
     sound_config,
@@ -16,7 +17,7 @@ use crate::progress::Bar;
 use crate::report::{BodyReport, Report, frames_ms};
 use crate::request::{Request, break_of};
 use crate::say::say;
-use frangible_export::make_folder;
+use frangible_recording::make_folder;
 
 pub(crate) fn run(file: Option<&Path>, args: &BreakArgs) -> Result<(), Box<dyn Error>> {
     let Request { scene, mut notes } = break_of(file, args)?;

@@ -5,29 +5,19 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use frangible_draw::{
-    ColoredSurface, FilmFormat, FilmWriter, RgbImage, SlowMotion, Studio, SurfaceLine,
-};
-use frangible_export::View;
-use frangible_scenes::{
-    BakedBody, Scene, Sounded, Wave, bake_opened, first_break, open_sources, play,
-};
+use frangible_photo::{FilmFormat, FilmWriter, Picture, SlowMotion, Studio};
+use frangible_recording::{Recording, View};
+use frangible_scenes::{BakedBody, Scene, Sounded, bake_opened, open_sources, play};
 
 use crate::args::FilmArgs;
+#[cfg(feature = "view")]
+use crate::microseconds::microseconds;
 use crate::progress::Bar;
 use crate::request::scene_of;
 use crate::say::say;
 use crate::soundtrack::soundtrack;
 
-/// Seconds for which the last picture stands.
-const END: f64 = 0.6;
-
-/// The camera's distance over that of a still.
-const NEARER: f32 = 0.8;
-
-/// The colours end at the tension that this share of all places and times stays below: that right under the contact would leave
-/// nothing for the rest.
-const WITHIN: f64 = 0.995;
+const NO_RENDERER: &str = "--microseconds takes a build with the renderer: cargo run --release --features view -- film --microseconds";
 
 pub(crate) fn run(args: &FilmArgs) -> Result<(), Box<dyn Error>> {
     check("--seconds", args.seconds, [0.2, 120.0])?;
@@ -49,7 +39,10 @@ pub(crate) fn run(args: &FilmArgs) -> Result<(), Box<dyn Error>> {
         )
     })?;
     // Before minutes of baking.
-    let studio = Studio::new(args.frame[0], args.frame[1])?;
+    if args.microseconds && !cfg!(feature = "view") {
+        return Err(NO_RENDERER.into());
+    }
+    let draw = drawer(args)?;
     let mut film = FilmWriter::begin(&path, format, args.frame, args.rate)?;
     let bar = Bar::new(false);
     bar.show(&format!("{}: reading", scene.name), 0.0);
@@ -60,20 +53,20 @@ pub(crate) fn run(args: &FilmArgs) -> Result<(), Box<dyn Error>> {
     let stop = interrupted()?;
     let count = args.pictures();
     let mut pictures = 0;
-    let mut add = |picture: RgbImage| -> Result<bool, Box<dyn Error>> {
+    let mut add = |picture: Picture| -> Result<bool, Box<dyn Error>> {
         bar.show(
             &format!("{}: picture {} of {count}", scene.name, pictures + 1),
             pictures as f64 / count as f64,
         );
         pictures += 1;
-        film.add(picture)?;
+        film.add(&picture)?;
         Ok(!stop.load(Ordering::Relaxed))
     };
     let sound = if args.microseconds {
-        microseconds(&scene, &baked, &studio, args, &bar, &mut add)?;
+        microseconds(&scene, &baked, args, &bar, &mut add)?;
         None
     } else {
-        slow_motion(&scene, &baked, &studio, args, &bar, &mut add)?
+        slow_motion(&scene, &baked, &*draw, args, &bar, &mut add)?
     };
     drop(bar);
     if let Some(mut sound) = sound {
@@ -112,13 +105,43 @@ fn interrupted() -> Result<Arc<AtomicBool>, Box<dyn Error>> {
 }
 
 /// Takes a picture, and says whether more are wanted.
-type Add<'a> = dyn FnMut(RgbImage) -> Result<bool, Box<dyn Error>> + 'a;
+pub(crate) type Add<'a> = dyn FnMut(Picture) -> Result<bool, Box<dyn Error>> + 'a;
+
+#[cfg(not(feature = "view"))]
+fn microseconds(
+    _: &Scene,
+    _: &[BakedBody],
+    _: &FilmArgs,
+    _: &Bar,
+    _: &mut Add<'_>,
+) -> Result<(), Box<dyn Error>> {
+    Err(NO_RENDERER.into())
+}
+
+/// Draws a moment of a recording.
+type Draw = dyn Fn(&Recording, f64, &View) -> Result<Picture, Box<dyn Error>>;
+
+/// By the renderer, where this build has one and light is not to be followed.
+fn drawer(args: &FilmArgs) -> Result<Box<Draw>, Box<dyn Error>> {
+    let [width, height] = args.frame;
+    #[cfg(feature = "view")]
+    if !args.traced {
+        let raster = frangible_draw::Raster::new(width, height)?;
+        return Ok(Box::new(move |recording, frame, view| {
+            Ok(raster.frame(recording, frame, view)?)
+        }));
+    }
+    let studio = Studio::new(width, height)?;
+    Ok(Box::new(move |recording, frame, view| {
+        Ok(studio.frame_between(recording, frame, view)?)
+    }))
+}
 
 /// The scene, slowed down where it breaks; the camera goes along. Returns what it sounds like.
 fn slow_motion(
     scene: &Scene,
     baked: &[BakedBody],
-    studio: &Studio,
+    draw: &Draw,
     args: &FilmArgs,
     bar: &Bar,
     add: &mut Add<'_>,
@@ -132,12 +155,7 @@ fn slow_motion(
     for picture in 0..count {
         let frame = clock.frame(picture as f64 / args.rate);
         let view = clock.view(frame);
-        let drawn = if args.traced {
-            studio.frame_between(recording, frame, &view)?
-        } else {
-            studio.film_frame_between(recording, frame, &view)?
-        };
-        if !add(drawn)? {
+        if !add(draw(recording, frame, &view)?)? {
             break;
         }
     }
@@ -146,71 +164,4 @@ fn slow_motion(
     }
     bar.show(&format!("{}: listening", scene.name), 1.0);
     soundtrack(&run, scene, &clock, args.seconds).map(Some)
-}
-
-/// The first break in its own time: the body stands still, tension runs over it, and cracks go with it.
-fn microseconds(
-    scene: &Scene,
-    baked: &[BakedBody],
-    studio: &Studio,
-    args: &FilmArgs,
-    bar: &Bar,
-    add: &mut Add<'_>,
-) -> Result<(), Box<dyn Error>> {
-    let found = first_break(scene, baked, &mut |done| {
-        bar.show(&format!("{}: until it breaks", scene.name), done);
-    })?;
-    let Some(found) = found else {
-        return Err("nothing breaks in this scene, so there are no microseconds to film; hit it harder (--drop, --ball)".into());
-    };
-    let still = ((END * args.rate) as usize).max(1);
-    let count = args.pictures();
-    let moments = count.saturating_sub(still).max(2);
-    let wave = found.wave(moments, &mut |done| {
-        bar.show(&format!("{}: the wave", scene.name), done);
-    })?;
-    let most = f64::from(wave.quantile(WITHIN)).max(wave.strength);
-    let view = nearer(found.stills(&[&[]], 0.0)[0].camera);
-    for picture in 0..count {
-        let moment = picture.min(moments - 1);
-        let surface = surface_at(&wave, moment, most, &found.name);
-        if !add(studio.colored_frame(&surface, &view)?)? {
-            break;
-        }
-    }
-    Ok(())
-}
-
-/// A view of stills leaves room for headings and arrows; the captions of a film take less.
-fn nearer(view: View) -> View {
-    View {
-        eye: view.target + (view.eye - view.target) * NEARER,
-        ..view
-    }
-}
-
-/// What is to be drawn of a moment; the colours end at a tension of `most`, Pa.
-fn surface_at(wave: &Wave, moment: usize, most: f64, name: &str) -> ColoredSurface {
-    let now = &wave.moments[moment];
-    let value = |tension: &f32| (f64::from(*tension) / most).clamp(0.0, 1.0) as f32;
-    let so_far = wave.cuts.partition_point(|cut| cut.time <= now.time);
-    let line = |cut: &frangible_scenes::SurfaceCut| SurfaceLine {
-        ends: cut.ends,
-        normal: cut.normal,
-    };
-    ColoredSurface {
-        positions: wave.positions.clone(),
-        triangles: wave.triangles.clone(),
-        values: now.tension.iter().map(value).collect(),
-        lines: wave.cuts[..so_far].iter().map(line).collect::<Vec<_>>(),
-        captions: vec![
-            format!("{name}: {:.0} µs after the touch", 1e6 * now.time),
-            format!("force {:.0} N", now.force),
-        ],
-        legend: [
-            "0".into(),
-            format!("{:.0} MPa", 1e-6 * most),
-            format!("tension (it may tear from {:.0} MPa)", 1e-6 * wave.strength),
-        ],
-    }
 }

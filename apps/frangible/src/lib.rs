@@ -3,9 +3,10 @@
 mod args;
 mod baking;
 mod breaking;
-#[cfg(feature = "draw")]
 mod filming;
 mod list;
+#[cfg(feature = "view")]
+mod microseconds;
 mod mode_files;
 mod mode_report;
 mod modes;
@@ -14,10 +15,8 @@ mod progress;
 mod report;
 mod request;
 mod say;
-#[cfg(feature = "draw")]
 mod soundtrack;
 mod support;
-#[cfg(feature = "draw")]
 mod viewing;
 
 use std::ffi::OsString;
@@ -92,9 +91,7 @@ pub fn run(words: &[OsString]) -> u8 {
         Some(Command::Break(command)) => breaking::run(command.file.as_deref(), &command.args),
         Some(Command::Bake(args)) => baking::run(&args),
         Some(Command::Modes(args)) => modes::run(&args),
-        #[cfg(feature = "draw")]
         Some(Command::Film(args)) => filming::run(&args),
-        #[cfg(feature = "draw")]
         Some(Command::View(args)) => viewing::run(&args),
         Some(Command::Scenes { name: None }) => list::print(),
         Some(Command::Scenes { name: Some(name) }) => list::print_scene(&name),

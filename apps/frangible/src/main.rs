@@ -4,7 +4,7 @@ use std::ffi::OsString;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    #[cfg(feature = "draw")]
+    #[cfg(feature = "view")]
     frangible_draw::quiet_the_drivers();
     let words: Vec<OsString> = std::env::args_os().collect();
     ExitCode::from(frangible_cli::run(&words))

@@ -11,18 +11,19 @@ use frangible_bake::mode_field::{
 use frangible_export::{ExportError, VtuCells, VtuField, VtuMesh, VtuValues, write_vtu};
 
 /// How far the largest displacement is drawn, as a share of the body's diagonal.
-#[cfg(feature = "draw")]
+#[cfg(feature = "view")]
 const EXAGGERATION: f32 = 0.08;
 
 /// The first shapes on one sheet, coloured by von Mises stress, PNG.
-#[cfg(feature = "draw")]
+#[cfg(feature = "view")]
 pub(crate) fn picture(
     asset: &Asset,
     count: usize,
     rotation: Quat,
     look_from: Vec3,
 ) -> Result<Vec<u8>, Box<dyn Error>> {
-    use frangible_draw::{ModeSheetOptions, encode_png, mode_sheet};
+    use frangible_draw::{ModeSheetOptions, mode_sheet};
+    use frangible_photo::encode_png;
 
     let cells: Vec<_> = (0..count.min(asset.modes.count()))
         .map(|mode| cell(asset, mode, rotation))
@@ -45,13 +46,13 @@ pub(crate) fn picture(
 }
 
 /// Without the feature there are none.
-#[cfg(not(feature = "draw"))]
+#[cfg(not(feature = "view"))]
 pub(crate) fn picture(_: &Asset, _: usize, _: Quat, _: Vec3) -> Result<Vec<u8>, Box<dyn Error>> {
-    Err("this build has none; build with the feature `draw`".into())
+    Err("shapes of vibration are drawn by a build with `--features view`; --vtu writes them for ParaView".into())
 }
 
 /// A mode on the outer surface, turned as its scene turns it.
-#[cfg(feature = "draw")]
+#[cfg(feature = "view")]
 fn cell(asset: &Asset, mode: usize, rotation: Quat) -> frangible_draw::ModeCell {
     let field = mode_on_fracture_mesh(asset, mode);
     let nodes = &asset.fracture.positions;
@@ -95,7 +96,7 @@ fn cell(asset: &Asset, mode: usize, rotation: Quat) -> frangible_draw::ModeCell 
     }
 }
 
-#[cfg(feature = "draw")]
+#[cfg(feature = "view")]
 fn hertz(frequency: f64) -> String {
     if frequency < 1000.0 {
         format!("{frequency:.1}")
@@ -104,7 +105,7 @@ fn hertz(frequency: f64) -> String {
     }
 }
 
-#[cfg(feature = "draw")]
+#[cfg(feature = "view")]
 fn three_digits(value: f64) -> String {
     let decimals = (2.0 - value.abs().max(1e-6).log10().floor()).clamp(0.0, 6.0);
     format!("{value:.*}", decimals as usize)

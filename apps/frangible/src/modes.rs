@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use frangible::glam::{Quat, Vec3};
 use frangible_bake::Shape;
-use frangible_export::write_atomically;
+use frangible_recording::write_atomically;
 use frangible_scenes::{BodySource, BodySpec, Opened, bake_opened, open_sources};
 
 use crate::args::ModesArgs;
@@ -15,7 +15,7 @@ use crate::mode_report::ModeReport;
 use crate::progress::Bar;
 use crate::request::body_with_modes;
 use crate::say::say;
-use frangible_export::try_file;
+use frangible_recording::try_file;
 
 /// The most shapes that one sheet can show.
 const MOST_DRAWN: usize = 36;

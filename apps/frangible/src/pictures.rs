@@ -1,22 +1,20 @@
-//! Pictures of runs, where this build can draw.
+//! Pictures of runs.
 
 use std::error::Error;
 
+use frangible_photo::{SheetOptions, contact_sheet, encode_png, sheet_of_frames};
+use frangible_recording::Recording;
 use frangible_scenes::Run;
 
 /// File name and PNG bytes.
 pub(crate) type Picture = (String, Vec<u8>);
 
 /// Draws the four moments of the first run, and the ends of all of them, each under its file name if it has one.
-#[cfg(feature = "draw")]
 pub(crate) fn draw(
     runs: &[(u64, Run)],
     moments: Option<&str>,
     seeds: Option<&str>,
 ) -> Result<Vec<Picture>, Box<dyn Error>> {
-    use frangible_draw::{SheetOptions, contact_sheet, encode_png, sheet_of_frames};
-    use frangible_export::Recording;
-
     let mut pictures = Vec::new();
     if let (Some(name), Some((_, first))) = (moments, runs.first()) {
         let sheet = contact_sheet(&first.recording, &SheetOptions::default())?;
@@ -50,17 +48,6 @@ pub(crate) fn draw(
     Ok(pictures)
 }
 
-/// Without the feature there are none.
-#[cfg(not(feature = "draw"))]
-pub(crate) fn draw(
-    _: &[(u64, Run)],
-    _: Option<&str>,
-    _: Option<&str>,
-) -> Result<Vec<Picture>, Box<dyn Error>> {
-    Err("this build has none; build with the feature `draw`".into())
-}
-
-#[cfg(feature = "draw")]
 fn pieces(run: &Run) -> String {
     let pieces: usize = run.breaks.iter().map(|b| b.masses.len()).sum();
     if pieces == 0 {

@@ -1,40 +1,64 @@
-//! Progress bars on the terminal's error stream; nothing when it is no terminal.
+//! Progress on the terminal's error stream; nothing when it is no terminal.
 
-use std::io::IsTerminal;
-use std::time::Duration;
+use std::cell::RefCell;
+use std::io::{IsTerminal, stderr};
+use std::time::Instant;
 
-use indicatif::{ProgressBar, ProgressStyle};
+/// A line that says what is being done and how far it is.
+pub(crate) struct Bar {
+    begun: Instant,
+    /// The line as it stands there, without the time; none where nothing is shown.
+    line: Option<RefCell<String>>,
+}
 
-/// A bar from 0 to 1 with a message.
-pub(crate) struct Bar(ProgressBar);
-
-const STEPS: u64 = 1000;
+/// Length of the bar, letters.
+const LENGTH: usize = 30;
 
 impl Bar {
     pub(crate) fn new(quiet: bool) -> Self {
-        if quiet || !std::io::stderr().is_terminal() {
-            return Self(ProgressBar::hidden());
+        Self {
+            begun: Instant::now(),
+            line: (!quiet && stderr().is_terminal()).then(RefCell::default),
         }
-        let bar = ProgressBar::new(STEPS);
-        if let Ok(style) = ProgressStyle::with_template("{bar:30} {percent:>3} % {msg} ({elapsed})")
-        {
-            bar.set_style(style);
-        }
-        bar.enable_steady_tick(Duration::from_millis(200));
-        Self(bar)
     }
 
-    pub(crate) fn show(&self, message: &str, fraction: f64) {
-        if self.0.message() != message {
-            self.0.set_message(message.to_string());
+    /// Shows a message and a share of 0 to 1.
+    pub(crate) fn show(&self, message: &str, share: f64) {
+        let Some(line) = &self.line else { return };
+        let text = text(message, share);
+        if *line.borrow() != text {
+            eprint!("\r\x1b[K{text} ({} s)", self.begun.elapsed().as_secs());
+            line.replace(text);
         }
-        self.0
-            .set_position((fraction.clamp(0.0, 1.0) * STEPS as f64) as u64);
     }
+}
+
+fn text(message: &str, share: f64) -> String {
+    let share = share.clamp(0.0, 1.0);
+    let full = (share * LENGTH as f64) as usize;
+    let (full, empty) = ("█".repeat(full), "░".repeat(LENGTH - full));
+    format!("{full}{empty} {:>3.0} % {message}", 100.0 * share)
 }
 
 impl Drop for Bar {
     fn drop(&mut self) {
-        self.0.finish_and_clear();
+        if self.line.is_some() {
+            eprint!("\r\x1b[K");
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::text;
+
+    #[test]
+    fn the_bar_is_as_long_for_any_share() {
+        for share in [-1.0, 0.0, 0.333, 1.0, 7.0, f64::NAN] {
+            let bar = text("glass: modes", share);
+            let letters = bar.chars().filter(|letter| "█░".contains(*letter));
+            assert_eq!(letters.count(), 30, "{bar}");
+            assert!(bar.ends_with("% glass: modes"), "{bar}");
+        }
     }
 }

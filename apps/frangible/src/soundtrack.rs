@@ -5,7 +5,7 @@
 
 use std::error::Error;
 
-use frangible_draw::SlowMotion;
+use frangible_photo::SlowMotion;
 use frangible_scenes::{Run, Scene, Sounded, sound, sound_config};
 
 /// What a film of so many seconds sounds like.

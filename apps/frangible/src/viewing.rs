@@ -1,15 +1,22 @@
 //! `frangible view`: a window.
 
 use std::error::Error;
-use std::path::Path;
-
-use frangible_scenes::SCENE_NAMES;
-use frangible_view::{Command, Script, WindowOptions, run as open_window};
 
 use crate::args::ViewArgs;
-use frangible_export::make_folder;
 
+#[cfg(not(feature = "view"))]
+pub(crate) fn run(_: &ViewArgs) -> Result<(), Box<dyn Error>> {
+    Err(
+        "the window takes a build with the renderer: cargo run --release --features view -- view"
+            .into(),
+    )
+}
+
+#[cfg(feature = "view")]
 pub(crate) fn run(args: &ViewArgs) -> Result<(), Box<dyn Error>> {
+    use frangible_recording::make_folder;
+    use frangible_view::{Script, WindowOptions, run as open_window};
+
     let script = args.script.as_deref().map(Script::read).transpose()?;
     if script.is_some() {
         // Before minutes of baking.
@@ -25,11 +32,15 @@ pub(crate) fn run(args: &ViewArgs) -> Result<(), Box<dyn Error>> {
 }
 
 /// A name that is no file is a scene's, so that a mistake in it is answered with the scenes there are.
-fn first(what: Option<&str>) -> Command {
+#[cfg(feature = "view")]
+fn first(what: Option<&str>) -> frangible_view::Command {
+    use frangible_scenes::SCENE_NAMES;
+    use frangible_view::Command;
+
     match what {
         None => Command::Scene(SCENE_NAMES[0].into()),
         Some(name) if SCENE_NAMES.contains(&name) => Command::Scene(name.into()),
-        Some(name) if name.contains(['.', '/']) || Path::new(name).exists() => {
+        Some(name) if name.contains(['.', '/']) || std::path::Path::new(name).exists() => {
             Command::Open(name.into())
         }
         Some(name) => Command::Scene(name.into()),

@@ -1,6 +1,6 @@
 //! The window from end to end: opened on a display, given a script through the path a person's input takes, and looked at by
 //! what it saved.
-#![cfg(feature = "draw")]
+#![cfg(feature = "view")]
 
 #[allow(dead_code, reason = "other tests need the rest of it")]
 mod common;

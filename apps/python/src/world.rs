@@ -4,7 +4,8 @@ use std::path::PathBuf;
 
 use frangible::Breakable;
 use frangible::glam::{Quat, Vec3};
-use frangible_export::{write_atomically, write_glb};
+use frangible_export::write_glb;
+use frangible_recording::write_atomically;
 use frangible_scenes::{
     BodySource, BodySpec, LiveScene, PieceSpec, Place, Reel, Scene, ThingKind, Throw,
 };

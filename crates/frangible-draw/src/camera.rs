@@ -1,7 +1,7 @@
 //! A camera that stays where it is put.
 
-use frangible_export::View;
-use frangible_export::glam::{Mat4, Vec3};
+use frangible_recording::View;
+use frangible_recording::glam::{Mat4, Vec3};
 use kiss3d::camera::Camera3d;
 use kiss3d::event::WindowEvent;
 use kiss3d::glamx::Pose3;

@@ -1,14 +1,15 @@
 //! A surface coloured by a number, with a bar that says what the colours mean.
 
-use frangible_export::View;
-use frangible_export::glam::Vec3;
-use image::{Rgb, RgbImage};
+use frangible_photo::{PhotoError, Picture};
+use frangible_recording::View;
+use frangible_recording::glam::Vec3;
+use image::Rgb;
 
 use crate::color_map::color_of;
 use crate::field::{Field, SurfaceLine};
 use crate::mode_sheet::check_values;
 use crate::renderer::{Label, Shot, Subject, draw};
-use crate::{DrawError, Studio};
+use crate::{DrawError, Raster};
 
 /// A surface to draw, coloured by a number.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -33,17 +34,17 @@ const TEXT: f32 = 0.045;
 /// Where the colour bar begins and how wide and high it is, of the picture's height.
 const BAR: [f32; 3] = [0.045, 0.5, 0.03];
 
-impl Studio {
+impl Raster {
     /// Draws a coloured surface on white.
     ///
     /// # Errors
-    /// [`DrawError::BadField`] where its lists do not fit together or hold NaN, else as [`Studio::frame`].
+    /// [`DrawError::BadField`] where its lists do not fit together or hold NaN, else as [`Raster::frame`].
     pub fn colored_frame(
         &self,
         surface: &ColoredSurface,
         view: &View,
-    ) -> Result<RgbImage, DrawError> {
-        view.validate()?;
+    ) -> Result<Picture, DrawError> {
+        view.validate().map_err(PhotoError::from)?;
         check_values(0, &surface.positions, &surface.triangles, &surface.values)?;
         let (width, height) = self.size();
         let high = height as f32;
@@ -84,6 +85,6 @@ impl Studio {
                 }
             }
         }
-        Ok(drawn)
+        Ok(drawn.into())
     }
 }

@@ -1,6 +1,6 @@
 //! Why there is no picture.
 
-use frangible_export::RecordingError;
+use frangible_photo::PhotoError;
 use thiserror::Error;
 
 /// Why a picture could not be drawn.
@@ -19,32 +19,9 @@ pub enum DrawError {
         )
     )]
     NoAdapter,
-    /// The recording or the view is not sound.
-    #[error("the recording cannot be drawn: {0}")]
-    Recording(#[from] RecordingError),
-    /// A frame beyond the end was asked for.
-    #[error("frame {frame} cannot be drawn: the recording has {count}, counted from 0")]
-    NoSuchFrame {
-        /// The frame asked for.
-        frame: usize,
-        /// How many frames the recording has.
-        count: usize,
-    },
-    /// The picture has no pixels, or more than the adapter can draw.
-    #[error(
-        "a picture of {width} × {height} pixels cannot be drawn; choose 16 to {limit} each way"
-    )]
-    BadSize {
-        /// Width asked for, pixels.
-        width: u32,
-        /// Height asked for, pixels.
-        height: u32,
-        /// The most pixels each way.
-        limit: u32,
-    },
-    /// A sheet without a cell.
-    #[error("the sheet has no cell; give it at least one frame and one column")]
-    EmptySheet,
+    /// What traced pictures refuse, too.
+    #[error(transparent)]
+    Photo(#[from] PhotoError),
     /// A coloured shape that does not fit together.
     #[error("shape {number} of the sheet cannot be drawn: {problem}")]
     BadField {
@@ -58,28 +35,4 @@ pub enum DrawError {
         "the renderer failed; its message is on the error output, often a driver out of memory: try a smaller picture"
     )]
     Renderer,
-    /// Whoever asked for the picture does not want it any more.
-    #[error("the picture was given up")]
-    Cancelled,
-    /// A file that cannot be written.
-    #[error("`{}` cannot be {doing}: {source}", path.display())]
-    File {
-        /// The file.
-        path: std::path::PathBuf,
-        /// Made, written.
-        doing: &'static str,
-        /// Why not.
-        source: std::io::Error,
-    },
-    /// A picture that cannot be written.
-    #[error(transparent)]
-    Export(#[from] frangible_export::ExportError),
-    /// An MP4 without the program that makes it.
-    #[error(
-        "an MP4 takes the program `ffmpeg`, which is not there; install it (Debian: apt-get install ffmpeg, macOS: brew install ffmpeg), or make a GIF or single pictures"
-    )]
-    NoFfmpeg,
-    /// The picture could not be compressed.
-    #[error("the picture could not be encoded as PNG: {0}")]
-    Encode(#[from] png::EncodingError),
 }

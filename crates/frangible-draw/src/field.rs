@@ -6,8 +6,9 @@ use std::cell::RefCell;
 use std::rc::Rc;
 use std::sync::Arc;
 
-use frangible_export::View;
-use frangible_export::glam::{Vec2, Vec3};
+use frangible_photo::internals::StageUnits;
+use frangible_recording::View;
+use frangible_recording::glam::{Vec2, Vec3};
 use kiss3d::color::Color;
 use kiss3d::light::Light;
 use kiss3d::resource::{GpuMesh3d, Texture};
@@ -15,7 +16,6 @@ use kiss3d::scene::SceneNode3d;
 use wgpu::{AddressMode, FilterMode, TextureFormat};
 
 use crate::color_map::color_of;
-use crate::stage::StageUnits;
 
 /// A closed surface with a number at each vertex.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -187,7 +187,7 @@ pub(crate) fn creased_normals(positions: &[Vec3], triangles: &[[u32; 3]]) -> Vec
 
 #[cfg(test)]
 mod tests {
-    use frangible_export::glam::Vec3;
+    use frangible_recording::glam::Vec3;
 
     use super::creased_normals;
 

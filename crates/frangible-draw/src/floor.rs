@@ -3,13 +3,13 @@
 use std::cell::RefCell;
 use std::rc::Rc;
 
-use frangible_export::glam::{Vec2, Vec3};
+use frangible_photo::internals::FloorShadow;
+use frangible_recording::glam::{Vec2, Vec3};
 use kiss3d::color::Color;
 use kiss3d::resource::{GpuMesh3d, Texture};
 use kiss3d::scene::SceneNode3d;
 use wgpu::{AddressMode, FilterMode, TextureFormat};
 
-use crate::floor_shadow::FloorShadow;
 use crate::stage::FLOOR;
 
 /// How far the floor goes on past what the haze hides, stage units.

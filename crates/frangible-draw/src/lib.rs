@@ -1,13 +1,8 @@
-//! Pictures of a [`Recording`](frangible_export::Recording), without a window.
+//! Drawing by the graphics driver: frames of films, shapes of vibration, and the stage in a window.
 //!
-//! [`contact_sheet`] shows the four moments of a break on one picture,
-//! [`sheet_of_frames`] puts frames of any recordings side by side, and
-//! [`render_frame`] draws a single one; all light the scene like a product
-//! photograph. [`mode_sheet`] shows shapes of vibration, coloured by a number.
-//! [`encode_png`] makes a small file of the result. [`LiveStage`] draws the same stage into a window, over and over.
-//!
-//! Stills follow rays of light on the processor; films and windows are drawn by the
-//! graphics driver, in a fraction of the time.
+//! [`Raster`] draws frames of a [`Recording`](frangible_recording::Recording) in a twentieth of the time that
+//! `frangible_photo` takes to follow light, [`mode_sheet`] shapes of vibration, coloured by a number.
+//! [`LiveStage`] draws the same stage into a window, over and over.
 //!
 //! Drawing takes a graphics driver but no display: a software driver such as
 //! Mesa's lavapipe will do. [`has_adapter`] tells whether there is one; without
@@ -26,33 +21,19 @@ mod canvas;
 mod color_map;
 #[cfg(not(target_family = "wasm"))]
 mod colored;
-mod encode;
 mod error;
-#[cfg(not(target_family = "wasm"))]
-mod ffmpeg;
 mod field;
-#[cfg(not(target_family = "wasm"))]
-mod film;
 mod floor;
-mod floor_shadow;
 mod live;
 #[cfg(not(target_family = "wasm"))]
 mod mode_sheet;
 #[cfg(not(target_family = "wasm"))]
-mod photo;
+mod raster;
 #[cfg(not(target_family = "wasm"))]
 mod renderer;
 #[cfg(not(target_family = "wasm"))]
 mod scale;
-#[cfg(not(target_family = "wasm"))]
-mod sheet;
-#[cfg(not(target_family = "wasm"))]
-mod slow_motion;
 mod stage;
-#[cfg(not(target_family = "wasm"))]
-mod studio;
-#[cfg(not(target_family = "wasm"))]
-mod webp;
 
 #[cfg(not(target_family = "wasm"))]
 pub use adapter::{has_adapter, is_software, quiet_the_drivers};
@@ -61,12 +42,9 @@ pub use camera::StillCamera;
 pub use canvas::open_canvas;
 #[cfg(not(target_family = "wasm"))]
 pub use colored::ColoredSurface;
-pub use encode::{encode_png, encode_png_within};
 pub use error::DrawError;
 pub use field::SurfaceLine;
-#[cfg(not(target_family = "wasm"))]
-pub use film::{FilmFormat, FilmWriter};
-pub use image::RgbImage;
+pub use frangible_photo;
 pub use kiss3d;
 pub use live::{
     LiveCasting, LiveMesh, LiveShadow, LiveStage, Looks, Place, ShadowCaster, has_storage_buffers,
@@ -75,8 +53,4 @@ pub use live::{
 #[cfg(not(target_family = "wasm"))]
 pub use mode_sheet::{ModeCell, ModeSheetOptions, mode_sheet};
 #[cfg(not(target_family = "wasm"))]
-pub use sheet::{SheetOptions, contact_sheet, sheet_of_frames};
-#[cfg(not(target_family = "wasm"))]
-pub use slow_motion::SlowMotion;
-#[cfg(not(target_family = "wasm"))]
-pub use studio::{GoOn, Studio, render_frame};
+pub use raster::Raster;

@@ -4,8 +4,11 @@ use std::cell::RefCell;
 use std::rc::Rc;
 use std::sync::Arc;
 
-use frangible_export::glam::Vec3;
-use frangible_export::{Floor, SurfaceMaterial, View};
+use frangible_photo::internals::{
+    Caster, Casting, Fineness, FloorShadow, StageUnits, clarity, key_light,
+};
+use frangible_recording::glam::Vec3;
+use frangible_recording::{Floor, SurfaceMaterial, View};
 use kiss3d::color::Color;
 use kiss3d::resource::{GpuMesh3d, Texture};
 use kiss3d::scene::SceneNode3d;
@@ -15,8 +18,7 @@ use crate::backdrop::{HAZE, furnish, haze, surround};
 use crate::color_map::color_of;
 use crate::field::{dress_in_values, palette_texture, texel};
 use crate::floor::{Laid, add_floor, texels};
-use crate::floor_shadow::{Caster, Casting, Fineness, FloorShadow};
-use crate::stage::{StageUnits, add_lights, clarity, dress, key_light};
+use crate::stage::{add_lights, dress};
 
 /// How a [`LiveMesh`] looks.
 #[derive(Clone, Debug, PartialEq)]

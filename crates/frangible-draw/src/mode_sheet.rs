@@ -1,14 +1,15 @@
 //! Shapes of vibration on one picture, coloured by a number.
 
-use frangible_export::View;
-use frangible_export::glam::Vec3;
+use frangible_photo::{PhotoError, Picture};
+use frangible_recording::View;
+use frangible_recording::glam::Vec3;
 use image::{Rgb, RgbImage, imageops};
 
 use crate::DrawError;
 use crate::color_map::color_of;
 use crate::field::Field;
+use crate::raster::Raster;
 use crate::renderer::{Label, Shot, Subject, draw};
-use crate::studio::Studio;
 
 /// A shape of vibration to draw.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -73,26 +74,26 @@ const BESIDE: u32 = 980;
 ///
 /// # Errors
 ///
-/// [`DrawError::EmptySheet`] without a cell or a column, [`DrawError::BadField`] for a cell whose lists do not fit
-/// together or hold NaN, else as [`Studio::new`].
-pub fn mode_sheet(cells: &[ModeCell], options: &ModeSheetOptions) -> Result<RgbImage, DrawError> {
+/// [`PhotoError::EmptySheet`] without a cell or a column, [`DrawError::BadField`] for a cell whose lists do not fit
+/// together or hold NaN, else as [`Raster::new`].
+pub fn mode_sheet(cells: &[ModeCell], options: &ModeSheetOptions) -> Result<Picture, DrawError> {
     let (width, height) = (options.cell_width, options.cell_height);
     let count = u32::try_from(cells.len()).unwrap_or(u32::MAX);
     let columns = options.columns.min(count);
     if columns == 0 {
-        return Err(DrawError::EmptySheet);
+        return Err(PhotoError::EmptySheet.into());
     }
     for (number, cell) in cells.iter().enumerate() {
         check(number, cell)?;
     }
-    Studio::new(width, height)?;
+    Raster::new(width, height)?;
     let rows = count.div_ceil(columns);
     let (sheet_width, body) = (columns * (width + GAP) - GAP, rows * (height + GAP));
     let legend = legend(sheet_width, &options.legend)?;
     let size = (sheet_width, body + legend.height());
     let mut sheet = RgbImage::from_pixel(size.0, size.1, Rgb([255; 3]));
     let view = fit(cells, options);
-    view.validate()?;
+    view.validate().map_err(PhotoError::from)?;
     for (index, cell) in (0..).zip(cells) {
         let at = |y, height, text: &str| Label {
             at: [0.55 * CAPTION, y],
@@ -119,7 +120,7 @@ pub fn mode_sheet(cells: &[ModeCell], options: &ModeSheetOptions) -> Result<RgbI
         imageops::replace(&mut sheet, &drawn, x.into(), y.into());
     }
     imageops::replace(&mut sheet, &legend, 0, body.into());
-    Ok(sheet)
+    Ok(sheet.into())
 }
 
 fn check(number: usize, cell: &ModeCell) -> Result<(), DrawError> {

@@ -11,8 +11,9 @@ use std::sync::OnceLock;
 use std::sync::mpsc::{Sender, channel};
 use std::thread;
 
-use frangible_export::glam::Vec2;
-use frangible_export::{Recording, View};
+use frangible_photo::internals::StageUnits;
+use frangible_recording::glam::Vec2;
+use frangible_recording::{Recording, View};
 use image::RgbImage;
 use kiss3d::color::Color;
 use kiss3d::text::Font;
@@ -23,7 +24,7 @@ use crate::backdrop::{furnish, surround};
 use crate::camera::StillCamera;
 use crate::field::{Field, field_scene};
 use crate::scale::halve;
-use crate::stage::{StageUnits, has_glass, refracts, stage};
+use crate::stage::{has_glass, refracts, stage};
 
 /// Pixels drawn per pixel of the picture, each way, where there is glass.
 ///

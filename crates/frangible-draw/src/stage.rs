@@ -1,14 +1,13 @@
-//! A frame of a recording as a lit kiss3d scene.
-//!
-//! The stage has its own units: what the camera looks at lies at the origin and
-//! half the height of the picture there is 1. Lights, shadows and fog are so
-//! set once, for a thimble and for a column.
+//! A frame of a recording as a lit kiss3d scene, on the stage of the traced pictures.
 
 use std::cell::RefCell;
 use std::rc::Rc;
 
-use frangible_export::glam::Vec3;
-use frangible_export::{Recording, SurfaceMaterial, View};
+use frangible_photo::internals::{
+    Fineness, FloorShadow, StageUnits, casters, clarity, key_light, stage_directions,
+};
+use frangible_recording::glam::Vec3;
+use frangible_recording::{Recording, SurfaceMaterial, View};
 use kiss3d::color::Color;
 use kiss3d::context::Context;
 use kiss3d::light::Light;
@@ -16,42 +15,10 @@ use kiss3d::resource::GpuMesh3d;
 use kiss3d::scene::{AlphaMode, SceneNode3d};
 
 use crate::floor::{Laid, add_floor, texels};
-use crate::floor_shadow::{Caster, Fineness, FloorShadow};
 
 /// Light layers: what breaks, and what it lies on.
 pub(crate) const THINGS: u32 = 1;
 pub(crate) const FLOOR: u32 = 2;
-
-/// The change from world to stage units.
-#[derive(Clone, Copy)]
-pub(crate) struct StageUnits {
-    pub(crate) origin: Vec3,
-    /// Stage units per metre.
-    pub(crate) scale: f32,
-}
-
-impl StageUnits {
-    pub(crate) fn of(view: &View) -> Self {
-        let half_height = view.eye.distance(view.target) * (0.5 * view.vertical_fov).tan();
-        Self {
-            origin: view.target,
-            scale: half_height.recip(),
-        }
-    }
-
-    /// A point of the world, m, on the stage.
-    pub(crate) fn point(self, world: Vec3) -> Vec3 {
-        (world - self.origin) * self.scale
-    }
-
-    pub(crate) fn view(self, world: &View) -> View {
-        View {
-            eye: self.point(world.eye),
-            target: Vec3::ZERO,
-            ..*world
-        }
-    }
-}
 
 /// Builds the scene of a recording's first frame, for a film.
 pub(crate) fn stage(recording: &Recording, view: &View) -> SceneNode3d {
@@ -180,7 +147,7 @@ const GLASS_DEPTH: f32 = 0.12;
 /// right and a rim from behind that parts edges from the background. The floor
 /// has a lamp of its own, even all over: its shadows come with its texture.
 pub(crate) fn add_lights(scene: &mut SceneNode3d, view: &View) {
-    let [backward, right] = directions(view);
+    let [backward, right] = stage_directions(view);
     let key = key_light(view);
     // A spot takes one shadow map, a directional light four.
     scene
@@ -209,50 +176,9 @@ pub(crate) fn add_lights(scene: &mut SceneNode3d, view: &View) {
     }
 }
 
-/// Away from the camera's subject and to its right, level.
-fn directions(view: &View) -> [Vec3; 2] {
-    let backward = Vec3::new(view.eye.x, 0.0, view.eye.z)
-        .try_normalize()
-        .unwrap_or(Vec3::Z);
-    [backward, Vec3::Y.cross(backward)]
-}
-
-/// Towards the key light, stage units.
-pub(crate) fn key_light(view: &View) -> Vec3 {
-    let [backward, right] = directions(view);
-    -3.4 * right + 4.6 * Vec3::Y + 2.4 * backward
-}
-
 /// Whether any face lets light through.
 pub(crate) fn has_glass(recording: &Recording) -> bool {
     let surfaces = &recording.surfaces;
     let mut parts = recording.meshes.iter().flat_map(|mesh| &mesh.parts);
     parts.any(|part| clarity(&surfaces[part.surface]) > 0.0)
-}
-
-/// How clear a surface is, for its shadow.
-pub(crate) fn clarity(surface: &SurfaceMaterial) -> f32 {
-    surface.transmission.max(1.0 - surface.base_color[3])
-}
-
-/// Every face that can shade the floor.
-pub(crate) fn casters(recording: &Recording, units: StageUnits) -> Vec<Caster> {
-    let mut casters = Vec::new();
-    for (index, node) in recording.nodes.iter().enumerate() {
-        let pose = recording.pose(index, 0);
-        let mesh = &recording.meshes[node.mesh];
-        let place = |&at: &Vec3| units.point(pose.rotation.normalize() * at + pose.translation);
-        let points: Vec<Vec3> = mesh.positions.iter().map(place).collect();
-        for part in &mesh.parts {
-            let surface = &recording.surfaces[part.surface];
-            let clarity = clarity(surface);
-            let one_sided = clarity <= 0.0 && !surface.double_sided;
-            casters.extend(part.indices.chunks_exact(3).map(|face| Caster {
-                corners: [face[0], face[1], face[2]].map(|corner| points[corner as usize]),
-                clarity,
-                one_sided,
-            }));
-        }
-    }
-    casters
 }

@@ -1,7 +1,8 @@
 //! Sheets of shapes coloured by numbers.
 
+use frangible_draw::frangible_photo::PhotoError;
 use frangible_draw::{DrawError, ModeCell, ModeSheetOptions, has_adapter, mode_sheet};
-use frangible_export::glam::Vec3;
+use frangible_recording::glam::Vec3;
 
 /// A square that faces the camera, of one value.
 fn square(value: f32) -> ModeCell {
@@ -39,7 +40,10 @@ fn what_does_not_fit_together_is_refused_by_its_number() {
     assert!(refused(cell).contains("one value per vertex"));
     assert!(refused(ModeCell::default()).contains("no triangle"));
     let empty = mode_sheet(&[], &ModeSheetOptions::default());
-    assert!(matches!(empty, Err(DrawError::EmptySheet)));
+    assert!(matches!(
+        empty,
+        Err(DrawError::Photo(PhotoError::EmptySheet))
+    ));
 }
 
 #[test]
@@ -58,14 +62,14 @@ fn bodies_fill_their_cells_and_have_the_colours_of_their_values() {
     let (middle, top, bottom) = (170, 75, 255);
     for (left, violet) in [(0, true), (344, false)] {
         for y in [top, (top + bottom) / 2, bottom] {
-            let [red, green, blue] = sheet.get_pixel(left + middle, y).0.map(i32::from);
+            let [red, green, blue] = sheet.pixel(left + middle, y).map(i32::from);
             if violet {
                 assert!(blue > green + 40, "{red} {green} {blue} at {y}");
             } else {
                 assert!(red > blue + 80 && green > blue + 80, "{red} {green} {blue}");
             }
         }
-        let corner = sheet.get_pixel(left + 4, 200).0;
+        let corner = sheet.pixel(left + 4, 200);
         assert!(
             corner[0].abs_diff(corner[2]) < 8,
             "{corner:?} is no backdrop"

@@ -1,10 +1,10 @@
 //! The written file, read back by another library.
 
-use frangible_export::glam::{Quat, Vec3};
-use frangible_export::{
-    ExportError, Floor, MeshPart, Moments, Pose, Pulse, RecordedBlow, RecordedCrack, RecordedMesh,
-    RecordedNode, RecordedSlide, RecordedTouch, Recording, RecordingError, SurfaceMaterial, View,
-    write_glb,
+use frangible_export::{ExportError, write_glb};
+use frangible_recording::glam::{Quat, Vec3};
+use frangible_recording::{
+    Floor, MeshPart, Moments, Pose, Pulse, RecordedBlow, RecordedCrack, RecordedMesh, RecordedNode,
+    RecordedSlide, RecordedTouch, Recording, RecordingError, SurfaceMaterial, View,
 };
 use gltf::animation::util::ReadOutputs;
 use gltf::animation::{Interpolation, Property};

@@ -1,7 +1,7 @@
 //! Tetrahedra with fields as .vtu: read back by a small reader that knows only VTK's description of the format.
 
-use frangible_export::glam::Vec3;
 use frangible_export::{ExportError, VtuCells, VtuField, VtuMesh, VtuValues, write_vtu};
+use frangible_recording::glam::Vec3;
 
 /// What stands between two texts.
 fn between<'a>(text: &'a str, start: &str, end: &str) -> &'a str {

@@ -7,7 +7,7 @@
 use std::error::Error;
 
 use frangible::{Contact, ImpactReport};
-use frangible_export::Recording;
+use frangible_recording::Recording;
 use frangible_scenes::{BreakRecord, Run, SCENE_NAMES, bake, play, scene};
 use twox_hash::XxHash64;
 

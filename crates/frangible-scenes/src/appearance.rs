@@ -1,7 +1,7 @@
 //! How materials look: outside and crack faces.
 
 use frangible::internals::asset::RenderMaterial;
-use frangible_export::{Grain, SurfaceMaterial};
+use frangible_recording::{Grain, SurfaceMaterial};
 
 /// How the parts of a body look.
 pub(crate) struct Appearance {

@@ -1,7 +1,7 @@
 //! Where to look from, so that what a picture is about fills it.
 
 use frangible::glam::Vec3;
-use frangible_export::{Recording, View};
+use frangible_recording::{Recording, View};
 
 use crate::recorder::Role;
 

@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 use frangible::Asset;
 use frangible::glam::Vec3;
 use frangible::internals::BodyState;
-use frangible_export::{MeshPart, RecordedMesh};
+use frangible_recording::{MeshPart, RecordedMesh};
 
 use crate::meshes::BodySurfaces;
 

@@ -4,11 +4,11 @@ use std::collections::BTreeMap;
 
 use frangible::glam::{Quat, Vec3};
 use frangible::{Body, Contact, FractureConfig, Fragment};
-use frangible_export::{
-    MeshPart, Pose, RecordedMesh, RecordedNode, Recording, SurfaceMaterial, View,
-};
 use frangible_rapier::rapier3d::dynamics::RigidBodyHandle;
 use frangible_rapier::{BreakCause, BreakEvent};
+use frangible_recording::{
+    MeshPart, Pose, RecordedMesh, RecordedNode, Recording, SurfaceMaterial, View,
+};
 
 use crate::bake::BakedBody;
 use crate::cameras::view;

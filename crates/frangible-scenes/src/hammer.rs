@@ -1,7 +1,7 @@
 //! A hammer's head: a cylinder with a crowned striking face.
 
 use frangible::glam::Vec3;
-use frangible_export::{MeshPart, RecordedMesh};
+use frangible_recording::{MeshPart, RecordedMesh};
 
 /// Corners around the head. The collider is the hull of these points and the face's, few enough for a fast contact.
 const SECTORS: u16 = 24;

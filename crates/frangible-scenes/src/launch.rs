@@ -2,11 +2,11 @@
 
 use frangible::Material;
 use frangible::glam::{Quat, Vec3};
-use frangible_export::RecordedMesh;
 use frangible_rapier::rapier3d::dynamics::RigidBodyHandle;
 use frangible_rapier::rapier3d::geometry::SharedShape;
 use frangible_rapier::rapier3d::math::{Pose, Rotation, Vector};
 use frangible_rapier::{Ball, BreakableWorld, SurfaceProperties};
+use frangible_recording::RecordedMesh;
 
 use crate::error::SceneError;
 use crate::hammer::Head;

@@ -12,9 +12,9 @@ use std::sync::Arc;
 
 use frangible::glam::{Quat, Vec3};
 use frangible::{Body, Breakable, Fracture, Fragment};
-use frangible_export::{Floor, Pose, RecordedMesh, SurfaceMaterial};
 use frangible_rapier::rapier3d::dynamics::RigidBodyHandle;
 use frangible_rapier::{BreakEvent, BreakableWorld};
+use frangible_recording::{Floor, Pose, RecordedMesh, SurfaceMaterial};
 use frangible_sound::Sounding;
 
 use crate::bake::BakedBody;

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use frangible::glam::Vec3;
 use frangible::internals::{RenderMesh, box_projection};
 use frangible::{Asset, Fragment};
-use frangible_export::{MeshPart, RecordedMesh};
+use frangible_recording::{MeshPart, RecordedMesh};
 
 use crate::cracks::add_cracks;
 

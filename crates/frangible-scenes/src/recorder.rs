@@ -6,12 +6,12 @@ use std::ops::Range;
 use frangible::glam::{Quat, Vec3};
 use frangible::internals::BodyState;
 use frangible::{Asset, ImpactReport, Material};
-use frangible_export::{
-    Floor, Moments, Pose, RecordedMesh, RecordedNode, Recording, SurfaceMaterial,
-};
 use frangible_rapier::BreakEvent;
 use frangible_rapier::BreakableWorld;
 use frangible_rapier::rapier3d::dynamics::RigidBodyHandle;
+use frangible_recording::{
+    Floor, Moments, Pose, RecordedMesh, RecordedNode, Recording, SurfaceMaterial,
+};
 use frangible_sound::{Sounding, recorded_blow};
 
 use crate::cameras::cameras;

@@ -2,8 +2,8 @@
 
 use frangible::glam::Vec3;
 use frangible::{Contact, ImpactReport};
-use frangible_export::Recording;
 use frangible_rapier::BreakCause;
+use frangible_recording::Recording;
 use frangible_sound::Sounding;
 
 /// What came of a scene.

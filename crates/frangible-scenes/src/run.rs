@@ -5,9 +5,9 @@
 
 use std::collections::BTreeMap;
 
-use frangible_export::{Floor, Recording};
 use frangible_rapier::rapier3d::dynamics::RigidBodyHandle;
 use frangible_rapier::{BreakableWorld, HeldEvent};
+use frangible_recording::{Floor, Recording};
 use web_time::Instant;
 
 use crate::bake::BakedBody;

@@ -8,7 +8,7 @@ mod live;
 mod played;
 
 use frangible::Material;
-use frangible_export::View;
+use frangible_recording::View;
 use frangible_sound::{Hearing, Listener, SoundError, SoundFloor, SynthConfig, SynthReport, wav};
 
 use crate::result::Run;

@@ -3,10 +3,10 @@
 use std::collections::BTreeMap;
 
 use frangible::glam::Vec3;
-use frangible_export::{RecordedSlide, RecordedTouch};
 use frangible_rapier::BreakableWorld;
 use frangible_rapier::rapier3d::dynamics::RigidBodyHandle;
 use frangible_rapier::rapier3d::geometry::{Collider, ContactPair};
+use frangible_recording::{RecordedSlide, RecordedTouch};
 use frangible_sound::{EngineStep, Motion, Push, Touching};
 
 /// Notices what comes together, step by step.

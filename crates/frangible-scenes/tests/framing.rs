@@ -3,7 +3,7 @@
 use frangible::Material;
 use frangible::glam::{Quat, Vec3};
 use frangible_bake::Shape;
-use frangible_export::{Recording, View};
+use frangible_recording::{Recording, View};
 use frangible_scenes::{BodySource, BodySpec, Projectile, SCENE_NAMES, Scene, bake, play, scene};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};

@@ -4,7 +4,8 @@ use std::sync::{Arc, OnceLock};
 
 use frangible::Asset;
 use frangible::glam::Vec3;
-use frangible_export::{RecordedTouch, Recording, write_glb};
+use frangible_export::write_glb;
+use frangible_recording::{RecordedTouch, Recording};
 use frangible_scenes::{
     BakedBody, BodySource, Place, Projectile, ProjectileKind, Region, Run, SCENE_NAMES, Scene,
     SceneError, Support, bake, play, scene,

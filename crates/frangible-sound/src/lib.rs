@@ -81,7 +81,7 @@ pub use config::{SynthConfig, SynthReport};
 pub use damping::{AudibleDamping, Hold};
 pub use ellipsoid::moved_air;
 pub use error::SoundError;
-pub use frangible_export::{Pose, RecordedBlow, RecordedSlide, RecordedTouch};
+pub use frangible_recording::{Pose, RecordedBlow, RecordedSlide, RecordedTouch};
 pub use glam;
 pub use limiter::{Limiter, LimiterReport};
 pub use listener::{Listener, SoundFloor};

@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use frangible::{Body, Contact, Fracture, FractureConfig, ImpactReport};
-use frangible_export::Pose;
 use frangible_rapier::BreakCause;
+use frangible_recording::Pose;
 
 /// An impact on a body, and what came of it.
 #[derive(Clone, Debug)]

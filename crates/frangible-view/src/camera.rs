@@ -1,7 +1,7 @@
 //! A camera that circles what it looks at, and the rays through its picture.
 
 use frangible::glam::{Quat, Vec2, Vec3};
-use frangible_export::View;
+use frangible_recording::View;
 
 /// A half line into the scene.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use frangible::glam::Vec3;
-use frangible_export::RecordedMesh;
+use frangible_recording::RecordedMesh;
 use frangible_scenes::LiveScene;
 
 use crate::blow::Blow;

@@ -8,7 +8,7 @@ use frangible::glam::Vec3;
 use frangible_bake::mode_field::{
     mode_on_analysis_mesh, mode_on_fracture_mesh, motion_on_analysis_mesh, motion_on_fracture_mesh,
 };
-use frangible_export::Pose;
+use frangible_recording::Pose;
 use frangible_scenes::{LiveScene, ThingKind};
 
 use crate::marks::{mode_amplitude, reach};

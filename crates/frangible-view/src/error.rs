@@ -63,9 +63,12 @@ pub enum ViewError {
     /// What happened cannot be made to sound.
     #[error("there is no more sound: {0}")]
     Sound(#[from] frangible_sound::SoundError),
-    /// A file that cannot be written.
+    /// A recording that no file can be made of.
     #[error(transparent)]
     Export(#[from] frangible_export::ExportError),
+    /// A file that cannot be written.
+    #[error(transparent)]
+    Write(#[from] frangible_recording::WriteError),
     /// A file that cannot be read or written.
     #[error("`{}` cannot be {doing}: {source}", path.display())]
     File {
@@ -81,10 +84,14 @@ pub enum ViewError {
         "there is no display to open a window on (DISPLAY and WAYLAND_DISPLAY are not set); run this on a desktop, or under `xvfb-run -a`"
     )]
     NoDisplay,
-    /// No graphics driver, or a picture that could not be made.
+    /// No graphics driver, or one that failed.
     #[cfg(feature = "window")]
     #[error(transparent)]
     Draw(#[from] frangible_draw::DrawError),
+    /// A still or a film that could not be made.
+    #[cfg(feature = "window")]
+    #[error(transparent)]
+    Photo(#[from] frangible_photo::PhotoError),
     /// The window system refused.
     #[error(
         "the window could not be opened: {0}. Is the display right (DISPLAY), and are the X11 or Wayland libraries there? On Debian: apt-get install libxkbcommon-x11-0 libxcursor1 libxi6 libxrandr2"

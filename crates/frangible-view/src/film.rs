@@ -21,7 +21,7 @@ use shoot::shoot;
 fn shoot(
     _: FilmKind,
     _: &FilmOptions,
-    _: (&frangible_export::Recording, &frangible_export::View),
+    _: (&frangible_recording::Recording, &frangible_recording::View),
     path: &Path,
     _: &Teller,
 ) -> Result<(), ViewError> {

@@ -8,7 +8,7 @@ use frangible::internals::stress::largest_eigenvalue;
 use frangible_bake::mode_field::{
     ModeField, mode_on_fracture_mesh, motion_on_analysis_mesh, motion_on_fracture_mesh,
 };
-use frangible_export::{Pose, SurfaceMaterial};
+use frangible_recording::{Pose, SurfaceMaterial};
 use frangible_scenes::{Thing, surface_cuts};
 
 use crate::analysis::Analysis;

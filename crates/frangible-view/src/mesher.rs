@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use frangible::glam::{Mat3, Vec3};
-use frangible_export::{Pose, RecordedMesh};
+use frangible_recording::{Pose, RecordedMesh};
 use frangible_scenes::{LiveScene, Thing, ThingKind};
 
 use crate::picture::{Batch, BatchLooks};

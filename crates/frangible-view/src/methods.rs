@@ -6,7 +6,7 @@ use std::sync::Arc;
 use frangible::glam::Vec3;
 use frangible::{Fracture, ImpactReport};
 use frangible_compare::{Broken, Method};
-use frangible_export::RecordedMesh;
+use frangible_recording::RecordedMesh;
 use frangible_scenes::LiveScene;
 
 use crate::blow::Blow;

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use frangible::glam::Vec3;
-use frangible_export::{Floor, SurfaceMaterial};
+use frangible_recording::{Floor, SurfaceMaterial};
 
 /// Triangles of one look, in the world.
 #[derive(Clone, Debug)]

@@ -4,7 +4,8 @@ use std::path::Path;
 use std::sync::Arc;
 
 use frangible::ImpactReport;
-use frangible_export::{write_atomically, write_glb};
+use frangible_export::write_glb;
+use frangible_recording::write_atomically;
 use frangible_scenes::scene_to_toml;
 use serde::Serialize;
 

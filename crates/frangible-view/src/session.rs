@@ -19,8 +19,8 @@ mod turn;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use frangible_export::View;
 use frangible_rapier::StepTimings;
+use frangible_recording::View;
 use frangible_scenes::{BakedBody, LiveScene, Reel, SavedScene, Scene, SceneError};
 
 use crate::analysis::Analysis;

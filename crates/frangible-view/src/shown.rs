@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use frangible::glam::Vec3;
 use frangible_compare::Method;
-use frangible_export::View;
 use frangible_rapier::{LoadCounts, StepTimings};
+use frangible_recording::View;
 
 use crate::blow::Blow;
 use crate::command::{BallSpec, HammerSpec, Mark, Subject, Tool};

@@ -23,7 +23,7 @@ use web_time::Instant;
 use frangible::glam::Vec2;
 use frangible_draw::kiss3d::window::Window;
 use frangible_draw::{LiveStage, Place, StillCamera};
-use frangible_export::View;
+use frangible_recording::View;
 
 use crate::camera::Orbit;
 use crate::command::{Command, Target, Tool};

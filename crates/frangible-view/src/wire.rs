@@ -8,8 +8,8 @@ use std::sync::Arc;
 
 use frangible::glam::Vec3;
 use frangible_compare::Method;
-use frangible_export::{Floor, Grain, SurfaceMaterial, View};
 use frangible_rapier::{LoadCounts, StepTimings};
+use frangible_recording::{Floor, Grain, SurfaceMaterial, View};
 
 use crate::command::{BallSpec, HammerSpec, Mark, Subject, Tool};
 use crate::numbers::{BlowNumbers, ComparedNumbers, Course, KnobValues, OutcomeNumbers, Series};

@@ -8,7 +8,7 @@ use json::animation::{Channel, Interpolation, Property, Sampler, Target};
 use json::validation::Checked::Valid;
 
 use super::binary::push_rows;
-use crate::{RecordedNode, Recording};
+use frangible_recording::{RecordedNode, Recording};
 
 /// Collects the channels of the one animation. Tracks with the same key frames
 /// share the accessor of their times.

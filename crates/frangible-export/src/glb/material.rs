@@ -4,7 +4,7 @@ use gltf_json as json;
 use json::extensions::material as extension;
 use json::validation::Checked::Valid;
 
-use crate::{Recording, SurfaceMaterial};
+use frangible_recording::{Recording, SurfaceMaterial};
 
 /// What glTF assumes of a material that does not say.
 const DEFAULT_IOR: f32 = 1.5;

@@ -9,7 +9,7 @@ use json::mesh::{Mode, Primitive, Semantic};
 use json::validation::Checked::Valid;
 
 use super::binary::{push_indices, push_rows};
-use crate::RecordedMesh;
+use frangible_recording::RecordedMesh;
 
 /// Adds a mesh: one primitive per part, all on the same vertices. `None` if it
 /// has no triangle, as glTF knows no empty mesh.

@@ -21,7 +21,8 @@ mod scene;
 
 use gltf_json as json;
 
-use crate::{ExportError, Recording};
+use crate::ExportError;
+use frangible_recording::Recording;
 
 const MAGIC: u32 = 0x4654_6C67; // "glTF"
 const VERSION: u32 = 2;

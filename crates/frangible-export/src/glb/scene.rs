@@ -9,7 +9,8 @@ use json::scene::UnitQuaternion;
 use json::validation::Checked::Valid;
 
 use super::mesh::push_mesh;
-use crate::{ExportError, Floor, MeshPart, RecordedMesh, RecordedNode, Recording, View};
+use crate::ExportError;
+use frangible_recording::{Floor, MeshPart, RecordedMesh, RecordedNode, Recording, View};
 
 /// Adds meshes and nodes; recorded nodes come first and keep their order, so
 /// that the animation finds them by index.

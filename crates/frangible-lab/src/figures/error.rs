@@ -31,6 +31,9 @@ pub enum FigureError {
     /// A picture could not be drawn.
     #[error(transparent)]
     Draw(#[from] frangible_draw::DrawError),
+    /// A still that could not be drawn.
+    #[error(transparent)]
+    Photo(#[from] frangible_photo::PhotoError),
     /// Nothing broke where the figure needs pieces.
     #[error("nothing to show: {0}")]
     Nothing(&'static str),

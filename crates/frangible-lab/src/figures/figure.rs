@@ -1,7 +1,7 @@
 //! What can be shown, in the order of the paper.
 
 use frangible_bake::frangible_mesh::did_you_mean;
-use frangible_draw::RgbImage;
+use image::RgbImage;
 
 use crate::figures::FigureError;
 use crate::figures::each;

@@ -153,10 +153,6 @@ fn the_methods_are_told_of_in_table_and_json() {
 
 #[test]
 fn the_picture_has_a_pane_for_the_impact_and_each_method() {
-    if !frangible_draw::has_adapter() {
-        println!("skipped: {}", frangible_draw::DrawError::NoAdapter);
-        return;
-    }
     let folder = Folder::new("compare-picture");
     let scene = folder.path().join("pane.toml");
     fs::write(&scene, PANE).expect("a scene");

@@ -1,7 +1,7 @@
 //! A scene that runs, for a file or a camera.
 
 use frangible::glam::Vec3;
-use frangible_export::{RecordedNode, Recording, View};
+use frangible_recording::{RecordedNode, Recording, View};
 
 use super::{LiveScene, Thing, ThingKind};
 use crate::cameras::view;

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
 
 use super::{LiveScene, Thing};
-use frangible_export::{Pose, RecordedNode, Recording, View};
+use frangible_recording::{Pose, RecordedNode, Recording, View};
 
 /// Pictures kept per second of film.
 const RATE: f64 = 60.0;

@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use frangible::glam::Vec3;
-use frangible_export::{Pose, View};
 use frangible_rapier::rapier3d::dynamics::RigidBodyHandle;
+use frangible_recording::{Pose, View};
 use frangible_sound::{
     Cast, Hearing, SoundError, Sounding, SynthConfig, SynthReport, recorded_blow,
 };

@@ -1,7 +1,7 @@
 //! A run that is over, to be heard.
 
 use frangible::glam::Vec3;
-use frangible_export::{Pose, RecordedMesh};
+use frangible_recording::{Pose, RecordedMesh};
 use frangible_sound::{Cast, Sounding};
 
 use crate::result::Run;

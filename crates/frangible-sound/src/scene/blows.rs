@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use frangible::{Asset, ImpactReport};
-use frangible_export::{RecordedBlow, RecordedCrack};
+use frangible_recording::{RecordedBlow, RecordedCrack};
 use glam::Vec3;
 
 use super::cast::{Cast, Sounding};
@@ -36,7 +36,7 @@ pub fn recorded_blow(
     let pulses = report
         .contacts
         .iter()
-        .map(|contact| frangible_export::Pulse {
+        .map(|contact| frangible_recording::Pulse {
             point: contact.point,
             direction: contact.normal,
             time_step: report.time_step,

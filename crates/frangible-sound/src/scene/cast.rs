@@ -1,7 +1,7 @@
 //! Whose sound is made: the things of a scene, by numbers that the caller gives them.
 
 use frangible::{Body, Material};
-use frangible_export::Pose;
+use frangible_recording::Pose;
 use glam::Vec3;
 
 /// What a thing is to the ear.

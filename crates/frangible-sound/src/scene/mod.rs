@@ -12,7 +12,7 @@ mod touches;
 mod touching;
 
 use frangible::Material;
-use frangible_export::{RecordedBlow, RecordedSlide, RecordedTouch};
+use frangible_recording::{RecordedBlow, RecordedSlide, RecordedTouch};
 use glam::{DVec3, Vec3};
 
 use crate::bank::BLOCK;

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use frangible::Asset;
-use frangible_export::Pose;
+use frangible_recording::Pose;
 use glam::{Quat, Vec3};
 
 use super::cast::{Cast, Sounding};

@@ -9,7 +9,7 @@
 use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
 
-use frangible_export::RecordedSlide;
+use frangible_recording::RecordedSlide;
 use glam::Vec3;
 
 use super::cast::Cast;

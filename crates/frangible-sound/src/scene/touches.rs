@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 use std::sync::Arc;
 
 use frangible::Material;
-use frangible_export::RecordedTouch;
+use frangible_recording::RecordedTouch;
 use glam::Vec3;
 
 use super::cast::Cast;

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use frangible_export::{RecordedSlide, RecordedTouch};
+use frangible_recording::{RecordedSlide, RecordedTouch};
 use glam::Vec3;
 
 /// A touch that changes the lighter body's speed by less than this is none, m/s.

@@ -1,10 +1,10 @@
 //! Pictures one after the other, of the last seconds.
 
 use std::path::Path;
-use std::sync::Arc;
 
-use frangible_draw::{DrawError, FilmFormat, FilmWriter, GoOn, Studio, encode_png_within};
-use frangible_export::{Recording, View, write_atomically};
+use frangible_draw::Raster;
+use frangible_photo::{FilmFormat, FilmWriter, PhotoError, Studio, encode_png_within};
+use frangible_recording::{Recording, View, write_atomically};
 
 use crate::command::{FilmKind, FilmOptions};
 use crate::error::ViewError;
@@ -19,10 +19,10 @@ pub(super) fn shoot(
     teller: &Teller,
 ) -> Result<(), ViewError> {
     let [width, height] = options.size;
-    let studio = Studio::new(width, height)?;
     let format = match kind {
         FilmKind::Still => {
             let go_on = telling(teller, options.samples);
+            let studio = Studio::new(width, height)?;
             let picture = studio.traced(recording, 0, view, options.samples, go_on)?;
             return write_still(path, &encode_png_within(&picture, usize::MAX)?);
         }
@@ -30,28 +30,29 @@ pub(super) fn shoot(
         FilmKind::Mp4 => FilmFormat::Mp4,
         FilmKind::Frames => FilmFormat::Frames,
     };
+    let raster = Raster::new(width, height)?;
     let mut film = FilmWriter::begin(path, format, options.size, options.rate)?;
     let count = recording.frame_count;
     for frame in 0..count {
         if teller.cancel.is_cancelled() {
-            return Err(DrawError::Cancelled.into());
+            return Err(PhotoError::Cancelled.into());
         }
         let share = frame as f64 / count as f64;
         teller.tell(format!("film: picture {} of {count}", frame + 1), share);
-        film.add(studio.film_frame(recording, frame, view)?)?;
+        film.add(&raster.frame(recording, frame as f64, view)?)?;
     }
     Ok(film.finish()?)
 }
 
 /// For a still: says how many samples there are, and asks whether it is still wanted.
-fn telling(teller: &Teller, samples: u32) -> GoOn {
+fn telling(teller: &Teller, samples: u32) -> impl Fn(u32) -> bool {
     let teller = teller.clone();
     teller.tell("path-tracing".into(), 0.0);
-    Arc::new(move |done: u32| {
+    move |done: u32| {
         let share = f64::from(done) / f64::from(samples);
         teller.tell(format!("path-tracing: {done} of {samples} samples"), share);
         !teller.cancel.is_cancelled()
-    })
+    }
 }
 
 fn write_still(path: &Path, png: &[u8]) -> Result<(), ViewError> {

@@ -1,6 +1,6 @@
 //! Commands, carried out, and written down for a script that does the same again.
 
-use frangible_export::View;
+use frangible_recording::View;
 use frangible_scenes::scene;
 
 use super::Session;

@@ -4,9 +4,9 @@ use std::sync::Arc;
 
 use frangible::Material;
 use frangible::glam::{Quat, Vec3};
-use frangible_export::Pose;
 use frangible_rapier::rapier3d::math::Pose as RapierPose;
 use frangible_rapier::{BreakCause, BreakEvent, HeldEvent};
+use frangible_recording::Pose;
 use frangible_scenes::{LiveScene, ThingKind, Throw};
 
 use super::Session;

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use frangible_export::View;
+use frangible_recording::View;
 use frangible_scenes::LiveScene;
 
 use super::Session;

@@ -4,8 +4,9 @@ use std::path::Path;
 
 use frangible_draw::kiss3d::color::Color;
 use frangible_draw::kiss3d::window::Window;
-use frangible_draw::{LiveMesh, LiveStage, Looks, encode_png};
-use frangible_export::write_atomically;
+use frangible_draw::{LiveMesh, LiveStage, Looks};
+use frangible_photo::encode_png;
+use frangible_recording::write_atomically;
 
 use crate::error::ViewError;
 use crate::picture::{BatchLooks, Picture};
@@ -58,6 +59,6 @@ pub(super) fn save(window: &Window, path: &Path) -> Result<(), ViewError> {
             source,
         })?;
     }
-    write_atomically(path, &encode_png(&image)?)?;
+    write_atomically(path, &encode_png(&image.into())?)?;
     Ok(())
 }

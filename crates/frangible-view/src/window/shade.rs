@@ -8,7 +8,7 @@ use std::time::Duration;
 use web_time::Instant;
 
 use frangible_draw::{LiveCasting, LiveShadow, Place, ShadowCaster};
-use frangible_export::SurfaceMaterial;
+use frangible_recording::SurfaceMaterial;
 
 use crate::picture::{BatchLooks, Picture};
 

@@ -3,12 +3,12 @@
 use std::error::Error;
 use std::path::Path;
 
-use frangible_export::{make_folder, write_atomically};
 use frangible_lab::bench::cache::Cache;
 use frangible_lab::bench::machine::Machine;
 use frangible_lab::bench::page::sections::{self, Section, with_sections};
 use frangible_lab::bench::subjects::chosen;
 use frangible_lab::bench::{again, contacts, gallery, haptic, page, roofline, shop, table1};
+use frangible_recording::{make_folder, write_atomically};
 use frangible_scenes::GamePlan;
 use serde_json::{Map, Value, json};
 

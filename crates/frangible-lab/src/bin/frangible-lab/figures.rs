@@ -6,10 +6,10 @@ use std::fs;
 use std::path::Path;
 use std::time::Instant;
 
-use frangible_draw::encode_png_within;
-use frangible_export::{make_folder, write_atomically};
 use frangible_lab::figures::page::{page, part, verdict};
 use frangible_lab::figures::{Figure, Findings, compute, figures_named};
+use frangible_photo::encode_png_within;
+use frangible_recording::{make_folder, write_atomically};
 use serde_json::{Value, json};
 
 use crate::args::FiguresArgs;
@@ -37,7 +37,7 @@ pub(crate) fn run(args: &FiguresArgs) -> Result<(), Box<dyn Error>> {
         &mut |what, share| bar.show(what, share),
         &mut |figure, findings: Findings| -> Result<(), Box<dyn Error>> {
             let path = folder.join(format!("{}.png", figure.name));
-            let png = encode_png_within(&findings.picture.image, MOST_BYTES)?;
+            let png = encode_png_within(&findings.picture.image.clone().into(), MOST_BYTES)?;
             write_atomically(&path, &png)?;
             let seconds = clock.elapsed().as_secs_f64();
             clock = Instant::now();

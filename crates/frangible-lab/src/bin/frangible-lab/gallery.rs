@@ -6,11 +6,12 @@
 use std::error::Error;
 use std::path::Path;
 
-use frangible_draw::{
-    FilmFormat, FilmWriter, RgbImage, SheetOptions, SlowMotion, Studio, contact_sheet,
+use frangible_photo::{
+    FilmFormat, FilmWriter, Picture, SheetOptions, SlowMotion, Studio, contact_sheet,
 };
-use frangible_export::{make_folder, write_atomically};
+use frangible_recording::{make_folder, write_atomically};
 use frangible_scenes::{Run, SCENE_NAMES, bake, play, scene};
+use image::RgbImage;
 use image::codecs::jpeg::JpegEncoder;
 use image::imageops::{FilterType, resize};
 
@@ -57,7 +58,7 @@ pub(crate) fn run(args: &GalleryArgs) -> Result<(), Box<dyn Error>> {
     for name in scenes {
         let sheet = contact_sheet(&played(name)?.recording, &SheetOptions::default())?;
         let height = WIDTH * sheet.height() / sheet.width();
-        let small = resize(&sheet, WIDTH, height, FilterType::Lanczos3);
+        let small = resize(&RgbImage::from(sheet), WIDTH, height, FilterType::Lanczos3);
         let mut bytes = Vec::new();
         JpegEncoder::new_with_quality(&mut bytes, QUALITY).encode_image(&small)?;
         let path = args.write.join(format!("{name}.jpg"));
@@ -83,7 +84,7 @@ fn film(path: &Path) -> Result<(), Box<dyn Error>> {
     let mut film = FilmWriter::begin(path, FilmFormat::WebP, FRAME, RATE)?;
     film.set_quality(FRAME, FILM_QUALITY)?;
     let count = (SECONDS * RATE) as usize;
-    let mut last: Option<RgbImage> = None;
+    let mut last: Option<Picture> = None;
     for (number, (name, slow)) in FILM.into_iter().enumerate() {
         let run = played(name)?;
         let recording = &run.recording;
@@ -100,7 +101,7 @@ fn film(path: &Path) -> Result<(), Box<dyn Error>> {
             if picture + 1 == count {
                 last = Some(drawn.clone());
             }
-            film.add(drawn)?;
+            film.add(&drawn)?;
         }
     }
     film.finish()?;
@@ -109,10 +110,8 @@ fn film(path: &Path) -> Result<(), Box<dyn Error>> {
 }
 
 /// Shows so much of a picture, and the rest of the one before it.
-fn blend(picture: &mut RgbImage, before: &RgbImage, share: f32) {
-    for (new, old) in picture.pixels_mut().zip(before.pixels()) {
-        for (new, old) in new.0.iter_mut().zip(old.0) {
-            *new = (f32::from(*new) * share + f32::from(old) * (1.0 - share)).round() as u8;
-        }
+fn blend(picture: &mut Picture, before: &Picture, share: f32) {
+    for (new, &old) in picture.bytes_mut().iter_mut().zip(before.bytes()) {
+        *new = (f32::from(*new) * share + f32::from(old) * (1.0 - share)).round() as u8;
     }
 }

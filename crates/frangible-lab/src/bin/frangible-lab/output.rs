@@ -5,7 +5,7 @@ use std::io::{self, ErrorKind, IsTerminal, Write};
 use std::path::Path;
 use std::sync::atomic::{AtomicU32, Ordering};
 
-use frangible_export::{make_folder, write_atomically};
+use frangible_recording::{make_folder, write_atomically};
 use serde_json::json;
 
 /// Writes text; a reader that has seen enough (`frangible-lab verify | head`) is no error.

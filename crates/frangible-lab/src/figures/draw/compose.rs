@@ -1,7 +1,7 @@
 //! Several pictures on one.
 
 use crate::plot::Chart;
-use frangible_draw::RgbImage;
+use image::RgbImage;
 
 /// White between pictures, pixels.
 const GAP: u32 = 4;

@@ -1,7 +1,7 @@
 //! Coloured things to look at, as a recording of one frame.
 
 use frangible::glam::{Quat, Vec3};
-use frangible_export::{MeshPart, Pose, RecordedMesh, RecordedNode, Recording, SurfaceMaterial};
+use frangible_recording::{MeshPart, Pose, RecordedMesh, RecordedNode, Recording, SurfaceMaterial};
 
 /// Linear red, green, blue, and opacity.
 pub(crate) type Colour = [f32; 4];

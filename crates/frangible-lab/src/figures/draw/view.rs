@@ -1,8 +1,9 @@
 //! Where to look from.
 
 use frangible::glam::{Quat, Vec3};
-use frangible_draw::{DrawError, RgbImage, Studio};
-use frangible_export::View;
+use frangible_photo::{PhotoError, Studio};
+use frangible_recording::View;
+use image::RgbImage;
 
 use super::Model;
 
@@ -28,7 +29,7 @@ const HEADING: f32 = 40.0;
 
 impl Look {
     /// Draws the model so that it fills the picture, below a label.
-    pub(crate) fn at(&self, model: &Model, label: &str) -> Result<RgbImage, DrawError> {
+    pub(crate) fn at(&self, model: &Model, label: &str) -> Result<RgbImage, PhotoError> {
         let points: Vec<Vec3> = model.points().collect();
         self.at_points(model, &points, label)
     }
@@ -39,13 +40,16 @@ impl Look {
         model: &Model,
         points: &[Vec3],
         label: &str,
-    ) -> Result<RgbImage, DrawError> {
+    ) -> Result<RgbImage, PhotoError> {
         // Lamps and surroundings are set up for y upwards.
         let turn = Quat::from_rotation_arc(self.up.normalize_or(Vec3::Y), Vec3::Y);
         let turned: Vec<Vec3> = points.iter().map(|&p| turn * p).collect();
         let heading = if label.is_empty() { 0.0 } else { HEADING };
         let view = self.fit(&turned, turn * self.from, heading);
-        Studio::new(self.width, self.height)?.frame(&model.recording(turn), 0, &view, label)
+        let studio = Studio::new(self.width, self.height)?;
+        Ok(studio
+            .frame(&model.recording(turn), 0, &view, label)?
+            .into())
     }
 
     /// The view from `from`, y upwards, in which the points fill what the heading leaves.

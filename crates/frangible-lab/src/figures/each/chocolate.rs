@@ -7,7 +7,7 @@ use frangible::internals::mesh::NO_NEIGHBOUR;
 use frangible::internals::{CrackTrace, impact_traced};
 use frangible::{Asset, Breakable, Contact, FractureConfig, Material, Outcome, Striker};
 use frangible_bake::Shape;
-use frangible_draw::RgbImage;
+use image::RgbImage;
 
 use crate::figures::FigureError;
 use crate::figures::bodies::{MODES, baked};

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use frangible::glam::{Quat, Vec3};
 use frangible::{Asset, Body, Contact, FractureConfig, Outcome, impact};
-use frangible_draw::RgbImage;
+use image::RgbImage;
 
 use crate::figures::FigureError;
 use crate::figures::bodies::{changed, slab_blow, slab_inputs};

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use frangible::glam::Vec3;
 use frangible::internals::TetMesh;
-use frangible_draw::RgbImage;
+use image::RgbImage;
 
 use super::coarse::{Broken, add_edges, plate};
 use crate::figures::FigureError;

@@ -2,7 +2,7 @@
 
 use frangible::glam::Vec3;
 use frangible::internals::{ElementTrace, TetMesh};
-use frangible_draw::RgbImage;
+use image::RgbImage;
 
 use super::coarse::{Broken, add_edges, bar};
 use crate::figures::FigureError;

@@ -136,7 +136,7 @@ fn compute(workshop: &mut Workshop<'_>) -> Result<Findings, FigureError> {
         up: Vec3::Z,
         legend: vec!["Most excited mode; colour: von Mises stress over its largest".into()],
     };
-    let strips = mode_sheet(&cells, &options)?;
+    let strips = mode_sheet(&cells, &options)?.into();
     let charts = [
         duration_chart("rod on its end", "angle to the floor, degrees", &leaning),
         duration_chart(

@@ -2,9 +2,10 @@
 
 use frangible::glam::{Quat, Vec3};
 use frangible::{FractureConfig, Material};
-use frangible_draw::{RgbImage, SheetOptions, Studio, sheet_of_frames};
-use frangible_export::{Recording, View};
+use frangible_photo::{PhotoError, SheetOptions, Studio, sheet_of_frames};
+use frangible_recording::{Recording, View};
 use frangible_scenes::{BakedBody, BodySource, Projectile, Run, Scene, bake, play, scene};
+use image::RgbImage;
 
 use crate::figures::FigureError;
 use crate::figures::draw::{below, beside};
@@ -283,9 +284,11 @@ fn draw(glass: &Drop, pig: &Run, plates: &[Run]) -> Result<RgbImage, FigureError
         .unwrap_or(0);
     let studio = Studio::new(options.cell_width, options.cell_height)?;
     let moments = recording.moments;
-    let whole =
-        |frame: usize, label| studio.frame(recording, frame, &near(recording, frame), label);
-    let at_rest = sheet_of_frames(&[(recording, moments.at_rest, "at rest")], &options)?;
+    let whole = |frame: usize, label| -> Result<RgbImage, PhotoError> {
+        let view = near(recording, frame);
+        Ok(studio.frame(recording, frame, &view, label)?.into())
+    };
+    let at_rest = sheet_of_frames(&[(recording, moments.at_rest, "at rest")], &options)?.into();
     let above = beside(&[
         whole(first, "first bounce")?,
         whole(moments.first_crack, "second bounce")?,
@@ -299,7 +302,8 @@ fn draw(glass: &Drop, pig: &Run, plates: &[Run]) -> Result<RgbImage, FigureError
             (r, r.moments.at_rest, "at rest"),
         ],
         &options,
-    )?;
+    )?
+    .into();
     let labels: Vec<String> = PLATES
         .iter()
         .zip(plates)
@@ -316,7 +320,8 @@ fn draw(glass: &Drop, pig: &Run, plates: &[Run]) -> Result<RgbImage, FigureError
             )
         })
         .collect();
-    Ok(below(&[above, middle, sheet_of_frames(&cells, &options)?]))
+    let plates = sheet_of_frames(&cells, &options)?.into();
+    Ok(below(&[above, middle, plates]))
 }
 
 #[cfg(test)]

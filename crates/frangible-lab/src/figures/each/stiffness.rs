@@ -8,7 +8,7 @@ use frangible::internals::contact::{contact_duration, modal_load};
 use frangible::internals::{Force, rest};
 use frangible::{Asset, Body, Breakable, Contact, FractureConfig, Outcome, Striker, impact};
 use frangible_bake::Shape;
-use frangible_draw::RgbImage;
+use image::RgbImage;
 use rayon::prelude::*;
 
 use crate::figures::FigureError;

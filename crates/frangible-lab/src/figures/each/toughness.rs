@@ -6,7 +6,7 @@ use crate::plot::{Axis, Chart, Marker, Series};
 use frangible::glam::Vec3;
 use frangible::internals::impact_traced;
 use frangible::{Asset, Body, Contact, FractureConfig};
-use frangible_draw::RgbImage;
+use image::RgbImage;
 
 use crate::figures::FigureError;
 use crate::figures::bodies::{SLAB, changed, slab_blow, slab_inputs};

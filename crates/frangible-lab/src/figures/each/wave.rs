@@ -294,7 +294,7 @@ fn maps(
     faces: &Faces,
     instants: &[(f64, Vec<f32>)],
     duration: f64,
-) -> Result<frangible_draw::RgbImage, FigureError> {
+) -> Result<image::RgbImage, FigureError> {
     let all = instants.iter().flat_map(|(_, tensions)| tensions);
     let most = all.copied().fold(f32::MIN_POSITIVE, f32::max);
     // The root shows what is far from the hit, too.
@@ -323,5 +323,5 @@ fn maps(
             1e-6 * most
         )],
     };
-    Ok(mode_sheet(&cells, &options)?)
+    Ok(mode_sheet(&cells, &options)?.into())
 }

@@ -8,7 +8,7 @@ use std::fs;
 
 use frangible::Fragment;
 use frangible_compare::{Broken, Hit, Method, Options, compare};
-use frangible_export::{make_folder, write_atomically};
+use frangible_recording::{make_folder, write_atomically};
 use frangible_scenes::{
     FirstBreak, Opened, Scene, bake_opened, first_break, open_sources, scene_of,
 };
@@ -172,7 +172,7 @@ fn compared(
 
 /// The body as it was hit, and the pieces of each method.
 fn picture(found: &FirstBreak, all: &[Broken]) -> Result<Vec<u8>, Box<dyn Error>> {
-    use frangible_draw::{SheetOptions, encode_png_within, sheet_of_frames};
+    use frangible_photo::{SheetOptions, encode_png_within, sheet_of_frames};
 
     let sets: Vec<&[Fragment]> = all.iter().map(|broken| &broken.fragments[..]).collect();
     let stills = found.stills(&sets, APART);

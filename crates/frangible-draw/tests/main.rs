@@ -1,0 +1,3 @@
+//! Pictures by the graphics driver.
+
+mod mode_sheet;

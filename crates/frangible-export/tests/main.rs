@@ -1,0 +1,4 @@
+//! Written files, read back by others.
+
+mod glb;
+mod vtu;

@@ -1,0 +1,67 @@
+//! Why there is no picture.
+
+use std::path::PathBuf;
+
+use frangible_recording::{RecordingError, WriteError};
+use thiserror::Error;
+
+/// Why a picture or a film could not be made.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum PhotoError {
+    /// The recording or the view is not sound.
+    #[error("the recording cannot be drawn: {0}")]
+    Recording(#[from] RecordingError),
+    /// A frame beyond the end was asked for.
+    #[error("frame {frame} cannot be drawn: the recording has {count}, counted from 0")]
+    NoSuchFrame {
+        /// The frame asked for.
+        frame: usize,
+        /// How many frames the recording has.
+        count: usize,
+    },
+    /// The picture has no pixels, or more than can be drawn.
+    #[error(
+        "a picture of {width} × {height} pixels cannot be drawn; choose 16 to {limit} each way"
+    )]
+    BadSize {
+        /// Width asked for, pixels.
+        width: u32,
+        /// Height asked for, pixels.
+        height: u32,
+        /// The most pixels each way.
+        limit: u32,
+    },
+    /// A sheet without a cell.
+    #[error("the sheet has no cell; give it at least one frame and one column")]
+    EmptySheet,
+    /// The caller's `go_on` said no.
+    #[error("the picture was given up")]
+    Cancelled,
+    /// A file or folder that cannot be made.
+    #[error("`{}` cannot be {doing}: {source}", path.display())]
+    File {
+        /// The file.
+        path: PathBuf,
+        /// Made, written.
+        doing: &'static str,
+        /// Why not.
+        source: std::io::Error,
+    },
+    /// A file that cannot be written.
+    #[error(transparent)]
+    Write(#[from] WriteError),
+    /// An MP4 without the program that makes it.
+    #[error(
+        "an MP4 takes the program `ffmpeg`, which is not there; install it (Debian: apt-get install ffmpeg, macOS: brew install ffmpeg), or make a GIF or single pictures"
+    )]
+    NoFfmpeg,
+    /// A WebP in a build without its encoder.
+    #[error(
+        "this build writes no WebP films; name the film .gif or .mp4, or build with the feature `webp` (of the program `frangible`: `view`)"
+    )]
+    NoWebP,
+    /// The picture could not be compressed.
+    #[error("the picture could not be encoded as PNG: {0}")]
+    Encode(#[from] png::EncodingError),
+}

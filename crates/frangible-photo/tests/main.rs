@@ -1,0 +1,3 @@
+//! Pictures of recordings.
+
+mod pictures;

@@ -1,0 +1,67 @@
+//! Unsound recordings, and files that cannot be written.
+
+use std::path::PathBuf;
+
+use thiserror::Error;
+
+/// Why a recording cannot be written or drawn; each message says how to mend it.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[non_exhaustive]
+pub enum RecordingError {
+    /// There is no frame.
+    #[error("the recording has no frame; record at least one")]
+    NoFrame,
+    /// A number is NaN or infinite.
+    #[error("{what} is {value}, not a finite number; check the simulation step that produced it")]
+    NotFinite {
+        /// Which number, in words.
+        what: String,
+        /// Its value.
+        value: f64,
+    },
+    /// A number is finite but outside its range.
+    #[error("{what} is {value}, but must be {range}")]
+    OutOfRange {
+        /// Which number, in words.
+        what: String,
+        /// Its value.
+        value: f64,
+        /// The range, in words.
+        range: &'static str,
+    },
+    /// An index points past the end of its list.
+    #[error("{what} is {index}, but there are only {count}; indices start at 0")]
+    BadIndex {
+        /// Which index, in words.
+        what: String,
+        /// Its value.
+        index: usize,
+        /// How many entries the list has.
+        count: usize,
+    },
+    /// Two lists that belong together differ in length.
+    #[error("{what} has {count} entries, but {expected} expected")]
+    BadCount {
+        /// Which list, in words.
+        what: String,
+        /// How many entries it has.
+        count: usize,
+        /// How many it should have, in words.
+        expected: String,
+    },
+    /// The camera looks nowhere.
+    #[error(
+        "the camera's eye and target coincide or its up direction is along the view; move the eye or change up"
+    )]
+    BadView,
+}
+
+/// The file system refused.
+#[derive(Debug, Error)]
+#[error("cannot write {}: {source}; check that the folder exists, is writable and has room", path.display())]
+pub struct WriteError {
+    /// The file that was to be written.
+    pub path: PathBuf,
+    /// The system's error.
+    pub source: std::io::Error,
+}

@@ -1,0 +1,348 @@
+//! What happened, as plain data.
+//!
+//! Pictures, sound and files share this one description, and none of them needs the physics.
+
+use std::ops::Range;
+
+use glam::{Quat, Vec3};
+
+/// What happened in a scene. Pictures, films and sound are made from it.
+///
+/// | what it holds | where | of whom | when |
+/// |---|---|---|---|
+/// | poses | [`RecordedNode::poses`] | each body, piece and striker | in each frame, [`Recording::frame_rate`] per second |
+/// | which pieces took whose place | [`RecordedBlow::pieces`], [`RecordedNode::visible`] | each body that broke | at its break |
+/// | forces F(t) of blows | [`RecordedBlow::pulses`] | each impact that was asked for cracks, whether or not the body broke | in each time step of the blow, some microseconds |
+/// | cracks | [`RecordedBlow::cracks`] | each crack and each part that an old one grew by | when it was at each place, from the beginning of the blow |
+/// | energy of cracks | [`RecordedBlow::fracture_energy`] | all cracks of a blow | as a sum |
+/// | contacts that slide or roll | [`RecordedSlide`] | each pair, or a thing and the floor, at its deepest point | 240 times per second: force, speed and power, no F(t) |
+/// | contacts of pieces | [`RecordedTouch`] | each pair, or a thing and the floor, at its deepest point | in the step in which they came together: an impulse, no F(t) |
+///
+/// Touches that change the speed of the lighter body by less than 2 cm/s are left out, slides that lose less than 0.1 mW, velocities, and
+/// contacts that rest or roll. An impact that a bound has refused unseen has no blow: it is a touch. Where F(t) is missing, sound takes the duration of Hertz' law.
+/// Modes and materials belong to the bodies: who makes a recording hands them on beside it (`frangible_scenes::Sounding`).
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Recording {
+    /// What the file and its scene are called.
+    pub name: String,
+    /// Frames per second of the poses, 1/s. Above zero.
+    pub frame_rate: f32,
+    /// How many frames there are. At least one.
+    pub frame_count: usize,
+    /// The materials that mesh parts refer to by index.
+    pub surfaces: Vec<SurfaceMaterial>,
+    /// The shapes that nodes refer to by index.
+    pub meshes: Vec<RecordedMesh>,
+    /// The rigid things in the scene.
+    pub nodes: Vec<RecordedNode>,
+    /// A level floor, if the scene has one.
+    pub floor: Option<Floor>,
+    /// The view to look from.
+    pub camera: View,
+    /// The views of its own that each of the [four moments](Recording::labelled_moments) is best seen from, in their order.
+    pub views: Option<[View; 4]>,
+    /// The frames worth a picture.
+    pub moments: Moments,
+    /// Everything that hit a node hard enough to be asked whether it breaks, in the order of time.
+    pub blows: Vec<RecordedBlow>,
+    /// Where else things touched: pieces with each other, and with what they fell on; in the order of time.
+    pub touches: Vec<RecordedTouch>,
+    /// Where things slid along each other, in the order of time.
+    pub slides: Vec<RecordedSlide>,
+}
+
+/// A blow on a node: what pushed it, and the cracks that ran. What the film of a break and its sound are made from.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct RecordedBlow {
+    /// The node that was hit.
+    pub node: usize,
+    /// When the blow began, s after the first frame.
+    pub time: f64,
+    /// The nodes of its pieces; empty where it held.
+    pub pieces: Range<usize>,
+    /// The force at each place where something pushed.
+    pub pulses: Vec<Pulse>,
+    /// The new cracks, or parts that old ones grew by.
+    pub cracks: Vec<RecordedCrack>,
+    /// Energy that the cracks took, J.
+    pub fracture_energy: f64,
+}
+
+/// A force over time at a place of a node.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Pulse {
+    /// Where it acts, m, in the frame of the node.
+    pub point: Vec3,
+    /// Unit direction of the force on the node, in its frame.
+    pub direction: Vec3,
+    /// Time between two values, s.
+    pub time_step: f64,
+    /// The force at the end of each time step, N; zero before the first.
+    pub force: Vec<f32>,
+}
+
+impl Pulse {
+    /// The impulse of the force, which is linear between its values, N·s.
+    #[must_use]
+    pub fn impulse(&self) -> f64 {
+        let last = self.force.last().copied().unwrap_or(0.0);
+        let sum: f64 = self.force.iter().map(|&force| f64::from(force)).sum();
+        self.time_step * (sum - 0.5 * f64::from(last))
+    }
+}
+
+/// Where a crack went, and when.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct RecordedCrack {
+    /// Places of the crack in the order of its growth, m, in the frame of the node.
+    pub places: Vec<Vec3>,
+    /// When the crack was at each place, s after the blow began.
+    pub times: Vec<f64>,
+}
+
+/// Two things that came together, or a thing and what does not move.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct RecordedTouch {
+    /// When, s after the first frame.
+    pub time: f64,
+    /// The node, and the other one unless it is the floor.
+    pub nodes: (usize, Option<usize>),
+    /// Where, m.
+    pub point: Vec3,
+    /// Unit direction of the push on the first node.
+    pub normal: Vec3,
+    /// Impulse along it, N·s. Part of it may only be passed on, from what lies on top.
+    pub impulse: f64,
+    /// How fast they came together along it, m/s.
+    pub speed: f64,
+}
+
+/// Two things that slide along each other for a moment, or roll on each other, or a thing along or on what does not move.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct RecordedSlide {
+    /// When it began, s after the first frame.
+    pub time: f64,
+    /// How long it is taken to go on as it began, s.
+    pub duration: f64,
+    /// The node, and the other one unless it is the floor.
+    pub nodes: (usize, Option<usize>),
+    /// Where, m.
+    pub point: Vec3,
+    /// Unit direction of the push on the first node, across the surfaces.
+    pub normal: Vec3,
+    /// How fast they slide, or how fast the contact travels over both as they roll, m/s.
+    pub speed: f64,
+    /// What friction, or the resistance to rolling, takes from their motion, W.
+    pub power: f64,
+}
+
+/// How a surface looks (metallic–roughness, as in glTF).
+#[derive(Clone, Debug, PartialEq)]
+pub struct SurfaceMaterial {
+    /// What viewers list it as.
+    pub name: String,
+    /// Linear red, green, blue, and opacity (1: opaque), each 0–1.
+    pub base_color: [f32; 4],
+    /// 0: dielectric (ceramic, glass), 1: metal.
+    pub metallic: f32,
+    /// 0: mirror, 1: chalk.
+    pub roughness: f32,
+    /// The fraction of light that passes through, 0–1; 0 for anything opaque.
+    pub transmission: f32,
+    /// Index of refraction, at least 1; 1.5 for glass and most dielectrics.
+    pub ior: f32,
+    /// Whether back faces are drawn too.
+    pub double_sided: bool,
+    /// Linear red, green, blue that is left of white light after [`attenuation_distance`](Self::attenuation_distance) in the body
+    /// behind the surface, each above 0 and at most 1.
+    pub attenuation_color: [f32; 3],
+    /// How far light goes through the body until it has that colour, m; infinite where nothing is swallowed.
+    pub attenuation_distance: f32,
+    /// Whether the body goes on behind the surface: a crack that parts nothing, with air in it.
+    pub thin: bool,
+    /// What the surface shows from close by.
+    pub grain: Grain,
+}
+
+/// What a surface shows from close by, where a renderer draws such things.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Grain {
+    /// One colour, smooth.
+    #[default]
+    Even,
+    /// Specks and pores of fired clay.
+    Clay,
+    /// Stones in mortar.
+    Aggregate,
+    /// Veins, as of marble.
+    Veined,
+    /// Clouds inside a clear body, as of ice and sugar.
+    Cloudy,
+    /// The fine roughness of a fresh face: small bumps at any angle.
+    Broken,
+}
+
+impl Default for SurfaceMaterial {
+    fn default() -> Self {
+        Self {
+            name: String::from("surface"),
+            base_color: [0.8, 0.8, 0.8, 1.0],
+            metallic: 0.0,
+            roughness: 0.5,
+            transmission: 0.0,
+            ior: 1.5,
+            double_sided: false,
+            attenuation_color: [1.0; 3],
+            attenuation_distance: f32::INFINITY,
+            thin: false,
+            grain: Grain::Even,
+        }
+    }
+}
+
+/// A triangle mesh, already split at hard edges: one normal per vertex.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct RecordedMesh {
+    /// What viewers list it as.
+    pub name: String,
+    /// Vertices in the frame of the node, m.
+    pub positions: Vec<Vec3>,
+    /// Unit normals, one per position.
+    pub normals: Vec<Vec3>,
+    /// Texture coordinates, v downwards as in glTF: none, or one pair per position.
+    pub uvs: Vec<[f32; 2]>,
+    /// The triangles, grouped by material.
+    pub parts: Vec<MeshPart>,
+}
+
+/// The triangles of a mesh that share a material.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct MeshPart {
+    /// Index into [`Recording::surfaces`].
+    pub surface: usize,
+    /// Three vertex indices per triangle, counter-clockwise from outside.
+    pub indices: Vec<u32>,
+}
+
+/// A rigid thing: a mesh, where it is in each frame, and when it exists.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct RecordedNode {
+    /// What viewers list it as.
+    pub name: String,
+    /// Index into [`Recording::meshes`].
+    pub mesh: usize,
+    /// One pose per frame, or exactly one for a node that never moves.
+    pub poses: Vec<Pose>,
+    /// The frames in which it can be seen; a shard appears when its parent breaks.
+    pub visible: Range<usize>,
+    /// Numbers kept beside the node in the file, such as `mass_kg`, `volume_m3`.
+    pub keep_extras: Vec<(String, f64)>,
+}
+
+/// A rigid placement: rotate, then translate.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Pose {
+    /// Where the mesh's origin lies, m.
+    pub translation: Vec3,
+    /// Its orientation; need not be exactly unit length.
+    pub rotation: Quat,
+}
+
+/// A level floor that catches shadows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Floor {
+    /// Its y coordinate, m.
+    pub height: f32,
+    /// Linear red, green and blue, each 0–1.
+    pub base_color: [f32; 3],
+}
+
+impl Default for Floor {
+    fn default() -> Self {
+        Self {
+            height: 0.0,
+            base_color: [0.38, 0.38, 0.38],
+        }
+    }
+}
+
+/// A camera.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct View {
+    /// Where it stands, m.
+    pub eye: Vec3,
+    /// What it looks at, m.
+    pub target: Vec3,
+    /// Which way is up in the picture.
+    pub up: Vec3,
+    /// Vertical field of view, rad; between 0 and π.
+    pub vertical_fov: f32,
+}
+
+impl Default for View {
+    fn default() -> Self {
+        Self {
+            eye: Vec3::new(1.2, 0.9, 1.6),
+            target: Vec3::ZERO,
+            up: Vec3::Y,
+            vertical_fov: 0.6,
+        }
+    }
+}
+
+/// Frame indices of the four moments of a break.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Moments {
+    /// Whole, before contact.
+    pub before: usize,
+    /// The first frame with a crack.
+    pub first_crack: usize,
+    /// Shards on their way.
+    pub just_after: usize,
+    /// The end.
+    pub at_rest: usize,
+    /// Whether something still moves there.
+    pub moves_on: bool,
+}
+
+impl Recording {
+    /// The pose of a node in a frame; the last known one beyond the end.
+    #[must_use]
+    pub fn pose(&self, node: usize, frame: usize) -> Pose {
+        let poses = self.nodes.get(node).map_or(&[][..], |node| &node.poses);
+        poses
+            .get(frame)
+            .or(poses.last())
+            .copied()
+            .unwrap_or_default()
+    }
+
+    /// The four moments with the words that label them.
+    #[must_use]
+    pub fn labelled_moments(&self) -> [(usize, &'static str); 4] {
+        [
+            (self.moments.before, "before"),
+            (self.moments.first_crack, "first crack"),
+            (self.moments.just_after, "just after"),
+            (
+                self.moments.at_rest,
+                if self.moments.moves_on {
+                    "at the end"
+                } else {
+                    "at rest"
+                },
+            ),
+        ]
+    }
+
+    /// The view that a frame is best seen from: that of the latest moment that it comes at or after.
+    #[must_use]
+    pub fn view_of(&self, frame: usize) -> View {
+        let Some(views) = self.views else {
+            return self.camera;
+        };
+        let begun = self.labelled_moments().map(|(moment, _)| moment <= frame);
+        let latest = begun.iter().rposition(|&begun| begun);
+        views[latest.unwrap_or(0)]
+    }
+}

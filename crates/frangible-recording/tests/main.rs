@@ -1,0 +1,3 @@
+//! Files that hold recordings.
+
+mod atomic;
