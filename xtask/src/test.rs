@@ -1,8 +1,10 @@
 //! All tests of the workspace, in the profile that also builds the program.
 
+use std::path::PathBuf;
+
 use serde_json::Value;
 
-use crate::command::{Result, cargo, output, run, succeeds};
+use crate::command::{Result, cargo, output, program, run, succeeds};
 
 /// Packages that the program has in one unit for speed: in the tests it matters more that they compile soon.
 const IN_ONE_UNIT: [&str; 2] = ["frangible", "frangible-geometry"];
@@ -56,6 +58,14 @@ pub(crate) fn fast() -> Result {
     run(cargo(&["nextest", "run", "--profile", "fast"])
         .args(TESTED)
         .args(options()?))
+}
+
+/// The command line's program as the tests have built it, with assertions; nothing is compiled behind a run of the tests.
+pub(crate) fn tested_program() -> Result<PathBuf> {
+    run(cargo(&["test", "--no-run", "--quiet"])
+        .args(TESTED)
+        .args(options()?))?;
+    Ok(program())
 }
 
 fn has_nextest() -> bool {
