@@ -2,37 +2,18 @@
 //! a window or a renderer. Its examples with a window are a step of their own: they draw their pictures, which are compared.
 
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
 
-use crate::command::{Result, cargo, root, run_within, shown, target};
+use crate::command::{Result, announced, cargo, root, target};
 use crate::setup::setup;
 
-/// What the plugin and its tests are built from.
-pub(crate) const PATHS: [&str; 10] = [
-    "bevy_frangible",
-    "crates/frangible",
-    "crates/frangible-bake",
-    "crates/frangible-export",
-    "crates/frangible-geometry",
-    "crates/frangible-material",
-    "crates/frangible-mesh",
-    "crates/frangible-rapier",
-    "crates/frangible-sound",
-    "xtask/src/bevy.rs",
-];
-
-/// Limit of each step: a first build of Bevy takes most of it.
-const LIMIT: Duration = Duration::from_secs(25 * 60);
-
-/// Runs cargo in the plugin's workspace, within what is left of the limit.
-fn in_workspace(commands: &[&[&str]], start: Instant) -> Result<PathBuf> {
+/// Runs cargo in the plugin's workspace.
+fn in_workspace(commands: &[&[&str]]) -> Result<PathBuf> {
     let target = target().join("bevy");
     for words in commands {
         let mut command = cargo(words);
         command.current_dir(root().join("bevy_frangible"));
         command.env("CARGO_TARGET_DIR", &target);
-        println!("$ {}", shown(&command));
-        run_within(&mut command, LIMIT.saturating_sub(start.elapsed()))?;
+        announced(&mut command)?;
     }
     Ok(target)
 }
@@ -50,13 +31,12 @@ pub(crate) fn drawn() -> Result<Vec<String>> {
         "warnings",
     ];
     let pictures: &[&str] = &["test", "--release", "--package=drawn"];
-    in_workspace(&[lints, pictures], Instant::now())?;
+    in_workspace(&[lints, pictures])?;
     Ok(Vec::new())
 }
 
 /// Lints and tests the plugin.
 pub(crate) fn bevy() -> Result<Vec<String>> {
-    let start = Instant::now();
     let lints: &[&str] = &[
         "clippy",
         "--release",
@@ -67,14 +47,13 @@ pub(crate) fn bevy() -> Result<Vec<String>> {
         "warnings",
     ];
     let tests: &[&str] = &["test", "--release", "--all-features"];
-    let target = in_workspace(&[&["fmt", "--all", "--check"], lints, tests], start)?;
+    let target = in_workspace(&[lints, tests])?;
     let project = fresh(&target)?;
     for program in ["bake", "game"] {
         let mut command = cargo(&["run", "--quiet", "--release", "--bin", program]);
         command.current_dir(&project);
         command.env("CARGO_TARGET_DIR", &target);
-        println!("$ {}", shown(&command));
-        run_within(&mut command, LIMIT.saturating_sub(start.elapsed()))?;
+        announced(&mut command)?;
     }
     Ok(Vec::new())
 }

@@ -2,33 +2,11 @@
 
 use std::path::PathBuf;
 use std::process::Command;
-use std::time::{Duration, Instant};
 
 use crate::command::{
-    Result, output, root, run_keeping, shown, skipped, status_within, succeeds, target,
+    Result, announced, output, root, run_keeping, shown, skipped, succeeds, target,
 };
 use crate::python::{self, only_file, program_in};
-
-/// What the extension is made of, and the wheel in it.
-pub(crate) const PATHS: [&str; 14] = [
-    "apps/python",
-    "crates/frangible",
-    "crates/frangible-bake",
-    "crates/frangible-export",
-    "crates/frangible-geometry",
-    "crates/frangible-material",
-    "crates/frangible-mesh",
-    "crates/frangible-rapier",
-    "crates/frangible-scenes",
-    "tools/LICENSE",
-    "tools/blender",
-    "xtask/src/blender.rs",
-    "xtask/src/command.rs",
-    "xtask/src/python.rs",
-];
-
-/// Limit of fetching Blender, which has 350 MB.
-const LIMIT: Duration = Duration::from_secs(8 * 60);
 
 /// Blender as a Python module, of the version whose Python most machines have, and what runs the tests.
 const TOOLS: [&str; 2] = ["bpy==4.5.*", "pytest>=9,<10"];
@@ -36,8 +14,6 @@ const TOOLS: [&str; 2] = ["bpy==4.5.*", "pytest>=9,<10"];
 /// Tries the wheel in `target/python/wheels` in Blender, after making it where there is none. Returns the lines that sum it up; one of them
 /// says so where Blender cannot be had here.
 pub(crate) fn blender() -> Result<Vec<String>> {
-    let start = Instant::now();
-    let left = || LIMIT.saturating_sub(start.elapsed());
     let Some(interpreter) = interpreter() else {
         return skipped(
             "blender",
@@ -57,11 +33,8 @@ pub(crate) fn blender() -> Result<Vec<String>> {
         pip.arg("--disable-pip-version-check").args(words);
         pip
     };
-    let mut fetch = pip(&TOOLS);
-    println!("$ {}", shown(&fetch));
-    match status_within(&mut fetch, left())? {
-        Some(status) if status.success() => {}
-        _ => return skipped("blender", "its module cannot be installed here"),
+    if announced(&mut pip(&TOOLS)).is_err() {
+        return skipped("blender", "its module cannot be installed here");
     }
     if !succeeds(&python.to_string_lossy(), &["-c", "import bpy"]) {
         return skipped(

@@ -1,10 +1,11 @@
-//! Checks what a run of the program wrote: the report adds up, the animation is a whole file.
+//! Checks what a run of the program wrote: the report adds up, the animation is a whole file, the picture shows something.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
-use crate::command::Result;
+use crate::command::{Result, read};
 use crate::glb;
 
 /// Fragments tile the body; the report's sums come from f32 meshes, hence not closer.
@@ -12,28 +13,18 @@ const TOLERANCE: f64 = 1e-5;
 /// A run that shows the program off breaks something into more pieces than this.
 const FEW_FRAGMENTS: u64 = 3;
 
-/// Checks `report.json` and every `*.glb` in the folder.
+/// A picture of bodies in light has more colours than this, an empty one with its labels fewer.
+const FEW_COLOURS: usize = 150;
+
+/// Checks `report.json` and every `*.glb` and `*.png` in the folder.
 pub(crate) fn check_output(folder: &Path) -> Result {
     let report = folder.join("report.json");
-    let text = std::fs::read(&report).map_err(|error| {
-        format!(
-            "`{}` cannot be read: {error}; did the run have `--json`?",
-            report.display()
-        )
-    })?;
+    let text = read(&report)?;
     let report: Value = serde_json::from_slice(&text)
         .map_err(|error| format!("`{}` is no JSON: {error}", report.display()))?;
     let fragments = check_report(&report)?;
-    let scenes = scenes(folder)?;
-    if scenes.is_empty() {
-        return Err(format!(
-            "`{}` holds no .glb file; did the run have `--out`?",
-            folder.display()
-        ));
-    }
-    for path in scenes {
-        let bytes = std::fs::read(&path)
-            .map_err(|error| format!("`{}` cannot be read: {error}", path.display()))?;
+    for path in files(folder, "glb")? {
+        let bytes = read(&path)?;
         let contents =
             glb::parse(&bytes).map_err(|problem| format!("`{}` {problem}", path.display()))?;
         if (contents.nodes as u64) < fragments {
@@ -51,7 +42,29 @@ pub(crate) fn check_output(folder: &Path) -> Result {
             contents.animations
         );
     }
+    for path in files(folder, "png")? {
+        shows_something(&read(&path)?)
+            .map_err(|problem| format!("`{}` {problem}", path.display()))?;
+        println!("{}: shows something", path.display());
+    }
     Ok(())
+}
+
+/// An error if the picture cannot be read, or has few colours.
+fn shows_something(png: &[u8]) -> Result {
+    let damaged = |error| format!("is no whole picture: {error}");
+    let mut reader = png::Decoder::new(std::io::Cursor::new(png))
+        .read_info()
+        .map_err(damaged)?;
+    let bytes = reader.output_buffer_size().ok_or("is too large")?;
+    let mut pixels = vec![0; bytes];
+    reader.next_frame(&mut pixels).map_err(damaged)?;
+    let pixel = reader.info().bytes_per_pixel();
+    let colours: BTreeSet<&[u8]> = pixels.chunks_exact(pixel).collect();
+    match colours.len() {
+        0..=FEW_COLOURS => Err(format!("shows nothing: it has {} colours", colours.len())),
+        _ => Ok(()),
+    }
 }
 
 /// Number of fragments, if the report is sound.
@@ -91,16 +104,26 @@ fn check_report(report: &Value) -> Result<u64> {
     Ok(fragments)
 }
 
-fn scenes(folder: &Path) -> Result<Vec<PathBuf>> {
+/// The files of this ending, of which there must be some.
+fn files(folder: &Path, ending: &str) -> Result<Vec<PathBuf>> {
     let entries = folder
         .read_dir()
         .map_err(|error| format!("`{}` cannot be listed: {error}", folder.display()))?;
     let mut paths: Vec<PathBuf> = entries
         .filter_map(|entry| Some(entry.ok()?.path()))
+        .filter(|path| {
+            path.extension()
+                .is_some_and(|extension| extension == ending)
+        })
         .collect();
-    paths.retain(|path| path.extension().is_some_and(|extension| extension == "glb"));
     paths.sort();
-    Ok(paths)
+    match paths.is_empty() {
+        true => Err(format!(
+            "`{}` holds no .{ending} file; did the run have `--out`?",
+            folder.display()
+        )),
+        false => Ok(paths),
+    }
 }
 
 #[cfg(test)]
@@ -125,5 +148,23 @@ mod tests {
         assert!(check_report(&report(3, 0.2)).is_err());
         assert!(check_report(&report(17, f64::NAN)).is_err());
         assert!(check_report(&serde_json::json!({"fragments": 9})).is_err());
+    }
+
+    #[test]
+    fn a_picture_of_one_colour_is_refused() {
+        let picture = |pixels: &[u8]| {
+            let mut bytes = Vec::new();
+            let mut encoder = png::Encoder::new(&mut bytes, 256, 2);
+            encoder.set_color(png::ColorType::Rgb);
+            let mut writer = encoder.write_header().unwrap();
+            writer.write_image_data(pixels).unwrap();
+            writer.finish().unwrap();
+            bytes
+        };
+        let many: Vec<u8> = (0..256 * 2 * 3).map(|i| (i / 3) as u8).collect();
+        assert_eq!(shows_something(&picture(&many)), Ok(()));
+        assert!(shows_something(&picture(&[9; 256 * 2 * 3])).is_err());
+        let whole = picture(&many);
+        assert!(shows_something(&whole[..whole.len() / 2]).is_err());
     }
 }

@@ -1,77 +1,51 @@
 //! What the continuous integration checks, in order; `.ci/run` calls this.
+//!
+//! The gate depends neither on chance nor on how fast the machine is. The other steps run by hand, each before a change of its subject goes
+//! in; the gate's last lines name them with the day on which they last passed.
 
-use std::path::Path;
-use std::time::{Duration, Instant};
+use std::path::PathBuf;
+use std::process::Command;
+use std::time::Instant;
 
 use crate::bevy;
-use crate::blender;
+use crate::blender::blender;
 use crate::book;
 use crate::check_output::check_output;
 use crate::command::{
-    Result, announced, cargo, output, read, root, run_keeping, run_within, shown, skipped,
+    Result, announced, cargo, is_skipped, output, read, root, run_keeping, shown, skipped,
     succeeds, target,
 };
 use crate::counts::counts;
 use crate::fuzz::{USUAL_SECONDS, fuzz};
-use crate::green;
+use crate::leaves;
 use crate::packages::package_lists;
+use crate::passed;
 use crate::python;
 use crate::semver::semver;
-use crate::web::{package, trial};
+use crate::test::tested_program;
+use crate::web;
 
-/// Building cargo-deny takes three minutes of one core; a machine that needs longer than this is stuck.
-const INSTALL_LIMIT: Duration = Duration::from_secs(20 * 60);
-/// Limit of the whole step of fuzzing; its first build with instrumentation takes most of it.
-const FUZZ_LIMIT: Duration = Duration::from_secs(8 * 60);
-/// Limit of the whole step of the page; its first build for browsers takes most of it, the bodies and the browser the rest.
-const WEB_LIMIT: Duration = Duration::from_secs(28 * 60);
-/// A step of a leaf begins within this time after the start, or is left to the next run. On a machine where nothing is built yet the first
-/// builds of all leaves take an hour by themselves; the next run finds them there.
-const LEAVES_BEGIN_WITHIN: Duration = Duration::from_secs(44 * 60);
 /// The cargo-deny that `deny.toml` is written for.
 const DENY_VERSION: &str = "0.20.2";
 
-/// What the page in a browser is built from, and what tests it.
-const PAGE: [&str; 20] = [
-    ".cargo/config.toml",
+/// What bodies are made and broken by.
+const CORE: &[&str] = &[
     "Cargo.toml",
     "Cargo.lock",
-    "apps/npm/test/serve.mjs",
-    "apps/web",
     "crates/frangible",
     "crates/frangible-bake",
-    "crates/frangible-compare",
-    "crates/frangible-draw",
-    "crates/frangible-export",
     "crates/frangible-geometry",
     "crates/frangible-material",
     "crates/frangible-mesh",
+];
+/// Worlds and scenes of them.
+const SCENES: &[&str] = &[
+    "crates/frangible-export",
     "crates/frangible-rapier",
     "crates/frangible-scenes",
     "crates/frangible-sound",
-    "crates/frangible-view",
-    "xtask/src/command.rs",
-    "xtask/src/web",
-    "xtask/web-pack",
 ];
-
-/// What the npm package is built from, and what tests it.
-const NPM: [&str; 14] = [
-    ".cargo/config.toml",
-    "Cargo.toml",
-    "Cargo.lock",
-    "LICENSE-APACHE",
-    "LICENSE-MIT",
-    "apps/npm",
-    "crates/frangible",
-    "crates/frangible-bake",
-    "crates/frangible-geometry",
-    "crates/frangible-material",
-    "crates/frangible-mesh",
-    "xtask/src/command.rs",
-    "xtask/src/web",
-    "xtask/web-pack",
-];
+const ALL: &[&str] = &["Cargo.toml", "Cargo.lock", "apps", "crates"];
 
 /// Packages that can be built without some of their features, and with which.
 const FEATURES: [&[&str]; 7] = [
@@ -96,88 +70,89 @@ type Check = fn() -> Result<Vec<String>>;
 struct Step {
     name: &'static str,
     check: Check,
-    when: When,
+    /// The paths that a step by hand checks; none of the gate's has any.
+    of: &'static [&'static [&'static str]],
 }
 
-/// When a step runs.
-enum When {
-    Always,
-    /// The step belongs to a leaf with heavy dependencies: it runs where one of these paths has changed since it last passed.
-    Changed(&'static [&'static str]),
-    /// Its first build takes a quarter of an hour: it runs with `--all` alone.
-    Asked,
-}
-
-const fn step(name: &'static str, check: Check) -> Step {
+const fn gate(name: &'static str, check: Check) -> Step {
     Step {
         name,
         check,
-        when: When::Always,
+        of: &[],
     }
 }
 
+const fn by_hand(name: &'static str, of: &'static [&'static [&'static str]], check: Check) -> Step {
+    Step { name, check, of }
+}
+
 const STEPS: &[Step] = &[
-    step("format", format),
-    step("clippy", || {
-        quiet(&[
-            "clippy",
-            "--release",
-            "--workspace",
-            "--all-targets",
-            "--",
-            "-D",
-            "warnings",
-        ])
+    gate("format", format),
+    gate("clippy", clippy),
+    gate("test", tests),
+    gate("main job", main_job),
+    gate("docs", docs),
+    gate("licences", licences),
+    gate("leaves", leaves::warm),
+    by_hand(
+        "all leaves",
+        &[ALL, &["bevy_frangible", "fuzz"]],
+        leaves::all,
+    ),
+    by_hand("first run", &[ALL], first_run),
+    by_hand("packages", &[ALL], package_lists),
+    by_hand("semver", &[ALL], || semver(None)),
+    by_hand("features", &[ALL], features),
+    by_hand("oldest rust", &[ALL], oldest_rust),
+    by_hand("counts", &[CORE, &["crates/frangible-lab"]], || {
+        counts(false)
     }),
-    step("test", tests),
-    step("docs", docs),
-    step("licences", deny),
-    step("packages", package_lists),
-    step("semver", || semver(None)),
-    step("features", features),
-    step("oldest rust", oldest_rust),
-    step("main job", main_job),
-    step("counts", || counts(false)),
-    step("fuzz", || fuzz(USUAL_SECONDS, Some(FUZZ_LIMIT))),
-    Step {
-        name: "book",
-        check: || book::book(book::Wish::All),
-        when: When::Changed(&book::PATHS),
-    },
-    Step {
-        name: "npm",
-        check: || package(Some(WEB_LIMIT)),
-        when: When::Changed(&NPM),
-    },
-    Step {
-        name: "python",
-        check: python::wheel,
-        when: When::Changed(&python::PATHS),
-    },
-    Step {
-        name: "blender",
-        check: blender::blender,
-        when: When::Changed(&blender::PATHS),
-    },
-    Step {
-        name: "bevy",
-        check: bevy::bevy,
-        when: When::Changed(&bevy::PATHS),
-    },
-    Step {
-        name: "web",
-        check: || trial(Some(WEB_LIMIT)),
-        when: When::Changed(&PAGE),
-    },
-    Step {
-        name: "bevy drawn",
-        check: bevy::drawn,
-        when: When::Asked,
-    },
+    by_hand("fuzz", &[CORE, SCENES, &["fuzz"]], || fuzz(USUAL_SECONDS)),
+    by_hand(
+        "book",
+        &[
+            ALL,
+            &["README.md", "bevy_frangible/README.md", "book", "docs"],
+        ],
+        || book::book(book::Wish::All),
+    ),
+    by_hand(
+        "npm",
+        &[CORE, &["apps/npm", "xtask/src/web", "xtask/web-pack"]],
+        web::package,
+    ),
+    by_hand(
+        "python",
+        &[CORE, SCENES, &["apps/frangible", "apps/npm", "apps/python"]],
+        python::wheel,
+    ),
+    by_hand(
+        "blender",
+        &[CORE, SCENES, &["apps/python", "tools/blender"]],
+        blender,
+    ),
+    by_hand("bevy", &[CORE, SCENES, &["bevy_frangible"]], bevy::bevy),
+    by_hand(
+        "web",
+        &[&[
+            "Cargo.toml",
+            "Cargo.lock",
+            "apps/web",
+            "crates",
+            "xtask/src/web",
+            "xtask/web-pack",
+        ]],
+        web::trial,
+    ),
+    by_hand(
+        "bevy drawn",
+        &[CORE, SCENES, &["bevy_frangible"]],
+        bevy::drawn,
+    ),
 ];
 
-/// Runs all steps, or those named, stops at the first that fails, and ends with the times and the tests' summary. With `all` the steps
-/// of leaves run even if nothing changed, and so does a step that is named.
+/// Runs the gate, with `all` also the steps by hand, or only the steps that are named. It stops at the first that fails. Its last lines
+/// are the times, the tests' summary, and the days on which the steps by hand last passed.
 pub(crate) fn ci(all: bool, named: &[&str]) -> Result {
     if let Some(unknown) = named
         .iter()
@@ -195,7 +170,11 @@ pub(crate) fn ci(all: bool, named: &[&str]) -> Result {
     let mut outcome = Ok(());
     for step in STEPS {
         let name = step.name;
-        if !named.is_empty() && !named.contains(&name) {
+        let wanted = match named {
+            [] => all || step.of.is_empty(),
+            _ => named.contains(&name),
+        };
+        if !wanted {
             continue;
         }
         println!(
@@ -203,7 +182,7 @@ pub(crate) fn ci(all: bool, named: &[&str]) -> Result {
             begun.elapsed().as_secs_f64() / 60.0
         );
         let start = Instant::now();
-        let result = run_step(step, all || !named.is_empty(), begun);
+        let result = run_step(step);
         times.push((name, start.elapsed(), result.is_ok()));
         match result {
             Ok(lines) => kept.extend(lines),
@@ -224,41 +203,38 @@ pub(crate) fn ci(all: bool, named: &[&str]) -> Result {
     for line in kept {
         println!("{line}");
     }
+    if named.is_empty() {
+        println!("\nby hand, `cargo xtask ci --all` or `cargo xtask ci STEP`:");
+        for step in STEPS.iter().filter(|step| !step.of.is_empty()) {
+            println!(
+                "{:<11} {}",
+                step.name,
+                passed::last(step.name, &step.of.concat())
+            );
+        }
+    }
     outcome
 }
 
-fn run_step(step: &Step, all: bool, begun: Instant) -> Result<Vec<String>> {
-    let skipped = |why: &str| {
-        let why = format!("{why}; `cargo xtask ci --all` runs it");
-        skipped(step.name, &why)
-    };
-    let paths = match step.when {
-        When::Always => return (step.check)(),
-        When::Asked if all => return (step.check)(),
-        When::Asked => return skipped("its first build takes long"),
-        When::Changed(paths) => paths,
-    };
-    // Without git there is no state, and the step runs.
-    let state = green::state(paths).ok().flatten();
-    if let Some(state) = state.as_ref().filter(|_| !all)
-        && green::passed(step.name, state)
-    {
-        return skipped("nothing it is built from has changed since it passed");
-    }
-    if !all && begun.elapsed() > LEAVES_BEGIN_WITHIN {
-        return skipped("the run has taken its time, and the next one goes on from here");
-    }
+fn run_step(step: &Step) -> Result<Vec<String>> {
     let lines = (step.check)()?;
-    if let Some(state) = state {
-        green::note(step.name, &state);
+    if !step.of.is_empty() && !lines.iter().any(|line| is_skipped(line)) {
+        passed::note(step.name)?;
     }
     Ok(lines)
 }
 
-/// The workspace and those beside it that no other step formats.
+/// The workspace and those beside it.
 fn format() -> Result<Vec<String>> {
-    for manifest in ["Cargo.toml", "fuzz/Cargo.toml", "xtask/web-pack/Cargo.toml"] {
-        quiet(&["fmt", "--manifest-path", manifest, "--all", "--check"])?;
+    for manifest in [
+        "Cargo.toml",
+        "apps/python/Cargo.toml",
+        "bevy_frangible/Cargo.toml",
+        "fuzz/Cargo.toml",
+        "xtask/web-pack/Cargo.toml",
+    ] {
+        let words = ["fmt", "--manifest-path", manifest, "--all", "--check"];
+        announced(&mut cargo(&words))?;
     }
     Ok(Vec::new())
 }
@@ -303,8 +279,9 @@ fn oldest_rust() -> Result<Vec<String>> {
     announced(&mut command).map(|()| Vec::new())
 }
 
-fn quiet(arguments: &[&str]) -> Result<Vec<String>> {
-    announced(&mut cargo(arguments)).map(|()| Vec::new())
+fn clippy() -> Result<Vec<String>> {
+    let words = ["clippy", "--release", "--workspace", "--all-targets"];
+    announced(cargo(&words).args(["--", "-D", "warnings"])).map(|()| Vec::new())
 }
 
 /// The command of the README, word for word.
@@ -324,56 +301,46 @@ fn docs() -> Result<Vec<String>> {
     .map(|()| Vec::new())
 }
 
-fn deny() -> Result<Vec<String>> {
+fn licences() -> Result<Vec<String>> {
     if !succeeds("cargo", &["deny", "--version"]) {
-        println!("installing cargo-deny {DENY_VERSION}");
-        run_within(
-            &mut cargo(&[
-                "install",
-                "cargo-deny",
-                "--locked",
-                "--version",
-                DENY_VERSION,
-            ]),
-            INSTALL_LIMIT,
-        )
-        .map_err(|error| format!("{error}; or install cargo-deny {DENY_VERSION} by hand"))?;
+        let install = ["install", "cargo-deny", "--locked", "--version"];
+        announced(cargo(&install).arg(DENY_VERSION))?;
     }
-    quiet(&["deny", "check", "licenses", "bans", "sources"])
+    announced(&mut cargo(&[
+        "deny", "check", "licenses", "bans", "sources",
+    ]))
+    .map(|()| Vec::new())
 }
 
-/// One run of the program as the README shows it, and a look at what it wrote.
+/// The program that the tests have built breaks what it breaks unasked, on a machine without a graphics driver and without a display.
 fn main_job() -> Result<Vec<String>> {
-    let folder = std::env::temp_dir().join(format!("frangible-ci-{}", std::process::id()));
-    std::fs::create_dir_all(&folder)
-        .map_err(|error| format!("`{}` cannot be made: {error}", folder.display()))?;
-    let result = run_into(&folder);
-    // A folder that stays behind in the temporary directory is no reason to fail.
-    let _ = std::fs::remove_dir_all(&folder);
-    result
+    let mut command = Command::new(tested_program()?);
+    command.current_dir(root());
+    for display in ["DISPLAY", "WAYLAND_DISPLAY"] {
+        command.env_remove(display);
+    }
+    for drivers in ["VK_DRIVER_FILES", "VK_ICD_FILENAMES"] {
+        command.env(drivers, "/there/is/none.json");
+    }
+    run_and_look(command)
 }
 
-fn run_into(folder: &Path) -> Result<Vec<String>> {
-    // Built first, so that the compiler's messages can be told from the program's.
-    let built = run_keeping(
-        &mut cargo(&["build", "--release", "--color", "never"]),
-        |line| line.trim_start().starts_with("Compiling ") && !line.ends_with(')'),
-    )?;
-    let mut command = cargo(&["run", "--release", "--quiet", "--", "--out"]);
-    command.arg(folder).arg("--json");
+/// The first command of the README, word for word but for where it writes.
+fn first_run() -> Result<Vec<String>> {
+    run_and_look(cargo(&["run", "--release", "--"]))
+}
+
+/// Has the program write into an empty folder, and looks at what it wrote.
+fn run_and_look(mut command: Command) -> Result<Vec<String>> {
+    let folder: PathBuf = target().join("ci/run");
+    let failed = |error| format!("`{}` cannot be made anew: {error}", folder.display());
+    if folder.exists() {
+        std::fs::remove_dir_all(&folder).map_err(failed)?;
+    }
+    std::fs::create_dir_all(&folder).map_err(failed)?;
+    command.arg("--out").arg(&folder).arg("--json");
     println!("$ {}", shown(&command));
     let report = output(&mut command)?;
-    if !report.trim_ascii().is_empty() {
-        let path = folder.join("report.json");
-        std::fs::write(&path, &report)
-            .map_err(|error| format!("`{}` cannot be written: {error}", path.display()))?;
-    }
-    check_output(folder)?;
-    Ok(match built.len() {
-        0 => Vec::new(),
-        count => vec![format!(
-            "note: `cargo run --release` compiled {count} dependencies again after the tests, first `{}`: the features of the two builds differ",
-            built[0].trim()
-        )],
-    })
+    std::fs::write(folder.join("report.json"), report).map_err(failed)?;
+    check_output(&folder).map(|()| Vec::new())
 }

@@ -143,19 +143,6 @@ fn echo(stream: impl std::io::Read, keep: fn(&str) -> bool, show: fn(&str)) -> V
     kept
 }
 
-/// Runs for at most `limit`; running longer is an error.
-pub(crate) fn run_within(command: &mut Command, limit: Duration) -> Result {
-    match status_within(command, limit)? {
-        Some(status) if status.success() => Ok(()),
-        Some(_) => Err(failed(command)),
-        None => Err(format!(
-            "`{}` took longer than {} min and was stopped",
-            shown(command),
-            limit.as_secs() / 60
-        )),
-    }
-}
-
 /// Runs for at most `limit`, then ends it and all that it started: None.
 pub(crate) fn status_within(command: &mut Command, limit: Duration) -> Result<Option<ExitStatus>> {
     // Its own group, as ending cargo alone would leave the compilers running.
@@ -213,6 +200,11 @@ pub(crate) fn skipped(step: &str, why: &str) -> Result<Vec<String>> {
     let line = format!("{step}: skipped: {why}");
     println!("{line}");
     Ok(vec![line])
+}
+
+/// Whether a line says that something did not run.
+pub(crate) fn is_skipped(line: &str) -> bool {
+    line.contains(": skipped: ")
 }
 
 /// Copies a file, or a folder and all that is in it.

@@ -7,17 +7,12 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
-use std::time::{Duration, Instant};
 
-use crate::command::{
-    Result, cargo, output, root, run_within, shown, skipped, status_within, target,
-};
+use crate::command::{Result, cargo, output, root, run, skipped, target};
 use crate::setup::valgrind;
 
 /// More than this above the stored count is a failure.
 const MOST: f64 = 1.05;
-/// Limit of the whole step when it is one of the integration's.
-const LIMIT: Duration = Duration::from_secs(8 * 60);
 /// The function whose instructions are counted, in `examples/count_instructions.rs`.
 const COUNTED: &str = "*counted_work*";
 const PROGRAM: &str = "count_instructions";
@@ -32,8 +27,6 @@ type Count = (String, u64);
 /// Counts and compares; with `write` stores instead. Returns the lines that sum it up, one of which says so where nothing can
 /// be compared.
 pub(crate) fn counts(write: bool) -> Result<Vec<String>> {
-    let start = Instant::now();
-    let left = || LIMIT.saturating_sub(start.elapsed());
     let path = root().join(STORED);
     if !valgrind() {
         return skipped(
@@ -64,14 +57,14 @@ pub(crate) fn counts(write: bool) -> Result<Vec<String>> {
     };
     // All of the workspace, so that the features are those of every other build.
     let arguments = ["build", "--release", "--workspace", "--example", PROGRAM];
-    run_within(&mut cargo(&arguments), left().max(Duration::from_secs(60)))?;
+    run(&mut cargo(&arguments))?;
     let target = target();
     let program = target.join("release/examples").join(PROGRAM);
     let folder = target.join("counts");
     fs::create_dir_all(&folder)
         .map_err(|error| format!("`{}` cannot be made: {error}", folder.display()))?;
     let body = folder.join("pane.frangible");
-    run_within(Command::new(&program).arg("bake").arg(&body), left())?;
+    run(Command::new(&program).arg("bake").arg(&body))?;
     let list = output(Command::new(&program).arg("list"))?;
     let list = String::from_utf8_lossy(&list);
     let cases: Vec<&str> = list.lines().collect();
@@ -81,7 +74,7 @@ pub(crate) fn counts(write: bool) -> Result<Vec<String>> {
         let results: Vec<Result<Count>> = std::thread::scope(|scope| {
             let runs: Vec<_> = round
                 .iter()
-                .map(|case| scope.spawn(|| count(&program, &body, case, left())))
+                .map(|case| scope.spawn(|| count(&program, &body, case)))
                 .collect();
             runs.into_iter()
                 .map(|run| {
@@ -115,7 +108,7 @@ fn tools() -> Result<Tools> {
 }
 
 /// Runs one case under callgrind and reads what it counted.
-fn count(program: &Path, body: &Path, case: &str, limit: Duration) -> Result<Count> {
+fn count(program: &Path, body: &Path, case: &str) -> Result<Count> {
     let out: PathBuf = body.with_file_name(format!("{case}.callgrind"));
     let mut command = Command::new("valgrind");
     command
@@ -126,16 +119,7 @@ fn count(program: &Path, body: &Path, case: &str, limit: Duration) -> Result<Cou
         .arg("run")
         .args([body.as_os_str(), case.as_ref()])
         .stdout(Stdio::null());
-    match status_within(&mut command, limit)? {
-        Some(status) if status.success() => {}
-        Some(_) => {
-            return Err(format!(
-                "`{}` failed; its messages are above",
-                shown(&command)
-            ));
-        }
-        None => return Err(format!("counting `{case}` did not end in time")),
-    }
+    run(&mut command)?;
     let text = fs::read_to_string(&out)
         .map_err(|error| format!("`{}` cannot be read: {error}", out.display()))?;
     match total(&text) {

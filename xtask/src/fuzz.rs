@@ -3,10 +3,10 @@
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use crate::command::{
-    Result, cargo, host, output, root, shown, skipped, status_within, succeeds, target,
+    Result, announced, cargo, host, output, root, skipped, status_within, succeeds, target,
 };
 use crate::setup::cpp_compiler;
 
@@ -36,13 +36,10 @@ struct Folders {
     programs: PathBuf,
 }
 
-/// Builds all targets and runs each for `seconds`, less if all of it would take longer than `limit`. Returns the lines
-/// that sum it up; one of them says so if there was no time, or no C++ compiler.
+/// Builds all targets and runs each for `seconds`. Returns the lines that sum it up; one of them says so if there is no C++ compiler.
 ///
 /// An input that breaks a target is an error that names the file and how to try it again.
-pub(crate) fn fuzz(seconds: u64, limit: Option<Duration>) -> Result<Vec<String>> {
-    let start = Instant::now();
-    let left = || limit.map_or(Duration::MAX, |limit| limit.saturating_sub(start.elapsed()));
+pub(crate) fn fuzz(seconds: u64) -> Result<Vec<String>> {
     if !cfg!(unix) || !cpp_compiler() {
         return skipped(
             "fuzz",
@@ -50,41 +47,14 @@ pub(crate) fn fuzz(seconds: u64, limit: Option<Duration>) -> Result<Vec<String>>
         );
     }
     if !succeeds("cargo", &["fuzz", "--version"]) {
-        println!("installing cargo-fuzz {VERSION}");
-        let arguments = ["install", "cargo-fuzz", "--locked", "--version", VERSION];
-        match status_within(&mut cargo(&arguments), left())? {
-            Some(status) if status.success() => {}
-            Some(_) => {
-                return Err(format!(
-                    "cargo-fuzz {VERSION} did not install; the messages are above"
-                ));
-            }
-            None => {
-                return skipped(
-                    "fuzz",
-                    "installing cargo-fuzz takes too long here; install it by hand",
-                );
-            }
-        }
+        let install = ["install", "cargo-fuzz", "--locked", "--version", VERSION];
+        announced(&mut cargo(&install))?;
     }
     let host = host()?;
     let folders = folders(&host);
     let names = names(&folders.fuzz)?;
-    if !build(&folders, &host, left())? {
-        return skipped(
-            "fuzz",
-            "building the targets takes too long here; the next run goes on from there",
-        );
-    }
+    build(&folders, &host)?;
     let at_once = std::thread::available_parallelism().map_or(1, usize::from);
-    let rounds = names.len().div_ceil(at_once).max(1) as u64;
-    let seconds = seconds.min(left().saturating_sub(SLACK).as_secs() / rounds);
-    if seconds == 0 {
-        return skipped(
-            "fuzz",
-            "building the targets left no time to run them; the next run has it",
-        );
-    }
     let mut lines = Vec::new();
     for round in names.chunks(at_once) {
         let results: Vec<Result<String>> = std::thread::scope(|scope| {
@@ -130,8 +100,7 @@ fn names(fuzz: &Path) -> Result<Vec<String>> {
     Ok(names)
 }
 
-/// False if there was not enough time.
-fn build(folders: &Folders, host: &str, limit: Duration) -> Result<bool> {
+fn build(folders: &Folders, host: &str) -> Result {
     // Without a sanitizer: the stable compiler has none, and there is no unsafe code in the readers. Overflow checks
     // and debug assertions are on. One code generation unit, cargo-fuzz's default, would leave cores idle.
     let mut command = cargo(&["fuzz", "build", "--sanitizer", "none"]);
@@ -141,12 +110,7 @@ fn build(folders: &Folders, host: &str, limit: Duration) -> Result<bool> {
         .arg("--target-dir")
         .arg(&folders.target)
         .env_remove("CARGO_TARGET_DIR");
-    println!("$ {}", shown(&command));
-    match status_within(&mut command, limit)? {
-        None => Ok(false),
-        Some(status) if status.success() => Ok(true),
-        Some(_) => Err("the targets in `fuzz` do not build; the messages are above".into()),
-    }
+    announced(&mut command)
 }
 
 fn run_target(folders: &Folders, name: &str, seconds: u64) -> Result<String> {
@@ -230,7 +194,7 @@ fn finding(name: &str, program: &Path, log: &Path, input: Option<&str>, said: &s
     if let Some(input) = input {
         lines.push(format!("reproduce: {} {input}", program.display()));
         lines.push(format!(
-            "keep:      cp {input} fuzz/corpus/{name}/ and a test beside the reader"
+            "keep:      cp {input} fuzz/corpus/{name}/, where the tests replay it"
         ));
         if let Ok(bytes) = fs::read(input)
             && bytes.len() <= SHOWN

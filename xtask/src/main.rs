@@ -10,9 +10,10 @@ mod counts;
 mod dist;
 mod fuzz;
 mod glb;
-mod green;
+mod leaves;
 mod outcomes;
 mod packages;
+mod passed;
 mod python;
 mod semver;
 mod setup;
@@ -26,9 +27,9 @@ use outcomes::{Wish, outcomes};
 
 const HELP: &str = "\
 cargo xtask test [--fast]     setup, then all tests of the workspace in the release profile; --fast leaves out those over three seconds
-cargo xtask ci [--all]        everything the continuous integration checks, with the minutes per step; --all also runs the steps of
-                              leaves that have not changed since they passed, and the pictures of the examples in Bevy
-cargo xtask ci STEP...        these steps alone, whether or not anything has changed: cargo xtask ci clippy 'oldest rust'
+cargo xtask ci                the gate: what must hold before a change goes in, with the minutes per step
+cargo xtask ci --all          the gate, then the steps that it only names with the day on which they last passed
+cargo xtask ci STEP...        these steps alone: cargo xtask ci clippy 'oldest rust'
 cargo xtask outcomes [--write FILE | --against FILE]
                               break all built-in scenes; print, store or compare pieces, areas, energies and bits
 cargo xtask counts [--write]  count the instructions of each stage; fail where they grew by over 5 %, or store them
@@ -97,9 +98,9 @@ fn run(words: &[&str]) -> Result {
         ["ci", "--all"] => ci::ci(true, &[]),
         ["ci", steps @ ..] => ci::ci(false, steps),
         ["rebake"] => rebake(),
-        ["fuzz"] => fuzz::fuzz(fuzz::USUAL_SECONDS, None).map(drop),
+        ["fuzz"] => fuzz::fuzz(fuzz::USUAL_SECONDS).map(drop),
         ["fuzz", seconds] => match seconds.parse() {
-            Ok(seconds @ 1..) => fuzz::fuzz(seconds, None).map(drop),
+            Ok(seconds @ 1..) => fuzz::fuzz(seconds).map(drop),
             _ => Err(format!(
                 "`{seconds}` is no whole number of seconds from 1; for example `cargo xtask fuzz 60`"
             )),
@@ -121,10 +122,10 @@ fn run(words: &[&str]) -> Result {
         ["outcomes"] => outcomes(&Wish::Print),
         ["outcomes", "--write", file] => outcomes(&Wish::Write(file.as_ref())),
         ["outcomes", "--against", file] => outcomes(&Wish::Against(file.as_ref())),
-        ["web"] => web::web(None, None).map(drop),
-        ["web", "--out", folder] => web::web(Some(folder.as_ref()), None).map(drop),
-        ["npm"] => web::package(None).map(drop),
-        ["web-test"] => web::trial(None).map(drop),
+        ["web"] => web::web(None).map(drop),
+        ["web", "--out", folder] => web::web(Some(folder.as_ref())).map(drop),
+        ["npm"] => web::package().map(drop),
+        ["web-test"] => web::trial().map(drop),
         ["web-bits"] => web::bits(),
         ["check-output", directory] => check_output::check_output(directory.as_ref()),
         [] | ["help" | "--help" | "-h"] => {

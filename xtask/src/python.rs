@@ -2,35 +2,10 @@
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use std::time::{Duration, Instant};
 
 use crate::book;
-use crate::command::{Result, cargo, root, run_keeping, run_within, shown, target};
+use crate::command::{Result, announced, cargo, root, run_keeping, shown, target};
 use crate::setup::python;
-
-/// What the wheel is built from, and what tests it.
-pub(crate) const PATHS: [&str; 17] = [
-    "apps/python",
-    "apps/frangible",
-    "apps/npm",
-    book::WHEEL_PAGE,
-    "crates/frangible",
-    "crates/frangible-bake",
-    "crates/frangible-export",
-    "crates/frangible-geometry",
-    "crates/frangible-material",
-    "crates/frangible-mesh",
-    "crates/frangible-rapier",
-    "crates/frangible-scenes",
-    "crates/frangible-sound",
-    "xtask/src/book",
-    "xtask/src/command.rs",
-    "xtask/src/python.rs",
-    "xtask/src/setup.rs",
-];
-
-/// Limit of the whole step; building what the bindings are made of takes most of it.
-const LIMIT: Duration = Duration::from_secs(15 * 60);
 
 /// What builds the wheel and what tries it, of the versions that they are written for.
 const TOOLS: [&str; 11] = [
@@ -49,11 +24,6 @@ const TOOLS: [&str; 11] = [
 
 /// Makes the wheel in `target/python/wheels`, tries it, and returns the lines that sum it up.
 pub(crate) fn wheel() -> Result<Vec<String>> {
-    let start = Instant::now();
-    let within = |command: &mut Command| {
-        println!("$ {}", shown(command));
-        run_within(command, LIMIT.saturating_sub(start.elapsed()))
-    };
     let Some(interpreter) = python() else {
         return Err(
             "there is no Python 3.10 or later with `venv`; install python3 and python3-venv".into(),
@@ -76,11 +46,11 @@ pub(crate) fn wheel() -> Result<Vec<String>> {
     ] {
         let mut lint = cargo(command);
         lint.current_dir(&from).env("CARGO_TARGET_DIR", &target);
-        within(&mut lint)?;
+        announced(&mut lint)?;
     }
     let program = |name: &str| program_in(&environment, name);
     if !program("python").exists() {
-        within(
+        announced(
             Command::new(interpreter)
                 .args(["-m", "venv"])
                 .arg(&environment),
@@ -98,7 +68,7 @@ pub(crate) fn wheel() -> Result<Vec<String>> {
         pip.args(words);
         pip
     };
-    within(&mut pip(&TOOLS))?;
+    announced(&mut pip(&TOOLS))?;
     // Wheels of earlier versions are not this one.
     if wheels.exists() {
         std::fs::remove_dir_all(&wheels)
@@ -110,14 +80,14 @@ pub(crate) fn wheel() -> Result<Vec<String>> {
         .arg(&wheels);
     build.arg("--interpreter").arg(program("python"));
     build.current_dir(&from).env("CARGO_TARGET_DIR", &target);
-    within(&mut build)?;
+    announced(&mut build)?;
     let wheel = only_file(&wheels)?;
-    within(&mut pip(&[
+    announced(&mut pip(&[
         "--force-reinstall",
         "--no-deps",
         &wheel.to_string_lossy(),
     ]))?;
-    within(
+    announced(
         Command::new(program("mypy"))
             .args(["--strict", "--no-error-summary", "python/frangible"])
             .current_dir(&from),

@@ -1,8 +1,15 @@
 //! All tests of the workspace, in the profile that also builds the program.
 
+use std::path::PathBuf;
+
 use serde_json::Value;
 
-use crate::command::{Result, cargo, output, run, succeeds};
+use crate::command::{Result, cargo, output, program, run, succeeds};
+
+/// Packages that the program has in one unit for speed: in the tests it matters more that they compile soon.
+const IN_ONE_UNIT: [&str; 2] = ["frangible", "frangible-geometry"];
+/// Neither examples nor benchmarks: clippy compiles those.
+const TESTED: [&str; 3] = ["--lib", "--bins", "--tests"];
 
 /// The workspace's own packages: name, and whether it is published.
 pub(crate) fn packages() -> Result<Vec<(String, bool)>> {
@@ -31,49 +38,53 @@ pub(crate) fn packages() -> Result<Vec<(String, bool)>> {
 
 /// Runs the tests, then the doctests.
 pub(crate) fn test() -> Result {
-    let assertions = assertions()?;
-    let options: Vec<&str> = ["--release", "--workspace"]
-        .into_iter()
-        .chain(assertions.iter().map(String::as_str))
-        .collect();
-    if succeeds("cargo", &["nextest", "--version"]) {
-        run(cargo(&["nextest", "run"]).args(&options))?;
-        run(cargo(&["test", "--doc"]).args(&options))
-    } else {
-        run(cargo(&["test"]).args(&options))
-    }
+    let options = options()?;
+    let runner: &[&str] = match has_nextest() {
+        true => &["nextest", "run"],
+        false => &["test"],
+    };
+    run(cargo(runner).args(TESTED).args(&options))?;
+    run(cargo(&["test", "--doc"]).args(&options))
 }
 
 /// Runs the tests that take no more than a few seconds each; `.config/nextest.toml` says which those are.
 pub(crate) fn fast() -> Result {
-    if !succeeds("cargo", &["nextest", "--version"]) {
+    if !has_nextest() {
         return Err(
             "the fast tests are chosen by cargo-nextest: `cargo install cargo-nextest --locked` gets it"
                 .into(),
         );
     }
-    let words = [
-        "nextest",
-        "run",
-        "--profile",
-        "fast",
-        "--release",
-        "--workspace",
-    ];
-    run(cargo(&words).args(assertions()?))
+    run(cargo(&["nextest", "run", "--profile", "fast"])
+        .args(TESTED)
+        .args(options()?))
 }
 
-/// Debug assertions for our own packages only: dependencies keep the profile they have in `cargo run --release`, and
-/// so are built once. This running xtask is left out, it would be rebuilt for nothing.
-fn assertions() -> Result<Vec<String>> {
-    Ok(packages()?
-        .iter()
-        .filter(|(name, _)| name != "xtask")
-        .flat_map(|(name, _)| {
-            [
-                "--config".to_owned(),
-                format!("profile.release.package.{name}.debug-assertions=true"),
-            ]
-        })
+/// The command line's program as the tests have built it, with assertions; nothing is compiled behind a run of the tests.
+pub(crate) fn tested_program() -> Result<PathBuf> {
+    run(cargo(&["test", "--no-run", "--quiet"])
+        .args(TESTED)
+        .args(options()?))?;
+    Ok(program())
+}
+
+fn has_nextest() -> bool {
+    succeeds("cargo", &["nextest", "--version"])
+}
+
+/// The build of the tests: the workspace in the release profile, with debug assertions in our own packages only. Dependencies keep the
+/// profile they have in `cargo run --release`, and so are built once. This running xtask is left out, it would be rebuilt for nothing.
+fn options() -> Result<Vec<String>> {
+    let packages = packages()?;
+    let names = packages.iter().map(|(name, _)| name.as_str());
+    let assertions = names
+        .filter(|name| *name != "xtask")
+        .map(|name| format!("profile.release.package.{name}.debug-assertions=true"));
+    let units = IN_ONE_UNIT.map(|name| format!("profile.release.package.{name}.codegen-units=16"));
+    let settings = assertions.chain(units);
+    Ok(["--release", "--workspace"]
+        .map(String::from)
+        .into_iter()
+        .chain(settings.flat_map(|setting| ["--config".into(), setting]))
         .collect())
 }

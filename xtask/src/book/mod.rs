@@ -10,7 +10,7 @@
 //! | any with `file=NAME` | It is saved under that name in the page's folder. |
 //! | `rust` | It is an example of a package that a command of the page runs, or what `cargo xtask bevy` runs. |
 //! | `html`, `js` | It is a page that `cargo xtask npm` tries. |
-//! | `sh` | It is a chore that is a step of the continuous integration, or it installs something. |
+//! | `sh` | It is a chore that is a step of `cargo xtask ci --all`, or it installs something. |
 
 mod html;
 mod links;
@@ -26,26 +26,8 @@ use crate::command::{self, Result, cargo, root};
 use crate::setup::setup;
 use page::{Page, chapters};
 
-/// What the book is made of, and what it shows.
-pub(crate) const PATHS: [&str; 14] = [
-    "ARCHITECTURE.md",
-    "CONTRIBUTING.md",
-    "Cargo.lock",
-    "README.md",
-    "apps",
-    "bevy_frangible/README.md",
-    "book",
-    "crates",
-    "docs",
-    "tools/blender/README.md",
-    "tools/render/README.md",
-    "xtask/src/book",
-    "xtask/src/command.rs",
-    "xtask/src/setup.rs",
-];
-
 /// The pages that the wheel's environment runs.
-pub(crate) const WHEEL_PAGE: &str = "book/src/start/python.md";
+const WHEEL_PAGE: &str = "book/src/start/python.md";
 
 /// What is to be done with the book.
 #[derive(Clone, Copy, PartialEq)]

@@ -7,9 +7,8 @@ use std::process::Command;
 
 use serde_json::Value;
 
-use super::program::within;
-use super::{Clock, Folders, make_folder, size_of};
-use crate::command::{Result, cargo, target};
+use super::{Folders, make_folder, size_of};
+use crate::command::{Result, announced, cargo, target};
 
 /// The one that the page opens with.
 pub(super) const FIRST: &str = "pane";
@@ -26,8 +25,8 @@ pub(super) struct Bodies {
 }
 
 /// Bakes and packs them.
-pub(super) fn bodies(folders: &Folders, packer: &Path, clock: Clock) -> Result<Bodies> {
-    let baker = example("bodies", clock)?;
+pub(super) fn bodies(folders: &Folders, packer: &Path) -> Result<Bodies> {
+    let baker = example("bodies")?;
     let out = folders.out.join(FOLDER);
     make_folder(&out)?;
     let kept = folders.target.join(FOLDER).join("baked");
@@ -38,7 +37,7 @@ pub(super) fn bodies(folders: &Folders, packer: &Path, clock: Clock) -> Result<B
     if fs::read_to_string(&stamp).is_ok_and(|known| known == hash) && list.is_file() {
         println!("the bodies are baked already");
     } else {
-        within(Command::new(&baker).arg(&kept), clock)?;
+        announced(Command::new(&baker).arg(&kept))?;
         fs::write(&stamp, hash)
             .map_err(|error| format!("`{}` cannot be written: {error}", stamp.display()))?;
     }
@@ -53,7 +52,7 @@ pub(super) fn bodies(folders: &Folders, packer: &Path, clock: Clock) -> Result<B
         let files = scene["files"].as_array().into_iter().flatten();
         let mut packed = Vec::new();
         for file in files.filter_map(Value::as_str) {
-            packed.push(pack(&kept.join(file), &out, packer, clock)?);
+            packed.push(pack(&kept.join(file), &out, packer)?);
         }
         let bodies = serde_json::json!({ "files": packed, "of": scene["of"] });
         let about = serde_json::json!({ "text": scene["text"], "bodies": bodies });
@@ -63,14 +62,11 @@ pub(super) fn bodies(folders: &Folders, packer: &Path, clock: Clock) -> Result<B
 }
 
 /// Packs a body, unless one of these bytes was packed before, and puts it into the page's folder; its name there and its size.
-fn pack(body: &Path, out: &Path, packer: &Path, clock: Clock) -> Result<Value> {
+fn pack(body: &Path, out: &Path, packer: &Path) -> Result<Value> {
     let (packed, stamp) = (body.with_extension("gz"), body.with_extension("packed"));
     let hash = hash_of(body)?;
     if !fs::read_to_string(&stamp).is_ok_and(|known| known == hash) {
-        within(
-            Command::new(packer).arg("body").arg(body).arg(&packed),
-            clock,
-        )?;
+        announced(Command::new(packer).arg("body").arg(body).arg(&packed))?;
         fs::write(&stamp, hash)
             .map_err(|error| format!("`{}` cannot be written: {error}", stamp.display()))?;
     }
@@ -95,9 +91,9 @@ fn clear(out: &Path) -> Result {
 }
 
 /// Builds one of the examples of the session's program, for this machine.
-pub(super) fn example(name: &str, clock: Clock) -> Result<PathBuf> {
+pub(super) fn example(name: &str) -> Result<PathBuf> {
     let arguments = ["build", "--release", "-p", "frangible-web-session"];
-    within(cargo(&arguments).args(["--example", name]), clock)?;
+    announced(cargo(&arguments).args(["--example", name]))?;
     let file = format!("{name}{}", std::env::consts::EXE_SUFFIX);
     Ok(target().join("release/examples").join(file))
 }

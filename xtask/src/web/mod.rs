@@ -10,7 +10,6 @@ mod trial;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use std::time::{Duration, Instant};
 
 use crate::command::{Result, copy, output, root, target};
 
@@ -19,6 +18,7 @@ use program::Program;
 
 pub(crate) use bevy::bevy_page;
 pub(crate) use package::package;
+pub(crate) use program::for_browsers;
 pub(crate) use trial::{bits, trial};
 
 /// All that the first visit may fetch, packed, bytes: both programs, the body of the first scene, and the page itself. Bodies of the other
@@ -35,36 +35,17 @@ struct Folders {
     out: PathBuf,
 }
 
-/// Stops what takes longer than a limit.
-#[derive(Clone, Copy)]
-struct Clock {
-    start: Instant,
-    limit: Option<Duration>,
-}
-
-impl Clock {
-    fn left(self) -> Duration {
-        self.limit.map_or(Duration::MAX, |limit| {
-            limit.saturating_sub(self.start.elapsed())
-        })
-    }
-}
-
 /// Makes the page in a folder, `target/web/page` if none is named, and returns the line that sums it up.
-pub(crate) fn web(out: Option<&Path>, limit: Option<Duration>) -> Result<Vec<String>> {
-    let clock = Clock {
-        start: Instant::now(),
-        limit,
-    };
-    make(&folders(out), clock).map(|(lines, _)| lines)
+pub(crate) fn web(out: Option<&Path>) -> Result<Vec<String>> {
+    make(&folders(out)).map(|(lines, _)| lines)
 }
 
 /// The lines that sum it up, and where the baked bodies lie.
-fn make(folders: &Folders, clock: Clock) -> Result<(Vec<String>, PathBuf)> {
+fn make(folders: &Folders) -> Result<(Vec<String>, PathBuf)> {
     make_folder(&folders.out)?;
-    let packer = program::packer(folders, clock)?;
-    let programs = program::programs(folders, &packer, clock)?;
-    let bodies = bodies::bodies(folders, &packer, clock)?;
+    let packer = program::packer(folders)?;
+    let programs = program::programs(folders, &packer)?;
+    let bodies = bodies::bodies(folders, &packer)?;
     copy(&folders.page, &folders.out)?;
     write_list(folders, &programs, &bodies)?;
     let lines = weigh(&folders.out, &packer, &programs, &bodies)?;

@@ -3,12 +3,11 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use std::time::{Duration, Instant};
 
-use super::program::{Kind, build, number_of, packer, same_generator, within};
+use super::program::{Kind, build, number_of, packer, same_generator};
 use super::trial::{browser_path, driver, made_folder};
-use super::{Clock, Folders, folders, make_folder};
-use crate::command::{Result, copy, output, root, run_keeping, shown};
+use super::{Folders, folders, make_folder};
+use crate::command::{Result, announced, copy, output, root, run_keeping, shown, skipped};
 use crate::setup::browser;
 
 /// The modules, what they are for, and what each may weigh, packed, bytes.
@@ -28,15 +27,11 @@ const BESIDE: [&str; 7] = [
 ];
 
 /// Makes the package in `target/web/npm/frangible`, tries it in Node and in a browser, and returns the lines that sum it up.
-pub(crate) fn package(limit: Option<Duration>) -> Result<Vec<String>> {
-    let clock = Clock {
-        start: Instant::now(),
-        limit,
-    };
+pub(crate) fn package() -> Result<Vec<String>> {
     let folders = folders(None);
-    let (out, mut lines) = make(&folders, clock)?;
-    let project = install(&folders, &out, clock)?;
-    let bits = native(&folders, clock)?;
+    let (out, mut lines) = make(&folders)?;
+    let project = install(&folders, &out)?;
+    let bits = native(&folders)?;
     lines.extend(test(
         Command::new("node")
             .arg("test/node.test.mjs")
@@ -44,7 +39,10 @@ pub(crate) fn package(limit: Option<Duration>) -> Result<Vec<String>> {
             .current_dir(&project),
     )?);
     let Some(browser) = browser() else {
-        lines.push("npm: the examples were not tried: there is no browser".to_string());
+        lines.extend(skipped(
+            "npm",
+            "there is no browser to try the examples in",
+        )?);
         return Ok(lines);
     };
     let pictures = made_folder(&folders)?;
@@ -52,7 +50,7 @@ pub(crate) fn package(limit: Option<Duration>) -> Result<Vec<String>> {
         Command::new("node")
             .arg("test/browser.test.mjs")
             .arg(browser_path(browser))
-            .arg(driver(&folders, clock)?)
+            .arg(driver(&folders)?)
             .arg(&pictures)
             .current_dir(&project),
     )?);
@@ -60,9 +58,9 @@ pub(crate) fn package(limit: Option<Duration>) -> Result<Vec<String>> {
     Ok(lines)
 }
 
-fn make(folders: &Folders, clock: Clock) -> Result<(PathBuf, Vec<String>)> {
+fn make(folders: &Folders) -> Result<(PathBuf, Vec<String>)> {
     same_generator(&root().join("Cargo.lock"))?;
-    let packer = packer(folders, clock)?;
+    let packer = packer(folders)?;
     let from = root().join("apps/npm");
     let out = folders.target.join("npm/frangible");
     make_folder(&out)?;
@@ -72,7 +70,7 @@ fn make(folders: &Folders, clock: Clock) -> Result<(PathBuf, Vec<String>)> {
     }
     let mut lines = Vec::new();
     for (name, does, most) in MODULES {
-        let built = build(folders, name, Kind::Library, "npm", clock)?;
+        let built = build(folders, name, Kind::Library, "npm")?;
         let text = output(Command::new(&packer).arg("package").arg(built).arg(&out))?;
         let unpacked = number_of(&text)?;
         let module = out.join(format!("{}_bg.wasm", name.replace('-', "_")));
@@ -94,7 +92,7 @@ fn make(folders: &Folders, clock: Clock) -> Result<(PathBuf, Vec<String>)> {
 }
 
 /// Packs the folder as npm does, and installs that in an empty project, with what the examples need beside it.
-fn install(folders: &Folders, package: &Path, clock: Clock) -> Result<PathBuf> {
+fn install(folders: &Folders, package: &Path) -> Result<PathBuf> {
     let project = folders.target.join("npm/project");
     make_folder(&project)?;
     let from = root().join("apps/npm");
@@ -123,13 +121,13 @@ fn install(folders: &Folders, package: &Path, clock: Clock) -> Result<PathBuf> {
         .arg(format!("./{}", String::from_utf8_lossy(&packed).trim()))
         .args(BESIDE)
         .current_dir(&project);
-    within(&mut install, clock)?;
-    bundle(&project, clock)?;
+    announced(&mut install)?;
+    bundle(&project)?;
     Ok(project)
 }
 
 /// Bundles the example in React, whose packages browsers cannot import as they are: React itself is no module of JavaScript.
-fn bundle(project: &Path, clock: Clock) -> Result {
+fn bundle(project: &Path) -> Result {
     let mut command = Command::new("npx");
     command
         .args(["--no-install", "esbuild", "pages/fiber.jsx", "--bundle"])
@@ -138,11 +136,11 @@ fn bundle(project: &Path, clock: Clock) -> Result {
         .args(["three", "frangible", "frangible/three"].map(|name| format!("--external:{name}")))
         .arg("--outfile=pages/fiber.js")
         .current_dir(project);
-    within(&mut command, clock)
+    announced(&mut command)
 }
 
 /// What the same blows do to the same bodies outside the browser: the hashes of all numbers.
-fn native(folders: &Folders, clock: Clock) -> Result<PathBuf> {
+fn native(folders: &Folders) -> Result<PathBuf> {
     let target = folders.target.join("hash");
     let mut command = crate::command::cargo(&[
         "run",
@@ -157,7 +155,7 @@ fn native(folders: &Folders, clock: Clock) -> Result<PathBuf> {
         .arg(&target)
         .env_remove("CARGO_TARGET_DIR")
         .env("OUT", target.join("hash.json"));
-    within(&mut command, clock)?;
+    announced(&mut command)?;
     Ok(target.join("hash.json"))
 }
 

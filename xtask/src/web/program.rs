@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use super::library::{Library, library};
-use super::{Clock, Folders};
-use crate::command::{Result, cargo, output, root, shown, status_within};
+use super::{Folders, folders};
+use crate::command::{Result, announced, cargo, output, root};
 
 pub(super) const TARGET: &str = "wasm32-unknown-unknown";
 /// The programs: what the page's list calls them, their names, and the profiles that they are built with. What computes is fast, what
@@ -32,10 +32,10 @@ pub(super) struct Program {
 }
 
 /// Builds the programs, and packs them.
-pub(super) fn programs(folders: &Folders, packer: &Path, clock: Clock) -> Result<Vec<Program>> {
+pub(super) fn programs(folders: &Folders, packer: &Path) -> Result<Vec<Program>> {
     same_generator(&root().join("Cargo.lock"))?;
     let pack = |(part, name, profile)| {
-        let built = build(folders, name, Kind::Program, profile, clock)?;
+        let built = build(folders, name, Kind::Program, profile)?;
         let text = output(
             Command::new(packer)
                 .arg("page")
@@ -52,9 +52,9 @@ pub(super) fn programs(folders: &Folders, packer: &Path, clock: Clock) -> Result
 }
 
 /// Builds the one that computes.
-pub(super) fn session(folders: &Folders, clock: Clock) -> Result<PathBuf> {
+pub(super) fn session(folders: &Folders) -> Result<PathBuf> {
     same_generator(&root().join("Cargo.lock"))?;
-    build(folders, SESSION, Kind::Program, "npm", clock)
+    build(folders, SESSION, Kind::Program, "npm")
 }
 
 /// A number that the packer wrote.
@@ -73,27 +73,20 @@ pub(super) enum Kind {
 }
 
 /// Builds a program or library, its standard library too where the toolchain has none for browsers.
-pub(super) fn build(
-    folders: &Folders,
-    name: &str,
-    kind: Kind,
-    profile: &str,
-    clock: Clock,
-) -> Result<PathBuf> {
+pub(super) fn build(folders: &Folders, name: &str, kind: Kind, profile: &str) -> Result<PathBuf> {
     let is_library = kind == Kind::Library;
     let mut command = cargo(&[
         if is_library { "rustc" } else { "build" },
         "--profile",
         profile,
-        "--target",
-        TARGET,
         "-p",
         name,
     ]);
     if is_library {
         command.args(["--lib", "--crate-type", "cdylib"]);
     }
-    for_browsers(&mut command, folders, clock)?;
+    for_browsers(&mut command)?;
+    announced(&mut command)?;
     let built = folders.target.join(TARGET).join(profile);
     // A program's file is named as its package, a library's with underscores.
     let file = match kind {
@@ -103,13 +96,15 @@ pub(super) fn build(
     Ok(built.join(format!("{file}.wasm")))
 }
 
-/// Runs a command that builds something for browsers, with the standard library where the toolchain has none.
-pub(super) fn for_browsers(command: &mut Command, folders: &Folders, clock: Clock) -> Result {
+/// Has a command of cargo build for browsers, into the folder of the page's builds, with the standard library where the toolchain has none.
+pub(crate) fn for_browsers(command: &mut Command) -> Result {
+    let folders = folders(None);
     command
+        .args(["--target", TARGET])
         .arg("--target-dir")
         .arg(&folders.target)
         .env_remove("CARGO_TARGET_DIR");
-    match library(folders, TARGET)? {
+    match library(&folders, TARGET)? {
         Library::Installed => {}
         Library::Sources(sources) => {
             command
@@ -121,11 +116,11 @@ pub(super) fn for_browsers(command: &mut Command, folders: &Folders, clock: Cloc
             }
         }
     }
-    within(command, clock)
+    Ok(())
 }
 
 /// Builds the packer.
-pub(super) fn packer(folders: &Folders, clock: Clock) -> Result<PathBuf> {
+pub(super) fn packer(folders: &Folders) -> Result<PathBuf> {
     let target = folders.target.join("pack");
     let mut command = cargo(&["build", "--release", "--locked", "--manifest-path"]);
     command
@@ -133,23 +128,8 @@ pub(super) fn packer(folders: &Folders, clock: Clock) -> Result<PathBuf> {
         .arg("--target-dir")
         .arg(&target)
         .env_remove("CARGO_TARGET_DIR");
-    within(&mut command, clock)?;
+    announced(&mut command)?;
     Ok(target.join("release/web-pack"))
-}
-
-pub(super) fn within(command: &mut Command, clock: Clock) -> Result {
-    println!("$ {}", shown(command));
-    match status_within(command, clock.left())? {
-        Some(status) if status.success() => Ok(()),
-        Some(_) => Err(format!(
-            "`{}` failed; its messages are above",
-            shown(command)
-        )),
-        None => Err(format!(
-            "`{}` took too long; the next run goes on from there",
-            shown(command)
-        )),
-    }
 }
 
 /// Refuses a packer of another version than what a program of this lock file is built with.

@@ -2,12 +2,11 @@
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use std::time::{Duration, Instant};
 
 use super::bodies::example;
-use super::program::{SESSION, packer, session, within};
-use super::{Clock, Folders, folders, make, make_folder};
-use crate::command::{Result, output, root, run_keeping, shown, succeeds};
+use super::program::{SESSION, packer, session};
+use super::{Folders, folders, make, make_folder};
+use crate::command::{Result, announced, output, root, run_keeping, shown, skipped, succeeds};
 use crate::setup::browser;
 
 /// Drives the browser; the version that the test is written for.
@@ -18,31 +17,22 @@ const RENDERERS: [&str; 2] = ["webgpu", "webgl2"];
 /// Scenes that are played in the browser and without one, and how: so many steps, so many times. In the second pieces break again.
 const PLAYED: [(&str, u32, u32); 2] = [("pane", 100, 5), ("shards", 400, 10)];
 
-/// What the browser may take before it counts as stuck.
-const LONGEST: Duration = Duration::from_secs(25 * 60);
+/// What the browser may take before it counts as stuck, s.
+const LONGEST: &str = "1500";
 
 /// Makes the session's program and the bodies that are played, and compares what comes of them in Node with what comes of them natively: a
 /// part of the page's trial that asks for no browser.
 pub(crate) fn bits() -> Result {
-    let clock = Clock {
-        start: Instant::now(),
-        limit: None,
-    };
     let folders = folders(None);
     let out = folders.target.join("bits");
     let baked = out.join("baked");
     make_folder(&baked)?;
-    let built = session(&folders, clock)?;
-    let packer = packer(&folders, clock)?;
+    let built = session(&folders)?;
+    let packer = packer(&folders)?;
     output(Command::new(packer).arg("package").arg(built).arg(&out))?;
     let scenes = PLAYED.map(|(scene, ..)| scene);
-    within(
-        Command::new(example("bodies", clock)?)
-            .arg(&baked)
-            .args(scenes),
-        clock,
-    )?;
-    let native = native(&folders, &baked, clock)?;
+    announced(Command::new(example("bodies")?).arg(&baked).args(scenes))?;
+    let native = native(&folders, &baked)?;
     let module = out.join(format!("{SESSION}_bg.wasm"));
     in_node(&out, &module, &baked, &native).map(drop)
 }
@@ -59,14 +49,10 @@ fn in_node(scripts: &Path, program: &Path, baked: &Path, native: &Path) -> Resul
 }
 
 /// Makes the page and tries it, and returns the lines that sum it up; one of them says so where there is no browser.
-pub(crate) fn trial(limit: Option<Duration>) -> Result<Vec<String>> {
-    let clock = Clock {
-        start: Instant::now(),
-        limit,
-    };
+pub(crate) fn trial() -> Result<Vec<String>> {
     let folders = folders(None);
-    let (mut lines, baked) = make(&folders, clock)?;
-    let native = native(&folders, &baked, clock)?;
+    let (mut lines, baked) = make(&folders)?;
+    let native = native(&folders, &baked)?;
     if succeeds("node", &["--version"]) {
         let program = folders.out.join(format!("{SESSION}.wasm.gz"));
         lines.extend(in_node(&folders.out, &program, &baked, &native)?);
@@ -75,7 +61,7 @@ pub(crate) fn trial(limit: Option<Duration>) -> Result<Vec<String>> {
     let last: Vec<&str> = [native.as_str()].into_iter().chain(RENDERERS).collect();
     let script = "apps/web/test/page.test.mjs";
     let keep = |line: &str| RENDERERS.iter().any(|renderer| line.starts_with(renderer));
-    lines.extend(in_browser("web", script, &folders, clock, &last, keep)?);
+    lines.extend(in_browser("web", script, &folders, &last, keep)?);
     Ok(lines)
 }
 
@@ -84,14 +70,11 @@ pub(super) fn in_browser(
     step: &str,
     script: &str,
     folders: &Folders,
-    clock: Clock,
     last: &[&str],
     keep: fn(&str) -> bool,
 ) -> Result<Vec<String>> {
     let Some(browser) = browser() else {
-        let line = format!("{step}: not tried: there is no browser, or no Node");
-        println!("{line}");
-        return Ok(vec![line]);
+        return skipped(step, "there is no browser, or no Node");
     };
     let out = made_folder(folders)?;
     let mut command = Command::new("node");
@@ -99,10 +82,10 @@ pub(super) fn in_browser(
         .arg(root().join(script))
         .arg(&folders.out)
         .arg(browser_path(browser))
-        .arg(driver(folders, clock)?)
+        .arg(driver(folders)?)
         .arg(&out)
         .args(last)
-        .env("SECONDS", clock.left().min(LONGEST).as_secs().to_string());
+        .env("SECONDS", LONGEST);
     println!("$ {}", shown(&command));
     let lines = run_keeping(&mut command, keep)?;
     println!("pictures lie in {}", out.display());
@@ -127,7 +110,7 @@ pub(super) fn browser_path(name: &str) -> PathBuf {
 }
 
 /// The driver's package, fetched if it is not there: only that, no browser of its own.
-pub(super) fn driver(folders: &Folders, clock: Clock) -> Result<PathBuf> {
+pub(super) fn driver(folders: &Folders) -> Result<PathBuf> {
     let folder = folders.target.join(DRIVER);
     let there = folder.join("node_modules/playwright-core/package.json");
     if !there.is_file() {
@@ -139,14 +122,14 @@ pub(super) fn driver(folders: &Folders, clock: Clock) -> Result<PathBuf> {
             .arg(&folder)
             .arg(DRIVER)
             .env("PLAYWRIGHT_SKIP_BROWSER_DOWNLOAD", "1");
-        within(&mut command, clock)?;
+        announced(&mut command)?;
     }
     Ok(folder)
 }
 
 /// What comes of the scenes on this machine, without a browser: a file for the test.
-fn native(folders: &Folders, baked: &Path, clock: Clock) -> Result<PathBuf> {
-    let plays = example("plays", clock)?;
+fn native(folders: &Folders, baked: &Path) -> Result<PathBuf> {
+    let plays = example("plays")?;
     let mut all = Vec::new();
     for (scene, steps, times) in PLAYED {
         let counts = [steps, times].map(|count| count.to_string());

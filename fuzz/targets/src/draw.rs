@@ -2,9 +2,6 @@
 //!
 //! The first byte says whether every number is plausible, or whether some are any bits at all. Where the bytes are at an end
 //! everything is drawn from zeros, which stand for the plainest choice.
-#![allow(dead_code, reason = "each target uses its share")]
-
-pub mod bodies;
 
 use frangible::FractureConfig;
 use frangible::glam::Vec3;
@@ -12,7 +9,7 @@ use frangible::internals::near_field::PlateTheory;
 use frangible::internals::{CrackPath, CrackTiming, DurationModel};
 
 /// Bytes of an input, read one after the other.
-pub struct Draw<'a> {
+pub(crate) struct Draw<'a> {
     bytes: std::slice::Iter<'a, u8>,
     /// Whether numbers may be any bits.
     odd: bool,
@@ -39,7 +36,7 @@ const ODD: [f64; 15] = [
 
 impl<'a> Draw<'a> {
     /// Begins to read.
-    pub fn new(data: &'a [u8]) -> Self {
+    pub(crate) fn new(data: &'a [u8]) -> Self {
         let mut draw = Self {
             bytes: data.iter(),
             odd: false,
@@ -49,27 +46,27 @@ impl<'a> Draw<'a> {
     }
 
     /// Whether all bytes were read.
-    pub fn is_over(&self) -> bool {
+    pub(crate) fn is_over(&self) -> bool {
         self.bytes.as_slice().is_empty()
     }
 
     /// The next byte.
-    pub fn byte(&mut self) -> u8 {
+    pub(crate) fn byte(&mut self) -> u8 {
         self.bytes.next().copied().unwrap_or(0)
     }
 
     /// Whether the next byte is odd.
-    pub fn flag(&mut self) -> bool {
+    pub(crate) fn flag(&mut self) -> bool {
         self.byte() & 1 == 1
     }
 
     /// A number below this one, which is 256 at most.
-    pub fn below(&mut self, end: usize) -> usize {
+    pub(crate) fn below(&mut self, end: usize) -> usize {
         usize::from(self.byte()) % end
     }
 
     /// Eight bytes.
-    pub fn bits(&mut self) -> u64 {
+    pub(crate) fn bits(&mut self) -> u64 {
         u64::from_le_bytes(std::array::from_fn(|_| self.byte()))
     }
 
@@ -92,7 +89,7 @@ impl<'a> Draw<'a> {
     }
 
     /// Between these, which are above zero: every order of magnitude is as likely. Or any number.
-    pub fn size(&mut self, least: f64, most: f64) -> f64 {
+    pub(crate) fn size(&mut self, least: f64, most: f64) -> f64 {
         match self.any() {
             Some(any) => any,
             None => least * (most / least).powf(self.share()),
@@ -100,7 +97,7 @@ impl<'a> Draw<'a> {
     }
 
     /// Between these. Or any number.
-    pub fn between(&mut self, least: f64, most: f64) -> f64 {
+    pub(crate) fn between(&mut self, least: f64, most: f64) -> f64 {
         match self.any() {
             Some(any) => any,
             None => least + (most - least) * self.share(),
@@ -108,12 +105,12 @@ impl<'a> Draw<'a> {
     }
 
     /// A vector whose components are at most so large. Or any.
-    pub fn vector(&mut self, most: f64) -> Vec3 {
+    pub(crate) fn vector(&mut self, most: f64) -> Vec3 {
         Vec3::from_array(std::array::from_fn(|_| self.between(-most, most) as f32))
     }
 
     /// A vector of any direction, and of length 1 unless it is odd.
-    pub fn direction(&mut self) -> Vec3 {
+    pub(crate) fn direction(&mut self) -> Vec3 {
         let v = self.vector(1.0);
         match v.try_normalize() {
             Some(unit) if !self.odd => unit,
@@ -124,7 +121,7 @@ impl<'a> Draw<'a> {
 
     /// Switches and numbers of the fracture, about one of the presets. Numbers that only make an impact take longer stay in a range in
     /// which it takes less than seconds.
-    pub fn fracture(&mut self) -> FractureConfig {
+    pub(crate) fn fracture(&mut self) -> FractureConfig {
         let preset = match self.below(3) {
             0 => FractureConfig::default(),
             1 => FractureConfig::with_given_impulses(),

@@ -5,10 +5,10 @@ use std::sync::{Arc, OnceLock};
 use frangible::{Asset, Breakable};
 
 /// How many there are.
-pub const COUNT: usize = 3;
+pub(crate) const COUNT: usize = 3;
 
 /// A pane, a block and a held shelf.
-pub fn assets() -> &'static [Arc<Asset>; COUNT] {
+pub(crate) fn assets() -> &'static [Arc<Asset>; COUNT] {
     static ASSETS: OnceLock<[Arc<Asset>; COUNT]> = OnceLock::new();
     ASSETS.get_or_init(|| {
         [
@@ -21,7 +21,7 @@ pub fn assets() -> &'static [Arc<Asset>; COUNT] {
 }
 
 /// The assets, made ready to be broken.
-pub fn kinds() -> &'static [Breakable; COUNT] {
+pub(crate) fn kinds() -> &'static [Breakable; COUNT] {
     static KINDS: OnceLock<[Breakable; COUNT]> = OnceLock::new();
     KINDS.get_or_init(|| {
         let kind = |asset: &Arc<Asset>| Breakable::new(Arc::clone(asset)).expect("a sound body");

@@ -1,0 +1,23 @@
+//! Hostile bytes for the readers of files, and for blows, worlds and scenes that run. Each target is a function that panics where what its
+//! bytes describe is neither refused nor sound.
+//!
+//! The programs of the folder above give them libFuzzer's bytes; `tests/replay.rs` gives them the files of `fuzz/corpus`.
+
+mod bodies;
+mod body_state;
+mod draw;
+mod impact;
+mod readers;
+mod run_scene;
+mod world;
+
+pub use body_state::body_state;
+pub use impact::impact;
+pub use readers::{read_asset, read_gltf, read_obj, read_ply, read_scene, read_stl, read_tets};
+pub use run_scene::run_scene;
+pub use world::world;
+
+/// The text that the bytes begin with.
+fn text(bytes: &[u8]) -> &str {
+    bytes.utf8_chunks().next().map_or("", |chunk| chunk.valid())
+}
