@@ -1,8 +1,6 @@
 //! Most loads of bodies that tumble are refused at the root; `docs/culling.md` has the table.
 
-mod common;
-
-use common::tumble::{BODIES, baked, tumble};
+use crate::common::tumble::{BODIES, baked, tumble};
 use frangible_rapier::LoadCounts;
 
 fn sum(c: LoadCounts) -> u64 {
