@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::common::plate;
 use frangible_sound::glam::Vec3;
-use frangible_sound::{Body, Plate, Pulse, Strike, first_push};
+use frangible_sound::{Body, Pulse, Strike, first_push};
 
 fn strike(impulse: f64, duration: f64, push: &[f32]) -> Strike {
     Strike {

@@ -3,8 +3,8 @@
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
+use frangible::internals::Portion;
 use frangible::internals::modal::ModalBasis;
-use frangible::internals::{Elastic, Portion};
 use frangible::{Body, Breakable, FractureConfig, Material};
 use frangible_bake::eigen::{Constraints, Modes, lowest_modes, lowest_supported_modes};
 use frangible_bake::fem::System;
