@@ -1,13 +1,10 @@
 //! Bodies that break in Avian, without a window.
-#![cfg(feature = "avian")]
 
-mod common;
-
+use crate::common::{app, ball, body, motion, ready};
 use avian3d::prelude::*;
 use bevy::prelude::*;
 use bevy_frangible::prelude::*;
 use bevy_frangible::{BreakableBody, Broken, CrackFaces, OuterFaces};
-use common::{app, ball, body, motion, ready};
 
 #[test]
 fn a_ball_goes_on_through_the_pane_that_it_breaks() {

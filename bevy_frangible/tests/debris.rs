@@ -1,15 +1,12 @@
 //! Pieces that rest, fade, or take too long.
-#![cfg(feature = "avian")]
-
-mod common;
 
 use std::time::Duration;
 
+use crate::common::{app, ball, body, ready};
 use avian3d::prelude::*;
 use bevy::prelude::*;
 use bevy_frangible::prelude::*;
 use bevy_frangible::{Broken, CrackFaces, Rubble};
-use common::{app, ball, body, ready};
 
 /// A pane that falls flat from a metre on a floor, and its pieces.
 fn fallen(budget: DebrisBudget) -> (App, Entity) {

@@ -1,5 +1,4 @@
 //! The two engines against each other, in the scenes of the example `engines`.
-#![cfg(feature = "avian")]
 
 #[path = "../examples/engines/in_avian.rs"]
 mod in_avian;

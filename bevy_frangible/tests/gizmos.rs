@@ -1,13 +1,10 @@
 //! What is drawn over bodies.
-#![cfg(all(feature = "avian", feature = "gizmos"))]
 
-mod common;
-
+use crate::common::{app_with, ball, bodies, body, ready};
 use avian3d::prelude::*;
 use bevy::gizmos::{GizmoAsset, GizmoPlugin};
 use bevy::prelude::*;
 use bevy_frangible::{BreakableBody, FrangibleGizmos, FrangibleGizmosPlugin, LastBlow};
-use common::{app_with, ball, bodies, body, ready};
 
 /// Ends of all lines that are drawn.
 fn drawn(app: &App) -> Vec<Vec3> {

@@ -1,12 +1,9 @@
 //! Bodies that something holds.
-#![cfg(feature = "avian")]
 
-mod common;
-
+use crate::common::{app, ball, ready};
 use avian3d::prelude::*;
 use bevy::prelude::*;
 use bevy_frangible::prelude::*;
-use common::{app, ball, ready};
 use frangible_bake::{BakeSpec, Region, Shape, Support, bake};
 
 /// A pane of glass of half a metre that is held at all its edges.

@@ -1,16 +1,13 @@
 //! Fragments that break again, and the budget for debris.
-#![cfg(feature = "avian")]
-
-mod common;
 
 use std::sync::Arc;
 use std::time::Duration;
 
+use crate::common::{Log, app, ball, body, motion, ready};
 use avian3d::prelude::*;
 use bevy::prelude::*;
 use bevy_frangible::prelude::*;
 use bevy_frangible::{BreakableBody, Broken};
-use common::{Log, app, ball, body, motion, ready};
 use frangible_bake::pieces::Pieces;
 
 fn pieces() -> BreakAgain {

@@ -1,5 +1,4 @@
 //! Bodies that break in a world of Rapier, without a window.
-#![cfg(feature = "rapier")]
 
 use std::time::Duration;
 

@@ -1,15 +1,12 @@
 //! What cannot break says why, and nothing panics.
-#![cfg(feature = "avian")]
-
-mod common;
 
 use std::time::Duration;
 
+use crate::common::{Log, app, app_in, ball, bodies, body, ready};
 use avian3d::prelude::*;
 use bevy::prelude::*;
 use bevy_frangible::BreakableBody;
 use bevy_frangible::prelude::*;
-use common::{Log, app, app_in, ball, bodies, body, ready};
 
 fn said(log: &Log, words: &str) -> bool {
     log.lines().iter().any(|line| line.contains(words))

@@ -1,13 +1,10 @@
 //! Bodies that break under what lies on them.
-#![cfg(feature = "avian")]
 
-mod common;
-
+use crate::common::{Log, app, body, ready};
 use avian3d::prelude::*;
 use bevy::prelude::*;
 use bevy_frangible::prelude::*;
 use bevy_frangible::{BreakableBody, Broken, Carries};
-use common::{Log, app, body, ready};
 use frangible::glam;
 use frangible::internals::{Force, rest};
 use frangible::{FractureConfig, Outcome};

@@ -1,13 +1,10 @@
 //! What breaks is heard: when it breaks, as loud as it is, and alike in two runs.
-#![cfg(feature = "sound")]
 
-mod common;
-
+use crate::common::{STEP, app_with, bodies, body, ready};
 use avian3d::prelude::*;
 use bevy::prelude::*;
 use bevy_frangible::prelude::*;
 use bevy_frangible::{Ears, FrangibleSoundPlugin, Heard};
-use common::{STEP, app_with, bodies, body, ready};
 
 const RATE: f64 = 48_000.0;
 /// Speed of sound, m/s.

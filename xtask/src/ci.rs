@@ -22,7 +22,7 @@ use crate::packages::package_lists;
 use crate::passed;
 use crate::python;
 use crate::semver::semver;
-use crate::test::tested_program;
+use crate::test::{WITH_WINDOW, tested_program};
 use crate::web;
 
 /// The cargo-deny that `deny.toml` is written for.
@@ -42,13 +42,14 @@ const CORE: &[&str] = &[
 const SCENES: &[&str] = &[
     "crates/frangible-export",
     "crates/frangible-rapier",
+    "crates/frangible-recording",
     "crates/frangible-scenes",
     "crates/frangible-sound",
 ];
 const ALL: &[&str] = &["Cargo.toml", "Cargo.lock", "apps", "crates"];
 
 /// Packages that can be built without some of their features, and with which.
-const FEATURES: [&[&str]; 7] = [
+const FEATURES: [&[&str]; 6] = [
     &["-p", "frangible-mesh", "--no-default-features"],
     &["-p", "frangible-bake", "--no-default-features"],
     &["-p", "frangible-rapier", "--features", "parallel"],
@@ -61,7 +62,6 @@ const FEATURES: [&[&str]; 7] = [
         "--features",
         "window",
     ],
-    &["-p", "frangible-cli", "--no-default-features"],
 ];
 
 /// What one step does: it returns the lines worth repeating at the end.
@@ -279,9 +279,21 @@ fn oldest_rust() -> Result<Vec<String>> {
     announced(&mut command).map(|()| Vec::new())
 }
 
+/// The workspace, and the program as its first user compiles it, without the window.
 fn clippy() -> Result<Vec<String>> {
-    let words = ["clippy", "--release", "--workspace", "--all-targets"];
-    announced(cargo(&words).args(["--", "-D", "warnings"])).map(|()| Vec::new())
+    for words in [
+        &[
+            "--workspace",
+            "--all-targets",
+            WITH_WINDOW[0],
+            WITH_WINDOW[1],
+        ][..],
+        &["--package", "frangible-cli", "--all-targets"],
+    ] {
+        let lints = ["--", "-D", "warnings"];
+        announced(cargo(&["clippy", "--release"]).args(words).args(lints))?;
+    }
+    Ok(Vec::new())
 }
 
 /// The command of the README, word for word.

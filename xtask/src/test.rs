@@ -8,6 +8,8 @@ use crate::command::{Result, cargo, output, program, run, succeeds};
 
 /// Packages that the program has in one unit for speed: in the tests it matters more that they compile soon.
 const IN_ONE_UNIT: [&str; 2] = ["frangible", "frangible-geometry"];
+/// The program with its window, which is not in its default features.
+pub(crate) const WITH_WINDOW: [&str; 2] = ["--features", "frangible-cli/view"];
 /// Neither examples nor benchmarks: clippy compiles those.
 const TESTED: [&str; 3] = ["--lib", "--bins", "--tests"];
 
@@ -72,17 +74,18 @@ fn has_nextest() -> bool {
     succeeds("cargo", &["nextest", "--version"])
 }
 
-/// The build of the tests: the workspace in the release profile, with debug assertions in our own packages only. Dependencies keep the
-/// profile they have in `cargo run --release`, and so are built once. This running xtask is left out, it would be rebuilt for nothing.
+/// The build of the tests: the workspace in the release profile, with debug assertions and checks of overflow in our own packages only.
+/// Dependencies keep the profile they have in `cargo run --release`, and so are built once. This running xtask is left out, it would be rebuilt for nothing.
 fn options() -> Result<Vec<String>> {
     let packages = packages()?;
     let names = packages.iter().map(|(name, _)| name.as_str());
-    let assertions = names
-        .filter(|name| *name != "xtask")
-        .map(|name| format!("profile.release.package.{name}.debug-assertions=true"));
+    let assertions = names.filter(|name| *name != "xtask").flat_map(|name| {
+        ["debug-assertions", "overflow-checks"]
+            .map(|check| format!("profile.release.package.{name}.{check}=true"))
+    });
     let units = IN_ONE_UNIT.map(|name| format!("profile.release.package.{name}.codegen-units=16"));
     let settings = assertions.chain(units);
-    Ok(["--release", "--workspace"]
+    Ok(["--release", "--workspace", WITH_WINDOW[0], WITH_WINDOW[1]]
         .map(String::from)
         .into_iter()
         .chain(settings.flat_map(|setting| ["--config".into(), setting]))

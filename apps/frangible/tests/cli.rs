@@ -3,9 +3,7 @@
 use std::fs;
 use std::process::{Command, Stdio};
 
-mod common;
-
-use common::{Folder, frangible, refused, refused_in_a_sentence, text};
+use crate::common::{Folder, frangible, refused, refused_in_a_sentence, text};
 
 #[test]
 fn unknown_names_are_met_with_the_nearest() {

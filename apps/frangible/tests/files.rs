@@ -4,9 +4,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-mod common;
-
-use common::{Folder, frangible, refused, refused_in_a_sentence, text};
+use crate::common::{Folder, frangible, refused, refused_in_a_sentence, text};
 
 /// A scene file in a folder of its own.
 fn scene_file(folder: &Folder, name: &str, text: &str) -> String {

@@ -1,17 +1,12 @@
 //! The program is killed, has no room on the disk, or meets itself: files are whole or absent.
 
-#![cfg(unix)]
-
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
-#[expect(dead_code, reason = "shared with tests of what is refused")]
-mod common;
-
-use common::{Folder, text};
+use crate::common::{Folder, text};
 
 /// Kills, at moments from the beginning of a run to its end. `FRANGIBLE_KILLS` asks for more.
 const KILLS: u32 = 12;
@@ -101,7 +96,7 @@ fn a_kill_at_any_moment_leaves_whole_files_or_none() {
 
 #[test]
 fn two_runs_into_one_folder_leave_whole_files() {
-    let folder = Folder::new("twice");
+    let folder = Folder::new("killed-twice");
     let args = body(&folder);
     let (whole, _) = undisturbed(&args, &folder.0.join("whole"));
     let out = folder.0.join("shared");

@@ -3,10 +3,7 @@
 use std::fs;
 use std::process::Command;
 
-#[allow(dead_code, reason = "other tests need the rest of it")]
-mod common;
-
-use common::{Folder, frangible, text};
+use crate::common::{Folder, frangible, text};
 
 /// A glass shelf held at one end, 12 modes.
 const SHELF: &str = r#"

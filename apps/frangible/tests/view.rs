@@ -1,9 +1,5 @@
 //! The window from end to end: opened on a display, given a script through the path a person's input takes, and looked at by
 //! what it saved.
-#![cfg(feature = "view")]
-
-#[allow(dead_code, reason = "other tests need the rest of it")]
-mod common;
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -12,7 +8,7 @@ use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
-use common::{Folder, frangible, text};
+use crate::common::{Folder, frangible, text};
 use frangible_draw::{DrawError, has_adapter};
 use serde_json::Value;
 

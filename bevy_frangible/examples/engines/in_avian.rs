@@ -12,7 +12,7 @@ use bevy_frangible::frangible::glam::{self, DVec3};
 use bevy_frangible::frangible::{Fracture, Material};
 use bevy_frangible::prelude::*;
 
-use crate::scenes::{Break, GRAVITY, Outcome, RATE, Scene, Solid, Start, Striker};
+use super::scenes::{Break, GRAVITY, Outcome, RATE, Scene, Solid, Start, Striker};
 
 /// The first break.
 #[derive(Resource, Default)]

@@ -7,7 +7,7 @@ use frangible_rapier::rapier3d::geometry::SharedShape;
 use frangible_rapier::rapier3d::math::{Pose, Vector};
 use frangible_rapier::{BreakableWorld, SurfaceProperties, WorldConfig, WorldError};
 
-use crate::scenes::{Break, GRAVITY, Outcome, RATE, Scene, Solid, Start, Striker};
+use super::scenes::{Break, GRAVITY, Outcome, RATE, Scene, Solid, Start, Striker};
 
 fn pose(start: &Start) -> Pose {
     Pose::from_parts(start.at, start.turn)

@@ -1,5 +1,5 @@
 //! A Bevy app without a window, bodies and balls.
-#![allow(dead_code, reason = "not every test uses all of it")]
+#![allow(dead_code, reason = "without sound and gizmos some of it is not used")]
 
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex};

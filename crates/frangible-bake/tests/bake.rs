@@ -209,7 +209,7 @@ fn the_number_of_threads_does_not_show() {
         let output = Command::new(std::env::current_exe().unwrap())
             .args([
                 "--exact",
-                "the_number_of_threads_does_not_show",
+                "bake::the_number_of_threads_does_not_show",
                 "--nocapture",
             ])
             .env(CHILD, "1")

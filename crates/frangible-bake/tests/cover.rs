@@ -1,9 +1,8 @@
 //! Elements that merely cover a body: against closed forms, conforming meshes and their own invariants.
 
-use std::ops::ControlFlow;
-
+use crate::common::{assert_near, free_modes, norm};
 use frangible::glam::{DQuat, DVec3};
-use frangible_bake::eigen::{Modes, lowest_modes, residual, rigid_motions};
+use frangible_bake::eigen::{Modes, residual, rigid_motions};
 use frangible_bake::fem::{
     Cover, Elasticity, Elements, QuadraticMesh, System, assemble, assemble_cover, shape_values,
 };
@@ -32,25 +31,10 @@ fn covered(body: &BodyMesh, elements: usize, material: &Elasticity) -> System {
     assemble_cover(&Cover::new(body, elements).unwrap(), material)
 }
 
-fn modes(system: &System, wanted: usize) -> Modes {
-    lowest_modes(system, wanted, &mut |_| ControlFlow::Continue(())).unwrap()
-}
-
 fn frequencies(modes: &Modes) -> Vec<f64> {
     (0..modes.eigenvalues.len())
         .map(|i| modes.frequency(i))
         .collect()
-}
-
-fn norm(x: &[f64]) -> f64 {
-    x.iter().map(|x| x * x).sum::<f64>().sqrt()
-}
-
-fn assert_near(value: f64, reference: f64, tolerance: f64, what: &str) {
-    assert!(
-        (value / reference - 1.0).abs() < tolerance,
-        "{what}: {value} is not within {tolerance} of {reference}"
-    );
 }
 
 /// Bricks of `size` at the given places of a grid, six tetrahedra each.
@@ -138,7 +122,7 @@ fn the_mass_is_that_of_the_body_and_rigid_motions_cost_nothing() {
 #[test]
 fn modes_are_mass_orthonormal_and_solve_the_problem() {
     let system = covered(&body(&Shape::drinking_glass(), 0.005, 1), 1000, &GLASS);
-    let modes = modes(&system, 60);
+    let modes = free_modes(&system, 60);
     let rigid = rigid_motions(&system);
     for i in 0..60 {
         let inertia = system.mass.multiply(modes.shape(i));
@@ -167,7 +151,7 @@ fn lanczos_agrees_with_the_dense_solver() {
     let system = covered(&body(&Shape::plate(0.4, 0.4, 0.02), 0.03, 2), 150, &GLASS);
     let n = system.unknowns();
     assert!(n > 800, "{n} unknowns would go to the dense solver");
-    let (few, many) = (modes(&system, n / 5), modes(&system, n / 5 + 1));
+    let (few, many) = (free_modes(&system, n / 5), free_modes(&system, n / 5 + 1));
     for (i, (a, b)) in few.eigenvalues.iter().zip(&many.eigenvalues).enumerate() {
         assert_near(*a, *b, 1e-7, &format!("eigenvalue {i}"));
     }
@@ -183,11 +167,11 @@ fn frequencies_of_a_thin_walled_glass_fall_towards_those_of_a_conforming_mesh() 
     let mesh = QuadraticMesh::new(&glass.analysis_mesh(size).unwrap());
     let conforming = assemble(&mesh.positions, Elements::Quadratic(&mesh.elements), &GLASS);
     // Within 0.9 % of the modes of its limit, but for one at 1.4 %.
-    let conforming = frequencies(&modes(&conforming, 20));
+    let conforming = frequencies(&free_modes(&conforming, 20));
     let fine = body(&glass, 0.0035, 1);
     let mut before = vec![f64::INFINITY; 20];
     for elements in [1000, 2500, 6000] {
-        let found = frequencies(&modes(&covered(&fine, elements, &GLASS), 20));
+        let found = frequencies(&free_modes(&covered(&fine, elements, &GLASS), 20));
         for i in 0..20 {
             assert!(found[i] < before[i], "mode {i} at {elements} elements");
             // Nor do they fall too far: a Ritz method comes from above.
@@ -210,7 +194,7 @@ fn prongs_that_share_lattice_cells_ring_as_separate_prongs() {
         cover.side
     );
     let conforming = QuadraticMesh::new(&fork(1, 2));
-    let conforming = modes(
+    let conforming = free_modes(
         &assemble(
             &conforming.positions,
             Elements::Quadratic(&conforming.elements),
@@ -218,7 +202,7 @@ fn prongs_that_share_lattice_cells_ring_as_separate_prongs() {
         ),
         4,
     );
-    let found = modes(&assemble_cover(&cover, &GLASS), 4);
+    let found = free_modes(&assemble_cover(&cover, &GLASS), 4);
     // The cell at the root of the gap bridges it, which shortens the prongs a little.
     // One bar five millimetres thick would start at thirteen times the frequency.
     for i in 0..4 {
@@ -310,7 +294,7 @@ fn the_same_body_gives_the_same_bits() {
     let [a, b] = [(), ()].map(|()| covered(&fine, 500, &GLASS));
     assert_eq!(a.positions, b.positions);
     assert_eq!(a.stiffness.val(), b.stiffness.val());
-    assert_eq!(modes(&a, 20).shapes, modes(&b, 20).shapes);
+    assert_eq!(free_modes(&a, 20).shapes, free_modes(&b, 20).shapes);
 }
 
 #[test]
@@ -354,7 +338,7 @@ fn a_single_tetrahedron_takes_as_many_elements_as_it_bears() {
         let mass: f64 = system.mass.row_sums().iter().sum();
         // An element much larger than the body weighs a little itself.
         assert_near(mass, GLASS.density / 6.0, 1e-4, "mass");
-        modes(&system, 3);
+        free_modes(&system, 3);
     }
     // A needle is not cut into thousands of slices.
     let needle = Cover::new(&one(1e-6), 1000).unwrap();

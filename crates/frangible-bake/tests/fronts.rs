@@ -1,8 +1,6 @@
 //! Fronts of cracks that a body has: what they say of a stress must be what fracture mechanics says.
 
-mod common;
-
-use common::{breakable, modes, whole};
+use crate::common::{breakable, whole};
 use frangible::glam::Vec3;
 use frangible::internals::BodyState;
 use frangible::internals::modal::Motion;
@@ -62,7 +60,7 @@ fn reading(bar: &Body, depth: f32, elements: usize) -> [f64; 3] {
     let body = cracked(bar, depth);
     let portion = whole(&body);
     let elastic = reanalysis(&portion, elements, 4).expect("modes");
-    let eigenvalue = modes(&elastic).eigenvalues[0];
+    let eigenvalue = elastic.modes.eigenvalues[0];
     let own = body.piece(&portion, elastic).expect("the cracked bar");
     let [front] = &own.crack_fronts()[..] else {
         panic!("one front was expected");

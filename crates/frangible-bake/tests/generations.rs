@@ -1,10 +1,8 @@
 //! Pieces of pieces: they tile what broke, are closed, and keep what is theirs.
 
-mod common;
-
 use std::sync::Arc;
 
-use common::breakable;
+use crate::common::breakable;
 use frangible::glam::DVec3;
 use frangible::internals::Portion;
 use frangible::{

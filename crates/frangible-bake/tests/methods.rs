@@ -1,10 +1,8 @@
 //! The ways to find how a piece vibrates, on pieces whose answer is known.
 
-mod common;
-
 use std::sync::Arc;
 
-use common::{breakable, frequencies, modes, whole};
+use crate::common::{breakable, frequencies, whole};
 use frangible::glam::Vec3;
 use frangible::internals::Portion;
 use frangible::{Body, Contact, FractureConfig, Material, Outcome, Striker, impact};
@@ -39,7 +37,7 @@ fn a_whole_body_analysed_again_has_the_modes_of_its_bake() {
         let body = breakable(shape, "porcelain", 6_000.0, 30).body(1);
         let elastic = reanalysis(&whole(&body), 1500, 20).expect("modes");
         let (found, expected) = (
-            frequencies(modes(&elastic)),
+            frequencies(&elastic.modes),
             frequencies(&body.asset().modes),
         );
         assert_near(&found, &expected, tolerance, "reanalysis");
@@ -78,7 +76,7 @@ fn a_cracked_body_rings_lower() {
     let sound = reanalysis(&whole(&cracked), 600, 10).expect("modes");
     cracked.set_state(*state).expect("its own state");
     let soft = reanalysis(&whole(&cracked), 600, 10).expect("modes");
-    let (sound, soft) = (frequencies(modes(&sound)), frequencies(modes(&soft)));
+    let (sound, soft) = (frequencies(&sound.modes), frequencies(&soft.modes));
     assert!(soft[0] < 0.9999 * sound[0], "{soft:?} {sound:?}");
     // A crack never stiffens, but for another lattice: elements are split along it.
     for (a, b) in soft.iter().zip(&sound) {
@@ -91,7 +89,7 @@ fn the_parents_modes_of_an_uncut_whole_are_its_own() {
     let body = bar();
     let elastic = parent_modes(&whole(&body), &body).expect("modes");
     let (found, expected) = (
-        frequencies(modes(&elastic)),
+        frequencies(&elastic.modes),
         frequencies(&body.asset().modes),
     );
     // One point per tetrahedron integrates a curved shape a little wrong.
@@ -107,7 +105,7 @@ fn every_way_gives_the_same_bits_on_any_number_of_threads() {
         let bases = [reanalysis(portion, 150, 12), parent_modes(portion, &body)];
         for elastic in bases {
             let elastic = elastic.expect("modes");
-            let modes = modes(&elastic);
+            let modes = &elastic.modes;
             bits.extend(modes.eigenvalues.iter().map(|x| x.to_bits()));
             bits.extend(modes.shapes.iter().map(|x| u64::from(x.to_bits())));
         }

@@ -2,7 +2,8 @@
 
 use std::ops::ControlFlow;
 
-use frangible_bake::eigen::{Modes, lowest_modes, residual, rigid_motions};
+use crate::common::{assert_near, free_modes, norm};
+use frangible_bake::eigen::{lowest_modes, residual, rigid_motions};
 use frangible_bake::fem::{Elasticity, Elements, QuadraticMesh, System, assemble};
 use frangible_bake::{BakeError, MeshSize, Shape};
 
@@ -19,21 +20,6 @@ fn quadratic(shape: &Shape, edge: f64, layers: usize, material: &Elasticity) -> 
         Elements::Quadratic(&mesh.elements),
         material,
     )
-}
-
-fn modes(system: &System, wanted: usize) -> Modes {
-    lowest_modes(system, wanted, &mut |_| ControlFlow::Continue(())).unwrap()
-}
-
-fn norm(x: &[f64]) -> f64 {
-    x.iter().map(|x| x * x).sum::<f64>().sqrt()
-}
-
-fn assert_near(value: f64, reference: f64, tolerance: f64, what: &str) {
-    assert!(
-        (value / reference - 1.0).abs() < tolerance,
-        "{what}: {value} is not within {tolerance} of {reference}"
-    );
 }
 
 #[test]
@@ -65,7 +51,7 @@ fn stiffness_has_six_null_modes() {
                 norm(&magnitude)
             );
         }
-        let seventh = modes(&system, 1).eigenvalues[0];
+        let seventh = free_modes(&system, 1).eigenvalues[0];
         assert!(seventh > 1e6, "the lowest elastic eigenvalue is {seventh}");
     }
 }
@@ -73,7 +59,7 @@ fn stiffness_has_six_null_modes() {
 #[test]
 fn modes_are_mass_orthonormal_and_solve_the_problem() {
     let system = quadratic(&Shape::bowl(), 0.012, 1, &GLASS);
-    let modes = modes(&system, 60);
+    let modes = free_modes(&system, 60);
     let rigid = rigid_motions(&system);
     let product = |a: &[f64], b: &[f64]| {
         let image = system.mass.multiply(b);
@@ -109,7 +95,7 @@ fn lanczos_agrees_with_the_dense_solver() {
     let system = quadratic(&Shape::plate(0.4, 0.4, 0.02), 0.08, 1, &GLASS);
     let n = system.unknowns();
     assert!(n > 800, "{n} unknowns would go to the dense solver");
-    let (few, many) = (modes(&system, n / 5), modes(&system, n / 5 + 1));
+    let (few, many) = (free_modes(&system, n / 5), free_modes(&system, n / 5 + 1));
     for (i, (a, b)) in few.eigenvalues.iter().zip(&many.eigenvalues).enumerate() {
         assert_near(*a, *b, 1e-7, &format!("eigenvalue {i}"));
     }
@@ -119,7 +105,7 @@ fn lanczos_agrees_with_the_dense_solver() {
 fn more_modes_than_the_mesh_has_is_an_error_that_says_how_many() {
     let system = quadratic(&Shape::block([1.0, 1.0, 1.0]), 1.0, 1, &GLASS);
     let available = system.unknowns() - 6;
-    assert_eq!(modes(&system, available).eigenvalues.len(), available);
+    assert_eq!(free_modes(&system, available).eigenvalues.len(), available);
     let error =
         lowest_modes(&system, available + 1, &mut |_| ControlFlow::Continue(())).unwrap_err();
     assert_eq!(
@@ -138,7 +124,7 @@ fn thin_plates_of_few_elements_have_their_modes() {
     let plate = Shape::plate(0.4, 0.4, 0.01);
     for squares in 1..=6 {
         let system = quadratic(&plate, 0.4 / f64::from(squares), 1, &GLASS);
-        let found = modes(&system, 6);
+        let found = free_modes(&system, 6);
         println!(
             "{squares}: {:.1} Hz, residual {:.0e}",
             found.frequency(0),

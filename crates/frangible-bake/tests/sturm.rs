@@ -1,9 +1,9 @@
 //! No mode missed, none found twice: Sylvester's law of inertia says that K − σM has as many negative pivots as there
 //! are eigenvalues below σ.
 
-use std::ops::ControlFlow;
 use std::sync::Arc;
 
+use crate::common::held_modes;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::linalg::SupernodalThreshold;
 use faer::sparse::linalg::cholesky::supernodal::SupernodalLdltRef;
@@ -13,7 +13,7 @@ use faer::sparse::linalg::cholesky::{
 use faer::sparse::{SparseColMat, Triplet};
 use faer::{Mat, Par, Side};
 use frangible::glam::DVec3;
-use frangible_bake::eigen::{Constraints, Modes, lowest_supported_modes};
+use frangible_bake::eigen::Constraints;
 use frangible_bake::fem::{
     Cover, Elasticity, Elements, Mass, QuadraticMesh, System, assemble, assemble_cover,
 };
@@ -146,14 +146,9 @@ fn negative_sparse(matrix: &SparseColMat<usize, f64>) -> usize {
         .sum()
 }
 
-fn modes(system: &System, constraints: &Constraints, wanted: usize) -> Modes {
-    let progress = &mut |_| ControlFlow::Continue(());
-    lowest_supported_modes(system, constraints, wanted, progress).unwrap()
-}
-
 /// Counts below σ in `slices` gaps between the found modes, the last of them just above the highest gap.
 fn check(system: &System, constraints: &Constraints, wanted: usize, what: &str) {
-    let modes = modes(system, constraints, wanted);
+    let modes = held_modes(system, constraints, wanted);
     let values = &modes.eigenvalues;
     // Only where two neighbours are clearly apart can σ lie between them.
     let gaps: Vec<usize> = (1..wanted)
@@ -281,7 +276,7 @@ fn modes_have_the_same_bits_whatever_the_threads() {
                 .num_threads(threads)
                 .build()
                 .unwrap();
-            let modes = pool.install(|| modes(&system, &Constraints::default(), 50));
+            let modes = pool.install(|| held_modes(&system, &Constraints::default(), 50));
             let bits = modes.shapes.iter().chain(&modes.eigenvalues);
             bits.map(|x| x.to_bits()).collect::<Vec<_>>()
         };

@@ -1,11 +1,11 @@
 //! Bodies that are held: against closed forms, and what becomes of the nodes.
 
 use std::f64::consts::{PI, TAU};
-use std::ops::ControlFlow;
 
+use crate::common::{assert_near, held_modes};
 use frangible::glam::{DVec3, Vec3};
 use frangible::{Asset, Body, Contact, FractureConfig, Material, Outcome, Striker, impact};
-use frangible_bake::eigen::{Constraints, Modes, lowest_supported_modes, remaining_motions};
+use frangible_bake::eigen::{Constraints, Modes, remaining_motions};
 use frangible_bake::fem::{
     Cover, Elasticity, Elements, QuadraticMesh, System, assemble, assemble_supported_cover,
 };
@@ -20,13 +20,6 @@ const GLASS: Elasticity = Elasticity {
     density: 2500.0,
 };
 
-fn assert_near(value: f64, reference: f64, tolerance: f64, what: &str) {
-    assert!(
-        (value / reference - 1.0).abs() < tolerance,
-        "{what}: {value} is not within {tolerance} of {reference}"
-    );
-}
-
 /// Quadratic elements, and the nodes for which `held` says along which axes they are held.
 fn system(
     shape: &Shape,
@@ -39,13 +32,6 @@ fn system(
     let held: Vec<[bool; 3]> = mesh.positions.iter().map(|&x| held(x)).collect();
     let constraints = Constraints::of_nodes(&mesh.positions, &held);
     (system, constraints)
-}
-
-fn modes(system: &System, constraints: &Constraints, wanted: usize) -> Modes {
-    lowest_supported_modes(system, constraints, wanted, &mut |_| {
-        ControlFlow::Continue(())
-    })
-    .unwrap()
 }
 
 fn assert_orthonormal(system: &System, constraints: &Constraints, modes: &Modes) {
@@ -90,7 +76,7 @@ fn plate_speed(thickness: f64) -> f64 {
 #[test]
 fn a_cantilever_rings_at_its_bending_frequency() {
     let (system, constraints) = system(&Shape::rod(0.5, 0.02), 0.02, 2, |x| [x.x < 1e-9; 3]);
-    let modes = modes(&system, &constraints, 10);
+    let modes = held_modes(&system, &constraints, 10);
     assert_eq!(modes.rigid_motions, 0);
     assert_near(
         modes.frequency(0),
@@ -116,7 +102,7 @@ fn a_pane_held_across_its_border_rings_as_simply_supported_and_may_still_slide()
     let (system, constraints) = system(&Shape::plate(a, a, h), a / 24.0, 1, |x| {
         [false, false, on_border(x.x) || on_border(x.y)]
     });
-    let modes = modes(&system, &constraints, 12);
+    let modes = held_modes(&system, &constraints, 12);
     assert_eq!(modes.rigid_motions, 3);
     // (π/2) √(D/ρh) ((m/a)² + (n/a)²).
     for (mode, squares) in [(0, 2.0), (1, 5.0), (2, 5.0), (3, 8.0)] {
@@ -138,7 +124,7 @@ fn a_clamped_plate_rings_as_such() {
     let (system, constraints) = system(&Shape::plate(a, a, h), a / 24.0, 1, |x| {
         [on_border(x.x) || on_border(x.y); 3]
     });
-    let modes = modes(&system, &constraints, 4);
+    let modes = held_modes(&system, &constraints, 4);
     assert_eq!(modes.rigid_motions, 0);
     let coefficient = TAU * modes.frequency(0) * a * a / plate_speed(h);
     assert_near(coefficient, 35.99, 0.03, "clamped on four sides");
@@ -151,8 +137,8 @@ fn the_dense_solver_agrees_with_lanczos_on_held_bodies() {
     });
     let left = system.unknowns() - constraints.unknowns().len();
     assert!(left > 800, "{left} unknowns would go to the dense solver");
-    let few = modes(&system, &constraints, left / 5);
-    let many = modes(&system, &constraints, left / 5 + 1);
+    let few = held_modes(&system, &constraints, left / 5);
+    let many = held_modes(&system, &constraints, left / 5 + 1);
     assert_eq!(few.rigid_motions, 1);
     for (a, b) in few.eigenvalues.iter().zip(&many.eigenvalues) {
         assert_near(*a, *b, 1e-7, "eigenvalue");
@@ -179,7 +165,7 @@ fn unknowns_can_be_taken_from_a_consistent_mass_too() {
         .collect();
     let constraints = Constraints::of_nodes(&system.positions, &held);
     for wanted in [8, system.unknowns() / 4] {
-        let modes = modes(&system, &constraints, wanted);
+        let modes = held_modes(&system, &constraints, wanted);
         assert_eq!(modes.rigid_motions, 1, "it may still go along z");
         assert_orthonormal(&system, &constraints, &modes);
     }

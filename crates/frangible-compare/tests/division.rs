@@ -1,8 +1,6 @@
 //! Bodies divided by labels.
 
-mod common;
-
-use common::{Case, plate};
+use crate::common::{Case, plate};
 use frangible::Breakable;
 use frangible_compare::{CompareError, Division};
 

@@ -1,10 +1,8 @@
 //! What holds of every method, and of each of them.
 
-mod common;
-
 use std::collections::BTreeSet;
 
-use common::{Case, baked, in_the_middle, plate, plate_of, preset};
+use crate::common::{Case, baked, in_the_middle, plate, plate_of, preset};
 use frangible::glam::{DVec3, Vec3};
 use frangible::{Contact, Striker, TriMesh};
 use frangible_bake::Shape;

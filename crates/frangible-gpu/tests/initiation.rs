@@ -1,8 +1,6 @@
 //! Stresses and crack initiation on the GPU against the CPU's.
 
-mod common;
-
-use common::{Numbers, gpu, kinds, uneven, weak_rim};
+use crate::common::{Numbers, gpu, kinds, uneven, weak_rim};
 use frangible::internals::stress::Law;
 use frangible::internals::{Stage, Vibration};
 use frangible::{Body, Breakable, Contact, FractureConfig};

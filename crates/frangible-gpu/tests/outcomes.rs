@@ -1,8 +1,6 @@
 //! The GPU saves work; what breaks, and how, is the CPU's to the bit.
 
-mod common;
-
-use common::{Numbers, cracks_and_pieces, gpu, kinds, uneven};
+use crate::common::{Numbers, cracks_and_pieces, gpu, kinds, uneven};
 use frangible::internals::{LookedAt, Stage, Vibration};
 use frangible::{Body, Breakable, Contact, FractureConfig, Outcome, impact};
 use frangible_gpu::{Choice, Impact, RanOn, Solver, initiation_on_cpu};

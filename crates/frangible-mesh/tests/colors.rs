@@ -1,7 +1,5 @@
 //! Vertex colours of every format that has them, and what is wrong with damaged ones.
 
-#![cfg(feature = "mesh-io")]
-
 use frangible_mesh::{InputMesh, MeshFormat, parse_mesh};
 
 const CORNERS: [[f32; 3]; 4] = [[0., 0., 0.], [1., 0., 0.], [0., 1., 0.], [0., 0., 1.]];

@@ -1,17 +1,12 @@
 //! Every hard surface gets sound tetrahedra, or an error that says why it is no solid.
 
-#[allow(dead_code, reason = "other tests use the rest")]
-mod common;
-#[allow(dead_code, reason = "other tests use the rest")]
-mod hard;
-
-use common::check_sound;
+use crate::common::check_sound;
+use crate::hard::{self, Expect};
 use frangible_mesh::glam::Vec3;
 use frangible_mesh::{
     InputMesh, MeshSolid, Resolution, Surface, TetBody, TetOptions, TetReport, read_mesh, repair,
     tetrahedralize, wall_thickness,
 };
-use hard::Expect;
 
 /// Enough for a wine glass with walls of 1.5 mm, not for a plate a thousand times as wide as thick.
 const MOST: usize = 550_000;

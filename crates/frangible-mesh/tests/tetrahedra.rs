@@ -1,10 +1,8 @@
 //! What the mesher promises, on solids with known volumes.
 
-mod common;
-
 use std::ops::ControlFlow;
 
-use common::{Ball, Block, check_sound};
+use crate::common::{Ball, Block, check_sound};
 use frangible_mesh::glam::{DMat3, DVec3};
 use frangible_mesh::{
     Resolution, Solid, TetError, TetOptions, tetrahedralize, tetrahedralize_watched,

@@ -1,6 +1,5 @@
 //! Files of tetrahedra: every format and variant gives the same mesh, and what cannot be used is refused in words.
 
-#[path = "tets/write.rs"]
 mod write;
 
 use frangible_mesh::{TetFormat, TetInput, TetInputError, mend_tets, parse_tetgen, parse_tets};

@@ -5,11 +5,8 @@ use std::f64::consts::PI;
 use frangible_mesh::glam::DVec3;
 use frangible_mesh::{MeshSolid, Solid, SolidError, Surface, wall_thickness};
 
-#[allow(dead_code, reason = "shared with other tests")]
-mod hard;
-
-use hard::shapes::{cuboid, noise, sphere};
-use hard::{Expect, HardCase, broken, crossing, sound};
+use crate::hard::shapes::{cuboid, noise, sphere};
+use crate::hard::{self, Expect, HardCase, broken, crossing, sound};
 
 fn solid(surface: &Surface) -> MeshSolid {
     MeshSolid::new(surface).unwrap_or_else(|error| panic!("{error}"))

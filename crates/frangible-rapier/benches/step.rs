@@ -9,6 +9,7 @@ use frangible::glam::Vec3;
 use frangible_rapier::rapier3d::math::Vector;
 use frangible_rapier::{AtRest, Ball, BreakableWorld, SurfaceProperties, WorldConfig};
 
+#[allow(dead_code, reason = "shared with the tests")]
 #[path = "../tests/common/mod.rs"]
 mod common;
 

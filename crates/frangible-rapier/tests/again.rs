@@ -1,10 +1,8 @@
 //! Fragments that break again.
 
-mod common;
-
 use std::sync::Arc;
 
-use common::baked::pane;
+use crate::common::baked::pane;
 use frangible::Breakable;
 use frangible::internals::Fields;
 use frangible_bake::pieces::{Method, Pieces};

@@ -1,8 +1,6 @@
 //! Whether a blow would break a body, asked of the world.
 
-mod common;
-
-use common::baked::pane;
+use crate::common::baked::{block, pane};
 use frangible::{Body, Contact, FractureConfig, Material, Striker};
 use frangible_rapier::rapier3d::math::{Pose, Rotation, Vector};
 use frangible_rapier::{Ball, BreakableWorld, SurfaceProperties, WorldConfig, WorldError};
@@ -89,7 +87,7 @@ fn a_blow_that_cannot_be_meant_is_refused() {
 fn a_body_of_the_world_strikes_as_it_does_in_its_own_frame() {
     let (mut world, handle) = world();
     let turned = Pose::from_parts(Vector::new(7.0, 1.0, -3.0), Rotation::from_rotation_z(0.3));
-    let other = Body::new(common::baked::block().clone(), 2).unwrap();
+    let other = Body::new(block().clone(), 2).unwrap();
     let other = world.insert_breakable(other, turned, Vector::ZERO, Vector::ZERO);
     let other = other.unwrap();
     let corner = frangible::glam::Vec3::new(-0.1, 0.04, 0.0);

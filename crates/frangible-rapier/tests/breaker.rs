@@ -1,10 +1,8 @@
 //! Breaking bodies in a Rapier world that is the game's own.
 
-mod common;
-
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use common::{body, box_asset, slicer};
+use crate::common::{body, box_asset, slicer};
 use frangible::glam::Vec3;
 use frangible_rapier::rapier3d::dynamics::{RigidBodyBuilder, RigidBodyHandle};
 use frangible_rapier::rapier3d::geometry::{

@@ -1,10 +1,8 @@
 //! The caller's own hooks and event handler.
 
-mod common;
-
 use std::sync::Mutex;
 
-use common::{at, body, box_asset, slicer, world};
+use crate::common::{at, body, box_asset, slicer, world};
 use frangible::glam::Vec3;
 use frangible_rapier::rapier3d::dynamics::{
     RigidBodyBuilder, RigidBodyHandle, RigidBodySet, SoftBodySet, SoftBodyTearEvent,

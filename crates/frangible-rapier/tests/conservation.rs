@@ -1,8 +1,6 @@
 //! Momentum, angular momentum and energy through a break.
 
-mod common;
-
-use common::{at, body, box_asset, relative, slicer, step_to_break, unbreakable, world};
+use crate::common::{at, body, box_asset, relative, slicer, step_to_break, unbreakable, world};
 use frangible::glam::Vec3;
 use frangible_rapier::rapier3d::math::{Pose, Vector};
 use frangible_rapier::{Ball, BreakableWorld, SurfaceProperties, WorldConfig};

@@ -1,8 +1,6 @@
 //! Debris is simple and limited.
 
-mod common;
-
-use common::{at, body, box_asset, slicer, step_to_break, world};
+use crate::common::{at, body, box_asset, slicer, step_to_break, world};
 use frangible::glam::Vec3;
 use frangible_rapier::rapier3d::dynamics::RigidBodyHandle;
 use frangible_rapier::rapier3d::geometry::ShapeType;

@@ -1,8 +1,6 @@
 //! Two runs give the same bits.
 
-mod common;
-
-use common::{at, body, box_asset, slicer, world};
+use crate::common::{at, body, box_asset, slicer, world};
 use frangible::glam::Vec3;
 use frangible_rapier::rapier3d::math::{Pose, Vector};
 use frangible_rapier::{Ball, BreakableWorld, SurfaceProperties};

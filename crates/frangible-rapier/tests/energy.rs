@@ -1,11 +1,9 @@
 //! The energy budget of real breaks, and two breakable bodies that meet.
 
-mod common;
-
 use std::sync::Arc;
 
-use common::baked::{block, pane};
-use common::{at, body, world};
+use crate::common::baked::{block, pane};
+use crate::common::{self, at, body, world};
 use frangible::glam::{DVec3, Vec3};
 use frangible::internals::DurationModel;
 use frangible::internals::blow::Blow;

@@ -1,8 +1,6 @@
 //! Numbers that cannot be used give an error that says so; nothing panics.
 
-mod common;
-
-use common::{at, body, box_asset, sliced, slicer, world};
+use crate::common::{self, at, body, box_asset, sliced, slicer, world};
 use frangible::glam::{DMat3, Quat, Vec3};
 use frangible::{InputError, Outcome};
 use frangible_rapier::rapier3d::math::{Pose, Vector};

@@ -1,8 +1,6 @@
 //! What the world tells of impacts and breaks, and what it hands to the fracture.
 
-mod common;
-
-use common::{at, body, box_asset, slicer, step_to_break, unbreakable, world};
+use crate::common::{at, body, box_asset, slicer, step_to_break, unbreakable, world};
 use frangible::glam::Vec3;
 use frangible_rapier::rapier3d::math::{Pose, Vector};
 use frangible_rapier::{Ball, SurfaceProperties};

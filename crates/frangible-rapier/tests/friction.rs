@@ -1,8 +1,6 @@
 //! Friction impulses of a blow, against the momentum that Rapier gave.
 
-mod common;
-
-use common::{body, box_asset, unbreakable, world};
+use crate::common::{body, box_asset, unbreakable, world};
 use frangible::Material;
 use frangible::glam::Vec3;
 use frangible_rapier::rapier3d::dynamics::FrictionModel;

@@ -1,8 +1,6 @@
 //! Fragments take over what was the parent's: surface, groups, joints, neighbours.
 
-mod common;
-
-use common::{at, body, box_asset, slicer, step_to_break, world};
+use crate::common::{at, body, box_asset, slicer, step_to_break, world};
 use frangible::glam::Vec3;
 use frangible_rapier::rapier3d::dynamics::{RigidBodyBuilder, SphericalJointBuilder};
 use frangible_rapier::rapier3d::geometry::{Group, InteractionGroups, InteractionTestMode};

@@ -1,12 +1,10 @@
 //! Verdicts that come when the body is no longer what it was, or do not come at all.
 
-mod common;
-
 use std::sync::mpsc::channel;
 use std::sync::{Arc, Mutex};
 
-use common::baked::pane;
-use common::{at, body, box_asset};
+use crate::common::baked::pane;
+use crate::common::{at, body, box_asset};
 use frangible::glam::Vec3;
 use frangible::internals::{BodyState, fracture_at};
 use frangible::{Body, Contact, FractureConfig, Outcome};

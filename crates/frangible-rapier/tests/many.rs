@@ -1,11 +1,9 @@
 //! Many bodies: breaks after the step within a budget, on any number of threads, and what is spared.
 
-mod common;
-
 use std::sync::Arc;
 
-use common::baked::{block, shelf};
-use common::{at, body, box_asset, relative, slicer};
+use crate::common::baked::{block, shelf};
+use crate::common::{at, body, box_asset, relative, slicer};
 use frangible::glam::Vec3;
 use frangible::internals::{Force, LookedAt, is_harmless, rest, rest_margin_at_least};
 use frangible::{Contact, FractureConfig, Outcome, Striker, impact};

@@ -1,12 +1,10 @@
 //! Pieces that rest are merged into one fixed body for each body that broke, and come loose when they may break.
 
-mod common;
-
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use common::baked::pane;
-use common::{Judge, at, body, box_asset, slicer, unbreakable};
+use crate::common::baked::pane;
+use crate::common::{self, Judge, at, body, box_asset, slicer, unbreakable};
 use frangible::Breakable;
 use frangible::glam::Vec3;
 use frangible_bake::pieces::{Method, Pieces};

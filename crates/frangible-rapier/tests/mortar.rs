@@ -1,8 +1,6 @@
 //! Weak bonds between bodies.
 
-mod common;
-
-use common::at;
+use crate::common::at;
 use frangible_rapier::rapier3d::math::Vector;
 use frangible_rapier::{Ball, BreakableWorld, Mortar, SurfaceProperties, WorldConfig, WorldError};
 

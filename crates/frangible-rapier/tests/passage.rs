@@ -1,8 +1,6 @@
 //! What hits a pane goes on through it.
 
-mod common;
-
-use common::{at, body, box_asset, slicer, unbreakable, world};
+use crate::common::{at, body, box_asset, slicer, unbreakable, world};
 use frangible::glam::Vec3;
 use frangible_rapier::rapier3d::math::Vector;
 use frangible_rapier::{Ball, SurfaceProperties};

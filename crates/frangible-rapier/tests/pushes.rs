@@ -1,9 +1,7 @@
 //! Blasts and scripted blows: momentum, breaks, errors.
 
-mod common;
-
-use common::baked::{block, pane};
-use common::{at, body, unbreakable, world};
+use crate::common::baked::{block, pane};
+use crate::common::{at, body, unbreakable, world};
 use frangible::glam::{DVec3, Vec3};
 use frangible_rapier::rapier3d::dynamics::RigidBodyHandle;
 use frangible_rapier::rapier3d::math::{Pose, Vector};

@@ -1,8 +1,6 @@
 //! Most loads of bodies that tumble are refused at the root; `docs/culling.md` has the table.
 
-mod common;
-
-use common::tumble::{BODIES, baked, tumble};
+use crate::common::tumble::{BODIES, baked, tumble};
 use frangible_rapier::LoadCounts;
 
 fn sum(c: LoadCounts) -> u64 {
@@ -14,7 +12,10 @@ fn most_loads_of_bricks_that_tumble_down_stairs_are_refused_free_of_time() {
     let kinds = [baked("brick")];
     let run = tumble(&kinds, 0.02, 2.0);
     let c = run.impacts;
-    println!("{c:?}\n{:?}, {} broken", run.rests, run.broken);
+    println!(
+        "{c:?}\n{:?}, {} broken, at rest: {}",
+        run.rests, run.broken, run.at_rest
+    );
     assert_eq!(sum(c), c.asked);
     assert_eq!(sum(run.rests), run.rests.asked);
     assert!(c.contacts >= c.asked);

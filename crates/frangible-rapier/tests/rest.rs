@@ -1,8 +1,6 @@
 //! What rolls comes to rest, and what was pressed into the floor.
 
-mod common;
-
-use common::{at, world};
+use crate::common::{at, world};
 use frangible_rapier::rapier3d::dynamics::RigidBodyBuilder;
 use frangible_rapier::rapier3d::geometry::{ColliderBuilder, SharedShape};
 use frangible_rapier::rapier3d::math::{Pose, Rotation, Vector};

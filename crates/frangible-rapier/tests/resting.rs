@@ -1,9 +1,7 @@
 //! What lies on what: nothing breaks from lying there, and a shelf breaks when it carries too much.
 
-mod common;
-
-use common::baked::{block, pane, shelf};
-use common::{at, body, box_asset, sliced, step_to_break, world};
+use crate::common::baked::{block, pane, shelf};
+use crate::common::{at, body, box_asset, sliced, step_to_break, world};
 use frangible::glam::Vec3;
 use frangible::internals::{Force, rest};
 use frangible::{Body, FractureConfig, Outcome};

@@ -1,8 +1,6 @@
 //! Unbreakable bodies of any shape.
 
-mod common;
-
-use common::{at, body, box_asset, unbreakable, world};
+use crate::common::{at, body, box_asset, unbreakable, world};
 use frangible::glam::Vec3;
 use frangible_rapier::rapier3d::geometry::SharedShape;
 use frangible_rapier::rapier3d::math::Vector;

@@ -1,8 +1,6 @@
 //! Overlapping pieces of one body neither explode apart, nor stick, nor sink.
 
-mod common;
-
-use common::{at, body, box_asset, slicer, step_to_break, world};
+use crate::common::{at, body, box_asset, slicer, step_to_break, world};
 use frangible::glam::Vec3;
 use frangible_rapier::rapier3d::math::Vector;
 use frangible_rapier::{Ball, BreakEvent, BreakableWorld, SurfaceProperties};

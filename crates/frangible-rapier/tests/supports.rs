@@ -1,10 +1,8 @@
 //! Bodies that are held: fixed until they break, then their supported pieces stay.
 
-mod common;
-
 use std::sync::Arc;
 
-use common::{Judge, at, body, box_asset, sliced, step_to_break, unbreakable, world};
+use crate::common::{Judge, at, body, box_asset, sliced, step_to_break, unbreakable, world};
 use frangible::glam::Vec3;
 use frangible::{Asset, Outcome};
 use frangible_rapier::rapier3d::dynamics::RigidBodyHandle;

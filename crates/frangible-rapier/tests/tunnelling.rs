@@ -1,8 +1,6 @@
 //! Nothing passes through anything without a contact.
 
-mod common;
-
-use common::{at, body, box_asset, slicer, step_to_break, unbreakable, world};
+use crate::common::{at, body, box_asset, slicer, step_to_break, unbreakable, world};
 use frangible::glam::Vec3;
 use frangible_rapier::rapier3d::dynamics::RigidBodyType;
 use frangible_rapier::rapier3d::math::{Pose, Vector};

@@ -64,7 +64,8 @@ pub fn try_file(path: &Path) -> Result<(), String> {
 }
 
 fn probe(folder: &Path) -> std::io::Result<()> {
-    let probe = folder.join(format!(".frangible-{}", std::process::id()));
+    // Named as an unfinished file is, should the program be killed here.
+    let probe = folder.join(format!(".frangible-{}.part", std::process::id()));
     fs::write(&probe, b"")?;
     fs::remove_file(&probe)
 }

@@ -12,6 +12,7 @@ use frangible::internals::StageTimings;
 use frangible::{Asset, Body, Contact, FractureConfig, Material, impact};
 use frangible_bake::{BakeSpec, Shape, bake};
 
+#[allow(dead_code, reason = "shared with the tests")]
 #[path = "../tests/common/mod.rs"]
 mod common;
 

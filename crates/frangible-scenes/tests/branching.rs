@@ -1,10 +1,8 @@
 //! Cracks that fork.
 
-mod common;
-
 use std::sync::Arc;
 
-use common::{mean, pane, pane_hit};
+use crate::common::{mean, pane, pane_hit};
 use frangible::internals::Fields;
 use frangible::{Asset, Breakable, FractureConfig, ImpactReport, impact};
 

@@ -1,8 +1,6 @@
 //! What the stress bounds pass over holds no crack, so results with and without them are the same bits.
 
-mod common;
-
-use common::{block, blow, glass, pane, steel_ball, stone_floor};
+use crate::common::{block, blow, glass, pane, steel_ball, stone_floor};
 use frangible::glam::Vec3;
 use frangible::internals::{Factors, Fields, LookedAt};
 use frangible::{Asset, Breakable, Contact, FractureConfig, Outcome, impact, would_break};

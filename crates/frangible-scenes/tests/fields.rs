@@ -1,10 +1,10 @@
 //! Strength, toughness and weak points that vary over a body.
 
-mod common;
-
 use std::sync::Arc;
 
-use common::{block, blow, glass, mean, pane, pane_hit, pieces, rim_hit, steel_ball, stone_floor};
+use crate::common::{
+    block, blow, glass, mean, pane, pane_hit, pieces, rim_hit, steel_ball, stone_floor,
+};
 use frangible::glam::Vec3;
 use frangible::internals::{Factors, Fields, Preset, impact_traced};
 use frangible::{Asset, Body, Breakable, Contact, FractureConfig, InputError, Outcome, impact};

@@ -20,10 +20,3 @@ fn a_game_sees_the_same_in_every_run() {
         (second.poses, second.breaks, second.again)
     );
 }
-
-#[test]
-fn as_many_baked_bodies_as_bodies_are_needed() {
-    let plate = scene("shards").expect("a scene");
-    let refused = play_as_game(&plate, &[], GamePlan::default(), &mut |_| {});
-    assert!(refused.is_err());
-}

@@ -1,11 +1,9 @@
 //! Cracks follow what is scored. Share of the crack area in grooves, which are 23 % of the volume, over eight seeds: without kinks
 //! 0.34 (dropped on a corner), 0.40 (hit in the middle) and 0.30 (hit hard), with them 0.72, 0.78 and 0.63; a bar without scores 0.25.
 
-mod common;
-
 use std::sync::Arc;
 
-use common::{blow, steel_ball, stone_floor};
+use crate::common::{self, blow, steel_ball, stone_floor};
 use frangible::glam::Vec3;
 use frangible::internals::{CrackTrace, Fields, impact_traced};
 use frangible::{Asset, Breakable, Contact, FractureConfig};

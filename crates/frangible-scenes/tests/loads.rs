@@ -1,10 +1,8 @@
 //! Loads that are no impact: steady forces against beam theory, and friction.
 
-mod common;
-
 use std::sync::Arc;
 
-use common::{blow, glass, pieces, stone_floor};
+use crate::common::{self, blow, glass, pieces, stone_floor};
 use frangible::glam::Vec3;
 use frangible::internals::{Force, rest};
 use frangible::{Asset, Body, Contact, FractureConfig, Material, Outcome, impact, would_break};

@@ -5,9 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-mod common;
-
-use common::{blow, steel_ball};
+use crate::common::{blow, steel_ball};
 use frangible::glam::Vec3;
 use frangible::internals::impact_traced;
 use frangible::{Asset, Breakable, FractureConfig};

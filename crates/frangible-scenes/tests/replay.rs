@@ -1,10 +1,8 @@
 //! A break as bytes: the contacts and a seed rebuild the same fragments elsewhere, bit for bit.
 
-mod common;
-
 use std::sync::Arc;
 
-use common::{glass, rim_hit};
+use crate::common::{glass, rim_hit};
 use frangible::{Asset, Breakable, Contact, FractureConfig, Outcome, impact};
 
 /// What goes over the network for a body: its seed, then every impact as a count and its contacts.

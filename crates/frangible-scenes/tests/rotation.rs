@@ -3,11 +3,9 @@
 //! Measured: turns change the cracks of 5 of 20 blows, of three places of ten. Mode shapes changed by at most two units in the last
 //! place, nothing turned, change 10 of 40, among them all that the turns change.
 
-mod common;
-
 use std::sync::Arc;
 
-use common::{block, blow, pane, steel_ball, stone_floor};
+use crate::common::{block, blow, pane, steel_ball, stone_floor};
 use frangible::glam::{DMat3, Mat3, Quat, Vec3};
 use frangible::internals::asset::{AnalysisMesh, OuterSurface};
 use frangible::internals::{TetMesh, impact_traced};

@@ -1,10 +1,8 @@
 //! What must grow and what must fall, in the mean over seeds.
 
-mod common;
-
 use std::sync::Arc;
 
-use common::{blow, glass, mean, pane, pane_hit, pieces, rim_hit, rim_point, strike};
+use crate::common::{blow, glass, mean, pane, pane_hit, pieces, rim_hit, rim_point, strike};
 use frangible::glam::Vec3;
 use frangible::{Asset, Contact, FractureConfig, Material, Striker};
 

@@ -1,11 +1,9 @@
 //! Whole breaks: what must hold of every one of them.
 
-mod common;
-
 use std::collections::HashMap;
 use std::sync::{Arc, OnceLock};
 
-use common::{block, corner_hit, glass, mean, pane, pane_hit, rim_hit, strike};
+use crate::common::{block, corner_hit, glass, mean, pane, pane_hit, rim_hit, strike};
 use frangible::glam::Vec3;
 use frangible::{Asset, Breakable, Contact, Fracture, FractureConfig, Outcome, TriMesh, impact};
 use frangible_scenes::{bake, breakable, first_break, scene};

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use crate::common::plate;
 use frangible_sound::glam::{DQuat, DVec3, Vec3};
 use frangible_sound::{
     AudibleDamping, Body, EquivalentSphere, Limiter, Listener, Plate, PlateMaterial, Pulse,
@@ -13,14 +14,7 @@ fn config() -> SynthConfig {
 }
 
 fn tile() -> (Plate, Arc<Body>) {
-    let glass = PlateMaterial {
-        youngs_modulus: 71e9,
-        poisson_ratio: 0.23,
-        density: 2500.0,
-        damping: AudibleDamping::published("glass").expect("known").0,
-    };
-    let (plate, body) =
-        Plate::new("tile", [0.12, 0.1, 0.005], DQuat::IDENTITY, &glass).expect("a plate");
+    let (plate, body) = plate([0.12, 0.1, 0.005]);
     (plate, Arc::new(body))
 }
 

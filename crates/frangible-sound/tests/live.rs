@@ -2,19 +2,12 @@
 
 use std::sync::Arc;
 
+use crate::common::plate;
 use frangible_sound::glam::{DQuat, DVec3, Vec3};
-use frangible_sound::{
-    AudibleDamping, Body, Listener, Plate, PlateMaterial, Pulse, Strike, Synth, SynthConfig,
-};
+use frangible_sound::{Body, Listener, Plate, Pulse, Strike, Synth, SynthConfig};
 
 fn shard(sides: [f64; 3]) -> (Plate, Arc<Body>) {
-    let glass = PlateMaterial {
-        youngs_modulus: 71e9,
-        poisson_ratio: 0.23,
-        density: 2500.0,
-        damping: AudibleDamping::published("glass").expect("known").0,
-    };
-    let (plate, body) = Plate::new("shard", sides, DQuat::IDENTITY, &glass).expect("a plate");
+    let (plate, body) = plate(sides);
     (plate, Arc::new(body))
 }
 

@@ -2,18 +2,9 @@
 
 use std::sync::Arc;
 
-use frangible_sound::glam::{DQuat, Vec3};
-use frangible_sound::{AudibleDamping, Body, Plate, PlateMaterial, Pulse, Strike, first_push};
-
-fn shard(sides: [f64; 3]) -> (Plate, Body) {
-    let glass = PlateMaterial {
-        youngs_modulus: 71e9,
-        poisson_ratio: 0.23,
-        density: 2500.0,
-        damping: AudibleDamping::published("glass").expect("known").0,
-    };
-    Plate::new("shard", sides, DQuat::IDENTITY, &glass).expect("a plate")
-}
+use crate::common::plate;
+use frangible_sound::glam::Vec3;
+use frangible_sound::{Body, Pulse, Strike, first_push};
 
 fn strike(impulse: f64, duration: f64, push: &[f32]) -> Strike {
     Strike {
@@ -27,7 +18,7 @@ fn strike(impulse: f64, duration: f64, push: &[f32]) -> Strike {
 fn modes_get_no_more_than_a_quarter_of_the_energy_of_the_approach() {
     let mut worst = 0.0_f64;
     for sides in [[0.08, 0.05, 0.003], [0.03, 0.02, 0.002], [0.2, 0.2, 0.004]] {
-        let (plate, body) = shard(sides);
+        let (plate, body) = plate(sides);
         for x in [0.0, 0.3, 0.5] {
             let point = Vec3::new((x * sides[0]) as f32, (0.5 * sides[1]) as f32, 0.0);
             let push = plate.push(point, Vec3::Z);
@@ -49,7 +40,7 @@ fn modes_get_no_more_than_a_quarter_of_the_energy_of_the_approach() {
 
 #[test]
 fn the_impulse_of_rigid_bodies_would_give_modes_more_than_there_is() {
-    let (plate, body) = shard([0.08, 0.05, 0.003]);
+    let (plate, body) = plate([0.08, 0.05, 0.003]);
     let corner = Vec3::new(0.04, 0.025, 0.0);
     let push = plate.push(corner, Vec3::Z);
     let yields = body.yields(corner, Vec3::Z);
@@ -61,7 +52,7 @@ fn the_impulse_of_rigid_bodies_would_give_modes_more_than_there_is() {
 
 #[test]
 fn a_push_in_the_middle_moves_the_mass_and_one_at_the_end_turns_it_too() {
-    let (_, body) = shard([0.2, 0.01, 0.01]);
+    let (_, body) = plate([0.2, 0.01, 0.01]);
     let middle = body.yields(Vec3::ZERO, Vec3::Z) * body.mass;
     assert!((middle - 1.0).abs() < 1e-9, "{middle}");
     // A rod at its end: 1 + l²/4 / (l²/12) = 4; the surface of this one has more of it at the ends.

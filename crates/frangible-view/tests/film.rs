@@ -1,11 +1,8 @@
 //! Films: what is kept of the last seconds, and what is written. Drawing takes a graphics driver; without one it is skipped.
-#![cfg(feature = "window")]
-
-mod common;
 
 use std::path::Path;
 
-use common::{folder, give, pane};
+use crate::common::{folder, give, pane};
 use frangible_draw::has_adapter;
 use frangible_view::{Command, Session};
 use image::codecs::gif::GifDecoder;

@@ -1,8 +1,6 @@
 //! The hammer: where it strikes, what it leaves, and that it goes.
 
-mod common;
-
-use common::{bits, folder, give, pane};
+use crate::common::{bits, folder, give, pane};
 use frangible::glam::Vec3;
 use frangible_view::{Command, Script, Session, Tool};
 

@@ -1,12 +1,10 @@
 //! A session in a host, as in a page: bodies are brought, files are given and taken, nothing is baked here.
 
-mod common;
-
 use std::cell::RefCell;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
-use common::{bits, masses, scene_file};
+use crate::common::{self, bits, masses, scene_file};
 use frangible_scenes::{BakedBody, Scene, SceneError, bake, scene_of_file};
 use frangible_view::{Command, Delivery, Host, Session, ViewError, Worker, same_bakes};
 

@@ -1,10 +1,8 @@
 //! The meshes as edges.
 
-mod common;
-
 use std::sync::Arc;
 
-use common::{broken, give, pane};
+use crate::common::{broken, give, pane};
 use frangible_view::{Batch, BatchLooks, Session};
 
 /// What is drawn as edges only.

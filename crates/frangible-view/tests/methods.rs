@@ -1,8 +1,6 @@
 //! The last impact by several methods, in the view model.
 
-mod common;
-
-use common::{broken, folder, give, pane};
+use crate::common::{broken, folder, give, pane};
 use frangible_view::{Command, Session, Subject};
 
 fn names(session: &Session) -> Vec<&'static str> {

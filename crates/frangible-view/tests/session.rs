@@ -1,8 +1,6 @@
 //! The view model, without a window.
 
-mod common;
-
-use common::{bits, broken, folder, give, masses, pane};
+use crate::common::{self, bits, broken, folder, give, masses, pane};
 use frangible_view::{Command, Script, Session, Subject};
 
 #[test]

@@ -1,8 +1,6 @@
 //! A session is heard by whoever listens, as fast as its clock runs.
 
-mod common;
-
-use common::{bits, give, pane};
+use crate::common::{bits, give, pane};
 use frangible_view::{Command, Outlet, Session};
 
 const RATE: f64 = 48_000.0;

@@ -1,13 +1,11 @@
 //! A session in another program is seen as if it were here.
 
-mod common;
-
 use std::cell::RefCell;
 use std::rc::Rc;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use common::broken;
+use crate::common::{self, broken};
 use frangible_view::{Command, Packer, Remote, Session, Shown, Unpacker, Worker};
 
 fn give(session: &mut Session, line: &str) {

@@ -1,9 +1,8 @@
 //! A session on its own thread holds nobody up.
 
-mod common;
-
 use std::time::{Duration, Instant};
 
+use crate::common;
 use frangible_view::{Command, Shown, Worker};
 
 fn wait(worker: &Worker, until: impl Fn(&Shown) -> bool) -> std::sync::Arc<Shown> {

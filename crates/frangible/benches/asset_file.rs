@@ -8,6 +8,7 @@ use frangible::Asset;
 use frangible::internals::TetMesh;
 use frangible::internals::asset::seal;
 
+#[allow(dead_code, reason = "shared with the tests")]
 #[path = "../tests/common/mod.rs"]
 mod common;
 use common::{Size, synthetic_asset};

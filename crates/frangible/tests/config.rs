@@ -4,8 +4,7 @@ use frangible::glam::Vec3;
 use frangible::internals::{Blast, CrackPath, CrackTiming, DurationModel, Force};
 use frangible::{Body, Breakable, Contact, FractureConfig, InputError, Striker};
 
-mod common;
-use common::{Size, synthetic_asset};
+use crate::common::{Size, synthetic_asset};
 
 fn body() -> Body {
     let asset = synthetic_asset(&Size {

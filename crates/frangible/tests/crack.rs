@@ -1,8 +1,6 @@
 //! What must hold of cracks, whatever they cut.
 
-mod bodies;
-
-use bodies::{breaking, breaks, models, pane, pane_hit, strike};
+use crate::bodies::{breaking, breaks, models, pane, pane_hit, strike};
 use frangible::internals::{CrackTiming, impact_traced};
 use frangible::{Breakable, FractureConfig};
 

@@ -4,8 +4,7 @@ use frangible::glam::Vec3;
 use frangible::internals::blow::Blow;
 use frangible::{Body, Breakable, Contact, FractureConfig, impact};
 
-mod bodies;
-use bodies::{block, steel_ball};
+use crate::bodies::{block, steel_ball};
 
 /// The brick without damping, crushed at this pressure, Pa.
 fn brick(pressure: f64) -> Body {

@@ -1,10 +1,8 @@
 //! Fragments tile the body that they are of, exactly, and are closed.
 
-mod bodies;
-
 use std::collections::BTreeMap;
 
-use bodies::breaks;
+use crate::bodies::breaks;
 use frangible::TriMesh;
 use frangible::glam::{DMat3, DVec3, Vec3};
 

@@ -7,8 +7,7 @@ use frangible::Asset;
 use frangible::glam::Vec3;
 use frangible::internals::asset::{Embedding, SaveOptions, SurfaceWalls};
 
-mod common;
-use common::{Size, drawn_surface, synthetic_asset};
+use crate::common::{Size, drawn_surface, synthetic_asset};
 
 fn seeds() -> [(&'static str, Asset, SaveOptions); 5] {
     let asset = |cubes, analysis_nodes, elements, modes| {

@@ -8,8 +8,7 @@ use frangible::glam::Vec3;
 use frangible::internals::BodyState;
 use frangible::{Breakable, Contact, FractureConfig, Striker, impact};
 
-mod common;
-use common::{Size, synthetic_asset};
+use crate::common::{Size, synthetic_asset};
 
 fn kind() -> Breakable {
     let asset = synthetic_asset(&Size {

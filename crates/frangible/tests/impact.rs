@@ -1,9 +1,8 @@
 //! What must hold of every impact, whatever it does.
 
-mod bodies;
-
-use bodies::{
-    bits, block, block_hit, breaking, models, pane, pane_hit, pieces, shelf, shelf_hit, strike,
+use crate::bodies::{
+    self, bits, block, block_hit, breaking, models, pane, pane_hit, pieces, shelf, shelf_hit,
+    strike,
 };
 use frangible::glam::Vec3;
 use frangible::internals::blow::Blow;

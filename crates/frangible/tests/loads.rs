@@ -1,8 +1,6 @@
 //! Loads that are no impact: steady forces, blasts, scripted blows, motions from elsewhere.
 
-mod bodies;
-
-use bodies::{block, pane, pieces, shelf, strike};
+use crate::bodies::{self, block, pane, pieces, shelf, strike};
 use frangible::glam::Vec3;
 use frangible::internals::{
     Blast, Force, LookedAt, Stage, Vibration, blast, follow, fracture_at, rest,

@@ -1,10 +1,8 @@
 //! Pieces are bodies again: they break, their pieces tile them, and what was theirs stays theirs.
 
-mod bodies;
-
 use std::sync::Arc;
 
-use bodies::{block, block_hit, pane, pane_hit, pieces, strike};
+use crate::bodies::{self, block, block_hit, pane, pane_hit, pieces, strike};
 use frangible::glam::{DVec3, Vec3};
 use frangible::internals::{Elastic, Portion};
 use frangible::{Body, Contact, Fracture, FractureConfig, InputError, Outcome, impact};

@@ -1,8 +1,7 @@
 //! What the bounds pass over holds no crack: results with and without them are the same bits.
 
-mod bodies;
-
-use bodies::{Numbers, bits, block, breaking, models, pane, shelf};
+use crate::bodies::{self, bits, block, breaking, models, pane, shelf};
+use crate::common::Numbers;
 use frangible::glam::Vec3;
 use frangible::internals::blow::Blow;
 use frangible::internals::{Blast, blast, impact_traced, rest_margin_at_least};

@@ -1,7 +1,6 @@
 //! What a break does to the motion of bodies.
 
-mod bodies;
-
+use crate::bodies;
 use frangible::glam::{DMat3, DVec3};
 use frangible::internals::rigid::{Kick, Rigid, affordable, nearest_first, push_plug, take_energy};
 use frangible::{FractureConfig, Outcome, impact};

@@ -1,8 +1,6 @@
 //! Bodies remember cracks that part nothing: they are not cut again, later blows carry them on, and a replay gives the same bits.
 
-mod bodies;
-
-use bodies::{block, pane, pane_hit, pieces};
+use crate::bodies::{block, pane, pane_hit, pieces};
 use frangible::internals::BodyState;
 use frangible::{Body, Contact, FractureConfig, InputError, Outcome, impact};
 

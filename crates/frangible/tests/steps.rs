@@ -3,8 +3,7 @@
 use frangible::glam::Vec3;
 use frangible::{Breakable, Contact, FractureConfig, Striker};
 
-mod common;
-use common::{Size, synthetic_asset};
+use crate::common::{Size, synthetic_asset};
 
 #[test]
 fn however_slowly_a_contact_approaches_its_steps_are_few() {

@@ -1,8 +1,6 @@
 //! Two bodies that both vibrate: one force over time, whichever of them is asked, and energy that is counted once.
 
-mod bodies;
-
-use bodies::{block, pane, shelf};
+use crate::bodies::{block, pane, shelf};
 use frangible::glam::{Quat, Vec3};
 use frangible::internals::blow::Blow;
 use frangible::internals::is_harmless;

@@ -1,5 +1,4 @@
 //! Bodies and blows for the tests.
-#![allow(unreachable_pub, dead_code)]
 
 use std::sync::Arc;
 
@@ -9,7 +8,7 @@ use frangible_bake::{BakeSpec, Shape, bake};
 use frangible_compare::{Broken, Hit, Method, Options, compare};
 
 /// A baked shape of about so many fracture tetrahedra.
-pub fn baked(shape: Shape, material: Material, tets: f64) -> Arc<Asset> {
+pub(crate) fn baked(shape: Shape, material: Material, tets: f64) -> Arc<Asset> {
     let spec = BakeSpec {
         modes: 30,
         fracture: Some(shape.size_for(tets).expect("a size")),
@@ -18,35 +17,35 @@ pub fn baked(shape: Shape, material: Material, tets: f64) -> Arc<Asset> {
     Arc::new(bake(&spec, &mut |_| {}).expect("a baked body").0)
 }
 
-pub fn preset(name: &str) -> Material {
+pub(crate) fn preset(name: &str) -> Material {
     Material::preset(name).expect("a preset")
 }
 
 /// A square plate of glass.
-pub fn plate() -> Arc<Asset> {
+pub(crate) fn plate() -> Arc<Asset> {
     plate_of(preset("glass"))
 }
 
-pub fn plate_of(material: Material) -> Arc<Asset> {
+pub(crate) fn plate_of(material: Material) -> Arc<Asset> {
     let size = [0.2, 0.2, 0.006];
     baked(Shape::Box { size }, material, 4000.0)
 }
 
 /// A steel ball of 100 g in the middle of the plate's upper face.
-pub fn in_the_middle(asset: &Asset, speed: f64) -> Contact {
+pub(crate) fn in_the_middle(asset: &Asset, speed: f64) -> Contact {
     let ball = Striker::ball(&preset("steel"), 0.1, 0.015);
     Contact::collision(asset, Vec3::new(0.0, 0.0, 0.003), Vec3::NEG_Z, speed, ball)
 }
 
 /// A body and what hits it.
-pub struct Case {
-    pub body: Body,
-    pub contacts: Vec<Contact>,
-    pub config: FractureConfig,
+pub(crate) struct Case {
+    pub(crate) body: Body,
+    pub(crate) contacts: Vec<Contact>,
+    pub(crate) config: FractureConfig,
 }
 
 impl Case {
-    pub fn new(asset: &Arc<Asset>, contact: Contact) -> Self {
+    pub(crate) fn new(asset: &Arc<Asset>, contact: Contact) -> Self {
         Self {
             body: Breakable::new(Arc::clone(asset))
                 .expect("a sound asset")
@@ -57,12 +56,12 @@ impl Case {
     }
 
     /// The plate hit in its middle.
-    pub fn of_plate() -> Self {
+    pub(crate) fn of_plate() -> Self {
         let asset = plate();
         Self::new(&asset, in_the_middle(&asset, 20.0))
     }
 
-    pub fn hit(&self) -> Hit<'_> {
+    pub(crate) fn hit(&self) -> Hit<'_> {
         Hit {
             body: &self.body,
             contacts: &self.contacts,
@@ -70,12 +69,12 @@ impl Case {
         }
     }
 
-    pub fn by(&self, method: Method, options: &Options) -> Broken {
+    pub(crate) fn by(&self, method: Method, options: &Options) -> Broken {
         let all = compare(self.hit(), &[method], options, &mut |_| {}).expect("a comparison");
         all.into_iter().next().expect("one method")
     }
 
-    pub fn by_all(&self) -> Vec<Broken> {
+    pub(crate) fn by_all(&self) -> Vec<Broken> {
         let options = Options::default();
         compare(self.hit(), &Method::ALL, &options, &mut |_| {}).expect("a comparison")
     }

@@ -1,5 +1,4 @@
 //! Bodies baked once per test program, blows on them, and a GPU to compute them.
-#![allow(dead_code, reason = "each test program uses its share")]
 
 use std::sync::{Arc, OnceLock};
 

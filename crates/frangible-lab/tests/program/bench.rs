@@ -1,6 +1,6 @@
 //! `frangible-lab bench`: the figures are there and fit together; what cannot be measured is refused.
 
-use crate::{Folder, lab, refused, text};
+use super::{Folder, lab, refused, text};
 
 #[test]
 fn a_body_of_table_1_is_baked_once_and_measured() {
@@ -74,7 +74,7 @@ fn the_roofline_of_a_body_is_measured_and_written() {
 
 #[test]
 fn a_section_is_written_and_the_others_stay() {
-    let folder = Folder::new("page");
+    let folder = Folder::new("bench-page");
     let page = folder.path().join("performance.md");
     std::fs::write(&page, "# Performance\n\n## Refused contacts\n\nas it was\n").expect("a page");
     let cache = folder.path().join("cache");

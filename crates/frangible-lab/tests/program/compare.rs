@@ -4,7 +4,7 @@ use std::fs;
 
 use serde_json::Value;
 
-use crate::{Folder, lab, refused, text};
+use super::{Folder, lab, refused, text};
 
 const PANE: &str = r#"
 duration = 0.5

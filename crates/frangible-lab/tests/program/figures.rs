@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::{Folder, lab, refused, text};
+use super::{Folder, lab, refused, text};
 
 #[test]
 fn a_figure_is_written_with_its_text_and_others_keep_theirs() {

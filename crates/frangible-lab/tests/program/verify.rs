@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::{Folder, lab, refused, text};
+use super::{Folder, lab, refused, text};
 
 #[test]
 fn all_cases_pass_and_the_page_is_the_published_one() {

@@ -19,19 +19,19 @@ fn bake_small(name: &str, shape: Shape, coarser: f64, supports: Vec<Support>) ->
 }
 
 /// Pane 0.3 × 0.3 m, 4 mm thick, its normal z.
-pub fn pane() -> &'static Arc<Asset> {
+pub(crate) fn pane() -> &'static Arc<Asset> {
     static ASSET: OnceLock<Arc<Asset>> = OnceLock::new();
     ASSET.get_or_init(|| bake_small("pane", Shape::plate(0.3, 0.3, 0.004), 2.4, Vec::new()))
 }
 
 /// Block 0.1 × 0.1 × 0.05 m.
-pub fn block() -> &'static Arc<Asset> {
+pub(crate) fn block() -> &'static Arc<Asset> {
     static ASSET: OnceLock<Arc<Asset>> = OnceLock::new();
     ASSET.get_or_init(|| bake_small("block", Shape::block([0.1, 0.1, 0.05]), 2.4, Vec::new()))
 }
 
 /// Bar 0.4 × 0.04 × 0.01 m along x, 2 cm of both ends clamped.
-pub fn shelf() -> &'static Arc<Asset> {
+pub(crate) fn shelf() -> &'static Arc<Asset> {
     static ASSET: OnceLock<Arc<Asset>> = OnceLock::new();
     ASSET.get_or_init(|| {
         let low = frangible::glam::DVec3::new(0.0, -1.0, -1.0);

@@ -1,8 +1,7 @@
 //! A glass box of convex cells, and a fake fracture that slices it into blocks.
-#![allow(dead_code, unreachable_pub)]
 
-pub mod baked;
-pub mod tumble;
+pub(crate) mod baked;
+pub(crate) mod tumble;
 
 use std::sync::Arc;
 
@@ -19,10 +18,10 @@ use frangible::{
 use frangible_rapier::rapier3d::math::{Pose, Vector};
 use frangible_rapier::{BreakableWorld, WorldConfig};
 
-pub const DENSITY: f64 = 2500.0;
+pub(crate) const DENSITY: f64 = 2500.0;
 
 /// A glass box with `cells` convex cells along each axis.
-pub fn box_asset(half: Vec3, cells: [usize; 3]) -> Arc<Asset> {
+pub(crate) fn box_asset(half: Vec3, cells: [usize; 3]) -> Arc<Asset> {
     let count = cells.map(|n| n + 1);
     let node = |i: usize, j: usize, k: usize| (i + count[0] * (j + count[1] * k)) as u32;
     let mut positions = Vec::new();
@@ -101,7 +100,7 @@ pub fn box_asset(half: Vec3, cells: [usize; 3]) -> Arc<Asset> {
     })
 }
 
-pub fn body(asset: &Arc<Asset>) -> Body {
+pub(crate) fn body(asset: &Arc<Asset>) -> Body {
     Body::new(Arc::clone(asset), 1).unwrap()
 }
 
@@ -174,7 +173,12 @@ fn block(centre: Vec3, half: Vec3, overlap: f32) -> Fragment {
 }
 
 /// The box in `slices` blocks along each axis, of uneven width.
-pub fn sliced(half: Vec3, slices: [usize; 3], overlap: f32, fracture_energy: f64) -> Fracture {
+pub(crate) fn sliced(
+    half: Vec3,
+    slices: [usize; 3],
+    overlap: f32,
+    fracture_energy: f64,
+) -> Fracture {
     // Cuts at quadratic positions: pieces differ in size, largest last along each axis.
     let cut = |k: usize, n: usize| {
         let s = k as f32 / n as f32;
@@ -198,11 +202,11 @@ pub fn sliced(half: Vec3, slices: [usize; 3], overlap: f32, fracture_energy: f64
     Fracture::new(fragments, report)
 }
 
-pub type Judge =
+pub(crate) type Judge =
     Box<dyn Fn(&Body, &[Contact], &FractureConfig) -> Result<Outcome, InputError> + Send + Sync>;
 
 /// Every impact breaks the box.
-pub fn slicer(half: Vec3, slices: [usize; 3], overlap: f32, fracture_energy: f64) -> Judge {
+pub(crate) fn slicer(half: Vec3, slices: [usize; 3], overlap: f32, fracture_energy: f64) -> Judge {
     Box::new(move |_, _, _| {
         Ok(Outcome::Broke(Box::new(sliced(
             half,
@@ -214,7 +218,7 @@ pub fn slicer(half: Vec3, slices: [usize; 3], overlap: f32, fracture_energy: f64
 }
 
 /// No impact breaks anything.
-pub fn unbreakable() -> Judge {
+pub(crate) fn unbreakable() -> Judge {
     Box::new(|_, _, _| {
         Ok(Outcome::Held {
             margin: f64::INFINITY,
@@ -224,7 +228,7 @@ pub fn unbreakable() -> Judge {
     })
 }
 
-pub fn world(gravity: bool) -> BreakableWorld {
+pub(crate) fn world(gravity: bool) -> BreakableWorld {
     let mut config = WorldConfig::default();
     if !gravity {
         config.gravity = Vector::ZERO;
@@ -233,12 +237,12 @@ pub fn world(gravity: bool) -> BreakableWorld {
     BreakableWorld::new(config).unwrap()
 }
 
-pub fn at(x: f32, y: f32, z: f32) -> Pose {
+pub(crate) fn at(x: f32, y: f32, z: f32) -> Pose {
     Pose::translation(x, y, z)
 }
 
 /// Steps until something breaks; `None` after `limit` steps without.
-pub fn step_to_break(
+pub(crate) fn step_to_break(
     world: &mut BreakableWorld,
     limit: usize,
 ) -> Option<frangible_rapier::BreakEvent> {
@@ -246,6 +250,6 @@ pub fn step_to_break(
 }
 
 /// Relative distance of two vectors.
-pub fn relative(a: DVec3, b: DVec3) -> f64 {
+pub(crate) fn relative(a: DVec3, b: DVec3) -> f64 {
     (a - b).length() / a.length().max(b.length())
 }

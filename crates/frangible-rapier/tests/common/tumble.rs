@@ -1,5 +1,4 @@
 //! Bodies that tumble down stairs.
-#![allow(dead_code, unreachable_pub, reason = "shared by a test and an example")]
 
 use std::f32::consts::TAU;
 use std::sync::Arc;
@@ -10,13 +9,13 @@ use frangible_rapier::rapier3d::math::{Pose, Vector};
 use frangible_rapier::{BreakableWorld, LoadCounts, SurfaceProperties, WorldConfig};
 
 /// Bodies on the stairs.
-pub const BODIES: usize = 20;
+pub(crate) const BODIES: usize = 20;
 
 /// Steps of the stairs: how many, their height and depth, m.
 const STAIRS: (usize, f32, f32) = (8, 0.1, 0.25);
 
 /// A body of the table: shape and material, with few modes.
-pub fn baked(name: &str) -> Arc<Asset> {
+pub(crate) fn baked(name: &str) -> Arc<Asset> {
     let (shape, material, coarser) = match name {
         "brick" => (Shape::block([0.21, 0.1, 0.05]), "brick", 1.8),
         "glass block" => (Shape::block([0.1, 0.1, 0.05]), "glass", 2.0),
@@ -34,15 +33,15 @@ pub fn baked(name: &str) -> Arc<Asset> {
 }
 
 /// What became of twenty of these bodies that fell on stone stairs and tumbled down them.
-pub struct Tumble {
-    pub impacts: LoadCounts,
-    pub rests: LoadCounts,
-    pub broken: usize,
-    pub at_rest: bool,
+pub(crate) struct Tumble {
+    pub(crate) impacts: LoadCounts,
+    pub(crate) rests: LoadCounts,
+    pub(crate) broken: usize,
+    pub(crate) at_rest: bool,
 }
 
 /// Lets bodies, these kinds in turn, fall `height` m on the uppermost steps and tumble down for `seconds`.
-pub fn tumble(kinds: &[Arc<Asset>], height: f32, seconds: f32) -> Tumble {
+pub(crate) fn tumble(kinds: &[Arc<Asset>], height: f32, seconds: f32) -> Tumble {
     let mut world = BreakableWorld::new(WorldConfig::default()).unwrap();
     world
         .insert_fixed_half_space(Vector::ZERO, Vector::Y, SurfaceProperties::STONE)

@@ -1,5 +1,4 @@
 //! A small pane that bakes in a second, in a file of its own for each test.
-#![allow(dead_code, unreachable_pub)]
 
 use std::path::PathBuf;
 
@@ -23,21 +22,23 @@ material = "steel"
 "#;
 
 /// A folder for the files of one test.
-pub fn folder(test: &str) -> PathBuf {
-    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(test);
+pub(crate) fn folder(test: &str) -> PathBuf {
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR"))
+        .join("frangible-view")
+        .join(test);
     std::fs::create_dir_all(&folder).unwrap();
     folder
 }
 
 /// The pane's scene as a file.
-pub fn scene_file(test: &str) -> PathBuf {
+pub(crate) fn scene_file(test: &str) -> PathBuf {
     let path = folder(test).join("pane.toml");
     std::fs::write(&path, PANE).unwrap();
     path
 }
 
 /// Gives a command and waits for all it begins.
-pub fn give(session: &mut Session, line: &str) {
+pub(crate) fn give(session: &mut Session, line: &str) {
     session.apply(Command::parse(line).unwrap()).unwrap();
     session.finish_jobs();
     let message = session.shown().message;
@@ -45,7 +46,7 @@ pub fn give(session: &mut Session, line: &str) {
 }
 
 /// The pane before anything happened to it.
-pub fn pane(test: &str) -> Session {
+pub(crate) fn pane(test: &str) -> Session {
     let mut session = Session::new();
     give(
         &mut session,
@@ -55,7 +56,7 @@ pub fn pane(test: &str) -> Session {
 }
 
 /// The pane, broken by its ball.
-pub fn broken(test: &str) -> Session {
+pub(crate) fn broken(test: &str) -> Session {
     let mut session = pane(test);
     give(&mut session, "step 500");
     assert!(session.shown().pieces > 3, "it breaks");
@@ -63,7 +64,7 @@ pub fn broken(test: &str) -> Session {
 }
 
 /// Every bit of where everything is.
-pub fn bits(session: &Session) -> Vec<[u32; 7]> {
+pub(crate) fn bits(session: &Session) -> Vec<[u32; 7]> {
     let live = session.live().unwrap();
     let poses = live.things().iter().filter_map(|thing| live.pose(thing));
     let numbers = poses.map(|pose| {
@@ -75,6 +76,6 @@ pub fn bits(session: &Session) -> Vec<[u32; 7]> {
 }
 
 /// Masses of the pieces of the last break.
-pub fn masses(shown: &Shown) -> Vec<f64> {
+pub(crate) fn masses(shown: &Shown) -> Vec<f64> {
     shown.blow.as_ref().unwrap().masses.clone()
 }

@@ -1,13 +1,9 @@
 //! Small baked bodies, and blows on them. The test `core_bodies` of `frangible-bake` says how they were baked; `cargo xtask rebake` bakes them anew.
-#![allow(
-    dead_code,
-    unreachable_pub,
-    reason = "each test program uses its share"
-)]
 
 use std::path::Path;
 use std::sync::OnceLock;
 
+use crate::common::Numbers;
 use frangible::glam::Vec3;
 use frangible::{
     Asset, Body, Breakable, Contact, Fracture, FractureConfig, Material, Outcome, Striker, impact,
@@ -20,25 +16,25 @@ fn load(name: &str) -> Breakable {
 }
 
 /// Pane of glass 0.2 × 0.2 m, 4 mm thick, its normal z: a wall everywhere.
-pub fn pane() -> &'static Breakable {
+pub(crate) fn pane() -> &'static Breakable {
     static KIND: OnceLock<Breakable> = OnceLock::new();
     KIND.get_or_init(|| load("pane.frangible"))
 }
 
 /// Brick 0.21 × 0.1 × 0.05 m: no wall anywhere.
-pub fn block() -> &'static Breakable {
+pub(crate) fn block() -> &'static Breakable {
     static KIND: OnceLock<Breakable> = OnceLock::new();
     KIND.get_or_init(|| load("block.frangible"))
 }
 
 /// Bar of glass 0.3 × 0.04 × 0.01 m along x, clamped at its end of lower x.
-pub fn shelf() -> &'static Breakable {
+pub(crate) fn shelf() -> &'static Breakable {
     static KIND: OnceLock<Breakable> = OnceLock::new();
     KIND.get_or_init(|| load("shelf.frangible"))
 }
 
 /// Our model, ours under given impulses, and the paper's.
-pub fn models() -> [(&'static str, FractureConfig); 3] {
+pub(crate) fn models() -> [(&'static str, FractureConfig); 3] {
     [
         ("ours", FractureConfig::default()),
         ("given impulses", FractureConfig::with_given_impulses()),
@@ -47,7 +43,7 @@ pub fn models() -> [(&'static str, FractureConfig); 3] {
 }
 
 /// Steel ball of this mass, kg.
-pub fn steel_ball(mass: f64) -> Striker {
+pub(crate) fn steel_ball(mass: f64) -> Striker {
     let steel = Material::preset("steel").unwrap();
     let radius = (mass / steel.density * 0.75 / std::f64::consts::PI).cbrt();
     Striker {
@@ -57,13 +53,13 @@ pub fn steel_ball(mass: f64) -> Striker {
 }
 
 /// A steel ball of 130 g hits the pane at (x, y) from above.
-pub fn pane_hit(x: f32, y: f32, speed: f64) -> Contact {
+pub(crate) fn pane_hit(x: f32, y: f32, speed: f64) -> Contact {
     let point = Vec3::new(x, y, 0.002);
     Contact::collision(pane().asset(), point, Vec3::NEG_Z, speed, steel_ball(0.13))
 }
 
 /// The block lands on its corner on stone, its centre above it.
-pub fn block_hit(speed: f64) -> Contact {
+pub(crate) fn block_hit(speed: f64) -> Contact {
     let corner = Vec3::new(0.105, 0.05, -0.025);
     let stone = Striker {
         restitution: 0.5,
@@ -73,7 +69,7 @@ pub fn block_hit(speed: f64) -> Contact {
 }
 
 /// A steel ball of 130 g falls on the shelf, not far from its free end.
-pub fn shelf_hit(speed: f64) -> Contact {
+pub(crate) fn shelf_hit(speed: f64) -> Contact {
     let high = |axis: usize| {
         let positions = shelf().asset().fracture.positions.iter();
         positions.map(|p| p[axis]).fold(f32::MIN, f32::max)
@@ -83,7 +79,7 @@ pub fn shelf_hit(speed: f64) -> Contact {
 }
 
 /// Blows that break their body for nearly every seed.
-pub fn breaking() -> [(&'static str, &'static Breakable, Contact); 4] {
+pub(crate) fn breaking() -> [(&'static str, &'static Breakable, Contact); 4] {
     [
         ("pane, middle", pane(), pane_hit(0.0, 0.0, 12.0)),
         ("pane, off the middle", pane(), pane_hit(0.06, -0.03, 20.0)),
@@ -93,19 +89,24 @@ pub fn breaking() -> [(&'static str, &'static Breakable, Contact); 4] {
 }
 
 /// What a blow does to a body of this kind.
-pub fn strike(kind: &Breakable, seed: u64, contact: Contact, config: &FractureConfig) -> Outcome {
+pub(crate) fn strike(
+    kind: &Breakable,
+    seed: u64,
+    contact: Contact,
+    config: &FractureConfig,
+) -> Outcome {
     impact(&kind.body(seed), &[contact], config).unwrap()
 }
 
 /// One of the breaks that every invariant is asked of.
-pub struct Break {
-    pub name: String,
-    pub body: Body,
-    pub fracture: Box<Fracture>,
+pub(crate) struct Break {
+    pub(crate) name: String,
+    pub(crate) body: Body,
+    pub(crate) fracture: Box<Fracture>,
 }
 
 /// All blows of [`breaking`] that break their body, for three seeds and every model.
-pub fn breaks() -> &'static [Break] {
+pub(crate) fn breaks() -> &'static [Break] {
     static BREAKS: OnceLock<Vec<Break>> = OnceLock::new();
     BREAKS.get_or_init(|| {
         let mut broke = Vec::new();
@@ -131,7 +132,7 @@ pub fn breaks() -> &'static [Break] {
 }
 
 /// Number of pieces that an outcome leaves.
-pub fn pieces(outcome: &Outcome) -> usize {
+pub(crate) fn pieces(outcome: &Outcome) -> usize {
     match outcome {
         Outcome::Broke(fracture) => fracture.fragments.len(),
         _ => 1,
@@ -139,7 +140,7 @@ pub fn pieces(outcome: &Outcome) -> usize {
 }
 
 /// Every bit of an outcome that may hang on the input only.
-pub fn bits(outcome: &Outcome) -> Vec<u64> {
+pub(crate) fn bits(outcome: &Outcome) -> Vec<u64> {
     let report = outcome.report();
     let numbers = [
         report.contact_duration,
@@ -176,20 +177,9 @@ pub fn bits(outcome: &Outcome) -> Vec<u64> {
     bits
 }
 
-/// Numbers in 0..1 (a linear congruential generator).
-pub struct Numbers(pub u64);
-
 impl Numbers {
-    pub fn next(&mut self) -> f64 {
-        self.0 = self
-            .0
-            .wrapping_mul(6364136223846793005)
-            .wrapping_add(1442695040888963407);
-        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
     /// A blow on a random place of the surface, from outside, up to 20 m/s, most of them soft.
-    pub fn blow(&mut self, asset: &Asset) -> Contact {
+    pub(crate) fn blow(&mut self, asset: &Asset) -> Contact {
         let triangle = (self.next() * asset.surface.triangles.len() as f64) as usize;
         let corner = asset.surface.triangles[triangle][0] as usize;
         let inward = -asset.surface.normals[triangle][0];

@@ -1,5 +1,4 @@
-//! An asset made of numbers that fit together but mean nothing.
-#![allow(unreachable_pub)]
+//! Arbitrary numbers, and an asset made of such that fit together but mean nothing.
 
 use frangible::glam::Vec3;
 use frangible::internals::asset::{
@@ -11,22 +10,22 @@ use frangible::internals::{MassProperties, TetMesh};
 use frangible::{Asset, Material};
 
 /// How much of everything.
-pub struct Size {
+pub(crate) struct Size {
     /// Cubes of six tetrahedra along each axis.
-    pub cubes: usize,
+    pub(crate) cubes: usize,
     /// Analysis nodes, 10 and up.
-    pub analysis_nodes: usize,
+    pub(crate) analysis_nodes: usize,
     /// Analysis elements, 1 and up.
-    pub elements: usize,
+    pub(crate) elements: usize,
     /// Modes.
-    pub modes: usize,
+    pub(crate) modes: usize,
 }
 
 /// Numbers in 0..1 that differ in all their bits (a linear congruential generator).
-struct Numbers(u64);
+pub(crate) struct Numbers(pub(crate) u64);
 
 impl Numbers {
-    fn next(&mut self) -> f64 {
+    pub(crate) fn next(&mut self) -> f64 {
         self.0 = self
             .0
             .wrapping_mul(6364136223846793005)
@@ -48,7 +47,7 @@ impl Numbers {
 }
 
 /// A block of Kuhn's tetrahedra, one convex cell per cube, all else arbitrary.
-pub fn synthetic_asset(size: &Size) -> Asset {
+pub(crate) fn synthetic_asset(size: &Size) -> Asset {
     let mut numbers = Numbers(1);
     let n = size.cubes;
     let node = |i: usize, j: usize, k: usize| (i + (n + 1) * (j + (n + 1) * k)) as u32;
@@ -147,8 +146,7 @@ pub fn synthetic_asset(size: &Size) -> Asset {
 }
 
 /// Two triangles, two materials.
-#[allow(dead_code)]
-pub fn drawn_surface() -> RenderSurface {
+pub(crate) fn drawn_surface() -> RenderSurface {
     let material = |name: &str, roughness| RenderMaterial {
         name: name.into(),
         base_color: [0.1, 0.2, 0.3, 1.0],

@@ -1,7 +1,5 @@
 //! Small files of every format, written here byte by byte, and what is wrong with damaged ones.
 
-#![cfg(feature = "mesh-io")]
-
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -279,7 +277,7 @@ fn files_beside_the_mesh_are_found() {
     assert_eq!(mesh.materials.len(), 2);
 }
 
-/// `cargo test --release --test read -- --ignored --nocapture`, for the figures.
+/// `cargo test --release -p frangible-mesh --test tests five_million -- --ignored --nocapture`, for the figures.
 #[test]
 #[ignore = "writes 250 MB"]
 fn five_million_triangles_are_read_and_repaired() {

@@ -10,9 +10,7 @@ use frangible::internals::asset::{
 };
 use frangible::{Asset, InputError};
 
-#[path = "../common/mod.rs"]
-mod common;
-use common::{Size, drawn_surface, synthetic_asset};
+use crate::common::{Size, drawn_surface, synthetic_asset};
 
 mod arrays;
 mod disk;

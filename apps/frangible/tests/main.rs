@@ -1,0 +1,10 @@
+//! The program `frangible`, run as a user runs it.
+
+mod cli;
+mod common;
+mod files;
+#[cfg(unix)]
+mod hardship;
+mod modes;
+#[cfg(feature = "view")]
+mod view;

@@ -1,0 +1,24 @@
+//! What is baked, checked against closed forms and brute force.
+
+mod asset_file;
+mod bake;
+mod blow;
+mod cancel;
+mod clipped_render;
+mod common;
+mod core_bodies;
+mod cover;
+mod embedding;
+mod fronts;
+mod generations;
+mod imported_tets;
+mod methods;
+mod modal;
+mod mode_field;
+mod rescale;
+mod shapes;
+mod skin;
+mod solids;
+mod sturm;
+mod supports;
+mod walls;

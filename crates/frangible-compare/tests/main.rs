@@ -1,0 +1,5 @@
+//! What each of the compared methods makes of a blow.
+
+mod common;
+mod division;
+mod methods;

@@ -1,0 +1,4 @@
+//! Masses and convex hulls, checked against closed forms.
+
+mod convex;
+mod mass;

@@ -1,0 +1,3 @@
+//! The materials by name, checked against what was published.
+
+mod presets;

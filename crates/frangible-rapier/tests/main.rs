@@ -1,0 +1,30 @@
+//! Worlds whose bodies break.
+
+mod again;
+mod ask;
+mod blows;
+mod breaker;
+mod callbacks;
+mod common;
+mod conservation;
+mod debris;
+mod determinism;
+mod energy;
+mod errors;
+mod events;
+mod examples;
+mod friction;
+mod inheritance;
+mod late;
+mod many;
+mod merging;
+mod mortar;
+mod passage;
+mod pushes;
+mod refusals;
+mod rest;
+mod resting;
+mod rigid;
+mod siblings;
+mod supports;
+mod tunnelling;

@@ -1,0 +1,9 @@
+//! What breaks, heard.
+
+mod bad_input;
+mod baked;
+mod common;
+mod live;
+mod radiation;
+mod synth;
+mod touch;

@@ -1,0 +1,13 @@
+//! The viewer without its window.
+
+mod common;
+#[cfg(feature = "window")]
+mod film;
+mod hammer;
+mod host;
+mod meshes;
+mod methods;
+mod session;
+mod sound;
+mod wire;
+mod worker;
