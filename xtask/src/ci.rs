@@ -7,6 +7,7 @@ use std::path::PathBuf;
 use std::process::Command;
 use std::time::Instant;
 
+use crate::agree::features_agree;
 use crate::bevy;
 use crate::blender::blender;
 use crate::book;
@@ -88,6 +89,7 @@ const fn by_hand(name: &'static str, of: &'static [&'static [&'static str]], che
 
 const STEPS: &[Step] = &[
     gate("format", format),
+    gate("features agree", features_agree),
     gate("clippy", clippy),
     gate("test", tests),
     gate("main job", main_job),
@@ -195,7 +197,7 @@ pub(crate) fn ci(all: bool, named: &[&str]) -> Result {
     println!();
     for (name, time, passed) in &times {
         println!(
-            "{name:<11} {:>6.1} min  {}",
+            "{name:<14} {:>6.1} min  {}",
             time.as_secs_f64() / 60.0,
             if *passed { "ok" } else { "FAILED" }
         );
@@ -207,7 +209,7 @@ pub(crate) fn ci(all: bool, named: &[&str]) -> Result {
         println!("\nby hand, `cargo xtask ci --all` or `cargo xtask ci STEP`:");
         for step in STEPS.iter().filter(|step| !step.of.is_empty()) {
             println!(
-                "{:<11} {}",
+                "{:<14} {}",
                 step.name,
                 passed::last(step.name, &step.of.concat())
             );

@@ -12,7 +12,7 @@ const BESIDE: [&str; 4] = ["README.md", "CHANGELOG.md", "LICENSE-MIT", "LICENSE-
 /// Builds the program, packs it with its licences, unpacks the archive elsewhere and has what comes out of it break something. Returns
 /// lines that say what was made.
 pub(crate) fn dist() -> Result<Vec<String>> {
-    run(&mut cargo(&["build", "--release", "-p", "frangible-cli"]))?;
+    run(&mut cargo(&["build", "--release", "--features", "view"]))?;
     let target = target();
     let name = format!("frangible-{}-{}", version()?, host()?);
     let out = target.join("dist");

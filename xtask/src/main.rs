@@ -1,5 +1,6 @@
 //! The project's chores. `cargo xtask help` lists them.
 
+mod agree;
 mod bevy;
 mod blender;
 mod book;

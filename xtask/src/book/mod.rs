@@ -83,9 +83,9 @@ pub(crate) fn wheel(programs: &Path) -> Result<Vec<String>> {
     Ok(vec![format!("python: {count} parts of the book ran")])
 }
 
-/// The program for this machine, built.
+/// The program for this machine, built with its window.
 fn program() -> Result<PathBuf> {
-    command::announced(&mut cargo(&["build", "--release"]))?;
+    command::announced(&mut cargo(&["build", "--release", "--features", "view"]))?;
     Ok(command::program())
 }
 
