@@ -160,6 +160,21 @@ impl<I: Iterator<Item = (u32, Steps)>> pulp::NullaryFnOnce for Look<'_, '_, '_, 
     }
 }
 
+/// The stress at one point, by gradients.
+struct AtWeakPoint<'a, 'f> {
+    field: &'a mut StressField<'f>,
+    tet: u32,
+}
+
+impl pulp::NullaryFnOnce for AtWeakPoint<'_, '_> {
+    type Output = StressLanes;
+
+    #[inline(always)]
+    fn call(self) -> StressLanes {
+        self.field.at_weak_point(self.tet as usize)
+    }
+}
+
 impl<I> Look<'_, '_, '_, I> {
     #[inline(always)]
     fn is_over(&self, tet: u32) -> bool {
@@ -284,9 +299,12 @@ impl<I> Look<'_, '_, '_, I> {
         }
     }
 
-    #[inline(always)]
+    /// By gradients, for points that rows do not hold for. A function of its own: inlined at each of its calls it took a third of the time
+    /// in which the crate compiles.
+    #[inline(never)]
     fn by_displacement(&mut self, place: usize, tet: u32, steps: Steps) {
-        let state = self.field.at_weak_point(tet as usize);
+        let field = &mut *self.field;
+        let state = pulp::Arch::new().dispatch(AtWeakPoint { field, tet });
         let bounds = state.tension_bounds();
         let passing = Suspects::passing(self.body, tet, &bounds, steps, self.peak);
         if passing != 0 {
