@@ -10,7 +10,17 @@ use crate::command::{Result, cargo, output, program, run, succeeds};
 const IN_ONE_UNIT: [&str; 2] = ["frangible", "frangible-geometry"];
 /// The program with its window, which is not in its default features.
 pub(crate) const WITH_WINDOW: [&str; 2] = ["--features", "frangible-cli/view"];
-/// Neither examples nor benchmarks: clippy compiles those.
+/// Of `frangible-rapier`; its tests run them.
+const RUN_EXAMPLES: [&str; 7] = [
+    "ask",
+    "explosion",
+    "glass",
+    "painted",
+    "pots",
+    "replay",
+    "window",
+];
+/// Neither (other) examples nor benchmarks: clippy compiles those.
 const TESTED: [&str; 3] = ["--lib", "--bins", "--tests"];
 
 /// The workspace's own packages: name, and whether it is published.
@@ -45,8 +55,14 @@ pub(crate) fn test() -> Result {
         true => &["nextest", "run"],
         false => &["test"],
     };
+    run(cargo(&["build"]).args(run_examples()).args(&options))?;
     run(cargo(runner).args(TESTED).args(&options))?;
     run(cargo(&["test", "--doc"]).args(&options))
+}
+
+/// The examples that a test runs as a user would.
+fn run_examples() -> impl Iterator<Item = &'static str> {
+    RUN_EXAMPLES.iter().flat_map(|name| ["--example", name])
 }
 
 /// Runs the tests that take no more than a few seconds each; `.config/nextest.toml` says which those are.
@@ -57,9 +73,11 @@ pub(crate) fn fast() -> Result {
                 .into(),
         );
     }
+    let options = options()?;
+    run(cargo(&["build"]).args(run_examples()).args(&options))?;
     run(cargo(&["nextest", "run", "--profile", "fast"])
         .args(TESTED)
-        .args(options()?))
+        .args(&options))
 }
 
 /// The command line's program as the tests have built it, with assertions; nothing is compiled behind a run of the tests.
