@@ -1,4 +1,4 @@
-"""The command line: ``frangible break bunny.obj``, ``frangible dataset …``. This one draws no pictures."""
+"""The command line: ``frangible break bunny.obj``, ``frangible dataset …``. This one has no window."""
 
 import signal
 import sys
