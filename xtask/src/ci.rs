@@ -23,7 +23,7 @@ use crate::packages::package_lists;
 use crate::passed;
 use crate::python;
 use crate::semver::semver;
-use crate::test::{WITH_WINDOW, tested_program};
+use crate::test::{self, WITH_WINDOW, tested_program};
 use crate::web;
 
 /// The cargo-deny that `deny.toml` is written for.
@@ -101,6 +101,7 @@ const STEPS: &[Step] = &[
         &[ALL, &["bevy_frangible", "fuzz"]],
         leaves::all,
     ),
+    by_hand("long tests", &[ALL], || test::long().map(|()| Vec::new())),
     by_hand("first run", &[ALL], first_run),
     by_hand("packages", &[ALL], package_lists),
     by_hand("semver", &[ALL], || semver(None)),

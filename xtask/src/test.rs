@@ -60,6 +60,14 @@ pub(crate) fn test() -> Result {
     run(cargo(&["test", "--doc"]).args(&options))
 }
 
+/// Runs the tests that are left out of every other run, since they take minutes or write hundreds of megabytes.
+pub(crate) fn long() -> Result {
+    run(cargo(&["test"])
+        .args(TESTED)
+        .args(options()?)
+        .args(["--", "--ignored"]))
+}
+
 /// The examples that a test runs as a user would.
 fn run_examples() -> impl Iterator<Item = &'static str> {
     RUN_EXAMPLES.iter().flat_map(|name| ["--example", name])

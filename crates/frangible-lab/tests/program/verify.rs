@@ -5,6 +5,7 @@ use std::fs;
 use super::{Folder, lab, refused, text};
 
 #[test]
+#[ignore = "computes all cases of `tests/cases.rs` again: `cargo xtask ci 'long tests'` runs it"]
 fn all_cases_pass_and_the_page_is_the_published_one() {
     let folder = Folder::new("page");
     let place = folder.path().join("docs");

@@ -279,7 +279,7 @@ fn files_beside_the_mesh_are_found() {
 
 /// `cargo test --release -p frangible-mesh --test tests five_million -- --ignored --nocapture`, for the figures.
 #[test]
-#[ignore = "writes 250 MB"]
+#[ignore = "writes 250 MB: `cargo xtask ci 'long tests'` runs it"]
 fn five_million_triangles_are_read_and_repaired() {
     let folder = Folder::new("large");
     let (rows, around) = (1250_u32, 2000_u32);
