@@ -21,6 +21,12 @@ pub struct TetMesh {
 /// Local nodes of the face opposite node `k`, counter-clockwise seen from outside.
 pub const FACES: [[usize; 3]; 4] = [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]];
 
+/// A point so far beyond a face still counts as inside, relative to its distance from a corner.
+const ROUNDING: f32 = 1e-5;
+
+/// Most tetrahedra that the search for a point passes.
+const MOST_STEPS: usize = 256;
+
 /// Local end nodes of the six edges.
 pub const EDGES: [[usize; 2]; 6] = [[0, 1], [1, 2], [0, 2], [0, 3], [1, 3], [2, 3]];
 
@@ -69,6 +75,30 @@ impl TetMesh {
     pub fn volume(&self, e: usize) -> f64 {
         let [a, b, c, d]: [DVec3; 4] = self.corners(e).map(Vec3::as_dvec3);
         (b - a).cross(c - a).dot(d - a) / 6.0
+    }
+
+    /// The tetrahedron that holds a point, found by walking towards it from tetrahedron `start`; `None` where the way leaves the mesh.
+    #[must_use]
+    pub fn locate(&self, start: u32, point: Vec3) -> Option<u32> {
+        let mut e = start;
+        for _ in 0..MOST_STEPS {
+            let x = self.corners(e as usize);
+            let beyond = |k: usize| {
+                let [a, b, c] = FACES[k].map(|i| x[i]);
+                (b - a).cross(c - a).normalize_or_zero().dot(point - a)
+            };
+            let (farthest, distance) = (0..4)
+                .map(|k| (k, beyond(k)))
+                .fold((0, f32::NEG_INFINITY), |a, b| if b.1 > a.1 { b } else { a });
+            if distance <= ROUNDING * point.distance(x[0]) {
+                return Some(e);
+            }
+            e = match self.neighbours[e as usize][farthest] {
+                NO_NEIGHBOUR => return None,
+                next => next,
+            };
+        }
+        None
     }
 
     /// Sum of all volumes, m³.

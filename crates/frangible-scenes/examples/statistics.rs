@@ -11,18 +11,23 @@
 
 use std::collections::BTreeMap;
 use std::error::Error;
+use std::path::Path;
 use std::sync::Arc;
+use std::time::Instant;
 
 use frangible::{Outcome, impact};
-use frangible_scenes::{bake, breakable, first_break, scene};
+use frangible_scenes::{bake, breakable, first_break, read_scene, scene};
 
 /// What is compared of each break, in the order of the columns.
-const COLUMNS: [&str; 5] = [
+const COLUMNS: [&str; 8] = [
     "pieces",
     "crack area, m²",
     "largest piece's share",
+    "second piece's share",
     "first crack, s",
     "cracks",
+    "crack over strain energy",
+    "time, ms",
 ];
 
 /// Below this chance, or with means so many standard errors apart, samples differ.
@@ -37,41 +42,50 @@ fn main() -> Result<(), Box<dyn Error>> {
             let seeds = seeds.parse()?;
             scenes.iter().try_for_each(|name| list(name, seeds))
         }
-        _ => Err("statistics SEEDS SCENE… | statistics compare BEFORE AFTER".into()),
+        _ => Err("statistics SEEDS SCENE|FILE.toml… | statistics compare BEFORE AFTER".into()),
     }
 }
 
 /// Prints a line per break of a scene.
 fn list(name: &str, seeds: u64) -> Result<(), Box<dyn Error>> {
-    let scene = scene(name)?;
+    let scene = match name.ends_with(".toml") {
+        true => read_scene(Path::new(name))?,
+        false => scene(name)?,
+    };
     let bodies = bake(&scene, &mut |_| {})?;
     let first = first_break(&scene, &bodies, &mut |_| {})?.ok_or("nothing breaks")?;
     let number = scene.bodies.iter().position(|b| b.name == first.name);
     let spec = &scene.bodies[number.unwrap_or(0)];
     let kind = breakable(spec, &Arc::clone(first.body.asset()))?;
     for seed in 1..=seeds {
-        let outcome = impact(&kind.body(seed), &first.contacts, &first.config)?;
+        let body = kind.body(seed);
+        let begun = Instant::now();
+        let outcome = impact(&body, &first.contacts, &first.config)?;
         let report = outcome.report();
-        let (pieces, largest) = match &outcome {
-            Outcome::Broke(fracture) => {
-                let volumes = fracture.fragments.iter().map(|f| f.mass.volume);
-                let all: f64 = volumes.clone().sum();
-                (fracture.fragments.len(), volumes.fold(0.0, f64::max) / all)
-            }
-            _ => (1, 1.0),
-        };
+        let (mut pieces, mut shares) = (1, vec![1.0, 0.0]);
+        if let Outcome::Broke(fracture) = &outcome {
+            pieces = fracture.fragments.len();
+            shares = fracture.fragments.iter().map(|f| f.mass.volume).collect();
+            shares.sort_unstable_by(|a, b| b.total_cmp(a));
+            let all: f64 = shares.iter().sum();
+            shares.iter_mut().for_each(|share| *share /= all);
+        }
         println!(
-            "{name} {seed} {pieces} {:.6e} {largest:.6} {:.6e} {}",
+            "{name} {seed} {pieces} {:.6e} {:.6} {:.6} {:.6e} {} {:.4} {:.2}",
             report.crack_area,
+            shares[0],
+            shares.get(1).unwrap_or(&0.0),
             report.first_crack_time.unwrap_or(0.0),
-            report.cracks
+            report.cracks,
+            report.fracture_energy / report.peak_strain_energy,
+            1e3 * begun.elapsed().as_secs_f64(),
         );
     }
     Ok(())
 }
 
 /// Columns of each scene.
-type Scenes = BTreeMap<String, [Vec<f64>; 5]>;
+type Scenes = BTreeMap<String, [Vec<f64>; COLUMNS.len()]>;
 
 fn read(path: &str) -> Result<Scenes, Box<dyn Error>> {
     let mut scenes = Scenes::new();

@@ -37,6 +37,9 @@ pub struct FractureConfig {
     /// A weak point whose tetrahedron has a free outer face lies on it, where no traction acts; strengths are then those of
     /// surfaces. Default: on; in the paper it lies at the tetrahedron's centre `[G12 §4.4]`.
     pub surface_flaws: bool,
+    /// A weak point stands for a flaw of the size that its strength tells by Griffith, and feels the mean stress over it. Default: on; in the paper
+    /// it is a point `[G12 §4.4]`.
+    pub sized_flaws: bool,
     /// Through a wall of one layer of tetrahedra acts no traction: plane stress. Default: on; in the paper stress is what the
     /// modes' mesh says, noise across the wall included.
     pub plane_stress_walls: bool,
@@ -127,6 +130,7 @@ impl Default for FractureConfig {
             },
             green_lagrange: false,
             surface_flaws: true,
+            sized_flaws: true,
             plane_stress_walls: true,
             first_element_pays: true,
             griffith_fronts: true,
@@ -222,6 +226,7 @@ impl FractureConfig {
             path: CrackPath::Planar,
             green_lagrange: true,
             surface_flaws: false,
+            sized_flaws: false,
             plane_stress_walls: false,
             first_element_pays: false,
             griffith_fronts: false,

@@ -174,7 +174,7 @@ pub(crate) fn is_inside(asset: &Asset, tet: u32) -> bool {
 }
 
 /// Length of the line on which s changes sign in a triangle, m.
-fn crossing_length(x: &[Vec3; 3], s: &[f32; 3]) -> f32 {
+pub(crate) fn crossing_length(x: &[Vec3; 3], s: &[f32; 3]) -> f32 {
     let mut ends = [Vec3::ZERO; 2];
     let mut count = 0;
     for [i, j] in [[0, 1], [1, 2], [2, 0]] {

@@ -1,9 +1,11 @@
 //! Breakable bodies: what is shared by all bodies of a kind, and what is a body's own.
 
 mod edges;
+mod flaw;
 mod mesh_index;
 mod patches;
 mod prepared;
+mod thickness;
 
 use std::sync::Arc;
 
@@ -20,6 +22,7 @@ use crate::state::BodyState;
 use crate::stress::{Law, WeakRows, weak_place};
 use crate::tips::{CrackFront, Tip, fronts, tips};
 
+pub(crate) use flaw::flaw_depth;
 pub(crate) use mesh_index::MeshIndex;
 pub(crate) use prepared::Prepared;
 
@@ -121,18 +124,18 @@ impl Breakable {
             &weak_tets,
             seed,
         );
-        let clusters = WeakClusters::new(asset, &weak_tets, &self.prepared.bounds, &resistance);
         Body {
             asset: Arc::clone(asset),
             prepared: Arc::clone(&self.prepared),
             resistance,
-            clusters,
+            clusters: WeakClusters::default(),
             rows: Arc::default(),
             seed,
             weak_tets,
             state: BodyState::default(),
             tips: Vec::new(),
         }
+        .clustered()
     }
 }
 
@@ -210,7 +213,7 @@ impl Body {
         let resistance = self.resistance.of_part(&weak_tets);
         let tips = tips(&asset, &state);
         Self {
-            clusters: WeakClusters::new(&asset, &weak_tets, &prepared.bounds, &resistance),
+            clusters: WeakClusters::default(),
             rows: Arc::default(),
             asset: Arc::new(asset),
             prepared,
@@ -220,19 +223,24 @@ impl Body {
             tips,
             state,
         }
+        .clustered()
+    }
+
+    /// With its weak tetrahedra in clusters.
+    fn clustered(mut self) -> Self {
+        self.clusters = WeakClusters::of(&self);
+        self
     }
 
     /// This body, so many times as strong (above 0) and as tough as it was: the stress that a blow would bring is seen
     /// on one that does not crack.
     #[must_use]
     pub fn strengthened(&self, factor: f32) -> Self {
-        let resistance = self.resistance.strengthened(factor);
-        let bounds = &self.prepared.bounds;
         Self {
-            clusters: WeakClusters::new(&self.asset, &self.weak_tets, bounds, &resistance),
-            resistance,
+            resistance: self.resistance.strengthened(factor),
             ..self.clone()
         }
+        .clustered()
     }
 
     /// k of the stress bounds' quadratic term, Pa.

@@ -5,6 +5,7 @@ use std::sync::{Arc, OnceLock};
 use glam::Vec3;
 
 use super::MeshIndex;
+use super::thickness::thickness;
 use crate::asset::{Asset, Portion, StressBounds};
 use crate::bounds::{PerImpulse, PerNewton, Reaches, quadratic_modulus};
 use crate::mesh::{Boundary, RenderIndex, TriangleTree};
@@ -42,6 +43,8 @@ pub(crate) struct Prepared {
     pub(crate) per_newton: OnceLock<PerNewton>,
     /// Centroid of each fracture tetrahedron, m.
     pub(crate) centroids: Arc<[Vec3]>,
+    /// Local thickness of the body as it was baked at each of these, m.
+    pub(crate) thickness: Arc<[f32]>,
     /// Mean edge of the fracture mesh, m.
     pub(crate) edge: f32,
     /// Longest edge of the fracture mesh, m.
@@ -68,6 +71,8 @@ impl Prepared {
             triangles: &asset.surface.triangles,
         };
         let render = asset.render.as_ref();
+        let centroids = (0..asset.fracture.tets.len()).map(|e| asset.fracture.centroid(e));
+        let centroids: Arc<[Vec3]> = centroids.collect();
         Self {
             root: None,
             index: Arc::new(MeshIndex::new(asset)),
@@ -82,9 +87,8 @@ impl Prepared {
             periods: periods(modes),
             per_newton: OnceLock::new(),
             quadratic_modulus: quadratic_modulus(&asset.material),
-            centroids: (0..asset.fracture.tets.len())
-                .map(|e| asset.fracture.centroid(e))
-                .collect(),
+            thickness: thickness(&asset.fracture, &centroids).into(),
+            centroids,
             edge,
             longest_edge: asset.fracture.longest_edge(),
         }
@@ -112,6 +116,7 @@ impl Prepared {
             quadratic_modulus: root.quadratic_modulus,
             per_newton: OnceLock::new(),
             centroids: Arc::clone(&root.centroids),
+            thickness: Arc::clone(&root.thickness),
             edge: root.edge,
             longest_edge: root.longest_edge,
         }

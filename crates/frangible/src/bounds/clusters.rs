@@ -1,10 +1,12 @@
 //! Weak tetrahedra by the clusters whose stress is bounded together.
 
-use crate::asset::{Asset, StressBounds};
-use crate::fields::Resistance;
+use glam::Vec3;
+
+use crate::asset::StressBounds;
+use crate::body::Body;
 
 /// Weak tetrahedra by cluster.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct WeakClusters {
     /// Numbers of the clusters that hold any.
     pub(crate) clusters: Vec<u32>,
@@ -13,17 +15,18 @@ pub(crate) struct WeakClusters {
     tets: Vec<u32>,
     /// The smallest strength in each one, Pa.
     pub(crate) weakest: Vec<f32>,
+    /// The deepest flaw in each one that is larger than its tetrahedron, m; zero where there is none.
+    pub(crate) deepest: Vec<f32>,
+    /// Bounds of the stress, and of the displacement gradient, in each one and all clusters that its flaws reach: cluster after cluster, a
+    /// number per mode. Empty where no flaw is larger than its tetrahedron.
+    reaching: [Vec<f32>; 2],
 }
 
 impl WeakClusters {
-    pub(crate) fn new(
-        asset: &Asset,
-        weak_tets: &[u32],
-        bounds: &StressBounds,
-        resistance: &Resistance,
-    ) -> Self {
+    pub(crate) fn of(body: &Body) -> Self {
+        let (asset, bounds, resistance) = (&body.asset, &body.prepared.bounds, &body.resistance);
         let cluster_of = |e: u32| bounds.cluster_of_tet[asset.place(e as usize)];
-        let mut tets = weak_tets.to_vec();
+        let mut tets = body.weak_tets().to_vec();
         tets.sort_by_cached_key(|&e| (cluster_of(e), e));
         let (mut clusters, mut starts) = (Vec::new(), Vec::new());
         for (i, &e) in tets.iter().enumerate() {
@@ -34,15 +37,38 @@ impl WeakClusters {
             }
         }
         starts.push(tets.len() as u32);
-        let weakest = starts
-            .windows(2)
-            .map(|w| resistance.weakest_of(&tets[w[0] as usize..w[1] as usize]))
-            .collect();
+        let of_clusters = || (starts.windows(2)).map(|w| &tets[w[0] as usize..w[1] as usize]);
+        let weakest = of_clusters().map(|tets| resistance.weakest_of(tets));
+        let deepest = of_clusters().map(|tets| {
+            let depths = tets.iter().map(|&e| body.flaw_depth(e));
+            depths.fold(0.0, f32::max)
+        });
+        let (weakest, deepest) = (weakest.collect(), deepest.collect::<Vec<_>>());
         Self {
+            reaching: reaching(body, &clusters, &deepest),
             clusters,
             starts,
             tets,
             weakest,
+            deepest,
+        }
+    }
+
+    /// Bounds of the stress of each mode that the weak points of the cluster at place `i` of `clusters` may feel, Pa per m·√kg, and of its
+    /// displacement gradient.
+    #[inline(always)]
+    pub(crate) fn rows<'a>(
+        &'a self,
+        bounds: &'a StressBounds,
+        i: usize,
+        modes: usize,
+    ) -> (&'a [f32], &'a [f32]) {
+        match &self.reaching {
+            [stress, _] if stress.is_empty() => bounds.rows(self.clusters[i] as usize, modes),
+            [stress, gradient] => {
+                let own = i * modes..(i + 1) * modes;
+                (&stress[own.clone()], &gradient[own])
+            }
         }
     }
 
@@ -65,4 +91,46 @@ impl WeakClusters {
     pub(crate) fn tets(&self, i: usize) -> &[u32] {
         &self.tets[self.places(i)]
     }
+}
+
+/// The larger of the bounds of all clusters that the flaws of each one of `clusters` reach; `deepest`: the depth of its deepest flaw, m.
+fn reaching(body: &Body, clusters: &[u32], deepest: &[f32]) -> [Vec<f32>; 2] {
+    let (asset, bounds) = (&body.asset, &body.prepared.bounds);
+    let modes = asset.modes.count();
+    if deepest.iter().all(|&depth| depth <= 0.0) {
+        return [Vec::new(), Vec::new()];
+    }
+    let count = bounds
+        .cluster_of_tet
+        .iter()
+        .max()
+        .map_or(0, |&c| c as usize + 1);
+    let mut boxes = vec![(Vec3::INFINITY, Vec3::NEG_INFINITY); count];
+    for tet in asset.tets() {
+        let (low, high) = &mut boxes[bounds.cluster_of_tet[asset.place(tet)] as usize];
+        for x in asset.fracture.corners(tet) {
+            (*low, *high) = (low.min(x), high.max(x));
+        }
+    }
+    let mut all = [Vec::new(), Vec::new()];
+    for (&cluster, &depth) in clusters.iter().zip(deepest) {
+        let (low, high) = boxes[cluster as usize];
+        let (low, high) = (low - depth, high + depth);
+        let (stress, gradient) = bounds.rows(cluster as usize, modes);
+        let mut own = [stress.to_vec(), gradient.to_vec()];
+        for (other, &(l, h)) in boxes.iter().enumerate() {
+            if depth > 0.0 && l.cmple(high).all() && h.cmpge(low).all() {
+                let (stress, gradient) = bounds.rows(other, modes);
+                for (own, other) in own.iter_mut().zip([stress, gradient]) {
+                    for (own, &other) in own.iter_mut().zip(other) {
+                        *own = own.max(other);
+                    }
+                }
+            }
+        }
+        for (all, own) in all.iter_mut().zip(own) {
+            all.extend(own);
+        }
+    }
+    all
 }

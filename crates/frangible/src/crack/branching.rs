@@ -219,18 +219,30 @@ pub(super) fn start(
     let x = mesh.corners(e as usize);
     let values = x.map(|p| frame.planar(p));
     let area = crossing_area(&x, &values);
-    let gain = material.energy_depth * f64::from(field.at(e as usize).state.energy_density);
+    let felt = field.at(e as usize);
+    // It grows from the crack that it leaves, and is fed as that one is.
+    let flaw = system.depth(&system.cracks[parent as usize], e, &felt);
+    let gain = if system.config.griffith_fronts {
+        flaw * felt.energy_across(fork.normal, material.contact_modulus())
+    } else {
+        material.energy_depth * f64::from(felt.state.energy_density)
+    };
     if area <= 0.0
         || gain <= system.resistance.toughness.of(e)
         || !system.ledger.has(system.cost(e, area))
     {
         return false;
     }
+    let at_surface = system.cracks[parent as usize].at_surface;
     system.cracks[parent as usize]
         .forks
         .push((fork.place, cut.time));
     let id = system.cracks.len() as u32;
     system.add(frame, e);
+    (
+        system.cracks[id as usize].flaw,
+        system.cracks[id as usize].at_surface,
+    ) = (flaw, at_surface);
     let distance = fork.place.distance(system.centroids[e as usize]);
     let new = ElementCut {
         tet: e,

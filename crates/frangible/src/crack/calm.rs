@@ -45,6 +45,7 @@ impl Calm {
             && field.motion.steps() > 2 * STRIDE
             && config.timing == CrackTiming::Instant
             && !config.surface_flaws
+            && !config.sized_flaws
             && !config.plane_stress_walls
             && field.near.0.is_empty()
             && field.displacement.residuals().is_empty()

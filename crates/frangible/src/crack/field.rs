@@ -8,8 +8,8 @@ use crate::config::FractureConfig;
 use crate::motion::{DisplacementBatch, Moment, Motion};
 use crate::near_field::NearFields;
 use crate::stress::{
-    Elasticity, Frame, Lanes, Law, MOST, RowPoint, STRIDE, Skin, StressLanes, StressState,
-    Symmetric3, Wall, WeakPlace, largest_eigenvalue, of_shape, wall_of, weak_place,
+    BATCH, Elasticity, Frame, Lanes, Law, MOST, RowPoint, STRIDE, Sample, Skin, StressLanes,
+    StressState, Symmetric3, Wall, WeakPlace, largest_eigenvalue, of_shape, wall_of, weak_place,
 };
 
 /// Cosine from which on the normals of a wall at two tetrahedra that touch belong to one face.
@@ -121,6 +121,9 @@ impl<'a> StressField<'a> {
     #[inline(always)]
     pub(crate) fn at_weak_point(&mut self, e: usize) -> StressLanes {
         let weak = weak_place(self.asset, self.skin, self.config, self.pressed, e);
+        if self.config.sized_flaws && self.body.flaw_depth(e as u32) > 0.0 {
+            return self.mean(&weak.row_point(self.body, self.config, e));
+        }
         let gradients = self.displacement.gradients(self.asset, weak.point);
         let mut lanes = self.elasticity.lanes(&gradients, weak.law);
         if let (Law::Free(_), Some(wall)) = (weak.law, &weak.wall)
@@ -129,6 +132,41 @@ impl<'a> StressField<'a> {
             self.add_near(&mut lanes, weak.position(self.body, e), wall);
         }
         lanes
+    }
+
+    /// Mean stress over a flaw that is larger than its tetrahedron, at all steps of the batch.
+    #[inline(never)]
+    fn mean(&mut self, point: &RowPoint) -> StressLanes {
+        let share = point.share();
+        let mut numbers = [Lanes::default(); MOST];
+        let own = Sample {
+            point: point.point,
+            law: point.law,
+            place: point.place,
+            wall: point.wall,
+        };
+        for sample in std::iter::once(&own).chain(&point.samples) {
+            let gradients = self.displacement.gradients(self.asset, &sample.point);
+            let mut lanes = self.elasticity.lanes(&gradients, sample.law);
+            if let (Law::Free(_), Some(wall)) = (sample.law, &sample.wall) {
+                self.near
+                    .add(&mut lanes, sample.place, wall, self.step / STRIDE);
+            }
+            for k in 0..BATCH {
+                let here = point.frame.numbers(&lanes.stress(k));
+                for (sum, number) in numbers.iter_mut().zip(here) {
+                    sum[k] += share * number;
+                }
+            }
+        }
+        let mut lanes = point.frame.stress(&numbers);
+        self.elasticity.set_energy(&mut lanes);
+        lanes
+    }
+
+    /// Whether the weak point of fracture tetrahedron `e` lies on a free surface.
+    pub(super) fn is_on_surface(&self, e: usize) -> bool {
+        weak_place(self.asset, self.skin, self.config, self.pressed, e).on_surface
     }
 
     /// Whether something presses on the flaw of fracture tetrahedron `e`.
@@ -171,19 +209,46 @@ impl<'a> StressField<'a> {
                 }
                 let amplitudes = self.displacement.amplitudes();
                 opposite.rows.add_to(*first, amplitudes, numbers);
-                (*image, image.frame.stress(numbers))
+                (image.clone(), image.frame.stress(numbers))
             }
             _ => {
                 let weak = weak_place(self.asset, self.skin, self.config, self.pressed, e);
-                let image = weak.opposite(self.body, e)?;
+                let image = weak.opposite(self.body, self.config, e)?;
+                if !image.samples.is_empty() {
+                    return Some(self.mean(&image));
+                }
                 let gradients = self.displacement.gradients(self.asset, &image.point);
-                (image, self.elasticity.lanes(&gradients, image.law))
+                let lanes = self.elasticity.lanes(&gradients, image.law);
+                (image, lanes)
             }
         };
-        if let (Law::Free(_), Some(wall)) = (image.law, &image.wall) {
-            self.add_near(&mut lanes, image.place, wall);
+        if image.samples.is_empty() {
+            if let (Law::Free(_), Some(wall)) = (image.law, &image.wall) {
+                self.add_near(&mut lanes, image.place, wall);
+            }
+        } else {
+            self.add_mean_near(&mut lanes, &image);
         }
         Some(lanes)
+    }
+
+    /// Adds the mean of the near fields over a flaw.
+    fn add_mean_near(&self, lanes: &mut StressLanes, point: &RowPoint) {
+        let share = point.share();
+        let mut numbers = [Lanes::default(); MOST];
+        for (place, wall) in point.walls() {
+            let mut near = StressLanes::default();
+            self.near.add(&mut near, place, wall, self.step / STRIDE);
+            for k in 0..BATCH {
+                let here = point.frame.numbers(&near.stress(k));
+                for (sum, number) in numbers.iter_mut().zip(here) {
+                    sum[k] += share * number;
+                }
+            }
+        }
+        let near = point.frame.stress(&numbers);
+        lanes.add_all(&near);
+        self.elasticity.set_energy(lanes);
     }
 
     fn gradient(&mut self, point: &EmbeddedPoint) -> glam::Mat3 {
@@ -245,42 +310,85 @@ impl Felt {
         }
     }
 
-    /// Tension across a crack of this unit normal that opens its front, Pa: of a wall that of its middle and the part of its bending that
-    /// counts (`tips.rs`), at most the larger one of its faces.
-    pub(crate) fn opening(&self, normal: Vec3, poisson_ratio: f64) -> f64 {
+    /// Strain energy of the tension across a crack of this unit normal, J/m³: in a wall its mean, of what stretches the wall and what bends
+    /// it, at most that of the larger tension of its faces. `plane_modulus`: E/(1−ν²), Pa.
+    pub(crate) fn energy_across(&self, normal: Vec3, plane_modulus: f64) -> f64 {
+        let (middle, bending) = self.across(normal);
+        0.5 * (middle.powi(2) + bending.powi(2) / 3.0) / plane_modulus
+    }
+
+    /// Tension across a crack of this unit normal in the middle of the wall, and what the larger one of its faces has beyond it, Pa; in a solid all
+    /// of it and none.
+    fn across(&self, normal: Vec3) -> (f64, f64) {
         let across = |stress: &Symmetric3| f64::from(normal.dot(stress.to_mat3() * normal));
         let Some((_, faces)) = &self.wall else {
-            return across(&self.state.stress).max(0.0);
+            return (across(&self.state.stress).max(0.0), 0.0);
         };
         let [front, back] = faces.each_ref().map(across);
         let largest = front.max(back).max(0.0);
         let middle = (0.5 * (front + back)).clamp(0.0, largest);
+        (middle, largest - middle)
+    }
+
+    /// Tension across a crack of this unit normal that opens its front, Pa: of a wall that of its middle and the part of its bending that
+    /// counts (`tips.rs`), at most the larger one of its faces.
+    pub(crate) fn opening(&self, normal: Vec3, poisson_ratio: f64) -> f64 {
+        let (middle, bending) = self.across(normal);
         let share = (1.0 + poisson_ratio) / (3.0 * (3.0 + poisson_ratio));
-        (middle.powi(2) + share * (largest - middle).powi(2)).sqrt()
+        (middle.powi(2) + share * bending.powi(2)).sqrt()
     }
 }
 
 impl WeakPlace<'_> {
     /// What rows are made of. `e`: its tetrahedron.
-    pub(crate) fn row_point(&self, body: &Body, e: usize) -> RowPoint {
+    pub(crate) fn row_point(&self, body: &Body, config: &FractureConfig, e: usize) -> RowPoint {
+        let place = self.position(body, e);
+        let samples = match config.sized_flaws {
+            true => body.flaw_samples(e as u32, place),
+            false => Vec::new(),
+        };
+        let skin = &body.prepared.skin;
+        let sample = |tet: u32| {
+            let wall = wall_of(&body.asset, skin, config, tet as usize);
+            Sample {
+                point: *body.asset.embedded_tet(tet as usize),
+                law: wall.map_or(Law::Solid, |wall| Law::Free(wall.normal)),
+                place: body.prepared.centroids[tet as usize],
+                wall,
+            }
+        };
         RowPoint {
             point: *self.point,
             law: self.law,
             frame: Frame::of(self.law, self.wall.as_ref()),
-            place: self.position(body, e),
+            place,
             wall: self.wall,
+            samples: samples.into_iter().map(sample).collect(),
         }
     }
 
     /// Its mirror image behind the middle of the wall that it is in; none in a solid. `e`: its tetrahedron.
-    pub(crate) fn opposite(&self, body: &Body, e: usize) -> Option<RowPoint> {
+    pub(crate) fn opposite(
+        &self,
+        body: &Body,
+        config: &FractureConfig,
+        e: usize,
+    ) -> Option<RowPoint> {
         let wall = self.wall?;
-        let here = self.row_point(body, e);
-        let [front, back] = wall.distances(here.place);
-        let across = wall.normal * (front + back);
+        let mut here = self.row_point(body, config, e);
+        let across = |wall: &Wall, place: Vec3| {
+            let [front, back] = wall.distances(place);
+            wall.normal * (front + back)
+        };
+        for sample in &mut here.samples {
+            let by = across(sample.wall.as_ref().unwrap_or(&wall), sample.place);
+            sample.point = shifted(&body.asset, &sample.point, by);
+            sample.place += by;
+        }
+        let by = across(&wall, here.place);
         Some(RowPoint {
-            point: shifted(&body.asset, self.point, across),
-            place: here.place + across,
+            point: shifted(&body.asset, self.point, by),
+            place: here.place + by,
             ..here
         })
     }

@@ -143,6 +143,10 @@ fn candidates<'a>(
 
 /// Whether a crack's first tetrahedron pays for its own area: A γ η > A G_c.
 fn pays(system: &CrackSystem, suspect: &Suspect, k: usize) -> bool {
+    if system.config.griffith_fronts {
+        // By the tension across it, which is not known yet.
+        return true;
+    }
     let gain = system.asset.material.energy_depth * f64::from(suspect.state.energy_density[k]);
     !system.config.first_element_pays || gain > system.resistance.toughness.of(suspect.tet)
 }
@@ -180,8 +184,26 @@ fn try_start(system: &mut CrackSystem, field: &mut StressField, suspect: &Suspec
     if area <= 0.0 {
         return;
     }
+    let tension = f64::from(normal.dot(suspect.state.stress(k).times(normal)));
+    let at_surface = field.is_on_surface(e as usize);
+    let flaw = system.flaw_feed(e, field.wall(e as usize).as_ref());
+    let gain = if system.config.griffith_fronts {
+        flaw * 0.5 * tension * tension / material.contact_modulus()
+    } else {
+        material.energy_depth * f64::from(suspect.state.energy_density[k])
+    };
+    if system.config.griffith_fronts
+        && system.config.first_element_pays
+        && gain <= system.resistance.toughness.of(e)
+    {
+        return;
+    }
     let id = system.cracks.len() as u32;
     system.add(frame, e);
+    (
+        system.cracks[id as usize].flaw,
+        system.cracks[id as usize].at_surface,
+    ) = (flaw, at_surface);
     let direction = gradient(&x, &values).unwrap_or(normal);
     system.fracture(
         id,
@@ -193,7 +215,7 @@ fn try_start(system: &mut CrackSystem, field: &mut StressField, suspect: &Suspec
             time: now,
         },
         area,
-        f64::from(area) * material.energy_depth * f64::from(suspect.state.energy_density[k]),
+        f64::from(area) * gain,
     );
     if system.config.timing == CrackTiming::Instant {
         advance(system, field, f64::INFINITY);

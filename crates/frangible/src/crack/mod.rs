@@ -20,6 +20,7 @@ mod branching;
 mod calm;
 mod cuts;
 mod extents;
+mod feed;
 mod field;
 mod initiation;
 mod ledger;

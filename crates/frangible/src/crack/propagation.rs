@@ -223,14 +223,8 @@ enum Payment {
 /// The energy test of a front `[G12 Algorithm 2]`: `E_f + A_n G_c < E_s + A_n γ η_n`.
 fn pays(system: &CrackSystem, felt: &Felt, front: &Front, cut: &ElementCut, area: f32) -> Payment {
     let crack = &system.cracks[front.crack as usize];
-    let material = &system.asset.material;
     let cost = system.cost(front.tet, area);
-    let mut gain = f64::from(area) * material.energy_depth * f64::from(felt.state.energy_density);
-    if let Some(depth) = system.tip_depth(front) {
-        let opening = felt.opening(cut.direction, material.poisson_ratio);
-        let density = 0.5 * opening * opening / material.contact_modulus();
-        gain = gain.max(f64::from(area) * depth * density);
-    }
+    let gain = system.gain(front, felt, cut.direction, area);
     if system.ledger.never_has(cost) {
         Payment::Refused
     } else if !system.ledger.has(cost) {

@@ -25,6 +25,12 @@ pub(crate) struct Crack {
     pub(crate) available: f64,
     /// Area, m².
     pub(crate) area: f64,
+    /// Length of its front where it may still grow, m.
+    pub(super) front: f64,
+    /// Depth of the layer that feeds it while it is no larger than the flaw that it started from, m.
+    pub(super) flaw: f64,
+    /// Whether that lies on a free surface.
+    pub(super) at_surface: bool,
     /// Its tetrahedra thinned to one per place: what releases the stress around it.
     pub(crate) sites: Sites,
     /// Where it ran into another crack (or into itself).
@@ -48,6 +54,9 @@ impl Crack {
             spent: 0.0,
             available: 0.0,
             area: 0.0,
+            front: 0.0,
+            flaw: 0.0,
+            at_surface: false,
             sites: Sites::default(),
             junctions: Vec::new(),
             forks: Vec::new(),

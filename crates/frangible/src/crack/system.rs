@@ -40,6 +40,10 @@ pub(crate) struct CrackSystem<'a> {
     pub(crate) values: NodeValues,
     /// Crack that fractured each tetrahedron, or [`UNCUT`].
     pub(crate) fractured_by: Vec<u32>,
+    /// Place of each fractured tetrahedron in its crack's list.
+    pub(super) cut_at: Vec<u32>,
+    /// Local thickness of the body at each tetrahedron, m.
+    pub(super) thickness: &'a [f32],
     /// Fronts on their way.
     pub(crate) fronts: BinaryHeap<Front>,
     /// Fronts that lacked energy; tried again at the next step.
@@ -100,6 +104,8 @@ impl<'a> CrackSystem<'a> {
                     by
                 }
             },
+            cut_at: vec![0; asset.fracture.tets.len()],
+            thickness: &body.prepared.thickness,
             fronts: BinaryHeap::new(),
             stalled: Vec::new(),
             releases: Releases::default(),
@@ -320,7 +326,9 @@ impl<'a> CrackSystem<'a> {
     /// Adds a fractured tetrahedron to a crack.
     fn join(&mut self, crack: u32, cut: ElementCut, area: f32) {
         let tet = cut.tet as usize;
+        self.move_front(crack, &cut);
         self.fractured_by[tet] = crack;
+        self.cut_at[tet] = self.cracks[crack as usize].elements.len() as u32;
         let c = &mut self.cracks[crack as usize];
         c.area += f64::from(area);
         let centre = self.centroids[tet];

@@ -39,13 +39,14 @@ impl OppositeRows {
         let tets = body.clusters.tets(cluster).iter();
         let image = |&tet: &u32| {
             let weak = weak_place(&body.asset, skin, config, &[], tet as usize);
-            let image = weak.opposite(body, tet as usize)?;
+            let image = weak.opposite(body, config, tet as usize)?;
             let first = count;
             count += image.frame.count();
             Some((image, first))
         };
         let images: Vec<_> = tets.map(image).collect();
-        let points: Vec<RowPoint> = images.iter().flatten().map(|(image, _)| *image).collect();
+        let points = images.iter().flatten().map(|(image, _)| image.clone());
+        let points: Vec<RowPoint> = points.collect();
         let elasticity = Elasticity::new(&body.asset.material);
         Self {
             rows: Rows::new(&body.asset, &elasticity, modes, &points),
@@ -67,7 +68,9 @@ impl WeakRows {
         if config.green_lagrange || modes > followed {
             return None;
         }
-        let laws = usize::from(config.surface_flaws) + 2 * usize::from(config.plane_stress_walls);
+        let laws = usize::from(config.surface_flaws)
+            + 2 * usize::from(config.plane_stress_walls)
+            + 4 * usize::from(config.sized_flaws);
         let make = || {
             let clusters = body.clusters.clusters.len();
             is_less_work(body, config, followed).then(|| LawRows {
@@ -135,7 +138,7 @@ fn row_points(body: &Body, config: &FractureConfig, cluster: usize) -> Vec<RowPo
     let tets = body.clusters.tets(cluster).iter();
     tets.map(|&tet| {
         let weak = weak_place(&body.asset, skin, config, &[], tet as usize);
-        weak.row_point(body, tet as usize)
+        weak.row_point(body, config, tet as usize)
     })
     .collect()
 }

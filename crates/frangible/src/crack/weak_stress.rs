@@ -65,6 +65,8 @@ pub(super) struct NearPoint {
     at: Located,
     /// What each row has of the field's two tensions.
     shares: [[f32; MOST]; 2],
+    /// How much it counts.
+    share: f32,
 }
 
 impl WeakStress {
@@ -267,7 +269,7 @@ impl NearPoint {
     #[inline(always)]
     fn add_most(&self, field: &StressField, to: &mut Lanes) {
         let most = field.near.0[self.field].most_lanes(&self.at, field.step / STRIDE);
-        add(to, 1.0, &most);
+        add(to, self.share, &most);
     }
 
     /// Adds the field to the point's numbers.
@@ -294,26 +296,35 @@ impl Added {
             let frame = point.frame;
             if field.is_pressed(tet as usize) {
                 pressed.push(i);
-            } else if let Some(wall) = &point.wall
-                && !matches!(frame, Frame::Edge(_))
-            {
-                let places = field.near.places(point.place, wall);
-                near.extend(places.map(|(field, at)| NearPoint {
-                    row,
-                    count: frame.count(),
-                    field,
-                    shares: at.directions().map(|along| frame.of_uniaxial(along)),
-                    at,
-                }));
+            } else {
+                let share = point.share();
+                for (place, wall) in point.walls() {
+                    let places = field.near.places(place, wall);
+                    near.extend(places.map(|(field, at)| {
+                        NearPoint {
+                            row,
+                            count: frame.count(),
+                            field,
+                            shares: (at.directions())
+                                .map(|along| frame.of_uniaxial(along).map(|x| share * x)),
+                            share,
+                            at,
+                        }
+                    }));
+                }
             }
             row += frame.count();
         }
+        let whole = |point: &NearPoint| NearPoint {
+            share: 1.0,
+            ..*point
+        };
         let mut nearest: Vec<NearPoint> = Vec::new();
         for point in &near {
             match nearest.iter_mut().find(|known| known.field == point.field) {
-                Some(known) if point.at.is_nearer(&known.at) => *known = *point,
+                Some(known) if point.at.is_nearer(&known.at) => *known = whole(point),
                 Some(_) => {}
-                None => nearest.push(*point),
+                None => nearest.push(whole(point)),
             }
         }
         Self {

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::{Fields, scatter::scatter};
+use crate::body::flaw_depth;
 use crate::material::Material;
 use crate::mesh::TetMesh;
 
@@ -89,6 +90,8 @@ pub(crate) struct Resistance {
     of_tet: Arc<[f32]>,
     /// The smallest at a weak tetrahedron, Pa; the material's where there is none.
     pub(crate) weakest: f64,
+    /// How many times as strong as its flaws say ([`Self::strengthened`]).
+    strengthened: f64,
 }
 
 impl Resistance {
@@ -106,6 +109,7 @@ impl Resistance {
             toughness,
             of_tet: Arc::from([]),
             weakest: above_zero(material.strength),
+            strengthened: 1.0,
         };
         if **fields == Fields::default() {
             return body;
@@ -136,6 +140,7 @@ impl Resistance {
                 .map(|&r| rounded(f64::from(r) * f64::from(factor)))
                 .collect(),
             weakest: above_zero(self.weakest * f64::from(factor)),
+            strengthened: self.strengthened * f64::from(factor),
             ..self.clone()
         }
     }
@@ -157,6 +162,13 @@ impl Resistance {
     pub(crate) fn strength(&self, tet: u32) -> f32 {
         let own = self.of_tet.get(tet as usize);
         own.copied().unwrap_or_else(|| rounded(self.material))
+    }
+
+    /// Depth of the flaw that a weak tetrahedron stands for, m: that of its own strength, and no deeper than that of the material's. A body
+    /// that was strengthened keeps its flaws.
+    pub(crate) fn flaw_depth(&self, material: &Material, tet: u32) -> f32 {
+        let largest = f64::from(self.strength(tet)).max(self.painted(tet)) / self.strengthened;
+        flaw_depth(material, self.toughness.of(tet), largest) as f32
     }
 
     /// R_c of a place without the scatter of its weak points, Pa: what cracks that run there compare with.

@@ -30,7 +30,7 @@ impl<'a> ClusterBounds<'a> {
     pub(crate) fn rows(&self, part: usize) -> (&'a [f32], &'a [f32]) {
         let bounds = &self.body.prepared.bounds;
         let modes = self.body.asset.modes.count();
-        bounds.rows(self.body.clusters.clusters[part] as usize, modes)
+        self.body.clusters.rows(bounds, part, modes)
     }
 
     /// No stress in a part exceeds this, Pa, when the modes move no farther than `amplitudes`, m·√kg.

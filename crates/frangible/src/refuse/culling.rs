@@ -50,9 +50,13 @@ impl<'a> Culling<'a> {
         let near = complement.near.iter().filter(|_| on).map(|near| {
             let of_part = |part| {
                 let tets = body.clusters.tets(part).iter();
-                // A flaw lies no farther from the centroid than an edge is long.
+                // A weak point lies no farther from the centroid than an edge is long, and its samples no farther than that from its flaw.
                 let places = tets.map(|&tet| near.distance(centroids[tet as usize]));
-                let nearest = places.fold(f32::INFINITY, f32::min) - body.prepared.longest_edge;
+                let around = match body.clusters.deepest[part] {
+                    depth if depth > 0.0 => depth + 2.0 * body.prepared.longest_edge,
+                    _ => body.prepared.longest_edge,
+                };
+                let nearest = places.fold(f32::INFINITY, f32::min) - around;
                 near.below(near.nearest_along(nearest))
             };
             (0..count).map(of_part).collect()

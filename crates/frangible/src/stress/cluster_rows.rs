@@ -4,9 +4,9 @@ use std::sync::OnceLock;
 
 use super::{Coarse, Frame, RowPoint, Rows, Sizes};
 
-/// Rows by how the points' laws are chosen: by the body's surface and walls, or not.
+/// Rows by how the points' laws are chosen, by the body's surface and walls or not, and whether flaws have a size.
 #[derive(Debug, Default)]
-pub(crate) struct WeakRows(pub(crate) [OnceLock<Option<LawRows>>; 4]);
+pub(crate) struct WeakRows(pub(crate) [OnceLock<Option<LawRows>>; 8]);
 
 /// Rows of the clusters.
 #[derive(Debug)]

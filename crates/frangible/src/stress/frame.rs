@@ -169,6 +169,29 @@ impl Elasticity {
         rows
     }
 
+    /// [`Self::per_displacement`] at another place than that of the frame, whose law may be another one.
+    pub(super) fn per_displacement_in(&self, law: Law, frame: Frame, g: Vec3) -> [Vec3; MOST] {
+        let tensor = self.per_displacement(law, Frame::Space, g);
+        let along = |u: Vec3, v: Vec3| {
+            let [xx, yy, zz, xy, yz, zx] = tensor;
+            xx * (u.x * v.x)
+                + yy * (u.y * v.y)
+                + zz * (u.z * v.z)
+                + xy * (u.x * v.y + u.y * v.x)
+                + yz * (u.y * v.z + u.z * v.y)
+                + zx * (u.z * v.x + u.x * v.z)
+        };
+        let mut rows = [Vec3::ZERO; MOST];
+        match frame {
+            Frame::Space => rows = tensor,
+            Frame::Surface([a, b]) => {
+                rows[..3].copy_from_slice(&[along(a, a), along(b, b), along(a, b)]);
+            }
+            Frame::Edge(t) => rows[0] = along(t, t),
+        }
+        rows
+    }
+
     /// Rows of plane stress along unit vectors `a` and `b`: σ_aa, σ_bb, σ_ab.
     #[inline(always)]
     fn in_surface(&self, a: Vec3, b: Vec3, g: Vec3) -> [Vec3; 3] {

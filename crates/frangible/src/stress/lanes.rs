@@ -29,6 +29,15 @@ impl StressLanes {
         self.add(tension, products(t, t));
     }
 
+    /// Adds another stress; the energy stays.
+    pub(crate) fn add_all(&mut self, other: &Self) {
+        for (lanes, others) in self.components.iter_mut().zip(&other.components) {
+            for (sum, other) in lanes.iter_mut().zip(others) {
+                *sum += other;
+            }
+        }
+    }
+
     /// Adds so much of a tensor's components at each step, Pa; the energy stays.
     #[inline(always)]
     pub(super) fn add(&mut self, size: &Lanes, components: [f32; 6]) {

@@ -19,11 +19,24 @@ const GROUP: usize = 6;
 const NODES: usize = 10;
 
 /// A weak point as its rows see it.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct RowPoint {
     pub(crate) point: EmbeddedPoint,
     pub(crate) law: Law,
     pub(crate) frame: Frame,
+    /// Where it is, m.
+    pub(crate) place: Vec3,
+    /// The wall that it is in.
+    pub(crate) wall: Option<Wall>,
+    /// Where else its flaw feels the stress: the rows are of the mean.
+    pub(crate) samples: Vec<Sample>,
+}
+
+/// Another place where a flaw feels the stress.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Sample {
+    pub(crate) point: EmbeddedPoint,
+    pub(crate) law: Law,
     /// Where it is, m.
     pub(crate) place: Vec3,
     /// The wall that it is in.
@@ -35,18 +48,49 @@ pub(crate) struct RowPoint {
 type NodeShares = ([usize; 2], [[f32; 3]; MOST]);
 
 impl RowPoint {
-    /// All nodes of the point's element but the first: the gradients of the shape functions add up to nothing.
+    /// The places where its flaw feels the stress, each with its law; whether that is the point's own.
+    pub(crate) fn places(&self) -> impl Iterator<Item = (&EmbeddedPoint, Law, bool)> {
+        let samples = self.samples.iter().map(|s| (&s.point, s.law, false));
+        std::iter::once((&self.point, self.law, true)).chain(samples)
+    }
+
+    /// The places in walls where nothing keeps the near field of a contact out, each with its wall.
+    pub(crate) fn walls(&self) -> impl Iterator<Item = (Vec3, &Wall)> {
+        let own = std::iter::once((self.law, self.place, &self.wall));
+        let samples = self.samples.iter().map(|s| (s.law, s.place, &s.wall));
+        own.chain(samples)
+            .filter_map(|(law, place, wall)| match law {
+                Law::Free(_) => Some((place, wall.as_ref()?)),
+                Law::Solid | Law::Edge(_) => None,
+            })
+    }
+
+    /// What each of these places counts in the mean.
+    pub(crate) fn share(&self) -> f32 {
+        1.0 / (1 + self.samples.len()) as f32
+    }
+
+    /// All nodes of the element of one of its places but the first: the gradients of the shape functions add up to nothing.
     #[inline(always)]
-    fn nodes(&self, asset: &Asset, elasticity: &Elasticity) -> [NodeShares; NODES - 1] {
-        let element = self.point.element as usize;
+    fn nodes(
+        &self,
+        asset: &Asset,
+        elasticity: &Elasticity,
+        (point, law, own): (&EmbeddedPoint, Law, bool),
+    ) -> [NodeShares; NODES - 1] {
+        let element = point.element as usize;
         let gradients = &asset.analysis.barycentric_gradients[element];
-        let weights = self.point.shape_gradients(gradients);
+        let weights = point.shape_gradients(gradients);
+        let share = self.share();
         let nodes = &asset.analysis.elements[element];
         let mut all = [([0; 2], [[0.0; 3]; MOST]); NODES - 1];
         for ((to, &node), &g) in all.iter_mut().zip(&nodes[1..]).zip(&weights[1..]) {
-            let shares = elasticity.per_displacement(self.law, self.frame, g);
-            for (to, share) in to.1.iter_mut().zip(shares) {
-                *to = share.to_array();
+            let shares = match own {
+                true => elasticity.per_displacement(law, self.frame, g),
+                false => elasticity.per_displacement_in(law, self.frame, g),
+            };
+            for (to, row) in to.1.iter_mut().zip(shares) {
+                *to = (row * share).to_array();
             }
             to.0 = [node as usize, nodes[0] as usize];
         }
@@ -177,29 +221,33 @@ pub(crate) fn of_shape(
     points: &[RowPoint],
 ) -> Vec<f32> {
     let mut rows = Vec::new();
-    for RowPoint {
-        point, law, frame, ..
-    } in points
-    {
-        let element = point.element as usize;
-        let weights = point.shape_gradients(&asset.analysis.barycentric_gradients[element]);
-        let [first, others @ ..] = &asset.analysis.elements[element];
-        // The gradients of the shape functions add up to nothing.
-        let shared = Vec3::from_array(shape.at(asset, *first as usize));
-        let mut gradient = Mat3::ZERO;
-        for (&node, g) in others.iter().zip(&weights[1..]) {
-            let u = Vec3::from_array(shape.at(asset, node as usize)) - shared;
-            gradient.x_axis += u * g.x;
-            gradient.y_axis += u * g.y;
-            gradient.z_axis += u * g.z;
+    for row_point in points {
+        let mut sums = [0.0; MOST];
+        let (frame, share) = (row_point.frame, row_point.share());
+        for (point, law, _) in row_point.places() {
+            let element = point.element as usize;
+            let weights = point.shape_gradients(&asset.analysis.barycentric_gradients[element]);
+            let [first, others @ ..] = &asset.analysis.elements[element];
+            // The gradients of the shape functions add up to nothing.
+            let shared = Vec3::from_array(shape.at(asset, *first as usize));
+            let mut gradient = Mat3::ZERO;
+            for (&node, g) in others.iter().zip(&weights[1..]) {
+                let u = Vec3::from_array(shape.at(asset, node as usize)) - shared;
+                gradient.x_axis += u * g.x;
+                gradient.y_axis += u * g.y;
+                gradient.z_axis += u * g.z;
+            }
+            let strain = Symmetric3::from_mat3(gradient);
+            let stress = match law {
+                Law::Solid => elasticity.hooke(&strain),
+                Law::Free(n) => elasticity.free_hooke(&strain, n),
+                Law::Edge(t) => elasticity.edge_hooke(&strain, t),
+            };
+            for (sum, number) in sums.iter_mut().zip(frame.numbers(&stress)) {
+                *sum += number * share;
+            }
         }
-        let strain = Symmetric3::from_mat3(gradient);
-        let stress = match *law {
-            Law::Solid => elasticity.hooke(&strain),
-            Law::Free(n) => elasticity.free_hooke(&strain, n),
-            Law::Edge(t) => elasticity.edge_hooke(&strain, t),
-        };
-        rows.extend(&frame.numbers(&stress)[..frame.count()]);
+        rows.extend(&sums[..frame.count()]);
     }
     rows
 }
@@ -224,7 +272,9 @@ impl pulp::NullaryFnOnce for Fill<'_> {
         for point in self.points {
             let count = point.frame.count();
             sums[..count].iter_mut().for_each(|sum| sum.fill(0.0));
-            for ([node, first], shares) in point.nodes(self.asset, self.elasticity) {
+            let places = point.places();
+            let nodes = places.flat_map(|place| point.nodes(self.asset, self.elasticity, place));
+            for ([node, first], shares) in nodes {
                 for axis in 0..3 {
                     let here = &shapes.row(3 * node + axis)[..modes];
                     let shared = &shapes.row(3 * first + axis)[..modes];

@@ -1,0 +1,99 @@
+//! The size of the flaw that a weak point stands for (beyond the paper).
+//!
+//! By Griffith a strength R in a material of toughness K_Ic belongs to a flaw of depth `a = (K_Ic / Y R)² / π`, Y = 1.12 for one that is long and
+//! shallow. A stress that varies over such a flaw does not open it as its peak would: the flaw feels the mean over its own size, so that a
+//! narrow peak needs much more than the strength and a wide tension no more. The mean is taken over a ball about the weak point,
+//! cut by the body.
+//!
+//! No flaw is larger than that of the specimen's strength R_s, nor deeper than half of the body's thickness H:
+//! `a = min(a(R), a(R_s), H/2)`. A beam that is bent then bears 1.2 to 1.8 times R_s, as with cohesive cracks.
+//!
+//! Where the ball is smaller than the weak point's own tetrahedron, the stress there serves.
+
+use glam::Vec3;
+
+use super::Body;
+use crate::asset::Asset;
+use crate::material::Material;
+
+/// Y of a long, shallow flaw at a surface.
+const SHAPE: f64 = 1.12;
+
+/// Directions to the corners of an icosahedron over the golden ratio, and of a cube.
+const OUTER: [[f32; 3]; 12] = {
+    const S: f32 = 0.525_731_1;
+    const L: f32 = 0.850_650_8;
+    [
+        [0.0, S, L],
+        [0.0, S, -L],
+        [0.0, -S, L],
+        [0.0, -S, -L],
+        [S, L, 0.0],
+        [S, -L, 0.0],
+        [-S, L, 0.0],
+        [-S, -L, 0.0],
+        [L, 0.0, S],
+        [-L, 0.0, S],
+        [L, 0.0, -S],
+        [-L, 0.0, -S],
+    ]
+};
+const INNER: [[f32; 3]; 8] = {
+    const S: f32 = 0.577_350_3;
+    [
+        [S, S, S],
+        [S, S, -S],
+        [S, -S, S],
+        [S, -S, -S],
+        [-S, S, S],
+        [-S, S, -S],
+        [-S, -S, S],
+        [-S, -S, -S],
+    ]
+};
+
+/// Radii at which the samples lie, in those of the ball: each stands for the same volume, 1/21 of it.
+const OUTER_RADIUS: f32 = 0.894;
+const INNER_RADIUS: f32 = 0.620;
+
+/// Depth of the flaw of a strength, Pa, where the fracture energy is this, J/m²: m.
+pub(crate) fn flaw_depth(material: &Material, fracture_energy: f64, strength: f64) -> f64 {
+    let toughness_squared = fracture_energy * material.contact_modulus();
+    toughness_squared / (std::f64::consts::PI * (SHAPE * strength).powi(2))
+}
+
+impl Body {
+    /// Depth of the flaw that a weak tetrahedron stands for, m; 0 where it is smaller than the tetrahedron.
+    pub(crate) fn flaw_depth(&self, tet: u32) -> f32 {
+        let mesh = &self.asset.fracture;
+        let depth = self.resistance.flaw_depth(&self.asset.material, tet);
+        let depth = depth.min(0.5 * self.prepared.thickness[tet as usize]);
+        let ball = 4.0 / 3.0 * std::f64::consts::PI * f64::from(depth).powi(3);
+        if ball > mesh.volume(tet as usize) {
+            depth
+        } else {
+            0.0
+        }
+    }
+
+    /// Tetrahedra at whose centres the stress is sampled over the flaw of a weak one, `place` that of the weak point, m: those of the
+    /// ball's samples that lie in the body, as often as they hold one. None where the flaw is smaller than the tetrahedron.
+    pub(crate) fn flaw_samples(&self, tet: u32, place: Vec3) -> Vec<u32> {
+        let depth = self.flaw_depth(tet);
+        if depth <= 0.0 {
+            return Vec::new();
+        }
+        let mesh = &self.asset.fracture;
+        let at = |radius: f32| move |d: &[f32; 3]| place + Vec3::from_array(*d) * (radius * depth);
+        let inner = INNER.iter().map(at(INNER_RADIUS));
+        let outer = OUTER.iter().map(at(OUTER_RADIUS));
+        let samples = inner.chain(outer).filter_map(|p| mesh.locate(tet, p));
+        samples.filter(|&t| has(&self.asset, t)).collect()
+    }
+}
+
+/// Whether a fracture tetrahedron is the body's own.
+fn has(asset: &Asset, tet: u32) -> bool {
+    let portion = asset.portion.as_ref();
+    portion.is_none_or(|portion| portion.tets().binary_search(&tet).is_ok())
+}

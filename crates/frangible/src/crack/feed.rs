@@ -1,0 +1,101 @@
+//! What feeds a crack's front (beyond the paper): Griffith's energy release rate of a crack of its present size.
+//!
+//! Per area a crack of area A and live front L gains the energy of a layer of depth `(16/π) A/L` under the tension σ across it, σ²/2E', which is
+//! `K² / E'` of a penny; 1.21 times as deep where it starts at a surface. A crack feeds on no more than the body is thick. The paper's depth γ is the same
+//! for cracks of all sizes `[G12 Eq. 12]`.
+//!
+//! A crack begins as the flaw that it starts from, and a flaw may run at its strength R: until the crack is larger its depth is that which pays for it
+//! there, `2 E' G_c / R²`.
+
+use std::f64::consts::PI;
+
+use glam::Vec3;
+
+use super::field::Felt;
+use super::single::{Crack, ElementCut, Front};
+use super::system::{CrackSystem, ELSEWHERE, UNCUT};
+use crate::mesh::{FACES, NO_NEIGHBOUR};
+use crate::stress::Wall;
+use crate::tips::crossing_length;
+
+/// Depth over A/L: 2.55 times the radius of a penny.
+const PENNY: f64 = 16.0 / PI;
+
+/// More of it at a free surface: the square of 1.1.
+const AT_SURFACE: f64 = 1.21;
+
+impl Crack {
+    /// Depth of the layer that feeds the crack, m.
+    fn depth(&self, area: f64) -> f64 {
+        let surface = if self.at_surface { AT_SURFACE } else { 1.0 };
+        let grown = surface * PENNY * area / self.front.max(f64::MIN_POSITIVE);
+        self.flaw.max(grown)
+    }
+}
+
+impl CrackSystem<'_> {
+    /// Depth of the layer that feeds a front of a crack that has so much area, m², under this stress, m.
+    pub(super) fn depth(&self, crack: &Crack, tet: u32, felt: &Felt) -> f64 {
+        let thickness = self.thickness_at(tet, felt.wall.as_ref().map(|(wall, _)| wall));
+        crack.depth(crack.area).min(f64::from(thickness))
+    }
+
+    /// Depth of the layer that feeds the flaw of a weak tetrahedron, in this wall, if any, m: at its strength it pays for the crack, unless the body is thinner.
+    pub(super) fn flaw_feed(&self, tet: u32, wall: Option<&Wall>) -> f64 {
+        let strength = f64::from(self.resistance.strength(tet));
+        let toughness = self.resistance.toughness.of(tet);
+        let depth = 2.0 * self.asset.material.contact_modulus() * toughness / (strength * strength);
+        depth.min(f64::from(self.thickness_at(tet, wall)))
+    }
+
+    /// Thickness of the body at a tetrahedron, which is in this wall, if in any, m.
+    fn thickness_at(&self, tet: u32, wall: Option<&Wall>) -> f32 {
+        wall.map_or_else(|| self.thickness[tet as usize], Wall::thickness)
+    }
+
+    /// Energy that an area, m², of a front sets free, J `[G12 Eq. 12]`. `normal`: unit normal of the crack there.
+    pub(super) fn gain(&self, front: &Front, felt: &Felt, normal: Vec3, area: f32) -> f64 {
+        let material = &self.asset.material;
+        if !self.config.griffith_fronts {
+            let density = f64::from(felt.state.energy_density);
+            return f64::from(area) * material.energy_depth * density;
+        }
+        let crack = &self.cracks[front.crack as usize];
+        let modulus = material.contact_modulus();
+        let per_area = match self.tip_depth(front) {
+            Some(depth) => {
+                let opening = felt.opening(normal, material.poisson_ratio);
+                depth * 0.5 * opening * opening / modulus
+            }
+            None => self.depth(crack, front.tet, felt) * felt.energy_across(normal, modulus),
+        };
+        f64::from(area) * per_area
+    }
+
+    /// Keeps the length of the live fronts when a crack cuts a tetrahedron: its own front moves on, and that of a crack which it meets ends.
+    pub(super) fn move_front(&mut self, crack: u32, cut: &ElementCut) {
+        let mesh = &self.asset.fracture;
+        let x = mesh.corners(cut.tet as usize);
+        for (face, &n) in FACES.iter().zip(&mesh.neighbours[cut.tet as usize]) {
+            if n == NO_NEIGHBOUR {
+                continue;
+            }
+            let by = self.fractured_by[n as usize];
+            let corners = face.map(|i| x[i]);
+            if by == UNCUT {
+                let length = crossing_length(&corners, &face.map(|i| cut.values[i]));
+                self.cracks[crack as usize].front += f64::from(length);
+            } else if by != ELSEWHERE {
+                let met = &mut self.cracks[by as usize];
+                let other = met.elements[self.cut_at[n as usize] as usize];
+                let nodes = mesh.tets[n as usize];
+                let values = face.map(|i| {
+                    let node = mesh.tets[cut.tet as usize][i];
+                    let at = nodes.iter().position(|&v| v == node);
+                    at.map_or(0.0, |at| other.values[at])
+                });
+                met.front -= f64::from(crossing_length(&corners, &values));
+            }
+        }
+    }
+}
