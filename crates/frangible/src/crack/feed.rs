@@ -1,7 +1,8 @@
 //! What feeds a crack's front (beyond the paper): Griffith's energy release rate of a crack of its present size.
 //!
 //! Per area a crack of area A and live front L gains the energy of a layer of depth `(16/π) A/L` under the tension σ across it, σ²/2E', which is
-//! `K² / E'` of a penny; 1.21 times as deep where it starts at a surface. A crack feeds on no more than the body is thick. The paper's depth γ is the same
+//! `K² / E'` of a penny; 1.21 times as deep where it starts at a surface. It grows no more once the crack is as large as the body has room for: a penny as wide
+//! as the body is thick, or half a penny as deep. The paper's depth γ is the same
 //! for cracks of all sizes `[G12 Eq. 12]`.
 //!
 //! A crack begins as the flaw that it starts from, and a flaw may run at its strength R: until the crack is larger its depth is that which pays for it
@@ -24,33 +25,51 @@ const PENNY: f64 = 16.0 / PI;
 /// More of it at a free surface: the square of 1.1.
 const AT_SURFACE: f64 = 1.21;
 
-impl Crack {
-    /// Depth of the layer that feeds the crack, m.
-    fn depth(&self, area: f64) -> f64 {
-        let surface = if self.at_surface { AT_SURFACE } else { 1.0 };
-        let grown = surface * PENNY * area / self.front.max(f64::MIN_POSITIVE);
-        self.flaw.max(grown)
-    }
-}
+/// Depth that feeds a crack as large as a body of unit thickness has room for: a penny inside, half a penny at the surface.
+const INSIDE_MOST: f64 = PENNY / 4.0;
+const AT_SURFACE_MOST: f64 = AT_SURFACE * PENNY / 2.0;
 
 impl CrackSystem<'_> {
-    /// Depth of the layer that feeds a front of a crack that has so much area, m², under this stress, m.
+    /// Depth of the layer that feeds a front of a crack under this stress, m.
     pub(super) fn depth(&self, crack: &Crack, tet: u32, felt: &Felt) -> f64 {
-        let thickness = self.thickness_at(tet, felt.wall.as_ref().map(|(wall, _)| wall));
-        crack.depth(crack.area).min(f64::from(thickness))
+        let wall = felt.wall.as_ref().map(|(wall, _)| wall);
+        let surface = if crack.at_surface { AT_SURFACE } else { 1.0 };
+        let grown = surface * PENNY * crack.area / crack.front.max(f64::MIN_POSITIVE);
+        let most = self.most_depth(tet, wall, crack.at_surface);
+        crack.flaw.max(grown).min(most)
     }
 
-    /// Depth of the layer that feeds the flaw of a weak tetrahedron, in this wall, if any, m: at its strength it pays for the crack, unless the body is thinner.
-    pub(super) fn flaw_feed(&self, tet: u32, wall: Option<&Wall>) -> f64 {
+    /// Depth of the layer that feeds the flaw of a weak tetrahedron, in this wall, if any, m: at its strength it pays for the crack, unless the body
+    /// has no room for one that large.
+    pub(super) fn flaw_feed(&self, tet: u32, wall: Option<&Wall>, at_surface: bool) -> f64 {
         let strength = f64::from(self.resistance.strength(tet));
         let toughness = self.resistance.toughness.of(tet);
         let depth = 2.0 * self.asset.material.contact_modulus() * toughness / (strength * strength);
-        depth.min(f64::from(self.thickness_at(tet, wall)))
+        depth.min(self.most_depth(tet, wall, at_surface))
     }
 
-    /// Thickness of the body at a tetrahedron, which is in this wall, if in any, m.
-    fn thickness_at(&self, tet: u32, wall: Option<&Wall>) -> f32 {
-        wall.map_or_else(|| self.thickness[tet as usize], Wall::thickness)
+    /// Most that a crack is fed with at a tetrahedron, which is in this wall, if in any, m.
+    fn most_depth(&self, tet: u32, wall: Option<&Wall>, at_surface: bool) -> f64 {
+        let thickness = wall.map_or_else(|| self.thickness[tet as usize], Wall::thickness);
+        let most = match at_surface || wall.is_some() {
+            true => AT_SURFACE_MOST,
+            false => INSIDE_MOST,
+        };
+        most * f64::from(thickness)
+    }
+
+    /// Whether a front that the stress did not pay for can still not be paid, whichever way it turns: then it need not be steered.
+    pub(super) fn stays_refused(&self, front: &Front, felt: &Felt) -> bool {
+        if front.refused <= 0.0 || !self.config.griffith_fronts {
+            return false;
+        }
+        let crack = &self.cracks[front.crack as usize];
+        let depth = self.tip_depth(front);
+        let depth = depth.unwrap_or_else(|| self.depth(crack, front.tet, felt));
+        let most = f64::from(felt.largest_tension());
+        let gain = depth * 0.5 * most * most / self.asset.material.contact_modulus();
+        let cost = self.cost(front.tet, front.refused);
+        crack.spent + cost >= crack.available + f64::from(front.refused) * gain
     }
 
     /// Energy that an area, m², of a front sets free, J `[G12 Eq. 12]`. `normal`: unit normal of the crack there.

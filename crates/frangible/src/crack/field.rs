@@ -310,6 +310,15 @@ impl Felt {
         }
     }
 
+    /// The largest principal tension, Pa; in a wall that of its two faces.
+    pub(crate) fn largest_tension(&self) -> f32 {
+        let largest = match &self.wall {
+            None => largest_eigenvalue(&self.state.stress),
+            Some((_, [front, back])) => largest_eigenvalue(front).max(largest_eigenvalue(back)),
+        };
+        largest.max(0.0)
+    }
+
     /// Strain energy of the tension across a crack of this unit normal, J/m³: in a wall its mean, of what stretches the wall and what bends
     /// it, at most that of the larger tension of its faces. `plane_modulus`: E/(1−ν²), Pa.
     pub(crate) fn energy_across(&self, normal: Vec3, plane_modulus: f64) -> f64 {

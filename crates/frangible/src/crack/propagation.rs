@@ -92,6 +92,9 @@ fn enter(system: &mut CrackSystem, field: &mut StressField, front: Front) {
         return;
     }
     let felt = field.at(n);
+    if system.stays_refused(&front, &felt) {
+        return system.stalled.push(front);
+    }
     let Some((direction, opens)) = steers(system, &felt, &front, &mut crossing) else {
         return system.meet(&front, true);
     };
@@ -108,7 +111,11 @@ fn enter(system: &mut CrackSystem, field: &mut StressField, front: Front) {
     let area = crossing_area(&crossing.x, &cut.values);
     match pays(system, &felt, &front, &cut, area) {
         Payment::Refused => {}
-        Payment::Later { lacks } => system.stalled.push(Front { lacks, ..front }),
+        Payment::Later { lacks } => system.stalled.push(Front {
+            lacks,
+            refused: area,
+            ..front
+        }),
         Payment::Now { gain } => {
             let fork = forks(system, &front, &cut, &felt);
             system.fracture(front.crack, cut, area, gain);

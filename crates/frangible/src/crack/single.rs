@@ -127,6 +127,8 @@ pub(crate) struct Front {
     /// Energy that all cracks together had no more left for it when it was last asked, J; zero where it was not asked, or lacked nothing
     /// but stress.
     pub(crate) lacks: f64,
+    /// Area that it would have cut when the stress last did not pay for it, m²; zero where it was not asked.
+    pub(crate) refused: f32,
 }
 
 impl Eq for Front {}

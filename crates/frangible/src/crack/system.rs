@@ -159,6 +159,7 @@ impl<'a> CrackSystem<'a> {
                 crack: id,
                 from: from as u32,
                 lacks: 0.0,
+                refused: 0.0,
             }));
         }
         let crack = &mut self.cracks[id as usize];
@@ -313,6 +314,7 @@ impl<'a> CrackSystem<'a> {
                 crack,
                 from,
                 lacks: 0.0,
+                refused: 0.0,
             });
         }
     }

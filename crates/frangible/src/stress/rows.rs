@@ -15,9 +15,6 @@ use crate::asset::{Asset, EmbeddedPoint};
 /// Rows that are summed side by side: each is a chain of sums that waits for itself.
 const GROUP: usize = 6;
 
-/// Nodes of an analysis element.
-const NODES: usize = 10;
-
 /// A weak point as its rows see it.
 #[derive(Clone, Debug)]
 pub(crate) struct RowPoint {
@@ -43,10 +40,6 @@ pub(crate) struct Sample {
     pub(crate) wall: Option<Wall>,
 }
 
-/// A node of a point's element, and the element's first one; what each of the point's rows has of the difference of their displacements,
-/// Pa/m.
-type NodeShares = ([usize; 2], [[f32; 3]; MOST]);
-
 impl RowPoint {
     /// The places where its flaw feels the stress, each with its law; whether that is the point's own.
     pub(crate) fn places(&self) -> impl Iterator<Item = (&EmbeddedPoint, Law, bool)> {
@@ -70,31 +63,53 @@ impl RowPoint {
         1.0 / (1 + self.samples.len()) as f32
     }
 
-    /// All nodes of the element of one of its places but the first: the gradients of the shape functions add up to nothing.
+    /// The nodes that its stress hangs on, but for the first one of its own element: the gradients of the shape functions add up to nothing.
     #[inline(always)]
-    fn nodes(
-        &self,
-        asset: &Asset,
-        elasticity: &Elasticity,
-        (point, law, own): (&EmbeddedPoint, Law, bool),
-    ) -> [NodeShares; NODES - 1] {
-        let element = point.element as usize;
-        let gradients = &asset.analysis.barycentric_gradients[element];
-        let weights = point.shape_gradients(gradients);
+    fn nodes(&self, asset: &Asset, elasticity: &Elasticity, nodes: &mut Nodes) {
+        nodes.shares.clear();
+        let first = asset.analysis.elements[self.point.element as usize][0] as usize;
+        nodes.first = first;
         let share = self.share();
-        let nodes = &asset.analysis.elements[element];
-        let mut all = [([0; 2], [[0.0; 3]; MOST]); NODES - 1];
-        for ((to, &node), &g) in all.iter_mut().zip(&nodes[1..]).zip(&weights[1..]) {
-            let shares = match own {
-                true => elasticity.per_displacement(law, self.frame, g),
-                false => elasticity.per_displacement_in(law, self.frame, g),
-            };
-            for (to, row) in to.1.iter_mut().zip(shares) {
-                *to = (row * share).to_array();
+        for (point, law, own) in self.places() {
+            let element = point.element as usize;
+            let gradients = &asset.analysis.barycentric_gradients[element];
+            let weights = point.shape_gradients(gradients);
+            let all = asset.analysis.elements[element].iter().zip(weights);
+            for (&node, g) in all.filter(|(node, _)| **node as usize != first) {
+                let rows = match own {
+                    true => elasticity.per_displacement(law, self.frame, g),
+                    false => elasticity.per_displacement_in(law, self.frame, g),
+                };
+                nodes.add(node as usize, own, rows.map(|row| row * share));
             }
-            to.0 = [node as usize, nodes[0] as usize];
         }
-        all
+    }
+}
+
+/// What each of a point's rows has of the displacements of nodes, Pa/m.
+#[derive(Clone, Debug, Default)]
+struct Nodes {
+    /// The node whose displacement is subtracted from those of the others.
+    first: usize,
+    shares: Vec<(usize, [[f32; 3]; MOST])>,
+}
+
+impl Nodes {
+    /// Adds shares of a node; those of an element that comes `first` are new.
+    #[inline(always)]
+    fn add(&mut self, node: usize, first: bool, rows: [Vec3; MOST]) {
+        let known = match first {
+            true => None,
+            false => self.shares.iter_mut().find(|known| known.0 == node),
+        };
+        match known {
+            Some((_, shares)) => {
+                for (share, row) in shares.iter_mut().zip(rows) {
+                    *share = (Vec3::from_array(*share) + row).to_array();
+                }
+            }
+            None => self.shares.push((node, rows.map(|row| row.to_array()))),
+        }
     }
 }
 
@@ -268,13 +283,13 @@ impl pulp::NullaryFnOnce for Fill<'_> {
         let modes = self.rows.modes;
         let shapes = &self.asset.modes;
         let mut sums: [Vec<f32>; MOST] = std::array::from_fn(|_| vec![0.0; modes]);
-        let mut row = 0;
+        let (mut row, mut nodes) = (0, Nodes::default());
         for point in self.points {
             let count = point.frame.count();
             sums[..count].iter_mut().for_each(|sum| sum.fill(0.0));
-            let places = point.places();
-            let nodes = places.flat_map(|place| point.nodes(self.asset, self.elasticity, place));
-            for ([node, first], shares) in nodes {
+            point.nodes(self.asset, self.elasticity, &mut nodes);
+            let first = nodes.first;
+            for &(node, shares) in &nodes.shares {
                 for axis in 0..3 {
                     let here = &shapes.row(3 * node + axis)[..modes];
                     let shared = &shapes.row(3 * first + axis)[..modes];
