@@ -277,7 +277,7 @@ fn a_body_carries_what_the_quick_margin_says() {
             };
             let forces = [force(0), force(1), force(2)];
             let total = forces.iter().map(|f| f.force.length()).sum();
-            let quick = rest_margin_at_least(&body, total, held);
+            let quick = rest_margin_at_least(&body, total, held, config.load_duration);
             let Outcome::Held { margin, .. } = rest(&body, &forces, gravity, &config).unwrap()
             else {
                 panic!("15 N broke it");

@@ -54,6 +54,9 @@ pub struct FractureConfig {
     /// A crack also ends inside what it meets, so that no bridge of one tetrahedron holds pieces together. Default: on;
     /// in the paper it stops at the face `[G12 §5.2.4]`.
     pub ends_inside: bool,
+    /// Time that a load which rests has lasted, s: glass that holds for a second may not hold for a year ([`Fields::fatigue`](crate::Fields::fatigue)).
+    /// Zero or more. Default 1. Blows are over before it matters.
+    pub load_duration: f64,
     /// Pieces smaller than this share of the body's volume stay with the neighbour they share most area with. Default 2e-4.
     pub crumb_share: f64,
 }
@@ -136,6 +139,7 @@ impl Default for FractureConfig {
             griffith_fronts: true,
             branching: true,
             ends_inside: true,
+            load_duration: 1.0,
             crumb_share: 2e-4,
         }
     }
@@ -181,6 +185,13 @@ impl FractureConfig {
                 "above 0 and at most 10 m",
             )?;
         }
+        let duration = self.load_duration;
+        OutOfRange::unless(
+            duration.is_finite() && duration >= 0.0,
+            "`load_duration` of the fracture configuration",
+            duration,
+            "a finite time, 0 s or more",
+        )?;
         let share = self.crumb_share;
         let fits = (0.0..1.0).contains(&share);
         OutOfRange::unless(

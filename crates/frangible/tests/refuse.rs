@@ -190,7 +190,7 @@ fn no_steady_force_has_less_margin_than_the_bound_says() {
                 force: at.normal * size,
             };
             let gravity = Vec3::NEG_Z * 9.81;
-            let least = rest_margin_at_least(&body, size, 9.81);
+            let least = rest_margin_at_least(&body, size, 9.81, config.load_duration);
             let outcome = rest(&body, &[force], gravity, &config).unwrap();
             let report = outcome.report();
             let found = report.strength / report.peak_stress;

@@ -17,9 +17,9 @@ fn strike(body: &mut Body, contact: Contact, config: &FractureConfig) -> Outcome
 
 /// A pane with cracks that part nothing, and the contact that made them.
 fn cracked(config: &FractureConfig) -> (Body, Contact) {
-    for k in 0..60 {
+    for k in 0..400 {
         let mut body = pane().body(k);
-        let contact = pane_hit(0.05, 0.02, 0.5 + 0.1 * k as f64);
+        let contact = pane_hit(0.05, 0.02, 1.0 + 0.01 * k as f64);
         let outcome = strike(&mut body, contact.clone(), config);
         if pieces(&outcome) == 1 && !body.state().is_intact() {
             return (body, contact);

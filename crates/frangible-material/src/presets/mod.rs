@@ -14,7 +14,7 @@
 //!
 //! *Strength under a blow*: a slow test lets flaws grow while it lasts, with the water at their tips in glass. A blow that loads in microseconds
 //! does not, and finds the material stronger. Presets state the strength under a blow where the increase was measured: glass and
-//! concrete. For a load that rests, divide by [`Preset::dynamic_increase`].
+//! concrete. A load that rests is compared with what [`Preset::fatigue`] leaves of it.
 //!
 //! *Model parameters, not measurable on a sample*:
 //! - **energy depth** γ. An edge crack of length a under tension σ releases about `2π a · σ²/(2E)` per area, so γ stands for 2πa.
@@ -40,6 +40,7 @@ mod table;
 
 use thiserror::Error;
 
+use crate::fatigue::Fatigue;
 use crate::material::Material;
 use table::PRESETS;
 
@@ -70,6 +71,8 @@ pub struct Preset {
     /// Dynamic increase factor: its strength under a blow, which is that of its [`material`](Self::material), over that of a slow test. 1 where
     /// no measurement was found.
     pub dynamic_increase: f64,
+    /// How its strength falls with the time that a load lasts; none where that was not measured.
+    pub fatigue: Option<Fatigue>,
     numbers: Numbers,
 }
 

@@ -252,7 +252,12 @@ impl BreakableWorld {
         if self.weighs_quickly && burdens.get(&key(handle)).is_none_or(|b| b.over == 0) {
             let total = most_force_on(rigid, &self.physics);
             let gravity = self.physics.gravity.length() * rigid.gravity_scale().abs();
-            let margin = frangible::internals::rest_margin_at_least(body, total, gravity);
+            let margin = frangible::internals::rest_margin_at_least(
+                body,
+                total,
+                gravity,
+                self.config.fracture.load_duration,
+            );
             let known = burdens.contains_key(&key(handle));
             let burden = burdens.entry(key(handle)).or_default();
             burden.hard = match (margin >= EASE, known) {

@@ -14,10 +14,6 @@ use glam::Vec3;
 
 use super::Body;
 use crate::asset::Asset;
-use crate::material::Material;
-
-/// Y of a long, shallow flaw at a surface.
-const SHAPE: f64 = 1.12;
 
 /// Directions to the corners of an icosahedron over the golden ratio, and of a cube.
 const OUTER: [[f32; 3]; 12] = {
@@ -55,12 +51,6 @@ const INNER: [[f32; 3]; 8] = {
 /// Radii at which the samples lie, in those of the ball: each stands for the same volume, 1/21 of it.
 const OUTER_RADIUS: f32 = 0.894;
 const INNER_RADIUS: f32 = 0.620;
-
-/// Depth of the flaw of a strength, Pa, where the fracture energy is this, J/m²: m.
-pub(crate) fn flaw_depth(material: &Material, fracture_energy: f64, strength: f64) -> f64 {
-    let toughness_squared = fracture_energy * material.contact_modulus();
-    toughness_squared / (std::f64::consts::PI * (SHAPE * strength).powi(2))
-}
 
 impl Body {
     /// Depth of the flaw that a weak tetrahedron stands for, m; 0 where it is smaller than the tetrahedron.

@@ -22,7 +22,6 @@ use crate::state::BodyState;
 use crate::stress::{Law, WeakRows, weak_place};
 use crate::tips::{CrackFront, Tip, fronts, tips};
 
-pub(crate) use flaw::flaw_depth;
 pub(crate) use mesh_index::MeshIndex;
 pub(crate) use prepared::Prepared;
 
@@ -228,7 +227,15 @@ impl Body {
 
     /// With its weak tetrahedra in clusters.
     fn clustered(mut self) -> Self {
-        self.clusters = WeakClusters::of(&self);
+        let flaw_depth = |e: u32| self.flaw_depth(e);
+        let bounds = &self.prepared.bounds;
+        self.clusters = WeakClusters::new(
+            &self.asset,
+            &self.weak_tets,
+            bounds,
+            &self.resistance,
+            flaw_depth,
+        );
         self
     }
 
@@ -241,6 +248,19 @@ impl Body {
             ..self.clone()
         }
         .clustered()
+    }
+
+    /// This body under a load that has lasted so long, s; none where that makes no difference.
+    pub(crate) fn tired(&self, duration: f64) -> Option<Self> {
+        if duration <= 0.0 || !self.resistance.tires() {
+            return None;
+        }
+        let tets = self.asset.fracture.tets.len();
+        let tired = Self {
+            resistance: self.resistance.tired(duration, tets, &self.weak_tets),
+            ..self.clone()
+        };
+        Some(tired.clustered())
     }
 
     /// k of the stress bounds' quadratic term, Pa.

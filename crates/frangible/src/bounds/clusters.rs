@@ -2,8 +2,8 @@
 
 use glam::Vec3;
 
-use crate::asset::StressBounds;
-use crate::body::Body;
+use crate::asset::{Asset, StressBounds};
+use crate::fields::Resistance;
 
 /// Weak tetrahedra by cluster.
 #[derive(Clone, Debug, Default)]
@@ -23,10 +23,16 @@ pub(crate) struct WeakClusters {
 }
 
 impl WeakClusters {
-    pub(crate) fn of(body: &Body) -> Self {
-        let (asset, bounds, resistance) = (&body.asset, &body.prepared.bounds, &body.resistance);
+    /// `flaw_depth`: depth of the flaw of a weak tetrahedron, m; zero where it is smaller than that.
+    pub(crate) fn new(
+        asset: &Asset,
+        weak_tets: &[u32],
+        bounds: &StressBounds,
+        resistance: &Resistance,
+        flaw_depth: impl Fn(u32) -> f32,
+    ) -> Self {
         let cluster_of = |e: u32| bounds.cluster_of_tet[asset.place(e as usize)];
-        let mut tets = body.weak_tets().to_vec();
+        let mut tets = weak_tets.to_vec();
         tets.sort_by_cached_key(|&e| (cluster_of(e), e));
         let (mut clusters, mut starts) = (Vec::new(), Vec::new());
         for (i, &e) in tets.iter().enumerate() {
@@ -40,12 +46,12 @@ impl WeakClusters {
         let of_clusters = || (starts.windows(2)).map(|w| &tets[w[0] as usize..w[1] as usize]);
         let weakest = of_clusters().map(|tets| resistance.weakest_of(tets));
         let deepest = of_clusters().map(|tets| {
-            let depths = tets.iter().map(|&e| body.flaw_depth(e));
+            let depths = tets.iter().map(|&e| flaw_depth(e));
             depths.fold(0.0, f32::max)
         });
         let (weakest, deepest) = (weakest.collect(), deepest.collect::<Vec<_>>());
         Self {
-            reaching: reaching(body, &clusters, &deepest),
+            reaching: reaching(asset, bounds, &clusters, &deepest),
             clusters,
             starts,
             tets,
@@ -94,8 +100,12 @@ impl WeakClusters {
 }
 
 /// The larger of the bounds of all clusters that the flaws of each one of `clusters` reach; `deepest`: the depth of its deepest flaw, m.
-fn reaching(body: &Body, clusters: &[u32], deepest: &[f32]) -> [Vec<f32>; 2] {
-    let (asset, bounds) = (&body.asset, &body.prepared.bounds);
+fn reaching(
+    asset: &Asset,
+    bounds: &StressBounds,
+    clusters: &[u32],
+    deepest: &[f32],
+) -> [Vec<f32>; 2] {
     let modes = asset.modes.count();
     if deepest.iter().all(|&depth| depth <= 0.0) {
         return [Vec::new(), Vec::new()];

@@ -15,7 +15,7 @@ use glam::Vec3;
 
 use crate::asset::Asset;
 use crate::error::InputError;
-use crate::material::{Material, Preset};
+use crate::material::{Fatigue, Material, Preset};
 use crate::mesh::TriangleTree;
 
 pub(crate) use kink::Tip;
@@ -68,6 +68,8 @@ pub struct Fields {
     pub weibull_modulus: f64,
     /// Volume of the specimen whose strength R_c is, where strength scatters, m³. Default 1e-4: a pane of 4 mm with 240 cm² under load.
     pub specimen: f64,
+    /// How the strength falls with the time that a load lasts. Default: not at all.
+    pub fatigue: Option<Fatigue>,
 }
 
 impl Default for Fields {
@@ -76,25 +78,27 @@ impl Default for Fields {
             of_tet: Vec::new(),
             weibull_modulus: 0.0,
             specimen: Preset::SPECIMEN,
+            fatigue: None,
         }
     }
 }
 
 impl Fields {
-    /// Fields that are one everywhere, with the scatter of the strength that the preset of this material's name has
-    /// ([`Preset::weibull_modulus`]); none where no preset has its name.
+    /// Fields that are one everywhere, with the scatter and the fatigue of the strength that the preset of this material's name has
+    /// ([`Preset::weibull_modulus`], [`Preset::fatigue`]); none where no preset has its name.
     #[must_use]
     pub fn of_material(material: &Material) -> Self {
         Self::default().scattered_as(material)
     }
 
-    /// With the scatter of the strength that the preset of this material's name has.
+    /// With the scatter and the fatigue of the strength that the preset of this material's name has.
     #[must_use]
     pub fn scattered_as(self, material: &Material) -> Self {
         match Preset::named(&material.name) {
             Some(preset) => Self {
                 weibull_modulus: preset.weibull_modulus,
                 specimen: preset.specimen,
+                fatigue: preset.fatigue,
                 ..self
             },
             None => self,
@@ -178,6 +182,9 @@ impl Fields {
                 "the specimen's volume is {} m³; it must be finite and above 0",
                 self.specimen
             )));
+        }
+        if let Some(fatigue) = &self.fatigue {
+            fatigue.validate()?;
         }
         let m = self.weibull_modulus;
         if m.to_bits() == 0 || (m.is_finite() && m >= 1.0) {

@@ -3,7 +3,6 @@
 use std::sync::Arc;
 
 use super::{Fields, scatter::scatter};
-use crate::body::flaw_depth;
 use crate::material::Material;
 use crate::mesh::TetMesh;
 
@@ -68,6 +67,15 @@ fn least_about(fields: &Fields, mesh: &TetMesh) -> Vec<f32> {
         }
     }
     least
+}
+
+/// Y of a long, shallow flaw at a surface.
+const SHAPE: f64 = 1.12;
+
+/// Depth of the flaw of a strength, Pa, where the fracture energy is this, J/m²: m.
+fn flaw_depth(material: &Material, fracture_energy: f64, strength: f64) -> f64 {
+    let toughness_squared = fracture_energy * material.contact_modulus();
+    toughness_squared / (std::f64::consts::PI * (SHAPE * strength).powi(2))
 }
 
 /// A strength, Pa, that stays above zero and finite however absurd it is: margins are quotients of it.
@@ -143,6 +151,37 @@ impl Resistance {
             strengthened: self.strengthened * f64::from(factor),
             ..self.clone()
         }
+    }
+
+    /// Whether its strength falls with the time that a load lasts.
+    pub(crate) fn tires(&self) -> bool {
+        self.fields.fatigue.is_some()
+    }
+
+    /// What a load that has lasted so long, s, leaves of the strength of a weak point of strength R, Pa, over it.
+    pub(crate) fn left_after(&self, duration: f64, strength: f64) -> f64 {
+        match &self.fields.fatigue {
+            Some(fatigue) if duration > 0.0 => {
+                fatigue.left_after(duration, strength, self.material)
+            }
+            _ => 1.0,
+        }
+    }
+
+    /// As strong as a load that has lasted so long, s, leaves it; `tets`: how many the body's mesh has.
+    pub(crate) fn tired(&self, duration: f64, tets: usize, weak_tets: &[u32]) -> Self {
+        let mut of_tet: Vec<f32> = (0..tets as u32).map(|e| self.strength(e)).collect();
+        for &e in weak_tets {
+            let strength = &mut of_tet[e as usize];
+            *strength =
+                rounded(f64::from(*strength) * self.left_after(duration, f64::from(*strength)));
+        }
+        let mut tired = Self {
+            of_tet: of_tet.into(),
+            ..self.clone()
+        };
+        tired.weakest = tired.of_part(weak_tets).weakest;
+        tired
     }
 
     /// The resistance of a part of the body, with these weak tetrahedra.

@@ -34,7 +34,8 @@ const DIAGONALS: f64 = 3.0;
 /// acceleration of a held body's weight; a free body's does not matter.
 ///
 /// Nearly always nothing, and that costs microseconds and no allocation: ask at every step. What the load does as cracks
-/// open is not limited by the energy ledger: a weight goes on pushing.
+/// open is not limited by the energy ledger: a weight goes on pushing. Strength is what static fatigue leaves of it after
+/// [`FractureConfig::load_duration`].
 ///
 /// # Errors
 /// A force, point or gravity that is not finite; what [`FractureConfig::validate`] refuses.
@@ -58,6 +59,10 @@ pub fn rest(
         SteadyNear::of(body, at, *force, theory)
     };
     let mut report = report_on(body);
+    let left = body
+        .resistance
+        .left_after(config.load_duration, report.strength);
+    report.strength *= left;
     if config.culling {
         let pushes = forces.iter().map(|f| (f.point, f.force));
         let k = body.quadratic_modulus(config);
@@ -70,7 +75,7 @@ pub fn rest(
                 .sum();
             pushes.bound(body, k, |i, f| (f + weight(i)) * compliance(i)) + near
         });
-        if let Some(bound) = bound.filter(|b| *b <= harmless(body)) {
+        if let Some(bound) = bound.filter(|b| *b <= harmless(body, left)) {
             report.stress_bound = f64::from(bound);
             let margin = report.strength / f64::from(bound);
             return Ok(Outcome::Held {
@@ -81,6 +86,8 @@ pub fn rest(
         }
     }
     report.looked_at = LookedAt::Amplitudes;
+    let tired = body.tired(config.load_duration);
+    let body = tired.as_ref().unwrap_or(body);
     // The modes that a blow leaves to the residual vector serve a steady load as all others do.
     let modes = match config.residual {
         true => asset.modes.count(),

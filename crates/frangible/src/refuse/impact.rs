@@ -75,7 +75,7 @@ pub(crate) fn refused(
         }
     }
     let quadratic_modulus = body.quadratic_modulus(config);
-    let harmless = harmless(body);
+    let harmless = harmless(body, 1.0);
     let whole = |looked_at, bound: f32| {
         (bound <= harmless).then_some(Refusal {
             looked_at,

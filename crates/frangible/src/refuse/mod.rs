@@ -36,8 +36,10 @@ pub fn is_harmless(body: &Body, contacts: &[Contact], config: &FractureConfig) -
 }
 
 /// Below this stress bound nothing happens to a body, Pa: no crack starts, and none of its old ones moves.
-pub(crate) fn harmless(body: &Body) -> f32 {
-    let strength = limit(body.resistance.weakest as f32);
+///
+/// `left`: share of the weakest point's strength that is left.
+pub(crate) fn harmless(body: &Body, left: f64) -> f32 {
+    let strength = limit((body.resistance.weakest * left) as f32);
     if body.state().is_intact() {
         strength
     } else {

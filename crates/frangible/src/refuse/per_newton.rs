@@ -43,12 +43,15 @@ impl Body {
 }
 
 /// How many times as much a body could carry, at least, of forces whose sizes (N) add up to `total`, wherever they act, and
-/// of `gravity` (m/s²) when it is held: strength over a bound of the stress. Far below what [`rest`](crate::internals::rest) finds, but for a
+/// of `gravity` (m/s²) when it is held, after they have lasted for `duration` (s): strength over a bound of the stress. Far below what [`rest`](crate::internals::rest) finds, but for a
 /// handful of multiplications: above 1, nothing happens.
 #[must_use]
-pub fn rest_margin_at_least(body: &Body, total: f32, gravity: f32) -> f64 {
+pub fn rest_margin_at_least(body: &Body, total: f32, gravity: f32, duration: f64) -> f64 {
     let most = body.prepared.per_newton.get_or_init(|| PerNewton::of(body));
     let [stress, gradient] = [0, 1].map(|k| total * most.force[k] + gravity * most.gravity[k]);
     let bound = stress + 0.5 * body.prepared.quadratic_modulus * gradient * gradient;
-    f64::from(harmless(body)) / f64::from(bound)
+    let left = body
+        .resistance
+        .left_after(duration, body.resistance.weakest);
+    f64::from(harmless(body, left)) / f64::from(bound)
 }

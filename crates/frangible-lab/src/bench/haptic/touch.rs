@@ -101,7 +101,7 @@ impl Touch {
     /// None to be expected.
     pub fn new(body: Body, probe: Probe, config: &FractureConfig) -> Result<Self, InputError> {
         // Made when it is first asked for, which should not be in a tick.
-        let _ = rest_margin_at_least(&body, 0.0, 0.0);
+        let _ = rest_margin_at_least(&body, 0.0, 0.0, 1.0);
         Ok(Self {
             live: LiveModes::new(&body, TICK)?,
             place: SurfacePlace::nearest(&body, Vec3::ZERO)?,
@@ -210,7 +210,7 @@ impl Touch {
             return Ok(Some(self.blow(velocity)?));
         }
         // One number per body clears nearly all that presses.
-        if rest_margin_at_least(&self.body, force.length(), 0.0) > 1.0 {
+        if rest_margin_at_least(&self.body, force.length(), 0.0, self.config.load_duration) > 1.0 {
             return Ok(None);
         }
         let press = Force {
