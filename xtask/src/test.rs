@@ -52,7 +52,7 @@ pub(crate) fn packages() -> Result<Vec<(String, bool)>> {
 pub(crate) fn test() -> Result {
     let options = options()?;
     let runner: &[&str] = match has_nextest() {
-        true => &["nextest", "run"],
+        true => &["nextest", "run", "--no-fail-fast"],
         false => &["test"],
     };
     run(cargo(&["build"]).args(run_examples()).args(&options))?;

@@ -4,11 +4,12 @@ use std::error::Error;
 use std::path::Path;
 use std::time::Instant;
 
+use frangible::internals::Fields;
 use frangible_export::write_glb;
 use frangible_recording::write_atomically;
 use frangible_scenes::{
-    BakedBody, Opened, Run, Scene, Sounded, Sounding, bake_opened, open_sources, play, sound,
-    sound_config,
+    BakedBody, BodySpec, Opened, Run, Scene, Sounded, Sounding, bake_opened, open_sources, play,
+    sound, sound_config,
 };
 
 use crate::args::BreakArgs;
@@ -48,7 +49,8 @@ pub(crate) fn run(file: Option<&Path>, args: &BreakArgs) -> Result<(), Box<dyn E
     stages.push(("bake".to_string(), 1e3 * clock.elapsed().as_secs_f64()));
     notes.extend(mesh_notes(&scene, &baked));
     notes.extend(filled(&open, &baked));
-    notes.extend(baked.iter().filter_map(idle_toughness));
+    let specs = scene.bodies.iter().zip(&baked);
+    notes.extend(specs.filter_map(|(spec, baked)| crowded_flaws(spec, baked)));
     let runs = play_seeds(&scene, &baked, sheet.is_some(), &bar)?;
     let Some((_, run)) = runs.first() else {
         return Err("no seed to break with".into());
@@ -198,19 +200,27 @@ pub(crate) fn filled(open: &[bool], baked: &[BakedBody]) -> Vec<String> {
     .collect()
 }
 
-/// A crack that is offered more than this many times its cost where it starts is stopped by no toughness.
-const IDLE_FEED: f64 = 100.0;
-
-/// What to know of a body whose toughness does nothing, as in the paper's own sets of numbers.
-fn idle_toughness(baked: &BakedBody) -> Option<String> {
+/// What to know of a body whose strength, toughness and weak points contradict each other.
+fn crowded_flaws(spec: &BodySpec, baked: &BakedBody) -> Option<String> {
     let material = &baked.asset.material;
-    let feed = material.crack_feed();
-    (feed > IDLE_FEED).then(|| {
+    let fields = Fields::of_material(material);
+    let modulus = spec.weibull_modulus.unwrap_or(fields.weibull_modulus);
+    let specimen = spec.specimen.unwrap_or(fields.specimen);
+    let flaws = (material.weak_point_density * specimen).max(1.0);
+    let single = if modulus > 0.0 {
+        flaws.powf(1.0 / modulus)
+    } else {
+        1.0
+    };
+    let depth = material.flaw_depth(material.fracture_energy, single * material.strength);
+    let spacing = material.weak_point_spacing();
+    (depth > spacing).then(|| {
         format!(
-            "{}: the fracture energy of `{}` stops no crack, because at its strength a crack is offered {feed:.0} times its cost; an energy_depth of {:.2} mm would let it",
+            "{}: at the strength of `{}` a weak point is a flaw of {:.1} mm, and weak points lie {:.1} mm apart; a weibull_modulus of 6 lets few of them be that weak",
             baked.asset.name,
             material.name,
-            1e3 * material.energy_depth * 8.0 / feed
+            1e3 * depth,
+            1e3 * spacing
         )
     })
 }

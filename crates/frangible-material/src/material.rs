@@ -103,12 +103,18 @@ impl Material {
         }
     }
 
-    /// How many times its own cost a crack is offered where the tension is just the strength: `γ R_c² / (2 E G_c)`, 8 for a
-    /// preset. Where it is a thousand, toughness stops no crack.
+    /// Depth of the flaw that a strength R, Pa, belongs to, m: `a = (K_Ic / Y R)² / π` (Griffith 1921), where a fracture energy is this, J/m², and the flaw
+    /// long and shallow, Y = 1.12.
     #[must_use]
-    pub fn crack_feed(&self) -> f64 {
-        let density = self.strength * self.strength / (2.0 * self.youngs_modulus);
-        self.energy_depth * density / self.fracture_energy
+    pub fn flaw_depth(&self, fracture_energy: f64, strength: f64) -> f64 {
+        let toughness_squared = fracture_energy * self.contact_modulus();
+        toughness_squared / (std::f64::consts::PI * (FLAW_SHAPE * strength).powi(2))
+    }
+
+    /// Mean distance between weak points, m.
+    #[must_use]
+    pub fn weak_point_spacing(&self) -> f64 {
+        1.0 / self.weak_point_density.cbrt()
     }
 
     /// Lamé's first parameter λ, Pa.
@@ -136,6 +142,9 @@ impl Material {
         self.youngs_modulus / (1.0 - self.poisson_ratio * self.poisson_ratio)
     }
 }
+
+/// Y of a long, shallow flaw at a surface.
+const FLAW_SHAPE: f64 = 1.12;
 
 /// How many times the depth that pays for a crack at the strength the energy depth is: a crack stops where the tension is 1/√8 of
 /// the strength.

@@ -2,6 +2,7 @@
 
 use frangible::Material;
 use frangible::glam::{Quat, Vec3};
+use frangible::internals::Fatigue;
 use frangible_bake::weakness::{Paint, Patch};
 use frangible_bake::{Support, USUAL_MODES};
 
@@ -45,6 +46,10 @@ pub struct BodySpec {
     /// Weibull modulus of the scatter of its strength, see [`frangible::internals::Fields::weibull_modulus`]; 0: none. The material's preset
     /// says it if nothing does here ([`frangible::internals::Preset::weibull_modulus`]).
     pub weibull_modulus: Option<f64>,
+    /// Volume of the specimen whose strength its material's is, m³; that of the preset if none is given.
+    pub specimen: Option<f64>,
+    /// How its strength falls with the time that a load lasts; as its material's preset says if none is given.
+    pub fatigue: Option<Fatigue>,
     /// What is to differ from the bake of a [`BodySource::Asset`]; not looked at for other sources.
     pub rescale: Rescale,
 }
@@ -87,6 +92,8 @@ impl BodySpec {
             weakness: Vec::new(),
             paint: Vec::new(),
             weibull_modulus: None,
+            specimen: None,
+            fatigue: None,
             rescale: Rescale::default(),
         }
     }

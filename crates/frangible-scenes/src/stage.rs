@@ -293,10 +293,12 @@ fn is_convex(asset: &Asset) -> bool {
 pub fn breakable(spec: &BodySpec, asset: &Arc<Asset>) -> Result<Breakable, SceneError> {
     let painted = weakness::from_paint(asset, &spec.paint)?;
     let fields = weakness::patched(painted, asset, &spec.weakness)?.scattered_as(&asset.material);
-    let fields = match spec.weibull_modulus {
+    let mut fields = match spec.weibull_modulus {
         Some(modulus) => fields.with_weibull_modulus(modulus),
         None => fields,
     };
+    fields.specimen = spec.specimen.unwrap_or(fields.specimen);
+    fields.fatigue = spec.fatigue.or(fields.fatigue);
     Ok(Breakable::new(Arc::clone(asset))?.with_fields(fields)?)
 }
 

@@ -1,6 +1,6 @@
 //! Bodies remember cracks that part nothing: they are not cut again, later blows carry them on, and a replay gives the same bits.
 
-use crate::bodies::{block, pane, pane_hit, pieces};
+use crate::bodies::{block, block_hit, pane, pieces};
 use frangible::internals::BodyState;
 use frangible::{Body, Contact, FractureConfig, InputError, Outcome, impact};
 
@@ -15,17 +15,17 @@ fn strike(body: &mut Body, contact: Contact, config: &FractureConfig) -> Outcome
     outcome
 }
 
-/// A pane with cracks that part nothing, and the contact that made them.
+/// A block with cracks that part nothing, and the contact that made them.
 fn cracked(config: &FractureConfig) -> (Body, Contact) {
-    for k in 0..400 {
-        let mut body = pane().body(k);
-        let contact = pane_hit(0.05, 0.02, 1.0 + 0.01 * k as f64);
+    for k in 0..200 {
+        let mut body = block().body(k);
+        let contact = block_hit(1.0 + 0.05 * k as f64);
         let outcome = strike(&mut body, contact.clone(), config);
         if pieces(&outcome) == 1 && !body.state().is_intact() {
             return (body, contact);
         }
     }
-    panic!("no blow left a cracked pane");
+    panic!("no blow left a cracked block");
 }
 
 fn faster(contact: Contact, factor: f32) -> Contact {
@@ -73,7 +73,7 @@ fn replaying_the_impacts_rebuilds_the_state_bit_for_bit() {
         .map(|k| faster(contact.clone(), 1.0 - 0.2 * k as f32))
         .collect();
     let play = |config: &FractureConfig| {
-        let mut body = pane().body(first.seed());
+        let mut body = block().body(first.seed());
         for contact in &contacts {
             strike(&mut body, contact.clone(), config);
         }
@@ -105,7 +105,7 @@ fn a_state_survives_its_bytes_and_foreign_ones_are_refused() {
         if let Ok(state) = BodyState::from_bytes(&changed)
             && body.set_state(state).is_ok()
         {
-            impact(&body, &[pane_hit(0.0, 0.0, 0.01)], &config).unwrap();
+            impact(&body, &[block_hit(0.01)], &config).unwrap();
         }
     }
     let last = block().asset().fracture.tets.len() as u32 - 1;

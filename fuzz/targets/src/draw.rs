@@ -168,6 +168,7 @@ impl<'a> Draw<'a> {
             &mut config.culling,
             &mut config.green_lagrange,
             &mut config.surface_flaws,
+            &mut config.sized_flaws,
             &mut config.plane_stress_walls,
             &mut config.first_element_pays,
             &mut config.griffith_fronts,

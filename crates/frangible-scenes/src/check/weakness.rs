@@ -34,6 +34,16 @@ pub(super) fn check_weakness(body: &BodySpec) -> Result<(), Fault> {
         let must = "0 (no scatter), or 1 or above";
         return Err(quantity("weibull_modulus", "the Weibull modulus", m, must));
     }
+    let volume = body.specimen.unwrap_or(1.0);
+    if !(volume.is_finite() && volume > 0.0) {
+        let must = "a finite number above zero, m³";
+        return Err(quantity("specimen", "the specimen's volume", volume, must));
+    }
+    if let Some(fatigue) = body.fatigue {
+        fatigue
+            .validate()
+            .map_err(|e| Fault::new("fatigue", frangible::InputError::from(e)))?;
+    }
     Ok(())
 }
 

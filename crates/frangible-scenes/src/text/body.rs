@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use frangible::glam::{Quat, Vec3};
+use frangible::internals::Fatigue;
 use frangible_bake::{PaneShape, Shape, Station};
 use frangible_mesh::did_you_mean;
 
@@ -123,6 +124,12 @@ pub(super) fn body(table: BodyTable, usual: String, folder: &Path) -> Result<Bod
         .collect::<Result<_, _>>()?;
     (body.paint, body.weakness) = super::weakness::weakness(table.weakness)?;
     body.weibull_modulus = table.weibull_modulus;
+    body.specimen = table.specimen;
+    body.fatigue = table.fatigue.map(|table| Fatigue {
+        exponent: table.exponent,
+        rate: table.rate,
+        increase: table.increase,
+    });
     Ok(body)
 }
 

@@ -158,10 +158,12 @@ fn fracture(table: FractureTable) -> FractureConfig {
     set(&mut config.admissible_duration, table.admissible_duration);
     set(&mut config.samples_per_period, table.samples_per_period);
     set(&mut config.crumb_share, table.crumb_share);
+    set(&mut config.load_duration, table.load_duration);
     set(&mut config.energy_ledger, table.energy_ledger);
     set(&mut config.culling, table.culling);
     set(&mut config.green_lagrange, table.green_lagrange);
     set(&mut config.surface_flaws, table.surface_flaws);
+    set(&mut config.sized_flaws, table.sized_flaws);
     set(&mut config.plane_stress_walls, table.plane_stress_walls);
     set(&mut config.first_element_pays, table.first_element_pays);
     set(&mut config.griffith_fronts, table.griffith_fronts);

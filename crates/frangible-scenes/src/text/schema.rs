@@ -51,6 +51,17 @@ pub(super) struct BodyTable {
     #[serde(default)]
     pub(super) weakness: Vec<WeaknessTable>,
     pub(super) weibull_modulus: Option<f64>,
+    pub(super) specimen: Option<f64>,
+    pub(super) fatigue: Option<FatigueTable>,
+}
+
+/// How strength falls with the time that a load lasts.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct FatigueTable {
+    pub(super) exponent: f64,
+    pub(super) rate: f64,
+    pub(super) increase: f64,
 }
 
 /// A ready shape by name, or `{ box = … }`, `{ pane = … }`, `{ revolution = … }`.
@@ -224,10 +235,12 @@ pub(super) struct FractureTable {
     pub(super) timing: Option<TimingTable>,
     pub(super) path: Option<PathTable>,
     pub(super) crumb_share: Option<f64>,
+    pub(super) load_duration: Option<f64>,
     pub(super) energy_ledger: Option<bool>,
     pub(super) culling: Option<bool>,
     pub(super) green_lagrange: Option<bool>,
     pub(super) surface_flaws: Option<bool>,
+    pub(super) sized_flaws: Option<bool>,
     pub(super) plane_stress_walls: Option<bool>,
     pub(super) first_element_pays: Option<bool>,
     pub(super) griffith_fronts: Option<bool>,

@@ -192,6 +192,17 @@ fn write_body(t: &mut Text, body: &BodySpec) {
     if let Some(modulus) = body.weibull_modulus {
         t.line("weibull_modulus", number(modulus));
     }
+    if let Some(specimen) = body.specimen {
+        t.line("specimen", number(specimen));
+    }
+    if let Some(fatigue) = body.fatigue {
+        let [exponent, rate, increase] =
+            [fatigue.exponent, fatigue.rate, fatigue.increase].map(number);
+        t.line(
+            "fatigue",
+            format!("{{ exponent = {exponent}, rate = {rate}, increase = {increase} }}"),
+        );
+    }
 }
 
 fn write_projectile(t: &mut Text, projectile: &Projectile, bodies: &[BodySpec]) {
@@ -267,10 +278,12 @@ fn write_fracture(t: &mut Text, config: &FractureConfig) {
         _ => t.line("path", quoted("planar")),
     }
     t.line("crumb_share", number(config.crumb_share));
+    t.line("load_duration", number(config.load_duration));
     t.line("energy_ledger", config.energy_ledger);
     t.line("culling", config.culling);
     t.line("green_lagrange", config.green_lagrange);
     t.line("surface_flaws", config.surface_flaws);
+    t.line("sized_flaws", config.sized_flaws);
     t.line("plane_stress_walls", config.plane_stress_walls);
     t.line("first_element_pays", config.first_element_pays);
     t.line("griffith_fronts", config.griffith_fronts);

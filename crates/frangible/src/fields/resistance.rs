@@ -69,15 +69,6 @@ fn least_about(fields: &Fields, mesh: &TetMesh) -> Vec<f32> {
     least
 }
 
-/// Y of a long, shallow flaw at a surface.
-const SHAPE: f64 = 1.12;
-
-/// Depth of the flaw of a strength, Pa, where the fracture energy is this, J/m²: m.
-fn flaw_depth(material: &Material, fracture_energy: f64, strength: f64) -> f64 {
-    let toughness_squared = fracture_energy * material.contact_modulus();
-    toughness_squared / (std::f64::consts::PI * (SHAPE * strength).powi(2))
-}
-
 /// A strength, Pa, that stays above zero and finite however absurd it is: margins are quotients of it.
 fn rounded(strength: f64) -> f32 {
     (strength as f32).clamp(f32::MIN_POSITIVE, f32::MAX)
@@ -207,7 +198,7 @@ impl Resistance {
     /// that was strengthened keeps its flaws.
     pub(crate) fn flaw_depth(&self, material: &Material, tet: u32) -> f32 {
         let largest = f64::from(self.strength(tet)).max(self.painted(tet)) / self.strengthened;
-        flaw_depth(material, self.toughness.of(tet), largest) as f32
+        material.flaw_depth(self.toughness.of(tet), largest) as f32
     }
 
     /// R_c of a place without the scatter of its weak points, Pa: what cracks that run there compare with.
