@@ -16,6 +16,7 @@ mod methods;
 mod modal;
 mod mode_field;
 mod rescale;
+mod rupture;
 mod shapes;
 mod skin;
 mod solids;

@@ -265,8 +265,9 @@ fn groups(impacts: &[Impact<'_>], begun: &[Stage], config: &FractureConfig) -> V
 /// Whether the GPU knows all of the impact, and no stress can be so large that its cube leaves its numbers: no real blow comes near.
 fn within_range(kind: &Loaded, vibration: &Vibration, config: &FractureConfig) -> bool {
     const MOST: f64 = 1e12;
-    // What follows the force, and the near field of walls, only the CPU knows; and all modes that the GPU has must be followed.
-    if !vibration.is_pulse() || kind.asset().modes.residual_modes > 0 {
+    // What follows the force, the near field of walls and the mean stress over a flaw only the CPU knows; and all modes that the GPU has must
+    // be followed.
+    if !vibration.is_pulse() || config.sized_flaws || kind.asset().modes.residual_modes > 0 {
         return false;
     }
     let asset = kind.asset();

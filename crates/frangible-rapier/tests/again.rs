@@ -152,7 +152,10 @@ fn limits_hold() {
 
 #[test]
 fn a_cracked_pane_gets_lower_modes() {
-    let mut world = BreakableWorld::new(WorldConfig::default()).unwrap();
+    let mut config = WorldConfig::default();
+    // In glass a crack runs until the body has parted; fed from the paper's depth γ it stops.
+    config.fracture.griffith_fronts = false;
+    let mut world = BreakableWorld::new(config).unwrap();
     world.set_piece_model(Some(Arc::new(Pieces::new(Method::Reanalysis))));
     world.physics.gravity = Vector::ZERO;
     let body = Breakable::new(Arc::clone(pane())).unwrap().body(1);

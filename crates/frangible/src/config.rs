@@ -210,7 +210,8 @@ impl FractureConfig {
     }
 
     /// Our cracks under half-sines of the engine's impulses, which last as long as Hertz says and longer where they brought in too much
-    /// energy, on the modes that are followed alone: what a GPU can take over, and where the blow itself is not the question.
+    /// energy, on the modes that are followed alone, with the stress at weak points in place of the mean over their flaws: what a GPU can take over, and where the blow
+    /// itself is not the question.
     #[must_use]
     pub fn with_given_impulses() -> Self {
         Self {
@@ -219,6 +220,7 @@ impl FractureConfig {
             residual: false,
             near_field: None,
             samples_per_period: 16.0,
+            sized_flaws: false,
             ..Self::default()
         }
     }

@@ -87,7 +87,7 @@ impl Prepared {
             periods: periods(modes),
             per_newton: OnceLock::new(),
             quadratic_modulus: quadratic_modulus(&asset.material),
-            thickness: thickness(&asset.fracture, &centroids).into(),
+            thickness: local_thickness(asset, &skin, &centroids),
             centroids,
             edge,
             longest_edge: asset.fracture.longest_edge(),
@@ -121,6 +121,17 @@ impl Prepared {
             longest_edge: root.longest_edge,
         }
     }
+}
+
+/// Local thickness at each fracture tetrahedron, m; in a wall the distance between its faces.
+fn local_thickness(asset: &Asset, skin: &Skin, centroids: &[Vec3]) -> Arc<[f32]> {
+    let mut thickness = thickness(&asset.fracture, centroids);
+    for (e, thickness) in thickness.iter_mut().enumerate() {
+        if let Some(wall) = skin.wall(asset, e) {
+            *thickness = wall.thickness();
+        }
+    }
+    thickness.into()
 }
 
 /// 1/√λ_i of every mode, s.

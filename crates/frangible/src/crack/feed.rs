@@ -1,9 +1,8 @@
 //! What feeds a crack's front (beyond the paper): Griffith's energy release rate of a crack of its present size.
 //!
 //! Per area a crack of area A and live front L gains the energy of a layer of depth `(16/π) A/L` under the tension σ across it, σ²/2E', which is
-//! `K² / E'` of a penny; 1.21 times as deep where it starts at a surface. It grows no more once the crack is as large as the body has room for: a penny as wide
-//! as the body is thick, or half a penny as deep. The paper's depth γ is the same
-//! for cracks of all sizes `[G12 Eq. 12]`.
+//! `K² / E'` of a penny; 1.21 times as deep where it starts at a surface. It grows no more once the crack is as large as the body has room for: a
+//! penny as wide as the body is thick, or half a penny as deep. The paper's depth γ is the same for cracks of all sizes `[G12 Eq. 12]`.
 //!
 //! A crack begins as the flaw that it starts from, and a flaw may run at its strength R: until the crack is larger its depth is that which pays for it
 //! there, `2 E' G_c / R²`.
@@ -16,7 +15,6 @@ use super::field::Felt;
 use super::single::{Crack, ElementCut, Front};
 use super::system::{CrackSystem, ELSEWHERE, UNCUT};
 use crate::mesh::{FACES, NO_NEIGHBOUR};
-use crate::stress::Wall;
 use crate::tips::crossing_length;
 
 /// Depth over A/L: 2.55 times the radius of a penny.
@@ -32,33 +30,32 @@ const AT_SURFACE_MOST: f64 = AT_SURFACE * PENNY / 2.0;
 impl CrackSystem<'_> {
     /// Depth of the layer that feeds a front of a crack under this stress, m.
     pub(super) fn depth(&self, crack: &Crack, tet: u32, felt: &Felt) -> f64 {
-        let wall = felt.wall.as_ref().map(|(wall, _)| wall);
         let surface = if crack.at_surface { AT_SURFACE } else { 1.0 };
         let grown = surface * PENNY * crack.area / crack.front.max(f64::MIN_POSITIVE);
-        let most = self.most_depth(tet, wall, crack.at_surface);
+        let most = self.most_depth(tet, crack.at_surface || felt.wall.is_some());
         crack.flaw.max(grown).min(most)
     }
 
-    /// Depth of the layer that feeds the flaw of a weak tetrahedron, in this wall, if any, m: at its strength it pays for the crack, unless the body
-    /// has no room for one that large.
-    pub(super) fn flaw_feed(&self, tet: u32, wall: Option<&Wall>, at_surface: bool) -> f64 {
+    /// Depth of the layer that feeds the flaw of a weak tetrahedron, m: at its strength it pays for the crack, unless the body has no room for one that
+    /// large. `at_surface`: whether it lies on a free surface, or in a wall.
+    pub(super) fn flaw_feed(&self, tet: u32, at_surface: bool) -> f64 {
         let strength = f64::from(self.resistance.strength(tet));
         let toughness = self.resistance.toughness.of(tet);
         let depth = 2.0 * self.asset.material.contact_modulus() * toughness / (strength * strength);
-        depth.min(self.most_depth(tet, wall, at_surface))
+        depth.min(self.most_depth(tet, at_surface))
     }
 
-    /// Most that a crack is fed with at a tetrahedron, which is in this wall, if in any, m.
-    fn most_depth(&self, tet: u32, wall: Option<&Wall>, at_surface: bool) -> f64 {
-        let thickness = wall.map_or_else(|| self.thickness[tet as usize], Wall::thickness);
-        let most = match at_surface || wall.is_some() {
+    /// Depth of the layer that feeds the largest crack that a body has room for at a tetrahedron, m.
+    fn most_depth(&self, tet: u32, at_surface: bool) -> f64 {
+        let most = match at_surface {
             true => AT_SURFACE_MOST,
             false => INSIDE_MOST,
         };
-        most * f64::from(thickness)
+        most * f64::from(self.thickness[tet as usize])
     }
 
-    /// Whether a front that the stress did not pay for can still not be paid, whichever way it turns: then it need not be steered.
+    /// Whether the stress still does not pay for a front that was refused, whichever way the crack turns: it need not be steered then. The area is
+    /// that of the refusal.
     pub(super) fn stays_refused(&self, front: &Front, felt: &Felt) -> bool {
         if front.refused <= 0.0 || !self.config.griffith_fronts {
             return false;

@@ -186,7 +186,8 @@ fn try_start(system: &mut CrackSystem, field: &mut StressField, suspect: &Suspec
     }
     let tension = f64::from(normal.dot(suspect.state.stress(k).times(normal)));
     let at_surface = field.is_on_surface(e as usize);
-    let flaw = system.flaw_feed(e, field.wall(e as usize).as_ref(), at_surface);
+    let in_wall = field.wall(e as usize).is_some();
+    let flaw = system.flaw_feed(e, at_surface || in_wall);
     let gain = if system.config.griffith_fronts {
         flaw * 0.5 * tension * tension / material.contact_modulus()
     } else {

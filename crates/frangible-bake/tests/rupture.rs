@@ -1,0 +1,118 @@
+//! Strength of bent and pulled bodies beside that of the specimens that their material's number is of.
+
+use crate::common::breakable;
+use frangible::glam::Vec3;
+use frangible::internals::{Fields, Force, rest};
+use frangible::{Body, FractureConfig, Outcome};
+use frangible_bake::Shape;
+
+/// A body whose strength scatters as its material's preset says.
+fn kind(size: [f64; 3], material: &str, resolution: f64) -> frangible::Breakable {
+    let plain = breakable(Shape::block(size), material, resolution, 60);
+    let fields = Fields::of_material(&plain.asset().material);
+    plain.with_fields(fields).expect("fields of its own asset")
+}
+
+/// Largest force, N, on the middle of a bar between supports a span apart, m, that it bears.
+fn bears(body: &Body, [span, height]: [f64; 2]) -> f64 {
+    let config = FractureConfig::default();
+    let (half, top) = (0.5 * span as f32, 0.5 * height as f32);
+    let breaks = |force: f64| {
+        let push = |x: f32, z: f32, share: f32| Force {
+            point: Vec3::new(x, 0.0, z),
+            force: Vec3::Z * (share * force as f32),
+        };
+        let forces = [
+            push(0.0, top, -1.0),
+            push(half, -top, 0.5),
+            push(-half, -top, 0.5),
+        ];
+        let outcome = rest(body, &forces, Vec3::ZERO, &config).expect("an outcome");
+        matches!(outcome, Outcome::Broke(_))
+    };
+    let mut range = [1.0, 1e7_f64];
+    assert!(!breaks(range[0]) && breaks(range[1]));
+    while range[1] > 1.01 * range[0] {
+        let middle = (range[0] * range[1]).sqrt();
+        range[usize::from(breaks(middle))] = middle;
+    }
+    range[0]
+}
+
+fn mean(values: impl Iterator<Item = f64>) -> f64 {
+    let values: Vec<f64> = values.collect();
+    values.iter().sum::<f64>() / values.len() as f64
+}
+
+/// Bent at three points a brick bears more than its strength in tension, but no more than twice as much (M_R / f_t of bricks and concrete).
+#[test]
+fn a_bent_brick_bears_somewhat_more_than_its_tensile_strength() {
+    let [length, width, height] = [0.21, 0.1, 0.05];
+    let kind = kind([length, width, height], "brick", 20_000.0);
+    let span = 0.18;
+    let ruptures = (0..10).map(|seed| {
+        let force = bears(&kind.body(seed), [span, height]);
+        1.5 * force * span / (width * height * height)
+    });
+    let ratio = mean(ruptures) / kind.asset().material.strength;
+    println!("modulus of rupture over tensile strength: {ratio:.2}");
+    assert!((1.1..2.0).contains(&ratio), "{ratio}");
+}
+
+/// Of geometrically similar rods the larger are weaker, as the weakest of more flaws is: by the m-th root of the volume.
+#[test]
+fn similar_glass_rods_are_weaker_the_larger_they_are() {
+    let sizes = [0.5, 1.0, 2.0];
+    let strengths = sizes.map(|scale| {
+        let [length, side] = [0.12 * scale, 0.012 * scale];
+        let kind = kind([length, side, side], "glass", 8000.0);
+        let span = 0.1 * scale;
+        mean((0..10).map(|seed| {
+            let force = bears(&kind.body(seed), [span, side]);
+            1.5 * force * span / side.powi(3)
+        }))
+    });
+    println!("bending strengths of rods of 6, 12, 24 mm: {strengths:.3e?} Pa");
+    for (pair, scales) in strengths.windows(2).zip(sizes.windows(2)) {
+        let expected = (scales[1] / scales[0]).powf(-3.0 / 7.0);
+        let found = pair[1] / pair[0];
+        assert!(
+            (found / expected - 1.0).abs() < 0.2,
+            "{found} for {expected}"
+        );
+    }
+}
+
+/// A chocolate bar without grooves that is bent parts in two.
+#[test]
+fn a_bent_bar_of_chocolate_parts() {
+    let [length, width, height] = [0.16, 0.08, 0.009];
+    let kind = kind([length, width, height], "chocolate", 20_000.0);
+    let parted = (0..20).filter(|&seed| {
+        let body = kind.body(seed);
+        let force = 1.02 * bears(&body, [0.14, height]);
+        let push = |x: f32, z: f32, share: f32| Force {
+            point: Vec3::new(x, 0.0, z),
+            force: Vec3::Z * (share * force as f32),
+        };
+        let top = 0.5 * height as f32;
+        let forces = [
+            push(0.0, top, -1.0),
+            push(0.07, -top, 0.5),
+            push(-0.07, -top, 0.5),
+        ];
+        let config = FractureConfig::default();
+        let outcome = rest(&body, &forces, Vec3::ZERO, &config).expect("an outcome");
+        let Outcome::Broke(fracture) = outcome else {
+            return false;
+        };
+        let mut shares: Vec<f64> = fracture.fragments.iter().map(|f| f.mass.volume).collect();
+        shares.sort_unstable_by(|a, b| b.total_cmp(a));
+        shares
+            .get(1)
+            .is_some_and(|second| *second > 0.2 * length * width * height)
+    });
+    let parted = parted.count();
+    println!("{parted} of 20 bars part in two");
+    assert!(parted >= 15, "{parted}");
+}
