@@ -28,6 +28,7 @@ use outcomes::{Wish, outcomes};
 
 const HELP: &str = "\
 cargo xtask test [--fast]     setup, then all tests of the workspace in the release profile; --fast leaves out those over three seconds
+cargo xtask test NAME…        those tests alone whose module and name contain one of these, in the same build
 cargo xtask ci                the gate: what must hold before a change goes in, with the minutes per step
 cargo xtask ci --all          the gate, then the steps that it only names with the day on which they last passed
 cargo xtask ci STEP...        these steps alone: cargo xtask ci clippy 'oldest rust'
@@ -95,6 +96,7 @@ fn run(words: &[&str]) -> Result {
             test::test()
         }
         ["test", "--fast"] => test::fast(),
+        ["test", names @ ..] => test::named(names),
         ["ci", "--all"] => ci::ci(true, &[]),
         ["ci", steps @ ..] => ci::ci(false, steps),
         ["rebake"] => rebake(),

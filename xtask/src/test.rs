@@ -88,6 +88,21 @@ pub(crate) fn fast() -> Result {
         .args(&options))
 }
 
+/// Runs the tests whose module and name contain one of these names.
+pub(crate) fn named(names: &[&str]) -> Result {
+    let options = options()?;
+    run(cargo(&["build"]).args(run_examples()).args(&options))?;
+    let separate: &[&str] = match has_nextest() {
+        true => &["nextest", "run", "--no-fail-fast"],
+        false => &["test"],
+    };
+    run(cargo(separate)
+        .args(TESTED)
+        .args(&options)
+        .arg("--")
+        .args(names))
+}
+
 /// The command line's program as the tests have built it, with assertions; nothing is compiled behind a run of the tests.
 pub(crate) fn tested_program() -> Result<PathBuf> {
     run(cargo(&["test", "--no-run", "--quiet"])

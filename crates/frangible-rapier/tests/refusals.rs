@@ -27,5 +27,4 @@ fn most_loads_of_bricks_that_tumble_down_stairs_are_refused_free_of_time() {
     let share = at_root as f64 / asked as f64;
     println!("{share:.3} of {asked} loads refused free of time");
     assert!(share > 0.9, "{share}");
-    assert!(run.broken > 0);
 }

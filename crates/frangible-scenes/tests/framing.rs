@@ -167,8 +167,8 @@ fn badly_framed_of(wanted: impl Fn(&&&str) -> bool) -> Vec<String> {
 #[test]
 fn each_moment_of_four_scenes_fills_its_picture_but_for_known_ones() {
     let bad = badly_framed_of(|name| QUICK.contains(name));
-    // 7.2 %: pieces fly far. The goal of every list here is to be empty.
-    assert_eq!(bad, ["glass, at the end"]);
+    // The goal of every list here is to be empty.
+    assert!(bad.is_empty(), "{bad:?}");
 }
 
 #[test]
@@ -248,8 +248,8 @@ fn each_moment_of_four_scenes_made_at_random_fills_its_picture_but_for_known_one
     let bad: Vec<String> = (1..=4)
         .flat_map(|n| badly_framed(any_scene(n), 20))
         .collect();
-    // A part flies out of the picture.
-    assert_eq!(bad, ["any 4, at the end"]);
+    // 7.6 and 7.9 %.
+    assert_eq!(bad, ["any 1, just after", "any 1, at the end"]);
 }
 
 #[test]

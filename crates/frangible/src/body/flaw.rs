@@ -10,7 +10,7 @@
 //!
 //! Where the ball is smaller than the weak point's own tetrahedron, the stress there serves.
 
-use glam::Vec3;
+use glam::{Mat3, Vec3};
 
 use super::Body;
 use crate::asset::Asset;
@@ -74,7 +74,12 @@ impl Body {
             return Vec::new();
         }
         let mesh = &self.asset.fracture;
-        let at = |radius: f32| move |d: &[f32; 3]| place + Vec3::from_array(*d) * (radius * depth);
+        // Along the tetrahedron's own axes, so that a body that is turned has the same samples.
+        let [a, b, c, _] = mesh.corners(tet as usize);
+        let along = (b - a).normalize_or(Vec3::X);
+        let across = along.cross(c - a).normalize_or(Vec3::Y);
+        let axes = Mat3::from_cols(along, across.cross(along), across) * depth;
+        let at = |radius: f32| move |d: &[f32; 3]| place + axes * (Vec3::from_array(*d) * radius);
         let inner = INNER.iter().map(at(INNER_RADIUS));
         let outer = OUTER.iter().map(at(OUTER_RADIUS));
         let samples = inner.chain(outer).filter_map(|p| mesh.locate(tet, p));

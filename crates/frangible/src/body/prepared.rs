@@ -73,6 +73,7 @@ impl Prepared {
         let render = asset.render.as_ref();
         let centroids = (0..asset.fracture.tets.len()).map(|e| asset.fracture.centroid(e));
         let centroids: Arc<[Vec3]> = centroids.collect();
+        let thickness = local_thickness(asset, &skin, &centroids);
         Self {
             root: None,
             index: Arc::new(MeshIndex::new(asset)),
@@ -87,7 +88,7 @@ impl Prepared {
             periods: periods(modes),
             per_newton: OnceLock::new(),
             quadratic_modulus: quadratic_modulus(&asset.material),
-            thickness: local_thickness(asset, &skin, &centroids),
+            thickness,
             centroids,
             edge,
             longest_edge: asset.fracture.longest_edge(),
