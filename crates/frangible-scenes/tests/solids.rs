@@ -35,20 +35,22 @@ fn a_block_that_is_cracked_through_comes_apart() {
         .unwrap();
     let corner = Vec3::new(0.06, 0.045, -0.035);
     let floor = Striker::fixed(&Material::preset("stone").unwrap());
-    let contact = Contact::collision(&asset, corner, -corner.normalize(), 30.0, floor);
-    let config = FractureConfig::default();
+    let contact = Contact::collision(&asset, corner, -corner.normalize(), 15.0, floor);
+    // With the stress at points and the paper's depth γ more cracks start, and run farther.
+    let mut config = FractureConfig::default();
+    (config.sized_flaws, config.griffith_fronts) = (false, false);
     let largest: Vec<f64> = (1..=24)
         .map(|seed| {
             let outcome =
                 impact(&kind.body(seed), std::slice::from_ref(&contact), &config).unwrap();
-            assert!(outcome.report().crack_area > section);
+            assert!(outcome.report().crack_area > 2.5 * section);
             let Outcome::Broke(fracture) = &outcome else {
                 return 1.0;
             };
             fracture.fragments[0].mass.mass / asset.mass.mass
         })
         .collect();
-    println!("largest pieces at 30 m/s: {largest:.2?}");
+    println!("largest pieces at 15 m/s: {largest:.2?}");
     let mean = largest.iter().sum::<f64>() / largest.len() as f64;
     assert!(mean < 0.45, "{largest:?}");
     // What breaks off at a corner may leave most of the block whole, but seldom.
