@@ -24,7 +24,7 @@ pub(crate) fn package_lists() -> Result<Vec<String>> {
         }
         if let Some(stray) = files.iter().find(|file| !belongs(file)) {
             return Err(format!(
-                "package `{name}` would publish `{stray}`; delete it, exclude it in Cargo.toml, or allow it in xtask/src/ci.rs"
+                "package `{name}` would publish `{stray}`; delete it, exclude it in Cargo.toml, or allow it in xtask/src/packages.rs"
             ));
         }
         if !files.contains(&"README.md") {
@@ -48,7 +48,7 @@ pub(crate) fn package_lists() -> Result<Vec<String>> {
 }
 
 fn belongs(file: &str) -> bool {
-    const FILES: [&str; 9] = [
+    const FILES: [&str; 12] = [
         ".cargo_vcs_info.json",
         "Cargo.lock",
         "Cargo.toml",
@@ -58,6 +58,10 @@ fn belongs(file: &str) -> bool {
         "README.md",
         "CHANGELOG.md",
         "build.rs",
+        // Its licence travels with it.
+        "font/LICENSE",
+        "font/README.md",
+        "font/Roboto-Latin.ttf",
     ];
     const FOLDERS: [&str; 4] = ["src/", "tests/", "benches/", "examples/"];
     const KINDS: [&str; 8] = [

@@ -75,6 +75,24 @@ fn a_sheet_has_a_cell_per_moment() {
 }
 
 #[test]
+fn a_cell_has_its_label_in_the_upper_left_corner_and_is_otherwise_the_frame() {
+    let recording = recording();
+    let options = SheetOptions {
+        cell_width: 160,
+        cell_height: 96,
+        columns: 1,
+    };
+    let sheet = sheet_of_frames(&[(&recording, 0, "before")], &options).unwrap();
+    let frame = render_frame(&recording, 0, &recording.camera, 160, 96).unwrap();
+    let places = (0..96).flat_map(|y| (0..160).map(move |x| (x, y)));
+    let inked: Vec<_> = places
+        .filter(|&(x, y)| sheet.pixel(x, y) != frame.pixel(x, y))
+        .collect();
+    assert!(inked.len() > 100, "{} pixels", inked.len());
+    assert!(inked.iter().all(|&(x, y)| x < 100 && y < 45));
+}
+
+#[test]
 fn bad_requests_are_errors() {
     let recording = recording();
     let empty = sheet_of_frames(&[], &SheetOptions::default());

@@ -269,6 +269,21 @@ mod tests {
         }
     }
 
+    /// A wall interpolates stress and has no strain: its energy follows from the stress alone.
+    #[test]
+    fn the_energy_of_a_stress_is_that_of_the_strain_behind_it() {
+        let law = Elasticity::new(&glass());
+        for g in gradients() {
+            let mut states = vec![law.state(g)];
+            states.extend(directions().map(|n| law.free_state(g, n)));
+            for state in states {
+                let energy = law.with_energy(state.stress).energy_density;
+                let off = (energy / state.energy_density - 1.0).abs();
+                assert!(off < 1e-4, "{energy}, not {}", state.energy_density);
+            }
+        }
+    }
+
     #[test]
     fn what_acts_across_a_free_surface_does_not_show_beside_it() {
         let law = Elasticity::new(&glass());
