@@ -125,13 +125,13 @@ pub fn scene(name: &str) -> Result<Scene, SceneError> {
         ),
         "brick" => build(
             "brick",
-            "a brick dropped on its corner",
+            "a brick dropped on its end",
             Shape::Box {
                 size: [0.21, 0.1, 0.05],
             },
             "brick",
             200,
-            Quat::from_rotation_z(0.6) * Quat::from_rotation_x(0.5),
+            Quat::from_rotation_z(1.536),
             drop(3.0),
         ),
         "chocolate" => build(
