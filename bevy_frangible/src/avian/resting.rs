@@ -193,7 +193,8 @@ impl Carries {
             return None;
         }
         if self.over == 0 {
-            let margin = rest_margin_at_least(&body.0, total, gravity.length(), config.0.load_duration);
+            let margin =
+                rest_margin_at_least(&body.0, total, gravity.length(), config.0.load_duration);
             if margin >= EASE {
                 *self = Self {
                     margin,
