@@ -54,7 +54,7 @@ pub struct FractureConfig {
     /// A crack also ends inside what it meets, so that no bridge of one tetrahedron holds pieces together. Default: on;
     /// in the paper it stops at the face `[G12 §5.2.4]`.
     pub ends_inside: bool,
-    /// Time that a load which rests has lasted, s: glass that holds for a second may not hold for a year ([`Fields::fatigue`](crate::Fields::fatigue)).
+    /// Time that a load which rests has lasted, s: glass that holds for a second may not hold for a year ([`Fields::fatigue`](crate::internals::Fields::fatigue)).
     /// Zero or more. Default 1. Blows are over before it matters.
     pub load_duration: f64,
     /// Pieces smaller than this share of the body's volume stay with the neighbour they share most area with. Default 2e-4.
