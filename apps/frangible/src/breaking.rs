@@ -200,7 +200,7 @@ pub(crate) fn filled(open: &[bool], baked: &[BakedBody]) -> Vec<String> {
     .collect()
 }
 
-/// What to know of a body whose strength, toughness and weak points contradict each other.
+/// Note on a body whose strength, toughness and density of weak points contradict each other.
 fn crowded_flaws(spec: &BodySpec, baked: &BakedBody) -> Option<String> {
     let material = &baked.asset.material;
     let fields = Fields::of_material(material);

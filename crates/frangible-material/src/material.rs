@@ -23,7 +23,7 @@ pub struct Material {
     pub strength: f64,
     /// Fracture energy G_c, J/m²: cost of crack area `[G12 Eq. 11]`.
     pub fracture_energy: f64,
-    /// Depth γ of the material whose strain energy feeds a crack's surface, m `[G12 Eq. 12]`.
+    /// Depth γ of the material whose strain energy feeds a crack's surface in the paper's model, m `[G12 Eq. 12]`. The default model has no use for it.
     pub energy_depth: f64,
     /// Weak points per m³; raising it lets more cracks start.
     pub weak_point_density: f64,

@@ -45,8 +45,8 @@ pub struct FractureConfig {
     pub plane_stress_walls: bool,
     /// The tetrahedron where a crack starts must pay for its own area. Default: on; `[G12 Algorithm 2]` does not ask.
     pub first_element_pays: bool,
-    /// The front of a crack that was there before needs no more tension than Griffith asks for a crack of its length: a
-    /// cracked body is weaker. Default: on; in the paper it needs the strain energy that a new crack's front needs.
+    /// The energy that feeds a crack's front follows from the crack's present size, as Griffith says, and from the tension across it: a
+    /// cracked body is weaker. Default: on; in the paper it is the strain energy of a layer of depth γ, for cracks of all sizes.
     pub griffith_fronts: bool,
     /// A crack leaves another one: at a fork, where that has run far enough under enough tension, and behind one that it has met and that opens
     /// from the other face of a wall. Default: on; the paper's never do.

@@ -1,4 +1,4 @@
-//! How thick a body is at each place: the diameter of the largest ball within the body that holds the place (local thickness, T. Hildebrand,
+//! Local thickness of a body: the diameter of the largest ball within the body that holds a place (T. Hildebrand,
 //! P. Rüegsegger, J. Microscopy 185 (1997) 67).
 
 use std::collections::VecDeque;

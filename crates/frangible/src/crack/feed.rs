@@ -1,4 +1,4 @@
-//! What feeds a crack's front (beyond the paper): Griffith's energy release rate of a crack of its present size.
+//! Energy that feeds a crack's front (beyond the paper): Griffith's energy release rate of a crack of its present size.
 //!
 //! Per area a crack of area A and live front L gains the energy of a layer of depth `(16/π) A/L` under the tension σ across it, σ²/2E', which is
 //! `K² / E'` of a penny; 1.21 times as deep where it starts at a surface. It grows no more once the crack is as large as the body has room for: a

@@ -5,7 +5,7 @@
 //! leaves the candidate out).
 //!
 //! Beyond the paper, each a switch:
-//! - *Griffith's fronts*: what a crack that was there before gains by growing follows from its length (`tips.rs`);
+//! - *Griffith's fronts*: what a crack gains by growing follows from its present size (`feed.rs`; of one that was there before, `tips.rs`);
 //! - *finite speed*: fronts arrive along the crack's own path at a share of the Rayleigh speed; a front that lacks
 //!   energy waits and is tried again with the stress of the next step, so cracks follow the wave outwards;
 //! - *steering*: s is kept at the nodes. The fourth node of n gets the mean over the three shared ones of
