@@ -2,11 +2,11 @@
 
 use web_time::Instant;
 
-use crate::blow::Blow;
+use crate::blow::{Blow, Groups};
 use crate::body::Body;
 use crate::config::{CrackTiming, FractureConfig};
 use crate::crack::{CrackSystem, Peak, StressField, Suspects, crack};
-use crate::fragment::{self, Bearing, Labels, Volumes};
+use crate::fragment::{self, Labels, Volumes};
 use crate::motion::{DisplacementBatch, Motion};
 use crate::outcome::{ImpactReport, LookedAt};
 use crate::refuse::Culling;
@@ -14,14 +14,8 @@ use crate::state::BodyState;
 use crate::stress::{BATCH, STRIDE, lane};
 use crate::trace::CrackTrace;
 
-/// Every so many time steps it is asked whether cracks have weakened what bears a contact, or have parted pieces.
-const BETWEEN_LOOKS: usize = 7;
-
-/// While contacts push, whether pieces have parted is asked again when the cracks have grown by this factor, or have stopped.
-const GREW: f64 = 1.5;
-
-/// Once no contact pushes, the pieces are asked for at once, and again when the cracks have grown by this factor.
-const GREW_LATE: f64 = 3.0;
+/// Whether pieces have parted is asked again when the cracks have grown by this factor, or have stopped.
+const GREW: f64 = 1.15;
 
 /// What the cracks of an impact did to a body.
 #[expect(clippy::large_enum_variant, reason = "one at a time, never stored")]
@@ -43,16 +37,18 @@ pub(crate) struct Cracking<'a> {
     pub(crate) time_step: f64,
     /// Energy that the cracks may spend, where a ledger is kept, J.
     pub(crate) budget: f64,
-    /// The blow that the motion comes from: it ends when the wall under it is gone, or when cracks have cut the piece under it free.
+    /// The blow that the motion comes from: it goes on with the pieces that part.
     pub(crate) blow: Option<Box<Blow>>,
 }
 
-/// What cracks have left under contacts that still push.
-struct Weakened {
+/// How cracks have changed the motion.
+struct Changed {
     /// Time step from which on it counts.
     step: usize,
-    /// The contacts, and what the body there gives way by more than it did, m/N.
+    /// Contacts that still push, and what the body there gives way by more than it did, m/N.
     contacts: Vec<(usize, f64)>,
+    /// What moves on its own, where more has parted.
+    groups: Option<Groups>,
 }
 
 /// What was known when it was last asked which pieces there are.
@@ -62,23 +58,16 @@ struct Grown {
     asked: f64,
     /// Area at the last look, m².
     before: f64,
-    /// Whether it was asked since no contact pushes any more.
-    late: bool,
     /// The cracks' progress when it was last asked, and the pieces.
     pieces: Option<([usize; 2], Labels)>,
 }
 
 impl Grown {
     /// Whether it is time to ask again which pieces there are, with cracks of this area, m².
-    fn is_due(&mut self, area: f64, pushes: bool) -> bool {
+    fn is_due(&mut self, area: f64) -> bool {
         let stopped = area <= std::mem::replace(&mut self.before, area);
-        let due = if pushes {
-            area > self.asked && (stopped || area > GREW * self.asked)
-        } else {
-            area > GREW_LATE * self.asked || (area > 0.0 && !self.late)
-        };
+        let due = area > self.asked && (stopped || area > GREW * self.asked);
         if due {
-            self.late = !pushes;
             self.asked = area;
         }
         due
@@ -115,7 +104,7 @@ impl<'a> Cracking<'a> {
         // From the beginning of its batch, so that every batch is whole.
         let mut step = first_step / STRIDE * STRIDE;
         let mut grown = Grown::default();
-        while let Some(weakened) = self.follow(
+        while let Some(changed) = self.follow(
             step,
             &mut system,
             &mut suspects,
@@ -125,9 +114,8 @@ impl<'a> Cracking<'a> {
         ) {
             let Some(blow) = &mut self.blow else { break };
             let start = Instant::now();
-            step = weakened.step;
-            let now = step as f64 * self.time_step;
-            blow.weaken(body, &weakened.contacts, now);
+            step = changed.step;
+            blow.go_on(body, step, &changed.contacts, changed.groups);
             self.motion = std::mem::take(&mut blow.motion);
             report.contacts = blow.reports();
             report.contact_duration = blow.duration();
@@ -143,7 +131,7 @@ impl<'a> Cracking<'a> {
         self.end(system, grown, looked, report, trace)
     }
 
-    /// Runs the cracks from a time step on: to the end of the motion, or until they have weakened what bears a contact.
+    /// Runs the cracks from a time step on: to the end of the motion, or until they have changed it.
     fn follow(
         &mut self,
         first_step: usize,
@@ -152,14 +140,14 @@ impl<'a> Cracking<'a> {
         grown: &mut Grown,
         looked: &mut Looked,
         report: &mut ImpactReport,
-    ) -> Option<Weakened> {
+    ) -> Option<Changed> {
         let (body, config, motion) = (self.body, self.config, &self.motion);
         let mut displacement = DisplacementBatch::new(&body.asset);
         let mut culling = Culling::new(body, config, motion);
         (culling.passed_over, culling.as_weakest) = (looked.passed_over, looked.as_weakest);
         let mut field = StressField::new(body, config, motion, &self.pressed, &mut displacement);
         let mut roots = [0.0; BATCH];
-        let mut weakened = None;
+        let mut changed = None;
         for step in first_step..motion.steps() {
             if system.is_spent() {
                 break;
@@ -167,15 +155,13 @@ impl<'a> Cracking<'a> {
             let k = lane(step);
             field.step = step;
             system.ledger.come(motion.strain_energy_until(step));
-            if step % BETWEEN_LOOKS == 0
-                && step > first_step
+            if step > first_step
                 && let Some(blow) = &self.blow
             {
                 let start = Instant::now();
-                let contacts = self.look(blow, step, system, grown);
+                changed = self.look(blow, step, system, grown);
                 report.timings.labels += start.elapsed().as_secs_f64();
-                if !contacts.is_empty() {
-                    weakened = Some(Weakened { step, contacts });
+                if changed.is_some() {
                     break;
                 }
             }
@@ -203,62 +189,50 @@ impl<'a> Cracking<'a> {
         let [most, felt] = suspects.passed_over;
         looked.passed_over = looked.passed_over.max(culling.passed_over).max(most);
         looked.as_weakest = looked.as_weakest.max(culling.as_weakest).max(felt);
-        weakened
+        changed
     }
 
-    /// Looks which pieces cracks have parted: those that are free come to rest. Returns the contacts whose force must be found anew, where
-    /// cracks have cut the piece under them free, and it leans on nothing that is more than half of the body: nothing bears them any more.
-    /// What pushes later pushes that piece alone, which whoever moves the pieces finds out.
+    /// Looks whether cracks have weakened what bears a contact, and which pieces they have parted: the large ones move on their own, the others
+    /// come to rest.
     fn look(
         &self,
         blow: &Blow,
         step: usize,
         system: &mut CrackSystem<'a>,
         grown: &mut Grown,
-    ) -> Vec<(usize, f64)> {
-        let pushes = blow.pushes_at(step);
-        let mut contacts = if pushes {
-            blow.weakened(system)
-        } else {
-            Vec::new()
-        };
-        if !grown.is_due(system.area, pushes) {
-            return contacts;
+    ) -> Option<Changed> {
+        if !grown.is_due(system.area) {
+            return None;
         }
-        let (index, mesh) = (&self.body.prepared.index, &self.body.asset.fracture);
-        let progress = system.progress();
-        let labels = match grown.pieces.take() {
-            Some((known, labels)) if known == progress => labels,
-            _ => fragment::label(system, index, self.config.crumb_share),
+        let contacts = match blow.pushes_at(step) {
+            true => blow.weakened(system),
+            false => Vec::new(),
         };
-        if labels.count > 1 {
-            let volumes = Volumes::of(&labels, index);
-            let mut pushed = Vec::new();
-            if pushes {
-                let bearing = Bearing::new(&volumes, &labels, index, mesh);
-                for (k, (node, push)) in blow.bearings(self.body).enumerate() {
-                    let piece = labels.of_node[node as usize];
-                    if !blow.bears(k) {
-                        continue;
-                    }
-                    if bearing.bears(piece, push) {
-                        pushed.push(piece);
-                    } else {
-                        contacts.push((k, f64::INFINITY));
-                    }
-                }
-            }
-            // Cracks that run at once feel neither each other nor that a piece has parted.
-            if matches!(self.config.timing, CrackTiming::TimeResolved { .. }) {
-                let free = volumes.free(&pushed);
+        let mut groups = None;
+        // Cracks that run at once feel neither each other nor that a piece has parted.
+        if matches!(self.config.timing, CrackTiming::TimeResolved { .. }) {
+            let (index, mesh) = (&self.body.prepared.index, &self.body.asset.fracture);
+            let progress = system.progress();
+            let labels = match grown.pieces.take() {
+                Some((known, labels)) if known == progress => labels,
+                _ => fragment::label(system, index, self.config.crumb_share),
+            };
+            if labels.count > 1 {
+                let of_node = &labels.of_node;
+                let acts;
+                (groups, acts) = blow.groups(self.body, (of_node, labels.count));
+                let free = Volumes::of(&labels, index).free(&acts);
                 let now = self.motion.begin(step, self.time_step);
                 let speed = self.body.asset.material.rayleigh_speed();
-                let (pieces, positions) = (&labels.of_node, &mesh.positions);
-                system.rest.release(pieces, positions, &free, now, speed);
+                system.rest.release(of_node, &mesh.positions, &free, now, speed);
             }
+            grown.pieces = Some((progress, labels));
         }
-        grown.pieces = Some((progress, labels));
-        contacts
+        (groups.is_some() || !contacts.is_empty()).then_some(Changed {
+            step,
+            contacts,
+            groups,
+        })
     }
 
     /// What came of it.

@@ -141,6 +141,25 @@ impl Bank {
         }
     }
 
+    /// What a tick makes of a force on some oscillators side by side, times a factor, that stays as it is.
+    #[inline(always)]
+    pub(super) fn hold(&self, state: &mut BankState, first: usize, forces: &[f64], factor: f64) {
+        let span = first..first + forces.len();
+        let [on_x, on_v] = self.held.each_ref().map(|row| &row[span.clone()]);
+        let (x, v) = (&mut state.x[span.clone()], &mut state.v[span]);
+        for i in 0..forces.len() {
+            let push = factor * forces[i];
+            x[i] += on_x[i] * push;
+            v[i] += on_v[i] * push;
+        }
+    }
+
+    /// Σ gap x of what a force on some oscillators side by side, which stays as it is, does in a tick.
+    pub(super) fn held_gap(&self, gap: &[f64], first: usize, forces: &[f64]) -> f64 {
+        let terms = gap[first..].iter().zip(&self.held[0][first..]).zip(forces);
+        terms.map(|((gap, held), force)| gap * held * force).sum()
+    }
+
     /// Σ gap x of what a unit growth of a force does in a tick: how far the contact gives way at once.
     pub(super) fn give(&self, gap: &[f64], drive: &[f64]) -> f64 {
         let terms = gap.iter().zip(drive).zip(&self.ramp[0]);

@@ -131,6 +131,7 @@ impl Plan {
     /// Returns what the contacts feel follow the force, m/N, row-major.
     fn feel_without_friction(&mut self, felt: &[(Receptance, Push)]) -> Vec<f64> {
         let first = self.fill_group();
+        self.felt_first = first;
         self.oscillators.extend_from_within(..self.own);
         let coupled: Vec<Coupled<'_>> = (felt.iter().enumerate())
             .map(|(contact, (felt, _))| {

@@ -2,9 +2,9 @@
 
 use std::f64::consts::PI;
 
-use glam::Vec3;
 
 use super::integrate::{Record, Run, Softening};
+use super::parted::{Groups, Parted};
 use super::plan::Plan;
 use super::star::Star;
 use crate::body::Body;
@@ -34,6 +34,8 @@ pub struct Blow {
     strikers_energy: f64,
     /// What cracks have made of the body under the contacts.
     softer: Vec<Softening>,
+    /// What has parted.
+    parted: Vec<Parted>,
     /// What the body does.
     pub(crate) motion: Motion,
 }
@@ -82,6 +84,7 @@ impl Blow {
             energy_at_parting: 0.0,
             strikers_energy: 0.0,
             softer: Vec::new(),
+            parted: Vec::new(),
             motion: Motion::default(),
         };
         let run = blow.run(&[]);
@@ -255,18 +258,12 @@ impl Blow {
         step < self.contact_steps
     }
 
-    /// Whether anything bears a contact still.
-    pub(crate) fn bears(&self, contact: usize) -> bool {
-        let mut known = self.softer.iter().filter(|s| s.contact == contact);
-        known.all(|s| s.compliance.is_finite())
-    }
-
-    /// The node of the fracture mesh next to each contact, of those that are the body's own, and the direction of the push there.
-    pub(crate) fn bearings(&self, body: &Body) -> impl Iterator<Item = (u32, Vec3)> {
+    /// The node of the fracture mesh next to each contact, of those that are the body's own.
+    fn nodes(&self, body: &Body) -> Vec<u32> {
         let asset = &*body.asset;
         let mesh = &asset.fracture;
         let origin = body.origin().as_vec3();
-        let node = move |touch: &Touch| {
+        let node = |touch: &Touch| {
             let point = touch.contact.point + origin;
             let tet = asset.surface.tets[touch.triangle as usize] as usize;
             let away = |v: u32| mesh.positions[v as usize].distance_squared(point);
@@ -277,25 +274,56 @@ impl Blow {
                 .min_by(|&a, &b| away(a).total_cmp(&away(b)));
             nearest.unwrap_or(mesh.tets[tet][0])
         };
-        let sites = self.plan.sites.iter();
-        sites.map(move |s| {
-            let push = s.touch.contact.normal.normalize_or_zero();
-            (node(&s.touch), push)
-        })
+        self.plan.sites.iter().map(|s| node(&s.touch)).collect()
     }
 
-    /// Goes on from `now`, s, with contacts where the body gives way by so much more than it did, m/N. What was before stays as it was,
-    /// bit for bit.
-    pub(crate) fn weaken(&mut self, body: &Body, contacts: &[(usize, f64)], now: f64) {
-        let substep = (now / self.substep()).round() as usize;
+    /// The groups of nodes that move on their own once these pieces have parted, none where nothing new has, and whether each piece does.
+    pub(crate) fn groups(
+        &self,
+        body: &Body,
+        pieces: (&[u32], usize),
+    ) -> (Option<Groups>, Vec<bool>) {
+        let before = self.parted.last().map(|parted| &parted.groups);
+        let index = &body.prepared.index;
+        Groups::next(before, &body.asset, index, pieces, &self.nodes(body))
+    }
+
+    /// Goes on from a time step on with a body of which these groups have parted, and with contacts where it gives way by so much more than
+    /// it did, m/N. The steps before stay as they were, bit for bit.
+    pub(crate) fn go_on(
+        &mut self,
+        body: &Body,
+        step: usize,
+        contacts: &[(usize, f64)],
+        groups: Option<Groups>,
+    ) {
+        let substep = step * self.plan.substeps;
         let softer = contacts.iter().map(|&(contact, compliance)| Softening {
             contact,
             substep,
             compliance,
         });
         self.softer.extend(softer);
+        if let Some(groups) = groups {
+            let nodes = self.nodes(body);
+            let parted = Parted::new(body, &self.plan, groups, &nodes, [step, substep]);
+            self.parted.push(parted);
+        }
         let known = (substep * self.plan.sites.len()).min(self.forces.len());
+        let begun = std::time::Instant::now();
         let run = self.run(&self.forces[..known]);
+        if std::env::var_os("FLOG").is_some() {
+            let p = self.parted.last();
+            eprintln!(
+                "go_on step {step} t {:.1} us, contact {} of {} steps, groups {:?}, corners {}, soft {:?}, run {:.2} ms",
+                1e6 * step as f64 * self.plan.time_step, self.contact_steps, self.motion.steps(),
+                p.map(|p| p.shares()), p.map_or(0, |p| p.corners.len()), contacts, begun.elapsed().as_secs_f64()*1e3
+            );
+            let every = (run.log.len() / 40).max(1);
+            for (k, l) in run.log.iter().enumerate().skip(step.saturating_sub(1)).step_by(every) {
+                eprintln!("   {k}: strain {:.4} kin {:.4} missing {:.4} faces {:.5}", l[0], l[1], l[2], l[3]);
+            }
+        }
         self.take(body, run);
     }
 
@@ -315,6 +343,7 @@ impl Blow {
             plan: &self.plan,
             known,
             softer: &self.softer,
+            parted: &self.parted,
             instant: self.instant,
         })
     }

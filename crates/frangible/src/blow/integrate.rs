@@ -3,7 +3,9 @@
 use std::f64::consts::{PI, TAU};
 use std::ops::Range;
 
-use super::bank::{BankState, Pushes, dot, dot_over, padded};
+use super::bank::{Bank, BankState, Pushes, dot, dot_over, padded};
+use super::flight::Flight;
+use super::parted::Parted;
 use super::plan::Plan;
 
 /// A blow of so many substeps is cut off: a contact that lasts this long is none of a blow's.
@@ -18,6 +20,10 @@ const SIGNIFICANT: f64 = 0.05;
 
 /// Periods of the lowest significantly excited mode that are looked at.
 const PERIODS: f64 = 1.5;
+
+/// Angle that the highest mode turns by in a tick, at most, once pieces move on their own and no contact pushes. The scheme is stable at any;
+/// measured (a bar that parts in halves): its stress is off by 0.06, 0.12, 0.19 of its rms at 0.1, 0.2, 0.4.
+const TICK_OF_PIECES: f64 = 0.25;
 
 /// Rounds over all contacts until their forces agree.
 const MOST_ROUNDS: usize = 60;
@@ -51,6 +57,7 @@ pub(super) struct Record {
     pub(super) energy_at_parting: f64,
     /// Energy of breakable strikers' oscillators at parting, J.
     pub(super) strikers_energy: f64,
+    pub(super) log: Vec<[f64; 4]>,
 }
 
 /// The integration.
@@ -59,6 +66,8 @@ pub(super) struct Run<'a> {
     /// Forces from the beginning on that are known already.
     pub(super) known: &'a [f64],
     pub(super) softer: &'a [Softening],
+    /// What has parted, in the order of time.
+    pub(super) parted: &'a [Parted],
     /// Whether nothing is looked at after the contact.
     pub(super) instant: bool,
 }
@@ -74,30 +83,35 @@ impl pulp::NullaryFnOnce for Run<'_> {
         let mut state = BankState::rest(plan.oscillators.len());
         let mut contacts = Contacts::new(plan);
         let mut record = Record::new(plan);
+        let mut flight = Flight::new(plan, self.parted);
         let mut substep = 0;
         let mut parted = false;
         while !(parted && substep % plan.substeps == 0) {
             let t = (substep + 1) as f64 * contacts.dt;
+            flight.part(|p| p.substep <= substep);
+            flight.foresee(&state, &plan.fine, contacts.dt, &contacts.forces);
             plan.fine.coast(&mut state, &pushes, &contacts.forces);
-            contacts.foresee(&state);
+            flight.push(&mut state, &plan.fine);
+            contacts.foresee(&state, &flight);
             for softer in self.softer.iter().filter(|s| s.substep == substep) {
                 contacts.weakness[softer.contact] = softer.compliance;
             }
             match self.known.get(substep * count..(substep + 1) * count) {
                 Some(known) => contacts.next.copy_from_slice(known),
                 None if parted => contacts.next.fill(0.0),
-                None => contacts.solve(t),
+                None => contacts.solve(t, flight.give()),
             }
             contacts.grow();
             plan.fine.grow(&mut state, &pushes, &contacts.growth);
+            flight.end(&mut state, &plan.fine, &contacts.next);
             contacts.advance();
             record.forces.extend_from_slice(&contacts.forces);
             substep += 1;
             if substep % plan.substeps == 0 {
-                record.sample(plan, &state, &contacts.forces, true);
+                record.sample(plan, &flight, &state, &contacts.forces, true);
             }
             if !parted {
-                parted = contacts.have_parted(&state, t) || substep >= MOST_SUBSTEPS;
+                parted = contacts.have_parted(&state, &flight, t) || substep >= MOST_SUBSTEPS;
                 if parted {
                     let own = padded(plan.own);
                     record.energy_at_parting = energies(&state, 0..own)[0];
@@ -109,7 +123,8 @@ impl pulp::NullaryFnOnce for Run<'_> {
         record.contact_steps = substep / plan.substeps;
         record.speeds = contacts.speeds;
         state.keep(plan.own);
-        self.ring(&mut record, state);
+        flight.end_contacts();
+        self.ring(&mut record, state, flight);
         record
     }
 }
@@ -117,7 +132,7 @@ impl pulp::NullaryFnOnce for Run<'_> {
 impl Run<'_> {
     /// The free motion after the contacts.
     #[inline(always)]
-    fn ring(&self, record: &mut Record, mut state: BankState) {
+    fn ring(&self, record: &mut Record, mut state: BankState, mut flight: Flight) {
         let plan = self.plan;
         let time_step = plan.time_step;
         if self.instant {
@@ -133,18 +148,43 @@ impl Run<'_> {
         let leave = near.map(|n| PI / n.wall.lowest).fold(0.0, f64::max);
         let leave = ((leave / time_step).ceil() as usize).min(MOST_STEPS);
         record.near_steps = record.contact_steps + leave;
-        for _ in record.contact_steps..record.near_steps {
-            plan.step.coast(&mut state, &Pushes::NONE, &[]);
-            record.sample(plan, &state, &[], true);
-        }
         let rest = PERIODS * period - record.near_steps as f64 * time_step;
         let steps = (rest / (plan.coarser * time_step)).ceil().max(0.0) as usize;
         let steps = steps.min(MOST_STEPS);
-        record.amplitudes.reserve_exact(steps * plan.modes);
-        for _ in 0..steps {
-            plan.coarse.coast(&mut state, &Pushes::NONE, &[]);
-            record.sample(plan, &state, &[], false);
+        record.amplitudes.reserve_exact((leave + steps) * plan.modes);
+        let parts = [
+            (leave, &plan.step, time_step, true),
+            (steps, &plan.coarse, plan.coarser * time_step, false),
+        ];
+        let mut step = record.contact_steps;
+        for (steps, bank, length, near) in parts {
+            let mut finer = None;
+            for _ in 0..steps {
+                flight.part(|p| p.step <= step);
+                if flight.is_on() {
+                    let (ticks, bank) = finer.get_or_insert_with(|| self.ticks(length));
+                    let tick = length / *ticks as f64;
+                    for _ in 0..*ticks {
+                        flight.foresee(&state, bank, tick, &[]);
+                        bank.coast(&mut state, &Pushes::NONE, &[]);
+                        flight.push(&mut state, bank);
+                        flight.end(&mut state, bank, &[]);
+                    }
+                } else {
+                    bank.coast(&mut state, &Pushes::NONE, &[]);
+                }
+                record.sample(plan, &flight, &state, &[], near);
+                step += 1;
+            }
         }
+    }
+
+    /// How many ticks a step of this length, s, has where pieces move on their own, and the oscillators through one.
+    fn ticks(&self, length: f64) -> (usize, Bank) {
+        let own = &self.plan.oscillators[..self.plan.own];
+        let fastest = own[..self.plan.modes].last().map_or(0.0, |o| o.0);
+        let ticks = (fastest * length / TICK_OF_PIECES).ceil().max(1.0) as usize;
+        (ticks, Bank::new(own, length / ticks as f64))
     }
 }
 
@@ -162,28 +202,42 @@ impl Record {
             strain_energy: Vec::new(),
             energy_at_parting: 0.0,
             strikers_energy: 0.0,
+            log: Vec::new(),
         }
     }
 
     #[inline(always)]
-    fn sample(&mut self, plan: &Plan, state: &BankState, forces: &[f64], near: bool) {
+    fn sample(&mut self, plan: &Plan, flight: &Flight, state: &BankState, forces: &[f64], near: bool) {
         let (modes, all) = (plan.modes, plan.own);
         let amplitudes = state.x[..modes].iter().zip(&plan.periods);
-        self.amplitudes
-            .extend(amplitudes.map(|(x, period)| (x * period) as f32));
+        let amplitudes = amplitudes.map(|(x, period)| x * period);
+        let (mut held, mut moves) = (0.0, 0.0);
+        let [mut whole, mut strain] = energies(state, 0..padded(all));
+        if flight.is_on() {
+            let mut elastic: Vec<f64> = amplitudes.collect();
+            flight.leave_elastic(&mut elastic);
+            for ((q, x), (w, _)) in elastic.iter().zip(&state.x).zip(&plan.oscillators) {
+                let change = 0.5 * (q * q * w * w - x * x);
+                (whole, strain) = (whole + change, strain + change);
+            }
+            let [kinetic, springs] = flight.energies();
+            (moves, held) = (kinetic, springs);
+            self.amplitudes.extend(elastic.iter().map(|&q| q as f32));
+        } else {
+            self.amplitudes.extend(amplitudes.map(|q| q as f32));
+        }
         if near {
             self.swing
                 .extend(state.x[modes..all].iter().map(|&x| x as f32));
         }
         let count = forces.len();
-        let mut held = 0.0;
         for k in 0..count {
             for l in 0..count {
                 held += 0.5 * forces[k] * plan.own_compliance[k * count + l] * forces[l];
             }
         }
-        let [whole, strain] = energies(state, 0..padded(all));
-        self.peak_energy = self.peak_energy.max(whole + held);
+        self.log.push([strain, whole - strain, moves, held]);
+        self.peak_energy = self.peak_energy.max(whole + moves + held);
         let before = self.strain_energy.last().copied().unwrap_or(0.0);
         self.strain_energy.push(before.max(strain + held));
     }
@@ -244,7 +298,7 @@ impl<'a> Contacts<'a> {
 
     /// Finds the bases, with the oscillators at the end of the substep as if no force grew.
     #[inline(always)]
-    fn foresee(&mut self, state: &BankState) {
+    fn foresee(&mut self, state: &BankState, flight: &Flight) {
         let (plan, dt) = (self.plan, self.dt);
         let count = self.forces.len();
         for k in 0..count {
@@ -253,20 +307,22 @@ impl<'a> Contacts<'a> {
                 .sum();
             self.bases[k] = self.ways[k] + self.speeds[k] * dt
                 - 0.5 * fall * dt * dt
-                - dot_over(&plan.gap[k], &state.x, &plan.felt[k]);
+                - dot_over(&plan.gap[k], &state.x, &plan.felt[k])
+                - flight.gap(k);
         }
     }
 
-    /// Finds the forces at the end of the substep, at the time t, s, each in turn until they agree.
+    /// Finds the forces at the end of the substep, at the time t, s, each in turn until they agree. `through_pieces`: what pieces that move on
+    /// their own give way by, m/N; empty where there are none.
     #[inline(always)]
-    fn solve(&mut self, t: f64) {
+    fn solve(&mut self, t: f64, through_pieces: &[f64]) {
         let count = self.forces.len();
         self.next.copy_from_slice(&self.forces);
         for _ in 0..MOST_ROUNDS {
             let mut change = 0.0_f64;
             let mut largest = 0.0_f64;
             for k in 0..count {
-                let found = self.force(k, t);
+                let found = self.force(k, t, through_pieces);
                 change = change.max((found - self.next[k]).abs());
                 largest = largest.max(found);
                 self.next[k] = found;
@@ -279,8 +335,9 @@ impl<'a> Contacts<'a> {
 
     /// The force of contact `k` at the end of the substep where all others are known, N.
     #[inline(always)]
-    fn force(&mut self, k: usize, t: f64) -> f64 {
+    fn force(&mut self, k: usize, t: f64, through_pieces: &[f64]) -> f64 {
         let (plan, count) = (self.plan, self.forces.len());
+        let through = |i: usize| through_pieces.get(i).copied().unwrap_or(0.0);
         if self.weakness[k].is_infinite() {
             return 0.0;
         }
@@ -295,11 +352,11 @@ impl<'a> Contacts<'a> {
                     let i = k * count + l;
                     gap += self.give[i] * self.forces[l];
                     if l != k {
-                        gap -= (self.give[i] + plan.compliance[i]) * self.next[l];
+                        gap -= (self.give[i] + plan.compliance[i] + through(i)) * self.next[l];
                     }
                 }
                 let i = k * count + k;
-                let give = self.give[i] + (plan.compliance[i] + self.weakness[k]);
+                let give = self.give[i] + (plan.compliance[i] + self.weakness[k] + through(i));
                 let spring = &plan.sites[k].spring;
                 spring.force(gap, give, self.largest[k], &mut self.roots[k])
             }
@@ -335,7 +392,7 @@ impl<'a> Contacts<'a> {
 
     /// Whether every contact is open and opening further, or has nothing left to push.
     #[inline(always)]
-    fn have_parted(&self, state: &BankState, t: f64) -> bool {
+    fn have_parted(&self, state: &BankState, flight: &Flight, t: f64) -> bool {
         let plan = self.plan;
         if self.forces.iter().any(|&f| f > 0.0) {
             return false;
@@ -351,7 +408,7 @@ impl<'a> Contacts<'a> {
             let give: f64 = (plan.gap[k].iter().zip(&plan.oscillators).zip(&state.v))
                 .map(|((gap, (w, _)), v)| gap * w * v)
                 .sum();
-            self.speeds[k] < give
+            self.speeds[k] < give + flight.gap_speed(k)
         })
     }
 }

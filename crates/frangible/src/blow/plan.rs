@@ -48,6 +48,10 @@ pub(super) struct Plan {
     /// ω and d of the body's oscillators and, after them, of [those that the contacts feel instead](Plan::feel_without_friction) and those of
     /// breakable bodies that strike it.
     pub(super) oscillators: Vec<(f64, f64)>,
+    /// Number of the first of the modes that the contacts feel: 0, or of [those that they feel instead](Plan::feel_without_friction).
+    pub(super) felt_first: usize,
+    /// α, s, and β, 1/s, of the damping α λ + β.
+    pub(super) rayleigh: [f64; 2],
     /// The oscillators of breakable bodies that strike.
     pub(super) strikers: Range<usize>,
     /// 1/ω of the modes, s.
@@ -130,6 +134,8 @@ impl Plan {
             compliance: Vec::new(),
             own_compliance: Vec::new(),
             own: oscillators.len(),
+            felt_first: 0,
+            rayleigh: [asset.material.stiffness_damping, asset.material.mass_damping],
             strikers: 0..0,
             time_step,
             substeps: substeps.max(1),
@@ -156,6 +162,12 @@ impl Plan {
         plan.step = Bank::new(own, time_step);
         plan.coarse = Bank::new(own, plan.coarser * time_step);
         Some(plan)
+    }
+
+    /// φ · n of the modes that are followed, as a contact feels them, 1/√kg.
+    pub(super) fn felt_by(&self, contact: usize) -> impl Iterator<Item = f64> {
+        let gap = &self.gap[contact][self.felt_first..self.felt_first + self.modes];
+        gap.iter().zip(&self.oscillators).map(|(gap, (w, _))| gap * w)
     }
 
     /// How the contacts push the oscillators.

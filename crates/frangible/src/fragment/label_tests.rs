@@ -3,7 +3,7 @@
 use glam::Vec3;
 use rand_chacha::rand_core::Rng;
 
-use super::bearing::{Bearing, Volumes};
+use super::volumes::Volumes;
 use super::components::Components;
 use super::label::{Labels, of_cuts};
 use super::tests::block;
@@ -198,30 +198,8 @@ fn a_crack_costs_what_it_crosses_not_what_the_body_has() {
     }
 }
 
-/// Whether a push on the node at the highest corner comes to bear on half of the block, by the direction of the push. The pieces are those
-/// of nodes with different numbers.
-fn bears(number: impl Fn(Vec3) -> i32, pushes: &[Vec3]) -> Vec<bool> {
-    let asset = block(8);
-    let mesh = &asset.fracture;
-    let index = MeshIndex::new(&asset);
-    let of = |v: u32| number(mesh.positions[v as usize]);
-    let cuts = cut_where(mesh, |a, b| of(a) != of(b));
-    let labels = labelled(cuts, &mesh.tets, &index, 0.0);
-    let highest = (0..mesh.positions.len())
-        .max_by(|&a, &b| {
-            let height = |v: usize| mesh.positions[v].element_sum();
-            height(a).total_cmp(&height(b))
-        })
-        .unwrap();
-    let piece = labels.of_node[highest];
-    let volumes = Volumes::of(&labels, &index);
-    let bearing = Bearing::new(&volumes, &labels, &index, mesh);
-    let pushed = |&push: &Vec3| bearing.bears(piece, push);
-    pushes.iter().map(pushed).collect()
-}
-
 #[test]
-fn pieces_are_free_that_are_small_and_not_pushed() {
+fn pieces_are_free_that_are_small_and_do_not_move_on_their_own() {
     let asset = block(8);
     let mesh = &asset.fracture;
     let index = MeshIndex::new(&asset);
@@ -236,30 +214,9 @@ fn pieces_are_free_that_are_small_and_not_pushed() {
     let labels = labelled(cuts, &mesh.tets, &index, 0.0);
     assert_eq!(labels.count, 3);
     let volumes = Volumes::of(&labels, &index);
-    assert_eq!(volumes.free(&[]), [false, true, true]);
-    assert_eq!(volumes.free(&[2]), [false, true, false]);
-    assert_eq!(volumes.free(&[0, 1]), [false, false, true]);
-}
-
-#[test]
-fn a_push_passes_through_faces_that_it_closes_and_no_others() {
-    let top = block(8)
-        .fracture
-        .positions
-        .iter()
-        .fold(Vec3::MIN, |m, p| m.max(*p));
-    let pushes = [Vec3::NEG_Y, Vec3::NEG_X, Vec3::Y];
-    let chip = |depth: f32| move |p: Vec3| i32::from(p.y > (1.0 - depth) * top.y);
-    // A slice on top is pressed on the rest, not past it, and not lifted with it.
-    assert_eq!(bears(chip(0.3), &pushes), [true, false, false]);
-    // A slice that is most itself bears whatever pushes.
-    assert_eq!(bears(chip(0.7), &pushes), [true, true, true]);
-    // Slice on slice.
-    let layers = |p: Vec3| (p.y / top.y * 4.8) as i32;
-    assert_eq!(bears(layers, &pushes), [true, false, false]);
-    // A column beside the rest.
-    let column = |p: Vec3| i32::from(p.x > 0.65 * top.x);
-    assert_eq!(bears(column, &pushes), [false, true, false]);
+    assert_eq!(volumes.free(&[false; 3]), [false, true, true]);
+    assert_eq!(volumes.free(&[false, false, true]), [false, true, false]);
+    assert_eq!(volumes.free(&[true, true, false]), [false, false, true]);
 }
 
 #[test]

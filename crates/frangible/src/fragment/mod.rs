@@ -1,6 +1,5 @@
 //! Fragments: labels of nodes, exact partition of tetrahedra, closed surfaces and masses `[G12 §6]`.
 
-mod bearing;
 mod breakup;
 mod build;
 mod components;
@@ -13,6 +12,7 @@ mod junction;
 mod label;
 mod partition;
 mod points;
+mod volumes;
 
 #[cfg(test)]
 mod draw_tests;
@@ -23,7 +23,6 @@ mod label_tests;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use bearing::{Bearing, Volumes};
 pub(crate) use breakup::Breakup;
 pub(crate) use build::{Built, build};
 pub(crate) use draw::draw;
@@ -31,6 +30,7 @@ pub use foreign::{CutEdge, interfaces_of_labels, pieces_of_cuts};
 pub(crate) use label::{Labels, label};
 pub(crate) use partition::{Point, face_parts, interfaces};
 pub(crate) use points::PointTable;
+pub(crate) use volumes::Volumes;
 
 use glam::Vec3;
 

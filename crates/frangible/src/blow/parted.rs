@@ -1,0 +1,526 @@
+//! Pieces that have parted move on their own (beyond the paper).
+//!
+//! A piece P has six rigid motions r (three shifts, three turns about its centre) that are zero outside it. With Φ the modes of the whole body,
+//! the displacement is `u = Φ q' + R c`, c the six unknowns of each piece. Q = q' + P c are the modal amplitudes of the whole displacement,
+//!
+//! - `p_ki = ∫_P ρ φ_i · r_k` what the modes hold of a piece's motion, √kg,
+//! - `M = M_R − P0ᵀP0 − PᵀP` what they do not: the piece's own mass, less the part that the body's rigid motion and its modes hold,
+//! - `z_k = r_k(b) · n − Σ_i p_ki ξ_i − P0ᵀξ0` what a unit force at b does to a piece beyond what it does to the modes,
+//!
+//! and, with damping α Λ + β,
+//!
+//! `Q̈ + β Q̇ + Λ (Q − P c) + α Λ (Q̇ − P ċ) = ξ F`, `M c̈ + β M ċ = PᵀΛ (Q − P c) + α PᵀΛ (Q̇ − P ċ) + z F`.
+//!
+//! Strain energy and stress are those of q' = Q − P c. When a piece parts, c = ċ = 0: nothing jumps. The momentum of a piece against the whole
+//! body's rigid motion, `PᵀQ̇ + M ċ`, is changed by outside forces alone. The largest child of what has not parted is the *reference*, whose
+//! motion follows from those of the others. Faces of pieces that close press on each other at the four corners of their outline.
+//!
+//! Sources: a fault that drives the modes of the whole Earth (Gilbert, Geophys. J. 22, 1971); reanalysis of structures.
+
+use glam::{DMat3, DVec3};
+
+use super::plan::Plan;
+use super::solve::{factor, is_positive};
+use crate::asset::{Asset, FOREIGN};
+use crate::body::{Body, MeshIndex};
+use crate::mesh::FACES;
+
+/// Pieces of a smaller share of the body's volume move with what they came from, unless a contact pushes them.
+const SMALLEST: f64 = 2e-3;
+
+/// Most pieces that move on their own.
+const MOST: usize = 16;
+
+/// Faces press where their mean direction over all of their area is at least so long, as a share of it: 1 is flat, a crater that is half a
+/// ball 1/2.
+const FLAT: f64 = 0.5;
+
+/// Shares of a piece's mass that are added to what the modes do not hold of it, the first that leaves no motion without mass: masses are sums
+/// over the tetrahedra, modes are not orthogonal in these.
+const ADDED: [f64; 6] = [1e-3, 3e-3, 1e-2, 3e-2, 0.1, 0.3];
+
+/// The six rigid motions of a piece.
+pub(super) const SIX: usize = 6;
+
+/// Which nodes move together.
+#[derive(Clone, Debug)]
+pub(crate) struct Groups {
+    /// Group of each node of the fracture mesh; 0 is the reference.
+    of_node: Vec<u32>,
+    /// The group that each was part of before.
+    parents: Vec<u32>,
+}
+
+impl Groups {
+    /// The groups that these pieces make, none where they are those that there were `before`, and whether each piece moves on its own.
+    /// `piece_of_node` has labels from [`FOREIGN`] on for nodes of other bodies, `pushed` the nodes under contacts.
+    pub(crate) fn next(
+        before: Option<&Self>,
+        asset: &Asset,
+        index: &MeshIndex,
+        (piece_of_node, pieces): (&[u32], usize),
+        pushed: &[u32],
+    ) -> (Option<Self>, Vec<bool>) {
+        let group_before = |node: usize| before.map_or(0, |groups| groups.of_node[node]);
+        let count_before = before.map_or(1, |groups| groups.parents.len());
+        let mut shares = vec![0_u64; pieces * count_before];
+        for (node, &piece) in piece_of_node.iter().enumerate() {
+            if piece < FOREIGN {
+                let at = piece as usize * count_before + group_before(node) as usize;
+                shares[at] += index.volumes[node];
+            }
+        }
+        let rows: Vec<&[u64]> = shares.chunks_exact(count_before).collect();
+        let volume = |piece: usize| rows[piece].iter().sum::<u64>();
+        let first_largest = |values: &mut dyn Iterator<Item = (usize, u64)>| {
+            values.reduce(|a, b| if b.1 > a.1 { b } else { a })
+        };
+        let parent = |piece: usize| {
+            let row = rows[piece].iter().copied().enumerate();
+            first_largest(&mut { row }).map_or(0, |(group, _)| group)
+        };
+        let parent_of: Vec<usize> = (0..pieces).map(parent).collect();
+        let marked = |nodes: &[u32]| {
+            let mut marks = vec![false; pieces];
+            for &node in nodes {
+                if let Some(mark) = marks.get_mut(piece_of_node[node as usize] as usize) {
+                    *mark = true;
+                }
+            }
+            marks
+        };
+        let (held, touched) = (marked(&asset.supported), marked(pushed));
+        // The largest child goes on as what its parent was; of a held body all that is still held.
+        let heir = |group: usize| {
+            if group == 0 && asset.is_supported() {
+                return None;
+            }
+            let children = (0..pieces).filter(|&piece| parent_of[piece] == group);
+            first_largest(&mut children.map(|piece| (piece, volume(piece)))).map(|(piece, _)| piece)
+        };
+        let heirs: Vec<Option<usize>> = (0..count_before).map(heir).collect();
+        let all: u64 = (0..pieces).map(volume).sum();
+        let mut parents: Vec<u32> = (0..count_before as u32).collect();
+        let mut acts = vec![true; pieces];
+        let mut group_of = vec![0_u32; pieces];
+        // By falling volume, as pieces are numbered, those under contacts first.
+        let order = (0..pieces).filter(|&p| touched[p]).chain((0..pieces).filter(|&p| !touched[p]));
+        for piece in order {
+            let parent = parent_of[piece];
+            group_of[piece] = parent as u32;
+            if heirs[parent] == Some(piece) || held[piece] {
+                continue;
+            }
+            let large = volume(piece) as f64 >= SMALLEST * all as f64;
+            acts[piece] = (touched[piece] || large) && parents.len() <= MOST;
+            if acts[piece] {
+                group_of[piece] = parents.len() as u32;
+                parents.push(parent as u32);
+            }
+        }
+        if parents.len() == count_before {
+            return (None, acts);
+        }
+        let of_node = piece_of_node.iter();
+        let of_node = of_node.map(|&piece| group_of.get(piece as usize).copied().unwrap_or(0));
+        let of_node = of_node.collect();
+        (Some(Self { of_node, parents }), acts)
+    }
+}
+
+/// Two faces of different groups press on each other here when they close.
+#[derive(Clone, Debug)]
+pub(super) struct Corner {
+    /// What opens the gap, by unknown.
+    pub(super) opening: Vec<f64>,
+    /// N/m.
+    pub(super) stiffness: f64,
+}
+
+/// How a body moves from a time on, of which pieces have parted. Lists have an entry for each of the pieces' n unknowns.
+#[derive(Clone, Debug)]
+pub(super) struct Parted {
+    /// Time step and substep from which on it counts.
+    pub(super) step: usize,
+    pub(super) substep: usize,
+    pub(super) groups: Groups,
+    /// Centre of each group but the reference, m, in the frame of the fracture mesh.
+    centres: Vec<DVec3>,
+    /// p: a row of modes for each unknown, √kg.
+    pub(super) held: Vec<f64>,
+    /// M: n × n, kg and kg·m².
+    pub(super) mass: Vec<f64>,
+    /// PᵀΛP: n × n.
+    pub(super) stiffness: Vec<f64>,
+    /// z of each contact, with its friction and without.
+    pub(super) pushes: [Vec<Vec<f64>>; 2],
+    pub(super) corners: Vec<Corner>,
+}
+
+impl Parted {
+    /// The motion of these groups from a time step and a substep on.
+    pub(super) fn new(body: &Body, plan: &Plan, groups: Groups, nodes: &[u32], [step, substep]: [usize; 2]) -> Self {
+        let moments = Moments::of(body, &groups);
+        let n = SIX * moments.len();
+        let mut held = Vec::with_capacity(n * plan.modes);
+        for moment in &moments {
+            held.extend(moment.held(body, plan.modes));
+        }
+        let rows: Vec<&[f64]> = held.chunks_exact(plan.modes.max(1)).collect();
+        let rigid = rigid_parts(body, &moments);
+        let mut mass = vec![0.0; n * n];
+        let mut stiffness = vec![0.0; n * n];
+        for j in 0..n {
+            for k in 0..=j {
+                let terms = || rows[j].iter().zip(rows[k]).zip(&plan.oscillators);
+                let by_modes: f64 = terms().map(|((a, b), _)| a * b).sum();
+                let springs: f64 = terms().map(|((a, b), (w, _))| a * b * w * w).sum();
+                let by_body: f64 = rigid[j].iter().zip(&rigid[k]).map(|(a, b)| a * b).sum();
+                for at in [j * n + k, k * n + j] {
+                    mass[at] = -by_body - by_modes;
+                    stiffness[at] = springs;
+                }
+            }
+        }
+        let mut own = vec![0.0; n * n];
+        for (g, moment) in moments.iter().enumerate() {
+            moment.add_mass(&mut own, g, n);
+        }
+        mass.iter_mut().zip(&own).for_each(|(m, own)| *m += own);
+        add_until_positive(&mut mass, &own, n);
+        let centres: Vec<DVec3> = moments.iter().map(|m| m.centre).collect();
+        let mut parted = Self {
+            step,
+            substep,
+            held,
+            mass,
+            stiffness,
+            pushes: [Vec::new(), Vec::new()],
+            corners: corners(body, &groups, &centres),
+            centres,
+            groups,
+        };
+        for (k, site) in plan.sites.iter().enumerate() {
+            let contact = &site.touch.contact;
+            let group = parted.groups.of_node[nodes[k] as usize];
+            let at = contact.point.as_dvec3() + body.origin();
+            let felt: Vec<f64> = plan.felt_by(k).collect();
+            let ways = [
+                (contact.direction().as_dvec3(), &plan.drive[k][..plan.modes]),
+                (contact.normal.as_dvec3(), &felt[..]),
+            ];
+            for (pushes, (direction, shape)) in parted.pushes.iter_mut().zip(ways) {
+                let mut z = vec![0.0; n];
+                if group > 0 {
+                    let first = SIX * (group as usize - 1);
+                    let arm = at - parted.centres[group as usize - 1];
+                    z[first..first + SIX].copy_from_slice(&wrench(direction, arm));
+                }
+                let by_body = rigid_push(body, direction, at);
+                for (j, z) in z.iter_mut().enumerate() {
+                    let row = &parted.held[j * plan.modes..(j + 1) * plan.modes];
+                    *z -= row.iter().zip(shape).map(|(p, xi)| p * xi).sum::<f64>();
+                    *z -= rigid[j].iter().zip(&by_body).map(|(p, xi)| p * xi).sum::<f64>();
+                }
+                pushes.push(z);
+            }
+        }
+        parted
+    }
+
+    pub(super) fn shares(&self) -> Vec<f64> { (0..self.centres.len()).map(|g| self.mass[6*g*self.unknowns()+6*g]).collect() }
+
+    /// Number of unknowns.
+    pub(super) fn unknowns(&self) -> usize {
+        SIX * self.centres.len()
+    }
+
+    /// The unknowns, or their rates, of these groups where those of the groups before are known: children start with their parent's motion.
+    pub(super) fn inherit(&self, before: Option<&Self>, unknowns: &[f64]) -> Vec<f64> {
+        let mut own = vec![0.0; self.unknowns()];
+        let Some(before) = before else { return own };
+        for (g, six) in own.chunks_exact_mut(SIX).enumerate() {
+            let parent = self.groups.parents[g + 1] as usize;
+            if parent == 0 {
+                continue;
+            }
+            let of_parent = &unknowns[SIX * (parent - 1)..SIX * parent];
+            let (shift, turn) = (DVec3::from_slice(of_parent), DVec3::from_slice(&of_parent[3..]));
+            let shift = shift + turn.cross(self.centres[g] - before.centres[parent - 1]);
+            shift.write_to_slice(six);
+            turn.write_to_slice(&mut six[3..]);
+        }
+        own
+    }
+}
+
+/// A unit force in this direction at this arm from a piece's centre, on its six motions.
+fn wrench(direction: DVec3, arm: DVec3) -> [f64; SIX] {
+    let moment = arm.cross(direction);
+    let (f, m) = (direction.to_array(), moment.to_array());
+    [f[0], f[1], f[2], m[0], m[1], m[2]]
+}
+
+/// What a force pushes the mass-normalised rigid motions of a free body with; nothing of a held one.
+fn rigid_push(body: &Body, direction: DVec3, at: DVec3) -> [f64; SIX] {
+    let mass = &body.asset.mass;
+    if body.asset.is_supported() {
+        return [0.0; SIX];
+    }
+    normalised(mass.mass, mass.inertia, direction, (at - body.origin()).cross(direction))
+}
+
+/// Momentum and angular momentum in the mass-normalised rigid motions of a body: squares add up to pᵀp/m + LᵀI⁻¹L.
+fn normalised(mass: f64, inertia: DMat3, linear: DVec3, angular: DVec3) -> [f64; SIX] {
+    // Rows of the inverse of Cholesky's factor of the inertia.
+    let [a, b, c] = inertia.to_cols_array_2d();
+    let l00 = a[0].sqrt();
+    let (l10, l20) = (a[1] / l00, a[2] / l00);
+    let l11 = (b[1] - l10 * l10).sqrt();
+    let l21 = (b[2] - l20 * l10) / l11;
+    let l22 = (c[2] - l20 * l20 - l21 * l21).sqrt();
+    let x = angular.x / l00;
+    let y = (angular.y - l10 * x) / l11;
+    let z = (angular.z - l20 * x - l21 * y) / l22;
+    let p = linear / mass.sqrt();
+    [p.x, p.y, p.z, x, y, z]
+}
+
+/// P0: what the body's rigid motions hold of each unknown.
+fn rigid_parts(body: &Body, moments: &[Moments]) -> Vec<[f64; SIX]> {
+    if body.asset.is_supported() {
+        return vec![[0.0; SIX]; SIX * moments.len()];
+    }
+    let whole = &body.asset.mass;
+    let parts = moments.iter().flat_map(|m| {
+        [DVec3::X, DVec3::Y, DVec3::Z, DVec3::X, DVec3::Y, DVec3::Z].into_iter().enumerate().map(move |(k, axis)| {
+            let (linear, angular) = match k < 3 {
+                true => (m.mass * axis, m.mass * (m.centre - body.origin()).cross(axis)),
+                false => (DVec3::ZERO, m.inertia * axis),
+            };
+            normalised(whole.mass, whole.inertia, linear, angular)
+        })
+    });
+    parts.collect()
+}
+
+/// Adds some of the pieces' own mass until no motion is without any.
+fn add_until_positive(mass: &mut [f64], own: &[f64], n: usize) {
+    let mut added = 0.0;
+    for share in ADDED {
+        for k in 0..n {
+            mass[k * n + k] += (share - added) * own[k * n + k];
+        }
+        added = share;
+        if is_positive(&factor(mass, n), n) {
+            return;
+        }
+    }
+}
+
+/// Masses of a group.
+struct Moments {
+    mass: f64,
+    centre: DVec3,
+    inertia: DMat3,
+    /// Its tetrahedra, and the mass of each that is the group's own.
+    parts: Vec<(u32, f64)>,
+}
+
+impl Moments {
+    /// The masses of all groups but the reference: each tetrahedron's is shared out among its nodes, and acts at its centroid.
+    fn of(body: &Body, groups: &Groups) -> Vec<Self> {
+        let asset = &*body.asset;
+        let (mesh, centroids) = (&asset.fracture, &body.prepared.centroids);
+        let density = f64::from(asset.material.density as f32);
+        let mut parts: Vec<Vec<(u32, f64)>> = vec![Vec::new(); groups.parents.len()];
+        for tet in asset.tets() {
+            let of_nodes = mesh.tets[tet].map(|v| groups.of_node[v as usize]);
+            if of_nodes == [0; 4] {
+                continue;
+            }
+            let quarter = 0.25 * density * mesh.volume(tet);
+            for (i, &group) in of_nodes.iter().enumerate() {
+                if group > 0 && !of_nodes[..i].contains(&group) {
+                    let own = of_nodes.iter().filter(|&&g| g == group).count();
+                    parts[group as usize].push((tet as u32, quarter * own as f64));
+                }
+            }
+        }
+        let edge = f64::from(body.prepared.edge);
+        let of = |parts: Vec<(u32, f64)>| {
+            let at = |tet: u32| centroids[tet as usize].as_dvec3();
+            let mass: f64 = parts.iter().map(|p| p.1).sum();
+            let centre = parts.iter().map(|&(tet, m)| m * at(tet)).sum::<DVec3>() / mass;
+            // A tetrahedron is no point.
+            let mut inertia = DMat3::from_diagonal(DVec3::splat(0.05 * edge * edge * mass));
+            for &(tet, m) in &parts {
+                let d = at(tet) - centre;
+                inertia += m * (DMat3::from_diagonal(DVec3::splat(d.length_squared())) - outer(d));
+            }
+            Self { mass, centre, inertia, parts }
+        };
+        parts.into_iter().skip(1).map(of).collect()
+    }
+
+    /// Adds its mass and inertia to the matrix of all groups.
+    fn add_mass(&self, matrix: &mut [f64], group: usize, n: usize) {
+        let first = SIX * group;
+        for k in 0..3 {
+            matrix[(first + k) * n + first + k] += self.mass;
+            for l in 0..3 {
+                matrix[(first + 3 + k) * n + first + 3 + l] += self.inertia.col(l)[k];
+            }
+        }
+    }
+
+    /// p of its six motions: six rows of modes.
+    fn held(&self, body: &Body, modes: usize) -> Vec<f64> {
+        let asset = &*body.asset;
+        let mut of_node = vec![(0.0, DVec3::ZERO); asset.analysis.nodes.len()];
+        for &(tet, mass) in &self.parts {
+            let way = body.prepared.centroids[tet as usize].as_dvec3() - self.centre;
+            let point = asset.embedded_tet(tet as usize);
+            let nodes = &asset.analysis.elements[point.element as usize];
+            for (&node, value) in nodes.iter().zip(point.shape_values()) {
+                let m = mass * f64::from(value);
+                let (sum, moment) = &mut of_node[node as usize];
+                *sum += m;
+                *moment += m * way;
+            }
+        }
+        let mut held = vec![0.0; SIX * modes];
+        let [x, y, z, rx, ry, rz] = rows_of(&mut held, modes);
+        for (node, &(m, s)) in of_node.iter().enumerate() {
+            if m == 0.0 && s == DVec3::ZERO {
+                continue;
+            }
+            let [a, b, c] = asset.modes.rows(node).map(|row| &row[..modes]);
+            for i in 0..modes {
+                let (a, b, c) = (f64::from(a[i]), f64::from(b[i]), f64::from(c[i]));
+                x[i] += m * a;
+                y[i] += m * b;
+                z[i] += m * c;
+                rx[i] += s.y * c - s.z * b;
+                ry[i] += s.z * a - s.x * c;
+                rz[i] += s.x * b - s.y * a;
+            }
+        }
+        held
+    }
+}
+
+fn outer(d: DVec3) -> DMat3 {
+    DMat3::from_cols(d * d.x, d * d.y, d * d.z)
+}
+
+/// Six rows of a list.
+fn rows_of(list: &mut [f64], width: usize) -> [&mut [f64]; SIX] {
+    let mut rows = list.chunks_exact_mut(width.max(1));
+    std::array::from_fn(|_| rows.next().unwrap_or_default())
+}
+
+/// The face between two groups: direction from the first to the second times area, area, and moments of the area.
+struct Face {
+    between: [u32; 2],
+    across: DVec3,
+    area: f64,
+    first: DVec3,
+    second: DMat3,
+}
+
+/// The corners of all faces between groups.
+fn corners(body: &Body, groups: &Groups, centres: &[DVec3]) -> Vec<Corner> {
+    let n = SIX * centres.len();
+    let material = &body.asset.material;
+    let nu = material.poisson_ratio;
+    let modulus = material.youngs_modulus / (1.0 - nu * nu);
+    let mut corners = Vec::new();
+    for face in faces(body, groups) {
+        let across = face.across.length();
+        if across < FLAT * face.area {
+            continue;
+        }
+        let normal = face.across / across;
+        let centre = face.first / face.area;
+        let spread = face.second * (1.0 / face.area) - outer(centre);
+        for at in outline(normal, centre, spread) {
+            let mut opening = vec![0.0; n];
+            for (sign, group) in [(-1.0, face.between[0]), (1.0, face.between[1])] {
+                if group > 0 {
+                    let g = group as usize - 1;
+                    let row = wrench(sign * normal, at - centres[g]);
+                    opening[SIX * g..SIX * (g + 1)].copy_from_slice(&row);
+                }
+            }
+            // An edge of the outline gives way by some 4/(E' × its length), and has two corners.
+            let stiffness = modulus * face.area.sqrt() / 8.0;
+            corners.push(Corner { opening, stiffness });
+        }
+    }
+    corners
+}
+
+/// The four corners of the rectangle that has these second moments.
+fn outline(normal: DVec3, centre: DVec3, spread: DMat3) -> [DVec3; 4] {
+    let (e, f) = normal.any_orthonormal_pair();
+    let (a, b, c) = (e.dot(spread * e), e.dot(spread * f), f.dot(spread * f));
+    let turn = 0.5 * libm::atan2(2.0 * b, a - c);
+    let (sin, cos) = libm::sincos(turn);
+    let half = |axis: DVec3| axis * (3.0 * axis.dot(spread * axis)).max(0.0).sqrt();
+    let (u, v) = (half(cos * e + sin * f), half(cos * f - sin * e));
+    [u + v, u - v, v - u, -u - v].map(|d| centre + d)
+}
+
+/// The faces between groups. Let χ be 1 at the nodes of a group and 0 at others: then volume × ∇χ of a tetrahedron is the area with which the
+/// group's side passes through it.
+fn faces(body: &Body, groups: &Groups) -> Vec<Face> {
+    let asset = &*body.asset;
+    let mesh = &asset.fracture;
+    let mut faces: Vec<Face> = Vec::new();
+    for tet in asset.tets() {
+        let of = mesh.tets[tet].map(|v| groups.of_node[v as usize]);
+        if of == [of[0]; 4] {
+            continue;
+        }
+        let corners = mesh.tets[tet].map(|v| mesh.positions[v as usize].as_dvec3());
+        let gradients = FACES.map(|face| {
+            let [a, b, c] = face.map(|i| corners[i]);
+            (b - a).cross(c - a) / -6.0
+        });
+        let side = |group: u32| -> DVec3 {
+            (0..4).filter(|&n| of[n] == group).map(|n| gradients[n]).sum()
+        };
+        let at = body.prepared.centroids[tet].as_dvec3();
+        for i in 0..4 {
+            for j in 0..4 {
+                let first = !of[..i].contains(&of[i]) && !of[..j].contains(&of[j]);
+                if of[i] < of[j] && first {
+                    let across = 0.5 * (side(of[j]) - side(of[i]));
+                    grow(&mut faces, [of[i], of[j]], across, at);
+                }
+            }
+        }
+    }
+    faces
+}
+
+/// Adds a part to the face between two groups.
+fn grow(faces: &mut Vec<Face>, between: [u32; 2], across: DVec3, at: DVec3) {
+    let known = faces.iter().position(|face| face.between == between);
+    let place = known.unwrap_or_else(|| {
+        faces.push(Face {
+            between,
+            across: DVec3::ZERO,
+            area: 0.0,
+            first: DVec3::ZERO,
+            second: DMat3::ZERO,
+        });
+        faces.len() - 1
+    });
+    let (face, area) = (&mut faces[place], across.length());
+    face.across += across;
+    face.area += area;
+    face.first += area * at;
+    face.second += outer(at) * area;
+}

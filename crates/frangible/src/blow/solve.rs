@@ -1,0 +1,83 @@
+//! Symmetric systems of a few dozen unknowns, row-major.
+
+/// Cholesky's factor of a matrix, in its lower half. Where the matrix is not positive a pivot is not above zero, and [`is_positive`] says so.
+pub(super) fn factor(matrix: &[f64], n: usize) -> Vec<f64> {
+    let mut factor = matrix.to_vec();
+    for k in 0..n {
+        let (above, row) = factor.split_at_mut(k * n);
+        for l in 0..k {
+            let other = &above[l * n..l * n + n];
+            let sum: f64 = row[..l].iter().zip(other).map(|(a, b)| a * b).sum();
+            row[l] = (row[l] - sum) / other[l];
+        }
+        let sum: f64 = row[..k].iter().map(|a| a * a).sum();
+        // What is left of the digits of a pivot that all but vanishes is none of the matrix.
+        let left = row[k] - sum;
+        row[k] = if left > 1e-10 * row[k] { left.sqrt() } else { 0.0 };
+    }
+    factor
+}
+
+/// Σ a b of lists of any length, in a fixed order over eight lanes.
+#[inline(always)]
+pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
+    let (a, rest_a) = a.as_chunks::<8>();
+    let (b, rest_b) = b.as_chunks::<8>();
+    let mut sums = [0.0; 8];
+    for (a, b) in a.iter().zip(b) {
+        for i in 0..8 {
+            sums[i] += a[i] * b[i];
+        }
+    }
+    let rest: f64 = rest_a.iter().zip(rest_b).map(|(a, b)| a * b).sum();
+    sums.iter().sum::<f64>() + rest
+}
+
+/// Whether the matrix of this factor is positive.
+pub(super) fn is_positive(factor: &[f64], n: usize) -> bool {
+    (0..n).all(|k| factor[k * n + k] > 0.0)
+}
+
+/// Solves with the matrix of this factor in place.
+#[inline(always)]
+pub(super) fn solve(factor: &[f64], x: &mut [f64]) {
+    let n = x.len();
+    for k in 0..n {
+        let row = &factor[k * n..k * n + n];
+        let sum: f64 = row[..k].iter().zip(&*x).map(|(a, x)| a * x).sum();
+        x[k] = (x[k] - sum) / row[k];
+    }
+    for k in (0..n).rev() {
+        let row = &factor[k * n..k * n + n];
+        x[k] /= row[k];
+        let value = x[k];
+        for (x, a) in x[..k].iter_mut().zip(row) {
+            *x -= a * value;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_solution_solves_and_a_matrix_that_is_not_positive_is_told() {
+        let n = 13;
+        let root = |i: usize, j: usize| ((i * 7 + j * 3) % 11) as f64 - 4.0;
+        let entry = |i: usize, j: usize| (0..n).map(|k| root(i, k) * root(j, k)).sum::<f64>();
+        let mut matrix: Vec<f64> = (0..n * n).map(|at| entry(at / n, at % n)).collect();
+        (0..n).for_each(|k| matrix[k * n + k] += 1.0);
+        let b: Vec<f64> = (0..n).map(|i| (i as f64).sin()).collect();
+        let l = factor(&matrix, n);
+        assert!(is_positive(&l, n));
+        let mut x = b.clone();
+        solve(&l, &mut x);
+        for (row, b) in matrix.chunks_exact(n).zip(&b) {
+            let product: f64 = row.iter().zip(&x).map(|(a, x)| a * x).sum();
+            assert!((product - b).abs() < 1e-12);
+        }
+        matrix[3 * n + 3] = -1.0;
+        assert!(!is_positive(&factor(&matrix, n), n));
+    }
+}
