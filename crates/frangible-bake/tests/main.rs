@@ -15,6 +15,7 @@ mod imported_tets;
 mod methods;
 mod modal;
 mod mode_field;
+mod parted;
 mod rescale;
 mod rupture;
 mod shapes;

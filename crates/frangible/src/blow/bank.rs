@@ -154,6 +154,17 @@ impl Bank {
         }
     }
 
+    /// ω q of some oscillators side by side after a tick per force that stays as it is.
+    pub(super) fn held_by(&self, which: Range<usize>) -> &[f64] {
+        &self.held[0][which]
+    }
+
+    /// ω q of some oscillators side by side after a tick in which a force that pushes them so has grown by a newton.
+    pub(super) fn ramp_by(&self, which: Range<usize>, drive: &[f64]) -> impl Iterator<Item = f64> {
+        let ramp = self.ramp[0][which.clone()].iter();
+        ramp.zip(&drive[which]).map(|(ramp, drive)| ramp * drive)
+    }
+
     /// Σ gap x of what a force on some oscillators side by side, which stays as it is, does in a tick.
     pub(super) fn held_gap(&self, gap: &[f64], first: usize, forces: &[f64]) -> f64 {
         let terms = gap[first..].iter().zip(&self.held[0][first..]).zip(forces);

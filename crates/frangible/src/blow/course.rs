@@ -3,6 +3,8 @@
 use std::f64::consts::PI;
 
 
+use glam::DVec3;
+
 use super::integrate::{Record, Run, Softening};
 use super::parted::{Groups, Parted};
 use super::plan::Plan;
@@ -32,6 +34,10 @@ pub struct Blow {
     departures: Vec<f64>,
     energy_at_parting: f64,
     strikers_energy: f64,
+    /// Energy of the body, and the strain energy in it, at the end of each time step, J.
+    energies: Vec<[f64; 2]>,
+    /// Velocity and angular velocity of each piece that moves on its own in the end, against the whole body's rigid motion, m/s and rad/s.
+    drifts: Vec<[DVec3; 2]>,
     /// What cracks have made of the body under the contacts.
     softer: Vec<Softening>,
     /// What has parted.
@@ -83,6 +89,8 @@ impl Blow {
             departures: Vec::new(),
             energy_at_parting: 0.0,
             strikers_energy: 0.0,
+            energies: Vec::new(),
+            drifts: Vec::new(),
             softer: Vec::new(),
             parted: Vec::new(),
             motion: Motion::default(),
@@ -221,6 +229,34 @@ impl Blow {
         self.strikers_energy
     }
 
+    /// Energy of the body's vibration and of the pieces that move on their own, and the strain energy in it, at the end of each time step, J.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn energies_over_time(&self) -> &[[f64; 2]] {
+        &self.energies
+    }
+
+    /// The motion of the body over time.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn motion(&self) -> &Motion {
+        &self.motion
+    }
+
+    /// Velocity and angular velocity of each piece that moves on its own in the end, against the whole body's rigid motion, m/s and rad/s.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn drifts(&self) -> &[[DVec3; 2]] {
+        &self.drifts
+    }
+
+    /// Lets pieces part at a time step, as cracks do: `piece_of_node` has the piece of each node of the fracture mesh, the largest first.
+    #[doc(hidden)]
+    pub fn part(&mut self, body: &Body, piece_of_node: &[u32], pieces: usize, step: usize) {
+        let (groups, _) = self.groups(body, (piece_of_node, pieces));
+        self.go_on(body, step, &[], groups);
+    }
+
     /// The body's stress at the weak place of fracture tetrahedron `tet` at a time step of the blow, Pa, as cracks feel it.
     #[must_use]
     pub fn stress(
@@ -310,20 +346,7 @@ impl Blow {
             self.parted.push(parted);
         }
         let known = (substep * self.plan.sites.len()).min(self.forces.len());
-        let begun = std::time::Instant::now();
         let run = self.run(&self.forces[..known]);
-        if std::env::var_os("FLOG").is_some() {
-            let p = self.parted.last();
-            eprintln!(
-                "go_on step {step} t {:.1} us, contact {} of {} steps, groups {:?}, corners {}, soft {:?}, run {:.2} ms",
-                1e6 * step as f64 * self.plan.time_step, self.contact_steps, self.motion.steps(),
-                p.map(|p| p.shares()), p.map_or(0, |p| p.corners.len()), contacts, begun.elapsed().as_secs_f64()*1e3
-            );
-            let every = (run.log.len() / 40).max(1);
-            for (k, l) in run.log.iter().enumerate().skip(step.saturating_sub(1)).step_by(every) {
-                eprintln!("   {k}: strain {:.4} kin {:.4} missing {:.4} faces {:.5}", l[0], l[1], l[2], l[3]);
-            }
-        }
         self.take(body, run);
     }
 
@@ -334,6 +357,8 @@ impl Blow {
         self.contact_steps = run.contact_steps;
         self.departures = run.speeds.iter().map(|v| -v).collect();
         self.forces = run.forces;
+        self.energies = run.energies;
+        self.drifts = run.drifts;
     }
 
     /// `known`: forces from the beginning on that are known already.
@@ -385,12 +410,17 @@ impl Blow {
                 .residuals
                 .extend(Residual::new(asset, &site.residual, force));
         }
+        let peak = |peak: &mut f64, energy: f64| {
+            *peak = peak.max(energy);
+            Some(*peak)
+        };
+        let strain = run.energies.iter().map(|e| e[1]);
         Motion {
             amplitudes: run.amplitudes.clone(),
             modes: plan.modes,
-            peak_energy: run.peak_energy,
-            peak_strain_energy: run.strain_energy.last().copied().unwrap_or(0.0),
-            strain_energy: run.strain_energy.clone(),
+            peak_energy: run.energies.iter().map(|e| e[0]).fold(0.0, f64::max),
+            peak_strain_energy: strain.clone().fold(0.0, f64::max),
+            strain_energy: strain.scan(0.0, peak).collect(),
             coarse: (plan.coarser > 1.0).then_some((run.near_steps, plan.coarser)),
             complement,
         }

@@ -1,15 +1,17 @@
 //! How pieces that have parted move while a blow goes on and after it, tick by tick.
 //!
-//! Oscillators are stepped exactly under forces that are linear over a tick, and under the elastic force of the pieces that is constant over it,
-//! `B ((1 + α/h) c₁ − α c/h)` with B = ΛP and c₁ the pieces' unknowns at its end:
+//! The midpoint rule for the pieces, the exact step for the oscillators: over a tick h the pieces push these with the constant force B s,
+//! B = ΛP, and with c̄ = (c + c₁)/2 the mean of the pieces' unknowns before and after it,
 //!
-//! `[M (1 + βh)/h² + (1 + α/h) W + Σ κ g gᵀ] c₁ = M (c + hw)/h² + βMc/h + αWc/h + Bᵀ(Q + αV) + zF₁`, W = PᵀΛP, w = ċ, V = Q̇,
+//! `M (4 (c̄ − c)/h² − 2w/h) = ½ Bᵀ(Q + Q₁) − W s + α Bᵀ(Q₁ − Q)/h − β M (c₁ − c)/h + z (F + F₁)/2 − κ g (g · c₁)`, `s = c̄ + α (c₁ − c)/h`,
 //!
-//! g what opens a corner of two faces that press on each other, κ its spring. Without loads the energy changes by exactly
-//! `−½ ΔcᵀWΔc − ½ ΔwᵀMΔw − ½ κ (g·Δc)²`, so it cannot grow, whatever the tick.
+//! W = PᵀΛP, w = ċ, g what opens a corner of two faces that press on each other, κ its spring. Without damping, loads and corners that open
+//! or close this keeps energy and the pieces' momentum, whatever the tick; a corner that opens or closes only loses energy.
+
+use glam::DVec3;
 
 use super::bank::{Bank, BankState};
-use super::parted::Parted;
+use super::parted::{Corner, Parted};
 use super::plan::Plan;
 use super::solve::{dot, factor, solve};
 
@@ -42,10 +44,10 @@ struct Lane {
     /// c and ċ.
     at: Vec<f64>,
     rate: Vec<f64>,
-    /// Right side of the equation of the tick without the contacts' forces, and its solution.
+    /// Right side of the equation of the tick without the corners, and its solution c̄, as if no force grew.
     given: Vec<f64>,
-    foreseen: Vec<f64>,
-    /// The elastic force on each mode.
+    middle: Vec<f64>,
+    /// Weighted mean of ω Q over the tick, and then the elastic force on each mode.
     force: Vec<f64>,
     /// Its motion is that of pushes with friction, 0, or without, 1.
     pushes: usize,
@@ -55,15 +57,19 @@ struct Lane {
 #[derive(Default)]
 struct Solver {
     tick: f64,
+    /// W less what the oscillators' answer within the tick takes from it.
+    stiffness: Vec<f64>,
     factor: Vec<f64>,
-    /// A⁻¹z of each contact, and what it pushes the modes with: with friction and without.
+    /// What each contact's force does when it grows by a newton within a tick: with friction and without.
     answers: [Vec<Answer>; 2],
-    /// What a newton at the end of a tick moves each contact by through the pieces, m/N: row-major.
+    /// What that moves each contact by through the pieces, m/N: row-major.
     give: Vec<f64>,
 }
 
 struct Answer {
-    shift: Vec<f64>,
+    /// Change of c̄.
+    middle: Vec<f64>,
+    /// Change of the elastic force on each mode.
     force: Vec<f64>,
 }
 
@@ -75,7 +81,7 @@ impl<'a> Flight<'a> {
             at: Vec::new(),
             rate: Vec::new(),
             given: Vec::new(),
-            foreseen: Vec::new(),
+            middle: Vec::new(),
             force: vec![0.0; plan.modes],
             pushes,
         };
@@ -107,14 +113,19 @@ impl<'a> Flight<'a> {
                 lane.at = parted.inherit(self.parted, &lane.at);
                 lane.rate = parted.inherit(self.parted, &lane.rate);
                 lane.given = vec![0.0; n];
-                lane.foreseen = vec![0.0; n];
+                lane.middle = vec![0.0; n];
             }
+            // Faces that were there go on as they were.
+            let before = self.parted.map_or(&[][..], |parted| &parted.corners);
+            let known = |corner: &Corner| before.iter().position(|known| known.is(corner));
+            let at = &self.lanes[0].at;
+            let kept = parted.corners.iter().map(|corner| match known(corner) {
+                Some(k) => (self.press[k], self.closed[k]),
+                None => (false, corner.gap(at).min(0.0)),
+            });
+            (self.press, self.closed) = kept.collect();
             self.parted = Some(parted);
             self.next += 1;
-            self.press = vec![false; parted.corners.len()];
-            let gaps = parted.corners.iter();
-            let gaps = gaps.map(|corner| dot(&corner.opening, &self.lanes[0].at).min(0.0));
-            self.closed = gaps.collect();
             self.solver.tick = 0.0;
         }
     }
@@ -124,75 +135,86 @@ impl<'a> Flight<'a> {
         self.lanes.truncate(1);
     }
 
-    /// Finds where the pieces are at the end of a tick of this length, s, if these forces, N, last, and what that pushes the modes with.
+    /// Takes down where the oscillators are before a tick of this length, s.
     #[inline(always)]
-    pub(super) fn foresee(&mut self, state: &BankState, bank: &Bank, tick: f64, forces: &[f64]) {
+    pub(super) fn begin(&mut self, state: &BankState, bank: &Bank, tick: f64) {
         let Some(parted) = self.parted else { return };
         if self.solver.tick != tick {
             self.solver = Solver::new(self, parted, bank, tick);
         }
-        let [alpha, beta] = self.damping;
+        let share = 0.5 - self.damping[0] / tick;
+        for lane in &mut self.lanes {
+            let own = lane.first..lane.first + self.plan.modes;
+            let oscillators = state.x[own].iter().zip(&self.plan.oscillators);
+            for (force, (x, (w, _))) in lane.force.iter_mut().zip(oscillators) {
+                *force = share * w * x;
+            }
+        }
+    }
+
+    /// Finds what the pieces do in the tick if these forces, N, last, and pushes the oscillators, which have coasted through it, with that.
+    #[inline(always)]
+    pub(super) fn foresee(&mut self, state: &mut BankState, bank: &Bank, forces: &[f64]) {
+        let Some(parted) = self.parted else { return };
+        let tick = self.solver.tick;
+        let [alpha, beta] = [self.damping[0] / tick, self.damping[1]];
         let n = parted.unknowns();
         for lane in &mut self.lanes {
             let own = lane.first..lane.first + self.plan.modes;
-            let states = state.x[own.clone()].iter().zip(&state.v[own]);
-            for ((force, (x, v)), (w, _)) in lane.force.iter_mut().zip(states).zip(&self.plan.oscillators) {
-                *force = w * (x + alpha * w * v);
+            let oscillators = state.x[own].iter().zip(&self.plan.oscillators);
+            for (force, (x, (w, _))) in lane.force.iter_mut().zip(oscillators) {
+                *force += (0.5 + alpha) * w * x;
             }
-            let h = 1.0 / tick;
+            let (by_place, by_rate) = (4.0 / (tick * tick) + 2.0 * beta / tick, 2.0 / tick);
+            let states = lane.at.iter().zip(&lane.rate);
+            for (sum, (c, w)) in lane.middle.iter_mut().zip(states) {
+                *sum = by_place * c + by_rate * w;
+            }
             for j in 0..n {
                 let row = j * n..(j + 1) * n;
-                let (mass, stiffness) = (&parted.mass[row.clone()], &parted.stiffness[row]);
-                let (mut sum, mut held) = (0.0, 0.0);
-                for k in 0..n {
-                    sum += mass[k] * ((lane.at[k] * h + lane.rate[k]) * h + beta * lane.at[k] * h);
-                    held += stiffness[k] * lane.at[k];
-                }
-                let row = &parted.held[j * self.plan.modes..(j + 1) * self.plan.modes];
-                lane.given[j] = sum + alpha * h * held + dot(row, &lane.force);
+                lane.given[j] = dot(&parted.mass[row.clone()], &lane.middle)
+                    + dot(parted.row(j), &lane.force)
+                    + 2.0 * alpha * dot(&self.solver.stiffness[row], &lane.at);
+            }
+            for (z, force) in parted.pushes[lane.pushes].iter().zip(forces) {
+                lane.given.iter_mut().zip(z).for_each(|(b, z)| *b += z * force);
             }
         }
-        self.settle(parted, bank, forces);
-        let [alpha, _] = self.damping;
-        let (ahead, behind) = (1.0 + alpha / tick, alpha / tick);
+        self.settle(parted, bank);
         for lane in &mut self.lanes {
             lane.force.fill(0.0);
             for j in 0..n {
-                let pull = ahead * lane.foreseen[j] - behind * lane.at[j];
-                let row = &parted.held[j * self.plan.modes..(j + 1) * self.plan.modes];
+                let pull = (1.0 + 2.0 * alpha) * lane.middle[j] - 2.0 * alpha * lane.at[j];
+                let row = parted.row(j);
                 lane.force.iter_mut().zip(row).for_each(|(f, p)| *f += p * pull);
             }
             let frequencies = self.plan.oscillators.iter();
             lane.force.iter_mut().zip(frequencies).for_each(|(f, (w, _))| *f *= w * w);
+            bank.hold(state, lane.first, &lane.force, 1.0);
         }
     }
 
     /// Solves the tick, with those corners pressing that are closed at its end.
     #[inline(always)]
-    fn settle(&mut self, parted: &Parted, bank: &Bank, forces: &[f64]) {
+    fn settle(&mut self, parted: &Parted, bank: &Bank) {
         for round in 0.. {
             for lane in &mut self.lanes {
-                lane.foreseen.copy_from_slice(&lane.given);
+                lane.middle.copy_from_slice(&lane.given);
                 let corners = self.press.iter().zip(&parted.corners).zip(&self.closed);
                 for ((_, corner), closed) in corners.filter(|((press, _), _)| **press) {
-                    let push = corner.stiffness * closed;
-                    let pairs = lane.foreseen.iter_mut().zip(&corner.opening);
-                    pairs.for_each(|(b, g)| *b += push * g);
+                    let push = corner.stiffness * (closed + corner.gap(&lane.at));
+                    corner.push(push, &mut lane.middle);
                 }
-                solve(&self.solver.factor, &mut lane.foreseen);
+                solve(&self.solver.factor, &mut lane.middle);
             }
             if round == MOST_ROUNDS || self.press.is_empty() {
                 break;
             }
             let lane = &self.lanes[0];
-            let answers = &self.solver.answers[0];
             let mut changes = false;
             let corners = self.press.iter_mut().zip(&parted.corners);
             for ((press, corner), closed) in corners.zip(&self.closed) {
-                let mut gap = dot(&corner.opening, &lane.foreseen) - closed;
-                for (answer, force) in answers.iter().zip(forces) {
-                    gap += force * dot(&corner.opening, &answer.shift);
-                }
+                let gap = 2.0 * corner.gap(&lane.middle) - corner.gap(&lane.at) - closed;
                 changes |= std::mem::replace(press, gap < 0.0) != (gap < 0.0);
             }
             if !changes {
@@ -202,21 +224,12 @@ impl<'a> Flight<'a> {
         }
     }
 
-    /// Pushes the oscillators with what has been foreseen.
-    #[inline(always)]
-    pub(super) fn push(&self, state: &mut BankState, bank: &Bank) {
-        if self.is_on() {
-            for lane in &self.lanes {
-                bank.hold(state, lane.first, &lane.force, 1.0);
-            }
-        }
-    }
-
-    /// How far the pieces have moved a contact by the end of the tick if no force pushes then, m.
+    /// How far the pieces have moved a contact by the end of the tick if no force grows, m.
     #[inline(always)]
     pub(super) fn gap(&self, contact: usize) -> f64 {
         let Some(parted) = self.parted else { return 0.0 };
-        dot(&parted.pushes[1][contact], &self.felt().foreseen)
+        let (z, lane) = (&parted.pushes[1][contact], self.felt());
+        2.0 * dot(z, &lane.middle) - dot(z, &lane.at)
     }
 
     /// How fast they move it, m/s.
@@ -225,7 +238,8 @@ impl<'a> Flight<'a> {
         dot(&parted.pushes[1][contact], &self.felt().rate)
     }
 
-    /// What a newton at the end of the tick at one contact moves another by through the pieces, m/N: row-major; empty where nothing has parted.
+    /// What a newton that the force of one contact grows by in the tick moves another by through the pieces, m/N: row-major; empty where nothing
+    /// has parted.
     #[inline(always)]
     pub(super) fn give(&self) -> &[f64] {
         &self.solver.give
@@ -235,93 +249,140 @@ impl<'a> Flight<'a> {
         &self.lanes[self.lanes.len() - 1]
     }
 
-    /// Ends the tick under these forces, N.
+    /// Ends the tick, in which the forces have grown by so much, N.
     #[inline(always)]
-    pub(super) fn end(&mut self, state: &mut BankState, bank: &Bank, forces: &[f64]) {
+    pub(super) fn end(&mut self, state: &mut BankState, bank: &Bank, growth: &[f64]) {
         if !self.is_on() {
             return;
         }
-        let tick = self.solver.tick;
+        let by_rate = 4.0 / self.solver.tick;
         for lane in &mut self.lanes {
-            for (answer, &force) in self.solver.answers[lane.pushes].iter().zip(forces) {
-                if force != 0.0 {
-                    let shifts = lane.foreseen.iter_mut().zip(&answer.shift);
-                    shifts.for_each(|(c, x)| *c += x * force);
-                    bank.hold(state, lane.first, &answer.force, force);
+            for (answer, &growth) in self.solver.answers[lane.pushes].iter().zip(growth) {
+                if growth != 0.0 {
+                    let changes = lane.middle.iter_mut().zip(&answer.middle);
+                    changes.for_each(|(c, x)| *c += x * growth);
+                    bank.hold(state, lane.first, &answer.force, growth);
                 }
             }
-            for ((at, rate), new) in lane.at.iter_mut().zip(&mut lane.rate).zip(&lane.foreseen) {
-                *rate = (new - *at) / tick;
-                *at = *new;
+            for ((at, rate), middle) in lane.at.iter_mut().zip(&mut lane.rate).zip(&lane.middle) {
+                *rate = by_rate * (middle - *at) - *rate;
+                *at = 2.0 * middle - *at;
             }
         }
     }
 
-    /// Takes P c from the amplitudes of the modes, m·√kg.
+    /// q', the elastic part of the amplitudes, m·√kg; none while nothing has parted.
     #[inline(always)]
-    pub(super) fn leave_elastic(&self, amplitudes: &mut [f64]) {
-        let Some(parted) = self.parted else { return };
-        let rows = parted.held.chunks_exact(self.plan.modes.max(1));
-        for (row, c) in rows.zip(&self.lanes[0].at) {
-            amplitudes.iter_mut().zip(row).for_each(|(q, p)| *q -= p * c);
+    pub(super) fn elastic(&self, state: &BankState) -> Option<Vec<f64>> {
+        let parted = self.parted?;
+        let amplitudes = state.x.iter().zip(&self.plan.periods);
+        let mut elastic: Vec<f64> = amplitudes.map(|(x, period)| x * period).collect();
+        for (row, c) in parted.rows().zip(&self.lanes[0].at) {
+            elastic.iter_mut().zip(row).for_each(|(q, p)| *q -= p * c);
         }
+        Some(elastic)
     }
 
-    /// Kinetic energy of what the modes do not hold of the pieces' motion, and energy of the faces that press, J.
-    pub(super) fn energies(&self) -> [f64; 2] {
-        let Some(parted) = self.parted else { return [0.0; 2] };
+    /// What the pieces change in the energy of the modes, and in the strain energy in it, J.
+    pub(super) fn energies(&self, state: &BankState) -> [f64; 2] {
+        let (Some(parted), Some(elastic)) = (self.parted, self.elastic(state)) else {
+            return [0.0; 2];
+        };
+        let of_modes = elastic.iter().zip(&state.x).zip(&self.plan.oscillators);
+        let change: f64 = of_modes.map(|((q, x), (w, _))| q * q * w * w - x * x).sum();
         let lane = &self.lanes[0];
-        let rows = parted.mass.chunks_exact(lane.rate.len());
-        let kinetic = lane.rate.iter().zip(rows);
-        let kinetic = kinetic.map(|(w, row)| 0.5 * w * dot(row, &lane.rate)).sum();
+        let rows = parted.mass.chunks_exact(parted.unknowns());
+        let moved = lane.rate.iter().zip(rows).map(|(w, row)| w * dot(row, &lane.rate));
         let corners = self.press.iter().zip(&parted.corners).zip(&self.closed);
-        let springs = corners.filter(|((press, _), _)| **press).map(|((_, corner), closed)| {
-            let gap = dot(&corner.opening, &lane.at) - closed;
-            0.5 * corner.stiffness * gap * gap
+        let pressed = corners.filter(|((press, _), _)| **press).map(|((_, corner), closed)| {
+            let gap = corner.gap(&lane.at) - closed;
+            corner.stiffness * gap * gap
         });
-        [kinetic, springs.sum()]
+        let strain = 0.5 * (change + pressed.sum::<f64>());
+        [strain + 0.5 * moved.sum::<f64>(), strain]
+    }
+
+    /// Velocity and angular velocity of each group against the whole body's rigid motion, m/s and rad/s; of the reference none.
+    pub(super) fn drifts(&self, state: &BankState) -> Vec<[DVec3; 2]> {
+        let Some(parted) = self.parted else {
+            return Vec::new();
+        };
+        let rate = &self.lanes[0].rate;
+        let masses = parted.mass.chunks_exact(parted.unknowns());
+        let momentum = parted.rows().zip(masses);
+        let momentum = momentum.map(|(row, mass)| dot(row, &state.v) + dot(mass, rate));
+        parted.velocities(&momentum.collect::<Vec<f64>>())
     }
 }
 
 impl Solver {
     fn new(flight: &Flight, parted: &Parted, bank: &Bank, tick: f64) -> Self {
-        let n = parted.unknowns();
-        let [alpha, beta] = flight.damping;
-        let ahead = 1.0 + alpha / tick;
-        let inertia = (1.0 + beta * tick) / (tick * tick);
-        let sums = parted.mass.iter().zip(&parted.stiffness);
-        let mut matrix: Vec<f64> = sums.map(|(m, w)| m * inertia + ahead * w).collect();
-        let pressing = flight.press.iter().zip(&parted.corners).filter(|(press, _)| **press);
-        for (_, corner) in pressing {
-            for (j, a) in corner.opening.iter().enumerate().filter(|(_, a)| **a != 0.0) {
-                let row = &mut matrix[j * n..(j + 1) * n];
-                row.iter_mut().zip(&corner.opening).for_each(|(m, b)| *m += corner.stiffness * a * b);
+        let (n, plan) = (parted.unknowns(), flight.plan);
+        let [alpha, beta] = [flight.damping[0] / tick, flight.damping[1]];
+        // λ less what the oscillator's own answer to the force takes from it.
+        let held = bank.held_by(0..plan.modes);
+        let springs = plan.oscillators.iter().zip(held).map(|((w, _), held)| {
+            let taken = (0.5 + alpha) * w * held;
+            w * w * (1.0 - taken).max(0.0)
+        });
+        let springs: Vec<f64> = springs.collect();
+        let mut stiffness = vec![0.0; n * n];
+        let mut weighted = vec![0.0; plan.modes];
+        for j in 0..n {
+            let terms = weighted.iter_mut().zip(parted.row(j)).zip(&springs);
+            terms.for_each(|((to, p), spring)| *to = p * spring);
+            for k in 0..=j {
+                let sum = dot(&weighted, parted.row(k));
+                (stiffness[j * n + k], stiffness[k * n + j]) = (sum, sum);
             }
         }
+        let inertia = 4.0 / (tick * tick) + 2.0 * beta / tick;
+        let sums = parted.mass.iter().zip(&stiffness);
+        let sums = sums.map(|(m, s)| m * inertia + (1.0 + 2.0 * alpha) * s);
+        let mut matrix: Vec<f64> = sums.collect();
+        for (_, corner) in flight.press.iter().zip(&parted.corners).filter(|(press, _)| **press) {
+            // The corner is felt where it is at the end of the tick, 2 c̄ − c.
+            corner.stiffen(2.0, &mut matrix, n);
+        }
         let factor = factor(&matrix, n);
-        let modes = flight.plan.modes;
-        let answer = |z: &Vec<f64>| {
-            let mut shift = z.clone();
-            solve(&factor, &mut shift);
-            let mut force = vec![0.0; modes];
-            for (row, c) in parted.held.chunks_exact(modes.max(1)).zip(&shift) {
-                force.iter_mut().zip(row).for_each(|(f, p)| *f += p * c * ahead);
+        let answer = |(z, drive): (&Vec<f64>, &Vec<f64>), first: usize| {
+            let swing = bank.ramp_by(first..first + plan.modes, drive);
+            let frequencies = plan.oscillators.iter();
+            let swing = swing.zip(frequencies).map(|(x, (w, _))| (0.5 + alpha) * w * x);
+            let swing: Vec<f64> = swing.collect();
+            let rows = parted.rows().zip(z);
+            let mut middle: Vec<f64> = rows.map(|(row, z)| 0.5 * z + dot(row, &swing)).collect();
+            solve(&factor, &mut middle);
+            let mut force = vec![0.0; plan.modes];
+            for (row, c) in parted.rows().zip(&middle) {
+                let pull = (1.0 + 2.0 * alpha) * c;
+                force.iter_mut().zip(row).for_each(|(f, p)| *f += p * pull);
             }
-            let frequencies = flight.plan.oscillators.iter();
+            let frequencies = plan.oscillators.iter();
             force.iter_mut().zip(frequencies).for_each(|(f, (w, _))| *f *= w * w);
-            Answer { shift, force }
+            Answer { middle, force }
         };
-        let answers = parted.pushes.each_ref().map(|pushes| pushes.iter().map(answer).collect());
-        let answers: [Vec<Answer>; 2] = answers;
+        let of_lane = |which: usize, first: usize| -> Vec<Answer> {
+            let contacts = parted.pushes[which].iter().zip(&plan.drive);
+            contacts.map(|contact| answer(contact, first)).collect()
+        };
+        let felt = flight.felt().first;
+        let answers = [of_lane(0, 0), of_lane(1, felt)];
         let count = parted.pushes[1].len();
-        let first = flight.felt().first;
         let mut give = vec![0.0; count * count];
         for k in 0..count {
             for (l, answer) in answers[1].iter().enumerate() {
-                let through_modes = bank.held_gap(&flight.plan.gap[k], first, &answer.force);
-                give[k * count + l] = through_modes + dot(&parted.pushes[1][k], &answer.shift);
+                let through_modes = bank.held_gap(&plan.gap[k], felt, &answer.force);
+                give[k * count + l] =
+                    through_modes + 2.0 * dot(&parted.pushes[1][k], &answer.middle);
             }
         }
-        Self { tick, factor, answers, give }
+        Self {
+            tick,
+            stiffness,
+            factor,
+            answers,
+            give,
+        }
     }
 }

@@ -20,7 +20,7 @@
 use glam::{DMat3, DVec3};
 
 use super::plan::Plan;
-use super::solve::{factor, is_positive};
+use super::solve::{dot, factor, is_positive};
 use crate::asset::{Asset, FOREIGN};
 use crate::body::{Body, MeshIndex};
 use crate::mesh::FACES;
@@ -32,8 +32,8 @@ const SMALLEST: f64 = 2e-3;
 const MOST: usize = 16;
 
 /// Faces press where their mean direction over all of their area is at least so long, as a share of it: 1 is flat, a crater that is half a
-/// ball 1/2.
-const FLAT: f64 = 0.5;
+/// ball 1/2, and the side of a plug that nothing holds along its axis 0.
+const FLAT: f64 = 0.25;
 
 /// Shares of a piece's mass that are added to what the modes do not hold of it, the first that leaves no motion without mass: masses are sums
 /// over the tetrahedra, modes are not orthogonal in these.
@@ -131,10 +131,52 @@ impl Groups {
 /// Two faces of different groups press on each other here when they close.
 #[derive(Clone, Debug)]
 pub(super) struct Corner {
-    /// What opens the gap, by unknown.
-    pub(super) opening: Vec<f64>,
+    /// What opens the gap: number of the first of six unknowns, and the gap that each of these makes. The reference has none.
+    sides: [Option<(usize, [f64; SIX])>; 2],
     /// N/m.
     pub(super) stiffness: f64,
+    /// Which face it is of, and which of its corners.
+    of: ([u32; 2], usize),
+}
+
+impl Corner {
+    /// Whether it is a corner of the same face, which has not changed.
+    pub(super) fn is(&self, other: &Self) -> bool {
+        self.of == other.of && self.stiffness.to_bits() == other.stiffness.to_bits()
+    }
+
+    fn sides(&self) -> impl Iterator<Item = &(usize, [f64; SIX])> {
+        self.sides.iter().flatten()
+    }
+
+    /// The gap of these unknowns, m.
+    #[inline(always)]
+    pub(super) fn gap(&self, unknowns: &[f64]) -> f64 {
+        let of_side = |(first, row): &(usize, [f64; SIX])| {
+            let own = unknowns[*first..first + SIX].iter().zip(row);
+            own.map(|(c, g)| c * g).sum::<f64>()
+        };
+        self.sides().map(of_side).sum()
+    }
+
+    /// Adds what this force that opens the gap, N, does to the unknowns.
+    #[inline(always)]
+    pub(super) fn push(&self, force: f64, unknowns: &mut [f64]) {
+        for (first, row) in self.sides() {
+            let own = unknowns[*first..first + SIX].iter_mut().zip(row);
+            own.for_each(|(b, g)| *b += force * g);
+        }
+    }
+
+    /// Adds its spring, so many times, to a matrix of n × n.
+    pub(super) fn stiffen(&self, times: f64, matrix: &mut [f64], n: usize) {
+        for (first, row) in self.sides() {
+            for (k, g) in row.iter().enumerate() {
+                let at = (first + k) * n;
+                self.push(times * self.stiffness * g, &mut matrix[at..at + n]);
+            }
+        }
+    }
 }
 
 /// How a body moves from a time on, of which pieces have parted. Lists have an entry for each of the pieces' n unknowns.
@@ -147,11 +189,12 @@ pub(super) struct Parted {
     /// Centre of each group but the reference, m, in the frame of the fracture mesh.
     centres: Vec<DVec3>,
     /// p: a row of modes for each unknown, √kg.
-    pub(super) held: Vec<f64>,
+    held: Vec<f64>,
+    modes: usize,
+    /// The groups' own masses and moments of inertia about their centres, kg and kg·m².
+    masses: Vec<(f64, DMat3)>,
     /// M: n × n, kg and kg·m².
     pub(super) mass: Vec<f64>,
-    /// PᵀΛP: n × n.
-    pub(super) stiffness: Vec<f64>,
     /// z of each contact, with its friction and without.
     pub(super) pushes: [Vec<Vec<f64>>; 2],
     pub(super) corners: Vec<Corner>,
@@ -169,16 +212,12 @@ impl Parted {
         let rows: Vec<&[f64]> = held.chunks_exact(plan.modes.max(1)).collect();
         let rigid = rigid_parts(body, &moments);
         let mut mass = vec![0.0; n * n];
-        let mut stiffness = vec![0.0; n * n];
         for j in 0..n {
             for k in 0..=j {
-                let terms = || rows[j].iter().zip(rows[k]).zip(&plan.oscillators);
-                let by_modes: f64 = terms().map(|((a, b), _)| a * b).sum();
-                let springs: f64 = terms().map(|((a, b), (w, _))| a * b * w * w).sum();
+                let by_modes = dot(rows[j], rows[k]);
                 let by_body: f64 = rigid[j].iter().zip(&rigid[k]).map(|(a, b)| a * b).sum();
                 for at in [j * n + k, k * n + j] {
                     mass[at] = -by_body - by_modes;
-                    stiffness[at] = springs;
                 }
             }
         }
@@ -193,8 +232,9 @@ impl Parted {
             step,
             substep,
             held,
+            modes: plan.modes,
+            masses: moments.iter().map(|m| (m.mass, m.inertia)).collect(),
             mass,
-            stiffness,
             pushes: [Vec::new(), Vec::new()],
             corners: corners(body, &groups, &centres),
             centres,
@@ -209,7 +249,7 @@ impl Parted {
                 (contact.direction().as_dvec3(), &plan.drive[k][..plan.modes]),
                 (contact.normal.as_dvec3(), &felt[..]),
             ];
-            for (pushes, (direction, shape)) in parted.pushes.iter_mut().zip(ways) {
+            for (which, (direction, shape)) in ways.into_iter().enumerate() {
                 let mut z = vec![0.0; n];
                 if group > 0 {
                     let first = SIX * (group as usize - 1);
@@ -218,21 +258,39 @@ impl Parted {
                 }
                 let by_body = rigid_push(body, direction, at);
                 for (j, z) in z.iter_mut().enumerate() {
-                    let row = &parted.held[j * plan.modes..(j + 1) * plan.modes];
+                    let row = parted.row(j);
                     *z -= row.iter().zip(shape).map(|(p, xi)| p * xi).sum::<f64>();
                     *z -= rigid[j].iter().zip(&by_body).map(|(p, xi)| p * xi).sum::<f64>();
                 }
-                pushes.push(z);
+                parted.pushes[which].push(z);
             }
         }
         parted
     }
 
-    pub(super) fn shares(&self) -> Vec<f64> { (0..self.centres.len()).map(|g| self.mass[6*g*self.unknowns()+6*g]).collect() }
-
     /// Number of unknowns.
     pub(super) fn unknowns(&self) -> usize {
         SIX * self.centres.len()
+    }
+
+    /// p of an unknown, √kg: what each mode holds of its motion.
+    pub(super) fn row(&self, unknown: usize) -> &[f64] {
+        &self.held[unknown * self.modes..(unknown + 1) * self.modes]
+    }
+
+    /// p of each unknown.
+    pub(super) fn rows(&self) -> impl Iterator<Item = &[f64]> {
+        (0..self.unknowns()).map(|j| self.row(j))
+    }
+
+    /// Velocity and angular velocity of each group but the reference that have these momenta, m/s and rad/s.
+    pub(super) fn velocities(&self, momenta: &[f64]) -> Vec<[DVec3; 2]> {
+        let groups = momenta.chunks_exact(SIX).zip(&self.masses);
+        let velocity = |(six, (mass, inertia)): (&[f64], &(f64, DMat3))| {
+            let (linear, angular) = (DVec3::from_slice(six), DVec3::from_slice(&six[3..]));
+            [linear / *mass, inertia.inverse() * angular]
+        };
+        groups.map(velocity).collect()
     }
 
     /// The unknowns, or their rates, of these groups where those of the groups before are known: children start with their parent's motion.
@@ -431,7 +489,6 @@ struct Face {
 
 /// The corners of all faces between groups.
 fn corners(body: &Body, groups: &Groups, centres: &[DVec3]) -> Vec<Corner> {
-    let n = SIX * centres.len();
     let material = &body.asset.material;
     let nu = material.poisson_ratio;
     let modulus = material.youngs_modulus / (1.0 - nu * nu);
@@ -444,18 +501,18 @@ fn corners(body: &Body, groups: &Groups, centres: &[DVec3]) -> Vec<Corner> {
         let normal = face.across / across;
         let centre = face.first / face.area;
         let spread = face.second * (1.0 / face.area) - outer(centre);
-        for at in outline(normal, centre, spread) {
-            let mut opening = vec![0.0; n];
-            for (sign, group) in [(-1.0, face.between[0]), (1.0, face.between[1])] {
-                if group > 0 {
-                    let g = group as usize - 1;
-                    let row = wrench(sign * normal, at - centres[g]);
-                    opening[SIX * g..SIX * (g + 1)].copy_from_slice(&row);
-                }
-            }
-            // An edge of the outline gives way by some 4/(E' × its length), and has two corners.
-            let stiffness = modulus * face.area.sqrt() / 8.0;
-            corners.push(Corner { opening, stiffness });
+        for (k, at) in outline(normal, centre, spread).into_iter().enumerate() {
+            let side = |sign: f64, group: u32| {
+                let g = (group as usize).checked_sub(1)?;
+                Some((SIX * g, wrench(sign * normal, at - centres[g])))
+            };
+            let [first, second] = face.between;
+            corners.push(Corner {
+                of: (face.between, k),
+                sides: [side(-1.0, first), side(1.0, second)],
+                // An edge of the outline gives way by some 4/(E' × its length), and has two corners.
+                stiffness: modulus * face.area.sqrt() / 8.0,
+            });
         }
     }
     corners
