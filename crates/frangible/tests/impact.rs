@@ -202,8 +202,8 @@ fn unbroken(body: &Body, contact: Contact) -> ContactReport {
 }
 
 #[test]
-fn a_blow_is_as_if_nothing_broke_until_the_piece_under_it_is_cut_free() {
-    let (mut shorter, mut whole) = (0, 0);
+fn a_blow_is_as_if_nothing_broke_until_a_piece_parts() {
+    let (mut changed, mut whole) = (0, 0);
     for seed in 1..=12 {
         for (kind, hit) in [
             (block(), block_hit(1.0)),
@@ -215,29 +215,26 @@ fn a_blow_is_as_if_nothing_broke_until_the_piece_under_it_is_cut_free() {
             let body = kind.body(seed);
             let alone = unbroken(&body, hit.clone());
             let outcome = strike(kind, seed, hit.clone(), &FractureConfig::default());
-            let contact = &outcome.report().contacts[0];
-            if contact.duration >= alone.duration {
-                assert_eq!(contact.force, alone.force);
+            let report = outcome.report();
+            let contact = &report.contacts[0];
+            let pairs = || contact.force.iter().zip(&alone.force);
+            if pairs().all(|(a, b)| a == b) && contact.force.len() == alone.force.len() {
                 whole += 1;
                 continue;
             }
-            // It ended early, at once, and all that it left is the motion of the striker.
-            shorter += 1;
+            // What parts cannot be felt before the first crack.
+            changed += 1;
             assert!(matches!(outcome, Outcome::Broke(_)));
-            let pushed = contact.force.iter().take_while(|&&f| f > 0.0).count();
-            assert_eq!(contact.force[..pushed], alone.force[..pushed]);
-            assert!(contact.force[pushed..].iter().all(|&f| f == 0.0));
-            assert!(contact.impulse < alone.impulse);
+            let same = pairs().take_while(|(a, b)| a == b).count();
+            assert!(same as f64 * report.time_step > report.first_crack_time.unwrap());
             let mass = 1.0 / f64::from(hit.striker.inverse_effective_mass);
             let slower = contact.departure_speed + contact.approach_speed;
-            assert!(
-                slower > (1.0 - 1e-6) * contact.impulse / mass
-                    && slower < alone.departure_speed + alone.approach_speed
-            );
+            let most = contact.impulse / mass;
+            assert!(slower > (1.0 - 1e-4) * most, "{slower} m/s, {most} m/s");
         }
     }
-    println!("{shorter} blows ended early, {whole} did not");
-    assert!(shorter > 3 && whole > 3);
+    println!("{changed} blows changed, {whole} did not");
+    assert!(changed > 3 && whole > 3);
 }
 
 #[test]

@@ -92,7 +92,7 @@ fn pieces_share_the_mesh_and_have_their_own_part_of_it() {
     let mut seen = 0;
     for seed in 1..=4 {
         let body = block().body(seed);
-        let outcome = strike(block(), seed, block_hit(10.0), &FractureConfig::default());
+        let outcome = strike(block(), seed, block_hit(20.0), &FractureConfig::default());
         let Outcome::Broke(fracture) = outcome else {
             continue;
         };

@@ -121,6 +121,19 @@ impl Groups {
         if parents.len() == count_before {
             return (None, acts);
         }
+        // A group may be gone: what it was is too small by now, and part of a neighbour.
+        let mut numbers = vec![u32::MAX; parents.len()];
+        numbers[0] = 0;
+        group_of.iter().for_each(|&group| numbers[group as usize] = 0);
+        let mut kept = Vec::with_capacity(parents.len());
+        for (number, parent) in numbers.iter_mut().zip(parents) {
+            if *number == 0 {
+                *number = kept.len() as u32;
+                kept.push(parent);
+            }
+        }
+        let parents = kept;
+        let group_of: Vec<u32> = group_of.iter().map(|&g| numbers[g as usize]).collect();
         let of_node = piece_of_node.iter();
         let of_node = of_node.map(|&piece| group_of.get(piece as usize).copied().unwrap_or(0));
         let of_node = of_node.collect();
