@@ -224,7 +224,9 @@ impl<'a> Cracking<'a> {
                 let free = Volumes::of(&labels, index).free(&acts);
                 let now = self.motion.begin(step, self.time_step);
                 let speed = self.body.asset.material.rayleigh_speed();
-                system.rest.release(of_node, &mesh.positions, &free, now, speed);
+                system
+                    .rest
+                    .release(of_node, &mesh.positions, &free, now, speed);
             }
             grown.pieces = Some((progress, labels));
         }

@@ -20,7 +20,8 @@ use crate::trace::CrackTrace;
 /// Computes what an impact does to a body. Nothing is changed; the caller replaces a broken body by its fragments.
 ///
 /// `contacts` are all contacts of this impact on this body, in its body frame (origin at the centre of mass).
-/// The modes of the unbroken body serve during the whole break (the single-basis assumption of `[G12]`).
+/// The modes are those of the unbroken body, the single basis of `[G12 §7.3.1]`. Pieces that part during a blow that is followed with the body move on
+/// their own, which changes its motion.
 /// A contact far below the strength, which is nearly every one, costs a look at the closest surface triangle, seldom O(modes), and no
 /// allocation.
 ///

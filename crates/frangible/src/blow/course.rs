@@ -2,7 +2,6 @@
 
 use std::f64::consts::PI;
 
-
 use glam::DVec3;
 
 use super::integrate::{Record, Run, Softening};

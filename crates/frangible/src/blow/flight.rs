@@ -59,7 +59,11 @@ struct Solver {
     tick: f64,
     /// W less what the oscillators' answer within the tick takes from it.
     stiffness: Vec<f64>,
+    /// The matrix without corners, and its factor with those that press.
+    matrix: Vec<f64>,
     factor: Vec<f64>,
+    /// Right side of what each contact's force does when it grows by a newton: with friction and without.
+    growths: [Vec<Vec<f64>>; 2],
     /// What each contact's force does when it grows by a newton within a tick: with friction and without.
     answers: [Vec<Answer>; 2],
     /// What that moves each contact by through the pieces, m/N: row-major.
@@ -141,6 +145,8 @@ impl<'a> Flight<'a> {
         let Some(parted) = self.parted else { return };
         if self.solver.tick != tick {
             self.solver = Solver::new(self, parted, bank, tick);
+            self.solver
+                .press(parted, &self.press, self.plan, (bank, self.felt().first));
         }
         let share = 0.5 - self.damping[0] / tick;
         for lane in &mut self.lanes {
@@ -177,7 +183,10 @@ impl<'a> Flight<'a> {
                     + 2.0 * alpha * dot(&self.solver.stiffness[row], &lane.at);
             }
             for (z, force) in parted.pushes[lane.pushes].iter().zip(forces) {
-                lane.given.iter_mut().zip(z).for_each(|(b, z)| *b += z * force);
+                lane.given
+                    .iter_mut()
+                    .zip(z)
+                    .for_each(|(b, z)| *b += z * force);
             }
         }
         self.settle(parted, bank);
@@ -186,10 +195,16 @@ impl<'a> Flight<'a> {
             for j in 0..n {
                 let pull = (1.0 + 2.0 * alpha) * lane.middle[j] - 2.0 * alpha * lane.at[j];
                 let row = parted.row(j);
-                lane.force.iter_mut().zip(row).for_each(|(f, p)| *f += p * pull);
+                lane.force
+                    .iter_mut()
+                    .zip(row)
+                    .for_each(|(f, p)| *f += p * pull);
             }
             let frequencies = self.plan.oscillators.iter();
-            lane.force.iter_mut().zip(frequencies).for_each(|(f, (w, _))| *f *= w * w);
+            lane.force
+                .iter_mut()
+                .zip(frequencies)
+                .for_each(|(f, (w, _))| *f *= w * w);
             bank.hold(state, lane.first, &lane.force, 1.0);
         }
     }
@@ -220,21 +235,26 @@ impl<'a> Flight<'a> {
             if !changes {
                 break;
             }
-            self.solver = Solver::new(self, parted, bank, self.solver.tick);
+            self.solver
+                .press(parted, &self.press, self.plan, (bank, self.felt().first));
         }
     }
 
     /// How far the pieces have moved a contact by the end of the tick if no force grows, m.
     #[inline(always)]
     pub(super) fn gap(&self, contact: usize) -> f64 {
-        let Some(parted) = self.parted else { return 0.0 };
+        let Some(parted) = self.parted else {
+            return 0.0;
+        };
         let (z, lane) = (&parted.pushes[1][contact], self.felt());
         2.0 * dot(z, &lane.middle) - dot(z, &lane.at)
     }
 
     /// How fast they move it, m/s.
     pub(super) fn gap_speed(&self, contact: usize) -> f64 {
-        let Some(parted) = self.parted else { return 0.0 };
+        let Some(parted) = self.parted else {
+            return 0.0;
+        };
         dot(&parted.pushes[1][contact], &self.felt().rate)
     }
 
@@ -292,12 +312,18 @@ impl<'a> Flight<'a> {
         let change: f64 = of_modes.map(|((q, x), (w, _))| q * q * w * w - x * x).sum();
         let lane = &self.lanes[0];
         let rows = parted.mass.chunks_exact(parted.unknowns());
-        let moved = lane.rate.iter().zip(rows).map(|(w, row)| w * dot(row, &lane.rate));
+        let moved = lane
+            .rate
+            .iter()
+            .zip(rows)
+            .map(|(w, row)| w * dot(row, &lane.rate));
         let corners = self.press.iter().zip(&parted.corners).zip(&self.closed);
-        let pressed = corners.filter(|((press, _), _)| **press).map(|((_, corner), closed)| {
-            let gap = corner.gap(&lane.at) - closed;
-            corner.stiffness * gap * gap
-        });
+        let pressed = corners
+            .filter(|((press, _), _)| **press)
+            .map(|((_, corner), closed)| {
+                let gap = corner.gap(&lane.at) - closed;
+                corner.stiffness * gap * gap
+            });
         let strain = 0.5 * (change + pressed.sum::<f64>());
         [strain + 0.5 * moved.sum::<f64>(), strain]
     }
@@ -339,50 +365,78 @@ impl Solver {
         let inertia = 4.0 / (tick * tick) + 2.0 * beta / tick;
         let sums = parted.mass.iter().zip(&stiffness);
         let sums = sums.map(|(m, s)| m * inertia + (1.0 + 2.0 * alpha) * s);
-        let mut matrix: Vec<f64> = sums.collect();
-        for (_, corner) in flight.press.iter().zip(&parted.corners).filter(|(press, _)| **press) {
-            // The corner is felt where it is at the end of the tick, 2 c̄ − c.
-            corner.stiffen(2.0, &mut matrix, n);
-        }
-        let factor = factor(&matrix, n);
-        let answer = |(z, drive): (&Vec<f64>, &Vec<f64>), first: usize| {
-            let swing = bank.ramp_by(first..first + plan.modes, drive);
-            let frequencies = plan.oscillators.iter();
-            let swing = swing.zip(frequencies).map(|(x, (w, _))| (0.5 + alpha) * w * x);
-            let swing: Vec<f64> = swing.collect();
-            let rows = parted.rows().zip(z);
-            let mut middle: Vec<f64> = rows.map(|(row, z)| 0.5 * z + dot(row, &swing)).collect();
-            solve(&factor, &mut middle);
-            let mut force = vec![0.0; plan.modes];
-            for (row, c) in parted.rows().zip(&middle) {
-                let pull = (1.0 + 2.0 * alpha) * c;
-                force.iter_mut().zip(row).for_each(|(f, p)| *f += p * pull);
-            }
-            let frequencies = plan.oscillators.iter();
-            force.iter_mut().zip(frequencies).for_each(|(f, (w, _))| *f *= w * w);
-            Answer { middle, force }
-        };
-        let of_lane = |which: usize, first: usize| -> Vec<Answer> {
+        let matrix = sums.collect();
+        let growths = [(0, 0), (1, flight.felt().first)].map(|(which, first)| {
+            let growth = |(z, drive): (&Vec<f64>, &Vec<f64>)| -> Vec<f64> {
+                let swing = bank.ramp_by(first..first + plan.modes, drive);
+                let swing = swing.zip(&plan.oscillators);
+                let swing = swing.map(|(x, (w, _))| (0.5 + alpha) * w * x);
+                let swing: Vec<f64> = swing.collect();
+                let rows = parted.rows().zip(z);
+                rows.map(|(row, z)| 0.5 * z + dot(row, &swing)).collect()
+            };
             let contacts = parted.pushes[which].iter().zip(&plan.drive);
-            contacts.map(|contact| answer(contact, first)).collect()
-        };
-        let felt = flight.felt().first;
-        let answers = [of_lane(0, 0), of_lane(1, felt)];
-        let count = parted.pushes[1].len();
-        let mut give = vec![0.0; count * count];
-        for k in 0..count {
-            for (l, answer) in answers[1].iter().enumerate() {
-                let through_modes = bank.held_gap(&plan.gap[k], felt, &answer.force);
-                give[k * count + l] =
-                    through_modes + 2.0 * dot(&parted.pushes[1][k], &answer.middle);
-            }
-        }
+            contacts.map(growth).collect()
+        });
         Self {
             tick,
             stiffness,
-            factor,
-            answers,
-            give,
+            matrix,
+            growths,
+            ..Self::default()
+        }
+    }
+
+    /// Solves with these corners pressing from now on.
+    #[inline(always)]
+    fn press(
+        &mut self,
+        parted: &Parted,
+        press: &[bool],
+        plan: &Plan,
+        (bank, felt): (&Bank, usize),
+    ) {
+        let n = parted.unknowns();
+        let ahead = 1.0 + 2.0 * plan.rayleigh[0] / self.tick;
+        let mut matrix = self.matrix.clone();
+        for (_, corner) in press
+            .iter()
+            .zip(&parted.corners)
+            .filter(|(press, _)| **press)
+        {
+            // The corner is felt where it is at the end of the tick, 2 c̄ − c.
+            corner.stiffen(2.0, &mut matrix, n);
+        }
+        self.factor = factor(matrix, n);
+        let answer = |growth: &Vec<f64>| {
+            let mut middle = growth.clone();
+            solve(&self.factor, &mut middle);
+            let mut force = vec![0.0; plan.modes];
+            for (row, c) in parted.rows().zip(&middle) {
+                force
+                    .iter_mut()
+                    .zip(row)
+                    .for_each(|(f, p)| *f += p * ahead * c);
+            }
+            let frequencies = plan.oscillators.iter();
+            force
+                .iter_mut()
+                .zip(frequencies)
+                .for_each(|(f, (w, _))| *f *= w * w);
+            Answer { middle, force }
+        };
+        self.answers = self
+            .growths
+            .each_ref()
+            .map(|of| of.iter().map(answer).collect());
+        let count = parted.pushes[1].len();
+        self.give = vec![0.0; count * count];
+        for k in 0..count {
+            for (l, answer) in self.answers[1].iter().enumerate() {
+                let through_modes = bank.held_gap(&plan.gap[k], felt, &answer.force);
+                self.give[k * count + l] =
+                    through_modes + 2.0 * dot(&parted.pushes[1][k], &answer.middle);
+            }
         }
     }
 }

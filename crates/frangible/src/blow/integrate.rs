@@ -153,7 +153,9 @@ impl Run<'_> {
         let rest = PERIODS * period - record.near_steps as f64 * time_step;
         let steps = (rest / (plan.coarser * time_step)).ceil().max(0.0) as usize;
         let steps = steps.min(MOST_STEPS);
-        record.amplitudes.reserve_exact((leave + steps) * plan.modes);
+        record
+            .amplitudes
+            .reserve_exact((leave + steps) * plan.modes);
         let parts = [
             (leave, &plan.step, time_step, true),
             (steps, &plan.coarse, plan.coarser * time_step, false),

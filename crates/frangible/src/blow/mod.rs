@@ -31,8 +31,8 @@
 //! Cracks change what the contacts push against, and from then on forces, motion and cracks are found anew:
 //! - a star of three arms or more under a contact leaves cantilevers, which give way more (`star.rs`), until rings of cracks have cut the
 //!   wall under it out;
-//! - a piece that cracks have cut free under a contact bears it no longer, and its force ends. What the striker does to that piece is for
-//!   whoever moves the pieces.
+//! - pieces that cracks have parted move on their own (`parted.rs`, `flight.rs`): the contact feels the piece that it pushes, as heavy as
+//!   that is, and what the piece presses on.
 //!
 //! # Limits
 //!

@@ -29,7 +29,7 @@ use crate::mesh::FACES;
 const SMALLEST: f64 = 2e-3;
 
 /// Most pieces that move on their own.
-const MOST: usize = 16;
+const MOST: usize = 12;
 
 /// Faces press where their mean direction over all of their area is at least so long, as a share of it: 1 is flat, a crater that is half a
 /// ball 1/2, and the side of a plug that nothing holds along its axis 0.
@@ -104,7 +104,9 @@ impl Groups {
         let mut acts = vec![true; pieces];
         let mut group_of = vec![0_u32; pieces];
         // By falling volume, as pieces are numbered, those under contacts first.
-        let order = (0..pieces).filter(|&p| touched[p]).chain((0..pieces).filter(|&p| !touched[p]));
+        let order = (0..pieces)
+            .filter(|&p| touched[p])
+            .chain((0..pieces).filter(|&p| !touched[p]));
         for piece in order {
             let parent = parent_of[piece];
             group_of[piece] = parent as u32;
@@ -124,7 +126,9 @@ impl Groups {
         // A group may be gone: what it was is too small by now, and part of a neighbour.
         let mut numbers = vec![u32::MAX; parents.len()];
         numbers[0] = 0;
-        group_of.iter().for_each(|&group| numbers[group as usize] = 0);
+        group_of
+            .iter()
+            .for_each(|&group| numbers[group as usize] = 0);
         let mut kept = Vec::with_capacity(parents.len());
         for (number, parent) in numbers.iter_mut().zip(parents) {
             if *number == 0 {
@@ -215,7 +219,13 @@ pub(super) struct Parted {
 
 impl Parted {
     /// The motion of these groups from a time step and a substep on.
-    pub(super) fn new(body: &Body, plan: &Plan, groups: Groups, nodes: &[u32], [step, substep]: [usize; 2]) -> Self {
+    pub(super) fn new(
+        body: &Body,
+        plan: &Plan,
+        groups: Groups,
+        nodes: &[u32],
+        [step, substep]: [usize; 2],
+    ) -> Self {
         let moments = Moments::of(body, &groups);
         let n = SIX * moments.len();
         let mut held = Vec::with_capacity(n * plan.modes);
@@ -273,7 +283,11 @@ impl Parted {
                 for (j, z) in z.iter_mut().enumerate() {
                     let row = parted.row(j);
                     *z -= row.iter().zip(shape).map(|(p, xi)| p * xi).sum::<f64>();
-                    *z -= rigid[j].iter().zip(&by_body).map(|(p, xi)| p * xi).sum::<f64>();
+                    *z -= rigid[j]
+                        .iter()
+                        .zip(&by_body)
+                        .map(|(p, xi)| p * xi)
+                        .sum::<f64>();
                 }
                 parted.pushes[which].push(z);
             }
@@ -316,7 +330,10 @@ impl Parted {
                 continue;
             }
             let of_parent = &unknowns[SIX * (parent - 1)..SIX * parent];
-            let (shift, turn) = (DVec3::from_slice(of_parent), DVec3::from_slice(&of_parent[3..]));
+            let (shift, turn) = (
+                DVec3::from_slice(of_parent),
+                DVec3::from_slice(&of_parent[3..]),
+            );
             let shift = shift + turn.cross(self.centres[g] - before.centres[parent - 1]);
             shift.write_to_slice(six);
             turn.write_to_slice(&mut six[3..]);
@@ -338,7 +355,12 @@ fn rigid_push(body: &Body, direction: DVec3, at: DVec3) -> [f64; SIX] {
     if body.asset.is_supported() {
         return [0.0; SIX];
     }
-    normalised(mass.mass, mass.inertia, direction, (at - body.origin()).cross(direction))
+    normalised(
+        mass.mass,
+        mass.inertia,
+        direction,
+        (at - body.origin()).cross(direction),
+    )
 }
 
 /// Momentum and angular momentum in the mass-normalised rigid motions of a body: squares add up to pᵀp/m + LᵀI⁻¹L.
@@ -364,13 +386,19 @@ fn rigid_parts(body: &Body, moments: &[Moments]) -> Vec<[f64; SIX]> {
     }
     let whole = &body.asset.mass;
     let parts = moments.iter().flat_map(|m| {
-        [DVec3::X, DVec3::Y, DVec3::Z, DVec3::X, DVec3::Y, DVec3::Z].into_iter().enumerate().map(move |(k, axis)| {
-            let (linear, angular) = match k < 3 {
-                true => (m.mass * axis, m.mass * (m.centre - body.origin()).cross(axis)),
-                false => (DVec3::ZERO, m.inertia * axis),
-            };
-            normalised(whole.mass, whole.inertia, linear, angular)
-        })
+        [DVec3::X, DVec3::Y, DVec3::Z, DVec3::X, DVec3::Y, DVec3::Z]
+            .into_iter()
+            .enumerate()
+            .map(move |(k, axis)| {
+                let (linear, angular) = match k < 3 {
+                    true => (
+                        m.mass * axis,
+                        m.mass * (m.centre - body.origin()).cross(axis),
+                    ),
+                    false => (DVec3::ZERO, m.inertia * axis),
+                };
+                normalised(whole.mass, whole.inertia, linear, angular)
+            })
     });
     parts.collect()
 }
@@ -383,7 +411,7 @@ fn add_until_positive(mass: &mut [f64], own: &[f64], n: usize) {
             mass[k * n + k] += (share - added) * own[k * n + k];
         }
         added = share;
-        if is_positive(&factor(mass, n), n) {
+        if is_positive(&factor(mass.to_vec(), n), n) {
             return;
         }
     }
@@ -429,7 +457,12 @@ impl Moments {
                 let d = at(tet) - centre;
                 inertia += m * (DMat3::from_diagonal(DVec3::splat(d.length_squared())) - outer(d));
             }
-            Self { mass, centre, inertia, parts }
+            Self {
+                mass,
+                centre,
+                inertia,
+                parts,
+            }
         };
         parts.into_iter().skip(1).map(of).collect()
     }
@@ -559,7 +592,10 @@ fn faces(body: &Body, groups: &Groups) -> Vec<Face> {
             (b - a).cross(c - a) / -6.0
         });
         let side = |group: u32| -> DVec3 {
-            (0..4).filter(|&n| of[n] == group).map(|n| gradients[n]).sum()
+            (0..4)
+                .filter(|&n| of[n] == group)
+                .map(|n| gradients[n])
+                .sum()
         };
         let at = body.prepared.centroids[tet].as_dvec3();
         for i in 0..4 {

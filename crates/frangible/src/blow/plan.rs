@@ -135,7 +135,10 @@ impl Plan {
             own_compliance: Vec::new(),
             own: oscillators.len(),
             felt_first: 0,
-            rayleigh: [asset.material.stiffness_damping, asset.material.mass_damping],
+            rayleigh: [
+                asset.material.stiffness_damping,
+                asset.material.mass_damping,
+            ],
             strikers: 0..0,
             time_step,
             substeps: substeps.max(1),
@@ -167,7 +170,9 @@ impl Plan {
     /// φ · n of the modes that are followed, as a contact feels them, 1/√kg.
     pub(super) fn felt_by(&self, contact: usize) -> impl Iterator<Item = f64> {
         let gap = &self.gap[contact][self.felt_first..self.felt_first + self.modes];
-        gap.iter().zip(&self.oscillators).map(|(gap, (w, _))| gap * w)
+        gap.iter()
+            .zip(&self.oscillators)
+            .map(|(gap, (w, _))| gap * w)
     }
 
     /// How the contacts push the oscillators.

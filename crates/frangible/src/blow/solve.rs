@@ -1,19 +1,23 @@
 //! Symmetric systems of a few dozen unknowns, row-major.
 
 /// Cholesky's factor of a matrix, in its lower half. Where the matrix is not positive a pivot is not above zero, and [`is_positive`] says so.
-pub(super) fn factor(matrix: &[f64], n: usize) -> Vec<f64> {
-    let mut factor = matrix.to_vec();
+#[inline(always)]
+pub(super) fn factor(matrix: Vec<f64>, n: usize) -> Vec<f64> {
+    let mut factor = matrix;
     for k in 0..n {
         let (above, row) = factor.split_at_mut(k * n);
         for l in 0..k {
             let other = &above[l * n..l * n + n];
-            let sum: f64 = row[..l].iter().zip(other).map(|(a, b)| a * b).sum();
-            row[l] = (row[l] - sum) / other[l];
+            row[l] = (row[l] - dot(&row[..l], &other[..l])) / other[l];
         }
-        let sum: f64 = row[..k].iter().map(|a| a * a).sum();
+        let sum = dot(&row[..k], &row[..k]);
         // What is left of the digits of a pivot that all but vanishes is none of the matrix.
         let left = row[k] - sum;
-        row[k] = if left > 1e-10 * row[k] { left.sqrt() } else { 0.0 };
+        row[k] = if left > 1e-10 * row[k] {
+            left.sqrt()
+        } else {
+            0.0
+        };
     }
     factor
 }
@@ -44,8 +48,7 @@ pub(super) fn solve(factor: &[f64], x: &mut [f64]) {
     let n = x.len();
     for k in 0..n {
         let row = &factor[k * n..k * n + n];
-        let sum: f64 = row[..k].iter().zip(&*x).map(|(a, x)| a * x).sum();
-        x[k] = (x[k] - sum) / row[k];
+        x[k] = (x[k] - dot(&row[..k], &x[..k])) / row[k];
     }
     for k in (0..n).rev() {
         let row = &factor[k * n..k * n + n];
@@ -69,7 +72,7 @@ mod tests {
         let mut matrix: Vec<f64> = (0..n * n).map(|at| entry(at / n, at % n)).collect();
         (0..n).for_each(|k| matrix[k * n + k] += 1.0);
         let b: Vec<f64> = (0..n).map(|i| (i as f64).sin()).collect();
-        let l = factor(&matrix, n);
+        let l = factor(matrix.clone(), n);
         assert!(is_positive(&l, n));
         let mut x = b.clone();
         solve(&l, &mut x);
@@ -78,6 +81,6 @@ mod tests {
             assert!((product - b).abs() < 1e-12);
         }
         matrix[3 * n + 3] = -1.0;
-        assert!(!is_positive(&factor(&matrix, n), n));
+        assert!(!is_positive(&factor(matrix.clone(), n), n));
     }
 }

@@ -11,7 +11,8 @@
 //! *Release* (`release.rs`). A crack unloads what lies beside it. A weak point looks at the cracks when one is about to start there that can be
 //! paid. What is released stays released, so it needs no look where what it remembers holds it already. It looks at all places of all cracks
 //! near by, eight of them side by side.
-//! Under a blow whose forces are followed with the body, a small piece that is cut off comes to rest as a whole (`rest.rs`).
+//! Under a blow whose forces are followed with the body, a piece that is cut off moves on its own, or comes to rest as a whole where it is small
+//! (`crate::blow`, `rest.rs`).
 //!
 //! *Old cracks* (`crate::tips`). The front of a crack from an earlier impact follows Griffith: a crack of centimetres is fed from a layer of depth
 //! 2πa, where a is its area over the length of its front. Cracks that a piece's own modes know release nothing more.

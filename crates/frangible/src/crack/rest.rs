@@ -1,9 +1,8 @@
-//! Pieces come to rest (beyond the paper).
+//! Small pieces come to rest (beyond the paper).
 //!
-//! The modes are those of the whole body, and go on as if nothing had parted. A piece that cracks have cut off, and that no contact presses
-//! against more than half of the body, is pulled and bent by nothing any more: its neighbours can only press on it, and supports hold still. What unloads its new
-//! faces crosses it at the speed of Rayleigh waves, and from then on it neither starts cracks nor feeds those that it has. A piece of
-//! more than half of the body vibrates much like the whole, and does not come to rest.
+//! Large pieces move on their own once they have parted (`crate::blow`). A small one that moves with what it came from has the stress of that, as if
+//! it had not parted, though nothing pulls or bends it any more. What unloads its new faces crosses it at the speed of Rayleigh waves; from then
+//! on it neither starts cracks nor feeds those that it has.
 //!
 //! That is so under a blow whose forces are followed with the body, with cracks that take time. Which pieces there are is found while such a blow goes on
 //! (`crate::cracking`).

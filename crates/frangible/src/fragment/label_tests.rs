@@ -3,10 +3,10 @@
 use glam::Vec3;
 use rand_chacha::rand_core::Rng;
 
-use super::volumes::Volumes;
 use super::components::Components;
 use super::label::{Labels, of_cuts};
 use super::tests::block;
+use super::volumes::Volumes;
 use crate::asset::Asset;
 use crate::body::MeshIndex;
 use crate::mesh::DisjointSets;

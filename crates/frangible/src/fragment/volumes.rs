@@ -29,6 +29,8 @@ impl Volumes {
     /// For each piece, whether it has no more than half of the volume and does not move on its own.
     pub(crate) fn free(&self, acts: &[bool]) -> Vec<bool> {
         let pieces = self.of_piece.iter().zip(acts);
-        pieces.map(|(&volume, &acts)| volume <= self.half && !acts).collect()
+        pieces
+            .map(|(&volume, &acts)| volume <= self.half && !acts)
+            .collect()
     }
 }
