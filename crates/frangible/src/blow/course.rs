@@ -4,8 +4,9 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 
+use super::groups::Groups;
 use super::integrate::{Record, Run, Softening};
-use super::parted::{Groups, Parted};
+use super::parted::Parted;
 use super::plan::Plan;
 use super::star::Star;
 use crate::body::Body;

@@ -45,22 +45,26 @@
 //! exactly, and one equation per contact and substep has one root. Steps after the blow are as long as the modes allow.
 
 mod bank;
+mod contacts;
 mod couple;
 mod course;
+mod faces;
 mod flight;
+mod groups;
 mod integrate;
 mod limits;
 mod parted;
 mod plan;
 mod receptance;
 mod solve;
+mod solver;
 mod spring;
 mod star;
 mod wall;
 
 pub use crate::contact::Receptance;
 pub use course::Blow;
+pub(crate) use groups::Groups;
 pub(crate) use limits::Limits;
-pub(crate) use parted::Groups;
 pub(crate) use spring::Spring;
 pub(crate) use wall::{SteadyNear, has_near_field};

@@ -19,21 +19,11 @@
 
 use glam::{DMat3, DVec3};
 
+use super::faces::{Corner, corners};
+use super::groups::Groups;
 use super::plan::Plan;
 use super::solve::{dot, factor, is_positive};
-use crate::asset::{Asset, FOREIGN};
-use crate::body::{Body, MeshIndex};
-use crate::mesh::FACES;
-
-/// Pieces of a smaller share of the body's volume move with what they came from, unless a contact pushes them.
-const SMALLEST: f64 = 2e-3;
-
-/// Most pieces that move on their own.
-const MOST: usize = 12;
-
-/// Faces press where their mean direction over all of their area is at least so long, as a share of it: 1 is flat, a crater that is half a
-/// ball 1/2, and the side of a plug that nothing holds along its axis 0.
-const FLAT: f64 = 0.25;
+use crate::body::Body;
 
 /// Shares of a piece's mass that are added to what the modes do not hold of it, the first that leaves no motion without mass: masses are sums
 /// over the tetrahedra, modes are not orthogonal in these.
@@ -41,160 +31,6 @@ const ADDED: [f64; 6] = [1e-3, 3e-3, 1e-2, 3e-2, 0.1, 0.3];
 
 /// The six rigid motions of a piece.
 pub(super) const SIX: usize = 6;
-
-/// Which nodes move together.
-#[derive(Clone, Debug)]
-pub(crate) struct Groups {
-    /// Group of each node of the fracture mesh; 0 is the reference.
-    of_node: Vec<u32>,
-    /// The group that each was part of before.
-    parents: Vec<u32>,
-}
-
-impl Groups {
-    /// The groups that these pieces make, none where they are those that there were `before`, and whether each piece moves on its own.
-    /// `piece_of_node` has labels from [`FOREIGN`] on for nodes of other bodies, `pushed` the nodes under contacts.
-    pub(crate) fn next(
-        before: Option<&Self>,
-        asset: &Asset,
-        index: &MeshIndex,
-        (piece_of_node, pieces): (&[u32], usize),
-        pushed: &[u32],
-    ) -> (Option<Self>, Vec<bool>) {
-        let group_before = |node: usize| before.map_or(0, |groups| groups.of_node[node]);
-        let count_before = before.map_or(1, |groups| groups.parents.len());
-        let mut shares = vec![0_u64; pieces * count_before];
-        for (node, &piece) in piece_of_node.iter().enumerate() {
-            if piece < FOREIGN {
-                let at = piece as usize * count_before + group_before(node) as usize;
-                shares[at] += index.volumes[node];
-            }
-        }
-        let rows: Vec<&[u64]> = shares.chunks_exact(count_before).collect();
-        let volume = |piece: usize| rows[piece].iter().sum::<u64>();
-        let first_largest = |values: &mut dyn Iterator<Item = (usize, u64)>| {
-            values.reduce(|a, b| if b.1 > a.1 { b } else { a })
-        };
-        let parent = |piece: usize| {
-            let row = rows[piece].iter().copied().enumerate();
-            first_largest(&mut { row }).map_or(0, |(group, _)| group)
-        };
-        let parent_of: Vec<usize> = (0..pieces).map(parent).collect();
-        let marked = |nodes: &[u32]| {
-            let mut marks = vec![false; pieces];
-            for &node in nodes {
-                if let Some(mark) = marks.get_mut(piece_of_node[node as usize] as usize) {
-                    *mark = true;
-                }
-            }
-            marks
-        };
-        let (held, touched) = (marked(&asset.supported), marked(pushed));
-        // The largest child goes on as what its parent was; of a held body all that is still held.
-        let heir = |group: usize| {
-            if group == 0 && asset.is_supported() {
-                return None;
-            }
-            let children = (0..pieces).filter(|&piece| parent_of[piece] == group);
-            first_largest(&mut children.map(|piece| (piece, volume(piece)))).map(|(piece, _)| piece)
-        };
-        let heirs: Vec<Option<usize>> = (0..count_before).map(heir).collect();
-        let all: u64 = (0..pieces).map(volume).sum();
-        let mut parents: Vec<u32> = (0..count_before as u32).collect();
-        let mut acts = vec![true; pieces];
-        let mut group_of = vec![0_u32; pieces];
-        // By falling volume, as pieces are numbered, those under contacts first.
-        let order = (0..pieces)
-            .filter(|&p| touched[p])
-            .chain((0..pieces).filter(|&p| !touched[p]));
-        for piece in order {
-            let parent = parent_of[piece];
-            group_of[piece] = parent as u32;
-            if heirs[parent] == Some(piece) || held[piece] {
-                continue;
-            }
-            let large = volume(piece) as f64 >= SMALLEST * all as f64;
-            acts[piece] = (touched[piece] || large) && parents.len() <= MOST;
-            if acts[piece] {
-                group_of[piece] = parents.len() as u32;
-                parents.push(parent as u32);
-            }
-        }
-        if parents.len() == count_before {
-            return (None, acts);
-        }
-        // A group may be gone: what it was is too small by now, and part of a neighbour.
-        let mut numbers = vec![u32::MAX; parents.len()];
-        numbers[0] = 0;
-        group_of
-            .iter()
-            .for_each(|&group| numbers[group as usize] = 0);
-        let mut kept = Vec::with_capacity(parents.len());
-        for (number, parent) in numbers.iter_mut().zip(parents) {
-            if *number == 0 {
-                *number = kept.len() as u32;
-                kept.push(parent);
-            }
-        }
-        let parents = kept;
-        let group_of: Vec<u32> = group_of.iter().map(|&g| numbers[g as usize]).collect();
-        let of_node = piece_of_node.iter();
-        let of_node = of_node.map(|&piece| group_of.get(piece as usize).copied().unwrap_or(0));
-        let of_node = of_node.collect();
-        (Some(Self { of_node, parents }), acts)
-    }
-}
-
-/// Two faces of different groups press on each other here when they close.
-#[derive(Clone, Debug)]
-pub(super) struct Corner {
-    /// What opens the gap: number of the first of six unknowns, and the gap that each of these makes. The reference has none.
-    sides: [Option<(usize, [f64; SIX])>; 2],
-    /// N/m.
-    pub(super) stiffness: f64,
-    /// Which face it is of, and which of its corners.
-    of: ([u32; 2], usize),
-}
-
-impl Corner {
-    /// Whether it is a corner of the same face, which has not changed.
-    pub(super) fn is(&self, other: &Self) -> bool {
-        self.of == other.of && self.stiffness.to_bits() == other.stiffness.to_bits()
-    }
-
-    fn sides(&self) -> impl Iterator<Item = &(usize, [f64; SIX])> {
-        self.sides.iter().flatten()
-    }
-
-    /// The gap of these unknowns, m.
-    #[inline(always)]
-    pub(super) fn gap(&self, unknowns: &[f64]) -> f64 {
-        let of_side = |(first, row): &(usize, [f64; SIX])| {
-            let own = unknowns[*first..first + SIX].iter().zip(row);
-            own.map(|(c, g)| c * g).sum::<f64>()
-        };
-        self.sides().map(of_side).sum()
-    }
-
-    /// Adds what this force that opens the gap, N, does to the unknowns.
-    #[inline(always)]
-    pub(super) fn push(&self, force: f64, unknowns: &mut [f64]) {
-        for (first, row) in self.sides() {
-            let own = unknowns[*first..first + SIX].iter_mut().zip(row);
-            own.for_each(|(b, g)| *b += force * g);
-        }
-    }
-
-    /// Adds its spring, so many times, to a matrix of n × n.
-    pub(super) fn stiffen(&self, times: f64, matrix: &mut [f64], n: usize) {
-        for (first, row) in self.sides() {
-            for (k, g) in row.iter().enumerate() {
-                let at = (first + k) * n;
-                self.push(times * self.stiffness * g, &mut matrix[at..at + n]);
-            }
-        }
-    }
-}
 
 /// How a body moves from a time on, of which pieces have parted. Lists have an entry for each of the pieces' n unknowns.
 #[derive(Clone, Debug)]
@@ -340,13 +176,6 @@ impl Parted {
         }
         own
     }
-}
-
-/// A unit force in this direction at this arm from a piece's centre, on its six motions.
-fn wrench(direction: DVec3, arm: DVec3) -> [f64; SIX] {
-    let moment = arm.cross(direction);
-    let (f, m) = (direction.to_array(), moment.to_array());
-    [f[0], f[1], f[2], m[0], m[1], m[2]]
 }
 
 /// What a force pushes the mass-normalised rigid motions of a free body with; nothing of a held one.
@@ -514,119 +343,20 @@ impl Moments {
     }
 }
 
-fn outer(d: DVec3) -> DMat3 {
-    DMat3::from_cols(d * d.x, d * d.y, d * d.z)
-}
-
 /// Six rows of a list.
 fn rows_of(list: &mut [f64], width: usize) -> [&mut [f64]; SIX] {
     let mut rows = list.chunks_exact_mut(width.max(1));
     std::array::from_fn(|_| rows.next().unwrap_or_default())
 }
 
-/// The face between two groups: direction from the first to the second times area, area, and moments of the area.
-struct Face {
-    between: [u32; 2],
-    across: DVec3,
-    area: f64,
-    first: DVec3,
-    second: DMat3,
+/// A unit force in this direction at this arm from a piece's centre, on its six motions.
+pub(super) fn wrench(direction: DVec3, arm: DVec3) -> [f64; SIX] {
+    let moment = arm.cross(direction);
+    let (f, m) = (direction.to_array(), moment.to_array());
+    [f[0], f[1], f[2], m[0], m[1], m[2]]
 }
 
-/// The corners of all faces between groups.
-fn corners(body: &Body, groups: &Groups, centres: &[DVec3]) -> Vec<Corner> {
-    let material = &body.asset.material;
-    let nu = material.poisson_ratio;
-    let modulus = material.youngs_modulus / (1.0 - nu * nu);
-    let mut corners = Vec::new();
-    for face in faces(body, groups) {
-        let across = face.across.length();
-        if across < FLAT * face.area {
-            continue;
-        }
-        let normal = face.across / across;
-        let centre = face.first / face.area;
-        let spread = face.second * (1.0 / face.area) - outer(centre);
-        for (k, at) in outline(normal, centre, spread).into_iter().enumerate() {
-            let side = |sign: f64, group: u32| {
-                let g = (group as usize).checked_sub(1)?;
-                Some((SIX * g, wrench(sign * normal, at - centres[g])))
-            };
-            let [first, second] = face.between;
-            corners.push(Corner {
-                of: (face.between, k),
-                sides: [side(-1.0, first), side(1.0, second)],
-                // An edge of the outline gives way by some 4/(E' × its length), and has two corners.
-                stiffness: modulus * face.area.sqrt() / 8.0,
-            });
-        }
-    }
-    corners
-}
-
-/// The four corners of the rectangle that has these second moments.
-fn outline(normal: DVec3, centre: DVec3, spread: DMat3) -> [DVec3; 4] {
-    let (e, f) = normal.any_orthonormal_pair();
-    let (a, b, c) = (e.dot(spread * e), e.dot(spread * f), f.dot(spread * f));
-    let turn = 0.5 * libm::atan2(2.0 * b, a - c);
-    let (sin, cos) = libm::sincos(turn);
-    let half = |axis: DVec3| axis * (3.0 * axis.dot(spread * axis)).max(0.0).sqrt();
-    let (u, v) = (half(cos * e + sin * f), half(cos * f - sin * e));
-    [u + v, u - v, v - u, -u - v].map(|d| centre + d)
-}
-
-/// The faces between groups. Let χ be 1 at the nodes of a group and 0 at others: then volume × ∇χ of a tetrahedron is the area with which the
-/// group's side passes through it.
-fn faces(body: &Body, groups: &Groups) -> Vec<Face> {
-    let asset = &*body.asset;
-    let mesh = &asset.fracture;
-    let mut faces: Vec<Face> = Vec::new();
-    for tet in asset.tets() {
-        let of = mesh.tets[tet].map(|v| groups.of_node[v as usize]);
-        if of == [of[0]; 4] {
-            continue;
-        }
-        let corners = mesh.tets[tet].map(|v| mesh.positions[v as usize].as_dvec3());
-        let gradients = FACES.map(|face| {
-            let [a, b, c] = face.map(|i| corners[i]);
-            (b - a).cross(c - a) / -6.0
-        });
-        let side = |group: u32| -> DVec3 {
-            (0..4)
-                .filter(|&n| of[n] == group)
-                .map(|n| gradients[n])
-                .sum()
-        };
-        let at = body.prepared.centroids[tet].as_dvec3();
-        for i in 0..4 {
-            for j in 0..4 {
-                let first = !of[..i].contains(&of[i]) && !of[..j].contains(&of[j]);
-                if of[i] < of[j] && first {
-                    let across = 0.5 * (side(of[j]) - side(of[i]));
-                    grow(&mut faces, [of[i], of[j]], across, at);
-                }
-            }
-        }
-    }
-    faces
-}
-
-/// Adds a part to the face between two groups.
-fn grow(faces: &mut Vec<Face>, between: [u32; 2], across: DVec3, at: DVec3) {
-    let known = faces.iter().position(|face| face.between == between);
-    let place = known.unwrap_or_else(|| {
-        faces.push(Face {
-            between,
-            across: DVec3::ZERO,
-            area: 0.0,
-            first: DVec3::ZERO,
-            second: DMat3::ZERO,
-        });
-        faces.len() - 1
-    });
-    let (face, area) = (&mut faces[place], across.length());
-    face.across += across;
-    face.area += area;
-    face.first += area * at;
-    face.second += outer(at) * area;
+/// d dᵀ.
+pub(super) fn outer(d: DVec3) -> DMat3 {
+    DMat3::from_cols(d * d.x, d * d.y, d * d.z)
 }

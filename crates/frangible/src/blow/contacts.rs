@@ -1,0 +1,181 @@
+//! The contacts of a blow from substep to substep: where the strikers are, and the forces that fit.
+
+use std::f64::consts::PI;
+
+use super::bank::{BankState, dot_over};
+use super::flight::Flight;
+use super::plan::Plan;
+
+/// Rounds over all contacts until their forces agree.
+const MOST_ROUNDS: usize = 60;
+
+/// The contacts between two substeps: a number of each in every list.
+pub(super) struct Contacts<'a> {
+    plan: &'a Plan,
+    /// Length of a substep, s.
+    pub(super) dt: f64,
+    /// How far each striker has come, against the body as a rigid one, m, and how fast it does, m/s.
+    ways: Vec<f64>,
+    pub(super) speeds: Vec<f64>,
+    /// Force now, at the end of the substep, and by how much it grows, N.
+    pub(super) forces: Vec<f64>,
+    pub(super) next: Vec<f64>,
+    pub(super) growth: Vec<f64>,
+    /// The gaps at the end of the substep if no force grew, less what stays of the forces in the static part, m.
+    bases: Vec<f64>,
+    /// What the body gives way by more than it did, m/N.
+    pub(super) weakness: Vec<f64>,
+    /// Square roots of the springs' dents, m^½.
+    roots: Vec<f64>,
+    /// The largest forces so far, N.
+    largest: Vec<f64>,
+    /// What a unit growth of one force takes from a gap within a substep, m/N: row-major, gap by gap.
+    give: Vec<f64>,
+}
+
+impl<'a> Contacts<'a> {
+    #[inline(always)]
+    pub(super) fn new(plan: &'a Plan) -> Self {
+        let count = plan.sites.len();
+        let dt = plan.time_step / plan.substeps as f64;
+        let mut give = vec![0.0; count * count];
+        for k in 0..count {
+            for l in 0..count {
+                give[k * count + l] = plan.inverse_mass[k * count + l] * dt * dt / 6.0
+                    + plan.fine.give(&plan.gap[k], &plan.drive[l]);
+            }
+        }
+        let approach = |s: &super::plan::Site| f64::from(s.touch.contact.approach_speed);
+        Self {
+            plan,
+            dt,
+            ways: vec![0.0; count],
+            speeds: plan.sites.iter().map(approach).collect(),
+            forces: vec![0.0; count],
+            next: vec![0.0; count],
+            growth: vec![0.0; count],
+            bases: vec![0.0; count],
+            weakness: vec![0.0; count],
+            roots: vec![0.0; count],
+            largest: vec![0.0; count],
+            give,
+        }
+    }
+
+    /// Finds the bases, with the oscillators at the end of the substep as if no force grew.
+    #[inline(always)]
+    pub(super) fn foresee(&mut self, state: &BankState, flight: &Flight) {
+        let (plan, dt) = (self.plan, self.dt);
+        let count = self.forces.len();
+        for k in 0..count {
+            let fall: f64 = (0..count)
+                .map(|l| plan.inverse_mass[k * count + l] * self.forces[l])
+                .sum();
+            self.bases[k] = self.ways[k] + self.speeds[k] * dt
+                - 0.5 * fall * dt * dt
+                - dot_over(&plan.gap[k], &state.x, &plan.felt[k])
+                - flight.gap(k);
+        }
+    }
+
+    /// Finds the forces at the end of the substep, at the time t, s, each in turn until they agree. `through_pieces`: what a unit growth of one force
+    /// takes from a gap through pieces that move on their own, m/N; empty where there are none.
+    #[inline(always)]
+    pub(super) fn solve(&mut self, t: f64, through_pieces: &[f64]) {
+        let count = self.forces.len();
+        self.next.copy_from_slice(&self.forces);
+        for _ in 0..MOST_ROUNDS {
+            let mut change = 0.0_f64;
+            let mut largest = 0.0_f64;
+            for k in 0..count {
+                let found = self.force(k, t, through_pieces);
+                change = change.max((found - self.next[k]).abs());
+                largest = largest.max(found);
+                self.next[k] = found;
+            }
+            if count == 1 || change <= 1e-12 * largest {
+                break;
+            }
+        }
+    }
+
+    /// The force of contact `k` at the end of the substep where all others are known, N.
+    #[inline(always)]
+    fn force(&mut self, k: usize, t: f64, through_pieces: &[f64]) -> f64 {
+        let (plan, count) = (self.plan, self.forces.len());
+        let through = |i: usize| through_pieces.get(i).copied().unwrap_or(0.0);
+        if self.weakness[k].is_infinite() {
+            return 0.0;
+        }
+        match plan.sites[k].script {
+            Some([impulse, duration]) if t < duration => {
+                0.5 * PI * impulse / duration * libm::sin(PI * t / duration)
+            }
+            Some(_) => 0.0,
+            None => {
+                let mut gap = self.bases[k];
+                for l in 0..count {
+                    let i = k * count + l;
+                    let give = self.give[i] + through(i);
+                    gap += give * self.forces[l];
+                    if l != k {
+                        gap -= (give + plan.compliance[i]) * self.next[l];
+                    }
+                }
+                let i = k * count + k;
+                let give = self.give[i] + (plan.compliance[i] + self.weakness[k] + through(i));
+                let spring = &plan.sites[k].spring;
+                spring.force(gap, give, self.largest[k], &mut self.roots[k])
+            }
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn grow(&mut self) {
+        for k in 0..self.forces.len() {
+            self.growth[k] = self.next[k] - self.forces[k];
+        }
+    }
+
+    /// Moves the strikers to the end of the substep.
+    #[inline(always)]
+    pub(super) fn advance(&mut self) {
+        let count = self.forces.len();
+        for k in 0..count {
+            let row = &self.plan.inverse_mass[k * count..(k + 1) * count];
+            let (mut held, mut mean) = (0.0, 0.0);
+            for ((b, f), g) in row.iter().zip(&self.forces).zip(&self.growth) {
+                held += b * (0.5 * f + g / 6.0);
+                mean += b * (f + 0.5 * g);
+            }
+            self.ways[k] += self.speeds[k] * self.dt - held * self.dt * self.dt;
+            self.speeds[k] -= mean * self.dt;
+        }
+        self.forces.copy_from_slice(&self.next);
+        for (largest, &force) in self.largest.iter_mut().zip(&self.forces) {
+            *largest = force.max(*largest);
+        }
+    }
+
+    /// Whether every contact is open and opening further, or has nothing left to push.
+    #[inline(always)]
+    pub(super) fn have_parted(&self, state: &BankState, flight: &Flight, t: f64) -> bool {
+        let plan = self.plan;
+        if self.forces.iter().any(|&f| f > 0.0) {
+            return false;
+        }
+        plan.sites.iter().enumerate().all(|(k, site)| {
+            if self.weakness[k].is_infinite() {
+                return true;
+            }
+            if let Some([_, duration]) = site.script {
+                return t >= duration;
+            }
+            // ω q and q̇ are felt alike.
+            let give: f64 = (plan.gap[k].iter().zip(&plan.oscillators).zip(&state.v))
+                .map(|((gap, (w, _)), v)| gap * w * v)
+                .sum();
+            self.speeds[k] < give + flight.gap_speed(k)
+        })
+    }
+}
