@@ -5,8 +5,10 @@ use std::time::Duration;
 use crate::common::{Log, app, app_in, ball, bodies, body, ready};
 use avian3d::prelude::*;
 use bevy::prelude::*;
-use bevy_frangible::BreakableBody;
 use bevy_frangible::prelude::*;
+use bevy_frangible::{BreakableBody, Fracturing};
+use frangible::Asset as Baked;
+use frangible::internals::Fields;
 
 fn said(log: &Log, words: &str) -> bool {
     log.lines().iter().any(|line| line.contains(words))
@@ -62,6 +64,35 @@ fn a_file_of_a_newer_version_says_so() {
     body(&mut app, "newer", Transform::default());
     hear(&mut app, &log, "its format is 9999");
     std::fs::remove_dir_all(folder).unwrap();
+}
+
+#[test]
+fn numbers_that_make_no_strength_are_named() {
+    let baked = || Baked::load(&bodies().join("pane.frangible")).unwrap();
+    let mut soft = baked();
+    soft.material.fracture_energy = 0.0;
+    let refused = FrangibleAsset::new(soft).err().unwrap().to_string();
+    assert!(refused.contains("fracture energy"), "{refused}");
+    let kind = FrangibleAsset::new(baked()).unwrap().0;
+    for (name, spoil) in [
+        ("specimen", (|f| f.specimen = 0.0) as fn(&mut Fields)),
+        ("specimen", |f| f.specimen = f64::INFINITY),
+        ("Weibull modulus", |f| f.weibull_modulus = 0.5),
+        ("fatigue exponent", |f| {
+            f.fatigue.as_mut().unwrap().exponent = 0.0;
+        }),
+    ] {
+        let mut fields = Fields::of_material(&kind.asset().material);
+        spoil(&mut fields);
+        let refused = kind.clone().with_fields(fields).err().unwrap().to_string();
+        assert!(refused.contains(name), "{refused}");
+    }
+    let (mut app, log) = app();
+    let pane = body(&mut app, "pane", Transform::default());
+    ready(&mut app, pane);
+    app.world_mut().resource_mut::<Fracturing>().0.load_duration = f64::NAN;
+    app.world_mut().trigger(blow(pane, Vec3::Z * 3.0));
+    hear(&mut app, &log, "`load_duration`");
 }
 
 #[test]

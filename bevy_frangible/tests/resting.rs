@@ -4,14 +4,19 @@ use crate::common::{Log, app, body, ready};
 use avian3d::prelude::*;
 use bevy::prelude::*;
 use bevy_frangible::prelude::*;
-use bevy_frangible::{BreakableBody, Broken, Carries};
+use bevy_frangible::{BreakableBody, Broken, Carries, Fracturing};
 use frangible::glam;
 use frangible::internals::{Force, rest};
 use frangible::{FractureConfig, Outcome};
 
-/// A shelf, and a cube that lies at its free end and weighs so many times what the shelf can just carry there.
-fn loaded(share: f32) -> (App, Log, Entity) {
+/// A shelf, and a cube that lies at its free end and weighs so many times what the shelf can just carry there for a second. It is taken to have
+/// lain there so many seconds.
+fn loaded(share: f32, seconds: f64) -> (App, Log, Entity) {
     let (mut app, log) = app();
+    let mut config = FractureConfig::default();
+    assert_eq!(config.load_duration, 1.0);
+    config.load_duration = seconds;
+    app.insert_resource(Fracturing(config));
     let shelf = body(&mut app, "shelf", Transform::default());
     ready(&mut app, shelf);
     let known = &app.world().get::<BreakableBody>(shelf).unwrap().0;
@@ -56,7 +61,7 @@ fn loaded(share: f32) -> (App, Log, Entity) {
 
 #[test]
 fn a_shelf_carries_half_of_what_breaks_it() {
-    let (app, log, shelf) = loaded(0.5);
+    let (app, log, shelf) = loaded(0.5, 1.0);
     assert!(
         app.world().get::<Broken>(shelf).is_none(),
         "{:?}",
@@ -70,7 +75,7 @@ fn a_shelf_carries_half_of_what_breaks_it() {
 
 #[test]
 fn a_shelf_breaks_under_twice_of_what_breaks_it() {
-    let (app, log, shelf) = loaded(2.0);
+    let (app, log, shelf) = loaded(2.0, 1.0);
     assert!(
         app.world().get::<Broken>(shelf).is_some(),
         "{:?}",
@@ -80,6 +85,16 @@ fn a_shelf_breaks_under_twice_of_what_breaks_it() {
         .map(|f| *app.world().get::<RigidBody>(f).unwrap())
         .collect();
     assert!(kinds.contains(&RigidBody::Static) && kinds.contains(&RigidBody::Dynamic));
+}
+
+#[test]
+fn what_a_shelf_carries_for_a_second_breaks_it_in_years() {
+    let (app, log, shelf) = loaded(0.5, 3e8);
+    assert!(
+        app.world().get::<Broken>(shelf).is_some(),
+        "{:?}",
+        log.lines()
+    );
 }
 
 #[test]

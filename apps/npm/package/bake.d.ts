@@ -5,7 +5,7 @@ import type { Breakable } from './index.js';
 export type MeshInput = BufferGeometry | { positions: ArrayLike<number>; indices?: ArrayLike<number>; normals?: ArrayLike<number>; uvs?: ArrayLike<number> };
 
 export interface BakeOptions {
-  /** Named material, default `'glass'`. */
+  /** Named material, default `'glass'`: handled, as most is; `'glass-new'` and `'glass-abraded'` have another surface. Its strength scatters as the material's does. */
   material?: string;
   name?: string;
   /** Longest side, m. Default: the mesh's unit is the metre. */

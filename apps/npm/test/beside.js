@@ -12,7 +12,7 @@ const BODIES = {
   block: {
     geometry: () => new BoxGeometry(0.2, 0.1, 0.1),
     options: { material: 'concrete' },
-    blow: { point: [0, 0.05, 0], normal: [0, -1, 0], speed: 15, striker: { mass: 1 } },
+    blow: { point: [0, 0.05, 0], normal: [0, -1, 0], speed: 30, striker: { mass: 1 } },
   },
 };
 const ROUNDS = 7;

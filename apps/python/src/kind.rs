@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use frangible::internals::stress::largest_eigenvalue;
-use frangible::internals::{Factors, Fields, ShownStress, Stage, Vibration};
+use frangible::internals::{Factors, Fatigue, Fields, ShownStress, Stage, Vibration};
 use frangible::{Asset, Body, Breakable, Contact, FractureConfig, Material, impact, would_break};
 use frangible_bake::mode_field::mode_on_fracture_mesh;
 use frangible_js::plain;
@@ -174,6 +174,35 @@ impl Kind {
         });
         let mut fields = Fields::clone(kind.fields());
         fields.of_tet = of_tet.collect();
+        let kind = py.detach(|| kind.with_fields(fields)).map_err(refused)?;
+        Ok(Self(Made::Whole(kind)))
+    }
+
+    /// Weibull modulus, volume of the specimen, m³, and exponent, rate, Pa/s, and increase of static fatigue, if its strength falls with time.
+    fn scatter(&self) -> PyResult<(f64, f64, Option<[f64; 3]>)> {
+        let fields = self.whole("does not tell its scatter")?.fields();
+        let fatigue = fields.fatigue.map(|f| [f.exponent, f.rate, f.increase]);
+        Ok((fields.weibull_modulus, fields.specimen, fatigue))
+    }
+
+    /// This kind with such numbers in the place of its own.
+    fn with_scatter(
+        &self,
+        py: Python<'_>,
+        weibull_modulus: f64,
+        specimen: f64,
+        fatigue: Option<[f64; 3]>,
+    ) -> PyResult<Self> {
+        let kind = self
+            .whole("has the scatter of the body that it comes from")?
+            .clone();
+        let mut fields = Fields::clone(kind.fields());
+        (fields.weibull_modulus, fields.specimen) = (weibull_modulus, specimen);
+        fields.fatigue = fatigue.map(|[exponent, rate, increase]| Fatigue {
+            exponent,
+            rate,
+            increase,
+        });
         let kind = py.detach(|| kind.with_fields(fields)).map_err(refused)?;
         Ok(Self(Made::Whole(kind)))
     }

@@ -2,8 +2,8 @@
 
 use std::path::PathBuf;
 
-use frangible::Breakable;
 use frangible::glam::{Quat, Vec3};
+use frangible::{Breakable, FractureConfig};
 use frangible_export::write_glb;
 use frangible_recording::write_atomically;
 use frangible_scenes::{
@@ -42,6 +42,7 @@ impl LiveWorld {
         floor: Option<String>,
         seed: u64,
         generations: u32,
+        load_duration: f64,
     ) -> PyResult<Self> {
         let kinds = bodies.iter().map(|body| {
             let kind = body.kind.get().whole("cannot be put into a world")?;
@@ -64,8 +65,11 @@ impl LiveWorld {
         let first = specs.first().cloned();
         let first =
             first.ok_or_else(|| refused("the world has no body; add one before the first step"))?;
+        let mut fracture = FractureConfig::default();
+        fracture.load_duration = load_duration;
         let scene = Scene {
             bodies: specs,
+            fracture,
             floor,
             seed,
             pieces: PieceSpec {

@@ -79,6 +79,8 @@ def test_worlds_refuse_what_they_cannot_use(plate: fr.Body) -> None:
         world.throw((0, 1, 1), (0, 1, 0), 5, mass=-1)
     with pytest.raises(ValueError):
         world.export("/nowhere/at/all.glb")
+    with pytest.raises(ValueError, match="load_duration is -1"):
+        fr.World(load_duration=-1)
     with pytest.raises(ValueError, match="cheese"):
         unknown = fr.World(floor="cheese")
         unknown.add(plate, position=(0, 1, 0))

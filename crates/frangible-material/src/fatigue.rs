@@ -47,16 +47,20 @@ impl Fatigue {
     #[must_use]
     pub fn left_after(&self, duration: f64, strength: f64, material: f64) -> f64 {
         let n = self.exponent;
-        let slow = material / self.increase;
-        let least = libm::pow(self.increase, n - 2.0) - 1.0;
-        let b = slow.powi(3) / ((n + 1.0) * self.rate * least);
-        let c = strength * strength * duration / b;
-        // (n − 2) y + ln(1 + c e^(2y)) = 0 rises and is convex, so Newton's steps from 0 come down to its root and never pass it.
+        // In logarithms, as the power of a large exponent has no number.
+        let increase = libm::log(self.increase);
+        let least = (n - 2.0) * increase + libm::log1p(-libm::exp((2.0 - n) * increase));
+        let slow = libm::log(material) - increase;
+        let b = 3.0 * slow - libm::log(n + 1.0) - libm::log(self.rate) - least;
+        let c = 2.0 * libm::log(strength) + libm::log(duration) - b;
+        // (n − 2) y + ln(1 + e^(c + 2y)) = 0 rises and is convex, so Newton's steps from 0 come down to its root and never pass it.
         let mut y = 0.0;
         for _ in 0..20 {
-            let grown = c * libm::exp(2.0 * y);
-            let value = (n - 2.0) * y + libm::log1p(grown);
-            y -= value / (n - 2.0 + 2.0 * grown / (1.0 + grown));
+            let grown = c + 2.0 * y;
+            let small = libm::exp(-grown.abs());
+            let share = if grown > 0.0 { 1.0 } else { small } / (1.0 + small);
+            let value = (n - 2.0) * y + grown.max(0.0) + libm::log1p(small);
+            y -= value / (n - 2.0 + 2.0 * share);
         }
         libm::exp(y)
     }
@@ -94,6 +98,29 @@ mod tests {
             "{ratio}"
         );
         assert!((0.2..0.5).contains(&left(3.15e7)), "{}", left(3.15e7));
+    }
+
+    #[test]
+    fn no_number_that_is_allowed_gives_none() {
+        for (exponent, rate, increase) in [
+            (16.0, 2e6, 1.52),
+            (200.0, f64::MIN_POSITIVE, 100.0),
+            (200.0, f64::MAX, 100.0),
+            (2.0 + 1e-12, 1e6, 1.0 + 1e-12),
+        ] {
+            let fatigue = Fatigue {
+                exponent,
+                rate,
+                increase,
+            };
+            fatigue.validate().unwrap();
+            for duration in [0.0, f64::MIN_POSITIVE, 1.0, f64::MAX] {
+                for (strength, material) in [(1e-3, 1e12), (1e12, 1e-3)] {
+                    let left = fatigue.left_after(duration, strength, material);
+                    assert!((0.0..=1.0).contains(&left), "{left} of {fatigue:?}");
+                }
+            }
+        }
     }
 
     #[test]

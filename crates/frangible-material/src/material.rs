@@ -54,8 +54,9 @@ impl Material {
     pub fn validate(&self) -> Result<(), OutOfRange> {
         positive("Young's modulus", self.youngs_modulus, "Pa")?;
         positive("density", self.density, "kg/m³")?;
-        positive("tensile strength", self.strength, "Pa")?;
+        // Before the strength, which may have followed from it.
         positive("fracture energy", self.fracture_energy, "J/m²")?;
+        positive("tensile strength", self.strength, "Pa")?;
         positive("energy depth", self.energy_depth, "m")?;
         positive("roughness wavelength", self.roughness_wavelength, "m")?;
         positive("weak point density", self.weak_point_density, "1/m³")?;

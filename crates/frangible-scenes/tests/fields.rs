@@ -6,7 +6,7 @@ use crate::common::{
     block, blow, glass, mean, pane, pane_hit, pieces, rim_hit, steel_ball, stone_floor,
 };
 use frangible::glam::Vec3;
-use frangible::internals::{Factors, Fields, Preset, impact_traced};
+use frangible::internals::{Factors, Fatigue, Fields, Preset, impact_traced};
 use frangible::{Asset, Body, Breakable, Contact, FractureConfig, InputError, Outcome, impact};
 use frangible_bake::weakness::{self, Patch, Zone};
 use frangible_scenes::{bake, scene};
@@ -171,6 +171,18 @@ fn fields_that_cannot_be_used_are_refused() {
     }
     refused(Fields::default().with_weibull_modulus(0.3), "Weibull");
     refused(Fields::default().with_weibull_modulus(f64::NAN), "Weibull");
+    for volume in [0.0, -1.0, f64::INFINITY] {
+        let mut fields = Fields::default();
+        fields.specimen = volume;
+        refused(fields, "specimen");
+    }
+    let mut fields = Fields::default();
+    fields.fatigue = Some(Fatigue {
+        exponent: 0.0,
+        rate: 2e6,
+        increase: 1.52,
+    });
+    refused(fields, "fatigue exponent");
 }
 
 /// Half width of the scored strip, m.

@@ -277,6 +277,30 @@ fn pieces_drawn_apart_are_farther_from_each_other_and_can_be_selected() {
 }
 
 #[test]
+fn a_scene_whose_numbers_make_no_strength_is_refused() {
+    let path = common::scene_file("strengthless");
+    let pane = std::fs::read_to_string(&path).unwrap();
+    let glass = "material = \"glass\"";
+    for (line, name) in [
+        (
+            "material = { preset = \"glass\", fracture_energy = 0 }",
+            "fracture energy",
+        ),
+        ("specimen = inf", "specimen"),
+        ("weibull_modulus = 0.5", "Weibull modulus"),
+        (
+            "fatigue = { exponent = 0, rate = 2e6, increase = 1.5 }",
+            "fatigue exponent",
+        ),
+    ] {
+        std::fs::write(&path, pane.replace(glass, line)).unwrap();
+        let open = Command::parse(&format!("open {}", path.display())).unwrap();
+        let error = Session::new().apply(open).unwrap_err().to_string();
+        assert!(error.contains(name), "{line}: {error}");
+    }
+}
+
+#[test]
 fn commands_that_make_no_sense_say_what_would() {
     let mut session = Session::new();
     for (line, hint) in [
@@ -319,7 +343,9 @@ fn a_cancelled_bake_leaves_the_session_as_good_as_new() {
 fn what_is_saved_is_what_is_there() {
     let mut session = broken("saved");
     let folder = folder("saved");
-    give(&mut session, "knob toughness 4");
+    for turned in ["toughness 4", "load-duration 60", "sized-flaws 0"] {
+        give(&mut session, &format!("knob {turned}"));
+    }
     for (what, name) in [("glb", "x.glb"), ("scene", "x.toml"), ("report", "x.json")] {
         give(
             &mut session,
@@ -328,6 +354,11 @@ fn what_is_saved_is_what_is_there() {
     }
     let scene = frangible_scenes::read_scene(&folder.join("x.toml")).unwrap();
     assert_eq!(scene.bodies[0].material.fracture_energy, 4.0);
+    let fracture = &scene.fracture;
+    assert_eq!(
+        (fracture.load_duration, fracture.sized_flaws),
+        (60.0, false)
+    );
     let glb = std::fs::read(folder.join("x.glb")).unwrap();
     assert_eq!(&glb[..4], b"glTF");
     let text = std::fs::read_to_string(folder.join("x.json")).unwrap();

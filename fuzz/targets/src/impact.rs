@@ -2,7 +2,7 @@
 
 use frangible::internals::asset::{scaled, with_material};
 use frangible::internals::contact::SharedMass;
-use frangible::internals::{Blast, Factors, Fields, Force, blast, fracture_at, rest};
+use frangible::internals::{Blast, Factors, Fatigue, Fields, Force, blast, fracture_at, rest};
 use frangible::{
     Asset, Body, Breakable, Contact, FractureConfig, InputError, Material, Outcome, Striker,
     would_break,
@@ -58,6 +58,13 @@ fn body(draw: &mut Draw<'_>) -> Option<Body> {
         if draw.flag() {
             fields.weibull_modulus = draw.size(1.0, 50.0);
             fields.specimen = draw.size(1e-7, 1e-2);
+            if draw.flag() {
+                fields.fatigue = Some(Fatigue {
+                    exponent: draw.size(3.0, 100.0),
+                    rate: draw.size(1e3, 1e12),
+                    increase: draw.size(1.01, 10.0),
+                });
+            }
         }
         if draw.below(16) == 15 {
             fields.of_tet.truncate(draw.below(200));
@@ -178,7 +185,12 @@ fn load(draw: &mut Draw<'_>, body: &Body, config: &FractureConfig) -> Result<Out
                     force: draw.direction() * draw.size(0.1, 1e5) as f32,
                 })
                 .collect();
-            rest(body, &forces, draw.vector(10.0), config)
+            let gravity = draw.vector(10.0);
+            let mut config = config.clone();
+            if draw.flag() {
+                config.load_duration = draw.size(1e-6, 1e10);
+            }
+            rest(body, &forces, gravity, &config)
         }
         6 => {
             let push = draw.direction() * draw.size(1e-3, 100.0) as f32;

@@ -5,7 +5,7 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty, StringProperty
 
 BRITTLE = [
-    ("glass", "Glass", "Annealed window glass, bottles and tumblers"),
+    ("glass", "Glass", "Annealed window glass, bottles and tumblers, handled as most are"),
     ("porcelain", "Porcelain", "Cups, plates and piggy banks"),
     ("brick", "Brick", "Fired clay"),
     ("concrete", "Concrete", "Normal concrete without reinforcement"),
@@ -14,6 +14,9 @@ BRITTLE = [
     ("sugar", "Sugar", "Boiled sweets and stunt bottles"),
     ("chocolate", "Chocolate", "Dark chocolate at room temperature"),
     ("pmma", "Acrylic", "Cast acrylic sheet"),
+    # A .blend file remembers the place in this list: what is new comes last.
+    ("glass-new", "Glass, new", "With the surface that it left the factory with"),
+    ("glass-abraded", "Glass, worn", "Old windows, and tumblers after years of use"),
 ]
 STRIKING = [
     ("steel", "Steel", "A steel ball"),

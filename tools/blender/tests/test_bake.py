@@ -66,6 +66,14 @@ def test_a_bake_is_made_once_and_again_when_the_mesh_or_a_setting_changes(slab, 
     assert len(bakes) == 3
 
 
+def test_glass_is_as_strong_as_its_surface(slab):
+    strengths = []
+    for material in ("glass-abraded", "glass", "glass-new"):
+        bpy.context.scene.frangible.material = material
+        strengths.append(body_of(slab).body.strength)
+    assert strengths[0] < strengths[1] < strengths[2]
+
+
 def test_a_bake_is_kept_beside_the_blend(slab, bakes, tmp_path):
     settings = bpy.context.scene.frangible
     settings.keep = True

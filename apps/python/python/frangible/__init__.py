@@ -18,7 +18,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from ._frangible import __version__
-from .bodies import Body, bake, box, load, read_mesh
+from .bodies import Body, Fatigue, bake, box, load, read_mesh
 from .contacts import Contact, Striker
 from .outcomes import Fragment, Motion, Outcome
 from .world import Thing, World
@@ -29,6 +29,7 @@ if TYPE_CHECKING:
 __all__ = [
     "Body",
     "Contact",
+    "Fatigue",
     "Fragment",
     "Motion",
     "Outcome",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -16,6 +17,24 @@ from .outcomes import Outcome
 from .weakness import Factor, factors_of
 
 Contacts = Contact | Iterable[Contact]
+
+
+@dataclass(frozen=True)
+class Fatigue:
+    """How strength falls with the time that a load lasts: flaws of glass and ceramics grow slowly in air.
+
+    Attributes:
+        exponent: n of the law of slow crack growth, above 2: glass 16, porcelain 20 to 40.
+        rate: At which the stress rose in the slow test, Pa/s.
+        increase: Inert strength, which is the material's, over that of the slow test, above 1.
+    """
+
+    exponent: float
+    rate: float
+    increase: float
+
+    def _numbers(self) -> list[float]:
+        return [number(value, f"fatigue.{name}") for name, value in vars(self).items()]
 
 
 class Body:
@@ -62,7 +81,7 @@ class Body:
         return f"<Body {self.name!r}: {self.mass:.4g} kg of {self.material}, {self.tetrahedra} tetrahedra, {len(self.frequencies)} modes>"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _of_bytes, (self._kind.to_bytes(), self.scale, self.offset, self._kind.factors())
+        return _of_bytes, (self._kind.to_bytes(), self.scale, self.offset, self._kind.factors(), self._kind.scatter())
 
     @property
     def modes(self) -> Floats:
@@ -105,6 +124,32 @@ class Body:
         if before.size:
             factors *= rows(before, 3)
         return Body(self._kind.with_factors(factors.ravel()), self.scale, self.offset)
+
+    def scattered(self, weibull_modulus: float | None = None, specimen: float | None = None, fatigue: Fatigue | None = None) -> Body:
+        """This body with another scatter of its strength; what is not given stays. A bake gives it its material's.
+
+            >>> import frangible as fr
+            >>> pane = fr.bake(*fr.box(0.2, 0.2, 0.008), material="glass", tetrahedra=4000, modes=40)
+            >>> even = pane.scattered(weibull_modulus=50)
+
+        As after :meth:`weakened`, a ``.frangible`` file has no place for it.
+
+        Args:
+            weibull_modulus: From 1: glass 7, brick 6, fine ceramics 10 to 20; lower scatters more. 0: every weak point is as strong.
+            specimen: Volume of the specimens whose strength is the material's, m³: of bodies that scatter those that are larger are weaker.
+            fatigue: How the strength falls with the time that a load lasts.
+
+        Raises:
+            ValueError: A number that cannot be used, or a piece, which keeps the scatter of its body.
+        """
+        modulus, volume, tired = self._kind.scatter()
+        if weibull_modulus is not None:
+            modulus = number(weibull_modulus, "weibull_modulus")
+        if specimen is not None:
+            volume = number(specimen, "specimen", above=True)
+        if fatigue is not None:
+            tired = fatigue._numbers()
+        return Body(self._kind.with_scatter(modulus, volume, tired), self.scale, self.offset)
 
     def impact(self, contacts: Contacts, seed: int | None = None, least_share: float | None = None) -> Outcome:
         """What a blow does to a whole body.
@@ -161,11 +206,13 @@ class Body:
         """Its ``.frangible`` file.
 
         Raises:
-            ValueError: A piece or a weakened body, which have none.
+            ValueError: A piece or a weakened body, or one with another scatter than its material's, which have none.
         """
         data = self._kind.to_bytes()
         if self._kind.factors().size:
             raise ValueError("a file holds no weakness; save the body before it is weakened, or pickle this one")
+        if self._kind.scatter() != _frangible.Kind.of_bytes(data).scatter():
+            raise ValueError("a file holds no scatter; save the body before it has another one, or pickle this one")
         return data
 
     def save(self, path: str | os.PathLike[str]) -> None:
@@ -197,7 +244,8 @@ def bake(
         vertices: (n, 3), or a mesh file (OBJ, STL, PLY, glTF, GLB), or anything with ``vertices`` and ``faces``, such as a
             ``trimesh.Trimesh``.
         faces: (m, 3) whole numbers. Splits, doubles, turned faces and holes are mended.
-        material: A named material: ``glass``, ``porcelain``, ``brick``, ``concrete``, ``chocolate`` …
+        material: A named material: ``glass`` (handled, as most is; ``glass-new``, ``glass-abraded``), ``porcelain``, ``brick``, ``concrete``,
+            ``chocolate`` …
         name: The body's name.
         size: Longest side, m. By default the mesh's unit is the metre.
         wall: Thickness, m, of a wall along the mesh, instead of what it encloses.
@@ -268,6 +316,7 @@ def _seed(seed: int | None) -> int | None:
     return None if seed is None else seed_of(seed)
 
 
-def _of_bytes(data: bytes, scale: float, offset: ArrayLike, factors: Floats) -> Body:
+def _of_bytes(data: bytes, scale: float, offset: ArrayLike, factors: Floats, scatter: tuple[float, float, list[float] | None]) -> Body:
     kind = _frangible.Kind.of_bytes(data)
+    kind = kind if scatter == kind.scatter() else kind.with_scatter(*scatter)
     return Body(kind.with_factors(factors) if factors.size else kind, scale, offset)

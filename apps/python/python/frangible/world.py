@@ -40,7 +40,7 @@ class World:
         >>> import frangible as fr
         >>> cup = fr.bake(*fr.box(0.06, 0.06, 0.1), material="porcelain", wall=0.004, tetrahedra=8000, modes=60)
         >>> world = fr.World(floor="stone")
-        >>> world.add(cup, position=(0, 1.5, 0), rotation=(0.3, 0.1, 0, 0.948683))
+        >>> world.add(cup, position=(0, 2, 0), rotation=(0.3, 0.1, 0, 0.948683))
         >>> world.step(1.0)
         >>> len(world.things) > 1
         True
@@ -49,15 +49,17 @@ class World:
         floor: Material of the floor at y = 0; None for none.
         seed: Draws all weak points.
         generations: How often pieces break again.
+        load_duration: How long loads that rest have lasted, s: glass that holds for a second may not hold for a year.
 
     Raises:
         ValueError: A number or a name that cannot be used.
     """
 
-    def __init__(self, floor: str | None = "stone", seed: int = 1, generations: int = 0) -> None:
+    def __init__(self, floor: str | None = "stone", seed: int = 1, generations: int = 0, load_duration: float = 1.0) -> None:
         self._floor = floor
         self._seed = seed_of(seed)
         self._generations = int(number(generations, "generations"))
+        self._load_duration = number(load_duration, "load_duration")
         self._bodies: list[dict[str, Any]] = []
         self._live: _frangible.LiveWorld | None = None
 
@@ -104,7 +106,7 @@ class World:
 
     def _begun(self) -> _frangible.LiveWorld:
         if self._live is None:
-            self._live = _frangible.LiveWorld(self._bodies, self._floor, self._seed, self._generations)
+            self._live = _frangible.LiveWorld(self._bodies, self._floor, self._seed, self._generations, self._load_duration)
         return self._live
 
 

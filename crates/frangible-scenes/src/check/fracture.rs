@@ -23,6 +23,15 @@ pub(super) fn check_fracture(config: &FractureConfig) -> Result<(), Fault> {
             "0 or more and below 1",
         ));
     }
+    let duration = config.load_duration;
+    if !(duration.is_finite() && duration >= 0.0) {
+        return Err(quantity(
+            "fracture.load_duration",
+            "how long loads rest",
+            duration,
+            "a finite time, 0 s or more",
+        ));
+    }
     if let DurationModel::AsPrinted { c } = config.duration {
         let must = "above 0 and at most 1000";
         range("fracture.duration", "the constant c", c, 0.0, 1000.0, must)?;

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use frangible::glam::{Quat, Vec3};
-use frangible::internals::{CrackPath, CrackTiming};
+use frangible::internals::{CrackPath, CrackTiming, Fatigue};
 use frangible::{FractureConfig, Material};
 use frangible_bake::weakness::{Channel, Paint, Patch, Zone};
 use frangible_bake::{Shape, Station};
@@ -151,8 +151,35 @@ fn weak_places_are_read_and_mistakes_in_them_named() {
     }
     let message = refused(&format!("{LEAST}weakness = [{{ paint = \"red\" }}]\n"));
     assert!(message.contains("built-in shape"), "{message}");
-    let message = refused(&format!("{LEAST}weibull_modulus = 0.5\n"));
-    assert!(message.contains("Weibull"), "{message}");
+}
+
+#[test]
+fn what_makes_no_strength_is_named() {
+    for (text, words) in [
+        ("weibull_modulus = 0.5", "Weibull modulus is 0.5"),
+        ("specimen = 0", "specimen's volume is 0"),
+        ("specimen = inf", "specimen's volume is inf"),
+        (
+            "fatigue = { exponent = 0, rate = 2e6, increase = 1.5 }",
+            "fatigue exponent is 0",
+        ),
+        (
+            "fatigue = { exponent = 16, rate = 2e6 }",
+            "there must be a key `increase`",
+        ),
+        (
+            "material = { preset = \"glass\", fracture_energy = 0 }",
+            "fracture energy is 0",
+        ),
+    ] {
+        let message = refused(&format!("{LEAST}{text}\n"));
+        assert!(message.contains(words), "{text}: {message}");
+    }
+    for duration in ["-1", "inf"] {
+        let message = refused(&format!("{LEAST}[fracture]\nload_duration = {duration}\n"));
+        let words = format!("line 4: how long loads rest is {duration}");
+        assert!(message.contains(&words), "{message}");
+    }
 }
 
 #[test]

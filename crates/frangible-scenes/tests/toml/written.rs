@@ -51,6 +51,12 @@ pub(crate) fn intricate() -> Scene {
     );
     third.place = Place::Standing { over: [3.0, -2.0] };
     third.weibull_modulus = Some(1e2 / 3.0);
+    third.specimen = Some(1e-5 / 3.0);
+    third.fatigue = Some(Fatigue {
+        exponent: 50.0 / 3.0,
+        rate: 1e6 / 3.0,
+        increase: 4.0 / 3.0,
+    });
     let zones = [
         Zone::Box([Vec3::ZERO, Vec3::new(0.1, -0.2, 1.0 / 3.0)]),
         Zone::Sphere {

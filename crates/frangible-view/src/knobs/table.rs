@@ -44,7 +44,7 @@ macro_rules! switch {
 const DURATIONS: [&str; 4] = ["integrated", "Hertz", "modal Hertz", "as printed"];
 
 /// All knobs, in the order of the panel.
-pub static KNOBS: [Knob; 20] = [
+pub static KNOBS: [Knob; 22] = [
     of_material!(
         "strength",
         "strength R_c",
@@ -257,6 +257,24 @@ pub static KNOBS: [Knob; 20] = [
         green_lagrange,
         "ε = ½(∇u + ∇uᵀ + ∇uᵀ∇u) as in the paper, instead of its linear part"
     ),
+    switch!(
+        "sized-flaws",
+        "flaws with a size",
+        sized_flaws,
+        "a weak point feels the mean stress over a flaw of depth a = (K_Ic / 1.12 R)² / π, instead of that at a point"
+    ),
+    Knob {
+        name: "load-duration",
+        label: "loads rest for",
+        unit: "s",
+        factor: 1.0,
+        range: [1e-3, 1e10],
+        kind: Kind::Factor,
+        rebakes: false,
+        help: "σⁿ t / B = R^(n−2) − S^(n−2): what static fatigue leaves of the strength of glass under a load that rests; blows do not mind it",
+        get: |s| s.fracture.load_duration,
+        set: |s, x| s.fracture.load_duration = x,
+    },
     Knob {
         name: "seed",
         label: "seed",
