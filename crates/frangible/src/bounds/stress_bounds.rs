@@ -8,7 +8,8 @@
 //! The Frobenius norm serves for g: it is never below the spectral norm, and its term is small.
 //!
 //! Stress is looked at where it may be asked for: at each tetrahedron's centre, with the traction across a wall and
-//! without it, and at its flaw on the free surface, without ([`Skin`]). Without traction Hooke's law has λ* = 2λμ/(λ + 2μ)
+//! without it, and at the corners of the face on the free surface that has its flaw, without ([`Skin`]). The whole face is seen by one element,
+//! whose strain is linear, so that no place of the face has more of any mode, and of its rounding, than a corner. Without traction Hooke's law has λ* = 2λμ/(λ + 2μ)
 //! and the strain in the surface has two principal values, so the quadratic term is at most ½ (2 max(λ*, 0) + 2μ) g², and
 //! 2λ* < 3λ where λ is positive: the same k bounds both. At an edge Young's modulus serves, which is below k too.
 
@@ -56,12 +57,16 @@ impl StressBounds {
                 });
             }
             if let Some(flaw) = skin.flaw(place) {
-                rows.gradients(&flaw.point, &asset.analysis, &asset.modes);
-                rows.raise(stress, gradient, |strain| {
-                    law.free_hooke(strain, flaw.normal)
-                });
-                if let Some(along) = wall.and_then(|wall| wall.edge(flaw.normal)) {
-                    rows.raise(stress, gradient, |strain| law.edge_hooke(strain, along));
+                let along = wall.and_then(|wall| wall.edge(flaw.normal));
+                for corner in [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]] {
+                    let (_, point) = Skin::on_face(asset, flaw, corner);
+                    rows.gradients(&point, &asset.analysis, &asset.modes);
+                    rows.raise(stress, gradient, |strain| {
+                        law.free_hooke(strain, flaw.normal)
+                    });
+                    if let Some(along) = along {
+                        rows.raise(stress, gradient, |strain| law.edge_hooke(strain, along));
+                    }
                 }
             }
         }

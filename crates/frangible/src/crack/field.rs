@@ -92,12 +92,24 @@ impl<'a> StressField<'a> {
         wall_of(self.asset, self.skin, self.config, e)
     }
 
+    /// Where a crack may start in fracture tetrahedron `e`.
+    #[inline(always)]
+    fn weak_place(&self, e: usize) -> WeakPlace {
+        let places = &self.body.places;
+        weak_place(self.asset, self.skin, places, self.config, self.pressed, e)
+    }
+
+    /// Where that is, m.
+    pub(super) fn weak_position(&self, e: usize) -> Vec3 {
+        self.weak_place(e).position(self.body, e)
+    }
+
     /// Outward normal of the face of the wall that a crack opens from which starts in fracture tetrahedron `e`; zero where its flaw
     /// lies on no face of a wall.
     pub(crate) fn opens(&self, e: usize) -> Vec3 {
-        let weak = weak_place(self.asset, self.skin, self.config, self.pressed, e);
+        let weak = self.weak_place(e);
         match (weak.law, weak.wall) {
-            (Law::Free(normal), Some(_)) if weak.on_surface => normal,
+            (Law::Free(normal), Some(_)) if weak.flaw.is_some() => normal,
             _ => Vec3::ZERO,
         }
     }
@@ -120,11 +132,11 @@ impl<'a> StressField<'a> {
     /// Stress and energy where a crack may start in fracture tetrahedron `e`, its [`weak_place`], at all steps of the batch.
     #[inline(always)]
     pub(crate) fn at_weak_point(&mut self, e: usize) -> StressLanes {
-        let weak = weak_place(self.asset, self.skin, self.config, self.pressed, e);
+        let weak = self.weak_place(e);
         if self.config.sized_flaws && self.body.flaw_depth(e as u32) > 0.0 {
             return self.mean(&weak.row_point(self.body, self.config, e));
         }
-        let gradients = self.displacement.gradients(self.asset, weak.point);
+        let gradients = self.displacement.gradients(self.asset, &weak.point);
         let mut lanes = self.elasticity.lanes(&gradients, weak.law);
         if let (Law::Free(_), Some(wall)) = (weak.law, &weak.wall)
             && !self.near.0.is_empty()
@@ -166,7 +178,7 @@ impl<'a> StressField<'a> {
 
     /// Whether the weak point of fracture tetrahedron `e` lies on a free surface.
     pub(super) fn is_on_surface(&self, e: usize) -> bool {
-        weak_place(self.asset, self.skin, self.config, self.pressed, e).on_surface
+        self.weak_place(e).flaw.is_some()
     }
 
     /// Whether something presses on the flaw of fracture tetrahedron `e`.
@@ -212,7 +224,7 @@ impl<'a> StressField<'a> {
                 (image.clone(), image.frame.stress(numbers))
             }
             _ => {
-                let weak = weak_place(self.asset, self.skin, self.config, self.pressed, e);
+                let weak = self.weak_place(e);
                 let image = weak.opposite(self.body, self.config, e)?;
                 if !image.samples.is_empty() {
                     return Some(self.mean(&image));
@@ -259,10 +271,7 @@ impl<'a> StressField<'a> {
 /// A point of the body moved by a little, m, seen by the same analysis element.
 fn shifted(asset: &Asset, point: &EmbeddedPoint, by: Vec3) -> EmbeddedPoint {
     let gradients = &asset.analysis.barycentric_gradients[point.element as usize];
-    EmbeddedPoint {
-        barycentric: std::array::from_fn(|k| point.barycentric[k] + gradients[k].dot(by)),
-        ..*point
-    }
+    point.moved(gradients, by)
 }
 
 /// What a crack feels in a tetrahedron.
@@ -348,7 +357,7 @@ impl Felt {
     }
 }
 
-impl WeakPlace<'_> {
+impl WeakPlace {
     /// What rows are made of. `e`: its tetrahedron.
     pub(crate) fn row_point(&self, body: &Body, config: &FractureConfig, e: usize) -> RowPoint {
         let place = self.position(body, e);
@@ -367,7 +376,7 @@ impl WeakPlace<'_> {
             }
         };
         RowPoint {
-            point: *self.point,
+            point: self.point,
             law: self.law,
             frame: Frame::of(self.law, self.wall.as_ref()),
             place,
@@ -396,7 +405,7 @@ impl WeakPlace<'_> {
         }
         let by = across(&wall, here.place);
         Some(RowPoint {
-            point: shifted(&body.asset, self.point, by),
+            point: shifted(&body.asset, &self.point, by),
             place: here.place + by,
             ..here
         })
@@ -405,8 +414,6 @@ impl WeakPlace<'_> {
     /// Where it is, m. `e`: its tetrahedron.
     #[inline(always)]
     pub(crate) fn position(&self, body: &Body, e: usize) -> Vec3 {
-        let flaw = body.prepared.skin.flaw_position(body.asset.place(e));
-        let flaw = flaw.filter(|_| self.on_surface);
-        flaw.unwrap_or(body.prepared.centroids[e])
+        self.flaw.unwrap_or(body.prepared.centroids[e])
     }
 }

@@ -193,7 +193,7 @@ impl Releases {
                 None => STRETCHED,
             };
             Point {
-                memory: Memory::new(system.centroids[suspect.tet as usize], beta),
+                memory: Memory::new(field.weak_position(suspect.tet as usize), beta),
                 held_in: None,
                 held: 0,
                 changed: true,

@@ -75,6 +75,7 @@ impl Crack {
         let junction = |j: &Junction| (j.from, j.own);
         OldCrack {
             start: self.start,
+            origin: self.frame.origin,
             normal: self.frame.normal,
             cuts: self.elements.iter().map(cut).collect(),
             settled: self.settled as u32,

@@ -127,7 +127,7 @@ impl<'a> CrackSystem<'a> {
         let id = self.cracks.len() as u32;
         self.old_cracks += 1;
         let frame = CrackFrame::new(
-            self.centroids[old.start as usize],
+            old.origin,
             old.normal,
             material.roughness_amplitude,
             material.roughness_wavelength,
