@@ -11,7 +11,7 @@
 //! `single`: one crack starts in the middle of the pane under a tension or a bending that is the same everywhere, at 0, 15, … 90° to the side
 //! of the pane: how far its path turns from where it should run, and how fast it runs.
 //!
-//! Options: `mesh` (seed of the fracture mesh), `tets` (how many, about), `modes`, `spot` (the ball hits up to so far from the middle, m), `bend` (1:
+//! Options: `mesh` (seed of the fracture mesh), `tets` (how many, about), `modes`, `after` (seeds begin after this one), `spot` (the ball hits up to so far from the middle, m), `bend` (1:
 //! bending instead of tension).
 
 use std::collections::BTreeMap;
@@ -152,9 +152,11 @@ fn hit(seeds: u64, speed: f64, options: &Options) -> Result<()> {
     let steel = Material::preset("steel")?;
     let config = FractureConfig::default();
     let spot = options.get("spot", 0.0);
+    let first = options.get("after", 0.0) as u64;
     let breaks: Vec<Break> = (1..=seeds)
         .into_par_iter()
         .map(|seed| {
+            let seed = seed + first;
             let body = kind.body(seed);
             // Two sequences that fill a square evenly.
             let off = |share: f64| (spot * (2.0 * (seed as f64 * share).fract() - 1.0)) as f32;
@@ -388,7 +390,11 @@ fn run(
     let time_step = 0.3 / speed / steps as f64;
     let motion = Motion::new(q.repeat(steps), 6, 1e9, 1e9);
     let (_, trace) = follow_traced(&body, &motion, &[], time_step, config).expect("a motion");
-    let origin = mesh.centroid(start);
+    let first = cuts(asset, &trace).min_by(|a, b| a.time.total_cmp(&b.time));
+    let Some(first) = first else {
+        return Vec::new();
+    };
+    let origin = first.middle;
     let direction = Vec3::new(cos as f32, sin as f32, 0.0);
     let mut arms = Vec::new();
     for arm in [1.0_f32, -1.0] {

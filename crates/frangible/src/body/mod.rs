@@ -209,7 +209,10 @@ impl Body {
     /// A part of this body.
     pub(crate) fn part(&self, mut asset: Asset, weak_tets: Vec<u32>, state: BodyState) -> Self {
         let prepared = match asset.portion.clone() {
-            Some(portion) => Arc::new(Prepared::of_piece(&mut asset, &portion, self.root())),
+            Some(portion) => {
+                let (root, places) = (self.root(), &self.places);
+                Arc::new(Prepared::of_piece(&mut asset, &portion, root, places))
+            }
             None => Arc::clone(&self.prepared),
         };
         let resistance = self.resistance.of_part(&weak_tets);

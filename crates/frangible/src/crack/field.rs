@@ -60,18 +60,20 @@ impl<'a> StressField<'a> {
         }
     }
 
-    /// What a crack feels in fracture tetrahedron `e`: in a solid the stress and energy at its centroid, in a wall the stress on both faces
-    /// beside it and the mean of the energy through the wall. The centroids of the three tetrahedra that fill a prism of one layer lie at a
-    /// quarter of the thickness from its middle, in it and at a quarter again: they would show half of what bending holds.
-    pub(crate) fn at(&mut self, e: usize) -> Felt {
+    /// What a crack feels in fracture tetrahedron `e`, where it cuts it, m: in a solid the stress and energy there, in a wall the stress on
+    /// both faces beside it and the mean of the energy through the wall. At the centroid, which lies up to an edge beside the crack, the stress about a
+    /// contact is another: arms would be turned to where the mesh has its tetrahedra.
+    pub(crate) fn at(&mut self, e: usize, place: Vec3) -> Felt {
+        let aside = place - self.centroids[e];
+        let centre = shifted(self.asset, self.asset.embedded_tet(e), aside);
         let Some(wall) = self.wall(e) else {
-            let gradient = self.gradient(self.asset.embedded_tet(e));
+            let gradient = self.gradient(&centre);
             return Felt {
                 state: self.elasticity.state(gradient),
                 wall: None,
             };
         };
-        let faces = self.on_faces(e, &wall);
+        let faces = self.on_faces(place, &centre, &wall);
         // Stress is linear through the wall, and energy quadratic: Simpson's rule is exact.
         let middle = faces[0].plus(&faces[1]).scaled(0.5);
         let [front, back, middle] =
@@ -114,15 +116,14 @@ impl<'a> StressField<'a> {
         }
     }
 
-    /// Stress on the two faces of a wall beside the centroid of fracture tetrahedron `e`.
-    fn on_faces(&mut self, e: usize, wall: &Wall) -> [Symmetric3; 2] {
-        let centre = self.asset.embedded_tet(e);
-        let distances = wall.distances(self.centroids[e]);
+    /// Stress on the two faces of a wall beside a place in it, m, which the analysis mesh sees as `centre`.
+    fn on_faces(&mut self, place: Vec3, centre: &EmbeddedPoint, wall: &Wall) -> [Symmetric3; 2] {
+        let distances = wall.distances(place);
         distances.map(|distance| {
             let up = wall.normal * distance;
             let gradient = self.gradient(&shifted(self.asset, centre, up));
             let stress = self.elasticity.free_state(gradient, wall.normal).stress;
-            match self.near.at(self.centroids[e] + up, wall, self.step) {
+            match self.near.at(place + up, wall, self.step) {
                 Some(near) => stress.plus(&near),
                 None => stress,
             }

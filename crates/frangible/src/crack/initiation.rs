@@ -10,6 +10,7 @@
 
 use glam::Vec3;
 
+use super::arrival::{Entered, Source};
 use super::field::StressField;
 use super::single::ElementCut;
 use super::surface::CrackFrame;
@@ -215,6 +216,10 @@ fn try_start(system: &mut CrackSystem, field: &mut StressField, suspect: &Suspec
             opens: field.opens(e as usize),
             time: now,
         },
+        &Entered::at_start(Source {
+            place: centre,
+            since: now,
+        }),
         area,
         f64::from(area) * gain,
     );

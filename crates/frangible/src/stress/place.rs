@@ -18,9 +18,12 @@ pub(crate) struct Places {
 }
 
 impl Places {
+    /// Weights of the corners of a face at its middle.
+    pub(crate) const MIDDLE: [f32; 3] = [1.0 / 3.0; 3];
+
     /// Those of a body with so many fracture tetrahedra; the others' are the middles of their faces.
     pub(crate) fn new(tets: usize, weak_tets: &[u32], seed: u64) -> Self {
-        let mut of_tet = vec![[1.0 / 3.0; 2]; tets];
+        let mut of_tet = vec![[Self::MIDDLE[0]; 2]; tets];
         let mut rng = stream(seed, Purpose::Places, 0);
         for &e in weak_tets {
             let [a, b] = [uniform(&mut rng), uniform(&mut rng)].map(|x| x as f32);
@@ -35,7 +38,7 @@ impl Places {
 
     /// Weights of the corners of the face of a fracture tetrahedron.
     #[inline(always)]
-    fn weights(&self, e: usize) -> [f32; 3] {
+    pub(crate) fn weights(&self, e: usize) -> [f32; 3] {
         let [a, b] = self.of_tet[e];
         [1.0 - a - b, a, b]
     }

@@ -13,6 +13,7 @@
 
 use glam::Vec3;
 
+use super::place::Places;
 use super::wall::{Wall, Walls};
 use crate::asset::{AnalysisMesh, Asset, EmbeddedPoint, Portion};
 use crate::mesh::{NO_NEIGHBOUR, TetMesh};
@@ -123,7 +124,7 @@ impl Skin {
     pub(crate) fn on_face(asset: &Asset, flaw: &Flaw, weights: [f32; 3]) -> (Vec3, EmbeddedPoint) {
         let corners = flaw.corners.map(|v| asset.fracture.positions[v as usize]);
         let at = |w: [f32; 3]| corners[0] * w[0] + corners[1] * w[1] + corners[2] * w[2];
-        let (place, centre) = (at(weights), at([1.0 / 3.0; 3]));
+        let (place, centre) = (at(weights), at(Places::MIDDLE));
         let gradients = &asset.analysis.barycentric_gradients[flaw.point.element as usize];
         (place, flaw.point.moved(gradients, place - centre))
     }
