@@ -38,11 +38,11 @@ fn cracked(bar: &Body, depth: f32) -> Body {
             cuts.extend(x.to_le_bytes());
         }
     }
-    let mut bytes = b"FRCRACK2".to_vec();
+    let mut bytes = b"FRCRACK3".to_vec();
     let mut number = |x: u32| bytes.extend(x.to_le_bytes());
     number(1);
     number(start);
-    for x in [1.0_f32, 0.0, 0.0] {
+    for x in [0.0, 0.0, 0.0, 1.0_f32, 0.0, 0.0] {
         number(x.to_bits());
     }
     for x in [count, 0, 0] {

@@ -8,6 +8,7 @@ mod clipped_render;
 mod common;
 mod core_bodies;
 mod cover;
+mod directions;
 mod embedding;
 mod fronts;
 mod generations;

@@ -58,7 +58,7 @@ fn a_cracked_body_rings_lower() {
     let middle = Vec3::new(0.0, 0.0, 2.5e-3);
     // Of many blows the one with the most crack that parts nothing.
     let (mut most, mut state) = (0.0, None);
-    for seed in 1..=4 {
+    for seed in 1..=8 {
         let body = kind.body(seed);
         for step in 1..=20 {
             let speed = f64::from(step);

@@ -122,7 +122,7 @@ fn no_bound_is_below_the_stress_of_the_skin() {
 }
 
 #[test]
-fn flaws_lie_in_the_middle_of_the_largest_free_face() {
+fn flaws_lie_on_the_largest_free_face() {
     let glass = baked(Shape::drinking_glass(), 1, Vec::new());
     let block = baked(Shape::block([0.06, 0.05, 0.04]), 0, Vec::new());
     for (asset, off) in [(plate(1), 1e-6), (block, 1e-6), (glass, 1e-3)] {

@@ -84,7 +84,7 @@ impl<'a> Wave<'a> {
             * first_largest((0..motion.steps()).map(|step| {
                 batch.seek(&motion, step);
                 let tension = |&((point, law), strength): &((_, _), f32)| {
-                    let gradient = batch.gradient(asset, point, step);
+                    let gradient = batch.gradient(asset, &point, step);
                     let state = elasticity.state_by(gradient, law);
                     f64::from(largest_eigenvalue(&state.stress) / strength)
                 };
@@ -122,7 +122,7 @@ impl Moment<'_> {
     fn state(&mut self, tet: u32, config: &FractureConfig) -> StressState {
         let body = self.wave.hit.body;
         let (point, law) = body.weak_place(tet, config, &self.wave.pressed);
-        let gradient = self.batch.gradient(body.asset(), point, 0);
+        let gradient = self.batch.gradient(body.asset(), &point, 0);
         self.elasticity.state_by(gradient, law)
     }
 }

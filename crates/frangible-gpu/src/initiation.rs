@@ -244,7 +244,7 @@ fn follow(
         displacement.seek(&motion, step);
         for (place, &tet) in body.weak_tets().iter().enumerate() {
             let (point, law) = places[place];
-            let gradient = displacement.gradient(asset, point, step);
+            let gradient = displacement.gradient(asset, &point, step);
             visit(place, tet, step, &elasticity.state_by(gradient, law).stress);
         }
     }

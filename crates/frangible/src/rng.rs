@@ -10,6 +10,7 @@ pub(crate) enum Purpose {
     CrackDirection = 2,
     Roughness = 3,
     Strength = 4,
+    Places = 5,
 }
 
 /// The stream of one item.

@@ -22,11 +22,22 @@ fn kind() -> Breakable {
 
 /// A state whose cracks cut these tetrahedra, with numbers that follow from `k`.
 fn state(cracks: &[Vec<u32>], k: u32) -> Vec<u8> {
-    let mut bytes = b"FRCRACK2".to_vec();
+    let mut bytes = b"FRCRACK3".to_vec();
     let mut number = |x: u32| bytes.extend(x.to_le_bytes());
     number(cracks.len() as u32);
     for cuts in cracks {
-        for x in [cuts[0], 1.0_f32.to_bits(), 0, 0, cuts.len() as u32, 0, 1] {
+        for x in [
+            cuts[0],
+            0,
+            0,
+            0,
+            1.0_f32.to_bits(),
+            0,
+            0,
+            cuts.len() as u32,
+            0,
+            1,
+        ] {
             number(x);
         }
         for (i, &tet) in cuts.iter().enumerate() {
@@ -53,7 +64,7 @@ fn states_that_no_impact_left_are_refused_or_can_be_used() {
         let bytes = state(&[halves.0.to_vec(), halves.1.to_vec()], k);
         let read = BodyState::from_bytes(&bytes).unwrap();
         assert_eq!(read.to_bytes(), bytes);
-        assert_eq!(bytes.len(), 12 + 2 * (28 + 4) + 32 * cuts.len());
+        assert_eq!(bytes.len(), 12 + 2 * (40 + 4) + 32 * cuts.len());
         let mut body = kind.body(u64::from(k));
         if body.set_state(read).is_err() {
             continue;

@@ -14,6 +14,7 @@ mod impact;
 mod layers;
 mod loads;
 mod piece;
+mod places;
 mod principal;
 mod refuse;
 mod rigid;

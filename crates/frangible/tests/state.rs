@@ -117,8 +117,8 @@ fn a_state_survives_its_bytes_and_foreign_ones_are_refused() {
 
 /// A state with one crack through one tetrahedron.
 fn foreign(tet: u32) -> Vec<u8> {
-    let mut bytes = b"FRCRACK2".to_vec();
-    for x in [1, tet, 1.0_f32.to_bits(), 0, 0, 1, 0, 0, tet] {
+    let mut bytes = b"FRCRACK3".to_vec();
+    for x in [1, tet, 0, 0, 0, 1.0_f32.to_bits(), 0, 0, 1, 0, 0, tet] {
         bytes.extend(x.to_le_bytes());
     }
     for x in [-1.0_f32, 1.0, 1.0, 1.0, 1.0, 0.0, 0.0] {

@@ -98,7 +98,7 @@ fn run(
     result.time_step = force.time_step; // line 6
     result.steps = force.steps;
     result.steps_margin = force.margin;
-    let look = Look::new(&solid, options.surface_flaws, &force.pressed);
+    let look = Look::new(&solid, body, options.surface_flaws, &force.pressed);
     let mut marked = vec![None; body.asset().fracture.tets.len()];
     let mut before = vec![DVec3::ZERO; solid.displacements(&amplitudes(&solid, &force, 1)).len()];
     for step in 0..force.steps {

@@ -1,12 +1,13 @@
 //! Beyond the paper: the stress of a weak element at its flaw on the free surface, and in thin walls.
 //!
-//! Where a point of the surface lies in the analysis mesh, and which elements are walls, is taken from `frangible` as its
-//! embedded centroids are; which face holds the flaw, and the stress there, are found anew.
+//! Where a point of the surface lies in the analysis mesh, where on its face a flaw lies, and which elements are walls, is taken from
+//! `frangible` as its embedded centroids are; which face holds the flaw, and the stress there, are found anew.
 
-use frangible::Material;
 use frangible::glam::DVec3;
+use frangible::internals::asset::EmbeddedPoint;
 use frangible::internals::mesh::NO_NEIGHBOUR;
 use frangible::internals::stress::Skin;
+use frangible::{Body, FractureConfig, Material};
 
 use crate::reference::body::Solid;
 use crate::reference::stress::{Matrix, hooke, strain};
@@ -16,13 +17,23 @@ pub(crate) enum Look {
     /// At their centres.
     Centres,
     /// At their flaws; `pressed`: surface triangles under a contact.
-    Flaws { skin: Box<Skin>, pressed: Vec<u32> },
+    Flaws {
+        skin: Box<Skin>,
+        pressed: Vec<u32>,
+        /// Where the flaw of each is: drawn by the body's seed.
+        points: Vec<EmbeddedPoint>,
+    },
 }
 
 impl Look {
-    pub(crate) fn new(solid: &Solid, surface_flaws: bool, pressed: &[u32]) -> Self {
+    pub(crate) fn new(solid: &Solid, body: &Body, surface_flaws: bool, pressed: &[u32]) -> Self {
         if surface_flaws {
+            let config = FractureConfig::default();
+            let tets = 0..solid.asset.fracture.tets.len() as u32;
             Self::Flaws {
+                points: tets
+                    .map(|e| body.weak_place(e, &config, pressed).0)
+                    .collect(),
                 skin: Box::new(Skin::of(solid.asset)),
                 pressed: pressed.to_vec(),
             }
@@ -33,7 +44,12 @@ impl Look {
 
     /// Stress (Pa) and energy density (J/m³) of a weak element.
     pub(crate) fn stress(&self, solid: &Solid, u: &[DVec3], e: usize) -> (Matrix, f64) {
-        let Self::Flaws { skin, pressed } = self else {
+        let Self::Flaws {
+            skin,
+            pressed,
+            points,
+        } = self
+        else {
             return crate::reference::stress::stress(
                 solid.material,
                 &solid.gradient(u, e),
@@ -45,8 +61,8 @@ impl Look {
         let face = largest_free_face(solid, e);
         let flaw = face.filter(|(triangle, _)| !pressed.contains(triangle));
         match (flaw.zip(skin.flaw(e)), across) {
-            (Some(((_, n), flaw)), across) => {
-                let strain = strain(&solid.gradient_at(u, &flaw.point), solid.strain);
+            (Some(((_, n), _)), across) => {
+                let strain = strain(&solid.gradient_at(u, &points[e]), solid.strain);
                 match across.filter(|a| a.dot(n).abs() < 0.5) {
                     Some(a) => free_of_two(solid.material, &strain, n, a),
                     None => free_of_one(solid.material, &strain, n),

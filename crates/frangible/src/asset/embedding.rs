@@ -27,6 +27,17 @@ pub struct Embedding {
 }
 
 impl EmbeddedPoint {
+    /// The point moved by a little, m, seen by the same element; `barycentric_gradients`: of that element, 1/m.
+    #[inline(always)]
+    pub(crate) fn moved(&self, barycentric_gradients: &[Vec3; 4], by: Vec3) -> Self {
+        let own = self.barycentric.iter().zip(barycentric_gradients);
+        let mut moved = *self;
+        for (to, (l, g)) in moved.barycentric.iter_mut().zip(own) {
+            *to = l + g.dot(by);
+        }
+        moved
+    }
+
     /// N_a of the element's ten quadratic shape functions at its point closest to this one.
     #[must_use]
     pub fn shape_values(&self) -> [f32; 10] {

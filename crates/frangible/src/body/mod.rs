@@ -19,7 +19,7 @@ use crate::fields::{Fields, Resistance, Toughness};
 use crate::mesh::SurfacePoint;
 use crate::rng::{Purpose, stream, uniform};
 use crate::state::BodyState;
-use crate::stress::{Law, WeakRows, weak_place};
+use crate::stress::{Law, Places, WeakRows, weak_place};
 use crate::tips::{CrackFront, Tip, fronts, tips};
 
 pub(crate) use mesh_index::MeshIndex;
@@ -129,6 +129,7 @@ impl Breakable {
             resistance,
             clusters: WeakClusters::default(),
             rows: Arc::default(),
+            places: Places::new(asset.fracture.tets.len(), &weak_tets, seed),
             seed,
             weak_tets,
             state: BodyState::default(),
@@ -147,6 +148,8 @@ pub struct Body {
     pub(crate) clusters: WeakClusters,
     /// How the modes stress its weak points; its copies share it.
     pub(crate) rows: Arc<WeakRows>,
+    /// Where its flaws lie.
+    pub(crate) places: Places,
     /// Seed of its weak points and of the roughness of its cracks.
     seed: u64,
     weak_tets: Vec<u32>,
@@ -206,7 +209,10 @@ impl Body {
     /// A part of this body.
     pub(crate) fn part(&self, mut asset: Asset, weak_tets: Vec<u32>, state: BodyState) -> Self {
         let prepared = match asset.portion.clone() {
-            Some(portion) => Arc::new(Prepared::of_piece(&mut asset, &portion, self.root())),
+            Some(portion) => {
+                let (root, places) = (self.root(), &self.places);
+                Arc::new(Prepared::of_piece(&mut asset, &portion, root, places))
+            }
             None => Arc::clone(&self.prepared),
         };
         let resistance = self.resistance.of_part(&weak_tets);
@@ -214,6 +220,7 @@ impl Body {
         Self {
             clusters: WeakClusters::default(),
             rows: Arc::default(),
+            places: self.places.clone(),
             asset: Arc::new(asset),
             prepared,
             resistance,
@@ -322,9 +329,9 @@ impl Body {
         tet: u32,
         config: &FractureConfig,
         pressed: &[u32],
-    ) -> (&EmbeddedPoint, Law) {
-        let skin = &self.prepared.skin;
-        let place = weak_place(&self.asset, skin, config, pressed, tet as usize);
+    ) -> (EmbeddedPoint, Law) {
+        let (skin, places) = (&self.prepared.skin, &self.places);
+        let place = weak_place(&self.asset, skin, places, config, pressed, tet as usize);
         (place.point, place.law)
     }
 

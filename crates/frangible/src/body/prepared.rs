@@ -10,7 +10,7 @@ use crate::asset::{Asset, Portion, StressBounds};
 use crate::bounds::{PerImpulse, PerNewton, Reaches, quadratic_modulus};
 use crate::mesh::{Boundary, RenderIndex, TriangleTree};
 use crate::modal::ModalBasis;
-use crate::stress::Skin;
+use crate::stress::{Places, Skin};
 
 /// What follows from an asset and every impact needs.
 #[derive(Debug)]
@@ -57,7 +57,7 @@ impl Prepared {
         let modes = &asset.modes;
         let skin = Skin::of(asset);
         let bounds = if asset.bounds.is_empty() {
-            StressBounds::with_skin(asset, &skin)
+            StressBounds::with_skin(asset, &skin, None).0
         } else {
             asset.bounds.clone()
         };
@@ -95,12 +95,17 @@ impl Prepared {
         }
     }
 
-    /// The numbers of a piece, whose modes lack only the peak of their stress. `root`: those of the body as it was baked.
-    pub(crate) fn of_piece(asset: &mut Asset, portion: &Portion, root: &Arc<Self>) -> Self {
+    /// The numbers of a piece, whose modes lack only the peak of their stress. `root`: those of the body as it was baked; `places`: where its flaws are.
+    pub(crate) fn of_piece(
+        asset: &mut Asset,
+        portion: &Portion,
+        root: &Arc<Self>,
+        places: &Places,
+    ) -> Self {
         let skin = Skin::of_piece(asset, portion, &root.skin);
-        let bounds = StressBounds::with_skin(asset, &skin);
+        let (bounds, peak_stress) = StressBounds::with_skin(asset, &skin, Some(places));
         let whole = bounds.root(asset.modes.count());
-        asset.modes.peak_stress.clone_from(&whole.0);
+        asset.modes.peak_stress = peak_stress;
         let reaches = Reaches::new(&asset.modes);
         Self {
             root: Some(Arc::clone(root)),

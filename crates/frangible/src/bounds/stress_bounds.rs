@@ -8,7 +8,8 @@
 //! The Frobenius norm serves for g: it is never below the spectral norm, and its term is small.
 //!
 //! Stress is looked at where it may be asked for: at each tetrahedron's centre, with the traction across a wall and
-//! without it, and at its flaw on the free surface, without ([`Skin`]). Without traction Hooke's law has λ* = 2λμ/(λ + 2μ)
+//! without it, and at the corners of the face on the free surface that has its flaw, without ([`Skin`]). The whole face is seen by one element,
+//! whose strain is linear, so that no place of the face has more of any mode, and of its rounding, than a corner. A piece's flaws are settled. Without traction Hooke's law has λ* = 2λμ/(λ + 2μ)
 //! and the strain in the surface has two principal values, so the quadratic term is at most ½ (2 max(λ*, 0) + 2μ) g², and
 //! 2λ* < 3λ where λ is positive: the same k bounds both. At an edge Young's modulus serves, which is below k too.
 
@@ -18,7 +19,7 @@ use crate::asset::{AnalysisMesh, Asset, EmbeddedPoint, StressBounds};
 use crate::material::Material;
 use crate::mesh::TetMesh;
 use crate::modal::ModalBasis;
-use crate::stress::{Elasticity, Lanes, Skin, Symmetric3, Wide};
+use crate::stress::{Elasticity, Lanes, Places, Skin, Symmetric3, Wide};
 
 /// Most tetrahedra of a cluster.
 const CLUSTER: usize = 256;
@@ -27,49 +28,64 @@ const CLUSTER: usize = 256;
 /// times ε/2 = 6e-8, since the errors of a sum of n terms grow as √n, and n is about a hundred.
 const ROUNDING: f32 = 1.2e-6;
 
+/// Weights of a face's corners at each of them.
+const CORNERS: [[f32; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+
 impl StressBounds {
     /// Finds the bounds of an asset from its other arrays.
     #[must_use]
     pub fn of(asset: &Asset) -> Self {
-        Self::with_skin(asset, &Skin::of(asset))
+        Self::with_skin(asset, &Skin::of(asset), None).0
     }
 
-    /// Finds the bounds of an asset whose skin is known.
-    pub(crate) fn with_skin(asset: &Asset, skin: &Skin) -> Self {
+    /// Finds the bounds of an asset whose skin is known, and the peak stress of its modes, Pa per m·√kg: that of the tetrahedra's centres and
+    /// the middles of their free faces. `places`: where its flaws are, if that is settled.
+    pub(crate) fn with_skin(
+        asset: &Asset,
+        skin: &Skin,
+        places: Option<&Places>,
+    ) -> (Self, Vec<f32>) {
         let numbers: Vec<usize> = asset.tets().collect();
         let (cluster_of_tet, clusters) = clusters(&asset.fracture, &numbers);
         let m = asset.modes.count();
-        let mut stress = vec![0.0; clusters * m];
-        let mut gradient = vec![0.0; clusters * m];
+        let mut bounds = Self {
+            cluster_of_tet,
+            stress: vec![0.0; clusters * m],
+            gradient: vec![0.0; clusters * m],
+        };
         let mut rows = Rows::new(m, &asset.material);
         let law = Elasticity::new(&asset.material);
+        let on_face = |rows: &mut Rows, bounds: &mut Self, place: usize, weights: &[[f32; 3]]| {
+            let Some(flaw) = skin.flaw(place) else { return };
+            let wall = skin.wall(asset, numbers[place]);
+            let along = wall.and_then(|wall| wall.edge(flaw.normal));
+            for &weights in weights {
+                let (_, point) = Skin::on_face(asset, flaw, weights);
+                rows.gradients(&point, &asset.analysis, &asset.modes);
+                rows.raise(bounds, place, |strain| law.free_hooke(strain, flaw.normal));
+                if let Some(along) = along {
+                    rows.raise(bounds, place, |strain| law.edge_hooke(strain, along));
+                }
+            }
+        };
         for (place, (&tet, point)) in numbers.iter().zip(&asset.embedding.tets).enumerate() {
-            let cluster = cluster_of_tet[place] as usize;
-            let row = cluster * m..(cluster + 1) * m;
-            let (stress, gradient) = (&mut stress[row.clone()], &mut gradient[row]);
             rows.gradients(point, &asset.analysis, &asset.modes);
-            rows.raise(stress, gradient, |strain| law.hooke(strain));
-            let wall = skin.wall(asset, tet);
-            if let Some(wall) = wall {
-                rows.raise(stress, gradient, |strain| {
+            rows.raise(&mut bounds, place, |strain| law.hooke(strain));
+            if let Some(wall) = skin.wall(asset, tet) {
+                rows.raise(&mut bounds, place, |strain| {
                     law.free_hooke(strain, wall.normal)
                 });
             }
-            if let Some(flaw) = skin.flaw(place) {
-                rows.gradients(&flaw.point, &asset.analysis, &asset.modes);
-                rows.raise(stress, gradient, |strain| {
-                    law.free_hooke(strain, flaw.normal)
-                });
-                if let Some(along) = wall.and_then(|wall| wall.edge(flaw.normal)) {
-                    rows.raise(stress, gradient, |strain| law.edge_hooke(strain, along));
-                }
+            on_face(&mut rows, &mut bounds, place, &[Places::MIDDLE]);
+        }
+        let peak_stress = bounds.root(m).0;
+        for (place, &tet) in numbers.iter().enumerate() {
+            match places {
+                Some(places) => on_face(&mut rows, &mut bounds, place, &[places.weights(tet)]),
+                None => on_face(&mut rows, &mut bounds, place, &CORNERS),
             }
         }
-        Self {
-            cluster_of_tet,
-            stress,
-            gradient,
-        }
+        (bounds, peak_stress)
     }
 }
 
@@ -78,8 +94,8 @@ impl Asset {
     /// mode shapes were changed.
     #[must_use]
     pub fn restressed(mut self) -> Self {
-        self.bounds = StressBounds::of(&self);
-        self.modes.peak_stress = self.bounds.root(self.modes.count()).0;
+        let (bounds, peak_stress) = StressBounds::with_skin(&self, &Skin::of(&self), None);
+        (self.bounds, self.modes.peak_stress) = (bounds, peak_stress);
         self
     }
 }
@@ -198,13 +214,17 @@ impl Rows {
         }
     }
 
-    /// Raises one cluster's rows to this place's values; `law`: stress of a strain, linear in it.
+    /// Raises the bounds of the cluster of the tetrahedron at a place to this point's values; `law`: stress of a strain, linear in it.
     fn raise(
         &self,
-        stress: &mut [f32],
-        gradient: &mut [f32],
+        bounds: &mut StressBounds,
+        place: usize,
         law: impl Fn(&Symmetric3) -> Symmetric3,
     ) {
+        let cluster = bounds.cluster_of_tet[place] as usize;
+        let row = cluster * self.terms.len()..(cluster + 1) * self.terms.len();
+        let stress = &mut bounds.stress[row.clone()];
+        let gradient = &mut bounds.gradient[row];
         let m = stress.len();
         let at = |k: usize, i: usize| self.gradient[k * m + i];
         for i in 0..m {

@@ -12,6 +12,7 @@
 
 use glam::Vec3;
 
+use super::arrival::{Entered, Source};
 use super::field::{Felt, StressField};
 use super::propagation::gradient;
 use super::release::once;
@@ -20,7 +21,7 @@ use super::surface::CrackFrame;
 use super::system::{CrackSystem, UNCUT};
 use crate::config::{CrackPath, CrackTiming};
 use crate::material::Material;
-use crate::state::{crossing_area, crossing_polygon};
+use crate::state::{crossing_area, crossing_middle};
 use crate::stress::Symmetric3;
 
 /// Angle between the two cracks (Yoffe 1951).
@@ -58,8 +59,7 @@ pub(super) fn forks(
     let mesh = &system.asset.fracture;
     let n = cut.tet as usize;
     let crack = &system.cracks[front.crack as usize];
-    let (polygon, corners) = crossing_polygon(&mesh.corners(n), &cut.values);
-    let place = polygon[..corners].iter().sum::<Vec3>() / corners.max(1) as f32;
+    let place = crossing_middle(&mesh.corners(n), &cut.values);
     let (run, since) = latest(crack, place);
     let material = &system.asset.material;
     let free = f64::from(run) / (speed * material.rayleigh_speed());
@@ -88,7 +88,14 @@ pub(super) fn forks(
         return None;
     }
     let enough = |left: &Symmetric3| forks(tension(left, cut.direction));
-    let left = once(system, front, stress, opposite, cut.time, enough)?;
+    let left = once(
+        system,
+        (front.crack, place),
+        stress,
+        opposite,
+        cut.time,
+        enough,
+    )?;
     let from = system.centroids[crack.elements[front.from as usize].tet as usize];
     let ahead = system.centroids[n] - from;
     let axis = match wall {
@@ -219,7 +226,7 @@ pub(super) fn start(
     let x = mesh.corners(e as usize);
     let values = x.map(|p| frame.planar(p));
     let area = crossing_area(&x, &values);
-    let felt = field.at(e as usize);
+    let felt = field.at(e as usize, crossing_middle(&x, &values));
     // It grows from the crack that it leaves, and is fed as that one is.
     let flaw = system.depth(&system.cracks[parent as usize], e, &felt);
     let gain = if system.config.griffith_fronts {
@@ -251,7 +258,12 @@ pub(super) fn start(
         opens: cut.opens,
         time: cut.time + f64::from(distance) / (speed * material.rayleigh_speed()),
     };
-    system.fracture(id, new, area, f64::from(area) * gain);
+    let from = Source {
+        place: fork.place,
+        since: cut.time,
+    };
+    let entered = Entered::at_start(from);
+    system.fracture(id, new, &entered, area, f64::from(area) * gain);
     true
 }
 

@@ -60,18 +60,20 @@ impl<'a> StressField<'a> {
         }
     }
 
-    /// What a crack feels in fracture tetrahedron `e`: in a solid the stress and energy at its centroid, in a wall the stress on both faces
-    /// beside it and the mean of the energy through the wall. The centroids of the three tetrahedra that fill a prism of one layer lie at a
-    /// quarter of the thickness from its middle, in it and at a quarter again: they would show half of what bending holds.
-    pub(crate) fn at(&mut self, e: usize) -> Felt {
+    /// What a crack feels in fracture tetrahedron `e`, where it cuts it, m: in a solid the stress and energy there, in a wall the stress on
+    /// both faces beside it and the mean of the energy through the wall. At the centroid, which lies up to an edge beside the crack, the stress about a
+    /// contact is another: arms would be turned to where the mesh has its tetrahedra.
+    pub(crate) fn at(&mut self, e: usize, place: Vec3) -> Felt {
+        let aside = place - self.centroids[e];
+        let centre = shifted(self.asset, self.asset.embedded_tet(e), aside);
         let Some(wall) = self.wall(e) else {
-            let gradient = self.gradient(self.asset.embedded_tet(e));
+            let gradient = self.gradient(&centre);
             return Felt {
                 state: self.elasticity.state(gradient),
                 wall: None,
             };
         };
-        let faces = self.on_faces(e, &wall);
+        let faces = self.on_faces(place, &centre, &wall);
         // Stress is linear through the wall, and energy quadratic: Simpson's rule is exact.
         let middle = faces[0].plus(&faces[1]).scaled(0.5);
         let [front, back, middle] =
@@ -92,25 +94,36 @@ impl<'a> StressField<'a> {
         wall_of(self.asset, self.skin, self.config, e)
     }
 
+    /// Where a crack may start in fracture tetrahedron `e`.
+    #[inline(always)]
+    fn weak_place(&self, e: usize) -> WeakPlace {
+        let places = &self.body.places;
+        weak_place(self.asset, self.skin, places, self.config, self.pressed, e)
+    }
+
+    /// Where that is, m.
+    pub(super) fn weak_position(&self, e: usize) -> Vec3 {
+        self.weak_place(e).position(self.body, e)
+    }
+
     /// Outward normal of the face of the wall that a crack opens from which starts in fracture tetrahedron `e`; zero where its flaw
     /// lies on no face of a wall.
     pub(crate) fn opens(&self, e: usize) -> Vec3 {
-        let weak = weak_place(self.asset, self.skin, self.config, self.pressed, e);
+        let weak = self.weak_place(e);
         match (weak.law, weak.wall) {
-            (Law::Free(normal), Some(_)) if weak.on_surface => normal,
+            (Law::Free(normal), Some(_)) if weak.flaw.is_some() => normal,
             _ => Vec3::ZERO,
         }
     }
 
-    /// Stress on the two faces of a wall beside the centroid of fracture tetrahedron `e`.
-    fn on_faces(&mut self, e: usize, wall: &Wall) -> [Symmetric3; 2] {
-        let centre = self.asset.embedded_tet(e);
-        let distances = wall.distances(self.centroids[e]);
+    /// Stress on the two faces of a wall beside a place in it, m, which the analysis mesh sees as `centre`.
+    fn on_faces(&mut self, place: Vec3, centre: &EmbeddedPoint, wall: &Wall) -> [Symmetric3; 2] {
+        let distances = wall.distances(place);
         distances.map(|distance| {
             let up = wall.normal * distance;
             let gradient = self.gradient(&shifted(self.asset, centre, up));
             let stress = self.elasticity.free_state(gradient, wall.normal).stress;
-            match self.near.at(self.centroids[e] + up, wall, self.step) {
+            match self.near.at(place + up, wall, self.step) {
                 Some(near) => stress.plus(&near),
                 None => stress,
             }
@@ -120,11 +133,11 @@ impl<'a> StressField<'a> {
     /// Stress and energy where a crack may start in fracture tetrahedron `e`, its [`weak_place`], at all steps of the batch.
     #[inline(always)]
     pub(crate) fn at_weak_point(&mut self, e: usize) -> StressLanes {
-        let weak = weak_place(self.asset, self.skin, self.config, self.pressed, e);
+        let weak = self.weak_place(e);
         if self.config.sized_flaws && self.body.flaw_depth(e as u32) > 0.0 {
             return self.mean(&weak.row_point(self.body, self.config, e));
         }
-        let gradients = self.displacement.gradients(self.asset, weak.point);
+        let gradients = self.displacement.gradients(self.asset, &weak.point);
         let mut lanes = self.elasticity.lanes(&gradients, weak.law);
         if let (Law::Free(_), Some(wall)) = (weak.law, &weak.wall)
             && !self.near.0.is_empty()
@@ -166,7 +179,7 @@ impl<'a> StressField<'a> {
 
     /// Whether the weak point of fracture tetrahedron `e` lies on a free surface.
     pub(super) fn is_on_surface(&self, e: usize) -> bool {
-        weak_place(self.asset, self.skin, self.config, self.pressed, e).on_surface
+        self.weak_place(e).flaw.is_some()
     }
 
     /// Whether something presses on the flaw of fracture tetrahedron `e`.
@@ -212,7 +225,7 @@ impl<'a> StressField<'a> {
                 (image.clone(), image.frame.stress(numbers))
             }
             _ => {
-                let weak = weak_place(self.asset, self.skin, self.config, self.pressed, e);
+                let weak = self.weak_place(e);
                 let image = weak.opposite(self.body, self.config, e)?;
                 if !image.samples.is_empty() {
                     return Some(self.mean(&image));
@@ -259,10 +272,7 @@ impl<'a> StressField<'a> {
 /// A point of the body moved by a little, m, seen by the same analysis element.
 fn shifted(asset: &Asset, point: &EmbeddedPoint, by: Vec3) -> EmbeddedPoint {
     let gradients = &asset.analysis.barycentric_gradients[point.element as usize];
-    EmbeddedPoint {
-        barycentric: std::array::from_fn(|k| point.barycentric[k] + gradients[k].dot(by)),
-        ..*point
-    }
+    point.moved(gradients, by)
 }
 
 /// What a crack feels in a tetrahedron.
@@ -348,7 +358,7 @@ impl Felt {
     }
 }
 
-impl WeakPlace<'_> {
+impl WeakPlace {
     /// What rows are made of. `e`: its tetrahedron.
     pub(crate) fn row_point(&self, body: &Body, config: &FractureConfig, e: usize) -> RowPoint {
         let place = self.position(body, e);
@@ -367,7 +377,7 @@ impl WeakPlace<'_> {
             }
         };
         RowPoint {
-            point: *self.point,
+            point: self.point,
             law: self.law,
             frame: Frame::of(self.law, self.wall.as_ref()),
             place,
@@ -396,7 +406,7 @@ impl WeakPlace<'_> {
         }
         let by = across(&wall, here.place);
         Some(RowPoint {
-            point: shifted(&body.asset, self.point, by),
+            point: shifted(&body.asset, &self.point, by),
             place: here.place + by,
             ..here
         })
@@ -405,8 +415,6 @@ impl WeakPlace<'_> {
     /// Where it is, m. `e`: its tetrahedron.
     #[inline(always)]
     pub(crate) fn position(&self, body: &Body, e: usize) -> Vec3 {
-        let flaw = body.prepared.skin.flaw_position(body.asset.place(e));
-        let flaw = flaw.filter(|_| self.on_surface);
-        flaw.unwrap_or(body.prepared.centroids[e])
+        self.flaw.unwrap_or(body.prepared.centroids[e])
     }
 }

@@ -1,6 +1,6 @@
 //! Cracks start `[G12 §4.4]`: at a weak tetrahedron whose largest principal tension passes R_c (Rankine), across the
-//! direction of that tension, through its centre. The tension is that of its flaw on the free surface, where it has one
-//! (beyond the paper, `stress/skin.rs`): a crack from there stands upright on the surface.
+//! direction of that tension, through its centre. Where it has a flaw on the free surface (beyond the paper, `stress/skin.rs`)
+//! tension and crack are that flaw's: the crack stands upright on the surface, and goes through the flaw.
 //!
 //! Order within a time step: when the stress passes the strength (instant cracks start together), then falling stress,
 //! then element number.
@@ -10,6 +10,7 @@
 
 use glam::Vec3;
 
+use super::arrival::{Entered, Source};
 use super::field::StressField;
 use super::single::ElementCut;
 use super::surface::CrackFrame;
@@ -156,7 +157,7 @@ fn try_start(system: &mut CrackSystem, field: &mut StressField, suspect: &Suspec
     let material = &asset.material;
     let e = suspect.tet;
     let k = lane(field.step);
-    let centre = system.centroids[e as usize];
+    let centre = field.weak_position(e as usize);
     let strength = system.resistance.strength(e);
     let mut releases = std::mem::take(&mut system.releases);
     let left = (releases.may_crack(system, field, suspect, strength, now))
@@ -215,6 +216,10 @@ fn try_start(system: &mut CrackSystem, field: &mut StressField, suspect: &Suspec
             opens: field.opens(e as usize),
             time: now,
         },
+        &Entered::at_start(Source {
+            place: centre,
+            since: now,
+        }),
         area,
         f64::from(area) * gain,
     );

@@ -3,7 +3,7 @@
 //! *Start* (`initiation.rs`). A crack starts where the stress at a weak point passes its strength. Stress is linear from one time step to the
 //! next, so the moment lies between the steps, and the number of cracks does not hang on the step.
 //!
-//! *Run* (`propagation.rs`). A front enters a neighbouring tetrahedron if the crack crosses it, meets nothing there and can pay for it. A
+//! *Run* (`propagation.rs`). Fronts spread over the crack's own surface (`arrival.rs`). A front enters a neighbouring tetrahedron if the crack crosses it, meets nothing there and can pay for it. A
 //! crack through a wall opens from one face and follows the tension of that face: cracks that turned to whichever face had the larger
 //! tension curled into petals. What feeds it is the mean energy through the wall. It may leave a second crack behind (`branching.rs`), and
 //! passes one that opens from the other face of the wall (`passing.rs`).
@@ -17,6 +17,7 @@
 //! *Old cracks* (`crate::tips`). The front of a crack from an earlier impact follows Griffith: a crack of centimetres is fed from a layer of depth
 //! 2πa, where a is its area over the length of its front. Cracks that a piece's own modes know release nothing more.
 
+mod arrival;
 mod branching;
 mod calm;
 mod cuts;

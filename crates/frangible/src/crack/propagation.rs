@@ -18,6 +18,7 @@
 
 use glam::Vec3;
 
+use super::arrival::{Entered, Source, gate};
 use super::branching::{forks, start};
 use super::field::{Felt, StressField};
 use super::passing::passes;
@@ -25,7 +26,7 @@ use super::single::{ElementCut, Front};
 use super::system::{CrackSystem, UNCUT};
 use crate::config::{CrackPath, CrackTiming};
 use crate::fields::Tip;
-use crate::state::crossing_area;
+use crate::state::{crossing_area, crossing_middle};
 use crate::stress::{Symmetric3, largest_eigenvalue};
 
 /// Share of R_c below which the tension across a crack does not steer it.
@@ -43,8 +44,10 @@ const SELF_MEETING: f32 = 1.0;
 /// Sends the stalled fronts on again from `since`, s.
 pub(crate) fn retry(system: &mut CrackSystem, since: f64) {
     for front in std::mem::take(&mut system.stalled) {
+        let waited = front.arrival < since;
         system.fronts.push(Front {
             arrival: front.arrival.max(since),
+            source: if waited { Source::WAITED } else { front.source },
             ..front
         });
     }
@@ -79,10 +82,11 @@ fn enter(system: &mut CrackSystem, field: &mut StressField, front: Front) {
         return;
     }
     // Stress is dear to find: a front that lacks energy waits without it. Where it would turn makes its area little else.
+    let (straight, place) = straight_on(system, &front, &crossing);
     let area = system.edge * system.edge;
     let lacks = match front.lacks {
         0.0 if system.ledger.has(system.cost(front.tet, area)) => 0.0,
-        0.0 => system.cost(front.tet, straight_on(system, &front, &crossing)),
+        0.0 => system.cost(front.tet, straight),
         known => known,
     };
     if !system.ledger.has(lacks) {
@@ -91,7 +95,7 @@ fn enter(system: &mut CrackSystem, field: &mut StressField, front: Front) {
         }
         return;
     }
-    let felt = field.at(n);
+    let felt = field.at(n, place);
     if system.stays_refused(&front, &felt) {
         return system.stalled.push(front);
     }
@@ -118,7 +122,8 @@ fn enter(system: &mut CrackSystem, field: &mut StressField, front: Front) {
         }),
         Payment::Now { gain } => {
             let fork = forks(system, &front, &cut, &felt);
-            system.fracture(front.crack, cut, area, gain);
+            let entered = crossing.entered(&front, &cut);
+            system.fracture(front.crack, cut, &entered, area, gain);
             if let Some(fork) = fork
                 && start(system, field, front.crack, &cut, &fork)
             {
@@ -164,6 +169,20 @@ impl Crossing {
             values,
             fourth,
         }
+    }
+}
+
+impl Crossing {
+    /// How the front comes in.
+    fn entered(&self, front: &Front, cut: &ElementCut) -> Entered {
+        let mut source = front.source;
+        if source == Source::WAITED {
+            source = Source {
+                place: gate(&self.x, &cut.values, self.fourth),
+                since: front.arrival,
+            };
+        }
+        Entered::through(&self.x, cut, self.fourth, source)
     }
 }
 
@@ -266,8 +285,8 @@ fn upright(direction: Vec3, normal: Vec3) -> Vec3 {
     (direction - direction.dot(normal) * normal).normalize_or(direction)
 }
 
-/// Area of a crack in the tetrahedron ahead if it does not turn there, m².
-fn straight_on(system: &CrackSystem, front: &Front, crossing: &Crossing) -> f32 {
+/// Area of a crack in the tetrahedron ahead if it does not turn there, m², and the middle of what it cuts, m.
+fn straight_on(system: &CrackSystem, front: &Front, crossing: &Crossing) -> (f32, Vec3) {
     let Crossing {
         from,
         x,
@@ -275,11 +294,14 @@ fn straight_on(system: &CrackSystem, front: &Front, crossing: &Crossing) -> f32 
         fourth,
     } = crossing;
     let mut values = *values;
-    if system.config.path != CrackPath::Planar {
-        let crack = &system.cracks[front.crack as usize];
-        values[*fourth] = extrapolated(crack, x, &values, *fourth, from.direction);
+    if system.config.path == CrackPath::Planar {
+        // The paper looks at the stress of the tetrahedron [G12 §5.2.3].
+        let centroid = system.centroids[front.tet as usize];
+        return (crossing_area(x, &values), centroid);
     }
-    crossing_area(x, &values)
+    let crack = &system.cracks[front.crack as usize];
+    values[*fourth] = extrapolated(crack, x, &values, *fourth, from.direction);
+    (crossing_area(x, &values), crossing_middle(x, &values))
 }
 
 /// s at the fourth node: mean of the extrapolations from the three known ones.

@@ -17,11 +17,11 @@
 
 mod memory;
 
+use glam::Vec3;
 use memory::{Memory, Sources};
 
 use super::extents::Ring;
 use super::field::StressField;
-use super::single::Front;
 use super::suspects::Suspect;
 use super::system::CrackSystem;
 use crate::config::CrackTiming;
@@ -193,7 +193,7 @@ impl Releases {
                 None => STRETCHED,
             };
             Point {
-                memory: Memory::new(system.centroids[suspect.tet as usize], beta),
+                memory: Memory::new(field.weak_position(suspect.tet as usize), beta),
                 held_in: None,
                 held: 0,
                 changed: true,
@@ -205,11 +205,10 @@ impl Releases {
     }
 }
 
-/// What all cracks but that of a front leave as of `now`, s, of a stress in the tetrahedron that the front enters; `opposite`: the stress
-/// on the other face of a wall. None where the close ones leave no longer `enough`. Nothing is remembered.
+/// What all cracks but one leave as of `now`, s, of a stress where that one is, m; `opposite`: the stress on the other face of a wall. None where the close ones leave no longer `enough`. Nothing is remembered.
 pub(super) fn once(
     system: &CrackSystem,
-    front: &Front,
+    (crack, place): (u32, Vec3),
     stress: Symmetric3,
     opposite: Option<Symmetric3>,
     now: f64,
@@ -219,10 +218,10 @@ pub(super) fn once(
         Some(_) => bent(system.asset.material.poisson_ratio),
         None => STRETCHED,
     };
-    let mut memory = Memory::new(system.centroids[front.tet as usize], beta);
+    let mut memory = Memory::new(place, beta);
     let mut left = stress;
     for ring in Ring::ALL {
-        memory.update(Sources::of(system), ring, Some(front.crack), now);
+        memory.update(Sources::of(system), ring, Some(crack), now);
         let mut rest = Released::of_step(stress, opposite);
         for shadow in memory.shadows() {
             rest.release(shadow);

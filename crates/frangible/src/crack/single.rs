@@ -4,6 +4,7 @@ use std::cmp::Ordering;
 
 use glam::Vec3;
 
+use super::arrival::Source;
 use super::sites::Sites;
 use super::surface::CrackFrame;
 use crate::state::{BodyState, OldCrack, OldCut};
@@ -75,6 +76,7 @@ impl Crack {
         let junction = |j: &Junction| (j.from, j.own);
         OldCrack {
             start: self.start,
+            origin: self.frame.origin,
             normal: self.frame.normal,
             cuts: self.elements.iter().map(cut).collect(),
             settled: self.settled as u32,
@@ -127,6 +129,8 @@ pub(crate) struct Front {
     /// Energy that all cracks together had no more left for it when it was last asked, J; zero where it was not asked, or lacked nothing
     /// but stress.
     pub(crate) lacks: f64,
+    /// Where it comes from in a straight line; the beginning of all time where it waited, and comes from where it is.
+    pub(crate) source: Source,
     /// Area that it would have cut when the stress last did not pay for it, m²; zero where it was not asked.
     pub(crate) refused: f32,
 }

@@ -4,6 +4,7 @@ use std::collections::BinaryHeap;
 
 use glam::Vec3;
 
+use super::arrival::{Entered, Source};
 use super::extents::Extents;
 use super::ledger::{Ledger, Unpaid};
 use super::node_values::NodeValues;
@@ -127,7 +128,7 @@ impl<'a> CrackSystem<'a> {
         let id = self.cracks.len() as u32;
         self.old_cracks += 1;
         let frame = CrackFrame::new(
-            self.centroids[old.start as usize],
+            old.origin,
             old.normal,
             material.roughness_amplitude,
             material.roughness_wavelength,
@@ -148,12 +149,13 @@ impl<'a> CrackSystem<'a> {
         }
         for from in 0..old.cuts.len() {
             let cut = self.cracks[id as usize].elements[from];
-            let mut ahead: Vec<u32> = self.ahead(id, &cut).collect();
+            let mut ahead: Vec<u32> = self.ahead(id, &cut).map(|(_, tet)| tet).collect();
             if from < old.settled as usize {
                 // What it met before is settled, too.
                 ahead.retain(|&n| self.fractured_by[n as usize] == UNCUT);
             }
             self.dormant.extend(ahead.into_iter().map(|tet| Front {
+                source: Source::WAITED,
                 arrival: 0.0,
                 tet,
                 crack: id,
@@ -178,9 +180,9 @@ impl<'a> CrackSystem<'a> {
         cracks.filter(|crack| !crack.is_empty()).collect()
     }
 
-    /// Neighbours of a tetrahedron that this crack does not cut yet, in the same body, and that it crosses if it goes on there. A steered crack
+    /// Neighbours of a tetrahedron, and the faces before them, that this crack does not cut yet, in the same body, and that it crosses if it goes on there. A steered crack
     /// crosses the shared face; a planar one any part of the neighbour `[G12 §5.2.2]`. `cut`: its cut of the tetrahedron.
-    fn ahead(&self, crack: u32, cut: &ElementCut) -> impl Iterator<Item = u32> + use<'a> {
+    fn ahead(&self, crack: u32, cut: &ElementCut) -> impl Iterator<Item = (usize, u32)> + use<'a> {
         let mesh = &self.asset.fracture;
         let nodes = &mesh.tets[cut.tet as usize];
         let frame = &self.cracks[crack as usize].frame;
@@ -206,7 +208,8 @@ impl<'a> CrackSystem<'a> {
                     && crosses(face, n)
             });
         }
-        ahead.into_iter().flatten()
+        let faces = ahead.into_iter().enumerate();
+        faces.filter_map(|(face, tet)| Some((face, tet?)))
     }
 
     /// Wakes the old fronts when there can be stress enough to move them.
@@ -286,10 +289,16 @@ impl<'a> CrackSystem<'a> {
     }
 
     /// Adds a fractured tetrahedron to a crack, whose area sets so much energy free, J, and sends the crack's front to its
-    /// neighbours.
-    pub(crate) fn fracture(&mut self, crack: u32, cut: ElementCut, area: f32, gain: f64) {
+    /// neighbours. `entered`: how the front came in.
+    pub(super) fn fracture(
+        &mut self,
+        crack: u32,
+        cut: ElementCut,
+        entered: &Entered,
+        area: f32,
+        gain: f64,
+    ) {
         let material = &self.asset.material;
-        let tet = cut.tet as usize;
         let cost = self.cost(cut.tet, area);
         self.ledger.spend(cost);
         let c = &mut self.cracks[crack as usize];
@@ -298,18 +307,18 @@ impl<'a> CrackSystem<'a> {
         self.area += f64::from(area);
         self.join(crack, cut, area);
         let from = self.cracks[crack as usize].elements.len() as u32 - 1;
-        let centre = self.centroids[tet];
-        for neighbour in self.ahead(crack, &cut) {
-            let distance = centre.distance(self.centroids[neighbour as usize]);
-            let arrival = match self.config.timing {
+        for (face, neighbour) in self.ahead(crack, &cut) {
+            let (arrival, source) = match self.config.timing {
                 CrackTiming::TimeResolved { speed, .. } => {
-                    cut.time + f64::from(distance) * (1.0 / (speed * material.rayleigh_speed()))
+                    let speed = speed * material.rayleigh_speed();
+                    self.leaves(crack, &cut, entered, face, speed)
                 }
                 // Breadth-first: neighbours of the earlier tetrahedron first [G12 §5.2.2].
-                CrackTiming::Instant => f64::from(from),
+                CrackTiming::Instant => (f64::from(from), Source::WAITED),
             };
             self.fronts.push(Front {
                 arrival,
+                source,
                 tet: neighbour,
                 crack,
                 from,

@@ -38,7 +38,7 @@ impl OppositeRows {
         let mut count = 0;
         let tets = body.clusters.tets(cluster).iter();
         let image = |&tet: &u32| {
-            let weak = weak_place(&body.asset, skin, config, &[], tet as usize);
+            let weak = weak_place(&body.asset, skin, &body.places, config, &[], tet as usize);
             let image = weak.opposite(body, config, tet as usize)?;
             let first = count;
             count += image.frame.count();
@@ -137,7 +137,7 @@ fn row_points(body: &Body, config: &FractureConfig, cluster: usize) -> Vec<RowPo
     let skin = &body.prepared.skin;
     let tets = body.clusters.tets(cluster).iter();
     tets.map(|&tet| {
-        let weak = weak_place(&body.asset, skin, config, &[], tet as usize);
+        let weak = weak_place(&body.asset, skin, &body.places, config, &[], tet as usize);
         weak.row_point(body, config, tet as usize)
     })
     .collect()
@@ -148,7 +148,7 @@ fn is_less_work(body: &Body, config: &FractureConfig, modes: usize) -> bool {
     let (asset, skin) = (&*body.asset, &body.prepared.skin);
     let weak = body.weak_tets();
     let count = |&tet: &u32| {
-        let weak = weak_place(asset, skin, config, &[], tet as usize);
+        let weak = weak_place(asset, skin, &body.places, config, &[], tet as usize);
         match weak.law {
             Law::Solid => 6,
             Law::Free(_) => 3,

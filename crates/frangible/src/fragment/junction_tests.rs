@@ -82,6 +82,7 @@ fn cracked(asset: &Asset, seed: u64) -> BodyState {
         let mut crack = OldCrack {
             settled: 0,
             start: 0,
+            origin: centre,
             normal,
             cuts: Vec::new(),
             junctions: Vec::new(),

@@ -7,6 +7,6 @@ mod rest;
 mod scripted;
 
 pub use blast::{Blast, blast};
-pub use motion::follow;
+pub use motion::{follow, follow_traced};
 pub use rest::{Force, rest};
 pub use scripted::fracture_at;

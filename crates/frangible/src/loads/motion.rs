@@ -7,6 +7,7 @@ use crate::error::{InputError, positive};
 use crate::impact::{pieces, report_on};
 use crate::motion::Motion;
 use crate::outcome::{LookedAt, Outcome};
+use crate::trace::CrackTrace;
 
 /// What cracks do under any motion of a body's modes, wherever it comes from: [`impact()`](crate::impact()) from its stress wave
 /// on. `pressed`: surface triangles that something presses on; `time_step`: of the motion, s. With the energy ledger all
@@ -22,6 +23,33 @@ pub fn follow(
     pressed: &[u32],
     time_step: f64,
     config: &FractureConfig,
+) -> Result<Outcome, InputError> {
+    run(body, motion, pressed, time_step, config, &mut None)
+}
+
+/// [`follow()`], and what its cracks did element by element: for tests.
+///
+/// # Errors
+/// What [`follow()`] refuses.
+pub fn follow_traced(
+    body: &Body,
+    motion: &Motion,
+    pressed: &[u32],
+    time_step: f64,
+    config: &FractureConfig,
+) -> Result<(Outcome, CrackTrace), InputError> {
+    let mut trace = Some(CrackTrace::default());
+    let outcome = run(body, motion, pressed, time_step, config, &mut trace)?;
+    Ok((outcome, trace.unwrap_or_default()))
+}
+
+fn run(
+    body: &Body,
+    motion: &Motion,
+    pressed: &[u32],
+    time_step: f64,
+    config: &FractureConfig,
+    trace: &mut Option<CrackTrace>,
 ) -> Result<Outcome, InputError> {
     if motion.modes != body.asset.modes.followed() || motion.steps() == 0 {
         return Err(InputError::Motion(
@@ -54,6 +82,6 @@ pub fn follow(
         budget: energy,
         blow: None,
     }
-    .run(0, report, &mut None);
+    .run(0, report, trace);
     Ok(pieces(body, cracked))
 }

@@ -159,6 +159,7 @@ impl Lists {
             *number = self.state.cracks.len() as u32;
             self.state.cracks.push(OldCrack {
                 start: crack.start,
+                origin: crack.origin,
                 normal: crack.normal,
                 settled: cuts.len() as u32,
                 cuts,

@@ -39,6 +39,12 @@ pub(crate) fn crossing_polygon(x: &[Vec3; 4], s: &[f32; 4]) -> ([Vec3; 4], usize
     }
 }
 
+/// Middle of the corners of what a crack cuts of a tetrahedron, m.
+pub(crate) fn crossing_middle(x: &[Vec3; 4], s: &[f32; 4]) -> Vec3 {
+    let (polygon, corners) = crossing_polygon(x, s);
+    polygon[..corners].iter().sum::<Vec3>() / corners.max(1) as f32
+}
+
 /// Area of the crack inside a tetrahedron, m² `[G12 Eq. 11]`.
 pub(crate) fn crossing_area(x: &[Vec3; 4], s: &[f32; 4]) -> f32 {
     let (p, corners) = crossing_polygon(x, s);

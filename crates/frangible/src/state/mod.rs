@@ -11,7 +11,7 @@ use glam::Vec3;
 use crate::error::InputError;
 use crate::mesh::TetMesh;
 
-pub(crate) use crossing::{crossing_area, crossing_polygon};
+pub(crate) use crossing::{crossing_area, crossing_middle, crossing_polygon};
 pub(crate) use cuts::{Cuts, EdgeCut};
 
 /// Cracks of a body that is still one piece.
@@ -25,6 +25,8 @@ pub struct BodyState {
 pub(crate) struct OldCrack {
     /// Where it started.
     pub(crate) start: u32,
+    /// The place there that it went through first, m.
+    pub(crate) origin: Vec3,
     /// Its normal there.
     pub(crate) normal: Vec3,
     /// Tetrahedra it has cut, in their order.
@@ -47,7 +49,7 @@ pub struct OldCut {
 }
 
 /// Starts a state in bytes; the digit is its version.
-const MAGIC: &[u8; 8] = b"FRCRACK2";
+const MAGIC: &[u8; 8] = b"FRCRACK3";
 
 impl BodyState {
     /// Whether the body is as it was made.
@@ -84,7 +86,7 @@ impl BodyState {
         cuts.map(|cut| crossing_polygon(&mesh.corners(cut.tet as usize), &cut.values))
     }
 
-    /// The state as bytes: little-endian, 12 bytes, 28 more per crack, 32 per tetrahedron cut and 4 per junction.
+    /// The state as bytes: little-endian, 12 bytes, 40 more per crack, 32 per tetrahedron cut and 4 per junction.
     #[must_use]
     pub fn to_bytes(&self) -> Vec<u8> {
         let mut bytes = MAGIC.to_vec();
@@ -92,11 +94,10 @@ impl BodyState {
         number(self.cracks.len() as u32);
         for crack in &self.cracks {
             number(crack.start);
-            crack
-                .normal
-                .to_array()
-                .iter()
-                .for_each(|x| number(x.to_bits()));
+            for vector in [crack.origin, crack.normal] {
+                let of = vector.to_array();
+                of.iter().for_each(|x| number(x.to_bits()));
+            }
             number(crack.cuts.len() as u32);
             number(crack.settled);
             number(crack.junctions.len() as u32);
@@ -128,11 +129,12 @@ impl BodyState {
         let mut cracks = Vec::new();
         for _ in 0..count {
             let start = numbers.next()?;
-            let normal = numbers.vector()?;
+            let (origin, normal) = (numbers.vector()?, numbers.vector()?);
             let (cuts, settled, junctions) = (numbers.next()?, numbers.next()?, numbers.next()?);
             // Grown as they are read: no number in the file makes memory that the file does not fill.
             let mut crack = OldCrack {
                 start,
+                origin,
                 normal,
                 cuts: Vec::new(),
                 settled,

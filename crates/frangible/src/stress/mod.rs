@@ -39,7 +39,7 @@ pub(crate) use cluster_rows::{ClusterRows, LawRows, OppositeRows, WeakRows};
 pub(crate) use coarse::Coarse;
 pub(crate) use frame::{Frame, MOST};
 pub(crate) use lanes::StressLanes;
-pub(crate) use place::{WeakPlace, wall_of, weak_place};
+pub(crate) use place::{Places, WeakPlace, wall_of, weak_place};
 pub(crate) use principal::{MARGIN, limit, perpendicular_axes};
 pub use principal::{largest_eigenvalue, largest_eigenvalue_bound, principal_axes};
 pub(crate) use rows::{RowPoint, Rows, Sample, of_shape};

@@ -1,8 +1,48 @@
 //! Where the stress of a weak tetrahedron is taken, and by which law.
 
+use std::sync::Arc;
+
+use glam::Vec3;
+
 use super::{Law, Skin, Wall};
 use crate::asset::{Asset, EmbeddedPoint};
 use crate::config::FractureConfig;
+use crate::rng::{Purpose, stream, uniform};
+
+/// Where on their faces the flaws of a body lie: drawn by its seed. At the middle of each face, or at any other place that is the same for all
+/// bodies, the first cracks about a contact start at the few places nearest to it, and run in the directions in which the mesh has these.
+#[derive(Clone, Debug)]
+pub(crate) struct Places {
+    /// Weights of the second and the third corner of the face of each fracture tetrahedron.
+    of_tet: Arc<[[f32; 2]]>,
+}
+
+impl Places {
+    /// Weights of the corners of a face at its middle.
+    pub(crate) const MIDDLE: [f32; 3] = [1.0 / 3.0; 3];
+
+    /// Those of a body with so many fracture tetrahedra; the others' are the middles of their faces.
+    pub(crate) fn new(tets: usize, weak_tets: &[u32], seed: u64) -> Self {
+        let mut of_tet = vec![[Self::MIDDLE[0]; 2]; tets];
+        let mut rng = stream(seed, Purpose::Places, 0);
+        for &e in weak_tets {
+            let [a, b] = [uniform(&mut rng), uniform(&mut rng)].map(|x| x as f32);
+            // The half of a square beyond its diagonal is turned onto the other one.
+            let inside = a + b <= 1.0;
+            of_tet[e as usize] = if inside { [a, b] } else { [1.0 - a, 1.0 - b] };
+        }
+        Self {
+            of_tet: of_tet.into(),
+        }
+    }
+
+    /// Weights of the corners of the face of a fracture tetrahedron.
+    #[inline(always)]
+    pub(crate) fn weights(&self, e: usize) -> [f32; 3] {
+        let [a, b] = self.of_tet[e];
+        [1.0 - a - b, a, b]
+    }
+}
 
 /// The wall that fracture tetrahedron `e` is part of, where the configuration knows walls.
 pub(crate) fn wall_of(
@@ -19,11 +59,11 @@ pub(crate) fn wall_of(
 }
 
 /// Where a crack may start in a fracture tetrahedron, and the law of the stress there.
-pub(crate) struct WeakPlace<'a> {
-    pub(crate) point: &'a EmbeddedPoint,
+pub(crate) struct WeakPlace {
+    pub(crate) point: EmbeddedPoint,
     pub(crate) law: Law,
-    /// Whether it is its flaw on the free surface, else it is its centroid.
-    pub(crate) on_surface: bool,
+    /// Where its flaw on the free surface is, m, if it is that; else it is its centroid.
+    pub(crate) flaw: Option<Vec3>,
     /// The wall that it is in.
     pub(crate) wall: Option<Wall>,
 }
@@ -32,29 +72,32 @@ pub(crate) struct WeakPlace<'a> {
 ///
 /// Under a contact the surface is pressed together, which no mode resolves: there the centroid serves.
 #[inline(always)]
-pub(crate) fn weak_place<'a>(
-    asset: &'a Asset,
-    skin: &'a Skin,
+pub(crate) fn weak_place(
+    asset: &Asset,
+    skin: &Skin,
+    places: &Places,
     config: &FractureConfig,
     pressed: &[u32],
     e: usize,
-) -> WeakPlace<'a> {
+) -> WeakPlace {
     let wall = wall_of(asset, skin, config, e);
     let flaw = skin.flaw(asset.place(e)).filter(|_| config.surface_flaws);
-    let (point, law, on_surface) = match flaw.filter(|flaw| !pressed.contains(&flaw.triangle)) {
-        Some(flaw) => match wall.and_then(|wall| wall.edge(flaw.normal)) {
-            Some(along) => (&flaw.point, Law::Edge(along), true),
-            None => (&flaw.point, Law::Free(flaw.normal), true),
-        },
-        None => {
-            let law = wall.map_or(Law::Solid, |wall| Law::Free(wall.normal));
-            (asset.embedded_tet(e), law, false)
+    match flaw.filter(|flaw| !pressed.contains(&flaw.triangle)) {
+        Some(flaw) => {
+            let (place, point) = Skin::on_face(asset, flaw, places.weights(e));
+            let edge = wall.and_then(|wall| wall.edge(flaw.normal));
+            WeakPlace {
+                point,
+                law: edge.map_or(Law::Free(flaw.normal), Law::Edge),
+                flaw: Some(place),
+                wall,
+            }
         }
-    };
-    WeakPlace {
-        point,
-        law,
-        on_surface,
-        wall,
+        None => WeakPlace {
+            point: *asset.embedded_tet(e),
+            law: wall.map_or(Law::Solid, |wall| Law::Free(wall.normal)),
+            flaw: None,
+            wall,
+        },
     }
 }

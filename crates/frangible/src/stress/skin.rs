@@ -3,8 +3,8 @@
 //! Brittle bodies break from flaws of their surface, and in bending the stress is largest there. The paper tests stress at
 //! the centre of an element, which in a wall of one layer of tetrahedra lies at a quarter of the thickness or less from its
 //! middle: there a bent wall has at most half the stress of its surface.
-//! - A *flaw*: the weak point of a tetrahedron with free outer faces lies at the centroid of the largest of them: of flaws
-//!   spread over the surface it holds the most.
+//! - A *flaw*: the weak point of a tetrahedron with free outer faces lies on the largest of them: of flaws spread over the
+//!   surface it holds the most. Where on it is drawn by the body's seed ([`Places`](super::Places)).
 //! - At a free surface the traction σ·n is exactly zero ([`Elasticity::free_state`](super::Elasticity::free_state)); the
 //!   modes of a mesh meet that only on average.
 //! - Inside a thin [wall](super::Wall) no traction acts across it either.
@@ -13,6 +13,7 @@
 
 use glam::Vec3;
 
+use super::place::Places;
 use super::wall::{Wall, Walls};
 use crate::asset::{AnalysisMesh, Asset, EmbeddedPoint, Portion};
 use crate::mesh::{NO_NEIGHBOUR, TetMesh};
@@ -34,7 +35,9 @@ const MOST_STEPS: usize = 64;
 pub struct Flaw {
     /// Number of the surface triangle.
     pub triangle: u32,
-    /// Its centroid, seen by the analysis mesh.
+    /// Its corners: nodes of the fracture mesh.
+    pub corners: [u32; 3],
+    /// Its centroid, seen by the analysis mesh. The rest of it is seen by the same element.
     pub point: EmbeddedPoint,
     /// Its outward unit normal.
     pub normal: Vec3,
@@ -46,8 +49,6 @@ pub struct Skin {
     /// Place in `flaws` of each fracture tetrahedron's, or [`NONE`].
     flaw_of_tet: Vec<u32>,
     flaws: Vec<Flaw>,
-    /// Where the flaws are, m, frame of the fracture mesh.
-    places: Vec<Vec3>,
     walls: Walls,
 }
 
@@ -72,6 +73,7 @@ impl Skin {
             places.push(place);
             flaws.push(Flaw {
                 triangle,
+                corners: nodes,
                 point: search.embed(place, centre.element),
                 normal: free.normals[triangle as usize],
             });
@@ -80,7 +82,6 @@ impl Skin {
             walls: Walls::new(&asset.analysis, &search.neighbours, &flaws, &places),
             flaw_of_tet,
             flaws,
-            places,
         }
     }
 
@@ -89,18 +90,18 @@ impl Skin {
         let search = Search::new(&asset.analysis);
         let mut flaw_of_tet = vec![NONE; portion.tets().len()];
         let (mut flaws, mut places) = (Vec::new(), Vec::new());
-        let (mesh, surface) = (&asset.root().fracture, &asset.root().surface);
+        let mesh = &asset.root().fracture;
         for (place, &tet) in portion.tets().iter().enumerate() {
             let Some(flaw) = root.flaw(tet as usize) else {
                 continue;
             };
-            let nodes = surface.triangles[flaw.triangle as usize];
-            let corners = nodes.map(|v| mesh.positions[v as usize]);
+            let corners = flaw.corners.map(|v| mesh.positions[v as usize]);
             let at = (corners[0] + corners[1] + corners[2]) / 3.0;
             flaw_of_tet[place] = flaws.len() as u32;
             places.push(at);
             flaws.push(Flaw {
                 triangle: portion.surface_triangle(flaw.triangle).unwrap_or(NONE),
+                corners: flaw.corners,
                 point: search.embed(at, asset.embedding.tets[place].element),
                 normal: flaw.normal,
             });
@@ -109,7 +110,6 @@ impl Skin {
             walls: Walls::new(&asset.analysis, &search.neighbours, &flaws, &places),
             flaw_of_tet,
             flaws,
-            places,
         }
     }
 
@@ -119,9 +119,14 @@ impl Skin {
         self.flaws.get(self.flaw_of_tet[place] as usize)
     }
 
-    /// Where the flaw of the fracture tetrahedron at a [place](Asset::place) is, m, frame of the fracture mesh.
-    pub(crate) fn flaw_position(&self, place: usize) -> Option<Vec3> {
-        self.places.get(self.flaw_of_tet[place] as usize).copied()
+    /// The point of a flaw's face at these weights of its corners, m, frame of the fracture mesh, and as the analysis mesh sees it.
+    #[inline(always)]
+    pub(crate) fn on_face(asset: &Asset, flaw: &Flaw, weights: [f32; 3]) -> (Vec3, EmbeddedPoint) {
+        let corners = flaw.corners.map(|v| asset.fracture.positions[v as usize]);
+        let at = |w: [f32; 3]| corners[0] * w[0] + corners[1] * w[1] + corners[2] * w[2];
+        let (place, centre) = (at(weights), at(Places::MIDDLE));
+        let gradients = &asset.analysis.barycentric_gradients[flaw.point.element as usize];
+        (place, flaw.point.moved(gradients, place - centre))
     }
 
     /// The wall that a fracture tetrahedron of this asset is part of, if any. Its normal is that of the tetrahedron's own

@@ -21,7 +21,7 @@ pub use writer::seal;
 
 /// Version of the file format: the only one that this build reads and writes. Files are cheap to bake again, so there is no
 /// conversion.
-pub const FORMAT_VERSION: u32 = 7;
+pub const FORMAT_VERSION: u32 = 8;
 
 /// How an asset is written.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

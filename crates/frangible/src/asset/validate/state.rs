@@ -14,7 +14,7 @@ impl BodyState {
             // What a piece keeps of a crack need not hold its start.
             let starts = crack.settled > 0 || first.is_some_and(|c| c.tet == crack.start);
             let there = first.is_some() && (crack.start as usize) < tets;
-            if !(starts && there && crack.normal.is_normalized()) {
+            if !(starts && there && crack.origin.is_finite() && crack.normal.is_normalized()) {
                 return Err(InputError::State("a crack has no start, or no direction"));
             }
             let settled = crack.settled as usize;
