@@ -11,7 +11,7 @@
 //! `single`: one crack starts in the middle of the pane under a tension or a bending that is the same everywhere, at 0, 15, … 90° to the side
 //! of the pane: how far its path turns from where it should run, and how fast it runs.
 //!
-//! Options: `mesh` (seed of the fracture mesh), `tets` (how many, about), `modes`, `after` (seeds begin after this one), `spot` (the ball hits up to so far from the middle, m), `bend` (1:
+//! Options: `mesh` (seed of the fracture mesh), `tets` (how many, about), `modes`, `speed` (of cracks over the Rayleigh speed), `after` (seeds begin after this one), `spot` (the ball hits up to so far from the middle, m), `bend` (1:
 //! bending instead of tension).
 
 use std::collections::BTreeMap;
@@ -20,7 +20,9 @@ use std::sync::Arc;
 
 use frangible::glam::Vec3;
 use frangible::internals::modal::Motion;
-use frangible::internals::{CrackTrace, Factors, Fields, follow_traced, impact_traced};
+use frangible::internals::{
+    CrackTiming, CrackTrace, Factors, Fields, follow_traced, impact_traced,
+};
 use frangible::{Asset, Breakable, Contact, FractureConfig, Material, Striker};
 use frangible_bake::{BakeSpec, Shape, bake};
 use rayon::prelude::*;
@@ -150,7 +152,10 @@ fn hit(seeds: u64, speed: f64, options: &Options) -> Result<()> {
     let fields = Fields::of_material(&asset.material);
     let kind = Breakable::new(Arc::clone(&asset))?.with_fields(fields)?;
     let steel = Material::preset("steel")?;
-    let config = FractureConfig::default();
+    let mut config = FractureConfig::default();
+    if let Some(&speed) = options.0.get("speed") {
+        config.timing = CrackTiming::TimeResolved { speed };
+    }
     let spot = options.get("spot", 0.0);
     let first = options.get("after", 0.0) as u64;
     let breaks: Vec<Break> = (1..=seeds)

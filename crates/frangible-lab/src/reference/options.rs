@@ -21,7 +21,7 @@ pub struct Options {
     pub after_contact: bool,
     /// Beyond the paper: the element where a crack starts must pay for its own area. Default: off.
     pub first_element_pays: bool,
-    /// Beyond the paper: a weak element with a free outer face is looked at in the middle of the largest one, where no
+    /// Beyond the paper: a weak element with a free outer face is looked at on the largest one, where its flaw lies and no
     /// traction acts; in a thin wall none acts across the wall. Default: off.
     pub surface_flaws: bool,
     /// Beyond the paper: of the elements that pass R_c between two steps the first to do so, stress taken as linear there,
