@@ -27,7 +27,7 @@ fn momentum<'a>(bodies: impl Iterator<Item = &'a RigidBody>) -> Vector {
     bodies.map(|b| b.mass() * b.linvel()).sum()
 }
 
-/// A pane that falls on its edge from 2 m and what becomes of it in a second and a half.
+/// A pane that is thrown down on its edge and what becomes of it in a second and a half.
 fn fall(method: Option<Method>, change: impl Fn(&mut WorldConfig)) -> (Vec<Break>, Vec<[u32; 7]>) {
     let mut config = WorldConfig::default();
     config.dt = 1.0 / 960.0;
@@ -55,7 +55,7 @@ fn fall(method: Option<Method>, change: impl Fn(&mut WorldConfig)) -> (Vec<Break
         .body(3);
     // On its edge, which lies along x, leaning a little.
     let pose = Pose::new(Vector::new(0.0, 1.0, 0.0), Vector::new(0.25, 0.0, 0.0));
-    let start = Vector::new(0.0, -4.0, 0.0);
+    let start = Vector::new(0.0, -7.0, 0.0);
     world
         .insert_breakable(body, pose, start, Vector::ZERO)
         .unwrap();
@@ -177,8 +177,12 @@ fn a_cracked_pane_gets_lower_modes() {
             panic!("it broke at once at {impulse}");
         };
         if !body.state().is_intact() {
-            state = Some((body.state().cracks(), body.asset().modes.frequency(0)));
-            break;
+            let frequency = body.asset().modes.frequency(0);
+            state = Some((body.state().cracks(), frequency));
+            // A first crack may be too short to be heard.
+            if frequency < intact {
+                break;
+            }
         }
         // It drifts.
         let rigid = world.physics.bodies.get_mut(handle).unwrap();

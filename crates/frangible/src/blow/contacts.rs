@@ -157,6 +157,15 @@ impl<'a> Contacts<'a> {
         }
     }
 
+    /// Whether any striker, which no script moves, still comes nearer to the body as a whole.
+    pub(super) fn approach(&self) -> bool {
+        let sites = self.plan.sites.iter().zip(&self.speeds).zip(&self.weakness);
+        let comes = |((site, &speed), weakness): ((&super::plan::Site, &f64), &f64)| {
+            site.script.is_none() && speed > 0.0 && weakness.is_finite()
+        };
+        sites.into_iter().any(comes)
+    }
+
     /// Whether every contact is open and opening further, or has nothing left to push.
     #[inline(always)]
     pub(super) fn have_parted(&self, state: &BankState, flight: &Flight, t: f64) -> bool {

@@ -18,6 +18,10 @@ const MOST_SUBSTEPS: usize = 60_000;
 /// of steps).
 const MOST_STEPS: usize = 20_000;
 
+/// Once pieces move on their own a contact that has opened may close again, as a chip bounces between the striker and the body that follows. It is
+/// over when it has stayed open for so many times the time that it was expected to last, or when the striker leaves the body as a whole.
+const OPEN: f64 = 1.0;
+
 /// Mode i is significantly excited when its amplitude reaches this share of the largest.
 const SIGNIFICANT: f64 = 0.05;
 
@@ -86,6 +90,9 @@ impl pulp::NullaryFnOnce for Run<'_> {
         let mut flight = Flight::new(plan, self.parted);
         let mut substep = 0;
         let mut parted = false;
+        let mut open = 0;
+        let shortest = (plan.sites.iter().map(|s| s.duration)).fold(f64::INFINITY, f64::min);
+        let most_open = (OPEN * shortest / contacts.dt).min(MOST_SUBSTEPS as f64) as usize;
         while !(parted && substep % plan.substeps == 0) {
             let t = (substep + 1) as f64 * contacts.dt;
             flight.part(|p| p.substep <= substep);
@@ -111,7 +118,12 @@ impl pulp::NullaryFnOnce for Run<'_> {
                 record.sample(plan, &flight, &state, &contacts.forces, true);
             }
             if !parted {
-                parted = contacts.have_parted(&state, &flight, t) || substep >= MOST_SUBSTEPS;
+                open = match contacts.have_parted(&state, &flight, t) {
+                    true => open + 1,
+                    false => 0,
+                };
+                let waits = flight.is_on() && open < most_open && contacts.approach();
+                parted = (open > 0 && !waits) || substep >= MOST_SUBSTEPS;
                 if parted {
                     record.energy_at_parting = of_body(plan, &flight, &state)[0];
                     let strikers = plan.strikers.start..padded(plan.strikers.end);
