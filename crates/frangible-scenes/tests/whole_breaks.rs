@@ -198,8 +198,8 @@ fn pane_areas(config: &FractureConfig) -> [f64; 4] {
 #[test]
 fn a_harder_hit_cracks_the_pane_more() {
     let areas = pane_areas(&FractureConfig::default());
-    // A star under the ball, which parts nothing.
-    assert!(areas[0] < 0.1 * areas[3], "{areas:.1?} cm²");
+    // A star under the ball, which parts little.
+    assert!(areas[0] < 0.15 * areas[3], "{areas:.1?} cm²");
     assert!(areas.windows(2).all(|w| w[1] > w[0]), "{areas:.1?} cm²");
 }
 
@@ -415,8 +415,8 @@ fn what_a_dropped_plate_has_lost_comes_to_rest() {
         })
         .collect();
     println!("pieces, and the last cut, s: {broken:?}");
-    // Where the whole plate's modes go on in all pieces, there are 233 to 313 of them, and cracks run for 2.3 ms.
+    // Where the whole plate's modes go on in all pieces, there are 233 to 313 of them. What is left of the plate rings on, and cracks late.
     for (pieces, last) in broken {
-        assert!(pieces < 180 && last < 1e-3, "{pieces} pieces, {last} s");
+        assert!(pieces < 100 && last < 3e-3, "{pieces} pieces, {last} s");
     }
 }
