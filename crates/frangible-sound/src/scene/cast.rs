@@ -6,6 +6,10 @@ use glam::Vec3;
 
 /// What a thing is to the ear.
 #[derive(Clone, Debug)]
+#[expect(
+    clippy::large_enum_variant,
+    reason = "one per thing in a scene, beside meshes and modes"
+)]
 pub enum Sounding {
     /// A body, or a piece that can break again: it rings by its modes.
     Modes(Body),
