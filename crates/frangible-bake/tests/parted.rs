@@ -218,7 +218,9 @@ fn held_bodies_and_odd_pieces_keep_their_energy_finite() {
     let positions = few.asset().fracture.positions.clone();
     let single = move |p: Vec3| usize::from(one_tet.iter().any(|&v| positions[v as usize] == p));
     let scattered = |p: Vec3| ((p.x * 977.0 + p.y * 4409.0 + p.z * 2711.0).abs() as usize) % 40;
-    let cases: [(&str, &Body, &dyn Fn(Vec3) -> usize, usize); 5] = [
+    // Name, body, piece of each place, and how many pieces move on their own.
+    type Case<'a> = (&'a str, &'a Body, &'a dyn Fn(Vec3) -> usize, usize);
+    let cases: [Case<'_>; 5] = [
         (
             "a cantilever in its middle",
             &cantilever,
