@@ -31,12 +31,6 @@ pub(super) struct Flight<'a> {
     damping: [f64; 2],
     /// The motion under all forces and, where any contact rubs, the motion under the normal forces alone.
     lanes: Vec<Lane>,
-    /// Which corners press.
-    press: Vec<bool>,
-    /// The gap at which each closes, m: 0, or what it was when its face came about. Pieces that slide along a rough face are not pushed apart
-    /// by the parts that it is cut into.
-    closed: Vec<f64>,
-    solver: Solver,
 }
 
 /// One motion of the pieces.
@@ -53,6 +47,41 @@ struct Lane {
     force: Vec<f64>,
     /// Its motion is that of pushes with friction, 0, or without, 1.
     pushes: usize,
+    /// Which corners press.
+    press: Vec<bool>,
+    /// The gap at which each closes, m: 0, or what it was when its face came about. Pieces that slide along a rough face are not pushed apart
+    /// by the parts that it is cut into.
+    closed: Vec<f64>,
+    solver: Solver,
+}
+
+impl Lane {
+    /// Solves the tick, with those corners pressing that are closed at its end.
+    #[inline(always)]
+    fn settle(&mut self, parted: &Parted, plan: &Plan, bank: &Bank) {
+        for round in 0.. {
+            self.middle.copy_from_slice(&self.given);
+            let corners = self.press.iter().zip(&parted.corners).zip(&self.closed);
+            for ((_, corner), closed) in corners.filter(|((press, _), _)| **press) {
+                let push = corner.stiffness * (closed + corner.gap(&self.at));
+                corner.push(push, &mut self.middle);
+            }
+            solve(&self.solver.factor, &mut self.middle);
+            if round == MOST_ROUNDS || self.press.is_empty() {
+                break;
+            }
+            let mut changes = false;
+            let corners = self.press.iter_mut().zip(&parted.corners);
+            for ((press, corner), closed) in corners.zip(&self.closed) {
+                let gap = 2.0 * corner.gap(&self.middle) - corner.gap(&self.at) - closed;
+                changes |= std::mem::replace(press, gap < 0.0) != (gap < 0.0);
+            }
+            if !changes {
+                break;
+            }
+            self.solver.press(parted, &self.press, plan, bank);
+        }
+    }
 }
 
 impl<'a> Flight<'a> {
@@ -66,6 +95,9 @@ impl<'a> Flight<'a> {
             middle: Vec::new(),
             force: vec![0.0; plan.modes],
             pushes,
+            press: Vec::new(),
+            closed: Vec::new(),
+            solver: Solver::default(),
         };
         let felt = (plan.felt_first > 0).then_some((1, plan.felt_first));
         Self {
@@ -75,9 +107,6 @@ impl<'a> Flight<'a> {
             parted: None,
             damping: plan.rayleigh,
             lanes: [(0, 0)].into_iter().chain(felt).map(lane).collect(),
-            press: Vec::new(),
-            closed: Vec::new(),
-            solver: Solver::default(),
         }
     }
 
@@ -96,19 +125,18 @@ impl<'a> Flight<'a> {
                 lane.rate = parted.inherit(self.parted, &lane.rate);
                 lane.given = vec![0.0; n];
                 lane.middle = vec![0.0; n];
+                // Faces that were there go on as they were.
+                let before = self.parted.map_or(&[][..], |parted| &parted.corners);
+                let known = |corner: &Corner| before.iter().position(|known| known.is(corner));
+                let kept = parted.corners.iter().map(|corner| match known(corner) {
+                    Some(k) => (lane.press[k], lane.closed[k]),
+                    None => (false, corner.gap(&lane.at).min(0.0)),
+                });
+                (lane.press, lane.closed) = kept.collect();
+                lane.solver.tick = 0.0;
             }
-            // Faces that were there go on as they were.
-            let before = self.parted.map_or(&[][..], |parted| &parted.corners);
-            let known = |corner: &Corner| before.iter().position(|known| known.is(corner));
-            let at = &self.lanes[0].at;
-            let kept = parted.corners.iter().map(|corner| match known(corner) {
-                Some(k) => (self.press[k], self.closed[k]),
-                None => (false, corner.gap(at).min(0.0)),
-            });
-            (self.press, self.closed) = kept.collect();
             self.parted = Some(parted);
             self.next += 1;
-            self.solver.tick = 0.0;
         }
     }
 
@@ -121,13 +149,13 @@ impl<'a> Flight<'a> {
     #[inline(always)]
     pub(super) fn begin(&mut self, state: &BankState, bank: &Bank, tick: f64) {
         let Some(parted) = self.parted else { return };
-        if self.solver.tick != tick {
-            self.solver = Solver::new(parted, self.plan, (bank, self.felt().first), tick);
-            self.solver
-                .press(parted, &self.press, self.plan, (bank, self.felt().first));
-        }
         let share = 0.5 - self.damping[0] / tick;
         for lane in &mut self.lanes {
+            if lane.solver.tick != tick {
+                let contacts = (lane.pushes, lane.first);
+                lane.solver = Solver::new(parted, self.plan, bank, contacts, tick);
+                lane.solver.press(parted, &lane.press, self.plan, bank);
+            }
             let own = lane.first..lane.first + self.plan.modes;
             let oscillators = state.x[own].iter().zip(&self.plan.oscillators);
             for (force, (x, (w, _))) in lane.force.iter_mut().zip(oscillators) {
@@ -140,7 +168,7 @@ impl<'a> Flight<'a> {
     #[inline(always)]
     pub(super) fn foresee(&mut self, state: &mut BankState, bank: &Bank, forces: &[f64]) {
         let Some(parted) = self.parted else { return };
-        let tick = self.solver.tick;
+        let tick = self.felt().solver.tick;
         let [alpha, beta] = [self.damping[0] / tick, self.damping[1]];
         let n = parted.unknowns();
         for lane in &mut self.lanes {
@@ -158,7 +186,7 @@ impl<'a> Flight<'a> {
                 let row = j * n..(j + 1) * n;
                 lane.given[j] = dot(&parted.mass[row.clone()], &lane.middle)
                     + dot(parted.row(j), &lane.force)
-                    + 2.0 * alpha * dot(&self.solver.stiffness[row], &lane.at);
+                    + 2.0 * alpha * dot(&lane.solver.stiffness[row], &lane.at);
             }
             for (z, force) in parted.pushes[lane.pushes].iter().zip(forces) {
                 lane.given
@@ -166,9 +194,7 @@ impl<'a> Flight<'a> {
                     .zip(z)
                     .for_each(|(b, z)| *b += z * force);
             }
-        }
-        self.settle(parted, bank);
-        for lane in &mut self.lanes {
+            lane.settle(parted, self.plan, bank);
             lane.force.fill(0.0);
             for j in 0..n {
                 let pull = (1.0 + 2.0 * alpha) * lane.middle[j] - 2.0 * alpha * lane.at[j];
@@ -184,37 +210,6 @@ impl<'a> Flight<'a> {
                 .zip(frequencies)
                 .for_each(|(f, (w, _))| *f *= w * w);
             bank.hold(state, lane.first, &lane.force, 1.0);
-        }
-    }
-
-    /// Solves the tick, with those corners pressing that are closed at its end.
-    #[inline(always)]
-    fn settle(&mut self, parted: &Parted, bank: &Bank) {
-        for round in 0.. {
-            for lane in &mut self.lanes {
-                lane.middle.copy_from_slice(&lane.given);
-                let corners = self.press.iter().zip(&parted.corners).zip(&self.closed);
-                for ((_, corner), closed) in corners.filter(|((press, _), _)| **press) {
-                    let push = corner.stiffness * (closed + corner.gap(&lane.at));
-                    corner.push(push, &mut lane.middle);
-                }
-                solve(&self.solver.factor, &mut lane.middle);
-            }
-            if round == MOST_ROUNDS || self.press.is_empty() {
-                break;
-            }
-            let lane = &self.lanes[0];
-            let mut changes = false;
-            let corners = self.press.iter_mut().zip(&parted.corners);
-            for ((press, corner), closed) in corners.zip(&self.closed) {
-                let gap = 2.0 * corner.gap(&lane.middle) - corner.gap(&lane.at) - closed;
-                changes |= std::mem::replace(press, gap < 0.0) != (gap < 0.0);
-            }
-            if !changes {
-                break;
-            }
-            self.solver
-                .press(parted, &self.press, self.plan, (bank, self.felt().first));
         }
     }
 
@@ -240,7 +235,7 @@ impl<'a> Flight<'a> {
     /// has parted.
     #[inline(always)]
     pub(super) fn give(&self) -> &[f64] {
-        &self.solver.give
+        &self.felt().solver.give
     }
 
     fn felt(&self) -> &Lane {
@@ -253,9 +248,9 @@ impl<'a> Flight<'a> {
         if !self.is_on() {
             return;
         }
-        let by_rate = 4.0 / self.solver.tick;
         for lane in &mut self.lanes {
-            for (answer, &growth) in self.solver.answers[lane.pushes].iter().zip(growth) {
+            let by_rate = 4.0 / lane.solver.tick;
+            for (answer, &growth) in lane.solver.answers.iter().zip(growth) {
                 if growth != 0.0 {
                     let changes = lane.middle.iter_mut().zip(&answer.middle);
                     changes.for_each(|(c, x)| *c += x * growth);
@@ -295,7 +290,7 @@ impl<'a> Flight<'a> {
             .iter()
             .zip(rows)
             .map(|(w, row)| w * dot(row, &lane.rate));
-        let corners = self.press.iter().zip(&parted.corners).zip(&self.closed);
+        let corners = lane.press.iter().zip(&parted.corners).zip(&lane.closed);
         let pressed = corners
             .filter(|((press, _), _)| **press)
             .map(|((_, corner), closed)| {

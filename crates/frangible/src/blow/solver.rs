@@ -14,10 +14,12 @@ pub(super) struct Solver {
     /// The matrix without corners, and its factor with those that press.
     matrix: Vec<f64>,
     pub(super) factor: Vec<f64>,
-    /// Right side of what each contact's force does when it grows by a newton: with friction and without.
-    growths: [Vec<Vec<f64>>; 2],
-    /// What each contact's force does when it grows by a newton within a tick: with friction and without.
-    pub(super) answers: [Vec<Answer>; 2],
+    /// Number of the first mode among the oscillators.
+    first: usize,
+    /// Right side of what each contact's force does when it grows by a newton.
+    growths: Vec<Vec<f64>>,
+    /// What each contact's force does when it grows by a newton within a tick.
+    pub(super) answers: Vec<Answer>,
     /// What that moves each contact by through the pieces, m/N: row-major.
     pub(super) give: Vec<f64>,
 }
@@ -30,11 +32,12 @@ pub(super) struct Answer {
 }
 
 impl Solver {
-    /// Without corners yet.
+    /// Without corners yet. `pushes`: with friction, 0, or without, 1; `first`: number of the first mode among the oscillators.
     pub(super) fn new(
         parted: &Parted,
         plan: &Plan,
-        (bank, felt): (&Bank, usize),
+        bank: &Bank,
+        (pushes, first): (usize, usize),
         tick: f64,
     ) -> Self {
         let n = parted.unknowns();
@@ -60,22 +63,21 @@ impl Solver {
         let sums = parted.mass.iter().zip(&stiffness);
         let sums = sums.map(|(m, s)| m * inertia + (1.0 + 2.0 * alpha) * s);
         let matrix = sums.collect();
-        let growths = [(0, 0), (1, felt)].map(|(which, first)| {
-            let growth = |(z, drive): (&Vec<f64>, &Vec<f64>)| -> Vec<f64> {
-                let swing = bank.ramp_by(first..first + plan.modes, drive);
-                let swing = swing.zip(&plan.oscillators);
-                let swing = swing.map(|(x, (w, _))| (0.5 + alpha) * w * x);
-                let swing: Vec<f64> = swing.collect();
-                let rows = parted.rows().zip(z);
-                rows.map(|(row, z)| 0.5 * z + dot(row, &swing)).collect()
-            };
-            let contacts = parted.pushes[which].iter().zip(&plan.drive);
-            contacts.map(growth).collect()
-        });
+        let growth = |(z, drive): (&Vec<f64>, &Vec<f64>)| -> Vec<f64> {
+            let swing = bank.ramp_by(first..first + plan.modes, drive);
+            let swing = swing.zip(&plan.oscillators);
+            let swing = swing.map(|(x, (w, _))| (0.5 + alpha) * w * x);
+            let swing: Vec<f64> = swing.collect();
+            let rows = parted.rows().zip(z);
+            rows.map(|(row, z)| 0.5 * z + dot(row, &swing)).collect()
+        };
+        let contacts = parted.pushes[pushes].iter().zip(&plan.drive);
+        let growths = contacts.map(growth).collect();
         Self {
             tick,
             stiffness,
             matrix,
+            first,
             growths,
             ..Self::default()
         }
@@ -83,13 +85,7 @@ impl Solver {
 
     /// Solves with these corners pressing from now on.
     #[inline(always)]
-    pub(super) fn press(
-        &mut self,
-        parted: &Parted,
-        press: &[bool],
-        plan: &Plan,
-        (bank, felt): (&Bank, usize),
-    ) {
+    pub(super) fn press(&mut self, parted: &Parted, press: &[bool], plan: &Plan, bank: &Bank) {
         let n = parted.unknowns();
         let ahead = 1.0 + 2.0 * plan.rayleigh[0] / self.tick;
         let mut matrix = self.matrix.clone();
@@ -119,15 +115,12 @@ impl Solver {
                 .for_each(|(f, (w, _))| *f *= w * w);
             Answer { middle, force }
         };
-        self.answers = self
-            .growths
-            .each_ref()
-            .map(|of| of.iter().map(answer).collect());
+        self.answers = self.growths.iter().map(answer).collect();
         let count = parted.pushes[1].len();
         self.give = vec![0.0; count * count];
         for k in 0..count {
-            for (l, answer) in self.answers[1].iter().enumerate() {
-                let through_modes = bank.held_gap(&plan.gap[k], felt, &answer.force);
+            for (l, answer) in self.answers.iter().enumerate() {
+                let through_modes = bank.held_gap(&plan.gap[k], self.first, &answer.force);
                 self.give[k * count + l] =
                     through_modes + 2.0 * dot(&parted.pushes[1][k], &answer.middle);
             }
