@@ -1,4 +1,4 @@
-//! Where cracks run, against where the mesh would lead them.
+//! Directions of cracks in a pane, and the bias that the mesh gives them.
 //!
 //!     cargo run --release -p frangible-bake --example directions -- hit SEEDS SPEED [OPTION=VALUE…]
 //!     cargo run --release -p frangible-bake --example directions -- single [OPTION=VALUE…]
@@ -81,7 +81,7 @@ fn pane(options: &Options) -> Result<Asset> {
     Ok(bake(&spec, &mut |_| {})?.0)
 }
 
-/// What a crack cuts of a tetrahedron.
+/// One cut of a crack through a tetrahedron.
 struct Cut {
     /// Area, m².
     area: f64,
@@ -137,7 +137,7 @@ fn cuts<'a>(asset: &'a Asset, trace: &'a CrackTrace) -> impl Iterator<Item = Cut
     })
 }
 
-/// What one break had.
+/// Crack directions of one break.
 struct Break {
     parts: [f64; PARTS],
     /// Σ area times the cosine and sine of twice and four times the angle, m².

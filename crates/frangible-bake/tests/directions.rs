@@ -10,7 +10,7 @@ use frangible::internals::{CrackTrace, Factors, Fields, follow_traced, impact_tr
 use frangible::{Asset, Body, Breakable, Contact, FractureConfig, Material, Striker};
 use frangible_bake::{BakeSpec, Shape, Station, bake};
 
-/// What a crack cuts of a tetrahedron: area, m², unit normal, middle, m, and when, s.
+/// One cut of a crack through a tetrahedron: area, m², unit normal, middle, m, and when, s.
 struct Cut {
     area: f64,
     normal: Vec3,

@@ -48,7 +48,7 @@ pub struct BodySpec {
     pub weibull_modulus: Option<f64>,
     /// Volume of the specimen whose strength its material's is, m³; that of the preset if none is given.
     pub specimen: Option<f64>,
-    /// How its strength falls with the time that a load lasts; as its material's preset says if none is given.
+    /// Static fatigue: the loss of strength under loads that last; that of the material preset if none is given.
     pub fatigue: Option<Fatigue>,
     /// What is to differ from the bake of a [`BodySource::Asset`]; not looked at for other sources.
     pub rescale: Rescale,

@@ -20,7 +20,7 @@ pub(crate) enum Look {
     Flaws {
         skin: Box<Skin>,
         pressed: Vec<u32>,
-        /// Where the flaw of each is: drawn by the body's seed.
+        /// Place of each flaw in the analysis mesh, on its face, drawn by the seed of the body.
         points: Vec<EmbeddedPoint>,
     },
 }

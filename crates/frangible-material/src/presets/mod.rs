@@ -71,7 +71,7 @@ pub struct Preset {
     /// Dynamic increase factor: its strength under a blow, which is that of its [`material`](Self::material), over that of a slow test. 1 where
     /// no measurement was found.
     pub dynamic_increase: f64,
-    /// How its strength falls with the time that a load lasts; none where that was not measured.
+    /// Static fatigue: the loss of strength under loads that last; none where it was not measured.
     pub fatigue: Option<Fatigue>,
     numbers: Numbers,
 }

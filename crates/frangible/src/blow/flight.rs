@@ -27,8 +27,6 @@ pub(super) struct Flight<'a> {
     all: &'a [Parted],
     next: usize,
     parted: Option<&'a Parted>,
-    /// α, s, and β, 1/s.
-    damping: [f64; 2],
     /// The motion under all forces and, where any contact rubs, the motion under the normal forces alone.
     lanes: Vec<Lane>,
 }
@@ -105,7 +103,6 @@ impl<'a> Flight<'a> {
             all,
             next: 0,
             parted: None,
-            damping: plan.rayleigh,
             lanes: [(0, 0)].into_iter().chain(felt).map(lane).collect(),
         }
     }
@@ -149,7 +146,7 @@ impl<'a> Flight<'a> {
     #[inline(always)]
     pub(super) fn begin(&mut self, state: &BankState, bank: &Bank, tick: f64) {
         let Some(parted) = self.parted else { return };
-        let share = 0.5 - self.damping[0] / tick;
+        let share = 0.5 - self.plan.rayleigh[0] / tick;
         for lane in &mut self.lanes {
             if lane.solver.tick != tick {
                 let contacts = (lane.pushes, lane.first);
@@ -169,7 +166,7 @@ impl<'a> Flight<'a> {
     pub(super) fn foresee(&mut self, state: &mut BankState, bank: &Bank, forces: &[f64]) {
         let Some(parted) = self.parted else { return };
         let tick = self.felt().solver.tick;
-        let [alpha, beta] = [self.damping[0] / tick, self.damping[1]];
+        let [alpha, beta] = [self.plan.rayleigh[0] / tick, self.plan.rayleigh[1]];
         let n = parted.unknowns();
         for lane in &mut self.lanes {
             let own = lane.first..lane.first + self.plan.modes;
