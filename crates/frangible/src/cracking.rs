@@ -41,10 +41,18 @@ pub(crate) struct Cracking<'a> {
     pub(crate) blow: Option<Box<Blow>>,
 }
 
+/// Why cracks run no further for now.
+enum Stop {
+    /// Nothing is left that could crack.
+    End,
+    /// The motion has been followed no further than to its last step.
+    Asks,
+    /// Cracks have changed the motion from this time step on.
+    Changed(usize, Changed),
+}
+
 /// How cracks have changed the motion.
 struct Changed {
-    /// Time step from which on it counts.
-    step: usize,
     /// Contacts that still push, and what the body there gives way by more than it did, m/N.
     contacts: Vec<(usize, f64)>,
     /// What moves on its own, where more has parted.
@@ -101,29 +109,51 @@ impl<'a> Cracking<'a> {
         let (body, config) = (self.body, self.config);
         let mut system = CrackSystem::new(body, config, self.budget);
         let mut suspects = Suspects::default();
+        let mut displacement = DisplacementBatch::new(&body.asset);
+        let mut culling = Culling::new(body, config, &self.motion);
+        (culling.passed_over, culling.as_weakest) = (looked.passed_over, looked.as_weakest);
         // From the beginning of its batch, so that every batch is whole.
         let mut step = first_step / STRIDE * STRIDE;
         let mut grown = Grown::default();
-        while let Some(changed) = self.follow(
-            step,
-            &mut system,
-            &mut suspects,
-            &mut grown,
-            &mut looked,
-            &mut report,
-        ) {
-            let Some(blow) = &mut self.blow else { break };
+        loop {
+            let seen = (&mut displacement, &mut culling, &mut suspects);
+            let stop = self.follow(step, &mut system, seen, &mut grown, &mut looked, &mut report);
+            let (Some(blow), motion) = (&mut self.blow, &mut self.motion) else {
+                break;
+            };
             let start = Instant::now();
-            step = changed.step;
-            blow.go_on(body, step, &changed.contacts, changed.groups);
-            self.motion = std::mem::take(&mut blow.motion);
+            match stop {
+                Stop::End => break,
+                Stop::Asks => {
+                    step = motion.steps();
+                    if !blow.go_further(motion) {
+                        break;
+                    }
+                }
+                Stop::Changed(from, changed) => {
+                    step = from;
+                    blow.go_on(body, step, &changed.contacts, changed.groups, motion);
+                    displacement.forget();
+                    system.releases.forget_batch();
+                    suspects.forget_motion();
+                }
+            }
+            // A shorter blow brings less in the end.
+            if let Some(most) = blow.most_energy(motion) {
+                system.ledger.cap(most);
+            }
+            report.timings.response += start.elapsed().as_secs_f64();
+        }
+        let [most, felt] = suspects.passed_over;
+        looked.asked_clusters = culling.asked_clusters;
+        looked.passed_over = culling.passed_over.max(most);
+        looked.as_weakest = culling.as_weakest.max(felt);
+        if let Some(blow) = &mut self.blow {
+            let start = Instant::now();
+            blow.end_contacts(&mut self.motion);
             report.contacts = blow.reports();
             report.contact_duration = blow.duration();
             report.time_steps = self.motion.steps();
-            // A shorter blow brings less in the end.
-            system.ledger.cap(self.motion.peak_strain_energy);
-            system.releases.forget_batch();
-            suspects.forget_motion();
             report.timings.response += start.elapsed().as_secs_f64();
         }
         report.peak_elastic_energy = self.motion.peak_energy;
@@ -131,26 +161,22 @@ impl<'a> Cracking<'a> {
         self.end(system, grown, looked, report, trace)
     }
 
-    /// Runs the cracks from a time step on: to the end of the motion, or until they have changed it.
+    /// Runs the cracks from a time step on: to the end of the motion as far as it is known, or until they have changed it.
     fn follow(
-        &mut self,
+        &self,
         first_step: usize,
         system: &mut CrackSystem<'a>,
-        suspects: &mut Suspects,
+        (displacement, culling, suspects): (&mut DisplacementBatch, &mut Culling, &mut Suspects),
         grown: &mut Grown,
         looked: &mut Looked,
         report: &mut ImpactReport,
-    ) -> Option<Changed> {
+    ) -> Stop {
         let (body, config, motion) = (self.body, self.config, &self.motion);
-        let mut displacement = DisplacementBatch::new(&body.asset);
-        let mut culling = Culling::new(body, config, motion);
-        (culling.passed_over, culling.as_weakest) = (looked.passed_over, looked.as_weakest);
-        let mut field = StressField::new(body, config, motion, &self.pressed, &mut displacement);
+        let mut field = StressField::new(body, config, motion, &self.pressed, displacement);
         let mut roots = [0.0; BATCH];
-        let mut changed = None;
         for step in first_step..motion.steps() {
             if system.is_spent() {
-                break;
+                return Stop::End;
             }
             let k = lane(step);
             field.step = step;
@@ -159,10 +185,10 @@ impl<'a> Cracking<'a> {
                 && let Some(blow) = &self.blow
             {
                 let start = Instant::now();
-                changed = self.look(blow, step, system, grown);
+                let changed = self.look(blow, step, system, grown);
                 report.timings.labels += start.elapsed().as_secs_f64();
-                if changed.is_some() {
-                    break;
+                if let Some(changed) = changed {
+                    return Stop::Changed(step, changed);
                 }
             }
             if step % STRIDE == 0 || step == first_step {
@@ -185,11 +211,7 @@ impl<'a> Cracking<'a> {
             looked.peak = crack(system, &mut field, suspects, times, looked.peak);
             report.timings.cracks += start.elapsed().as_secs_f64();
         }
-        looked.asked_clusters |= culling.asked_clusters;
-        let [most, felt] = suspects.passed_over;
-        looked.passed_over = looked.passed_over.max(culling.passed_over).max(most);
-        looked.as_weakest = looked.as_weakest.max(culling.as_weakest).max(felt);
-        changed
+        Stop::Asks
     }
 
     /// Looks whether cracks have weakened what bears a contact, and which pieces they have parted: the large ones move on their own, the others
@@ -215,7 +237,10 @@ impl<'a> Cracking<'a> {
             let progress = system.progress();
             let labels = match grown.pieces.take() {
                 Some((known, labels)) if known == progress => labels,
-                _ => fragment::label(system, index, self.config.crumb_share),
+                before => {
+                    let before = before.map(|(_, labels)| labels);
+                    fragment::label(system, index, self.config.crumb_share, before)
+                }
             };
             if labels.count > 1 {
                 let of_node = &labels.of_node;
@@ -230,11 +255,7 @@ impl<'a> Cracking<'a> {
             }
             grown.pieces = Some((progress, labels));
         }
-        (groups.is_some() || !contacts.is_empty()).then_some(Changed {
-            step,
-            contacts,
-            groups,
-        })
+        (groups.is_some() || !contacts.is_empty()).then_some(Changed { contacts, groups })
     }
 
     /// What came of it.
@@ -272,7 +293,10 @@ impl<'a> Cracking<'a> {
         let start = Instant::now();
         let labels = match grown.pieces {
             Some((progress, labels)) if progress == system.progress() => labels,
-            _ => fragment::label(&system, &body.prepared.index, self.config.crumb_share),
+            before => {
+                let (index, before) = (&body.prepared.index, before.map(|(_, labels)| labels));
+                fragment::label(&system, index, self.config.crumb_share, before)
+            }
         };
         report.timings.labels += start.elapsed().as_secs_f64();
         if let Some(trace) = trace {

@@ -3,15 +3,15 @@
 use std::f64::consts::PI;
 
 use super::bank::{BankState, dot_over};
-use super::flight::Flight;
+use super::flight::{Flight, Setup};
 use super::plan::Plan;
 
 /// Rounds over all contacts until their forces agree.
 const MOST_ROUNDS: usize = 60;
 
 /// The contacts between two substeps: a number of each in every list.
-pub(super) struct Contacts<'a> {
-    plan: &'a Plan,
+#[derive(Clone, Debug)]
+pub(super) struct Contacts {
     /// Length of a substep, s.
     pub(super) dt: f64,
     /// How far each striker has come, against the body as a rigid one, m, and how fast it does, m/s.
@@ -33,9 +33,9 @@ pub(super) struct Contacts<'a> {
     give: Vec<f64>,
 }
 
-impl<'a> Contacts<'a> {
+impl Contacts {
     #[inline(always)]
-    pub(super) fn new(plan: &'a Plan) -> Self {
+    pub(super) fn new(plan: &Plan) -> Self {
         let count = plan.sites.len();
         let dt = plan.time_step / plan.substeps as f64;
         let mut give = vec![0.0; count * count];
@@ -47,7 +47,6 @@ impl<'a> Contacts<'a> {
         }
         let approach = |s: &super::plan::Site| f64::from(s.touch.contact.approach_speed);
         Self {
-            plan,
             dt,
             ways: vec![0.0; count],
             speeds: plan.sites.iter().map(approach).collect(),
@@ -64,8 +63,8 @@ impl<'a> Contacts<'a> {
 
     /// Finds the bases, with the oscillators at the end of the substep as if no force grew.
     #[inline(always)]
-    pub(super) fn foresee(&mut self, state: &BankState, flight: &Flight) {
-        let (plan, dt) = (self.plan, self.dt);
+    pub(super) fn foresee(&mut self, setup: Setup<'_>, state: &BankState, flight: &Flight) {
+        let (plan, dt) = (setup.plan, self.dt);
         let count = self.forces.len();
         for k in 0..count {
             let fall: f64 = (0..count)
@@ -74,21 +73,21 @@ impl<'a> Contacts<'a> {
             self.bases[k] = self.ways[k] + self.speeds[k] * dt
                 - 0.5 * fall * dt * dt
                 - dot_over(&plan.gap[k], &state.x, &plan.felt[k])
-                - flight.gap(k);
+                - flight.gap(setup, k);
         }
     }
 
     /// Finds the forces at the end of the substep, at the time t, s, each in turn until they agree. `through_pieces`: what a unit growth of one force
     /// takes from a gap through pieces that move on their own, m/N; empty where there are none.
     #[inline(always)]
-    pub(super) fn solve(&mut self, t: f64, through_pieces: &[f64]) {
+    pub(super) fn solve(&mut self, plan: &Plan, t: f64, through_pieces: &[f64]) {
         let count = self.forces.len();
         self.next.copy_from_slice(&self.forces);
         for _ in 0..MOST_ROUNDS {
             let mut change = 0.0_f64;
             let mut largest = 0.0_f64;
             for k in 0..count {
-                let found = self.force(k, t, through_pieces);
+                let found = self.force(plan, k, t, through_pieces);
                 change = change.max((found - self.next[k]).abs());
                 largest = largest.max(found);
                 self.next[k] = found;
@@ -101,8 +100,8 @@ impl<'a> Contacts<'a> {
 
     /// The force of contact `k` at the end of the substep where all others are known, N.
     #[inline(always)]
-    fn force(&mut self, k: usize, t: f64, through_pieces: &[f64]) -> f64 {
-        let (plan, count) = (self.plan, self.forces.len());
+    fn force(&mut self, plan: &Plan, k: usize, t: f64, through_pieces: &[f64]) -> f64 {
+        let count = self.forces.len();
         let through = |i: usize| through_pieces.get(i).copied().unwrap_or(0.0);
         if self.weakness[k].is_infinite() {
             return 0.0;
@@ -139,10 +138,10 @@ impl<'a> Contacts<'a> {
 
     /// Moves the strikers to the end of the substep.
     #[inline(always)]
-    pub(super) fn advance(&mut self) {
+    pub(super) fn advance(&mut self, plan: &Plan) {
         let count = self.forces.len();
         for k in 0..count {
-            let row = &self.plan.inverse_mass[k * count..(k + 1) * count];
+            let row = &plan.inverse_mass[k * count..(k + 1) * count];
             let (mut held, mut mean) = (0.0, 0.0);
             for ((b, f), g) in row.iter().zip(&self.forces).zip(&self.growth) {
                 held += b * (0.5 * f + g / 6.0);
@@ -158,8 +157,8 @@ impl<'a> Contacts<'a> {
     }
 
     /// Whether any striker, which no script moves, still comes nearer to the body as a whole.
-    pub(super) fn approach(&self) -> bool {
-        let sites = self.plan.sites.iter().zip(&self.speeds).zip(&self.weakness);
+    pub(super) fn approach(&self, plan: &Plan) -> bool {
+        let sites = plan.sites.iter().zip(&self.speeds).zip(&self.weakness);
         let comes = |((site, &speed), weakness): ((&super::plan::Site, &f64), &f64)| {
             site.script.is_none() && speed > 0.0 && weakness.is_finite()
         };
@@ -168,8 +167,14 @@ impl<'a> Contacts<'a> {
 
     /// Whether every contact is open and opening further, or has nothing left to push.
     #[inline(always)]
-    pub(super) fn have_parted(&self, state: &BankState, flight: &Flight, t: f64) -> bool {
-        let plan = self.plan;
+    pub(super) fn have_parted(
+        &self,
+        setup: Setup<'_>,
+        state: &BankState,
+        flight: &Flight,
+        t: f64,
+    ) -> bool {
+        let plan = setup.plan;
         if self.forces.iter().any(|&f| f > 0.0) {
             return false;
         }
@@ -184,7 +189,7 @@ impl<'a> Contacts<'a> {
             let give: f64 = (plan.gap[k].iter().zip(&plan.oscillators).zip(&state.v))
                 .map(|((gap, (w, _)), v)| gap * w * v)
                 .sum();
-            self.speeds[k] < give + flight.gap_speed(k)
+            self.speeds[k] < give + flight.gap_speed(setup, k)
         })
     }
 }

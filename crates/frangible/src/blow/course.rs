@@ -1,11 +1,13 @@
 //! A blow: what its integration found, what is told of it, and how cracks change it.
 
 use std::f64::consts::PI;
+use std::sync::Arc;
 
 use glam::DVec3;
 
+use super::flight::Setup;
 use super::groups::Groups;
-use super::integrate::{Record, Run, Softening};
+use super::integrate::{MOST_SUBSTEPS, Progress, Record, Run, Softening};
 use super::parted::Parted;
 use super::plan::Plan;
 use super::star::Star;
@@ -16,28 +18,31 @@ use crate::crack::{CrackSystem, StressField};
 use crate::error::InputError;
 use crate::motion::{Complement, DisplacementBatch, Motion, Residual};
 use crate::near_field::NearField;
-use crate::stress::{Symmetric3, lane};
+use crate::stress::{STRIDE, Shape, Symmetric3, lane};
 
 /// A star counts anew when it gives way by this factor more.
 const GREW: f64 = 1.3;
+
+/// A blow that breaks a body is over after so many times the time that the whole body's takes: what still rests on a contact then is held by it,
+/// and no longer struck.
+const LONGER: usize = 4;
+
+/// Time steps that a motion which cracks have changed is followed for at a time, in batches: they mostly change it again before its end.
+const BATCHES: usize = 2;
 
 /// A blow, integrated: the forces of its contacts and the motion of the body.
 #[derive(Clone, Debug)]
 pub struct Blow {
     plan: Plan,
     instant: bool,
-    /// Forces after each substep, N, contact after contact.
-    forces: Vec<f64>,
-    /// Time steps until the contacts have parted.
-    contact_steps: usize,
-    /// Speed of each striker away from the body as a rigid one after it, m/s.
-    departures: Vec<f64>,
-    energy_at_parting: f64,
-    strikers_energy: f64,
-    /// Energy of the body, and the strain energy in it, at the end of each time step, J.
-    energies: Vec<[f64; 2]>,
-    /// Velocity and angular velocity of each piece that moves on its own in the end, against the whole body's rigid motion, m/s and rad/s.
-    drifts: Vec<[DVec3; 2]>,
+    /// Substeps after which the contacts are over at the latest.
+    longest: usize,
+    /// The shapes that follow each contact's force.
+    shapes: Vec<Option<Arc<Shape>>>,
+    record: Record,
+    progress: Progress,
+    /// An earlier state, from which on the motion is found anew when cracks change it.
+    saved: Option<Box<Progress>>,
     /// What cracks have made of the body under the contacts.
     softer: Vec<Softening>,
     /// What has parted.
@@ -81,22 +86,24 @@ impl Blow {
         longest: Option<f64>,
     ) -> Option<Self> {
         let plan = Plan::new(body, contacts, config, longest)?;
+        let shape = |site: &super::plan::Site| Residual::shape(&body.asset, &site.residual);
+        let mut motion = Motion::default();
+        motion.modes = plan.modes;
         let mut blow = Self {
+            shapes: plan.sites.iter().map(shape).collect(),
+            progress: Progress::new(&plan),
+            record: Record::default(),
+            saved: None,
             plan,
             instant: config.timing == CrackTiming::Instant,
-            forces: Vec::new(),
-            contact_steps: 0,
-            departures: Vec::new(),
-            energy_at_parting: 0.0,
-            strikers_energy: 0.0,
-            energies: Vec::new(),
-            drifts: Vec::new(),
+            longest: MOST_SUBSTEPS,
             softer: Vec::new(),
             parted: Vec::new(),
             motion: Motion::default(),
         };
-        let run = blow.run(&[]);
-        blow.take(body, run);
+        blow.integrate(&mut motion, usize::MAX);
+        blow.motion = motion;
+        blow.longest = (LONGER * blow.contact_steps() * blow.plan.substeps).min(MOST_SUBSTEPS);
         Some(blow)
     }
 
@@ -127,8 +134,8 @@ impl Blow {
         let mut sums = vec![0.0; self.plan.modes];
         let count = self.plan.sites.len();
         for (k, drive) in self.plan.drive.iter().enumerate() {
-            let impulse: f64 =
-                self.forces.iter().skip(k).step_by(count).sum::<f64>() * self.substep();
+            let forces = self.record.forces.iter().skip(k).step_by(count);
+            let impulse = forces.sum::<f64>() * self.substep();
             for (sum, xi) in sums.iter_mut().zip(drive) {
                 *sum += impulse * xi;
             }
@@ -143,7 +150,7 @@ impl Blow {
             duration,
             amplitude: 0.5 * PI / duration,
             time_step: self.plan.time_step,
-            contact_steps: self.contact_steps,
+            contact_steps: self.contact_steps(),
             total_steps: self.motion.steps(),
             longest_step: self.plan.time_step,
         }
@@ -152,7 +159,7 @@ impl Blow {
     /// How long the contacts push, s.
     pub(crate) fn duration(&self) -> f64 {
         let count = self.plan.sites.len();
-        let last = self.forces.iter().rposition(|&f| f > 0.0);
+        let last = self.record.forces.iter().rposition(|&f| f > 0.0);
         last.map_or(0.0, |i| (i / count + 1) as f64 * self.substep())
     }
 
@@ -160,6 +167,12 @@ impl Blow {
     pub(crate) fn expected_duration(&self) -> f64 {
         let times = self.plan.sites.iter().map(|s| s.duration);
         times.fold(f64::INFINITY, f64::min)
+    }
+
+    /// Time steps until the contacts have parted, as far as they have been followed.
+    fn contact_steps(&self) -> usize {
+        let after = self.progress.after;
+        after.map_or(self.progress.step, |after| after.contact_steps)
     }
 
     fn substep(&self) -> f64 {
@@ -172,7 +185,7 @@ impl Blow {
         let count = self.plan.sites.len();
         let dt = self.substep();
         let of = |(k, site): (usize, &super::plan::Site)| {
-            let forces = || self.forces.iter().skip(k).step_by(count);
+            let forces = || self.record.forces.iter().skip(k).step_by(count);
             let peak = forces().copied().fold(0.0, f64::max);
             let sampled = forces().skip(self.plan.substeps - 1);
             // What is let go ends at once, with its last value.
@@ -196,7 +209,7 @@ impl Blow {
                     .map_or(0.0, |i| (i + 1) as f64 * dt),
                 contact_radius: (site.near.as_ref())
                     .map_or(site.spring.contact_radius(peak), |near| near.contact_radius),
-                departure_speed: self.departures[k],
+                departure_speed: -self.progress.contacts.speeds[k],
                 crushing_energy,
                 crushed_volume: crushing_energy / site.spring.crushing_pressure,
                 force: sampled
@@ -216,9 +229,9 @@ impl Blow {
     pub fn energies(&self) -> [f64; 2] {
         let mass = 1.0 / self.plan.inverse_mass[0];
         let before = f64::from(self.plan.sites[0].touch.contact.approach_speed);
-        let after = self.departures[0];
+        let after = self.progress.contacts.speeds[0];
         [
-            self.energy_at_parting,
+            self.progress.at_parting.map_or(0.0, |[of_body, _]| of_body),
             0.5 * mass * (before * before - after * after),
         ]
     }
@@ -226,14 +239,14 @@ impl Blow {
     /// Energy of the modes and wall oscillators of breakable strikers when the contact parts, J.
     #[must_use]
     pub fn strikers_energy(&self) -> f64 {
-        self.strikers_energy
+        (self.progress.at_parting).map_or(0.0, |[_, of_strikers]| of_strikers)
     }
 
     /// Energy of the body's vibration and of the pieces that move on their own, and the strain energy in it, at the end of each time step, J.
     #[doc(hidden)]
     #[must_use]
     pub fn energies_over_time(&self) -> &[[f64; 2]] {
-        &self.energies
+        &self.record.energies
     }
 
     /// The motion of the body over time.
@@ -246,15 +259,19 @@ impl Blow {
     /// Velocity and angular velocity of each piece that moves on its own in the end, against the whole body's rigid motion, m/s and rad/s.
     #[doc(hidden)]
     #[must_use]
-    pub fn drifts(&self) -> &[[DVec3; 2]] {
-        &self.drifts
+    pub fn drifts(&self) -> Vec<[DVec3; 2]> {
+        let Progress { flight, state, .. } = &self.progress;
+        flight.drifts(self.setup(), state)
     }
 
     /// Lets pieces part at a time step, as cracks do: `piece_of_node` has the piece of each node of the fracture mesh, the largest first.
     #[doc(hidden)]
     pub fn part(&mut self, body: &Body, piece_of_node: &[u32], pieces: usize, step: usize) {
         let (groups, _) = self.groups(body, (piece_of_node, pieces));
-        self.go_on(body, step, &[], groups);
+        let mut motion = std::mem::take(&mut self.motion);
+        self.go_on(body, step, &[], groups, &mut motion);
+        self.integrate(&mut motion, usize::MAX);
+        self.motion = motion;
     }
 
     /// The body's stress at the weak place of fracture tetrahedron `tet` at a time step of the blow, Pa, as cracks feel it.
@@ -291,7 +308,7 @@ impl Blow {
 
     /// Whether contacts still push at a time step.
     pub(crate) fn pushes_at(&self, step: usize) -> bool {
-        step < self.contact_steps
+        (self.progress.after).is_none_or(|after| step < after.contact_steps)
     }
 
     /// The node of the fracture mesh next to each contact, of those that are the body's own.
@@ -325,14 +342,22 @@ impl Blow {
     }
 
     /// Goes on from a time step on with a body of which these groups have parted, and with contacts where it gives way by so much more than
-    /// it did, m/N. The steps before stay as they were, bit for bit.
+    /// it did, m/N. The steps before stay as they were, bit for bit; those after it are known [as far as they are asked for](Self::go_further).
     pub(crate) fn go_on(
         &mut self,
         body: &Body,
         step: usize,
         contacts: &[(usize, f64)],
         groups: Option<Groups>,
+        motion: &mut Motion,
     ) {
+        let saved = self.saved.take().filter(|saved| saved.step <= step);
+        self.progress = saved.map_or_else(|| Progress::new(&self.plan), |saved| *saved);
+        self.record.forget_after(&self.progress, &self.plan);
+        let energies = self.record.energies.iter().map(|e| e[0]);
+        motion.keep(self.progress.step, energies.fold(0.0, f64::max));
+        self.follow(motion, step);
+        self.saved = Some(Box::new(self.progress.clone()));
         let substep = step * self.plan.substeps;
         let softer = contacts.iter().map(|&(contact, compliance)| Softening {
             contact,
@@ -342,52 +367,100 @@ impl Blow {
         self.softer.extend(softer);
         if let Some(groups) = groups {
             let nodes = self.nodes(body);
-            let parted = Parted::new(body, &self.plan, groups, &nodes, [step, substep]);
+            let (plan, before) = (&self.plan, self.parted.last());
+            let parted = Parted::new(body, plan, before, groups, &nodes, [step, substep]);
             self.parted.push(parted);
         }
-        let known = (substep * self.plan.sites.len()).min(self.forces.len());
-        let run = self.run(&self.forces[..known]);
-        self.take(body, run);
+        self.integrate(motion, self.horizon());
     }
 
-    fn take(&mut self, body: &Body, run: Record) {
-        self.motion = self.motion_of(body, &run);
-        self.energy_at_parting = run.energy_at_parting;
-        self.strikers_energy = run.strikers_energy;
-        self.contact_steps = run.contact_steps;
-        self.departures = run.speeds.iter().map(|v| -v).collect();
-        self.forces = run.forces;
-        self.energies = run.energies;
-        self.drifts = run.drifts;
+    /// Follows the motion some steps further; no where it is over.
+    pub(crate) fn go_further(&mut self, motion: &mut Motion) -> bool {
+        let goes = !self.progress.is_over();
+        if goes {
+            self.saved = Some(Box::new(self.progress.clone()));
+            self.integrate(motion, self.horizon());
+        }
+        goes
     }
 
-    /// `known`: forces from the beginning on that are known already.
-    fn run(&self, known: &[f64]) -> Record {
+    /// Follows the motion until the contacts have parted.
+    pub(crate) fn end_contacts(&mut self, motion: &mut Motion) {
+        while self.progress.after.is_none() {
+            self.integrate(motion, self.horizon());
+        }
+    }
+
+    /// The most that the strain energy may become, J, where that is known.
+    pub(crate) fn most_energy(&self, motion: &Motion) -> Option<f64> {
+        // Once nothing pushes any more, what is there only changes its form.
+        self.progress.after?;
+        let [whole, _] = self.record.energies.last()?;
+        Some(motion.peak_strain_energy.max(*whole))
+    }
+
+    /// The time step to which a motion is followed next: whole batches on.
+    fn horizon(&self) -> usize {
+        match self.instant {
+            true => usize::MAX,
+            false => (self.progress.step / STRIDE + BATCHES) * STRIDE,
+        }
+    }
+
+    fn setup(&self) -> Setup<'_> {
+        Setup {
+            plan: &self.plan,
+            parted: &self.parted,
+        }
+    }
+
+    /// Follows the motion to a time step.
+    fn follow(&mut self, motion: &mut Motion, until: usize) {
         // With the widest vectors that this processor has; the same operations in the same order, so the same bits.
         pulp::Arch::new().dispatch(Run {
-            plan: &self.plan,
-            known,
+            setup: Setup {
+                plan: &self.plan,
+                parted: &self.parted,
+            },
             softer: &self.softer,
-            parted: &self.parted,
             instant: self.instant,
-        })
+            longest: self.longest,
+            until,
+            progress: &mut self.progress,
+            record: &mut self.record,
+            motion,
+        });
     }
 
-    fn motion_of(&self, body: &Body, run: &Record) -> Motion {
+    /// Follows the motion to a time step, with what the modes leave out.
+    fn integrate(&mut self, motion: &mut Motion, until: usize) {
+        let before = self.progress.step;
+        self.follow(motion, until);
+        let plan = &self.plan;
+        motion.coarse = (self.progress.after)
+            .filter(|_| plan.coarser > 1.0)
+            .map(|after| (after.near_steps, plan.coarser));
+        if before < self.progress.near_steps() {
+            motion.complement = self.complement();
+        }
+    }
+
+    /// What the modes leave out of the motion so far.
+    fn complement(&self) -> Complement {
         let plan = &self.plan;
         let count = plan.sites.len();
-        let asset = &*body.asset;
         let mut complement = Complement::default();
         let mut first = 0;
-        for (k, site) in plan.sites.iter().enumerate() {
-            let sampled = run.forces.iter().skip((plan.substeps - 1) * count + k);
+        for (k, (site, shape)) in plan.sites.iter().zip(&self.shapes).enumerate() {
+            let sampled = self.record.forces.iter();
             let force: Vec<f32> = sampled
+                .skip((plan.substeps - 1) * count + k)
                 .step_by(plan.substeps * count)
                 .map(|&f| f as f32)
                 .collect();
             if let Some(near) = &site.near {
                 let oscillators = near.oscillators.len();
-                let rows = run.swing.chunks_exact(run.width);
+                let rows = self.record.swing.chunks_exact((plan.own - plan.modes).max(1));
                 let frequencies = &plan.oscillators[near.oscillators.clone()];
                 // From ω p of the oscillator of unit mass to ω² q of the one that the force itself drives, N.
                 let scale: Vec<f32> = (near.bands.oscillators.iter().zip(frequencies))
@@ -400,29 +473,17 @@ impl Blow {
                 }
                 first += oscillators;
                 let mut across: Vec<f32> = force.iter().map(|f| f * near.across as f32).collect();
-                across.resize(run.near_steps, 0.0);
+                across.resize(self.progress.near_steps(), 0.0);
                 let (place, wall, bands) = (near.place, &near.wall.material, &near.bands);
                 complement
                     .near
                     .push(NearField::new(place, wall, bands, &swing, &across));
             }
+            let shape = shape.as_ref().map(Arc::clone);
             complement
                 .residuals
-                .extend(Residual::new(asset, &site.residual, force));
+                .extend(shape.map(|shape| Residual { shape, force }));
         }
-        let peak = |peak: &mut f64, energy: f64| {
-            *peak = peak.max(energy);
-            Some(*peak)
-        };
-        let strain = run.energies.iter().map(|e| e[1]);
-        Motion {
-            amplitudes: run.amplitudes.clone(),
-            modes: plan.modes,
-            peak_energy: run.energies.iter().map(|e| e[0]).fold(0.0, f64::max),
-            peak_strain_energy: strain.clone().fold(0.0, f64::max),
-            strain_energy: strain.scan(0.0, peak).collect(),
-            coarse: (plan.coarser > 1.0).then_some((run.near_steps, plan.coarser)),
-            complement,
-        }
+        complement
     }
 }

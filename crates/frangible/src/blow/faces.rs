@@ -71,13 +71,18 @@ struct Face {
     second: DMat3,
 }
 
-/// The corners of all faces between groups.
-pub(super) fn corners(body: &Body, groups: &Groups, centres: &[DVec3]) -> Vec<Corner> {
+/// The corners of all faces between groups. `mixed`: the tetrahedra that have nodes of several.
+pub(super) fn corners(
+    body: &Body,
+    groups: &Groups,
+    centres: &[DVec3],
+    mixed: &[u32],
+) -> Vec<Corner> {
     let material = &body.asset.material;
     let nu = material.poisson_ratio;
     let modulus = material.youngs_modulus / (1.0 - nu * nu);
     let mut corners = Vec::new();
-    for face in faces(body, groups) {
+    for face in faces(body, groups, mixed) {
         let across = face.across.length();
         if across < FLAT * face.area {
             continue;
@@ -115,15 +120,11 @@ fn outline(normal: DVec3, centre: DVec3, spread: DMat3) -> [DVec3; 4] {
 
 /// The faces between groups. Let χ be 1 at the nodes of a group and 0 at others: then volume × ∇χ of a tetrahedron is the area with which the
 /// group's side passes through it.
-fn faces(body: &Body, groups: &Groups) -> Vec<Face> {
-    let asset = &*body.asset;
-    let mesh = &asset.fracture;
+fn faces(body: &Body, groups: &Groups, mixed: &[u32]) -> Vec<Face> {
+    let mesh = &body.asset.fracture;
     let mut faces: Vec<Face> = Vec::new();
-    for tet in asset.tets() {
+    for tet in mixed.iter().map(|&tet| tet as usize) {
         let of = mesh.tets[tet].map(|v| groups.of_node[v as usize]);
-        if of == [of[0]; 4] {
-            continue;
-        }
         let corners = mesh.tets[tet].map(|v| mesh.positions[v as usize].as_dvec3());
         let gradients = FACES.map(|face| {
             let [a, b, c] = face.map(|i| corners[i]);

@@ -20,18 +20,24 @@ use super::solver::Solver;
 /// Rounds over the corners until those that press are those that are closed.
 const MOST_ROUNDS: usize = 8;
 
+/// A blow, and what parts in it, in the order of time.
+#[derive(Clone, Copy)]
+pub(super) struct Setup<'a> {
+    pub(super) plan: &'a Plan,
+    pub(super) parted: &'a [Parted],
+}
+
 /// The motion of the pieces.
-pub(super) struct Flight<'a> {
-    plan: &'a Plan,
-    /// What parts, in the order of time, and how many of these have.
-    all: &'a [Parted],
-    next: usize,
-    parted: Option<&'a Parted>,
+#[derive(Clone, Debug)]
+pub(super) struct Flight {
+    /// How many of the partings have been.
+    partings: usize,
     /// The motion under all forces and, where any contact rubs, the motion under the normal forces alone.
     lanes: Vec<Lane>,
 }
 
 /// One motion of the pieces.
+#[derive(Clone, Debug)]
 struct Lane {
     /// Number of the first mode among the oscillators.
     first: usize,
@@ -57,6 +63,7 @@ impl Lane {
     /// Solves the tick, with those corners pressing that are closed at its end.
     #[inline(always)]
     fn settle(&mut self, parted: &Parted, plan: &Plan, bank: &Bank) {
+        let mut anew = false;
         for round in 0.. {
             self.middle.copy_from_slice(&self.given);
             let corners = self.press.iter().zip(&parted.corners).zip(&self.closed);
@@ -77,14 +84,18 @@ impl Lane {
             if !changes {
                 break;
             }
-            self.solver.press(parted, &self.press, plan, bank);
+            self.solver.press(parted, &self.press);
+            anew = true;
+        }
+        if anew {
+            self.solver.answer(parted, plan, bank);
         }
     }
 }
 
-impl<'a> Flight<'a> {
+impl Flight {
     /// Nothing has parted yet.
-    pub(super) fn new(plan: &'a Plan, all: &'a [Parted]) -> Self {
+    pub(super) fn new(plan: &Plan) -> Self {
         let lane = |(pushes, first)| Lane {
             first,
             at: Vec::new(),
@@ -99,10 +110,7 @@ impl<'a> Flight<'a> {
         };
         let felt = (plan.felt_first > 0).then_some((1, plan.felt_first));
         Self {
-            plan,
-            all,
-            next: 0,
-            parted: None,
+            partings: 0,
             lanes: [(0, 0)].into_iter().chain(felt).map(lane).collect(),
         }
     }
@@ -110,21 +118,28 @@ impl<'a> Flight<'a> {
     /// Whether any piece moves on its own.
     #[inline(always)]
     pub(super) fn is_on(&self) -> bool {
-        self.parted.is_some()
+        self.partings > 0
+    }
+
+    /// How the pieces move that have parted last.
+    #[inline(always)]
+    fn parted<'a>(&self, setup: Setup<'a>) -> Option<&'a Parted> {
+        setup.parted.get(self.partings.checked_sub(1)?)
     }
 
     /// Lets part what has parted by now: `due` says of each whether it has.
-    pub(super) fn part(&mut self, due: impl Fn(&Parted) -> bool) {
-        while let Some(parted) = self.all.get(self.next).filter(|p| due(p)) {
+    pub(super) fn part(&mut self, setup: Setup<'_>, due: impl Fn(&Parted) -> bool) {
+        while let Some(parted) = setup.parted.get(self.partings).filter(|p| due(p)) {
+            let before = self.parted(setup);
             let n = parted.unknowns();
             for lane in &mut self.lanes {
-                lane.at = parted.inherit(self.parted, &lane.at);
-                lane.rate = parted.inherit(self.parted, &lane.rate);
+                lane.at = parted.inherit(before, &lane.at);
+                lane.rate = parted.inherit(before, &lane.rate);
                 lane.given = vec![0.0; n];
                 lane.middle = vec![0.0; n];
                 // Faces that were there go on as they were.
-                let before = self.parted.map_or(&[][..], |parted| &parted.corners);
-                let known = |corner: &Corner| before.iter().position(|known| known.is(corner));
+                let corners = before.map_or(&[][..], |parted| &parted.corners);
+                let known = |corner: &Corner| corners.iter().position(|known| known.is(corner));
                 let kept = parted.corners.iter().map(|corner| match known(corner) {
                     Some(k) => (lane.press[k], lane.closed[k]),
                     None => (false, corner.gap(&lane.at).min(0.0)),
@@ -132,8 +147,7 @@ impl<'a> Flight<'a> {
                 (lane.press, lane.closed) = kept.collect();
                 lane.solver.tick = 0.0;
             }
-            self.parted = Some(parted);
-            self.next += 1;
+            self.partings += 1;
         }
     }
 
@@ -144,17 +158,21 @@ impl<'a> Flight<'a> {
 
     /// Takes down where the oscillators are before a tick of this length, s.
     #[inline(always)]
-    pub(super) fn begin(&mut self, state: &BankState, bank: &Bank, tick: f64) {
-        let Some(parted) = self.parted else { return };
-        let share = 0.5 - self.plan.rayleigh[0] / tick;
+    pub(super) fn begin(&mut self, setup: Setup<'_>, state: &BankState, bank: &Bank, tick: f64) {
+        let Some(parted) = self.parted(setup) else {
+            return;
+        };
+        let plan = setup.plan;
+        let share = 0.5 - plan.rayleigh[0] / tick;
         for lane in &mut self.lanes {
             if lane.solver.tick != tick {
                 let contacts = (lane.pushes, lane.first);
-                lane.solver = Solver::new(parted, self.plan, bank, contacts, tick);
-                lane.solver.press(parted, &lane.press, self.plan, bank);
+                lane.solver = Solver::new(parted, plan, bank, contacts, tick);
+                lane.solver.press(parted, &lane.press);
+                lane.solver.answer(parted, plan, bank);
             }
-            let own = lane.first..lane.first + self.plan.modes;
-            let oscillators = state.x[own].iter().zip(&self.plan.oscillators);
+            let own = lane.first..lane.first + plan.modes;
+            let oscillators = state.x[own].iter().zip(&plan.oscillators);
             for (force, (x, (w, _))) in lane.force.iter_mut().zip(oscillators) {
                 *force = share * w * x;
             }
@@ -163,14 +181,23 @@ impl<'a> Flight<'a> {
 
     /// Finds what the pieces do in the tick if these forces, N, last, and pushes the oscillators, which have coasted through it, with that.
     #[inline(always)]
-    pub(super) fn foresee(&mut self, state: &mut BankState, bank: &Bank, forces: &[f64]) {
-        let Some(parted) = self.parted else { return };
+    pub(super) fn foresee(
+        &mut self,
+        setup: Setup<'_>,
+        state: &mut BankState,
+        bank: &Bank,
+        forces: &[f64],
+    ) {
+        let Some(parted) = self.parted(setup) else {
+            return;
+        };
+        let plan = setup.plan;
         let tick = self.felt().solver.tick;
-        let [alpha, beta] = [self.plan.rayleigh[0] / tick, self.plan.rayleigh[1]];
+        let [alpha, beta] = [plan.rayleigh[0] / tick, plan.rayleigh[1]];
         let n = parted.unknowns();
         for lane in &mut self.lanes {
-            let own = lane.first..lane.first + self.plan.modes;
-            let oscillators = state.x[own].iter().zip(&self.plan.oscillators);
+            let own = lane.first..lane.first + plan.modes;
+            let oscillators = state.x[own].iter().zip(&plan.oscillators);
             for (force, (x, (w, _))) in lane.force.iter_mut().zip(oscillators) {
                 *force += (0.5 + alpha) * w * x;
             }
@@ -191,7 +218,7 @@ impl<'a> Flight<'a> {
                     .zip(z)
                     .for_each(|(b, z)| *b += z * force);
             }
-            lane.settle(parted, self.plan, bank);
+            lane.settle(parted, plan, bank);
             lane.force.fill(0.0);
             for j in 0..n {
                 let pull = (1.0 + 2.0 * alpha) * lane.middle[j] - 2.0 * alpha * lane.at[j];
@@ -201,7 +228,7 @@ impl<'a> Flight<'a> {
                     .zip(row)
                     .for_each(|(f, p)| *f += p * pull);
             }
-            let frequencies = self.plan.oscillators.iter();
+            let frequencies = plan.oscillators.iter();
             lane.force
                 .iter_mut()
                 .zip(frequencies)
@@ -212,8 +239,8 @@ impl<'a> Flight<'a> {
 
     /// How far the pieces have moved a contact by the end of the tick if no force grows, m.
     #[inline(always)]
-    pub(super) fn gap(&self, contact: usize) -> f64 {
-        let Some(parted) = self.parted else {
+    pub(super) fn gap(&self, setup: Setup<'_>, contact: usize) -> f64 {
+        let Some(parted) = self.parted(setup) else {
             return 0.0;
         };
         let (z, lane) = (&parted.pushes[1][contact], self.felt());
@@ -221,8 +248,8 @@ impl<'a> Flight<'a> {
     }
 
     /// How fast they move it, m/s.
-    pub(super) fn gap_speed(&self, contact: usize) -> f64 {
-        let Some(parted) = self.parted else {
+    pub(super) fn gap_speed(&self, setup: Setup<'_>, contact: usize) -> f64 {
+        let Some(parted) = self.parted(setup) else {
             return 0.0;
         };
         dot(&parted.pushes[1][contact], &self.felt().rate)
@@ -261,24 +288,31 @@ impl<'a> Flight<'a> {
         }
     }
 
-    /// q', the elastic part of the amplitudes, m·√kg; none while nothing has parted.
+    /// Finds q', the elastic part of the amplitudes, m·√kg.
     #[inline(always)]
-    pub(super) fn elastic(&self, state: &BankState) -> Option<Vec<f64>> {
-        let parted = self.parted?;
-        let amplitudes = state.x.iter().zip(&self.plan.periods);
-        let mut elastic: Vec<f64> = amplitudes.map(|(x, period)| x * period).collect();
+    pub(super) fn elastic(&self, setup: Setup<'_>, state: &BankState, elastic: &mut Vec<f64>) {
+        let amplitudes = state.x.iter().zip(&setup.plan.periods);
+        elastic.clear();
+        elastic.extend(amplitudes.map(|(x, period)| x * period));
+        let Some(parted) = self.parted(setup) else {
+            return;
+        };
         for (row, c) in parted.rows().zip(&self.lanes[0].at) {
             elastic.iter_mut().zip(row).for_each(|(q, p)| *q -= p * c);
         }
-        Some(elastic)
     }
 
-    /// What the pieces change in the energy of the modes, and in the strain energy in it, J.
-    pub(super) fn energies(&self, state: &BankState) -> [f64; 2] {
-        let (Some(parted), Some(elastic)) = (self.parted, self.elastic(state)) else {
+    /// What the pieces change in the energy of the modes, and in the strain energy in it, J, with this q'.
+    pub(super) fn energies(
+        &self,
+        setup: Setup<'_>,
+        state: &BankState,
+        elastic: &[f64],
+    ) -> [f64; 2] {
+        let Some(parted) = self.parted(setup) else {
             return [0.0; 2];
         };
-        let of_modes = elastic.iter().zip(&state.x).zip(&self.plan.oscillators);
+        let of_modes = elastic.iter().zip(&state.x).zip(&setup.plan.oscillators);
         let change: f64 = of_modes.map(|((q, x), (w, _))| q * q * w * w - x * x).sum();
         let lane = &self.lanes[0];
         let rows = parted.mass.chunks_exact(parted.unknowns());
@@ -299,8 +333,8 @@ impl<'a> Flight<'a> {
     }
 
     /// Velocity and angular velocity of each group against the whole body's rigid motion, m/s and rad/s; of the reference none.
-    pub(super) fn drifts(&self, state: &BankState) -> Vec<[DVec3; 2]> {
-        let Some(parted) = self.parted else {
+    pub(super) fn drifts(&self, setup: Setup<'_>, state: &BankState) -> Vec<[DVec3; 2]> {
+        let Some(parted) = self.parted(setup) else {
             return Vec::new();
         };
         let rate = &self.lanes[0].rate;

@@ -3,16 +3,14 @@
 use std::f64::consts::{PI, TAU};
 use std::ops::Range;
 
-use glam::DVec3;
-
 use super::bank::{Bank, BankState, Pushes, dot, padded};
 use super::contacts::Contacts;
-use super::flight::Flight;
-use super::parted::Parted;
+use super::flight::{Flight, Setup};
 use super::plan::Plan;
+use crate::motion::Motion;
 
 /// A blow of so many substeps is cut off: a contact that lasts this long is none of a blow's.
-const MOST_SUBSTEPS: usize = 60_000;
+pub(super) const MOST_SUBSTEPS: usize = 60_000;
 
 /// Most time steps of each of the two parts of the motion after the contact; a longer part is cut there (the cut shows in the report's number
 /// of steps).
@@ -41,116 +39,149 @@ pub(super) struct Softening {
     pub(super) compliance: f64,
 }
 
-/// What an integration found.
+/// What an integration has found so far, beside the motion.
+#[derive(Clone, Debug, Default)]
 pub(super) struct Record {
     /// Forces after each substep, N.
     pub(super) forces: Vec<f64>,
-    /// Amplitudes of the modes at each time step, m·√kg.
-    pub(super) amplitudes: Vec<f32>,
     /// ω p of all wall oscillators at each time step until the near field has gone, m·√kg/s.
     pub(super) swing: Vec<f32>,
-    /// How many oscillators there are in a row of `swing`, at least 1.
-    pub(super) width: usize,
-    pub(super) near_steps: usize,
-    pub(super) contact_steps: usize,
-    /// Speed of each striker into the body after the blow, m/s.
-    pub(super) speeds: Vec<f64>,
     /// Energy of the body's vibration and pieces, and the strain energy in it, at the end of each time step, J.
     pub(super) energies: Vec<[f64; 2]>,
-    pub(super) energy_at_parting: f64,
-    /// Energy of breakable strikers' oscillators at parting, J.
-    pub(super) strikers_energy: f64,
-    /// Velocity and angular velocity of each piece that moves on its own in the end, against the whole body's rigid motion, m/s and rad/s.
-    pub(super) drifts: Vec<[DVec3; 2]>,
+    /// Room for q'.
+    elastic: Vec<f64>,
 }
 
-/// The integration.
+/// How far an integration has come.
+#[derive(Clone, Debug)]
+pub(super) struct Progress {
+    pub(super) state: BankState,
+    pub(super) contacts: Contacts,
+    pub(super) flight: Flight,
+    /// Time steps, and the substeps of those with contacts.
+    pub(super) step: usize,
+    substep: usize,
+    /// For how many substeps all contacts have been open.
+    open: usize,
+    /// When the contacts have parted: energy of the body, and of breakable strikers' oscillators, J.
+    pub(super) at_parting: Option<[f64; 2]>,
+    /// After the time step in which they have.
+    pub(super) after: Option<After>,
+}
+
+/// What is known once the contacts have parted.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct After {
+    /// Time steps until then.
+    pub(super) contact_steps: usize,
+    /// Time steps until the near field has gone.
+    pub(super) near_steps: usize,
+    /// Time steps of the whole motion.
+    pub(super) steps: usize,
+}
+
+/// The integration from where it stands on.
 pub(super) struct Run<'a> {
-    pub(super) plan: &'a Plan,
-    /// Forces from the beginning on that are known already.
-    pub(super) known: &'a [f64],
+    pub(super) setup: Setup<'a>,
     pub(super) softer: &'a [Softening],
-    /// What has parted, in the order of time.
-    pub(super) parted: &'a [Parted],
     /// Whether nothing is looked at after the contact.
     pub(super) instant: bool,
+    /// Substeps after which the contacts are over at the latest.
+    pub(super) longest: usize,
+    /// Time steps that it goes on to, if the motion has so many.
+    pub(super) until: usize,
+    pub(super) progress: &'a mut Progress,
+    pub(super) record: &'a mut Record,
+    pub(super) motion: &'a mut Motion,
 }
 
 impl pulp::NullaryFnOnce for Run<'_> {
-    type Output = Record;
+    type Output = ();
 
     #[inline(always)]
-    fn call(self) -> Record {
-        let plan = self.plan;
-        let count = plan.sites.len();
-        let pushes = plan.pushes();
-        let mut state = BankState::rest(plan.oscillators.len());
-        let mut contacts = Contacts::new(plan);
-        let mut record = Record::new(plan);
-        let mut flight = Flight::new(plan, self.parted);
-        let mut substep = 0;
-        let mut parted = false;
-        let mut open = 0;
-        let shortest = (plan.sites.iter().map(|s| s.duration)).fold(f64::INFINITY, f64::min);
-        let most_open = (OPEN * shortest / contacts.dt).min(MOST_SUBSTEPS as f64) as usize;
-        while !(parted && substep % plan.substeps == 0) {
-            let t = (substep + 1) as f64 * contacts.dt;
-            flight.part(|p| p.substep <= substep);
-            flight.begin(&state, &plan.fine, contacts.dt);
-            plan.fine.coast(&mut state, &pushes, &contacts.forces);
-            flight.foresee(&mut state, &plan.fine, &contacts.forces);
-            contacts.foresee(&state, &flight);
-            for softer in self.softer.iter().filter(|s| s.substep == substep) {
-                contacts.weakness[softer.contact] = softer.compliance;
-            }
-            match self.known.get(substep * count..(substep + 1) * count) {
-                Some(known) => contacts.next.copy_from_slice(known),
-                None if parted => contacts.next.fill(0.0),
-                None => contacts.solve(t, flight.give()),
-            }
-            contacts.grow();
-            plan.fine.grow(&mut state, &pushes, &contacts.growth);
-            flight.end(&mut state, &plan.fine, &contacts.growth);
-            contacts.advance();
-            record.forces.extend_from_slice(&contacts.forces);
-            substep += 1;
-            if substep % plan.substeps == 0 {
-                record.sample(plan, &flight, &state, &contacts.forces, true);
-            }
-            if !parted {
-                open = match contacts.have_parted(&state, &flight, t) {
-                    true => open + 1,
-                    false => 0,
-                };
-                let waits = flight.is_on() && open < most_open && contacts.approach();
-                parted = (open > 0 && !waits) || substep >= MOST_SUBSTEPS;
-                if parted {
-                    record.energy_at_parting = of_body(plan, &flight, &state)[0];
-                    let strikers = plan.strikers.start..padded(plan.strikers.end);
-                    record.strikers_energy = energies(&state, strikers)[0];
-                }
-            }
+    fn call(mut self) {
+        while self.progress.after.is_none() && self.progress.step < self.until {
+            self.push();
         }
-        record.contact_steps = substep / plan.substeps;
-        record.speeds = contacts.speeds;
-        state.keep(plan.own);
-        flight.end_contacts();
-        self.ring(&mut record, &mut state, &mut flight);
-        record.drifts = flight.drifts(&state);
-        record
+        if self.progress.after.is_some() {
+            self.ring();
+        }
     }
 }
 
 impl Run<'_> {
-    /// The free motion after the contacts.
+    /// A time step in which contacts push.
     #[inline(always)]
-    fn ring(&self, record: &mut Record, state: &mut BankState, flight: &mut Flight) {
-        let plan = self.plan;
-        let time_step = plan.time_step;
-        if self.instant {
-            record.near_steps = record.contact_steps;
-            return;
+    fn push(&mut self) {
+        let (setup, plan) = (self.setup, self.setup.plan);
+        let pushes = plan.pushes();
+        let Progress {
+            state,
+            contacts,
+            flight,
+            substep,
+            open,
+            at_parting,
+            ..
+        } = &mut *self.progress;
+        let shortest = (plan.sites.iter().map(|s| s.duration)).fold(f64::INFINITY, f64::min);
+        let most_open = (OPEN * shortest / contacts.dt).min(MOST_SUBSTEPS as f64) as usize;
+        for _ in 0..plan.substeps {
+            let t = (*substep + 1) as f64 * contacts.dt;
+            flight.part(setup, |p| p.substep <= *substep);
+            flight.begin(setup, state, &plan.fine, contacts.dt);
+            plan.fine.coast(state, &pushes, &contacts.forces);
+            flight.foresee(setup, state, &plan.fine, &contacts.forces);
+            contacts.foresee(setup, state, flight);
+            for softer in self.softer.iter().filter(|s| s.substep == *substep) {
+                contacts.weakness[softer.contact] = softer.compliance;
+            }
+            match at_parting {
+                Some(_) => contacts.next.fill(0.0),
+                None => contacts.solve(plan, t, flight.give()),
+            }
+            contacts.grow();
+            plan.fine.grow(state, &pushes, &contacts.growth);
+            flight.end(state, &plan.fine, &contacts.growth);
+            contacts.advance(plan);
+            self.record.forces.extend_from_slice(&contacts.forces);
+            *substep += 1;
+            if at_parting.is_some() {
+                continue;
+            }
+            *open = match contacts.have_parted(setup, state, flight, t) {
+                true => *open + 1,
+                false => 0,
+            };
+            let waits = flight.is_on() && *open < most_open && contacts.approach(plan);
+            if (*open > 0 && !waits) || *substep >= self.longest {
+                flight.elastic(setup, state, &mut self.record.elastic);
+                let [energy, _] = of_body(setup, flight, state, &self.record.elastic);
+                let strikers = plan.strikers.start..padded(plan.strikers.end);
+                *at_parting = Some([energy, energies(state, strikers)[0]]);
+            }
         }
+        self.progress.step += 1;
+        self.sample(true);
+        if self.progress.at_parting.is_some() {
+            self.progress.state.keep(plan.own);
+            self.progress.flight.end_contacts();
+            self.progress.after = Some(self.after());
+        }
+    }
+
+    /// How long the motion goes on.
+    fn after(&self) -> After {
+        let plan = self.setup.plan;
+        let (state, contact_steps) = (&self.progress.state, self.progress.step);
+        if self.instant {
+            return After {
+                contact_steps,
+                near_steps: contact_steps,
+                steps: contact_steps,
+            };
+        }
+        let time_step = plan.time_step;
         let amplitude = |i: usize| libm::hypot(state.x[i], state.v[i]) / plan.oscillators[i].0;
         let largest = (0..plan.modes).map(amplitude).fold(0.0, f64::max);
         let low = (0..plan.modes).find(|&i| amplitude(i) >= SIGNIFICANT * largest);
@@ -159,87 +190,72 @@ impl Run<'_> {
         let near = plan.sites.iter().filter_map(|s| s.near.as_ref());
         let leave = near.map(|n| PI / n.wall.lowest).fold(0.0, f64::max);
         let leave = ((leave / time_step).ceil() as usize).min(MOST_STEPS);
-        record.near_steps = record.contact_steps + leave;
-        let rest = PERIODS * period - record.near_steps as f64 * time_step;
+        let near_steps = contact_steps + leave;
+        let rest = PERIODS * period - near_steps as f64 * time_step;
         let steps = (rest / (plan.coarser * time_step)).ceil().max(0.0) as usize;
-        let steps = steps.min(MOST_STEPS);
-        record
-            .amplitudes
-            .reserve_exact((leave + steps) * plan.modes);
+        After {
+            contact_steps,
+            near_steps,
+            steps: near_steps + steps.min(MOST_STEPS),
+        }
+    }
+
+    /// The free motion after the contacts.
+    #[inline(always)]
+    fn ring(&mut self) {
+        let (setup, plan) = (self.setup, self.setup.plan);
+        let Some(after) = self.progress.after else {
+            return;
+        };
         let parts = [
-            (leave, &plan.step, time_step, true),
-            (steps, &plan.coarse, plan.coarser * time_step, false),
+            (after.near_steps, &plan.step, plan.time_step, true),
+            (after.steps, &plan.coarse, plan.coarser * plan.time_step, false),
         ];
-        let mut step = record.contact_steps;
-        for (steps, bank, length, near) in parts {
+        for (end, bank, length, near) in parts {
             let mut finer = None;
-            for _ in 0..steps {
-                flight.part(|p| p.step <= step);
+            while self.progress.step < end.min(self.until) {
+                let Progress {
+                    state,
+                    flight,
+                    step,
+                    ..
+                } = &mut *self.progress;
+                flight.part(setup, |p| p.step <= *step);
                 if flight.is_on() {
-                    let (ticks, bank) = finer.get_or_insert_with(|| self.ticks(length));
+                    let (ticks, bank) = finer.get_or_insert_with(|| ticks(plan, length));
                     let tick = length / *ticks as f64;
                     for _ in 0..*ticks {
-                        flight.begin(state, bank, tick);
+                        flight.begin(setup, state, bank, tick);
                         bank.coast(state, &Pushes::NONE, &[]);
-                        flight.foresee(state, bank, &[]);
+                        flight.foresee(setup, state, bank, &[]);
                         flight.end(state, bank, &[]);
                     }
                 } else {
                     bank.coast(state, &Pushes::NONE, &[]);
                 }
-                record.sample(plan, flight, state, &[], near);
-                step += 1;
+                *step += 1;
+                self.sample(near);
             }
         }
     }
 
-    /// How many ticks a step of this length, s, has where pieces move on their own, and the oscillators through one.
-    fn ticks(&self, length: f64) -> (usize, Bank) {
-        let own = &self.plan.oscillators[..self.plan.own];
-        let fastest = own[..self.plan.modes].last().map_or(0.0, |o| o.0);
-        let ticks = (fastest * length / TICK_OF_PIECES).ceil().max(1.0) as usize;
-        (ticks, Bank::new(own, length / ticks as f64))
-    }
-}
-
-impl Record {
-    fn new(plan: &Plan) -> Self {
-        Self {
-            forces: Vec::new(),
-            amplitudes: Vec::new(),
-            swing: Vec::new(),
-            width: (plan.own - plan.modes).max(1),
-            near_steps: 0,
-            contact_steps: 0,
-            speeds: Vec::new(),
-            energies: Vec::new(),
-            energy_at_parting: 0.0,
-            strikers_energy: 0.0,
-            drifts: Vec::new(),
-        }
-    }
-
+    /// Takes down the time step that has ended.
     #[inline(always)]
-    fn sample(
-        &mut self,
-        plan: &Plan,
-        flight: &Flight,
-        state: &BankState,
-        forces: &[f64],
-        near: bool,
-    ) {
-        let (modes, all) = (plan.modes, plan.own);
-        let amplitudes = state.x[..modes].iter().zip(&plan.periods);
-        let amplitudes = amplitudes.map(|(x, period)| x * period);
-        match flight.elastic(state) {
-            None => self.amplitudes.extend(amplitudes.map(|q| q as f32)),
-            Some(elastic) => self.amplitudes.extend(elastic.iter().map(|&q| q as f32)),
-        }
-        let [whole, strain] = of_body(plan, flight, state);
+    fn sample(&mut self, near: bool) {
+        let (setup, plan) = (self.setup, self.setup.plan);
+        let Progress { state, flight, .. } = &*self.progress;
+        let record = &mut *self.record;
+        flight.elastic(setup, state, &mut record.elastic);
+        let elastic = record.elastic.iter().map(|&q| q as f32);
+        self.motion.amplitudes.extend(elastic);
         if near {
-            self.swing
-                .extend(state.x[modes..all].iter().map(|&x| x as f32));
+            let swing = &state.x[plan.modes..plan.own];
+            record.swing.extend(swing.iter().map(|&x| x as f32));
         }
+        let forces: &[f64] = match self.progress.after {
+            None => &self.progress.contacts.forces,
+            Some(_) => &[],
+        };
         let count = forces.len();
         let mut held = 0.0;
         for k in 0..count {
@@ -247,15 +263,62 @@ impl Record {
                 held += 0.5 * forces[k] * plan.own_compliance[k * count + l] * forces[l];
             }
         }
-        self.energies.push([whole + held, strain + held]);
+        let [whole, strain] = of_body(setup, flight, state, &record.elastic);
+        record.energies.push([whole + held, strain + held]);
+        self.motion.take_energies(whole + held, strain + held);
     }
 }
 
-/// Energy of the body's vibration and pieces, without what follows the force, and the strain energy in it, J.
+/// How many ticks a step of this length, s, has where pieces move on their own, and the oscillators through one.
+fn ticks(plan: &Plan, length: f64) -> (usize, Bank) {
+    let own = &plan.oscillators[..plan.own];
+    let fastest = own[..plan.modes].last().map_or(0.0, |o| o.0);
+    let ticks = (fastest * length / TICK_OF_PIECES).ceil().max(1.0) as usize;
+    (ticks, Bank::new(own, length / ticks as f64))
+}
+
+impl Progress {
+    /// At the beginning of a blow.
+    pub(super) fn new(plan: &Plan) -> Self {
+        Self {
+            state: BankState::rest(plan.oscillators.len()),
+            contacts: Contacts::new(plan),
+            flight: Flight::new(plan),
+            step: 0,
+            substep: 0,
+            open: 0,
+            at_parting: None,
+            after: None,
+        }
+    }
+
+    /// Whether the motion is over.
+    pub(super) fn is_over(&self) -> bool {
+        self.after.is_some_and(|after| self.step >= after.steps)
+    }
+
+    /// Time steps so far that the near field has.
+    pub(super) fn near_steps(&self) -> usize {
+        self.after
+            .map_or(self.step, |after| after.near_steps.min(self.step))
+    }
+}
+
+impl Record {
+    /// Forgets what was found after an earlier state.
+    pub(super) fn forget_after(&mut self, progress: &Progress, plan: &Plan) {
+        self.forces.truncate(progress.substep * plan.sites.len());
+        let waves = plan.own - plan.modes;
+        self.swing.truncate(progress.near_steps() * waves);
+        self.energies.truncate(progress.step);
+    }
+}
+
+/// Energy of the body's vibration and pieces, without what follows the force, and the strain energy in it, J, with this q'.
 #[inline(always)]
-fn of_body(plan: &Plan, flight: &Flight, state: &BankState) -> [f64; 2] {
-    let [whole, strain] = energies(state, 0..padded(plan.own));
-    let [more, more_strain] = flight.energies(state);
+fn of_body(setup: Setup<'_>, flight: &Flight, state: &BankState, elastic: &[f64]) -> [f64; 2] {
+    let [whole, strain] = energies(state, 0..padded(setup.plan.own));
+    let [more, more_strain] = flight.energies(setup, state, elastic);
     [whole + more, strain + more_strain]
 }
 

@@ -58,15 +58,19 @@ impl Parted {
     pub(super) fn new(
         body: &Body,
         plan: &Plan,
+        before: Option<&Self>,
         groups: Groups,
         nodes: &[u32],
         [step, substep]: [usize; 2],
     ) -> Self {
-        let moments = Moments::of(body, &groups);
+        let (moments, mixed) = Moments::of(body, &groups);
         let n = SIX * moments.len();
         let mut held = Vec::with_capacity(n * plan.modes);
-        for moment in &moments {
-            held.extend(moment.held(body, plan.modes));
+        for (group, moment) in (1..).zip(&moments) {
+            match before.and_then(|before| before.held_by_all_of(&groups, group)) {
+                Some(known) => held.extend_from_slice(known),
+                None => held.extend(moment.held(body, plan.modes)),
+            }
         }
         let rows: Vec<&[f64]> = held.chunks_exact(plan.modes.max(1)).collect();
         let rigid = rigid_parts(body, &moments);
@@ -95,7 +99,7 @@ impl Parted {
             masses: moments.iter().map(|m| (m.mass, m.inertia)).collect(),
             mass,
             pushes: [Vec::new(), Vec::new()],
-            corners: corners(body, &groups, &centres),
+            corners: corners(body, &groups, &centres, &mixed),
             centres,
             groups,
         };
@@ -129,6 +133,16 @@ impl Parted {
             }
         }
         parted
+    }
+
+    /// Rows of p that a later group goes on with: those of its parent, where it is all of that.
+    fn held_by_all_of(&self, later: &Groups, group: u32) -> Option<&[f64]> {
+        let parent = later.parents[group as usize];
+        let mut nodes = self.groups.of_node.iter().zip(&later.of_node);
+        let same = nodes.all(|(&before, &now)| (before == parent) == (now == group));
+        let rows = SIX * self.modes;
+        let first = rows * (parent as usize).checked_sub(1)?;
+        same.then(|| &self.held[first..first + rows])
     }
 
     /// Number of unknowns.
@@ -256,16 +270,21 @@ struct Moments {
 }
 
 impl Moments {
-    /// The masses of all groups but the reference: each tetrahedron's is shared out among its nodes, and acts at its centroid.
-    fn of(body: &Body, groups: &Groups) -> Vec<Self> {
+    /// The masses of all groups but the reference: each tetrahedron's is shared out among its nodes, and acts at its centroid. Also the
+    /// tetrahedra that have nodes of several groups.
+    fn of(body: &Body, groups: &Groups) -> (Vec<Self>, Vec<u32>) {
         let asset = &*body.asset;
         let (mesh, centroids) = (&asset.fracture, &body.prepared.centroids);
         let density = f64::from(asset.material.density as f32);
         let mut parts: Vec<Vec<(u32, f64)>> = vec![Vec::new(); groups.parents.len()];
+        let mut mixed = Vec::new();
         for tet in asset.tets() {
             let of_nodes = mesh.tets[tet].map(|v| groups.of_node[v as usize]);
             if of_nodes == [0; 4] {
                 continue;
+            }
+            if of_nodes != [of_nodes[0]; 4] {
+                mixed.push(tet as u32);
             }
             let quarter = 0.25 * density * mesh.volume(tet);
             for (i, &group) in of_nodes.iter().enumerate() {
@@ -293,7 +312,7 @@ impl Moments {
                 parts,
             }
         };
-        parts.into_iter().skip(1).map(of).collect()
+        (parts.into_iter().skip(1).map(of).collect(), mixed)
     }
 
     /// Adds its mass and inertia to the matrix of all groups.

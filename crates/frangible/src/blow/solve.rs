@@ -1,6 +1,7 @@
 //! Symmetric systems of a few dozen unknowns, row-major.
 
-/// Cholesky's factor of a matrix, in its lower half. Where the matrix is not positive a pivot is not above zero, and [`is_positive`] says so.
+/// Cholesky's factor of a matrix, in its lower half, with the reciprocals of its pivots. Where the matrix is not positive one of these is zero,
+/// and [`is_positive`] says so.
 #[inline(always)]
 pub(super) fn factor(matrix: Vec<f64>, n: usize) -> Vec<f64> {
     let mut factor = matrix;
@@ -8,13 +9,13 @@ pub(super) fn factor(matrix: Vec<f64>, n: usize) -> Vec<f64> {
         let (above, row) = factor.split_at_mut(k * n);
         for l in 0..k {
             let other = &above[l * n..l * n + n];
-            row[l] = (row[l] - dot(&row[..l], &other[..l])) / other[l];
+            row[l] = (row[l] - dot(&row[..l], &other[..l])) * other[l];
         }
         let sum = dot(&row[..k], &row[..k]);
         // What is left of the digits of a pivot that all but vanishes is none of the matrix.
         let left = row[k] - sum;
         row[k] = if left > 1e-10 * row[k] {
-            left.sqrt()
+            left.sqrt().recip()
         } else {
             0.0
         };
@@ -48,11 +49,11 @@ pub(super) fn solve(factor: &[f64], x: &mut [f64]) {
     let n = x.len();
     for k in 0..n {
         let row = &factor[k * n..k * n + n];
-        x[k] = (x[k] - dot(&row[..k], &x[..k])) / row[k];
+        x[k] = (x[k] - dot(&row[..k], &x[..k])) * row[k];
     }
     for k in (0..n).rev() {
         let row = &factor[k * n..k * n + n];
-        x[k] /= row[k];
+        x[k] *= row[k];
         let value = x[k];
         for (x, a) in x[..k].iter_mut().zip(row) {
             *x -= a * value;

@@ -6,7 +6,7 @@ use super::plan::Plan;
 use super::solve::{dot, factor, solve};
 
 /// What solves a tick of one length.
-#[derive(Default)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Solver {
     pub(super) tick: f64,
     /// W less what the oscillators' answer within the tick takes from it.
@@ -24,6 +24,7 @@ pub(super) struct Solver {
     pub(super) give: Vec<f64>,
 }
 
+#[derive(Clone, Debug)]
 pub(super) struct Answer {
     /// Change of c̄.
     pub(super) middle: Vec<f64>,
@@ -83,11 +84,10 @@ impl Solver {
         }
     }
 
-    /// Solves with these corners pressing from now on.
+    /// Solves with these corners pressing from now on; what contacts do is [to be found anew](Self::answer).
     #[inline(always)]
-    pub(super) fn press(&mut self, parted: &Parted, press: &[bool], plan: &Plan, bank: &Bank) {
+    pub(super) fn press(&mut self, parted: &Parted, press: &[bool]) {
         let n = parted.unknowns();
-        let ahead = 1.0 + 2.0 * plan.rayleigh[0] / self.tick;
         let mut matrix = self.matrix.clone();
         for (_, corner) in press
             .iter()
@@ -98,6 +98,12 @@ impl Solver {
             corner.stiffen(2.0, &mut matrix, n);
         }
         self.factor = factor(matrix, n);
+    }
+
+    /// Finds what the contacts' forces do when they grow, with the corners that press now.
+    #[inline(always)]
+    pub(super) fn answer(&mut self, parted: &Parted, plan: &Plan, bank: &Bank) {
+        let ahead = 1.0 + 2.0 * plan.rayleigh[0] / self.tick;
         let answer = |growth: &Vec<f64>| {
             let mut middle = growth.clone();
             solve(&self.factor, &mut middle);

@@ -5,30 +5,47 @@ use crate::body::MeshIndex;
 use crate::mesh::EDGES;
 use crate::state::{Cuts, EdgeCut};
 
+/// What is known of edges that have been cut: more are cut from look to look while cracks run.
+#[derive(Debug, Default)]
+pub(crate) struct Known {
+    /// [The crack that has cut each edge](MeshIndex::cut_by).
+    pub(crate) cut_by: Vec<u32>,
+    /// How many tetrahedra and junctions of each crack have been looked at.
+    pub(crate) looked_at: Vec<[usize; 2]>,
+}
+
 impl Cuts {
-    /// Cuts that are settled, of a piece since it is one; then those of every fractured tetrahedron, cracks in order of
-    /// their start; the first crack places the point. Also [the crack that has cut each edge](MeshIndex::cut_by).
-    pub(crate) fn of_fractured_elements(
-        system: &CrackSystem,
-        index: &MeshIndex,
-    ) -> (Self, Vec<u32>) {
-        let mesh = &system.asset.fracture;
+    /// Cuts that are settled, of a piece since it is one.
+    pub(crate) fn settled(system: &CrackSystem, index: &MeshIndex) -> (Self, Known) {
         let settled = system.asset.portion.as_ref().map_or(&[][..], |p| p.cuts());
-        let mut cuts = Self::of_list(settled, mesh.positions.len());
-        let mut cut_by = index.cut_by(settled);
-        for (id, crack) in (0..).zip(&system.cracks) {
-            for element in &crack.elements[crack.settled..] {
+        let cuts = Self::of_list(settled, system.asset.fracture.positions.len());
+        let known = Known {
+            cut_by: index.cut_by(settled),
+            looked_at: Vec::new(),
+        };
+        (cuts, known)
+    }
+
+    /// Cuts the edges of all tetrahedra that were fractured since the last look, cracks in order of their start; the first crack places the
+    /// point.
+    pub(crate) fn follow(&mut self, system: &CrackSystem, index: &MeshIndex, known: &mut Known) {
+        let mesh = &system.asset.fracture;
+        let new = &system.cracks[known.looked_at.len()..];
+        known.looked_at.extend(new.iter().map(|c| [c.settled, 0]));
+        let cracks = system.cracks.iter().zip(&mut known.looked_at);
+        for (id, (crack, [done, _])) in (0..).zip(cracks) {
+            let first = std::mem::replace(done, crack.elements.len());
+            for element in &crack.elements[first..] {
                 let nodes = mesh.tets[element.tet as usize];
                 let values = &element.values;
                 for (edge, [i, j]) in index.edges.of_tet(element.tet).into_iter().zip(EDGES) {
-                    let by = &mut cut_by[edge as usize];
+                    let by = &mut known.cut_by[edge as usize];
                     if *by == EdgeCut::WHOLE && (values[i] < 0.0) != (values[j] < 0.0) {
                         *by = id;
-                        cuts.cut_whole(nodes[i], nodes[j], values[i], values[j], id);
+                        self.cut_whole(nodes[i], nodes[j], values[i], values[j], id);
                     }
                 }
             }
         }
-        (cuts, cut_by)
     }
 }

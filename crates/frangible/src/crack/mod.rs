@@ -40,6 +40,7 @@ mod system;
 mod weak_rows;
 mod weak_stress;
 
+pub(crate) use cuts::Known;
 pub(crate) use field::StressField;
 pub(crate) use initiation::{Peak, crack};
 use propagation::{advance, retry};

@@ -6,7 +6,7 @@ use glam::Vec3;
 use rand_chacha::rand_core::Rng;
 
 use crate::asset::{RenderMaterial, RenderSurface};
-use crate::crack::CrackSystem;
+use crate::crack::{CrackSystem, Known};
 use crate::fragment::label::Labels;
 use crate::fragment::tests::block;
 use crate::fragment::{Built, build, draw};
@@ -102,6 +102,7 @@ fn broken(surface: &RenderSurface, count: u32, random: bool, seed: u64) -> Vec<F
         of_node,
         count: count as usize,
         cuts,
+        known: Known::default(),
     };
     let config = FractureConfig::default();
     let body = Breakable::of_sound(asset.into()).body(1);

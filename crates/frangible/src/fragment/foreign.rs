@@ -7,6 +7,7 @@ use super::label::{Labels, of_cuts};
 use super::partition::{Interface, interfaces};
 use super::points::PointTable;
 use crate::body::Body;
+use crate::crack::Known;
 use crate::fragment::Fragment;
 use crate::state::Cuts;
 
@@ -24,10 +25,13 @@ pub fn pieces_of_cuts(
     let (asset, prepared) = (&*body.asset, &*body.prepared);
     let mesh = &asset.fracture;
     let cuts = Cuts::at_places(cuts, mesh.positions.len());
-    let cut_by = prepared.index.cut_by(cuts.list());
+    let known = Known {
+        cut_by: prepared.index.cut_by(cuts.list()),
+        ..Known::default()
+    };
     let labels = of_cuts(
         cuts,
-        &cut_by,
+        known,
         &mesh.tets,
         &prepared.index,
         None,
@@ -59,6 +63,7 @@ pub fn interfaces_of_labels(
         count: of_node.iter().max().map_or(0, |&l| l as usize + 1),
         cuts: Cuts::at_places(cuts, of_node.len()),
         of_node,
+        known: Known::default(),
     };
     let mut table = PointTable::new(mesh, &labels.cuts, None);
     let mut found: Vec<([u32; 2], u32, f64)> = Vec::new();

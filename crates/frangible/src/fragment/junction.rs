@@ -11,30 +11,32 @@ use glam::Vec3;
 
 use super::fractured::{ALL, Fractured, crossed, reachable};
 use crate::body::MeshIndex;
-use crate::crack::{CrackSystem, ElementCut};
+use crate::crack::{CrackSystem, ElementCut, Known};
 use crate::mesh::EDGES;
 use crate::state::Cuts;
 
 /// How far from its last tetrahedron a newcomer is continued, in mean edges.
 const REACH: f32 = 2.5;
 
-/// Ends every crack inside what it met, cracks in order, junctions in the order they happened. `cut_by`:
-/// [the crack that has cut each edge](MeshIndex::cut_by).
+/// Ends every crack inside what it has met since the last look, cracks in order, junctions in the order they happened.
 pub(crate) fn end_cracks(
     system: &CrackSystem,
     index: &MeshIndex,
     cuts: &mut Cuts,
-    cut_by: &mut [u32],
+    known: &mut Known,
 ) {
-    if system.cracks.iter().all(|crack| crack.junctions.is_empty()) {
+    let Known { cut_by, looked_at } = known;
+    let cracks = || system.cracks.iter();
+    if (cracks().zip(&*looked_at)).all(|(crack, [_, done])| crack.junctions.len() == *done) {
         return;
     }
     let mut fractured = Fractured::of(system, index, cut_by);
     let mut queue = Queue::new(system.asset.fracture.positions.len());
-    for (id, crack) in (0..).zip(&system.cracks) {
+    for (id, (crack, [_, done])) in (0..).zip(cracks().zip(looked_at)) {
+        let first = std::mem::replace(done, crack.junctions.len());
         // A front that met several tetrahedra from one of its own ends the same way in all of them.
         let mut ended = vec![[false; 2]; crack.elements.len()];
-        for junction in &crack.junctions {
+        for junction in &crack.junctions[first..] {
             let ended = &mut ended[junction.from as usize][usize::from(junction.own)];
             if !std::mem::replace(ended, true) {
                 let last = &crack.elements[junction.from as usize];

@@ -129,13 +129,17 @@ fn cracks_end_where_the_plain_flood_ends_them() {
         body.set_state(cracked(&asset, seed)).unwrap();
         let system = CrackSystem::new(&body, &config, 0.0);
         let index = &body.prepared.index;
-        let (mut cuts, mut cut_by) = Cuts::of_fractured_elements(&system, index);
+        let fractured = || {
+            let (mut cuts, mut known) = Cuts::settled(&system, index);
+            cuts.follow(&system, index, &mut known);
+            (cuts, known)
+        };
+        let ((mut cuts, mut known), (mut expected, _)) = (fractured(), fractured());
         let before = cuts.list().len();
-        let (mut expected, _) = Cuts::of_fractured_elements(&system, index);
-        end_cracks(&system, index, &mut cuts, &mut cut_by);
+        end_cracks(&system, index, &mut cuts, &mut known);
         end_plainly(&system, &mut expected);
         assert_eq!(cuts.list(), expected.list());
-        assert_eq!(cut_by, index.cut_by(cuts.list()));
+        assert_eq!(known.cut_by, index.cut_by(cuts.list()));
         added += cuts.list().len() - before;
         let pairs = system.cracks.iter().flat_map(|c| c.junctions.windows(2));
         repeated += pairs

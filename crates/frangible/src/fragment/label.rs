@@ -4,7 +4,7 @@ use super::components::{Component, Components};
 use super::junction::end_cracks;
 use crate::asset::Portion;
 use crate::body::MeshIndex;
-use crate::crack::CrackSystem;
+use crate::crack::{CrackSystem, Known};
 use crate::mesh::DisjointSets;
 use crate::state::Cuts;
 
@@ -17,37 +17,42 @@ pub(crate) struct Labels {
     pub(crate) count: usize,
     /// Cut edges; an edge between two fragments is always one of them.
     pub(crate) cuts: Cuts,
+    /// What the next look goes on from.
+    pub(crate) known: Known,
 }
 
 /// Cuts, flood fill, crumbs: components smaller than `crumb_share` of the volume of the body as it was baked join the
-/// neighbour they share most with.
-pub(crate) fn label(system: &CrackSystem, index: &MeshIndex, crumb_share: f64) -> Labels {
-    let (mut cuts, mut cut_by) = Cuts::of_fractured_elements(system, index);
+/// neighbour they share most with. `before`: the labels of an earlier look at the same cracks, whose cuts stay.
+pub(crate) fn label(
+    system: &CrackSystem,
+    index: &MeshIndex,
+    crumb_share: f64,
+    before: Option<Labels>,
+) -> Labels {
+    let (mut cuts, mut known) = match before {
+        Some(before) => (before.cuts, before.known),
+        None => Cuts::settled(system, index),
+    };
+    cuts.follow(system, index, &mut known);
     if system.config.ends_inside {
-        end_cracks(system, index, &mut cuts, &mut cut_by);
+        end_cracks(system, index, &mut cuts, &mut known);
     }
     let portion = system.asset.portion.as_deref();
-    of_cuts(
-        cuts,
-        &cut_by,
-        &system.asset.fracture.tets,
-        index,
-        portion,
-        crumb_share,
-    )
+    let tets = &system.asset.fracture.tets;
+    of_cuts(cuts, known, tets, index, portion, crumb_share)
 }
 
 /// The labels that these cuts leave, of the whole body or of a portion of it. Nodes of other pieces have labels from
-/// [`FOREIGN`](crate::asset::FOREIGN) on. `cut_by`: [the crack that has cut each edge](MeshIndex::cut_by).
+/// [`FOREIGN`](crate::asset::FOREIGN) on.
 pub(crate) fn of_cuts(
     cuts: Cuts,
-    cut_by: &[u32],
+    known: Known,
     tets: &[[u32; 4]],
     index: &MeshIndex,
     portion: Option<&Portion>,
     crumb_share: f64,
 ) -> Labels {
-    let components = Components::of(&cuts, cut_by, index, portion);
+    let components = Components::of(&cuts, &known.cut_by, index, portion);
     let (number, count) = if components.list.len() == 1 {
         (vec![0], 1)
     } else {
@@ -58,6 +63,7 @@ pub(crate) fn of_cuts(
         of_node: components.spread(&number, portion),
         count,
         cuts,
+        known,
     }
 }
 

@@ -9,6 +9,7 @@ use super::tests::block;
 use super::volumes::Volumes;
 use crate::asset::Asset;
 use crate::body::MeshIndex;
+use crate::crack::Known;
 use crate::mesh::DisjointSets;
 use crate::mesh::{EDGES, TetMesh};
 use crate::rng::{Purpose, stream, uniform};
@@ -72,8 +73,11 @@ fn plain(cuts: &Cuts, tets: &[[u32; 4]], volumes: &[u64], crumb_share: f64) -> (
 }
 
 fn labelled(cuts: Cuts, tets: &[[u32; 4]], index: &MeshIndex, crumb_share: f64) -> Labels {
-    let cut_by = index.cut_by(cuts.list());
-    of_cuts(cuts, &cut_by, tets, index, None, crumb_share)
+    let known = Known {
+        cut_by: index.cut_by(cuts.list()),
+        ..Known::default()
+    };
+    of_cuts(cuts, known, tets, index, None, crumb_share)
 }
 
 /// Number of pieces, and whether crumbs were absorbed, for several sizes of crumbs.

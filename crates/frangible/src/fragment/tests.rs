@@ -8,7 +8,7 @@ use rand_chacha::rand_core::Rng;
 use super::build::build;
 use super::label::Labels;
 use crate::asset::{AnalysisMesh, Asset, ConvexCell, Embedding, OuterSurface};
-use crate::crack::CrackSystem;
+use crate::crack::{CrackSystem, Known};
 use crate::mesh::{EDGES, MassProperties, TetMesh};
 use crate::modal::ModalBasis;
 use crate::rng::{Purpose, stream, uniform};
@@ -119,6 +119,7 @@ fn fragments_of_arbitrary_labels_tile_the_body_and_are_closed() {
             of_node,
             count: count as usize,
             cuts,
+            known: Known::default(),
         };
         let fragments = build(&system, &labels, &body.prepared).fragments;
         assert_eq!(fragments.len(), count as usize);
@@ -168,6 +169,7 @@ fn the_fragment_that_holds_a_supported_node_is_supported() {
         of_node,
         count: 2,
         cuts,
+        known: Known::default(),
     };
     for node in 0..nodes {
         asset.supported = vec![node];

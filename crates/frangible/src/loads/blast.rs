@@ -56,7 +56,10 @@ pub fn blast(body: &Body, blast: &Blast, config: &FractureConfig) -> Result<Outc
             let t = step as f64 * pulse.time_step;
             (pulse.amplitude * libm::sin(pulse.frequency() * t)) as f32
         });
-        let residual = Residual::new(asset, still, force.collect());
+        let residual = Residual::shape(asset, still).map(|shape| Residual {
+            shape,
+            force: force.collect(),
+        });
         motion.complement.residuals.extend(residual);
     }
     let mut report = report_on(body);

@@ -27,8 +27,8 @@ pub(crate) struct Residual {
 }
 
 impl Residual {
-    /// `push`: ξ_i of the last modes of the body, 1/√kg; none where it moves nothing.
-    pub(crate) fn new(asset: &Asset, push: &[f64], force: Vec<f32>) -> Option<Self> {
+    /// The shape of a unit force: `push` is ξ_i of the last modes of the body, 1/√kg; none where it moves nothing.
+    pub(crate) fn shape(asset: &Asset, push: &[f64]) -> Option<Arc<Shape>> {
         let basis = &asset.modes;
         let first = basis.count() - push.len();
         let eigenvalues = &basis.eigenvalues[first..];
@@ -37,13 +37,8 @@ impl Residual {
             .zip(eigenvalues)
             .map(|(xi, lambda)| (xi / lambda) as f32)
             .collect();
-        if amplitudes.iter().all(|&q| q == 0.0) {
-            return None;
-        }
-        Some(Self {
-            shape: Arc::new(Shape::new(asset, amplitudes)),
-            force,
-        })
+        let moves = amplitudes.iter().any(|&q| q != 0.0);
+        moves.then(|| Arc::new(Shape::new(asset, amplitudes)))
     }
 
     /// Force at a time step, N.

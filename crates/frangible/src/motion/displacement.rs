@@ -17,10 +17,11 @@ pub struct DisplacementBatch {
     residuals: Vec<(Arc<Shape>, Lanes)>,
     /// `displacements[node][axis][step]`, m.
     displacements: Vec<[Lanes; 3]>,
-    /// Number of the batch that each node's displacements belong to.
+    /// How many batches had been sought when each node was computed.
     computed: Vec<u32>,
-    /// Number of the batch that is held, counted from 1; 0 for none.
-    batch: u32,
+    /// The batch that is held, and how many have been sought.
+    batch: Option<usize>,
+    sought: u32,
 }
 
 impl DisplacementBatch {
@@ -38,17 +39,24 @@ impl DisplacementBatch {
             residuals: Vec::new(),
             displacements: vec![[[0.0; BATCH]; 3]; nodes],
             computed: vec![0; nodes],
-            batch: 0,
+            batch: None,
+            sought: 0,
         }
+    }
+
+    /// Forgets the batch that is held: the motion has changed.
+    pub(crate) fn forget(&mut self) {
+        self.batch = None;
     }
 
     /// Makes sure that the batch of `step` is held.
     pub fn seek(&mut self, motion: &Motion, step: usize) {
         let batch = step / STRIDE;
-        if self.batch == batch as u32 + 1 {
+        if self.batch == Some(batch) {
             return;
         }
-        self.batch = batch as u32 + 1;
+        self.batch = Some(batch);
+        self.sought += 1;
         let residuals = &motion.complement.residuals;
         self.amplitudes.clear();
         self.amplitudes.resize(motion.modes, [0.0; BATCH]);
@@ -90,8 +98,8 @@ impl DisplacementBatch {
     /// u = Φ q at a node, at all steps of the batch.
     #[inline(always)]
     fn at_node(&mut self, asset: &Asset, node: usize) -> &[Lanes; 3] {
-        if self.computed[node] != self.batch {
-            self.computed[node] = self.batch;
+        if self.computed[node] != self.sought {
+            self.computed[node] = self.sought;
             self.displacements[node] = product(asset, node, &self.amplitudes, &self.residuals);
         }
         &self.displacements[node]
@@ -103,8 +111,8 @@ impl DisplacementBatch {
         let mut waiting = [0; 10];
         let mut count = 0;
         for &node in nodes {
-            if self.computed[node as usize] != self.batch {
-                self.computed[node as usize] = self.batch;
+            if self.computed[node as usize] != self.sought {
+                self.computed[node as usize] = self.sought;
                 waiting[count] = node as usize;
                 count += 1;
             }

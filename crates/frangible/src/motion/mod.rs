@@ -54,6 +54,21 @@ impl Motion {
         }
     }
 
+    /// Takes down the energy at the end of one more step, and the strain energy in it, J.
+    pub(crate) fn take_energies(&mut self, energy: f64, strain_energy: f64) {
+        self.peak_energy = self.peak_energy.max(energy);
+        self.peak_strain_energy = self.peak_strain_energy.max(strain_energy);
+        self.strain_energy.push(self.peak_strain_energy);
+    }
+
+    /// Forgets all steps but the first so many, whose largest energy was this, J.
+    pub(crate) fn keep(&mut self, steps: usize, peak_energy: f64) {
+        self.amplitudes.truncate(steps * self.modes);
+        self.strain_energy.truncate(steps);
+        self.peak_energy = peak_energy;
+        self.peak_strain_energy = self.strain_energy.last().copied().unwrap_or(0.0);
+    }
+
     /// Number of time steps.
     #[must_use]
     pub fn steps(&self) -> usize {

@@ -23,7 +23,7 @@ impl Portion {
     pub fn of_cracked(body: &Body, config: &FractureConfig) -> Result<Self, InputError> {
         config.validate()?;
         let system = CrackSystem::new(body, config, 0.0);
-        let labels = fragment::label(&system, &body.prepared.index, config.crumb_share);
+        let labels = fragment::label(&system, &body.prepared.index, config.crumb_share, None);
         let asset = &*body.asset;
         let trace = match &asset.portion {
             Some(portion) => portion.trace.clone(),
