@@ -2,7 +2,7 @@
 
 use frangible::glam::{DMat3, DQuat, DVec3, Vec3};
 use frangible::internals::mesh::{merged_parts, thinned};
-use frangible::internals::rigid::{Kick, Rigid, nearest_first, push_plug, take_energy};
+use frangible::internals::rigid::{Kick, Rigid, nearest_first, take_blow, take_energy};
 use frangible::internals::{Fields, RenderMesh, box_projection};
 use frangible::{Asset, Breakable, Contact, Fracture, Fragment, InputError, Striker, TriMesh};
 
@@ -279,7 +279,14 @@ pub fn motions(
     let pushes: Vec<(DVec3, DVec3)> = contacts.iter().map(push).collect();
     let about = Rigid::together(&others).centre;
     let taken = Kick::about(about, &pushes).scaled(-1.0);
-    let lost = push_plug(&mut bodies, &mut others, &pushes, taken);
+    let lost = take_blow(
+        fracture,
+        (&order, axes),
+        &mut bodies,
+        &mut others,
+        &pushes,
+        taken,
+    );
     let count = bodies.len();
     bodies.append(&mut others);
     if bodies.len() == count {

@@ -5,8 +5,8 @@ use std::sync::PoisonError;
 
 use avian3d::prelude::*;
 use bevy::prelude::*;
-use frangible::glam::{self, DVec3};
-use frangible::internals::rigid::{Kick, Rigid, nearest_first, push_plug, take_energy};
+use frangible::glam::{self, DMat3, DVec3};
+use frangible::internals::rigid::{Kick, Rigid, nearest_first, take_blow, take_energy};
 
 use super::plain::{double, piece, rigid, velocities};
 use super::{Moving, Ruling, Verdict, Verdicts};
@@ -167,7 +167,15 @@ pub(super) fn carry_out(
             .collect();
         let about = Rigid::together(&others).centre;
         let taken = Kick::about(about, &pushes).scaled(-1.0);
-        let lost = push_plug(&mut rigids, &mut others, &pushes, taken);
+        let axes = DMat3::from_cols(world(glam::Vec3::X), world(glam::Vec3::Y), world(glam::Vec3::Z));
+        let lost = take_blow(
+            &fracture,
+            (&order, axes),
+            &mut rigids,
+            &mut others,
+            &pushes,
+            taken,
+        );
         let count = rigids.len();
         rigids.append(&mut others);
         if parts.is_empty() {

@@ -182,6 +182,8 @@ impl Builder<'_> {
             mass,
             cell_shares: self.cell_shares(tets, mass.centre),
             supported: asset.supported.iter().any(|node| nodes.contains(node)),
+            velocity: DVec3::ZERO,
+            angular_velocity: DVec3::ZERO,
         }
     }
 

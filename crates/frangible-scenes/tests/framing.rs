@@ -244,12 +244,11 @@ fn any_scene(number: u64) -> Scene {
 }
 
 #[test]
-fn each_moment_of_four_scenes_made_at_random_fills_its_picture_but_for_known_ones() {
+fn each_moment_of_four_scenes_made_at_random_fills_its_picture() {
     let bad: Vec<String> = (1..=4)
         .flat_map(|n| badly_framed(any_scene(n), 20))
         .collect();
-    // 6.7 and 4.5 %.
-    assert_eq!(bad, ["any 4, just after", "any 4, at the end"]);
+    assert!(bad.is_empty(), "{bad:?}");
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use web_time::Instant;
 
-use crate::blow::{Blow, Groups};
+use crate::blow::{Apart, Blow, Groups};
 use crate::body::Body;
 use crate::config::{CrackTiming, FractureConfig};
 use crate::crack::{CrackSystem, Peak, StressField, Suspects, crack};
@@ -22,8 +22,8 @@ const GREW: f64 = 1.15;
 pub(crate) enum Cracked<'a> {
     /// Margin, report, and the body's cracks if there are new ones.
     Held(f64, ImpactReport, Option<Box<BodyState>>),
-    /// Pieces, not made yet.
-    Parted(CrackSystem<'a>, Labels, ImpactReport),
+    /// Pieces, not made yet, and how they move apart where that was followed.
+    Parted(CrackSystem<'a>, Labels, Option<Apart>, ImpactReport),
 }
 
 /// Stress wave → cracks `[G12 §4.4, §5]` → which nodes hang together `[G12 §6.1]`, for any motion of the body.
@@ -117,7 +117,14 @@ impl<'a> Cracking<'a> {
         let mut grown = Grown::default();
         loop {
             let seen = (&mut displacement, &mut culling, &mut suspects);
-            let stop = self.follow(step, &mut system, seen, &mut grown, &mut looked, &mut report);
+            let stop = self.follow(
+                step,
+                &mut system,
+                seen,
+                &mut grown,
+                &mut looked,
+                &mut report,
+            );
             let (Some(blow), motion) = (&mut self.blow, &mut self.motion) else {
                 break;
             };
@@ -308,7 +315,8 @@ impl<'a> Cracking<'a> {
             let state = grown.then(|| Box::new(BodyState::of(&system.cracks)));
             Cracked::Held(margin, report, state)
         } else {
-            Cracked::Parted(system, labels, report)
+            let apart = self.blow.and_then(|blow| blow.apart(body));
+            Cracked::Parted(system, labels, apart, report)
         }
     }
 }

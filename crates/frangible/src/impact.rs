@@ -328,8 +328,8 @@ fn integrated(
 
 /// Cracks → fragments `[G12 §6]`.
 pub(crate) fn pieces(body: &Body, cracked: Cracked<'_>) -> Outcome {
-    let (system, labels, mut report) = match cracked {
-        Cracked::Parted(system, labels, report) => (system, labels, report),
+    let (system, labels, apart, mut report) = match cracked {
+        Cracked::Parted(system, labels, apart, report) => (system, labels, apart, report),
         Cracked::Held(margin, report, state) => {
             return Outcome::Held {
                 margin,
@@ -357,6 +357,11 @@ pub(crate) fn pieces(body: &Body, cracked: Cracked<'_>) -> Outcome {
     if let (Some(surface), Some(undrawn)) = (&body.asset.root().render, undrawn) {
         fragment::draw(surface, root, &mut fragments, undrawn);
         report.timings.drawing = start.elapsed().as_secs_f64();
+    }
+    if let Some(apart) = apart {
+        let of_fragments = traces.iter().map(|trace| trace.label);
+        let volumes = &body.prepared.index.volumes;
+        apart.give_to(&mut fragments, of_fragments, &labels.of_node, volumes);
     }
     for fragment in &mut fragments {
         fragment.mass.centre -= body.origin();

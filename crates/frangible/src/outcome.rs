@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 
 use crate::fragment::Breakup;
 use crate::state::BodyState;
@@ -64,6 +64,13 @@ impl Fracture {
             report,
             breakup: None,
         }
+    }
+
+    /// Whether the fragments have [velocities of their own](crate::Fragment::velocity): pieces parted while the blow was followed.
+    #[must_use]
+    pub fn moves_apart(&self) -> bool {
+        let mut fragments = self.fragments.iter();
+        fragments.any(|f| f.velocity != DVec3::ZERO || f.angular_velocity != DVec3::ZERO)
     }
 }
 

@@ -1,8 +1,10 @@
 //! What a break does to the motion of bodies, in plain numbers: any engine turns its bodies into [`Rigid`]s, has the blow's impulse put on
 //! the pieces and the cracks' energy taken from the motion, and takes the velocities back.
 //!
-//! **The blow.** The striker pushes a plug as heavy as the blow made it, not a single splinter with all the momentum of a wall:
-//! the pieces nearest to the contacts take the impulse as one body, the fewest that do not leave faster than the striker follows, and all
+//! **The blow.** Where the motion of the pieces was followed through the blow ([`Fracture::moves_apart`]), all of them together take the impulse
+//! as one body ([`push_whole`]), and then [move apart](part) as they did in it. Where that was not followed, or the striker would still run into
+//! the piece under it, since short waves held what it gave, it pushes a plug as heavy as the blow made it, not a single splinter with all the
+//! momentum of a wall: the pieces nearest to the contacts take the impulse as one body, the fewest that do not leave faster than the striker follows, and all
 //! of them where even they do. What the motion loses by it went into vibration.
 //!
 //! **The toll.** What the cracks cost beyond that is taken from the motion of pieces and striker against their common rigid motion, the
@@ -14,6 +16,9 @@ use glam::{DMat3, DVec3, Vec3};
 
 use crate::mesh::{TriMesh, closest_on_triangle};
 use crate::outcome::Fracture;
+
+/// Share of the speed of approach at which a striker may still come nearer to the piece that it has pushed.
+pub const STILL: f64 = 0.05;
 
 /// A rigid body, world axes.
 #[derive(Clone, Copy, Debug)]
@@ -265,6 +270,98 @@ pub fn push_plug(pieces: &mut [Rigid], striker: &mut [Rigid], pushes: &Pushes, t
     }
     debug_assert!(lost >= -1e-9, "a blow that breaks gave {} J", -lost);
     lost
+}
+
+/// Puts a blow's impulses on pieces that [move apart](part) by what the blow has made of them: on all of them as on one body, or where
+/// some are held on what holds them. `taken` is what the striker gets. Returns the energy that the motion loses, J.
+pub fn push_whole(
+    pieces: &mut [Rigid],
+    striker: &mut [Rigid],
+    pushes: &Pushes,
+    taken: Kick,
+) -> f64 {
+    let held = pieces.iter().any(|p| !p.gives_way());
+    let mut whole = match held {
+        true => Rigid::earth(),
+        false => Rigid::together(pieces),
+    };
+    let mut follower = Rigid::together(striker);
+    let kick = Kick::about(whole.centre, pushes);
+    let work = whole.work(kick) + follower.work(taken);
+    let give = whole.give(kick) + follower.give(taken);
+    let share = match work < 0.0 {
+        true => affordable(work, give, 0.0),
+        false => 0.0,
+    };
+    if !held {
+        kick_together(pieces, &mut whole, kick.scaled(share));
+    }
+    kick_together(striker, &mut follower, taken.scaled(share));
+    -share * work - 0.5 * share * share * give
+}
+
+/// Puts a blow's impulses on the fragments of a body that it broke, and takes them from the striker. `pieces` are the fragments in this order,
+/// [from the nearest](nearest_first); `axes` turns the body's frame to the world's. Returns the energy that the motion loses, J, from which the
+/// cracks are to be paid first.
+pub fn take_blow(
+    fracture: &Fracture,
+    (order, axes): (&[usize], DMat3),
+    pieces: &mut [Rigid],
+    striker: &mut [Rigid],
+    pushes: &Pushes,
+    taken: Kick,
+) -> f64 {
+    if fracture.moves_apart() {
+        let before = (pieces.to_vec(), striker.to_vec());
+        let mut lost = push_whole(pieces, striker, pushes, taken);
+        let own = |&number: &usize| {
+            let fragment = &fracture.fragments[number];
+            [fragment.velocity, fragment.angular_velocity].map(|v| axes * v)
+        };
+        let motions: Vec<[DVec3; 2]> = order.iter().map(own).collect();
+        lost -= part(pieces, &motions, lost - fracture.report.fracture_energy);
+        let follower = Rigid::together(striker);
+        let follower_before = Rigid::together(&before.1);
+        let opens = |&(point, impulse): &(DVec3, DVec3)| {
+            let normal = impulse.normalize_or_zero();
+            let then = opening_speed(&before.0[0], &follower_before, point, normal);
+            opening_speed(&pieces[0], &follower, point, normal) >= STILL * then.min(0.0)
+        };
+        if pushes.iter().all(opens) {
+            return lost;
+        }
+        pieces.copy_from_slice(&before.0);
+        striker.copy_from_slice(&before.1);
+    }
+    push_plug(pieces, striker, pushes, taken)
+}
+
+/// Speed at which a contact of a piece with a striker opens along this normal, m/s.
+#[must_use]
+pub fn opening_speed(piece: &Rigid, striker: &Rigid, point: DVec3, normal: DVec3) -> f64 {
+    normal.dot(piece.velocity_at(point) - striker.velocity_at(point))
+}
+
+/// Lets pieces that move as one body move apart: each gets what its fragment has beyond the whole body's motion, [velocity and angular
+/// velocity](crate::Fragment::velocity) in world axes, as much of it as takes no more than this energy, J. Returns what it takes. Momentum stays.
+pub fn part(pieces: &mut [Rigid], motions: &[[DVec3; 2]], most: f64) -> f64 {
+    let each = || pieces.iter().zip(motions).filter(|(p, _)| p.gives_way());
+    let energy = |(piece, [linear, angular]): (&Rigid, &[DVec3; 2])| {
+        0.5 * (piece.mass * linear.length_squared() + angular.dot(piece.inertia * *angular))
+    };
+    // They carry no momentum, so that nothing of the common motion comes in.
+    let wanted: f64 = each().map(energy).sum();
+    if !(wanted > 0.0 && wanted.is_finite() && most > 0.0) {
+        return 0.0;
+    }
+    let scale = (most / wanted).min(1.0).sqrt();
+    for (piece, [linear, angular]) in pieces.iter_mut().zip(motions) {
+        if piece.gives_way() {
+            piece.linear += *linear * scale;
+            piece.angular += *angular * scale;
+        }
+    }
+    wanted.min(most)
 }
 
 /// Takes up to `energy`, J, from the motion of bodies against each other; returns what was taken.

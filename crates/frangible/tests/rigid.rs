@@ -2,8 +2,10 @@
 
 use crate::bodies;
 use frangible::glam::{DMat3, DVec3};
-use frangible::internals::rigid::{Kick, Rigid, affordable, nearest_first, push_plug, take_energy};
-use frangible::{FractureConfig, Outcome, impact};
+use frangible::internals::rigid::{
+    Kick, Rigid, affordable, nearest_first, push_plug, take_blow, take_energy,
+};
+use frangible::{Fracture, FractureConfig, Outcome, impact};
 
 fn ball(mass: f64, at: DVec3, velocity: DVec3) -> Rigid {
     let inertia = DMat3::from_diagonal(DVec3::splat(0.4 * mass * 1e-4));
@@ -136,4 +138,67 @@ fn the_nearest_fragment_is_the_one_that_was_hit() {
     assert!(all.into_iter().eq(0..fracture.fragments.len()));
     let (first, last) = (gap(order[0]), gap(order[order.len() - 1]));
     assert!(first < last, "{first} m, {last} m");
+}
+
+/// Fragments as they are right after a blow on a body that was at rest.
+fn fragments(fracture: &Fracture, order: &[usize]) -> Vec<Rigid> {
+    let body = |&i: &usize| {
+        let mass = &fracture.fragments[i].mass;
+        Rigid::free(
+            mass.mass,
+            mass.inertia,
+            [mass.centre, DVec3::ZERO, DVec3::ZERO],
+        )
+    };
+    order.iter().map(body).collect()
+}
+
+#[test]
+fn fragments_move_apart_with_the_momentum_and_no_more_than_the_energy_of_the_blow() {
+    let hit = bodies::pane_hit(0.01, 0.005, 12.0);
+    let outcome = impact(
+        &bodies::pane().body(0),
+        std::slice::from_ref(&hit),
+        &FractureConfig::default(),
+    );
+    let Ok(Outcome::Broke(fracture)) = outcome else {
+        panic!("it breaks");
+    };
+    assert!(fracture.moves_apart());
+    let order = nearest_first(&fracture, &[hit.point]);
+    let report = &fracture.report;
+    let contact = &report.contacts[0];
+    let push = contact.normal.as_dvec3() * contact.impulse;
+    let pushes = [(contact.point.as_dvec3(), push)];
+    let ball_mass = 1.0 / f64::from(hit.striker.inverse_effective_mass);
+    let mut striker = [ball(
+        ball_mass,
+        contact.point.as_dvec3(),
+        contact.normal.as_dvec3() * contact.approach_speed,
+    )];
+    let mut pieces = fragments(&fracture, &order);
+    let before = [&pieces[..], &striker].concat();
+    let taken = Kick::about(striker[0].centre, &pushes).scaled(-1.0);
+    let lost = take_blow(
+        &fracture,
+        (&order, DMat3::IDENTITY),
+        &mut pieces,
+        &mut striker,
+        &pushes,
+        taken,
+    );
+    let after = [&pieces[..], &striker].concat();
+    same(momenta(&before), momenta(&after));
+    let made = energy(&after) + lost - energy(&before);
+    println!(
+        "{:.4} J before, {:.4} J after, {lost:.4} J lost, {:.4} J for cracks",
+        energy(&before),
+        energy(&after),
+        report.fracture_energy
+    );
+    assert!(made.abs() < 1e-12 && lost >= report.fracture_energy);
+    // They fly apart: faster against each other than as one body.
+    let whole = Rigid::together(&pieces);
+    let apart = energy(&pieces) - whole.kinetic_energy();
+    assert!(apart > 0.05 * energy(&pieces), "{apart} J");
 }

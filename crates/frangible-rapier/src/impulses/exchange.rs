@@ -10,7 +10,7 @@
 //! back first.
 //!
 //! **A break**: before the step is taken again, the blow's impulse up to the moment when the contact parted, or the wall under it was
-//! gone. The pieces nearest to the contacts take it as one body, a plug ([`frangible::internals::rigid`]), and what still approaches is
+//! gone. The pieces take it as the blow says ([`frangible::internals::rigid`]), and what still approaches is
 //! the engine's. What the two lose by it went into vibration, and the cracks are paid from it first.
 
 use std::collections::BTreeMap;
@@ -18,14 +18,15 @@ use std::collections::BTreeMap;
 use frangible::Fracture;
 use frangible::glam::{DVec3, Vec3};
 use frangible::internals::rigid::{
-    Kick, Rigid, affordable, kick_together, nearest_first, push_plug,
+    self, Kick, Pushes, Rigid, STILL, affordable, kick_together, nearest_first, opening_speed,
+    push_plug, push_whole,
 };
 use rapier3d::dynamics::{RigidBodyHandle, RigidBodySet};
 
 use crate::calm::motions::Before;
 use crate::impulses::blows::{Meeting, Touch, share_out};
 use crate::impulses::motion::{centre, kinetic_energy};
-use crate::impulses::plain::{Plain, take_energy};
+use crate::impulses::plain::{Plain, plain, take_energy};
 use crate::impulses::settle::Broken;
 use crate::world::{BreakableWorld, Key, key};
 
@@ -127,41 +128,121 @@ impl BreakableWorld {
                 .collect::<Vec<_>>(),
         );
         for broken in broken {
-            broken.lost = 0.0;
-            for meeting in &broken.blow {
-                let striker = self.what_became_of(meeting.partner, &families);
-                let pieces = nearest(&broken.fracture, &broken.fragments, meeting);
-                broken.lost += self.push_plug(&pieces, &striker, meeting, None);
-            }
+            let blows: Vec<Push<'_>> = (broken.blow.iter())
+                .map(|meeting| Push {
+                    meeting,
+                    striker: self.what_became_of(meeting.partner, &families),
+                    since: None,
+                })
+                .collect();
+            broken.lost = self.push_apart(&broken.fracture, &broken.fragments, &blows);
         }
     }
 
-    /// After a step that stands: the engine's blow on the whole body, whose pieces move as it did, is taken back as far as energy
-    /// allows, and the blow that broke it acts. Returns what is lost of the motion as it was before the blow, J.
-    pub(crate) fn replace_blow(
+    /// After a step that stands: the engine's blows on the whole body, whose pieces move as it did, are taken back as far as energy
+    /// allows, and the blows that broke it act. Returns what is lost of the motion as it was before them, J.
+    pub(crate) fn replace_blows(
         &mut self,
         fracture: &Fracture,
         fragments: &[RigidBodyHandle],
-        meeting: &Meeting,
+        meetings: &[Meeting],
         families: &Families,
         before: &impl Before,
     ) -> f64 {
-        let striker = self.what_became_of(meeting.partner, families);
-        let bodies = &mut self.physics.bodies;
-        let Some(mut pair) = Pair::new(bodies, fragments, &striker, meeting, before) else {
-            return 0.0;
-        };
-        let back = |t: &Touch| t.direction * (-meeting.share * t.engine);
-        let kicks = pair.kicks(meeting, back);
-        let (work, give) = pair.price(kicks);
-        let share = affordable(work, give, pair.lost(meeting, before));
-        pair.kick(kicks, share);
-        pair.put_back(bodies);
-        // The pieces have moved with the step; the striker keeps its arm.
-        let moved = pair.wholes[0].centre - pair.centres[0];
-        let since = Some((moved, pair.centres[1]));
-        let pieces = nearest(fracture, fragments, meeting);
-        self.push_plug(&pieces, &striker, meeting, since)
+        let mut blows = Vec::with_capacity(meetings.len());
+        for meeting in meetings {
+            let striker = self.what_became_of(meeting.partner, families);
+            let bodies = &mut self.physics.bodies;
+            let Some(mut pair) = Pair::new(bodies, fragments, &striker, meeting, before) else {
+                continue;
+            };
+            let back = |t: &Touch| t.direction * (-meeting.share * t.engine);
+            let kicks = pair.kicks(meeting, back);
+            let (work, give) = pair.price(kicks);
+            let share = affordable(work, give, pair.lost(meeting, before));
+            pair.kick(kicks, share);
+            pair.put_back(bodies);
+            // The pieces have moved with the step; the striker keeps its arm.
+            let moved = pair.wholes[0].centre - pair.centres[0];
+            blows.push(Push {
+                meeting,
+                striker,
+                since: Some((moved, pair.centres[1])),
+            });
+        }
+        self.push_apart(fracture, fragments, &blows)
+    }
+
+    /// Puts blows on fragments: as they [move apart](rigid::part) by what was followed of them; on a [plug](push_plug) where nothing was, or where a
+    /// striker would still run into the piece under it. Returns what the motion loses, J.
+    fn push_apart(
+        &mut self,
+        fracture: &Fracture,
+        fragments: &[RigidBodyHandle],
+        blows: &[Push<'_>],
+    ) -> f64 {
+        if fracture.moves_apart() {
+            let strikers = blows.iter().flat_map(|blow| blow.striker.iter().copied());
+            let all: Vec<_> = fragments.iter().copied().chain(strikers).collect();
+            let before = Plain::of(&self.physics.bodies, &all);
+            let mut lost = 0.0;
+            for blow in blows {
+                lost += self.push_pieces(fragments, blow, push_whole);
+            }
+            lost -= self.part(fracture, fragments, lost);
+            if blows
+                .iter()
+                .all(|blow| self.opens(fracture, fragments, blow))
+            {
+                return lost;
+            }
+            before.put_back(&mut self.physics.bodies);
+        }
+        let mut lost = 0.0;
+        for blow in blows {
+            let pieces = nearest(fracture, fragments, blow.meeting);
+            lost += self.push_pieces(&pieces, blow, push_plug);
+        }
+        lost
+    }
+
+    /// Whether a striker does not run into the pieces under it any more.
+    fn opens(&self, fracture: &Fracture, fragments: &[RigidBodyHandle], blow: &Push<'_>) -> bool {
+        let set = &self.physics.bodies;
+        let striker = Rigid::together(&Plain::of(set, &blow.striker).bodies);
+        let moved = blow.since.map_or(DVec3::ZERO, |(moved, _)| moved);
+        blow.meeting.touches.iter().all(|touch| {
+            let there = nearest_first(fracture, &[touch.local]).into_iter();
+            let mut there = there.filter_map(|i| set.get(*fragments.get(i)?));
+            let speed =
+                |piece| opening_speed(&plain(piece), &striker, touch.point + moved, touch.normal);
+            there
+                .next()
+                .is_none_or(|piece| speed(piece) >= -STILL * touch.approach)
+        })
+    }
+
+    /// Lets the fragments of a body that moves as one move apart as they did in the blow, by what it has lost and the cracks did not take.
+    /// Returns what that takes, J.
+    pub(crate) fn part(
+        &mut self,
+        fracture: &Fracture,
+        fragments: &[RigidBodyHandle],
+        lost: f64,
+    ) -> f64 {
+        let set = &mut self.physics.bodies;
+        let there = fragments.iter().zip(&fracture.fragments);
+        let there = there.filter_map(|(&handle, fragment)| {
+            let rotation = set.get(handle)?.rotation().as_dquat();
+            let own = [fragment.velocity, fragment.angular_velocity];
+            Some((handle, own.map(|v| rotation * v)))
+        });
+        let (handles, motions): (Vec<_>, Vec<_>) = there.unzip();
+        let mut pieces = Plain::of(set, &handles);
+        let most = lost - fracture.report.fracture_energy;
+        let taken = rigid::part(&mut pieces.bodies, &motions, most);
+        pieces.put_back(set);
+        taken
     }
 
     /// What a striker is now: itself, or its pieces; nothing where it is gone.
@@ -180,35 +261,38 @@ impl BreakableWorld {
         }
     }
 
-    /// Puts a blow's impulses on the pieces, in this order, and takes them from the striker. `since` says how far the pieces have moved
-    /// since the blow, and the striker's centre then. Returns what the motion loses, J.
-    fn push_plug(
+    /// Puts a blow's impulses on the pieces, in this order, and takes them from the striker. Returns what the motion loses, J.
+    fn push_pieces(
         &mut self,
         pieces: &[RigidBodyHandle],
-        striker: &[RigidBodyHandle],
-        meeting: &Meeting,
-        since: Option<(DVec3, DVec3)>,
+        blow: &Push<'_>,
+        push: impl Fn(&mut [Rigid], &mut [Rigid], &Pushes, Kick) -> f64,
     ) -> f64 {
         let set = &mut self.physics.bodies;
-        let (mut pieces, mut striker) = (Plain::of(set, pieces), Plain::of(set, striker));
+        let (mut pieces, mut striker) = (Plain::of(set, pieces), Plain::of(set, &blow.striker));
         let now = (DVec3::ZERO, Rigid::together(&striker.bodies).centre);
-        let (moved, arm) = since.unwrap_or(now);
+        let (moved, arm) = blow.since.unwrap_or(now);
         let pushes = |moved: DVec3| -> Vec<(DVec3, DVec3)> {
-            let touches = meeting.touches.iter();
-            let push = |t: &Touch| (t.point + moved, t.direction * (meeting.share * t.blow));
+            let touches = blow.meeting.touches.iter();
+            let push = |t: &Touch| (t.point + moved, t.direction * (blow.meeting.share * t.blow));
             touches.map(push).collect()
         };
         let taken = Kick::about(arm, &pushes(DVec3::ZERO)).scaled(-1.0);
-        let lost = push_plug(
-            &mut pieces.bodies,
-            &mut striker.bodies,
-            &pushes(moved),
-            taken,
-        );
+        let pushes = pushes(moved);
+        let lost = push(&mut pieces.bodies, &mut striker.bodies, &pushes, taken);
         pieces.put_back(set);
         striker.put_back(set);
         lost
     }
+}
+
+/// A blow to be put on fragments.
+struct Push<'a> {
+    meeting: &'a Meeting,
+    /// What the partner is now.
+    striker: Vec<RigidBodyHandle>,
+    /// How far the pieces have moved since the blow, m, and the striker's centre then.
+    since: Option<(DVec3, DVec3)>,
 }
 
 /// The two sides of a meeting as they are now, and their centres of mass when they met.

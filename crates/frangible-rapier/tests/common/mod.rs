@@ -169,6 +169,8 @@ fn block(centre: Vec3, half: Vec3, overlap: f32) -> Fragment {
         mass: block_mass(centre, half),
         cell_shares,
         supported: false,
+        velocity: DVec3::ZERO,
+        angular_velocity: DVec3::ZERO,
     }
 }
 

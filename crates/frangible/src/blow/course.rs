@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
+use super::apart::{Apart, GroupMotion};
 use super::flight::Setup;
 use super::groups::Groups;
 use super::integrate::{MOST_SUBSTEPS, Progress, Record, Run, Softening};
@@ -264,6 +265,22 @@ impl Blow {
         flight.drifts(self.setup(), state)
     }
 
+    /// How the pieces move that move on their own, none where there are none.
+    pub(crate) fn apart(&self, body: &Body) -> Option<Apart> {
+        let parted = self.parted.last()?;
+        let motions = parted.centres.iter().zip(self.drifts());
+        let motion = |(&centre, [velocity, angular]): (&DVec3, [DVec3; 2])| GroupMotion {
+            centre,
+            velocity,
+            angular,
+        };
+        Some(Apart {
+            of_node: parted.groups.of_node.clone(),
+            motions: motions.map(motion).collect(),
+            held: body.asset.is_supported(),
+        })
+    }
+
     /// Lets pieces part at a time step, as cracks do: `piece_of_node` has the piece of each node of the fracture mesh, the largest first.
     #[doc(hidden)]
     pub fn part(&mut self, body: &Body, piece_of_node: &[u32], pieces: usize, step: usize) {
@@ -460,7 +477,10 @@ impl Blow {
                 .collect();
             if let Some(near) = &site.near {
                 let oscillators = near.oscillators.len();
-                let rows = self.record.swing.chunks_exact((plan.own - plan.modes).max(1));
+                let rows = self
+                    .record
+                    .swing
+                    .chunks_exact((plan.own - plan.modes).max(1));
                 let frequencies = &plan.oscillators[near.oscillators.clone()];
                 // From ω p of the oscillator of unit mass to ω² q of the one that the force itself drives, N.
                 let scale: Vec<f32> = (near.bands.oscillators.iter().zip(frequencies))

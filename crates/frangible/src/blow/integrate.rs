@@ -209,7 +209,12 @@ impl Run<'_> {
         };
         let parts = [
             (after.near_steps, &plan.step, plan.time_step, true),
-            (after.steps, &plan.coarse, plan.coarser * plan.time_step, false),
+            (
+                after.steps,
+                &plan.coarse,
+                plan.coarser * plan.time_step,
+                false,
+            ),
         ];
         for (end, bank, length, near) in parts {
             let mut finer = None;

@@ -45,6 +45,7 @@
 //! Forces are linear over substeps of a hundredth of Hertz' time (a four-hundredth where both bodies vibrate), every oscillator is stepped
 //! exactly, and one equation per contact and substep has one root. Steps after the blow are as long as the modes allow.
 
+mod apart;
 mod bank;
 mod contacts;
 mod couple;
@@ -64,6 +65,7 @@ mod star;
 mod wall;
 
 pub use crate::contact::Receptance;
+pub(crate) use apart::Apart;
 pub use course::Blow;
 pub(crate) use groups::Groups;
 pub(crate) use limits::Limits;

@@ -40,7 +40,7 @@ pub(super) struct Parted {
     pub(super) substep: usize,
     pub(super) groups: Groups,
     /// Centre of each group but the reference, m, in the frame of the fracture mesh.
-    centres: Vec<DVec3>,
+    pub(super) centres: Vec<DVec3>,
     /// p: a row of modes for each unknown, √kg.
     held: Vec<f64>,
     modes: usize,

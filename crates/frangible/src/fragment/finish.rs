@@ -72,6 +72,8 @@ impl<'a> Finisher<'a> {
             render: None,
             mass,
             supported: draft.supported,
+            velocity: DVec3::ZERO,
+            angular_velocity: DVec3::ZERO,
         };
         (fragment, trace)
     }

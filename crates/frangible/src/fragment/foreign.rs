@@ -29,14 +29,7 @@ pub fn pieces_of_cuts(
         cut_by: prepared.index.cut_by(cuts.list()),
         ..Known::default()
     };
-    let labels = of_cuts(
-        cuts,
-        known,
-        &mesh.tets,
-        &prepared.index,
-        None,
-        crumb_share,
-    );
+    let labels = of_cuts(cuts, known, &mesh.tets, &prepared.index, None, crumb_share);
     let Built {
         mut fragments,
         undrawn,

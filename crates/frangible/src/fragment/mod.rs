@@ -1,5 +1,6 @@
 //! Fragments: labels of nodes, exact partition of tetrahedra, closed surfaces and masses `[G12 §6]`.
 
+mod apart;
 mod breakup;
 mod build;
 mod components;
@@ -32,7 +33,7 @@ pub(crate) use partition::{Point, face_parts, interfaces};
 pub(crate) use points::PointTable;
 pub(crate) use volumes::Volumes;
 
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 
 use crate::mesh::{MassProperties, RenderMesh, TriMesh};
 
@@ -52,6 +53,11 @@ pub struct Fragment {
     pub cell_shares: Vec<(u32, Vec<Vec3>)>,
     /// Whether it has one of the [supported nodes](crate::Asset::supported): something outside still holds it.
     pub supported: bool,
+    /// Velocity of its centre of mass against the rigid motion that the whole body has after the blow, m/s, body frame of the parent. Zero for all
+    /// fragments where no piece had parted while the blow was followed.
+    pub velocity: DVec3,
+    /// Angular velocity against that motion, rad/s.
+    pub angular_velocity: DVec3,
 }
 
 impl Fragment {

@@ -74,10 +74,7 @@ impl BreakableWorld {
             .flat_map(|&s| self.what_became_of(Some(s), families))
             .collect();
         let whole = kinetic_energy(&parent) + self.kinetic_energy_of(&others);
-        let mut lost = 0.0;
-        for meeting in blow {
-            lost += self.replace_blow(&fracture, &fragments, meeting, families, before);
-        }
+        let lost = self.replace_blows(&fracture, &fragments, blow, families, before);
         let cracks = fracture.report.fracture_energy;
         let lost = lost.clamp(0.0, cracks);
         let toll = cracks - lost;
