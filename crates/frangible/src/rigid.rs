@@ -2,9 +2,8 @@
 //! the pieces and the cracks' energy taken from the motion, and takes the velocities back.
 //!
 //! **The blow.** Where the motion of the pieces was followed through the blow ([`Fracture::moves_apart`]), all of them together take the impulse
-//! as one body ([`push_whole`]), and then [move apart](part) as they did in it. Where that was not followed, or the striker would still run into
-//! the piece under it, since short waves held what it gave, it pushes a plug as heavy as the blow made it, not a single splinter with all the
-//! momentum of a wall: the pieces nearest to the contacts take the impulse as one body, the fewest that do not leave faster than the striker follows, and all
+//! as one body ([`push_whole`]), and then [move apart](part) as they did in it. Where that was not followed, or the blow [is local](is_local), the striker
+//! pushes a plug as heavy as the blow made it, not a single splinter with all the momentum of a wall: the pieces nearest to the contacts take the impulse as one body, the fewest that do not leave faster than the striker follows, and all
 //! of them where even they do. What the motion loses by it went into vibration.
 //!
 //! **The toll.** What the cracks cost beyond that is taken from the motion of pieces and striker against their common rigid motion, the
@@ -16,9 +15,6 @@ use glam::{DMat3, DVec3, Vec3};
 
 use crate::mesh::{TriMesh, closest_on_triangle};
 use crate::outcome::Fracture;
-
-/// Share of the speed of approach at which a striker may still come nearer to the piece that it has pushed.
-pub const STILL: f64 = 0.05;
 
 /// A rigid body, world axes.
 #[derive(Clone, Copy, Debug)]
@@ -232,17 +228,10 @@ pub fn push_plug(pieces: &mut [Rigid], striker: &mut [Rigid], pushes: &Pushes, t
     let loose: Vec<usize> = (0..pieces.len())
         .filter(|&i| pieces[i].gives_way())
         .collect();
-    let (mut left, mut lost, mut count) = (1.0, 0.0, 1);
-    while !holds && count <= loose.len() {
-        let mut members: Vec<Rigid> = loose[..count].iter().map(|&i| pieces[i]).collect();
-        let mut plug = Rigid::together(&members);
-        let kick = Kick::about(plug.centre, pushes);
-        let work = plug.work(kick) + follower.work(taken);
-        let give = plug.give(kick) + follower.give(taken);
-        if work + give > 0.0 && count < loose.len() {
-            count = (count + 1 + count / 8).min(loose.len());
-            continue;
-        }
+    let (mut left, mut lost) = (1.0, 0.0);
+    let bodies: Vec<Rigid> = loose.iter().map(|&i| pieces[i]).collect();
+    if !holds && let Some(mut plug) = Plug::new(&bodies, &follower, pushes, taken) {
+        let (work, give) = (plug.work, plug.give);
         let share = if held && work < 0.0 && give > 0.0 {
             (-work / give).min(1.0)
         } else if work < 0.0 {
@@ -250,14 +239,13 @@ pub fn push_plug(pieces: &mut [Rigid], striker: &mut [Rigid], pushes: &Pushes, t
         } else {
             0.0
         };
-        kick_together(&mut members, &mut plug, kick.scaled(share));
+        kick_together(&mut plug.members, &mut plug.whole, plug.kick.scaled(share));
         kick_together(striker, &mut follower, taken.scaled(share));
-        for (&i, member) in loose.iter().zip(members) {
+        for (&i, member) in loose.iter().zip(plug.members) {
             pieces[i] = member;
         }
         lost -= share * work + 0.5 * share * share * give;
         left -= share;
-        break;
     }
     if (held || holds) && left > 0.0 {
         let kick = taken.scaled(left);
@@ -311,35 +299,62 @@ pub fn take_blow(
     pushes: &Pushes,
     taken: Kick,
 ) -> f64 {
-    if fracture.moves_apart() {
-        let before = (pieces.to_vec(), striker.to_vec());
-        let mut lost = push_whole(pieces, striker, pushes, taken);
-        let own = |&number: &usize| {
-            let fragment = &fracture.fragments[number];
-            [fragment.velocity, fragment.angular_velocity].map(|v| axes * v)
-        };
-        let motions: Vec<[DVec3; 2]> = order.iter().map(own).collect();
-        lost -= part(pieces, &motions, lost - fracture.report.fracture_energy);
-        let follower = Rigid::together(striker);
-        let follower_before = Rigid::together(&before.1);
-        let opens = |&(point, impulse): &(DVec3, DVec3)| {
-            let normal = impulse.normalize_or_zero();
-            let then = opening_speed(&before.0[0], &follower_before, point, normal);
-            opening_speed(&pieces[0], &follower, point, normal) >= STILL * then.min(0.0)
-        };
-        if pushes.iter().all(opens) {
-            return lost;
-        }
-        pieces.copy_from_slice(&before.0);
-        striker.copy_from_slice(&before.1);
+    if !fracture.moves_apart() || is_local(pieces, striker, pushes, taken) {
+        return push_plug(pieces, striker, pushes, taken);
     }
-    push_plug(pieces, striker, pushes, taken)
+    let lost = push_whole(pieces, striker, pushes, taken);
+    let own = |&number: &usize| {
+        let fragment = &fracture.fragments[number];
+        [fragment.velocity, fragment.angular_velocity].map(|v| axes * v)
+    };
+    let motions: Vec<[DVec3; 2]> = order.iter().map(own).collect();
+    lost - part(pieces, &motions, lost - fracture.report.fracture_energy)
 }
 
-/// Speed at which a contact of a piece with a striker opens along this normal, m/s.
+/// Whether a blow is over before all pieces, which come in the order of their distance from it, know of it: its [plug](push_plug) is less than
+/// half of what is loose. Short waves hold what it gave, of which the motions of large pieces have little.
 #[must_use]
-pub fn opening_speed(piece: &Rigid, striker: &Rigid, point: DVec3, normal: DVec3) -> f64 {
-    normal.dot(piece.velocity_at(point) - striker.velocity_at(point))
+pub fn is_local(pieces: &[Rigid], striker: &[Rigid], pushes: &Pushes, taken: Kick) -> bool {
+    let loose: Vec<Rigid> = pieces.iter().filter(|p| p.gives_way()).copied().collect();
+    let mass: f64 = loose.iter().map(|p| p.mass).sum();
+    let plug = Plug::new(&loose, &Rigid::together(striker), pushes, taken);
+    plug.is_some_and(|plug| plug.whole.mass < 0.5 * mass)
+}
+
+/// The fewest pieces that do not leave faster than the striker follows.
+struct Plug {
+    members: Vec<Rigid>,
+    whole: Rigid,
+    kick: Kick,
+    /// A share s of the blow adds s · work + ½ s² · give to the energy, J.
+    work: f64,
+    give: f64,
+}
+
+impl Plug {
+    /// None where nothing is loose.
+    fn new(loose: &[Rigid], follower: &Rigid, pushes: &Pushes, taken: Kick) -> Option<Self> {
+        let mut count = 1.min(loose.len());
+        while count > 0 {
+            let members = loose[..count].to_vec();
+            let whole = Rigid::together(&members);
+            let kick = Kick::about(whole.centre, pushes);
+            let work = whole.work(kick) + follower.work(taken);
+            let give = whole.give(kick) + follower.give(taken);
+            if work + give > 0.0 && count < loose.len() {
+                count = (count + 1 + count / 8).min(loose.len());
+                continue;
+            }
+            return Some(Self {
+                members,
+                whole,
+                kick,
+                work,
+                give,
+            });
+        }
+        None
+    }
 }
 
 /// Lets pieces that move as one body move apart: each gets what its fragment has beyond the whole body's motion, [velocity and angular

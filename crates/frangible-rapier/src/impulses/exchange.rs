@@ -18,15 +18,15 @@ use std::collections::BTreeMap;
 use frangible::Fracture;
 use frangible::glam::{DVec3, Vec3};
 use frangible::internals::rigid::{
-    self, Kick, Pushes, Rigid, STILL, affordable, kick_together, nearest_first, opening_speed,
-    push_plug, push_whole,
+    self, Kick, Pushes, Rigid, affordable, is_local, kick_together, nearest_first, push_plug,
+    push_whole,
 };
 use rapier3d::dynamics::{RigidBodyHandle, RigidBodySet};
 
 use crate::calm::motions::Before;
 use crate::impulses::blows::{Meeting, Touch, share_out};
 use crate::impulses::motion::{centre, kinetic_energy};
-use crate::impulses::plain::{Plain, plain, take_energy};
+use crate::impulses::plain::{Plain, take_energy};
 use crate::impulses::settle::Broken;
 use crate::world::{BreakableWorld, Key, key};
 
@@ -174,52 +174,33 @@ impl BreakableWorld {
     }
 
     /// Puts blows on fragments: as they [move apart](rigid::part) by what was followed of them; on a [plug](push_plug) where nothing was, or where a
-    /// striker would still run into the piece under it. Returns what the motion loses, J.
+    /// blow is [local](is_local). Returns what the motion loses, J.
     fn push_apart(
         &mut self,
         fracture: &Fracture,
         fragments: &[RigidBodyHandle],
         blows: &[Push<'_>],
     ) -> f64 {
-        if fracture.moves_apart() {
-            let strikers = blows.iter().flat_map(|blow| blow.striker.iter().copied());
-            let all: Vec<_> = fragments.iter().copied().chain(strikers).collect();
-            let before = Plain::of(&self.physics.bodies, &all);
-            let mut lost = 0.0;
+        let pieces = |blow: &Push<'_>| nearest(fracture, fragments, blow.meeting);
+        let mut lost = 0.0;
+        if fracture.moves_apart() && !blows.iter().any(|blow| self.is_local(&pieces(blow), blow)) {
             for blow in blows {
                 lost += self.push_pieces(fragments, blow, push_whole);
             }
-            lost -= self.part(fracture, fragments, lost);
-            if blows
-                .iter()
-                .all(|blow| self.opens(fracture, fragments, blow))
-            {
-                return lost;
-            }
-            before.put_back(&mut self.physics.bodies);
+            return lost - self.part(fracture, fragments, lost);
         }
-        let mut lost = 0.0;
         for blow in blows {
-            let pieces = nearest(fracture, fragments, blow.meeting);
-            lost += self.push_pieces(&pieces, blow, push_plug);
+            lost += self.push_pieces(&pieces(blow), blow, push_plug);
         }
         lost
     }
 
-    /// Whether a striker does not run into the pieces under it any more.
-    fn opens(&self, fracture: &Fracture, fragments: &[RigidBodyHandle], blow: &Push<'_>) -> bool {
+    /// Whether a blow is over before these pieces, in this order, [know of it](is_local).
+    fn is_local(&self, pieces: &[RigidBodyHandle], blow: &Push<'_>) -> bool {
         let set = &self.physics.bodies;
-        let striker = Rigid::together(&Plain::of(set, &blow.striker).bodies);
-        let moved = blow.since.map_or(DVec3::ZERO, |(moved, _)| moved);
-        blow.meeting.touches.iter().all(|touch| {
-            let there = nearest_first(fracture, &[touch.local]).into_iter();
-            let mut there = there.filter_map(|i| set.get(*fragments.get(i)?));
-            let speed =
-                |piece| opening_speed(&plain(piece), &striker, touch.point + moved, touch.normal);
-            there
-                .next()
-                .is_none_or(|piece| speed(piece) >= -STILL * touch.approach)
-        })
+        let (pieces, striker) = (Plain::of(set, pieces), Plain::of(set, &blow.striker));
+        let (pushes, taken) = blow.acts(&striker);
+        is_local(&pieces.bodies, &striker.bodies, &pushes, taken)
     }
 
     /// Lets the fragments of a body that moves as one move apart as they did in the blow, by what it has lost and the cracks did not take.
@@ -270,15 +251,7 @@ impl BreakableWorld {
     ) -> f64 {
         let set = &mut self.physics.bodies;
         let (mut pieces, mut striker) = (Plain::of(set, pieces), Plain::of(set, &blow.striker));
-        let now = (DVec3::ZERO, Rigid::together(&striker.bodies).centre);
-        let (moved, arm) = blow.since.unwrap_or(now);
-        let pushes = |moved: DVec3| -> Vec<(DVec3, DVec3)> {
-            let touches = blow.meeting.touches.iter();
-            let push = |t: &Touch| (t.point + moved, t.direction * (blow.meeting.share * t.blow));
-            touches.map(push).collect()
-        };
-        let taken = Kick::about(arm, &pushes(DVec3::ZERO)).scaled(-1.0);
-        let pushes = pushes(moved);
+        let (pushes, taken) = blow.acts(&striker);
         let lost = push(&mut pieces.bodies, &mut striker.bodies, &pushes, taken);
         pieces.put_back(set);
         striker.put_back(set);
@@ -293,6 +266,21 @@ struct Push<'a> {
     striker: Vec<RigidBodyHandle>,
     /// How far the pieces have moved since the blow, m, and the striker's centre then.
     since: Option<(DVec3, DVec3)>,
+}
+
+impl Push<'_> {
+    /// Impulses on the pieces, and what the striker takes.
+    fn acts(&self, striker: &Plain) -> (Vec<(DVec3, DVec3)>, Kick) {
+        let now = (DVec3::ZERO, Rigid::together(&striker.bodies).centre);
+        let (moved, arm) = self.since.unwrap_or(now);
+        let pushes = |moved: DVec3| -> Vec<(DVec3, DVec3)> {
+            let touches = self.meeting.touches.iter();
+            let push = |t: &Touch| (t.point + moved, t.direction * (self.meeting.share * t.blow));
+            touches.map(push).collect()
+        };
+        let taken = Kick::about(arm, &pushes(DVec3::ZERO)).scaled(-1.0);
+        (pushes(moved), taken)
+    }
 }
 
 /// The two sides of a meeting as they are now, and their centres of mass when they met.
