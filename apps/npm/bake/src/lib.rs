@@ -100,8 +100,9 @@ pub fn piece(body: &Body, fracture: &Fracture, number: usize) -> Result<Option<B
     Ok(Some(body.piece(&portion, elastic)?))
 }
 
+/// What the package's script calls.
 #[cfg(target_arch = "wasm32")]
-mod bindings {
+pub mod bindings {
     use frangible::Material;
     use frangible_js::bindings::{Break, WasmBody};
     use js_sys::Function;
