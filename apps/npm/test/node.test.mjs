@@ -10,7 +10,7 @@ const bodyFile = (name) => readFile(new URL(`../bodies/${name}.frangible`, impor
 const ball = { mass: 0.13 };
 const blows = {
   pane: { point: [0, 0, 0.002], normal: [0, 0, -1], speed: 12, striker: ball },
-  block: { point: [0.105, 0.05, -0.025], normal: [-0.105, -0.05, 0.025], speed: 10 },
+  block: { point: [0.105, 0.05, -0.025], normal: [-0.105, -0.05, 0.025], speed: 20 },
 };
 
 // The same bits as outside.
