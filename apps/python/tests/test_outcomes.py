@@ -56,7 +56,8 @@ def test_the_report_says_in_which_order_cracks_start(plate: fr.Body, blow: fr.Co
     assert len(starts) == report["cracks"] > 3
     times = [start["time"] for start in starts]
     assert times == sorted(times) and times[0] == report["first_crack_time"]
-    np.testing.assert_allclose(starts[0]["point"], report["first_crack_point"], atol=1e-6)
+    # The first crack's flaw lies anywhere on a face of its first tetrahedron, whose edges have some 5 mm.
+    np.testing.assert_allclose(starts[0]["point"], report["first_crack_point"], atol=5e-3)
     assert all(start["tetrahedra"] > 0 for start in starts)
 
 

@@ -84,10 +84,12 @@ def test_where_there_are_no_weak_points_no_crack_starts(bar: fr.Body, blow: fr.C
     none = bar.weakened(weak_points=0)
     assert none.minimum_speed(blow) == np.inf and not none.impact(at(blow, 50)).broke
     right = bar.weakened(weak_points=lambda places: places[:, 0] > 0)
-    # A crack that branches goes over to the other side; the first of each seed does not.
+    # A crack that branches goes over to the other side; the first of each seed does not, but for the reach of a tetrahedron: its middle
+    # decides, and its flaw lies anywhere on a face.
+    reach = 5e-3
     firsts = [right.impact(at(blow, 6.0), seed).report["first_crack_point"][0] for seed in range(8)]
-    assert min(firsts) > 0
-    assert min(bar.impact(at(blow, 6.0), seed).report["first_crack_point"][0] for seed in range(8)) < 0
+    assert min(firsts) > -reach
+    assert min(bar.impact(at(blow, 6.0), seed).report["first_crack_point"][0] for seed in range(8)) < -reach
 
 
 def test_numbers_arrays_and_functions_say_the_same(bar: fr.Body, blow: fr.Contact) -> None:

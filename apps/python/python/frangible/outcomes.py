@@ -77,7 +77,7 @@ class Outcome:
             ``first_crack_time``, ``first_crack_point``, ``approach_energy``, ``peak_strain_energy``, ``contact_duration``, ``time_step``,
             ``seconds``, and ``contacts``: of each ``impulse``, ``peak_force``, ``duration``, ``contact_radius``, ``departure_speed``,
             ``crushing_energy``, ``crushed_volume`` and ``force`` at each time step. ``starts`` are the cracks in the order in which they start:
-            ``time``, s, ``point``, m, and how many ``tetrahedra`` each cuts.
+            ``time``, s, ``point``, m, the centre of its first tetrahedron, and how many ``tetrahedra`` each cuts.
     """
 
     def __init__(self, impact: Impact) -> None:
