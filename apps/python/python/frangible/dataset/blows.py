@@ -57,7 +57,9 @@ def broken(body: Body, plan: Plan, name: str, k: int) -> tuple[Outcome, dict[str
         slow, fast = (speed, fast) if count < fewest else (slow, speed)
         between = math.sqrt(slow * fast) if 0 < slow and fast < math.inf else speed * (STEP if count < fewest else 1 / STEP)
         contact = Contact(contact.point, contact.direction, between, contact.striker)
-    raise ValueError(f"{plan.tries} blows gave {tried} pieces and none {fewest} to {most}; widen the limits or allow more tries")
+    raise ValueError(
+        f"{plan.tries} blows gave {tried} pieces and none {fewest} to {most} that are large enough; widen the limits or allow more tries"
+    )
 
 
 def _between(rng: np.random.Generator, limits: tuple[float, float]) -> float:

@@ -43,7 +43,7 @@ class Plan:
     least_share: float = 1e-3
     tetrahedra: int = 12_000
     modes: int = 60
-    tries: int = 12
+    tries: int = 24
     val_share: float = 0.2
     normalized: bool = False
 
