@@ -8,17 +8,17 @@ use glam::DVec3;
 use super::apart::{Apart, GroupMotion};
 use super::flight::Setup;
 use super::groups::Groups;
-use super::integrate::{MOST_SUBSTEPS, Progress, Record, Run, Softening};
+use super::integrate::{MOST_SUBSTEPS, Progress, Run, Softening};
 use super::parted::Parted;
-use super::plan::Plan;
+use super::plan::{Plan, Site};
+use super::record::Record;
 use super::star::Star;
 use crate::body::Body;
 use crate::config::{CrackTiming, FractureConfig};
-use crate::contact::{self, Contact, ContactReport, Pulse, Touch};
+use crate::contact::{self, Contact, ContactReport, Pulse};
 use crate::crack::{CrackSystem, StressField};
 use crate::error::InputError;
-use crate::motion::{Complement, DisplacementBatch, Motion, Residual};
-use crate::near_field::NearField;
+use crate::motion::{DisplacementBatch, Motion, Residual};
 use crate::stress::{STRIDE, Shape, Symmetric3, lane};
 
 /// A star counts anew when it gives way by this factor more.
@@ -87,9 +87,11 @@ impl Blow {
         longest: Option<f64>,
     ) -> Option<Self> {
         let plan = Plan::new(body, contacts, config, longest)?;
-        let shape = |site: &super::plan::Site| Residual::shape(&body.asset, &site.residual);
-        let mut motion = Motion::default();
-        motion.modes = plan.modes;
+        let shape = |site: &Site| Residual::shape(&body.asset, &site.residual);
+        let mut motion = Motion {
+            modes: plan.modes,
+            ..Motion::default()
+        };
         let mut blow = Self {
             shapes: plan.sites.iter().map(shape).collect(),
             progress: Progress::new(&plan),
@@ -133,9 +135,8 @@ impl Blow {
     /// What the contacts push each mode with, as given impulses would, N·s/√kg.
     pub(crate) fn modal_impulse(&self) -> Vec<f64> {
         let mut sums = vec![0.0; self.plan.modes];
-        let count = self.plan.sites.len();
         for (k, drive) in self.plan.drive.iter().enumerate() {
-            let forces = self.record.forces.iter().skip(k).step_by(count);
+            let forces = self.record.forces_of(&self.plan, k);
             let impulse = forces.sum::<f64>() * self.substep();
             for (sum, xi) in sums.iter_mut().zip(drive) {
                 *sum += impulse * xi;
@@ -183,44 +184,15 @@ impl Blow {
     /// What became of each contact.
     #[must_use]
     pub fn reports(&self) -> Vec<ContactReport> {
-        let count = self.plan.sites.len();
-        let dt = self.substep();
-        let of = |(k, site): (usize, &super::plan::Site)| {
-            let forces = || self.record.forces.iter().skip(k).step_by(count);
-            let peak = forces().copied().fold(0.0, f64::max);
-            let sampled = forces().skip(self.plan.substeps - 1);
+        let speeds = self.progress.contacts.speeds.iter().enumerate();
+        let of = |(k, &speed): (usize, &f64)| {
             // What is let go ends at once, with its last value.
-            let free = self
-                .softer
-                .iter()
-                .find(|s| s.contact == k && s.compliance.is_infinite());
+            let mut softer = self.softer.iter();
+            let free = softer.find(|s| s.contact == k && s.compliance.is_infinite());
             let samples = free.map_or(usize::MAX, |s| s.substep / self.plan.substeps);
-            let crushing_energy = match site.script {
-                Some(_) => 0.0,
-                None => site.spring.crushing_energy(peak),
-            };
-            ContactReport {
-                point: site.touch.contact.point,
-                normal: site.touch.contact.normal,
-                approach_speed: f64::from(site.touch.contact.approach_speed),
-                impulse: forces().sum::<f64>() * dt,
-                peak_force: peak,
-                duration: forces()
-                    .rposition(|&f| f > 0.0)
-                    .map_or(0.0, |i| (i + 1) as f64 * dt),
-                contact_radius: (site.near.as_ref())
-                    .map_or(site.spring.contact_radius(peak), |near| near.contact_radius),
-                departure_speed: -self.progress.contacts.speeds[k],
-                crushing_energy,
-                crushed_volume: crushing_energy / site.spring.crushing_pressure,
-                force: sampled
-                    .step_by(self.plan.substeps)
-                    .take(samples)
-                    .map(|&f| f as f32)
-                    .collect(),
-            }
+            self.record.report(&self.plan, k, samples, -speed)
         };
-        self.plan.sites.iter().enumerate().map(of).collect()
+        speeds.map(of).collect()
     }
 
     /// Energy of all modes and wall oscillators when the contact parts, and what the motion of approach has lost, J: of one contact
@@ -328,25 +300,6 @@ impl Blow {
         (self.progress.after).is_none_or(|after| step < after.contact_steps)
     }
 
-    /// The node of the fracture mesh next to each contact, of those that are the body's own.
-    fn nodes(&self, body: &Body) -> Vec<u32> {
-        let asset = &*body.asset;
-        let mesh = &asset.fracture;
-        let origin = body.origin().as_vec3();
-        let node = |touch: &Touch| {
-            let point = touch.contact.point + origin;
-            let tet = asset.surface.tets[touch.triangle as usize] as usize;
-            let away = |v: u32| mesh.positions[v as usize].distance_squared(point);
-            let own = |v: &u32| asset.portion.as_ref().is_none_or(|p| p.has_node(*v));
-            let nodes = mesh.tets[tet].into_iter();
-            let nearest = nodes
-                .filter(own)
-                .min_by(|&a, &b| away(a).total_cmp(&away(b)));
-            nearest.unwrap_or(mesh.tets[tet][0])
-        };
-        self.plan.sites.iter().map(|s| node(&s.touch)).collect()
-    }
-
     /// The groups of nodes that move on their own once these pieces have parted, none where nothing new has, and whether each piece does.
     pub(crate) fn groups(
         &self,
@@ -355,7 +308,7 @@ impl Blow {
     ) -> (Option<Groups>, Vec<bool>) {
         let before = self.parted.last().map(|parted| &parted.groups);
         let index = &body.prepared.index;
-        Groups::next(before, &body.asset, index, pieces, &self.nodes(body))
+        Groups::next(before, &body.asset, index, pieces, &self.plan.nodes(body))
     }
 
     /// Goes on from a time step on with a body of which these groups have parted, and with contacts where it gives way by so much more than
@@ -383,7 +336,7 @@ impl Blow {
         });
         self.softer.extend(softer);
         if let Some(groups) = groups {
-            let nodes = self.nodes(body);
+            let nodes = self.plan.nodes(body);
             let (plan, before) = (&self.plan, self.parted.last());
             let parted = Parted::new(body, plan, before, groups, &nodes, [step, substep]);
             self.parted.push(parted);
@@ -458,52 +411,9 @@ impl Blow {
             .filter(|_| plan.coarser > 1.0)
             .map(|after| (after.near_steps, plan.coarser));
         if before < self.progress.near_steps() {
-            motion.complement = self.complement();
+            motion.complement =
+                self.record
+                    .complement(plan, &self.shapes, self.progress.near_steps());
         }
-    }
-
-    /// What the modes leave out of the motion so far.
-    fn complement(&self) -> Complement {
-        let plan = &self.plan;
-        let count = plan.sites.len();
-        let mut complement = Complement::default();
-        let mut first = 0;
-        for (k, (site, shape)) in plan.sites.iter().zip(&self.shapes).enumerate() {
-            let sampled = self.record.forces.iter();
-            let force: Vec<f32> = sampled
-                .skip((plan.substeps - 1) * count + k)
-                .step_by(plan.substeps * count)
-                .map(|&f| f as f32)
-                .collect();
-            if let Some(near) = &site.near {
-                let oscillators = near.oscillators.len();
-                let rows = self
-                    .record
-                    .swing
-                    .chunks_exact((plan.own - plan.modes).max(1));
-                let frequencies = &plan.oscillators[near.oscillators.clone()];
-                // From ω p of the oscillator of unit mass to ω² q of the one that the force itself drives, N.
-                let scale: Vec<f32> = (near.bands.oscillators.iter().zip(frequencies))
-                    .map(|(band, (w, _))| (w / band.give.sqrt()) as f32)
-                    .collect();
-                let mut swing = Vec::with_capacity(rows.len() * oscillators);
-                for row in rows {
-                    let own = &row[first..first + oscillators];
-                    swing.extend(own.iter().zip(&scale).map(|(x, s)| x * s));
-                }
-                first += oscillators;
-                let mut across: Vec<f32> = force.iter().map(|f| f * near.across as f32).collect();
-                across.resize(self.progress.near_steps(), 0.0);
-                let (place, wall, bands) = (near.place, &near.wall.material, &near.bands);
-                complement
-                    .near
-                    .push(NearField::new(place, wall, bands, &swing, &across));
-            }
-            let shape = shape.as_ref().map(Arc::clone);
-            complement
-                .residuals
-                .extend(shape.map(|shape| Residual { shape, force }));
-        }
-        complement
     }
 }

@@ -7,6 +7,7 @@ use super::bank::{Bank, BankState, Pushes, dot, padded};
 use super::contacts::Contacts;
 use super::flight::{Flight, Setup};
 use super::plan::Plan;
+use super::record::Record;
 use crate::motion::Motion;
 
 /// A blow of so many substeps is cut off: a contact that lasts this long is none of a blow's.
@@ -39,19 +40,6 @@ pub(super) struct Softening {
     pub(super) compliance: f64,
 }
 
-/// What an integration has found so far, beside the motion.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Record {
-    /// Forces after each substep, N.
-    pub(super) forces: Vec<f64>,
-    /// ω p of all wall oscillators at each time step until the near field has gone, m·√kg/s.
-    pub(super) swing: Vec<f32>,
-    /// Energy of the body's vibration and pieces, and the strain energy in it, at the end of each time step, J.
-    pub(super) energies: Vec<[f64; 2]>,
-    /// Room for q'.
-    elastic: Vec<f64>,
-}
-
 /// How far an integration has come.
 #[derive(Clone, Debug)]
 pub(super) struct Progress {
@@ -60,7 +48,7 @@ pub(super) struct Progress {
     pub(super) flight: Flight,
     /// Time steps, and the substeps of those with contacts.
     pub(super) step: usize,
-    substep: usize,
+    pub(super) substep: usize,
     /// For how many substeps all contacts have been open.
     open: usize,
     /// When the contacts have parted: energy of the body, and of breakable strikers' oscillators, J.
@@ -306,16 +294,6 @@ impl Progress {
     pub(super) fn near_steps(&self) -> usize {
         self.after
             .map_or(self.step, |after| after.near_steps.min(self.step))
-    }
-}
-
-impl Record {
-    /// Forgets what was found after an earlier state.
-    pub(super) fn forget_after(&mut self, progress: &Progress, plan: &Plan) {
-        self.forces.truncate(progress.substep * plan.sites.len());
-        let waves = plan.own - plan.modes;
-        self.swing.truncate(progress.near_steps() * waves);
-        self.energies.truncate(progress.step);
     }
 }
 

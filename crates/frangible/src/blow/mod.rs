@@ -58,6 +58,7 @@ mod limits;
 mod parted;
 mod plan;
 mod receptance;
+mod record;
 mod solve;
 mod solver;
 mod spring;

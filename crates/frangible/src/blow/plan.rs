@@ -175,6 +175,25 @@ impl Plan {
             .map(|(gap, (w, _))| gap * w)
     }
 
+    /// The node of the fracture mesh next to each contact, of those that are the body's own.
+    pub(super) fn nodes(&self, body: &Body) -> Vec<u32> {
+        let asset = &*body.asset;
+        let mesh = &asset.fracture;
+        let origin = body.origin().as_vec3();
+        let node = |touch: &Touch| {
+            let point = touch.contact.point + origin;
+            let tet = asset.surface.tets[touch.triangle as usize] as usize;
+            let away = |v: u32| mesh.positions[v as usize].distance_squared(point);
+            let own = |v: &u32| asset.portion.as_ref().is_none_or(|p| p.has_node(*v));
+            let nodes = mesh.tets[tet].into_iter();
+            let nearest = nodes
+                .filter(own)
+                .min_by(|&a, &b| away(a).total_cmp(&away(b)));
+            nearest.unwrap_or(mesh.tets[tet][0])
+        };
+        self.sites.iter().map(|s| node(&s.touch)).collect()
+    }
+
     /// How the contacts push the oscillators.
     pub(super) fn pushes(&self) -> Pushes<'_> {
         Pushes {

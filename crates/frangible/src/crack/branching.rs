@@ -13,7 +13,8 @@
 use glam::Vec3;
 
 use super::arrival::{Entered, Source};
-use super::field::{Felt, StressField};
+use super::felt::Felt;
+use super::field::StressField;
 use super::propagation::gradient;
 use super::release::once;
 use super::single::{Crack, ElementCut, Front};

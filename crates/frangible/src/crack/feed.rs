@@ -11,7 +11,7 @@ use std::f64::consts::PI;
 
 use glam::Vec3;
 
-use super::field::Felt;
+use super::felt::Felt;
 use super::single::{Crack, ElementCut, Front};
 use super::system::{CrackSystem, ELSEWHERE, UNCUT};
 use crate::mesh::{FACES, NO_NEIGHBOUR};

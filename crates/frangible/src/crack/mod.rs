@@ -23,6 +23,7 @@ mod calm;
 mod cuts;
 mod extents;
 mod feed;
+mod felt;
 mod field;
 mod initiation;
 mod ledger;

@@ -11,7 +11,8 @@
 use glam::Vec3;
 
 use super::branching::{APART, Fork, latest, nearest};
-use super::field::{SAME_FACE, StressField};
+use super::felt::SAME_FACE;
+use super::field::StressField;
 use super::single::{ElementCut, Front};
 use super::system::CrackSystem;
 

@@ -20,7 +20,8 @@ use glam::Vec3;
 
 use super::arrival::{Entered, Source, gate};
 use super::branching::{forks, start};
-use super::field::{Felt, StressField};
+use super::felt::Felt;
+use super::field::StressField;
 use super::passing::passes;
 use super::single::{ElementCut, Front};
 use super::system::{CrackSystem, UNCUT};
