@@ -76,7 +76,7 @@ pub(crate) fn all() -> Result<Vec<Subject>, Box<dyn Error>> {
         subject("glass", "dropped 0.5 m", dropped(0.5), tumbler())?,
         subject("wine-glass", "dropped 1 m", as_it_is, wine_glass())?,
         subject("bulb", "dropped 1 m", as_it_is, bulb())?,
-        subject("brick", "dropped 3 m on its corner", as_it_is, solid())?,
+        subject("brick", "dropped 3 m on its end", as_it_is, solid())?,
         subject("hammer", "hammer of 500 g at 12 m/s", as_it_is, solid())?,
         subject("chocolate", "dropped 1 m", as_it_is, chocolate())?,
         subject("chocolate", "dropped 3 m", dropped(3.0), chocolate())?,
