@@ -15,7 +15,7 @@ use broken::Broken;
 use features::common;
 use frangible::internals::impact_traced;
 use frangible::{Outcome, impact};
-use subjects::Subject;
+use subjects::{Struck, Subject};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let seeds: u64 = match std::env::args().nth(1) {
@@ -37,7 +37,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     for subject in subjects::all()? {
         measure(&subject, seeds)?;
     }
-    slowest_ball(seeds)?;
+    slowest(seeds)?;
     Ok(())
 }
 
@@ -91,15 +91,42 @@ fn rounded(x: f64, decimals: usize) -> String {
     }
 }
 
-/// Prints how slow a ball of 1 kg still breaks the bottle, hit where the ball of the scene hits it.
-fn slowest_ball(seeds: u64) -> Result<(), Box<dyn Error>> {
-    let bottle = subjects::bottle_and_heavy_ball()?;
+/// Prints how slow a ball of 1 kg still breaks the bottle, hit where the ball of the scene hits it, and how slow a fall the drinking glass, on its
+/// rim as in the scene.
+fn slowest(seeds: u64) -> Result<(), Box<dyn Error>> {
+    let [first, half, last] = slowest_of(&subjects::bottle_and_heavy_ball()?, seeds)?;
+    let energy = |speed: f64| 0.5 * speed * speed;
+    println!(
+        "\n## bottle: the slowest ball of 1 kg that breaks it\n\n\
+         A steel ball of 1 kg hits the empty, free bottle from the side, faster by 5 % each time, from {} m/s. Of {seeds} bottles the first \
+         breaks at {first:.2} m/s, the last at {last:.2} m/s, half of them at {half:.2} m/s or less: kinetic energies of {:.2}, {:.2} and {:.2} J.",
+        subjects::SLOWEST,
+        energy(first),
+        energy(last),
+        energy(half),
+    );
+    let [first, half, last] = slowest_of(&subjects::falling_glass()?, seeds)?;
+    let height = |speed: f64| speed * speed / (2.0 * 9.81);
+    println!(
+        "\n## glass: the slowest fall that breaks it\n\n\
+         The drinking glass falls on its rim on stone, as in its scene, faster by 5 % each time, from {} m/s. Of {seeds} glasses the first \
+         breaks at {first:.2} m/s, the last at {last:.2} m/s, half of them at {half:.2} m/s or less: heights of {:.2}, {:.2} and {:.2} m.",
+        subjects::SLOWEST,
+        height(first),
+        height(last),
+        height(half),
+    );
+    Ok(())
+}
+
+/// The slowest speeds that break the first body, half of them and the last, m/s.
+fn slowest_of(struck: &Struck, seeds: u64) -> Result<[f64; 3], Box<dyn Error>> {
     let mut found = Vec::new();
     for seed in 1..=seeds {
-        let body = bottle.kind.body(seed);
+        let body = struck.kind.body(seed);
         let breaks = |speed: f64| -> Result<bool, Box<dyn Error>> {
-            let hit = bottle.at(speed);
-            let outcome = impact(&body, std::slice::from_ref(&hit), &bottle.config)?;
+            let hit = struck.at(speed);
+            let outcome = impact(&body, std::slice::from_ref(&hit), &struck.config)?;
             Ok(matches!(outcome, Outcome::Broke(_)))
         };
         let mut speed = subjects::SLOWEST;
@@ -108,17 +135,10 @@ fn slowest_ball(seeds: u64) -> Result<(), Box<dyn Error>> {
         }
         found.push(speed);
     }
-    found.sort_by(|a, b| a.total_cmp(b));
-    let (least, most) = (found[0], found[found.len() - 1]);
-    println!(
-        "\n## bottle: the slowest ball of 1 kg that breaks it\n\n\
-         A steel ball of 1 kg hits the empty, free bottle from the side, faster by 5 % each time, from {} m/s. Of {seeds} bottles the first \
-         breaks at {least:.2} m/s, the last at {most:.2} m/s, half of them at {:.2} m/s or less: kinetic energies of {:.2}, {:.2} and {:.2} J.",
-        subjects::SLOWEST,
+    found.sort_by(f64::total_cmp);
+    Ok([
+        found[0],
         found[(found.len() - 1) / 2],
-        0.5 * least * least,
-        0.5 * most * most,
-        0.5 * found[(found.len() - 1) / 2].powi(2),
-    );
-    Ok(())
+        found[found.len() - 1],
+    ])
 }

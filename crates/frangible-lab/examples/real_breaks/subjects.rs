@@ -30,6 +30,7 @@ pub(crate) fn all() -> Result<Vec<Subject>, Box<dyn Error>> {
     let as_it_is = |_: &mut Scene| {};
     let thrown = |ball: Projectile| move |scene: &mut Scene| scene.throw(ball);
     let dropped = |height: f64| move |scene: &mut Scene| scene.drop_all(height);
+    let new_glass = Material::preset("glass-new")?;
     let sideways = |mass, radius, speed| Projectile {
         toward: Vec3::X,
         ..Projectile::ball(mass, radius, speed)
@@ -48,6 +49,12 @@ pub(crate) fn all() -> Result<Vec<Subject>, Box<dyn Error>> {
             flat(),
         )?,
         subject("pane", "ball of 250 g at 20 m/s", as_it_is, flat())?,
+        subject(
+            "pane",
+            "of new glass, ball of 250 g at 20 m/s",
+            |scene| scene.bodies[0].material = new_glass.clone(),
+            flat(),
+        )?,
         subject(
             "pane",
             "ball of 0.26 g, 4 mm wide, at 60 m/s",

@@ -103,9 +103,6 @@ impl Contacts {
     fn force(&mut self, plan: &Plan, k: usize, t: f64, through_pieces: &[f64]) -> f64 {
         let count = self.forces.len();
         let through = |i: usize| through_pieces.get(i).copied().unwrap_or(0.0);
-        if self.weakness[k].is_infinite() {
-            return 0.0;
-        }
         match plan.sites[k].script {
             Some([impulse, duration]) if t < duration => {
                 0.5 * PI * impulse / duration * libm::sin(PI * t / duration)
@@ -158,14 +155,11 @@ impl Contacts {
 
     /// Whether any striker, which no script moves, still comes nearer to the body as a whole.
     pub(super) fn approach(&self, plan: &Plan) -> bool {
-        let sites = plan.sites.iter().zip(&self.speeds).zip(&self.weakness);
-        let comes = |((site, &speed), weakness): ((&super::plan::Site, &f64), &f64)| {
-            site.script.is_none() && speed > 0.0 && weakness.is_finite()
-        };
-        sites.into_iter().any(comes)
+        let mut sites = plan.sites.iter().zip(&self.speeds);
+        sites.any(|(site, &speed)| site.script.is_none() && speed > 0.0)
     }
 
-    /// Whether every contact is open and opening further, or has nothing left to push.
+    /// Whether every contact is open and opening further.
     #[inline(always)]
     pub(super) fn have_parted(
         &self,
@@ -179,9 +173,6 @@ impl Contacts {
             return false;
         }
         plan.sites.iter().enumerate().all(|(k, site)| {
-            if self.weakness[k].is_infinite() {
-                return true;
-            }
             if let Some([_, duration]) = site.script {
                 return t >= duration;
             }

@@ -185,13 +185,7 @@ impl Blow {
     #[must_use]
     pub fn reports(&self) -> Vec<ContactReport> {
         let speeds = self.progress.contacts.speeds.iter().enumerate();
-        let of = |(k, &speed): (usize, &f64)| {
-            // What is let go ends at once, with its last value.
-            let mut softer = self.softer.iter();
-            let free = softer.find(|s| s.contact == k && s.compliance.is_infinite());
-            let samples = free.map_or(usize::MAX, |s| s.substep / self.plan.substeps);
-            self.record.report(&self.plan, k, samples, -speed)
-        };
+        let of = |(k, &speed): (usize, &f64)| self.record.report(&self.plan, k, -speed);
         speeds.map(of).collect()
     }
 

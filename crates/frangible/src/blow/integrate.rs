@@ -36,7 +36,7 @@ const TICK_OF_PIECES: f64 = 0.8;
 pub(super) struct Softening {
     pub(super) contact: usize,
     pub(super) substep: usize,
-    /// m/N; infinite where nothing bears the contact any more.
+    /// m/N.
     pub(super) compliance: f64,
 }
 

@@ -29,8 +29,7 @@
 //! followed. A script gives its push whole: friction is part of it.
 //!
 //! Cracks change what the contacts push against, and from then on forces, motion and cracks are found anew:
-//! - a star of three arms or more under a contact leaves cantilevers, which give way more (`star.rs`), until rings of cracks have cut the
-//!   wall under it out;
+//! - a star of three arms or more under a contact leaves cantilevers, which give way more (`star.rs`);
 //! - pieces that cracks have parted move on their own (`parted.rs`, `flight.rs`): the contact feels the piece that it pushes, as heavy as
 //!   that is, and what the piece presses on.
 //!

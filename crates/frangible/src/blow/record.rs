@@ -43,12 +43,11 @@ impl Record {
         ends.step_by(plan.substeps).map(|force| force as f32)
     }
 
-    /// What became of a contact whose striker leaves at this speed, m/s, with its force at no more than so many time steps.
+    /// What became of a contact whose striker leaves at this speed, m/s.
     pub(super) fn report(
         &self,
         plan: &Plan,
         contact: usize,
-        samples: usize,
         departure_speed: f64,
     ) -> ContactReport {
         let site = &plan.sites[contact];
@@ -75,7 +74,7 @@ impl Record {
             departure_speed,
             crushing_energy,
             crushed_volume: crushing_energy / site.spring.crushing_pressure,
-            force: self.sampled(plan, contact).take(samples).collect(),
+            force: self.sampled(plan, contact).collect(),
         }
     }
 

@@ -4,9 +4,6 @@
 //! constant curvature, as its width grows with the distance as the moment does, so that together they give way by
 //! `L² / 4 n D tan(π/n)` per force. The whole wall within L gave way by `L² / 16 π D` (a clamped disc), which the modes and wall
 //! oscillators have already: the difference is what the star adds. Two arms are one crack, along which the wall still bends as one.
-//!
-//! Where cracks that run around the contact lie in all directions from it, the wall under it is gone: a plug that nothing holds, and
-//! whose mass is small against the striker's. The blow ends.
 
 use std::f32::consts::TAU;
 use std::f64::consts::PI;
@@ -24,21 +21,13 @@ const FROM: f64 = 2.0;
 /// Angle between the directions of different arms, rad.
 const APART: f32 = 0.4;
 
-/// Sectors about a contact, each of which a crack must cross before the wall under it is gone.
-const SECTORS: usize = 16;
-
-/// What cracks have left of a wall under a contact.
+/// Cantilevers between the arms of a star of cracks under a contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Star {
-    /// Cantilevers between arms.
-    Arms {
-        /// Length that at least three arms reach, m.
-        length: f64,
-        /// How many arms reach it, nearly.
-        arms: usize,
-    },
-    /// Nothing that holds.
-    Gone,
+pub(super) struct Star {
+    /// Length that at least three arms reach, m.
+    length: f64,
+    /// How many arms reach it, nearly.
+    arms: usize,
 }
 
 impl Star {
@@ -48,7 +37,6 @@ impl Star {
         let nearest = (FROM * thickness) as f32;
         // Direction and distance of places where a crack runs out from the contact, or in to it.
         let mut places: Vec<(f32, f32)> = Vec::new();
-        let mut crossed = [false; SECTORS];
         for site in system.cracks.iter().flat_map(|crack| crack.sites.list()) {
             let away = site.position - place.point;
             let away = away - away.dot(place.inwards) * place.inwards;
@@ -59,13 +47,7 @@ impl Star {
             let angle = libm::atan2f(away.dot(v), away.dot(u));
             if site.direction.dot(away).abs() < 0.5 * distance {
                 places.push((angle, distance));
-            } else {
-                let turns = angle / TAU + 0.5;
-                crossed[(turns * SECTORS as f32) as usize % SECTORS] = true;
             }
-        }
-        if crossed.iter().all(|crossed| *crossed) {
-            return Some(Self::Gone);
         }
         places.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
         let mut lengths: Vec<f32> = Vec::new();
@@ -87,17 +69,15 @@ impl Star {
         }
         lengths.sort_unstable_by(|a, b| b.total_cmp(a));
         let length = *lengths.get(FEWEST - 1)?;
-        Some(Self::Arms {
+        Some(Self {
             length: f64::from(length),
             arms: lengths.iter().filter(|l| **l > 0.8 * length).count(),
         })
     }
 
-    /// What it adds to the give of the wall, m/N, where the wall has this bending stiffness, N·m; infinite where nothing holds.
+    /// What it adds to the give of the wall, m/N, where the wall has this bending stiffness, N·m.
     pub(super) fn compliance(&self, bending_stiffness: f64) -> f64 {
-        let Self::Arms { length, arms } = *self else {
-            return f64::INFINITY;
-        };
+        let Self { length, arms } = *self;
         let n = arms as f64;
         let tips = 1.0 / (4.0 * n * libm::tan(PI / n));
         let whole = 1.0 / (16.0 * PI);
@@ -111,7 +91,7 @@ mod tests {
 
     #[test]
     fn more_and_longer_arms_give_way_more() {
-        let star = |length, arms| Star::Arms { length, arms }.compliance(2.0);
+        let star = |length, arms| Star { length, arms }.compliance(2.0);
         assert!(star(0.02, 3) > 0.0);
         assert!((star(0.02, 3) / star(0.01, 3) - 4.0).abs() < 1e-12);
         for arms in 3..12 {
@@ -120,6 +100,5 @@ mod tests {
         // Very many arms: tips of no width, L²/4πD in all.
         let many = star(1.0, 100_000) * 2.0 + 1.0 / (16.0 * std::f64::consts::PI);
         assert!((many * 4.0 * std::f64::consts::PI - 1.0).abs() < 1e-6);
-        assert_eq!(Star::Gone.compliance(2.0), f64::INFINITY);
     }
 }
