@@ -192,6 +192,36 @@ fn a_small_piece_that_is_hit_weighs_what_it_weighs() {
     assert_near(-speed.y, report.impulse / piece, 0.05, "speed of the piece");
 }
 
+/// A heavy ball throws off the last twentieth of the bar, comes on, and meets the rest: no energy is made where it does.
+#[test]
+fn what_is_beside_a_piece_that_has_flown_off_is_met_next() {
+    let body = body(bar(BAR[0], 60, Vec::new()));
+    let cut = 0.45 * BAR[0] as f32;
+    let point = Vec3::new(0.475 * BAR[0] as f32, 0.01, 0.0);
+    let (labels, count) = pieces(&body, |p| usize::from(p.x > cut));
+    let of_ball = |radius: f64| {
+        let ball = Striker::ball(&Material::preset("steel").unwrap(), 0.2, radius);
+        let contact = Contact::new(point, Vec3::NEG_Y, 0.0, 2.0, ball);
+        let blow = Blow::new(&body, &[contact], &FractureConfig::default());
+        let mut blow = blow.unwrap().unwrap();
+        blow.part(&body, &labels, count, 1);
+        let [gained, lost] = blow.energies();
+        let report = &blow.reports()[0];
+        println!(
+            "ball of {radius} m: {:.5} N s, leaves at {:.3} m/s; {gained:.5} J of {lost:.5} J, {:.5} J crushed",
+            report.impulse, report.departure_speed, report.crushing_energy
+        );
+        assert!(gained + report.crushing_energy <= 1.001 * lost);
+        (report.impulse, report.departure_speed)
+    };
+    let piece = 0.05 * body.asset().mass.mass;
+    let most = 2.0 * 2.0 * piece * 0.2 / (piece + 0.2);
+    let ((wide, leaves), (narrow, flies_on)) = (of_ball(0.018), of_ball(0.004));
+    assert!(wide > 1.5 * most && leaves > flies_on, "{wide} of {most}");
+    // A ball that fits through the hole flies on.
+    assert!(narrow < 1.1 * most && flies_on < -1.0, "{narrow} of {most}");
+}
+
 #[test]
 fn halves_that_are_struck_apart_fly_symmetrically() {
     let body = body(bar(BAR[0], 60, Vec::new()));

@@ -252,7 +252,7 @@ impl<'a> Cracking<'a> {
             if labels.count > 1 {
                 let of_node = &labels.of_node;
                 let acts;
-                (groups, acts) = blow.groups(self.body, (of_node, labels.count));
+                (groups, acts) = blow.groups(self.body, (of_node, labels.count), step);
                 let free = Volumes::of(&labels, index).free(&acts);
                 let now = self.motion.begin(step, self.time_step);
                 let speed = self.body.asset.material.rayleigh_speed();

@@ -173,20 +173,20 @@ fn snap(scene: &mut Scene) {
 /// The slowest ball that is tried, m/s.
 pub(crate) const SLOWEST: f64 = 0.1;
 
-/// A bottle, and where a ball of 1 kg hits it.
+/// A body, and where something hits it.
 pub(crate) struct Struck {
     pub(crate) kind: Breakable,
     pub(crate) config: FractureConfig,
     point: Vec3,
     toward: Vec3,
-    ball: Striker,
+    striker: Striker,
 }
 
 impl Struck {
     /// The blow at a speed, m/s.
     pub(crate) fn at(&self, speed: f64) -> Contact {
         let asset = self.kind.asset();
-        Contact::collision(asset, self.point, self.toward, speed, self.ball.clone())
+        Contact::collision(asset, self.point, self.toward, speed, self.striker.clone())
     }
 }
 
@@ -198,7 +198,20 @@ pub(crate) fn bottle_and_heavy_ball() -> Result<Struck, Box<dyn Error>> {
     Ok(Struck {
         point: hit.point,
         toward: hit.normal,
-        ball: Striker::ball(&steel, 1.0, 0.0313),
+        striker: Striker::ball(&steel, 1.0, 0.0313),
+        kind: scene.kind,
+        config: scene.config,
+    })
+}
+
+/// The drinking glass of the scene, which falls on its rim on stone.
+pub(crate) fn falling_glass() -> Result<Struck, Box<dyn Error>> {
+    let scene = subject("glass", "", |_| {}, Vec::new())?;
+    let hit = &scene.contacts[0];
+    Ok(Struck {
+        point: hit.point,
+        toward: hit.normal,
+        striker: hit.striker.clone(),
         kind: scene.kind,
         config: scene.config,
     })

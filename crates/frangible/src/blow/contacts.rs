@@ -29,6 +29,10 @@ pub(super) struct Contacts {
     roots: Vec<f64>,
     /// The largest forces so far, N.
     largest: Vec<f64>,
+    /// How deep each striker must be in before it touches, m, since it has gone on to what is beside a piece that has flown off.
+    deeper: Vec<f64>,
+    /// The substep in which it has gone on since pieces parted last, and to which group.
+    pub(super) gone_on: Vec<Option<(usize, u32)>>,
     /// What a unit growth of one force takes from a gap within a substep, m/N: row-major, gap by gap.
     give: Vec<f64>,
 }
@@ -57,6 +61,8 @@ impl Contacts {
             weakness: vec![0.0; count],
             roots: vec![0.0; count],
             largest: vec![0.0; count],
+            deeper: vec![0.0; count],
+            gone_on: vec![None; count],
             give,
         }
     }
@@ -73,7 +79,8 @@ impl Contacts {
             self.bases[k] = self.ways[k] + self.speeds[k] * dt
                 - 0.5 * fall * dt * dt
                 - dot_over(&plan.gap[k], &state.x, &plan.felt[k])
-                - flight.gap(setup, k);
+                - flight.gap(setup, k)
+                - self.deeper[k];
         }
     }
 
@@ -151,6 +158,33 @@ impl Contacts {
         for (largest, &force) in self.largest.iter_mut().zip(&self.forces) {
             *largest = force.max(*largest);
         }
+    }
+
+    /// Lets strikers that still come nearer go on, in a substep, to what is beside the pieces under them, which have flown off; whether any does. They
+    /// touch that from where they are on: nothing is pressed at once.
+    pub(super) fn go_on(
+        &mut self,
+        setup: Setup<'_>,
+        state: &BankState,
+        flight: &mut Flight,
+        substep: usize,
+    ) -> bool {
+        let plan = setup.plan;
+        let mut any = false;
+        for (k, site) in plan.sites.iter().enumerate() {
+            if site.script.is_some() || self.speeds[k] <= 0.0 {
+                continue;
+            }
+            let Some(group) = flight.go_on(setup, k) else {
+                continue;
+            };
+            let body = dot_over(&plan.gap[k], &state.x, &plan.felt[k]);
+            self.deeper[k] = (self.ways[k] - body - flight.gap_now(setup, k)).max(0.0);
+            (self.largest[k], self.roots[k]) = (0.0, 0.0);
+            self.gone_on[k] = Some((substep, group));
+            any = true;
+        }
+        any
     }
 
     /// Whether any striker, which no script moves, still comes nearer to the body as a whole.

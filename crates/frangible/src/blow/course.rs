@@ -44,6 +44,8 @@ pub struct Blow {
     progress: Progress,
     /// An earlier state, from which on the motion is found anew when cracks change it.
     saved: Option<Box<Progress>>,
+    /// The node of the fracture mesh under each contact.
+    nodes: Vec<u32>,
     /// What cracks have made of the body under the contacts.
     softer: Vec<Softening>,
     /// What has parted.
@@ -97,6 +99,7 @@ impl Blow {
             progress: Progress::new(&plan),
             record: Record::default(),
             saved: None,
+            nodes: plan.nodes(body),
             plan,
             instant: config.timing == CrackTiming::Instant,
             longest: MOST_SUBSTEPS,
@@ -250,7 +253,7 @@ impl Blow {
     /// Lets pieces part at a time step, as cracks do: `piece_of_node` has the piece of each node of the fracture mesh, the largest first.
     #[doc(hidden)]
     pub fn part(&mut self, body: &Body, piece_of_node: &[u32], pieces: usize, step: usize) {
-        let (groups, _) = self.groups(body, (piece_of_node, pieces));
+        let (groups, _) = self.groups(body, (piece_of_node, pieces), step);
         let mut motion = std::mem::take(&mut self.motion);
         self.go_on(body, step, &[], groups, &mut motion);
         self.integrate(&mut motion, usize::MAX);
@@ -294,15 +297,39 @@ impl Blow {
         (self.progress.after).is_none_or(|after| step < after.contact_steps)
     }
 
-    /// The groups of nodes that move on their own once these pieces have parted, none where nothing new has, and whether each piece does.
+    /// The groups of nodes that move on their own once these pieces have parted at a time step, none where nothing new has, and whether each piece
+    /// does.
     pub(crate) fn groups(
         &self,
         body: &Body,
         pieces: (&[u32], usize),
+        step: usize,
     ) -> (Option<Groups>, Vec<bool>) {
         let before = self.parted.last().map(|parted| &parted.groups);
         let index = &body.prepared.index;
-        Groups::next(before, &body.asset, index, pieces, &self.plan.nodes(body))
+        Groups::next(before, &body.asset, index, pieces, &self.nodes(body, step))
+    }
+
+    /// The node under each contact at a time step: where one has gone on to another group, the nearest of that.
+    fn nodes(&self, body: &Body, step: usize) -> Vec<u32> {
+        let mut nodes = self.nodes.clone();
+        let Some(parted) = self.parted.last() else {
+            return nodes;
+        };
+        let gone_on = self.progress.contacts.gone_on.iter().enumerate();
+        for (k, gone_on) in gone_on {
+            if let Some((substep, group)) = *gone_on
+                && substep < step * self.plan.substeps
+            {
+                let point = self.plan.sites[k].touch.contact.point + body.origin().as_vec3();
+                let positions = &body.asset.fracture.positions;
+                let own = (0..positions.len()).filter(|&v| parted.groups.of_node[v] == group);
+                let away = |v: usize| positions[v].distance_squared(point);
+                let nearest = own.min_by(|&a, &b| away(a).total_cmp(&away(b)));
+                nodes[k] = nearest.map_or(nodes[k], |node| node as u32);
+            }
+        }
+        nodes
     }
 
     /// Goes on from a time step on with a body of which these groups have parted, and with contacts where it gives way by so much more than
@@ -330,9 +357,10 @@ impl Blow {
         });
         self.softer.extend(softer);
         if let Some(groups) = groups {
-            let nodes = self.plan.nodes(body);
+            self.nodes = self.nodes(body, step);
+            let nodes = &self.nodes;
             let (plan, before) = (&self.plan, self.parted.last());
-            let parted = Parted::new(body, plan, before, groups, &nodes, [step, substep]);
+            let parted = Parted::new(body, plan, before, groups, nodes, [step, substep]);
             self.parted.push(parted);
         }
         self.integrate(motion, self.horizon());

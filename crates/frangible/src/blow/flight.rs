@@ -32,6 +32,8 @@ pub(super) struct Setup<'a> {
 pub(super) struct Flight {
     /// How many of the partings have been.
     partings: usize,
+    /// Which contacts have gone on, since the last of them, to the group beside the one under them.
+    has_gone_on: Vec<bool>,
     /// The motion under all forces and, where any contact rubs, the motion under the normal forces alone.
     lanes: Vec<Lane>,
 }
@@ -62,7 +64,7 @@ struct Lane {
 impl Lane {
     /// Solves the tick, with those corners pressing that are closed at its end.
     #[inline(always)]
-    fn settle(&mut self, parted: &Parted, plan: &Plan, bank: &Bank) {
+    fn settle(&mut self, parted: &Parted, plan: &Plan, bank: &Bank, has_gone_on: &[bool]) {
         let mut anew = false;
         for round in 0.. {
             self.middle.copy_from_slice(&self.given);
@@ -88,7 +90,7 @@ impl Lane {
             anew = true;
         }
         if anew {
-            self.solver.answer(parted, plan, bank);
+            self.solver.answer(parted, plan, bank, has_gone_on);
         }
     }
 }
@@ -111,6 +113,7 @@ impl Flight {
         let felt = (plan.felt_first > 0).then_some((1, plan.felt_first));
         Self {
             partings: 0,
+            has_gone_on: vec![false; plan.sites.len()],
             lanes: [(0, 0)].into_iter().chain(felt).map(lane).collect(),
         }
     }
@@ -128,19 +131,21 @@ impl Flight {
     }
 
     /// Lets part what has parted by now: `due` says of each whether it has.
-    pub(super) fn part(&mut self, setup: Setup<'_>, due: impl Fn(&Parted) -> bool) {
+    /// Returns whether anything did.
+    pub(super) fn part(&mut self, setup: Setup<'_>, due: impl Fn(&Parted) -> bool) -> bool {
+        let before = self.partings;
         while let Some(parted) = setup.parted.get(self.partings).filter(|p| due(p)) {
-            let before = self.parted(setup);
+            let known = self.parted(setup);
             let n = parted.unknowns();
             for lane in &mut self.lanes {
-                lane.at = parted.inherit(before, &lane.at);
-                lane.rate = parted.inherit(before, &lane.rate);
+                lane.at = parted.inherit(known, &lane.at);
+                lane.rate = parted.inherit(known, &lane.rate);
                 lane.given = vec![0.0; n];
                 lane.middle = vec![0.0; n];
                 // Faces that were there go on as they were.
-                let corners = before.map_or(&[][..], |parted| &parted.corners);
-                let known = |corner: &Corner| corners.iter().position(|known| known.is(corner));
-                let kept = parted.corners.iter().map(|corner| match known(corner) {
+                let corners = known.map_or(&[][..], |parted| &parted.corners);
+                let place = |corner: &Corner| corners.iter().position(|known| known.is(corner));
+                let kept = parted.corners.iter().map(|corner| match place(corner) {
                     Some(k) => (lane.press[k], lane.closed[k]),
                     None => (false, corner.gap(&lane.at).min(0.0)),
                 });
@@ -148,7 +153,21 @@ impl Flight {
                 lane.solver.tick = 0.0;
             }
             self.partings += 1;
+            self.has_gone_on.fill(false);
         }
+        self.partings > before
+    }
+
+    /// Lets a contact go on to the group beside the one under it, if there is one; returns it.
+    pub(super) fn go_on(&mut self, setup: Setup<'_>, contact: usize) -> Option<u32> {
+        let beside = self.parted(setup)?.beside[contact]?;
+        if std::mem::replace(&mut self.has_gone_on[contact], true) {
+            return None;
+        }
+        self.lanes
+            .iter_mut()
+            .for_each(|lane| lane.solver.tick = 0.0);
+        Some(beside)
     }
 
     /// Once nothing pushes any more: the body swings alone.
@@ -167,9 +186,9 @@ impl Flight {
         for lane in &mut self.lanes {
             if lane.solver.tick != tick {
                 let contacts = (lane.pushes, lane.first);
-                lane.solver = Solver::new(parted, plan, bank, contacts, tick);
+                lane.solver = Solver::new(parted, plan, bank, contacts, &self.has_gone_on, tick);
                 lane.solver.press(parted, &lane.press);
-                lane.solver.answer(parted, plan, bank);
+                lane.solver.answer(parted, plan, bank, &self.has_gone_on);
             }
             let own = lane.first..lane.first + plan.modes;
             let oscillators = state.x[own].iter().zip(&plan.oscillators);
@@ -212,13 +231,14 @@ impl Flight {
                     + dot(parted.row(j), &lane.force)
                     + 2.0 * alpha * dot(&lane.solver.stiffness[row], &lane.at);
             }
-            for (z, force) in parted.pushes[lane.pushes].iter().zip(forces) {
+            let pushes = parted.pushes(lane.pushes, &self.has_gone_on);
+            for (z, force) in pushes.zip(forces) {
                 lane.given
                     .iter_mut()
                     .zip(z)
                     .for_each(|(b, z)| *b += z * force);
             }
-            lane.settle(parted, plan, bank);
+            lane.settle(parted, plan, bank, &self.has_gone_on);
             lane.force.fill(0.0);
             for j in 0..n {
                 let pull = (1.0 + 2.0 * alpha) * lane.middle[j] - 2.0 * alpha * lane.at[j];
@@ -243,8 +263,16 @@ impl Flight {
         let Some(parted) = self.parted(setup) else {
             return 0.0;
         };
-        let (z, lane) = (&parted.pushes[1][contact], self.felt());
+        let (z, lane) = (parted.push(contact, &self.has_gone_on), self.felt());
         2.0 * dot(z, &lane.middle) - dot(z, &lane.at)
+    }
+
+    /// How far they have moved it by now, m.
+    pub(super) fn gap_now(&self, setup: Setup<'_>, contact: usize) -> f64 {
+        let parted = self.parted(setup);
+        parted.map_or(0.0, |parted| {
+            dot(parted.push(contact, &self.has_gone_on), &self.felt().at)
+        })
     }
 
     /// How fast they move it, m/s.
@@ -252,7 +280,7 @@ impl Flight {
         let Some(parted) = self.parted(setup) else {
             return 0.0;
         };
-        dot(&parted.pushes[1][contact], &self.felt().rate)
+        dot(parted.push(contact, &self.has_gone_on), &self.felt().rate)
     }
 
     /// What a newton that the force of one contact grows by in the tick moves another by through the pieces, m/N: row-major; empty where nothing

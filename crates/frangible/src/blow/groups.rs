@@ -19,6 +19,18 @@ pub(crate) struct Groups {
 }
 
 impl Groups {
+    /// The group that goes on as what a group before was.
+    pub(super) fn heir(&self, before: u32) -> Option<u32> {
+        let heir = self.parents.iter().position(|&parent| parent == before);
+        heir.map(|heir| heir as u32)
+    }
+
+    /// What is left of the group that this one has just parted from; none where it is that itself.
+    pub(super) fn beside(&self, group: u32) -> Option<u32> {
+        let heir = self.heir(self.parents[group as usize]);
+        heir.filter(|&heir| heir != group)
+    }
+
     /// The groups that these pieces make, none where they are those that there were `before`, and whether each piece moves on its own.
     /// `piece_of_node` has labels from [`FOREIGN`] on for nodes of other bodies, `pushed` the nodes under contacts.
     pub(crate) fn next(

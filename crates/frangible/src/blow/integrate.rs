@@ -116,7 +116,9 @@ impl Run<'_> {
         let most_open = (OPEN * shortest / contacts.dt).min(MOST_SUBSTEPS as f64) as usize;
         for _ in 0..plan.substeps {
             let t = (*substep + 1) as f64 * contacts.dt;
-            flight.part(setup, |p| p.substep <= *substep);
+            if flight.part(setup, |p| p.substep <= *substep) {
+                contacts.gone_on.fill(None);
+            }
             flight.begin(setup, state, &plan.fine, contacts.dt);
             plan.fine.coast(state, &pushes, &contacts.forces);
             flight.foresee(setup, state, &plan.fine, &contacts.forces);
@@ -141,7 +143,14 @@ impl Run<'_> {
                 true => *open + 1,
                 false => 0,
             };
-            let waits = flight.is_on() && *open < most_open && contacts.approach(plan);
+            let comes = flight.is_on() && contacts.approach(plan);
+            if *open > 0 && comes && *open >= most_open {
+                // What was under the strikers has flown off: they meet what is beside it.
+                if contacts.go_on(setup, state, flight, *substep) {
+                    *open = 0;
+                }
+            }
+            let waits = comes && *open < most_open;
             if (*open > 0 && !waits) || *substep >= self.longest {
                 flight.elastic(setup, state, &mut self.record.elastic);
                 let [energy, _] = of_body(setup, flight, state, &self.record.elastic);

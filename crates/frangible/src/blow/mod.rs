@@ -37,8 +37,9 @@
 //!
 //! Crushing is a dent and a loss of energy: no powder flies, and the crushed place keeps its mass and stiffness. Steel strikers do not dent. A
 //! contact that chatters is followed until all its points have parted; where the body then swings back against a striker that is still near,
-//! it does not hit it again. Once pieces move on their own, a contact that has opened is waited for as
-//! long again as it was expected to last: a chip bounces between the striker and the body that follows. Two bodies that both vibrate find one force whichever is asked, as long as they meet nothing else and neither
+//! it does not hit it again. Once pieces move on their own, a contact that has opened is waited for as long again as it was expected to last: a
+//! chip bounces between the striker and the body that follows. A striker that still comes nearer goes on to what the piece under it was part of,
+//! at the same place. Two bodies that both vibrate find one force whichever is asked, as long as they meet nothing else and neither
 //! has broken: what else touches the striker, and how its own cracks soften it, is not in the blow on the body.
 //!
 //! Forces are linear over substeps of a hundredth of Hertz' time (a four-hundredth where both bodies vibrate), every oscillator is stepped

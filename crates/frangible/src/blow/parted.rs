@@ -48,8 +48,10 @@ pub(super) struct Parted {
     masses: Vec<(f64, DMat3)>,
     /// M: n × n, kg and kg·m².
     pub(super) mass: Vec<f64>,
-    /// z of each contact, with its friction and without.
-    pub(super) pushes: [Vec<Vec<f64>>; 2],
+    /// z of each contact, with its friction and without: on the group under it, and on the [one beside](Self::beside).
+    pushes: [Vec<[Vec<f64>; 2]>; 2],
+    /// The group that each contact goes on to when the one under it has flown off: what that was part of.
+    pub(super) beside: Vec<Option<u32>>,
     pub(super) corners: Vec<Corner>,
 }
 
@@ -99,6 +101,7 @@ impl Parted {
             masses: moments.iter().map(|m| (m.mass, m.inertia)).collect(),
             mass,
             pushes: [Vec::new(), Vec::new()],
+            beside: Vec::new(),
             corners: corners(body, &groups, &centres, &mixed),
             centres,
             groups,
@@ -106,6 +109,14 @@ impl Parted {
         for (k, site) in plan.sites.iter().enumerate() {
             let contact = &site.touch.contact;
             let group = parted.groups.of_node[nodes[k] as usize];
+            let beside = parted.groups.beside(group).or_else(|| {
+                let before = before?.beside[k]?;
+                parted.groups.heir(before).filter(|&heir| heir != group)
+            });
+            // Through a hole as wide as itself a ball flies without touching anything.
+            let radius = f64::from(contact.striker.curvature_radius);
+            let fits = |_: &u32| parted.radius_about(group, contact.normal.as_dvec3()) < radius;
+            parted.beside.push(beside.filter(fits));
             let at = contact.point.as_dvec3() + body.origin();
             let felt: Vec<f64> = plan.felt_by(k).collect();
             let ways = [
@@ -113,26 +124,50 @@ impl Parted {
                 (contact.normal.as_dvec3(), &felt[..]),
             ];
             for (which, (direction, shape)) in ways.into_iter().enumerate() {
-                let mut z = vec![0.0; n];
-                if group > 0 {
-                    let first = SIX * (group as usize - 1);
-                    let arm = at - parted.centres[group as usize - 1];
-                    z[first..first + SIX].copy_from_slice(&wrench(direction, arm));
-                }
                 let by_body = rigid_push(body, direction, at);
-                for (j, z) in z.iter_mut().enumerate() {
-                    let row = parted.row(j);
-                    *z -= row.iter().zip(shape).map(|(p, xi)| p * xi).sum::<f64>();
-                    *z -= rigid[j]
-                        .iter()
-                        .zip(&by_body)
-                        .map(|(p, xi)| p * xi)
-                        .sum::<f64>();
-                }
-                parted.pushes[which].push(z);
+                let push = |group: u32| {
+                    let mut z = vec![0.0; n];
+                    if group > 0 {
+                        let first = SIX * (group as usize - 1);
+                        let arm = at - parted.centres[group as usize - 1];
+                        z[first..first + SIX].copy_from_slice(&wrench(direction, arm));
+                    }
+                    for (j, z) in z.iter_mut().enumerate() {
+                        let row = parted.row(j).iter().zip(shape);
+                        *z -= row.map(|(p, xi)| p * xi).sum::<f64>();
+                        let rigid = rigid[j].iter().zip(&by_body);
+                        *z -= rigid.map(|(p, xi)| p * xi).sum::<f64>();
+                    }
+                    z
+                };
+                let pushes = [push(group), push(parted.beside[k].unwrap_or(group))];
+                parted.pushes[which].push(pushes);
             }
         }
         parted
+    }
+
+    /// Radius of a disc that has the moment of inertia of a group about an axis, m; none of the reference.
+    fn radius_about(&self, group: u32, axis: DVec3) -> f64 {
+        let own = (group as usize).checked_sub(1).map(|g| &self.masses[g]);
+        own.map_or(0.0, |(mass, inertia)| {
+            (2.0 * axis.dot(*inertia * axis) / mass).sqrt()
+        })
+    }
+
+    /// z of each contact, with its friction, 0, or without, 1: on the group under it, or on the one beside where it has gone on to that.
+    pub(super) fn pushes<'a>(
+        &'a self,
+        friction: usize,
+        has_gone_on: &'a [bool],
+    ) -> impl Iterator<Item = &'a [f64]> {
+        let each = self.pushes[friction].iter().zip(has_gone_on);
+        each.map(|(ways, &gone)| &ways[usize::from(gone)][..])
+    }
+
+    /// z of one contact without its friction.
+    pub(super) fn push(&self, contact: usize, has_gone_on: &[bool]) -> &[f64] {
+        &self.pushes[1][contact][usize::from(has_gone_on[contact])]
     }
 
     /// Rows of p that a later group goes on with: those of its parent, where it is all of that.

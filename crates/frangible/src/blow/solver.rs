@@ -39,6 +39,7 @@ impl Solver {
         plan: &Plan,
         bank: &Bank,
         (pushes, first): (usize, usize),
+        has_gone_on: &[bool],
         tick: f64,
     ) -> Self {
         let n = parted.unknowns();
@@ -64,7 +65,7 @@ impl Solver {
         let sums = parted.mass.iter().zip(&stiffness);
         let sums = sums.map(|(m, s)| m * inertia + (1.0 + 2.0 * alpha) * s);
         let matrix = sums.collect();
-        let growth = |(z, drive): (&Vec<f64>, &Vec<f64>)| -> Vec<f64> {
+        let growth = |(z, drive): (&[f64], &Vec<f64>)| -> Vec<f64> {
             let swing = bank.ramp_by(first..first + plan.modes, drive);
             let swing = swing.zip(&plan.oscillators);
             let swing = swing.map(|(x, (w, _))| (0.5 + alpha) * w * x);
@@ -72,7 +73,7 @@ impl Solver {
             let rows = parted.rows().zip(z);
             rows.map(|(row, z)| 0.5 * z + dot(row, &swing)).collect()
         };
-        let contacts = parted.pushes[pushes].iter().zip(&plan.drive);
+        let contacts = parted.pushes(pushes, has_gone_on).zip(&plan.drive);
         let growths = contacts.map(growth).collect();
         Self {
             tick,
@@ -102,7 +103,13 @@ impl Solver {
 
     /// Finds what the contacts' forces do when they grow, with the corners that press now.
     #[inline(always)]
-    pub(super) fn answer(&mut self, parted: &Parted, plan: &Plan, bank: &Bank) {
+    pub(super) fn answer(
+        &mut self,
+        parted: &Parted,
+        plan: &Plan,
+        bank: &Bank,
+        has_gone_on: &[bool],
+    ) {
         let ahead = 1.0 + 2.0 * plan.rayleigh[0] / self.tick;
         let answer = |growth: &Vec<f64>| {
             let mut middle = growth.clone();
@@ -122,13 +129,13 @@ impl Solver {
             Answer { middle, force }
         };
         self.answers = self.growths.iter().map(answer).collect();
-        let count = parted.pushes[1].len();
+        let count = plan.sites.len();
         self.give = vec![0.0; count * count];
         for k in 0..count {
             for (l, answer) in self.answers.iter().enumerate() {
                 let through_modes = bank.held_gap(&plan.gap[k], self.first, &answer.force);
                 self.give[k * count + l] =
-                    through_modes + 2.0 * dot(&parted.pushes[1][k], &answer.middle);
+                    through_modes + 2.0 * dot(parted.push(k, has_gone_on), &answer.middle);
             }
         }
     }
