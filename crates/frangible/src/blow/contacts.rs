@@ -193,6 +193,11 @@ impl Contacts {
         sites.any(|(site, &speed)| site.script.is_none() && speed > 0.0)
     }
 
+    /// Whether nothing pushes.
+    pub(super) fn are_open(&self) -> bool {
+        self.forces.iter().all(|&f| f <= 0.0)
+    }
+
     /// Whether every contact is open and opening further.
     #[inline(always)]
     pub(super) fn have_parted(
@@ -203,7 +208,7 @@ impl Contacts {
         t: f64,
     ) -> bool {
         let plan = setup.plan;
-        if self.forces.iter().any(|&f| f > 0.0) {
+        if !self.are_open() {
             return false;
         }
         plan.sites.iter().enumerate().all(|(k, site)| {

@@ -160,7 +160,8 @@ impl Run<'_> {
         }
         self.progress.step += 1;
         self.sample(true);
-        if self.progress.at_parting.is_some() {
+        // What is cut off still falls to nothing within a substep.
+        if self.progress.at_parting.is_some() && self.progress.contacts.are_open() {
             self.progress.state.keep(plan.own);
             self.progress.flight.end_contacts();
             self.progress.after = Some(self.after());
