@@ -227,7 +227,7 @@ fn play(seed: u64) -> (u64, u64, [f64; 2]) {
         };
         rises[kind] = rises[kind].max(rise);
         assert!(
-            rise < limit && now <= start * (1.0 + 1e-3),
+            rise < limit && now <= start * (1.0 + 5e-3),
             "scene {seed}, step {step}, {breaking:?}: {start}, {energy} → {now} + {cracks} J"
         );
         energy = now;

@@ -29,6 +29,10 @@ use crate::body::Body;
 /// over the tetrahedra, modes are not orthogonal in these.
 const ADDED: [f64; 6] = [1e-3, 3e-3, 1e-2, 3e-2, 0.1, 0.3];
 
+/// A striker goes on to what is beside a piece where its radius is so many times that of the hole: into such a hole it sinks by less than a fifth of the
+/// hole's radius before it touches the rim. A ball that sinks in deeper flies through, or meets pieces elsewhere.
+const BLUNT: f64 = 3.0;
+
 /// The six rigid motions of a piece.
 pub(super) const SIX: usize = 6;
 
@@ -113,9 +117,8 @@ impl Parted {
                 let before = before?.beside[k]?;
                 parted.groups.heir(before).filter(|&heir| heir != group)
             });
-            // Through a hole as wide as itself a ball flies without touching anything.
-            let radius = f64::from(contact.striker.curvature_radius);
-            let fits = |_: &u32| parted.radius_about(group, contact.normal.as_dvec3()) < radius;
+            let most = f64::from(contact.striker.curvature_radius) / BLUNT;
+            let fits = |_: &u32| parted.radius_about(group, contact.normal.as_dvec3()) < most;
             parted.beside.push(beside.filter(fits));
             let at = contact.point.as_dvec3() + body.origin();
             let felt: Vec<f64> = plan.felt_by(k).collect();
