@@ -20,7 +20,9 @@ pub(crate) fn cargo(arguments: &[&str]) -> Command {
 
 /// The workspace's root.
 pub(crate) fn root() -> PathBuf {
-    let xtask = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
+    // As cargo says when it runs this program: a program that another checkout has left in a shared build folder was built elsewhere.
+    let now = std::env::var_os("CARGO_MANIFEST_DIR");
+    let xtask = now.map_or_else(|| env!("CARGO_MANIFEST_DIR").into(), PathBuf::from);
     xtask.parent().map_or(xtask.clone(), PathBuf::from)
 }
 
