@@ -167,7 +167,11 @@ pub(super) fn carry_out(
             .collect();
         let about = Rigid::together(&others).centre;
         let taken = Kick::about(about, &pushes).scaled(-1.0);
-        let axes = DMat3::from_cols(world(glam::Vec3::X), world(glam::Vec3::Y), world(glam::Vec3::Z));
+        let axes = DMat3::from_cols(
+            world(glam::Vec3::X),
+            world(glam::Vec3::Y),
+            world(glam::Vec3::Z),
+        );
         let lost = take_blow(
             &fracture,
             (&order, axes),
