@@ -5,7 +5,7 @@ use frangible::glam::{DMat3, DVec3};
 use frangible::internals::rigid::{
     Kick, Rigid, affordable, nearest_first, push_plug, take_blow, take_energy,
 };
-use frangible::{Fracture, FractureConfig, Outcome, impact};
+use frangible::{Contact, Fracture, FractureConfig, Outcome, impact};
 
 fn ball(mass: f64, at: DVec3, velocity: DVec3) -> Rigid {
     let inertia = DMat3::from_diagonal(DVec3::splat(0.4 * mass * 1e-4));
@@ -113,8 +113,8 @@ fn a_toll_among_held_ones_comes_from_the_motion_against_them() {
     assert!((energy(&bodies) - 4.0).abs() < 1e-12);
 }
 
-#[test]
-fn the_nearest_fragment_is_the_one_that_was_hit() {
+/// A blow on a pane, and the break.
+fn broken_pane() -> (Contact, Fracture) {
     let hit = bodies::pane_hit(0.01, 0.005, 12.0);
     let outcome = impact(
         &bodies::pane().body(0),
@@ -124,6 +124,12 @@ fn the_nearest_fragment_is_the_one_that_was_hit() {
     let Ok(Outcome::Broke(fracture)) = outcome else {
         panic!("it breaks");
     };
+    (hit, *fracture)
+}
+
+#[test]
+fn the_nearest_fragment_is_the_one_that_was_hit() {
+    let (hit, fracture) = broken_pane();
     let order = nearest_first(&fracture, &[hit.point]);
     let gap = |i: usize| {
         let fragment = &fracture.fragments[i];
@@ -155,15 +161,7 @@ fn fragments(fracture: &Fracture, order: &[usize]) -> Vec<Rigid> {
 
 #[test]
 fn fragments_move_apart_with_the_momentum_and_no_more_than_the_energy_of_the_blow() {
-    let hit = bodies::pane_hit(0.01, 0.005, 12.0);
-    let outcome = impact(
-        &bodies::pane().body(0),
-        std::slice::from_ref(&hit),
-        &FractureConfig::default(),
-    );
-    let Ok(Outcome::Broke(fracture)) = outcome else {
-        panic!("it breaks");
-    };
+    let (hit, fracture) = broken_pane();
     assert!(fracture.moves_apart());
     let order = nearest_first(&fracture, &[hit.point]);
     let report = &fracture.report;
