@@ -70,16 +70,6 @@ fn list(name: &str, seeds: u64) -> Result<(), Box<dyn Error>> {
             let all: f64 = shares.iter().sum();
             shares.iter_mut().for_each(|share| *share /= all);
         }
-        let t = report.timings;
-        eprintln!(
-            "{name} {seed} response {:.1} stress {:.1} cracks {:.1} labels {:.1} fragments {:.1} steps {}",
-            t.response * 1e3,
-            t.stress * 1e3,
-            t.cracks * 1e3,
-            t.labels * 1e3,
-            t.fragments * 1e3,
-            report.time_steps
-        );
         println!(
             "{name} {seed} {pieces} {:.6e} {:.6} {:.6} {:.6e} {} {:.4} {:.2}",
             report.crack_area,

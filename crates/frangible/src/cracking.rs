@@ -41,7 +41,7 @@ pub(crate) struct Cracking<'a> {
     pub(crate) blow: Option<Box<Blow>>,
 }
 
-/// Why cracks run no further for now.
+/// Why the cracks have paused.
 enum Stop {
     /// Nothing is left that could crack.
     End,

@@ -100,7 +100,7 @@ pub fn piece(body: &Body, fracture: &Fracture, number: usize) -> Result<Option<B
     Ok(Some(body.piece(&portion, elastic)?))
 }
 
-/// What the package's script calls.
+/// Functions that the package exports to JavaScript.
 #[cfg(target_arch = "wasm32")]
 pub mod bindings {
     use frangible::Material;

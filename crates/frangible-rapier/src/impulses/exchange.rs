@@ -195,7 +195,7 @@ impl BreakableWorld {
         lost
     }
 
-    /// Whether a blow is over before these pieces, in this order, [know of it](is_local).
+    /// Whether a blow is [local](is_local) to few of these pieces, which come in the order of their distance from it.
     fn is_local(&self, pieces: &[RigidBodyHandle], blow: &Push<'_>) -> bool {
         let set = &self.physics.bodies;
         let (pieces, striker) = (Plain::of(set, pieces), Plain::of(set, &blow.striker));
@@ -262,9 +262,9 @@ impl BreakableWorld {
 /// A blow to be put on fragments.
 struct Push<'a> {
     meeting: &'a Meeting,
-    /// What the partner is now.
+    /// The striker, or the pieces that it has become.
     striker: Vec<RigidBodyHandle>,
-    /// How far the pieces have moved since the blow, m, and the striker's centre then.
+    /// Displacement of the pieces since the blow, m, and the striker's centre of mass at the blow.
     since: Option<(DVec3, DVec3)>,
 }
 

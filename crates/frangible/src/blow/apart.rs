@@ -1,14 +1,14 @@
-//! How pieces that have parted move once the blow is over.
+//! Rigid motions of parted pieces at the end of a blow.
 
 use glam::DVec3;
 
-/// How groups of nodes move against the rigid motion of the whole body, once the blow is over.
+/// Motions of groups of nodes at the end of a blow, against the rigid motion of the body.
 pub(crate) struct Apart {
     /// Group of each node of the fracture mesh; 0 is the reference.
     pub(crate) of_node: Vec<u32>,
     /// The motion of each group but the reference, whose own follows from those of the others.
     pub(crate) motions: Vec<GroupMotion>,
-    /// Whether the reference is held, and so stands still.
+    /// Whether the body has supports, so that its reference group stands still.
     pub(crate) held: bool,
 }
 

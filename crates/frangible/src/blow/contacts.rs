@@ -29,10 +29,8 @@ pub(super) struct Contacts {
     roots: Vec<f64>,
     /// The largest forces so far, N.
     largest: Vec<f64>,
-    /// How deep each striker must be in before it touches, m, since it has gone on to what is beside a piece that has flown off.
+    /// Depth at which each striker touches, m: 0, or where it was when it went on to what is beside a piece that has flown off.
     deeper: Vec<f64>,
-    /// The substep in which it has gone on since pieces parted last, and to which group.
-    pub(super) gone_on: Vec<Option<(usize, u32)>>,
     /// What a unit growth of one force takes from a gap within a substep, m/N: row-major, gap by gap.
     give: Vec<f64>,
 }
@@ -62,7 +60,6 @@ impl Contacts {
             roots: vec![0.0; count],
             largest: vec![0.0; count],
             deeper: vec![0.0; count],
-            gone_on: vec![None; count],
             give,
         }
     }
@@ -172,33 +169,30 @@ impl Contacts {
         let plan = setup.plan;
         let mut any = false;
         for (k, site) in plan.sites.iter().enumerate() {
-            if site.script.is_some() || self.speeds[k] <= 0.0 {
+            let comes = site.script.is_none() && self.speeds[k] > 0.0;
+            if !comes || !flight.go_on(setup, k, substep) {
                 continue;
             }
-            let Some(group) = flight.go_on(setup, k) else {
-                continue;
-            };
             let body = dot_over(&plan.gap[k], &state.x, &plan.felt[k]);
             self.deeper[k] = (self.ways[k] - body - flight.gap_now(setup, k)).max(0.0);
             (self.largest[k], self.roots[k]) = (0.0, 0.0);
-            self.gone_on[k] = Some((substep, group));
             any = true;
         }
         any
     }
 
-    /// Whether any striker, which no script moves, still comes nearer to the body as a whole.
+    /// Whether any striker approaches the rigid motion of the body; scripts do not count.
     pub(super) fn approach(&self, plan: &Plan) -> bool {
         let mut sites = plan.sites.iter().zip(&self.speeds);
         sites.any(|(site, &speed)| site.script.is_none() && speed > 0.0)
     }
 
-    /// Whether nothing pushes.
+    /// Whether all contact forces are zero.
     pub(super) fn are_open(&self) -> bool {
         self.forces.iter().all(|&f| f <= 0.0)
     }
 
-    /// Whether every contact is open and opening further.
+    /// Whether the gaps of all contacts are open and growing, and all scripts are over.
     #[inline(always)]
     pub(super) fn have_parted(
         &self,

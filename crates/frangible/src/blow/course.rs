@@ -234,7 +234,7 @@ impl Blow {
         flight.drifts(self.setup(), state)
     }
 
-    /// How the pieces move that move on their own, none where there are none.
+    /// Motion of each group against the rigid motion of the body; none where nothing has parted.
     pub(crate) fn apart(&self, body: &Body) -> Option<Apart> {
         let parted = self.parted.last()?;
         let motions = parted.centres.iter().zip(self.drifts());
@@ -316,9 +316,9 @@ impl Blow {
         let Some(parted) = self.parted.last() else {
             return nodes;
         };
-        let gone_on = self.progress.contacts.gone_on.iter().enumerate();
-        for (k, gone_on) in gone_on {
-            if let Some((substep, group)) = *gone_on
+        let gone_on = self.progress.flight.gone_on.iter().zip(&parted.beside);
+        for (k, (gone_on, beside)) in gone_on.enumerate() {
+            if let (Some(substep), Some(group)) = (*gone_on, *beside)
                 && substep < step * self.plan.substeps
             {
                 let point = self.plan.sites[k].touch.contact.point + body.origin().as_vec3();

@@ -32,8 +32,8 @@ pub(super) struct Setup<'a> {
 pub(super) struct Flight {
     /// How many of the partings have been.
     partings: usize,
-    /// Which contacts have gone on, since the last of them, to the group beside the one under them.
-    has_gone_on: Vec<bool>,
+    /// The substep in which each contact has gone on, since the last parting, to the group beside the one under it.
+    pub(super) gone_on: Vec<Option<usize>>,
     /// The motion under all forces and, where any contact rubs, the motion under the normal forces alone.
     lanes: Vec<Lane>,
 }
@@ -64,7 +64,7 @@ struct Lane {
 impl Lane {
     /// Solves the tick, with those corners pressing that are closed at its end.
     #[inline(always)]
-    fn settle(&mut self, parted: &Parted, plan: &Plan, bank: &Bank, has_gone_on: &[bool]) {
+    fn settle(&mut self, parted: &Parted, plan: &Plan, bank: &Bank, gone_on: &[Option<usize>]) {
         let mut anew = false;
         for round in 0.. {
             self.middle.copy_from_slice(&self.given);
@@ -90,7 +90,7 @@ impl Lane {
             anew = true;
         }
         if anew {
-            self.solver.answer(parted, plan, bank, has_gone_on);
+            self.solver.answer(parted, plan, bank, gone_on);
         }
     }
 }
@@ -113,7 +113,7 @@ impl Flight {
         let felt = (plan.felt_first > 0).then_some((1, plan.felt_first));
         Self {
             partings: 0,
-            has_gone_on: vec![false; plan.sites.len()],
+            gone_on: vec![None; plan.sites.len()],
             lanes: [(0, 0)].into_iter().chain(felt).map(lane).collect(),
         }
     }
@@ -131,9 +131,7 @@ impl Flight {
     }
 
     /// Lets part what has parted by now: `due` says of each whether it has.
-    /// Returns whether anything did.
-    pub(super) fn part(&mut self, setup: Setup<'_>, due: impl Fn(&Parted) -> bool) -> bool {
-        let before = self.partings;
+    pub(super) fn part(&mut self, setup: Setup<'_>, due: impl Fn(&Parted) -> bool) {
         while let Some(parted) = setup.parted.get(self.partings).filter(|p| due(p)) {
             let known = self.parted(setup);
             let n = parted.unknowns();
@@ -153,21 +151,21 @@ impl Flight {
                 lane.solver.tick = 0.0;
             }
             self.partings += 1;
-            self.has_gone_on.fill(false);
+            self.gone_on.fill(None);
         }
-        self.partings > before
     }
 
-    /// Lets a contact go on to the group beside the one under it, if there is one; returns it.
-    pub(super) fn go_on(&mut self, setup: Setup<'_>, contact: usize) -> Option<u32> {
-        let beside = self.parted(setup)?.beside[contact]?;
-        if std::mem::replace(&mut self.has_gone_on[contact], true) {
-            return None;
+    /// Lets a contact go on, in a substep, to the group beside the one under it. False where there is none, or it has.
+    pub(super) fn go_on(&mut self, setup: Setup<'_>, contact: usize, substep: usize) -> bool {
+        let beside = self.parted(setup).and_then(|parted| parted.beside[contact]);
+        if beside.is_none() || self.gone_on[contact].is_some() {
+            return false;
         }
+        self.gone_on[contact] = Some(substep);
         self.lanes
             .iter_mut()
             .for_each(|lane| lane.solver.tick = 0.0);
-        Some(beside)
+        true
     }
 
     /// Once nothing pushes any more: the body swings alone.
@@ -186,9 +184,9 @@ impl Flight {
         for lane in &mut self.lanes {
             if lane.solver.tick != tick {
                 let contacts = (lane.pushes, lane.first);
-                lane.solver = Solver::new(parted, plan, bank, contacts, &self.has_gone_on, tick);
+                lane.solver = Solver::new(parted, plan, bank, contacts, &self.gone_on, tick);
                 lane.solver.press(parted, &lane.press);
-                lane.solver.answer(parted, plan, bank, &self.has_gone_on);
+                lane.solver.answer(parted, plan, bank, &self.gone_on);
             }
             let own = lane.first..lane.first + plan.modes;
             let oscillators = state.x[own].iter().zip(&plan.oscillators);
@@ -231,14 +229,14 @@ impl Flight {
                     + dot(parted.row(j), &lane.force)
                     + 2.0 * alpha * dot(&lane.solver.stiffness[row], &lane.at);
             }
-            let pushes = parted.pushes(lane.pushes, &self.has_gone_on);
+            let pushes = parted.pushes(lane.pushes, &self.gone_on);
             for (z, force) in pushes.zip(forces) {
                 lane.given
                     .iter_mut()
                     .zip(z)
                     .for_each(|(b, z)| *b += z * force);
             }
-            lane.settle(parted, plan, bank, &self.has_gone_on);
+            lane.settle(parted, plan, bank, &self.gone_on);
             lane.force.fill(0.0);
             for j in 0..n {
                 let pull = (1.0 + 2.0 * alpha) * lane.middle[j] - 2.0 * alpha * lane.at[j];
@@ -263,7 +261,7 @@ impl Flight {
         let Some(parted) = self.parted(setup) else {
             return 0.0;
         };
-        let (z, lane) = (parted.push(contact, &self.has_gone_on), self.felt());
+        let (z, lane) = (parted.push(contact, &self.gone_on), self.felt());
         2.0 * dot(z, &lane.middle) - dot(z, &lane.at)
     }
 
@@ -271,7 +269,7 @@ impl Flight {
     pub(super) fn gap_now(&self, setup: Setup<'_>, contact: usize) -> f64 {
         let parted = self.parted(setup);
         parted.map_or(0.0, |parted| {
-            dot(parted.push(contact, &self.has_gone_on), &self.felt().at)
+            dot(parted.push(contact, &self.gone_on), &self.felt().at)
         })
     }
 
@@ -280,7 +278,7 @@ impl Flight {
         let Some(parted) = self.parted(setup) else {
             return 0.0;
         };
-        dot(parted.push(contact, &self.has_gone_on), &self.felt().rate)
+        dot(parted.push(contact, &self.gone_on), &self.felt().rate)
     }
 
     /// What a newton that the force of one contact grows by in the tick moves another by through the pieces, m/N: row-major; empty where nothing

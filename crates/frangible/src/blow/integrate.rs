@@ -116,9 +116,7 @@ impl Run<'_> {
         let most_open = (OPEN * shortest / contacts.dt).min(MOST_SUBSTEPS as f64) as usize;
         for _ in 0..plan.substeps {
             let t = (*substep + 1) as f64 * contacts.dt;
-            if flight.part(setup, |p| p.substep <= *substep) {
-                contacts.gone_on.fill(None);
-            }
+            flight.part(setup, |p| p.substep <= *substep);
             flight.begin(setup, state, &plan.fine, contacts.dt);
             plan.fine.coast(state, &pushes, &contacts.forces);
             flight.foresee(setup, state, &plan.fine, &contacts.forces);

@@ -162,15 +162,15 @@ impl Parted {
     pub(super) fn pushes<'a>(
         &'a self,
         friction: usize,
-        has_gone_on: &'a [bool],
+        gone_on: &'a [Option<usize>],
     ) -> impl Iterator<Item = &'a [f64]> {
-        let each = self.pushes[friction].iter().zip(has_gone_on);
-        each.map(|(ways, &gone)| &ways[usize::from(gone)][..])
+        let each = self.pushes[friction].iter().zip(gone_on);
+        each.map(|(ways, &gone)| &ways[usize::from(gone.is_some())][..])
     }
 
     /// z of one contact without its friction.
-    pub(super) fn push(&self, contact: usize, has_gone_on: &[bool]) -> &[f64] {
-        &self.pushes[1][contact][usize::from(has_gone_on[contact])]
+    pub(super) fn push(&self, contact: usize, gone_on: &[Option<usize>]) -> &[f64] {
+        &self.pushes[1][contact][usize::from(gone_on[contact].is_some())]
     }
 
     /// Rows of p that a later group goes on with: those of its parent, where it is all of that.

@@ -39,7 +39,7 @@ impl Solver {
         plan: &Plan,
         bank: &Bank,
         (pushes, first): (usize, usize),
-        has_gone_on: &[bool],
+        gone_on: &[Option<usize>],
         tick: f64,
     ) -> Self {
         let n = parted.unknowns();
@@ -73,7 +73,7 @@ impl Solver {
             let rows = parted.rows().zip(z);
             rows.map(|(row, z)| 0.5 * z + dot(row, &swing)).collect()
         };
-        let contacts = parted.pushes(pushes, has_gone_on).zip(&plan.drive);
+        let contacts = parted.pushes(pushes, gone_on).zip(&plan.drive);
         let growths = contacts.map(growth).collect();
         Self {
             tick,
@@ -108,7 +108,7 @@ impl Solver {
         parted: &Parted,
         plan: &Plan,
         bank: &Bank,
-        has_gone_on: &[bool],
+        gone_on: &[Option<usize>],
     ) {
         let ahead = 1.0 + 2.0 * plan.rayleigh[0] / self.tick;
         let answer = |growth: &Vec<f64>| {
@@ -135,7 +135,7 @@ impl Solver {
             for (l, answer) in self.answers.iter().enumerate() {
                 let through_modes = bank.held_gap(&plan.gap[k], self.first, &answer.force);
                 self.give[k * count + l] =
-                    through_modes + 2.0 * dot(parted.push(k, has_gone_on), &answer.middle);
+                    through_modes + 2.0 * dot(parted.push(k, gone_on), &answer.middle);
             }
         }
     }
