@@ -50,16 +50,6 @@ impl Corner {
             own.for_each(|(b, g)| *b += force * g);
         }
     }
-
-    /// Adds its spring, so many times, to a matrix of n × n.
-    pub(super) fn stiffen(&self, times: f64, matrix: &mut [f64], n: usize) {
-        for (first, row) in self.sides() {
-            for (k, g) in row.iter().enumerate() {
-                let at = (first + k) * n;
-                self.push(times * self.stiffness * g, &mut matrix[at..at + n]);
-            }
-        }
-    }
 }
 
 /// The face between two groups: direction from the first to the second times area, area, and moments of the area.

@@ -14,7 +14,7 @@ use super::bank::{Bank, BankState};
 use super::faces::Corner;
 use super::parted::Parted;
 use super::plan::Plan;
-use super::solve::{dot, solve};
+use super::solve::{add, dot};
 use super::solver::Solver;
 
 /// Rounds over the corners until those that press are those that are closed.
@@ -46,9 +46,11 @@ struct Lane {
     /// c and ċ.
     at: Vec<f64>,
     rate: Vec<f64>,
-    /// Right side of the equation of the tick without the corners, and its solution c̄, as if no force grew.
+    /// Right side of the equation of the tick and its solution without corners, and c̄, as if no force grew.
     given: Vec<f64>,
     middle: Vec<f64>,
+    /// The gaps of all corners at the end of the tick if none pressed, m.
+    gaps: Vec<f64>,
     /// Weighted mean of ω Q over the tick, and then the elastic force on each mode.
     force: Vec<f64>,
     /// Its motion is that of pushes with friction, 0, or without, 1.
@@ -65,28 +67,31 @@ impl Lane {
     /// Solves the tick, with those corners pressing that are closed at its end.
     #[inline(always)]
     fn settle(&mut self, parted: &Parted, plan: &Plan, bank: &Bank, gone_on: &[Option<usize>]) {
+        self.solver.solve(&mut self.given);
+        let gap = |corner: &Corner, middle: &[f64], at: &[f64], closed: f64| {
+            2.0 * corner.gap(middle) - corner.gap(at) - closed
+        };
+        let corners = parted.corners.iter().zip(&self.closed);
+        self.gaps.clear();
+        self.gaps
+            .extend(corners.map(|(corner, &closed)| gap(corner, &self.given, &self.at, closed)));
         let mut anew = false;
         for round in 0.. {
             self.middle.copy_from_slice(&self.given);
-            let corners = self.press.iter().zip(&parted.corners).zip(&self.closed);
-            for ((_, corner), closed) in corners.filter(|((press, _), _)| **press) {
-                let push = corner.stiffness * (closed + corner.gap(&self.at));
-                corner.push(push, &mut self.middle);
-            }
-            solve(&self.solver.factor, &mut self.middle);
+            self.solver.hold(&self.gaps, &mut self.middle);
             if round == MOST_ROUNDS || self.press.is_empty() {
                 break;
             }
             let mut changes = false;
             let corners = self.press.iter_mut().zip(&parted.corners);
-            for ((press, corner), closed) in corners.zip(&self.closed) {
-                let gap = 2.0 * corner.gap(&self.middle) - corner.gap(&self.at) - closed;
-                changes |= std::mem::replace(press, gap < 0.0) != (gap < 0.0);
+            for ((press, corner), &closed) in corners.zip(&self.closed) {
+                let closes = gap(corner, &self.middle, &self.at, closed) < 0.0;
+                changes |= std::mem::replace(press, closes) != closes;
             }
             if !changes {
                 break;
             }
-            self.solver.press(parted, &self.press);
+            self.solver.press(parted, plan, &self.press);
             anew = true;
         }
         if anew {
@@ -104,6 +109,7 @@ impl Flight {
             rate: Vec::new(),
             given: Vec::new(),
             middle: Vec::new(),
+            gaps: Vec::new(),
             force: vec![0.0; plan.modes],
             pushes,
             press: Vec::new(),
@@ -185,7 +191,7 @@ impl Flight {
             if lane.solver.tick != tick {
                 let contacts = (lane.pushes, lane.first);
                 lane.solver = Solver::new(parted, plan, bank, contacts, &self.gone_on, tick);
-                lane.solver.press(parted, &lane.press);
+                lane.solver.press(parted, plan, &lane.press);
                 lane.solver.answer(parted, plan, bank, &self.gone_on);
             }
             let own = lane.first..lane.first + plan.modes;
@@ -231,20 +237,13 @@ impl Flight {
             }
             let pushes = parted.pushes(lane.pushes, &self.gone_on);
             for (z, force) in pushes.zip(forces) {
-                lane.given
-                    .iter_mut()
-                    .zip(z)
-                    .for_each(|(b, z)| *b += z * force);
+                add(&mut lane.given, *force, z);
             }
             lane.settle(parted, plan, bank, &self.gone_on);
             lane.force.fill(0.0);
             for j in 0..n {
                 let pull = (1.0 + 2.0 * alpha) * lane.middle[j] - 2.0 * alpha * lane.at[j];
-                let row = parted.row(j);
-                lane.force
-                    .iter_mut()
-                    .zip(row)
-                    .for_each(|(f, p)| *f += p * pull);
+                add(&mut lane.force, pull, parted.row(j));
             }
             let frequencies = plan.oscillators.iter();
             lane.force
@@ -302,8 +301,7 @@ impl Flight {
             let by_rate = 4.0 / lane.solver.tick;
             for (answer, &growth) in lane.solver.answers.iter().zip(growth) {
                 if growth != 0.0 {
-                    let changes = lane.middle.iter_mut().zip(&answer.middle);
-                    changes.for_each(|(c, x)| *c += x * growth);
+                    add(&mut lane.middle, growth, &answer.middle);
                     bank.hold(state, lane.first, &answer.force, growth);
                 }
             }

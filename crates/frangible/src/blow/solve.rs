@@ -38,6 +38,12 @@ pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
     sums.iter().sum::<f64>() + rest
 }
 
+/// Adds so many times b to a.
+#[inline(always)]
+pub(super) fn add(a: &mut [f64], times: f64, b: &[f64]) {
+    a.iter_mut().zip(b).for_each(|(a, b)| *a += times * b);
+}
+
 /// Whether the matrix of this factor is positive.
 pub(super) fn is_positive(factor: &[f64], n: usize) -> bool {
     (0..n).all(|k| factor[k * n + k] > 0.0)

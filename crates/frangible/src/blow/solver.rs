@@ -3,33 +3,65 @@
 use super::bank::Bank;
 use super::parted::Parted;
 use super::plan::Plan;
-use super::solve::{dot, factor, solve};
+use super::solve::{add, dot, factor, solve};
 
-/// What solves a tick of one length.
+/// What solves a tick of one length. Corners that press are taken in by a system of their own, of as many unknowns as there are of them: with C the
+/// matrix without corners, the unknowns are `C⁻¹b + Σ y μ`, `y = C⁻¹g`, and `(1/2κ + gᵀy) μ = −e/2` gives the corners' forces μ, e the gaps at the
+/// end of the tick if none pressed (Woodbury).
 #[derive(Clone, Debug, Default)]
 pub(super) struct Solver {
     pub(super) tick: f64,
     /// W less what the oscillators' answer within the tick takes from it.
     pub(super) stiffness: Vec<f64>,
-    /// The matrix without corners, and its factor with those that press.
-    matrix: Vec<f64>,
-    pub(super) factor: Vec<f64>,
+    /// Factor of the matrix without corners.
+    factor: Vec<f64>,
     /// Number of the first mode among the oscillators.
     first: usize,
-    /// Right side of what each contact's force does when it grows by a newton.
-    growths: Vec<Vec<f64>>,
-    /// What each contact's force does when it grows by a newton within a tick.
+    /// What each contact's force does when it grows by a newton, without corners and with those that press.
+    free: Vec<Answer>,
     pub(super) answers: Vec<Answer>,
     /// What that moves each contact by through the pieces, m/N: row-major.
     pub(super) give: Vec<f64>,
+    /// What a newton at each corner does, once it has pressed.
+    corners: Vec<Option<Answer>>,
+    /// The corners that press, the factor of their system, and their forces, N.
+    pressing: Vec<usize>,
+    held: Vec<f64>,
+    forces: Vec<f64>,
 }
 
+/// What a force does within a tick.
 #[derive(Clone, Debug)]
 pub(super) struct Answer {
     /// Change of c̄.
     pub(super) middle: Vec<f64>,
     /// Change of the elastic force on each mode.
     pub(super) force: Vec<f64>,
+}
+
+impl Answer {
+    /// The answer to a push of the pieces, with the matrix of this factor.
+    fn to(push: Vec<f64>, factor: &[f64], parted: &Parted, plan: &Plan, tick: f64) -> Self {
+        let mut middle = push;
+        solve(factor, &mut middle);
+        let ahead = 1.0 + 2.0 * plan.rayleigh[0] / tick;
+        let mut force = vec![0.0; plan.modes];
+        for (row, c) in parted.rows().zip(&middle) {
+            add(&mut force, ahead * c, row);
+        }
+        let frequencies = plan.oscillators.iter();
+        force
+            .iter_mut()
+            .zip(frequencies)
+            .for_each(|(f, (w, _))| *f *= w * w);
+        Self { middle, force }
+    }
+
+    /// Adds so many times another one.
+    fn add(&mut self, times: f64, other: &Self) {
+        add(&mut self.middle, times, &other.middle);
+        add(&mut self.force, times, &other.force);
+    }
 }
 
 impl Solver {
@@ -64,41 +96,76 @@ impl Solver {
         let inertia = 4.0 / (tick * tick) + 2.0 * beta / tick;
         let sums = parted.mass.iter().zip(&stiffness);
         let sums = sums.map(|(m, s)| m * inertia + (1.0 + 2.0 * alpha) * s);
-        let matrix = sums.collect();
-        let growth = |(z, drive): (&[f64], &Vec<f64>)| -> Vec<f64> {
+        let factor = factor(sums.collect(), n);
+        let growth = |(z, drive): (&[f64], &Vec<f64>)| {
             let swing = bank.ramp_by(first..first + plan.modes, drive);
             let swing = swing.zip(&plan.oscillators);
             let swing = swing.map(|(x, (w, _))| (0.5 + alpha) * w * x);
             let swing: Vec<f64> = swing.collect();
             let rows = parted.rows().zip(z);
-            rows.map(|(row, z)| 0.5 * z + dot(row, &swing)).collect()
+            let push = rows.map(|(row, z)| 0.5 * z + dot(row, &swing)).collect();
+            Answer::to(push, &factor, parted, plan, tick)
         };
         let contacts = parted.pushes(pushes, gone_on).zip(&plan.drive);
-        let growths = contacts.map(growth).collect();
+        let free = contacts.map(growth).collect();
         Self {
             tick,
             stiffness,
-            matrix,
+            factor,
             first,
-            growths,
+            free,
+            corners: vec![None; parted.corners.len()],
             ..Self::default()
         }
     }
 
-    /// Solves with these corners pressing from now on; what contacts do is [to be found anew](Self::answer).
+    /// Solves in place without corners.
     #[inline(always)]
-    pub(super) fn press(&mut self, parted: &Parted, press: &[bool]) {
-        let n = parted.unknowns();
-        let mut matrix = self.matrix.clone();
-        for (_, corner) in press
-            .iter()
-            .zip(&parted.corners)
-            .filter(|(press, _)| **press)
-        {
-            // The corner is felt where it is at the end of the tick, 2 c̄ − c.
-            corner.stiffen(2.0, &mut matrix, n);
+    pub(super) fn solve(&self, given: &mut [f64]) {
+        solve(&self.factor, given);
+    }
+
+    /// Lets these corners press from now on; what contacts do is [to be found anew](Self::answer).
+    #[inline(always)]
+    pub(super) fn press(&mut self, parted: &Parted, plan: &Plan, press: &[bool]) {
+        self.pressing.clear();
+        self.pressing
+            .extend((0..press.len()).filter(|&corner| press[corner]));
+        let count = self.pressing.len();
+        self.held.clear();
+        self.held.resize(count * count, 0.0);
+        for (row, &k) in self.pressing.iter().enumerate() {
+            let corner = &parted.corners[k];
+            self.corners[k].get_or_insert_with(|| {
+                let mut push = vec![0.0; parted.unknowns()];
+                corner.push(1.0, &mut push);
+                Answer::to(push, &self.factor, parted, plan, self.tick)
+            });
+            let known = self.pressing[..=row].iter().enumerate();
+            for (column, answer) in
+                known.filter_map(|(at, &l)| Some((at, self.corners[l].as_ref()?)))
+            {
+                let give = corner.gap(&answer.middle);
+                self.held[row * count + column] = give;
+                self.held[column * count + row] = give;
+            }
+            self.held[row * count + row] += 0.5 / corner.stiffness;
         }
-        self.factor = factor(matrix, n);
+        self.held = factor(std::mem::take(&mut self.held), count);
+    }
+
+    /// Adds to c̄ what the corners that press do, with these gaps of all corners at the end of the tick if none pressed, m.
+    #[inline(always)]
+    pub(super) fn hold(&mut self, gaps: &[f64], middle: &mut [f64]) {
+        self.forces.clear();
+        self.forces
+            .extend(self.pressing.iter().map(|&k| -0.5 * gaps[k]));
+        solve(&self.held, &mut self.forces);
+        let pressing = self.pressing.iter().zip(&self.forces);
+        for (answer, &force) in pressing.filter_map(|(&k, f)| Some((self.corners[k].as_ref()?, f)))
+        {
+            add(middle, force, &answer.middle);
+        }
     }
 
     /// Finds what the contacts' forces do when they grow, with the corners that press now.
@@ -110,27 +177,22 @@ impl Solver {
         bank: &Bank,
         gone_on: &[Option<usize>],
     ) {
-        let ahead = 1.0 + 2.0 * plan.rayleigh[0] / self.tick;
-        let answer = |growth: &Vec<f64>| {
-            let mut middle = growth.clone();
-            solve(&self.factor, &mut middle);
-            let mut force = vec![0.0; plan.modes];
-            for (row, c) in parted.rows().zip(&middle) {
-                force
-                    .iter_mut()
-                    .zip(row)
-                    .for_each(|(f, p)| *f += p * ahead * c);
+        self.answers.clone_from(&self.free);
+        for answer in &mut self.answers {
+            self.forces.clear();
+            let gaps = self.pressing.iter();
+            let gaps = gaps.map(|&k| -parted.corners[k].gap(&answer.middle));
+            self.forces.extend(gaps);
+            solve(&self.held, &mut self.forces);
+            for (&k, &force) in self.pressing.iter().zip(&self.forces) {
+                if let Some(corner) = &self.corners[k] {
+                    answer.add(force, corner);
+                }
             }
-            let frequencies = plan.oscillators.iter();
-            force
-                .iter_mut()
-                .zip(frequencies)
-                .for_each(|(f, (w, _))| *f *= w * w);
-            Answer { middle, force }
-        };
-        self.answers = self.growths.iter().map(answer).collect();
+        }
         let count = plan.sites.len();
-        self.give = vec![0.0; count * count];
+        self.give.clear();
+        self.give.resize(count * count, 0.0);
         for k in 0..count {
             for (l, answer) in self.answers.iter().enumerate() {
                 let through_modes = bank.held_gap(&plan.gap[k], self.first, &answer.force);
