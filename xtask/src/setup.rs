@@ -39,7 +39,7 @@ const DRIVER_FOLDERS: [&str; 3] = [
 pub(crate) fn setup() {
     if !succeeds("cargo", &["nextest", "--version"]) {
         println!(
-            "note: cargo-nextest is missing, `cargo test` stands in; `cargo install cargo-nextest --locked` gets it"
+            "note: `cargo xtask test --fast` needs cargo-nextest: `cargo install cargo-nextest --locked` gets it"
         );
     }
     if !cfg!(target_os = "linux") {

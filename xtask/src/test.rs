@@ -51,12 +51,11 @@ pub(crate) fn packages() -> Result<Vec<(String, bool)>> {
 /// Runs the tests, then the doctests.
 pub(crate) fn test() -> Result {
     let options = options()?;
-    let runner: &[&str] = match has_nextest() {
-        true => &["nextest", "run", "--no-fail-fast"],
-        false => &["test"],
-    };
     run(cargo(&["build"]).args(run_examples()).args(&options))?;
-    run(cargo(runner).args(TESTED).args(&options))?;
+    // The tests of a crate share a process, and with it the bodies that they bake.
+    run(cargo(&["test", "--no-fail-fast"])
+        .args(TESTED)
+        .args(&options))?;
     run(cargo(&["test", "--doc"]).args(&options))
 }
 
@@ -92,11 +91,7 @@ pub(crate) fn fast() -> Result {
 pub(crate) fn named(names: &[&str]) -> Result {
     let options = options()?;
     run(cargo(&["build"]).args(run_examples()).args(&options))?;
-    let separate: &[&str] = match has_nextest() {
-        true => &["nextest", "run", "--no-fail-fast"],
-        false => &["test"],
-    };
-    run(cargo(separate)
+    run(cargo(&["test", "--no-fail-fast"])
         .args(TESTED)
         .args(&options)
         .arg("--")

@@ -169,6 +169,7 @@ fn a_thin_walled_beaker_keeps_its_wall_and_rings_in_pairs() {
 }
 
 #[test]
+#[ignore = "takes half a minute: `cargo xtask ci 'long tests'` runs it"]
 fn every_ready_shape_bakes() {
     for name in READY_SHAPES {
         let Some(Shape::Solid(mut shape)) = Shape::ready(name) else {

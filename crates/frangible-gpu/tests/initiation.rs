@@ -172,8 +172,8 @@ fn peaks_and_first_cracks_are_the_cpus() {
     for (name, kind) in kinds() {
         let mut tally = Tally::default();
         for config in configs() {
-            compare(kind, &config, &mut numbers, 8, &mut tally);
-            compare(&uneven(kind), &config, &mut numbers, 4, &mut tally);
+            compare(kind, &config, &mut numbers, 5, &mut tally);
+            compare(&uneven(kind), &config, &mut numbers, 3, &mut tally);
         }
         compare(&weak_rim(kind), &configs()[0], &mut numbers, 4, &mut tally);
         println!("{name}: {tally:?}");

@@ -128,7 +128,7 @@ fn the_scenes_of_glued_sheets_break_and_keep_most_of_their_pieces() {
         ("windscreen", Some(0.5)),
     ] {
         let mut scene = scene(name).unwrap();
-        scene.duration = scene.duration.min(1.0);
+        scene.duration = scene.duration.min(0.5);
         let baked = bake(&scene, &mut |_| {}).unwrap();
         let run = play(&scene, &baked, &mut |_| {}).unwrap();
         let pieces = run.breaks.iter().map(|b| b.masses.len()).sum::<usize>();

@@ -85,7 +85,7 @@ fn culling_changes_no_bit_of_what_breaks() {
     for (name, asset) in [("glass", glass()), ("pane", pane()), ("block", block())] {
         let kind = Breakable::new(Arc::clone(asset)).unwrap();
         let mut broke = 0;
-        for k in 0..12 {
+        for k in 0..8 {
             let body = kind.body(k);
             let contacts: Vec<Contact> = (0..1 + k % 3).map(|_| numbers.blow(asset)).collect();
             for config in models() {
@@ -119,7 +119,7 @@ fn culling_changes_no_bit_of_what_breaks() {
                 broke += usize::from(breaks);
             }
         }
-        println!("{name}: {broke} of 40 broke");
+        println!("{name}: {broke} broke");
         assert!(broke > 2, "{name}");
     }
     for (what, ratios) in LEVELS.iter().zip(&mut ratios[..LEVELS.len() - 1]) {
@@ -217,7 +217,7 @@ fn culling_changes_no_bit_where_the_strength_varies() {
         {
             let kind = Breakable::new(Arc::clone(asset)).unwrap();
             let kind = kind.with_fields(fields).unwrap();
-            for blow in 0..3 {
+            for blow in 0..2 {
                 let body = kind.body(blow);
                 let contact = [numbers.blow(asset)];
                 for config in models() {

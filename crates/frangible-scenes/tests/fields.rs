@@ -242,7 +242,7 @@ fn the_chocolate_breaks_between_its_squares() {
     let slowest = |kind: &Breakable| {
         let breaks = |speed: f64| {
             let drop = blow(&asset, corner, -corner, speed, stone_floor());
-            let broke = mean(4, |seed| {
+            let broke = mean(3, |seed| {
                 let drop = std::slice::from_ref(&drop);
                 let outcome = impact(&kind.body(seed), drop, &config).unwrap();
                 f64::from(u8::from(pieces(&outcome) > 1))
@@ -261,7 +261,7 @@ fn the_chocolate_breaks_between_its_squares() {
     let hit = blow(&asset, middle, Vec3::NEG_Z, 2.0, steel_ball(0.05));
     let shares = |kind: &Breakable| {
         let (mut starts, mut cuts) = ([0; 2], [0; 2]);
-        for seed in 1..=12 {
+        for seed in 1..=8 {
             let (_, trace) =
                 impact_traced(&kind.body(seed), std::slice::from_ref(&hit), &config).unwrap();
             for crack in &trace.cracks {

@@ -60,14 +60,7 @@ fn a_tougher_glass_cracks_less_near_the_threshold() {
 }
 
 #[test]
-fn a_tougher_glass_cracks_less() {
-    let d = tougher(glass(), rim_hit(20.0, 10.0), &FractureConfig::default(), 20);
-    println!("glass, ours, G_c × 1, 3, 10: (cm², pieces) {d:.1?}");
-    assert!(d[0].0 > d[1].0 && d[1].0 > d[2].0, "{d:?}");
-}
-
-#[test]
-fn a_tougher_glass_cracks_less_in_the_papers_model_too() {
+fn a_tougher_glass_cracks_less_in_the_papers_model() {
     let d = tougher(
         glass(),
         rim_hit(20.0, 10.0),
