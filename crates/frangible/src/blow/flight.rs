@@ -14,7 +14,7 @@ use super::bank::{Bank, BankState};
 use super::faces::Corner;
 use super::parted::Parted;
 use super::plan::Plan;
-use super::solve::{add, dot};
+use super::solve::{add, add_products, add_rows, dot};
 use super::solver::Solver;
 
 /// Rounds over the corners until those that press are those that are closed.
@@ -67,25 +67,32 @@ impl Lane {
     /// Solves the tick, with those corners pressing that are closed at its end.
     #[inline(always)]
     fn settle(&mut self, parted: &Parted, plan: &Plan, bank: &Bank, gone_on: &[Option<usize>]) {
-        self.solver.solve(&mut self.given);
-        let gap = |corner: &Corner, middle: &[f64], at: &[f64], closed: f64| {
-            2.0 * corner.gap(middle) - corner.gap(at) - closed
-        };
-        let corners = parted.corners.iter().zip(&self.closed);
+        self.solver.solve(&self.given, &mut self.middle);
+        self.given.copy_from_slice(&self.middle);
         self.gaps.clear();
-        self.gaps
-            .extend(corners.map(|(corner, &closed)| gap(corner, &self.given, &self.at, closed)));
+        let corners = parted.corners.iter().zip(&self.closed);
+        self.gaps.extend(corners.map(|(corner, closed)| {
+            2.0 * corner.gap(&self.middle) - corner.gap(&self.at) - closed
+        }));
         let mut anew = false;
         for round in 0.. {
-            self.middle.copy_from_slice(&self.given);
-            self.solver.hold(&self.gaps, &mut self.middle);
-            if round == MOST_ROUNDS || self.press.is_empty() {
+            let is_pressed = self.solver.is_pressed();
+            if is_pressed || round > 0 {
+                self.middle.copy_from_slice(&self.given);
+                self.solver.hold(&self.gaps, &mut self.middle);
+            }
+            if round == MOST_ROUNDS {
                 break;
             }
             let mut changes = false;
             let corners = self.press.iter_mut().zip(&parted.corners);
-            for ((press, corner), &closed) in corners.zip(&self.closed) {
-                let closes = gap(corner, &self.middle, &self.at, closed) < 0.0;
+            for ((press, corner), gap) in corners.zip(&self.gaps) {
+                // Those that press move the others.
+                let more = match is_pressed {
+                    true => 2.0 * (corner.gap(&self.middle) - corner.gap(&self.given)),
+                    false => 0.0,
+                };
+                let closes = gap + more < 0.0;
                 changes |= std::mem::replace(press, closes) != closes;
             }
             if !changes {
@@ -217,7 +224,6 @@ impl Flight {
         let plan = setup.plan;
         let tick = self.felt().solver.tick;
         let [alpha, beta] = [plan.rayleigh[0] / tick, plan.rayleigh[1]];
-        let n = parted.unknowns();
         for lane in &mut self.lanes {
             let own = lane.first..lane.first + plan.modes;
             let oscillators = state.x[own].iter().zip(&plan.oscillators);
@@ -229,22 +235,23 @@ impl Flight {
             for (sum, (c, w)) in lane.middle.iter_mut().zip(states) {
                 *sum = by_place * c + by_rate * w;
             }
-            for j in 0..n {
-                let row = j * n..(j + 1) * n;
-                lane.given[j] = dot(&parted.mass[row.clone()], &lane.middle)
-                    + dot(parted.row(j), &lane.force)
-                    + 2.0 * alpha * dot(&lane.solver.stiffness[row], &lane.at);
+            lane.given.fill(0.0);
+            add_products(&mut lane.given, &parted.mass, &lane.middle);
+            add_products(&mut lane.given, &parted.held, &lane.force);
+            if alpha > 0.0 {
+                let damped = lane.middle.iter_mut().zip(&lane.at);
+                damped.for_each(|(to, at)| *to = 2.0 * alpha * at);
+                add_products(&mut lane.given, &lane.solver.stiffness, &lane.middle);
             }
             let pushes = parted.pushes(lane.pushes, &self.gone_on);
             for (z, force) in pushes.zip(forces) {
                 add(&mut lane.given, *force, z);
             }
             lane.settle(parted, plan, bank, &self.gone_on);
+            let pulls = lane.given.iter_mut().zip(&lane.middle).zip(&lane.at);
+            pulls.for_each(|((to, middle), at)| *to = middle + 2.0 * alpha * (middle - at));
             lane.force.fill(0.0);
-            for j in 0..n {
-                let pull = (1.0 + 2.0 * alpha) * lane.middle[j] - 2.0 * alpha * lane.at[j];
-                add(&mut lane.force, pull, parted.row(j));
-            }
+            add_rows(&mut lane.force, &lane.given, &parted.held);
             let frequencies = plan.oscillators.iter();
             lane.force
                 .iter_mut()
@@ -322,7 +329,7 @@ impl Flight {
             return;
         };
         for (row, c) in parted.rows().zip(&self.lanes[0].at) {
-            elastic.iter_mut().zip(row).for_each(|(q, p)| *q -= p * c);
+            add(elastic, -c, row);
         }
     }
 

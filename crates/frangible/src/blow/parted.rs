@@ -22,7 +22,7 @@ use glam::{DMat3, DVec3};
 use super::faces::{Corner, corners};
 use super::groups::Groups;
 use super::plan::Plan;
-use super::solve::{dot, factor, is_positive};
+use super::solve::{add_products, factor, is_positive};
 use crate::body::Body;
 
 /// Shares of a piece's mass that are added to what the modes do not hold of it, the first that leaves no motion without mass: masses are sums
@@ -46,7 +46,7 @@ pub(super) struct Parted {
     /// Centre of each group but the reference, m, in the frame of the fracture mesh.
     pub(super) centres: Vec<DVec3>,
     /// p: a row of modes for each unknown, √kg.
-    held: Vec<f64>,
+    pub(super) held: Vec<f64>,
     modes: usize,
     /// The groups' own masses and moments of inertia about their centres, kg and kg·m².
     masses: Vec<(f64, DMat3)>,
@@ -69,27 +69,26 @@ impl Parted {
         nodes: &[u32],
         [step, substep]: [usize; 2],
     ) -> Self {
-        let (moments, mixed) = Moments::of(body, &groups);
+        let known = before.map_or(Vec::new(), |before| before.as_they_were(&groups));
+        let (moments, mixed) = Moments::of(body, &groups, &known);
         let n = SIX * moments.len();
         let mut held = Vec::with_capacity(n * plan.modes);
+        let mut of_node = vec![(0.0, DVec3::ZERO); body.asset.analysis.nodes.len()];
         for (group, moment) in (1..).zip(&moments) {
-            match before.and_then(|before| before.held_by_all_of(&groups, group)) {
-                Some(known) => held.extend_from_slice(known),
-                None => held.extend(moment.held(body, plan.modes)),
+            match known.get(group).and_then(Option::as_ref) {
+                Some(known) => held.extend_from_slice(known.held),
+                None => held.extend(moment.held(body, plan.modes, &mut of_node)),
             }
         }
-        let rows: Vec<&[f64]> = held.chunks_exact(plan.modes.max(1)).collect();
         let rigid = rigid_parts(body, &moments);
         let mut mass = vec![0.0; n * n];
-        for j in 0..n {
-            for k in 0..=j {
-                let by_modes = dot(rows[j], rows[k]);
-                let by_body: f64 = rigid[j].iter().zip(&rigid[k]).map(|(a, b)| a * b).sum();
-                for at in [j * n + k, k * n + j] {
-                    mass[at] = -by_body - by_modes;
-                }
-            }
+        for (j, row) in mass.chunks_exact_mut(n.max(1)).enumerate() {
+            let own = &held[j * plan.modes..(j + 1) * plan.modes];
+            add_products(&mut row[..upper(j)], &held, own);
+            add_products(&mut row[..upper(j)], rigid.as_flattened(), &rigid[j]);
+            row.iter_mut().for_each(|sum| *sum = -*sum);
         }
+        mirror(&mut mass, n);
         let mut own = vec![0.0; n * n];
         for (g, moment) in moments.iter().enumerate() {
             moment.add_mass(&mut own, g, n);
@@ -173,14 +172,27 @@ impl Parted {
         &self.pushes[1][contact][usize::from(gone_on[contact].is_some())]
     }
 
-    /// Rows of p that a later group goes on with: those of its parent, where it is all of that.
-    fn held_by_all_of(&self, later: &Groups, group: u32) -> Option<&[f64]> {
-        let parent = later.parents[group as usize];
-        let mut nodes = self.groups.of_node.iter().zip(&later.of_node);
-        let same = nodes.all(|(&before, &now)| (before == parent) == (now == group));
-        let rows = SIX * self.modes;
-        let first = rows * (parent as usize).checked_sub(1)?;
-        same.then(|| &self.held[first..first + rows])
+    /// What is known of each of the later groups: of those that have the nodes of their parent.
+    fn as_they_were(&self, later: &Groups) -> Vec<Option<Known<'_>>> {
+        let mut counts_before = vec![0_u32; self.groups.parents.len()];
+        let mut counts = vec![[0_u32; 2]; later.parents.len()];
+        for (&before, &now) in self.groups.of_node.iter().zip(&later.of_node) {
+            counts_before[before as usize] += 1;
+            let [all, from_parent] = &mut counts[now as usize];
+            *all += 1;
+            *from_parent += u32::from(before == later.parents[now as usize]);
+        }
+        let of = |(&parent, [all, from_parent]): (&u32, [u32; 2])| {
+            let g = (parent as usize).checked_sub(1)?;
+            let is_all = all == from_parent && all == counts_before[parent as usize];
+            let rows = SIX * self.modes;
+            is_all.then(|| Known {
+                mass: self.masses[g],
+                centre: self.centres[g],
+                held: &self.held[rows * g..rows * (g + 1)],
+            })
+        };
+        later.parents.iter().zip(counts).map(of).collect()
     }
 
     /// Number of unknowns.
@@ -298,6 +310,13 @@ fn add_until_positive(mass: &mut [f64], own: &[f64], n: usize) {
     }
 }
 
+/// What was found of a group before.
+struct Known<'a> {
+    mass: (f64, DMat3),
+    centre: DVec3,
+    held: &'a [f64],
+}
+
 /// Masses of a group.
 struct Moments {
     mass: f64,
@@ -310,30 +329,41 @@ struct Moments {
 impl Moments {
     /// The masses of all groups but the reference: each tetrahedron's is shared out among its nodes, and acts at its centroid. Also the
     /// tetrahedra that have nodes of several groups.
-    fn of(body: &Body, groups: &Groups) -> (Vec<Self>, Vec<u32>) {
+    fn of(body: &Body, groups: &Groups, known: &[Option<Known<'_>>]) -> (Vec<Self>, Vec<u32>) {
         let asset = &*body.asset;
         let (mesh, centroids) = (&asset.fracture, &body.prepared.centroids);
         let density = f64::from(asset.material.density as f32);
         let mut parts: Vec<Vec<(u32, f64)>> = vec![Vec::new(); groups.parents.len()];
         let mut mixed = Vec::new();
+        let known = |group: u32| known.get(group as usize).and_then(Option::as_ref);
+        let settled: Vec<bool> = (0..groups.parents.len() as u32)
+            .map(|group| group == 0 || known(group).is_some())
+            .collect();
         for tet in asset.tets() {
             let of_nodes = mesh.tets[tet].map(|v| groups.of_node[v as usize]);
-            if of_nodes == [0; 4] {
-                continue;
-            }
             if of_nodes != [of_nodes[0]; 4] {
                 mixed.push(tet as u32);
+            } else if settled[of_nodes[0] as usize] {
+                continue;
             }
             let quarter = 0.25 * density * mesh.volume(tet);
             for (i, &group) in of_nodes.iter().enumerate() {
-                if group > 0 && !of_nodes[..i].contains(&group) {
+                if !settled[group as usize] && !of_nodes[..i].contains(&group) {
                     let own = of_nodes.iter().filter(|&&g| g == group).count();
                     parts[group as usize].push((tet as u32, quarter * own as f64));
                 }
             }
         }
         let edge = f64::from(body.prepared.edge);
-        let of = |parts: Vec<(u32, f64)>| {
+        let of = |(group, parts): (u32, Vec<(u32, f64)>)| {
+            if let Some(known) = known(group) {
+                return Self {
+                    mass: known.mass.0,
+                    centre: known.centre,
+                    inertia: known.mass.1,
+                    parts,
+                };
+            }
             let at = |tet: u32| centroids[tet as usize].as_dvec3();
             let mass: f64 = parts.iter().map(|p| p.1).sum();
             let centre = parts.iter().map(|&(tet, m)| m * at(tet)).sum::<DVec3>() / mass;
@@ -350,7 +380,7 @@ impl Moments {
                 parts,
             }
         };
-        (parts.into_iter().skip(1).map(of).collect(), mixed)
+        ((0..).zip(parts).skip(1).map(of).collect(), mixed)
     }
 
     /// Adds its mass and inertia to the matrix of all groups.
@@ -364,10 +394,10 @@ impl Moments {
         }
     }
 
-    /// p of its six motions: six rows of modes.
-    fn held(&self, body: &Body, modes: usize) -> Vec<f64> {
+    /// p of its six motions: six rows of modes. `of_node`: nothing yet, and again when done, for each node of the analysis mesh.
+    fn held(&self, body: &Body, modes: usize, of_node: &mut [(f64, DVec3)]) -> Vec<f64> {
         let asset = &*body.asset;
-        let mut of_node = vec![(0.0, DVec3::ZERO); asset.analysis.nodes.len()];
+        let mut touched = Vec::new();
         for &(tet, mass) in &self.parts {
             let way = body.prepared.centroids[tet as usize].as_dvec3() - self.centre;
             let point = asset.embedded_tet(tet as usize);
@@ -375,17 +405,19 @@ impl Moments {
             for (&node, value) in nodes.iter().zip(point.shape_values()) {
                 let m = mass * f64::from(value);
                 let (sum, moment) = &mut of_node[node as usize];
+                if *sum == 0.0 {
+                    touched.push(node);
+                }
                 *sum += m;
                 *moment += m * way;
             }
         }
         let mut held = vec![0.0; SIX * modes];
         let [x, y, z, rx, ry, rz] = rows_of(&mut held, modes);
-        for (node, &(m, s)) in of_node.iter().enumerate() {
-            if m == 0.0 && s == DVec3::ZERO {
-                continue;
-            }
-            let [a, b, c] = asset.modes.rows(node).map(|row| &row[..modes]);
+        touched.sort_unstable();
+        for node in touched {
+            let (m, s) = std::mem::take(&mut of_node[node as usize]);
+            let [a, b, c] = asset.modes.rows(node as usize).map(|row| &row[..modes]);
             for i in 0..modes {
                 let (a, b, c) = (f64::from(a[i]), f64::from(b[i]), f64::from(c[i]));
                 x[i] += m * a;
@@ -397,6 +429,20 @@ impl Moments {
             }
         }
         held
+    }
+}
+
+/// End of the part of a symmetric matrix's row that is found: the rest [mirrors](mirror) it.
+pub(super) fn upper(row: usize) -> usize {
+    SIX * (row / SIX + 1)
+}
+
+/// Copies the lower half of a matrix onto the upper one.
+pub(super) fn mirror(matrix: &mut [f64], n: usize) {
+    for j in 0..n {
+        for k in 0..j {
+            matrix[k * n + j] = matrix[j * n + k];
+        }
     }
 }
 

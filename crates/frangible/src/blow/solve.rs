@@ -44,6 +44,62 @@ pub(super) fn add(a: &mut [f64], times: f64, b: &[f64]) {
     a.iter_mut().zip(b).for_each(|(a, b)| *a += times * b);
 }
 
+/// Rows that are taken at once; the number of rows is a multiple.
+const ROWS: usize = 6;
+
+/// Adds the products of a matrix's rows with x to a list.
+#[inline(always)]
+pub(super) fn add_products(sums: &mut [f64], rows: &[f64], x: &[f64]) {
+    let (lanes, rest) = x.as_chunks::<4>();
+    let (sums, _) = sums.as_chunks_mut::<ROWS>();
+    let rows = rows.chunks_exact((ROWS * x.len()).max(1));
+    for (sums, rows) in sums.iter_mut().zip(rows) {
+        let rows: [&[f64]; ROWS] = std::array::from_fn(|r| &rows[r * x.len()..(r + 1) * x.len()]);
+        let in_lanes = rows.map(|row| &row.as_chunks::<4>().0[..lanes.len()]);
+        let mut of_lanes = [[0.0; 4]; ROWS];
+        for (i, x) in lanes.iter().enumerate() {
+            for (sum, row) in of_lanes.iter_mut().zip(in_lanes) {
+                for l in 0..4 {
+                    sum[l] += row[i][l] * x[l];
+                }
+            }
+        }
+        for ((sum, lanes), row) in sums.iter_mut().zip(of_lanes).zip(rows) {
+            let rest: f64 = row[x.len() - rest.len()..]
+                .iter()
+                .zip(rest)
+                .map(|(a, b)| a * b)
+                .sum();
+            *sum += lanes.iter().sum::<f64>() + rest;
+        }
+    }
+}
+
+/// Adds the rows of a matrix to a list, so many times each.
+#[inline(always)]
+pub(super) fn add_rows(sum: &mut [f64], times: &[f64], rows: &[f64]) {
+    let width = sum.len();
+    let (times, _) = times.as_chunks::<ROWS>();
+    let rows = rows.chunks_exact((ROWS * width).max(1));
+    for (times, rows) in times.iter().zip(rows) {
+        let rows: [&[f64]; ROWS] = std::array::from_fn(|r| &rows[r * width..(r + 1) * width]);
+        for (i, sum) in sum.iter_mut().enumerate() {
+            let own: [f64; ROWS] = std::array::from_fn(|r| times[r] * rows[r][i]);
+            *sum += ((own[0] + own[1]) + (own[2] + own[3])) + (own[4] + own[5]);
+        }
+    }
+}
+
+/// Inverse of the matrix of this factor.
+pub(super) fn inverse(factor: &[f64], n: usize) -> Vec<f64> {
+    let mut inverse = vec![0.0; n * n];
+    for (k, column) in inverse.chunks_exact_mut(n.max(1)).enumerate() {
+        column[k] = 1.0;
+        solve(factor, column);
+    }
+    inverse
+}
+
 /// Whether the matrix of this factor is positive.
 pub(super) fn is_positive(factor: &[f64], n: usize) -> bool {
     (0..n).all(|k| factor[k * n + k] > 0.0)
@@ -73,7 +129,7 @@ mod tests {
 
     #[test]
     fn a_solution_solves_and_a_matrix_that_is_not_positive_is_told() {
-        let n = 13;
+        let n = 18;
         let root = |i: usize, j: usize| ((i * 7 + j * 3) % 11) as f64 - 4.0;
         let entry = |i: usize, j: usize| (0..n).map(|k| root(i, k) * root(j, k)).sum::<f64>();
         let mut matrix: Vec<f64> = (0..n * n).map(|at| entry(at / n, at % n)).collect();
@@ -83,10 +139,13 @@ mod tests {
         assert!(is_positive(&l, n));
         let mut x = b.clone();
         solve(&l, &mut x);
-        for (row, b) in matrix.chunks_exact(n).zip(&b) {
-            let product: f64 = row.iter().zip(&x).map(|(a, x)| a * x).sum();
-            assert!((product - b).abs() < 1e-12);
-        }
+        let mut products = vec![0.0; n];
+        add_products(&mut products, &matrix, &x);
+        let near = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-12);
+        assert!(near(&products, &b));
+        let mut again = vec![0.0; n];
+        add_rows(&mut again, &b, &inverse(&l, n));
+        assert!(near(&again, &x));
         matrix[3 * n + 3] = -1.0;
         assert!(!is_positive(&factor(matrix.clone(), n), n));
     }

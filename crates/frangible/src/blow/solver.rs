@@ -1,9 +1,9 @@
 //! What solves a tick of the pieces that move on their own: see `flight.rs` for the equation.
 
 use super::bank::Bank;
-use super::parted::Parted;
+use super::parted::{Parted, mirror, upper};
 use super::plan::Plan;
-use super::solve::{add, dot, factor, solve};
+use super::solve::{add, add_products, add_rows, dot, factor, inverse, solve};
 
 /// What solves a tick of one length. Corners that press are taken in by a system of their own, of as many unknowns as there are of them: with C the
 /// matrix without corners, the unknowns are `C⁻¹b + Σ y μ`, `y = C⁻¹g`, and `(1/2κ + gᵀy) μ = −e/2` gives the corners' forces μ, e the gaps at the
@@ -13,8 +13,8 @@ pub(super) struct Solver {
     pub(super) tick: f64,
     /// W less what the oscillators' answer within the tick takes from it.
     pub(super) stiffness: Vec<f64>,
-    /// Factor of the matrix without corners.
-    factor: Vec<f64>,
+    /// Inverse of the matrix without corners.
+    inverse: Vec<f64>,
     /// Number of the first mode among the oscillators.
     first: usize,
     /// What each contact's force does when it grows by a newton, without corners and with those that press.
@@ -40,20 +40,19 @@ pub(super) struct Answer {
 }
 
 impl Answer {
-    /// The answer to a push of the pieces, with the matrix of this factor.
-    fn to(push: Vec<f64>, factor: &[f64], parted: &Parted, plan: &Plan, tick: f64) -> Self {
-        let mut middle = push;
-        solve(factor, &mut middle);
+    /// The answer to a push of the pieces, with this inverse of the matrix.
+    #[inline(always)]
+    fn to(push: &[f64], inverse: &[f64], parted: &Parted, plan: &Plan, tick: f64) -> Self {
+        let mut middle = vec![0.0; push.len()];
+        add_products(&mut middle, inverse, push);
         let ahead = 1.0 + 2.0 * plan.rayleigh[0] / tick;
         let mut force = vec![0.0; plan.modes];
-        for (row, c) in parted.rows().zip(&middle) {
-            add(&mut force, ahead * c, row);
-        }
+        add_rows(&mut force, &middle, &parted.held);
         let frequencies = plan.oscillators.iter();
         force
             .iter_mut()
             .zip(frequencies)
-            .for_each(|(f, (w, _))| *f *= w * w);
+            .for_each(|(f, (w, _))| *f *= ahead * w * w);
         Self { middle, force }
     }
 
@@ -88,30 +87,32 @@ impl Solver {
         for j in 0..n {
             let terms = weighted.iter_mut().zip(parted.row(j)).zip(&springs);
             terms.for_each(|((to, p), spring)| *to = p * spring);
-            for k in 0..=j {
-                let sum = dot(&weighted, parted.row(k));
-                (stiffness[j * n + k], stiffness[k * n + j]) = (sum, sum);
-            }
+            add_products(
+                &mut stiffness[j * n..j * n + upper(j)],
+                &parted.held,
+                &weighted,
+            );
         }
+        mirror(&mut stiffness, n);
         let inertia = 4.0 / (tick * tick) + 2.0 * beta / tick;
         let sums = parted.mass.iter().zip(&stiffness);
         let sums = sums.map(|(m, s)| m * inertia + (1.0 + 2.0 * alpha) * s);
-        let factor = factor(sums.collect(), n);
+        let inverse = inverse(&factor(sums.collect(), n), n);
         let growth = |(z, drive): (&[f64], &Vec<f64>)| {
             let swing = bank.ramp_by(first..first + plan.modes, drive);
             let swing = swing.zip(&plan.oscillators);
             let swing = swing.map(|(x, (w, _))| (0.5 + alpha) * w * x);
             let swing: Vec<f64> = swing.collect();
-            let rows = parted.rows().zip(z);
-            let push = rows.map(|(row, z)| 0.5 * z + dot(row, &swing)).collect();
-            Answer::to(push, &factor, parted, plan, tick)
+            let mut push: Vec<f64> = z.iter().map(|z| 0.5 * z).collect();
+            add_products(&mut push, &parted.held, &swing);
+            Answer::to(&push, &inverse, parted, plan, tick)
         };
         let contacts = parted.pushes(pushes, gone_on).zip(&plan.drive);
         let free = contacts.map(growth).collect();
         Self {
             tick,
             stiffness,
-            factor,
+            inverse,
             first,
             free,
             corners: vec![None; parted.corners.len()],
@@ -119,10 +120,11 @@ impl Solver {
         }
     }
 
-    /// Solves in place without corners.
+    /// Solves without corners.
     #[inline(always)]
-    pub(super) fn solve(&self, given: &mut [f64]) {
-        solve(&self.factor, given);
+    pub(super) fn solve(&self, given: &[f64], middle: &mut [f64]) {
+        middle.fill(0.0);
+        add_products(middle, &self.inverse, given);
     }
 
     /// Lets these corners press from now on; what contacts do is [to be found anew](Self::answer).
@@ -139,7 +141,7 @@ impl Solver {
             self.corners[k].get_or_insert_with(|| {
                 let mut push = vec![0.0; parted.unknowns()];
                 corner.push(1.0, &mut push);
-                Answer::to(push, &self.factor, parted, plan, self.tick)
+                Answer::to(&push, &self.inverse, parted, plan, self.tick)
             });
             let known = self.pressing[..=row].iter().enumerate();
             for (column, answer) in
@@ -152,6 +154,12 @@ impl Solver {
             self.held[row * count + row] += 0.5 / corner.stiffness;
         }
         self.held = factor(std::mem::take(&mut self.held), count);
+    }
+
+    /// Whether any corner presses.
+    #[inline(always)]
+    pub(super) fn is_pressed(&self) -> bool {
+        !self.pressing.is_empty()
     }
 
     /// Adds to c̄ what the corners that press do, with these gaps of all corners at the end of the tick if none pressed, m.
