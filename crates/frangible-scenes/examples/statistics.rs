@@ -6,6 +6,9 @@
 //!     …                                                                                              > after.txt
 //!     cargo run --release -p frangible-scenes --example statistics -- compare before.txt after.txt
 //!
+//! With `followed N` before the number of seeds the bodies' motion is followed by their lowest N modes, not by as many as their bake found to be
+//! enough.
+//!
 //! Pairs are marked whose means differ by more than two standard errors of their difference, or that Kolmogorov and Smirnov's test takes
 //! for one distribution at less than 1 %. Of twenty-five pairs of equal samples one is marked by chance.
 
@@ -38,20 +41,33 @@ fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     match arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
         ["compare", before, after] => compare(before, after),
-        [seeds, ref scenes @ ..] if !scenes.is_empty() => {
-            let seeds = seeds.parse()?;
-            scenes.iter().try_for_each(|name| list(name, seeds))
+        ["followed", modes, seeds, ref scenes @ ..] if !scenes.is_empty() => {
+            list_all(scenes, seeds, Some(modes.parse()?))
         }
-        _ => Err("statistics SEEDS SCENE|FILE.toml… | statistics compare BEFORE AFTER".into()),
+        [seeds, ref scenes @ ..] if !scenes.is_empty() => list_all(scenes, seeds, None),
+        _ => Err(
+            "statistics [followed N] SEEDS SCENE|FILE.toml… | statistics compare BEFORE AFTER"
+                .into(),
+        ),
     }
 }
 
+fn list_all(scenes: &[&str], seeds: &str, followed: Option<usize>) -> Result<(), Box<dyn Error>> {
+    let seeds = seeds.parse()?;
+    let mut scenes = scenes.iter();
+    scenes.try_for_each(|name| list(name, seeds, followed))
+}
+
 /// Prints a line per break of a scene.
-fn list(name: &str, seeds: u64) -> Result<(), Box<dyn Error>> {
-    let scene = match name.ends_with(".toml") {
+fn list(name: &str, seeds: u64, followed: Option<usize>) -> Result<(), Box<dyn Error>> {
+    let mut scene = match name.ends_with(".toml") {
         true => read_scene(Path::new(name))?,
         false => scene(name)?,
     };
+    if let Some(modes) = followed {
+        let bodies = scene.bodies.iter_mut();
+        bodies.for_each(|body| body.followed = Some(modes.min(body.modes)));
+    }
     let bodies = bake(&scene, &mut |_| {})?;
     let first = first_break(&scene, &bodies, &mut |_| {})?.ok_or("nothing breaks")?;
     let number = scene.bodies.iter().position(|b| b.name == first.name);
