@@ -85,7 +85,7 @@ fn culling_changes_no_bit_of_what_breaks() {
     for (name, asset) in [("glass", glass()), ("pane", pane()), ("block", block())] {
         let kind = Breakable::new(Arc::clone(asset)).unwrap();
         let mut broke = 0;
-        for k in 0..8 {
+        for k in 0..10 {
             let body = kind.body(k);
             let contacts: Vec<Contact> = (0..1 + k % 3).map(|_| numbers.blow(asset)).collect();
             for config in models() {
