@@ -1,4 +1,4 @@
-//! What bounds the stress of every motion, as an asset keeps it; the module `bounds` of this crate finds it.
+//! Bounds of the stress of every motion, as an asset keeps them; the module `bounds` of this crate finds them.
 
 /// Largest stress and gradient of each mode over clusters of neighbouring fracture tetrahedra.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -12,7 +12,7 @@ pub struct StressBounds {
 }
 
 impl StressBounds {
-    /// Whether there are none: they are then computed when a body is made.
+    /// Returns true if there are no bounds: they are then computed when a body is made.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.cluster_of_tet.is_empty()

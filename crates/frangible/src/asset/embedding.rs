@@ -1,4 +1,4 @@
-//! Where points of the body lie in the analysis mesh, and its quadratic shape functions there.
+//! Points of the body in the analysis mesh, and its quadratic shape functions there.
 
 use glam::Vec3;
 
@@ -17,7 +17,7 @@ pub struct EmbeddedPoint {
     pub offset: Vec3,
 }
 
-/// Where the fracture mesh lies in the analysis mesh.
+/// Points of the fracture mesh, located in the analysis mesh.
 #[derive(Clone, Debug, Default)]
 pub struct Embedding {
     /// One per fracture tetrahedron: its centroid.
@@ -76,7 +76,7 @@ pub fn each_row(asset: &Asset, at: &SurfacePoint, mut visit: impl FnMut(usize, f
     }
 }
 
-/// [`each_row`] as a list, and how long it is.
+/// [`each_row`] as a list, and its length.
 pub(crate) fn carriers(asset: &Asset, at: &SurfacePoint) -> ([(u32, f32); 30], usize) {
     let triangle = asset.surface.triangles[at.triangle as usize];
     let mut carriers = [(0_u32, 0.0_f32); 30];

@@ -44,7 +44,7 @@ impl Half {
     }
 }
 
-/// What each mode's column is divided by: the power of two that takes its largest number to 2¹⁴ … 2¹⁵. So numbers down to
+/// Divisor of each mode's column: the power of two that takes its largest number to 2¹⁴ … 2¹⁵. So numbers down to
 /// 2⁻²⁸ of the largest keep all eleven bits, dividing rounds nothing, and rounding twice is rounding once.
 pub(super) fn half_scales(modes: &ModalBasis) -> Vec<f32> {
     let count = modes.count();

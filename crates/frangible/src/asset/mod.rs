@@ -1,4 +1,4 @@
-//! What a bake produces and the run time needs: one immutable value per kind of object.
+//! Baked assets: the immutable data that the run time needs, one value per kind of object.
 
 mod bounds;
 mod embedding;
@@ -40,7 +40,7 @@ pub(crate) use validate::{analysis, embedded, modes};
 pub struct Asset {
     /// Name shown in reports.
     pub name: String,
-    /// What the modes were computed for.
+    /// Material that the modes were computed for.
     pub material: Material,
     /// Fine linear tetrahedra that carry cracks and fragments.
     pub fracture: Arc<TetMesh>,
@@ -48,11 +48,11 @@ pub struct Asset {
     pub surface: OuterSurface,
     /// Coarse quadratic tetrahedra that carry the modes.
     pub analysis: AnalysisMesh,
-    /// Where the fracture mesh lies in the analysis mesh.
+    /// Points of the fracture mesh, located in the analysis mesh.
     pub embedding: Embedding,
     /// Frequencies, shapes and stress bounds of the vibration modes.
     pub modes: ModalBasis,
-    /// What lets harmless contacts be refused unseen; empty: computed when a body is made.
+    /// Stress bounds, which rule out harmless contacts early; if empty, they are computed when a body is made.
     pub bounds: StressBounds,
     /// Mass, centre (the origin) and inertia of the whole body, kg, m, kg·m².
     pub mass: MassProperties,
@@ -66,15 +66,15 @@ pub struct Asset {
     /// The surface as its author drew it, kept for drawing and for clipping; physics never reads it.
     /// `None` where the fracture mesh's own surface is all there is.
     pub render: Option<RenderSurface>,
-    /// Which part of the broken body a piece is that may break again; `None` for what was baked. The fracture mesh is
-    /// then the broken body's, in its frame; the surface has vertices of its own, in the piece's frame
+    /// For a piece that may break again, its part of the broken body; `None` for a baked body. A piece keeps the broken
+    /// body's fracture mesh, in that body's frame; its surface has vertices of its own, in the piece's frame
     /// ([`Asset::surface_positions`]); [`Embedding::tets`] and [`StressBounds::cluster_of_tet`] have an entry for each of
     /// [`Portion::tets`], [`Embedding::nodes`] for each vertex of the surface; cells are empty.
     pub portion: Option<Arc<Portion>>,
 }
 
 impl Asset {
-    /// Whether something outside holds the body: a pane in its frame, a shelf in its wall.
+    /// Returns true if something outside holds the body: a pane in its frame, a shelf in its wall.
     #[must_use]
     pub fn is_supported(&self) -> bool {
         !self.supported.is_empty()
@@ -85,7 +85,7 @@ impl Asset {
         libm::cbrt(self.mass.volume * 0.75 / std::f64::consts::PI)
     }
 
-    /// What was baked: itself, or of a piece the body that it came from.
+    /// The baked asset: this one, or for a piece that of the body it came from.
     #[must_use]
     pub fn root(&self) -> &Self {
         match &self.portion {
@@ -94,7 +94,7 @@ impl Asset {
         }
     }
 
-    /// Where the vertices of [`Asset::surface`] are, m, body frame.
+    /// Positions of the vertices of [`Asset::surface`], m, body frame.
     #[must_use]
     pub fn surface_positions(&self) -> &[Vec3] {
         match &self.portion {
@@ -103,7 +103,7 @@ impl Asset {
         }
     }
 
-    /// Where a fracture tetrahedron stands in lists that have an entry for each one of the body: at its number, or of a piece
+    /// Index of a fracture tetrahedron into lists with an entry for each one of the body: its number, or in a piece its place
     /// in [`Portion::tets`].
     #[must_use]
     pub fn place(&self, tet: usize) -> usize {
@@ -113,7 +113,7 @@ impl Asset {
         }
     }
 
-    /// Where the centroid of a fracture tetrahedron lies in the analysis mesh. In a piece `tet` is one of its [`Portion::tets`].
+    /// The centroid of a fracture tetrahedron, located in the analysis mesh. In a piece `tet` is one of its [`Portion::tets`].
     #[must_use]
     pub fn embedded_tet(&self, tet: usize) -> &EmbeddedPoint {
         &self.embedding.tets[self.place(tet)]
@@ -141,17 +141,17 @@ pub struct OuterSurface {
     pub normals: Vec<[Vec3; 3]>,
     /// Radius of curvature where a contact touches this triangle, m; infinite where flat.
     pub curvature_radius: Vec<f32>,
-    /// Where the body is a wall behind its triangles.
+    /// Thin walls behind the triangles.
     pub walls: SurfaceWalls,
 }
 
-/// Thin walls behind the outer surface: what the stress right under a contact hangs on, which no mode shows
+/// Thin walls behind the outer surface: the stress right under a contact depends on them, and no mode shows it
 /// (`near_field`). One number per triangle of the surface in each list; all lists are empty for a body without walls.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SurfaceWalls {
     /// Thickness of the wall, m; infinite where the body is no wall.
     pub thickness: Vec<f32>,
-    /// How much the wall's curvature stiffens it against bending waves of all directions, 1/m²: the mean over the angle θ of
+    /// Stiffening of the wall by its curvature against bending waves of all directions, 1/m²: the mean over the angle θ of
     /// (κ₁ sin²θ + κ₂ cos²θ)², κ₁ and κ₂ the principal curvatures of the wall's middle surface. 1/R² of a dome, 3/(8R²) of a
     /// tube, 0 of a flat wall.
     pub stiffening: Vec<f32>,
@@ -161,7 +161,7 @@ pub struct SurfaceWalls {
 }
 
 impl SurfaceWalls {
-    /// Whether there is no wall anywhere.
+    /// Returns true if there is no wall anywhere.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.thickness.is_empty() && self.stiffening.is_empty() && self.margin.is_empty()

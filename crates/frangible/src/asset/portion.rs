@@ -1,4 +1,4 @@
-//! Which part of a broken body a piece is.
+//! Portions: the parts of a broken body that its pieces are.
 
 use std::sync::Arc;
 
@@ -14,8 +14,8 @@ pub(crate) const FOREIGN: u32 = 1 << 31;
 /// Label of nodes that lie in none of a piece's tetrahedra.
 pub(crate) const NOBODY: u32 = u32::MAX;
 
-/// A part of a body that has broken, or a whole body with its cracks: which nodes and tetrahedra of the fracture mesh are
-/// its own, and what parts it from the rest.
+/// A part of a body that has broken, or a whole body with its cracks: its own nodes and tetrahedra of the fracture mesh,
+/// and the cuts that part it from the rest.
 #[derive(Debug)]
 pub struct Portion {
     pub(crate) root: Arc<Asset>,
@@ -47,7 +47,7 @@ impl Portion {
         &self.root
     }
 
-    /// How many breaks it comes from: 1 for a piece of a baked body.
+    /// Number of breaks behind it: 1 for a piece of a baked body.
     #[must_use]
     pub fn generation(&self) -> u32 {
         self.generation
@@ -83,7 +83,7 @@ impl Portion {
         &self.supported
     }
 
-    /// Where the vertices of its surface are, m, in its own frame.
+    /// Positions of the vertices of its surface, m, in its own frame.
     #[must_use]
     pub fn surface_positions(&self) -> &[Vec3] {
         &self.positions
@@ -111,7 +111,7 @@ impl Portion {
         &self.cuts
     }
 
-    /// Nodes of the tetrahedra that it shares which are not its own, rising, with labels that tell apart whose they are.
+    /// Nodes of the tetrahedra that it shares which are not its own, rising, each with the label of its owner.
     pub(crate) fn rim(&self) -> &[(u32, u32)] {
         &self.rim
     }
@@ -131,12 +131,12 @@ impl Portion {
         self.whole
     }
 
-    /// Whether a node is its own.
+    /// Returns true if a node is its own.
     pub(crate) fn has_node(&self, node: u32) -> bool {
         self.nodes.binary_search(&node).is_ok()
     }
 
-    /// Whether any of these nodes of a tetrahedron is its own.
+    /// Returns true if any of these nodes of a tetrahedron is its own.
     pub(crate) fn has_tet(&self, nodes: &[u32; 4]) -> bool {
         nodes.iter().any(|&v| self.has_node(v))
     }
@@ -150,7 +150,7 @@ impl Portion {
     }
 }
 
-/// Where a piece and its surface come from.
+/// Origin of a piece and of its surface in the baked body.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Trace {
     /// Label of its nodes.
@@ -159,7 +159,7 @@ pub(crate) struct Trace {
     pub(crate) outer_of: Vec<u32>,
     /// Tetrahedron in which each of its crack faces lies.
     pub(crate) inner_of: Vec<u32>,
-    /// For each vertex of its surface a node of its own beside it.
+    /// For each vertex of its surface, a node of its own beside it.
     pub(crate) anchors: Vec<u32>,
 }
 

@@ -28,11 +28,11 @@ const SAME_RATIO: f64 = 1e-9;
 /// Largest mode shape and stress there must be: numbers 1e-10 of it are still normal ones of f32.
 const SMALLEST: f32 = 1e-28;
 
-/// Why an asset cannot be rescaled.
+/// Error of rescaling an asset.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum RescaleError {
-    /// The modes would be others, and no factor gives them.
+    /// The modes would be others, which no factor gives.
     #[error(
         "`{asset}` is baked of {baked_material} with Poisson's ratio {baked}, and {wanted_material} has {wanted}: modes of another ratio need another bake; bake it again of {wanted_material}, or give a material of ratio {baked}"
     )]

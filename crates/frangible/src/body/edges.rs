@@ -1,11 +1,11 @@
-//! The edges of a mesh, numbered: what is known of edges then lies in a row.
+//! The edges of a mesh, numbered, so that data about edges can lie in a list.
 
 use crate::mesh::{EDGES, Rows};
 
 /// Numbers of edges, by their lower nodes, and then by their higher ones.
 #[derive(Debug)]
 pub(crate) struct Edges {
-    /// Number of the first edge whose lower node is each one, and at last how many edges there are.
+    /// For each node the number of the first edge whose lower node it is, and at the end the count of all edges.
     first: Vec<u32>,
     /// Numbers of the edges of each tetrahedron.
     of_tet: Vec<[u32; 6]>,
@@ -39,7 +39,7 @@ impl Edges {
         Self { first, of_tet }
     }
 
-    /// How many there are.
+    /// Number of edges.
     pub(crate) fn count(&self) -> usize {
         self.first.last().map_or(0, |&count| count as usize)
     }

@@ -1,14 +1,14 @@
 //! The size of the flaw that a weak point stands for (beyond the paper).
 //!
-//! By Griffith a strength R in a material of toughness K_Ic belongs to a flaw of depth `a = (K_Ic / Y R)² / π`, Y = 1.12 for one that is long and
-//! shallow. A stress that varies over such a flaw does not open it as its peak would: the flaw feels the mean over its own size, so that a
+//! Griffith's criterion gives a strength R in a material of toughness K_Ic a flaw of depth `a = (K_Ic / Y R)² / π`, Y = 1.12 for a long and
+//! shallow one. A stress that varies over such a flaw does not open it as its peak would: the flaw feels the mean over its own size, so that a
 //! narrow peak needs much more than the strength and a wide tension no more. The mean is taken over a ball about the weak point,
 //! cut by the body.
 //!
 //! No flaw is larger than that of the specimen's strength R_s, nor deeper than half of the body's thickness H:
 //! `a = min(a(R), a(R_s), H/2)`. A beam that is bent then bears 1.2 to 1.8 times R_s, as with cohesive cracks.
 //!
-//! Where the ball is smaller than the weak point's own tetrahedron, the stress there serves.
+//! If the ball is smaller than the weak point's own tetrahedron, the stress at the weak point is taken.
 
 use glam::{Mat3, Vec3};
 
@@ -48,7 +48,7 @@ const INNER: [[f32; 3]; 8] = {
     ]
 };
 
-/// Radii at which the samples lie, in those of the ball: each stands for the same volume, 1/21 of it.
+/// Radii at which the samples lie, relative to the ball's: each sample stands for the same volume, 1/21 of it.
 const OUTER_RADIUS: f32 = 0.894;
 const INNER_RADIUS: f32 = 0.620;
 
@@ -87,7 +87,7 @@ impl Body {
     }
 }
 
-/// Whether a fracture tetrahedron is the body's own.
+/// Returns true if a fracture tetrahedron is the body's own.
 fn has(asset: &Asset, tet: u32) -> bool {
     let portion = asset.portion.as_ref();
     portion.is_none_or(|portion| portion.tets().binary_search(&tet).is_ok())

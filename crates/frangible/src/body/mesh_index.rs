@@ -1,4 +1,4 @@
-//! What hangs together with what in a fracture mesh: made once, so that a crack costs what it crosses.
+//! Adjacency of a fracture mesh: made once, so that a crack costs only as much as it crosses.
 //!
 //! It takes about 56 bytes per tetrahedron.
 
@@ -11,7 +11,7 @@ use crate::state::EdgeCut;
 /// The body's volume in the unit of [`MeshIndex::volumes`].
 const WHOLE: f64 = (1_u64 << 60) as f64;
 
-/// What follows from a fracture mesh and every break needs.
+/// Adjacency, edges, patches and volumes of a fracture mesh, which every break needs.
 #[derive(Debug)]
 pub(crate) struct MeshIndex {
     /// Tetrahedra around each node.
@@ -107,7 +107,7 @@ impl MeshIndex {
     }
 }
 
-/// Each number once; what was listed for one list does not count for the next.
+/// Filter that passes each number of a list once; what was seen in one list does not count for the next.
 struct Once {
     seen: Vec<u32>,
     list: u32,

@@ -1,4 +1,4 @@
-//! Breakable bodies: what is shared by all bodies of a kind, and what is a body's own.
+//! Breakable bodies: the data shared by all bodies of a kind, and each body's own.
 
 mod edges;
 mod flaw;
@@ -25,7 +25,7 @@ use crate::tips::{CrackFront, Tip, fronts, tips};
 pub(crate) use mesh_index::MeshIndex;
 pub(crate) use prepared::Prepared;
 
-/// An asset that has been checked and made ready: one per kind of object, cheap to clone, shared by its bodies.
+/// An asset that has been checked and prepared: one per kind of object, cheap to clone, shared by its bodies.
 #[derive(Clone, Debug)]
 pub struct Breakable {
     asset: Arc<Asset>,
@@ -35,7 +35,7 @@ pub struct Breakable {
 }
 
 impl Breakable {
-    /// Checks an asset and makes it ready.
+    /// Checks an asset and prepares it.
     ///
     /// # Errors
     /// When the asset's arrays do not fit together, or a number of its material is unusable.
@@ -92,7 +92,7 @@ impl Breakable {
         &self.fields
     }
 
-    /// What bounds the stress of a motion, cluster by cluster.
+    /// Bounds of the stress of a motion, cluster by cluster.
     #[must_use]
     pub fn stress_bounds(&self) -> &StressBounds {
         &self.prepared.bounds
@@ -146,9 +146,9 @@ pub struct Body {
     pub(crate) prepared: Arc<Prepared>,
     pub(crate) resistance: Resistance,
     pub(crate) clusters: WeakClusters,
-    /// How the modes stress its weak points; its copies share it.
+    /// Stress rows of its weak points; copies of the body share them.
     pub(crate) rows: Arc<WeakRows>,
-    /// Where its flaws lie.
+    /// Places of its flaws.
     pub(crate) places: Places,
     /// Seed of its weak points and of the roughness of its cracks.
     seed: u64,
@@ -167,7 +167,7 @@ impl Body {
         Ok(Breakable::new(asset)?.body(seed))
     }
 
-    /// What it is.
+    /// Its asset: meshes, modes and material.
     #[must_use]
     pub fn asset(&self) -> &Arc<Asset> {
         &self.asset
@@ -179,7 +179,7 @@ impl Body {
         self.seed
     }
 
-    /// How many breaks it comes from: 0 as it was made, 1 for a piece of it, 2 for a piece of that.
+    /// Number of breaks behind it: 0 as it was made, 1 for a piece of it, 2 for a piece of that.
     #[must_use]
     pub fn generation(&self) -> u32 {
         self.asset.portion.as_ref().map_or(0, |p| p.generation())
@@ -201,7 +201,7 @@ impl Body {
         }
     }
 
-    /// What was prepared for the body as it was baked.
+    /// Prepared data of the body as it was baked.
     pub(crate) fn root(&self) -> &Arc<Prepared> {
         self.prepared.root.as_ref().unwrap_or(&self.prepared)
     }
@@ -246,8 +246,8 @@ impl Body {
         self
     }
 
-    /// This body, so many times as strong (above 0) and as tough as it was: the stress that a blow would bring is seen
-    /// on one that does not crack.
+    /// This body with its strength times `factor` (above 0) and its toughness unchanged: shows the stress that a blow would bring
+    /// on a body that does not crack.
     #[must_use]
     pub fn strengthened(&self, factor: f32) -> Self {
         Self {
@@ -321,7 +321,7 @@ impl Body {
         self.resistance.toughness.of(tet)
     }
 
-    /// Where the stress of a weak tetrahedron is taken, and by which law: at its flaw on the free surface, else at its
+    /// Point at which the stress of a weak tetrahedron is taken, and the law of stress there: at its flaw on the free surface, else at its
     /// centroid. `pressed`: surface triangles that something presses on, whose flaws do not count.
     #[must_use]
     pub fn weak_place(
@@ -335,7 +335,7 @@ impl Body {
         (place.point, place.law)
     }
 
-    /// The smallest strength of its weak tetrahedra, Pa; the material's where there is none.
+    /// Smallest strength of its weak tetrahedra, Pa; the material's where there is none.
     #[must_use]
     pub fn weakest(&self) -> f64 {
         self.resistance.weakest

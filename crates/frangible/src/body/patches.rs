@@ -2,7 +2,7 @@
 
 use crate::mesh::Rows;
 
-/// Nodes of a patch, at most: few enough that a crack touches few others with it, and many beside those around it.
+/// Most nodes of a patch: few enough that a crack touches few others with it, and many beside those around the patch.
 pub(super) const MOST: usize = 96;
 
 /// The nodes of a mesh in patches: each hangs together by edges of its own.
@@ -47,7 +47,7 @@ impl Patches {
         }
     }
 
-    /// How many there are.
+    /// Number of patches.
     pub(crate) fn count(&self) -> usize {
         self.nodes.count()
     }

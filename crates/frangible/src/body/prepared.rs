@@ -1,4 +1,4 @@
-//! What is found once for all bodies of a kind, or for a piece: search trees, free surfaces, and the tables of the bounds.
+//! Data found once for all bodies of a kind, or for a piece: search trees, free surfaces, and the tables of the bounds.
 
 use std::sync::{Arc, OnceLock};
 
@@ -12,16 +12,16 @@ use crate::mesh::{Boundary, RenderIndex, TriangleTree};
 use crate::modal::ModalBasis;
 use crate::stress::{Places, Skin};
 
-/// What follows from an asset and every impact needs.
+/// Data derived from an asset that every impact needs.
 #[derive(Debug)]
 pub(crate) struct Prepared {
-    /// What was prepared for the body as it was baked, where this is a piece of it.
+    /// Prepared data of the body as it was baked, where this is a piece of it.
     pub(crate) root: Option<Arc<Prepared>>,
-    /// What hangs together in the fracture mesh.
+    /// Adjacency of the fracture mesh.
     pub(crate) index: Arc<MeshIndex>,
     /// Over the triangles of the outer surface.
     pub(crate) surface: TriangleTree,
-    /// What drawing pieces needs; none of a piece, which uses that of its root.
+    /// Index for drawing pieces; none of a piece, which uses that of its root.
     pub(crate) render: Option<RenderIndex>,
     /// Free surfaces: flaws and walls.
     pub(crate) skin: Skin,
@@ -31,19 +31,19 @@ pub(crate) struct Prepared {
     pub(crate) whole: (Vec<f32>, Vec<f32>),
     /// 1/√λ_i of every mode, s.
     pub(crate) periods: Vec<f32>,
-    /// How far an impulse moves each mode.
+    /// Largest amplitude of each mode under an impulse.
     pub(crate) reaches: Reaches,
-    /// What an impulse does at most, by place and duration.
+    /// Largest stress under an impulse, by place and force.
     pub(crate) per_impulse: PerImpulse,
     /// Σ φ_i dm of every mode, √kg: what a held body's weight pushes; empty for a free one, where it is zero.
     pub(crate) weight: Vec<Vec3>,
     /// k of the bounds' quadratic term, Pa.
     pub(crate) quadratic_modulus: f32,
-    /// What any newton does at most; made when it is asked for.
+    /// Largest stress under a newton anywhere; computed when it is first asked for.
     pub(crate) per_newton: OnceLock<PerNewton>,
     /// Centroid of each fracture tetrahedron, m.
     pub(crate) centroids: Arc<[Vec3]>,
-    /// Local thickness of the body as it was baked at each of these, m.
+    /// Local thickness of the body as it was baked at each of these centroids, m.
     pub(crate) thickness: Arc<[f32]>,
     /// Mean edge of the fracture mesh, m.
     pub(crate) edge: f32,
@@ -52,7 +52,7 @@ pub(crate) struct Prepared {
 }
 
 impl Prepared {
-    /// What is found of a body as it was baked.
+    /// Prepares a body as it was baked.
     pub(crate) fn of_whole(asset: &Asset) -> Self {
         let modes = &asset.modes;
         let skin = Skin::of(asset);
@@ -95,7 +95,7 @@ impl Prepared {
         }
     }
 
-    /// The numbers of a piece, whose modes lack only the peak of their stress. `root`: those of the body as it was baked; `places`: where its flaws are.
+    /// Prepares a piece, whose modes lack only the peak of their stress. `root`: the body as it was baked; `places`: those of its flaws.
     pub(crate) fn of_piece(
         asset: &mut Asset,
         portion: &Portion,

@@ -58,7 +58,7 @@ pub(super) fn thickness(mesh: &TetMesh, centroids: &[Vec3]) -> Vec<f32> {
     found
 }
 
-/// A corner whose own ball holds nothing else is as thick as the place beside it.
+/// Gives a corner whose own ball holds nothing else the thickness of the place beside it.
 fn spread_into_corners(mesh: &TetMesh, is_corner: &[bool], found: &mut [f32]) {
     let tets = 0..found.len() as u32;
     let mut queue: VecDeque<u32> = tets.filter(|&e| !is_corner[e as usize]).collect();

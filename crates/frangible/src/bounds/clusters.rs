@@ -10,7 +10,7 @@ use crate::fields::Resistance;
 pub(crate) struct WeakClusters {
     /// Numbers of the clusters that hold any.
     pub(crate) clusters: Vec<u32>,
-    /// Where each one's tetrahedra start in `tets`, and the end.
+    /// Start of each one's tetrahedra in `tets`, and the end.
     starts: Vec<u32>,
     tets: Vec<u32>,
     /// The smallest strength in each one, Pa.
@@ -78,7 +78,7 @@ impl WeakClusters {
         }
     }
 
-    /// Where the tetrahedra of the cluster at place `i` of `clusters` stand among all weak ones, in this order.
+    /// Range of the tetrahedra of the cluster at place `i` of `clusters` among all weak ones, in this order.
     pub(crate) fn places(&self, i: usize) -> std::ops::Range<usize> {
         self.starts[i] as usize..self.starts[i + 1] as usize
     }

@@ -14,7 +14,7 @@ pub(crate) use stress_bounds::{
 };
 pub(crate) use surface_sums::surface_sums;
 
-/// Rounding of sums over a few thousand terms cannot make a bound so many times as large.
+/// Factor on bounds that covers the rounding of sums over a few thousand terms.
 pub(crate) const ROUNDING: f32 = 1.0 + 1e-4;
 
 /// The largest stress, Pa, and gradient per newton of force anywhere on the surface, and per m/s² of gravity.

@@ -1,4 +1,4 @@
-//! How much a body bears of a blow, by place and force: a few numbers per surface triangle, so that nearly all contacts of
+//! Largest stress of a blow, by place and force: a few numbers per surface triangle, so that nearly all contacts of
 //! a game are refused by one multiplication.
 //!
 //! An impulse J at a point b of the surface, put on by a force that is at most P J, moves mode i at most |φ_i(b)| J D_i(P), D_i its
@@ -12,13 +12,13 @@ use super::reach::Reaches;
 use super::surface_sums::surface_sums;
 use crate::asset::Asset;
 
-/// Values of P that have numbers; below the smallest that one counts, above the largest none does.
+/// Count of the values of P that have numbers. Below the smallest value its number counts, above the largest none does.
 const RUNGS: usize = 16;
 
-/// Each is so many times the next smaller one: 1.6¹⁵ = 1150 from the smallest to the largest.
+/// Ratio of each value to the next smaller one: 1.6¹⁵ = 1150 from the smallest to the largest.
 const RATIO: f32 = 1.6;
 
-/// Codes to an octave.
+/// Codes per octave.
 const OCTAVE: f32 = 16.0;
 
 /// Largest stress per impulse, Pa per N·s, of each surface triangle and largest force per impulse.
@@ -27,7 +27,7 @@ pub(crate) struct PerImpulse {
     /// Largest force per impulse that has numbers, 1/s.
     highest: f32,
     codes: Vec<[u8; RUNGS]>,
-    /// What a code stands for, Pa per N·s.
+    /// Stress that each code stands for, Pa per N·s.
     numbers: Vec<f32>,
 }
 
@@ -58,7 +58,7 @@ impl PerImpulse {
         }
     }
 
-    /// Most stress per impulse on a triangle, Pa per N·s, of a blow whose force is at most `force` per impulse, 1/s.
+    /// Largest stress per impulse on a triangle, Pa per N·s, of a blow whose force is at most `force` per impulse, 1/s.
     pub(crate) fn of(&self, triangle: u32, force: f32) -> f32 {
         if force.is_nan() || force > self.highest {
             return f32::INFINITY;

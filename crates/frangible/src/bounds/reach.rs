@@ -1,18 +1,18 @@
-//! How far a blow moves a mode at most, whenever: what stress bounds need that follow no time.
+//! Largest amplitude of a mode under a blow at any time, for stress bounds that follow no time.
 //!
 //! From rest, q̈ + d q̇ + λ q = f(t). With w = √(q̇² + λ q²) any force gives ẇ ≤ |f|, damped or not, and √λ |q| ≤ w. Hence
 //! √λ |q| ≤ ∫ |f| dt, always. A mode that follows the force has q = f/λ, at most that of the largest force.
 
 use crate::modal::ModalBasis;
 
-/// How far a blow moves each mode at most.
+/// Largest amplitude of each mode under a blow.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Reaches {
     /// λ, 1/s².
     eigenvalues: Vec<f32>,
     /// √λ, 1/s.
     frequencies: Vec<f32>,
-    /// How many modes are followed through time.
+    /// Number of modes that are followed through time.
     followed: usize,
 }
 
@@ -30,7 +30,7 @@ impl Reaches {
         self.frequencies.last().copied().unwrap_or(0.0)
     }
 
-    /// Most of |q| of a mode at any time under a blow of unit impulse, whatever its course, whose force is at most `force` (N per
+    /// Largest |q| of a mode at any time under a blow of unit impulse, whatever its course, whose force is at most `force` (N per
     /// N·s), m·√kg per N·s/√kg.
     #[inline(always)]
     pub(crate) fn most(&self, mode: usize, force: f32) -> f32 {

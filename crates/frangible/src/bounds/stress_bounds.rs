@@ -1,4 +1,4 @@
-//! Upper bounds of the stress from the modal amplitudes alone: what lets a contact be refused unseen (beyond the paper).
+//! Upper bounds of the stress from the modal amplitudes alone, by which a contact is refused unseen (beyond the paper).
 //!
 //! With `s_i` the spectral norm of mode i's linear stress at a tetrahedron and `g_i` a norm of its displacement gradient,
 //! the largest principal tension of Green–Lagrange strain and Hooke's law is at any time at most
@@ -135,7 +135,7 @@ pub(crate) fn sum_of_sizes(amplitudes: &[f32], row: &[f32]) -> f32 {
     sums.iter().sum()
 }
 
-/// [`tension_bound`] at each step of a batch, bit by bit, given how far each mode moves at each step, m·√kg, none below zero.
+/// [`tension_bound`] at each step of a batch, bit by bit, from the size of each mode's amplitude at each step, m·√kg, none below zero.
 #[inline(always)]
 pub(crate) fn tension_bounds(sizes: &[Lanes], stress: &[f32], gradient: &[f32], k: f32) -> Lanes {
     let mut bounds = sums_of_sizes(sizes, stress);
@@ -179,7 +179,7 @@ pub(crate) fn sums_of_sizes(sizes: &[Lanes], row: &[f32]) -> Lanes {
 struct Rows {
     /// ∂u_row/∂x_column of every mode, nine arrays one after another: `9 * modes`.
     gradient: Vec<f32>,
-    /// Σ |φ| |∇N| of every mode: what rounding is relative to.
+    /// Σ |φ| |∇N| of every mode, to which rounding is relative.
     terms: Vec<f32>,
     /// k of the quadratic term, Pa.
     modulus: f32,
@@ -283,7 +283,7 @@ fn spectral_norm([xx, yy, zz, yz, zx, xy]: [f64; 6]) -> f64 {
 }
 
 /// Halves the tetrahedra along the longest side of their box until none has more than [`CLUSTER`]: number of the
-/// cluster of each, and how many there are.
+/// cluster of each, and number of clusters.
 fn clusters(mesh: &TetMesh, tets: &[usize]) -> (Vec<u32>, usize) {
     let centroids: Vec<Vec3> = tets.iter().map(|&e| mesh.centroid(e)).collect();
     let mut order: Vec<u32> = (0..tets.len() as u32).collect();

@@ -1,4 +1,4 @@
-//! How far the surface moves with each mode, summed with weights: a table of numbers per vertex of the surface.
+//! Motion of the surface with each mode, summed with weights: a table of numbers per vertex of the surface.
 
 use glam::Vec3;
 

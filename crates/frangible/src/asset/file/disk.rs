@@ -61,7 +61,7 @@ impl Asset {
     }
 }
 
-/// On failure also whether there is now a file to remove.
+/// Writes a new file. An error comes with true if there is now a file to remove.
 fn write_new(path: &Path, bytes: &[u8]) -> Result<(), (io::Error, bool)> {
     // Never through a file, or a link, that somebody else put there.
     let mut options = OpenOptions::new();

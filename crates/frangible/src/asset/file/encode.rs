@@ -108,7 +108,7 @@ fn mass_numbers(m: &MassProperties) -> [f64; 14] {
     [m.mass, m.volume, x, y, z, a, b, c, d, e, f, g, h, i]
 }
 
-/// Whether all offsets are zero, to the bit.
+/// Returns true if all offsets are zero, to the bit.
 fn are_unmoved(points: &[EmbeddedPoint]) -> bool {
     let bits = |p: &EmbeddedPoint| p.offset.to_array().map(f32::to_bits);
     points.iter().all(|p| bits(p) == [0; 3])

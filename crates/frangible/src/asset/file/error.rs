@@ -1,4 +1,4 @@
-//! Why a file is no asset.
+//! Errors of reading and writing asset files.
 
 use std::path::PathBuf;
 
@@ -6,7 +6,7 @@ use thiserror::Error;
 
 use crate::error::InputError;
 
-/// Why a file, or bytes, cannot be read as an asset, or an asset not be written.
+/// Error of reading a file, or bytes, as an asset, or of writing an asset.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum AssetFileError {
@@ -15,7 +15,7 @@ pub enum AssetFileError {
         "it is no baked asset, but looks like {looks_like}; bake the mesh first and load what that writes"
     )]
     NotAnAsset {
-        /// What the bytes look like.
+        /// Kind of file that the bytes look like.
         looks_like: &'static str,
     },
     /// Written by another version of the format.
@@ -31,9 +31,9 @@ pub enum AssetFileError {
     /// The end is missing.
     #[error("it ends after {found} of {expected} bytes; copy it again, or bake it again")]
     Truncated {
-        /// Length the header tells, bytes.
+        /// Length that the header states, bytes.
         expected: u64,
-        /// Length there is, bytes.
+        /// Length found, bytes.
         found: u64,
     },
     /// Something follows the end.
@@ -41,9 +41,9 @@ pub enum AssetFileError {
         "it has {found} bytes where its header tells of {expected}; copy it again, or bake it again"
     )]
     TooLong {
-        /// Length the header tells, bytes.
+        /// Length that the header states, bytes.
         expected: u64,
-        /// Length there is, bytes.
+        /// Length found, bytes.
         found: u64,
     },
     /// Some byte has changed since it was written.
@@ -56,7 +56,7 @@ pub enum AssetFileError {
     Section {
         /// Name of the section in `docs/asset-format.md`, or its number where it has none.
         name: String,
-        /// What is wrong, as the rest of a sentence.
+        /// Problem, as the rest of a sentence.
         problem: String,
     },
     /// The arrays do not fit together, or hold unusable numbers.
@@ -67,7 +67,7 @@ pub enum AssetFileError {
     Io {
         /// The file.
         path: PathBuf,
-        /// What the operating system said.
+        /// Message of the operating system.
         problem: String,
     },
     /// The file was read, and its content is at fault.
@@ -75,7 +75,7 @@ pub enum AssetFileError {
     InFile {
         /// The file.
         path: PathBuf,
-        /// What is wrong with its content.
+        /// Problem with its content.
         problem: Box<AssetFileError>,
     },
 }

@@ -1,6 +1,6 @@
-//! What a file that is no asset seems to be, so that the error can say it.
+//! Guesses the kind of a file that is no asset, so that the error can name it.
 
-/// How much of a file is looked at, bytes.
+/// Bytes at the start of a file that are looked at.
 const LOOK: usize = 512;
 
 /// A guess at the kind of file, from its first bytes.

@@ -23,7 +23,7 @@ pub use writer::seal;
 /// conversion.
 pub const FORMAT_VERSION: u32 = 8;
 
-/// How an asset is written.
+/// Options for writing an asset.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct SaveOptions {
@@ -42,7 +42,7 @@ impl SaveOptions {
 
 /// First bytes of every file.
 const MAGIC: [u8; 8] = *b"FRANGIBL";
-/// Where the checksum stands, and where what it covers begins.
+/// Offsets of the checksum, and of the first byte that it covers.
 const CHECKSUM_AT: usize = 8;
 const COVERED_FROM: usize = 16;
 /// Length of magic, checksum, version, number of sections and file length, bytes.

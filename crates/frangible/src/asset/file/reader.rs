@@ -147,7 +147,7 @@ fn header(bytes: &[u8]) -> Result<usize, AssetFileError> {
     Ok(u32::get(&header[20..]) as usize)
 }
 
-/// One entry of the table, and where the next section may begin: sections follow one another.
+/// One entry of the table, and the offset at which the next section may begin: sections follow one another.
 fn entry<'a>(
     bytes: &'a [u8],
     row: &[u8],

@@ -4,7 +4,7 @@ use glam::Vec3;
 
 use crate::asset::half::Half;
 
-/// What a section's numbers are.
+/// Kind of a section's numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(u16)]
 pub(super) enum Kind {
@@ -40,9 +40,9 @@ impl Kind {
 
 /// One row of a section: so many numbers of one kind.
 pub(super) trait Row: Copy {
-    /// What the numbers are.
+    /// Kind of the numbers.
     const KIND: Kind;
-    /// How many of them.
+    /// Numbers per row.
     const COLUMNS: usize;
     /// Bytes of a row.
     const SIZE: usize;

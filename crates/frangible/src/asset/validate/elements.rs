@@ -1,4 +1,4 @@
-//! Whether elements, points in them and mode shapes on them can carry a motion: those of a baked body, and those of a piece.
+//! Checks that elements, points in them and mode shapes on them can carry a motion: those of a baked body, and those of a piece.
 
 use super::rows::{Check, all, below, finite, one_each};
 use crate::asset::{AnalysisMesh, EmbeddedPoint};
@@ -34,7 +34,7 @@ pub(crate) fn embedded(what: &str, points: &[EmbeddedPoint], elements: usize) ->
     })
 }
 
-/// Checks that mode shapes fit so many nodes, and that eigenvalues are positive and rise. Peak stresses are not looked at.
+/// Checks that mode shapes fit so many nodes, and that eigenvalues are positive and rise. Peak stresses are not checked.
 pub(crate) fn modes(modes: &ModalBasis, nodes: usize) -> Check {
     let (count, rows) = (modes.count(), nodes.saturating_mul(3));
     if modes.shapes.len() != rows.saturating_mul(count) {

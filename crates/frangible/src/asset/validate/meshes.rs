@@ -1,4 +1,4 @@
-//! Whether the fracture mesh is one of right-handed tetrahedra that know their neighbours.
+//! Checks that the fracture mesh has right-handed tetrahedra that know their neighbours.
 
 use super::rows::{Check, below, finite, one_each};
 use crate::mesh::{FACES, NO_NEIGHBOUR, TetMesh};
@@ -18,7 +18,7 @@ pub(super) fn tetrahedra(mesh: &TetMesh) -> Check {
     })
 }
 
-/// Whoever names a neighbour is named by it, across the same three nodes.
+/// Checks that each tetrahedron is named by the neighbours that it names, across the same three nodes.
 pub(super) fn neighbours(mesh: &TetMesh) -> Check {
     let tets = mesh.tets.len();
     one_each("tetrahedron", tets, "neighbour row", mesh.neighbours.len())?;

@@ -1,4 +1,4 @@
-//! Whether the arrays of an asset fit together: linear in their size, since every new body asks.
+//! Checks that the arrays of an asset fit together: linear in their size, since every new body is checked.
 
 mod elements;
 mod meshes;
@@ -184,7 +184,7 @@ impl Asset {
     }
 }
 
-/// All three lists or none; infinity is a number like others here: no wall, no edge.
+/// Checks that there are all three lists or none; infinity is a number like others here: no wall, no edge.
 fn walls(walls: &SurfaceWalls, triangles: usize) -> Check {
     if walls.is_empty() {
         return Ok(());

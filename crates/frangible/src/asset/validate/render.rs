@@ -1,4 +1,4 @@
-//! Whether the surface that its author drew can be drawn.
+//! Checks that the surface that its author drew can be drawn.
 
 use super::rows::{Check, all, below, finite, none_or_one_each};
 use crate::asset::RenderSurface;

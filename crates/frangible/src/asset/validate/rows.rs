@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-/// What is wrong, as a clause.
+/// Result of a check; the error says, as a clause, what is wrong.
 pub(crate) type Check = Result<(), String>;
 
 pub(super) fn all<T>(

@@ -1,11 +1,11 @@
-//! Whether the cracks that a body is to remember can be its own.
+//! Checks that the cracks that a body is to remember can be its own.
 
 use crate::asset::Asset;
 use crate::error::InputError;
 use crate::state::{BodyState, OldCut};
 
 impl BodyState {
-    /// Whether it can be the state of a body of this asset.
+    /// Checks that it can be the state of a body of this asset.
     pub(crate) fn check(&self, asset: &Asset) -> Result<(), InputError> {
         let tets = asset.fracture.tets.len();
         let mut cut = vec![false; tets];
