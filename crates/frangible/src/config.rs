@@ -3,13 +3,13 @@
 use crate::error::InputError;
 use crate::material::OutOfRange;
 
-/// How an impact is turned into cracks. `Default` is our model; [`FractureConfig::as_in_the_paper`] is the paper's.
+/// Settings for turning an impact into cracks. `Default` is our model; [`FractureConfig::as_in_the_paper`] is the paper's.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct FractureConfig {
     /// Contact duration model. Default: [`DurationModel::Integrated`].
     pub duration: DurationModel,
-    /// Lengthen a contact whose impulse and duration are given until the body's vibration holds no more energy than the impact
+    /// Lengthens a contact whose impulse and duration are given until the body's vibration holds no more energy than the impact
     /// brought. Default: off; a blow that is integrated has no need of it.
     pub admissible_duration: bool,
     /// Modes that are not followed through time answer the force statically: the residual vector. Default: on; in the paper
@@ -20,15 +20,15 @@ pub struct FractureConfig {
     pub near_field: Option<PlateTheory>,
     /// All cracks of an impact together spend no more than its peak strain energy. Default: on.
     pub energy_ledger: bool,
-    /// Pass over times and places whose stress bound stays below the strength; what breaks, and how, is the same bit for
+    /// Passes over times and places whose stress bound stays below the strength; what breaks, and how, is the same bit for
     /// bit without, only slower. Default: on.
     pub culling: bool,
     /// Samples per period of the highest mode that matters; 2 is Nyquist's limit, 0.5 is `[G12 Eq. 3]` as printed.
     /// Above 0.1 and at most 1000. Default 8: between samples stress is taken as linear.
     pub samples_per_period: f64,
-    /// When cracks run. Default: [`CrackTiming::TimeResolved`].
+    /// Timing of the cracks. Default: [`CrackTiming::TimeResolved`].
     pub timing: CrackTiming,
-    /// Where cracks run. Default: [`CrackPath::Steered`].
+    /// Path of the cracks. Default: [`CrackPath::Steered`].
     pub path: CrackPath,
     /// Strain is Green and Lagrange's, with its quadratic terms `[G12 §4.4]`. Default: off, strain is linear. Modes move every point along
     /// a straight line, so where a thin body swings they turn it and stretch it at once: a turn of 0.03 is a stretch of 5e-4, which is
@@ -61,7 +61,7 @@ pub struct FractureConfig {
     pub crumb_share: f64,
 }
 
-/// What waves short against the wall's thickness are taken to do.
+/// Plate theory for waves that are short against the wall's thickness.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum PlateTheory {
     /// Thin plates: no shear, stress linear through the wall. For comparison with closed forms.
@@ -89,7 +89,7 @@ pub enum DurationModel {
     },
 }
 
-/// When cracks run.
+/// Timing of the cracks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum CrackTiming {
@@ -103,7 +103,7 @@ pub enum CrackTiming {
     },
 }
 
-/// Where cracks run.
+/// Path of the cracks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum CrackPath {
@@ -203,7 +203,7 @@ impl FractureConfig {
         Ok(())
     }
 
-    /// Whether contacts have anything beside the modes that are followed, or are integrated: then their forces are followed with
+    /// Returns true if blows are integrated, or contacts have anything beside the modes that are followed: their forces are then followed with
     /// the body, substep by substep.
     pub(crate) fn has_complement(&self) -> bool {
         self.duration == DurationModel::Integrated || self.residual || self.near_field.is_some()

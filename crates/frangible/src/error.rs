@@ -48,7 +48,7 @@ pub enum InputError {
     Asset {
         /// The asset's name.
         asset: String,
-        /// What does not fit.
+        /// Problem with its arrays.
         problem: String,
     },
 }

@@ -1,4 +1,4 @@
-//! Where a ball touches a body first.
+//! First touch of a ball and a body.
 //!
 //! Engines find contacts on convex parts that stand for the body, and some of them on parts around the one that is hit, millimetres off
 //! and with tilted normals. A ball is simple enough to ask the body's own surface.
@@ -13,9 +13,9 @@ const TOUCHES: f32 = 1e-4;
 /// Steps towards the surface, each as long as the gap: enough for a ball that comes at a slant of six degrees.
 const MOST_STEPS: usize = 100;
 
-/// Where a ball of this radius, m, whose centre moves with `velocity`, m/s, against the body touches its surface first within `time`, s, and the
-/// unit direction from its centre to that place; all in the body frame. A ball that touches already touches where the surface is nearest.
-/// None where it comes too late, or its centre is on the surface.
+/// Returns the place at which a ball of this radius, m, whose centre moves with `velocity`, m/s, against the body first touches its surface within
+/// `time`, s, and the unit direction from its centre to that place; all in the body frame. A ball that touches already touches at the nearest point.
+/// None if it comes too late, or its centre is on the surface.
 #[must_use]
 pub fn first_touch_of_ball(
     body: &Body,

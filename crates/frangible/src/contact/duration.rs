@@ -1,4 +1,4 @@
-//! How long a contact lasts `[G12 §4.1]`.
+//! Duration of a contact `[G12 §4.1]`.
 //!
 //! Hertz: two elastic spheres touch for `t_d = 2.868 (m*²/(E*² r* v))^(1/5)` `[G12 Eq. 1]`.
 //! `[G12 Eq. 2]` puts the most excited mode in its place, but as printed its dimensions do not agree;
@@ -47,8 +47,8 @@ pub fn most_excited_mode(asset: &Asset, modal_shape: &[f64]) -> Option<usize> {
         .max_by(|&i, &j| amplitude(i).total_cmp(&amplitude(j)).then(j.cmp(&i)))
 }
 
-/// Duration that a breakable body answers a contact with, s: what the other one's
-/// [`Striker::modal_duration`](super::Striker::modal_duration) is to be.
+/// Duration that a breakable body answers a contact with, s: the [`Striker::modal_duration`](super::Striker::modal_duration) for the
+/// other body.
 #[must_use]
 pub fn answer_duration(body: &Body, contact: &Contact, model: DurationModel) -> f64 {
     let alone = [Contact {
@@ -73,7 +73,7 @@ pub fn contact_duration(asset: &Asset, load: &Load, model: DurationModel) -> f64
         .fold(f64::INFINITY, f64::min)
 }
 
-/// What a contact is expected to last by a model, s, or what a script says.
+/// Duration of a contact by a model, s, or as a script gives it.
 pub(crate) fn touch_duration(asset: &Asset, touch: &Touch, model: DurationModel) -> f64 {
     if touch.contact.is_script() {
         return f64::from(touch.contact.duration);

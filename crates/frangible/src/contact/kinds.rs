@@ -1,4 +1,4 @@
-//! What the rigid-body engine tells us of an impact.
+//! Contacts of an impact, as the rigid-body engine reports them.
 
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -14,7 +14,7 @@ use crate::material::{Material, OutOfRange};
 /// One contact of an impact, in the body frame of the body that may break.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Contact {
-    /// Where, m.
+    /// Point of contact, m.
     pub point: Vec3,
     /// Unit direction of the impulse **on this body** (from the striker into the body).
     pub normal: Vec3,
@@ -28,11 +28,11 @@ pub struct Contact {
     /// Duration of a blow that a script asks for, s: its impulse is then given as a half-sine, whatever strikes. 0 for a striker,
     /// whose blow is [integrated](crate::internals::DurationModel::Integrated).
     pub duration: f32,
-    /// What hit the body.
+    /// Body that struck.
     pub striker: Striker,
 }
 
-/// What a contact needs to know of the other body.
+/// Properties of the other body that a contact depends on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Striker {
     /// Plane-strain modulus E/(1−ν²), Pa; infinite for a rigid striker.
@@ -48,9 +48,9 @@ pub struct Striker {
     /// Duration that the other body answers with when it vibrates itself, s: of two bodies' durations the longer holds
     /// `[G12 §4.1]`. Used by the modal models; 0 for a body that is not breakable. See [`answer_duration`](super::answer_duration).
     pub modal_duration: f32,
-    /// How the contacts of one body that strikes at several points share its mass; none for a body that strikes at this point only.
+    /// Share in the mass of a body that strikes at several points; none for a body that strikes at this point only.
     pub shared: Option<SharedMass>,
-    /// How a striker gives way that vibrates itself, for blows that are [integrated](crate::internals::DurationModel::Integrated);
+    /// Receptance of a striker that vibrates itself, for blows that are [integrated](crate::internals::DurationModel::Integrated);
     /// none for one that moves as a rigid body behind Hertz' dent. [`Striker::flexible`] finds it.
     pub receptance: Option<Arc<Receptance>>,
 }
@@ -63,7 +63,7 @@ pub struct Striker {
 /// counted once per contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SharedMass {
-    /// Which body it is: contacts of one impact with equal numbers are of one body. Below [`SharedMass::MOST_BODIES`].
+    /// Number of the body: contacts of one impact with equal numbers are of one body. Below [`SharedMass::MOST_BODIES`].
     pub body: u32,
     /// √M times the velocity that a unit impulse along the contact's normal gives the body, 1/√kg: `M^(−1/2) n`.
     pub velocity: Vec3,
@@ -72,11 +72,11 @@ pub struct SharedMass {
 }
 
 impl SharedMass {
-    /// Numbers of bodies are smaller than this.
+    /// Upper limit of the numbers of bodies, which are below it.
     pub const MOST_BODIES: u32 = 1 << 24;
 
-    /// Whether this inverse effective mass, 1/kg, may stand beside it, but for a per cent of rounding: a body that gave way less at its own
-    /// contacts than from one to another would bring energy without end.
+    /// Returns true if this inverse effective mass, 1/kg, is no smaller than its own, but for a per cent of rounding: a body that gave way less at
+    /// its own contacts than from one to another would bring energy without end.
     fn fits(&self, inverse_effective_mass: f64) -> bool {
         let [velocity, spin] = [self.velocity, self.spin].map(|v| v.as_dvec3().length_squared());
         velocity + spin <= 1.01 * inverse_effective_mass
@@ -93,11 +93,11 @@ impl SharedMass {
         }
     }
 
-    /// The share of body number `body` in a contact: `velocity` is its `M^(−1/2) n`, `inverse_inertia` has the columns of its I⁻¹, 1/(kg·m²), and `turn` is r × n,
-    /// all in world axes. Where I⁻¹ does not give way, nor does the spin.
+    /// The share of body number `body` in a contact: `velocity` is its `M^(−1/2) n`, `inverse_inertia` has the columns of its I⁻¹, 1/(kg·m²), and
+    /// `turn` is r × n, all in world axes. Where I⁻¹ does not give way, nor does the spin.
     #[must_use]
     pub fn of(body: u32, velocity: Vec3, inverse_inertia: [Vec3; 3], turn: Vec3) -> Self {
-        // I⁻¹ = L Lᵀ: the square of Lᵀ turn is what an effective mass has of it.
+        // I⁻¹ = L Lᵀ: the square of Lᵀ turn is the part of the spin in the inverse effective mass.
         let spins = lower_factor(inverse_inertia);
         Self {
             body,
@@ -107,7 +107,7 @@ impl SharedMass {
     }
 }
 
-/// Columns of the lower triangular L with L Lᵀ = the symmetric matrix of these columns; zero where the matrix does not give way.
+/// Columns of the lower triangular L with L Lᵀ = the symmetric matrix of these columns; zero where a pivot is not positive.
 fn lower_factor(columns: [Vec3; 3]) -> [Vec3; 3] {
     let mut rest = columns;
     std::array::from_fn(|k| {
@@ -124,10 +124,10 @@ fn lower_factor(columns: [Vec3; 3]) -> [Vec3; 3] {
 }
 
 impl Striker {
-    /// Radius of curvature of edges and corners, m: what bodies that are no balls strike others with.
+    /// Radius of curvature of edges and corners, with which bodies that are no balls strike others, m.
     pub const EDGE_RADIUS: f32 = 3e-3;
 
-    /// What a unit impulse at the contact of `other` takes from the speed of approach at this one's, which is another contact, 1/kg.
+    /// Speed of approach that a unit impulse at the contact of `other` takes away at this one, which is another contact, 1/kg.
     pub(crate) fn inverse_mass_between(&self, other: &Self) -> f64 {
         match (&self.shared, &other.shared) {
             (Some(a), Some(b)) if a.body == b.body => {
@@ -180,7 +180,7 @@ impl Striker {
 }
 
 impl Contact {
-    /// Without friction: where (m), the direction of the impulse on this body, its size (N·s), the speed of approach
+    /// A contact without friction: its point (m), the direction of the impulse on this body, its size (N·s), the speed of approach
     /// (m/s), and what hit the body.
     #[must_use]
     pub const fn new(
@@ -201,7 +201,7 @@ impl Contact {
         }
     }
 
-    /// A half-sine that a script asks for: where (m), its impulse (N·s, on this body) and its duration (s).
+    /// A half-sine that a script asks for: its point (m), its impulse (N·s, on this body) and its duration (s).
     #[must_use]
     pub fn script(point: Vec3, impulse: Vec3, duration: f32) -> Self {
         let mut contact = Self::new(point, impulse, impulse.length(), 0.0, Striker::rigid());
@@ -209,13 +209,13 @@ impl Contact {
         contact
     }
 
-    /// Whether a script gives its impulse and duration.
+    /// Returns true if a script gives its impulse and duration.
     #[must_use]
     pub fn is_script(&self) -> bool {
         self.duration > 0.0
     }
 
-    /// Whether it pushes at all in this model: where the blow is an outcome a striker that comes near, else a given impulse.
+    /// Returns true if it pushes in this model: an integrated blow needs a script or a speed of approach, the others a given impulse.
     pub(crate) fn pushes(&self, model: DurationModel) -> bool {
         match model {
             DurationModel::Integrated => self.is_script() || self.approach_speed > 0.0,
@@ -223,7 +223,7 @@ impl Contact {
         }
     }
 
-    /// Direction of its force on the body: the unit normal, and what friction there is beside it.
+    /// Direction of its force on the body: the unit normal, plus the friction over the impulse.
     pub(crate) fn direction(&self) -> Vec3 {
         let normal = self.normal.normalize_or_zero();
         if self.friction == Vec3::ZERO {
@@ -233,8 +233,8 @@ impl Contact {
         }
     }
 
-    /// A collision of rigid bodies: what strikes a body of this asset at `point`, m, moving `toward` a direction of any length at
-    /// `speed`, m/s, leaves the impulse (1 + e) v / (nᵀ K n of both). Without friction; none where neither can move.
+    /// A collision of rigid bodies. The striker hits a body of this asset at `point`, m, moving `toward` a direction of any length at
+    /// `speed`, m/s; the impulse is (1 + e) v / (nᵀ K n of both). Without friction; none where neither can move.
     #[must_use]
     pub fn collision(
         asset: &Asset,

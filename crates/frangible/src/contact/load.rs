@@ -1,4 +1,4 @@
-//! Where contacts touch and how hard they push each mode: ξ_i = φ_i(b) · n.
+//! Contacts on the body's surface, and their push on each mode: ξ_i = φ_i(b) · n.
 
 use glam::Vec3;
 
@@ -7,7 +7,7 @@ use crate::asset::{Asset, each_row};
 use crate::body::Body;
 use crate::mesh::SurfacePoint;
 
-/// A contact on the body's surface, with what its modes see of it.
+/// A contact on the body's surface, with its push on the modes.
 #[derive(Clone, Debug)]
 pub struct Touch {
     /// The contact, its point moved onto the surface.
@@ -101,7 +101,7 @@ pub(crate) fn give(asset: &Asset, at: &SurfacePoint, normal: Vec3) -> f64 {
     asset.mass.inverse_effective_mass(point, normal)
 }
 
-/// B: what a unit impulse at one contact takes from the speed of approach at another one, 1/kg, or at itself if it is the same. Each is its
+/// B: speed of approach that a unit impulse at one contact takes away at another one, 1/kg, or at itself if it is the same. Each is its
 /// striker, its place and its unit normal.
 pub(crate) fn inverse_mass(
     asset: &Asset,

@@ -1,4 +1,4 @@
-//! How a place of a body gives way under a contact: its receptance, as a sum of modes.
+//! Receptance of a place of a body under a contact, as a sum of modes.
 //!
 //! A force `F` along the normal `n` moves the place by `Σ (φ_i · n) q_i`, where `q̈_i + d_i q̇_i + λ_i q_i = (φ_i · n) F`. Modes that are not
 //! followed answer at once, `q_i = (φ_i · n) F/λ_i`, and on a wall the wall oscillators go on where the modes end (Zener 1941). The body that
@@ -7,7 +7,7 @@
 use crate::error::InputError;
 use crate::near_field::{PlateTheory, WallMaterial};
 
-/// What a contact feels of a body that vibrates, beside its motion as a rigid one.
+/// Receptance of a body that vibrates at a contact, beside its motion as a rigid one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Receptance {
     /// λ of every mode, 1/s².
@@ -21,11 +21,11 @@ pub struct Receptance {
     pub(crate) shape: Vec<f64>,
     /// The wall that goes on where the modes end.
     pub(crate) wall: Option<WallReceptance>,
-    /// Radius of the ball of the body's volume, m: what flat on flat is taken to touch with.
+    /// Radius of the ball of the body's volume, with which flat on flat is taken to touch, m.
     pub(crate) ball_radius: f64,
 }
 
-/// What a contact feels of the wall behind it in waves that the modes leave out.
+/// Receptance of the wall behind a contact, in waves that the modes leave out.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct WallReceptance {
     pub(crate) material: WallMaterial,
@@ -49,7 +49,7 @@ impl Receptance {
         self.stiffness_damping * eigenvalue + self.mass_damping
     }
 
-    /// What the modes that follow the force give way by, m/N, where they are felt so much by one contact of the body, and pushed so much by another.
+    /// Residual compliance, m/N: of the modes that follow the force, with shapes `felt` at one contact and `pushed` at another of the body.
     pub(crate) fn compliance(&self, felt: &[f64], pushed: &[f64]) -> f64 {
         let rest = self.followed..;
         let terms = (felt[rest.clone()].iter())
@@ -58,12 +58,12 @@ impl Receptance {
         terms.map(|((a, b), lambda)| a * b / lambda).sum()
     }
 
-    /// Whether two contacts may be of one body, which then swings under both.
+    /// Returns true if two contacts may be of one body, which then swings under both.
     pub(crate) fn swings_with(&self, other: &Self) -> bool {
         self.followed == other.followed && self.eigenvalues == other.eigenvalues
     }
 
-    /// How many numbers say it all, of a body with so many modes.
+    /// Length of [`Self::to_numbers`] of a body with so many modes.
     pub(crate) fn numbers_of(modes: usize) -> usize {
         modes.saturating_mul(2).saturating_add(16)
     }
@@ -78,7 +78,7 @@ impl Receptance {
         ];
         let wall = self.wall.map(|wall| {
             let (material, theory) = wall.material.numbers();
-            // Which wall: 0 is none.
+            // Kind of the wall: 0 is none.
             let kind = match theory {
                 PlateTheory::Kirchhoff => 1.0,
                 PlateTheory::Layer => 2.0,
@@ -95,7 +95,7 @@ impl Receptance {
         numbers
     }
 
-    /// What [`Self::to_numbers`] gave; [`Self::validate`] is still to check it.
+    /// Reads what [`Self::to_numbers`] gave; [`Self::validate`] is still to check it.
     pub(crate) fn of_numbers(numbers: &[f64], modes: usize) -> Result<Self, InputError> {
         let torn = InputError::Receptance("its numbers are not as many as its modes ask for");
         let Some((&head, lists)) = numbers.split_first_chunk::<16>() else {

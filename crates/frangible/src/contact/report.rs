@@ -1,12 +1,12 @@
-//! What became of a contact.
+//! Reports of contacts.
 
 use glam::Vec3;
 
-/// What became of one contact of a blow that was integrated: an outcome, not an input.
+/// Report of one contact of a blow that was integrated: an outcome, not an input.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct ContactReport {
-    /// Where, m, body frame: on the surface.
+    /// Point of contact on the surface, m, body frame.
     pub point: Vec3,
     /// Unit direction of the force on this body.
     pub normal: Vec3,
@@ -16,7 +16,7 @@ pub struct ContactReport {
     pub approach_speed: f64,
     /// Largest force, N.
     pub peak_force: f64,
-    /// How long the contact lasted, s.
+    /// Duration of the contact, s.
     pub duration: f64,
     /// Radius of the disc that touched at the peak force, m.
     pub contact_radius: f64,
