@@ -1,4 +1,4 @@
-//! When a crack's front reaches the tetrahedra ahead.
+//! Arrival times of a crack's front at the tetrahedra ahead.
 //!
 //! A front spreads over the crack's own surface at one speed, from where the crack started or waited last: its *source*. It gets to a place at
 //! the straight distance from there, whichever tetrahedra it passes on its way: hops from one centre to the next are longer, by more than a
@@ -12,12 +12,12 @@ use super::single::ElementCut;
 use super::system::CrackSystem;
 use crate::mesh::FACES;
 
-/// Where a front comes from in a straight line.
+/// Origin of a front that runs in a straight line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Source {
     /// The place, m, in the plane of the crack where the front is.
     pub(crate) place: Vec3,
-    /// When the front was there, s.
+    /// Time at which the front was there, s.
     pub(crate) since: f64,
 }
 
@@ -54,7 +54,7 @@ fn line(x: &[Vec3; 4], s: &[f32; 4], face: usize) -> Option<[End; 2]> {
     Some([end(j, k), end(k, j)])
 }
 
-/// The middle of that line; where there is none, that of the face, m.
+/// Middle of the line on which a crack crosses a face, m; that of the face where there is no such line.
 pub(super) fn gate(x: &[Vec3; 4], s: &[f32; 4], face: usize) -> Vec3 {
     match line(x, s, face) {
         Some([a, b]) => 0.5 * (a.at + b.at),
@@ -64,7 +64,7 @@ pub(super) fn gate(x: &[Vec3; 4], s: &[f32; 4], face: usize) -> Vec3 {
 
 /// A tetrahedron that a front has entered.
 pub(super) struct Entered {
-    /// Where the front comes from.
+    /// Source of the front.
     source: Source,
     /// The line on which it came in, and on which side of that the tetrahedron lies; none where the crack starts.
     line: Option<([End; 2], Vec3)>,
@@ -126,7 +126,7 @@ impl Entered {
 }
 
 impl CrackSystem<'_> {
-    /// When the front of a crack that has cut a tetrahedron leaves it through a face, s, at this speed, m/s, and where it comes from.
+    /// Time at which the front of a crack that has cut a tetrahedron leaves it through a face, s, at this speed, m/s, and the front's source.
     pub(super) fn leaves(
         &self,
         crack: u32,

@@ -43,7 +43,7 @@ pub(super) struct Fork {
     pub(super) normal: Vec3,
 }
 
-/// Where the crack forks that is about to cut a tetrahedron, if it does.
+/// Returns the fork of a crack that is about to cut a tetrahedron, if it forks there.
 pub(super) fn forks(
     system: &CrackSystem,
     front: &Front,
@@ -123,7 +123,7 @@ fn turned(v: Vec3, axis: Vec3, angle: f32) -> Vec3 {
     v * cos + axis.cross(v) * sin + axis * (axis.dot(v) * (1.0 - cos))
 }
 
-/// How far a place lies from where its crack started or forked last, m, and when that was, s.
+/// Distance of a place from the nearest point where its crack started or forked, m, and the time of that, s.
 pub(super) fn latest(crack: &Crack, place: Vec3) -> (f32, f64) {
     let start = (crack.frame.origin, crack.elements[0].time);
     let distances = std::iter::once(&start).chain(&crack.forks);
@@ -136,7 +136,7 @@ fn constant(fracture_energy: f64, material: &Material) -> f64 {
     material.branching_constant * (fracture_energy * material.contact_modulus()).sqrt()
 }
 
-/// How far a crack has run, and in what.
+/// Run of a crack: its length, and the wall that it runs in.
 struct Run {
     /// Distance from where the crack started or forked last, m.
     length: f64,
@@ -182,7 +182,7 @@ impl Run {
     }
 }
 
-/// The uncut tetrahedron about a place that is reached from another one by always coming nearer.
+/// Uncut tetrahedron about a place, found from another one by always coming nearer.
 pub(super) fn nearest(system: &CrackSystem, from: u32, goal: Vec3) -> Option<u32> {
     let distance = |tet: u32| system.centroids[tet as usize].distance_squared(goal);
     let mut tet = from;
@@ -200,7 +200,7 @@ pub(super) fn nearest(system: &CrackSystem, from: u32, goal: Vec3) -> Option<u32
     (tet != from && system.fractured_by[tet as usize] == UNCUT).then_some(tet)
 }
 
-/// Starts the crack that leaves another one at a place which that one reached with `cut`, if it can be paid.
+/// Starts a crack that branches off another one at the place that this one reached with `cut`, if it can be paid. Returns true if it starts.
 pub(super) fn start(
     system: &mut CrackSystem,
     field: &mut StressField,

@@ -1,4 +1,4 @@
-//! Which weak points stay calm between a few time steps, the knots, so that no other step needs a look at them.
+//! Weak points that stay calm between a few time steps, the knots, so that no other step needs a look at them.
 //!
 //! In the paper's model the largest principal tension is a convex function of the displacement gradient: strain of Green and Lagrange is one in
 //! the sense of matrices, and Hooke's law keeps that unless λ is negative. So on a straight line between two knots the tension is
@@ -15,7 +15,7 @@ use crate::stress::{BATCH, Lanes, Law, STRIDE, Steps, Wide, limit};
 /// Rounding, relative to what the modes could add up to.
 const ROUNDING: f32 = 1e-5;
 
-/// What tells which points stay calm in one motion.
+/// Search for the weak points that stay calm in one motion.
 #[derive(Clone, Debug)]
 pub(super) struct Calm {
     knots: Knots,
@@ -24,21 +24,21 @@ pub(super) struct Calm {
     batch: usize,
     /// The gaps in it that hold the steps to look at, a bit each.
     own: Steps,
-    /// How far each mode strays in its gaps, m·√kg.
+    /// Largest deviation of each mode from a straight line in its gaps, m·√kg.
     strays: Vec<Lanes>,
     /// The farthest that each mode moves at its knots, m·√kg.
     farthest: Vec<f32>,
-    /// Whether the points of each cluster have been looked at in that batch.
+    /// True for clusters whose points have been looked at in that batch.
     known: Vec<bool>,
     /// For each weak point, in the order of the clusters, the gaps in which it may crack, bit k for the gap that ends with the knot of lane k.
     restless: Vec<Steps>,
-    /// The most tension of each weak point in the gaps in which it does not, Pa.
+    /// Largest tension of each weak point in the gaps in which it does not, Pa.
     most: Vec<f32>,
 }
 
 impl Calm {
-    /// Whether it serves: for motions of more than two batches, and stress at centroids, by Hooke's law in space, of modes alone, where a
-    /// look at a point leaves nothing behind.
+    /// Returns true if it can be used: for motions of more than two batches, and stress at centroids, by Hooke's law in space, of modes alone,
+    /// where a look at a point leaves nothing behind.
     pub(super) fn serves(field: &StressField) -> bool {
         let config = field.config;
         config.culling
@@ -52,7 +52,7 @@ impl Calm {
             && field.asset.material.lame_lambda() >= 0.0
     }
 
-    /// Nothing is known yet of the motion of a field.
+    /// A search that knows nothing yet of the motion of a field.
     pub(super) fn of(body: &Body, field: &StressField) -> Self {
         let points = body.weak_tets().len();
         Self {
@@ -131,13 +131,13 @@ impl Calm {
         }
     }
 
-    /// Whether a weak point, by its place in the order of the clusters, may crack in the batch of steps that the knots were sought for.
+    /// Returns true if a weak point, by its place in the order of the clusters, may crack in the batch of steps that the knots were sought for.
     #[inline(always)]
     pub(super) fn is_restless(&self, place: usize) -> bool {
         self.restless[place] & self.own != 0
     }
 
-    /// The most tension of a weak point in the gaps in which it does not crack, Pa.
+    /// Largest tension of a weak point in the gaps in which it does not crack, Pa.
     #[inline(always)]
     pub(super) fn most(&self, place: usize) -> f32 {
         self.most[place]

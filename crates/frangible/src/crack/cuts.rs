@@ -5,12 +5,12 @@ use crate::body::MeshIndex;
 use crate::mesh::EDGES;
 use crate::state::{Cuts, EdgeCut};
 
-/// What is known of edges that have been cut: more are cut from look to look while cracks run.
+/// Record of the edges that have been cut: more are cut from look to look while cracks run.
 #[derive(Debug, Default)]
 pub(crate) struct Known {
     /// [The crack that has cut each edge](MeshIndex::cut_by).
     pub(crate) cut_by: Vec<u32>,
-    /// How many tetrahedra and junctions of each crack have been looked at.
+    /// Numbers of tetrahedra and junctions of each crack that have been looked at.
     pub(crate) looked_at: Vec<[usize; 2]>,
 }
 

@@ -1,4 +1,4 @@
-//! Where cracks are, and how far they release, side by side in blocks: a look at eight of them costs about as much as at one.
+//! Extents of the cracks and the reach of their release, side by side in blocks: a look at eight of them costs about as much as at one.
 
 use glam::Vec3;
 
@@ -16,7 +16,7 @@ const CLOSE: f32 = 2.0;
 /// 1 − (1 + a²/y²)^-1.5 < 1.5 a²/y² at the distance y, and √(1.5 / 0.02) = 8.66.
 const FAR: f32 = 8.67;
 
-/// Where a crack is, and how long.
+/// Position and size of a crack.
 #[derive(Clone, Copy, Debug)]
 struct Extent {
     origin: Vec3,
@@ -26,7 +26,7 @@ struct Extent {
     ends: [Vec3; 2],
     /// Distance between those two tetrahedra, m.
     chord: f32,
-    /// When the latest of its tetrahedra joined, s.
+    /// Time at which the latest of its tetrahedra joined, s.
     latest: f64,
     change: Change,
 }
@@ -36,7 +36,7 @@ struct Extent {
 struct Change {
     /// Number of the change, counted over all cracks.
     number: u64,
-    /// When its waves have gone wherever it takes anything to speak of, s.
+    /// Time at which its waves have gone wherever it takes anything to speak of, s.
     heard: f64,
 }
 
@@ -47,14 +47,14 @@ impl Change {
         heard: f64::NEG_INFINITY,
     };
 
-    /// Whether a look that was done at that state of all cracks and time, and one at time `now`, s, hear the same of it.
+    /// Returns true if a look at time `now`, s, hears the same of it as the look `seen`.
     #[inline(always)]
     fn is_known(self, seen: Seen, now: f64) -> bool {
         self.number <= seen.change && self.heard <= seen.now.min(now)
     }
 }
 
-/// When a point last looked at the cracks of a ring.
+/// The last look of a point at the cracks of a ring.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Seen {
     /// Number of the last change of a crack before.
@@ -64,7 +64,7 @@ pub(crate) struct Seen {
 }
 
 impl Seen {
-    /// It never did.
+    /// There was no look yet.
     pub(crate) const NEVER: Self = Self {
         change: 0,
         now: f64::NEG_INFINITY,
@@ -85,8 +85,8 @@ impl Ring {
     pub(crate) const ALL: [Self; 2] = [Self::Close, Self::Far];
 }
 
-/// Starts of neighbours in the list, and squares of how far from there they release much, and anything to speak of, m²; negative where
-/// there is no crack yet.
+/// Starts of neighbours in the list, and squares of the distances from there within which they release much, and anything to speak of, m²;
+/// negative where there is no crack yet.
 #[derive(Clone, Copy, Debug)]
 struct Block {
     origin: [[f32; BLOCK]; 3],
@@ -96,7 +96,7 @@ struct Block {
 }
 
 impl Block {
-    /// Which of the cracks have a point in their ring, a bit each.
+    /// Cracks that have a point in their ring, a bit each.
     #[inline(always)]
     fn near(&self, point: Vec3, ring: Ring) -> u32 {
         let [x, y, z] = &self.origin;
@@ -113,7 +113,7 @@ impl Block {
     }
 }
 
-/// Which numbers are no larger than their limits, a bit each. Each number that is larger takes its bit away: so compilers keep the
+/// Numbers that are no larger than their limits, a bit each. Each number that is larger takes its bit away: so compilers keep the
 /// numbers side by side, which they do not where each number that is smaller adds its bit.
 #[inline(always)]
 fn no_more_than(numbers: &[f32; BLOCK], limits: &[f32; BLOCK]) -> u32 {
@@ -129,14 +129,14 @@ fn no_more_than(numbers: &[f32; BLOCK], limits: &[f32; BLOCK]) -> u32 {
     bits
 }
 
-/// Where all cracks are.
+/// Extents of all cracks.
 #[derive(Debug)]
 pub(crate) struct Extents {
     /// Mean edge of the fracture mesh, m.
     edge: f32,
     /// Speed of the waves c_R, m/s.
     wave: f64,
-    /// How many changes there were.
+    /// Number of changes so far.
     changes: u64,
     list: Vec<Extent>,
     blocks: Vec<Block>,
@@ -215,7 +215,7 @@ impl Extents {
         };
     }
 
-    /// What is to be remembered of a look at time `now`, s.
+    /// Record of a look at time `now`, s.
     pub(super) fn seen(&self, now: f64) -> Seen {
         Seen {
             change: self.changes,
@@ -229,7 +229,7 @@ impl Extents {
         0.5 * self.list[crack].chord.max(self.edge)
     }
 
-    /// How far from its tetrahedra a crack takes anything to speak of, m.
+    /// Distance from its tetrahedra beyond which a crack takes nothing to speak of, m.
     #[inline(always)]
     pub(super) fn far(&self, crack: usize) -> f32 {
         FAR * self.half_length(crack)
@@ -241,7 +241,7 @@ impl Extents {
         self.edge
     }
 
-    /// How many blocks of cracks there are.
+    /// Number of blocks of cracks.
     #[inline(always)]
     pub(super) fn blocks(&self) -> usize {
         self.blocks.len()

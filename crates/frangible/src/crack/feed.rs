@@ -54,8 +54,8 @@ impl CrackSystem<'_> {
         most * f64::from(self.thickness[tet as usize])
     }
 
-    /// Whether the stress still does not pay for a front that was refused, whichever way the crack turns: it need not be steered then. The area is
-    /// that of the refusal.
+    /// Returns true if the stress still does not pay for a front that was refused, whichever way the crack turns: it need not be steered then.
+    /// The area is that of the refusal.
     pub(super) fn stays_refused(&self, front: &Front, felt: &Felt) -> bool {
         if front.refused <= 0.0 || !self.config.griffith_fronts {
             return false;

@@ -1,4 +1,4 @@
-//! What a crack feels where it runs.
+//! Stress that a crack feels where it runs.
 
 use glam::Vec3;
 
@@ -7,7 +7,7 @@ use crate::stress::{StressState, Symmetric3, Wall, largest_eigenvalue};
 /// Cosine from which on the normals of a wall at two tetrahedra that touch belong to one face.
 pub(super) const SAME_FACE: f32 = 0.3;
 
-/// What a crack feels in a tetrahedron.
+/// Stress and strain energy that a crack feels in a tetrahedron.
 pub(crate) struct Felt {
     /// Stress and strain energy; in a wall the stress of its middle and the mean of the energy.
     pub(crate) state: StressState,
@@ -39,7 +39,7 @@ impl Felt {
         }
     }
 
-    /// Whether a crack through a wall opens from the face that the wall's normal points out of.
+    /// Returns true if a crack through a wall opens from the face that the wall's normal points out of.
     fn opens_in_front(&self, opens: Vec3) -> bool {
         let Some((wall, [front, back])) = &self.wall else {
             return true;

@@ -25,7 +25,7 @@ pub(crate) struct StressField<'a> {
     pub(super) motion: &'a Motion,
     moment: Moment,
     pub(crate) elasticity: Elasticity,
-    /// What the modes do not show under contacts on walls.
+    /// Near fields under contacts on walls, which the modes do not show.
     pub(crate) near: NearFields<'a>,
     /// Centroids of the fracture tetrahedra, m.
     pub(crate) centroids: &'a [Vec3],
@@ -58,9 +58,9 @@ impl<'a> StressField<'a> {
         }
     }
 
-    /// What a crack feels in fracture tetrahedron `e`, where it cuts it, m: in a solid the stress and energy there, in a wall the stress on
-    /// both faces beside it and the mean of the energy through the wall. At the centroid, which lies up to an edge beside the crack, the stress about a
-    /// contact is another: arms would be turned to where the mesh has its tetrahedra.
+    /// Stress that a crack feels at the place, m, where it cuts fracture tetrahedron `e`: in a solid the stress and energy there, in a wall the
+    /// stress on both faces beside it and the mean of the energy through the wall. At the centroid, which lies up to an edge beside the crack, the
+    /// stress about a contact is another: arms would be turned to where the mesh has its tetrahedra.
     pub(crate) fn at(&mut self, e: usize, place: Vec3) -> Felt {
         let aside = place - self.centroids[e];
         let centre = shifted(self.asset, self.asset.embedded_tet(e), aside);
@@ -92,14 +92,14 @@ impl<'a> StressField<'a> {
         wall_of(self.asset, self.skin, self.config, e)
     }
 
-    /// Where a crack may start in fracture tetrahedron `e`.
+    /// Weak point of fracture tetrahedron `e`: the place at which a crack may start.
     #[inline(always)]
     fn weak_place(&self, e: usize) -> WeakPlace {
         let places = &self.body.places;
         weak_place(self.asset, self.skin, places, self.config, self.pressed, e)
     }
 
-    /// Where that is, m.
+    /// Position of that place, m.
     pub(super) fn weak_position(&self, e: usize) -> Vec3 {
         self.weak_place(e).position(self.body, e)
     }
@@ -175,12 +175,12 @@ impl<'a> StressField<'a> {
         lanes
     }
 
-    /// Whether the weak point of fracture tetrahedron `e` lies on a free surface.
+    /// Returns true if the weak point of fracture tetrahedron `e` lies on a free surface.
     pub(super) fn is_on_surface(&self, e: usize) -> bool {
         self.weak_place(e).flaw.is_some()
     }
 
-    /// Whether something presses on the flaw of fracture tetrahedron `e`.
+    /// Returns true if something presses on the flaw of fracture tetrahedron `e`.
     pub(super) fn is_pressed(&self, e: usize) -> bool {
         let flaw = self.skin.flaw(self.asset.place(e));
         flaw.is_some_and(|flaw| self.pressed.contains(&flaw.triangle))
@@ -274,7 +274,7 @@ fn shifted(asset: &Asset, point: &EmbeddedPoint, by: Vec3) -> EmbeddedPoint {
 }
 
 impl WeakPlace {
-    /// What rows are made of. `e`: its tetrahedron.
+    /// Point and samples from which its stress rows are made. `e`: its tetrahedron.
     pub(crate) fn row_point(&self, body: &Body, config: &FractureConfig, e: usize) -> RowPoint {
         let place = self.position(body, e);
         let samples = match config.sized_flaws {
@@ -327,7 +327,7 @@ impl WeakPlace {
         })
     }
 
-    /// Where it is, m. `e`: its tetrahedron.
+    /// Its position, m. `e`: its tetrahedron.
     #[inline(always)]
     pub(crate) fn position(&self, body: &Body, e: usize) -> Vec3 {
         self.flaw.unwrap_or(body.prepared.centroids[e])

@@ -5,8 +5,8 @@
 //! Order within a time step: when the stress passes the strength (instant cracks start together), then falling stress,
 //! then element number.
 //!
-//! To know what other cracks have left of the stress is dear. So it is asked last, at the moment when the crack is about to start, and not
-//! while the energy ledger cannot pay for it.
+//! The remaining stress after the release by other cracks is costly to find. So it is found last, at the moment when the crack is about to start,
+//! and not while the energy ledger cannot pay for it.
 
 use glam::Vec3;
 
@@ -32,7 +32,7 @@ pub(crate) struct Peak {
     pub(crate) tension: f32,
     /// Tetrahedron of the point that has it, where there is any tension.
     pub(crate) tet: u32,
-    /// What the point nearest to its own strength feels, as the tension at which the weakest point is as near to its, Pa.
+    /// Largest ratio of stress to strength so far, times the lowest strength, Pa.
     pub(crate) as_weakest: f32,
 }
 
@@ -47,7 +47,7 @@ impl Peak {
 
 /// A weak point whose stress passes its strength at a step.
 struct Candidate<'a> {
-    /// When it does so, s.
+    /// Time at which it does so, s.
     time: f64,
     tension: f32,
     suspect: &'a Suspect,
@@ -56,7 +56,7 @@ struct Candidate<'a> {
 /// Runs and starts all cracks of the field's step, which lasts from one time, s, to another; returns the largest tension met at a weak point so far.
 ///
 /// Instant cracks start at the step, the most stressed first. Others start when their stress passes the strength, taken
-/// as linear between the steps, and feel what ran and was released before: how many start does not hang on the step.
+/// as linear between the steps, and feel what ran and was released before: the number of starts does not depend on the step.
 pub(crate) fn crack(
     system: &mut CrackSystem,
     field: &mut StressField,
@@ -142,7 +142,7 @@ fn candidates<'a>(
     (candidates, peak)
 }
 
-/// Whether a crack's first tetrahedron pays for its own area: A γ η > A G_c.
+/// Returns true if a crack's first tetrahedron pays for its own area: A γ η > A G_c.
 fn pays(system: &CrackSystem, suspect: &Suspect, k: usize) -> bool {
     if system.config.griffith_fronts {
         // By the tension across it, which is not known yet.

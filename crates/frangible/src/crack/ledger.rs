@@ -1,20 +1,20 @@
-//! What all cracks of an impact may spend together, and what they have spent.
+//! Ledger of the energy that all cracks of an impact may spend together.
 
 /// All cracks together spend no more than the strain energy of the motion, and nothing before it has come.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Ledger {
-    /// Without it the cracks spend what they like, as the paper's do.
+    /// If false, the cracks spend what they like, as the paper's do.
     kept: bool,
-    /// What may be spent in the end, J.
+    /// Energy that may be spent in the end, J.
     budget: f64,
-    /// How much of that has come so far, J.
+    /// Part of the budget that has come so far, J.
     come: f64,
-    /// What has been spent so far, J.
+    /// Energy spent so far, J.
     spent: f64,
 }
 
 impl Ledger {
-    /// So much may be spent, J, all of it at once until [`Ledger::come`] says otherwise.
+    /// A ledger of this budget, J, all of which may be spent at once until [`Ledger::come`] says otherwise.
     pub(crate) fn new(kept: bool, budget: f64) -> Self {
         let budget = if kept { budget } else { f64::INFINITY };
         Self {
@@ -25,14 +25,14 @@ impl Ledger {
         }
     }
 
-    /// So much strain energy has come so far, J.
+    /// Notes the strain energy that has come so far, J.
     pub(crate) fn come(&mut self, energy: f64) {
         if self.kept {
             self.come = self.budget.min(energy);
         }
     }
 
-    /// The motion brings no more than this, J.
+    /// Caps the budget at the most that the motion brings, J.
     pub(crate) fn cap(&mut self, energy: f64) {
         if self.kept {
             self.budget = self.budget.min(energy);
@@ -43,39 +43,39 @@ impl Ledger {
         self.spent += energy;
     }
 
-    /// What has been spent so far, J.
+    /// Energy spent so far, J.
     pub(crate) fn spent(&self) -> f64 {
         self.spent
     }
 
-    /// Whether this energy, J, has come and is left. What has not come may come yet.
+    /// Returns true if this energy, J, has come and is left. Energy that has not come may come yet.
     pub(crate) fn has(&self, energy: f64) -> bool {
         self.spent + energy <= self.come
     }
 
-    /// Whether this energy, J, will be left at no time.
+    /// Returns true if this energy, J, will be left at no time.
     pub(crate) fn never_has(&self, energy: f64) -> bool {
         self.spent + energy > self.budget
     }
 
-    /// Whether something was spent and less than this is left, J.
+    /// Returns true if something was spent and less than this is left, J.
     pub(crate) fn is_spent_to(&self, least: f64) -> bool {
         self.spent > 0.0 && self.budget - self.spent < least
     }
 }
 
 /// Energy that cracks at weak points lacked when they were last about to start: before it has come, stress is not asked for again, which is
-/// dear to find. By then the crack may lie another way, which makes its area little else.
+/// costly to find. By then the crack may lie another way, which hardly changes its area.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Unpaid(Vec<f64>);
 
 impl Unpaid {
-    /// What a crack at a weak point, by its place among them, lacked, J; zero where it was never about to start, or lacked nothing.
+    /// Energy that a crack at a weak point, by its place among them, lacked, J; zero if it was never about to start, or lacked nothing.
     pub(crate) fn of(&self, place: u32) -> f64 {
         self.0.get(place as usize).copied().unwrap_or(0.0)
     }
 
-    /// A crack at a weak point lacks so much, J.
+    /// Notes the energy that a crack at a weak point lacks, J.
     pub(crate) fn note(&mut self, place: u32, energy: f64) {
         let place = place as usize;
         if place >= self.0.len() {

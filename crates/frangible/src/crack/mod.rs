@@ -1,7 +1,7 @@
 //! Cracks: where they start, how they run, when they stop `[G12 §4.4, §5]`.
 //!
 //! *Start* (`initiation.rs`). A crack starts where the stress at a weak point passes its strength. Stress is linear from one time step to the
-//! next, so the moment lies between the steps, and the number of cracks does not hang on the step.
+//! next, so the moment lies between the steps, and the number of cracks does not depend on the step.
 //!
 //! *Run* (`propagation.rs`). Fronts spread over the crack's own surface (`arrival.rs`). A front enters a neighbouring tetrahedron if the crack crosses it, meets nothing there and can pay for it. A
 //! crack through a wall opens from one face and follows the tension of that face: cracks that turned to whichever face had the larger

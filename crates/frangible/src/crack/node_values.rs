@@ -1,4 +1,4 @@
-//! What each crack's s is at the nodes that it has met.
+//! Values of each crack's s at the nodes that it has met.
 
 use crate::mesh::ByNode;
 

@@ -16,7 +16,7 @@ use super::field::StressField;
 use super::single::{ElementCut, Front};
 use super::system::CrackSystem;
 
-/// Where a crack goes on that has met another one, if that one opens from the other face of the wall. `from`: its last cut.
+/// Returns the fork at which a crack goes on past one that it has met, if that one opens from the other face of the wall. `from`: its last cut.
 pub(super) fn passes(
     system: &CrackSystem,
     field: &StressField,

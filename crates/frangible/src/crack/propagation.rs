@@ -33,7 +33,7 @@ use crate::stress::{Symmetric3, largest_eigenvalue};
 /// Share of R_c below which the tension across a crack does not steer it.
 const STEERING_GATE: f64 = 0.3;
 
-/// A crack looks so far ahead for where it costs least (in mean edges).
+/// Distance ahead, in mean edges, within which a crack looks for the cheapest direction.
 const KINK_REACH: f32 = 1.0;
 
 /// A known value this far (in mean edges) from its prediction means that the crack has met another sheet of itself; less is its own
@@ -82,7 +82,7 @@ fn enter(system: &mut CrackSystem, field: &mut StressField, front: Front) {
     if system.rests(front.tet, front.arrival) {
         return;
     }
-    // Stress is dear to find: a front that lacks energy waits without it. Where it would turn makes its area little else.
+    // Stress is costly to find: a front that lacks energy waits without it. A turn would hardly change its area.
     let (straight, place) = straight_on(system, &front, &crossing);
     let area = system.edge * system.edge;
     let lacks = match front.lacks {
@@ -174,7 +174,7 @@ impl Crossing {
 }
 
 impl Crossing {
-    /// How the front comes in.
+    /// The tetrahedron ahead, as the front enters it.
     fn entered(&self, front: &Front, cut: &ElementCut) -> Entered {
         let mut source = front.source;
         if source == Source::WAITED {
@@ -187,7 +187,7 @@ impl Crossing {
     }
 }
 
-/// Where the crack turns in the tetrahedron ahead: its normal there, and the normal of the face of a wall that it opens from. A steered
+/// The crack's normal in the tetrahedron ahead, where it turns, and the normal of the face of a wall that it opens from. A steered
 /// crack finds s at the fourth node; none where it meets another sheet of itself.
 fn steers(
     system: &CrackSystem,
@@ -237,7 +237,7 @@ fn steers(
     Some((gradient(x, values).unwrap_or(toward), opens))
 }
 
-/// Whether a crack can pay for a tetrahedron.
+/// Result of a crack's energy test for a tetrahedron.
 enum Payment {
     /// The ledger has no more, and never will.
     Refused,
