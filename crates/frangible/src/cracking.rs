@@ -14,10 +14,10 @@ use crate::state::BodyState;
 use crate::stress::{BATCH, STRIDE, lane};
 use crate::trace::CrackTrace;
 
-/// Whether pieces have parted is asked again when the cracks have grown by this factor, or have stopped.
+/// Pieces are looked for again when the cracks have grown by this factor, or have stopped.
 const GREW: f64 = 1.15;
 
-/// What the cracks of an impact did to a body.
+/// Effect of an impact's cracks on a body.
 #[expect(clippy::large_enum_variant, reason = "one at a time, never stored")]
 pub(crate) enum Cracked<'a> {
     /// Margin, report, and the body's cracks if there are new ones.
@@ -41,7 +41,7 @@ pub(crate) struct Cracking<'a> {
     pub(crate) blow: Option<Box<Blow>>,
 }
 
-/// Why the cracks have paused.
+/// Reason why the cracks have paused.
 enum Stop {
     /// Nothing is left that could crack.
     End,
@@ -51,15 +51,15 @@ enum Stop {
     Changed(usize, Changed),
 }
 
-/// How cracks have changed the motion.
+/// Change of the motion by cracks.
 struct Changed {
-    /// Contacts that still push, and what the body there gives way by more than it did, m/N.
+    /// Contacts that still push, and the compliance that the body has gained there, m/N.
     contacts: Vec<(usize, f64)>,
-    /// What moves on its own, where more has parted.
+    /// Groups that move on their own, where more has parted.
     groups: Option<Groups>,
 }
 
-/// What was known when it was last asked which pieces there are.
+/// State of the cracks when pieces were last looked for.
 #[derive(Default)]
 struct Grown {
     /// Area of the cracks then, m².
@@ -71,7 +71,7 @@ struct Grown {
 }
 
 impl Grown {
-    /// Whether it is time to ask again which pieces there are, with cracks of this area, m².
+    /// Returns true if it is time to look for pieces again, with cracks of this area, m².
     fn is_due(&mut self, area: f64) -> bool {
         let stopped = area <= std::mem::replace(&mut self.before, area);
         let due = area > self.asked && (stopped || area > GREW * self.asked);
@@ -93,7 +93,7 @@ impl<'a> Cracking<'a> {
         self.run_after(Looked::default(), first_step, report, trace)
     }
 
-    /// Whether the body parts. No other stress is looked at than that which may crack it, so the report's stresses and the margin mean nothing.
+    /// Returns true if the body parts. Only stress that may crack it is looked at, so the report's stresses and the margin mean nothing.
     pub(crate) fn parts(self, first_step: usize, report: ImpactReport) -> bool {
         let cracked = self.run_after(Looked::AT_ENOUGH, first_step, report, &mut None);
         matches!(cracked, Cracked::Parted(..))
@@ -221,8 +221,8 @@ impl<'a> Cracking<'a> {
         Stop::Asks
     }
 
-    /// Looks whether cracks have weakened what bears a contact, and which pieces they have parted: the large ones move on their own, the others
-    /// come to rest.
+    /// Checks whether cracks have weakened what bears a contact, and finds the pieces that they have parted: the large ones move on their own, the
+    /// others come to rest.
     fn look(
         &self,
         blow: &Blow,
@@ -265,7 +265,7 @@ impl<'a> Cracking<'a> {
         (groups.is_some() || !contacts.is_empty()).then_some(Changed { contacts, groups })
     }
 
-    /// What came of it.
+    /// Ends the impact: completes the report, and labels the pieces.
     fn end(
         self,
         system: CrackSystem<'a>,
@@ -321,7 +321,7 @@ impl<'a> Cracking<'a> {
     }
 }
 
-/// What has been met so far.
+/// Stress met so far, and bounds of what was passed over.
 #[derive(Clone, Copy, Debug, Default)]
 struct Looked {
     peak: Peak,

@@ -33,10 +33,10 @@ use crate::stress::{
 /// Rounding of what is left, relative to the whole stress.
 const ROUNDING: f32 = 1e-5;
 
-/// Cracks between two looks whether what is left is little enough.
+/// Number of cracks after which it is asked again whether the remaining stress is low enough.
 const BETWEEN_LOOKS: usize = 4;
 
-/// A point that has asked.
+/// A weak point that has asked for its release.
 #[derive(Clone, Debug)]
 struct Point {
     memory: Memory,
@@ -44,7 +44,7 @@ struct Point {
     held_in: Option<usize>,
     /// Bit k: at step k of the batch what is left stays below the strength.
     held: Steps,
-    /// Whether shares fell since that was asked.
+    /// True if shares fell since `held` was found.
     changed: bool,
     /// Batch of steps in which the stress behind the wall's middle was last asked for, and its place among those.
     opposite: Option<(usize, usize)>,
@@ -69,9 +69,9 @@ impl Releases {
         }
     }
 
-    /// Whether what is left of a suspect's stress at the field's step may pass its strength, Pa; a no is certain.
+    /// Returns true if the remaining stress of a suspect at the field's step may pass its strength, Pa; false is certain.
     ///
-    /// It is found for the rest of the batch at once, and a no stands until the batch ends, whatever cracks do in the meantime: they
+    /// It is found for the rest of the batch at once, and a false stands until the batch ends, whatever cracks do in the meantime: they
     /// only release more.
     pub(crate) fn may_crack(
         &mut self,
@@ -106,7 +106,7 @@ impl Releases {
         true
     }
 
-    /// Whether it is known that a step leaves a weak point, by its place among them, below its strength.
+    /// Returns true if a step is known to leave a weak point, by its place among them, below its strength.
     pub(crate) fn holds(&self, place: u32, step: usize) -> bool {
         let point = self.points.get(place as usize).and_then(Option::as_ref);
         point.is_some_and(|p| p.held_in == Some(step / STRIDE) && p.held >> lane(step) & 1 == 1)
@@ -135,7 +135,7 @@ impl Releases {
         }
     }
 
-    /// What is left of a suspect's stress at the field's step, at time `now`, s.
+    /// Remaining stress of a suspect at the field's step, at time `now`, s.
     pub(crate) fn released(
         &mut self,
         system: &CrackSystem,
@@ -155,7 +155,7 @@ impl Releases {
         }
     }
 
-    /// What is left of a suspect's stress at all steps of the field's batch, without the energy. `enough`: a limit, Pa, and steps at which
+    /// Remaining stress of a suspect at all steps of the field's batch, without the energy. `enough`: a limit, Pa, and steps at which
     /// it matters only whether the rest stays below.
     fn left(
         &mut self,
@@ -205,7 +205,8 @@ impl Releases {
     }
 }
 
-/// What all cracks but one leave as of `now`, s, of a stress where that one is, m; `opposite`: the stress on the other face of a wall. None where the close ones leave no longer `enough`. Nothing is remembered.
+/// Remaining part of a stress at a crack's place, m, when all other cracks have released it as of `now`, s; `opposite`: the stress on the other face
+/// of a wall. None where the close ones leave no longer `enough`. Nothing is remembered.
 pub(super) fn once(
     system: &CrackSystem,
     (crack, place): (u32, Vec3),
@@ -234,8 +235,8 @@ pub(super) fn once(
     Some(left)
 }
 
-/// What cracks leave of a suspect's stress, with the widest vectors that this processor has; the same operations in the same order,
-/// so the same bits.
+/// Computation of the remaining stress of a suspect, with the widest vectors that this processor has; the same operations in the same
+/// order, so the same bits.
 struct Left<'a, 'f> {
     releases: &'a mut Releases,
     field: &'a mut StressField<'f>,

@@ -4,12 +4,12 @@
 //! it had not parted, though nothing pulls or bends it any more. What unloads its new faces crosses it at the speed of Rayleigh waves; from then
 //! on it neither starts cracks nor feeds those that it has.
 //!
-//! That is so under a blow whose forces are followed with the body, with cracks that take time. Which pieces there are is found while such a blow goes on
+//! That is so under a blow whose forces are followed with the body, with cracks that take time. The pieces are found while such a blow goes on
 //! (`crate::cracking`).
 
 use glam::Vec3;
 
-/// When each node's piece comes to rest.
+/// Time from which each node's piece is at rest.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Rest {
     /// Time for each node of the fracture mesh, s, infinite where its piece may crack on; empty while nothing has parted.
@@ -17,13 +17,13 @@ pub(crate) struct Rest {
 }
 
 impl Rest {
-    /// Whether nothing has parted yet.
+    /// Returns true if nothing has parted yet.
     #[inline]
     pub(crate) fn is_empty(&self) -> bool {
         self.from.is_empty()
     }
 
-    /// Whether the piece of a node is at rest.
+    /// Returns true if the piece of a node is at rest.
     #[inline]
     pub(crate) fn has(&self, node: u32, now: f64) -> bool {
         self.from
@@ -32,7 +32,7 @@ impl Rest {
     }
 
     /// Lets pieces come to rest: their release begins now, s, and runs at this speed, m/s. `piece_of_node` has the piece of each node of
-    /// the fracture mesh, `positions` where the nodes are, m, and `free` whether nothing loads each piece.
+    /// the fracture mesh, `positions` those of the nodes, m, and `free` is true for pieces that nothing loads.
     pub(crate) fn release(
         &mut self,
         piece_of_node: &[u32],

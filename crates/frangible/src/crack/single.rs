@@ -1,4 +1,4 @@
-//! One crack: what it has cut, where it is, and its fronts.
+//! One crack: its cuts, its surface and its fronts.
 
 use std::cmp::Ordering;
 
@@ -17,7 +17,7 @@ pub(crate) struct Crack {
     pub(crate) start: u32,
     /// Fractured tetrahedra in the order they joined.
     pub(crate) elements: Vec<ElementCut>,
-    /// How many of them, from the first, had cut a piece before it was one: these cuts are settled
+    /// Number of them, from the first, that were cut before the piece was one: these cuts are settled
     /// ([`Portion`](crate::piece::Portion)).
     pub(crate) settled: usize,
     /// Fracture energy spent E_f, J `[G12 Eq. 11]`.
@@ -30,17 +30,17 @@ pub(crate) struct Crack {
     pub(super) front: f64,
     /// Depth of the layer that feeds it while it is no larger than the flaw that it started from, m.
     pub(super) flaw: f64,
-    /// Whether that lies on a free surface.
+    /// True if that flaw lies on a free surface.
     pub(super) at_surface: bool,
-    /// Its tetrahedra thinned to one per place: what releases the stress around it.
+    /// Its tetrahedra thinned to one per place, which release the stress around it.
     pub(crate) sites: Sites,
-    /// Where it ran into another crack (or into itself).
+    /// Fronts that ran into another crack (or into itself).
     pub(crate) junctions: Vec<Junction>,
-    /// Where it forked, and when, s.
+    /// Places where it forked, m, and the times, s.
     pub(crate) forks: Vec<(Vec3, f64)>,
-    /// What feeds its front, if it was there before this impact.
+    /// Tip that feeds its front, if it was there before this impact.
     pub(crate) tip: Option<Tip>,
-    /// How many of its tetrahedra, from the first, were there before this impact.
+    /// Number of its tetrahedra, from the first, that were cut before this impact.
     pub(super) restored: usize,
 }
 
@@ -66,7 +66,7 @@ impl Crack {
         }
     }
 
-    /// What a body remembers of it.
+    /// The crack as a body remembers it.
     fn left(&self) -> OldCrack {
         let cut = |e: &ElementCut| OldCut {
             tet: e.tet,
@@ -86,7 +86,7 @@ impl Crack {
 }
 
 impl BodyState {
-    /// What a body remembers of these cracks.
+    /// These cracks as a body remembers them.
     pub(crate) fn of(cracks: &[Crack]) -> Self {
         Self {
             cracks: cracks.iter().map(Crack::left).collect(),
@@ -104,7 +104,7 @@ pub(crate) struct ElementCut {
     pub(crate) direction: Vec3,
     /// Outward normal of the face of the wall that the crack opens from; zero in a solid, and of a crack that was there before.
     pub(crate) opens: Vec3,
-    /// When it joined, s after the contact began.
+    /// Time at which it joined, s after the contact began.
     pub(crate) time: f64,
 }
 
@@ -113,14 +113,14 @@ pub(crate) struct ElementCut {
 pub(crate) struct Junction {
     /// Index of the crack's own tetrahedron at the front, into [`Crack::elements`].
     pub(crate) from: u32,
-    /// Whether the crack met an older part of itself.
+    /// True if the crack met an older part of itself.
     pub(crate) own: bool,
 }
 
 /// The front of a crack at the face of a tetrahedron it may enter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Front {
-    /// When it gets there, s; of instant cracks only the order counts.
+    /// Time of arrival, s; of instant cracks only the order counts.
     pub(crate) arrival: f64,
     pub(crate) tet: u32,
     pub(crate) crack: u32,
@@ -129,7 +129,7 @@ pub(crate) struct Front {
     /// Energy that all cracks together had no more left for it when it was last asked, J; zero where it was not asked, or lacked nothing
     /// but stress.
     pub(crate) lacks: f64,
-    /// Where it comes from in a straight line; the beginning of all time where it waited, and comes from where it is.
+    /// Source that it comes from in a straight line; [`Source::WAITED`] if it waited, and comes from where it is.
     pub(crate) source: Source,
     /// Area that it would have cut when the stress last did not pay for it, m²; zero where it was not asked.
     pub(crate) refused: f32,

@@ -10,7 +10,7 @@ const BLOCK: usize = 8;
 pub(crate) struct Site {
     pub(crate) position: Vec3,
     pub(crate) direction: Vec3,
-    /// When the crack was there, s.
+    /// Time at which the crack was there, s.
     pub(crate) time: f64,
 }
 
@@ -39,7 +39,7 @@ impl Block {
         squared
     }
 
-    /// Squares of how far waves of this speed, m/s, have come from each place by `now`, s: m².
+    /// Squares of the distances that waves of this speed, m/s, have come from each place by `now`, s: m².
     #[inline(always)]
     fn heard_within(&self, now: f32, wave: f32) -> [f32; BLOCK] {
         let mut squared = [0.0; BLOCK];
@@ -97,7 +97,7 @@ impl Sites {
         self.list.push(site);
     }
 
-    /// Whether a place lies no farther than this from a point, m.
+    /// Returns true if a place lies no farther than this from a point, m.
     pub(super) fn any_within(&self, distance: f32, point: Vec3) -> bool {
         let squared = distance * distance;
         // The latest first: a new place is next to them.

@@ -1,4 +1,4 @@
-//! Which weak points may crack, or raise the peak, at the steps of a batch: all steps of a point at once, so that the
+//! Weak points that may crack, or raise the peak, at the steps of a batch: all steps of a point at once, so that the
 //! arithmetic runs over the steps side by side. What cracks do in the meantime only takes suspects away: release
 //! waves never raise the largest tension (λ_max(Q σ Q) ≤ max(λ_max(σ), 0), `stress/shadow.rs`).
 
@@ -248,7 +248,7 @@ impl<I> Look<'_, '_, '_, I> {
         self.suspects.stress = stress;
     }
 
-    /// Whether bounds show that a point stays below its strength at all steps to look at.
+    /// Returns true if bounds show that a point stays below its strength at all steps to look at.
     #[inline(always)]
     fn is_below(
         &mut self,
@@ -299,8 +299,8 @@ impl<I> Look<'_, '_, '_, I> {
         }
     }
 
-    /// By gradients, for points that rows do not hold for. A function of its own: inlined at each of its calls it took a third of the time
-    /// in which the crate compiles.
+    /// Looks at a point by displacement gradients, where rows do not hold. A function of its own: inlined at each of its calls it took a third of
+    /// the time in which the crate compiles.
     #[inline(never)]
     fn by_displacement(&mut self, place: usize, tet: u32, steps: Steps) {
         let field = &mut *self.field;

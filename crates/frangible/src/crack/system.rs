@@ -1,4 +1,4 @@
-//! All cracks of one impact and what they have cut.
+//! All cracks of one impact and their cuts.
 
 use std::collections::BinaryHeap;
 
@@ -55,23 +55,23 @@ pub(crate) struct CrackSystem<'a> {
     front_limit: f32,
     /// Number of cracks from earlier impacts; they come first.
     pub(crate) old_cracks: usize,
-    /// How many of the others left another one at a fork.
+    /// Number of the others that branched off another one at a fork.
     pub(crate) forks: usize,
     /// Area of all cracks that this impact added, m².
     pub(crate) area: f64,
-    /// What has released the weak points so far.
+    /// Release of the weak points so far.
     pub(crate) releases: Releases,
-    /// What the ledger did not have for cracks that were about to start.
+    /// Energy that the ledger lacked for cracks that were about to start.
     pub(crate) unpaid: Unpaid,
-    /// Which pieces have come to rest.
+    /// Pieces that have come to rest.
     pub(crate) rest: Rest,
-    /// Where each crack is, and how long.
+    /// Position and size of each crack.
     pub(crate) extents: Extents,
     /// Centroid of each fracture tetrahedron, m.
     pub(crate) centroids: &'a [Vec3],
     /// Mean edge of the fracture mesh, m.
     pub(crate) edge: f32,
-    /// What all cracks together may spend.
+    /// Ledger of the energy that all cracks together may spend.
     pub(crate) ledger: Ledger,
 }
 
@@ -170,7 +170,7 @@ impl<'a> CrackSystem<'a> {
         self.cracks[id as usize].junctions = old.junctions.iter().map(junction).collect();
     }
 
-    /// What the cracks cut in this impact, and when, s: crack after crack, those that did not move left out.
+    /// Tetrahedra that the cracks cut in this impact, and the times, s: crack after crack, those that did not move left out.
     pub(crate) fn arrivals(&self) -> Vec<Vec<(u32, f64)>> {
         let new = |crack: &Crack| -> Vec<(u32, f64)> {
             let cuts = crack.elements[crack.restored..].iter();
@@ -180,8 +180,8 @@ impl<'a> CrackSystem<'a> {
         cracks.filter(|crack| !crack.is_empty()).collect()
     }
 
-    /// Neighbours of a tetrahedron, and the faces before them, that this crack does not cut yet, in the same body, and that it crosses if it goes on there. A steered crack
-    /// crosses the shared face; a planar one any part of the neighbour `[G12 §5.2.2]`. `cut`: its cut of the tetrahedron.
+    /// Neighbours of a tetrahedron, and the faces before them, that this crack does not cut yet, in the same body, and that it crosses if it goes on
+    /// there. A steered crack crosses the shared face; a planar one any part of the neighbour `[G12 §5.2.2]`. `cut`: its cut of the tetrahedron.
     fn ahead(&self, crack: u32, cut: &ElementCut) -> impl Iterator<Item = (usize, u32)> + use<'a> {
         let mesh = &self.asset.fracture;
         let nodes = &mesh.tets[cut.tet as usize];
@@ -219,8 +219,8 @@ impl<'a> CrackSystem<'a> {
         }
     }
 
-    /// Whether the piece of an unfractured tetrahedron is at rest. Its first node tells which piece that is: only where a crack ends do its nodes
-    /// lie in two pieces.
+    /// Returns true if the piece of an unfractured tetrahedron is at rest. Its first node tells which piece that is: only where a crack ends do its
+    /// nodes lie in two pieces.
     #[inline]
     pub(crate) fn rests(&self, tet: u32, now: f64) -> bool {
         !self.rest.is_empty()
@@ -229,35 +229,35 @@ impl<'a> CrackSystem<'a> {
                 .has(self.asset.fracture.tets[tet as usize][0], now)
     }
 
-    /// Whether nothing can happen in a tetrahedron any more: a crack has fractured it, or its piece is at rest.
+    /// Returns true if nothing can happen in a tetrahedron any more: a crack has fractured it, or its piece is at rest.
     #[inline]
     pub(crate) fn is_over(&self, tet: u32, now: f64) -> bool {
         self.fractured_by[tet as usize] != UNCUT || self.rests(tet, now)
     }
 
-    /// Whether no front is on its way or waits for energy.
+    /// Returns true if no front is on its way or waits for energy.
     pub(crate) fn is_quiet(&self) -> bool {
         self.fronts.is_empty() && self.stalled.is_empty()
     }
 
-    /// How many tetrahedra all cracks have fractured, and how often they have met another: what they cut follows from it.
+    /// Numbers of the tetrahedra that all cracks have fractured, and of their junctions: the cuts follow from these.
     pub(crate) fn progress(&self) -> [usize; 2] {
         let of = |crack: &Crack| [crack.elements.len(), crack.junctions.len()];
         let add = |[a, b]: [usize; 2], [c, d]: [usize; 2]| [a + c, b + d];
         self.cracks.iter().map(of).fold([0; 2], add)
     }
 
-    /// Whether the ledger has nothing left to speak of: no crack runs any more.
+    /// Returns true if the ledger has nothing left to speak of: no crack runs any more.
     pub(crate) fn is_spent(&self) -> bool {
         self.ledger.is_spent_to(self.least_cost())
     }
 
-    /// Less energy than this, J, pays for nothing to speak of.
+    /// Energy, J, below which nothing to speak of can be paid for.
     fn least_cost(&self) -> f64 {
         SPENT * f64::from(self.edge * self.edge) * self.resistance.toughness.least
     }
 
-    /// Whether the ledger may have what it takes to start a crack at a weak point, by its place among them.
+    /// Returns true if the ledger may have the energy to start a crack at a weak point, by its place among them.
     pub(crate) fn may_pay(&self, place: u32) -> bool {
         self.ledger
             .has(self.unpaid.of(place).max(self.least_cost()))
@@ -289,7 +289,7 @@ impl<'a> CrackSystem<'a> {
     }
 
     /// Adds a fractured tetrahedron to a crack, whose area sets so much energy free, J, and sends the crack's front to its
-    /// neighbours. `entered`: how the front came in.
+    /// neighbours. `entered`: the tetrahedron as the front entered it.
     pub(super) fn fracture(
         &mut self,
         crack: u32,

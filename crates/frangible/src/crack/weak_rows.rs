@@ -12,11 +12,11 @@ use crate::stress::{
 /// Work per point where stress is found from displacements: gradient of ten nodes, law; multiplications and additions.
 const FROM_GRADIENT: usize = 348;
 
-/// Rows serve where they are no more than so many times the work of displacements: they are read from end to end.
+/// Rows are used where they are no more than so many times the work of displacements: they are read from end to end.
 const WORTH: usize = 2;
 
 impl ClusterRows {
-    /// A few shapes in place of all modes, where they do.
+    /// A few shapes in place of all modes, where they suffice.
     pub(crate) fn coarse(&self, body: &Body) -> Option<&Coarse> {
         let make = || {
             let periods = &body.prepared.periods[..self.rows.modes()];
@@ -25,7 +25,7 @@ impl ClusterRows {
         self.coarse.get_or_init(make).as_ref()
     }
 
-    /// How much each mode may stress each point.
+    /// Largest stress of each mode at each point.
     pub(crate) fn sizes(&self) -> &Sizes {
         let make = || Sizes::new(&self.frames, &self.rows);
         self.sizes.get_or_init(make)
@@ -83,8 +83,8 @@ impl WeakRows {
 }
 
 impl Body {
-    /// Works out how its modes stress its weak points, so that its first blow does not have to wait for it. Else that is done part by part,
-    /// where a blow has to look. Copies of the body share it.
+    /// Computes the stress rows of its weak points, so that its first blow does not have to wait for them. Otherwise they are computed part by part,
+    /// where a blow has to look. Copies of the body share them.
     pub fn prepare_for_blows(&self, config: &FractureConfig) {
         if let Some(rows) = self.rows.of(self, config, self.asset.modes.followed()) {
             for cluster in 0..rows.clusters.len() {
@@ -143,7 +143,7 @@ fn row_points(body: &Body, config: &FractureConfig, cluster: usize) -> Vec<RowPo
     .collect()
 }
 
-/// Whether rows are worth it.
+/// Returns true if rows are worth their work: no more than [`WORTH`] times that of displacements.
 fn is_less_work(body: &Body, config: &FractureConfig, modes: usize) -> bool {
     let (asset, skin) = (&*body.asset, &body.prepared.skin);
     let weak = body.weak_tets();

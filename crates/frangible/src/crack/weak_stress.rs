@@ -1,28 +1,28 @@
-//! Stress at the weak points of a cluster at the steps of a batch: rows times amplitudes, and what a motion has beside its modes.
+//! Stress at the weak points of a cluster at the steps of a batch: rows times amplitudes, and the parts of a motion beside its modes.
 
 use super::field::StressField;
 use crate::body::Body;
 use crate::near_field::Located;
 use crate::stress::{BATCH, ClusterRows, Frame, Lanes, MOST, STRIDE, Wide, of_shape};
 
-/// What one motion adds to rows of the body, and room for their stress.
+/// Additions of one motion to rows of the body, and room for their stress.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct WeakStress {
-    /// What is added to each cluster that was looked at.
+    /// Additions to each cluster that was looked at.
     added: Vec<Option<Added>>,
     /// Row after row.
     numbers: Vec<Lanes>,
     /// Room for shapes.
     room: Vec<Lanes>,
-    /// What the numbers leave out.
+    /// Part of the stress that the numbers leave out.
     left_out: LeftOut,
-    /// The farthest that each mode moves in the batch, m·√kg.
+    /// Largest amplitude of each mode in the batch, m·√kg.
     farthest: Vec<f32>,
-    /// What the modes add at most to the tension at each point of the cluster, Pa.
+    /// Largest tension that the modes add at each point of the cluster, Pa.
     most: Vec<f32>,
 }
 
-/// What the numbers of a cluster leave out.
+/// Part of the stress that the numbers of a cluster leave out.
 #[derive(Clone, Copy, Debug, Default)]
 enum LeftOut {
     /// Nothing.
@@ -34,13 +34,13 @@ enum LeftOut {
     Modes,
 }
 
-/// Where more than one of so many points of a cluster is in doubt, all of them are computed.
+/// If more than one of so many points of a cluster is in doubt, all of them are computed.
 const MANY: usize = 4;
 
 /// For so many batches, the present one included, all points of such a cluster are computed.
 const WAIT: u8 = 4;
 
-/// What a motion adds in a cluster.
+/// Additions of a motion in a cluster.
 #[derive(Clone, Debug)]
 struct Added {
     /// The stress in each row of every shape that follows a force, Pa/N.
@@ -57,20 +57,20 @@ struct Added {
 /// A point in a near field.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct NearPoint {
-    /// Its first row, and how many it has.
+    /// Its first row, and the number of its rows.
     row: usize,
     count: usize,
     /// Number of the field.
     field: usize,
     at: Located,
-    /// What each row has of the field's two tensions.
+    /// Shares of the field's two tensions in each row.
     shares: [[f32; MOST]; 2],
-    /// How much it counts.
+    /// Weight of the place in the point's mean; 1 where a whole cluster is bounded.
     share: f32,
 }
 
 impl WeakStress {
-    /// Takes note of how far the modes move in the batch of a field.
+    /// Notes the largest amplitude of each mode in the batch of a field.
     #[inline(always)]
     pub(super) fn begin(&mut self, field: &StressField) {
         self.farthest.clear();
@@ -180,7 +180,7 @@ pub(super) struct Points<'a> {
     near: usize,
 }
 
-/// What the numbers of a point leave out: what to add at most to its tension, Pa.
+/// Largest tension that the numbers of a point leave out, Pa.
 pub(super) enum Rest {
     Nothing,
     /// So much at any point of the cluster.
@@ -189,11 +189,11 @@ pub(super) enum Rest {
     Own(Lanes),
 }
 
-/// What is known of a point.
+/// Numbers of a point, and what they leave out.
 pub(super) struct Seen<'a> {
     /// Its numbers, but for what is left out.
     pub(super) numbers: &'a [Lanes],
-    /// What the numbers leave out.
+    /// Part that the numbers leave out.
     pub(super) left_out: Rest,
     row: usize,
     near: &'a [NearPoint],
@@ -228,7 +228,7 @@ impl<'a> Points<'a> {
         }
     }
 
-    /// What to add at most to the tension of a point that was bounded, Pa; none where that is what all points of its cluster have.
+    /// Largest tension that is left out at a point that was bounded, Pa; none where it is that of all points of its cluster.
     #[inline(always)]
     pub(super) fn left_out_of(&self, field: &StressField, seen: &Seen) -> Option<Lanes> {
         let LeftOut::OfShapes([shapes, _]) = self.stress.left_out else {

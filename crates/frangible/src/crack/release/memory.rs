@@ -1,4 +1,4 @@
-//! What a point remembers of the cracks whose release waves have reached it.
+//! Memory of a point: the cracks whose release waves have reached it.
 
 use glam::Vec3;
 
@@ -8,7 +8,7 @@ use super::super::sites::Site;
 use super::super::system::CrackSystem;
 use crate::stress::{STRETCHED, Shadow, length, share_left};
 
-/// A smaller fall of a share than this is passed over.
+/// Smallest fall of a share that is noted.
 const LEAST: f32 = 5e-3;
 
 /// The cracks, as release waves leave them.
@@ -29,7 +29,7 @@ impl<'a> Sources<'a> {
         }
     }
 
-    /// What a crack leaves at a point at time `now`, s; none where it takes nothing to speak of. `beta`: of the stress that bends.
+    /// Shares of the stress that a crack leaves at a point at time `now`, s; none if it takes nothing to speak of. `beta`: that of bending.
     #[inline(always)]
     fn cast(&self, crack: usize, point: Vec3, beta: f32, now: f64) -> Option<Shadow> {
         let site = self.cracks[crack]
@@ -57,15 +57,15 @@ impl<'a> Sources<'a> {
     }
 }
 
-/// What a point knows of all cracks.
+/// Shares of the stress at a point that the cracks have left.
 #[derive(Clone, Debug)]
 pub(super) struct Memory {
     place: Vec3,
     /// β of the stress that bends; where nothing does, that of the stress that stretches.
     pub(super) beta: f32,
-    /// What each crack has left of the stress, by the crack's number, rising; cracks that have taken nothing are left out.
+    /// Shares that each crack has left, by the crack's number, rising; cracks that have taken nothing are left out.
     shadows: Vec<(u32, Shadow)>,
-    /// When it last looked at each ring.
+    /// The last look at each ring.
     seen: [Seen; 2],
 }
 
@@ -80,18 +80,18 @@ impl Memory {
         }
     }
 
-    /// Whether any crack has released it.
+    /// Returns true if any crack has released it.
     pub(super) fn is_dark(&self) -> bool {
         !self.shadows.is_empty()
     }
 
-    /// What the cracks have left of the stress, crack after crack.
+    /// Shares of the stress that the cracks have left, crack after crack.
     #[inline(always)]
     pub(super) fn shadows(&self) -> impl Iterator<Item = &Shadow> {
         self.shadows.iter().map(|(_, shadow)| shadow)
     }
 
-    /// Takes in what all cracks of a ring about the point, but for one, which is always the same, leave at the time `now`, s. Returns whether
+    /// Takes in what all cracks of a ring about the point, but for one, which is always the same, leave at the time `now`, s. Returns true if
     /// any crack releases the point more than before.
     pub(super) fn update(
         &mut self,
@@ -134,7 +134,7 @@ impl pulp::NullaryFnOnce for Update<'_> {
         let mut falls = false;
         let mut i = 0;
         let Sources { extents, .. } = self.sources;
-        // What has not changed, and was heard to the end, leaves what it left.
+        // Cracks that have not changed, and were heard to the end, leave what they left.
         let seen = std::mem::replace(&mut seen[self.ring as usize], extents.seen(self.now));
         // Loops and no closures, which would be compiled for the plain processor.
         for b in 0..extents.blocks() {
@@ -162,7 +162,7 @@ impl pulp::NullaryFnOnce for Update<'_> {
     }
 }
 
-/// Takes over what of the new shares is smaller, and returns whether anything is. The normal is that of the smallest share of bending: in
+/// Takes over those of the new shares that are smaller, and returns true if any is. The normal is that of the smallest share of bending: in
 /// a wall it is bending that breaks, and elsewhere both shares are the same.
 fn darken(old: &mut Shadow, new: Shadow) -> bool {
     let falls = new.bent <= old.bent - LEAST || new.stretched <= old.stretched - LEAST;

@@ -38,7 +38,7 @@ impl Cracks {
         });
     }
 
-    /// Takes in what they all leave by `now`, s; returns whether any releases the point more than before.
+    /// Takes in what they all leave by `now`, s; returns true if any releases the point more than before.
     fn heard_by(&self, memory: &mut Memory, now: f64) -> bool {
         let update = |ring| memory.update(self.sources(), ring, None, now);
         Ring::ALL.map(update).contains(&true)
@@ -127,7 +127,7 @@ fn a_longer_crack_leaves_less_without_a_place_nearer_by() {
     }
 }
 
-/// What a crack leaves at a point, found site by site.
+/// Shares of the stress that a crack leaves at a point, found site by site.
 fn plainly(cracks: &Cracks, crack: usize, memory: &Memory, now: f64) -> Option<Shadow> {
     let distance = |site: &Site| site.position.distance(memory.place);
     let sites = cracks.cracks[crack].sites.list().iter();
