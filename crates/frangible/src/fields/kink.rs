@@ -1,4 +1,4 @@
-//! Where toughness varies a crack kinks to where it costs least for what it releases.
+//! Kinks of cracks where toughness varies: a crack turns to where it costs least for what it releases.
 
 use glam::Vec3;
 
@@ -17,9 +17,9 @@ pub(crate) struct Tip {
     pub(crate) tet: u32,
     /// Its normal if toughness were the same everywhere.
     pub(crate) normal: Vec3,
-    /// Where it comes from, m.
+    /// Place that it comes from, m.
     pub(crate) from: Vec3,
-    /// How far it looks ahead, m.
+    /// Distance that it looks ahead, m.
     pub(crate) reach: f32,
 }
 
@@ -29,7 +29,7 @@ impl Toughness {
     /// of the place a reach ahead. At a right angle G is a quarter: a weak band less than a quarter as tough as what is behind it
     /// catches cracks that meet it squarely (He & Hutchinson 1989 for interfaces).
     ///
-    /// Where toughness does not vary it is the tip's own normal, bit for bit. An angle at which even the least toughness near
+    /// If toughness does not vary it is the tip's own normal, bit for bit. An angle at which even the least toughness near
     /// would cost as much as the best so far is not looked at.
     pub(crate) fn kinked(&self, mesh: &TetMesh, tip: Tip) -> Vec3 {
         let centre = mesh.centroid(tip.tet as usize);

@@ -21,7 +21,7 @@ use crate::mesh::TriangleTree;
 pub(crate) use kink::Tip;
 pub(crate) use resistance::{Resistance, Toughness};
 
-/// What of its material's numbers a place has; 1 is all of it.
+/// Factors on the material's numbers at a place; 1 leaves them as they are.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Factors {
     /// On the tensile strength R_c, above 0.
@@ -53,7 +53,7 @@ impl Factors {
     }
 }
 
-/// Factors on a material's numbers over a body, and how its strength scatters. `Default` is none: the same everywhere.
+/// Factors on a material's numbers over a body, and the scatter of its strength. `Default` is none: the same everywhere.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Fields {
@@ -68,7 +68,7 @@ pub struct Fields {
     pub weibull_modulus: f64,
     /// Volume of the specimen whose strength R_c is, where strength scatters, m³. Default 1e-4: a pane of 4 mm with 240 cm² under load.
     pub specimen: f64,
-    /// How the strength falls with the time that a load lasts. Default: not at all.
+    /// Fall of the strength with the time that a load lasts. Default: none.
     pub fatigue: Option<Fatigue>,
 }
 
@@ -156,7 +156,7 @@ impl Fields {
         }
     }
 
-    /// Whether they can be those of bodies of this asset.
+    /// Checks that they can be those of bodies of this asset.
     pub(crate) fn check(&self, asset: &Asset) -> Result<(), InputError> {
         let tets = asset.fracture.tets.len();
         if !self.of_tet.is_empty() && self.of_tet.len() != tets {

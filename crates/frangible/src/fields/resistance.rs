@@ -1,4 +1,4 @@
-//! What each place of one body withstands: its fields, its scatter, and the least of them where bounds ask.
+//! Resistance of one body to cracks at each place: its fields, its scatter, and the least of them where bounds ask.
 
 use std::sync::Arc;
 
@@ -89,7 +89,7 @@ pub(crate) struct Resistance {
     of_tet: Arc<[f32]>,
     /// The smallest at a weak tetrahedron, Pa; the material's where there is none.
     pub(crate) weakest: f64,
-    /// How many times as strong as its flaws say ([`Self::strengthened`]).
+    /// Factor by which it is stronger than its flaws say ([`Self::strengthened`]).
     strengthened: f64,
 }
 
@@ -144,12 +144,12 @@ impl Resistance {
         }
     }
 
-    /// Whether its strength falls with the time that a load lasts.
+    /// Returns true if its strength falls with the time that a load lasts.
     pub(crate) fn tires(&self) -> bool {
         self.fields.fatigue.is_some()
     }
 
-    /// What a load that has lasted so long, s, leaves of the strength of a weak point of strength R, Pa, over it.
+    /// Share of the strength of a weak point of strength R, Pa, that is left after a load has lasted so long, s.
     pub(crate) fn left_after(&self, duration: f64, strength: f64) -> f64 {
         match &self.fields.fatigue {
             Some(fatigue) if duration > 0.0 => {
@@ -159,7 +159,7 @@ impl Resistance {
         }
     }
 
-    /// As strong as a load that has lasted so long, s, leaves it; `tets`: how many the body's mesh has.
+    /// With the strength that a load that has lasted so long, s, leaves; `tets`: number of tetrahedra of the body's mesh.
     pub(crate) fn tired(&self, duration: f64, tets: usize, weak_tets: &[u32]) -> Self {
         let mut of_tet: Vec<f32> = (0..tets as u32).map(|e| self.strength(e)).collect();
         for &e in weak_tets {
@@ -201,7 +201,7 @@ impl Resistance {
         material.flaw_depth(self.toughness.of(tet), largest) as f32
     }
 
-    /// R_c of a place without the scatter of its weak points, Pa: what cracks that run there compare with.
+    /// R_c of a place without the scatter of its weak points, Pa: for cracks that run there.
     pub(crate) fn painted(&self, tet: u32) -> f64 {
         match self.fields.of_tet.get(tet as usize) {
             Some(f) => self.material * f64::from(f.strength),
@@ -218,7 +218,7 @@ impl Resistance {
         strengths.min_by(f32::total_cmp).unwrap_or(f32::INFINITY)
     }
 
-    /// No smaller stress at a point of this strength is felt as more than `felt` by the weakest point, Pa.
+    /// Stress at a point of this strength below which the weakest point would feel no more than `felt`, Pa.
     pub(crate) fn at_strength(&self, felt: f32, strength: f32) -> f32 {
         if self.of_tet.is_empty() {
             felt

@@ -1,4 +1,4 @@
-//! How fragments move apart: each with the group of nodes that it was part of while the blow was followed.
+//! Motion of fragments as they part: each with the group of nodes that it was part of while the blow was followed.
 
 use glam::{DMat3, DVec3};
 

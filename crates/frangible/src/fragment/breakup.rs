@@ -1,4 +1,4 @@
-//! What a break leaves behind for its pieces.
+//! Data of a break that its pieces need.
 
 use std::sync::Arc;
 
@@ -7,7 +7,7 @@ use crate::asset::{FixedPoints, Trace};
 use crate::crack::CrackSystem;
 use crate::state::{BodyState, Cuts};
 
-/// Which node belongs to which piece, and where the cracks are.
+/// Pieces of the nodes, and the cracks.
 #[derive(Debug)]
 pub(crate) struct Breakup {
     /// Piece of each node of the fracture mesh.

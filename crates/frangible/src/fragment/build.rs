@@ -17,7 +17,7 @@ pub(crate) struct Built {
     pub(crate) fragments: Vec<Fragment>,
     /// Not drawn yet, where there is something to draw.
     pub(crate) undrawn: Option<Undrawn>,
-    /// Where each fragment comes from.
+    /// Origin of each fragment in the body.
     pub(crate) traces: Vec<Trace>,
     /// Points that the pieces' later breaks keep.
     pub(crate) fixed: FixedPoints,

@@ -34,7 +34,7 @@ pub(super) struct Component {
     pub(super) volume: u64,
 }
 
-/// The components, and who is in which.
+/// The components, and the nodes of each.
 pub(super) struct Components {
     /// The components, ordered by their lowest node.
     pub(super) list: Vec<Component>,
@@ -62,7 +62,7 @@ impl Components {
         search.finish()
     }
 
-    /// Whether a node beside a cut belongs to another piece.
+    /// Returns true if a node beside a cut belongs to another piece.
     pub(super) fn is_outside(&self, node: u32) -> bool {
         self.side_of_node[node as usize] == OUTSIDE
     }
@@ -75,7 +75,7 @@ impl Components {
         }
     }
 
-    /// How many nodes were seen.
+    /// Number of nodes that were seen.
     #[cfg(test)]
     pub(super) fn cost(&self) -> usize {
         self.seen.len()
@@ -104,13 +104,13 @@ impl Components {
     }
 }
 
-/// What has been seen from one place beside the cuts.
+/// Nodes seen from one place beside the cuts.
 #[derive(Clone, Debug)]
 struct Side {
     /// Nodes and [patches](PATCH) seen and not looked at, from `next` on.
     waiting: Vec<u32>,
     next: usize,
-    /// How many nodes were looked at.
+    /// Number of nodes that were looked at.
     looked_at: u32,
     lowest: u32,
     volume: u64,
@@ -122,7 +122,7 @@ struct Search<'a> {
     portion: Option<&'a Portion>,
     side_of_node: Vec<u32>,
     seen: Vec<u32>,
-    /// Whether a side starts in each patch: then its nodes are looked at one by one.
+    /// True for patches in which a side starts: their nodes are looked at one by one.
     is_started: Vec<bool>,
     sides: Vec<Side>,
     /// Sides that have met.

@@ -1,4 +1,4 @@
-//! Fragments in numbers of the point table: which triangles and points each one has.
+//! Fragments in numbers of the point table: the triangles and points of each.
 
 use glam::Vec3;
 
@@ -31,7 +31,7 @@ pub(super) struct Draft {
     pub(super) supported: bool,
 }
 
-/// Crack faces: what parts the labels inside the tetrahedra.
+/// Crack faces: the faces that part the labels inside the tetrahedra.
 pub(super) fn inner_faces(
     asset: &Asset,
     index: &MeshIndex,
@@ -179,7 +179,7 @@ fn interpolated_normal(point: Point, nodes: &[u32; 3], normals: &[Vec3; 3], cuts
     sum.normalize_or(normals[0])
 }
 
-/// Mesh nodes of the convex cells, and who is supported.
+/// Gives each draft its mesh nodes of the convex cells, and notes which are supported.
 pub(super) fn nodes(asset: &Asset, index: &MeshIndex, labels: &Labels, drafts: &mut [Draft]) {
     let label = |v: u32| labels.of_node[v as usize] as usize;
     for cell in 0..index.nodes_of_cell.count() as u32 {

@@ -1,18 +1,18 @@
-//! What there is to draw of the fragments, made from what building them left.
+//! Render meshes of the fragments, made from what building them left.
 
 use super::Fragment;
 use crate::body::Prepared;
 use crate::mesh::{Division, DrawnPiece, RenderSurface};
 
-/// What drawing fragments needs and building them knows.
+/// Data for drawing fragments, left from building them.
 pub(crate) struct Undrawn {
     /// Label of each fragment.
     pub(crate) labels: Vec<u32>,
-    /// What divides the surface among the labels.
+    /// Division of the surface among the labels.
     pub(crate) division: Division,
 }
 
-/// Gives each fragment what to draw of it.
+/// Gives each fragment its render mesh.
 pub(crate) fn draw(
     surface: &RenderSurface,
     prepared: &Prepared,

@@ -29,7 +29,7 @@ impl<'a> Finisher<'a> {
         }
     }
 
-    /// The fragment of a draft whose nodes have this label. Its neighbours are labels yet.
+    /// The fragment of a draft whose nodes have this label. Its neighbours are still labels.
     pub(super) fn finish(
         &mut self,
         draft: Draft,

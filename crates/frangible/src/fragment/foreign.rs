@@ -1,4 +1,4 @@
-//! The partition of cuts that come from elsewhere than from cracks: what crate `frangible-compare` makes other methods' pieces by.
+//! The partition by cuts that come from elsewhere than from cracks: with it crate `frangible-compare` makes other methods' pieces.
 
 use super::build::{Built, build_cracked};
 use super::draft::divided_tets;
@@ -43,7 +43,7 @@ pub fn pieces_of_cuts(
     (labelled, labels.of_node)
 }
 
-/// What parts the labels of a body's nodes, tetrahedra rising: the lower label and the higher, the tetrahedron, and the area of one
+/// Interfaces between the labels of a body's nodes, tetrahedra rising: the lower label and the higher, the tetrahedron, and the area of one
 /// side of the interface in it, m². `cuts`: all edges between two labels.
 #[must_use]
 pub fn interfaces_of_labels(

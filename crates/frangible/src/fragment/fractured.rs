@@ -1,7 +1,7 @@
 //! Fractured tetrahedra by their nodes and edges, for cracks that end inside them.
 //!
 //! Thousands of fronts end in a break, and each looks at all fractured tetrahedra about four nodes or more. So what most of these looks need
-//! lies close together: which tetrahedron it is and whether this round has been there.
+//! lies close together: the tetrahedron and the latest round that was there.
 
 use crate::body::MeshIndex;
 use crate::crack::{CrackSystem, ELSEWHERE, UNCUT};
@@ -11,7 +11,7 @@ use crate::state::EdgeCut;
 /// All corners of a tetrahedron, a bit each.
 pub(super) const ALL: u8 = 0b1111;
 
-/// What a round of looks knows of a fractured tetrahedron.
+/// State of a fractured tetrahedron in a round of looks.
 pub(super) struct Look {
     pub(super) tet: u32,
     /// Latest round that was here.
@@ -27,9 +27,9 @@ pub(super) struct Fractured<'a> {
     pub(super) corners: Vec<[u32; 4]>,
     /// Their cracks.
     pub(super) by: Vec<u32>,
-    /// Where the list of those around each node starts.
+    /// Start of the list of those around each node.
     starts: Vec<u32>,
-    /// Those around each node: four times the place, and which corner the node is.
+    /// Those around each node: four times the place, plus the corner that the node is.
     around: Vec<u32>,
     /// Numbers of their edges.
     pub(super) edges: Vec<[u32; 6]>,
@@ -65,13 +65,13 @@ impl<'a> Fractured<'a> {
         }
     }
 
-    /// Where the fractured tetrahedra around a node are listed, rising.
+    /// Range of the fractured tetrahedra around a node in the list, rising.
     pub(super) fn around(&self, node: u32) -> std::ops::Range<usize> {
         let v = node as usize;
         self.starts[v] as usize..self.starts[v + 1] as usize
     }
 
-    /// The place of a listed tetrahedron, and which of its corners the node is.
+    /// The place of a listed tetrahedron, and the corner that the node is.
     pub(super) fn at(&self, listed: usize) -> (usize, usize) {
         let listed = self.around[listed] as usize;
         (listed / 4, listed % 4)
@@ -82,7 +82,7 @@ impl<'a> Fractured<'a> {
         self.cut_by[edge as usize] = crack;
     }
 
-    /// Which of a tetrahedron's edges are cut, and which of them a newcomer does not pass, a bit each: those that others have cut, or for one
+    /// Edges of a tetrahedron that are cut, and those that a newcomer does not pass, a bit each: the edges that others have cut, or for one
     /// that met itself all that are cut.
     pub(super) fn cut_and_blocked(&self, edges: [u32; 6], newcomer: u32, own: bool) -> (u8, u8) {
         let (mut cut, mut others) = (0, 0);
@@ -95,7 +95,7 @@ impl<'a> Fractured<'a> {
     }
 }
 
-/// Which tetrahedra of these corners have each node: where each node's list starts, and all lists.
+/// Tetrahedra of these corners around each node: the start of each node's list, and all lists.
 fn around(nodes: usize, corners: &[[u32; 4]]) -> (Vec<u32>, Vec<u32>) {
     let mut starts = vec![0_u32; nodes + 1];
     for &v in corners.iter().flatten() {

@@ -1,4 +1,4 @@
-//! Where a crack ends in another (beyond the paper).
+//! Ends of cracks in other cracks (beyond the paper).
 //!
 //! The paper lets a newcomer stop at the face of a fractured tetrahedron. That leaves a bridge: inside that
 //! tetrahedron the newcomer's two sides stay joined through a node, and pieces hang together. So a crack also *ends
@@ -15,7 +15,7 @@ use crate::crack::{CrackSystem, ElementCut, Known};
 use crate::mesh::EDGES;
 use crate::state::Cuts;
 
-/// How far from its last tetrahedron a newcomer is continued, in mean edges.
+/// Distance from its last tetrahedron to which a newcomer is continued, in mean edges.
 const REACH: f32 = 2.5;
 
 /// Ends every crack inside what it has met since the last look, cracks in order, junctions in the order they happened.
@@ -52,7 +52,7 @@ struct Continued<'a> {
     system: &'a CrackSystem<'a>,
     newcomer: u32,
     last: &'a ElementCut,
-    /// Whether it met an older part of itself.
+    /// True if it met an older part of itself.
     own: bool,
     nodes: [u32; 4],
     centre: Vec3,
@@ -197,7 +197,7 @@ impl Queue {
         self.values[node as usize] = s;
     }
 
-    /// Whether s, m, is negative at a node; it is worked out once.
+    /// Returns true if s, m, is negative at a node; it is worked out once.
     fn is_below(&mut self, node: u32, s: impl FnOnce() -> f32) -> bool {
         if self.sides[node as usize] / 2 != self.round {
             self.set(node, s());

@@ -14,7 +14,7 @@ use crate::rng::{Purpose, stream, uniform};
 use crate::state::{BodyState, Cuts, OldCrack, OldCut};
 use crate::{Breakable, FractureConfig};
 
-/// What [`end_cracks`] does, the plain way.
+/// [`end_cracks`], the plain way.
 fn end_plainly(system: &CrackSystem, cuts: &mut Cuts) {
     let mesh = &system.asset.fracture;
     let tets_of_node = Rows::inverse(mesh.positions.len(), &mesh.tets);

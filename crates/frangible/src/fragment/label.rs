@@ -17,7 +17,7 @@ pub(crate) struct Labels {
     pub(crate) count: usize,
     /// Cut edges; an edge between two fragments is always one of them.
     pub(crate) cuts: Cuts,
-    /// What the next look goes on from.
+    /// State that the next look goes on from.
     pub(crate) known: Known,
 }
 
@@ -67,7 +67,7 @@ pub(crate) fn of_cuts(
     }
 }
 
-/// A place where two components meet: the two, and how many pairs of a tetrahedron and its edge run from one to the other.
+/// A place where two components meet: the two, and the number of pairs of a tetrahedron and its edge that run from one to the other.
 type Meeting = (u32, u32, u32);
 
 /// The component that each component is part of after crumbs have joined a neighbour: the lowest of them.
@@ -117,7 +117,7 @@ fn absorb_crumbs(
     root
 }
 
-/// Where crumbs meet others.
+/// Meetings of crumbs with other components.
 fn meetings(
     components: &Components,
     cuts: &Cuts,
@@ -157,7 +157,7 @@ fn best_neighbours(mut contacts: Vec<Meeting>) -> Vec<(u32, u32)> {
     best.into_iter().map(|(a, b, _)| (a, b)).collect()
 }
 
-/// Numbers the components by falling volume, then by lowest node; returns how many there are, too.
+/// Numbers the components by falling volume, then by lowest node; returns the number of labels, too.
 fn number(list: &[Component], root: &[u32]) -> (Vec<u32>, usize) {
     let mut volume = vec![0_u64; list.len()];
     for (component, &r) in list.iter().zip(root) {

@@ -15,7 +15,7 @@ use crate::mesh::{EDGES, TetMesh};
 use crate::rng::{Purpose, stream, uniform};
 use crate::state::Cuts;
 
-/// What [`of_cuts`] gives, the plain way.
+/// [`of_cuts`], the plain way.
 fn plain(cuts: &Cuts, tets: &[[u32; 4]], volumes: &[u64], crumb_share: f64) -> (Vec<u32>, usize) {
     let nodes = volumes.len();
     let mut sets = DisjointSets::new(nodes);
@@ -130,7 +130,7 @@ fn labels_of_arbitrary_cuts_are_those_of_a_plain_union_find() {
     assert!(pieces > 100 && absorbed > 2, "{pieces}, {absorbed}");
 }
 
-/// Whether the edge crosses one of these discs.
+/// Returns true if the edge crosses one of these discs.
 fn crosses(mesh: &TetMesh, discs: &[(Vec3, Vec3, f32)], low: u32, high: u32) -> bool {
     let [a, b] = [low, high].map(|v| mesh.positions[v as usize]);
     discs.iter().any(|&(centre, normal, radius)| {

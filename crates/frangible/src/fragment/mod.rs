@@ -42,16 +42,17 @@ use crate::mesh::{MassProperties, RenderMesh, TriMesh};
 pub struct Fragment {
     /// Closed surface, m, in the **fragment frame**: origin at the piece's centre of mass, axes of the parent's body frame.
     pub mesh: TriMesh,
-    /// Which fragment is on the other side of each crack face, `mesh.triangles[outer_triangles..]`: its place in
-    /// [`Fracture::fragments`](crate::Fracture::fragments), where it has the same face turned round; [`Fragment::PARTED`] where an earlier break took it away.
+    /// Fragment on the other side of each crack face, `mesh.triangles[outer_triangles..]`: its place in
+    /// [`Fracture::fragments`](crate::Fracture::fragments), where it has the same face turned round; [`Fragment::PARTED`] where an earlier break took
+    /// it away.
     pub neighbours: Vec<u32>,
-    /// What to draw instead of `mesh` where the asset has the [surface its author drew](crate::Asset::render).
+    /// Surface to draw instead of `mesh` where the asset has the [surface its author drew](crate::Asset::render).
     pub render: Option<RenderMesh>,
     /// Mass properties; `centre` is in the **parent's body frame**.
     pub mass: MassProperties,
     /// The piece's share of the parent's convex cells: cell number and the corner points of the share, m, fragment frame.
     pub cell_shares: Vec<(u32, Vec<Vec3>)>,
-    /// Whether it has one of the [supported nodes](crate::Asset::supported): something outside still holds it.
+    /// True if it has one of the [supported nodes](crate::Asset::supported): something outside still holds it.
     pub supported: bool,
     /// Velocity of its centre of mass against the rigid motion that the whole body has after the blow, m/s, body frame of the parent. Zero for all
     /// fragments where no piece had parted while the blow was followed.
@@ -61,6 +62,6 @@ pub struct Fragment {
 }
 
 impl Fragment {
-    /// What a crack face of an earlier break has in [`Fragment::neighbours`]: what was there is no fragment of this break.
+    /// Entry of [`Fragment::neighbours`] for a crack face of an earlier break: what was there is no fragment of this break.
     pub const PARTED: u32 = u32::MAX;
 }

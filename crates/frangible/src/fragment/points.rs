@@ -42,17 +42,17 @@ impl<'a> PointTable<'a> {
         }
     }
 
-    /// How many there are, mesh nodes included.
+    /// Number of points, mesh nodes included.
     pub(super) fn len(&self) -> usize {
         self.mesh.positions.len() + self.positions.len()
     }
 
-    /// Whether a number is that of a mesh node.
+    /// Returns true if a number is that of a mesh node.
     pub(super) fn is_node(&self, number: u32) -> bool {
         (number as usize) < self.mesh.positions.len()
     }
 
-    /// Where a point is, m, given its number.
+    /// Position of a point, m, given its number.
     pub(crate) fn place(&self, number: u32) -> DVec3 {
         let v = number as usize;
         match self.mesh.positions.get(v) {
@@ -77,7 +77,7 @@ impl<'a> PointTable<'a> {
         own.unwrap_or(beside[0])
     }
 
-    /// Points on faces and in tetrahedra: where later breaks of the pieces must leave them.
+    /// Points on faces and in tetrahedra, which later breaks of the pieces must leave in place.
     pub(super) fn fixed(&self) -> FixedPoints {
         let mut fixed = FixedPoints::default();
         for (point, &position) in self.points.iter().zip(&self.positions) {
@@ -90,7 +90,7 @@ impl<'a> PointTable<'a> {
         fixed.sorted()
     }
 
-    /// Where the points are that are no mesh nodes, m.
+    /// Positions of the points that are no mesh nodes, m.
     pub(super) fn into_positions(self) -> Vec<DVec3> {
         self.positions
     }
@@ -205,7 +205,7 @@ impl<'a> PointTable<'a> {
         split.map(|ends| ends.map(|end| self.position(end)).iter().sum::<DVec3>() / 2.0)
     }
 
-    /// Whether a node belongs to another piece.
+    /// Returns true if a node belongs to another piece.
     fn is_foreign(&self, node: u32) -> bool {
         self.portion.is_some_and(|p| !p.has_node(node))
     }

@@ -197,7 +197,7 @@ fn the_fragment_that_holds_a_supported_node_is_supported() {
     }
 }
 
-/// What each fragment has of crack faces towards another, that one has towards it, turned round.
+/// Asserts that two fragments have the same crack faces towards each other, turned round.
 fn assert_opposite_faces(fragments: &[Fragment]) {
     let towards = |own: usize, other: usize| {
         let mesh = &fragments[own].mesh;

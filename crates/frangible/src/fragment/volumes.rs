@@ -1,4 +1,4 @@
-//! How much of the body each piece is.
+//! Volumes of the pieces of a break.
 
 use super::label::Labels;
 use crate::asset::FOREIGN;
@@ -26,7 +26,7 @@ impl Volumes {
         }
     }
 
-    /// For each piece, whether it has no more than half of the volume and does not move on its own.
+    /// For each piece, true if it has no more than half of the volume and does not move on its own.
     pub(crate) fn free(&self, acts: &[bool]) -> Vec<bool> {
         let pieces = self.of_piece.iter().zip(acts);
         pieces
