@@ -17,7 +17,7 @@ use crate::outcome::{LookedAt, Outcome};
 /// at moderate distance; it acts along the normal of what faces the point, weakened by the cosine of its slant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Blast {
-    /// Where it comes from, m, body frame.
+    /// Centre of the explosion, m, body frame.
     pub origin: Vec3,
     /// Impulse per area at 1 m, Pa·s. One kilogram of TNT gives about 200 Pa·s.
     pub impulse: f32,
@@ -25,10 +25,10 @@ pub struct Blast {
     pub duration: f32,
 }
 
-/// Nearest that a part of the surface counts as, m: a pressure does not grow without end.
+/// Least distance at which a part of the surface counts, m: a pressure does not grow without end.
 const NEAREST: f32 = 0.01;
 
-/// What a blast does to a body. The whole surface that faces it is pushed at once.
+/// Computes the outcome of a blast on a body. The whole surface that faces it is pushed at once.
 ///
 /// # Errors
 /// A number that is not finite, or an impulse or duration that is not above zero; what [`FractureConfig::validate`] refuses.

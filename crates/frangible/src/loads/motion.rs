@@ -9,7 +9,7 @@ use crate::motion::Motion;
 use crate::outcome::{LookedAt, Outcome};
 use crate::trace::CrackTrace;
 
-/// What cracks do under any motion of a body's modes, wherever it comes from: [`impact()`](crate::impact()) from its stress wave
+/// Lets cracks run under any motion of a body's modes, wherever it comes from: [`impact()`](crate::impact()) from its stress wave
 /// on. `pressed`: surface triangles that something presses on; `time_step`: of the motion, s. With the energy ledger all
 /// cracks together spend no more than the motion's [peak strain energy](Motion::peak_strain_energy).
 ///
@@ -27,7 +27,7 @@ pub fn follow(
     run(body, motion, pressed, time_step, config, &mut None)
 }
 
-/// [`follow()`], and what its cracks did element by element: for tests.
+/// [`follow()`] with a trace of its cracks, element by element: for tests.
 ///
 /// # Errors
 /// What [`follow()`] refuses.

@@ -21,7 +21,7 @@ use crate::refuse::{Pushes, harmless};
 /// A force on the surface, body frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Force {
-    /// Where, m; the nearest point of the surface is taken.
+    /// Point of application, m; the nearest point of the surface is taken.
     pub point: Vec3,
     /// On this body, N.
     pub force: Vec3,
@@ -30,11 +30,11 @@ pub struct Force {
 /// Crack paths are followed over so many diagonals of the body: cracks that turn are longer than straight ones.
 const DIAGONALS: f64 = 3.0;
 
-/// What steady forces do to a body: the contacts it rests on, and what rests on it. `gravity` (m/s², body frame) is the
+/// Computes the outcome of steady forces on a body: the contacts it rests on, and what rests on it. `gravity` (m/s², body frame) is the
 /// acceleration of a held body's weight; a free body's does not matter.
 ///
-/// Nearly always nothing, and that costs microseconds and no allocation: ask at every step. What the load does as cracks
-/// open is not limited by the energy ledger: a weight goes on pushing. Strength is what static fatigue leaves of it after
+/// Nearly always nothing happens, and that costs microseconds and no allocation: ask at every step. The load's work as cracks
+/// open is not limited by the energy ledger: a weight goes on pushing. The strength is that which static fatigue leaves after
 /// [`FractureConfig::load_duration`].
 ///
 /// # Errors

@@ -12,8 +12,8 @@ use crate::outcome::Outcome;
 /// Radius of curvature of what strikes, m: a fingertip, a hammer's edge.
 const RADIUS: f32 = 0.01;
 
-/// What an impulse (N·s, body frame) at a point of the surface (m, the nearest one is taken) does to a body: a half-sine as long as
-/// Hertz says of a rigid thing of 1 cm radius that gives this impulse. Whether it breaks depends on the impulse, as ever.
+/// Computes the outcome of an impulse (N·s, body frame) at a point of the surface (m, the nearest one is taken): a half-sine as long as
+/// Hertz' law gives for a rigid striker of 1 cm radius with this impulse. Whether the body breaks depends on the impulse, as ever.
 ///
 /// # Errors
 /// A number that is not finite, or an impulse of no length; what [`FractureConfig::validate`] refuses.

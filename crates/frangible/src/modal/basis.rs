@@ -13,7 +13,7 @@ pub struct ModalBasis {
     pub shapes: Vec<f32>,
     /// Largest spectral norm of each mode's linear stress over the fracture tetrahedra, Pa per unit amplitude (m·√kg).
     pub peak_stress: Vec<f32>,
-    /// How many modes, the highest, a blow does not follow through time: they answer its force statically, together, as the
+    /// Number of modes, the highest, that a blow does not follow through time: they answer its force statically, together, as the
     /// [residual vector](crate::FractureConfig::residual). 0: all are followed.
     pub residual_modes: usize,
 }

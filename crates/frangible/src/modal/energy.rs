@@ -1,4 +1,4 @@
-//! Whether a contact puts more energy into the modes than it has.
+//! Checks that a contact puts no more energy into the modes than it has.
 
 use std::f64::consts::PI;
 
@@ -8,7 +8,7 @@ use crate::material::Material;
 /// Rounding of the bounds and of the energies, relative: where they are closer to the budget the energies decide.
 const ROUNDING: f64 = 1e-9;
 
-/// What the energy of one mode depends on.
+/// Numbers of one mode that its energy depends on.
 #[derive(Clone, Copy, Debug)]
 struct Mode {
     /// λ, 1/s².
@@ -40,7 +40,7 @@ impl ContactEnergy {
         }
     }
 
-    /// Whether it stays at or below `budget`, J, over a contact of this duration, s.
+    /// Returns true if it stays at or below `budget`, J, over a contact of this duration, s.
     pub(crate) fn is_within(&self, duration: f64, budget: f64) -> bool {
         let (low, high) = self.bounds(PI / duration);
         if high < budget * (1.0 - ROUNDING) {
@@ -77,7 +77,7 @@ impl ContactEnergy {
         (low, high)
     }
 
-    /// Whether the energy is within the budget, J, at samples over the contact.
+    /// Returns true if the energy is within the budget, J, at samples over the contact.
     fn samples_are_within(&self, duration: f64, budget: f64) -> bool {
         // The energy is evaluated exactly at the samples; 40 of them find its peak to a few per mille.
         const SAMPLES: usize = 40;

@@ -45,7 +45,7 @@ impl Oscillator {
         self.state = step.times(self.state);
     }
 
-    /// What a step multiplies the state with, under the pulse; free of it the entries `[1][2]` and those that follow
+    /// Matrix by which a step multiplies the state, under the pulse; free of it the entries `[1][2]` and those that follow
     /// from it, the upper right quarter, are zero. Row-major.
     #[must_use]
     pub fn step_matrix(&self) -> [[f64; 4]; 4] {

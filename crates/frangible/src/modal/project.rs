@@ -1,4 +1,4 @@
-//! What pushes on analysis nodes do to each mode: every sum of mode shapes over the nodes of a place is made of these.
+//! Modal sums of pushes on analysis nodes: every sum of mode shapes over the nodes of a place is made of these.
 //!
 //! A push p on the node b adds φ_i(b) · p to the modal push of mode i `[G12 §4.2]`.
 

@@ -5,8 +5,8 @@
 
 pub(crate) type Matrix2 = [[f64; 2]; 2];
 
-/// A 4 × 4 matrix of the state (ω q, q̇, sin ut, cos ut) in 2 × 2 blocks: what the mode does to itself, what the force does
-/// to it, how the force turns; the force does not feel the mode, so the fourth block is zero.
+/// A 4 × 4 matrix of the state (ω q, q̇, sin ut, cos ut) in 2 × 2 blocks: the mode on itself, the force on the mode, the turn of the force;
+/// the force does not feel the mode, so the fourth block is zero.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Step {
     pub(crate) own: Matrix2,

@@ -2,7 +2,7 @@
 
 use super::step::Step;
 
-/// What a tick makes of ω q and q̇, and of a force that goes in a straight line from its beginning to its end.
+/// Effect of a tick on ω q and q̇, under a force that goes in a straight line from its beginning to its end.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Tick {
     /// (ω q, q̇) after the tick per (ω q, q̇) before it.

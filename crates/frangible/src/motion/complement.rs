@@ -1,4 +1,4 @@
-//! What the followed modes leave out of a motion: modes that follow the force (the residual vector), and the near fields of contacts on
+//! Parts of a motion that the followed modes leave out: modes that follow the force (the residual vector), and the near fields of contacts on
 //! walls.
 //!
 //! **Residual vector**, or modal truncation augmentation (Dickens, Nakagawa and Wittbrodt 1997): modes much faster than the force
@@ -11,7 +11,7 @@ use crate::asset::Asset;
 use crate::near_field::{NearField, NearFields};
 use crate::stress::{MARGIN, Shape};
 
-/// What the followed modes leave out.
+/// Parts of a motion that the followed modes leave out.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Complement {
     pub(crate) residuals: Vec<Residual>,
@@ -57,7 +57,7 @@ impl Residual {
 }
 
 impl Complement {
-    /// Whether it is nothing.
+    /// Returns true if there are none.
     pub(crate) fn is_empty(&self) -> bool {
         self.residuals.is_empty() && self.near.is_empty()
     }

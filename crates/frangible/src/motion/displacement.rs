@@ -17,9 +17,9 @@ pub struct DisplacementBatch {
     residuals: Vec<(Arc<Shape>, Lanes)>,
     /// `displacements[node][axis][step]`, m.
     displacements: Vec<[Lanes; 3]>,
-    /// How many batches had been sought when each node was computed.
+    /// Number of batches that had been sought when each node was computed.
     computed: Vec<u32>,
-    /// The batch that is held, and how many have been sought.
+    /// The batch that is held, and the number of those sought.
     batch: Option<usize>,
     sought: u32,
 }
@@ -192,7 +192,7 @@ impl pulp::NullaryFnOnce for Fill<'_> {
     }
 }
 
-/// What follows the force at a node: the shapes of the highest modes, so first in the sum.
+/// Displacement of a node by the shapes that follow the force: those of the highest modes, so first in the sum.
 #[inline(always)]
 fn following(asset: &Asset, node: usize, residuals: &[(Arc<Shape>, Lanes)]) -> [Wide; 3] {
     let mut sums = [Wide::default(); 3];

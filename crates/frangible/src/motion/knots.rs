@@ -21,7 +21,7 @@ pub(crate) struct Knots {
     pub(crate) motion: Motion,
     /// Steps from one knot to the next.
     gap: usize,
-    /// The farthest that each mode strays from the line in each gap, m·√kg: `[gap * modes + mode]`.
+    /// Largest deviation of each mode from the line in each gap, m·√kg: `[gap * modes + mode]`.
     strays: Vec<f32>,
 }
 
@@ -68,7 +68,7 @@ impl Knots {
         (of_knots, lane(first)..=lane(last))
     }
 
-    /// How far each mode strays in the gaps of a batch of knots, m·√kg: lane k is the gap that ends with the knot of lane k.
+    /// Largest deviation of each mode from the line in the gaps of a batch of knots, m·√kg: lane k is the gap that ends with the knot of lane k.
     pub(crate) fn strays(&self, batch: usize) -> Vec<Lanes> {
         let modes = self.motion.modes;
         let mut lanes = vec![Lanes::default(); modes];

@@ -1,4 +1,4 @@
-//! How a body moves under a load: the amplitudes of its modes over time, what these leave out, and where that takes its points.
+//! Motion of a body under a load: the amplitudes of its modes over time, the parts that these leave out, and the displacements of its points.
 
 mod complement;
 mod displacement;
@@ -27,7 +27,7 @@ pub struct Motion {
     pub peak_strain_energy: f64,
     /// Largest strain energy until the end of each step, J; empty where only the largest of all is known.
     pub(crate) strain_energy: Vec<f64>,
-    /// What the modes leave out.
+    /// Parts that the modes leave out.
     pub(crate) complement: Complement,
     /// From this step on steps are longer, by this factor: after a blow only the modes swing.
     pub(crate) coarse: Option<(usize, f64)>,
@@ -54,7 +54,7 @@ impl Motion {
         }
     }
 
-    /// Takes down the energy at the end of one more step, and the strain energy in it, J.
+    /// Records the energy at the end of one more step, and the strain energy in it, J.
     pub(crate) fn take_energies(&mut self, energy: f64, strain_energy: f64) {
         self.peak_energy = self.peak_energy.max(energy);
         self.peak_strain_energy = self.peak_strain_energy.max(strain_energy);
@@ -82,7 +82,7 @@ impl Motion {
         known.unwrap_or(self.peak_strain_energy)
     }
 
-    /// When a step begins, s, where the first are so long, s: steps after a blow are longer.
+    /// Time at which a step begins, s, where the first are so long, s: steps after a blow are longer.
     #[must_use]
     pub fn begin(&self, step: usize, time_step: f64) -> f64 {
         match self.coarse {

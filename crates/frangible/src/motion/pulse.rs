@@ -15,7 +15,7 @@ pub struct Pulse {
     pub contact_steps: usize,
     /// Steps until the end of the computation.
     pub total_steps: usize,
-    /// Longest step that shows the modes' swing, s: that after the contact would do with.
+    /// Longest step that shows the modes' swing, s: it would suffice after the contact.
     pub longest_step: f64,
 }
 

@@ -55,7 +55,7 @@ struct Respond<'a> {
     some: &'a [(Oscillator, f64)],
     /// Number of the first.
     first: usize,
-    /// How many modes there are in all.
+    /// Number of modes in all.
     modes: usize,
     forced_steps: usize,
     amplitudes: &'a mut [f32],

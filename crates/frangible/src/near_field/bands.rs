@@ -22,7 +22,7 @@ const WAVE_NUMBER_RATIO: f64 = 1.12;
 /// Most evenly spaced bands: a blow longer than they can tell apart hears its own echo.
 const MOST_EVEN: f64 = 64.0;
 
-/// How the bands are to be spaced in frequency, rad/s.
+/// Spacing of the bands in frequency, rad/s.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Spacing {
     /// Width of the bands: oscillators so far apart swing together again after 2π over it. The first are narrower.
@@ -147,7 +147,7 @@ impl Bands {
         bands
     }
 
-    /// What the contact gives way by, m/N, in the waves that follow the force.
+    /// Compliance of the contact, m/N, in the waves that follow the force.
     pub(crate) fn compliance(&self) -> f64 {
         let give = |band: &Band| band.give / band.eigenvalue;
         self.following.iter().map(give).sum()
@@ -263,9 +263,9 @@ mod tests {
         }
     }
 
-    /// What pressure of wave number k makes of tension along the far face of an elastic layer, over that pressure; x = kh. Airy's function
+    /// Tension along the far face of an elastic layer under a pressure of wave number k, over that pressure; x = kh. Airy's function
     /// φ = cos(kx) f(kz)/k², f = A cosh ζ + B sinh ζ + C ζ sinh ζ + D ζ cosh ζ, in plane strain: σ_zz = −f cos kx, σ_xz = f' sin kx,
-    /// σ_xx = f'' cos kx. At the loaded face f = 1 and f' = 0, at the far one both are nothing: four equations, solved as they stand.
+    /// σ_xx = f'' cos kx. At the loaded face f = 1 and f' = 0, at the far one both are zero: four equations, solved as they stand.
     fn far_tension(x: f64) -> f64 {
         let rows = |z: f64| {
             let (s, c) = (z.sinh(), z.cosh());

@@ -22,10 +22,10 @@ const LEAST_SHARE: f32 = 0.7;
 /// Thicknesses of the wall that a place may lie deeper than the contact.
 const DEEPEST: f32 = 1.5;
 
-/// The field ends so many wavelengths of the longest wave that it has from the contact.
+/// Distance from the contact at which the field ends, in wavelengths of the longest wave that it has.
 const WAVELENGTHS: f64 = 2.5;
 
-/// Where the contact is.
+/// Place of the contact.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct NearPlace {
     /// On the surface, m, body frame of the mesh.
@@ -51,12 +51,12 @@ pub(crate) struct NearField {
     most: Vec<f32>,
     /// Time steps; after them there is no field.
     steps: usize,
-    /// Whether it lasts: one step stands for all.
+    /// True for a field that lasts: one step stands for all.
     steady: bool,
 }
 
 impl NearField {
-    /// How far the field of waves from wave number `first`, 1/m, on is kept, m.
+    /// Distance to which the field of waves from wave number `first`, 1/m, on is kept, m.
     pub(crate) fn reach(first: f64) -> f64 {
         WAVELENGTHS * std::f64::consts::TAU / first
     }
@@ -116,7 +116,7 @@ impl NearField {
         }
     }
 
-    /// The step of the table that a time step is.
+    /// Step of the table for a time step.
     #[inline(always)]
     fn step(&self, step: usize) -> usize {
         if self.steady { 0 } else { step }
@@ -155,7 +155,7 @@ impl NearField {
         (after < self.radii.len()).then(|| after.saturating_sub(1))
     }
 
-    /// No place of the wall within this straight distance of the contact, m, is nearer than this along the wall.
+    /// Least distance along the wall, m, of places of the wall at this straight distance from the contact, m, or farther.
     pub(crate) fn nearest_along(&self, distance: f32) -> f32 {
         (LEAST_SHARE * distance - DEEPEST * self.thickness).max(0.0)
     }
@@ -165,7 +165,7 @@ impl NearField {
         place.distance(self.place.point)
     }
 
-    /// Where a point of the wall lies in the field; none where it does not reach. `wall`: the body's wall at the point.
+    /// Place of a point of the wall in the field; none where the field does not reach. `wall`: the body's wall at the point.
     #[inline(always)]
     fn locate(&self, point: Vec3, wall: &Wall) -> Option<Located> {
         let away = point - self.place.point;
@@ -254,7 +254,7 @@ impl NearField {
 /// A point in the field.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Located {
-    /// Distance of the table before it, and how far on the way to the next.
+    /// Distance of the table before it, and the share of the way to the next.
     radius: usize,
     share: f32,
     /// From the middle of the wall in halves of its thickness, positive towards the far face.
@@ -264,7 +264,7 @@ pub(crate) struct Located {
 }
 
 impl Located {
-    /// Whether the field is bounded by more here than at another place.
+    /// Returns true if the field is bounded by more here than at another place.
     pub(crate) fn is_nearer(&self, other: &Self) -> bool {
         self.radius < other.radius
     }
@@ -350,7 +350,7 @@ impl NearFields<'_> {
         fields.filter_map(move |(i, field)| Some((i, field.locate(point, wall)?)))
     }
 
-    /// Adds them to the stress at a point of a wall at the steps of a batch; whether any reaches it.
+    /// Adds them to the stress at a point of a wall at the steps of a batch; returns true if any reaches it.
     #[inline(always)]
     pub(crate) fn add(
         &self,

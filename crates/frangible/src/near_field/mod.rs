@@ -24,8 +24,9 @@
 //!
 //! The integral is cut into bands (`Bands`). The oscillators of a band share one frequency, so that a band is one more mode of the body,
 //! which lives about the contact: a *wall oscillator*. Its load shape ξ is such that a steady force moves the contact by
-//! `ξ²/ω² = p̂² Δ(k²)/4π · Γ/(D k⁴ + E h s)`, which is ξ² = p̂² Δ(k²)/(4πμ) of a thin plate. Γ is what the elastic layer gives way by beyond
-//! a half-space, over Kirchhoff's plate: the half-space is Hertz' spring already, and Mindlin's shear would count it twice. Together they are at once the contact's radiation,
+//! `ξ²/ω² = p̂² Δ(k²)/4π · Γ/(D k⁴ + E h s)`, which is ξ² = p̂² Δ(k²)/(4πμ) of a thin plate. Γ is the compliance of the elastic layer
+//! beyond that of a half-space, over that of Kirchhoff's plate: the half-space is Hertz' spring already, and Mindlin's shear would count it twice.
+//! Together they are at once the contact's radiation,
 //! Zener's dashpot 8 √(Dμ) of an infinite plate (1941), and the near field's stress. Within a band J is integrated in closed form,
 //! ∫ k J₀ dk = k J₁/r and ∫ k J₂ dk = −(kr J₁ + 2 J₀)/r², so bands may be wide without ghosts at a distance. Bands
 //! too high for the blow to make them ring follow the force, as one static table. Where the modes end and the bands begin is read off what

@@ -1,4 +1,4 @@
-//! An infinite wall: how fast its bending waves are, and how a force bends it.
+//! An infinite wall: the speed of its bending waves, and its bending under a force.
 
 use crate::asset::SurfaceWall;
 use crate::config::PlateTheory;
@@ -66,7 +66,7 @@ impl WallMaterial {
         (numbers, self.theory)
     }
 
-    /// What [`Self::numbers`] gave.
+    /// The wall that [`Self::numbers`] describes.
     pub(crate) fn of_numbers(numbers: [f64; 8], theory: PlateTheory) -> Self {
         let [
             thickness,
@@ -95,7 +95,7 @@ impl WallMaterial {
         }
     }
 
-    /// Whether every number can be one of a wall's.
+    /// Returns true if every number can be one of a wall's.
     pub(crate) fn is_sound(&self) -> bool {
         let [
             thickness,
@@ -120,7 +120,7 @@ impl WallMaterial {
         8.0 * (self.bending_stiffness * self.mass_per_area).sqrt()
     }
 
-    /// D k⁴ + E h s, Pa/m: what a thin wall sets against a wave of wave number k, 1/m.
+    /// D k⁴ + E h s, Pa/m: stiffness of a thin wall against a wave of wave number k, 1/m.
     fn stiffness(&self, k: f64) -> f64 {
         self.bending_stiffness * k.powi(4) + self.curvature_stiffness
     }
@@ -173,7 +173,7 @@ impl WallMaterial {
             .sqrt()
     }
 
-    /// How far the contact gives way in waves of wave number k, m per Pa at the crest, beyond what Hertz' half-space does.
+    /// Compliance of the contact in waves of wave number k, m per Pa at the crest, beyond that of Hertz' half-space.
     pub(super) fn compliance(&self, k: f64) -> f64 {
         let factor = match self.theory {
             PlateTheory::Kirchhoff => 1.0,
@@ -230,9 +230,9 @@ fn layer_factor(x: f64) -> f64 {
     x.powi(3) * sinh / (3.0 * (sinh * sinh - x * x))
 }
 
-/// How much more an elastic layer than a half-space gives way under a pressure of wave number k, over what Kirchhoff's plate does;
+/// Compliance of an elastic layer under a pressure of wave number k, beyond that of a half-space, over that of Kirchhoff's plate;
 /// `x` = kh. The layer bends and is squeezed: (f_a + f_s) against 2, with f_a = (cosh x + 1)/(sinh x − x),
-/// f_s = (cosh x − 1)/(sinh x + x). What is left falls to nothing where kh > 4: Hertz' spring has the rest.
+/// f_s = (cosh x − 1)/(sinh x + x). The difference falls to nothing where kh > 4: Hertz' spring has the rest.
 fn layer_compliance(x: f64) -> f64 {
     if x < 0.1 {
         // 1 + x²/5 + …, less x³/6 of the half-space: the differences lose digits.
