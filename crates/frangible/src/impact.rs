@@ -17,7 +17,7 @@ use crate::outcome::{Fracture, ImpactReport, LookedAt, Outcome};
 use crate::refuse;
 use crate::trace::CrackTrace;
 
-/// Computes what an impact does to a body. Nothing is changed; the caller replaces a broken body by its fragments.
+/// Computes the outcome of an impact on a body. Nothing is changed; the caller replaces a broken body by its fragments.
 ///
 /// `contacts` are all contacts of this impact on this body, in its body frame (origin at the centre of mass).
 /// The modes are those of the unbroken body, the single basis of `[G12 §7.3.1]`. Pieces that part during a blow that is followed with the body move on
@@ -38,7 +38,7 @@ pub fn impact(
     })
 }
 
-/// [`impact()`], and what its cracks did element by element: for tests and for the comparison with the paper. No bound free of time
+/// [`impact()`] with a trace of its cracks, element by element: for tests and for the comparison with the paper. No bound free of time
 /// refuses it: its motion is followed, and the report has the steps.
 ///
 /// # Errors
@@ -56,7 +56,7 @@ pub fn impact_traced(
     Ok((outcome, trace.unwrap_or_default()))
 }
 
-/// Whether an impact would break a body into pieces: [`impact`] without making them.
+/// Returns true if an impact would break a body into pieces: [`impact`] without making them.
 ///
 /// # Errors
 /// What [`impact()`] refuses.
@@ -71,7 +71,7 @@ pub fn would_break(
     })
 }
 
-/// What the first stage of an impact leaves to do.
+/// Result of the first stage of an impact.
 #[derive(Clone, Debug)]
 pub enum Stage {
     /// Nothing: its impulses are too weak for any crack.
@@ -90,7 +90,7 @@ pub struct Vibration {
     pub pressed: Vec<u32>,
     /// The pulse of unit impulse and its time steps.
     pub pulse: Pulse,
-    /// What is known of the impact so far.
+    /// Report of the impact so far.
     pub report: ImpactReport,
     /// The blow, where it was followed with the body: then the modes are not all there is, and `pulse` only says how long it was.
     pub(crate) blow: Option<Box<Blow>>,
@@ -109,7 +109,7 @@ impl Vibration {
         begin(body, contacts, config, config.culling)
     }
 
-    /// Whether the pulse and the modes are all there is. Else the blow was followed with the body, or the modes left out count.
+    /// Returns true if the pulse and the modes are the whole motion. Else the blow was followed with the body, or the modes left out count.
     #[must_use]
     pub fn is_pulse(&self) -> bool {
         self.blow.is_none()
@@ -132,14 +132,14 @@ impl Vibration {
 
     /// Ends the impact. With `first_step` 0 this is [`impact()`](crate::impact()); time steps before it are passed over.
     ///
-    /// Where none of those has a weak point's stress above its strength, and the body has no cracks yet, the cracks and
+    /// If none of those has a weak point's stress above its strength, and the body has no cracks yet, the cracks and
     /// the pieces are the same bit for bit; the report's stresses and the margin are those of the steps looked at.
     #[must_use]
     pub fn end(self, body: &Body, config: &FractureConfig, first_step: usize) -> Outcome {
         pieces(body, self.crack(body, config, first_step, &mut None))
     }
 
-    /// Whether the impact would break the body into pieces: [`Self::end`] without making them.
+    /// Returns true if the impact would break the body into pieces: [`Self::end`] without making them.
     #[must_use]
     pub fn would_break(self, body: &Body, config: &FractureConfig, first_step: usize) -> bool {
         let (cracking, report) = self.cracking(body, config);
@@ -263,8 +263,8 @@ fn given(
     })
 }
 
-/// Duration of contacts whose impulses are given, s, and what is made of it where it has to be admissible. Nothing lengthens what a script asks
-/// for.
+/// Duration of contacts whose impulses are given, s, as it is and lengthened where it has to be admissible. Nothing lengthens that of
+/// a script.
 fn durations(
     asset: &Asset,
     load: &Load,

@@ -7,7 +7,7 @@
 //! [`blow`], [`modal`] and [`near_field`] (the motion), [`stress`], [`loads`] (other ways to move a body), [`piece`] (a fragment as
 //! a body), [`rigid`] (what a break does to the motion of bodies).
 
-/// What a bake makes of a shape, its file and its checks.
+/// Baked assets, their files and their checks.
 pub mod asset {
     pub use crate::asset::*;
 }
@@ -17,7 +17,7 @@ pub mod blow {
     pub use crate::blow::*;
 }
 
-/// What bodies of one kind share, and what each has of its own.
+/// Breakable kinds, and their bodies.
 pub mod body {
     pub use crate::body::*;
 }
@@ -27,7 +27,7 @@ pub mod config {
     pub use crate::config::*;
 }
 
-/// How long and how hard a contact acts, and when it can be refused.
+/// Contacts: their points, forces and durations.
 pub mod contact {
     pub use crate::contact::*;
 }
@@ -57,18 +57,18 @@ pub mod mesh {
     pub use frangible_geometry::*;
 }
 
-/// The modes and how they move.
+/// The modes and their motion.
 pub mod modal {
     pub use crate::modal::*;
     pub use crate::motion::{Motion, respond};
 }
 
-/// What the modes leave out of the motion near a contact.
+/// Near fields: the motion near a contact that the modes leave out.
 pub mod near_field {
     pub use crate::near_field::*;
 }
 
-/// What an impact did.
+/// Outcomes of impacts, and their reports.
 pub mod outcome {
     pub use crate::outcome::*;
 }
@@ -78,7 +78,7 @@ pub mod piece {
     pub use crate::piece::*;
 }
 
-/// What a break does to the motion of bodies.
+/// Motion of bodies after a break.
 pub mod rigid {
     pub use crate::rigid::*;
 }

@@ -1,4 +1,4 @@
-//! What an impact did.
+//! Outcomes of impacts, and their reports.
 
 use std::sync::Arc;
 
@@ -10,7 +10,7 @@ use crate::state::BodyState;
 pub use crate::contact::ContactReport;
 pub use crate::fragment::Fragment;
 
-/// What an impact did to a body.
+/// Outcome of an impact on a body.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 #[expect(
@@ -25,7 +25,7 @@ pub enum Outcome {
         margin: f64,
         /// Numbers of the impact.
         report: ImpactReport,
-        /// Where cracks ran that part nothing: all cracks of the body so far, for [`Body::set_state`](crate::Body::set_state).
+        /// All cracks of the body so far, if some ran that part nothing: for [`Body::set_state`](crate::Body::set_state).
         state: Option<Box<BodyState>>,
     },
     /// The body is now these fragments.
@@ -49,9 +49,9 @@ impl Outcome {
 pub struct Fracture {
     /// The pieces, largest first; together they tile the body.
     pub fragments: Vec<Fragment>,
-    /// How the break came about.
+    /// Report of the impact.
     pub report: ImpactReport,
-    /// What the pieces need that are to break again; none of pieces that came about elsewhere.
+    /// Data for pieces that are to break again; none for pieces that came about elsewhere.
     pub(crate) breakup: Option<Arc<Breakup>>,
 }
 
@@ -66,7 +66,7 @@ impl Fracture {
         }
     }
 
-    /// Whether the fragments have [velocities of their own](crate::Fragment::velocity): pieces parted while the blow was followed.
+    /// Returns true if the fragments have [velocities of their own](crate::Fragment::velocity): pieces parted while the blow was followed.
     #[must_use]
     pub fn moves_apart(&self) -> bool {
         let mut fragments = self.fragments.iter();
@@ -74,13 +74,13 @@ impl Fracture {
     }
 }
 
-/// What of an impact had to be looked at, from the cheapest.
+/// Level of detail at which an impact was decided, from the cheapest.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum LookedAt {
-    /// Where its impulses act, how large they are and how long they last: one number per place was enough to refuse it.
+    /// Places, sizes and durations of its impulses: one number per place was enough to refuse it.
     Sizes,
-    /// What its impulses, and how long they act, can do to each mode at most: a bound free of time refused it, of the whole body or
+    /// Largest effect of its impulses, as long as they act, on each mode: a bound free of time refused it, of the whole body or
     /// of all its parts.
     #[default]
     Impulses,
@@ -109,11 +109,11 @@ pub struct ImpactReport {
     /// Largest principal tension met at a weak point, Pa. Points whose bound stays below the strength are not looked
     /// at: 0 when that is all of them; see `stress_bound`.
     pub peak_stress: f64,
-    /// Where that was, m, body frame: the centre of the weak point's tetrahedron.
+    /// Place of that tension, m, body frame: the centre of the weak point's tetrahedron.
     pub peak_point: Option<Vec3>,
     /// No weak point had more tension than this, Pa, before a crack cut it or its piece came to rest.
     pub stress_bound: f64,
-    /// What had to be looked at.
+    /// Level of detail at which the impact was decided.
     pub looked_at: LookedAt,
     /// Tensile strength R_c it is compared with, Pa: where it varies over the body, that of the weakest weak point.
     pub strength: f64,
@@ -130,7 +130,7 @@ pub struct ImpactReport {
     pub crack_area: f64,
     /// Number of cracks that started.
     pub cracks: usize,
-    /// How many of them left another crack at a fork.
+    /// Number of these that branched off another crack at a fork.
     pub forks: usize,
     /// Number of weak points of the body.
     pub weak_points: usize,
@@ -140,10 +140,10 @@ pub struct ImpactReport {
     pub first_crack_point: Option<Vec3>,
     /// Volume of all fragments over the volume of the body, minus one.
     pub volume_error: f64,
-    /// Fractured tetrahedra and when the crack was there, s after the contact began: crack after crack of those that this impact
-    /// moved, each in the order of its growth.
+    /// Fractured tetrahedra, and the times at which the crack reached them, s after the contact began: crack after crack of those that this
+    /// impact moved, each in the order of its growth.
     pub arrivals: Vec<Vec<(u32, f64)>>,
-    /// What became of each contact, where the blow was integrated.
+    /// Report of each contact, where the blow was integrated.
     pub contacts: Vec<ContactReport>,
     /// Wall-clock time of each stage.
     pub timings: StageTimings,
@@ -159,11 +159,11 @@ pub struct StageTimings {
     pub stress: f64,
     /// Crack initiation and growth.
     pub cracks: f64,
-    /// What hangs together still, asked in the end and at times during the motion of a blow.
+    /// Search for connected pieces, in the end and at times during the motion of a blow.
     pub labels: f64,
     /// Partition, surfaces, masses.
     pub fragments: f64,
-    /// What to draw of a body with a surface of its author's.
+    /// Render meshes, for a body with a surface of its author's.
     pub drawing: f64,
 }
 

@@ -1,4 +1,4 @@
-//! How a piece vibrates, and the body that it makes.
+//! Vibration of a piece, and the body that it makes.
 
 use std::sync::Arc;
 
@@ -16,16 +16,16 @@ use crate::stress::Search;
 pub struct Elastic {
     /// Quadratic elements.
     pub analysis: AnalysisMesh,
-    /// Where the centroids of [`Portion::tets`] lie in them, one each.
+    /// Centroids of [`Portion::tets`], located in these elements, one each.
     pub tets: Vec<EmbeddedPoint>,
-    /// Where [`Portion::nodes`] lie in them, one each.
+    /// [`Portion::nodes`], located in these elements, one each.
     pub nodes: Vec<EmbeddedPoint>,
     /// Modes of the piece, without its rigid motions. [`ModalBasis::peak_stress`] may be empty.
     pub modes: ModalBasis,
 }
 
 impl Elastic {
-    /// What is wrong with its numbers, as a clause.
+    /// Checks its numbers; the error says, as a clause, what is wrong.
     fn check(&self) -> Result<(), String> {
         asset::analysis(&self.analysis)?;
         let elements = self.analysis.elements.len();
@@ -35,15 +35,15 @@ impl Elastic {
     }
 }
 
-/// Finds how pieces vibrate.
+/// Finds the modes of pieces.
 pub trait PieceModel: Send + Sync {
-    /// What serves from the break on; `None` where the piece is not to break, or not yet. `parent`: the body that broke.
+    /// Elastic body that serves from the break on; `None` if the piece is not to break, or not yet. `parent`: the body that broke.
     fn at_once(&self, portion: &Arc<Portion>, parent: &Body) -> Option<Elastic>;
 
-    /// What takes its place some steps later, made by a worker meanwhile; `None` where nothing does.
+    /// Elastic body that takes its place some steps later, made by a worker meanwhile; `None` if nothing does.
     fn later(&self, portion: &Arc<Portion>) -> Option<Elastic>;
 
-    /// How long one thread is expected to take for [`PieceModel::at_once`] and for [`PieceModel::later`], s, of a piece of so many tetrahedra: a
+    /// Expected times of one thread for [`PieceModel::at_once`] and for [`PieceModel::later`], s, for a piece of so many tetrahedra: a
     /// rule that gives the same number on every machine. A world that paces its work goes by it.
     fn expected_times(&self, _tets: usize) -> [f64; 2] {
         [0.0; 2]

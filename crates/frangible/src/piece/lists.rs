@@ -1,4 +1,4 @@
-//! What of the fracture mesh belongs to a piece.
+//! Lists of the nodes, tetrahedra, cuts and cracks that belong to a piece.
 
 use crate::asset::FOREIGN;
 use crate::body::Body;
@@ -6,7 +6,7 @@ use crate::fragment::Breakup;
 use crate::mesh::{DisjointSets, EDGES};
 use crate::state::{BodyState, EdgeCut, OldCrack};
 
-/// What a portion lists.
+/// Lists of a portion.
 #[derive(Default)]
 pub(super) struct Lists {
     pub(super) nodes: Vec<u32>,
@@ -108,7 +108,7 @@ impl Lists {
         });
     }
 
-    /// Crumbs that joined this piece are joined to it for good: the cuts between them and the rest, which are none any more.
+    /// Joins crumbs to this piece for good: returns the cuts between them and the rest, which are none any more.
     /// Finds the parts that are still loose, too.
     fn heal(
         &mut self,
@@ -148,7 +148,7 @@ impl Lists {
         healed.into_iter().map(|(ends, _)| ends).collect()
     }
 
-    /// Keeps of each crack what cut this piece; cuts name their cracks by the new numbers.
+    /// Keeps those cuts of each crack that cut this piece; cuts name their cracks by the new numbers.
     fn remember(&mut self, breakup: &Breakup, own: impl Fn(u32) -> bool) {
         let mut number = vec![EdgeCut::FORGOTTEN; breakup.state.cracks.len()];
         for (crack, number) in breakup.state.cracks.iter().zip(&mut number) {

@@ -4,12 +4,12 @@
 //! a [`Portion`]: its nodes, its uncut tetrahedra, the cuts that part it from its neighbours. A later break cuts the same
 //! tetrahedra the same way, so pieces of pieces tile their parent, generation after generation.
 //!
-//! How it vibrates is another matter: its modes are not those of the whole. A [`PieceModel`] finds them
+//! Its vibration is another matter: its modes are not those of the whole. A [`PieceModel`] finds them
 //! (module `pieces` of `frangible-bake` has two), as an [`Elastic`] body; [`Body::piece`](crate::Body::piece) makes a body of both.
 //! A body that is cracked but whole can have new modes in the same way ([`Portion::of_cracked`]).
 //!
 //! Points on faces and in tetrahedra with three labels stay where they were, and new ones lie on the faces that the piece has
-//! had. Contacts speak in the piece's frame, cracks in that of the mesh. How a piece vibrates is a trait, so that a world needs
+//! had. Contacts speak in the piece's frame, cracks in that of the mesh. [`PieceModel`] is a trait, so that a world needs
 //! no finite elements.
 
 mod elastic;

@@ -1,4 +1,4 @@
-//! Which part of a broken body a piece is.
+//! Makes portions: of the pieces of a broken body, or of a cracked body as a whole.
 
 use std::sync::Arc;
 
@@ -111,7 +111,7 @@ impl Portion {
 }
 
 impl Fracture {
-    /// Which part of the body each wanted fragment is, for [`Body::piece`]. `body`: the one that broke. `None` for the others,
+    /// Portion of the body that each wanted fragment is, for [`Body::piece`]. `body`: the one that broke. `None` for the others,
     /// and for a fracture that was not computed here.
     #[must_use]
     pub fn portions(

@@ -1,4 +1,4 @@
-//! A piece as a solid of tetrahedra: what its modes are computed for.
+//! A piece as a solid of tetrahedra, for which its modes are computed.
 //!
 //! Cracked bodies are covered in parts: two parts of cut tetrahedra hang together where they share a node of the face between
 //! them, and the lattice has a copy of its cell on each side of a crack.
@@ -14,7 +14,7 @@ use crate::state::Cuts;
 /// joined.
 #[derive(Clone, Debug, Default)]
 pub struct Solid {
-    /// Where the nodes are, in the frame of the fracture mesh, m: [`Portion::nodes`], then points on the cracks.
+    /// Positions of the nodes, in the frame of the fracture mesh, m: [`Portion::nodes`], then points on the cracks.
     pub positions: Vec<DVec3>,
     /// Right-handed tetrahedra: [`Portion::tets`], then parts of those that are cut.
     pub tets: Vec<[u32; 4]>,
@@ -121,7 +121,7 @@ impl Portion {
         parts
     }
 
-    /// Who hangs together with whom: two parts that share a node of the face between them.
+    /// Joins parts that hang together: two parts that share a node of the face between them.
     fn join(&self, parts: &[Part], solid: &mut Solid) {
         let mesh = &self.root.fracture;
         let filling = |e: u32, side: usize| {
@@ -177,7 +177,7 @@ impl Portion {
     }
 }
 
-/// Labels of a tetrahedron's corners: one for each set of its own that uncut edges join; others keep their own company.
+/// Labels of a tetrahedron's corners: one for each set of its own that uncut edges join, and for each set of the others.
 fn labels(nodes: &[u32; 4], own: &[bool; 4], cuts: &Cuts) -> [u32; 4] {
     let mut labels = [0, 1, 2, 3];
     for _ in 0..3 {

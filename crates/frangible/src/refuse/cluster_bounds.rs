@@ -1,4 +1,4 @@
-//! Bounds of the stress in each cluster that holds weak points, from the farthest that each mode moves.
+//! Bounds of the stress in each cluster that holds weak points, from the largest amplitude of each mode.
 
 use super::impact::Refusal;
 use crate::body::Body;
@@ -20,7 +20,7 @@ impl<'a> ClusterBounds<'a> {
         }
     }
 
-    /// How many there are.
+    /// Number of parts.
     pub(crate) fn count(&self) -> usize {
         self.body.clusters.clusters.len()
     }
@@ -42,7 +42,7 @@ impl<'a> ClusterBounds<'a> {
         tension_bound(amplitudes, stress, gradient, self.quadratic_modulus)
     }
 
-    /// [`Self::bound`] at each step of a batch, given how far each mode moves at each, m·√kg.
+    /// [`Self::bound`] at each step of a batch, from the size of each mode's amplitude at each, m·√kg.
     #[inline(always)]
     pub(super) fn bounds(&self, part: usize, sizes: &[Lanes]) -> Lanes {
         let (stress, gradient) = self.rows(part);
@@ -81,7 +81,7 @@ impl pulp::NullaryFnOnce for AllParts<'_, '_> {
     }
 }
 
-/// Whether no weak point cracks when the modes move no farther than `amplitudes`, m·√kg: by the bounds of all parts.
+/// Refuses an impact if no weak point cracks when the modes move no farther than `amplitudes`, m·√kg: by the bounds of all parts.
 pub(crate) fn refused_by_clusters(
     body: &Body,
     amplitudes: &[f32],

@@ -1,4 +1,4 @@
-//! Which weak points need a look at a time step: those of clusters whose stress bound passes the strength.
+//! Weak points that need a look at a time step: those of clusters whose stress bound passes the strength.
 
 use std::ops::Range;
 
@@ -19,15 +19,15 @@ pub(crate) struct Culling<'a> {
     pub(crate) passed_over: f32,
     /// Largest bound of what was passed over so far, as the weakest point would feel it, Pa.
     pub(crate) as_weakest: f32,
-    /// Whether the bound of the whole body ever let a time step pass.
+    /// True if the bound of the whole body ever failed to refuse a time step.
     pub(crate) asked_clusters: bool,
     /// Bit k of a cluster's entry: step k of the batch needs a look at the cluster.
     survivors: Vec<Steps>,
-    /// How far each mode moves at the steps of the batch looked at last, m·√kg.
+    /// Size of each mode's amplitude at the steps of the batch looked at last, m·√kg.
     sizes: Vec<Lanes>,
-    /// Most stress of each residual shape, Pa/N: in the whole body, and in each cluster.
+    /// Largest stress of each residual shape, Pa/N: in the whole body, and in each cluster.
     residuals: Vec<(f32, Vec<f32>)>,
-    /// For each near field and cluster what bounds the field there, in the field's table.
+    /// For each near field and cluster the distance in the field's table that bounds the field there.
     near: Vec<Vec<Option<usize>>>,
 }
 
@@ -99,7 +99,7 @@ impl<'a> Culling<'a> {
         modes + still + near
     }
 
-    /// Begins a batch with these time steps: which clusters need a look at which of them. Returns the bound of the whole body at each, Pa.
+    /// Begins a batch with these time steps: finds the clusters that need a look at them. Returns the bound of the whole body at each, Pa.
     pub(crate) fn look(&mut self, motion: &Motion, steps: Range<usize>) -> Lanes {
         let mut roots = [0.0; BATCH];
         let mut asked = 0;
@@ -145,7 +145,7 @@ impl<'a> Culling<'a> {
         bound
     }
 
-    /// Whether any cluster needs a look at step `k` of the batch.
+    /// Returns true if any cluster needs a look at step `k` of the batch.
     pub(crate) fn survives(&self, k: usize) -> bool {
         self.survivors.iter().any(|steps| steps >> k & 1 == 1)
     }
@@ -157,7 +157,7 @@ impl<'a> Culling<'a> {
     }
 }
 
-/// The question which clusters may crack at some time steps of a batch.
+/// Search for the clusters that may crack at some time steps of a batch.
 struct AskClusters<'c, 'a, 'm, S> {
     culling: &'c mut Culling<'a>,
     motion: &'m Motion,

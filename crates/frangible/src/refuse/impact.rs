@@ -19,10 +19,10 @@ use crate::contact::{Contact, give, hertz_at};
 use crate::mesh::SurfacePoint;
 use crate::outcome::LookedAt;
 
-/// Why an impact does nothing.
+/// Bounds that show that an impact does nothing.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Refusal {
-    /// What had to be looked at.
+    /// Level of detail at which the impact was decided.
     pub(crate) looked_at: LookedAt,
     /// No weak point has more tension than this, Pa.
     pub(crate) bound: f32,
@@ -31,14 +31,14 @@ pub(crate) struct Refusal {
 }
 
 impl Refusal {
-    /// Another bound, and as the weakest point would feel it, Pa.
+    /// Raises the bounds to another one, and to that as the weakest point would feel it, Pa.
     pub(crate) fn raise(&mut self, bound: f32, as_weakest: f32) {
         self.bound = self.bound.max(bound);
         self.as_weakest = self.as_weakest.max(as_weakest);
     }
 }
 
-/// Whether a bound free of time shows that no stress of this impact does anything to the body. Allocates nothing unless parts of the
+/// Refuses an impact if a bound free of time shows that none of its stress does anything to the body. Allocates nothing unless parts of the
 /// body have to be asked. `None` says nothing.
 pub(crate) fn refused(
     body: &Body,

@@ -25,8 +25,8 @@ use crate::contact::Contact;
 use crate::stress::limit;
 use crate::tips::front_limit;
 
-/// Whether a bound that costs microseconds shows that an impact does nothing to a body; [`impact()`](crate::impact()) asks it first. False
-/// says nothing.
+/// Returns true if a bound that costs microseconds shows that an impact does nothing to a body; [`impact()`](crate::impact()) asks it first.
+/// False says nothing.
 #[must_use]
 pub fn is_harmless(body: &Body, contacts: &[Contact], config: &FractureConfig) -> bool {
     config.culling

@@ -1,4 +1,4 @@
-//! How much a body carries wherever the load acts: one number per body, so that most loads need not be looked at.
+//! Load that a body carries wherever it acts: one number per body, so that most loads need not be looked at.
 //!
 //! A force f at a point b of the surface moves mode i to φ_i(b)·f / λ_i, at most |φ_i(b)| |f| / λ_i. Over a triangle φ_i
 //! is linear and its length convex, so its largest value is at a corner. With s_i the largest stress of mode i in the
@@ -36,15 +36,15 @@ impl PerNewton {
 }
 
 impl Body {
-    /// Works out what its first steady load would ask for, so that this does not have to wait for it.
+    /// Computes the bound that its first steady load asks for, so that the load does not have to wait for it.
     pub fn prepare_for_loads(&self) {
         self.prepared.per_newton.get_or_init(|| PerNewton::of(self));
     }
 }
 
-/// How many times as much a body could carry, at least, of forces whose sizes (N) add up to `total`, wherever they act, and
-/// of `gravity` (m/s²) when it is held, after they have lasted for `duration` (s): strength over a bound of the stress. Far below what [`rest`](crate::internals::rest) finds, but for a
-/// handful of multiplications: above 1, nothing happens.
+/// Lower bound of a body's margin, strength over stress, under forces whose sizes (N) add up to `total`, wherever they act, and
+/// under `gravity` (m/s²) when it is held, after they have lasted for `duration` (s). Far below what [`rest`](crate::internals::rest) finds, but it
+/// takes a handful of multiplications: above 1, nothing happens.
 #[must_use]
 pub fn rest_margin_at_least(body: &Body, total: f32, gravity: f32, duration: f64) -> f64 {
     let most = body.prepared.per_newton.get_or_init(|| PerNewton::of(body));

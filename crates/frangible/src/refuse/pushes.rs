@@ -1,4 +1,4 @@
-//! What pushes on a body, and the bound of the whole body under it.
+//! Pushes on a body, and the bound of the whole body under them.
 
 use glam::Vec3;
 
@@ -15,7 +15,7 @@ pub(super) const MOST_CONTACTS: usize = 16;
 /// Modes looked at together: their sums stay on the stack.
 const BLOCK: usize = 64;
 
-/// What pushes on a body: where, and with which impulse, N·s, or force, N.
+/// Pushes on a body: their places, and their impulses, N·s, or forces, N.
 pub(crate) struct Pushes {
     places: [(SurfacePoint, Vec3); MOST_CONTACTS],
     count: usize,
@@ -45,7 +45,7 @@ impl Pushes {
         &self.places[..self.count]
     }
 
-    /// Whether any of them has a near field.
+    /// Returns true if any of them has a near field.
     pub(super) fn any_near(&self, asset: &Asset, theory: PlateTheory) -> bool {
         let mut places = self.places().iter();
         places.any(|(at, _)| has_near_field(asset, at.triangle, theory))
