@@ -1,10 +1,11 @@
-//! What a break does to the motion of bodies, in plain numbers: any engine turns its bodies into [`Rigid`]s, has the blow's impulse put on
+//! Motion of bodies after a break, in plain numbers: any engine turns its bodies into [`Rigid`]s, has the blow's impulse put on
 //! the pieces and the cracks' energy taken from the motion, and takes the velocities back.
 //!
 //! **The blow.** Where the motion of the pieces was followed through the blow ([`Fracture::moves_apart`]), all of them together take the impulse
-//! as one body ([`push_whole`]), and then [move apart](part) as they did in it. Where that was not followed, or the blow [is local](is_local), the striker
-//! pushes a plug as heavy as the blow made it, not a single splinter with all the momentum of a wall: the pieces nearest to the contacts take the impulse as one body, the fewest that do not leave faster than the striker follows, and all
-//! of them where even they do. What the motion loses by it went into vibration.
+//! as one body ([`push_whole`]), and then [move apart](part) as they did in it. Where that was not followed, or the blow [is local](is_local), the
+//! striker pushes a plug as heavy as the blow made it, not a single splinter with all the momentum of a wall: the pieces nearest to the contacts take
+//! the impulse as one body, the fewest that do not leave faster than the striker follows, and all of them where even they do. What the motion loses
+//! by it went into vibration.
 //!
 //! **The toll.** What the cracks cost beyond that is taken from the motion of pieces and striker against their common rigid motion, the
 //! one with their momentum and angular momentum. Every body's deviation from it is scaled by √(1 − E/T), T the deviations' kinetic
@@ -25,7 +26,7 @@ pub struct Rigid {
     pub inertia: DMat3,
     /// One over the mass as an impulse meets it, 1/kg: less where an engine has locked an axis.
     pub inverse_mass: f64,
-    /// How the body answers a moment, 1/(kg·m²): less where an engine has locked an axis.
+    /// Inverse of the inertia as a moment meets it, 1/(kg·m²): less where an engine has locked an axis.
     pub inverse_inertia: DMat3,
     /// Centre of mass, m.
     pub centre: DVec3,
@@ -70,7 +71,7 @@ impl Kick {
 }
 
 impl Rigid {
-    /// A body that is free to move; one that nothing moves where the numbers are none of a body.
+    /// A body that is free to move; an immovable one where the numbers cannot be those of a body.
     #[must_use]
     pub fn free(mass: f64, inertia: DMat3, [centre, linear, angular]: [DVec3; 3]) -> Self {
         let inverse_inertia = inertia.inverse();
@@ -102,13 +103,13 @@ impl Rigid {
         }
     }
 
-    /// What stands still, whatever pushes it.
+    /// A body that stands still, whatever pushes it.
     #[must_use]
     pub fn earth() -> Self {
         Self::immovable([DVec3::ZERO; 3])
     }
 
-    /// Whether it is a body that moves freely.
+    /// Returns true if it is a body that moves freely.
     #[must_use]
     pub fn gives_way(&self) -> bool {
         self.mass.is_finite()
@@ -169,7 +170,7 @@ impl Rigid {
         kick.linear.dot(self.linear) + kick.moment.dot(self.angular)
     }
 
-    /// What a kick changes velocity and angular velocity by.
+    /// Change of velocity and angular velocity by a kick.
     #[must_use]
     pub fn answer(&self, kick: Kick) -> (DVec3, DVec3) {
         (
@@ -178,7 +179,7 @@ impl Rigid {
         )
     }
 
-    /// How much it gives way to a kick: twice the energy that the kick brings to it at rest, J.
+    /// Twice the energy that a kick brings to it at rest, J: the measure of how much it gives way.
     #[must_use]
     pub fn give(&self, kick: Kick) -> f64 {
         let (linear, angular) = self.answer(kick);
@@ -311,8 +312,8 @@ pub fn take_blow(
     lost - part(pieces, &motions, lost - fracture.report.fracture_energy)
 }
 
-/// Whether a blow is over before all pieces, which come in the order of their distance from it, know of it: its [plug](push_plug) is less than
-/// half of what is loose. Short waves hold what it gave, of which the motions of large pieces have little.
+/// Returns true if a blow is over before all pieces, which come in the order of their distance from it, know of it: its [plug](push_plug) is less
+/// than half of what is loose. Short waves hold what it gave, of which the motions of large pieces have little.
 #[must_use]
 pub fn is_local(pieces: &[Rigid], striker: &[Rigid], pushes: &Pushes, taken: Kick) -> bool {
     let loose: Vec<Rigid> = pieces.iter().filter(|p| p.gives_way()).copied().collect();

@@ -1,6 +1,6 @@
 //! Fronts of old cracks (beyond the paper): a body that is cracked is weaker at its cracks' fronts.
 //!
-//! Where a crack of length a is there already, what feeds its front is not the strain energy of a layer γ (Eq. 12) but the energy
+//! The front of a crack of length a that is there already is fed not by the strain energy of a layer γ (Eq. 12) but by the energy
 //! that its opening sets free, Griffith's `G = π a σ² / E'` per area (1921), σ the tension across it as if it were not there:
 //! a layer of depth 2πa. The length is the crack's area over that of its front, which serves all shapes: an edge crack and one
 //! across a plate have `K = 1.12` and `1.00 σ√(πa)`, a penny of radius R has `a = R/2` and `K = 0.90 σ√(πa)`.
@@ -108,10 +108,10 @@ pub(crate) fn fronts(asset: &Asset, state: &BodyState, tips: &[Tip]) -> Vec<Crac
     fronts
 }
 
-/// What no crack of a body has cut yet.
+/// Parts of a body that no crack has cut yet.
 struct Uncut<'a> {
     asset: &'a Asset,
-    /// Whether each fracture tetrahedron is the body's own, and whole.
+    /// True for fracture tetrahedra that are the body's own, and whole.
     tets: Vec<bool>,
     /// Cuts of a piece since it is one.
     settled: Cuts,
@@ -164,7 +164,7 @@ impl<'a> Uncut<'a> {
     }
 }
 
-/// Whether all nodes of a tetrahedron belong to the body.
+/// Returns true if all nodes of a tetrahedron belong to the body.
 pub(crate) fn is_inside(asset: &Asset, tet: u32) -> bool {
     let nodes = &asset.fracture.tets[tet as usize];
     asset
@@ -202,8 +202,8 @@ fn tip_limit(material: &Material, least_fracture_energy: f64, depth: f64) -> f64
     (2.0 * material.contact_modulus() * least_fracture_energy / depth).sqrt()
 }
 
-/// No front of these cracks moves where toughness is at least `least`, J/m², at a stress whose every principal value is below this, Pa: of the strain energy
-/// density η ≤ (3 + 6|ν|) σ² / 2E it needs γ η > G_c, or what its [`Tip`] asks for.
+/// No front of these cracks moves where toughness is at least `least`, J/m², at a stress whose every principal value is below this, Pa: of the
+/// strain energy density η ≤ (3 + 6|ν|) σ² / 2E it needs γ η > G_c, or what its [`Tip`] asks for.
 pub(crate) fn front_limit(material: &Material, least: f64, tips: &[Tip]) -> f32 {
     let share = 3.0 + 6.0 * material.poisson_ratio.abs();
     let energy_density = least / material.energy_depth;

@@ -1,9 +1,9 @@
-//! What the cracks of one impact did, element by element: a by-product for tests, off the way of [`crate::impact()`].
+//! Trace of the cracks of one impact, element by element: a by-product for tests, off the way of [`crate::impact()`].
 
 use crate::crack::CrackSystem;
 use crate::motion::Motion;
 
-/// What the cracks of one impact did.
+/// Trace of the cracks of one impact.
 #[derive(Clone, Debug, Default)]
 pub struct CrackTrace {
     /// Fractured tetrahedra of each crack in the order they joined, cracks in the order they started.
@@ -23,7 +23,7 @@ pub struct ElementTrace {
     pub tet: u32,
     /// The crack's s at its four nodes, m; zero counts as positive.
     pub values: [f32; 4],
-    /// When it joined, s after the contact began.
+    /// Time at which it joined, s after the contact began.
     pub time: f64,
 }
 

@@ -1,4 +1,4 @@
-//! Where a crack crosses a tetrahedron.
+//! Crossing of a tetrahedron by a crack.
 
 use glam::Vec3;
 
@@ -39,7 +39,7 @@ pub(crate) fn crossing_polygon(x: &[Vec3; 4], s: &[f32; 4]) -> ([Vec3; 4], usize
     }
 }
 
-/// Middle of the corners of what a crack cuts of a tetrahedron, m.
+/// Middle of the corners of the crack's polygon in a tetrahedron, m.
 pub(crate) fn crossing_middle(x: &[Vec3; 4], s: &[f32; 4]) -> Vec3 {
     let (polygon, corners) = crossing_polygon(x, s);
     polygon[..corners].iter().sum::<Vec3>() / corners.max(1) as f32

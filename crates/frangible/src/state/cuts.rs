@@ -1,4 +1,4 @@
-//! Which mesh edges are cut, where, and by which crack `[G12 §6.3]`.
+//! Cut mesh edges: the place of each cut, and the crack that made it `[G12 §6.3]`.
 
 use crate::mesh::ByNode;
 
@@ -122,7 +122,7 @@ impl Cuts {
         &self.nodes
     }
 
-    /// Whether a node has a cut edge.
+    /// Returns true if a node has a cut edge.
     pub(crate) fn touches(&self, node: u32) -> bool {
         self.touched[node as usize]
     }

@@ -1,4 +1,4 @@
-//! What a body remembers: the cracks that have not parted it yet.
+//! Memory of a body: the cracks that have not parted it yet.
 //!
 //! Small, and all there is besides the asset and the seed: saved, sent over a network, or rebuilt bit for bit by replaying
 //! the impacts.
@@ -23,7 +23,7 @@ pub struct BodyState {
 /// A crack as it was left.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct OldCrack {
-    /// Where it started.
+    /// Tetrahedron where it started.
     pub(crate) start: u32,
     /// The place there that it went through first, m.
     pub(crate) origin: Vec3,
@@ -31,9 +31,9 @@ pub(crate) struct OldCrack {
     pub(crate) normal: Vec3,
     /// Tetrahedra it has cut, in their order.
     pub(crate) cuts: Vec<OldCut>,
-    /// How many of them, from the first, had cut a piece before it was one.
+    /// Number of them, from the first, that were cut before the piece was one.
     pub(crate) settled: u32,
-    /// Where it met a crack: place in `cuts`, and whether the crack was itself.
+    /// Junctions: place in `cuts` of the front that met a crack, and true if the crack met itself.
     pub(crate) junctions: Vec<(u32, bool)>,
 }
 
@@ -52,7 +52,7 @@ pub struct OldCut {
 const MAGIC: &[u8; 8] = b"FRCRACK3";
 
 impl BodyState {
-    /// Whether the body is as it was made.
+    /// Returns true if the body is as it was made.
     #[must_use]
     pub fn is_intact(&self) -> bool {
         self.cracks.is_empty()
@@ -116,7 +116,7 @@ impl BodyState {
         bytes
     }
 
-    /// Reads what [`BodyState::to_bytes`] wrote. Whether it fits a body is asked by [`Body::set_state`](crate::Body::set_state).
+    /// Reads what [`BodyState::to_bytes`] wrote. [`Body::set_state`](crate::Body::set_state) checks that it fits a body.
     ///
     /// # Errors
     /// Bytes of another kind, too few of them, or too many.

@@ -9,7 +9,7 @@ pub(crate) type Steps = u16;
 /// The first of them is the last of the batch before, so that what happens between two steps lies within one batch.
 pub(crate) const STRIDE: usize = BATCH - 1;
 
-/// Where a step stands in its batch, 1..BATCH.
+/// Lane of a step in its batch, 1..BATCH.
 pub(crate) fn lane(step: usize) -> usize {
     step % STRIDE + 1
 }

@@ -24,7 +24,7 @@ pub(crate) struct ClusterRows {
     pub(crate) frames: Vec<Frame>,
     pub(crate) rows: Rows,
     pub(crate) coarse: OnceLock<Option<Coarse>>,
-    /// What bounds the rows where no few shapes do.
+    /// Bounds of the rows where no few shapes do.
     pub(crate) sizes: OnceLock<Sizes>,
     pub(crate) opposite: OnceLock<OppositeRows>,
 }

@@ -23,16 +23,17 @@ const ROUNDING: f32 = 1e-5;
 /// Shapes of the rows of a cluster.
 #[derive(Debug)]
 pub(crate) struct Coarse {
-    /// How much of each shape there is in each mode.
+    /// Coefficient of each shape in each mode.
     shapes: Rows,
     /// The cluster's rows, of the shapes.
     rows: Rows,
-    /// The most stress of each mode that the shapes leave out at any point, Pa per m·√kg.
+    /// Largest stress of each mode that the shapes leave out at any point, Pa per m·√kg.
     rest: Vec<f32>,
 }
 
 impl Coarse {
-    /// The shapes of the rows of a cluster's points; `periods`: how far an impulse moves each mode, in any unit. None where few shapes do not do.
+    /// The shapes of the rows of a cluster's points; `periods`: amplitude of each mode under an impulse, in any unit. None where few shapes are not
+    /// enough.
     pub(crate) fn new(frames: &[Frame], rows: &Rows, periods: &[f32]) -> Option<Self> {
         // With the widest vectors that this processor has; the same operations in the same order, so the same bits.
         pulp::Arch::new().dispatch(Find {
@@ -118,7 +119,7 @@ impl pulp::NullaryFnOnce for Find<'_> {
     }
 }
 
-/// Takes the largest row's direction out of all rows: the direction, and how much of it each row had. None where nothing is left.
+/// Takes the largest row's direction out of all rows: the direction, and its coefficient in each row. None where nothing is left.
 #[inline(always)]
 fn next_shape(left: &mut [f32], modes: usize) -> Option<(Vec<f32>, Vec<f32>)> {
     let (mut row, mut square) = (0, 0.0);

@@ -18,7 +18,7 @@ const ROUNDING: f32 = 2e-6;
 /// From this cosine on a wall's normal is that of the surface.
 const SAME: f32 = 0.999;
 
-/// Which numbers are held of the stress at a point.
+/// Numbers that are held of the stress at a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Frame {
     /// In a surface without traction: along these unit vectors, and the shear between them.
@@ -42,7 +42,7 @@ impl Frame {
         }
     }
 
-    /// How many numbers it holds.
+    /// Count of the numbers held.
     #[inline(always)]
     pub(crate) fn count(self) -> usize {
         match self {
@@ -52,7 +52,7 @@ impl Frame {
         }
     }
 
-    /// How often a number's square counts in the square of the tensor's norm.
+    /// Weight of a number's square in the square of the tensor's norm.
     #[inline(always)]
     pub(super) fn weight(self, number: usize) -> f32 {
         let shear = match self {
@@ -139,7 +139,7 @@ impl Frame {
 }
 
 impl Elasticity {
-    /// What each number of a frame has of a node's displacement, Pa/m: row after row. `g`: gradient of the node's shape function, 1/m.
+    /// Numbers of a frame per displacement of a node, Pa/m: row after row. `g`: gradient of the node's shape function, 1/m.
     #[inline(always)]
     pub(super) fn per_displacement(&self, law: Law, frame: Frame, g: Vec3) -> [Vec3; MOST] {
         let mut rows = [Vec3::ZERO; MOST];

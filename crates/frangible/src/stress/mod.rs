@@ -15,7 +15,7 @@
 //! - Few of the points that have to be looked at come near their strength. So a few shapes in place of all modes (`coarse.rs`) come first, with
 //!   a bound of what they leave out, and only a point in doubt gets all its modes.
 //!
-//! What a crack releases beside it follows from its length (`shadow.rs`), by the closed forms of a crack in a stretched and in a bent wall.
+//! The release beside a crack follows from its length (`shadow.rs`), by the closed forms of a crack in a stretched and in a bent wall.
 
 mod batch;
 mod cluster_rows;

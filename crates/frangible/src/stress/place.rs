@@ -1,4 +1,4 @@
-//! Where the stress of a weak tetrahedron is taken, and by which law.
+//! Place at which the stress of a weak tetrahedron is taken, and the law there.
 
 use std::sync::Arc;
 
@@ -9,7 +9,7 @@ use crate::asset::{Asset, EmbeddedPoint};
 use crate::config::FractureConfig;
 use crate::rng::{Purpose, stream, uniform};
 
-/// Where on their faces the flaws of a body lie: drawn by its seed. At the middle of each face, or at any other place that is the same for all
+/// Places of a body's flaws on their faces, drawn by its seed. At the middle of each face, or at any other place that is the same for all
 /// bodies, the first cracks about a contact start at the few places nearest to it, and run in the directions in which the mesh has these.
 #[derive(Clone, Debug)]
 pub(crate) struct Places {
@@ -58,11 +58,11 @@ pub(crate) fn wall_of(
     }
 }
 
-/// Where a crack may start in a fracture tetrahedron, and the law of the stress there.
+/// Place at which a crack may start in a fracture tetrahedron, and the law of the stress there.
 pub(crate) struct WeakPlace {
     pub(crate) point: EmbeddedPoint,
     pub(crate) law: Law,
-    /// Where its flaw on the free surface is, m, if it is that; else it is its centroid.
+    /// Position of the flaw on the free surface, m, if the place is one; else it is the centroid.
     pub(crate) flaw: Option<Vec3>,
     /// The wall that it is in.
     pub(crate) wall: Option<Wall>,

@@ -1,4 +1,4 @@
-//! Stress at weak points straight from what the modes do, σ = S q (beyond the paper): where strain is linear, displacement, gradient,
+//! Stress at weak points straight from the modal amplitudes, σ = S q (beyond the paper): where strain is linear, displacement, gradient,
 //! law and wall are one matrix, found once for a body. It has three rows for a point of a free surface, and is read from end to end.
 
 use glam::{Mat3, Vec3};
@@ -21,11 +21,11 @@ pub(crate) struct RowPoint {
     pub(crate) point: EmbeddedPoint,
     pub(crate) law: Law,
     pub(crate) frame: Frame,
-    /// Where it is, m.
+    /// Its position, m.
     pub(crate) place: Vec3,
     /// The wall that it is in.
     pub(crate) wall: Option<Wall>,
-    /// Where else its flaw feels the stress: the rows are of the mean.
+    /// Other places where its flaw feels the stress: the rows are of the mean.
     pub(crate) samples: Vec<Sample>,
 }
 
@@ -34,14 +34,14 @@ pub(crate) struct RowPoint {
 pub(crate) struct Sample {
     pub(crate) point: EmbeddedPoint,
     pub(crate) law: Law,
-    /// Where it is, m.
+    /// Its position, m.
     pub(crate) place: Vec3,
     /// The wall that it is in.
     pub(crate) wall: Option<Wall>,
 }
 
 impl RowPoint {
-    /// The places where its flaw feels the stress, each with its law; whether that is the point's own.
+    /// The places where its flaw feels the stress, each with its law; true for the point's own place.
     pub(crate) fn places(&self) -> impl Iterator<Item = (&EmbeddedPoint, Law, bool)> {
         let samples = self.samples.iter().map(|s| (&s.point, s.law, false));
         std::iter::once((&self.point, self.law, true)).chain(samples)
@@ -58,12 +58,12 @@ impl RowPoint {
             })
     }
 
-    /// What each of these places counts in the mean.
+    /// Weight of each of these places in the mean.
     pub(crate) fn share(&self) -> f32 {
         1.0 / (1 + self.samples.len()) as f32
     }
 
-    /// The nodes that its stress hangs on, but for the first one of its own element: the gradients of the shape functions add up to nothing.
+    /// The nodes that its stress depends on, but for the first one of its own element: the gradients of the shape functions add up to nothing.
     #[inline(always)]
     fn nodes(&self, asset: &Asset, elasticity: &Elasticity, nodes: &mut Nodes) {
         nodes.shares.clear();
@@ -86,7 +86,7 @@ impl RowPoint {
     }
 }
 
-/// What each of a point's rows has of the displacements of nodes, Pa/m.
+/// A point's rows per displacement of nodes, Pa/m.
 #[derive(Clone, Debug, Default)]
 struct Nodes {
     /// The node whose displacement is subtracted from those of the others.
@@ -199,7 +199,7 @@ impl Rows {
         }
     }
 
-    /// How many numbers [`Self::add`] adds to: the rows, and some that are empty.
+    /// Count of the numbers that [`Self::add`] adds to: the rows, and some that are empty.
     pub(crate) fn padded(&self) -> usize {
         match self.modes {
             0 => 0,

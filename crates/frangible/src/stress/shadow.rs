@@ -1,4 +1,4 @@
-//! What a crack leaves of the stress beside it (beyond the paper).
+//! Stress that a crack leaves beside it (beyond the paper).
 //!
 //! Beside the middle of a crack of half-length a in an infinite wall or solid, at distance y, the share
 //! `w = y (y² + (1 + β) a²) / (y² + a²)^1.5` of the tension across it is left:
@@ -8,7 +8,7 @@
 //! w is below 1 and falls as the crack grows. Ahead of the tips nothing is taken: with d the vector to the nearest place of the crack and n its
 //! normal there the share is `w' = 1 − (1 − w) (n·d / |d|)²`.
 //!
-//! What is left of a stress is Q σ Q, `Q = I − (1 − √w') n nᵀ`: across the crack w' of it, √w' of the shear along the crack, and all
+//! A stress σ is released to Q σ Q, `Q = I − (1 − √w') n nᵀ`: across the crack w' of it is left, √w' of the shear along the crack, and all
 //! the rest. A closed crack carries pressure: where n·σn is not above zero nothing is taken. Q is a symmetric contraction, so
 //! x·QσQx = (Qx)·σ(Qx) ≤ λ_max(σ) |Qx|², and no release raises the largest tension: λ_max(QσQ) ≤ max(λ_max(σ), 0).
 //!
@@ -57,7 +57,7 @@ pub fn share_left(to_crack: Vec3, normal: Vec3, half_length: f32, beta: f32) -> 
     1.0 - (1.0 - share_beside(squared.sqrt(), half_length, beta)) * beside
 }
 
-/// What one crack leaves at a point.
+/// Shares of the stress that one crack leaves at a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Shadow {
     /// The crack's unit normal.
@@ -69,7 +69,7 @@ pub(crate) struct Shadow {
 }
 
 impl Symmetric3 {
-    /// What a crack of unit normal `n` leaves of a stress of which it leaves this share across itself: Q σ Q,
+    /// Stress that a crack of unit normal `n` leaves of this one, with this share of it across the crack: Q σ Q,
     /// Q = I − (1 − √share) n nᵀ. Of pressure it leaves all.
     #[must_use]
     pub fn released(self, n: Vec3, share: f32) -> Self {
@@ -99,7 +99,7 @@ impl Released<Wide> {
         released
     }
 
-    /// What is left, without the energy.
+    /// Stress that is left, without the energy.
     #[inline(always)]
     pub(crate) fn left_of_batch(&self) -> StressLanes {
         StressLanes {
@@ -119,7 +119,7 @@ impl Released<f32> {
         released
     }
 
-    /// What is left.
+    /// Stress that is left.
     pub(crate) fn left(&self) -> Symmetric3 {
         Symmetric3::from_components(self.whole)
     }

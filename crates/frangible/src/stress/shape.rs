@@ -11,7 +11,7 @@ const BLOCK: usize = 16;
 /// Displacements of the analysis nodes per newton, computed block by block when one of its nodes is first asked for.
 #[derive(Debug)]
 pub(crate) struct Shape {
-    /// What they are once they are known, m/N.
+    /// Displacements of each block once they are known, m/N.
     blocks: Box<[OnceLock<[[f32; 3]; BLOCK]>]>,
     /// ξ_i/λ_i of the modes that it is made of, the last of the body, m·√kg/N.
     pub(crate) amplitudes: Vec<f32>,
@@ -42,7 +42,7 @@ impl Shape {
     }
 }
 
-/// What the rows of a block of nodes have of some amplitudes.
+/// Products of the rows of a block of nodes with some amplitudes.
 struct Dots<'a> {
     asset: &'a Asset,
     first: usize,

@@ -1,4 +1,4 @@
-//! How much each mode may stress each point of a cluster.
+//! Largest stress of each mode at each point of a cluster.
 //!
 //! The largest tension of a sum of stresses is no more than the sum of their sizes. Where modes move little, that is enough to know that a
 //! point holds at all steps of a batch, for a small part of what its stress takes: one number for a mode in place of three rows at sixteen steps.

@@ -1,10 +1,10 @@
-//! Free surfaces: where flaws lie, and what the stress beside them is (beyond the paper).
+//! Free surfaces: the places of flaws, and the stress beside them (beyond the paper).
 //!
 //! Brittle bodies break from flaws of their surface, and in bending the stress is largest there. The paper tests stress at
 //! the centre of an element, which in a wall of one layer of tetrahedra lies at a quarter of the thickness or less from its
 //! middle: there a bent wall has at most half the stress of its surface.
-//! - A *flaw*: the weak point of a tetrahedron with free outer faces lies on the largest of them: of flaws spread over the
-//!   surface it holds the most. Where on it is drawn by the body's seed ([`Places`](super::Places)).
+//! A *flaw*: the weak point of a tetrahedron with free outer faces lies on the largest of them: of flaws spread over the
+//!   surface it holds the most. The body's seed draws its place on the face ([`Places`](super::Places)).
 //! - At a free surface the traction σ·n is exactly zero ([`Elasticity::free_state`](super::Elasticity::free_state)); the
 //!   modes of a mesh meet that only on average.
 //! - Inside a thin [wall](super::Wall) no traction acts across it either.
@@ -43,7 +43,7 @@ pub struct Flaw {
     pub normal: Vec3,
 }
 
-/// Flaws and walls of a body: what follows from its surface and supports.
+/// Flaws and walls of a body, which follow from its surface and supports.
 #[derive(Clone, Debug, Default)]
 pub struct Skin {
     /// Place in `flaws` of each fracture tetrahedron's, or [`NONE`].

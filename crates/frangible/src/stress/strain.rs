@@ -14,7 +14,7 @@ use crate::material::Material;
 pub struct Elasticity {
     pub(super) lambda: f32,
     pub(super) mu: f32,
-    /// Whether strain has its quadratic terms.
+    /// True if strain has its quadratic terms.
     quadratic: bool,
     /// λ* = 2 λ μ / (λ + 2 μ): λ where nothing holds the third direction.
     pub(super) plane_lambda: f32,
@@ -199,7 +199,7 @@ impl Elasticity {
     }
 }
 
-/// Which law makes stress of strain at a place.
+/// Law by which strain at a place becomes stress.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Law {
     /// Hooke's, inside a body.

@@ -36,7 +36,7 @@ impl Wall {
         (self.faces[0] - self.faces[1]).dot(self.normal).abs()
     }
 
-    /// How far the two faces are from a point within, along the normal, m: the second lies behind. Never farther than the wall is thick.
+    /// Distances of the two faces from a point within, along the normal, m: the second lies behind. Never farther than the wall is thick.
     #[must_use]
     pub fn distances(&self, p: Vec3) -> [f32; 2] {
         let thickness = self.thickness();
@@ -44,7 +44,7 @@ impl Wall {
             .map(|face| (face - p).dot(self.normal).clamp(-thickness, thickness))
     }
 
-    /// Whether the faces of another wall lie between those of this one.
+    /// Returns true if the faces of another wall lie between those of this one.
     fn is_crossed_by(&self, other: &Self) -> bool {
         let thickness = self.thickness();
         let depths = other.faces.map(|p| (self.faces[0] - p).dot(self.normal));
