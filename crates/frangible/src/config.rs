@@ -12,13 +12,13 @@ pub struct FractureConfig {
     /// Lengthens a contact whose impulse and duration are given until the body's vibration holds no more energy than the impact
     /// brought. Default: off; a blow that is integrated has no need of it.
     pub admissible_duration: bool,
-    /// Modes that are not followed through time answer the force statically: the residual vector. Default: on; in the paper
+    /// Lets modes that are not followed through time answer the force statically, as the residual vector. Default: on; in the paper
     /// they are left out.
     pub residual: bool,
-    /// Contacts on walls have the stress right under them that no mode shows, and the wall gives way there
+    /// Near field of contacts on walls: the stress right under them that no mode shows, and the wall's compliance there
     /// ([`near_field`](crate::internals::near_field)). Default: that of an elastic layer; in the paper there is none.
     pub near_field: Option<PlateTheory>,
-    /// All cracks of an impact together spend no more than its peak strain energy. Default: on.
+    /// Limits the energy that all cracks of an impact spend together to its peak strain energy. Default: on.
     pub energy_ledger: bool,
     /// Passes over times and places whose stress bound stays below the strength; what breaks, and how, is the same bit for
     /// bit without, only slower. Default: on.
@@ -30,34 +30,34 @@ pub struct FractureConfig {
     pub timing: CrackTiming,
     /// Path of the cracks. Default: [`CrackPath::Steered`].
     pub path: CrackPath,
-    /// Strain is Green and Lagrange's, with its quadratic terms `[G12 §4.4]`. Default: off, strain is linear. Modes move every point along
+    /// Takes Green and Lagrange's strain, with its quadratic terms `[G12 §4.4]`. Default: off, strain is linear. Modes move every point along
     /// a straight line, so where a thin body swings they turn it and stretch it at once: a turn of 0.03 is a stretch of 5e-4, which is
     /// the strength of glass. The quadratic terms count that stretch, the linear strain does not.
     pub green_lagrange: bool,
-    /// A weak point whose tetrahedron has a free outer face lies on it, where no traction acts; strengths are then those of
+    /// Puts a weak point whose tetrahedron has a free outer face on that face, where no traction acts; strengths are then those of
     /// surfaces. Default: on; in the paper it lies at the tetrahedron's centre `[G12 §4.4]`.
     pub surface_flaws: bool,
-    /// A weak point stands for a flaw of the size that its strength tells by Griffith, and feels the mean stress over it. Default: on; in the paper
-    /// it is a point `[G12 §4.4]`.
+    /// Lets a weak point stand for a flaw of the size that Griffith's criterion gives for its strength, and feel the mean stress over it. Default:
+    /// on; in the paper it is a point `[G12 §4.4]`.
     pub sized_flaws: bool,
-    /// Through a wall of one layer of tetrahedra acts no traction: plane stress. Default: on; in the paper stress is what the
-    /// modes' mesh says, noise across the wall included.
+    /// Assumes plane stress in walls of one layer of tetrahedra: no traction acts through them. Default: on; in the paper stress is
+    /// what the modes' mesh says, noise across the wall included.
     pub plane_stress_walls: bool,
-    /// The tetrahedron where a crack starts must pay for its own area. Default: on; `[G12 Algorithm 2]` does not ask.
+    /// Makes the tetrahedron where a crack starts pay for its own area. Default: on; `[G12 Algorithm 2]` does not ask.
     pub first_element_pays: bool,
-    /// The energy that feeds a crack's front follows from the crack's present size, as Griffith says, and from the tension across it: a
-    /// cracked body is weaker. Default: on; in the paper it is the strain energy of a layer of depth γ, for cracks of all sizes.
+    /// Feeds a crack's front by Griffith's energy for the crack's present size and the tension across it: a cracked body is weaker.
+    /// Default: on; in the paper a front is fed by the strain energy of a layer of depth γ, for cracks of all sizes.
     pub griffith_fronts: bool,
-    /// A crack leaves another one: at a fork, where that has run far enough under enough tension, and behind one that it has met and that opens
-    /// from the other face of a wall. Default: on; the paper's never do.
+    /// Lets cracks branch: at a fork, where a crack has run far enough under enough tension, and behind a crack that another one has met and that
+    /// opens from the other face of a wall. Default: on; the paper's never do.
     pub branching: bool,
-    /// A crack also ends inside what it meets, so that no bridge of one tetrahedron holds pieces together. Default: on;
+    /// Ends a crack also inside what it meets, so that no bridge of one tetrahedron holds pieces together. Default: on;
     /// in the paper it stops at the face `[G12 §5.2.4]`.
     pub ends_inside: bool,
-    /// Time that a load which rests has lasted, s: glass that holds for a second may not hold for a year ([`Fields::fatigue`](crate::internals::Fields::fatigue)).
-    /// Zero or more. Default 1. Blows are over before it matters.
+    /// Time for which a resting load has lasted, s: glass that holds for a second may not hold for a year
+    /// ([`Fields::fatigue`](crate::internals::Fields::fatigue)). Zero or more. Default 1. Blows are over before it matters.
     pub load_duration: f64,
-    /// Pieces smaller than this share of the body's volume stay with the neighbour they share most area with. Default 2e-4.
+    /// Share of the body's volume below which a piece stays with the neighbour it shares most area with. Default 2e-4.
     pub crumb_share: f64,
 }
 
@@ -209,9 +209,9 @@ impl FractureConfig {
         self.duration == DurationModel::Integrated || self.residual || self.near_field.is_some()
     }
 
-    /// Our cracks under half-sines of the engine's impulses, which last as long as Hertz says and longer where they brought in too much
-    /// energy, on the modes that are followed alone, with the stress at weak points in place of the mean over their flaws: what a GPU can take over, and where the blow
-    /// itself is not the question.
+    /// Settings for given impulses: our cracks under half-sines of the engine's impulses, which last as long as Hertz' law says and longer where they
+    /// brought in too much energy. Only the modes that are followed answer, and a weak point feels the stress there in place of the mean over its
+    /// flaw. For what a GPU can take over, and where the blow itself is not the question.
     #[must_use]
     pub fn with_given_impulses() -> Self {
         Self {

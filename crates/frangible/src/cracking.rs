@@ -26,7 +26,7 @@ pub(crate) enum Cracked<'a> {
     Parted(CrackSystem<'a>, Labels, Option<Apart>, ImpactReport),
 }
 
-/// Stress wave → cracks `[G12 §4.4, §5]` → which nodes hang together `[G12 §6.1]`, for any motion of the body.
+/// Stress wave → cracks `[G12 §4.4, §5]` → connected pieces `[G12 §6.1]`, for any motion of the body.
 pub(crate) struct Cracking<'a> {
     pub(crate) body: &'a Body,
     pub(crate) config: &'a FractureConfig,
@@ -333,7 +333,7 @@ struct Looked {
 }
 
 impl Looked {
-    /// Nothing can be larger than what has been met: where the stress itself is not asked for.
+    /// A state that no stress exceeds: for runs that do not ask for the stress itself.
     const AT_ENOUGH: Self = Self {
         peak: Peak::UNPASSABLE,
         asked_clusters: false,

@@ -20,10 +20,9 @@ use crate::trace::CrackTrace;
 /// Computes the outcome of an impact on a body. Nothing is changed; the caller replaces a broken body by its fragments.
 ///
 /// `contacts` are all contacts of this impact on this body, in its body frame (origin at the centre of mass).
-/// The modes are those of the unbroken body, the single basis of `[G12 §7.3.1]`. Pieces that part during a blow that is followed with the body move on
-/// their own, which changes its motion.
-/// A contact far below the strength, which is nearly every one, costs a look at the closest surface triangle, seldom O(modes), and no
-/// allocation.
+/// The modes are those of the unbroken body, the single basis of `[G12 §7.3.1]`. Pieces that part during a blow that is followed with the body
+/// move on their own, which changes its motion. A contact far below the strength, which is nearly every one, costs a look at the closest surface
+/// triangle, seldom O(modes), and no allocation.
 ///
 /// # Errors
 /// A contact with a NaN, a negative impulse or no direction; what [`FractureConfig::validate`] refuses.
@@ -74,7 +73,7 @@ pub fn would_break(
 /// Result of the first stage of an impact.
 #[derive(Clone, Debug)]
 pub enum Stage {
-    /// Nothing: its impulses are too weak for any crack.
+    /// The impact is over: its impulses are too weak for any crack.
     Held(Outcome),
     /// Its modes have to be followed over time.
     Vibrates(Vibration),

@@ -1,11 +1,11 @@
-//! Everything that is not needed to break a body and use its pieces: what the sibling crates are built from, and what the laboratory
+//! Everything that is not needed to break a body and use its pieces: the parts that the sibling crates are built from, and that the laboratory
 //! and the viewer look into.
 //!
 //! **Names in here may change in any release**, the patch releases included. What stands at the root of the crate does not.
 //!
-//! The modules follow the way of a contact through the crate: [`asset`] and [`mesh`] (what a bake makes), [`body`], [`contact`],
+//! The modules follow the way of a contact through the crate: [`asset`] and [`mesh`] (results of a bake), [`body`], [`contact`],
 //! [`blow`], [`modal`] and [`near_field`] (the motion), [`stress`], [`loads`] (other ways to move a body), [`piece`] (a fragment as
-//! a body), [`rigid`] (what a break does to the motion of bodies).
+//! a body), [`rigid`] (motion of bodies after a break).
 
 /// Baked assets, their files and their checks.
 pub mod asset {

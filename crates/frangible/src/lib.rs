@@ -3,8 +3,8 @@
 //! A tour, in the order of the data:
 //! - [`Asset`]: what a bake (crate `frangible-bake`) makes of a shape and a [`Material`]: a fine mesh of linear
 //!   tetrahedra for cracks, a coarse one of quadratic tetrahedra for the vibration modes, and how they fit together;
-//! - [`Breakable`]: an asset made ready, shared by all bodies of a kind; [`Body`]: one of them, with its own seed and
-//!   weak points;
+//! - [`Breakable`]: an asset that has been checked and prepared, shared by all bodies of a kind; [`Body`]: one of them, with its own
+//!   seed and weak points;
 //! - [`Contact`]: where, how hard and by what a body is hit, as a rigid-body engine knows it;
 //! - [`impact()`]: the pipeline, after Glondu, Marchal, Dumont, *Real-Time Simulation of Brittle Fracture Using Modal
 //!   Analysis*, IEEE TVCG 2012, cited as `[G12]`;

@@ -20,10 +20,10 @@ pub use crate::fragment::Fragment;
 pub enum Outcome {
     /// The body stays one piece.
     Held {
-        /// Strength over the bound of the stress: above 1 nothing happened, and the larger it is, the farther from it. At or
+        /// Strength over the bound of the stress: above 1 nothing happened, and the larger it is, the farther the body was from cracking. At or
         /// below 1 the stress passed the strength at a weak point; cracks that part nothing may have run.
         margin: f64,
-        /// Numbers of the impact.
+        /// Report of the impact.
         report: ImpactReport,
         /// All cracks of the body so far, if some ran that part nothing: for [`Body::set_state`](crate::Body::set_state).
         state: Option<Box<BodyState>>,
@@ -43,7 +43,7 @@ impl Outcome {
     }
 }
 
-/// A break: the pieces and how they came about.
+/// A break: the pieces, and the report of the impact.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Fracture {
@@ -98,7 +98,7 @@ pub enum LookedAt {
 pub struct ImpactReport {
     /// Contact duration t_d used, s.
     pub contact_duration: f64,
-    /// Hertz' duration of the contact on a rigid, free body, s; of the models that lengthen it, what it was before.
+    /// Hertz' duration of the contact on a rigid, free body, s; in the models that lengthen it, the duration before that.
     pub unadjusted_duration: f64,
     /// Frequency of the most excited mode, Hz.
     pub most_excited_frequency: f64,
@@ -111,22 +111,22 @@ pub struct ImpactReport {
     pub peak_stress: f64,
     /// Place of that tension, m, body frame: the centre of the weak point's tetrahedron.
     pub peak_point: Option<Vec3>,
-    /// No weak point had more tension than this, Pa, before a crack cut it or its piece came to rest.
+    /// Upper bound of the tension at each weak point, Pa, before a crack cut it or its piece came to rest.
     pub stress_bound: f64,
     /// Level of detail at which the impact was decided.
     pub looked_at: LookedAt,
     /// Tensile strength R_c it is compared with, Pa: where it varies over the body, that of the weakest weak point.
     pub strength: f64,
-    /// The most kinetic energy that the contacts can take from the bodies' motion against each other, J. Where a bound refused the impact,
-    /// and where impulses are given: what these impulses take, Σ ½ φ v / (1 + e).
+    /// Largest kinetic energy that the contacts can take from the bodies' motion against each other, J. If a bound refused the impact,
+    /// or impulses are given: the energy that these impulses take, Σ ½ φ v / (1 + e).
     pub approach_energy: f64,
     /// Largest modal (kinetic + elastic) energy at a time step, J.
     pub peak_elastic_energy: f64,
-    /// Largest strain energy at a time step, J: what all cracks together may spend, with the ledger.
+    /// Largest strain energy at a time step, J: with the ledger, the most that all cracks together may spend.
     pub peak_strain_energy: f64,
     /// Fracture energy Σ A G_c, J.
     pub fracture_energy: f64,
-    /// Area of new cracks and of what old ones grew (one side), m².
+    /// Area of new cracks and of the growth of old ones (one side), m².
     pub crack_area: f64,
     /// Number of cracks that started.
     pub cracks: usize,

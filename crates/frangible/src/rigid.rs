@@ -60,7 +60,7 @@ impl Kick {
         kick
     }
 
-    /// The kick, so many times.
+    /// The kick times a factor.
     #[must_use]
     pub fn scaled(self, factor: f64) -> Self {
         Self {
@@ -187,7 +187,7 @@ impl Rigid {
     }
 }
 
-/// Lets a kick act on bodies as on one, which they are `whole`.
+/// Lets a kick act on bodies as on one, which is `whole`.
 pub fn kick_together(bodies: &mut [Rigid], whole: &mut Rigid, kick: Kick) {
     let (linear, angular) = whole.answer(kick);
     for body in bodies.iter_mut().filter(|b| b.gives_way()) {
@@ -313,7 +313,7 @@ pub fn take_blow(
 }
 
 /// Returns true if a blow is over before all pieces, which come in the order of their distance from it, know of it: its [plug](push_plug) is less
-/// than half of what is loose. Short waves hold what it gave, of which the motions of large pieces have little.
+/// than half of what is loose. Short waves hold the energy that it gave, of which the motions of large pieces have little.
 #[must_use]
 pub fn is_local(pieces: &[Rigid], striker: &[Rigid], pushes: &Pushes, taken: Kick) -> bool {
     let loose: Vec<Rigid> = pieces.iter().filter(|p| p.gives_way()).copied().collect();
@@ -416,7 +416,7 @@ pub fn nearest_first(fracture: &Fracture, points: &[Vec3]) -> Vec<usize> {
     order.into_iter().map(|(_, i)| i).collect()
 }
 
-/// From a point to the surface, m².
+/// Squared distance from a point to the surface, m².
 fn square_distance(mesh: &TriMesh, point: Vec3) -> f64 {
     let point = point.as_dvec3();
     let of = |triangle: &[u32; 3]| {

@@ -43,7 +43,7 @@ impl Tip {
         resolution: f64::INFINITY,
     };
 
-    /// Depth of the layer whose strain energy, of the tension across the crack, its front is fed with when it has grown by so
+    /// Depth of the layer that feeds its front with the strain energy of the tension across the crack, m, when the crack has grown by so
     /// much area, m².
     pub(crate) fn depth(&self, grown: f64) -> f64 {
         if self.front <= 0.0 {
@@ -113,7 +113,7 @@ struct Uncut<'a> {
     asset: &'a Asset,
     /// True for fracture tetrahedra that are the body's own, and whole.
     tets: Vec<bool>,
-    /// Cuts of a piece since it is one.
+    /// Cuts that a piece has had since it came about.
     settled: Cuts,
 }
 
@@ -134,7 +134,7 @@ impl<'a> Uncut<'a> {
         }
     }
 
-    /// Cuts of a crack within the body: a face of a piece is no crack in it, and what a crumb healed is none any more.
+    /// Cuts of a crack within the body: a face of a piece is no crack in it, and a cut that a crumb healed is none any more.
     fn inside<'b>(&'b self, crack: &'b OldCrack) -> impl Iterator<Item = &'b OldCut> {
         let is_cut = |tet: u32| {
             let nodes = self.asset.fracture.tets[tet as usize];

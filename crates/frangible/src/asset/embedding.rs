@@ -13,7 +13,7 @@ pub struct EmbeddedPoint {
     /// Barycentric coordinates in it of the point, or of the closest point of the element. They sum to one, and
     /// may be slightly negative: the element's polynomials hold a little beyond its faces.
     pub barycentric: [f32; 4],
-    /// From that closest point to the point, m; zero for a point that the coordinates give exactly.
+    /// Offset from that closest point to the point, m; zero for a point that the coordinates give exactly.
     pub offset: Vec3,
 }
 

@@ -232,7 +232,7 @@ impl Body {
         .clustered()
     }
 
-    /// With its weak tetrahedra in clusters.
+    /// This body with its weak tetrahedra in clusters.
     fn clustered(mut self) -> Self {
         let flaw_depth = |e: u32| self.flaw_depth(e);
         let bounds = &self.prepared.bounds;

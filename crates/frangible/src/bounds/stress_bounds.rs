@@ -7,10 +7,10 @@
 //! bound stays below the strength holds no crack, exactly: results with and without the bounds are the same bits.
 //! The Frobenius norm serves for g: it is never below the spectral norm, and its term is small.
 //!
-//! Stress is looked at where it may be asked for: at each tetrahedron's centre, with the traction across a wall and
-//! without it, and at the corners of the face on the free surface that has its flaw, without ([`Skin`]). The whole face is seen by one element,
-//! whose strain is linear, so that no place of the face has more of any mode, and of its rounding, than a corner. A piece's flaws are settled. Without traction Hooke's law has λ* = 2λμ/(λ + 2μ)
-//! and the strain in the surface has two principal values, so the quadratic term is at most ½ (2 max(λ*, 0) + 2μ) g², and
+//! Stress is looked at where it may be asked for: at each tetrahedron's centre, with the traction across a wall and without it, and at the corners
+//! of the face on the free surface that has its flaw, without ([`Skin`]). The whole face is seen by one element, whose strain is linear, so that no
+//! place of the face has more of any mode, and of its rounding, than a corner. A piece's flaws are settled. Without traction Hooke's law has
+//! λ* = 2λμ/(λ + 2μ) and the strain in the surface has two principal values, so the quadratic term is at most ½ (2 max(λ*, 0) + 2μ) g², and
 //! 2λ* < 3λ where λ is positive: the same k bounds both. At an edge Young's modulus serves, which is below k too.
 
 use glam::Vec3;
@@ -21,7 +21,7 @@ use crate::mesh::TetMesh;
 use crate::modal::ModalBasis;
 use crate::stress::{Elasticity, Lanes, Places, Skin, Symmetric3, Wide};
 
-/// Most tetrahedra of a cluster.
+/// Largest number of tetrahedra of a cluster.
 const CLUSTER: usize = 256;
 
 /// Rounding of u = Φ q and of its gradient in f32, relative to the sum of the absolute values of all terms: twenty

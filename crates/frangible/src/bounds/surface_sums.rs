@@ -66,7 +66,7 @@ impl Shapes {
         }
     }
 
-    /// At a triangle's corner.
+    /// Finds the shapes at a triangle's corner.
     #[inline(always)]
     fn find(&mut self, asset: &Asset, triangle: u32, corner: usize) {
         self.axes.iter_mut().for_each(|axis| axis.fill(0.0));

@@ -19,7 +19,7 @@ pub struct Contact {
     /// Unit direction of the impulse **on this body** (from the striker into the body).
     pub normal: Vec3,
     /// Magnitude φ of the normal impulse, N·s. Only the models of the duration that are not integrated, and scripts, take it as
-    /// given; of a blow that is integrated it is an outcome, and this number says only how large friction is beside it.
+    /// given; of an integrated blow it is an outcome, and this number only says how large friction is in relation to it.
     pub impulse: f32,
     /// Friction's part of the impulse on this body, N·s: whatever is not along the normal.
     pub friction: Vec3,
@@ -55,9 +55,9 @@ pub struct Striker {
     pub receptance: Option<Arc<Receptance>>,
 }
 
-/// One body strikes at several points at once: an impulse at one of them moves it at the others too.
+/// Share of a contact in the mass of a body that strikes at several points at once: an impulse at one of them moves it at the others too.
 ///
-/// Let `a = (velocity, spin)` be how the body answers a unit impulse at a contact, mass-weighted. Then a unit impulse at contact l takes
+/// Let `a = (velocity, spin)` be the body's mass-weighted answer to a unit impulse at a contact. Then a unit impulse at contact l takes
 /// `a_k · a_l` from the speed of approach at contact k of the same body, 1/kg; at its own contact that is
 /// [`Striker::inverse_effective_mass`]. Without this each contact would strike with the whole mass, and the energy of the body would be
 /// counted once per contact.

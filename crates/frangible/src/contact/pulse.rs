@@ -12,7 +12,7 @@ use crate::asset::Asset;
 use crate::config::{CrackTiming, FractureConfig};
 use crate::motion::Pulse;
 
-/// Fewest steps within a contact.
+/// Least number of steps within a contact.
 const MIN_CONTACT_STEPS: f64 = 16.0;
 
 /// Most steps of one impact. The steps of a longer contact are longer: a body that is pushed over thousands of its periods follows the

@@ -22,7 +22,7 @@ pub(crate) struct Source {
 }
 
 impl Source {
-    /// That of a front that waited: it comes from where it is.
+    /// Source of a front that waited: it comes from where it is.
     pub(super) const WAITED: Self = Self {
         place: Vec3::ZERO,
         since: f64::NEG_INFINITY,

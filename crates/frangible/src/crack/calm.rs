@@ -37,8 +37,8 @@ pub(super) struct Calm {
 }
 
 impl Calm {
-    /// Returns true if it can be used: for motions of more than two batches, and stress at centroids, by Hooke's law in space, of modes alone,
-    /// where a look at a point leaves nothing behind.
+    /// Returns true if the search can be used: with culling, in motions of more than two batches, for instant cracks, and for stress at centroids by
+    /// Hooke's law in space from modes alone.
     pub(super) fn serves(field: &StressField) -> bool {
         let config = field.config;
         config.culling

@@ -15,7 +15,7 @@ pub(crate) struct Known {
 }
 
 impl Cuts {
-    /// Cuts that are settled, of a piece since it is one.
+    /// Settled cuts: those that a piece has had since it came about.
     pub(crate) fn settled(system: &CrackSystem, index: &MeshIndex) -> (Self, Known) {
         let settled = system.asset.portion.as_ref().map_or(&[][..], |p| p.cuts());
         let cuts = Self::of_list(settled, system.asset.fracture.positions.len());

@@ -41,7 +41,7 @@ struct Change {
 }
 
 impl Change {
-    /// None yet.
+    /// No change yet.
     const NONE: Self = Self {
         number: 0,
         heard: f64::NEG_INFINITY,
@@ -74,9 +74,9 @@ impl Seen {
 /// Cracks about a point, by how much of the stress there they may take. Few of them are close, and they often take enough.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Ring {
-    /// Those that may take much.
+    /// Cracks that may take much.
     Close,
-    /// Those that may take anything to speak of, but for the close ones.
+    /// Cracks that may take anything to speak of, but for the close ones.
     Far,
 }
 

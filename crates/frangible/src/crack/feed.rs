@@ -4,8 +4,8 @@
 //! `K² / E'` of a penny; 1.21 times as deep where it starts at a surface. It grows no more once the crack is as large as the body has room for: a
 //! penny as wide as the body is thick, or half a penny as deep. The paper's depth γ is the same for cracks of all sizes `[G12 Eq. 12]`.
 //!
-//! A crack begins as the flaw that it starts from, and a flaw may run at its strength R: until the crack is larger its depth is that which pays for it
-//! there, `2 E' G_c / R²`.
+//! A crack begins as the flaw that it starts from, and a flaw may run at its strength R: until the crack is larger its depth is that which pays for
+//! it there, `2 E' G_c / R²`.
 
 use std::f64::consts::PI;
 
@@ -36,8 +36,8 @@ impl CrackSystem<'_> {
         crack.flaw.max(grown).min(most)
     }
 
-    /// Depth of the layer that feeds the flaw of a weak tetrahedron, m: at its strength it pays for the crack, unless the body has no room for one that
-    /// large. `at_surface`: whether it lies on a free surface, or in a wall.
+    /// Depth of the layer that feeds the flaw of a weak tetrahedron, m: at its strength it pays for the crack, unless the body has no room for one
+    /// that large. `at_surface`: true if it lies on a free surface, or in a wall.
     pub(super) fn flaw_feed(&self, tet: u32, at_surface: bool) -> f64 {
         let strength = f64::from(self.resistance.strength(tet));
         let toughness = self.resistance.toughness.of(tet);

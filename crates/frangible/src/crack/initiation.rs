@@ -37,7 +37,7 @@ pub(crate) struct Peak {
 }
 
 impl Peak {
-    /// No stress is larger.
+    /// A peak that no stress exceeds.
     pub(crate) const UNPASSABLE: Self = Self {
         tension: f32::INFINITY,
         tet: 0,

@@ -2,7 +2,7 @@
 //!
 //! At a point x and time t every crack with a fractured tetrahedron e' whose wave is there, `|x − x_e'| < c_R (t − t_e')`, takes away part
 //! of the stress across it. How much follows from the crack's present length and where beside it the nearest such tetrahedron lies
-//! (`stress/shadow.rs`); no constant sets how far. Crack after crack in their order: what two of them leave hangs on it.
+//! (`stress/shadow.rs`); no constant sets how far. Crack after crack in their order, since what two of them leave depends on it.
 //!
 //! The nearest tetrahedron may lie less straight beside a point than one before it, where a crack bends. A point therefore keeps, of each crack,
 //! the smallest share that it has met when it asked: what is released stays released.
@@ -56,7 +56,7 @@ pub(crate) struct Releases {
     points: Vec<Option<Point>>,
     /// Stress behind the middle of walls in the present batch, by the order in which it was asked for.
     opposites: Vec<StressLanes>,
-    /// That batch.
+    /// The present batch.
     batch: usize,
 }
 

@@ -1,8 +1,8 @@
 //! Small pieces come to rest (beyond the paper).
 //!
-//! Large pieces move on their own once they have parted (`crate::blow`). A small one that moves with what it came from has the stress of that, as if
-//! it had not parted, though nothing pulls or bends it any more. What unloads its new faces crosses it at the speed of Rayleigh waves; from then
-//! on it neither starts cracks nor feeds those that it has.
+//! Large pieces move on their own once they have parted (`crate::blow`). A small one moves with the piece that it came from and has the stress of
+//! that piece, as if it had not parted, though nothing pulls or bends it any more. The release from its new faces crosses it at the speed of Rayleigh
+//! waves; from then on it neither starts cracks nor feeds those that it has.
 //!
 //! That is so under a blow whose forces are followed with the body, with cracks that take time. The pieces are found while such a blow goes on
 //! (`crate::cracking`).

@@ -17,7 +17,7 @@ pub(crate) struct Crack {
     pub(crate) start: u32,
     /// Fractured tetrahedra in the order they joined.
     pub(crate) elements: Vec<ElementCut>,
-    /// Number of them, from the first, that were cut before the piece was one: these cuts are settled
+    /// Number of them, from the first, that were cut before the piece came about: these cuts are settled
     /// ([`Portion`](crate::piece::Portion)).
     pub(crate) settled: usize,
     /// Fracture energy spent E_f, J `[G12 Eq. 11]`.

@@ -93,7 +93,7 @@ impl Suspects {
         self.calm = None;
     }
 
-    /// Those of step `k` of the batch.
+    /// Suspects at step `k` of the batch.
     pub(crate) fn at(&self, k: usize) -> impl Iterator<Item = &Suspect> {
         self.of_step[k].iter().map(|&i| &self.points[i as usize])
     }

@@ -20,10 +20,10 @@ use crate::fields::Resistance;
 use crate::state::OldCrack;
 use crate::tips::{Tip, front_limit, is_inside};
 
-/// No crack has fractured this tetrahedron.
+/// Mark of a tetrahedron that no crack has fractured.
 pub(crate) const UNCUT: u32 = u32::MAX;
 
-/// This tetrahedron belongs to another piece than the one that cracks: no front goes there.
+/// Mark of a tetrahedron that belongs to another piece than the one that cracks: no front goes there.
 pub(crate) const ELSEWHERE: u32 = u32::MAX - 1;
 
 /// The ledger is spent when it lacks the energy of this area in squares of the mean edge: a fiftieth of what a crack cuts of a
@@ -51,7 +51,7 @@ pub(crate) struct CrackSystem<'a> {
     pub(crate) stalled: Vec<Front>,
     /// Fronts of the cracks from earlier impacts, asleep until the stress can move them.
     pub(crate) dormant: Vec<Front>,
-    /// Below this stress none of them moves, Pa.
+    /// Stress below which none of them moves, Pa.
     front_limit: f32,
     /// Number of cracks from earlier impacts; they come first.
     pub(crate) old_cracks: usize,
@@ -76,7 +76,7 @@ pub(crate) struct CrackSystem<'a> {
 }
 
 impl<'a> CrackSystem<'a> {
-    /// No cracks yet; all that come may together spend `budget` J.
+    /// A system without cracks yet; all that come may together spend `budget` J.
     pub(crate) fn new(body: &'a Body, config: &'a FractureConfig, budget: f64) -> Self {
         let asset = &*body.asset;
         let mut system = Self {

@@ -56,7 +56,7 @@ impl OppositeRows {
 }
 
 impl WeakRows {
-    /// Those of a body under so many modes; none where the stress comes from displacements: where strain is not linear, and where
+    /// Stress rows of a body under so many modes; none where the stress comes from displacements: where strain is not linear, and where
     /// that is less work.
     pub(crate) fn of<'a>(
         &'a self,

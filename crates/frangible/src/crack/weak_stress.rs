@@ -5,10 +5,10 @@ use crate::body::Body;
 use crate::near_field::Located;
 use crate::stress::{BATCH, ClusterRows, Frame, Lanes, MOST, STRIDE, Wide, of_shape};
 
-/// Additions of one motion to rows of the body, and room for their stress.
+/// Contributions of one motion to the rows of the body, and room for their stress.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct WeakStress {
-    /// Additions to each cluster that was looked at.
+    /// Contributions to each cluster that was looked at.
     added: Vec<Option<Added>>,
     /// Row after row.
     numbers: Vec<Lanes>,
@@ -28,7 +28,7 @@ enum LeftOut {
     /// Nothing.
     #[default]
     Nothing,
-    /// They are those of a few shapes, which leave out so much, Pa: without the near fields, and with what they add at most to any point.
+    /// All beyond a few shapes: bounds of its tension, Pa, without the near fields, and with the most that these add to any point.
     OfShapes([Lanes; 2]),
     /// All modes and the near fields.
     Modes,
@@ -40,7 +40,7 @@ const MANY: usize = 4;
 /// For so many batches, the present one included, all points of such a cluster are computed.
 const WAIT: u8 = 4;
 
-/// Additions of a motion in a cluster.
+/// Contributions of a motion in a cluster: shapes that follow a force, and near fields.
 #[derive(Clone, Debug)]
 struct Added {
     /// The stress in each row of every shape that follows a force, Pa/N.
@@ -81,7 +81,7 @@ impl WeakStress {
         }
     }
 
-    /// Computes the stress at all points of the cluster at place `cluster` of the body's list, or what bounds it. `limit`: tension at the
+    /// Computes the stress at all points of the cluster at place `cluster` of the body's list, or its bounds. `limit`: tension at the
     /// point of a weak tetrahedron below which it does not matter, Pa.
     #[inline(always)]
     pub(super) fn look(
@@ -183,9 +183,9 @@ pub(super) struct Points<'a> {
 /// Largest tension that the numbers of a point leave out, Pa.
 pub(super) enum Rest {
     Nothing,
-    /// So much at any point of the cluster.
+    /// No more than this at any point of the cluster.
     OfAny(Lanes),
-    /// So much at this point, which is a good deal: all that its modes bring.
+    /// No more than this at this point, which is a good deal: all that its modes bring.
     Own(Lanes),
 }
 

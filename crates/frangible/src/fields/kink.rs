@@ -1,4 +1,4 @@
-//! Kinks of cracks where toughness varies: a crack turns to where it costs least for what it releases.
+//! Kinks of cracks where toughness varies: a crack turns to where it costs least for the energy that it releases.
 
 use glam::Vec3;
 
@@ -8,7 +8,7 @@ use crate::mesh::{NO_NEIGHBOUR, TetMesh};
 /// Kinks that are compared with going straight on, degrees, to either side.
 const ANGLES: [f32; 6] = [15.0, 30.0, 45.0, 60.0, 75.0, 90.0];
 
-/// Most tetrahedra between a front and the place it looks at.
+/// Largest number of tetrahedra between a front and the place it looks at.
 const MOST_STEPS: usize = 32;
 
 /// A front of a crack at the tetrahedron it is about to enter.

@@ -24,11 +24,11 @@ pub(crate) use resistance::{Resistance, Toughness};
 /// Factors on the material's numbers at a place; 1 leaves them as they are.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Factors {
-    /// On the tensile strength R_c, above 0.
+    /// Factor on the tensile strength R_c, above 0.
     pub strength: f32,
-    /// On the fracture energy G_c, above 0.
+    /// Factor on the fracture energy G_c, above 0.
     pub toughness: f32,
-    /// On the density of weak points, 0 or above; where it is 0 no crack starts.
+    /// Factor on the density of weak points, 0 or above; where it is 0 no crack starts.
     pub weak_points: f32,
 }
 
@@ -91,7 +91,7 @@ impl Fields {
         Self::default().scattered_as(material)
     }
 
-    /// With the scatter and the fatigue of the strength that the preset of this material's name has.
+    /// Sets the scatter and the fatigue of the strength to those of the preset of this material's name.
     #[must_use]
     pub fn scattered_as(self, material: &Material) -> Self {
         match Preset::named(&material.name) {
@@ -147,7 +147,7 @@ impl Fields {
         }))
     }
 
-    /// With this scatter of the strength, see [`Fields::weibull_modulus`].
+    /// Sets the scatter of the strength, see [`Fields::weibull_modulus`].
     #[must_use]
     pub fn with_weibull_modulus(self, weibull_modulus: f64) -> Self {
         Self {

@@ -11,11 +11,11 @@ use crate::crack::{Crack, CrackSystem};
 use crate::fragment::Fragment;
 use crate::mesh::{Division, Parts};
 
-/// Fragments, and what is known of them besides.
+/// Fragments, and the data about them that later steps need.
 pub(crate) struct Built {
     /// Largest first.
     pub(crate) fragments: Vec<Fragment>,
-    /// Not drawn yet, where there is something to draw.
+    /// Data for drawing them, where there is something to draw.
     pub(crate) undrawn: Option<Undrawn>,
     /// Origin of each fragment in the body.
     pub(crate) traces: Vec<Trace>,

@@ -19,10 +19,10 @@ use crate::state::{Cuts, EdgeCut};
 /// Nodes that a side looks at before it is asked again whether it has seen least.
 const TURN: u32 = 32;
 
-/// In place of a side: a node beside a cut that belongs to another piece.
+/// Mark in place of a side: a node beside a cut that belongs to another piece.
 const OUTSIDE: u32 = u32::MAX;
 
-/// In a list of nodes to look at: what follows is the number of a patch.
+/// Flag in a list of nodes to look at: the other bits are the number of a patch.
 const PATCH: u32 = 1 << 31;
 
 /// A connected component.

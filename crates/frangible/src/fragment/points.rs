@@ -13,7 +13,7 @@ pub(crate) struct PointTable<'a> {
     cuts: &'a Cuts,
     /// The portion, where a piece is cut whose points may not move.
     portion: Option<&'a Portion>,
-    /// All that are no mesh nodes.
+    /// All points that are no mesh nodes.
     points: Vec<Point>,
     /// Places of the points, m.
     positions: Vec<DVec3>,

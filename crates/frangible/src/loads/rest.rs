@@ -23,7 +23,7 @@ use crate::refuse::{Pushes, harmless};
 pub struct Force {
     /// Point of application, m; the nearest point of the surface is taken.
     pub point: Vec3,
-    /// On this body, N.
+    /// Force on this body, N.
     pub force: Vec3,
 }
 

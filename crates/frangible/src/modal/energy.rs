@@ -27,7 +27,7 @@ pub(crate) struct ContactEnergy {
 }
 
 impl ContactEnergy {
-    /// With modal impulses `load`, N·s/√kg.
+    /// The energy of a contact with modal impulses `load`, N·s/√kg.
     pub(crate) fn new(basis: &ModalBasis, material: &Material, load: &[f64]) -> Self {
         let mode = |(i, &impulse): (usize, &f64)| Mode {
             eigenvalue: basis.eigenvalues[i],

@@ -17,7 +17,7 @@ pub struct Oscillator {
 }
 
 impl Oscillator {
-    /// At rest, with eigenvalue λ (1/s²), damping d (1/s), pulse frequency u (rad/s), step Δt (s).
+    /// An oscillator at rest, with eigenvalue λ (1/s²), damping d (1/s), pulse frequency u (rad/s), step Δt (s).
     #[must_use]
     pub fn new(eigenvalue: f64, damping: f64, pulse_frequency: f64, time_step: f64) -> Self {
         let (w, d, u) = (eigenvalue.sqrt(), damping, pulse_frequency);

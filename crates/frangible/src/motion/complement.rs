@@ -46,7 +46,7 @@ impl Residual {
         self.force.get(step).copied().unwrap_or(0.0)
     }
 
-    /// No stress exceeds this per newton, Pa/N, where no mode's exceeds its number in `row`, Pa per m·√kg.
+    /// Upper bound of the stress per newton, Pa/N, if no mode's stress exceeds its number in `row`, Pa per m·√kg.
     pub(crate) fn bound(&self, row: &[f32]) -> f32 {
         let amplitudes = &self.shape.amplitudes;
         let last = &row[row.len() - amplitudes.len()..];

@@ -75,7 +75,7 @@ impl Motion {
         self.amplitudes.len().checked_div(self.modes).unwrap_or(0)
     }
 
-    /// The largest strain energy until the end of a step, J: what cracks may have spent by then. Where that was not followed, the largest
+    /// Largest strain energy until the end of a step, J: the most that cracks may have spent by then. Where that was not followed, the largest
     /// of all steps.
     pub(crate) fn strain_energy_until(&self, step: usize) -> f64 {
         let known = self.strain_energy.get(step).copied();

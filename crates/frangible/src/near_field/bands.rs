@@ -13,13 +13,13 @@ const WIDEST: f64 = 0.25;
 /// the first on, the force on a plate in its last third is up to a third off, by where the modes end; with these 4 %.
 const FIRST_WIDTH: f64 = 0.125;
 
-/// Most that a band is wider than the one before.
+/// Largest ratio of a band's width to that of the one before.
 const WIDER: f64 = 1.2;
 
 /// Ratio of the wave numbers of neighbouring bands that follow the force.
 const WAVE_NUMBER_RATIO: f64 = 1.12;
 
-/// Most evenly spaced bands: a blow longer than they can tell apart hears its own echo.
+/// Largest number of evenly spaced bands: a blow longer than they can tell apart hears its own echo.
 const MOST_EVEN: f64 = 64.0;
 
 /// Spacing of the bands in frequency, rad/s.
@@ -40,7 +40,7 @@ pub(crate) struct Band {
     edges: [f64; 2],
     /// ω², 1/s².
     pub(crate) eigenvalue: f64,
-    /// ξ², 1/kg, how the contact feels it: p̂² Δ(k²)/(4πμ) of a thin plate; in general such that ξ²/ω² is what the layer gives way by.
+    /// ξ², 1/kg, for the contact: p̂² Δ(k²)/(4πμ) of a thin plate; in general such that ξ²/ω² is the compliance of the layer.
     pub(crate) give: f64,
     /// H of its middle, 1/(Pa·m): curvature per steady pressure.
     curvature: f64,
@@ -96,14 +96,14 @@ fn integrals(bessel: &Bessel, k: f64, r: f64) -> [f64; 2] {
 /// All bands about one contact.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Bands {
-    /// Those that swing: the wall oscillators.
+    /// Bands that swing: the wall oscillators.
     pub(crate) oscillators: Vec<Band>,
-    /// Those that follow the force.
+    /// Bands that follow the force.
     following: Vec<Band>,
 }
 
 impl Bands {
-    /// From wave number `first`, 1/m, on, for a contact of this radius, m.
+    /// Bands from wave number `first`, 1/m, on, for a contact of this radius, m.
     pub(crate) fn new(
         wall: &WallMaterial,
         first: f64,

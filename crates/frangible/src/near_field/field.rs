@@ -28,7 +28,7 @@ const WAVELENGTHS: f64 = 2.5;
 /// Place of the contact.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct NearPlace {
-    /// On the surface, m, body frame of the mesh.
+    /// Point on the surface, m, body frame of the mesh.
     pub(crate) point: Vec3,
     /// Unit normal of the wall there, from the loaded face inwards.
     pub(crate) inwards: Vec3,
@@ -47,7 +47,7 @@ pub(crate) struct NearField {
     outermost: f32,
     /// σ_r + σ_θ and σ_θ − σ_r of the far face, Pa: `[part][radius * steps + step]`.
     table: [Vec<f32>; 2],
-    /// No principal tension at this distance or farther exceeds this, Pa: `[radius * steps + step]`.
+    /// Upper bound of the principal tension at this distance or farther, Pa: `[radius * steps + step]`.
     most: Vec<f32>,
     /// Time steps; after them there is no field.
     steps: usize,
@@ -213,7 +213,7 @@ impl NearField {
         [0.5 * (sum - difference), 0.5 * (sum + difference)]
     }
 
-    /// No principal tension of the field there exceeds this at the steps of a batch, Pa.
+    /// Upper bound of the field's principal tension there at the steps of a batch, Pa.
     #[inline(always)]
     pub(crate) fn most_lanes(&self, at: &Located, batch: usize) -> Lanes {
         let row = &self.most[at.radius * self.steps..][..self.steps];
@@ -257,7 +257,7 @@ pub(crate) struct Located {
     /// Distance of the table before it, and the share of the way to the next.
     radius: usize,
     share: f32,
-    /// From the middle of the wall in halves of its thickness, positive towards the far face.
+    /// Height over the middle of the wall in halves of its thickness, positive towards the far face.
     height: f32,
     radial: Vec3,
     hoop: Vec3,

@@ -51,7 +51,7 @@ impl WallMaterial {
         }
     }
 
-    /// All numbers, and the theory: what a contact's bytes keep of a wall.
+    /// All numbers, and the theory, as a contact's bytes keep them of a wall.
     pub(crate) fn numbers(&self) -> ([f64; 8], PlateTheory) {
         let numbers = [
             self.thickness,
@@ -199,7 +199,7 @@ impl WallMaterial {
         k * k * factor / self.stiffness(k)
     }
 
-    /// No principal stress of a steady near field of waves from wave number `first`, 1/m, on exceeds this per newton, Pa/N.
+    /// Upper bound of the principal stress per newton of a steady near field of waves from wave number `first`, 1/m, on, Pa/N.
     pub(crate) fn most_stress(&self, first: f64) -> f64 {
         // ½ (|σ_r + σ_θ| + |σ_θ − σ_r|) with |J₀| ≤ 1, |J₂| ≤ 0.49, p̂ ≤ 1, C ≤ 1.07.
         let waves = libm::log(12.0 / (self.thickness * first)).max(0.0);

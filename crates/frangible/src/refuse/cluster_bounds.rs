@@ -33,7 +33,7 @@ impl<'a> ClusterBounds<'a> {
         self.body.clusters.rows(bounds, part, modes)
     }
 
-    /// No stress in a part exceeds this, Pa, when the modes move no farther than `amplitudes`, m·√kg.
+    /// Upper bound of the stress in a part, Pa, when the modes move no farther than `amplitudes`, m·√kg.
     #[inline(always)]
     pub(crate) fn bound(&self, part: usize, amplitudes: &[f32]) -> f32 {
         let (stress, gradient) = self.rows(part);
@@ -51,7 +51,7 @@ impl<'a> ClusterBounds<'a> {
         tension_bounds(sizes, stress, gradient, self.quadratic_modulus)
     }
 
-    /// Below this bound no point of the part reaches its strength, Pa.
+    /// Bound below which no point of the part reaches its strength, Pa.
     pub(crate) fn limit(&self, part: usize) -> f32 {
         limit(self.body.clusters.weakest[part])
     }

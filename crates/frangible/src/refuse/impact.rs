@@ -24,9 +24,9 @@ use crate::outcome::LookedAt;
 pub(crate) struct Refusal {
     /// Level of detail at which the impact was decided.
     pub(crate) looked_at: LookedAt,
-    /// No weak point has more tension than this, Pa.
+    /// Upper bound of the tension at all weak points, Pa.
     pub(crate) bound: f32,
-    /// No weak point feels more than the weakest would at this, Pa.
+    /// Upper bound of that tension as the weakest point would feel it, Pa.
     pub(crate) as_weakest: f32,
 }
 

@@ -35,7 +35,7 @@ pub fn is_harmless(body: &Body, contacts: &[Contact], config: &FractureConfig) -
         && refused(body, contacts, config).is_some()
 }
 
-/// Below this stress bound nothing happens to a body, Pa: no crack starts, and none of its old ones moves.
+/// Stress bound below which nothing happens to a body, Pa: no crack starts, and none of its old ones moves.
 ///
 /// `left`: share of the weakest point's strength that is left.
 pub(crate) fn harmless(body: &Body, left: f64) -> f32 {

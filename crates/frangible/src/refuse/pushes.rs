@@ -9,7 +9,7 @@ use crate::bounds::tension_bound;
 use crate::mesh::SurfacePoint;
 use crate::near_field::PlateTheory;
 
-/// Most pushes that a quick bound looks at; more are rare, and go on to the full computation.
+/// Largest number of pushes that a quick bound looks at; more are rare, and go on to the full computation.
 pub(super) const MOST_CONTACTS: usize = 16;
 
 /// Modes looked at together: their sums stay on the stack.

@@ -17,9 +17,9 @@ pub(crate) struct EdgeCut {
 }
 
 impl EdgeCut {
-    /// In place of a crack: one that the piece does not remember.
+    /// Mark in place of a crack: one that the piece does not remember.
     pub(crate) const FORGOTTEN: u32 = u32::MAX - 1;
-    /// In place of a crack: the edge is whole.
+    /// Mark in place of a crack: the edge is whole.
     pub(crate) const WHOLE: u32 = u32::MAX;
 }
 
@@ -28,7 +28,7 @@ impl EdgeCut {
 pub(crate) struct Cuts {
     /// Places in the list, by the lower end and the higher.
     places: ByNode<u32>,
-    /// In the order they were cut.
+    /// Cut edges in the order they were cut.
     list: Vec<EdgeCut>,
     touched: Vec<bool>,
     nodes: Vec<u32>,

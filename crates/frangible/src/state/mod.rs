@@ -25,13 +25,13 @@ pub struct BodyState {
 pub(crate) struct OldCrack {
     /// Tetrahedron where it started.
     pub(crate) start: u32,
-    /// The place there that it went through first, m.
+    /// Place in that tetrahedron through which it went first, m.
     pub(crate) origin: Vec3,
     /// Its normal there.
     pub(crate) normal: Vec3,
     /// Tetrahedra it has cut, in their order.
     pub(crate) cuts: Vec<OldCut>,
-    /// Number of them, from the first, that were cut before the piece was one.
+    /// Number of them, from the first, that were cut before the piece came about.
     pub(crate) settled: u32,
     /// Junctions: place in `cuts` of the front that met a crack, and true if the crack met itself.
     pub(crate) junctions: Vec<(u32, bool)>,

@@ -8,13 +8,13 @@ use super::batch::{BATCH, Lanes};
 use super::frame::Frame;
 use super::rows::Rows;
 
-/// So many shapes more are tried at a time.
+/// Number of shapes that are added at a time.
 const STEP: usize = 6;
 
 /// The shapes are enough when they leave out no more than this share of what the modes of an impulse could add up to.
 const ENOUGH: f32 = 0.02;
 
-/// There must be so many modes, and so many rows, to each shape. With more shapes it costs too much that a point in doubt is computed twice.
+/// Least number of modes, and of rows, to each shape. With more shapes it costs too much that a point in doubt is computed twice.
 const WORTH: usize = 4;
 
 /// Rounding, relative to what the modes could add up to.

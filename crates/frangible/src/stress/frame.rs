@@ -9,7 +9,7 @@ use super::tensor::{Symmetric3, mixed_products, products};
 use super::wide::Wide;
 use super::{Wall, perpendicular_axes};
 
-/// Most numbers of a stress.
+/// Largest count of numbers of a stress.
 pub(crate) const MOST: usize = 6;
 
 /// Rounding of a bound, relative to its terms.
@@ -62,7 +62,7 @@ impl Frame {
         if number < shear { 1.0 } else { 2.0 }
     }
 
-    /// No principal stress of these numbers is larger, be it tension or pressure.
+    /// Upper bound of the principal stresses of these numbers, be they tension or pressure.
     pub(super) fn size(self, numbers: &[f32]) -> f32 {
         match (self, numbers) {
             (Self::Surface(_), &[aa, bb, ab]) => {

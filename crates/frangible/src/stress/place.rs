@@ -9,8 +9,8 @@ use crate::asset::{Asset, EmbeddedPoint};
 use crate::config::FractureConfig;
 use crate::rng::{Purpose, stream, uniform};
 
-/// Places of a body's flaws on their faces, drawn by its seed. At the middle of each face, or at any other place that is the same for all
-/// bodies, the first cracks about a contact start at the few places nearest to it, and run in the directions in which the mesh has these.
+/// Places of a body's flaws on their faces, drawn by its seed. If they were at the middle of each face, or at any other place that is the same for
+/// all bodies, the first cracks about a contact would start at the few places nearest to it, and run in the directions in which the mesh has these.
 #[derive(Clone, Debug)]
 pub(crate) struct Places {
     /// Weights of the second and the third corner of the face of each fracture tetrahedron.
@@ -21,7 +21,7 @@ impl Places {
     /// Weights of the corners of a face at its middle.
     pub(crate) const MIDDLE: [f32; 3] = [1.0 / 3.0; 3];
 
-    /// Those of a body with so many fracture tetrahedra; the others' are the middles of their faces.
+    /// The places of a body with so many fracture tetrahedra; those of tetrahedra that are not weak are the middles of their faces.
     pub(crate) fn new(tets: usize, weak_tets: &[u32], seed: u64) -> Self {
         let mut of_tet = vec![[Self::MIDDLE[0]; 2]; tets];
         let mut rng = stream(seed, Purpose::Places, 0);

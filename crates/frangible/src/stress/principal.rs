@@ -7,7 +7,7 @@ use super::Symmetric3;
 /// Bounds are compared with the strength less this share: the rounding of the bound itself.
 pub(crate) const MARGIN: f32 = 1e-4;
 
-/// Below this bound no point reaches its strength where the smallest is this one, Pa.
+/// Stress bound below which no point reaches its strength if the smallest strength is this one, Pa.
 pub(crate) fn limit(strength: f32) -> f32 {
     strength * (1.0 - MARGIN)
 }

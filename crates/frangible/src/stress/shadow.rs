@@ -84,12 +84,12 @@ impl Symmetric3 {
 /// A stress that cracks release, one after the other: at one step, or at all steps of a batch.
 pub(crate) struct Released<T> {
     whole: [T; 6],
-    /// In a wall the part of it that bends.
+    /// Bending part of it, in a wall.
     bending: Option<[T; 6]>,
 }
 
 impl Released<Wide> {
-    /// Nothing is released yet. `opposite`: the stress behind the middle of the wall, where there is one.
+    /// The stress before any release. `opposite`: the stress behind the middle of the wall, where there is one.
     #[inline(always)]
     pub(crate) fn of_batch(stress: &StressLanes, opposite: Option<&StressLanes>) -> Self {
         let mut released = Self::of_whole(wide(&stress.components));
@@ -110,7 +110,7 @@ impl Released<Wide> {
 }
 
 impl Released<f32> {
-    /// Nothing is released yet. `opposite`: the stress behind the middle of the wall, where there is one.
+    /// The stress before any release. `opposite`: the stress behind the middle of the wall, where there is one.
     pub(crate) fn of_step(stress: Symmetric3, opposite: Option<Symmetric3>) -> Self {
         let mut released = Self::of_whole(stress.components());
         if let Some(opposite) = opposite {

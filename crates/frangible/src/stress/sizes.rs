@@ -18,7 +18,7 @@ pub(crate) struct Sizes {
 }
 
 impl Sizes {
-    /// Those of the rows of points with these frames.
+    /// Sizes of the rows of points with these frames.
     pub(crate) fn new(frames: &[Frame], rows: &Rows) -> Self {
         let points = frames.len();
         let mut sizes = Self {

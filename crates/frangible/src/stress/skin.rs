@@ -3,7 +3,7 @@
 //! Brittle bodies break from flaws of their surface, and in bending the stress is largest there. The paper tests stress at
 //! the centre of an element, which in a wall of one layer of tetrahedra lies at a quarter of the thickness or less from its
 //! middle: there a bent wall has at most half the stress of its surface.
-//! A *flaw*: the weak point of a tetrahedron with free outer faces lies on the largest of them: of flaws spread over the
+//! - A *flaw*: the weak point of a tetrahedron with free outer faces lies on the largest of them: of flaws spread over the
 //!   surface it holds the most. The body's seed draws its place on the face ([`Places`](super::Places)).
 //! - At a free surface the traction σ·n is exactly zero ([`Elasticity::free_state`](super::Elasticity::free_state)); the
 //!   modes of a mesh meet that only on average.
@@ -27,7 +27,7 @@ pub(super) const OPPOSITE: f32 = -0.8;
 /// Barycentric coordinates this little below zero still count as inside: the rounding of f32 ten body lengths off.
 const INSIDE: f32 = -1e-4;
 
-/// Most elements that the search for a point passes; the face of a tetrahedron is next to its centre.
+/// Largest number of elements that the search for a point passes; the face of a tetrahedron is next to its centre.
 const MOST_STEPS: usize = 64;
 
 /// The place of a flaw on the free surface.

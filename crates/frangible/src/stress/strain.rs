@@ -45,7 +45,7 @@ impl Elasticity {
         }
     }
 
-    /// With Green and Lagrange's strain, as [`Elasticity::new`] has it, or else the linear one, ½(∇u + ∇uᵀ).
+    /// Sets the strain: Green and Lagrange's, as [`Elasticity::new`] has it, or else the linear one, ½(∇u + ∇uᵀ).
     #[must_use]
     pub fn with_green_lagrange(self, quadratic: bool) -> Self {
         Self { quadratic, ..self }

@@ -65,7 +65,7 @@ impl Wall {
 /// Walls of a body.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Walls {
-    /// That of each analysis element, if it is part of one.
+    /// Wall of each analysis element, if it is part of one.
     pub(super) of_element: Vec<Option<Wall>>,
 }
 

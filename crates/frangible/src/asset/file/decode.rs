@@ -19,7 +19,7 @@ use crate::modal::ModalBasis;
 impl Asset {
     /// Reads what [`Asset::to_bytes`] wrote. Sections of unknown number are skipped.
     ///
-    /// Nothing is trusted: what this gives has passed [`Asset::validate`].
+    /// Nothing is trusted: the asset that this returns has passed [`Asset::validate`].
     ///
     /// # Errors
     /// [`AssetFileError`]: bytes of another kind or version, missing or changed ones, sections that do not fit

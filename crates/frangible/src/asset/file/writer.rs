@@ -8,7 +8,7 @@ struct Entry {
     id: u32,
     kind: Kind,
     columns: u16,
-    /// From the start of the data, bytes.
+    /// Offset from the start of the data, bytes.
     offset: usize,
     length: usize,
 }
