@@ -265,7 +265,7 @@ impl<'a> Cracking<'a> {
         (groups.is_some() || !contacts.is_empty()).then_some(Changed { contacts, groups })
     }
 
-    /// Ends the impact: completes the report, and labels the pieces.
+    /// Ends the impact: completes the report.
     fn end(
         self,
         system: CrackSystem<'a>,

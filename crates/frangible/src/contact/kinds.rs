@@ -55,7 +55,7 @@ pub struct Striker {
     pub receptance: Option<Arc<Receptance>>,
 }
 
-/// Share of a contact in the mass of a body that strikes at several points at once: an impulse at one of them moves it at the others too.
+/// Share of a contact in the mass of a body that strikes at several points: an impulse at one of them moves it at the others too.
 ///
 /// Let `a = (velocity, spin)` be the body's mass-weighted answer to a unit impulse at a contact. Then a unit impulse at contact l takes
 /// `a_k · a_l` from the speed of approach at contact k of the same body, 1/kg; at its own contact that is

@@ -200,7 +200,7 @@ pub(super) fn nearest(system: &CrackSystem, from: u32, goal: Vec3) -> Option<u32
     (tet != from && system.fractured_by[tet as usize] == UNCUT).then_some(tet)
 }
 
-/// Starts a crack that branches off another one at the place that this one reached with `cut`, if it can be paid. Returns true if it starts.
+/// Starts a crack that branches off another one, which reached the fork with `cut`, if it can be paid. Returns true if it starts.
 pub(super) fn start(
     system: &mut CrackSystem,
     field: &mut StressField,

@@ -143,7 +143,7 @@ fn row_points(body: &Body, config: &FractureConfig, cluster: usize) -> Vec<RowPo
     .collect()
 }
 
-/// Returns true if rows are worth their work: no more than [`WORTH`] times that of displacements.
+/// Returns true if rows are no more than [`WORTH`] times the work of displacements.
 fn is_less_work(body: &Body, config: &FractureConfig, modes: usize) -> bool {
     let (asset, skin) = (&*body.asset, &body.prepared.skin);
     let weak = body.weak_tets();

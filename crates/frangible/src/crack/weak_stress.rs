@@ -40,7 +40,7 @@ const MANY: usize = 4;
 /// For so many batches, the present one included, all points of such a cluster are computed.
 const WAIT: u8 = 4;
 
-/// Contributions of a motion in a cluster: shapes that follow a force, and near fields.
+/// Contributions of a motion in a cluster.
 #[derive(Clone, Debug)]
 struct Added {
     /// The stress in each row of every shape that follows a force, Pa/N.
@@ -65,7 +65,7 @@ pub(super) struct NearPoint {
     at: Located,
     /// Shares of the field's two tensions in each row.
     shares: [[f32; MOST]; 2],
-    /// Weight of the place in the point's mean; 1 where a whole cluster is bounded.
+    /// Weight of the place in the point's mean; 1 in [`Added::nearest`].
     share: f32,
 }
 

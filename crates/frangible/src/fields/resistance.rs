@@ -130,7 +130,7 @@ impl Resistance {
         body
     }
 
-    /// This resistance with its strength times `factor`, and the toughness as before.
+    /// With its strength times `factor`, and the toughness as before.
     pub(crate) fn strengthened(&self, factor: f32) -> Self {
         let factor = factor.max(f32::MIN_POSITIVE);
         Self {
@@ -159,7 +159,7 @@ impl Resistance {
         }
     }
 
-    /// This resistance with the strength that a load that has lasted so long, s, leaves; `tets`: number of tetrahedra of the body's mesh.
+    /// With the strength that is left after a load of this duration, s; `tets`: number of tetrahedra of the body's mesh.
     pub(crate) fn tired(&self, duration: f64, tets: usize, weak_tets: &[u32]) -> Self {
         let mut of_tet: Vec<f32> = (0..tets as u32).map(|e| self.strength(e)).collect();
         for &e in weak_tets {

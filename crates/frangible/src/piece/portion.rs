@@ -1,4 +1,4 @@
-//! Makes portions: of the pieces of a broken body, or of a cracked body as a whole.
+//! Makes portions of broken bodies, and of cracked ones.
 
 use std::sync::Arc;
 

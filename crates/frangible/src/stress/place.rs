@@ -21,7 +21,7 @@ impl Places {
     /// Weights of the corners of a face at its middle.
     pub(crate) const MIDDLE: [f32; 3] = [1.0 / 3.0; 3];
 
-    /// The places of a body with so many fracture tetrahedra; those of tetrahedra that are not weak are the middles of their faces.
+    /// Places in so many fracture tetrahedra: drawn in weak ones, the middles of the faces in the others.
     pub(crate) fn new(tets: usize, weak_tets: &[u32], seed: u64) -> Self {
         let mut of_tet = vec![[Self::MIDDLE[0]; 2]; tets];
         let mut rng = stream(seed, Purpose::Places, 0);

@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-/// Result of a check; the error says, as a clause, what is wrong.
+/// Result of a check; the error is a clause that says what is wrong.
 pub(crate) type Check = Result<(), String>;
 
 pub(super) fn all<T>(
