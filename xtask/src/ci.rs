@@ -1,4 +1,4 @@
-//! What the continuous integration checks, in order; `.ci/run` calls this.
+//! Steps of the continuous integration, in order; `.ci/run` calls this.
 //!
 //! The gate depends neither on chance nor on how fast the machine is. The other steps run by hand, each before a change of its subject goes
 //! in; the gate's last lines name them with the day on which they last passed.
@@ -29,7 +29,7 @@ use crate::web;
 /// The cargo-deny that `deny.toml` is written for.
 const DENY_VERSION: &str = "0.20.2";
 
-/// What bodies are made and broken by.
+/// Paths that decide how bodies are made and broken.
 const CORE: &[&str] = &[
     "Cargo.toml",
     "Cargo.lock",
@@ -65,7 +65,7 @@ const FEATURES: [&[&str]; 6] = [
     ],
 ];
 
-/// What one step does: it returns the lines worth repeating at the end.
+/// One step. Returns the lines worth repeating at the end.
 type Check = fn() -> Result<Vec<String>>;
 
 struct Step {

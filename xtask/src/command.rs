@@ -26,12 +26,12 @@ pub(crate) fn root() -> PathBuf {
     xtask.parent().map_or(xtask.clone(), PathBuf::from)
 }
 
-/// Where cargo builds.
+/// Target folder of cargo.
 pub(crate) fn target() -> PathBuf {
     root().join(std::env::var_os("CARGO_TARGET_DIR").unwrap_or_else(|| "target".into()))
 }
 
-/// Where the command line's program is once the workspace is built.
+/// Path of the command line's program once the workspace is built.
 pub(crate) fn program() -> PathBuf {
     target()
         .join("release")
@@ -204,7 +204,7 @@ pub(crate) fn skipped(step: &str, why: &str) -> Result<Vec<String>> {
     Ok(vec![line])
 }
 
-/// Whether a line says that something did not run.
+/// Returns true if a line says that something did not run.
 pub(crate) fn is_skipped(line: &str) -> bool {
     line.contains(": skipped: ")
 }

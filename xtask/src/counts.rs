@@ -18,7 +18,7 @@ const COUNTED: &str = "*counted_work*";
 const PROGRAM: &str = "count_instructions";
 const STORED: &str = "crates/frangible-lab/counts.txt";
 
-/// What the counts depend on, a line each.
+/// Tools that the counts depend on, a line each.
 type Tools = [String; 3];
 
 /// A case and its instructions.

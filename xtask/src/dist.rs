@@ -6,7 +6,7 @@ use std::process::Command;
 
 use crate::command::{Result, cargo, copy, host, output, root, run, target};
 
-/// What lies in the archive beside the program.
+/// Files in the archive beside the program.
 const BESIDE: [&str; 4] = ["README.md", "CHANGELOG.md", "LICENSE-MIT", "LICENSE-APACHE"];
 
 /// Builds the program, packs it with its licences, unpacks the archive elsewhere and has what comes out of it break something. Returns

@@ -10,15 +10,15 @@ use crate::command::{
 };
 use crate::setup::cpp_compiler;
 
-/// How long each target runs unless told otherwise, s.
+/// Running time of each target unless told otherwise, s.
 pub(crate) const USUAL_SECONDS: u64 = 30;
 /// The cargo-fuzz whose options and folders are used here.
 const VERSION: &str = "0.13.2";
-/// What a target may take beyond its time before it counts as stuck: starting, reading the corpus, one slow input.
+/// Time that a target may take beyond its own before it counts as stuck: for starting, reading the corpus, one slow input.
 const SLACK: Duration = Duration::from_secs(60);
 /// Longest input, bytes: several times the largest seed. More memory, MiB, is a finding.
 const BOUNDS: [&str; 2] = ["-max_len=32768", "-rss_limit_mb=2048"];
-/// What one input may take before that is a finding, s.
+/// Longest time for one input, s; a slower one is a finding.
 const TIMEOUT: u64 = 10;
 /// Targets that break bodies, and what one of their inputs may take, s: hundreds of pieces take seconds on a busy machine.
 const BREAKING: ([&str; 3], u64) = (["impact", "run_scene", "world"], 45);
@@ -26,7 +26,7 @@ const BREAKING: ([&str; 3], u64) = (["impact", "run_scene", "world"], 45);
 /// Inputs up to so many bytes are printed whole where they are found, and as many letters of each line of a panic.
 const SHOWN: usize = 2048;
 
-/// Where things are. Nothing is written into the checkout.
+/// Folders in use. Nothing is written into the checkout.
 struct Folders {
     /// The checkout's `fuzz`: targets, seeds, a dictionary.
     fuzz: PathBuf,
@@ -177,7 +177,7 @@ fn run_target(folders: &Folders, name: &str, seconds: u64) -> Result<String> {
     }
 }
 
-/// What was found, and how to see it again.
+/// Describes a finding, and how to reproduce it.
 ///
 /// The input itself comes last: often the end of this text is all that is left of a machine on which a target failed.
 fn finding(name: &str, program: &Path, log: &Path, input: Option<&str>, said: &str) -> String {

@@ -8,7 +8,7 @@ const MAGIC: u32 = u32::from_le_bytes(*b"glTF");
 const JSON: u32 = u32::from_le_bytes(*b"JSON");
 const BINARY: u32 = u32::from_le_bytes(*b"BIN\0");
 
-/// What is in a file.
+/// Counts of the things in a file.
 pub(crate) struct Contents {
     pub(crate) meshes: usize,
     pub(crate) nodes: usize,

@@ -14,7 +14,7 @@ use crate::web;
 
 struct Leaf {
     name: &'static str,
-    /// Where its manifest is.
+    /// Folder of its manifest.
     folder: &'static str,
     /// Its build folder within the target folder, which is that of its own chore.
     build: &'static str,

@@ -1,5 +1,5 @@
-//! What comes of the built-in scenes, beside what came of them before: a change that moves or renames must leave all bits as they
-//! were, and one that changes the physics shows pieces, areas and energies before and after.
+//! Compares the outcomes of the built-in scenes with earlier ones: a change that moves or renames must leave all bits as they were, and one that
+//! changes the physics shows pieces, areas and energies before and after.
 
 use std::fs;
 use std::path::Path;
@@ -9,7 +9,7 @@ use crate::command::{Result, cargo, output, run, target};
 
 const PROGRAM: &str = "outcomes";
 
-/// What is done with the outcomes.
+/// Task to do with the outcomes.
 pub(crate) enum Wish<'a> {
     /// Print them.
     Print,

@@ -1,4 +1,4 @@
-//! What would be published: each package has its licences, its page and nothing else.
+//! Contents of the packages to publish: each has its licences, its page and nothing else.
 
 use crate::command::{Result, announced, cargo, output, read, root};
 use crate::test::packages;

@@ -7,7 +7,7 @@ use crate::book;
 use crate::command::{Result, announced, cargo, root, run_keeping, shown, target};
 use crate::setup::python;
 
-/// What builds the wheel and what tries it, of the versions that they are written for.
+/// Tools that build the wheel and try it, in the versions that they are written for.
 const TOOLS: [&str; 11] = [
     "h5py>=3.10,<4",
     "ipykernel>=6,<8",

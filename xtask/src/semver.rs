@@ -1,4 +1,4 @@
-//! What the published crates offer beside what they offered before: whether users of the last version can take this one unchanged.
+//! Compares the interfaces of the published crates with the last version: can its users take this one unchanged?
 
 use std::process::Command;
 
@@ -10,7 +10,7 @@ const VERSION: &str = "0.51.0";
 
 /// Compares the published crates with those of a revision, or of the last tag of a version; a line says so where there is none.
 ///
-/// What took something away that the version still promises is an error. `frangible::internals` promises nothing.
+/// Removing something that the version still promises is an error. `frangible::internals` promises nothing.
 pub(crate) fn semver(revision: Option<&str>) -> Result<Vec<String>> {
     let Some(revision) = revision.map(String::from).or_else(last_version) else {
         let line = "semver: there is no tag of a version yet, so there is nothing to keep to";

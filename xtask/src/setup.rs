@@ -27,7 +27,7 @@ const BROWSER: &str = "chromium";
 const NODE: [&str; 2] = ["nodejs", "npm"];
 /// Makes the environment in which the wheel is built and tried.
 const PYTHON: [&str; 2] = ["python3", "python3-venv"];
-/// Where Linux drivers announce themselves.
+/// Folders in which Vulkan drivers register on Linux.
 const DRIVER_FOLDERS: [&str; 3] = [
     "/usr/share/vulkan/icd.d",
     "/etc/vulkan/icd.d",
@@ -152,7 +152,7 @@ fn has_vulkan_driver() -> bool {
     })
 }
 
-/// What to put before a command that needs root: nothing for root itself, a sudo that asks no password, or None.
+/// Words to put before a command that needs root: nothing for root itself, else a sudo that asks no password. None if neither works.
 fn privileges() -> Option<&'static [&'static str]> {
     let root = Command::new("id")
         .arg("-u")

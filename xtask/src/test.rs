@@ -10,7 +10,7 @@ use crate::command::{Result, cargo, output, program, run, succeeds};
 const IN_ONE_UNIT: [&str; 2] = ["frangible", "frangible-geometry"];
 /// The program with its window, which is not in its default features.
 pub(crate) const WITH_WINDOW: [&str; 2] = ["--features", "frangible-cli/view"];
-/// Of `frangible-rapier`; its tests run them.
+/// Examples of `frangible-rapier` that its tests run.
 const RUN_EXAMPLES: [&str; 7] = [
     "ask",
     "explosion",

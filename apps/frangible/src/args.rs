@@ -116,7 +116,7 @@ pub(crate) struct FilmArgs {
 }
 
 impl FilmArgs {
-    /// How many pictures the film has.
+    /// Number of pictures in the film.
     pub(crate) fn pictures(&self) -> usize {
         (self.seconds * self.rate).round().max(2.0) as usize
     }
@@ -158,7 +158,7 @@ pub(crate) struct BreakCommand {
     pub(crate) args: BreakArgs,
 }
 
-/// How a mesh file becomes a body.
+/// Settings for making a body from a mesh file.
 #[derive(Args, Clone, Debug, Default)]
 pub(crate) struct MeshArgs {
     /// Longest side of a mesh's or a baked body in metres [default: the file's unit is the metre]
@@ -273,7 +273,7 @@ pub(crate) struct ModesArgs {
     pub(crate) mesh: MeshArgs,
 }
 
-/// What is broken, and how it is hit.
+/// Scene to play: the body that breaks, and how it is hit.
 #[derive(Args, Clone, Debug)]
 pub(crate) struct SceneArgs {
     /// Built-in scene; `frangible scenes` lists them [default: glass]

@@ -122,7 +122,7 @@ pub(crate) fn run(file: Option<&Path>, args: &BreakArgs) -> Result<(), Box<dyn E
     Ok(())
 }
 
-/// What to know of a run in which nothing that was thrown met a body.
+/// Note for a run in which nothing that was thrown met a body.
 fn missed(run: &Run) -> Option<String> {
     let thrown = |node: usize| matches!(run.soundings.get(node), Some(Sounding::Ball(..)));
     let touches = run.recording.touches.iter().map(|touch| touch.nodes);
@@ -140,7 +140,7 @@ fn missed(run: &Run) -> Option<String> {
     ))
 }
 
-/// What to know of a sound: how loud it is, that there is none, or that it was too much.
+/// Notes on a sound: its peak level or its silence, and anything left out because there was too much at once.
 fn sound_notes(sounded: &Sounded) -> Vec<String> {
     let (report, mut notes) = (&sounded.report, Vec::new());
     if sounded.loudest() == 0.0 {
@@ -161,7 +161,7 @@ fn sound_notes(sounded: &Sounded) -> Vec<String> {
     notes
 }
 
-/// What the mesher could not keep of the bodies.
+/// Notes on the loose pieces and sharp features that the mesher left out.
 fn mesh_notes(scene: &Scene, baked: &[BakedBody]) -> Vec<String> {
     let mut notes = Vec::new();
     for (body, baked) in scene.bodies.iter().zip(baked) {
@@ -187,7 +187,7 @@ fn mesh_notes(scene: &Scene, baked: &[BakedBody]) -> Vec<String> {
     notes
 }
 
-/// What became of bodies whose surface has an outside only: it may be the skin of a pot, or a solid with a hole.
+/// Notes on the bodies whose surface is open. They are filled as solids: such a surface may be the skin of a pot, or a solid with a hole.
 pub(crate) fn filled(open: &[bool], baked: &[BakedBody]) -> Vec<String> {
     let open = open.iter().zip(baked).filter(|(open, _)| **open);
     open.map(|(_, body)| {

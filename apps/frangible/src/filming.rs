@@ -121,7 +121,7 @@ fn microseconds(
 /// Draws a moment of a recording.
 type Draw = dyn Fn(&Recording, f64, &View) -> Result<Picture, Box<dyn Error>>;
 
-/// By the renderer, where this build has one and light is not to be followed.
+/// Returns the function that draws the pictures: the renderer if this build has one and `--traced` is not given, else the path tracer.
 fn drawer(args: &FilmArgs) -> Result<Box<Draw>, Box<dyn Error>> {
     let [width, height] = args.frame;
     #[cfg(feature = "view")]

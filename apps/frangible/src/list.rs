@@ -38,7 +38,7 @@ pub(crate) fn print_scene(name: &str) -> Result<(), Box<dyn Error>> {
     Ok(say(&scene_to_toml(&scene(name)?))?)
 }
 
-/// What happens in a scene, in a few words.
+/// Short description of the events in a scene: drops and throws.
 fn action(scene: &Scene) -> String {
     let drops = scene.bodies.iter().filter_map(|body| match body.place {
         Place::Above { height, .. } => Some(format!("drop {} m", four_digits(height))),

@@ -62,7 +62,7 @@ fn nearer(view: View) -> View {
     }
 }
 
-/// What is to be drawn of a moment; the colours end at a tension of `most`, Pa.
+/// Surface to draw at a moment of the wave. The colour scale ends at a tension of `most`, Pa.
 fn surface_at(wave: &Wave, moment: usize, most: f64, name: &str) -> ColoredSurface {
     let now = &wave.moments[moment];
     let value = |tension: &f32| (f64::from(*tension) / most).clamp(0.0, 1.0) as f32;

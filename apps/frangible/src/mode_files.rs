@@ -10,7 +10,7 @@ use frangible_bake::mode_field::{
 };
 use frangible_export::{ExportError, VtuCells, VtuField, VtuMesh, VtuValues, write_vtu};
 
-/// How far the largest displacement is drawn, as a share of the body's diagonal.
+/// Largest displacement as drawn, as a share of the body's diagonal.
 #[cfg(feature = "view")]
 const EXAGGERATION: f32 = 0.08;
 

@@ -1,4 +1,4 @@
-//! What `frangible modes` prints.
+//! Output of `frangible modes`.
 
 use std::f64::consts::TAU;
 use std::fmt::Write;

@@ -105,7 +105,7 @@ pub(crate) fn run(args: &ModesArgs) -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Where the picture goes, if there is to be one; its folder is made if none was named.
+/// Path of the picture, or None if there is to be none. The default folder is made if no path was named.
 fn picture_path(args: &ModesArgs, name: &str) -> Result<Option<PathBuf>, String> {
     if args.no_pictures {
         return Ok(None);

@@ -1,4 +1,4 @@
-//! What a run prints: a table for people, JSON for scripts. SI units, or named otherwise.
+//! Report of a run: a table for people, JSON for scripts. In SI units unless a name says otherwise.
 
 use std::fmt::Write;
 
@@ -24,7 +24,7 @@ pub(crate) struct Report {
     pub(crate) notes: Vec<String>,
 }
 
-/// What became of a body.
+/// Outcome of the run for one body.
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct BodyReport {
     pub(crate) body: String,
@@ -40,7 +40,7 @@ pub(crate) struct BodyReport {
     /// Known of bodies baked in this run.
     pub(crate) largest_residual: Option<f64>,
     pub(crate) impact: Option<Impact>,
-    /// What hit the body or its pieces, in the order of time.
+    /// Blows on the body or its pieces, in the order of time.
     pub(crate) blows: Vec<Blow>,
     pub(crate) fragments: usize,
     pub(crate) mass_kg: f64,
@@ -72,14 +72,14 @@ pub(crate) struct Impact {
     /// Strength over the stress or its bound, at the point where it is least: each has a strength of its own. Known of a body that held.
     pub(crate) margin: Option<f64>,
     pub(crate) peak_strain_energy_j: f64,
-    /// What the weakest point bears.
+    /// Strength of the weakest point.
     pub(crate) strength_pa: f64,
     pub(crate) weak_points: usize,
     pub(crate) cracks: usize,
     pub(crate) crack_area_m2: f64,
     pub(crate) approach_energy_j: f64,
     pub(crate) fracture_energy_j: f64,
-    /// What crushing took where the body was touched, and the volume that was crushed.
+    /// Energy spent on crushing at the contacts, and the crushed volume.
     pub(crate) crushing_energy_j: f64,
     pub(crate) crushed_volume_m3: f64,
     pub(crate) first_crack_s: Option<f64>,

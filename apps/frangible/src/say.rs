@@ -1,4 +1,4 @@
-//! What the program says on its standard output.
+//! Messages on the program's standard output.
 
 use std::io::{self, ErrorKind, Write};
 

@@ -8,7 +8,7 @@ use std::error::Error;
 use frangible_photo::SlowMotion;
 use frangible_scenes::{Run, Scene, Sounded, sound, sound_config};
 
-/// What a film of so many seconds sounds like.
+/// Computes the sound of a film that lasts `seconds`.
 pub(crate) fn soundtrack(
     run: &Run,
     scene: &Scene,

@@ -6,7 +6,7 @@ use frangible_scenes::{Region, Support, axes_of};
 const EXAMPLES: &str = "for example below:z:0.01, above:x:0.3, box:0,0,0,0.1,0.1,0.1, sphere:0,0,0,0.02 or group:frame, \
      each with @xy to hold it along x and y only";
 
-/// What a text such as `below:z:0.01` holds.
+/// Parses a support such as `below:z:0.01`.
 ///
 /// # Errors
 /// A text that means nothing, with examples of those that do.

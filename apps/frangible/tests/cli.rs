@@ -280,7 +280,7 @@ fn a_reader_that_has_seen_enough_is_no_error() {
     assert!(output.status.success() && said.is_empty(), "{said}");
 }
 
-/// What a report says of the hardest blow on a body that held: its time, and no stress of zero.
+/// Checks the report of the hardest blow on a body that held: it has a time, and its stress is not zero.
 fn assert_held(report: &serde_json::Value) {
     let impact = &report["impact"];
     let number = |key: &str| impact[key].as_f64().unwrap_or(f64::NAN);

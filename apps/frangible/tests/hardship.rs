@@ -29,7 +29,7 @@ drop = 1.0
 spin = [0, 0, 1]
 "#;
 
-/// What breaks the bar.
+/// Arguments that break the bar.
 fn body(folder: &Folder) -> Vec<String> {
     let path = folder.0.join("bar.toml");
     fs::write(&path, BAR).expect("a scene file");
@@ -60,7 +60,7 @@ fn finished(folder: &Path) -> BTreeMap<String, Vec<u8>> {
         .collect()
 }
 
-/// What a run that nothing disturbs writes, and how long it takes.
+/// Runs the program undisturbed. Returns the files that it writes, and the time that it takes.
 fn undisturbed(args: &[String], out: &Path) -> (BTreeMap<String, Vec<u8>>, Duration) {
     let clock = Instant::now();
     let status = begin(args, out).wait().expect("the program ends");

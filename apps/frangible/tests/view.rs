@@ -100,7 +100,7 @@ impl Drop for Display {
     }
 }
 
-/// Where to open windows; prints why there is no place.
+/// Display to open windows on. If there is none, prints the reason.
 fn display() -> Option<Display> {
     if !cfg!(target_os = "linux") {
         println!("skipped: the test knows no display without a screen but Xvfb");

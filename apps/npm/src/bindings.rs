@@ -1,4 +1,4 @@
-//! What the package's script calls. Numbers pass in rows, see [`plain`](crate::plain); the script makes sentences and objects of them.
+//! Functions that the package's script calls. Numbers pass in rows, see [`plain`](crate::plain); the script makes sentences and objects of them.
 
 use frangible::{Asset, Body, Breakable, Fracture, FractureConfig, Material, Outcome, impact};
 use js_sys::{Array, Float32Array, Float64Array, Object, Reflect, Uint32Array};
@@ -77,7 +77,8 @@ impl From<Body> for WasmBody {
 
 #[wasm_bindgen]
 impl WasmBody {
-    /// What contacts do to the body, rows of numbers; the pose, if any, is that of the body where contacts are in world axes.
+    /// Computes the effect of contacts on the body; the contacts are rows of numbers. If they are in world axes, `pose` is the body's pose, else
+    /// empty.
     ///
     /// # Errors
     /// A number that cannot be used.
@@ -119,7 +120,7 @@ impl WasmBody {
     }
 }
 
-/// What came of an impact; without fragments the body held.
+/// Outcome of an impact. Without fragments the body held.
 #[wasm_bindgen]
 pub struct Break {
     body: Body,
@@ -171,7 +172,7 @@ impl Break {
         &self.body
     }
 
-    /// What became of it.
+    /// Fracture of the body.
     pub fn fracture(&self) -> &Fracture {
         &self.fracture
     }

@@ -71,7 +71,7 @@ pub struct Drawn {
     pub uvs: Vec<f32>,
     /// Three per triangle, counter-clockwise seen from outside; those of the body's own outside first.
     pub indices: Vec<u32>,
-    /// How many of the indices are of the body's own outside; the rest are crack faces.
+    /// Number of indices that belong to the body's own outside; the rest are crack faces.
     pub outer_indices: usize,
 }
 

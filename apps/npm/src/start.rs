@@ -1,4 +1,4 @@
-//! What both modules of the package do first.
+//! Start-up code of both modules of the package.
 
 use wasm_bindgen::prelude::wasm_bindgen;
 

@@ -31,7 +31,7 @@ pub(crate) fn striker(material: &str) -> PyResult<(f64, f64, f64, f64)> {
     ))
 }
 
-/// Where a body comes from.
+/// Origin of a body.
 enum Made {
     /// A bake.
     Whole(Breakable),
@@ -70,7 +70,7 @@ impl Kind {
         }
     }
 
-    /// What contacts do to it, without the interpreter's lock.
+    /// Computes the effect of contacts on the body, without the interpreter's lock.
     fn hit(
         &self,
         py: Python<'_>,
@@ -84,7 +84,7 @@ impl Kind {
         Ok(Impact::new(body, outcome.map_err(refused)?))
     }
 
-    /// What it is, unless it is a piece, which cannot do what is asked.
+    /// Returns the baked body. A piece is an error, since it cannot do what is asked.
     pub(crate) fn whole(&self, asked: &str) -> PyResult<&Breakable> {
         match &self.0 {
             Made::Whole(kind) => Ok(kind),

@@ -1,4 +1,4 @@
-//! What the package's Python calls. Numbers pass as flat arrays; the Python beside makes objects and sentences of them, and describes them.
+//! Functions that the package's Python calls. Numbers pass as flat arrays; the Python beside makes objects and sentences of them, and describes them.
 
 mod bake;
 mod kind;

@@ -1,4 +1,4 @@
-//! What came of a blow.
+//! Outcome of a blow.
 
 use frangible::internals::MassProperties;
 use frangible::internals::outcome::ContactReport;
@@ -12,7 +12,7 @@ use pyo3::types::{PyDict, PyList};
 use crate::kind::Kind;
 use crate::{numbers, refused};
 
-/// What came of a blow; without fragments the body held.
+/// Outcome of a blow. Without fragments the body held.
 #[pyclass(frozen, module = "frangible._frangible")]
 pub(crate) struct Impact {
     body: Body,

@@ -125,7 +125,7 @@ impl LiveWorld {
         self.live.time()
     }
 
-    /// What there is: name, what it is, mass, kg, position, m, and rotation (x, y, z, w).
+    /// Things in the world: name, kind, mass, kg, position, m, and rotation (x, y, z, w).
     #[expect(clippy::type_complexity, reason = "Python unpacks it at once")]
     fn things<'py>(
         &self,

@@ -1,5 +1,5 @@
-//! What the page's scripts give: the object `frangible`, with `byClock`, whether scenes run by the clock, and `failed(text)`, which says
-//! that the program cannot go on. In the window it has besides
+//! The object `frangible` that the page's scripts provide, with `byClock`, true if scenes run by the clock, and `failed(text)`, which says that the
+//! program cannot go on. In the window it also has
 //!
 //! | | |
 //! |---|---|
@@ -9,7 +9,7 @@
 //! | `news()` | an array of bytes, each what the session told since this was asked last |
 //! | `drawn(frames)` | a frame is there |
 //!
-//! What it has in the session's workers stands in that program's `folder.rs`.
+//! Its members in the session's workers are described in that program's `folder.rs`.
 
 use js_sys::{Array, Function, Object, Reflect};
 use wasm_bindgen::{JsCast, JsValue};
@@ -82,7 +82,7 @@ pub fn offer<const N: usize>(functions: [(&str, JsValue); N]) {
     }
 }
 
-/// What an exception says.
+/// Message of an exception.
 #[must_use]
 pub fn said(error: &JsValue) -> String {
     match error.dyn_ref::<js_sys::Error>() {

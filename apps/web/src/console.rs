@@ -1,4 +1,4 @@
-//! What is logged goes to the browser's console.
+//! Log output to the browser's console.
 
 use log::{LevelFilter, Log, Metadata, Record};
 

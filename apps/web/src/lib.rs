@@ -1,4 +1,4 @@
-//! What the page's two programs share: the object of the page's scripts that they call, and the browser's console.
+//! Code that the page's two programs share: the object of the page's scripts that they call, and the browser's console.
 
 #[cfg(target_arch = "wasm32")]
 mod bridge;

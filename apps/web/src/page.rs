@@ -15,7 +15,7 @@ use wasm_bindgen_futures::{JsFuture, spawn_local};
 
 use frangible_web::{Bridge, offer};
 
-/// What the page and the window share.
+/// State that the page and the window share.
 #[derive(Default)]
 struct Shared {
     commands: Vec<Command>,
@@ -99,7 +99,7 @@ fn give_functions(shared: &Rc<RefCell<Shared>>) {
     ]);
 }
 
-/// What `frangible_state()` tells, as JSON.
+/// Answer of `frangible_state()`, as JSON.
 #[derive(Serialize)]
 struct State<'a> {
     scene: &'a str,
@@ -118,14 +118,14 @@ struct State<'a> {
     /// The bits of where all things are, how they move and what they weigh: one number, which JavaScript has no type for.
     fingerprint: String,
     triangles: usize,
-    /// How long the last break took, s: the impact here, the whole step in the next field.
+    /// Duration of the last break, s: of the impact here, of the whole step in the next field.
     fracture_seconds: f64,
     step_seconds: f64,
     /// Masses of the pieces of the last break, kg.
     masses: &'a [f64],
-    /// Where the last contact that mattered was, m.
+    /// Position of the last contact that mattered, m.
     hit: Option<[f32; 3]>,
-    /// What is being fetched or baked, and the share of it that is done.
+    /// Item that is being fetched or baked, and the share of it that is done.
     bake: Option<(&'a str, f64)>,
     message: Option<&'a str>,
     complaint: bool,

@@ -4,7 +4,7 @@ use std::sync::{Arc, OnceLock};
 
 use frangible::{Asset, Breakable};
 
-/// How many there are.
+/// Number of bodies.
 pub(crate) const COUNT: usize = 3;
 
 /// A pane, a block and a held shelf.

@@ -11,7 +11,7 @@ use frangible::internals::{CrackPath, CrackTiming, DurationModel};
 /// Bytes of an input, read one after the other.
 pub(crate) struct Draw<'a> {
     bytes: std::slice::Iter<'a, u8>,
-    /// Whether numbers may be any bits.
+    /// If true, some numbers are arbitrary bits.
     odd: bool,
 }
 
@@ -45,7 +45,7 @@ impl<'a> Draw<'a> {
         draw
     }
 
-    /// Whether all bytes were read.
+    /// Returns true if all bytes were read.
     pub(crate) fn is_over(&self) -> bool {
         self.bytes.as_slice().is_empty()
     }
@@ -55,7 +55,7 @@ impl<'a> Draw<'a> {
         self.bytes.next().copied().unwrap_or(0)
     }
 
-    /// Whether the next byte is odd.
+    /// Returns true if the next byte is odd.
     pub(crate) fn flag(&mut self) -> bool {
         self.byte() & 1 == 1
     }

@@ -164,7 +164,7 @@ fn check(body: &Body, outcome: &Outcome) {
     assert!(report.volume_error.abs() < 1e-6, "{}", report.volume_error);
 }
 
-/// What is compared of two outcomes.
+/// Bits of the fragments' masses, by which two outcomes are compared.
 fn masses(outcome: &Outcome) -> Vec<u64> {
     match outcome {
         Outcome::Broke(fracture) => {

@@ -17,7 +17,7 @@ use crate::draw::Draw;
 
 /// Steps of one input.
 const STEPS: usize = 30;
-/// What one input does at most.
+/// Most deeds per input.
 const DEEDS: usize = 24;
 /// Bodies in the world, so that one input ends soon.
 const BODIES: usize = 80;
@@ -119,9 +119,9 @@ struct Play {
     bodies: Vec<RigidBodyHandle>,
     /// Mass of all bodies that were put in and not taken out, kg; of those that never move it is 0.
     mass: f64,
-    /// Whether debris and dust go by themselves.
+    /// True if debris and dust disappear by themselves.
     loses: bool,
-    /// Whether there may be more than one breakable body.
+    /// True if there may be more than one breakable body.
     several: bool,
     saved: Option<(SavedWorld, Vec<RigidBodyHandle>, f64)>,
     steps: usize,

@@ -1,10 +1,10 @@
-//! What fuzzing started from and what it found, once more: every file of `fuzz/corpus/TARGET` goes through its target.
+//! Replay of the fuzzing seeds and findings: every file of `fuzz/corpus/TARGET` goes through its target.
 
 use std::fs;
 use std::panic::catch_unwind;
 use std::path::{Path, PathBuf};
 
-/// What lies in a folder beside this package, sorted.
+/// Paths in a folder beside this package, sorted.
 fn listed(folder: &str) -> Vec<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR"))
         .join("..")

@@ -12,7 +12,7 @@ use crate::command::{Result, announced, copy, root, succeeds, target};
 
 /// The mdBook that the book was made with.
 const VERSION: &str = "0.5.4";
-/// Where the table of contents lies, and the page that comes first.
+/// Paths of the table of contents and of the first page.
 const SUMMARY: &str = "book/src/SUMMARY.md";
 const FIRST: &str = "book/src/introduction.html";
 

@@ -1,4 +1,4 @@
-//! What pages link is there: files, chapters, headings.
+//! Checks that the targets of the pages' links exist: files, chapters, headings.
 
 use std::collections::{BTreeMap, BTreeSet};
 

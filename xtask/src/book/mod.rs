@@ -29,7 +29,7 @@ use page::{Page, chapters};
 /// The pages that the wheel's environment runs.
 const WHEEL_PAGE: &str = "book/src/start/python.md";
 
-/// What is to be done with the book.
+/// Task to do with the book.
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) enum Wish<'a> {
     /// Run what it shows, check its links, make it HTML.

@@ -7,7 +7,7 @@ use std::process::Command;
 use super::page::Page;
 use crate::command::{Result, output};
 
-/// What stands before the program's arguments.
+/// Starts of a command line that calls the program.
 const CALLS: [&str; 2] = ["frangible ", "cargo run --release -- "];
 /// It is a command of the wheel's program alone, which `cargo xtask python` tries.
 const OF_THE_WHEEL: &str = "dataset";
@@ -50,18 +50,18 @@ pub(super) fn check(pages: &[Page], program: &Path) -> Result<usize> {
     Ok(count)
 }
 
-/// Whether the program's help lists this command.
+/// Returns true if the program's help lists this command.
 fn is_command(help: &str, word: &str) -> bool {
     let mut lines = help.lines().filter_map(|line| line.strip_prefix("  "));
     lines.any(|line| line.split(' ').next() == Some(word) && !word.is_empty())
 }
 
-/// Whether a help has this word.
+/// Returns true if a help text has this word.
 fn has(help: &str, word: &str) -> bool {
     help.split([' ', '\n', ',']).any(|known| known == word)
 }
 
-/// What the program says of its commands.
+/// Help texts of the program and its commands, each read once.
 struct Helps<'a> {
     program: &'a Path,
     known: BTreeMap<String, String>,

@@ -4,7 +4,7 @@ use std::path::{Component, Path, PathBuf};
 
 use crate::command::{Result, read, root};
 
-/// Where our own pages lie.
+/// Folder of the book's own pages.
 const OURS: &str = "book/src/";
 
 /// A page of the book.
@@ -13,16 +13,16 @@ pub(super) struct Page {
     pub(super) path: String,
     /// Each line with its number in the file; what is included has the number of the line that includes it.
     pub(super) lines: Vec<(usize, String)>,
-    /// Which file is included at which line.
+    /// Included files, each with the line that includes it.
     included: Vec<(usize, String)>,
 }
 
-/// What stands between two lines of three backticks.
+/// Lines between two fences of three backticks.
 pub(super) struct Block<'a> {
     /// Number of its first fence in the file.
     pub(super) line: usize,
     pub(super) language: &'a str,
-    /// What stands behind the language, between commas.
+    /// Marks after the language, which commas separate.
     pub(super) marks: Vec<&'a str>,
     pub(super) lines: &'a [(usize, String)],
     /// The file that it includes.
@@ -62,7 +62,7 @@ impl Page {
         Ok(page)
     }
 
-    /// Whether it is written for the book alone.
+    /// Returns true if the page is written for the book alone.
     pub(super) fn is_ours(&self) -> bool {
         self.path.starts_with(OURS)
     }
@@ -136,7 +136,7 @@ impl Page {
 }
 
 impl Block<'_> {
-    /// What follows `file=` among the marks.
+    /// Value of `file=` among the marks.
     pub(super) fn file(&self) -> Option<&str> {
         self.marks
             .iter()
@@ -169,7 +169,7 @@ pub(super) fn chapters() -> Result<Vec<Page>> {
         .collect()
 }
 
-/// What a line of the table of contents links.
+/// Link target in a line of the table of contents.
 pub(super) fn target(line: &str) -> Option<&str> {
     Some(line.split_once("](")?.1.split_once(')')?.0)
 }

@@ -71,7 +71,7 @@ pub(super) fn wheel(page: &Page, programs: &Path) -> Result<usize> {
     Ok(count)
 }
 
-/// Where the commands of a page run.
+/// Folder and environment in which the commands of a page run.
 struct Place<'a> {
     page: &'a str,
     folder: PathBuf,

@@ -1,4 +1,4 @@
-//! What a page shows below its commands, compared with what they print.
+//! Compares the output that a page shows below its commands with the output that they print.
 
 use super::page::{Block, Page};
 use crate::command::Result;
@@ -59,7 +59,7 @@ fn absent(wanted: &[(usize, &str)], printed: &str) -> Option<usize> {
         .position(|(_, pattern)| *pattern != "…" && !lines.any(|line| fits(pattern, line)))
 }
 
-/// Whether a line has all parts of a pattern between its `…`, in their order.
+/// Returns true if a line has all parts of a pattern between its `…`, in their order.
 fn fits(pattern: &str, line: &str) -> bool {
     let mut rest = line;
     pattern.trim().split('…').all(|part| match rest.find(part) {

@@ -13,14 +13,14 @@ use crate::command::{Result, announced, cargo, target};
 /// The one that the page opens with.
 pub(super) const FIRST: &str = "pane";
 
-/// Where bodies lie in the page's folder.
+/// Folder of the bodies within the page's folder.
 const FOLDER: &str = "bodies";
 
 /// Baked bodies of all scenes.
 pub(super) struct Bodies {
-    /// What the page's list says of each scene: its text, the packed files of its bodies with their sizes, and which is whose.
+    /// Entry of each scene in the page's list: its text, the packed files of its bodies with their sizes, and which is whose.
     pub(super) list: serde_json::Map<String, Value>,
-    /// Where they lie as they were baked.
+    /// Folder of the bodies as they were baked.
     pub(super) kept: PathBuf,
 }
 

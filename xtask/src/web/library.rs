@@ -10,10 +10,10 @@ use crate::command::{Result, output, root, run, succeeds};
 /// Debian's suite that has the sources of many releases.
 const SUITE: &str = "trixie-backports";
 const PACKAGE: &str = "rust-src";
-/// Where a Debian archive lies on its server.
+/// Path of the Debian archive on its server.
 const ARCHIVE: &str = "/debian";
 
-/// What there is of the standard library.
+/// State of the standard library for the browser's target.
 pub(super) enum Library {
     /// Ready to be linked.
     Installed,

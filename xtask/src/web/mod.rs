@@ -25,7 +25,7 @@ pub(crate) use trial::{bits, trial};
 /// scenes are fetched when they are chosen.
 const MOST: u64 = 8_000_000;
 
-/// Where things are. Nothing is written into the checkout but the folder that is asked for.
+/// Folders in use. Nothing is written into the checkout but the folder that is asked for.
 struct Folders {
     /// The checkout's `apps/web/page`: what is not made.
     page: PathBuf,
@@ -70,7 +70,7 @@ fn make_folder(folder: &Path) -> Result {
         .map_err(|error| format!("`{}` cannot be made: {error}", folder.display()))
 }
 
-/// What the page's scripts fetch: the programs, and files per scene, with their sizes for the bar.
+/// Writes the list of files that the page's scripts fetch: the programs, and files per scene, with their sizes for the progress bar.
 fn write_list(folders: &Folders, programs: &[Program], bodies: &Bodies) -> Result {
     let mut listed = serde_json::Map::new();
     for program in programs {
@@ -95,7 +95,7 @@ fn size_of(path: &Path) -> Result<u64> {
         .map_err(|error| format!("`{}` cannot be read: {error}", path.display()))
 }
 
-/// What the page weighs as servers send it; an error where the first visit fetches more than it may. Programs and bodies lie in it packed.
+/// Weighs the page as servers send it, with programs and bodies packed. A first visit that fetches more than it may is an error.
 fn weigh(out: &Path, packer: &Path, programs: &[Program], bodies: &Bodies) -> Result<Vec<String>> {
     let megabytes = |bytes: u64| bytes as f64 / 1e6;
     let mut parts = Vec::new();

@@ -15,7 +15,7 @@ const MODULES: [(&str, &str, u64); 2] = [
     ("frangible-js", "breaks", 1_000_000),
     ("frangible-js-bake", "bakes", 1_000_000),
 ];
-/// What the examples in the browser need beside the package, and what it is compared with, of the versions that they are written for.
+/// Packages that the examples in the browser need, and those that they are compared with, in the versions that they are written for.
 const BESIDE: [&str; 7] = [
     "three@0.187.0",
     "react@19.3.1",
@@ -139,7 +139,7 @@ fn bundle(project: &Path) -> Result {
     announced(&mut command)
 }
 
-/// What the same blows do to the same bodies outside the browser: the hashes of all numbers.
+/// Computes the effect of the same blows on the same bodies outside the browser, as hashes of all numbers. Returns the file's path.
 fn native(folders: &Folders) -> Result<PathBuf> {
     let target = folders.target.join("hash");
     let mut command = crate::command::cargo(&[

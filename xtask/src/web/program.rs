@@ -23,7 +23,7 @@ const GENERATOR_OF_PACKER: &str = "wasm-bindgen-cli-support";
 
 /// A program as it lies in the page's folder.
 pub(super) struct Program {
-    /// What the page's list calls it.
+    /// Name in the page's list.
     pub(super) part: &'static str,
     /// Name of the packed file.
     pub(super) packed: String,
@@ -65,7 +65,7 @@ pub(super) fn number_of(text: &[u8]) -> Result<u64> {
         .map_err(|_| format!("the packer said `{}`, no size", text.trim()))
 }
 
-/// What is built for browsers.
+/// Kind of a build for browsers.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Kind {
     Program,

@@ -11,13 +11,13 @@ use crate::setup::browser;
 
 /// Drives the browser; the version that the test is written for.
 const DRIVER: &str = "playwright-core@1.65.1";
-/// What the page draws with, the one after the other.
+/// Renderers to draw the page with, one after the other.
 const RENDERERS: [&str; 2] = ["webgpu", "webgl2"];
 
 /// Scenes that are played in the browser and without one, and how: so many steps, so many times. In the second pieces break again.
 const PLAYED: [(&str, u32, u32); 2] = [("pane", 100, 5), ("shards", 400, 10)];
 
-/// What the browser may take before it counts as stuck, s.
+/// Longest time for the browser before it counts as stuck, s.
 const LONGEST: &str = "1500";
 
 /// Makes the session's program and the bodies that are played, and compares what comes of them in Node with what comes of them natively: a
@@ -92,7 +92,7 @@ pub(super) fn in_browser(
     Ok(lines)
 }
 
-/// Where pictures go: `OUT`, or the target folder.
+/// Folder of the pictures: `OUT`, or one within the target folder.
 pub(super) fn made_folder(folders: &Folders) -> Result<PathBuf> {
     let out = std::env::var_os("OUT");
     let out = out.map_or_else(|| folders.target.join("artifacts"), PathBuf::from);
@@ -127,7 +127,7 @@ pub(super) fn driver(folders: &Folders) -> Result<PathBuf> {
     Ok(folder)
 }
 
-/// What comes of the scenes on this machine, without a browser: a file for the test.
+/// Plays the scenes on this machine, without a browser. Returns the path of the outcomes, a file for the test.
 fn native(folders: &Folders, baked: &Path) -> Result<PathBuf> {
     let plays = example("plays")?;
     let mut all = Vec::new();

@@ -30,7 +30,7 @@ fn main() -> ExitCode {
     }
 }
 
-/// What calls the module, and the module; its bytes.
+/// Writes the module and the script that calls it. Returns the module's size in bytes.
 fn bindings(program: &Path, folder: &Path) -> Result<usize, Box<dyn Error>> {
     let mut bindgen = Bindgen::new();
     bindgen

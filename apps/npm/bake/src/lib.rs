@@ -10,12 +10,12 @@ use frangible_bake::frangible_mesh::{InputMesh, Similarity};
 use frangible_bake::pieces::{Method, PieceError, Pieces};
 use frangible_bake::{BakeError, BakeSpec, ImportOptions, Progress, import_mesh};
 
-/// What to make of a mesh.
+/// Settings for baking a mesh.
 #[derive(Clone, Debug)]
 pub struct Wish {
     /// Name of the body.
     pub name: String,
-    /// What it is of.
+    /// Material of the body.
     pub material: Material,
     /// Longest side, m; 0: the mesh's unit is the metre.
     pub size: f64,
@@ -130,7 +130,7 @@ pub mod bindings {
             self.scale
         }
 
-        /// What to add to the scaled places, m.
+        /// Offset to add to the scaled positions, m.
         pub fn offset(&self) -> Vec<f64> {
             self.offset.clone()
         }

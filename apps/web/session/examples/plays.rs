@@ -11,7 +11,7 @@ use frangible_scenes::{BakedBody, Scene, SceneError, parse_scene};
 use frangible_view::{Command, Delivery, Host, Session, ViewError};
 use serde_json::{Value, json};
 
-/// What `bodies` left.
+/// Files that the example `bodies` left.
 struct Baked {
     folder: PathBuf,
     list: Vec<Value>,

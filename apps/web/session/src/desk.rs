@@ -22,13 +22,13 @@ use crate::folder::Folder;
 /// Samples per second, of which the browser makes what its loudspeaker wants.
 const RATE: f64 = 48_000.0;
 
-/// What the three functions share.
+/// State that the three functions share.
 struct Desk {
     bridge: Bridge,
     worker: Worker,
     outlet: Outlet,
     packer: Packer,
-    /// What was packed last.
+    /// State of the session that was packed last.
     told: Arc<Shown>,
 }
 
