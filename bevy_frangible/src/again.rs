@@ -15,7 +15,7 @@ use frangible::{Body, Fracture, FractureConfig, InputError};
 use crate::work::{Promise, Workers};
 use crate::{BreakFailed, BreakableBody, Broken};
 
-/// Which fragments break again, and from when. A [`BreakableBody`] on a fragment tells that it can.
+/// Settings for fragments that break again: which do, and from when. A [`BreakableBody`] on a fragment shows that it can.
 #[derive(Resource, Clone)]
 pub struct BreakAgain {
     /// Finds how pieces vibrate: `frangible_bake::pieces::Pieces`, or a model of the game's own. Default none: fragments are plain bodies.
@@ -78,7 +78,7 @@ impl Default for Nursery {
 }
 
 impl Nursery {
-    /// How many more may be made.
+    /// Number of further models that may be made now.
     fn free(&self, limits: &BreakAgain) -> usize {
         limits.at_once.saturating_sub(self.expected.len())
     }

@@ -1,4 +1,4 @@
-//! What happens to entities, whatever engine moves them: bodies break, and fragments take their place.
+//! Changes to entities that do not depend on the engine: bodies break, and fragments take their place.
 
 use std::sync::Arc;
 
@@ -61,7 +61,7 @@ pub(crate) fn obey(
     });
 }
 
-/// What a load does to a body.
+/// Effect of a load on a body.
 pub(crate) struct Judged {
     pub(crate) outcome: Result<Outcome, InputError>,
     /// The outer and the crack faces of the fragments, where they are made already.

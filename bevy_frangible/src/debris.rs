@@ -1,4 +1,4 @@
-//! How many pieces there may be, which of them go, and what becomes of those that rest.
+//! Limits on the number of pieces, and the treatment of those that rest.
 
 use std::collections::VecDeque;
 use std::time::Duration;
@@ -8,7 +8,7 @@ use frangible::Fragment;
 
 use crate::{Broken, FragmentOf};
 
-/// How many pieces of broken bodies there may be, how long a step with them may take, and which are too small to matter. Pieces that
+/// Limits on the number of pieces of broken bodies, on the duration of a step with them, and on the mass below which they do not matter. Pieces that
 /// something outside holds do not count and stay.
 #[derive(Resource, Clone, Debug, PartialEq)]
 pub struct DebrisBudget {
@@ -22,7 +22,7 @@ pub struct DebrisBudget {
     pub dust_mass: f64,
     /// Default 1 s.
     pub dust_time: Duration,
-    /// What becomes of pieces that Avian has let sleep for [`DebrisBudget::rest_time`]. Default [`AtRest::Sleep`].
+    /// Treatment of pieces that Avian has let sleep for [`DebrisBudget::rest_time`]. Default [`AtRest::Sleep`].
     pub at_rest: AtRest,
     /// Default 2 s.
     pub rest_time: Duration,
@@ -30,7 +30,7 @@ pub struct DebrisBudget {
     pub fade_time: Duration,
 }
 
-/// What becomes of pieces that rest.
+/// Treatment of pieces that rest.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum AtRest {
     /// They sleep until something touches them.
@@ -60,7 +60,7 @@ impl Default for DebrisBudget {
 }
 
 impl DebrisBudget {
-    /// Whether a fragment gets no collider.
+    /// Returns true if a fragment is dust, which gets no collider.
     #[must_use]
     pub fn is_dust(&self, fragment: &Fragment) -> bool {
         fragment.mass.mass < self.dust_mass && !fragment.supported
@@ -75,7 +75,7 @@ const SHARE: usize = 50;
 pub(crate) struct Heap {
     pieces: VecDeque<Entity>,
     dust: VecDeque<(Duration, Entity)>,
-    /// What steps of physics take, in the mean of the last ones.
+    /// Mean duration of the last steps of physics.
     pub(crate) step_time: Duration,
 }
 

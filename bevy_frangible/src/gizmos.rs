@@ -1,4 +1,4 @@
-//! What decides whether bodies break, drawn over them: weak points, the last blow's contacts, and where its stress was highest.
+//! Draws over bodies the things that decide whether they break: weak points, the last blow's contacts, and the point of highest stress.
 
 use bevy::prelude::*;
 use frangible::ImpactReport;
@@ -11,7 +11,7 @@ use crate::{BreakableBody, Broke, Held};
 #[derive(Default)]
 pub struct FrangibleGizmosPlugin;
 
-/// What is drawn. Bevy's `GizmoConfigStore` has it, to change and to switch off.
+/// Settings of the gizmos. Change them, or switch them off, in Bevy's `GizmoConfigStore`.
 #[derive(Clone, Reflect, GizmoConfigGroup)]
 #[reflect(Default)]
 pub struct FrangibleGizmos {
@@ -39,9 +39,9 @@ impl Default for FrangibleGizmos {
 /// The last blow on a body, which may have broken it.
 #[derive(Component, Clone, Debug, Default, PartialEq)]
 pub struct LastBlow {
-    /// Where, m, body frame, and with which impulse, N·s.
+    /// Position of each contact, m, body frame, and its impulse, N·s.
     pub contacts: Vec<(Vec3, Vec3)>,
-    /// Where the stress was highest, m, body frame; none where no weak point had to be looked at.
+    /// Point of highest stress, m, body frame; none where no weak point had to be looked at.
     pub peak: Option<Vec3>,
     /// That stress over the strength.
     pub share: f32,

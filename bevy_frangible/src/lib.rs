@@ -80,7 +80,7 @@ pub use rapier::{FrangibleRapierPlugin, RapierBody, RapierWorld};
 #[cfg(feature = "sound")]
 pub use sound::{Ears, FrangibleSoundPlugin, Heard};
 
-/// What most games use.
+/// Types that most games use.
 pub mod prelude {
     pub use crate::{
         AtRest, Blow, BreakAgain, BreakFailed, Breakable, Broke, DebrisBudget, FragmentOf,
@@ -106,7 +106,7 @@ pub struct Fracturing(pub FractureConfig);
 #[require(Transform, Visibility, Seed)]
 pub struct Breakable(pub Handle<FrangibleAsset>);
 
-/// What of a body is left to chance: bodies of one asset with different seeds break differently, with equal ones alike.
+/// Seed of a body's random properties. Bodies of one asset break differently with different seeds, and alike with equal ones.
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Seed(pub u64);
 
@@ -157,7 +157,7 @@ pub struct CrackFaces;
 pub struct Blow {
     /// The body.
     pub entity: Entity,
-    /// Where, m, world coordinates.
+    /// Point of contact, m, world coordinates.
     pub at: Vec3,
     /// Impulse, N·s, world coordinates.
     pub impulse: Vec3,
@@ -166,9 +166,9 @@ pub struct Blow {
 /// A [`Blow`] gives this to the body that held, or to the piece that was struck: an engine moves it.
 #[derive(EntityEvent, Clone, Copy, Debug)]
 pub struct Pushed {
-    /// What is pushed.
+    /// Body or piece that is pushed.
     pub entity: Entity,
-    /// Where, m, world coordinates.
+    /// Point of the push, m, world coordinates.
     pub at: Vec3,
     /// Impulse, N·s, world coordinates.
     pub impulse: Vec3,
@@ -192,7 +192,7 @@ pub struct Held {
     pub entity: Entity,
     /// Strength over the stress, or over a bound of it.
     pub margin: f64,
-    /// How closely it was looked at, and what was found.
+    /// Extent of the analysis, and its results.
     pub report: ImpactReport,
 }
 
@@ -201,11 +201,11 @@ pub struct Held {
 pub struct BreakFailed {
     /// The body.
     pub entity: Entity,
-    /// What is wrong and how to mend it.
+    /// The problem and its remedy.
     pub reason: String,
 }
 
-/// Who decides what a script's blow does.
+/// Judge of a script's blow.
 #[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) enum Judges {
     /// The plugin itself.
@@ -224,7 +224,7 @@ impl Plugin for FrangiblePlugin {
     }
 }
 
-/// What every engine needs.
+/// Adds the parts that every engine needs.
 fn build(app: &mut App, config: &FractureConfig) {
     app.insert_resource(Fracturing(config.clone()))
         .init_resource::<BreakAgain>()

@@ -4,8 +4,8 @@ use bevy::prelude::*;
 
 use crate::{BreakableBody, Broke, CrackFaces, FragmentOf, OuterFaces};
 
-/// What outer and crack faces of fragments get, and the body itself: usually a material, `Looks<MeshMaterial3d<StandardMaterial>>`. Put it
-/// on the entity with [`Breakable`](crate::Breakable), and add a [`LooksPlugin`] for the same component.
+/// Looks of a body, and of the outer and crack faces of its fragments: usually a material, `Looks<MeshMaterial3d<StandardMaterial>>`. Put it on the
+/// entity with [`Breakable`](crate::Breakable), and add a [`LooksPlugin`] for the same component.
 #[derive(Component, Clone, Debug)]
 pub struct Looks<C: Component + Clone> {
     /// Look of what was the body's surface.

@@ -1,4 +1,4 @@
-//! What is made once of each asset.
+//! Things that are made once for each asset.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;

@@ -1,4 +1,4 @@
-//! What is drawn over bodies.
+//! Tests of the gizmos drawn over bodies.
 
 use crate::common::{app_with, ball, bodies, body, ready};
 use avian3d::prelude::*;

@@ -11,7 +11,7 @@ use bevy_frangible::prelude::*;
 use bevy_frangible::{BreakableBody, Broken, CrackFaces, FrangibleRapierPlugin};
 use bevy_frangible::{RapierBody, RapierWorld};
 
-/// What happened.
+/// Events so far.
 #[derive(Resource, Default)]
 struct Log(Vec<String>);
 

@@ -1,4 +1,4 @@
-//! What cannot break says why, and nothing panics.
+//! A body that cannot break gives the reason, and nothing panics.
 
 use std::time::Duration;
 

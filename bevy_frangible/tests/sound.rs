@@ -1,4 +1,4 @@
-//! What breaks is heard: when it breaks, as loud as it is, and alike in two runs.
+//! A break is heard at its time, with its loudness, and alike in two runs.
 
 use crate::common::{STEP, app_with, bodies, body, ready};
 use avian3d::prelude::*;
@@ -16,8 +16,8 @@ const AWAY: Vec3 = Vec3::new(0.0, 0.0, 1.0);
 #[derive(Resource, Default)]
 struct BrokeAt(Option<f64>);
 
-/// What is heard of a pane that falls flat from a height, m, in a second: pressures, Pa, left and right in turn; the samples for a
-/// loudspeaker; when it broke, s.
+/// Sound of a pane that falls flat from a height, m, during one second: pressures, Pa, left and right in turn; the samples for a loudspeaker; the
+/// time at which it broke, s.
 fn fall(height: f32, listens: bool) -> (Vec<f32>, Vec<f32>, Option<f64>) {
     let (mut app, _) = app_with(bodies(), |app| {
         app.add_plugins(FrangibleSoundPlugin::default())

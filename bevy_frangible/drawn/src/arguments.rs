@@ -2,14 +2,14 @@
 
 use std::path::PathBuf;
 
-/// What the arguments ask for.
+/// Options from the command line.
 #[derive(Debug, Default, PartialEq)]
 pub(crate) struct Arguments {
     /// The file of a picture that is to be drawn without a window.
     pub(crate) picture: Option<PathBuf>,
-    /// After how many steps it is drawn.
+    /// Steps before it is drawn.
     pub(crate) steps: Option<u32>,
-    /// Whether weak points and the last contacts are drawn.
+    /// If true, weak points and the last contacts are drawn.
     pub(crate) gizmos: bool,
 }
 

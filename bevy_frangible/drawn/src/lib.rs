@@ -1,4 +1,4 @@
-//! What the examples with a window share: a studio with light, props, looks, and pictures drawn without a window.
+//! Parts that the examples with a window share: a studio with light, props, looks, and pictures drawn without a window.
 //!
 //! Each example takes `--picture FILE` to draw one picture after a number of steps and end, `--steps N` for another number of them, and
 //! `--gizmos` to show weak points and the last contacts, which the key G does in the window.
@@ -25,14 +25,14 @@ pub use looks::Materials;
 pub use props::Props;
 pub use studio::Camera;
 
-/// What an example shows, and from where.
+/// Camera and window of an example.
 #[derive(Clone, Debug)]
 pub struct View {
     /// Title of the window, with the keys that it knows.
     pub title: &'static str,
-    /// Where the camera is, m.
+    /// Position of the camera, m.
     pub eye: Vec3,
-    /// What it looks at, m.
+    /// Point that the camera looks at, m.
     pub target: Vec3,
     /// Steps of physics per second, 1/s.
     pub rate: f64,

@@ -1,4 +1,4 @@
-//! What things look like.
+//! Looks of the props.
 
 use bevy::light::NotShadowCaster;
 use bevy::prelude::*;

@@ -19,7 +19,7 @@ const SIZE: [u32; 2] = [880, 550];
 /// Frames that are drawn before the one that is kept, so that all that it needs is on the device.
 const WARM_UP: u32 = 4;
 
-/// What to draw when.
+/// Picture to draw, and the time to draw it.
 #[derive(Resource)]
 struct Picture {
     file: PathBuf,

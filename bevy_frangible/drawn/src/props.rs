@@ -85,7 +85,7 @@ impl Props<'_, '_> {
     }
 }
 
-/// How a preset material rubs, bounces, weighs and strikes.
+/// Friction, restitution, density and striker material of a preset.
 fn surface(preset: &str) -> impl Bundle {
     let material = Material::preset(preset).expect("the props are of materials that are known");
     (

@@ -1,5 +1,5 @@
-//! What is heard, played by the machine's loudspeaker, or the browser's. On Linux it is there with the feature `speaker`, which needs the
-//! headers of ALSA to be built.
+//! Plays the sound through the machine's loudspeaker or the browser's. On Linux this takes the feature `speaker`, which needs the headers of ALSA to
+//! be built.
 
 use std::num::NonZero;
 

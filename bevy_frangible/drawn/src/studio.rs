@@ -127,7 +127,7 @@ pub(crate) fn furnish(app: &mut App, view: &View) {
     app.world_mut().spawn((sun, shadows.build(), from));
 }
 
-/// What is seen in a direction: a pale room with a dark floor, a soft box overhead, one to the left and a narrow one behind to the right.
+/// Light from a direction: a pale room with a dark floor, a soft box overhead, one to the left and a narrow one behind to the right.
 fn radiance(direction: Vec3) -> Vec3 {
     let sky = Vec3::new(0.34, 0.40, 0.48);
     let wall = Vec3::new(0.16, 0.17, 0.18);
@@ -160,7 +160,7 @@ fn radiance(direction: Vec3) -> Vec3 {
     room + Vec3::splat(lit.sum())
 }
 
-/// How rough a mirror is that sees a level; the first is sharp.
+/// Roughness of the mirrors that use a mip level. The first level is sharp.
 fn blur(level: u32) -> Option<f32> {
     (level > 0).then(|| level as f32 / (LEVELS - 1) as f32)
 }
@@ -199,7 +199,7 @@ fn cube(edge: u32, levels: u32, roughness: impl Fn(u32) -> Option<f32>) -> Image
     image
 }
 
-/// Where a point of a face of the cube is seen; Bevy looks at cubes from the other side.
+/// Direction of a point on a face of the cube. Bevy looks at cubes from the other side.
 fn direction(face: u32, u: f32, v: f32) -> Vec3 {
     let seen = match face {
         0 => Vec3::new(1.0, -v, -u),

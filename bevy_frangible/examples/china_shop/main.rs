@@ -19,7 +19,7 @@ use shop::{Rules, furnish, kinds, rules, throw};
 const RATE: f64 = 60.0;
 /// Equal runs: of each frame the least time counts.
 const RUNS: usize = 3;
-/// How many things broke, and into how many pieces.
+/// Number of things that broke, and number of their pieces.
 #[derive(Resource, Debug, Default, PartialEq)]
 struct Count(usize, usize);
 

@@ -22,7 +22,7 @@ const PLACE: f32 = 0.17;
 const RADIUS: f32 = 0.08;
 const SPEED: f32 = 8.0;
 
-/// Whether things break inside the step, and whether their pieces break again.
+/// Rules of breaking.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Rules {
     /// Otherwise things break after the step and within a budget.
@@ -31,7 +31,7 @@ pub struct Rules {
     pub again: bool,
 }
 
-/// What a board is as large as, m.
+/// Edge lengths of a board, m.
 #[derive(Component)]
 #[allow(dead_code, reason = "only what draws it asks")]
 pub struct Board(pub Vec3);

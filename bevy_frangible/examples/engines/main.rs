@@ -19,7 +19,7 @@ use scenes::{Outcome, Scene, ball_on_pane, brick_on_plate, dropped};
 /// Seeds of each scene.
 const SEEDS: u64 = 100;
 
-/// What came of a scene in Rapier and in Avian, seed after seed.
+/// Outcomes of a scene in Rapier and in Avian, one for each seed.
 type Played = [Vec<Outcome>; 2];
 
 fn kind(spec: &BakeSpec) -> Result<Breakable, Box<dyn Error>> {

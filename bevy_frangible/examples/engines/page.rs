@@ -1,4 +1,4 @@
-//! What came of the scenes, as a page.
+//! Page that shows the outcomes of the scenes.
 
 use std::fmt::Write;
 

@@ -9,7 +9,7 @@ pub const RATE: f32 = 240.0;
 /// Acceleration of gravity in scenes that have it, m/s².
 pub const GRAVITY: f32 = 9.81;
 
-/// Where a thing begins, and how fast.
+/// Initial pose and velocity of a thing.
 #[derive(Clone, Copy)]
 pub struct Start {
     /// Centre of mass, m.
@@ -32,32 +32,32 @@ pub enum Solid {
 /// A thing that strikes the body.
 #[derive(Clone)]
 pub struct Striker {
-    /// What it looks like.
+    /// Shape.
     pub solid: Solid,
-    /// What it is made of, at its density.
+    /// Material, which also gives its density.
     pub material: Material,
-    /// Where it begins.
+    /// Initial pose and velocity.
     pub start: Start,
 }
 
 /// A body and what strikes it.
 #[derive(Clone)]
 pub struct Scene {
-    /// What it is called.
+    /// Name of the scene.
     pub name: String,
     /// The body.
     pub kind: Breakable,
-    /// Where it begins.
+    /// Initial pose and velocity of the body.
     pub start: Start,
-    /// What strikes it.
+    /// Thing that strikes the body.
     pub striker: Option<Striker>,
-    /// What the floor at y = 0 is made of; without one there is no gravity either.
+    /// Material of the floor at y = 0. Without a floor there is no gravity either.
     pub floor: Option<Material>,
-    /// How long it lasts, s.
+    /// Duration, s.
     pub seconds: f32,
 }
 
-/// What came of a scene.
+/// Outcome of a scene.
 #[derive(Clone, Debug, Default)]
 pub struct Outcome {
     /// The first break, if there was one.
@@ -66,7 +66,7 @@ pub struct Outcome {
     pub striker: Vec3,
 }
 
-/// What was measured of the first break.
+/// Measurements of the first break.
 #[derive(Clone, Debug)]
 pub struct Break {
     /// Number of pieces.
@@ -84,7 +84,7 @@ pub struct Break {
 }
 
 impl Break {
-    /// What a break's report says, with the motion before and after its step.
+    /// Takes a break's report, and the motion before and after its step.
     pub fn new(fracture: &Fracture, [before, after]: [(f64, DVec3); 2]) -> Self {
         let report = &fracture.report;
         Self {

@@ -14,7 +14,8 @@ use crate::BreakableBody;
 use crate::break_apart::conclude;
 use crate::meshes::{into, out};
 
-/// Where those that a break left without contact began the step, m, and the share of it until they touched.
+/// Bodies whose contact a break left out of the step, each with the share of the step until they touched and its position at the start of the step,
+/// m.
 struct Touches(BTreeMap<Entity, (f32, Vec3)>);
 
 impl Touches {
@@ -34,14 +35,14 @@ impl Touches {
         Self(first)
     }
 
-    /// Where an entity was when it touched, which is at `now` at the end of the step.
+    /// Position of an entity when it touched. `now` is its position at the end of the step.
     fn place(&self, entity: Entity, now: Vec3) -> Vec3 {
         let touched = self.0.get(&entity);
         touched.map_or(now, |&(share, began)| began.lerp(now, share))
     }
 }
 
-/// How bodies move while the breaks of a step are carried out, and what has become of those that broke.
+/// Motion of bodies while the breaks of a step are carried out, and the pieces of those that broke.
 struct Motions<'a, 'w, 's> {
     before: &'a Query<'w, 's, (&'static RigidBody, Moving)>,
     touches: &'a Touches,
@@ -61,7 +62,7 @@ impl Motions<'_, '_, '_> {
         Some(body)
     }
 
-    /// What a striker is now: itself, or the pieces of it that move.
+    /// Moving bodies that a striker consists of now: itself, or its pieces.
     fn parts(&self, striker: Option<Entity>) -> Vec<Entity> {
         let Some(striker) = striker else {
             return Vec::new();

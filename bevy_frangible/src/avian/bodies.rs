@@ -1,4 +1,4 @@
-//! What bodies and pieces have in Avian: colliders, masses, velocities.
+//! Avian components of bodies and pieces: colliders, masses, velocities.
 
 use avian3d::prelude::*;
 use bevy::prelude::*;

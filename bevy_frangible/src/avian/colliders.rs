@@ -8,20 +8,19 @@ use frangible::{Asset as Baked, Fragment, TriMesh, glam};
 
 use crate::meshes::out;
 
-/// How finely colliders follow bodies and fragments that become ready from now on. What a scene of hundreds of bodies costs is mostly this.
-/// A body that the game has given a [`Collider`] keeps it. A ball touches a body's own surface, whatever its collider.
+/// Detail of the colliders of bodies and fragments that become ready from now on. It decides most of the cost of a scene of hundreds of bodies. A
+/// body that the game has given a [`Collider`] keeps it. A ball touches a body's own surface, whatever its collider.
 #[derive(Resource, Clone, Copy, Debug, PartialEq)]
 pub struct ColliderDetail {
     /// Convex parts of a whole body at most, 1 or more, and points of each. 1 part is the convex hull. Default 12 and 48.
     pub whole: (usize, usize),
-    /// How finely the collider of a fragment follows it, where one hull does not fit. Default 4 and 24. A fragment that is held has its own
-    /// surface.
+    /// The same for a fragment that one hull does not fit. Default 4 and 24. A fragment that is held has its own surface.
     pub fragment: (usize, usize),
     /// A fragment gets one hull where hull volume / its volume is at most this. Default 1.5.
     pub hull_volume_ratio: f64,
-    /// How far ahead fragments see in a step what they will meet, m: Avian's [`SpeculativeMargin`]. Default 0.05. Without a bound hundreds
-    /// of pieces that fly apart at 25 m/s see half a metre each, and so each other, which is most of what they cost. Faster ones may pass
-    /// what is thinner than their step.
+    /// Distance within which fragments foresee contacts in a step, m: Avian's [`SpeculativeMargin`]. Default 0.05. Without a bound hundreds of pieces
+    /// that fly apart at 25 m/s see half a metre each, and so each other, which is most of what they cost. Faster ones may pass what is thinner than
+    /// their step.
     pub fragments_see: f32,
 }
 

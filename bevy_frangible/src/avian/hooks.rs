@@ -1,4 +1,4 @@
-//! What Avian asks about each pair of colliders that touches.
+//! Collision hooks, which Avian calls for each pair of colliders that touches.
 
 use avian3d::prelude::*;
 use bevy::ecs::system::{ReadOnlySystemParam, StaticSystemParam, SystemParam};
@@ -12,7 +12,7 @@ use super::{Breaking, ImpactSpeed, MadeOf, Moving, Ruling, Verdict, Verdicts};
 use crate::meshes::{into, out};
 use crate::{Born, BreakableBody, Fracturing, FragmentOf};
 
-/// How much of an overlap of siblings is shown to the solver, in m of each second.
+/// Rate at which an overlap of siblings is shown to the solver, m/s.
 const OVERLAP_RELAXATION: f32 = 2e-3;
 
 /// Steps after their birth in which siblings do not bounce off each other.
@@ -187,7 +187,7 @@ impl<Inner: SystemParam + 'static> FrangibleHooks<'_, '_, Inner> {
         broke
     }
 
-    /// What a collider strikes a body with, but for its mass.
+    /// Striker of a collider, without its mass.
     fn striker(&self, other: Option<Entity>, collider: Entity, ball: Option<f32>) -> Striker {
         let made_of = |entity: Entity| self.made_of.get(entity).ok();
         let material = made_of(collider).or_else(|| made_of(other?));
@@ -203,7 +203,7 @@ impl<Inner: SystemParam + 'static> FrangibleHooks<'_, '_, Inner> {
         }
     }
 
-    /// How a striker gives way at a contact; none where it does not.
+    /// Mass with which a striker resists at a contact. None for a striker that is not dynamic.
     fn shared(&self, other: Option<Entity>, arm: Vec3, normal: Vec3) -> Option<SharedMass> {
         let (kind, moving) = self.others.get(other?).ok()?;
         if !kind.is_dynamic() {

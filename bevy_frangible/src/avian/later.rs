@@ -139,7 +139,7 @@ impl Docket {
     }
 }
 
-/// What a blow does, with all that its pieces need.
+/// Computes the effect of a blow, with the colliders and faces of the pieces.
 fn judge(
     body: &Body,
     contacts: &[Contact],

@@ -41,11 +41,11 @@ impl Default for ImpactSpeed {
     }
 }
 
-/// What an entity with a collider is made of, for what it strikes: without it a striker is rigid, and flat unless its collider is a ball.
+/// Material of an entity with a collider, as a striker. Without it a striker is rigid, and flat unless its collider is a ball.
 #[derive(Component, Clone, Debug)]
 pub struct MadeOf(pub Material);
 
-/// What happened to bodies in the step that runs.
+/// Blows on bodies in the current step.
 #[derive(Resource, Default)]
 struct Verdicts(Mutex<Vec<Verdict>>);
 
@@ -54,14 +54,14 @@ struct Verdict {
     /// None for a collider without a body.
     striker: Option<Entity>,
     contacts: Vec<Contact>,
-    /// When in the step the two touched, as a share of it.
+    /// Time in the step at which the two touched, as a share of the step.
     touched: f32,
-    /// Where the body and the striker were when the step began, m.
+    /// Positions of the body and of the striker at the start of the step, m.
     began: [Vec3; 2],
     ruling: Ruling,
 }
 
-/// What came of a blow.
+/// State of a blow.
 enum Ruling {
     /// It was judged inside the step; where the body broke, the solver has left the pair out.
     Now(Judged),

@@ -1,4 +1,4 @@
-//! What lies on what: a body that carries too much breaks `[G12 §7.3.3]`.
+//! Resting loads: a body that carries too much breaks `[G12 §7.3.3]`.
 //!
 //! After a step each breakable body that is awake, or held, is put to [`frangible::internals::rest()`] with the normal forces of its
 //! contacts: the impulse of the last substep / its length. (Avian's sum over the step counts each substep twice, once with its push-out and
@@ -32,11 +32,11 @@ const MOST_FORCES: usize = 16;
 /// A body that carries at most so much less than it could, by a bound that costs next to nothing, is not looked at closer.
 const EASE: f64 = 1.5;
 
-/// What a breakable body carries.
+/// Load that a breakable body carries.
 #[derive(Component, Clone, Debug)]
 pub struct Carries {
-    /// How many times as much it could carry, at least: strength over the bound of the stress that its resting contacts and, when it is
-    /// held, its own weight cause. Infinite without load.
+    /// Lower bound of strength over stress: the stress is the bound of what its resting contacts and, when it is held, its own weight cause. Infinite
+    /// without load.
     pub margin: f64,
     forces: Vec<Force>,
     gravity: glam::Vec3,

@@ -1,4 +1,4 @@
-//! Where two bodies are about to touch.
+//! Points at which two bodies are about to touch.
 
 use avian3d::prelude::*;
 use bevy::prelude::*;
@@ -19,8 +19,8 @@ pub(super) struct FirstTouch {
     pub(super) gap: f32,
 }
 
-/// Where two bodies touch first in the coming step of `dt` s. Avian speaks of all points that might come near, on every part of a compound
-/// collider: those that touch later than the first belong to another time, and those that are one place are one contact.
+/// Points at which two bodies first touch in the coming step of `dt` s. Avian lists all points that might come near, on every part of a compound
+/// collider. Those that touch later than the first belong to another time, and those at one place count as one contact.
 pub(super) fn first_touches(
     pair: &ContactPair,
     flipped: bool,

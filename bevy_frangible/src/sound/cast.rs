@@ -11,7 +11,7 @@ use frangible_sound::{Cast, Hearing, Pose, Sounding};
 use crate::Broken;
 use crate::meshes::into;
 
-/// What is gone rings on no longer than this, s, and is then forgotten.
+/// Longest time for which a thing that is gone rings on, s. It is then forgotten.
 const FADES: f64 = 0.1;
 
 /// Something that can sound.
@@ -21,9 +21,9 @@ struct Thing {
     sounding: Sounding,
     /// The break that it comes from, and which piece of it it is.
     piece: Option<(Arc<Fracture>, usize)>,
-    /// What it is baked as, where it can break.
+    /// Its baked body, if it can break.
     asset: Option<Arc<Baked>>,
-    /// Since when it is gone, s.
+    /// Time at which it disappeared, s.
     gone: Option<f64>,
 }
 
@@ -89,7 +89,7 @@ impl Troupe {
         first.map_or(0..0, |first| first..first + pieces.len())
     }
 
-    /// What an entity that can break is baked as.
+    /// Baked body of an entity that can break.
     pub(super) fn asset(&self, entity: Entity) -> Option<Arc<Baked>> {
         let thing = self.things.get(&self.node(entity)?)?;
         thing.asset.clone()

@@ -1,4 +1,4 @@
-//! What breaks is heard: the forces of blows, whether they break or hold, cracks, and pieces that land.
+//! Sound of breaking bodies: the forces of blows, whether they break or hold, cracks, and pieces that land.
 //!
 //! [`frangible_sound`] makes pressures at the ears of it, in the time of the fixed steps; no audio device is needed, and two runs give the
 //! same samples. The [`Outlet`] in the resource [`Heard`] is a queue of samples for whoever plays them.
@@ -52,7 +52,7 @@ pub struct Heard {
     hearing: Hearing,
     touching: Touching,
     troupe: Troupe,
-    /// What happened since the last step was heard.
+    /// Blows since the last step that was heard.
     blows: Vec<RecordedBlow>,
     touches: Vec<RecordedTouch>,
     slides: Vec<RecordedSlide>,
@@ -100,7 +100,7 @@ impl Heard {
         self.outlet.clone()
     }
 
-    /// What the synthesiser did so far.
+    /// Returns the synthesiser's statistics so far.
     #[must_use]
     pub fn report(&self) -> SynthReport {
         self.hearing.synth().report()

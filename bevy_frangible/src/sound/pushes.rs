@@ -1,4 +1,4 @@
-//! What touches and slides in Avian's world.
+//! Touches and slides in Avian's world.
 
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
@@ -24,7 +24,7 @@ type Moving = (
     &'static ComputedCenterOfMass,
 );
 
-/// What neither breaks nor broke, but is of a known material: what is thrown.
+/// Filter for things of a known material that neither break nor come of a break, such as a thrown ball.
 type Thrown = (Without<BreakableBody>, Without<FragmentOf>, Without<Broken>);
 
 /// Finds what came together and what slides in the step that was just taken.
@@ -142,7 +142,7 @@ fn push(
     })
 }
 
-/// How each body moves that moves.
+/// Motion of each dynamic body.
 fn motions(bodies: &Query<Moving>) -> BTreeMap<u64, Motion> {
     let moving = bodies.iter().filter(|(_, kind, ..)| kind.is_dynamic());
     let motion = moving.map(|(entity, _, at, turn, linear, angular, _, centre)| {

@@ -14,7 +14,7 @@ use bevy_frangible::prelude::*;
 
 pub const STEP: f64 = 1.0 / 240.0;
 
-/// What happened to bodies.
+/// Events of bodies.
 #[derive(Resource, Clone, Default)]
 pub struct Log(Arc<Mutex<Vec<String>>>);
 
@@ -33,7 +33,7 @@ pub fn app() -> (App, Log) {
     app_in(bodies())
 }
 
-/// Where their files are.
+/// Folder of the bodies' files.
 pub fn bodies() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../crates/frangible/tests/bodies")
 }

@@ -23,12 +23,12 @@ const TURN: f32 = 2e-3;
 /// Controls for a person.
 pub struct Person;
 
-/// A stone is thrown.
+/// A throw of a stone.
 #[derive(Message)]
 pub struct Throw {
-    /// Where it leaves the hand, m.
+    /// Position at which it leaves the hand, m.
     pub from: Vec3,
-    /// How fast, m/s.
+    /// Velocity, m/s.
     pub velocity: Vec3,
 }
 
