@@ -17,7 +17,7 @@ use crate::voronoi::sites_around;
 /// Most cells of a Voronoi diagram.
 const MOST_CELLS: usize = 10_000;
 
-/// What the methods leave to whoever uses them.
+/// Options of the compared methods.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Options {

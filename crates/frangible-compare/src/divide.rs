@@ -18,7 +18,7 @@ pub struct Division<'a> {
     cuts: Vec<CutEdge>,
 }
 
-/// What parts two labels within a tetrahedron.
+/// Cut between two labels within a tetrahedron.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Border {
     /// The lower label and the higher.
@@ -89,7 +89,7 @@ impl<'a> Division<'a> {
         &self.of_node
     }
 
-    /// What parts the labels, tetrahedra rising.
+    /// Cuts between the labels, in ascending order of tetrahedra.
     #[must_use]
     pub fn borders(&self) -> Vec<Border> {
         borders(self.body, self.of_node.clone(), &self.cuts)

@@ -25,13 +25,13 @@ pub const DEFAULT_SITES: usize = 100;
 /// Stream of random numbers of this method's sites.
 const STREAM: u64 = 2;
 
-/// What two cells have in common.
+/// Boundary between two cells.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Seam {
     between: [u32; 2],
-    /// What it asks for, Σ A G_c, J.
+    /// Energy that it takes to open, Σ A G_c, J.
     asks: f64,
-    /// What it gets, Σ A γ η, J.
+    /// Energy that is released there, Σ A γ η, J.
     gets: f64,
 }
 
@@ -84,7 +84,7 @@ fn seams(hit: Hit<'_>, moment: &mut Moment<'_>, mut borders: Vec<Border>) -> Vec
 }
 
 impl Seam {
-    /// What it gets for what it asks for.
+    /// Energy released over energy taken.
     fn pay(&self) -> f64 {
         self.gets / self.asks
     }

@@ -1,4 +1,4 @@
-//! What stands in the way of a comparison.
+//! Errors of a comparison.
 
 use frangible::InputError;
 use thiserror::Error;
@@ -24,9 +24,9 @@ pub enum CompareError {
     Option {
         /// The option.
         what: &'static str,
-        /// What was given.
+        /// The given value.
         value: String,
-        /// What it may be.
+        /// Permitted values.
         wanted: &'static str,
     },
 }

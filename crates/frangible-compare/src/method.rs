@@ -42,7 +42,7 @@ impl Method {
         }
     }
 
-    /// What it does, in a few words for a heading.
+    /// Short description of the method, for a heading.
     #[must_use]
     pub fn title(self) -> &'static str {
         match self {

@@ -113,7 +113,7 @@ impl Moment<'_> {
         self.state(tet, inside)
     }
 
-    /// Where a crack may start in a tetrahedron.
+    /// Stress at the place in a tetrahedron where a crack may start.
     pub(crate) fn at_weak_point(&mut self, tet: u32) -> StressState {
         let config = self.wave.hit.config;
         self.state(tet, config)

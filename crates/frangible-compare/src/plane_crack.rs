@@ -43,7 +43,7 @@ pub(crate) struct Faces<'a> {
     /// Round in which each tetrahedron was met last.
     met: Vec<u32>,
     round: u32,
-    /// What all cracks together may spend, J.
+    /// Energy that all cracks together may spend, J.
     budget: f64,
     /// Σ A G_c, J.
     pub(crate) spent: f64,
@@ -52,7 +52,7 @@ pub(crate) struct Faces<'a> {
 }
 
 impl<'a> Faces<'a> {
-    /// All closed. `budget`: what all cracks together may spend, J.
+    /// All closed. `budget`: energy that all cracks together may spend, J.
     pub(crate) fn new(body: &'a Body, budget: f64) -> Self {
         let mesh: &TetMesh = &body.asset().fracture;
         Self {
@@ -67,12 +67,12 @@ impl<'a> Faces<'a> {
         }
     }
 
-    /// Whether a face is open.
+    /// Returns true if a face is open.
     pub(crate) fn is_open(&self, tet: u32, face: usize) -> bool {
         self.opened_by[tet as usize][face] != CLOSED
     }
 
-    /// Whether a tetrahedron has an open face.
+    /// Returns true if a tetrahedron has an open face.
     pub(crate) fn is_touched(&self, tet: u32) -> bool {
         self.opened_by[tet as usize] != [CLOSED; 4]
     }
@@ -158,7 +158,7 @@ impl<'a> Faces<'a> {
     }
 }
 
-/// Whether a plane has nodes of a tetrahedron on both sides; zero counts as above.
+/// Returns true if a plane has nodes of a tetrahedron on both sides. A node on the plane counts as above.
 fn crosses(mesh: &TetMesh, tet: u32, origin: Vec3, normal: Vec3) -> bool {
     let above = mesh
         .corners(tet as usize)

@@ -1,4 +1,4 @@
-//! What a method made of an impact.
+//! Results of a method for an impact.
 
 use frangible::{Fragment, TriMesh};
 

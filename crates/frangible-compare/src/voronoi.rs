@@ -30,7 +30,7 @@ impl Sites {
         nearest.map_or(0, |(i, _)| i)
     }
 
-    /// Where the way from `a`, in the cell of site `i`, to `b`, in that of site `j`, crosses the plane between both: 0 at `a`.
+    /// Position at which the way from `a`, in the cell of site `i`, to `b`, in that of site `j`, crosses the plane between both: 0 at `a`, 1 at `b`.
     fn crossing(&self, [a, b]: [DVec3; 2], [i, j]: [u32; 2]) -> f64 {
         // |x − s_i|² − |x − s_j|² is linear in x.
         let (si, sj) = (self.0[i as usize], self.0[j as usize]);

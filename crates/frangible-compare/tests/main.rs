@@ -1,4 +1,4 @@
-//! What each of the compared methods makes of a blow.
+//! Tests of the compared methods.
 
 mod common;
 mod division;

@@ -1,4 +1,4 @@
-//! What holds of every method, and of each of them.
+//! Properties of all methods, and of each of them.
 
 use std::collections::BTreeSet;
 
@@ -8,7 +8,7 @@ use frangible::{Contact, Striker, TriMesh};
 use frangible_bake::Shape;
 use frangible_compare::{Broken, CompareError, Hit, Method, Options, compare};
 
-/// Whether as many triangles pass along every edge one way as the other.
+/// Returns true if every edge is passed in both directions by equally many triangles.
 fn balanced(mesh: &TriMesh) -> bool {
     let edges = |t: &[u32; 3]| [[t[0], t[1]], [t[1], t[2]], [t[2], t[0]]];
     let mut there: Vec<[u32; 2]> = mesh.triangles.iter().flat_map(edges).collect();

@@ -4,13 +4,13 @@ use std::sync::OnceLock;
 
 use crate::DrawError;
 
-/// Whether a graphics adapter, in hardware or in software, is there to draw with.
+/// Returns true if there is a graphics adapter, in hardware or in software.
 #[must_use]
 pub fn has_adapter() -> bool {
     texture_limit().is_ok()
 }
 
-/// Whether the adapter is a program that draws with the processor.
+/// Returns true if the adapter is a program that draws with the processor.
 #[must_use]
 pub fn is_software() -> bool {
     adapter().is_some_and(|adapter| adapter.software)
@@ -51,7 +51,7 @@ pub fn quiet_the_drivers() {
     }
 }
 
-/// What we need to know of the adapter.
+/// Properties of the adapter that drawing depends on.
 #[derive(Clone, Copy)]
 struct Adapter {
     texture_limit: u32,

@@ -1,4 +1,4 @@
-//! What surrounds the stage: backdrop, haze, reflections, shadow quality.
+//! Surroundings of the stage: backdrop, haze, reflections, shadow quality.
 
 use image::{DynamicImage, Rgb32FImage};
 use kiss3d::color::Color;
@@ -31,17 +31,17 @@ pub(crate) fn surround(window: &mut Window, wanted: bool) {
     haze(window, if wanted { HAZE } else { [1e3, 1e4] });
 }
 
-/// Where the haze begins and where it hides all, stage units from the camera.
+/// Distances from the camera at which the haze begins and at which it hides all, stage units.
 pub(crate) const HAZE: [f32; 2] = [4.5, 13.0];
 
-/// Sets where the haze begins and where it hides all, stage units from the camera.
+/// Sets the distances from the camera at which the haze begins and at which it hides all, stage units.
 pub(crate) fn haze(window: &mut Window, [near, far]: [f32; 2]) {
     let [red, green, blue] = BACKDROP;
     window.set_fog(Fog::linear(Color::new(red, green, blue, 1.0), near, far));
 }
 
-/// What shines and mirrors around the stage, as an equirectangular picture: the
-/// backdrop at the horizon, a pale ceiling with a soft box, a dim ground.
+/// Surroundings that light the stage and mirror in it, as an equirectangular picture: the backdrop at the horizon, a pale ceiling with a soft box, a
+/// dim ground.
 fn surroundings() -> DynamicImage {
     const WIDTH: u32 = 128;
     const HEIGHT: u32 = 64;

@@ -53,7 +53,7 @@ mod tests {
         }
     }
 
-    /// What is left of a colour for those who lack one kind of cones, linear light (Machado, Oliveira and Fernandes 2009, severity 1).
+    /// Matrices that simulate colour vision without one kind of cones, linear light (Machado, Oliveira and Fernandes 2009, severity 1).
     const LACKING: [(&str, [[f32; 3]; 3]); 3] = [
         (
             "protanopia",

@@ -18,20 +18,20 @@ pub struct ColoredSurface {
     pub positions: Vec<Vec3>,
     /// Vertices of each triangle, counter-clockwise seen from outside.
     pub triangles: Vec<[u32; 3]>,
-    /// What colours each vertex: 0..=1, held there.
+    /// Value that colours each vertex, clamped to 0..=1.
     pub values: Vec<f32>,
     /// Dark lines on it.
     pub lines: Vec<SurfaceLine>,
-    /// Stands in the upper left corner, line under line.
+    /// Lines of text in the upper left corner, one below the other.
     pub captions: Vec<String>,
-    /// What the two ends of the colours mean, and what they show.
+    /// Labels of the two ends of the colour scale, and of its quantity.
     pub legend: [String; 3],
 }
 
 /// Height of a line of text, of the picture.
 const TEXT: f32 = 0.045;
 
-/// Where the colour bar begins and how wide and high it is, of the picture's height.
+/// Left edge, width and height of the colour bar, as shares of the picture's height.
 const BAR: [f32; 3] = [0.045, 0.5, 0.03];
 
 impl Raster {

@@ -19,15 +19,15 @@ pub enum DrawError {
         )
     )]
     NoAdapter,
-    /// What traced pictures refuse, too.
+    /// An error that traced pictures have, too.
     #[error(transparent)]
     Photo(#[from] PhotoError),
     /// A coloured shape that does not fit together.
     #[error("shape {number} of the sheet cannot be drawn: {problem}")]
     BadField {
-        /// Which one, from 1.
+        /// Number of the shape, from 1.
         number: usize,
-        /// What is wrong with it.
+        /// The problem.
         problem: &'static str,
     },
     /// The renderer's thread panicked.

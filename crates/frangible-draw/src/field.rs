@@ -120,7 +120,7 @@ fn ribbons(field: &Field, view: &View) -> GpuMesh3d {
     GpuMesh3d::new(corners, faces, Some(normals), None, false)
 }
 
-/// Where the palette has a value of 0..=1: from the middle of the first texel to that of the last.
+/// Texture coordinates of a value of 0..=1 in the palette: from the middle of the first texel to that of the last.
 pub(crate) fn texel(value: f32) -> Vec2 {
     let along = (0.5 + value.clamp(0.0, 1.0) * (SHADES - 1) as f32) / SHADES as f32;
     Vec2::new(along, 0.5)

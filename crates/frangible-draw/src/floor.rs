@@ -12,7 +12,7 @@ use wgpu::{AddressMode, FilterMode, TextureFormat};
 
 use crate::stage::FLOOR;
 
-/// How far the floor goes on past what the haze hides, stage units.
+/// Width of the floor around the shadow's square, beyond what the haze hides, stage units.
 const FAR: f32 = 60.0;
 
 /// A floor to be laid.
@@ -22,9 +22,9 @@ pub(crate) struct Laid<'a> {
     /// Linear red, green, blue.
     pub(crate) color: [f32; 3],
     pub(crate) shadow: &'a FloorShadow,
-    /// What [`texels`] makes of the shadow.
+    /// Pixels that [`texels`] makes of the shadow.
     pub(crate) texels: &'a [u8],
-    /// Whether smaller copies of the texture are made for what is far off.
+    /// If true, smaller copies of the texture are made for distant parts.
     pub(crate) mipmaps: bool,
 }
 

@@ -20,7 +20,7 @@ use crate::field::{dress_in_values, palette_texture, texel};
 use crate::floor::{Laid, add_floor, texels};
 use crate::stage::{add_lights, dress};
 
-/// How a [`LiveMesh`] looks.
+/// Looks of a [`LiveMesh`].
 #[derive(Clone, Debug, PartialEq)]
 pub enum Looks {
     /// A surface as in the pictures.
@@ -33,7 +33,7 @@ pub enum Looks {
 
 /// Triangles of one look.
 pub struct LiveMesh<'a> {
-    /// How they look.
+    /// Looks of the triangles.
     pub looks: &'a Looks,
     /// Vertices, m.
     pub positions: &'a [Vec3],
@@ -43,7 +43,7 @@ pub struct LiveMesh<'a> {
     pub values: &'a [f32],
     /// Vertices of each triangle.
     pub faces: &'a Arc<Vec<[u32; 3]>>,
-    /// Another number for other vertices of the same triangles; 0 where nobody counts.
+    /// Changes when the vertices of the same triangles change; 0 if nobody keeps count.
     pub stamp: u64,
 }
 
@@ -64,7 +64,7 @@ pub struct LiveStage {
     actors: Vec<Actor>,
     floor: Option<SceneNode3d>,
     palette: Arc<Texture>,
-    /// Whether everything on the stage is opaque, and lit as in life.
+    /// True if everything on the stage is opaque, and lit as in life.
     solid: bool,
 }
 
@@ -106,7 +106,7 @@ impl LiveStage {
         }
     }
 
-    /// What to draw.
+    /// Scene to draw.
     pub fn scene(&mut self) -> &mut SceneNode3d {
         &mut self.scene
     }
@@ -225,7 +225,7 @@ impl LiveStage {
         }
     }
 
-    /// How often a frame asks the driver to draw: things and floor, without what is written over them.
+    /// Number of draw calls in a frame: things and floor, without what is written over them.
     #[must_use]
     pub fn draw_calls(&self) -> usize {
         self.actors.len() + usize::from(self.floor.is_some())
@@ -346,7 +346,7 @@ pub fn value_color(value: f32) -> [u8; 3] {
     color_of(value)
 }
 
-/// Whether points and wireframes can be drawn in a window that is open: they need storage buffers, which WebGL 2 has not.
+/// Returns true if points and wireframes can be drawn in an open window. They need storage buffers, which WebGL 2 does not have.
 #[must_use]
 pub fn has_storage_buffers() -> bool {
     let limits = kiss3d::context::Context::get().device.limits();

@@ -18,15 +18,15 @@ pub struct ModeCell {
     pub positions: Vec<Vec3>,
     /// Vertices of each triangle, counter-clockwise seen from outside.
     pub triangles: Vec<[u32; 3]>,
-    /// What colours each vertex, 0..=1.
+    /// Value that colours each vertex, 0..=1.
     pub values: Vec<f32>,
-    /// Stands above it, large: its number and frequency.
+    /// Number and frequency of the mode, large, above the shape.
     pub caption: String,
-    /// Stands below the caption, small.
+    /// Small line below the caption.
     pub note: String,
 }
 
-/// How a sheet of modes is laid out.
+/// Layout of a sheet of modes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ModeSheetOptions {
     /// Width of a cell, pixels. Default 340.
@@ -35,11 +35,11 @@ pub struct ModeSheetOptions {
     pub cell_height: u32,
     /// Cells side by side. Default 4.
     pub columns: u32,
-    /// From what is looked at towards the camera, any length.
+    /// Direction from the subject towards the camera, any length.
     pub look_from: Vec3,
-    /// Which way is up in the picture.
+    /// Up direction in the picture.
     pub up: Vec3,
-    /// Lines beside the colour bar: what it shows, and how far the shapes are exaggerated.
+    /// Lines beside the colour bar: its quantity, and the exaggeration of the shapes.
     pub legend: Vec<String>,
 }
 
@@ -61,11 +61,11 @@ const GAP: u32 = 4;
 /// Heights of the lines of text, pixels.
 const CAPTION: f32 = 24.0;
 const NOTE: f32 = 18.0;
-/// What the text takes of a cell's height, pixels.
+/// Height of the text in a cell, pixels.
 const HEADING: f32 = CAPTION + NOTE + 16.0;
-/// Free around the body, pixels.
+/// Free margin around the body, pixels.
 const MARGIN: f32 = 14.0;
-/// Where the colour bar lies in the legend, pixels.
+/// Left, top, width and height of the colour bar in the legend, pixels.
 const BAR: [u32; 4] = [34, 18, 260, 20];
 /// From here on the lines of the legend stand beside the bar, and not below it, pixels.
 const BESIDE: u32 = 980;

@@ -41,7 +41,7 @@ pub(crate) struct Shot {
     pub(crate) height: u32,
 }
 
-/// What is on it.
+/// Subject of a shot.
 pub(crate) enum Subject {
     /// A recording of one frame, as of a film.
     Recording(Box<Recording>),
@@ -79,7 +79,7 @@ pub(crate) fn draw(shot: Shot) -> Result<RgbImage, DrawError> {
     picture.recv().map_err(|_| DrawError::Renderer)
 }
 
-/// How the edges of a shot are smoothed.
+/// Smoothing of the edges of a shot: supersampling factor and number of samples.
 fn sampling(shot: &Shot) -> (u32, NumSamples) {
     let scene = match &shot.subject {
         Subject::Recording(scene) => scene,

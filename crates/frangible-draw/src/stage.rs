@@ -128,19 +128,18 @@ pub(crate) fn dress(node: &mut SceneNode3d, surface: &SurfaceMaterial) {
     }
 }
 
-/// Whether a clear surface is drawn as what bends light; with some opacity it is drawn in less time, and shards are told apart better.
+/// Returns true if a clear surface is drawn so that it bends light. With some opacity it is drawn in less time, and shards are easier to tell apart.
 pub(crate) fn refracts(surface: &SurfaceMaterial) -> bool {
     surface.transmission > 0.0 && surface.base_color[3] >= 1.0
 }
 
-/// Whether surfaces that one looks through can be drawn; WebGL 2 lacks what the renderer sums their layers with, and would draw
-/// nothing at all.
+/// Returns true if transparent surfaces can be drawn. WebGL 2 lacks the blending that sums their layers, and would draw nothing at all.
 fn draws_clear_things() -> bool {
     let able = Context::get().adapter.get_downlevel_capabilities().flags;
     able.contains(wgpu::DownlevelFlags::INDEPENDENT_BLEND)
 }
 
-/// How far light travels through glass before it has the glass's colour, stage units.
+/// Depth of glass at which light takes on its colour, stage units.
 const GLASS_DEPTH: f32 = 0.12;
 
 /// A large key light from the upper left of the camera, a weak fill from the
@@ -176,7 +175,7 @@ pub(crate) fn add_lights(scene: &mut SceneNode3d, view: &View) {
     }
 }
 
-/// Whether any face lets light through.
+/// Returns true if any face lets light through.
 pub(crate) fn has_glass(recording: &Recording) -> bool {
     let surfaces = &recording.surfaces;
     let mut parts = recording.meshes.iter().flat_map(|mesh| &mesh.parts);

@@ -3,7 +3,7 @@
 use frangible_export::{ExportError, VtuCells, VtuField, VtuMesh, VtuValues, write_vtu};
 use frangible_recording::glam::Vec3;
 
-/// What stands between two texts.
+/// Text between two others.
 fn between<'a>(text: &'a str, start: &str, end: &str) -> &'a str {
     let from = text.find(start).unwrap_or_else(|| panic!("no {start}")) + start.len();
     &text[from..from + text[from..].find(end).unwrap()]

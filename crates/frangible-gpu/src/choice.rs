@@ -14,19 +14,19 @@ use crate::loaded::Loaded;
 /// Impacts that the two are compared with, at least; with more threads one for each, since they make ready what the GPU computes.
 const TRIAL: usize = 4;
 
-/// What computes the impacts of a [`Solver`]. Cracks and pieces are the same bits in any case.
+/// Choice of the processor that computes the impacts of a [`Solver`]. Cracks and pieces are the same bits in any case.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Choice {
     /// The CPU.
     Cpu,
-    /// The GPU; no GPU is an error.
+    /// The GPU. Without a GPU this is an error.
     Gpu,
-    /// What a short trial with the first batches finds faster for a batch of its size; no GPU is none chosen.
+    /// The faster one for a batch of its size, as found by a short trial with the first batches. Without a GPU, the CPU.
     #[default]
     Auto,
 }
 
-/// What computed a batch.
+/// Processor that computed a batch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RanOn {
     /// The CPU, on all its threads.
@@ -35,13 +35,13 @@ pub enum RanOn {
     Gpu,
 }
 
-/// How a batch was computed.
+/// Account of a batch's computation.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Ran {
-    /// Where.
+    /// Processor that was used.
     pub on: RanOn,
-    /// Why there, in a sentence.
+    /// Reason for that choice, in a sentence.
     pub why: String,
     /// Impacts past the first bound: those that cost anything.
     pub past_bound: usize,
@@ -55,10 +55,10 @@ pub struct Solver {
     speed: Option<Speed>,
 }
 
-/// What a batch of n impacts past the first bound takes, by a trial.
+/// Time of a batch of n impacts past the first bound, as found by a trial.
 #[derive(Clone, Copy, Debug)]
 struct Speed {
-    /// Impacts it was measured with: of one alone nothing is known of more.
+    /// Impacts in the trial. A trial of one impact tells nothing of larger batches.
     trial: usize,
     /// Threads of the CPU.
     threads: usize,
@@ -110,7 +110,7 @@ impl Solver {
         }
     }
 
-    /// What becomes of each impact: as [`frangible::impact()`], one after another.
+    /// Computes the outcome of each impact, as [`frangible::impact()`] one after another does.
     ///
     /// # Errors
     /// A contact that cannot be used; with the GPU, what [`Gpu::impacts`] refuses.

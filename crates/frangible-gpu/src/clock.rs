@@ -1,4 +1,4 @@
-//! The GPU's own clock: what each pass takes.
+//! Time of each pass by the GPU's own clock.
 
 use wgpu::{Buffer, BufferUsages, CommandEncoder, Device, QuerySet, Queue};
 
@@ -7,13 +7,13 @@ use crate::scratch::Growing;
 /// Dispatches that one submission can time: a query set holds twice as many times.
 const MOST: u32 = 2048;
 
-/// What one kind of pass took on the GPU.
+/// Time of one kind of pass on the GPU.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct PassTime {
     /// The pass.
     pub pass: &'static str,
-    /// What all its dispatches took together by the GPU's clock, s.
+    /// Total time of its dispatches by the GPU's clock, s.
     pub seconds: f64,
 }
 
@@ -45,7 +45,7 @@ impl Clock {
         }
     }
 
-    /// Where the next dispatch, of this pass, writes its times.
+    /// Timestamp writes of the next dispatch, which is of this pass. None if the query set is full.
     pub(crate) fn writes(
         &mut self,
         pass: &'static str,

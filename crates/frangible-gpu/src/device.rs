@@ -75,7 +75,7 @@ impl Gpu {
         &self.info.name
     }
 
-    /// Whether the adapter computes on the CPU.
+    /// Returns true if the adapter computes on the CPU.
     #[must_use]
     pub fn is_software(&self) -> bool {
         self.info.device_type == wgpu::DeviceType::Cpu

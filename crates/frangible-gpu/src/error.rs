@@ -3,7 +3,7 @@
 use frangible::InputError;
 use thiserror::Error;
 
-/// What can go wrong with a GPU.
+/// Errors of the GPU.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum GpuError {
@@ -19,7 +19,7 @@ pub enum GpuError {
     Adapter {
         /// Its name.
         adapter: String,
-        /// What it lacks.
+        /// The missing capability.
         problem: String,
     },
     /// Something that does not fit one buffer.
@@ -27,7 +27,7 @@ pub enum GpuError {
         "{what} of `{asset}` needs {bytes} bytes and a buffer holds {limit}; bake with fewer modes or a coarser mesh, or choose the CPU"
     )]
     TooLarge {
-        /// What does not fit.
+        /// The thing that does not fit.
         what: &'static str,
         /// The asset's name.
         asset: String,
@@ -41,7 +41,7 @@ pub enum GpuError {
         "impact {0} has a body of another asset than the one loaded for it; load its own Breakable"
     )]
     WrongBody(usize),
-    /// What was loaded by another [`Solver`](crate::Solver) or without a GPU.
+    /// A kind of body that was loaded by another [`Solver`](crate::Solver), or without a GPU.
     #[error(
         "impact {0} has a kind that was not loaded onto this GPU; load it with the Gpu or Solver that computes"
     )]
@@ -54,7 +54,7 @@ pub enum GpuError {
     Input {
         /// Its number in the batch, from 0.
         impact: usize,
-        /// What is wrong with it.
+        /// The error in it.
         error: InputError,
     },
 }

@@ -39,25 +39,25 @@ impl<'a> Impact<'a> {
     }
 }
 
-/// What the GPU says of an impact.
+/// Verdict of the GPU on an impact.
 #[derive(Clone, Debug)]
 pub enum Verdict {
-    /// The body held, clearly; with what was computed of it where the first bound did not refuse it.
+    /// The body clearly held. The second field is the crack initiation, unless the first bound had already refused the impact.
     Held(Outcome, Option<Initiation>),
     /// The CPU has to go on, from a time step: `vibration.end(body, config, first_step)`.
     Open {
-        /// What was begun.
+        /// The vibration that was begun.
         vibration: Vibration,
         /// First step at which a crack can start.
         first_step: usize,
-        /// What was computed; nothing for a body with cracks from earlier impacts.
+        /// Crack initiation. None for a body with cracks from earlier impacts.
         initiation: Option<Initiation>,
     },
 }
 
 impl Gpu {
-    /// What becomes of each impact: as [`frangible::impact()`], one after another. Those the GPU finds clearly held end
-    /// here; the others end on the CPU, on all its threads.
+    /// Computes the outcome of each impact, as [`frangible::impact()`] one after another does. Bodies that the GPU finds clearly held end here; the
+    /// others end on the CPU, on all its threads.
     ///
     /// # Errors
     /// A contact that cannot be used, a body of another kind than said, a GPU that fails.
@@ -94,7 +94,7 @@ impl Gpu {
     /// Crack initiation of each impact; `None` for those the first bound refuses, and for bodies that have cracks.
     ///
     /// # Errors
-    /// What [`Self::impacts`] refuses.
+    /// The same as [`Self::impacts`].
     pub fn initiation(
         &self,
         impacts: &[Impact<'_>],
@@ -107,11 +107,11 @@ impl Gpu {
         Ok(verdicts.into_iter().map(initiation).collect())
     }
 
-    /// What each kind of pass takes for these impacts, by the GPU's own clock; nothing where it has none. For measurements:
-    /// no more than the first 2 048 dispatches of a submission are timed.
+    /// Time of each kind of pass for these impacts, by the GPU's own clock; empty if it has none. For measurements: no more than the first 2 048
+    /// dispatches of a submission are timed.
     ///
     /// # Errors
-    /// What [`Self::impacts`] refuses.
+    /// The same as [`Self::impacts`].
     pub fn pass_times(
         &self,
         impacts: &[Impact<'_>],
@@ -131,10 +131,10 @@ impl Gpu {
         Ok(clock.map_or_else(Vec::new, Clock::into_times))
     }
 
-    /// Which impacts clearly held, and from which time step the CPU has to look at the others.
+    /// Verdict on each impact: the body clearly held, or the CPU has to go on from a time step.
     ///
     /// # Errors
-    /// What [`Self::impacts`] refuses.
+    /// The same as [`Self::impacts`].
     pub fn verdicts(
         &self,
         impacts: &[Impact<'_>],
@@ -262,7 +262,8 @@ fn groups(impacts: &[Impact<'_>], begun: &[Stage], config: &FractureConfig) -> V
     groups
 }
 
-/// Whether the GPU knows all of the impact, and no stress can be so large that its cube leaves its numbers: no real blow comes near.
+/// Returns true if the GPU covers all effects of the impact, and no stress can be so large that its cube overflows. No real blow comes near that
+/// limit.
 fn within_range(kind: &Loaded, vibration: &Vibration, config: &FractureConfig) -> bool {
     const MOST: f64 = 1e12;
     // What follows the force, the near field of walls and the mean stress over a flaw only the CPU knows; and all modes that the GPU has must

@@ -1,4 +1,4 @@
-//! What comes back of an impact: where and when its stress passes the strength.
+//! Crack initiation of an impact: where and when its stress passes the strength.
 
 use frangible::internals::stress::{
     DisplacementBatch, Elasticity, Symmetric3, largest_eigenvalue, largest_eigenvalue_bound,
@@ -35,7 +35,7 @@ pub struct Exceedance {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Initiation {
-    /// What had to be looked at.
+    /// Extent of the analysis.
     pub looked_at: LookedAt,
     /// Time steps of the impact.
     pub time_steps: usize,
@@ -60,12 +60,12 @@ pub struct Initiation {
     pub first: Option<Exceedance>,
     /// All tetrahedra whose stress passes their strength, ascending; the first [`LIST`] of them.
     pub exceeding: Vec<Exceedance>,
-    /// How many there are, listed or not.
+    /// Number of such tetrahedra, listed or not.
     pub exceeding_count: usize,
 }
 
 impl Initiation {
-    /// Whether [`Self::exceeding`] lacks some.
+    /// Returns true if [`Self::exceeding`] lacks some.
     #[must_use]
     pub fn overflowed(&self) -> bool {
         self.exceeding.len() < self.exceeding_count
@@ -80,12 +80,12 @@ impl Initiation {
         }
     }
 
-    /// Whether [`DOUBT`] covers the rounding of the amplitudes.
+    /// Returns true if [`DOUBT`] covers the rounding of the amplitudes.
     pub(crate) fn is_safe(&self, body: &Body) -> bool {
         f64::from(self.bound) <= MOST_BOUND * body.weakest()
     }
 
-    /// Nothing met.
+    /// Empty result.
     fn none(time_steps: usize) -> Self {
         Self {
             looked_at: LookedAt::Amplitudes,
@@ -109,7 +109,7 @@ impl Initiation {
         self.margin = body.weakest() / felt;
     }
 
-    /// What is told of an impact whose bound, Pa, passes the limit at no time step.
+    /// Result for an impact whose bound, Pa, passes the limit at no time step.
     pub(crate) fn passed_over(bound: f32, body: &Body, time_steps: usize) -> Self {
         let mut found = Self {
             passed_over: bound,
@@ -166,8 +166,8 @@ impl Initiation {
     }
 }
 
-/// What [`Gpu::initiation`](crate::Gpu::initiation) computes, on the CPU with its arithmetic and without culling: every
-/// weak tetrahedron at every time step from `first_step` on. For tests and comparisons, and where the GPU is in doubt.
+/// Computes [`Gpu::initiation`](crate::Gpu::initiation) on the CPU, with the GPU's arithmetic and without culling: every weak tetrahedron at every
+/// time step from `first_step` on. For tests and comparisons, and where the GPU is in doubt.
 #[must_use]
 pub fn initiation_on_cpu(
     body: &Body,

@@ -1,4 +1,4 @@
-//! What a kind of body keeps on the GPU.
+//! Data of a kind of body on the GPU.
 
 use std::sync::Arc;
 

@@ -14,7 +14,7 @@ pub(crate) const STATE: usize = 4;
 
 type Matrix4 = [[f64; 4]; 4];
 
-/// What the GPU needs for the response of all modes to one impact.
+/// Response of all modes to one impact, in the form that the GPU needs.
 #[derive(Clone, Debug)]
 pub(crate) struct Response {
     /// [`MATRIX`] numbers per mode.

@@ -44,7 +44,7 @@ struct Dispatch<'a> {
     groups: [usize; 3],
 }
 
-/// What the passes of a wave share.
+/// Data that the passes of a wave share.
 struct Shared<'a> {
     kind: &'a Loaded,
     buffers: &'a Buffers,

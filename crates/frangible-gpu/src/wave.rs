@@ -43,11 +43,11 @@ pub(crate) struct Wave {
     pub(crate) columns: usize,
     pub(crate) records: usize,
     pub(crate) tiles: usize,
-    /// What each impact has of the lists.
+    /// Span of each impact in the lists.
     pub(crate) spans: Vec<Span>,
 }
 
-/// Where an impact stands in its wave.
+/// Place of an impact in its wave.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Span {
     first_column: usize,

@@ -26,7 +26,7 @@ fn configs() -> [FractureConfig; 3] {
     .map(without_culling)
 }
 
-/// What the comparison counts.
+/// Counts of the comparison.
 #[derive(Debug, Default)]
 struct Tally {
     impacts: usize,

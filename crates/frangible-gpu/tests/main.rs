@@ -1,4 +1,4 @@
-//! What the GPU finds, checked against the processor.
+//! Checks the GPU's results against the processor's.
 
 mod common;
 mod initiation;

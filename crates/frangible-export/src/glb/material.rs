@@ -6,10 +6,10 @@ use json::validation::Checked::Valid;
 
 use frangible_recording::{Recording, SurfaceMaterial};
 
-/// What glTF assumes of a material that does not say.
+/// Index of refraction that glTF assumes where a material states none.
 const DEFAULT_IOR: f32 = 1.5;
 
-/// How far light goes through a clear body in viewers that follow no rays, m: the wall of a drinking glass.
+/// Path length of light through a clear body in viewers that trace no rays, m: the wall of a drinking glass.
 const VIEWER_THICKNESS: f32 = 0.003;
 
 /// Adds a material per surface, in the same order, and one for the floor.
@@ -43,7 +43,7 @@ fn has_transmission(surface: &SurfaceMaterial) -> bool {
     surface.transmission > 0.0
 }
 
-/// Whether light is swallowed in the body behind; without transmission nobody sees it.
+/// Returns true if the body behind the surface absorbs light. Without transmission this cannot be seen.
 fn has_volume(surface: &SurfaceMaterial) -> bool {
     has_transmission(surface) && !surface.thin && surface.attenuation_distance.is_finite()
 }

@@ -1,6 +1,6 @@
 //! A recording as one binary glTF 2.0 file.
 //!
-//! What a viewer finds inside:
+//! A viewer finds inside:
 //!
 //! * a node per [`RecordedNode`](crate::RecordedNode), in the same order, with
 //!   its numbers as `extras`; then the floor and the camera, if any;
