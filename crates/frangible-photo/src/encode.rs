@@ -2,8 +2,8 @@
 
 use crate::{PhotoError, Picture};
 
-/// What a picture may weigh, bytes: a sheet of four stills takes 0.7 to 1.2 million as it is, and with rounded colours grey things get
-/// blotches of pink and green.
+/// Size limit of a picture, bytes. A sheet of four stills takes 0.7 to 1.2 million as it is, and with rounded colours grey things get blotches of
+/// pink and green.
 const TARGET_BYTES: usize = 1_250_000;
 
 /// Steps between the colours kept, of 255; the first is exact. At 2 no eye sees
@@ -25,7 +25,7 @@ pub fn encode_png(picture: &Picture) -> Result<Vec<u8>, PhotoError> {
 ///
 /// # Errors
 ///
-/// What [`encode_png`] refuses.
+/// The same as [`encode_png`].
 pub fn encode_png_within(picture: &Picture, most: usize) -> Result<Vec<u8>, PhotoError> {
     let mut bytes = Vec::new();
     for step in STEPS {

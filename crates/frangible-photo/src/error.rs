@@ -17,7 +17,7 @@ pub enum PhotoError {
     NoSuchFrame {
         /// The frame asked for.
         frame: usize,
-        /// How many frames the recording has.
+        /// Number of frames in the recording.
         count: usize,
     },
     /// The picture has no pixels, or more than can be drawn.

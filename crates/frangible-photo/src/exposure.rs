@@ -4,10 +4,10 @@ use frangible_recording::glam::Vec3A;
 
 use crate::Picture;
 
-/// What the light is multiplied with before it is developed.
+/// Factor of the light before the picture is developed.
 const EXPOSURE: f32 = 1.12;
 
-/// How much of the picture's contrast is taken from the ends and given to the middle.
+/// Share of the picture's contrast that is moved from the ends to the middle.
 const CONTRAST: f32 = 0.22;
 
 /// The picture of this light, row by row.
@@ -19,7 +19,7 @@ pub(crate) fn develop(light: &[Vec3A], width: u32, height: u32) -> Picture {
     })
 }
 
-/// How bright light is on the picture, 0 to 1.
+/// Brightness of light on the picture, 0 to 1.
 pub(crate) fn tone(light: Vec3A) -> f32 {
     tone_of(light.dot(Vec3A::new(0.2126, 0.7152, 0.0722)))
 }

@@ -15,7 +15,7 @@ use crate::{PhotoError, Picture, encode_png_within};
 /// From 1, the best colours, to 30, the fastest.
 const GIF_SPEED: i32 = 10;
 
-/// What a film is written as.
+/// File format of a film.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum FilmFormat {
@@ -170,7 +170,7 @@ impl FilmWriter {
     }
 }
 
-/// Where the sound of a film stands: in a folder of pictures, and beside a file under a name that is not that of a break's sound.
+/// Path of a film's sound: in the folder of its pictures, or beside its file under a name that differs from that of a break's sound.
 fn sound_beside(film: &Path) -> PathBuf {
     let (Some(_), Some(stem)) = (film.extension(), film.file_stem()) else {
         return film.join("sound.wav");
@@ -185,7 +185,7 @@ struct Gif {
     encoder: Option<Encoder<BufWriter<File>>>,
     /// Width and height, pixels.
     size: [u16; 2],
-    /// How long a picture is seen, hundredths of a second.
+    /// Time that each picture is seen, hundredths of a second.
     delay: u16,
     part: PathBuf,
 }

@@ -10,7 +10,7 @@ use std::f32::consts::PI;
 
 use frangible_recording::glam::{Vec2, Vec3};
 
-/// How finely a shadow is computed.
+/// Fineness of a shadow.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fineness {
     /// Points of the key light; fewer leave steps in its shadow's edge.
@@ -20,10 +20,9 @@ pub struct Fineness {
     room_points: usize,
     /// Texels along each side.
     side: usize,
-    /// Rounds of smoothing, which hide what is left of the single points' edges.
+    /// Rounds of smoothing, which hide the remaining edges of single points' shadows.
     smoothings: usize,
-    /// What the key light and the room give of the light on the floor, of 1; the
-    /// rest gets everywhere.
+    /// Shares of the key light and of the room in the light on the floor, of 1. The rest gets everywhere.
     key_share: f32,
     room_share: f32,
 }
@@ -38,7 +37,7 @@ impl Fineness {
         key_share: 0.40,
         room_share: 0.42,
     };
-    /// The key light's alone, for traced pictures: how dark it is all in all is up to them.
+    /// The key light's alone, for traced pictures, which decide themselves how dark the shadow is.
     pub const KEY: Self = Self {
         key_points: 24,
         room_points: 0,
@@ -74,10 +73,9 @@ const GOLDEN_TURN: f32 = 2.399_963;
 pub struct Caster {
     /// Corners, stage units.
     pub corners: [Vec3; 3],
-    /// How clear it is: 0 keeps all light, 1 only what its face reflects.
+    /// Clarity: at 0 the face stops all light, at 1 only what it reflects.
     pub clarity: f32,
-    /// Whether it is part of a closed opaque skin, seen counterclockwise from
-    /// outside: what faces away from a lamp adds nothing to its shadow.
+    /// True for a part of a closed opaque skin, seen counterclockwise from outside: faces turned away from a lamp add nothing to its shadow.
     pub one_sided: bool,
 }
 
@@ -225,8 +223,8 @@ fn above(corners: [Vec3; 3], floor_height: f32) -> ([Vec3; 4], usize) {
     (outline, count)
 }
 
-/// What a face lets through of light at this cosine: nothing if it is opaque,
-/// else what it neither reflects (Schlick) nor swallows with its tint.
+/// Share of light at this cosine that a face lets through: nothing if it is opaque, else what it neither reflects (Schlick) nor absorbs with its
+/// tint.
 fn light_through(clarity: f32, cosine: f32) -> f32 {
     if clarity <= 0.0 {
         return 0.0;

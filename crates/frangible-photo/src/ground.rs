@@ -11,7 +11,7 @@ use crate::light::backdrop_seen;
 use crate::set::Set;
 use crate::stage::{StageUnits, casters, key_light};
 
-/// What the key lamp and the room give of the light on the floor, of 1; the rest gets everywhere.
+/// Shares of the key lamp and of the room in the light on the floor, of 1. The rest gets everywhere.
 const KEY_SHARE: f32 = 0.60;
 const ROOM_SHARE: f32 = 0.34;
 
@@ -24,10 +24,10 @@ const WARMTH: Vec3A = Vec3A::new(1.06, 1.0, 0.93);
 /// Radius of the pool of light, stage units.
 const POOL: f32 = 3.6;
 
-/// Where the floor begins to fade into the backdrop and where it has, stage units from what is looked at.
+/// Distances from the view's target at which the floor begins to fade into the backdrop and at which it has faded, stage units.
 const FADE: [f32; 2] = [3.0, 15.0];
 
-/// Things farther from what is looked at have no mirror image in the floor, stage units.
+/// Distance from the view's target beyond which things have no mirror image in the floor, stage units.
 const GLOSSY: f32 = 4.0;
 
 /// A level floor under the things.
@@ -75,7 +75,7 @@ impl Ground {
         }
     }
 
-    /// How far along a ray the floor is.
+    /// Distance along a ray to the floor.
     pub(crate) fn distance(&self, from: Vec3A, along: Vec3A) -> Option<f32> {
         if along.y >= -1e-4 {
             return None;

@@ -1,4 +1,4 @@
-//! Where the light comes from.
+//! Light sources.
 
 use frangible_recording::View;
 use frangible_recording::glam::{Vec2, Vec3, Vec3A};
@@ -20,7 +20,7 @@ const BELOW: Vec3A = Vec3A::new(0.16, 0.155, 0.15);
 /// The wall that the camera looks at, where the floor ends.
 const WALL: Vec3A = Vec3A::new(0.150, 0.165, 0.190);
 
-/// How far lamps are blurred in the light on matt faces, over their distance: with sharp ones few paths would find them, and leave specks.
+/// Blur of the lamps in the light on matt faces, over their distance: few paths would find sharp lamps, and would leave specks.
 const MATT: f32 = 0.7;
 
 /// A lamp that is seen in what mirrors: a panel around a direction.
@@ -100,7 +100,7 @@ impl Lights {
         backdrop(toward) + panels.sum::<Vec3A>()
     }
 
-    /// What a mirror sees in a direction, blurred by so much over its distance.
+    /// Light that a mirror sees in a direction. `blur` is the lamps' blur over their distance.
     pub(crate) fn mirrored(&self, toward: Vec3A, blur: f32) -> Vec3A {
         let panels = self.panels.iter().map(|panel| panel.seen(toward, blur));
         // Glass that light goes straight through shows the wall behind it. Behind the camera the room is dim, so that glass shows no veil.
@@ -129,7 +129,7 @@ impl Panel {
     }
 }
 
-/// What hangs behind everything: lighter where the floor ends than overhead.
+/// Light of the backdrop: brighter where the floor ends than overhead.
 pub(crate) fn backdrop(toward: Vec3A) -> Vec3A {
     if toward.y >= 0.0 {
         let up = toward.y.min(1.0);

@@ -1,4 +1,4 @@
-//! How materials look from close by.
+//! Looks of materials from close by.
 
 use frangible_recording::glam::Vec3A;
 use frangible_recording::{Grain, SurfaceMaterial};
@@ -10,22 +10,22 @@ pub(crate) struct Look {
     color: Vec3A,
     roughness: f32,
     pub(crate) metallic: f32,
-    /// Whether light passes and is bent.
+    /// If true, light passes through and is bent.
     clear: bool,
     /// Share of the light that passes a face of what is drawn with some opacity.
     pub(crate) opacity: f32,
     pub(crate) ior: f32,
-    /// What a stage unit of the body swallows of red, green and blue, as an exponent.
+    /// Absorption of red, green and blue per stage unit of the body, as an exponent.
     pub(crate) swallows: Vec3A,
     pub(crate) thin: bool,
     grain: Grain,
 }
 
-/// What a point of a surface is like.
+/// Optical properties of a point of a surface.
 pub(crate) struct Skin {
     pub(crate) color: Vec3A,
     pub(crate) roughness: f32,
-    /// How far the normal leans, in the frame of the mesh.
+    /// Tilt of the normal, in the frame of the mesh.
     pub(crate) bump: Vec3A,
     /// Share of the light that is scattered inside a clear body.
     pub(crate) cloud: f32,
@@ -155,7 +155,7 @@ fn fractal(at: Vec3A, size: f32, octaves: u32) -> f32 {
     noise.sample3(place(at, size))
 }
 
-/// How far bumps of this size lean a normal, each way.
+/// Tilt of a normal by bumps of this size, along each axis.
 fn lean(at: Vec3A, size: f32, octaves: u32) -> Vec3A {
     let along = |seed: f32| fractal(at + Vec3A::splat(seed), size, octaves);
     Vec3A::new(along(0.0), along(3.17), along(7.31))

@@ -1,4 +1,4 @@
-//! What light does at a face.
+//! Reflection and refraction of light at a face.
 
 use frangible_recording::glam::{Vec3, Vec3A};
 

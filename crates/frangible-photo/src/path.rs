@@ -16,7 +16,7 @@ const MIRRORED: u32 = 3;
 /// Times that light may be scattered by matt faces; what would come after is taken from the room.
 const SCATTERINGS: u32 = 1;
 
-/// What is left of the room's light where a path ends among things.
+/// Share of the room's light that remains where a path ends among things.
 const AMONG_THINGS: f32 = 0.45;
 
 /// No path is brighter: one that finds a lamp by luck would leave a spark.
@@ -25,10 +25,10 @@ const BRIGHTEST: f32 = 2.5;
 /// No face.
 const NONE: u32 = u32::MAX;
 
-/// What a path saw.
+/// Result of a path.
 #[derive(Clone, Copy, Default)]
 pub(crate) struct Seen {
-    /// Light, but for what a matt face gives.
+    /// Light, without that of a matt face.
     pub(crate) light: Vec3A,
     /// Light on the matt face seen first, before its colour.
     pub(crate) diffuse: Vec3A,
@@ -79,7 +79,7 @@ pub(crate) struct Traced<'a> {
 }
 
 impl Traced<'_> {
-    /// What a ray from the camera sees.
+    /// Traces a ray from the camera.
     pub(crate) fn seen(&self, (from, along): (Vec3A, Vec3A), random: &mut Random) -> Seen {
         let ray = Ray {
             from,
@@ -229,7 +229,7 @@ impl Traced<'_> {
         skin.color * self.on_matt(&met, normal, random, depth)
     }
 
-    /// What a face of some gloss mirrors, and its share of the light.
+    /// Light that a glossy face mirrors, and its share of the light.
     fn gloss(
         &self,
         ray: &Ray,

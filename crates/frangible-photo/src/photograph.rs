@@ -22,7 +22,7 @@ const ROUND: u32 = 3;
 /// A pixel whose brightness is known to this is done, of the white of the picture.
 const QUIET: f32 = 0.020;
 
-/// What has come together in one pixel.
+/// Sums of the paths through one pixel.
 #[derive(Clone, Copy, Default)]
 struct Pixel {
     /// Sums over all paths.
@@ -119,8 +119,7 @@ impl Pixel {
         self.seen.scaled((self.paths.max(1) as f32).recip())
     }
 
-    /// Whether the mean brightness is known less well than it should be. What is lit evenly is smoothed later, so it may be
-    /// three times as noisy.
+    /// Returns true if the mean brightness is not yet known well enough. Evenly lit parts are smoothed later, so they may be three times as noisy.
     fn is_noisy(&self) -> bool {
         let count = self.paths.max(1) as f32;
         let mean = self.tones / count;
@@ -130,7 +129,7 @@ impl Pixel {
     }
 }
 
-/// Where rays through pixels begin and go.
+/// Origin and directions of the rays through pixels.
 struct Camera {
     eye: Vec3A,
     forward: Vec3A,

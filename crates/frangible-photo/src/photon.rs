@@ -13,7 +13,7 @@ const LONGEST: u32 = 10;
 pub(crate) struct Photon {
     from: Vec3A,
     along: Vec3A,
-    /// What is left of it, of 1.
+    /// Remaining light, of 1.
     pub(crate) light: Vec3A,
 }
 
@@ -76,7 +76,7 @@ impl Photon {
         Some(met.face)
     }
 
-    /// Where it comes down on a floor of this height (x, z).
+    /// Point at which it meets a floor of this height (x, z).
     pub(crate) fn on_floor(&self, height: f32) -> Option<Vec2> {
         if self.along.y >= -1e-3 {
             return None;

@@ -7,7 +7,7 @@ use frangible_recording::glam::Vec3A;
 /// Numbers of one path: its first pairs spread evenly over the paths of the pixel, the rest are as random as a hash.
 pub(crate) struct Random {
     state: u32,
-    /// Where the pixel begins in each pair, and which path this is.
+    /// Start of the pixel in each pair, and number of this path.
     pixel: u32,
     path: u32,
     pairs: u32,

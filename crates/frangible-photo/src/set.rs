@@ -1,4 +1,4 @@
-//! What is in the picture, ready to be met by rays.
+//! Contents of the picture, ready to be met by rays.
 
 use frangible_recording::glam::{Quat, Vec3, Vec3A};
 use frangible_recording::{Recording, View};
@@ -28,7 +28,7 @@ struct Triangle {
     look: usize,
 }
 
-/// Where a ray met a face.
+/// Meeting of a ray with a face.
 pub(crate) struct Met<'a> {
     pub(crate) distance: f32,
     pub(crate) at: Vec3A,
@@ -117,7 +117,7 @@ impl Set {
         set
     }
 
-    /// Where a ray first meets a face other than the one that it leaves.
+    /// First meeting of a ray with a face other than the one that it leaves.
     pub(crate) fn meet(&self, from: Vec3A, along: Vec3A, leaves: u32) -> Option<Met<'_>> {
         let mut found = None;
         self.tree.along(from, along, f32::MAX, |face, best| {
@@ -156,7 +156,7 @@ impl Set {
         }
     }
 
-    /// How much light comes through from there: none past anything opaque, most past clear faces.
+    /// Share of light that comes through along a ray: none past anything opaque, most past clear faces.
     pub(crate) fn clear_way(&self, from: Vec3A, along: Vec3A, leaves: u32) -> f32 {
         let mut through = 1.0;
         self.tree.along(from, along, f32::MAX, |face, best| {
@@ -182,7 +182,7 @@ impl Set {
         through
     }
 
-    /// Whether anything lets light through and bends it.
+    /// Returns true if anything lets light through.
     pub(crate) fn has_glass(&self) -> bool {
         let mut triangles = self.triangles.iter();
         triangles.any(|triangle| self.looks[triangle.look].is_clear())
@@ -215,7 +215,7 @@ impl Set {
 }
 
 impl Triangle {
-    /// How far a ray goes until it meets the triangle (Möller and Trumbore 1997).
+    /// Distance along a ray to the triangle (Möller and Trumbore 1997).
     fn distance(&self, from: Vec3A, along: Vec3A) -> Option<f32> {
         let [right, up] = self.sides;
         let across = along.cross(up);

@@ -4,7 +4,7 @@ use frangible_recording::Recording;
 
 use crate::{PhotoError, Picture, Studio};
 
-/// How a sheet is laid out.
+/// Layout of a sheet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SheetOptions {
     /// Width of a cell, pixels. Default 640.
@@ -33,7 +33,7 @@ const GAP: u32 = 4;
 ///
 /// # Errors
 ///
-/// What [`sheet_of_frames`] refuses.
+/// The same as [`sheet_of_frames`].
 pub fn contact_sheet(recording: &Recording, options: &SheetOptions) -> Result<Picture, PhotoError> {
     let moments = recording.labelled_moments();
     let cells = moments.map(|(frame, label)| (recording, frame, label));

@@ -1,4 +1,4 @@
-//! How a film of a break goes: quickly until it breaks, slowly then, and on to the end.
+//! Timing of a film of a break: quickly until it breaks, slowly then, and on to the end.
 
 use frangible_recording::{Recording, View};
 
@@ -11,16 +11,16 @@ const SLOW: f64 = 0.55;
 /// Seconds for which the last picture stands.
 const END: f64 = 0.6;
 
-/// Which frame of a recording a film shows when, and from where.
+/// Frame and camera of a recording at each time of a film.
 #[derive(Clone, Debug)]
 pub struct SlowMotion<'a> {
     recording: &'a Recording,
-    /// Times of the film, s, and frames of the recording: straight between them.
+    /// Times of the film, s, and frames of the recording, linear between them.
     knots: [[f64; 2]; 4],
 }
 
 impl<'a> SlowMotion<'a> {
-    /// A film of so many seconds, so many times slower than it is where things break.
+    /// A film of `seconds`, slowed down by the factor `slow` where things break.
     #[must_use]
     pub fn new(recording: &'a Recording, seconds: f64, slow: f64) -> Self {
         let rate = f64::from(recording.frame_rate);
@@ -48,7 +48,7 @@ impl<'a> SlowMotion<'a> {
         between(&self.knots, time)
     }
 
-    /// When the last picture is reached, s; it stands from then on.
+    /// Time at which the last picture is reached, s; it stands from then on.
     #[must_use]
     pub fn stands_from(&self) -> f64 {
         self.knots[3][0]

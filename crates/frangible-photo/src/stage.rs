@@ -12,7 +12,7 @@ use crate::floor_shadow::Caster;
 /// The change from world to stage units.
 #[derive(Clone, Copy, Debug)]
 pub struct StageUnits {
-    /// What the camera looks at, m.
+    /// Target of the view, m.
     pub origin: Vec3,
     /// Stage units per metre.
     pub scale: f32,
@@ -46,7 +46,7 @@ impl StageUnits {
     }
 }
 
-/// Level directions on the stage: from what is looked at back to the camera, and to the camera's right.
+/// Level directions on the stage: from the view's target back to the camera, and to the camera's right.
 #[must_use]
 pub fn stage_directions(view: &View) -> [Vec3; 2] {
     let backward = Vec3::new(view.eye.x, 0.0, view.eye.z)
@@ -62,7 +62,7 @@ pub fn key_light(view: &View) -> Vec3 {
     -3.4 * right + 4.6 * Vec3::Y + 2.4 * backward
 }
 
-/// How clear a surface is, for its shadow: 0 for what is opaque.
+/// Clarity of a surface for its shadow, 0 for an opaque one.
 #[must_use]
 pub fn clarity(surface: &SurfaceMaterial) -> f32 {
     surface.transmission.max(1.0 - surface.base_color[3])

@@ -103,7 +103,7 @@ impl Studio {
 ///
 /// # Errors
 ///
-/// What [`Studio::new`] and [`Studio::frame`] refuse.
+/// The same as [`Studio::new`] and [`Studio::frame`].
 pub fn render_frame(
     recording: &Recording,
     frame: usize,

@@ -1,4 +1,4 @@
-//! How much room a recording takes.
+//! Extent of a recording.
 
 use glam::Vec3;
 

@@ -14,7 +14,7 @@ pub enum RecordingError {
     /// A number is NaN or infinite.
     #[error("{what} is {value}, not a finite number; check the simulation step that produced it")]
     NotFinite {
-        /// Which number, in words.
+        /// Name of the number.
         what: String,
         /// Its value.
         value: f64,
@@ -22,7 +22,7 @@ pub enum RecordingError {
     /// A number is finite but outside its range.
     #[error("{what} is {value}, but must be {range}")]
     OutOfRange {
-        /// Which number, in words.
+        /// Name of the number.
         what: String,
         /// Its value.
         value: f64,
@@ -32,21 +32,21 @@ pub enum RecordingError {
     /// An index points past the end of its list.
     #[error("{what} is {index}, but there are only {count}; indices start at 0")]
     BadIndex {
-        /// Which index, in words.
+        /// Name of the index.
         what: String,
         /// Its value.
         index: usize,
-        /// How many entries the list has.
+        /// Number of entries in the list.
         count: usize,
     },
     /// Two lists that belong together differ in length.
     #[error("{what} has {count} entries, but {expected} expected")]
     BadCount {
-        /// Which list, in words.
+        /// Name of the list.
         what: String,
-        /// How many entries it has.
+        /// Number of its entries.
         count: usize,
-        /// How many it should have, in words.
+        /// Expected number, in words.
         expected: String,
     },
     /// The camera looks nowhere.

@@ -1,4 +1,4 @@
-//! What happened in a scene, as plain data.
+//! Record of a scene, as plain data.
 //!
 //! A [`Recording`] holds meshes, one rigid node per shard with a pose per
 //! frame, materials, a camera and the frames worth looking at; besides, each

@@ -1,4 +1,4 @@
-//! What happened, as plain data.
+//! Record of a scene, as plain data.
 //!
 //! Pictures, sound and files share this one description, and none of them needs the physics.
 
@@ -6,7 +6,7 @@ use std::ops::Range;
 
 use glam::{Quat, Vec3};
 
-/// What happened in a scene. Pictures, films and sound are made from it.
+/// Record of a scene's motion and breaks. Pictures, films and sound are made from it.
 ///
 /// | what it holds | where | of whom | when |
 /// |---|---|---|---|
@@ -23,11 +23,11 @@ use glam::{Quat, Vec3};
 /// Modes and materials belong to the bodies: who makes a recording hands them on beside it (`frangible_scenes::Sounding`).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Recording {
-    /// What the file and its scene are called.
+    /// Name of the file and of its scene.
     pub name: String,
     /// Frames per second of the poses, 1/s. Above zero.
     pub frame_rate: f32,
-    /// How many frames there are. At least one.
+    /// Number of frames, at least one.
     pub frame_count: usize,
     /// The materials that mesh parts refer to by index.
     pub surfaces: Vec<SurfaceMaterial>,
@@ -45,18 +45,18 @@ pub struct Recording {
     pub moments: Moments,
     /// Everything that hit a node hard enough to be asked whether it breaks, in the order of time.
     pub blows: Vec<RecordedBlow>,
-    /// Where else things touched: pieces with each other, and with what they fell on; in the order of time.
+    /// Other contacts: pieces with each other, and with what they fell on; in the order of time.
     pub touches: Vec<RecordedTouch>,
-    /// Where things slid along each other, in the order of time.
+    /// Sliding contacts, in the order of time.
     pub slides: Vec<RecordedSlide>,
 }
 
-/// A blow on a node: what pushed it, and the cracks that ran. What the film of a break and its sound are made from.
+/// A blow on a node: the forces on it, and the cracks that ran. The film of a break and its sound are made from it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RecordedBlow {
     /// The node that was hit.
     pub node: usize,
-    /// When the blow began, s after the first frame.
+    /// Time at which the blow began, s after the first frame.
     pub time: f64,
     /// The nodes of its pieces; empty where it held.
     pub pieces: Range<usize>,
@@ -71,7 +71,7 @@ pub struct RecordedBlow {
 /// A force over time at a place of a node.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Pulse {
-    /// Where it acts, m, in the frame of the node.
+    /// Point of application, m, in the frame of the node.
     pub point: Vec3,
     /// Unit direction of the force on the node, in its frame.
     pub direction: Vec3,
@@ -91,55 +91,55 @@ impl Pulse {
     }
 }
 
-/// Where a crack went, and when.
+/// Path and times of a crack.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RecordedCrack {
     /// Places of the crack in the order of its growth, m, in the frame of the node.
     pub places: Vec<Vec3>,
-    /// When the crack was at each place, s after the blow began.
+    /// Time at which the crack was at each place, s after the blow began.
     pub times: Vec<f64>,
 }
 
 /// Two things that came together, or a thing and what does not move.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct RecordedTouch {
-    /// When, s after the first frame.
+    /// Time, s after the first frame.
     pub time: f64,
     /// The node, and the other one unless it is the floor.
     pub nodes: (usize, Option<usize>),
-    /// Where, m.
+    /// Point of contact, m.
     pub point: Vec3,
     /// Unit direction of the push on the first node.
     pub normal: Vec3,
     /// Impulse along it, N·s. Part of it may only be passed on, from what lies on top.
     pub impulse: f64,
-    /// How fast they came together along it, m/s.
+    /// Speed at which they approached along it, m/s.
     pub speed: f64,
 }
 
 /// Two things that slide along each other for a moment, or roll on each other, or a thing along or on what does not move.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct RecordedSlide {
-    /// When it began, s after the first frame.
+    /// Time of its beginning, s after the first frame.
     pub time: f64,
-    /// How long it is taken to go on as it began, s.
+    /// Duration for which it is taken to go on as it began, s.
     pub duration: f64,
     /// The node, and the other one unless it is the floor.
     pub nodes: (usize, Option<usize>),
-    /// Where, m.
+    /// Point of contact, m.
     pub point: Vec3,
     /// Unit direction of the push on the first node, across the surfaces.
     pub normal: Vec3,
-    /// How fast they slide, or how fast the contact travels over both as they roll, m/s.
+    /// Sliding speed; of rolling things, the speed at which the contact travels over both, m/s.
     pub speed: f64,
-    /// What friction, or the resistance to rolling, takes from their motion, W.
+    /// Power that friction, or the resistance to rolling, takes from their motion, W.
     pub power: f64,
 }
 
-/// How a surface looks (metallic–roughness, as in glTF).
+/// Look of a surface (metallic–roughness, as in glTF).
 #[derive(Clone, Debug, PartialEq)]
 pub struct SurfaceMaterial {
-    /// What viewers list it as.
+    /// Name in viewers.
     pub name: String,
     /// Linear red, green, blue, and opacity (1: opaque), each 0–1.
     pub base_color: [f32; 4],
@@ -151,20 +151,20 @@ pub struct SurfaceMaterial {
     pub transmission: f32,
     /// Index of refraction, at least 1; 1.5 for glass and most dielectrics.
     pub ior: f32,
-    /// Whether back faces are drawn too.
+    /// If true, back faces are drawn too.
     pub double_sided: bool,
     /// Linear red, green, blue that is left of white light after [`attenuation_distance`](Self::attenuation_distance) in the body
     /// behind the surface, each above 0 and at most 1.
     pub attenuation_color: [f32; 3],
-    /// How far light goes through the body until it has that colour, m; infinite where nothing is swallowed.
+    /// Distance in the body at which light has that colour, m; infinite where nothing is absorbed.
     pub attenuation_distance: f32,
-    /// Whether the body goes on behind the surface: a crack that parts nothing, with air in it.
+    /// True if the body goes on behind the surface: a crack that separates nothing, with air in it.
     pub thin: bool,
-    /// What the surface shows from close by.
+    /// Detail of the surface from close by.
     pub grain: Grain,
 }
 
-/// What a surface shows from close by, where a renderer draws such things.
+/// Detail of a surface from close by, where a renderer draws it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Grain {
     /// One colour, smooth.
@@ -203,7 +203,7 @@ impl Default for SurfaceMaterial {
 /// A triangle mesh, already split at hard edges: one normal per vertex.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RecordedMesh {
-    /// What viewers list it as.
+    /// Name in viewers.
     pub name: String,
     /// Vertices in the frame of the node, m.
     pub positions: Vec<Vec3>,
@@ -227,7 +227,7 @@ pub struct MeshPart {
 /// A rigid thing: a mesh, where it is in each frame, and when it exists.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RecordedNode {
-    /// What viewers list it as.
+    /// Name in viewers.
     pub name: String,
     /// Index into [`Recording::meshes`].
     pub mesh: usize,
@@ -242,7 +242,7 @@ pub struct RecordedNode {
 /// A rigid placement: rotate, then translate.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Pose {
-    /// Where the mesh's origin lies, m.
+    /// Position of the mesh's origin, m.
     pub translation: Vec3,
     /// Its orientation; need not be exactly unit length.
     pub rotation: Quat,
@@ -269,11 +269,11 @@ impl Default for Floor {
 /// A camera.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct View {
-    /// Where it stands, m.
+    /// Position of the camera, m.
     pub eye: Vec3,
-    /// What it looks at, m.
+    /// Target of the view, m.
     pub target: Vec3,
-    /// Which way is up in the picture.
+    /// Up direction in the picture.
     pub up: Vec3,
     /// Vertical field of view, rad; between 0 and π.
     pub vertical_fov: f32,
@@ -301,7 +301,7 @@ pub struct Moments {
     pub just_after: usize,
     /// The end.
     pub at_rest: usize,
-    /// Whether something still moves there.
+    /// True if something still moves there.
     pub moves_on: bool,
 }
 

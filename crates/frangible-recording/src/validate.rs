@@ -62,7 +62,7 @@ impl View {
     ///
     /// # Errors
     ///
-    /// What is wrong with it.
+    /// The error in it.
     pub fn validate(&self) -> Checked {
         finite_vector(self.eye, || "the camera's eye".into())?;
         finite_vector(self.target, || "the camera's target".into())?;
