@@ -1,4 +1,4 @@
-//! What a picture of many pieces costs the session's thread, while they fall and when they lie:
+//! Cost of a picture of many pieces for the session's thread, while they fall and when they lie:
 //! `cargo run --release -p frangible-view --example publish`.
 
 use frangible_view::{Command, Session, ViewError};

@@ -24,13 +24,13 @@ pub struct CrackShape {
     pub triangles: Vec<([Vec3; 3], f64)>,
     /// The middle of the tetrahedron where it started, m, body frame.
     pub start: Vec3,
-    /// When it started, s after the contact began.
+    /// Time at which it started, s after the contact began.
     pub time: f64,
     /// Tetrahedra it went through.
     pub tetrahedra: usize,
 }
 
-/// What a contact did, moment by moment.
+/// Course of a contact, moment by moment.
 #[derive(Clone, Debug)]
 pub struct Analysis {
     /// The body that was hit.
@@ -39,7 +39,7 @@ pub struct Analysis {
     pub course: Arc<Course>,
     /// Cracks in the order in which they started.
     pub cracks: Vec<CrackShape>,
-    /// Tetrahedra that they went through, by the time when they did.
+    /// Tetrahedra that they went through, in the order of time.
     pub cut: Vec<ElementTrace>,
     /// Middles of the weak tetrahedra, m, body frame.
     pub weak_points: Vec<Vec3>,

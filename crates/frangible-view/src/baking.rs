@@ -65,7 +65,7 @@ impl Shelf {
     }
 }
 
-/// Whether bodies that were baked for the one scene serve the other.
+/// Returns true if bodies that were baked for one scene serve the other.
 #[must_use]
 pub fn same_bakes(a: &Scene, b: &Scene) -> bool {
     keys(a) == keys(b)

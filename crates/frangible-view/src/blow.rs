@@ -6,10 +6,10 @@ use frangible::{Body, Contact, Fracture, FractureConfig, ImpactReport};
 use frangible_rapier::BreakCause;
 use frangible_recording::Pose;
 
-/// An impact on a body, and what came of it.
+/// An impact on a body, and its outcome.
 #[derive(Clone, Debug)]
 pub struct Blow {
-    /// What was hit.
+    /// Name of the body that was hit.
     pub name: String,
     /// Its number among the things of the scene.
     pub thing: usize,
@@ -17,11 +17,11 @@ pub struct Blow {
     pub number: Option<usize>,
     /// The body before it, with the cracks it had.
     pub body: Body,
-    /// Where it was then.
+    /// Pose of the body at that time.
     pub pose: Pose,
     /// Contacts, in the body's frame.
     pub contacts: Vec<Contact>,
-    /// What brought it about.
+    /// Cause of the break.
     pub cause: BreakCause,
     /// Switches and numbers of the fracture then.
     pub config: FractureConfig,
@@ -48,7 +48,7 @@ impl Blow {
         self.fracture.as_ref().map_or(1, |f| f.fragments.len())
     }
 
-    /// Whether it can be put to the fracture again: it is an impact with contacts.
+    /// Returns true if the fracture can be computed again: it is an impact with contacts.
     #[must_use]
     pub fn is_repeatable(&self) -> bool {
         self.cause == BreakCause::Impact && self.impulse() > 0.0

@@ -6,7 +6,7 @@ use frangible_recording::View;
 /// A half line into the scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ray {
-    /// Where it starts, m.
+    /// Origin, m.
     pub origin: Vec3,
     /// Unit direction.
     pub direction: Vec3,
@@ -45,7 +45,7 @@ impl Orbit {
         }
     }
 
-    /// Where it stood in the beginning.
+    /// Returns the initial view.
     #[must_use]
     pub fn home(&self) -> View {
         self.home
@@ -74,7 +74,7 @@ impl Orbit {
         *self = Self::new(self.home);
     }
 
-    /// What it sees.
+    /// Returns the current view.
     #[must_use]
     pub fn view(&self) -> View {
         View {
@@ -110,7 +110,7 @@ impl Orbit {
         }
     }
 
-    /// Where a point shows in the picture, the way back from [`Orbit::ray`]; none for what is behind the camera.
+    /// Position of a point in the picture, the inverse of [`Orbit::ray`]; none for a point behind the camera.
     #[must_use]
     pub fn place(&self, point: Vec3, aspect: f32, shift: [f32; 2]) -> Option<Vec2> {
         let tangent = (0.5 * self.home.vertical_fov).tan();

@@ -1,4 +1,4 @@
-//! What a person can do, or a script.
+//! Commands that a person or a script can give.
 
 use std::path::PathBuf;
 
@@ -26,67 +26,67 @@ pub enum Command {
     Step(u32),
     /// Take the steps of this many pictures of 1/60 s; a window draws each.
     Frames(u32),
-    /// How fast simulated time runs: 1 is as in life, 0.001 a thousandth of it.
+    /// Speed of simulated time: 1 is as in life, 0.001 a thousandth of it.
     SlowMotion(f64),
-    /// How loud it is, a share of the loudspeaker's range, 0..=1.
+    /// Volume, a share of the loudspeaker's range, 0..=1.
     Volume(f64),
     /// Sound, or silence.
     Sound(bool),
-    /// What is thrown from now on; a click throws it.
+    /// Ball to throw from now on; a click throws it.
     Ball(BallSpec),
-    /// What is swung from now on; a click swings it.
+    /// Hammer to swing from now on; a click swings it.
     Hammer(HammerSpec),
-    /// What a click does.
+    /// Tool that a click uses.
     Tool(Tool),
     /// Throw a ball from a point through another, m.
     Throw {
-        /// Where it starts.
+        /// Starting point.
         from: Vec3,
-        /// Where its centre is aimed.
+        /// Point that its centre is aimed at.
         through: Vec3,
     },
     /// Swing the hammer onto what a ray meets.
     Swing {
-        /// Where the ray starts, m.
+        /// Origin of the ray, m.
         from: Vec3,
         /// A point it goes through.
         through: Vec3,
     },
     /// Take hold of the thing that a ray meets.
     Grab {
-        /// Where the ray starts, m.
+        /// Origin of the ray, m.
         from: Vec3,
         /// A point it goes through.
         through: Vec3,
     },
-    /// Pull what is held to where this ray is as far off as it was taken.
+    /// Pull the held thing to the point of this ray that is as far off as it was taken.
     Pull {
-        /// Where the ray starts, m.
+        /// Origin of the ray, m.
         from: Vec3,
         /// A point it goes through.
         through: Vec3,
     },
-    /// Let go what is held; it flies on.
+    /// Let go of the held thing; it flies on.
     LetGo,
     /// The scene again, its bodies dropped from this height, m.
     Drop(f64),
     /// Back to just before the last break.
     Undo,
-    /// What to look at.
+    /// Choose the subject to look at.
     Look(Subject),
     /// The moment of the contact that is looked at: its share of the motion's time, 0..=1.
     Scrub(f64),
-    /// How many times as large the deformation is drawn.
+    /// Factor by which the deformation is enlarged in the picture.
     Exaggerate(f64),
-    /// How far pieces are drawn apart: 0 where they are.
+    /// Spread of the drawn pieces, as a share of their distance from their parent's middle: 0 leaves them in place.
     Explode(f64),
     /// Show a mark, or hide it.
     Show(Mark, bool),
-    /// Which vibration mode is looked at, from 1.
+    /// Choose the vibration mode to look at, from 1.
     Mode(usize),
     /// Select the thing that a ray meets, or nothing.
     Select {
-        /// Where the ray starts, m.
+        /// Origin of the ray, m.
         from: Vec3,
         /// A point it goes through.
         through: Vec3,
@@ -109,18 +109,18 @@ pub enum Command {
     Film(FilmKind, PathBuf, FilmOptions),
     /// Give up the film that is being made.
     CancelSave,
-    /// From where films and stills are seen, and where the camera of a window stands.
+    /// Set the view of films and stills, and of a window's camera.
     LookFrom {
-        /// Where it stands, m.
+        /// Position of the camera, m.
         eye: Vec3,
-        /// What it looks at, m.
+        /// Target of the view, m.
         target: Vec3,
     },
     /// Write a picture of the window.
     Screenshot(PathBuf),
     /// Turn the camera, degrees to the right and up.
     Orbit(f32, f32),
-    /// Move what the camera looks at, shares of the picture's height to the right and up.
+    /// Move the view's target, shares of the picture's height to the right and up.
     Pan(f32, f32),
     /// Go nearer by this factor, or farther below 1.
     Zoom(f32),
@@ -142,7 +142,7 @@ pub enum Command {
     Quit,
 }
 
-/// What to look at.
+/// Subject to look at.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Subject {
     /// The scene.
@@ -154,14 +154,14 @@ pub enum Subject {
     Cracks,
     /// A vibration mode of the body that was hit last.
     Modes,
-    /// What the last impact did, and what it does with the knobs as they are.
+    /// The last impact, and the same impact with the knobs as they are.
     Compare,
     /// The last impact by several methods.
     Methods,
 }
 
 impl Subject {
-    /// Whether it is looked at moment by moment.
+    /// Returns true if it is looked at moment by moment.
     #[must_use]
     pub const fn has_moments(self) -> bool {
         matches!(self, Self::Stress | Self::Cracks | Self::Modes)
@@ -179,7 +179,7 @@ pub enum Mark {
     AnalysisMesh,
     /// Weak points, where cracks may start.
     WeakPoints,
-    /// Where cracks started.
+    /// Starting points of cracks.
     Starts,
     /// Contact points and impulses.
     Impulse,
@@ -190,20 +190,20 @@ pub enum Mark {
 pub enum Target {
     /// The scene with the knobs as they are, TOML.
     Scene,
-    /// What is there now, GLB.
+    /// The current scene, GLB.
     Glb,
     /// All that was done since the scene was loaded, as a script that does it again.
     Script,
     /// The numbers of the last contact, JSON.
     Report,
-    /// Where the time of the last pictures went, JSON.
+    /// Times of the last pictures, JSON.
     Times,
 }
 
-/// What is drawn off-screen.
+/// Kind of an off-screen drawing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FilmKind {
-    /// What is there now, path-traced, PNG.
+    /// The current scene, path-traced, PNG.
     Still,
     /// The last seconds, GIF.
     Gif,
@@ -213,10 +213,10 @@ pub enum FilmKind {
     Mp4,
 }
 
-/// How a film is made.
+/// Settings of a film.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FilmOptions {
-    /// How much of the last seconds, s, as they were seen: in slow motion a step takes long. At most 20.
+    /// Length of the film, s, counted back from now as it was seen: in slow motion a step takes long. At most 20.
     pub seconds: f64,
     /// Pictures per second, 1/s.
     pub rate: f64,
@@ -299,7 +299,7 @@ impl Default for HammerSpec {
     }
 }
 
-/// What a click does.
+/// Tool that a click uses.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Tool {
     /// Throws the ball.
@@ -310,7 +310,7 @@ pub enum Tool {
 }
 
 impl Command {
-    /// Whether it changes what happens, so that a script must have it to do the same again.
+    /// Returns true if it changes the scene, so that a script must contain it to do the same again.
     pub(crate) fn is_deed(&self) -> bool {
         matches!(
             self,

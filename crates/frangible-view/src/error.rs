@@ -1,4 +1,4 @@
-//! What may go wrong in the viewer; each message says how to mend it.
+//! Errors of the viewer; each message says how to mend it.
 
 use std::path::PathBuf;
 
@@ -29,7 +29,7 @@ pub enum ViewError {
     Command {
         /// The line.
         line: String,
-        /// What is wrong with it, and what would do.
+        /// The error in it, and the correct form.
         problem: String,
     },
     /// A line of a script.
@@ -39,7 +39,7 @@ pub enum ViewError {
         path: PathBuf,
         /// Line, from 1.
         line: usize,
-        /// What is wrong with it, and what would do.
+        /// The error in it, and the correct form.
         problem: String,
     },
     /// A command that makes no sense now.
@@ -60,7 +60,7 @@ pub enum ViewError {
     /// A body that cannot be of the material asked for.
     #[error(transparent)]
     Rescale(#[from] frangible_bake::RescaleError),
-    /// What happened cannot be made to sound.
+    /// The sound cannot be computed.
     #[error("there is no more sound: {0}")]
     Sound(#[from] frangible_sound::SoundError),
     /// A recording that no file can be made of.

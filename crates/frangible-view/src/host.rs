@@ -1,4 +1,4 @@
-//! What stands in for the disk and for threads where there are neither: a page in a browser.
+//! Substitute for the disk and for threads on a page in a browser, which has neither.
 
 use std::path::Path;
 use std::sync::mpsc::Sender;
@@ -13,13 +13,13 @@ pub trait Host {
     /// The scene of this name.
     ///
     /// # Errors
-    /// There is none, and which there are.
+    /// There is no such scene; the message lists those that there are.
     fn scene(&self, name: &str) -> Result<Scene, ViewError>;
 
     /// The scene that a file stands for.
     ///
     /// # Errors
-    /// There is no such file, or it is none that can be broken.
+    /// There is no such file, or its contents cannot be broken.
     fn open(&self, path: &Path) -> Result<Scene, ViewError>;
 
     /// Has the bodies of a scene brought, ready-made or baked; it may be one of the host's scenes with knobs turned.
@@ -28,11 +28,11 @@ pub trait Host {
     /// Takes a file.
     ///
     /// # Errors
-    /// What stands in the way.
+    /// The file cannot be saved.
     fn save(&self, name: &Path, bytes: &[u8]) -> Result<(), ViewError>;
 }
 
-/// Where bodies that were asked for are handed in.
+/// Receives the bodies that were asked for.
 pub struct Delivery {
     pub(crate) teller: Teller,
     pub(crate) sender: Sender<Result<Vec<BakedBody>, SceneError>>,
@@ -44,7 +44,7 @@ impl Delivery {
         self.teller.tell(what.into(), share);
     }
 
-    /// Whether nobody waits for it any more.
+    /// Returns true if nobody waits for it any more.
     #[must_use]
     pub fn is_unwanted(&self) -> bool {
         self.teller.cancel.is_cancelled()

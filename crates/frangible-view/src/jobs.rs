@@ -1,4 +1,4 @@
-//! Work on other threads; where there are none, work that is put off until it was said that it goes on.
+//! Work on other threads. Without threads, work that is put off until its progress was shown once.
 
 use std::cell::Cell;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, TryRecvError, channel};
@@ -10,10 +10,10 @@ use frangible_scenes::{BakedBody, CancelToken, SceneError};
 use crate::error::ViewError;
 use crate::host::Delivery;
 
-/// Whether work is done by whoever asks for its result.
+/// If true, work is done by whoever asks for its result.
 const WITHOUT_THREADS: bool = cfg!(target_family = "wasm");
 
-/// What a job is at, and the share of it that is done.
+/// Current stage of a job, and the share of it that is done.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct JobProgress {
     pub(crate) what: String,
@@ -43,11 +43,11 @@ pub(crate) struct Job<T> {
 /// Work to be done by whoever asks for its result.
 struct PutOff {
     work: Box<dyn FnOnce()>,
-    /// Whether it was asked for already: the first answer is that it goes on, so that this can be shown.
+    /// True once its result was asked for. The first answer is that it goes on, so that this can be shown.
     asked: bool,
 }
 
-/// What there is of a job.
+/// State of a job.
 pub(crate) enum Polled<T> {
     Running,
     Done(T),
@@ -113,7 +113,7 @@ impl<T: Send + 'static> Job<T> {
         self.teller.cancel.cancel();
     }
 
-    /// Whether it was asked to end.
+    /// Returns true if it was asked to end.
     pub(crate) fn is_cancelled(&self) -> bool {
         self.teller.cancel.is_cancelled()
     }
@@ -167,7 +167,7 @@ where
         Some(result)
     }
 
-    /// What came of it, once there is anything; waits for a while if told to.
+    /// Returns its result, once there is one; waits for a while if told to.
     pub(crate) fn result(&self, wait: Option<Duration>) -> Option<Result<T, ViewError>> {
         match wait.map_or_else(|| self.poll(), |wait| self.wait(wait)) {
             Polled::Running => None,

@@ -8,7 +8,7 @@ use frangible_scenes::{BakedBody, BodySource, Scene};
 
 pub use table::KNOBS;
 
-/// What the knobs turn.
+/// Settings that the knobs turn.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
     /// Material of the body.
@@ -45,7 +45,7 @@ impl Settings {
     }
 }
 
-/// How a knob is turned.
+/// Kind of a knob's scale.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// A number; equal turns are equal factors.
@@ -63,9 +63,9 @@ pub enum Kind {
 /// A knob.
 #[derive(Debug)]
 pub struct Knob {
-    /// What scripts call it.
+    /// Name in scripts.
     pub name: &'static str,
-    /// What the panel calls it.
+    /// Name in the panel.
     pub label: &'static str,
     /// Its unit.
     pub unit: &'static str,
@@ -73,11 +73,11 @@ pub struct Knob {
     factor: f64,
     /// Smallest and largest value, in its unit.
     pub range: [f64; 2],
-    /// How it is turned.
+    /// Kind of its scale.
     pub kind: Kind,
-    /// What it does, with the equation it enters.
+    /// Description of its effect, with the equation it enters.
     pub help: &'static str,
-    /// Whether the body has to be baked again.
+    /// True if turning it means that the body has to be baked again.
     pub rebakes: bool,
     get: fn(&Settings) -> f64,
     set: fn(&mut Settings, f64),

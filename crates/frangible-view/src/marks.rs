@@ -150,7 +150,7 @@ fn amplitude_and_swing(asset: &Asset, field: &ModeField, share: f64) -> [f32; 2]
     [TELLING * reach(asset) / largest, swing]
 }
 
-/// How far a mode is swung out as it is drawn, m·√kg.
+/// Modal amplitude of a mode as it is drawn, m·√kg.
 pub(crate) fn mode_amplitude(asset: &Asset, mode: usize, share: f64) -> f32 {
     let field = mode_on_fracture_mesh(asset, mode);
     let [amplitude, swing] = amplitude_and_swing(asset, &field, share);

@@ -19,15 +19,15 @@ const FULL: usize = 16_384;
 /// A batch with fewer vertices is put together with others when pieces come.
 const SMALL: usize = FULL / 4;
 
-/// What moved less since it was written is not written again, m: a tenth of a pixel at ten times the usual nearness. Pieces in
-/// a heap tremble by micrometres until all of it sleeps.
+/// Smallest motion since a part was written that has it written again, m: a tenth of a pixel at ten times the usual nearness. Pieces in a heap
+/// tremble by micrometres until all of it sleeps.
 const STILL: f32 = 1e-5;
 
 /// Keeps the batches of the last pictures.
 #[derive(Default)]
 pub(crate) struct Mesher {
     chunks: Vec<Chunk>,
-    /// Where each thing is drawn; `None` if it is gone.
+    /// Pose in which each thing is drawn; `None` if it is gone.
     poses: Vec<Option<Pose>>,
     /// Counts what was written.
     stamp: u64,
@@ -62,7 +62,7 @@ struct Copy {
 }
 
 impl Mesher {
-    /// What there is, drawn apart by `explode`.
+    /// Batches of all things, drawn apart by `explode`.
     pub(crate) fn batches(&mut self, live: &LiveScene, explode: f32) -> Vec<Arc<Batch>> {
         self.poses.clear();
         let place = |thing: &Arc<Thing>| Some(apart(thing, live.pose(thing)?, explode));
@@ -171,7 +171,7 @@ impl Part {
         part
     }
 
-    /// Whether nobody sees the difference; false where nothing was written yet.
+    /// Returns true if the difference cannot be seen.
     fn is_still(&self, written: Pose, pose: Pose) -> bool {
         let moved = written.translation.distance(pose.translation);
         // Twice the chord between unit quaternions is the angle, where it is small.
@@ -277,7 +277,7 @@ pub(crate) fn numbered(corners: usize) -> Vec<[u32; 3]> {
         .collect()
 }
 
-/// Where a piece is drawn: farther from where its parent's middle was, along the way it lay in it.
+/// Pose in which a piece is drawn: farther from the middle of its parent, in the direction in which it lay there.
 pub(crate) fn apart(thing: &Thing, pose: Pose, explode: f32) -> Pose {
     match thing.kind {
         ThingKind::Piece { birth, .. } => Pose {

@@ -33,7 +33,7 @@ const GAPS: [f32; 2] = [1.55, 1.6];
 /// Least width and height of a pane over how far the body reaches: a heading needs room, and the camera may be turned.
 const LEAST: [f32; 2] = [1.5, 0.7];
 
-/// How far pieces are drawn apart at least: what is cracked would look whole.
+/// Least spread of the drawn pieces, as [`Command::Explode`](crate::Command::Explode) sets it: without it a cracked body would look whole.
 const APART: f32 = 0.2;
 
 /// Methods by name, each once; `first` for none.
@@ -48,7 +48,7 @@ pub(crate) fn named_methods(word: &str) -> Result<Vec<Method>, String> {
     Ok(methods)
 }
 
-/// What one method made of the impact.
+/// Outcome of one method for the impact.
 #[derive(Clone, Debug)]
 pub struct Outcome {
     /// Its numbers.
@@ -86,13 +86,13 @@ pub struct Methods {
     pub blow: Arc<Blow>,
     /// Those that are shown, row by row from the upper left.
     pub chosen: Vec<Method>,
-    /// What came out so far.
+    /// Outcomes so far.
     pub outcomes: Vec<Arc<Outcome>>,
     /// Towards the camera of the scene.
     pub(crate) look_from: Vec3,
 }
 
-/// Where panes are.
+/// Layout of the panes.
 struct Layout {
     /// To the right and up in the picture.
     axes: [Vec3; 2],

@@ -1,4 +1,4 @@
-//! What panels tell of a contact: plain numbers, which reach a window wherever it is.
+//! Numbers of a contact for the panels, as plain data that reaches a window in any place.
 
 use frangible::glam::Vec3;
 use frangible_compare::Method;
@@ -12,17 +12,17 @@ use crate::shown::Compared;
 /// The last contact that mattered, in numbers.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct BlowNumbers {
-    /// What was hit.
+    /// Name of the body that was hit.
     pub name: String,
     /// Simulated time, s.
     pub time: f64,
-    /// Whether it broke.
+    /// True if it broke.
     pub broke: bool,
     /// Pieces it left; 1 where it held.
     pub pieces: usize,
     /// Their masses, kg; none where it held.
     pub masses: Vec<f64>,
-    /// Where the first contact was in the world, m.
+    /// Position of the first contact in the world, m.
     pub point: Option<Vec3>,
     /// Impulse of all contacts, N·s.
     pub impulse: f64,
@@ -42,7 +42,7 @@ pub struct BlowNumbers {
     pub cracks: usize,
     /// Area of the cracks, one side, m².
     pub crack_area: f64,
-    /// When the first crack started, s after the contact began; 0 without one.
+    /// Time at which the first crack started, s after the contact began; 0 without one.
     pub first_crack_time: f64,
     /// Kinetic energy of the approach, J.
     pub approach_energy: f64,
@@ -101,7 +101,7 @@ impl From<&Blow> for BlowNumbers {
 /// A number over time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Series {
-    /// What it is.
+    /// Name of the quantity.
     pub name: String,
     /// Time, s, and value.
     pub points: Vec<[f64; 2]>,
@@ -122,7 +122,7 @@ pub struct Course {
     pub peak_tension: f64,
     /// Cracks that started.
     pub cracks: usize,
-    /// When the first of them started and the last one grew, s after the contact began; zeros without one.
+    /// Times at which the first of them started and the last one grew, s after the contact began; zeros without one.
     pub cracking: [f64; 2],
     /// Length of the motion, or until the last crack grew, s.
     pub duration: f64,
@@ -150,7 +150,7 @@ impl Course {
 /// Two outcomes of one impact, in numbers.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ComparedNumbers {
-    /// What it did, and what it does with the knobs as they are.
+    /// The impact, and the same impact with the knobs as they are.
     pub blows: [BlowNumbers; 2],
     /// Knobs that differ: label, both values, unit.
     pub differences: Vec<(String, [f64; 2], String)>,
@@ -165,7 +165,7 @@ impl From<&Compared> for ComparedNumbers {
     }
 }
 
-/// What one method made of an impact, in numbers.
+/// Numbers of one method's outcome for an impact.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct OutcomeNumbers {
     /// The method.
@@ -176,9 +176,9 @@ pub struct OutcomeNumbers {
     pub largest_share: f64,
     /// Area of its cracks, one side, m².
     pub crack_area: f64,
-    /// What they ask for, J.
+    /// Fracture energy of its cracks, J.
     pub energy: f64,
-    /// From the contacts to the pieces, s.
+    /// Time from the contacts to the pieces, s.
     pub seconds: f64,
 }
 
@@ -190,7 +190,7 @@ impl OutcomeNumbers {
     }
 }
 
-/// Where the knobs are, as they are and as the scene has them.
+/// Positions of the knobs, as they are and as the scene has them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct KnobValues {
     /// Names of the materials.

@@ -96,7 +96,7 @@ impl Command {
         })
     }
 
-    /// How each command is written, one per line.
+    /// Written form of each command, one per line.
     #[must_use]
     pub fn forms() -> String {
         FORMS

@@ -1,4 +1,4 @@
-//! What a ray meets.
+//! Finds the first thing that a ray meets.
 
 use frangible::glam::Vec3;
 use frangible_scenes::LiveScene;
@@ -11,7 +11,7 @@ use crate::mesher::apart;
 pub(crate) struct Met {
     /// Number of the thing; none for the floor.
     pub(crate) thing: Option<usize>,
-    /// How far along the ray, m.
+    /// Distance along the ray, m.
     pub(crate) distance: f32,
 }
 
@@ -59,7 +59,7 @@ pub(crate) fn pick(live: &LiveScene, explode: f32, ray: Ray) -> Option<Met> {
     best
 }
 
-/// Where a ray meets a triangle, from either side (Möller and Trumbore 1997).
+/// Distance at which a ray meets a triangle, from either side (Möller and Trumbore 1997).
 fn meets(origin: Vec3, direction: Vec3, [a, b, c]: [Vec3; 3]) -> Option<f32> {
     let (e, f) = (b - a, c - a);
     let p = direction.cross(f);

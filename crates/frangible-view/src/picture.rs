@@ -1,4 +1,4 @@
-//! What is to be drawn, as plain data.
+//! Picture to draw, as plain data.
 
 use std::sync::Arc;
 
@@ -8,7 +8,7 @@ use frangible_recording::{Floor, SurfaceMaterial};
 /// Triangles of one look, in the world.
 #[derive(Clone, Debug)]
 pub struct Batch {
-    /// How they look.
+    /// Looks of the triangles.
     pub looks: BatchLooks,
     /// Vertices, m.
     pub positions: Vec<Vec3>,
@@ -18,11 +18,11 @@ pub struct Batch {
     pub values: Vec<f32>,
     /// Vertices of each triangle; the same allocation as long as they are the same.
     pub faces: Arc<Vec<[u32; 3]>>,
-    /// Another number for other vertices of the same triangles; 0 where nobody counts.
+    /// Changes when the vertices of the same triangles change; 0 if nobody keeps count.
     pub stamp: u64,
 }
 
-/// How a batch looks.
+/// Looks of a batch.
 #[derive(Clone, Debug, PartialEq)]
 pub enum BatchLooks {
     /// A surface.
@@ -47,7 +47,7 @@ pub struct Line {
 /// A dot over the picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Dot {
-    /// Where, m.
+    /// Position, m.
     pub at: Vec3,
     /// Linear red, green, blue.
     pub color: [f32; 3],
@@ -58,7 +58,7 @@ pub struct Dot {
 /// Words over the picture, in the middle above a place.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Label {
-    /// Where, m.
+    /// Position, m.
     pub at: Vec3,
     /// The words.
     pub text: String,
@@ -67,7 +67,7 @@ pub struct Label {
 /// A moment, ready to be drawn.
 #[derive(Clone, Debug, Default)]
 pub struct Picture {
-    /// Another number for another picture.
+    /// Changes with each new picture.
     pub version: u64,
     /// Triangles.
     pub batches: Vec<Arc<Batch>>,
@@ -79,12 +79,12 @@ pub struct Picture {
     pub labels: Vec<Label>,
     /// The floor, if there is one.
     pub floor: Option<Floor>,
-    /// Whether edges are drawn instead of faces.
+    /// If true, edges are drawn instead of faces.
     pub wireframe: bool,
 }
 
 impl Picture {
-    /// How many triangles there are.
+    /// Number of triangles.
     #[must_use]
     pub fn triangles(&self) -> usize {
         self.batches.iter().map(|batch| batch.faces.len()).sum()

@@ -24,7 +24,7 @@ impl Session {
         }
     }
 
-    /// What is in a file.
+    /// Contents of a file.
     fn file(&mut self, target: Target) -> Result<Vec<u8>, ViewError> {
         Ok(match target {
             Target::Scene => {
@@ -96,7 +96,7 @@ struct Report<'a> {
     peak_stress_pa: f64,
     strength_pa: f64,
     weak_points: usize,
-    /// What other methods made of it, in the order in which they were computed.
+    /// Outcomes of other methods, in the order in which they were computed.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     methods: Vec<MethodNumbers>,
 }

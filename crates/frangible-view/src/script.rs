@@ -71,7 +71,7 @@ impl Script {
         self.commands.front()
     }
 
-    /// Whether all commands were given.
+    /// Returns true if all commands were given.
     #[must_use]
     pub fn is_over(&self) -> bool {
         self.commands.is_empty()

@@ -68,7 +68,7 @@ pub struct Session {
     compared: Option<Arc<Compared>>,
     methods: Option<Arc<Methods>>,
     bake_job: Option<Job<Result<Vec<BakedBody>, SceneError>>>,
-    /// Whether the last impact is to be taken again when the bake is done, and the scene is to go on as it is.
+    /// True if the last impact is to be taken again when the bake is done, and the scene is to go on as it is.
     hits_again: bool,
     analysis_job: Option<Job<Result<Analysis, frangible::InputError>>>,
     again_job: Option<Job<Result<turn::Again, ViewError>>>,

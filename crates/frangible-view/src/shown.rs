@@ -1,4 +1,4 @@
-//! What there is to see of a session.
+//! State of a session as a window shows it.
 
 use std::sync::Arc;
 
@@ -18,23 +18,23 @@ use crate::times::Spread;
 pub struct Shown {
     /// Commands carried out or refused so far.
     pub commands: u64,
-    /// Whether a command's work is still going on elsewhere.
+    /// True while a command's work goes on elsewhere.
     pub busy: bool,
     /// Name of the scene; empty before the first.
     pub scene: String,
-    /// What it shows, in a line.
+    /// Description of the scene, in a line.
     pub summary: String,
-    /// How often a scene was set up: with another number the camera may be elsewhere.
+    /// Number of times that a scene was set up; with each, the camera may be elsewhere.
     pub starts: u64,
-    /// From where the scene is to be looked at.
+    /// Initial view of the scene.
     pub home: View,
-    /// What the camera should have in view now.
+    /// Part of the scene that the camera should have in view now.
     pub focus: Focus,
     /// Simulated time, s.
     pub time: f64,
     /// Steps taken.
     pub steps: u64,
-    /// Whether the clock stands.
+    /// True if the clock stands.
     pub paused: bool,
     /// Simulated seconds per second.
     pub slow_motion: f64,
@@ -44,15 +44,15 @@ pub struct Shown {
     pub whole: usize,
     /// Pieces there are.
     pub pieces: usize,
-    /// A number of the bits of where all things are, how they move and what they weigh; 0 without a scene.
+    /// Hash of the bits of all positions, motions and masses; 0 without a scene.
     pub fingerprint: u64,
     /// Breaks that can be undone.
     pub undoable: usize,
-    /// What is thrown.
+    /// Ball to throw.
     pub ball: BallSpec,
-    /// What is swung.
+    /// Hammer to swing.
     pub hammer: HammerSpec,
-    /// What a click does.
+    /// Tool that a click uses.
     pub tool: Tool,
     /// The bake that runs.
     pub bake: Option<BakeShown>,
@@ -60,19 +60,19 @@ pub struct Shown {
     pub filming: Option<BakeShown>,
     /// Seconds of film that are kept.
     pub reel: f64,
-    /// Whether a contact is being analysed.
+    /// True while a contact is being analysed.
     pub analysing: bool,
     /// The last thing worth saying, and whether it is a complaint.
     pub message: Option<(String, bool)>,
-    /// What is to be drawn.
+    /// Picture to draw.
     pub picture: Arc<Picture>,
-    /// What is looked at.
+    /// Subject that is looked at.
     pub subject: Subject,
     /// The moment of the contact that is looked at, 0..=1.
     pub scrub: f64,
-    /// How many times as large deformations are drawn.
+    /// Factor by which deformations are enlarged in the picture.
     pub exaggeration: f64,
-    /// How far pieces are drawn apart.
+    /// Spread of the drawn pieces, as a share of their distance from their parent's middle.
     pub explode: f64,
     /// Marks that are shown.
     pub marks: Vec<Mark>,
@@ -80,25 +80,25 @@ pub struct Shown {
     pub mode: usize,
     /// The last contact that mattered.
     pub blow: Option<BlowNumbers>,
-    /// What it did over time, once that was asked for.
+    /// Course of the last contact over time, once that was asked for.
     pub course: Option<Arc<Course>>,
     /// Stress at the end of the colour bar, Pa; it begins at 0.
     pub largest_color: Option<f64>,
-    /// What is selected.
+    /// Thing that is selected.
     pub selection: Option<Selection>,
     /// Two outcomes of one impact.
     pub compared: Option<ComparedNumbers>,
     /// The methods that the last impact is shown by, once that was asked for.
     pub chosen: Option<Vec<Method>>,
-    /// What those made of it, as far as they have come.
+    /// Outcomes of those methods, as far as they have come.
     pub methods: Vec<OutcomeNumbers>,
-    /// Where the knobs are.
+    /// Positions of the knobs.
     pub knobs: Option<KnobValues>,
-    /// Whether the knobs were turned since the scene was set up.
+    /// True if the knobs were turned since the scene was set up.
     pub turned: bool,
-    /// What became of the contacts so far.
+    /// Counts of the contacts so far, by outcome.
     pub contacts: LoadCounts,
-    /// Where the time of the last break's step went.
+    /// Wall-clock times of the parts of the last break's step.
     pub break_step: StepTimings,
     /// Processor time of the session's thread for each of the last pictures, s; steps are not in it.
     pub publishing: Spread,
@@ -114,7 +114,7 @@ pub struct Focus {
 }
 
 impl Shown {
-    /// Whether a mark is shown.
+    /// Returns true if a mark is shown.
     #[must_use]
     pub fn shows(&self, mark: Mark) -> bool {
         self.marks.contains(&mark)
@@ -133,7 +133,7 @@ pub struct BakeShown {
 /// A thing that was clicked.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Selection {
-    /// What it is called.
+    /// Name of the thing.
     pub name: String,
     /// Mass, kg.
     pub mass: f64,
@@ -148,7 +148,7 @@ pub struct Selection {
 /// Two outcomes of one impact.
 #[derive(Clone, Debug)]
 pub struct Compared {
-    /// What it did, and what it does with the knobs as they are.
+    /// The impact, and the same impact with the knobs as they are.
     pub blows: [Arc<Blow>; 2],
     /// Knobs that differ: label, both values, unit.
     pub differences: Vec<(String, [f64; 2], String)>,

@@ -1,9 +1,9 @@
-//! What is heard, on its way from a session to a loudspeaker: a tape that runs as fast as the scene.
+//! Resamples the sound between a session and a loudspeaker: a tape that runs as fast as the scene.
 
 /// Channels: left and right.
 const CHANNELS: usize = 2;
 
-/// Plays what was heard in simulated time as fast as the scene runs: slower is as much deeper.
+/// Plays the sound of simulated time as fast as the scene runs: the slower, the deeper.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Tape {
     /// The last sample that was read of each channel, and where the head is after it, in samples, 0 to 1.

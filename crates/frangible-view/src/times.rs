@@ -1,9 +1,9 @@
-//! How long things take, on the thread that does them.
+//! Durations of work, on the thread that does it.
 
 use std::collections::VecDeque;
 use std::time::Duration;
 
-/// How many of the last laps are kept: four seconds of pictures.
+/// Number of laps that are kept: four seconds of pictures.
 const KEPT: usize = 240;
 
 /// Processor time of this thread so far; where the system does not tell, the time of day, and in a browser nothing.
@@ -34,10 +34,10 @@ pub(crate) struct Laps {
     last: VecDeque<f64>,
 }
 
-/// What they are like, s.
+/// Distribution of the laps' lengths, s.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
 pub struct Spread {
-    /// How many there are.
+    /// Number of laps.
     pub count: usize,
     /// Half of them are shorter.
     pub median: f64,

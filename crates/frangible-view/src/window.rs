@@ -41,13 +41,13 @@ use shade::Shade;
 pub use desktop::{WindowOptions, run};
 pub use page::{Page, PageOptions, run_in_page};
 
-/// How long to wait where there is nothing new to draw.
+/// Waiting time if there is nothing new to draw.
 const REST: Duration = Duration::from_millis(12);
 
-/// How long frames are drawn after the last news: panels fade, and hints come after half a second.
+/// Time for which frames are drawn after the last news: panels fade, and hints come after half a second.
 const LIVELY: Duration = Duration::from_millis(1200);
 
-/// Where frames show nothing new, one in so many is drawn.
+/// While frames show nothing new, one in so many is drawn.
 const SELDOM: u32 = 40;
 
 /// Everything the window needs.
@@ -59,7 +59,7 @@ struct Viewer {
     hands: Hands,
     director: Director,
     shade: Shade,
-    /// What is around the window, in a browser.
+    /// The page around the window, in a browser.
     page: Option<Box<dyn Page>>,
     /// Plays for as long as it is kept.
     #[cfg(all(feature = "sound", not(target_family = "wasm")))]
@@ -70,15 +70,15 @@ struct Viewer {
     shaded: u64,
     /// Number of the scene that the stage was lit for.
     starts: u64,
-    /// Number of what the camera was turned to.
+    /// Number of the focus that the camera was turned to.
     focus: u64,
-    /// When anything changed last, and how often nothing new was drawn since.
+    /// Time of the last change, and number of frames since then.
     still: (Instant, u32),
     /// Commands, picture and shadow of the last frame.
     news: (u64, u64, u64),
-    /// Whether nobody looks on while commands are carried out: a script gives them.
+    /// True if nobody looks on while commands are carried out: a script gives them.
     hurries: bool,
-    /// Whether points and wireframes can be drawn; in a browser with WebGL 2 they cannot.
+    /// True if points and wireframes can be drawn; in a browser with WebGL 2 they cannot.
     fine_marks: bool,
     /// Frames that were drawn.
     frames: u64,
@@ -173,7 +173,7 @@ impl Viewer {
         }
     }
 
-    /// Whether another frame would show nothing new. Whoever only waits for the end has no use for frames before it.
+    /// Returns true if another frame would show nothing new. Whoever only waits for the end has no use for frames before it.
     fn may_rest(&mut self, shown: &Shown, done: bool, quiet: bool) -> bool {
         let news = self.news != (shown.commands, shown.picture.version, self.shaded);
         self.news = (shown.commands, shown.picture.version, self.shaded);
@@ -187,7 +187,7 @@ impl Viewer {
         self.still.0.elapsed() > LIVELY && !self.still.1.is_multiple_of(SELDOM)
     }
 
-    /// Whether all there is to see is on the stage, with its shadow.
+    /// Returns true if the whole picture is on the stage, with its shadow.
     fn is_drawn(&self, shown: &Shown) -> bool {
         let version = shown.picture.version;
         self.starts == shown.starts && self.drawn == version && self.shade.is_fine(version)

@@ -1,4 +1,4 @@
-//! What a session tells, as bytes, for a window that shares no memory with it: on a page the session runs in a worker of the browser.
+//! State of a session as bytes, for a window that shares no memory with it: on a page the session runs in a worker of the browser.
 //!
 //! Numbers are little-endian and lists begin with their length. Both ends are built from the same sources, so the bytes have no version and
 //! are never stored. Triangles that the window has already are not sent again: both ends remember the last picture, and what is in it is named by
@@ -59,7 +59,7 @@ impl Packer {
 }
 
 impl Unpacker {
-    /// What there is to see; none where the bytes are not those that were packed next.
+    /// Unpacks a session's state. None if the bytes are not those that were packed next.
     #[must_use]
     pub fn unpack(&mut self, bytes: &[u8]) -> Option<Shown> {
         let mut from = Bytes(bytes);

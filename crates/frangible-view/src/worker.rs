@@ -28,7 +28,7 @@ pub struct Worker {
     sent: u64,
 }
 
-/// Where a session runs.
+/// Place in which a session runs.
 trait Place {
     /// Lets it go on, where it has no thread of its own.
     fn advance(&mut self) {}
@@ -36,10 +36,10 @@ trait Place {
     /// Gives it a command; false if it is gone.
     fn send(&mut self, command: Command) -> bool;
 
-    /// What there is to see.
+    /// Latest state of the session.
     fn latest(&self) -> Arc<Shown>;
 
-    /// Whether it ended by itself.
+    /// Returns true if it ended by itself.
     fn is_dead(&self) -> bool {
         false
     }
@@ -85,19 +85,19 @@ impl Worker {
         self.place.send(command)
     }
 
-    /// What there is to see, as of a few milliseconds ago.
+    /// Latest state of the session, as of a few milliseconds ago.
     #[must_use]
     pub fn latest(&self) -> Arc<Shown> {
         self.place.latest()
     }
 
-    /// Whether all commands given so far are done, with all they began, in what is shown.
+    /// Returns true if the state shows all commands given so far as done, with all they began.
     #[must_use]
     pub fn is_done(&self, shown: &Shown) -> bool {
         shown.commands == self.sent && !shown.busy
     }
 
-    /// Whether the session ended by itself, which it does not unless something is wrong.
+    /// Returns true if the session ended by itself, which it does not unless something is wrong.
     #[must_use]
     pub fn is_dead(&self) -> bool {
         self.place.is_dead()

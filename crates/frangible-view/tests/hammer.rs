@@ -4,7 +4,7 @@ use crate::common::{bits, folder, give, pane};
 use frangible::glam::Vec3;
 use frangible_view::{Command, Script, Session, Tool};
 
-/// Where the head is, if it is there.
+/// Position of the head, if it is there.
 fn head(session: &Session) -> Option<Vec3> {
     let live = session.live().unwrap();
     let things = live.things().iter();

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::common::{broken, give, pane};
 use frangible_view::{Batch, BatchLooks, Session};
 
-/// What is drawn as edges only.
+/// Batches that are drawn as edges only.
 fn edges(session: &mut Session) -> Vec<Arc<Batch>> {
     let batches = session.shown().picture.batches.clone();
     let all = batches.into_iter();

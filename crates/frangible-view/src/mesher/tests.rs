@@ -1,4 +1,4 @@
-//! What is drawn is what is there, and nothing is written in vain.
+//! Everything in the scene is drawn, and nothing is written in vain.
 
 use std::collections::BTreeSet;
 

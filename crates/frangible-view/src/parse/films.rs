@@ -36,7 +36,7 @@ pub(super) fn film(kind: &str, tail: &str) -> Result<Command, String> {
     Ok(Command::Film(one_of(kind, &FILMS)?, rest.into(), options))
 }
 
-/// Whether a word is an option, which is taken then.
+/// Returns true if a word is an option, and stores its value.
 fn option(word: &str, options: &mut FilmOptions) -> bool {
     let taken = |unit: &str| word.strip_suffix(unit);
     if let Some(Ok(rate)) = taken("fps").map(number) {
@@ -55,7 +55,7 @@ fn option(word: &str, options: &mut FilmOptions) -> bool {
     true
 }
 
-/// What of the options differs from the usual, as [`film`] reads it.
+/// Options that differ from the default, in the form that [`film`] reads.
 pub(super) fn write_film(options: &FilmOptions) -> String {
     let usual = FilmOptions::default();
     let mut text = String::new();

@@ -1,4 +1,4 @@
-//! What is computed elsewhere: bakes, analyses, impacts taken again, comparisons and films.
+//! Results that are computed elsewhere: bakes, analyses, impacts taken again, comparisons and films.
 //!
 //! A command that takes long begins a job on another thread and returns. Whoever has the session asks from time to time whether something
 //! is done, or waits for all of it.
@@ -8,7 +8,7 @@ use std::time::Duration;
 use super::Session;
 
 impl Session {
-    /// Collects what was computed elsewhere; true if there was anything.
+    /// Collects results that were computed elsewhere; true if there were any.
     pub fn poll(&mut self) -> bool {
         let any = self.poll_all(None);
         self.stale |= any;
@@ -37,7 +37,7 @@ impl Session {
             || self.methods_job.is_some()
     }
 
-    /// Whether a command's work still goes on.
+    /// Returns true while a command's work goes on.
     #[must_use]
     pub fn is_busy(&self) -> bool {
         self.owes() || self.has_jobs()

@@ -8,22 +8,22 @@ use crate::camera::Ray;
 use crate::error::ViewError;
 use crate::picking::pick;
 
-/// How fast what is held comes to where it is pulled: the time for most of the way, s.
+/// Time in which a held thing covers most of the way to the point that it is pulled to, s.
 const LAG: f32 = 0.04;
 
 /// No hand is faster, m/s.
 const FASTEST: f32 = 15.0;
 
-/// What is held, and where to.
+/// Thing that is held, and its target.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Grip {
     /// Number of the thing.
     thing: usize,
-    /// How far from the eye it was taken, m.
+    /// Distance from the eye at which it was taken, m.
     distance: f32,
     /// From the place that was taken to the thing's centre of mass, m.
     offset: Vec3,
-    /// Where the place that was taken is pulled, m.
+    /// Target of the place that was taken, m.
     target: Vec3,
 }
 

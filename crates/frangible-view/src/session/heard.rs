@@ -1,4 +1,4 @@
-//! What is heard of the scene, on its way to whoever listens.
+//! Sound of the scene, on its way to whoever listens.
 
 use frangible_scenes::LiveSound;
 use frangible_sound::{Limiter, Outlet};
@@ -16,7 +16,7 @@ pub(super) struct Heard {
     tape: Tape,
     volume: f64,
     muted: bool,
-    /// What the last step sounds like in simulated time, Pa, and at the loudspeaker.
+    /// Pressures of the last step in simulated time, Pa, and its samples at the loudspeaker.
     pressures: Vec<f32>,
     samples: Vec<f32>,
 }

@@ -1,4 +1,4 @@
-//! What there is to see: the subject, its marks, and all that panels tell.
+//! State of a session as a window shows it: the subject, its marks, and all numbers of the panels.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -89,7 +89,7 @@ impl Session {
         self.selection = met.and_then(|met| met.thing);
     }
 
-    /// What there is to see now.
+    /// Returns the current state, as a window shows it.
     #[must_use]
     pub fn shown(&mut self) -> Shown {
         let began = self.stale.then(thread_time);

@@ -22,10 +22,10 @@ const SAVE_EVERY: f64 = 1.0 / 60.0;
 /// Breaks that can be undone.
 const UNDOABLE: usize = 20;
 
-/// A ball starts so far before what it is thrown at, share of the way from the eye; nearer it would fill the picture.
+/// Start of a thrown ball before its target, as a share of the way from the eye; nearer it would fill the picture.
 const START: f32 = 0.35;
 
-/// How far a ball flies when it is thrown at nothing, m.
+/// Distance that a ball flies when it is thrown at nothing, m.
 const INTO_THE_BLUE: f32 = 3.0;
 
 impl Session {
@@ -60,7 +60,7 @@ impl Session {
         self.step().inspect_err(|error| self.complain(error))
     }
 
-    /// Whether steps are still to be taken for a command.
+    /// Returns true if a command still wants steps.
     pub(crate) fn owes(&self) -> bool {
         self.owed > 0 || self.time() < self.owed_until - 1e-9
     }

@@ -1,4 +1,4 @@
-//! What others ask of a session: what it has, and how it stands.
+//! Answers of a session: its contents and its state.
 
 use std::sync::Arc;
 
@@ -12,7 +12,7 @@ use crate::command::{Command, Mark, Subject};
 use crate::methods::Methods;
 
 impl Session {
-    /// Whether the clock should run: there is a scene, and nobody stopped it.
+    /// Returns true if the clock should run: there is a scene, and nobody stopped it.
     #[must_use]
     pub fn is_running(&self) -> bool {
         self.live.is_some() && !self.paused
@@ -48,7 +48,7 @@ impl Session {
         self.methods.as_ref()
     }
 
-    /// What was done since the scene was loaded: a script that does it again.
+    /// Commands since the scene was loaded: a script that does the same again.
     #[must_use]
     pub fn log(&self) -> &[Command] {
         &self.log
@@ -62,7 +62,7 @@ impl Session {
         self.subject
     }
 
-    /// What the last contact did, moment by moment, once that was asked for.
+    /// Course of the last contact, moment by moment, once that was asked for.
     #[must_use]
     pub fn analysis(&self) -> Option<&Arc<Analysis>> {
         self.analysis.as_ref()

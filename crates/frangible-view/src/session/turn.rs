@@ -16,7 +16,7 @@ use crate::jobs::{Job, Teller};
 use crate::knobs::{KNOBS, Knob, Settings};
 use crate::shown::Compared;
 
-/// What came of an impact taken again, and of a bake it needed.
+/// Result of an impact taken again, and of a bake it needed.
 pub(super) struct Again {
     blow: Blow,
     baked: Option<(Scene, Vec<BakedBody>)>,
@@ -66,7 +66,7 @@ impl Session {
         Ok(())
     }
 
-    /// Whether the knobs are other ones now; puts them back where they cannot be so.
+    /// Returns true if the knobs have changed. If their new values are not valid, puts them back.
     fn check_turned(&mut self, before: Settings) -> Result<bool, ViewError> {
         let [now, _] = self.settings_mut()?;
         if let Err(error) = now.material.validate() {

@@ -18,10 +18,10 @@ use super::shade::Shade;
 #[cfg(feature = "sound")]
 use super::speaker;
 
-/// How to open the window.
+/// Options of the window.
 #[derive(Clone, Debug)]
 pub struct WindowOptions {
-    /// What to load first.
+    /// Command that loads the first scene.
     pub first: Command,
     /// Commands to give instead of a person's; the clock stands then, and the window closes at the end.
     pub script: Option<Script>,

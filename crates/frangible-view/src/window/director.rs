@@ -85,7 +85,7 @@ impl Director {
         self.frames += 1;
     }
 
-    /// What came of a command that the window carried out.
+    /// Takes the result of a command that the window carried out.
     pub(super) fn done(&mut self, result: Result<(), ViewError>) {
         if self.script.is_some() {
             self.failed = result.err();

@@ -12,7 +12,7 @@ const STILL: f32 = 5.0;
 /// Degrees for a drag over the height of the window.
 const TURN: f32 = 180.0;
 
-/// What a key does; some need to know what is shown, which panels do.
+/// Meaning of a key. Some depend on the current state, which the panels know.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Stroke {
     PauseOrRun,
@@ -124,28 +124,28 @@ pub(super) const KEYS: [(Key, &str, Stroke, &str); 24] = [
     (Key::Slash, "?", Stroke::Help, "this list"),
 ];
 
-/// What mouse and keys said since the last frame.
+/// Input from mouse and keys since the last frame.
 #[derive(Default)]
 pub(super) struct Said {
     pub(super) commands: Vec<Command>,
     pub(super) strokes: Vec<Stroke>,
-    /// Whether anything happened at all, also to a panel.
+    /// True if there was any input, also to a panel.
     pub(super) anything: bool,
 }
 
-/// Where the mouse is, and what it holds.
+/// State of the mouse: its position, and the thing that it holds.
 #[derive(Default)]
 pub(super) struct Hands {
     at: Vec2,
     /// The button that is down, and where it went down.
     held: Option<(MouseButton, Vec2)>,
     dragged: bool,
-    /// Whether the drag holds a thing of the scene.
+    /// True if the drag holds a thing of the scene.
     holds: bool,
 }
 
 impl Hands {
-    /// What was said since the last frame; what was said to a panel is not for us.
+    /// Returns the input since the last frame, without that to a panel.
     pub(super) fn read(&mut self, window: &mut Window) -> Said {
         let mut said = Said::default();
         let size = Vec2::new(window.width() as f32, window.height() as f32).max(Vec2::ONE);

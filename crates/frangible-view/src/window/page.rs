@@ -16,27 +16,27 @@ use super::director::Director;
 use super::panels::Panels;
 use super::shade::Shade;
 
-/// What is around the window.
+/// The page around the window.
 pub trait Page {
     /// Commands that the page gives.
     fn commands(&self) -> Vec<Command>;
 
-    /// What there is to see, whether all commands are done, and how many frames were drawn.
+    /// Takes the current state, `done` if all commands are done, and the number of frames that were drawn.
     fn show(&self, shown: &Arc<Shown>, done: bool, frames: u64);
 
     /// Waits until the browser draws again.
     fn next_frame(&self) -> Pin<Box<dyn Future<Output = ()>>>;
 }
 
-/// How to show the window in a page.
+/// Options of a window in a page.
 pub struct PageOptions {
-    /// What to load first.
+    /// Command that loads the first scene.
     pub first: Command,
     /// Names of the scenes that can be chosen.
     pub scenes: Vec<String>,
-    /// Whether scenes run by the clock of the page; else only by [`Command::Step`].
+    /// If true, scenes run by the clock of the page; else only by [`Command::Step`].
     pub by_clock: bool,
-    /// Where the session runs.
+    /// The session, which runs elsewhere.
     pub session: Box<dyn Remote>,
     /// The page.
     pub page: Box<dyn Page>,

@@ -33,10 +33,10 @@ use layout::{LEFT, RIGHT, side};
 use performance::FrameTimes;
 use style::write_words;
 
-/// How long one play of a motion takes, s.
+/// Duration of one play of a motion, s.
 const PLAY_TIME: f64 = 4.0;
 
-/// What the panel on the right shows.
+/// Contents of the panel on the right.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Tab {
     Inspect,
@@ -44,11 +44,11 @@ enum Tab {
     Performance,
 }
 
-/// The panels, and what of them is open.
+/// The panels and their state.
 pub(super) struct Panels {
     /// Scenes to choose from.
     scenes: Vec<String>,
-    /// Whether the window is a part of a page, without a disk.
+    /// True if the window is a part of a page, without a disk.
     in_page: bool,
     tab: Option<Tab>,
     play: bool,
@@ -60,7 +60,7 @@ pub(super) struct Panels {
     drop_height: f64,
     times: FrameTimes,
     styled: Option<bool>,
-    /// When the motion that plays was moved on last.
+    /// Time at which the motion that plays was last moved on.
     playing: Option<Instant>,
     gallery: gallery::Gallery,
     film: FilmOptions,
@@ -128,7 +128,7 @@ impl Panels {
         self.dark = dark;
     }
 
-    /// What was said last is no longer news.
+    /// Removes the last note.
     pub(super) fn hush(&mut self) {
         self.note = None;
     }
@@ -143,7 +143,7 @@ impl Panels {
         &mut self.times
     }
 
-    /// Whether a motion plays.
+    /// Returns true if a motion plays.
     pub(super) fn plays(&self) -> bool {
         self.playing.is_some()
     }

@@ -12,10 +12,10 @@ use frangible_recording::SurfaceMaterial;
 
 use crate::picture::{BatchLooks, Picture};
 
-/// How long a picture must stand before its shadow is computed finely.
+/// Time that a picture must stand before its shadow is computed finely.
 const REST: Duration = Duration::from_millis(250);
 
-/// How long a shadow is computed for each frame where there is no other thread.
+/// Time per frame for computing a shadow where there is no other thread.
 const SHARE: Duration = Duration::from_millis(5);
 
 /// A shadow to be cast.
@@ -25,7 +25,7 @@ struct Wish {
     fine: bool,
 }
 
-/// A shadow cast: of which picture, and how.
+/// A shadow that was cast, with its picture and fineness.
 struct Cast {
     version: u64,
     fine: bool,
@@ -55,7 +55,7 @@ pub(super) struct Shade {
     waiting: bool,
     seen: (u64, Instant),
     latest: Option<Cast>,
-    /// How many there were.
+    /// Number of shadows so far.
     count: u64,
 }
 
@@ -128,7 +128,7 @@ impl Shade {
         Some((self.count, cast.shadow.clone()))
     }
 
-    /// Whether the shadow of this picture is there as good as it gets.
+    /// Returns true if the fine shadow of this picture is there.
     pub(super) fn is_fine(&self, version: u64) -> bool {
         let latest = self.latest.as_ref();
         latest.is_some_and(|cast| cast.version == version && cast.fine)

@@ -12,7 +12,7 @@ pub trait Remote {
     /// Gives it a command.
     fn give(&mut self, line: String);
 
-    /// What its [`Packer`](crate::Packer) made since this was asked last, oldest first.
+    /// Bytes that its [`Packer`](crate::Packer) made since the last call, oldest first.
     fn news(&mut self) -> Vec<Vec<u8>>;
 }
 
@@ -20,7 +20,7 @@ pub(super) struct There {
     remote: Box<dyn Remote>,
     unpacker: Unpacker,
     latest: Arc<Shown>,
-    /// Whether it told what cannot be read.
+    /// True if it sent bytes that cannot be read.
     broken: bool,
 }
 

@@ -10,7 +10,7 @@ use crate::command::Command;
 use crate::session::Session;
 use crate::shown::Shown;
 
-/// How long steps are taken before anybody else has a turn. A clock that cannot be kept up with goes slower.
+/// Time for which steps are taken before anybody else has a turn. A clock that cannot be kept up with goes slower.
 const PATIENCE: Duration = Duration::from_millis(10);
 
 /// A session, its clock, and what of it was not shown yet.
@@ -36,7 +36,7 @@ impl Work {
         }
     }
 
-    /// Whether something moves.
+    /// Returns true if steps are due or the clock runs.
     pub(super) fn moves(&self) -> bool {
         self.session.owes() || self.by_clock && self.session.is_running()
     }
@@ -64,7 +64,7 @@ impl Work {
         runs && !any
     }
 
-    /// What there is to see now.
+    /// Returns the current state, to be shown.
     pub(super) fn publish(&mut self) -> Arc<Shown> {
         self.published = Instant::now();
         self.news = false;

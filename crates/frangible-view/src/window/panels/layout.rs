@@ -1,4 +1,4 @@
-//! Where the panels are, and what they leave free for the picture.
+//! Positions of the panels, and the space that they leave free for the picture.
 
 use egui::{Align2, Context};
 use frangible_draw::kiss3d::window::Window;
@@ -16,14 +16,14 @@ pub(super) const EDGE: f32 = 6.0;
 const NARROW: f32 = 820.0;
 
 impl Panels {
-    /// How far the picture's middle is moved out of the panels' way, in shares of half the window.
+    /// Shift of the picture's middle out of the panels' way, in shares of half the window.
     pub(in crate::window) fn shift(&self, window: &Window) -> [f32; 2] {
         let points = window.width() as f32 / window.scale_factor() as f32;
         let [left, right] = self.margins(points);
         [(left - right) / points.max(1.0), 0.0]
     }
 
-    /// Width over height of what the panels leave free.
+    /// Width over height of the space that the panels leave free.
     pub(in crate::window) fn free_aspect(&self, window: &Window) -> f32 {
         let scale = window.scale_factor() as f32;
         let points = window.width() as f32 / scale;
@@ -32,7 +32,7 @@ impl Panels {
         free.max(1.0) * scale / window.height().max(1) as f32
     }
 
-    /// Whether the panel on the left is there: in a narrow window it makes room for the other.
+    /// Returns true if the panel on the left is there: in a narrow window it makes room for the other.
     pub(super) fn shows_play(&self, window_points: f32) -> bool {
         self.play && (self.tab.is_none() || window_points >= NARROW)
     }

@@ -86,7 +86,7 @@ fn short(method: Method) -> &'static str {
     }
 }
 
-/// What a method does, in a sentence.
+/// Description of a method, in a sentence.
 fn hint(method: Method) -> &'static str {
     match method {
         Method::Ours => "the vibration starts cracks, which it steers",

@@ -1,4 +1,4 @@
-//! Where the time goes: frames, and the last break beside the paper's.
+//! Panel of computing times: frames, and the last break beside the paper's.
 
 use std::path::Path;
 use std::time::Duration;
@@ -19,19 +19,19 @@ pub(in crate::window) struct FrameTimes {
     wall: Laps,
     /// Processor time of the window's thread, without the wait for the screen.
     processor: Laps,
-    /// What of that was not the renderer's.
+    /// Processor time before a frame was handed to the renderer.
     own: Laps,
     draw_calls: usize,
 }
 
-/// Where the time of the last frames went, for a file.
+/// Times of the last frames, for a file.
 #[derive(serde::Serialize)]
 struct Times {
     /// From frame to frame, s.
     frame_s: Spread,
     /// Processor time of the window's thread for a frame, s; the driver's own threads are not in it.
     window_s: Spread,
-    /// What of that was not the renderer's, s.
+    /// Processor time before a frame was handed to the renderer, s.
     window_own_s: Spread,
     /// Processor time of the session's thread for a picture, s.
     session_s: Spread,
@@ -41,7 +41,7 @@ struct Times {
 }
 
 impl FrameTimes {
-    /// Takes note of a frame: what the thread did for it in all, and of that before it was handed to the renderer.
+    /// Takes note of a frame: `all` and `own` are the thread's processor time for it, in total and before it was handed to the renderer.
     pub(in crate::window) fn note(
         &mut self,
         window: &Window,

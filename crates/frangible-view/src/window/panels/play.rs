@@ -10,7 +10,7 @@ use crate::shown::Shown;
 /// Size of a scene's picture, points.
 const PICTURE: egui::Vec2 = egui::vec2(58.0, 36.0);
 
-/// What balls and hammers are made of.
+/// Materials of balls and hammers.
 const MATERIALS: [&str; 6] = ["steel", "stone", "glass", "wood", "rubber", "porcelain"];
 
 impl Panels {
@@ -200,7 +200,7 @@ fn clock(ui: &mut Ui, shown: &Shown, commands: &mut Vec<Command>) {
     }
 }
 
-/// What a click does, and the numbers of it.
+/// Tool that a click uses, and its numbers.
 fn tool(ui: &mut Ui, shown: &Shown, commands: &mut Vec<Command>) {
     ui.horizontal(|ui| {
         for (tool, label, hint) in [

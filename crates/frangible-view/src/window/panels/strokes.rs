@@ -1,15 +1,15 @@
-//! What keys mean: some do what they always do, others the opposite of what is shown.
+//! Meanings of the keys: some always do the same, others toggle the current state.
 
 use super::{Panels, Tab};
 use crate::command::{Command, Mark, Subject, Target, Tool};
 use crate::shown::Shown;
 use crate::window::input::Stroke;
 
-/// How far a key draws pieces apart.
+/// Spread of the pieces that a key sets.
 const APART: f64 = 0.6;
 
 impl Panels {
-    /// What a key means now.
+    /// Adds the command that a key means now.
     pub(super) fn mean(&mut self, stroke: Stroke, shown: &Shown, commands: &mut Vec<Command>) {
         let toggle = |mark| Command::Show(mark, !shown.shows(mark));
         commands.push(match stroke {

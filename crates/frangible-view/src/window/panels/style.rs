@@ -1,4 +1,4 @@
-//! How panels and words over the picture look.
+//! Style of the panels and of the words over the picture.
 
 use egui::{Align2, Color32, Context, FontId, LayerId, TextStyle, Theme, Visuals};
 use frangible::glam::Vec2;
