@@ -50,7 +50,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
 }
 
-/// What valgrind counts, by this name.
+/// Work whose instructions valgrind counts; it finds the function by this name.
 #[inline(never)]
 fn counted_work(
     bench: &Bench,

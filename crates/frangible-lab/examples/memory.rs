@@ -1,4 +1,4 @@
-//! What the bodies of Table 1 take in files and in memory, counted by the allocator.
+//! Size of the bodies of Table 1 in files and in memory, counted by the allocator.
 //!
 //! `cargo run --release -p frangible-lab --example memory -- [--write FOLDER] [body …]`: with `--write` also into
 //! `performance.md` in the folder.

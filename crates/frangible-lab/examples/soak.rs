@@ -32,7 +32,7 @@ const TILE_SPEED: f32 = 5.0;
 const PIECE_SPEED: f32 = 8.0;
 /// Lighter pieces do not break again and fall through the floor, kg.
 const LEAST_MASS: f32 = 2e-2;
-/// How many breaks a piece may come from that breaks again.
+/// A piece breaks again if it comes from fewer breaks than this.
 const GENERATIONS: u32 = 6;
 
 fn main() -> Result<(), Box<dyn Error>> {

@@ -1,4 +1,4 @@
-//! A broken body, and what can be counted of its cracks.
+//! A broken body, and measures of its cracks.
 
 use std::collections::BTreeMap;
 
@@ -21,11 +21,11 @@ pub(crate) struct Cut {
 
 /// A body that broke.
 pub(crate) struct Broken {
-    /// Where it was hit, m, body frame: the middle of the contacts, weighted by their impulses.
+    /// Point of impact, m, body frame: the middle of the contacts, weighted by their impulses.
     pub(crate) hit: Vec3,
     /// Unit direction of the push.
     pub(crate) push: Vec3,
-    /// Shares of the volume that the pieces have, largest first.
+    /// Share of the volume of each piece, largest first.
     pub(crate) shares: Vec<f64>,
     /// Middles of these pieces, m, body frame.
     pub(crate) middles: Vec<Vec3>,
@@ -33,7 +33,7 @@ pub(crate) struct Broken {
     pub(crate) forks: usize,
     pub(crate) first: Option<Vec3>,
     pub(crate) first_time: Option<f64>,
-    /// Largest forces of all contacts, summed, N, and how long the longest contact lasted, s.
+    /// Sum of the contacts' largest forces, N, and duration of the longest contact, s.
     pub(crate) force: f64,
     pub(crate) contact: f64,
     pub(crate) cuts: Vec<Cut>,
@@ -129,7 +129,7 @@ impl Broken {
         (all > 0.0).then(|| sum / all)
     }
 
-    /// Whether a cut runs away from the point of impact, seen along the push.
+    /// Returns true if a cut runs away from the point of impact, seen along the push.
     pub(crate) fn runs_away(&self, cut: &Cut) -> bool {
         let flat = |v: Vec3| v - self.push * v.dot(self.push);
         let across = self
@@ -198,7 +198,7 @@ impl Broken {
     }
 }
 
-/// Whether a cut of a body about the z-axis runs along the axis, or out from it: its normal lies within 45° of the direction around the axis.
+/// Returns true if a cut of a body about the z-axis runs along the axis, or out from it: its normal lies within 45° of the direction around the axis.
 pub(crate) fn meridional(cut: &Cut) -> bool {
     let around = Vec3::Z.cross(cut.place).normalize_or_zero();
     cut.normal.dot(around).abs() > std::f32::consts::FRAC_1_SQRT_2
@@ -209,7 +209,7 @@ pub(crate) fn radius(place: Vec3) -> f32 {
     place.truncate().length()
 }
 
-/// How many groups sorted numbers form that are farther apart than a gap.
+/// Number of groups in sorted numbers, separated by more than a gap.
 fn groups(sorted: &[f64], gap: f64) -> usize {
     let apart = sorted.windows(2).filter(|pair| pair[1] - pair[0] > gap);
     usize::from(!sorted.is_empty()) + apart.count()

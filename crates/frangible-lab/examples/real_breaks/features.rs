@@ -1,4 +1,4 @@
-//! What is read off broken bodies: common to all, and to panes, vessels, solids.
+//! Features of broken bodies: common to all, and of panes, vessels, solids.
 
 use frangible::glam::Vec3;
 
@@ -7,7 +7,7 @@ use crate::broken::{Broken, Cut, meridional, radius};
 /// A number that is read off a broken body, if that body has it.
 pub(crate) type Reading = Box<dyn Fn(&Broken) -> Option<f64>>;
 
-/// What is read off, in which unit.
+/// A feature, with its unit.
 pub(crate) struct Feature {
     pub(crate) name: String,
     pub(crate) unit: &'static str,
@@ -28,7 +28,7 @@ impl Feature {
     }
 }
 
-/// What is read off every body.
+/// Features of every body.
 pub(crate) fn common() -> Vec<Feature> {
     vec![
         Feature::new("pieces", "", |b| Some(b.shares.len() as f64)),
@@ -111,7 +111,7 @@ fn of_revolution() -> Vec<Feature> {
     ]
 }
 
-/// How many parts a zone is in, and the share of the largest.
+/// Number of parts that a zone is in, and share of the largest.
 fn parts(
     name: &'static str,
     zone: impl Fn(&Broken, Vec3) -> bool + Copy + 'static,

@@ -1,5 +1,5 @@
-//! What the cracks of the scenes look like in numbers: how many run away from the blow, how many around it, where the first one
-//! starts, which parts stay whole. The page docs/real-breaks.md puts them beside descriptions of real breaks.
+//! Measures of the cracks of the scenes: how many run away from the blow, how many around it, where the first one starts, which parts stay whole. The
+//! page docs/real-breaks.md puts them beside descriptions of real breaks.
 //!
 //!     cargo run --release -p frangible-lab --example real_breaks -- [SEEDS] > docs/real-breaks/measured.md
 //!

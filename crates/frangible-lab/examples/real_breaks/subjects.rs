@@ -1,4 +1,4 @@
-//! What is broken, and what is read off each.
+//! Bodies to break, and the features of each.
 
 use std::error::Error;
 use std::f32::consts::FRAC_PI_2;
@@ -16,7 +16,7 @@ use crate::features::{
     Feature, bottle, bowl, bulb, chocolate, flat, plate, solid, statue, tumbler, wine_glass,
 };
 
-/// A body, a blow, and what is read off.
+/// A body, a blow, and the features to measure.
 pub(crate) struct Subject {
     pub(crate) title: String,
     pub(crate) kind: Breakable,

@@ -19,21 +19,21 @@ pub const SIZE: [usize; 2] = [8000, 40];
 /// The scene that leaves the heap.
 pub const HEAP: &str = "hammer";
 
-/// What was found.
+/// Results of the benchmark.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Found {
     /// Frames of the scenes whose pieces break again.
     pub scenes: Vec<Findings>,
-    /// What the heap takes.
+    /// Results of the heap.
     pub heap: Heap,
 }
 
-/// What was found of a heap of pieces.
+/// Results of a heap of pieces.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Heap {
     /// Rigid bodies in the end.
     pub bodies: usize,
-    /// How long is played, s.
+    /// Simulated time, s.
     pub seconds: f64,
     /// Time of all frames, s.
     pub frames: f64,
@@ -41,7 +41,7 @@ pub struct Heap {
     pub rigid: f64,
 }
 
-/// What was found of a scene.
+/// Results of a scene.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Findings {
     /// Its name.

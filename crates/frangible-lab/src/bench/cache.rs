@@ -12,7 +12,7 @@ use crate::bench::subjects::Geometry;
 /// Folder of baked bodies.
 #[derive(Clone, Debug)]
 pub struct Cache {
-    /// Where.
+    /// Path of the folder.
     pub folder: PathBuf,
     /// Bake even what is there.
     pub rebake: bool,
@@ -25,7 +25,7 @@ pub struct Baked {
     pub path: PathBuf,
     /// The body.
     pub asset: Asset,
-    /// What its bake took, s.
+    /// Time of its bake, s.
     pub seconds: f64,
 }
 

@@ -1,4 +1,4 @@
-//! How many contacts a second are refused, and how long one takes at worst.
+//! Throughput of refused contacts, and the longest time of one.
 
 use std::f32::consts::TAU;
 use std::time::Instant;
@@ -35,7 +35,7 @@ const FEWEST: usize = 20;
 /// Most calls of a class.
 const MOST_CALLS: usize = 400_000;
 
-/// How a contact is refused, or not.
+/// Stage at which a contact is refused, or its effect.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Class {
@@ -89,11 +89,11 @@ pub struct Timed {
     pub contacts: usize,
     /// Calls of `would_break` a second on one core; no clock read between them.
     pub per_second: f64,
-    /// Single calls, s; each holds what reading the clock costs.
+    /// Single calls, s; each includes the time for reading the clock.
     pub latency: Spread,
 }
 
-/// What was found.
+/// Results of the benchmark.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Findings {
     /// Tetrahedra of the body.
@@ -104,7 +104,7 @@ pub struct Findings {
     pub weak_points: usize,
     /// Its modes.
     pub modes: usize,
-    /// What reading the clock costs, s: part of every latency.
+    /// Time for reading the clock, s: part of every latency.
     pub clock: f64,
     /// The game-like distribution.
     pub game: Timed,
@@ -169,7 +169,7 @@ pub fn measure(cache: &Cache, progress: &mut dyn FnMut(&str, f64)) -> Result<Fin
 pub const GAME_DISTRIBUTION: &str = "one contact each, at a corner of a surface triangle drawn at random, along its inward \
      normal tilted by up to 45° to any side, at speeds log-uniform between 0.01 and 0.3 m/s; one half steel balls of 20 to 220 g, \
      one half flat stone that does not give way; the impulse that rigid bodies exchange, restitution 0.5";
-/// What differs where contacts for the classes are looked for, in words.
+/// Speeds of the contacts for the classes, where they differ from the game-like distribution, in words.
 pub const CLASS_SPEEDS: &str = "0.01 to 6 m/s";
 
 /// Draws contacts.

@@ -43,15 +43,15 @@ pub enum BenchError {
     Cache {
         /// The folder or file.
         path: PathBuf,
-        /// What the system says.
+        /// Message of the system.
         problem: String,
     },
     /// A body that is none of Table 1's.
     #[error("there is no body `{name}`; the bodies are {known}")]
     UnknownBody {
-        /// What was asked for.
+        /// The requested name.
         name: String,
-        /// What there is.
+        /// Names of the bodies.
         known: String,
     },
     /// A blow that did not do what it is there for.

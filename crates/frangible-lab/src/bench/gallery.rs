@@ -53,7 +53,7 @@ const fn subject(scene: &'static str, goal: f64) -> Subject {
     Subject { scene, goal }
 }
 
-/// What was measured of a body.
+/// Measurements of a body.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Row {
     /// Name of the scene.
@@ -84,14 +84,14 @@ pub struct Row {
     pub stages: [f64; 6],
 }
 
-/// What questions took.
+/// Times of questions.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Asked {
     /// Speeds from and to, m/s.
     pub speeds: [f64; 2],
     /// Questions.
     pub questions: usize,
-    /// How many of the answers were yes.
+    /// Number of questions with the answer yes.
     pub breaks: usize,
     /// Median, s.
     pub median: f64,

@@ -28,7 +28,7 @@ const SPEEDS: [(&str, f64); 2] = [("pane", 1.0), ("glass", 1.5)];
 pub struct Adapter {
     /// Its name.
     pub name: String,
-    /// Whether it computes on the CPU.
+    /// True if it computes on the CPU.
     pub software: bool,
 }
 
@@ -54,7 +54,7 @@ pub struct Batch {
     pub gpu: Option<Cost>,
     /// The passes alone by the GPU's own clock, per impact, s, where it has one.
     pub passes: Option<f64>,
-    /// What `Choice::Auto` took.
+    /// Processor that `Choice::Auto` chose.
     pub auto: &'static str,
 }
 
@@ -77,7 +77,7 @@ pub struct OfBody {
     pub why: String,
 }
 
-/// What was found.
+/// Results of the benchmark.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Findings {
     /// The adapter, or why there is none.
@@ -105,7 +105,7 @@ pub struct Everywhere {
     pub cpu: f64,
     /// The GPU with all that comes and goes, wall clock, s.
     pub gpu: f64,
-    /// What each pass takes by the GPU's own clock: its name, s.
+    /// Time of each pass by the GPU's own clock: its name, s.
     pub passes: Vec<(&'static str, f64)>,
     /// Largest difference of the two peak stresses, over the CPU's.
     pub difference: f64,

@@ -6,7 +6,7 @@ use frangible_mesh::TetBody;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
-/// How far an inner node is moved, in cells: a lattice would show in the cracks.
+/// Displacement of an inner node, in cells: a lattice would show in the cracks.
 const DISORDER: f64 = 0.15;
 
 /// Corners (bit 0: x, bit 1: y, bit 2: z) of the tetrahedra of a cell; of every other cell the mirrored ones, so that the

@@ -1,4 +1,4 @@
-//! What the figures were measured on.
+//! Machine on which the figures were measured.
 
 use serde::Serialize;
 
@@ -11,7 +11,7 @@ pub struct Machine {
     pub cores: usize,
     /// Operating system and instruction set.
     pub system: String,
-    /// How much else it had to do, where that was much and the system tells: times are then too long.
+    /// Other load of the machine, where it was high and the system tells: times are then too long.
     pub busy: Option<String>,
 }
 

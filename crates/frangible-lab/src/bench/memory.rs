@@ -1,7 +1,6 @@
-//! What bodies take: in a file, in memory, and for each body that lives.
+//! Size of bodies: in a file, in memory, and for each body that lives.
 //!
-//! Memory is counted by an allocator that whoever measures brings along (`examples/memory.rs`): [`Counted`] is how it says what
-//! it counted.
+//! Memory is counted by an allocator that the measuring program brings along (`examples/memory.rs`); it reports [`Counted`].
 
 use frangible::internals::asset::SaveOptions;
 use frangible::{Asset, Body, Breakable, FractureConfig, impact};
@@ -14,7 +13,7 @@ use crate::bench::subjects::{MODES, Subject};
 /// Bodies made to count what one takes.
 const BODIES: u64 = 16;
 
-/// What an allocator counted while something ran, bytes.
+/// Count of an allocator while something ran, bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Counted {
     /// Allocated and not given back.
@@ -42,11 +41,11 @@ pub struct OfBody {
     pub change: f64,
     /// The asset in memory.
     pub asset: u64,
-    /// What is made of the asset once, bytes: trees, bounds, what hangs together.
+    /// Data made once from the asset, bytes: trees, bounds, connections.
     pub prepared: u64,
     /// Each body of its kind.
     pub body: u64,
-    /// What its break takes at most beside all that, pieces included.
+    /// Most memory that its break takes beside all that, pieces included.
     pub broken: u64,
 }
 

@@ -1,4 +1,4 @@
-//! How fast `frangible` is.
+//! Benchmarks of `frangible`.
 //!
 //! - [`table1`]: the bodies of Table 1 of Glondu, Marchal, Dumont 2012 (`[G12]`), in the paper's model and in ours, beside the
 //!   paper's times and those of the paper's algorithms word for word;

@@ -23,7 +23,7 @@ const SPEEDS: [f64; 4] = [0.05, 1.0, 3.0, 15.0];
 /// Steps of [`Bench::displacements`].
 pub const STEPS: usize = 64;
 
-/// What a blow is to come to.
+/// Stage that a blow is meant to reach.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Depth {
     /// Refused by its impulse alone.
@@ -115,7 +115,7 @@ impl Bench {
         })
     }
 
-    /// Whether each blow does what it is there for.
+    /// Checks that each blow reaches its stage.
     ///
     /// # Errors
     /// The first that does not: its speed wants to be chosen anew.
@@ -193,7 +193,7 @@ impl Bench {
         peak
     }
 
-    /// Whether a blow breaks the body, in our model.
+    /// Returns true if a blow breaks the body, in our model.
     #[must_use]
     pub fn asked(&self, depth: Depth) -> bool {
         would_break(&self.body, &[self.blow(depth)], &self.ours).unwrap_or_default()

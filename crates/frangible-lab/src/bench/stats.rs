@@ -14,7 +14,7 @@ impl Times {
         Self(times)
     }
 
-    /// How many there are.
+    /// Number of times.
     #[must_use]
     pub fn count(&self) -> usize {
         self.0.len()
@@ -43,7 +43,7 @@ impl Times {
         self.0.iter().sum()
     }
 
-    /// How they are spread.
+    /// Returns the distribution of the times.
     #[must_use]
     pub fn spread(&self) -> Spread {
         Spread {
@@ -57,7 +57,7 @@ impl Times {
     }
 }
 
-/// How long calls took, s.
+/// Distribution of the times of calls, s.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Spread {
     /// Number of calls.

@@ -24,8 +24,8 @@ const SLAB_ELEMENTS: f64 = 1500.0;
 /// Tetrahedra asked of the mesher for the pig.
 pub(crate) const PIG_TETS: usize = 21_460;
 
-/// How far the pig is grown to all sides, m: with the paper's few tetrahedra its wall is just over one cell thick, and nodes
-/// and tetrahedra both come near the paper's. Found by trying.
+/// Growth of the pig to all sides, m: with the paper's few tetrahedra its wall is just over one cell thick, and nodes and tetrahedra both come near
+/// the paper's. Found by trying.
 pub(crate) const PIG_GROWN: f64 = 3e-4;
 
 /// Shape, analysis mesh, fracture mesh.
@@ -62,10 +62,10 @@ impl Paper {
     }
 }
 
-/// A blow: what the paper does not tell.
+/// A blow, which the paper does not describe.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Blow {
-    /// Where, in shares of the body's box.
+    /// Point of impact, in shares of the body's box.
     pub at: [f32; 3],
     /// Direction of the impulse on the body, of any length.
     pub toward: [f32; 3],
@@ -84,7 +84,7 @@ pub struct Subject {
     pub name: &'static str,
     /// Preset with the paper's parameters.
     pub material: &'static str,
-    /// What is hit and how, in words.
+    /// Description of the body and the blow, in words.
     pub about: &'static str,
     /// The paper's line.
     pub paper: Paper,

@@ -25,7 +25,7 @@ const COLD_RUNS: usize = 9;
 /// Written between a load and a cold run, bytes: nothing of the body is left in the processor's own caches.
 const SWEEP: usize = 64 << 20;
 
-/// What to measure.
+/// Options of the benchmark.
 #[derive(Clone, Debug)]
 pub struct Options {
     /// Warm runs of each body in each model, at most.
@@ -94,7 +94,7 @@ pub struct InModel {
 /// A line of the table.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Row {
-    /// What, and the paper's figures.
+    /// Body, with the paper's figures.
     pub subject: Subject,
     /// Nodes of the fracture mesh.
     pub nodes: usize,
@@ -271,7 +271,7 @@ fn medians(runs: &[Stages]) -> Stages {
     }
 }
 
-/// What a world does for the fragments before they move, s.
+/// Time for making the fragments' colliders, s, which a world does before they move.
 fn make_colliders(outcome: &Outcome) -> f64 {
     let Outcome::Broke(fracture) = outcome else {
         return 0.0;

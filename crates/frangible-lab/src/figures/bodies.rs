@@ -73,7 +73,7 @@ pub(crate) fn slab_energy_depth(material: &Material) -> f64 {
     2.0 * material.youngs_modulus * SLAB_TOUGHNESS / material.strength.powi(2)
 }
 
-/// What there is to know of the slab and the blow to compute them again.
+/// Description of the slab and the blow, from which they can be computed again.
 pub(crate) fn slab_inputs(slab: &Asset) -> String {
     let [mass, radius, speed] = SLAB_BALL;
     format!(

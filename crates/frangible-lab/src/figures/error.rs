@@ -9,7 +9,7 @@ pub enum FigureError {
     /// A name that no figure has.
     #[error("there is no figure `{name}`{hint}; figures: {known}")]
     UnknownFigure {
-        /// What was asked for.
+        /// The requested name.
         name: String,
         /// The one that was probably meant, or nothing.
         hint: String,

@@ -1,4 +1,4 @@
-//! What can be shown, in the order of the paper.
+//! The figures, in the order of the paper.
 
 use frangible_bake::frangible_mesh::did_you_mean;
 use image::RgbImage;
@@ -14,21 +14,21 @@ pub struct Figure {
     pub name: &'static str,
     /// Heading: the paper's number and what it shows.
     pub title: &'static str,
-    /// What the paper shows, Markdown.
+    /// Content of the paper's figure, Markdown.
     pub shows: &'static str,
     pub(crate) compute: Compute,
 }
 
 pub(crate) type Compute = fn(&mut Workshop<'_>) -> Result<Findings, FigureError>;
 
-/// What a figure found.
+/// Results of a figure.
 #[derive(Clone, Debug)]
 pub struct Findings {
     /// The picture.
     pub picture: Picture,
-    /// What was computed and what one sees, Markdown.
+    /// Description of the computation and of the picture, Markdown.
     pub text: String,
-    /// What the paper says, against what was measured.
+    /// Claims of the paper, against measurements.
     pub claims: Vec<Claim>,
     /// The measured numbers.
     pub tables: Vec<Table>,
@@ -39,18 +39,18 @@ pub struct Findings {
 pub struct Picture {
     /// Its pixels.
     pub image: RgbImage,
-    /// What stands in for it where it is not shown.
+    /// Text that stands in for the picture where it is not shown.
     pub caption: String,
 }
 
 /// Something the paper says of a figure.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Claim {
-    /// What it says, and how it is judged, Markdown.
+    /// The claim, and the way that it is judged, Markdown.
     pub says: String,
-    /// What was measured, Markdown.
+    /// The measurement, Markdown.
     pub measured: String,
-    /// Whether the measurement bears it out.
+    /// True if the measurement supports the claim.
     pub holds: bool,
 }
 

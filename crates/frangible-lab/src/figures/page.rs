@@ -3,7 +3,7 @@
 use crate::figures::figure::{Claim, FIGURES, Figure, Findings, Table};
 use crate::page::table_of_words;
 
-/// How the part of a figure begins; the rest of the line is its title.
+/// Start of the part of a figure; the rest of the line is its title.
 const HEADING: &str = "\n## ";
 
 /// "agrees" or "does not agree".

@@ -10,7 +10,7 @@ use crate::figures::FigureError;
 /// Seeds of every mean.
 pub(crate) const SEEDS: u64 = 50;
 
-/// What an impact did, or the mean of several.
+/// Damage by an impact, or the mean of several.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Damage {
     /// Crack area, m².
@@ -23,7 +23,7 @@ pub(crate) struct Damage {
     pub(crate) pieces_error: f64,
 }
 
-/// The paper's model and ours, and what they are called.
+/// The paper's model and ours, with their names.
 pub(crate) fn models() -> [(&'static str, FractureConfig); 2] {
     [
         ("the paper's model", FractureConfig::as_in_the_paper()),
@@ -54,7 +54,7 @@ pub(crate) fn mean_damage(
     })
 }
 
-/// What came of one impact.
+/// Damage by one impact.
 pub(crate) fn damage(outcome: &Outcome) -> Damage {
     let report = outcome.report();
     Damage {
@@ -80,7 +80,7 @@ fn mean(values: impl Iterator<Item = f64> + Clone) -> (f64, f64) {
     (mean, (squares / (count - 1.0) / count).sqrt())
 }
 
-/// Whether the numbers fall, each by more than the sum of the two standard errors.
+/// Returns true if the numbers fall, each by more than the sum of the two standard errors.
 pub(crate) fn falls(values: &[(f64, f64)]) -> bool {
     values.windows(2).all(|w| w[0].0 - w[1].0 > w[0].1 + w[1].1)
 }

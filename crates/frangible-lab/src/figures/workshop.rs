@@ -1,4 +1,4 @@
-//! What figures share: bodies that are baked once, and who hears of the progress.
+//! State that figures share: bodies that are baked once, and the progress.
 
 use std::sync::Arc;
 
@@ -36,7 +36,7 @@ impl<'a> Workshop<'a> {
         self.finished += 1;
     }
 
-    /// What is being done, and the share of the figure that is done.
+    /// Reports the current step, and the share of the figure that is done.
     pub(crate) fn tell(&mut self, what: &str, share: f64) {
         let all = (self.finished as f64 + share) / self.figures.max(1) as f64;
         (self.tell)(format!("{} {what}", self.name).trim_end(), all);

@@ -1,4 +1,4 @@
-//! What a chart holds, and how it is laid out.
+//! Contents and layout of a chart.
 
 use image::RgbImage;
 
@@ -14,7 +14,7 @@ pub struct Chart {
     pub x: Axis,
     /// Axis upwards.
     pub y: Axis,
-    /// What is drawn, named in the legend in this order.
+    /// Series to draw, named in the legend in this order.
     pub series: Vec<Series>,
 }
 
@@ -58,7 +58,7 @@ impl Axis {
     }
 }
 
-/// How numbers are spread along an axis.
+/// Scale of an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scale {
     /// Even steps.
@@ -74,13 +74,13 @@ pub struct Series {
     pub name: String,
     /// x and y; points with NaN or infinity are left out.
     pub points: Vec<(f64, f64)>,
-    /// What stands at each point.
+    /// Mark at each point.
     pub marker: Marker,
-    /// Whether a line joins them, in their order.
+    /// If true, a line joins the points in their order.
     pub line: bool,
 }
 
-/// What stands at a point.
+/// Mark at a point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Marker {
     /// A filled circle.

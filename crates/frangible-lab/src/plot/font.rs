@@ -15,7 +15,7 @@ const BLANK: f64 = 4.0;
 /// Points of a curve per control point.
 const SMOOTHNESS: usize = 6;
 
-/// What stands for a letter that is not here: an empty box.
+/// Letter that replaces an unknown one: an empty box.
 const UNKNOWN: &str = "040g6g6404";
 
 const LETTERS: &[(char, &str)] = &[
@@ -125,7 +125,7 @@ pub(super) fn strokes(letter: char) -> Vec<Vec<[f64; 2]>> {
     outline(letter).split_whitespace().map(stroke).collect()
 }
 
-/// How far the pen moves on after a letter, in heights of a capital.
+/// Advance of the pen after a letter, in heights of a capital.
 pub(super) fn advance(letter: char) -> f64 {
     let right = strokes(letter)
         .iter()

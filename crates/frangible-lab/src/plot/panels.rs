@@ -18,7 +18,7 @@ pub struct Panels {
 /// One drawing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Panel {
-    /// What stands below it.
+    /// Text below the drawing.
     pub label: String,
     /// Half its side, in the unit of the lines; the origin is in the middle.
     pub half: f64,

@@ -36,7 +36,7 @@ const MARK: Colour = [213, 94, 0];
 const MARGINS: [u32; 4] = [74, 18, 44, 58];
 /// Samples of a window.
 const WINDOW: usize = 1024;
-/// What is drawn below the loudest, dB.
+/// Range of levels that are drawn, dB below the loudest.
 const RANGE: f32 = 90.0;
 const LETTERS: [f64; 3] = [14.0, 12.0, 11.0];
 

@@ -1,4 +1,4 @@
-//! Whether the pipeline of `frangible` did what the reference did, and if not, how near the deciding test was.
+//! Compares the pipeline of `frangible` with the reference. For the first difference, tells how near the reference's deciding test was.
 
 use frangible::ImpactReport;
 use frangible::internals::CrackTrace;
@@ -12,10 +12,10 @@ pub const MARGIN: f64 = 1e-4;
 /// rounding.
 const SAME_TIME: f64 = 0.05;
 
-/// The first thing that the pipeline did otherwise.
+/// The first difference between the pipeline and the reference.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mismatch {
-    /// What it is.
+    /// Description of the difference.
     pub what: String,
     /// Relative change of the deciding quantity that would have made the reference decide the same; infinite where no
     /// test of the reference decides it.
@@ -70,7 +70,7 @@ fn compare_steps(report: &ImpactReport, reference: &Break) -> Result<(), Mismatc
     Ok(())
 }
 
-/// Where and when crack `k` starts.
+/// Compares the place and time at which crack `k` starts.
 fn compare_start(trace: &CrackTrace, reference: &Break, k: usize) -> Result<(), Mismatch> {
     let theirs = trace.cracks.get(k).map(|c| {
         let time = c[0].time / reference.time_step;
@@ -138,7 +138,7 @@ fn compare_elements(trace: &CrackTrace, reference: &Break, k: usize) -> Result<(
     Ok(())
 }
 
-/// Which nodes belong together.
+/// Compares the fragments that the nodes belong to.
 fn compare_fragments(trace: &CrackTrace, reference: &Break) -> Result<(), Mismatch> {
     // The pipeline numbers fragments by size, the reference by first node.
     let mut number: Vec<Option<u32>> = Vec::new();

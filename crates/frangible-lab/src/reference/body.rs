@@ -8,7 +8,7 @@ use thiserror::Error;
 
 use crate::reference::options::Strain;
 
-/// How displacements vary within an element.
+/// Interpolation of displacements within an element.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Field {
     /// The paper's: the elements that carry the modes are those that crack, linear, with the displacements at their nodes.
@@ -17,7 +17,7 @@ pub enum Field {
     Embedded,
 }
 
-/// Why an asset cannot be taken.
+/// Error of an asset that cannot be used.
 #[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
 pub enum ReferenceError {
     /// The modes do not live on the fracture mesh.

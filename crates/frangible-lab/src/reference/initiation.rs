@@ -16,7 +16,7 @@ use crate::reference::surface::{Surface, area};
 /// Tests of strength this close to it are kept.
 const NEAR: f64 = 0.02;
 
-/// What an impact does to a body.
+/// Effect of an impact on a body.
 #[derive(Clone, Debug, Default)]
 pub struct Break {
     /// t_d, s.
@@ -42,7 +42,7 @@ pub struct Break {
 pub struct StartTest {
     /// Time step, from 0.
     pub step: usize,
-    /// When the crack starts, in steps: that step's end, or between the two as the stress passes R_c.
+    /// Time at which the crack starts, in steps: that step's end, or between the two as the stress passes R_c.
     pub time: f64,
     /// Change of σ₁ / R_c since the step before; infinite where the time does not hang on it.
     pub rise: f64,
@@ -70,7 +70,7 @@ pub fn fracture(
 /// Runs [`fracture`] until a first crack has run: what follows it may be another model's.
 ///
 /// # Errors
-/// What [`fracture`] refuses.
+/// The same as [`fracture`].
 pub fn first_crack(
     body: &Body,
     contacts: &[Contact],

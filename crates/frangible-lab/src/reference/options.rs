@@ -1,17 +1,17 @@
-//! Where the paper can be read in two ways, or its print and its text disagree.
+//! Passages of the paper that can be read in two ways, or where its print and its text disagree.
 
-/// Which reading of the paper. `Default` is what `frangible::FractureConfig::as_in_the_paper` computes.
+/// Reading of the paper. `Default` is what `frangible::FractureConfig::as_in_the_paper` computes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
     /// Contact duration. Default: [`Duration::ModalHertz`].
     pub duration: Duration,
     /// Time step. Default: 16 samples per period.
     pub time_step: TimeStep,
-    /// Where a crack starts. Default: [`Initiation::WeakElements`].
+    /// Elements that start cracks. Default: [`Initiation::WeakElements`].
     pub initiation: Initiation,
-    /// When an element may join a crack. Default: [`EnergyTest::Text`].
+    /// Condition for an element to join a crack. Default: [`EnergyTest::Text`].
     pub energy_test: EnergyTest,
-    /// Which nodes belong together. Default: [`Marks::Elements`].
+    /// Rule by which nodes belong together. Default: [`Marks::Elements`].
     pub marks: Marks,
     /// Beyond the paper: the duration grows by 5 % at a time until the vibration's energy, at 40 instants of the contact,
     /// is at most what the approach brought. Default: off.
@@ -59,7 +59,7 @@ pub enum Duration {
 pub enum TimeStep {
     /// Eq. 3 as printed: `4π / Im ω_high`, two whole periods.
     AsPrinted,
-    /// What the sampling theorem asks for: `π / Im ω_high`, half a period.
+    /// The largest step that the sampling theorem allows: `π / Im ω_high`, half a period.
     Nyquist,
     /// A whole number of steps, at least 16, per contact, with this many per period of the highest mode that matters:
     /// what the modes above it swing beside their answer to a slow force holds together at most 2 % of the sum of all
@@ -130,7 +130,7 @@ impl Options {
         }
     }
 
-    /// How `frangible::FractureConfig::default` comes to its first crack. What follows it is not the paper's.
+    /// The model of `frangible::FractureConfig::default` up to its first crack. What follows it is not the paper's.
     #[must_use]
     pub fn first_crack_of_ours() -> Self {
         Self {

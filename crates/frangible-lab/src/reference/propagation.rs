@@ -46,15 +46,15 @@ pub struct Element {
 pub struct Visit {
     /// Number of the tetrahedron.
     pub tet: u32,
-    /// How many elements the crack had.
+    /// Number of elements in the crack at that time.
     pub elements: usize,
-    /// Whether it joined.
+    /// True if it joined.
     pub joined: bool,
     /// Relative change, of an energy or of the stress that set the surface, that would have decided otherwise.
     pub margin: f64,
 }
 
-/// What an element looks like to a surface.
+/// Intersection of an element with a surface.
 struct Crossing {
     element: Element,
     crossed: bool,
@@ -143,7 +143,7 @@ pub(crate) fn propagate(
     crack
 }
 
-/// Whether S crosses an element: one node at s < 0 and one at s ≥ 0 `[G12 §5.2.2]`.
+/// Intersects an element with S. It is crossed if it has a node at s < 0 and one at s ≥ 0 `[G12 §5.2.2]`.
 fn crossing(solid: &Solid, u: &[DVec3], surface: &Surface, e: usize) -> Crossing {
     let x = solid.corners(e);
     let values = x.map(|p| surface.s(p));

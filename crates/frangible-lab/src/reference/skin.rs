@@ -1,7 +1,7 @@
 //! Beyond the paper: the stress of a weak element at its flaw on the free surface, and in thin walls.
 //!
-//! Where a point of the surface lies in the analysis mesh, where on its face a flaw lies, and which elements are walls, is taken from
-//! `frangible` as its embedded centroids are; which face holds the flaw, and the stress there, are found anew.
+//! The place of a surface point in the analysis mesh, the place of a flaw on its face, and the elements that are walls are taken from `frangible`, as
+//! its embedded centroids are. The face that holds the flaw, and the stress there, are found anew.
 
 use frangible::glam::DVec3;
 use frangible::internals::asset::EmbeddedPoint;
@@ -12,7 +12,7 @@ use frangible::{Body, FractureConfig, Material};
 use crate::reference::body::Solid;
 use crate::reference::stress::{Matrix, hooke, strain};
 
-/// How the weak elements of a body are looked at.
+/// Points at which the weak elements of a body are tested.
 pub(crate) enum Look {
     /// At their centres.
     Centres,

@@ -1,4 +1,4 @@
-//! What a resonator costs, beside the plainest one.
+//! Computing time of a resonator, beside that of the plainest one.
 
 use std::error::Error;
 use std::hint::black_box;

@@ -30,7 +30,7 @@ const SEEDS: u64 = 16;
 /// Coefficients of friction of the faces: none, and two between which most pairs of hard ceramics without grease lie.
 pub const FRICTIONS: [f32; 3] = [0.0, 0.35, 0.65];
 
-/// What follows the faces: the time step, s, how long, s, and the steps that are noted as one.
+/// Settings for following the faces: time step, s, duration, s, and number of steps that are noted as one.
 const STEP_TIME: f64 = 1e-6;
 const LONG: f64 = 0.4;
 const EVERY: usize = 4;

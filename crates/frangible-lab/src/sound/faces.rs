@@ -44,9 +44,9 @@ impl Tone {
     }
 }
 
-/// What a blow makes the modes do.
+/// Course of the modes under a blow.
 pub(super) struct Course {
-    /// What the faces give each mode over time.
+    /// Force of the faces on each mode over time.
     pub(super) pulses: Vec<Pulse>,
     /// Energy at the end of the blow, J, and the part of it that friction has taken by the end.
     pub(super) energy: f64,

@@ -31,7 +31,7 @@ pub struct Heard {
     pub scenes: Vec<HeardScene>,
     /// The glass dropped from heights that double.
     pub drops: Vec<Drop>,
-    /// What a resonator costs.
+    /// Computing time of a resonator.
     pub cost: Cost,
 }
 

@@ -14,7 +14,7 @@ use frangible_sound::{
 use super::RATE;
 use crate::plot::Spectrum;
 
-/// How long a struck body is listened to, s.
+/// Time for which a struck body is listened to, s.
 const LONG: f64 = 2.0;
 
 /// A tone of a body.
@@ -31,9 +31,9 @@ pub struct Partial {
 /// A body with its tones.
 #[derive(Clone, Debug)]
 pub struct Object {
-    /// What it is.
+    /// Name of the object.
     pub name: &'static str,
-    /// Where the known tones come from.
+    /// Source of the known tones.
     pub source: &'static str,
     /// The tones.
     pub partials: Vec<Partial>,
@@ -43,7 +43,7 @@ pub struct Object {
     pub samples: Vec<f32>,
 }
 
-/// What rings, how it is struck, and which of its modes are compared.
+/// Plan of an object: the body, the blow, and the tones that are compared.
 struct Plan {
     name: &'static str,
     source: &'static str,

@@ -107,7 +107,7 @@ impl HeardScene {
     }
 }
 
-/// What the sources of a scene send, heard at 1 m from what the camera looks at.
+/// Sound of each source of a scene, heard at 1 m from the camera's target.
 fn sources(run: &Run, scene: &Scene) -> Result<[[f64; 3]; 5], SoundError> {
     let mut config = sound_config(run, scene);
     let target = run.recording.camera.target.as_dvec3();

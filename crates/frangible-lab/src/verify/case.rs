@@ -1,4 +1,4 @@
-//! What can be verified, in the order of the report.
+//! The cases to verify, in the order of the report.
 
 use frangible_bake::BakeError;
 
@@ -14,7 +14,7 @@ pub struct Case {
     pub name: &'static str,
     /// Heading of its part of the report.
     pub title: &'static str,
-    /// What is computed and where the references come from, Markdown.
+    /// Description of the computation, and the sources of its references, Markdown.
     pub about: &'static str,
     pub(crate) compute: Compute,
 }
@@ -22,7 +22,7 @@ pub struct Case {
 /// Computes a case; hears the share done, 0..=1.
 pub(crate) type Compute = fn(&mut dyn FnMut(f64)) -> Result<Findings, BakeError>;
 
-/// What a case found.
+/// Results of a case.
 #[derive(Clone, Debug, Default)]
 pub struct Findings {
     /// Comparisons, in the order of the report.
@@ -45,7 +45,7 @@ impl From<Vec<Check>> for Findings {
 pub struct Plot {
     /// Name of its file without the ending.
     pub name: &'static str,
-    /// What it shows, Markdown.
+    /// Caption, Markdown.
     pub caption: String,
     /// The chart itself.
     pub chart: Chart,

@@ -1,19 +1,19 @@
 //! One comparison with a reference.
 
-/// A value that was computed, and what it should be.
+/// A computed value and its reference.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Check {
-    /// What is compared, unique within its case.
+    /// Name of the quantity, unique within its case.
     pub name: String,
-    /// What it should be, in `unit`; 0 makes the error absolute.
+    /// Reference value, in `unit`; 0 makes the error absolute.
     pub reference: f64,
-    /// What came out, in `unit`.
+    /// Computed value, in `unit`.
     pub value: f64,
     /// Largest error that passes: relative to the reference, or absolute where that is 0.
     pub tolerance: f64,
     /// Unit of value and reference, "" for a pure number.
     pub unit: &'static str,
-    /// Where the reference comes from.
+    /// Source of the reference.
     pub source: &'static str,
 }
 
@@ -28,7 +28,7 @@ impl Check {
         }
     }
 
-    /// Whether the error is within the tolerance; NaN never is.
+    /// Returns true if the error is within the tolerance. A NaN never is.
     #[must_use]
     pub fn passes(&self) -> bool {
         self.error() <= self.tolerance

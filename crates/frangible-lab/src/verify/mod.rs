@@ -29,7 +29,7 @@ use thiserror::Error;
 
 use crate::plot;
 
-/// Why a report could not be made.
+/// Error that keeps a report from being made.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum VerifyError {
@@ -38,7 +38,7 @@ pub enum VerifyError {
     Bake {
         /// Name of the case.
         case: &'static str,
-        /// What the bake said.
+        /// Error of the bake.
         source: BakeError,
     },
     /// A material that an experiment needs is not there.
@@ -46,7 +46,7 @@ pub enum VerifyError {
     Material {
         /// Name of the preset.
         name: &'static str,
-        /// What was said.
+        /// Error of the material.
         source: UnknownMaterial,
     },
     /// The fracture code refused what an experiment gave it.
@@ -54,13 +54,13 @@ pub enum VerifyError {
     Impact {
         /// Name of the experiment.
         case: &'static str,
-        /// What was said.
+        /// Error of the fracture code.
         source: InputError,
     },
     /// The ways to find how pieces vibrate could not be compared.
     #[error("the pieces could not be compared: {reason}")]
     Pieces {
-        /// What stood in the way.
+        /// Reason of the failure.
         reason: String,
     },
     /// A chart could not be drawn or written as PNG.
@@ -68,7 +68,7 @@ pub enum VerifyError {
     Plot {
         /// Name of the plot.
         name: String,
-        /// What stood in the way.
+        /// Reason of the failure.
         reason: String,
     },
 }

@@ -91,7 +91,7 @@ pub(crate) fn modes(
     lowest_supported_modes(system, held, wanted, &mut |_| ControlFlow::Continue(()))
 }
 
-/// What to bake of a ball: about 12 000 tetrahedra, 10 modes, carried by elements of this edge or the default.
+/// Settings for baking a ball: about 12 000 tetrahedra, 10 modes, carried by elements of this edge or the default.
 pub(crate) fn ball(radius: f64, elasticity: &Elasticity, edge: Option<f64>) -> BakeSpec {
     // Damping, strength and so on do not matter to any case, but must be there.
     let mut material = Material::preset("glass").expect("glass is a preset");

@@ -1,4 +1,4 @@
-//! What the cases found, as text.
+//! Results of the cases, as text.
 
 use std::fmt::Write;
 

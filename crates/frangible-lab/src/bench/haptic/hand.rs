@@ -6,13 +6,13 @@ use rand_chacha::rand_core::{Rng, SeedableRng};
 
 use super::touch::TICK;
 
-/// Where a stroke begins and ends, m above the surface.
+/// Height at which a stroke begins and ends, m above the surface.
 const HEIGHT: f32 = 0.02;
 /// Ticks of a stroke: flight and press, then back.
 const PRESS: u32 = 150;
 /// Ticks of a whole stroke.
 pub const STROKE: u32 = 250;
-/// How deep the hand wants to press, m, and how fast it slides meanwhile, m/s.
+/// Depth to which the hand presses, m, and speed at which it slides meanwhile, m/s.
 const DEPTH: f32 = 1e-3;
 const SLIDE: f32 = 0.05;
 /// Spring and damper of the hand, N/m and N·s/m.
@@ -31,7 +31,7 @@ pub struct Hand {
     mass: f32,
     /// Height of the head's centre when it touches, m.
     surface: f32,
-    /// Where the stroke lands.
+    /// Point where the stroke lands.
     aim: Vec3,
     in_stroke: u32,
     landed: bool,
@@ -54,7 +54,7 @@ impl Hand {
         }
     }
 
-    /// Whether the stroke is over.
+    /// Returns true if the stroke is over.
     #[must_use]
     pub fn is_done(&self) -> bool {
         self.in_stroke >= STROKE

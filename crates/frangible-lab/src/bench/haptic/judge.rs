@@ -1,4 +1,4 @@
-//! What takes too long for a tick is done on a thread of its own, and is there at a tick that is known beforehand.
+//! Work that takes too long for a tick: it is done on a thread of its own, and its result is taken at a tick that is known beforehand.
 
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
@@ -8,7 +8,7 @@ use frangible::glam::Vec3;
 use frangible::internals::{Force, Vibration, rest};
 use frangible::{Body, FractureConfig, InputError, Outcome};
 
-/// What is to be decided about a body.
+/// A case to decide about a body.
 pub enum Case {
     /// An impact that has begun.
     Impact(Box<Vibration>),
@@ -23,7 +23,7 @@ pub struct Judge {
     thread: Option<JoinHandle<()>>,
     /// Given, not handed over yet.
     given: Option<(Arc<Body>, Case)>,
-    /// What has come already.
+    /// Verdict that has come already.
     ready: Option<Result<Outcome, InputError>>,
     /// Tick at which the verdict on the case at hand is taken.
     due: Option<u64>,
@@ -59,7 +59,7 @@ impl Judge {
         }
     }
 
-    /// Whether a case is at hand: then no other is taken.
+    /// Returns true if a case is at hand: then no other is taken.
     #[must_use]
     pub fn is_busy(&self) -> bool {
         self.due.is_some()
@@ -82,13 +82,13 @@ impl Judge {
         }
     }
 
-    /// Whether the verdict is due at this tick.
+    /// Returns true if the verdict is due at this tick.
     #[must_use]
     pub fn is_due(&self, tick: u64) -> bool {
         self.due == Some(tick)
     }
 
-    /// Whether the verdict has come.
+    /// Returns true if the verdict has come.
     pub fn is_ready(&mut self) -> bool {
         if self.ready.is_none() {
             self.ready = self.verdicts.try_recv().ok();

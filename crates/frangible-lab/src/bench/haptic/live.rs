@@ -19,7 +19,7 @@ use frangible::{Body, InputError};
 /// A place on a body's surface, with what its modes see of it. [`SurfacePlace::seek`] moves it without allocating.
 #[derive(Clone, Debug)]
 pub struct SurfacePlace {
-    /// Where, m, body frame.
+    /// Position, m, body frame.
     pub position: Vec3,
     /// Unit normal of the surface there, outwards: smooth, but for sharp edges.
     pub normal: Vec3,
@@ -140,7 +140,7 @@ impl LiveModes {
         self.modes.iter_mut().for_each(LiveMode::advance);
     }
 
-    /// How far vibration has moved a place from where it rests, m.
+    /// Displacement of a place by vibration, m, from its position of rest.
     #[must_use]
     pub fn displacement(&self, place: &SurfacePlace) -> Vec3 {
         let modes = self.modes.iter().zip(&place.shapes);
@@ -149,7 +149,7 @@ impl LiveModes {
             .sum()
     }
 
-    /// How fast it moves there, m/s.
+    /// Velocity of a place, m/s.
     #[must_use]
     pub fn velocity(&self, place: &SurfacePlace) -> Vec3 {
         let modes = self.modes.iter().zip(&place.shapes);
@@ -158,8 +158,7 @@ impl LiveModes {
             .sum()
     }
 
-    /// How far a place would be moved, m, if the forces of the last tick went on for ever: the quasi-static part of
-    /// [`LiveModes::displacement`].
+    /// Displacement of a place, m, if the forces of the last tick went on for ever: the quasi-static part of [`LiveModes::displacement`].
     #[must_use]
     pub fn static_displacement(&self, place: &SurfacePlace) -> Vec3 {
         let modes = self.modes.iter().zip(&place.shapes);

@@ -1,7 +1,7 @@
 //! A loop of 1 kHz that feels a body: force and displacement of the surface at every tick, and whether it breaks.
 //!
-//! What a tick does is in [`touch`]; who holds the probe in [`hand`]; what is waited for on another thread in [`judge`];
-//! how the body vibrates from tick to tick in [`live`].
+//! The work of a tick is in [`touch`], the hand that holds the probe in [`hand`], the verdicts from another thread in [`judge`],
+//! the vibration of the body from tick to tick in [`live`].
 //! `examples/haptic.rs` is the loop by itself, [`measure`] the one that is timed.
 
 pub mod hand;

@@ -27,7 +27,7 @@ const SAMPLES: f64 = 4.0;
 /// A tick that begins later than this after its time, s, was missed.
 const LATE: Duration = Duration::from_millis(1);
 
-/// What to run.
+/// Options of the benchmark.
 #[derive(Clone, Copy, Debug)]
 pub struct Options {
     /// Ticks of a run.
@@ -51,7 +51,7 @@ impl Default for Options {
 /// Ticks of a kind.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Taps {
-    /// What they did.
+    /// Name of the kind.
     pub title: &'static str,
     /// The least time of each tick over equal runs, one tick after the other, s: the work.
     pub work: Spread,
@@ -59,7 +59,7 @@ pub struct Taps {
     pub paced: Option<Spread>,
 }
 
-/// How well a run kept time.
+/// Punctuality of a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Kept {
     /// Ticks that began more than a millisecond late.
@@ -68,7 +68,7 @@ pub struct Kept {
     pub waited: usize,
 }
 
-/// What was found.
+/// Results of the benchmark.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Findings {
     /// Tetrahedra of the plate.
@@ -79,9 +79,9 @@ pub struct Findings {
     pub modes: usize,
     /// Its material.
     pub material: &'static str,
-    /// How long ticks took, by what they did; the last line is all of them.
+    /// Times of the ticks, by kind; the last line is all of them.
     pub taps: Vec<Taps>,
-    /// How the run with the clock kept its time.
+    /// Punctuality of the run with the clock.
     pub kept: Option<Kept>,
     /// Runs that did not keep time.
     pub runs: usize,
@@ -214,7 +214,7 @@ fn play(kind: &Breakable, ticks: u64, paced: bool) -> Result<Log, BenchError> {
     Ok(log)
 }
 
-/// What the ticks did.
+/// Log of the ticks.
 #[derive(Default)]
 struct Log {
     times: Vec<(Kind, f64)>,

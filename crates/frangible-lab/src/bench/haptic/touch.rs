@@ -25,12 +25,12 @@ pub const TICK: f64 = 1e-3;
 /// Ticks from a blow to its pieces: twice what a break of 8 000 tetrahedra takes one core.
 pub const DELAY: u64 = 24;
 
-/// What holds the probe's tip.
+/// Tip of the probe, and the spring and damper of its contact.
 #[derive(Clone, Debug)]
 pub struct Probe {
     /// Radius of the tip, m.
     pub radius: f32,
-    /// What the body is hit by, for blows.
+    /// Striker of its blows.
     pub striker: Striker,
     /// Spring of the contact, N/m.
     pub stiffness: f32,
@@ -38,7 +38,7 @@ pub struct Probe {
     pub damping: f32,
 }
 
-/// What became of a tick.
+/// Kind of a tick.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// The probe touches nothing.
@@ -53,14 +53,14 @@ pub enum Kind {
     Verdict,
 }
 
-/// What a tick gives back.
+/// Result of a tick.
 #[derive(Clone, Debug)]
 pub struct Felt {
-    /// What became of it.
+    /// Kind of the tick.
     pub kind: Kind,
-    /// On the probe, N.
+    /// Force on the probe, N.
     pub force: Vec3,
-    /// How far vibration has moved the surface at the contact from where it rests, m; zero without contact.
+    /// Displacement of the surface at the contact by vibration, m, from its position of rest; zero without contact.
     pub displacement: Vec3,
     /// The quasi-static part of it, m.
     pub at_rest: Vec3,
@@ -126,7 +126,7 @@ impl Touch {
         Ok(())
     }
 
-    /// Whether cracks and pieces are due in the coming tick.
+    /// Returns true if cracks and pieces are due in the coming tick.
     #[must_use]
     pub fn expects_verdict(&self) -> bool {
         self.judge.is_due(self.tick + 1)

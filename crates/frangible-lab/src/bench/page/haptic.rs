@@ -5,7 +5,7 @@ use std::fmt::Write;
 use super::{table, us};
 use crate::bench::haptic::Findings;
 
-/// What a tick takes, by what it does.
+/// Table of the ticks' times, by kind.
 #[must_use]
 pub fn haptic(found: &Findings) -> String {
     let clock = found.kept.is_some();

@@ -10,7 +10,7 @@ const TARGETS: [usize; 2] = [30_000_000, 20_000_000];
 /// The largest slab.
 const LARGEST: &str = "slab-very-high";
 
-/// What each body takes.
+/// Table of the bodies' sizes.
 #[must_use]
 pub fn memory(bodies: &[OfBody]) -> String {
     let mb = |bytes: f64| digits(1e-6 * bytes);

@@ -135,7 +135,7 @@ fn split(page: &str) -> Vec<Section> {
     sections
 }
 
-/// Where a new section belongs: before the first of those that come after it.
+/// Place of a new section: before the first of those that come after it.
 fn place(sections: &[Section], title: &str) -> usize {
     let rank = |title: &str| ORDER.iter().position(|known| *known == title);
     let own = rank(title);

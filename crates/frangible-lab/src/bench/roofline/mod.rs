@@ -1,4 +1,4 @@
-//! How near the initiation comes to what the machine can do: operations and bytes of each stage against measured peaks.
+//! Speed of the initiation as a share of what the machine can do: operations and bytes of each stage against measured peaks.
 //!
 //! A stage can be no faster than its operations at the peak of arithmetic, nor than its bytes at the rate of the memory that holds
 //! them: the *roofline*. Reached is the longer of the two over the time it takes.
@@ -37,7 +37,7 @@ const NAP: Duration = Duration::from_millis(2);
 /// A stage beside its roofline.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Reached {
-    /// What it does.
+    /// Name of the stage.
     pub stage: &'static str,
     /// Arithmetic it needs, operations.
     pub operations: f64,
@@ -49,7 +49,7 @@ pub struct Reached {
     pub peak: f64,
     /// Reading memory of that size, bytes a second.
     pub bandwidth: f64,
-    /// What it takes, s.
+    /// Measured time, s.
     pub seconds: f64,
 }
 
@@ -90,7 +90,7 @@ pub struct OfBody {
     pub stages: Vec<Reached>,
 }
 
-/// What was found.
+/// Results of the benchmark.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Findings {
     /// Rates of arithmetic.
@@ -201,7 +201,7 @@ fn of_body(
     })
 }
 
-/// What a look at every weak point has to do.
+/// Work of an analysis of every weak point.
 struct Work {
     modes: usize,
     nodes: [usize; 2],

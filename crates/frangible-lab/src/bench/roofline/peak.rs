@@ -1,4 +1,4 @@
-//! What one thread of this machine reaches at most, by small loops through the same dispatch (`pulp`) as the run time's.
+//! Peak rates of one thread of this machine, by small loops through the same dispatch (`pulp`) as the run time's.
 
 use std::hint::black_box;
 use std::time::Instant;

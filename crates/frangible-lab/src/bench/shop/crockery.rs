@@ -1,4 +1,4 @@
-//! What the shop sells: five kinds of cups, plates, bowls, vases and bottles, baked for a game: coarse and quick.
+//! Crockery of the shop: five kinds of cups, plates, bowls, vases and bottles, baked for a game: coarse and quick.
 
 use std::sync::Arc;
 

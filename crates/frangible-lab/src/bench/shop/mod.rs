@@ -17,7 +17,7 @@ use crate::bench::fingerprint::Fingerprint;
 use crate::bench::stats::{Spread, Times};
 use play::FRAME_RATE;
 
-/// What to run.
+/// Options of the benchmark.
 #[derive(Clone, Copy, Debug)]
 pub struct Options {
     /// Equal runs: of each frame the least time counts.
@@ -48,7 +48,7 @@ pub struct KindOfThing {
     pub file_size: usize,
 }
 
-/// What was found.
+/// Results of the benchmark.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Findings {
     /// Kinds of things.
@@ -63,7 +63,7 @@ pub struct Findings {
     pub runs: usize,
     /// Every frame, the least of each time over the runs.
     pub frames: Vec<Frame>,
-    /// What happened in it.
+    /// Events of every frame.
     pub happened: Vec<Happened>,
     /// Every frame of Rapier alone, s.
     pub alone: Vec<f64>,
@@ -156,7 +156,7 @@ fn same(a: Fingerprint, b: Fingerprint) -> Result<(), BenchError> {
     )))
 }
 
-/// What a shop more takes, by the memory of this process. The bake leaves free memory behind: the first shops fill it.
+/// Memory of one more thing, bytes, by the memory of this process. The bake leaves free memory behind: the first shops fill it.
 fn bytes_per_thing(kinds: &[crockery::Kind]) -> Result<Option<f64>, BenchError> {
     const FIRST: usize = 3;
     const SHOPS: usize = 7;

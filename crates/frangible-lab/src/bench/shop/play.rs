@@ -32,7 +32,7 @@ pub struct Frame {
     pub rigid: f64,
     /// All but Rapier's step.
     pub ours: f64,
-    /// What is ours, by its parts: [`PARTS`].
+    /// Parts of that time: [`PARTS`].
     pub parts: [f64; 5],
 }
 
@@ -51,7 +51,7 @@ impl Frame {
     }
 }
 
-/// What a frame held; the same in every run.
+/// Events of a frame; the same in every run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Happened {
     /// Things that broke.

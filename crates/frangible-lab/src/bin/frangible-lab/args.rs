@@ -86,7 +86,7 @@ pub(crate) struct FiguresArgs {
     pub(crate) json: bool,
 }
 
-/// What to measure.
+/// Subject of a benchmark.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub(crate) enum Measured {
     /// The bodies of the paper's Table 1

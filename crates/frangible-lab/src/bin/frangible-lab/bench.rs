@@ -26,7 +26,7 @@ const FELT: &str = "slab-moderate";
 /// Most impacts of a batch on a GPU.
 const BATCH: usize = 64;
 
-/// What was measured: for the page, and for scripts.
+/// Measurements of one subject: for the page, and for scripts.
 struct Part {
     key: &'static str,
     title: &'static str,

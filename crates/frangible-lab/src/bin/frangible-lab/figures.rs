@@ -18,7 +18,7 @@ use crate::output::{Bar, say};
 /// The page, and the folder of its pictures.
 const PAGE: &str = "figures.md";
 const PICTURES: &str = "figures";
-/// What a picture may weigh, bytes.
+/// Size limit of a picture, bytes.
 const MOST_BYTES: usize = 600_000;
 
 pub(crate) fn run(args: &FiguresArgs) -> Result<(), Box<dyn Error>> {

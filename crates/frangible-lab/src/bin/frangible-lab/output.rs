@@ -1,4 +1,4 @@
-//! Where results go: standard output, progress on the terminal, and pages with their pictures.
+//! Destinations of results: standard output, progress on the terminal, and pages with their pictures.
 
 use std::error::Error;
 use std::io::{self, ErrorKind, IsTerminal, Write};
@@ -20,7 +20,7 @@ pub(crate) fn say(text: &str) -> io::Result<()> {
 /// One line on the error stream that says what is being done; nothing where that is no terminal.
 pub(crate) struct Bar {
     shown: bool,
-    /// What stands there, so that a thousand calls do not write a thousand lines.
+    /// The percentage shown now, so that a thousand calls do not write a thousand lines.
     percent: AtomicU32,
 }
 

@@ -16,7 +16,7 @@ use crate::output::{Bar, Page, say};
 /// The page, and the folder of its pictures.
 const PAGE: &str = "recursive.md";
 const PICTURES: &str = "recursive";
-/// How long scenes are played, s: by then every body has met what breaks it.
+/// Simulated time of the scenes, s: by then every body has met what breaks it.
 const DURATION: f64 = 1.0;
 /// Bodies that take the blow of each scene, each with weak points of its own.
 const SEEDS: u64 = 4;

@@ -1,4 +1,4 @@
-//! Where cracks cross tetrahedra.
+//! Intersections of cracks with tetrahedra.
 
 use frangible::glam::Vec3;
 use frangible::internals::mesh::NO_NEIGHBOUR;
@@ -7,7 +7,7 @@ use frangible::internals::{ElementTrace, TetMesh};
 /// Local nodes of the face opposite each node.
 const FACES: [[usize; 3]; 4] = [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]];
 
-/// Where s is zero between two nodes.
+/// Point between two nodes at which s is zero.
 fn cut(x: &[Vec3; 4], s: &[f32; 4], i: usize, j: usize) -> Vec3 {
     x[i].lerp(x[j], s[i] / (s[i] - s[j]))
 }
@@ -36,7 +36,7 @@ pub(crate) fn crossing(mesh: &TetMesh, element: &ElementTrace) -> Vec<[Vec3; 3]>
     }
 }
 
-/// What is seen of a crack's element on the body's outside: a line on each outer face that it crosses.
+/// Trace of a crack's element on the body's outside: a line on each outer face that it crosses.
 pub(crate) fn surface_trace(mesh: &TetMesh, element: &ElementTrace) -> Vec<[Vec3; 2]> {
     let e = element.tet as usize;
     let (x, s) = (mesh.corners(e), &element.values);

@@ -1,4 +1,4 @@
-//! Where to look from.
+//! Views of the figures.
 
 use frangible::glam::{Quat, Vec3};
 use frangible_photo::{PhotoError, Studio};
@@ -10,7 +10,7 @@ use super::Model;
 /// A direction to look from, and the size of the picture.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Look {
-    /// From what is looked at towards the camera.
+    /// Direction from the subject towards the camera.
     pub(crate) from: Vec3,
     pub(crate) up: Vec3,
     /// Pixels.

@@ -112,7 +112,7 @@ fn pairs() -> impl Iterator<Item = (usize, usize)> {
     (0..4).flat_map(|i| (i + 1..4).map(move |j| (i, j)))
 }
 
-/// Whether two labellings divide the nodes alike.
+/// Returns true if two labellings divide the nodes alike.
 fn same_partition(a: &[u32], b: &[u32]) -> bool {
     let both: BTreeSet<(u32, u32)> = a.iter().copied().zip(b.iter().copied()).collect();
     let labels = |list: &[u32]| list.iter().copied().collect::<BTreeSet<_>>().len();

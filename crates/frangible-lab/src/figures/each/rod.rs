@@ -31,7 +31,7 @@ const SPEED: f64 = 4.0;
 /// The rod's Young's modulus, density: the paper's slab; its other numbers do not matter here.
 const MATERIAL: &str = "paper-slab";
 
-/// How the rod lands.
+/// Pose in which the rod lands.
 #[derive(Clone, Copy)]
 enum Landing {
     /// On the middle of an end face, its axis at this angle to the floor, degrees.
@@ -40,7 +40,7 @@ enum Landing {
     OnRail(f64),
 }
 
-/// What a landing excites.
+/// Response of the rod to a landing.
 struct Answer {
     /// The most excited mode, from 0.
     mode: usize,
@@ -82,7 +82,7 @@ impl Landing {
         }
     }
 
-    /// How it stands when it lands.
+    /// Rotation of the rod when it lands.
     fn rotation(self) -> Quat {
         match self {
             Self::Leaning(degrees) => Quat::from_rotation_y(-(degrees as f32).to_radians()),
@@ -260,7 +260,7 @@ fn duration_chart(title: &str, x: &str, answers: &[(f64, Answer)]) -> Chart {
     }
 }
 
-/// How far the largest displacement is drawn, m.
+/// Largest displacement as drawn, m.
 const DRAWN: f32 = 0.035;
 
 fn cell(rod: &Asset, landing: Landing, answer: &Answer) -> ModeCell {

@@ -202,7 +202,7 @@ fn plate(material: &str) -> Result<Run, FigureError> {
     Ok(play(&scene, &baked, &mut |_| {})?)
 }
 
-/// How far a body must rise before it can be said to bounce again, m.
+/// Height that a body must rise before it counts as bouncing again, m.
 const RISE: f32 = 4e-3;
 
 /// At which bounce, from 1, the first body broke; `None` if it did not.
@@ -254,7 +254,7 @@ fn lowest_points(recording: &Recording) -> Vec<f32> {
     node.visible.clone().map(lowest).collect()
 }
 
-/// How far from the glass the camera stands, m.
+/// Distance of the camera from the glass, m.
 const NEAR: f32 = 0.42;
 
 /// Looks at the first body where it is in this frame; its pieces start where it was.

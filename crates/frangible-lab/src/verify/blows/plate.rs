@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 /// Modes in each direction, odd and even: waves down to 2 L / 460, beyond which Hertz' pressure shows none of a contact wider than 0.6 mm.
 const MOST: u32 = 460;
 
-/// What the terms of the series are.
+/// Kind of the terms of the series.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Terms {
     /// Kirchhoff's plate.

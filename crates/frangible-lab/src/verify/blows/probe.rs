@@ -187,7 +187,7 @@ pub(crate) fn places(
     distances.iter().filter_map(nearest).collect()
 }
 
-/// What the run time says at a place after a time step, Pa.
+/// Stress that the run time computes at a place after a time step, Pa.
 pub(crate) fn felt(
     body: &Body,
     blow: &Blow,

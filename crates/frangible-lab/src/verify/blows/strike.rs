@@ -1,4 +1,4 @@
-//! What a striker does to what swallows it: Zener's infinite plate and St Venant's rod, both behind Hertz' spring.
+//! Impact of a striker on bodies that absorb it: Zener's infinite plate and St Venant's rod, both behind Hertz' spring.
 
 /// A striker on Hertz' spring, F = K δ^1.5.
 #[derive(Clone, Copy, Debug)]

@@ -1,4 +1,4 @@
-//! What any modal basis must satisfy.
+//! Properties that any modal basis must have.
 
 use faer::{Mat, Side};
 use frangible_bake::eigen::{residual, rigid_motions};

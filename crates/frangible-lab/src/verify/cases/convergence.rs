@@ -1,4 +1,4 @@
-//! How the error falls with the number of unknowns: linear against quadratic elements.
+//! Decrease of the error with the number of unknowns: linear against quadratic elements.
 
 use frangible_bake::fem::{Cover, Elasticity, System, assemble_cover};
 use frangible_bake::{BakeError, MeshSize, Shape};
@@ -137,7 +137,7 @@ fn study(
     })
 }
 
-/// How many refinements brought the frequency no nearer.
+/// Number of refinements that brought the frequency no nearer.
 fn falls(study: &Study, reference: f64) -> Check {
     let off = |p: &Point| (p.frequency / reference - 1.0).abs();
     let worse = study.points.windows(2).filter(|w| off(&w[1]) >= off(&w[0]));

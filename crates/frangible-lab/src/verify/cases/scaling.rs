@@ -1,4 +1,4 @@
-//! How modes go with stiffness, density and size: why a baked body needs no new bake for these.
+//! Scaling of modes with stiffness, density and size: the reason that a baked body needs no new bake for these.
 
 use frangible_bake::eigen::Modes;
 use frangible_bake::fem::Elasticity;

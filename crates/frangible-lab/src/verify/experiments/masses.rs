@@ -18,7 +18,7 @@ use crate::verify::VerifyError;
 /// neighbours.
 pub(crate) const LEAST: f64 = 2.0;
 
-/// What to compute.
+/// Plan of the computation.
 #[derive(Clone, Debug)]
 pub struct MassPlan {
     /// Bodies of each kind, seeds 1 and up.
@@ -56,7 +56,7 @@ impl MassPlan {
 pub struct MassRun {
     /// One word.
     pub name: &'static str,
-    /// What is broken and how, Markdown.
+    /// Description of the body and its break, Markdown.
     pub about: String,
     /// Masses of the pieces of each body that broke, in masses of the body, the largest first.
     pub masses: Vec<Vec<f64>>,
@@ -73,7 +73,7 @@ pub struct MassRun {
 pub struct Published {
     /// τ.
     pub exponent: f64,
-    /// Where it comes from.
+    /// Source of the exponent.
     pub source: &'static str,
 }
 
@@ -93,7 +93,7 @@ const ASTROM_3: Published = Published {
 /// Everything that was computed of masses.
 #[derive(Clone, Debug)]
 pub struct Masses {
-    /// What was to be computed.
+    /// Plan of the computation.
     pub plan: MassPlan,
     /// A plate and a solid.
     pub runs: Vec<MassRun>,

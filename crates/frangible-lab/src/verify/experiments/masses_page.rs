@@ -1,4 +1,4 @@
-//! What is said of the masses of the pieces.
+//! Part of the page on the masses of the pieces.
 
 use std::fmt::Write;
 

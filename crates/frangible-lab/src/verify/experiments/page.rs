@@ -12,13 +12,13 @@ const PANEL: u32 = 240;
 /// A number that came out of an experiment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figure {
-    /// What it is.
+    /// Name of the number.
     pub name: String,
     /// Its value.
     pub value: f64,
     /// Its standard error.
     pub error: f64,
-    /// What was published; none where nothing was.
+    /// Published value, if there is one.
     pub published: Option<f64>,
 }
 
@@ -61,7 +61,7 @@ impl Experiments {
     }
 }
 
-/// How far a value lies from a reference: "2.1 standard errors above", "within one standard error of".
+/// Distance of a value from a reference, in words: "2.1 standard errors above", "within one standard error of".
 pub(crate) fn apart(value: f64, error: f64, reference: f64) -> String {
     let side = if value > reference { "above" } else { "below" };
     if error <= 0.0 {

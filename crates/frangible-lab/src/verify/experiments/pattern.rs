@@ -1,4 +1,4 @@
-//! The lines that cracks draw in a plate, and what can be counted of them.
+//! The lines of cracks in a plate, and counts of them.
 
 use std::f64::consts::TAU;
 
@@ -6,8 +6,8 @@ use frangible::Asset;
 use frangible::glam::DVec2;
 use frangible::internals::CrackTrace;
 
-/// Where the cracks of a plate cut a plane parallel to its faces: one straight piece per fractured tetrahedron, m, in the body
-/// frame (its origin, the middle of the plate, is where the plate is hit).
+/// Lines in which the cracks of a plate cut a plane parallel to its faces: one straight piece per fractured tetrahedron, m, in the body frame (its
+/// origin, the middle of the plate, is where the plate is hit).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CrackPattern {
     /// Both ends of each piece; pieces of one crack share their ends.
@@ -34,8 +34,8 @@ impl CrackPattern {
         }
     }
 
-    /// How many radial cracks cross the circle of this radius about the middle, m: places where a piece that runs
-    /// within 45° of the radius passes through it. Places less than `gap` m apart along the circle are one crack.
+    /// Number of radial cracks that cross the circle of this radius about the middle, m: places where a piece that runs within 45° of the radius
+    /// passes through it. Places less than `gap` m apart along the circle are one crack.
     #[must_use]
     pub fn crossings(&self, radius: f64, gap: f64) -> usize {
         let mut angles: Vec<f64> = self
@@ -78,13 +78,13 @@ impl CrackPattern {
     }
 }
 
-/// Whether a piece runs within 45° of the radius at its middle.
+/// Returns true if a piece runs within 45° of the radius at its middle.
 fn is_radial(a: DVec2, b: DVec2) -> bool {
     let (along, out) = (b - a, a + b);
     along.dot(out).abs() > along.perp_dot(out).abs()
 }
 
-/// Where the plane at this height meets the crack, s = 0, in a tetrahedron; zero counts as positive, as in the crack.
+/// Line in which the plane at this height meets the crack, s = 0, in a tetrahedron; zero counts as positive, as in the crack.
 fn piece(corners: [[f64; 3]; 4], values: [f64; 4], height: f64) -> Option<[DVec2; 2]> {
     const FACES: [[usize; 3]; 4] = [[1, 2, 3], [0, 2, 3], [0, 1, 3], [0, 1, 2]];
     let above = |k: usize| corners[k][2] >= height;

@@ -1,4 +1,4 @@
-//! How much of an experiment is done, told from several threads.
+//! Progress of an experiment, told from several threads.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 

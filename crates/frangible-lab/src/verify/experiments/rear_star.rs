@@ -29,7 +29,7 @@ const BALL: f64 = 3e-3;
 /// Circle on which arms are counted, m.
 const RADIUS: f64 = 6e-3;
 
-/// What to compute.
+/// Plan of the computation.
 #[derive(Clone, Debug)]
 pub struct RearStarPlan {
     /// Thicknesses of the plates, m.
@@ -74,7 +74,7 @@ impl RearStarPlan {
     }
 }
 
-/// What a ball did to plates of one thickness at one speed.
+/// Effect of a ball on plates of one thickness at one speed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct RearStar {
     /// Thickness of the plates, m.
@@ -94,9 +94,9 @@ pub struct RearStar {
 /// Everything that was computed of rear stars.
 #[derive(Clone, Debug)]
 pub struct RearStars {
-    /// What was to be computed.
+    /// Plan of the computation.
     pub plan: RearStarPlan,
-    /// What came of each thickness and speed, in that order.
+    /// Results for each thickness and speed, in that order.
     pub results: Vec<RearStar>,
 }
 

@@ -26,7 +26,7 @@ pub(crate) const RING: [f64; 2] = [0.005, 0.045];
 /// Height of the plane on which cracks are looked at, in thicknesses above the middle: no layer of nodes lies there.
 const SECTION: f64 = 0.13;
 
-/// What to compute.
+/// Plan of the computation.
 #[derive(Clone, Debug)]
 pub struct StarPlan {
     /// Thicknesses of the plates, m.
@@ -65,7 +65,7 @@ pub struct StarImpact {
 pub struct StarRun {
     /// Thickness of the plates, m.
     pub thickness: f64,
-    /// How it differs from the default model.
+    /// Difference from the default model.
     pub variant: &'static str,
     /// The impacts, ordered by speed and then by seed.
     pub impacts: Vec<StarImpact>,
@@ -87,7 +87,7 @@ pub struct Count {
 /// Everything that was computed of stars.
 #[derive(Clone, Debug)]
 pub struct Stars {
-    /// What was to be computed.
+    /// Plan of the computation.
     pub plan: StarPlan,
     /// The default model, one run per thickness.
     pub runs: Vec<StarRun>,

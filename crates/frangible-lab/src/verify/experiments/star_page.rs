@@ -1,4 +1,4 @@
-//! What is said of the radial cracks.
+//! Part of the page on the radial cracks.
 
 use std::fmt::Write;
 
@@ -229,7 +229,7 @@ fn exponent(run: &StarRun) -> String {
     law.map_or_else(|| "–".into(), |l| with_error(l.exponent, l.exponent_error))
 }
 
-/// What other circles would count.
+/// Table of the counts at other circles.
 fn circles(stars: &Stars) -> String {
     let Some(run) = stars.measured() else {
         return String::new();

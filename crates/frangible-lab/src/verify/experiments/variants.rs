@@ -22,12 +22,12 @@ pub(crate) struct Variant {
     strength: f64,
     weak_points: f64,
     branching: bool,
-    /// Whether the branching constant is that of glass.
+    /// If true, the branching constant is that of glass.
     forks_as_glass: bool,
     /// Young's modulus, Pa, where it is another.
     pub(crate) modulus: Option<f64>,
     scatter: bool,
-    /// What hits the plate.
+    /// Shape of the projectile.
     shape: Shot,
 }
 
@@ -124,7 +124,7 @@ pub(crate) const VARIANTS: [Variant; 13] = [
 ];
 
 impl Variant {
-    /// What the plate is baked of where that is another material than by default: as tough by its fracture toughness.
+    /// Material of the plate where it differs from the default: its fracture toughness stays the same.
     pub(crate) fn material(self, usual: &Material) -> Option<Material> {
         let modulus = self.modulus?;
         let mut material = usual.clone();

@@ -1,4 +1,4 @@
-//! How good the near field is close to an edge of the wall: supported, free or held.
+//! Accuracy of the near field close to an edge of the wall: supported, free or held.
 
 use frangible::glam::DVec3;
 use frangible::{Asset, FractureConfig};

@@ -1,4 +1,4 @@
-//! What the near field, the residual vector and the integrated blow are worth, in tables: `frangible-lab near-field`.
+//! Accuracy of the near field, the residual vector and the integrated blow, in tables: `frangible-lab near-field`.
 //!
 //! Here nothing passes or fails; the cases `near-field` and `blow` do that.
 

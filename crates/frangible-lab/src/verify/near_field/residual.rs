@@ -1,4 +1,4 @@
-//! What the modes that are not followed give as residual vector.
+//! Effect of the residual vector, which stands for the modes that are not followed.
 
 use frangible::glam::Vec3;
 use frangible::internals::stress::largest_eigenvalue;

@@ -7,7 +7,7 @@ use crate::plot::{Axis, Chart, Marker, Series};
 
 /// Points of a curve.
 const POINTS: usize = 20;
-/// What tells the ways apart beside their colours.
+/// Markers that tell the ways apart beside their colours.
 const MARKERS: [Marker; 4] = [
     Marker::Disc,
     Marker::Square,
@@ -16,7 +16,7 @@ const MARKERS: [Marker; 4] = [
 ];
 
 impl Truth {
-    /// How many blows a way gets wrong by how much.
+    /// Chart of the share of blows that a way gets wrong by no more than an error.
     pub(crate) fn errors_chart(&self) -> Chart {
         let series = WAYS.iter().enumerate().map(|(way, named)| {
             let blows = of_way(&self.pieces, way).flat_map(|(_, s)| s.blows.iter());
@@ -42,7 +42,7 @@ impl Truth {
         }
     }
 
-    /// What a piece costs by its size.
+    /// Chart of the time until a piece is ready, by its size.
     pub(crate) fn time_chart(&self) -> Chart {
         let series = WAYS.iter().enumerate().map(|(way, named)| {
             let points =

@@ -1,4 +1,4 @@
-//! Which fragments are looked at.
+//! Choice of the fragments to analyse.
 
 use std::sync::Arc;
 
@@ -12,16 +12,16 @@ pub(crate) const LEAST_MASS: f64 = 2e-3;
 /// A body that broke, and its pieces.
 #[derive(Clone, Debug)]
 pub struct Broken {
-    /// What the tables call it.
+    /// Name in the tables.
     pub name: String,
     /// The body as it was.
     pub body: Body,
-    /// What came of it.
+    /// Fracture of the body.
     pub fracture: Fracture,
 }
 
 impl Broken {
-    /// A body, and what came of it.
+    /// A body and its fracture.
     #[must_use]
     pub fn new(name: impl Into<String>, body: Body, fracture: Fracture) -> Self {
         Self {

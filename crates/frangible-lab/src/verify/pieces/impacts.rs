@@ -1,12 +1,12 @@
-//! Where and how hard a piece is hit.
+//! Place and speed of the blows on a piece.
 
 use frangible::glam::Vec3;
 use frangible::{Body, Contact, FractureConfig, InputError, Material, Outcome, Striker, impact};
 
-/// How much stronger the body is on which stresses are measured before any crack.
+/// Factor of the strength for the body on which stresses are measured before any crack.
 pub(crate) const STRONGER: f32 = 1e3;
 
-/// What the stress is to be at most, in strengths: far below, just above, well above.
+/// Largest stresses to aim for, in strengths: far below, just above, well above.
 pub(crate) const LEVELS: [f64; 3] = [0.5, 1.2, 3.0];
 
 /// Speed of the first trial, and the range of speeds, m/s.

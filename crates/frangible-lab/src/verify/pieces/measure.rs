@@ -29,7 +29,7 @@ pub(crate) const NUDGE: f64 = 0.05;
 /// Elements and modes of the analyses of a piece without its cracks and with them: many, since both lattices differ.
 const SOFTENED: (usize, usize) = (900, 4);
 
-/// A piece, its truth and what every way makes of it.
+/// A piece, its truth and the results of every way.
 #[derive(Clone, Debug)]
 pub struct PieceSample {
     /// Name of the body that it comes from.
@@ -40,17 +40,17 @@ pub struct PieceSample {
     pub mass: f64,
     /// Diagonal of the box around it, m.
     pub size: f64,
-    /// Whether something still holds it.
+    /// True if something still holds it.
     pub held: bool,
     /// The full analysis.
     pub truth: Reading,
-    /// The blows, and what the full analysis says of each.
+    /// The blows, and the results of the full analysis for each.
     pub blows: Vec<Blow>,
-    /// What each of [`WAYS`] found; none where it refused the piece.
+    /// Results of each of [`WAYS`]; none if it refused the piece.
     pub ways: Vec<Option<Sample>>,
 }
 
-/// What is read off an elastic body.
+/// Measurements of an elastic body.
 #[derive(Clone, Debug)]
 pub struct Reading {
     /// Quadratic elements.
@@ -70,31 +70,31 @@ pub struct Blow {
     pub speed: f64,
     /// Largest share of a weak point's strength that the tension before any crack has.
     pub level: f64,
-    /// Whether it breaks the piece.
+    /// True if it breaks the piece.
     pub breaks: bool,
-    /// Whether the piece breaks if it is hit slower and faster by one part in twenty.
+    /// Outcome of a blow that is slower, and of one that is faster, by one part in twenty: true if it breaks the piece.
     pub nudged: [bool; 2],
     /// First frequency with the cracks over that without, for a piece that the blow cracks and does not break.
     pub softened: Option<f64>,
 }
 
-/// What a way makes of a piece, beside the truth.
+/// Results of a way for a piece, beside the truth.
 #[derive(Clone, Debug)]
 pub struct Sample {
-    /// Read off its elastic body.
+    /// Measurements of its elastic body.
     pub reading: Reading,
-    /// What was found of each blow.
+    /// Results for each blow.
     pub blows: Vec<BlowSample>,
 }
 
-/// What a way makes of a blow.
+/// Results of a way for a blow.
 #[derive(Clone, Copy, Debug)]
 pub struct BlowSample {
     /// Largest tension over the truth's.
     pub stress: f64,
     /// Distance of the place of the largest tension from the truth's, in sizes of the piece; none without tension.
     pub apart: Option<f64>,
-    /// Whether it breaks the piece.
+    /// True if it breaks the piece.
     pub breaks: bool,
 }
 
@@ -246,7 +246,7 @@ pub(crate) fn measure(
     }))
 }
 
-/// Whether a piece breaks if it is hit a little slower, and a little faster.
+/// Outcome of a blow that is a little slower, and of one that is a little faster: true if it breaks the piece.
 fn nudged(
     piece: &Body,
     at: (Vec3, Vec3),
@@ -261,7 +261,7 @@ fn nudged(
     Ok([hit(1.0 - NUDGE)?, hit(1.0 + NUDGE)?])
 }
 
-/// Whether a blow breaks a piece; of one that only cracks, first frequency with the cracks over that without.
+/// Returns true if a blow breaks a piece. If it only cracks, also returns the first frequency with the cracks over that without.
 fn blow(piece: &Body, contact: &Contact) -> Result<(bool, Option<f64>), InputError> {
     let config = FractureConfig::default();
     let state = match impact(piece, std::slice::from_ref(contact), &config)? {

@@ -1,5 +1,5 @@
-//! How right are the ways to find how a piece vibrates? Fragments of broken bodies, each hit at three places, by every way and by
-//! a full analysis of its own: `frangible-lab pieces`.
+//! Accuracy of the ways to find how a piece vibrates. Fragments of broken bodies are each hit at three places, by every way and by a full analysis of
+//! its own: `frangible-lab pieces`.
 //!
 //! The truth is an analysis of the piece as fine as a bake's; some pieces are also meshed anew from their surface and baked,
 //! which shares neither elements nor lattice with it. Nothing passes or fails: [`Truth::page`] says what came out.
@@ -27,12 +27,12 @@ use crate::verify::experiments::Hear;
 use choose::{Chosen, choose};
 use way::Ways;
 
-/// What to compute.
+/// Plan of the computation.
 #[derive(Clone, Debug)]
 pub struct TruthPlan {
     /// Fragments, spread over the bodies and over sizes; fewer where there are not so many.
     pub fragments: usize,
-    /// How many of the fragments are meshed anew and baked.
+    /// Number of fragments that are meshed anew and baked.
     pub baked: usize,
     /// Quadratic elements and modes of the full analysis.
     pub elements: usize,
@@ -71,7 +71,7 @@ impl TruthPlan {
 /// Everything that was computed.
 #[derive(Clone, Debug)]
 pub struct Truth {
-    /// What was to be computed.
+    /// Plan of the computation.
     pub plan: TruthPlan,
     /// One per fragment, in the order of the bodies, smaller ones first.
     pub pieces: Vec<PieceSample>,

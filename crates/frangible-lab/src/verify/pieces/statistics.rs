@@ -1,4 +1,4 @@
-//! What a way is worth over many pieces.
+//! Statistics of a way over many pieces.
 
 use super::measure::{BlowSample, PieceSample, Sample};
 
@@ -24,7 +24,7 @@ pub(crate) struct Worth {
 }
 
 impl Worth {
-    /// What a way is worth over these pieces.
+    /// Computes the statistics of a way over these pieces.
     pub(crate) fn of<'a>(
         pieces: impl Iterator<Item = &'a PieceSample> + Clone,
         way: usize,

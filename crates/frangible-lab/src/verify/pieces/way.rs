@@ -9,7 +9,7 @@ use frangible_bake::pieces::{Method, PieceError, Pieces};
 /// A way to find how a piece vibrates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Way {
-    /// What the tables call it.
+    /// Name in the tables.
     pub name: &'static str,
     /// The method; [`Method::Auto`]: what [`Pieces::method_for`] says.
     pub method: Method,
@@ -84,7 +84,7 @@ impl Ways {
         (0..way).find(|&i| what(i) == what(way))
     }
 
-    /// What a way makes of a piece.
+    /// Computes the elastic body that a way makes of a piece.
     pub(crate) fn elastic(
         &self,
         way: usize,

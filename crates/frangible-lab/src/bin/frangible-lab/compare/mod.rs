@@ -21,10 +21,10 @@ use report::CompareReport;
 /// Runs of each method, of which the fastest counts.
 const RUNS: usize = 3;
 
-/// How far the pieces are drawn apart, share of their distance from the body's middle.
+/// Spread of the drawn pieces, share of their distance from the body's middle.
 const APART: f32 = 0.22;
 
-/// What a picture may weigh, bytes.
+/// Size limit of a picture, bytes.
 const MOST_BYTES: usize = 900_000;
 
 /// Folder of the page's pictures.

@@ -81,7 +81,7 @@ fn rows(
     rows.collect()
 }
 
-/// What holds of how many scenes.
+/// Sentences on all scenes, with the number of scenes in which each holds.
 fn summary(reports: &[CompareReport]) -> Vec<String> {
     let n = reports.len();
     let mut lines = Vec::new();
@@ -135,7 +135,7 @@ fn summary(reports: &[CompareReport]) -> Vec<String> {
     lines
 }
 
-/// What came out in a scene.
+/// Sentences on one scene.
 fn sentences(report: &CompareReport) -> Vec<String> {
     let mut text = Vec::new();
     let Some(ours) = report.of(Method::Ours) else {

@@ -1,4 +1,4 @@
-//! What `frangible-lab compare` tells: a table for people, JSON for scripts.
+//! Report of `frangible-lab compare`: a table for people, JSON for scripts.
 
 use std::fmt::Write;
 

@@ -1,4 +1,4 @@
-//! What follows from the numbers: targets, the default, the single basis, and how true the truth is.
+//! Conclusions from the numbers: targets, the default, the single basis, and the accuracy of the truth.
 
 use std::fmt::Write;
 
@@ -10,8 +10,8 @@ use crate::verify::pieces::statistics::{Worth, quantile};
 use crate::verify::pieces::way::{AUTO, FINE, PARENT_MODES, WAYS};
 use crate::verify::pieces::{PieceSample, Truth};
 
-/// What a reanalysis is to reach: errors of frequencies and of the largest tension (medians), share of right decisions,
-/// time for a piece of about so many tetrahedra, s.
+/// Targets of a reanalysis: errors of frequencies and of the largest tension (medians), share of right decisions, time for a piece of about so many
+/// tetrahedra, s.
 const TARGETS: [f64; 4] = [0.05, 0.15, 0.95, 0.1];
 const TARGET_TETS: std::ops::Range<usize> = 1500..2700;
 
